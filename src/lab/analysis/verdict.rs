@@ -10,6 +10,8 @@ use crate::sim::bodies::Truth;
 use crate::sim::integrators::StepFailure;
 use crate::sim::number::{round, significant, superscript};
 
+/// The largest relative error of a frequency that may be rounding alone.
+const FREQUENCY_ROUNDING: f64 = 1e-9;
 /// The largest error of a motion that is only out of phase, in amplitudes.
 const ANY_PHASE: f64 = 2.0;
 
@@ -226,9 +228,10 @@ impl Verdict {
         self.swings && self.energy_change.is_some() && self.error <= ANY_PHASE
     }
 
-    /// The frequency error, if there is one: `0.18 % fast`.
+    /// The frequency error, if there is one beyond rounding: `0.18 % fast`.
     fn pitch(&self) -> Option<String> {
-        self.frequency_error.filter(|_| self.outcome == Outcome::OutOfPhase).map(|error| {
+        let beyond = self.frequency_error.filter(|error| error.abs() > FREQUENCY_ROUNDING);
+        beyond.filter(|_| self.outcome == Outcome::OutOfPhase).map(|error| {
             let how = if error > 0.0 { "fast" } else { "slow" };
             format!("{} {how}", percent(error.abs()))
         })
@@ -444,6 +447,13 @@ mod tests {
         ] {
             assert_eq!(verdict(scene, id, tick_hz).to_string(), shown, "{scene} {id} {tick_hz} Hz");
         }
+    }
+
+    #[test]
+    fn a_frequency_that_is_right_but_for_rounding_is_told_of_no_error() {
+        let found = verdict("spring", "semi-implicit-euler", 60);
+        let told = |error| Verdict { frequency_error: Some(error), ..found.clone() }.to_string();
+        assert!(told(4e-15).ends_with("after 20 s") && told(1e-6).ends_with("% fast)"));
     }
 
     #[test]
