@@ -1,8 +1,10 @@
 //! The same inputs give the same bits: in debug and release, on every machine, at every frame rate.
 //!
 //! `tests/hashes.txt` holds the state hash of every built-in scene under every method, and
-//! `tests/early_hashes.txt` that of a twentieth of the way, where an unoptimised build stops. If a change of the
+//! `tests/early_hashes.txt` that of a twentieth of the way, where a debug build stops. If a change of the
 //! physics is meant, write both anew: `BLESS=1 cargo test --release --test determinism`.
+
+#![cfg(feature = "lab")]
 
 use std::path::PathBuf;
 
@@ -22,7 +24,7 @@ fn ticks(scene: &Scene) -> u64 {
 /// The part of the ticks after which the early hash is taken.
 const EARLY: u64 = 20;
 
-/// Whether the run ends there: an unoptimised build would take many minutes for the rest.
+/// Whether the run ends there: a debug build would take many minutes for the rest.
 const STOPS_EARLY: bool = cfg!(debug_assertions);
 
 const SECOND: i64 = 1_000_000_000;
@@ -218,7 +220,7 @@ fn scripted(name: &str, script: Vec<Scripted>) -> Scene {
     Scene { script, ..built_in(name) }
 }
 
-/// The built-in scenes but the cloth, of which thousands of ticks take minutes in an unoptimised build.
+/// The built-in scenes but the cloth, of which thousands of ticks take minutes in a debug build.
 fn quick_scenes() -> impl Iterator<Item = &'static BuiltIn> {
     SCENES.iter().filter(|scene| scene.name != "cloth")
 }

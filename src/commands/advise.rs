@@ -119,7 +119,7 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     let specs: Vec<LaneSpec> = match args.family {
         Some(family) => of_family(scene, family)?,
         None if args.experiment.names_no_method() => {
-            scene.custom_methods().map(LaneSpec::plain).collect()
+            scene.non_engine_methods().map(LaneSpec::plain).collect()
         }
         None => args.experiment.lanes_named(scene),
     };

@@ -8,7 +8,6 @@ use super::recording::Recording;
 use super::schedule::{MOST_FPS, Schedule};
 use crate::lab::palette::Theme;
 use crate::lab::{Clock, LaneSpec, MOST_LANES, MOST_SUBSTEPS, Scene, TOLERANCES};
-use crate::sim::bodies::Range;
 use crate::sim::integrators::method;
 use crate::view::Panels;
 
@@ -62,10 +61,9 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
         lane.tolerance.is_none_or(|given| (TOLERANCES.0..=TOLERANCES.1).contains(&given))
     };
     let joint = |lane: &LaneEntry| {
-        let is_told = |[hz, ratio]: [f64; 2]| {
-            Range::POSITIVE.contains(hz) && Range::NON_NEGATIVE.contains(ratio)
-        };
-        lane.joint.is_none_or(is_told)
+        let mut given =
+            lane.joint.into_iter().flat_map(|joint| LaneSpec::JOINT.into_iter().zip(joint));
+        given.all(|(range, value)| range.contains(value))
     };
     for (key, is_in_range) in [
         ("tick_hz", Clock::TICK_HZ.contains(&settings.tick_hz)),

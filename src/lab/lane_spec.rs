@@ -1,8 +1,8 @@
 //! The method of a lane, with its substeps and its tolerance.
 
-use crate::sim::Solver;
 use crate::sim::integrators::Method;
 use crate::sim::number::round;
+use crate::sim::{Range, Solver};
 
 /// A lane of the race.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +20,9 @@ pub struct LaneSpec {
 }
 
 impl LaneSpec {
+    /// The ranges of a joint's frequency and damping ratio.
+    pub const JOINT: [Range; 2] = [Range::POSITIVE, Range::NON_NEGATIVE];
+
     /// A method with its card's tolerance and substeps.
     pub fn plain(method: &'static Method) -> Self {
         Self { method, substeps: method.default_substeps, tolerance: None, joint: None }
@@ -55,21 +58,21 @@ impl LaneSpec {
         }
     }
 
-    /// The stiffness in 1/s² and the damping in 1/s, each per unit of mass, of [`LaneSpec::joint`].
-    pub fn joint_per_mass(&self) -> Option<[f64; 2]> {
-        let [hz, damping_ratio] = self.joint?;
-        let omega = std::f64::consts::TAU * hz;
-        Some([omega * omega, 2.0 * damping_ratio * omega])
-    }
-
     /// The solver of the lane's bodies.
     pub fn solver(&self) -> Solver {
-        match (self.joint_per_mass(), self.tolerance) {
+        match (self.joint.map(joint_per_mass), self.tolerance) {
             (Some(joint), _) => Solver::WithJoint(self.method, joint),
             (None, Some(tolerance)) => Solver::WithTolerance(self.method, tolerance),
             (None, None) => Solver::Method(self.method),
         }
     }
+}
+
+/// The stiffness in 1/s² and the damping in 1/s, each per unit of mass, of a joint of this frequency in hertz and this
+/// damping ratio.
+pub(in crate::lab) fn joint_per_mass([hz, damping_ratio]: [f64; 2]) -> [f64; 2] {
+    let omega = std::f64::consts::TAU * hz;
+    [omega * omega, 2.0 * damping_ratio * omega]
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 //! what holds the spring rests.
 
 use super::Effective;
+use super::lane_spec::joint_per_mass;
 use crate::sim::integrators::{METHODS, Method};
 
 mod drive;
@@ -128,7 +129,7 @@ impl Wish {
 
     /// The stiffness in 1/s² and damping in 1/s, each per unit of mass, by the equation of motion.
     pub fn joint(&self) -> [f64; 2] {
-        [self.omega() * self.omega(), 2.0 * self.damping_ratio * self.omega()]
+        joint_per_mass([self.frequency_hz, self.damping_ratio])
     }
 
     /// What a player is to see.

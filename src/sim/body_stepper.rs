@@ -24,27 +24,17 @@ pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
 
 /// Puts a body under `solver` at time `t` (s).
 pub(super) fn with_solver<B: Body>(placed: Placed<B>, solver: Solver, t: f64) -> Box<dyn Stepper> {
-    match solver {
-        Solver::Method(method) => construct(method, UnderMethod { placed, set: Set::Nothing }),
-        Solver::WithTolerance(method, tolerance) => {
-            let set = Set::Tolerance(Tolerance::uniform(tolerance));
-            construct(method, UnderMethod { placed, set })
-        }
-        Solver::WithJoint(method, joint) => {
-            construct(method, UnderMethod { placed, set: Set::Joint(joint) })
-        }
-        Solver::Truth if B::HAS_EXACT => {
-            let propagator = ExactFlow::new(&placed.state, t);
-            Box::new(BodyStepper { placed, propagator })
-        }
-        Solver::Truth if is_solved(&placed, t) => {
-            let propagator = ExactSinceStart::new(&placed.state);
-            Box::new(BodyStepper { placed, propagator })
-        }
-        Solver::Truth => {
-            let propagator = Reference::new(&placed.state);
-            Box::new(BodyStepper { placed, propagator })
-        }
+    if let Some(method) = solver.method() {
+        construct(method, UnderMethod { placed, solver })
+    } else if B::HAS_EXACT {
+        let propagator = ExactFlow::new(&placed.state, t);
+        Box::new(BodyStepper { placed, propagator })
+    } else if is_solved(&placed, t) {
+        let propagator = ExactSinceStart::new(&placed.state);
+        Box::new(BodyStepper { placed, propagator })
+    } else {
+        let propagator = Reference::new(&placed.state);
+        Box::new(BodyStepper { placed, propagator })
     }
 }
 
@@ -54,19 +44,10 @@ fn is_solved<B: Body>(placed: &Placed<B>, t: f64) -> bool {
     is_start(body, t, &placed.state) && body.exact_since_start(t, &mut placed.state.clone())
 }
 
-/// A body that is put under a method.
+/// A body that is put under a method, with what the solver sets of it.
 struct UnderMethod<B: Body> {
     placed: Placed<B>,
-    set: Set,
-}
-
-/// What is set of a method.
-enum Set {
-    Nothing,
-    /// In place of the tolerance on the card of an adaptive method.
-    Tolerance(Tolerance),
-    /// What an engine is told of a joint.
-    Joint([f64; 2]),
+    solver: Solver,
 }
 
 impl<B: Body> Construct<Counted<B>> for UnderMethod<B> {
@@ -79,12 +60,12 @@ impl<B: Body> Construct<Counted<B>> for UnderMethod<B> {
         self,
         new: impl FnOnce(&B::Vector) -> I,
     ) -> Self::Output {
-        let Self { placed, set } = self;
+        let Self { placed, solver } = self;
         let mut integrator = new(&placed.state.q);
-        match set {
-            Set::Nothing => {}
-            Set::Tolerance(tolerance) => integrator.set_tolerance(tolerance),
-            Set::Joint(joint) => integrator.set_joint(joint),
+        match solver {
+            Solver::Method(_) | Solver::Truth => {}
+            Solver::WithTolerance(_, bound) => integrator.set_tolerance(Tolerance::uniform(bound)),
+            Solver::WithJoint(_, joint) => integrator.set_joint(joint),
         }
         Box::new(BodyStepper { placed, propagator: MethodPropagator(integrator) })
     }

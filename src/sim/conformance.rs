@@ -125,7 +125,7 @@ fn named(method: &Method) -> Claim {
     } else if is_listed && method.custom.is_some() {
         ("a method of the table has this id".to_owned(), false)
     } else if !is_listed && method.custom.is_none() {
-        ("it is not in the table, and `own` does not say how it is built".to_owned(), false)
+        ("it is not in the table, and `custom` does not say how it is built".to_owned(), false)
     } else {
         (format!("{name:?}"), true)
     };

@@ -1,7 +1,5 @@
 //! A curve through points: straight between them, level beyond them.
 
-use super::piece::{above, below};
-
 /// Points in order of rising x. Without points the curve is 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
@@ -73,4 +71,18 @@ impl Curve {
             upper.map_or(f64::INFINITY, |[end, _]| below(x, end)),
         ]
     }
+}
+
+/// Rounding of a value at a boundary, relative to the numbers that are compared. A smaller tolerance would take a
+/// rounded boundary for a crossing.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// The distance of `value` from the lower boundary `end`; negative below it by more than rounding.
+pub(super) fn above(value: f64, end: f64) -> f64 {
+    value - end + ROUNDING * (value.abs() + end.abs())
+}
+
+/// The distance of `value` from the upper boundary `end`; negative above it by more than rounding.
+pub(super) fn below(value: f64, end: f64) -> f64 {
+    above(-value, -end)
 }

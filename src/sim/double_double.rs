@@ -22,8 +22,6 @@ pub(super) const TWO_PI: DoubleDouble =
     DoubleDouble { high: std::f64::consts::TAU, low: 2.449_293_598_294_706_4e-16 };
 
 impl DoubleDouble {
-    pub(super) const ONE: Self = Self { high: 1.0, low: 0.0 };
-
     /// The exact sum.
     pub(super) fn sum(a: f64, b: f64) -> Self {
         let high = a + b;
@@ -43,6 +41,12 @@ impl DoubleDouble {
         let ((a1, a2), (b1, b2)) = (halves(a), halves(b));
         Self { high, low: ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2 }
     }
+}
+
+/// For closed forms of bodies.
+#[cfg(feature = "lab")]
+impl DoubleDouble {
+    pub(super) const ONE: Self = Self { high: 1.0, low: 0.0 };
 
     pub(super) fn sqrt(self) -> Self {
         if self.high == 0.0 {
@@ -136,7 +140,7 @@ impl Div<f64> for DoubleDouble {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "lab"))]
 mod tests {
     use super::*;
 

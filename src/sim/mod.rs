@@ -4,11 +4,6 @@
 //! uses only `+ - × ÷ √` and `libm`, so that the same inputs give the same bits on every platform,
 //! in every build profile.
 
-#![cfg_attr(
-    not(feature = "lab"),
-    allow(dead_code, reason = "what bodies and their truths use of it is there with them")
-)]
-
 mod accumulator;
 #[cfg(feature = "lab")]
 pub mod bodies;

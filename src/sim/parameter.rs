@@ -208,6 +208,7 @@ impl<B> ParameterOf<B> {
     }
 
     /// The parameter without its field.
+    #[cfg(feature = "lab")]
     pub(super) fn parameter(&self) -> Parameter {
         self.parameter.clone()
     }

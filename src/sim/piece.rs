@@ -23,17 +23,3 @@ pub type Distances = [[f64; 2]; MAX_SWITCHES];
 
 /// No boundary anywhere.
 pub const NO_BOUNDARIES: Distances = [[f64::INFINITY; 2]; MAX_SWITCHES];
-
-/// Rounding of a value at a boundary, relative to the numbers that are compared. A smaller tolerance would take a
-/// rounded boundary for a crossing.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
-
-/// The distance of `value` from the lower boundary `end`; negative below it by more than rounding.
-pub(super) fn above(value: f64, end: f64) -> f64 {
-    value - end + ROUNDING * (value.abs() + end.abs())
-}
-
-/// The distance of `value` from the upper boundary `end`; negative above it by more than rounding.
-pub(super) fn below(value: f64, end: f64) -> f64 {
-    above(-value, -end)
-}

@@ -84,16 +84,6 @@ impl<V: Vector> Reference<V> {
         Self::with_allowance(like, Allowance::new(EVALUATIONS_PER_CALL, MAX_SAVED_EVALUATIONS))
     }
 
-    /// A reference that fails after about this many evaluations in all.
-    pub(super) fn within(like: &State<V>, evaluations: u64) -> Self {
-        Self::with_allowance(like, Allowance::new(0, evaluations))
-    }
-
-    /// The evaluations that it may still use.
-    pub(super) fn saved_evaluations(&self) -> u64 {
-        self.allowance.saved
-    }
-
     fn with_allowance(like: &State<V>, allowance: Allowance) -> Self {
         Self {
             solution: Trajectory::new(like, StepControl::Long),
@@ -192,6 +182,20 @@ impl<V: Vector> Reference<V> {
         [0, 1].map(|i| {
             MARGIN * self.largest_difference[i] + late * fastest[i] + f64::EPSILON * sizes[i]
         })
+    }
+}
+
+/// For claims of custom bodies, which are held against it within a budget.
+#[cfg(feature = "lab")]
+impl<V: Vector> Reference<V> {
+    /// A reference that fails after about this many evaluations in all.
+    pub(super) fn within(like: &State<V>, evaluations: u64) -> Self {
+        Self::with_allowance(like, Allowance::new(0, evaluations))
+    }
+
+    /// The evaluations that it may still use.
+    pub(super) fn saved_evaluations(&self) -> u64 {
+        self.allowance.saved
     }
 }
 

@@ -21,6 +21,7 @@ pub(super) struct Scratch<V> {
 
 impl<V: Vector> Scratch<V> {
     /// The number of coordinate vectors.
+    #[cfg(feature = "lab")]
     pub(super) const VECTORS: usize = 5;
 
     /// For coordinates shaped `like` these.

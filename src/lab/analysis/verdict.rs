@@ -157,7 +157,7 @@ impl Verdict {
     }
 
     /// Where the run begins in which the lane fails, if that is said.
-    fn start(&self, said: Said) -> String {
+    fn start(&self, said: Parts) -> String {
         match self.starts_at_s {
             _ if !said.start => String::new(),
             0.0 => ", if run from the start".to_owned(),
@@ -172,7 +172,7 @@ impl Verdict {
             Outcome::GaveUp => "gives up",
             _ => return None,
         };
-        Some(format!("{how}{}", self.start(Said::EVERYTHING)))
+        Some(format!("{how}{}", self.start(Parts::EVERYTHING)))
     }
 
     pub(super) fn is_worse_than(&self, other: &Self) -> bool {
@@ -243,7 +243,7 @@ impl Verdict {
     }
 
     /// The frequency error and the body's name in brackets, as far as they are said and there are any.
-    fn in_brackets(&self, said: Said) -> String {
+    fn in_brackets(&self, said: Parts) -> String {
         let pitch = self.pitch().filter(|_| said.pitch && self.pitch_that_tells().is_none());
         let name = self.body_name.clone().filter(|_| said.name);
         let parts: Vec<String> = pitch.into_iter().chain(name).collect();
@@ -251,7 +251,7 @@ impl Verdict {
     }
 
     /// What is found, without brackets and clauses.
-    fn finding(&self, said: Said) -> String {
+    fn finding(&self, said: Parts) -> String {
         let horizon = duration(self.horizon_s);
         match (self.outcome, &self.failure, &self.no_truth) {
             (Outcome::Rounding, ..) => {
@@ -308,13 +308,13 @@ impl Verdict {
         .collect()
     }
 
-    fn line(&self, said: Said) -> String {
+    fn line(&self, said: Parts) -> String {
         let mut line = self.finding(said) + &self.in_brackets(said);
         if self.outcome == Outcome::BlewUp {
             line += &self.start(said);
         }
-        for clause in self.clauses().iter().filter(|_| said.clauses) {
-            line = format!("{line}; {clause}");
+        if said.clauses {
+            self.clauses().iter().for_each(|clause| line += &format!("; {clause}"));
         }
         line
     }
@@ -322,11 +322,11 @@ impl Verdict {
     /// The verdict in fewer and fewer words, as room is short; the first says everything. The body is named where there are
     /// several, if `is_named`.
     pub fn wordings(&self, is_named: bool) -> Vec<String> {
-        let all = Said { name: is_named, ..Said::EVERYTHING };
-        let whole = Said { start: false, ..all };
-        let first = Said { clauses: false, ..whole };
-        let bare = Said { pitch: false, ..first };
-        let shorter = Said { is_stable: false, ..bare };
+        let all = Parts { name: is_named, ..Parts::EVERYTHING };
+        let whole = Parts { start: false, ..all };
+        let first = Parts { clauses: false, ..whole };
+        let bare = Parts { pitch: false, ..first };
+        let shorter = Parts { is_stable: false, ..bare };
         let outcome = format!("{}{}", self.outcome.text(), self.in_brackets(bare));
         let mut wordings = vec![self.line(all), self.line(whole)];
         let Some(missing) = self.missing_truth() else {
@@ -347,7 +347,7 @@ impl Verdict {
 
 /// Which of its parts a verdict says besides its finding.
 #[derive(Clone, Copy)]
-struct Said {
+struct Parts {
     /// Where the run begins in which the lane fails: that run need not be the one on the screen.
     start: bool,
     clauses: bool,
@@ -357,7 +357,7 @@ struct Said {
     is_stable: bool,
 }
 
-impl Said {
+impl Parts {
     const EVERYTHING: Self =
         Self { start: true, clauses: true, pitch: true, name: true, is_stable: true };
 }
@@ -365,7 +365,7 @@ impl Said {
 /// In the alternate form, `{:#}`, a method that fails is told with where it is run from.
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.line(Said { start: f.alternate(), ..Said::EVERYTHING }))
+        f.write_str(&self.line(Parts { start: f.alternate(), ..Parts::EVERYTHING }))
     }
 }
 
@@ -513,7 +513,7 @@ mod tests {
             (gives_up, format!("will give up at 4.14 s, if run from the start: {why}")),
         ] {
             assert_eq!(format!("{verdict:#}"), shown);
-            let start = verdict.start(Said::EVERYTHING);
+            let start = verdict.start(Parts::EVERYTHING);
             assert_eq!(verdict.to_string(), shown.replace(&*start, ""));
         }
     }

@@ -234,7 +234,7 @@ impl AnalysisWorker {
             let advising = self.advising.get_or_insert_with(|| {
                 let scene = bodies.of(by_hand.applied_to(scene));
                 let lane_of = |method: &Method| scene.lanes.iter().position(|l| l.method == method);
-                let mut methods: Vec<_> = scene.custom_methods().collect();
+                let mut methods: Vec<_> = scene.non_engine_methods().collect();
                 // Those that race come first: they are what a person sees.
                 methods.sort_by_key(|method| lane_of(method).unwrap_or(usize::MAX));
                 AdviceInProgress {

@@ -32,10 +32,14 @@ const MOST_SUBSTEPS: u32 = 16;
 /// The id of the method whose force is held whatever the body.
 const HELD: &str = "held-force";
 
-/// Twice the logarithm of the odds against an engine that is set otherwise than by default, against a game that holds a
-/// spring's force in an engine, against a custom method that is set otherwise than by default, and against a count
-/// of substeps that few set.
-const RARITY: [f64; 4] = [8.0, 12.0, 20.0, 24.0];
+/// Twice the logarithm of the odds against a spring's force that is held in an engine.
+const HELD_RARITY: f64 = 12.0;
+/// Twice the logarithm of the odds against an engine that is not set by default.
+const CHANGED_ENGINE_RARITY: f64 = 8.0;
+/// Twice the logarithm of the odds against substeps of a method that a game implements itself.
+const CHANGED_METHOD_RARITY: f64 = 20.0;
+/// Twice the logarithm of the odds against a count of substeps that few set.
+const UNUSUAL_SUBSTEPS_RARITY: f64 = 24.0;
 
 impl Candidate {
     /// Whether people set this count of substeps: a power of 2, not too high, or what the engine has by default.
@@ -49,19 +53,19 @@ impl Candidate {
         if self.is_held && self.method.id != HELD { ", force held" } else { "" }
     }
 
-    /// Whether it is an engine, or a custom method, as it is set by default.
+    /// Whether it has its method's default substeps, and is not a listing of the book.
     fn is_as_set(&self) -> bool {
         self.substeps == self.method.default_substeps && !self.method.is_as_printed()
     }
 
     /// What is added to twice the logarithm of the likelihood that something else made a log.
     pub(super) fn rarity(&self) -> f64 {
-        let held = if self.held().is_empty() { 0.0 } else { RARITY[1] };
+        let held = if self.held().is_empty() { 0.0 } else { HELD_RARITY };
         let set = match (self.is_as_set(), self.is_usual(), self.method.is_engine()) {
             (true, ..) => 0.0,
-            (false, true, true) => RARITY[0],
-            (false, true, false) => RARITY[2],
-            (false, false, _) => RARITY[3],
+            (false, true, true) => CHANGED_ENGINE_RARITY,
+            (false, true, false) => CHANGED_METHOD_RARITY,
+            (false, false, _) => UNUSUAL_SUBSTEPS_RARITY,
         };
         held + set
     }

@@ -2,6 +2,7 @@
 
 use super::Lab;
 use crate::lab::action::Action;
+use crate::lab::lane_spec::joint_per_mass;
 use crate::lab::port::{Setup, setups};
 use crate::sim::BodyClass;
 
@@ -58,7 +59,7 @@ impl Lab {
         let spring = self.spring_joint(self.display().body)?;
         let spec = self.entries().get(entry)?;
         let mode = spec.method.engine?.modes.first()?;
-        let joint = spec.joint_per_mass().unwrap_or(spring.joint);
+        let joint = spec.joint.map_or(spring.joint, joint_per_mass);
         Some(mode.code_with(mode.values(joint, spring.mass_kg)) + "\n")
     }
 }

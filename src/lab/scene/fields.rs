@@ -45,8 +45,9 @@ pub(super) fn read_lane_spec(
 
 /// Reads the frequency and the damping ratio that an engine is told of springs.
 fn read_joint(row: &mut Table<'_>, method: Option<&'static Method>) -> Option<[f64; 2]> {
-    let hz = row.number(JOINT_HZ, Range::POSITIVE);
-    let damping_ratio = row.number(JOINT_DAMPING_RATIO, Range::NON_NEGATIVE);
+    let [hz, damping_ratio] = LaneSpec::JOINT;
+    let hz = row.number(JOINT_HZ, hz);
+    let damping_ratio = row.number(JOINT_DAMPING_RATIO, damping_ratio);
     let given = [JOINT_HZ, JOINT_DAMPING_RATIO].into_iter().find(|field| row.has(field.key))?;
     if let Some(method) = method.filter(|method| !method.has_joint()) {
         row.complain(row.span(given.key), Cause::NoJoint { key: given.key, method: method.id });

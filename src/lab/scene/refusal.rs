@@ -33,8 +33,8 @@ impl Scene {
         METHODS.iter().filter(is_shown).filter(|method| self.refusal(method).is_none())
     }
 
-    /// Those of the [methods that fit](Scene::fitting_methods) that one would write oneself: none of an engine.
-    pub fn custom_methods(&self) -> impl Iterator<Item = &'static Method> {
+    /// The [methods that fit](Scene::fitting_methods) without those of engines: what a game can implement itself.
+    pub fn non_engine_methods(&self) -> impl Iterator<Item = &'static Method> {
         self.fitting_methods().filter(|method| !method.is_engine())
     }
 

@@ -9,7 +9,6 @@ use glam::DVec2;
 
 use super::kind::{Coordinate, Kind};
 use crate::sim::body::{Body, Input};
-use crate::sim::integrators::LAW_ORDER;
 use crate::sim::parameter::{ParameterOf, Range};
 use crate::sim::state::State;
 use crate::sim::system::{BodyClass, Pursuit, Question, System};
@@ -27,6 +26,9 @@ pub(super) fn kind() -> Kind {
 
 type Of = ParameterOf<Follow>;
 
+/// The key of the order of its law.
+pub(super) const LAW_ORDER: &str = "order";
+
 const PARAMETERS: [Of; 9] = [
     Of::count(LAW_ORDER, 2, |follow| &mut follow.order)
         .or(2.0)
@@ -36,19 +38,23 @@ const PARAMETERS: [Of; 9] = [
     Of::number("step_m", Range::ANY, |follow| &mut follow.step)
         .or(1.0)
         .at_start()
-        .symbol("s").about("where the target is from the start on"),
+        .symbol("s")
+        .about("where the target is from the start on"),
     Of::number("ramp_m_per_s", Range::ANY, |follow| &mut follow.ramp)
         .or(0.0)
         .at_start()
-        .symbol("r").about("how fast the target moves away"),
+        .symbol("r")
+        .about("how fast the target moves away"),
     Of::number("sine_m", Range::ANY, |follow| &mut follow.sine)
         .or(0.0)
         .at_start()
-        .symbol("A").about("how far the target swings to either side"),
+        .symbol("A")
+        .about("how far the target swings to either side"),
     Of::number("sine_hz", Range::NonNegative(MAX_SINE_HZ), |follow| &mut follow.sine_hz)
         .or(1.0)
         .at_start()
-        .symbol("f").about("how often the target swings"),
+        .symbol("f")
+        .about("how often the target swings"),
     Of::number("x0_m", Range::ANY, |follow| &mut follow.x0)
         .or(0.0)
         .at_start()

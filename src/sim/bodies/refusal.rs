@@ -1,9 +1,10 @@
 //! Which bodies a method refuses.
 
+use super::follow::LAW_ORDER;
 use super::kind::Kind;
 use super::{BODIES, Custom, Law, Net};
 use crate::sim::body::Body;
-use crate::sim::integrators::{LAW_ORDER, Method};
+use crate::sim::integrators::Method;
 
 /// Why `method` does not step a body of `kind` with these parameter values, as its [card](crate::sim::integrators::Only)
 /// or the [class](Kind::class) of the body says; `None` if it does.

@@ -72,9 +72,6 @@ impl Family {
     }
 }
 
-/// The key of the parameter that says by which law a body follows its target.
-pub(in crate::sim) const LAW_ORDER: &str = "order";
-
 /// The bodies that a method is for, if it does not step every body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Only {

@@ -29,7 +29,7 @@ impl FollowerRule for ImplicitSpring {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "lab"))]
 mod tests {
     use crate::sim::Solver;
     use crate::sim::bodies::kind;

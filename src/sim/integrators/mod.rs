@@ -61,8 +61,6 @@ mod velocity_verlet;
 mod verlet_exact_drag;
 mod yoshida4;
 
-#[cfg(feature = "lab")]
-pub(in crate::sim) use card::LAW_ORDER;
 pub use card::{
     DAMPING_RATIOS, Engine, Family, FollowerQuantity, FollowerSetting, Method, Needs, Only,
 };
@@ -132,7 +130,7 @@ macro_rules! methods {
                 }
             })+
             let Some(reason) = refusal::<S, C>(method) else {
-                panic!("{} is not in METHODS, and its card has no `own`", method.id)
+                panic!("{} is not in METHODS, and its card has no `custom`", method.id)
             };
             construct.of(|_| Unfit { reason })
         }

@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 
 use crate::sim::integrators::{Integrator, Method, Stepped, integrator};
+use crate::sim::state::largest;
 use crate::sim::{Solver, State, Stepper, System};
 
 /// An acceleration function on slices: coordinates, velocities, output.
@@ -38,8 +39,8 @@ impl Deviation {
         Self::of(acceleration, n, method)
     }
 
-    /// From the state of `body` at time `t`, under the forces linearised there by differences along the deviation: of `displacement` times the size of the state, whatever the deviation's own size. Velocities count
-    /// times `h`.
+    /// From the state of `body` at time `t`, under the forces linearised there. They are differences along the deviation,
+    /// over `displacement` times the size of the state. Velocities count times `h`.
     pub(super) fn along(
         body: &dyn Stepper,
         t: f64,
@@ -50,9 +51,8 @@ impl Deviation {
         let body = body.with_solver(Solver::Truth, t);
         let (q0, v0) = (body.q().to_vec(), body.v().to_vec());
         let n = q0.len();
-        let largest =
-            |x: &[f64], unit: f64| x.iter().fold(0.0, |most: f64, x| most.max((x * unit).abs()));
-        let size = largest(&q0, 1.0).max(largest(&v0, h));
+        let size_of = move |q: &[f64], v: &[f64]| largest(q).max(h * largest(v));
+        let size = size_of(&q0, &v0);
         let distance = displacement * if size > 0.0 { size } else { 1.0 };
         let mut a0 = vec![0.0; n];
         body.acceleration(t, &q0, &v0, &mut a0);
@@ -60,7 +60,7 @@ impl Deviation {
             x0.iter().zip(x).map(|(x0, x)| x0 + part * x).collect()
         };
         let acceleration: Acceleration = Box::new(move |q, v, a| {
-            let part = distance / largest(q, 1.0).max(largest(v, h));
+            let part = distance / size_of(q, v);
             let (q, v): (Vec<f64>, Vec<f64>) = (moved(&q0, part, q), moved(&v0, part, v));
             body.acceleration(t, &q, &v, a);
             a.iter_mut().zip(&a0).for_each(|(a, a0)| *a = (*a - a0) / part);

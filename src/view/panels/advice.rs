@@ -365,7 +365,7 @@ mod tests {
     #[test]
     fn every_column_is_seen_whole_and_the_stage_keeps_its_room() {
         let (mut lab, mut worker) = asked("spring", false);
-        let wanted = lab.scene().custom_methods().count();
+        let wanted = lab.scene().non_engine_methods().count();
         judge(&mut lab, &mut worker, wanted);
         for size in SIZES {
             let (stage, texts) = shown(&lab, size);
@@ -398,7 +398,7 @@ mod tests {
             let found = texts.iter().find(|(_, text)| text == words).map(|(at, _)| at.y);
             found.unwrap_or_else(|| panic!("{words}: {texts:?}"))
         };
-        let wanted = lab.scene().custom_methods().count();
+        let wanted = lab.scene().non_engine_methods().count();
         let told = |done| format!("At 60 Hz, the best of {done} of {wanted} methods judged:");
         judge(&mut lab, &mut worker, 1);
         of(&lab, &told(1));

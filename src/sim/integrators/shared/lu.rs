@@ -252,7 +252,7 @@ impl StageLu {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "lab"))]
 mod tests {
     use super::Lu;
     use crate::sim::xor_shift::XorShift;
