@@ -1,9 +1,10 @@
 //! Measures the cost of a lane in real time. Nothing else should run at the same time.
 
 use std::hint::black_box;
+use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use crate::lab::{Lane, LaneSpec, Scene};
+use crate::lab::{Follow, Lane, LaneSpec, Scene};
 
 /// The fewest ticks that are timed together. Reading the clock takes as long as a few ticks of a small body, which is at
 /// most a hundredth of this many.
@@ -94,16 +95,16 @@ fn elapsed_in(
     effort: Duration,
     runs: u64,
 ) -> (Duration, u64) {
-    let hz = f64::from(tick_hz);
-    let mut lanes: Vec<Lane> =
-        (0..runs).map(|_| Lane::new(scene, spec.solver(), spec.substeps)).collect();
+    let lane = |_| Follow::new(Lane::new(scene, spec.solver(), spec.substeps), tick_hz);
+    let mut lanes: Vec<Follow<Lane>> = (0..runs).map(lane).collect();
     let (start, mut done) = (Instant::now(), 0);
     for lane in &mut lanes {
-        lane.run_while(hz, |tick, _| {
-            let is_over = tick > 0 && done % TOGETHER == 0 && start.elapsed() >= effort;
-            let goes_on = tick < ticks && !is_over;
-            done += u64::from(goes_on);
-            goes_on
+        lane.run(ticks, |_, _| {
+            done += 1;
+            match done % TOGETHER == 0 && start.elapsed() >= effort {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
         });
     }
     let elapsed = start.elapsed();

@@ -1,6 +1,7 @@
 //! The actions on a run, which a person, a script, a recording and a test have in common.
 
 use super::lane_spec::LaneSpec;
+use crate::sim::Stepper;
 use crate::sim::bodies::Input;
 use crate::sim::integrators::Method;
 
@@ -66,6 +67,35 @@ pub enum Action {
 }
 
 impl Action {
+    /// The tick rate in Hz that it sets, if it sets one.
+    pub(super) fn tick_hz(&self) -> Option<u32> {
+        match *self {
+            Action::TickHz(tick_hz) => Some(tick_hz),
+            _ => None,
+        }
+    }
+
+    /// Whether it changes the body at this index of the scene, if that takes it.
+    pub(super) fn acts_on(&self, body: usize) -> bool {
+        match self {
+            Action::Set { body: changed, .. } | Action::Place { body: changed, .. } => {
+                *changed == body
+            }
+            other => other.input().is_some(),
+        }
+    }
+
+    /// Applies its effect on a body that it [acts on](Self::acts_on) to `stepper` at time `t` (s).
+    pub(super) fn apply_to(&self, stepper: &mut dyn Stepper, t: f64) {
+        match self {
+            Action::Set { parameter, value, .. } => {
+                stepper.set_parameter(t, *parameter, *value);
+            }
+            Action::Place { q, v, .. } => stepper.set(t, q, v),
+            other => other.input().into_iter().for_each(|input| _ = stepper.input(t, input)),
+        }
+    }
+
     /// The input that it gives to the bodies, if it gives one.
     pub fn input(&self) -> Option<Input> {
         match *self {

@@ -8,6 +8,7 @@ mod chase_finding;
 mod criterion_met;
 mod energy;
 mod energy_finding;
+mod followed_body;
 mod frequency;
 mod judge;
 mod limits;

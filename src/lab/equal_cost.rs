@@ -1,5 +1,8 @@
 //! Lanes of equal cost: who is cheap may step more often.
 
+use std::ops::ControlFlow;
+
+use super::follow::{Follow, StopReason};
 use super::lane::Lane;
 use super::lane_spec::LaneSpec;
 use super::scene::{MOST_SUBSTEPS, Scene};
@@ -58,16 +61,15 @@ fn nearest(wanted: f64, spec: LaneSpec, cost: impl Fn(&LaneSpec, f64) -> f64) ->
 fn evaluations_per_tick(scene: &Scene, spec: &LaneSpec, tick_hz: u32, most: f64) -> f64 {
     let over = scene.script.last().map_or(0, |last| last.tick);
     let end = over.saturating_add(SETTLING_TICKS).min(MOST_COUNTED_TICKS);
-    let mut lane = Lane::new(scene, spec.solver(), spec.substeps);
-    let mut script = scene.script.iter().peekable();
-    let (mut counted, mut is_too_dear) = (0, false);
-    lane.run_while(f64::from(tick_hz), |tick, lane| {
-        while let Some(scripted) = script.next_if(|scripted| scripted.tick <= tick) {
-            lane.act(tick, tick as f64 / f64::from(tick_hz), &scripted.action);
-        }
-        counted = tick;
-        is_too_dear = lane.evaluations() as f64 > most * end as f64;
-        tick < end && lane.halted().is_none() && !is_too_dear
+    let lane = Lane::new(scene, spec.solver(), spec.substeps);
+    let mut follow =
+        Follow::new(lane, tick_hz).with_script(&scene.script).within((most * end as f64) as u64);
+    let stop = follow.run(end, |lane, _| match lane.halted() {
+        Some(_) => ControlFlow::Break(()),
+        None => ControlFlow::Continue(()),
     });
-    if is_too_dear { f64::INFINITY } else { lane.evaluations() as f64 / counted.max(1) as f64 }
+    match stop {
+        StopReason::TooMuchWork => f64::INFINITY,
+        _ => follow.body.evaluations() as f64 / follow.ticks().max(1) as f64,
+    }
 }

@@ -9,6 +9,7 @@ use super::action::Action;
 use super::appearance::{Appearance, Drawing, Preview};
 use super::chase::Chase;
 use super::extent::Extent;
+use super::follow::Ticked;
 use super::scene::{Scene, SceneBody};
 use crate::sim::bodies::{Coordinate, Custom, FalseClaims, Input, Kind, Law, Truth};
 use crate::sim::integrators::StepFailure;
@@ -199,11 +200,8 @@ impl LaneBody {
         }
         self.remember();
         self.evaluations_before = self.stepper.evaluations();
-        let stepped = self
-            .stepper
-            .advance(t, h, substeps)
-            .and_then(|()| check(&*self.stepper, self.coordinates()));
-        match stepped {
+        let coordinates = &self.kind.all_coordinates[..self.stepper.q().len()];
+        match advance_checked(&mut *self.stepper, coordinates, (t, h), substeps) {
             Ok(()) => {
                 self.cover();
                 let place = self.stepper.q()[0];
@@ -296,8 +294,21 @@ impl LaneBody {
     }
 }
 
+/// Steps a body from `t` by `h` (s).
+///
+/// # Errors
+/// If its solver fails, or if a coordinate or a velocity is not finite or is beyond [`ESCAPE`].
+pub(super) fn advance_checked(
+    body: &mut dyn Stepper,
+    coordinates: &[Coordinate],
+    (t, h): (f64, f64),
+    substeps: u32,
+) -> Result<(), StepFailure> {
+    body.advance(t, h, substeps).and_then(|()| check(body, coordinates))
+}
+
 /// Fails if a coordinate or a velocity of a body is not finite or is beyond [`ESCAPE`].
-pub(super) fn check(body: &dyn Stepper, coordinates: &[Coordinate]) -> Result<(), StepFailure> {
+fn check(body: &dyn Stepper, coordinates: &[Coordinate]) -> Result<(), StepFailure> {
     let names = coordinates.iter();
     let q = names.clone().map(|c| &c.name).zip(body.q());
     let v = names.map(|c| &c.velocity).zip(body.v());
@@ -367,23 +378,12 @@ impl Lane {
         }
     }
 
-    /// Steps the bodies from their start at `tick_hz` while `goes_on` is true, which is called before each tick.
-    pub fn run_while(&mut self, tick_hz: f64, mut goes_on: impl FnMut(u64, &mut Self) -> bool) {
-        let mut tick = 0;
-        while goes_on(tick, self) {
-            self.tick(tick, tick as f64 / tick_hz, 1.0 / tick_hz);
-            tick += 1;
-        }
-    }
-
     /// Applies the effect of an action on the bodies at time `t` (s), before tick `tick`. A placed body resumes if it
     /// had halted; if it cannot be in that state, it keeps its own and halts.
     pub(super) fn act(&mut self, tick: u64, t: f64, action: &Action) {
         match action {
             Action::Place { body, q, v } => self.bodies[*body].place(*body, tick, t, [q, v]),
-            Action::Set { body, parameter, value } => {
-                self.bodies[*body].stepper.set_parameter(t, *parameter, *value);
-            }
+            Action::Set { body, .. } => action.apply_to(&mut *self.bodies[*body].stepper, t),
             other => other.input().into_iter().for_each(|input| self.input(tick, t, input)),
         }
     }
@@ -402,6 +402,22 @@ impl Lane {
         (self.solver, self.substeps) = (solver, substeps);
         let bodies = self.bodies.iter_mut().zip(&truth.bodies);
         bodies.filter_map(|(body, truth)| body.switch(solver, t, truth)).collect()
+    }
+}
+
+impl Ticked for Lane {
+    fn act(&mut self, tick: u64, t: f64, action: &Action) {
+        self.act(tick, t, action);
+    }
+
+    fn tick(&mut self, tick: u64, t: f64, h: f64) -> Result<(), StepFailure> {
+        self.tick(tick, t, h);
+        Ok(())
+    }
+
+    /// The unit is an evaluation of a body's accelerations.
+    fn has_worked_more(&self, than: u64, _: u64) -> bool {
+        self.evaluations() > than
     }
 }
 

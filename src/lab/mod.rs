@@ -12,9 +12,9 @@ mod chase;
 mod command;
 mod custom;
 mod display;
-mod duration;
 mod equal_cost;
 mod extent;
+mod follow;
 mod gesture;
 mod guide;
 mod held;
@@ -48,6 +48,7 @@ mod scene;
 mod scene_list;
 mod session;
 mod source_code;
+mod time_scale;
 mod viewer;
 mod zoom_pan;
 
@@ -70,6 +71,7 @@ pub use command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_
 pub use custom::{Draw, Options, OptionsError};
 pub use display::{Arrangement, Display, DriverRequest, Motion, Pace};
 pub use equal_cost::{equal_cost, lanes_that_race};
+pub use follow::{Follow, StopReason, Ticked};
 pub use gesture::{GESTURES, Gesture};
 pub use guide::{Goal, STOPS, Stop, Tour};
 pub use held::HeldBody;
@@ -114,9 +116,9 @@ pub use scene::{
 };
 pub use scene_list::SceneList;
 pub use session::{
-    Event, EventKind, Recorder, RecordingError, RunToRecord, SNAPSHOT_BYTES, Session, TimeScale,
-    Timeline,
+    Event, EventKind, Recorder, RecordingError, RunToRecord, SNAPSHOT_BYTES, Session, Timeline,
 };
 pub use source_code::{Language, MethodInput, MethodSource, NoSourceCode, Precision, source_code};
+pub use time_scale::TimeScale;
 pub use viewer::{Dialog, Viewer};
 pub use zoom_pan::{ZOOMS, ZoomPan};

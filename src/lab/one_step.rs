@@ -1,8 +1,9 @@
 //! The anatomy of the selected method's next tick: where it evaluates the force, what it finds there, where it lands, and
 //! where the true motion from the same state lands. It is taken on copies, so that the run is not disturbed.
 
+use super::bisection::bisect;
 use super::lab::Lab;
-use super::lane::{Lane, LaneBody};
+use super::lane::LaneBody;
 use super::lane_spec::LaneSpec;
 use crate::sim::Solver;
 use crate::sim::stability::Tick;
@@ -150,15 +151,9 @@ fn orbit(body: &LaneBody, t: f64, through: [f64; 2], [low, high]: [f64; 2]) -> V
         let was_seen = !piece.is_empty();
         if i > 0 && was_seen != v.is_finite() {
             // It turns between these two.
-            let (mut inside, mut outside) =
-                if was_seen { (part(i - 1), part(i)) } else { (part(i), part(i - 1)) };
-            for _ in 0..HALVINGS {
-                let middle = (inside + outside) / 2.0;
-                match speed(middle).is_some_and(f64::is_finite) {
-                    true => inside = middle,
-                    false => outside = middle,
-                }
-            }
+            let ends = if was_seen { [i - 1, i] } else { [i, i - 1] };
+            let is_inside = |q: f64| speed(q).is_some_and(f64::is_finite);
+            let [inside, _] = bisect(ends.map(part), HALVINGS, is_inside);
             piece.push([inside, 0.0]);
         }
         if v.is_finite() {
@@ -200,33 +195,6 @@ fn chain(step: &OneStep) -> Vec<[f64; 2]> {
         at
     });
     std::iter::once(step.from).chain(ends).collect()
-}
-
-impl Lane {
-    /// The time in nanoseconds of a tick, by a clock that says how many have passed: the least over `runs` runs of
-    /// `ticks` ticks each, on copies. `None` if a body halts.
-    pub fn ns_per_tick(
-        &self,
-        (tick, t, h): (u64, f64, f64),
-        ticks: u32,
-        runs: u32,
-        clock: impl Fn() -> u64,
-    ) -> Option<f64> {
-        let mut least = f64::INFINITY;
-        for _ in 0..runs {
-            let mut lane = self.clone();
-            let start = clock();
-            for i in 0..ticks {
-                lane.tick(tick + u64::from(i), t + h * f64::from(i), h);
-            }
-            let passed = clock().saturating_sub(start);
-            if lane.halted().is_some() {
-                return None;
-            }
-            least = least.min(passed as f64 / f64::from(ticks));
-        }
-        least.is_finite().then_some(least)
-    }
 }
 
 #[cfg(test)]

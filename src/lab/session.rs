@@ -10,14 +10,12 @@ use super::scene::Scene;
 mod recording;
 mod run_with_past;
 mod start;
-mod time_scale;
 mod timeline;
 mod undo;
 
 pub use recording::{Recorder, RecordingError, RunToRecord};
 pub use run_with_past::{Event, EventKind};
 pub(in crate::lab) use start::StartSettings;
-pub use time_scale::TimeScale;
 pub use timeline::{SNAPSHOT_BYTES, Timeline};
 pub(in crate::lab) use undo::Exchanged;
 

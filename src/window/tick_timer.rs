@@ -1,6 +1,7 @@
 //! Times the lanes on a thread of its own, so that measuring never delays a frame. The window's own loop only copies the
 //! lanes, once per second and while the cost is shown.
 
+use std::ops::ControlFlow;
 use std::sync::mpsc::{Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -8,19 +9,20 @@ use std::time::{Duration, Instant};
 use winit::event_loop::EventLoopProxy;
 
 use super::Event;
-use crate::lab::{Instrument, Lab, Lane, LaneSpec};
+use crate::lab::{Follow, Instrument, Lab, Lane, LaneSpec};
 
 /// The time between two measurements.
 const PERIOD: Duration = Duration::from_secs(1);
 /// Ticks that are timed together, because reading the clock takes as long as a tick of a small body, and runs of them.
 /// Few enough that a lane that blows up is still timed before it does.
-const TICKS: u32 = 64;
+const TICKS: u64 = 64;
 const RUNS: u32 = 8;
 
-/// Lanes to time, with the tick, the time and the length of a tick in seconds at which they stand.
+/// Lanes to time, with the time in seconds at which they stand, and the tick rate in Hz.
 struct Lanes {
     lanes: Vec<(LaneSpec, Lane)>,
-    start: (u64, f64, f64),
+    t: f64,
+    tick_hz: u32,
 }
 
 /// A handle to the thread that times. The thread ends when this is dropped.
@@ -54,23 +56,67 @@ impl TickTimer {
         let race = lab.race();
         let entrants = race.entrants().iter();
         let lanes = entrants.map(|lane| (lab.entries()[lane.entry], lane.lane.clone())).collect();
-        let start = (race.tick(), race.t(), 1.0 / f64::from(race.tick_hz()));
         // If the thread has ended, nothing more is measured; the window stays open.
-        _ = self.lanes.send(Lanes { lanes, start });
+        _ = self.lanes.send(Lanes { lanes, t: race.t(), tick_hz: race.tick_hz() });
     }
 }
 
-fn timed(Lanes { lanes, start }: &Lanes) -> Vec<(LaneSpec, Option<f64>)> {
+fn timed(Lanes { lanes, t, tick_hz }: &Lanes) -> Vec<(LaneSpec, Option<f64>)> {
     let begin = Instant::now();
     let clock = || u64::try_from(begin.elapsed().as_nanos()).unwrap_or(u64::MAX);
-    let time = |lane: &Lane| lane.ns_per_tick(*start, TICKS, RUNS, clock);
+    let follow = |lane: &Lane| Follow::new(lane.clone(), *tick_hz).from_time(*t);
+    let time = |lane| ns_per_tick(&follow(lane), TICKS, RUNS, clock);
     lanes.iter().map(|(spec, lane)| (*spec, time(lane))).collect()
+}
+
+/// The time in nanoseconds of a tick, by a clock that says how many have passed: the least over `runs` runs of `ticks`
+/// ticks each, on copies. `None` if a body halts.
+fn ns_per_tick(
+    follow: &Follow<Lane>,
+    ticks: u64,
+    runs: u32,
+    clock: impl Fn() -> u64,
+) -> Option<f64> {
+    let mut least = f64::INFINITY;
+    for _ in 0..runs {
+        let mut run = follow.clone();
+        let start = clock();
+        run.run(ticks, |_, _| ControlFlow::Continue(()));
+        let passed = clock().saturating_sub(start);
+        if run.body.halted().is_some() {
+            return None;
+        }
+        least = least.min(passed as f64 / ticks as f64);
+    }
+    least.is_finite().then_some(least)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::cell::Cell;
+
     use crate::lab::{Command, Scene};
+    use crate::sim::Solver;
+    use crate::sim::integrators::method;
+
+    fn lane(scene: &str, id: &str) -> Follow<'static, Lane> {
+        let scene = Scene::built_in(scene).unwrap();
+        Follow::new(Lane::new(&scene, Solver::Method(method(id).unwrap()), 1), scene.tick_hz)
+    }
+
+    #[test]
+    fn the_time_of_a_tick_is_the_least_of_its_runs_and_a_halted_lane_has_none() {
+        let (reading, step) = (Cell::new(0), Cell::new(900));
+        // Each run takes 100 ns less than the one before.
+        let clock = || {
+            reading.set(reading.get() + step.get());
+            step.set(step.get() - 50);
+            reading.get()
+        };
+        assert_eq!(ns_per_tick(&lane("spring", "rk4"), 10, 3, clock), Some(65.0));
+        assert_eq!(ns_per_tick(&lane("stiff", "explicit-euler"), 700, 1, || 0), None);
+    }
 
     #[test]
     fn every_lane_of_a_race_takes_some_time() {
@@ -78,7 +124,7 @@ mod tests {
         lab.apply(Command::ToggleRace);
         let lanes = lab.race().entrants().iter();
         let lanes = lanes.map(|lane| (lab.entries()[lane.entry], lane.lane.clone())).collect();
-        let timed = timed(&Lanes { lanes, start: (0, 0.0, 1.0 / 60.0) });
+        let timed = timed(&Lanes { lanes, t: 0.0, tick_hz: 60 });
         assert_eq!(timed.len(), 5);
         for (spec, ns) in timed {
             assert!(ns.is_some_and(|ns| ns > 1.0 && ns < 1e8), "{}: {ns:?} ns", spec.method.id);

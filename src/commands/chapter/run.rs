@@ -1,6 +1,8 @@
 //! Runs of the built-in scenes from which the chapter's numbers and figures are taken.
 
-use crate::lab::{Lane, Scene};
+use std::ops::ControlFlow;
+
+use crate::lab::{Follow, Lane, Scene};
 use crate::sim::Solver;
 use crate::sim::integrators::{Method, method};
 
@@ -33,15 +35,15 @@ pub(super) fn exactly(scene: &Scene, seconds: f64, per_second: f64) -> Vec<Momen
 }
 
 fn run(scene: &Scene, solver: Solver, seconds: f64, hz: f64) -> Vec<Moment> {
-    let mut lane = Lane::new(scene, solver, 1);
     let at = |lane: &Lane, tick: u64| {
         let stepper = &lane.bodies()[0].stepper;
         Moment { t: tick as f64 / hz, q: stepper.q()[0], v: stepper.v()[0] }
     };
-    let (mut moments, last) = (Vec::new(), (seconds * hz).round() as u64);
-    lane.run_while(hz, |tick, lane| {
+    let mut follow = Follow::new(Lane::new(scene, solver, 1), hz);
+    let mut moments = vec![at(&follow.body, 0)];
+    follow.run((seconds * hz).round() as u64, |lane, tick| {
         moments.push(at(lane, tick));
-        tick < last
+        ControlFlow::Continue(())
     });
     moments
 }

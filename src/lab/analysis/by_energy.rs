@@ -1,16 +1,19 @@
 //! The verdict on a body that has no reference solution, because that would take too much work: it rests on
 //! the energy of the run, which nothing but a method adds to, and on the spectral radius of a tick.
 
+use std::ops::ControlFlow;
+
 use super::change::{Change, amplitude};
 use super::energy::Means;
 use super::energy_finding::EnergyFinding;
+use super::followed_body::FollowedBody;
 use super::limits::VISIBLE;
-use super::run::work;
 use super::truth::{BodyTruth, ticks};
 use super::verdict::RunFailure;
-use crate::lab::lane::check;
+use crate::lab::action::Action;
+use crate::lab::follow::{StopReason, Ticked};
 use crate::lab::lane_spec::LaneSpec;
-use crate::sim::Stepper;
+use crate::sim::integrators::StepFailure;
 use crate::sim::stability::{Tick, spectral_radius};
 
 /// The part of the work of a run that the spectral radius may take too.
@@ -47,12 +50,27 @@ pub(super) fn follow_energy(
     most_work: u64,
 ) -> EnergyRun {
     let (hz, horizon) = (f64::from(tick_hz), ticks(truth.horizon_s, tick_hz));
-    let mut stepper = truth.start(spec.solver());
+    let body = truth.body_under(spec.solver(), spec.substeps);
+    let stepper = &*body.stepper;
     let n = stepper.q().len() as u64;
     let is_conserved = stepper.energy().is_some();
     let tick = Tick { t: 0.0, h: 1.0 / hz, substeps: spec.substeps };
     let most_evaluations = most_work / n / WORK_OF_RADIUS;
-    let radius = spectral_radius(&*stepper, spec.solver(), tick, most_evaluations);
+    let radius = spectral_radius(stepper, spec.solver(), tick, most_evaluations);
+    let mut follow = truth.follow(Metered::new(body), tick_hz).within(most_work);
+    let mut means = Means::over(horizon);
+    // The largest kinetic energy, the most energy that was lost, and the most that was gained.
+    let (mut fastest, mut lost, mut gained) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let (mut seconds, mut evaluations) = (0.0, 0);
+    let stop = follow.run(horizon, |body, tick| {
+        (seconds, evaluations) = (tick as f64 / hz, body.body.stepper.evaluations());
+        let now = body.energy();
+        let gain = sum(now) - body.start;
+        (fastest, lost, gained) = (fastest.max(now[0]), lost.max(-gain), gained.max(gain));
+        means.take_in(tick, gain);
+        ControlFlow::Continue(())
+    });
+    truth.count_work(follow.body.body.work(follow.ticks()));
     let mut run = EnergyRun {
         finding: EnergyFinding {
             change: 0.0,
@@ -60,40 +78,12 @@ pub(super) fn follow_energy(
             spectral_radius: radius.ok().flatten().filter(|radius| radius.is_finite()),
         },
         change: Change::None,
-        failure: None,
         drift: None,
-        is_too_much: false,
-        evaluations: 0,
-        seconds: 0.0,
+        is_too_much: stop == StopReason::TooMuchWork,
+        failure: RunFailure::of(stop, follow.t()),
+        evaluations,
+        seconds,
     };
-    let energy = |stepper: &dyn Stepper| stepper.mechanical_energy().unwrap_or([0.0; 2]);
-    let sum = |[kinetic, potential]: [f64; 2]| kinetic + potential;
-    let mut start = sum(energy(&*stepper));
-    let mut means = Means::over(horizon);
-    // The largest kinetic energy, the most energy that was lost, and the most that was gained.
-    let (mut fastest, mut lost, mut gained) = (0.0_f64, 0.0_f64, 0.0_f64);
-    let mut made = 0;
-    for tick in 1..=horizon {
-        let before = sum(energy(&*stepper));
-        truth.apply_inputs(&mut *stepper, tick - 1, tick_hz);
-        start += sum(energy(&*stepper)) - before;
-        let advanced = stepper.advance((tick - 1) as f64 / hz, 1.0 / hz, spec.substeps);
-        if let Err(cause) = advanced.and_then(|()| check(&*stepper, truth.coordinates())) {
-            run.failure = Some(RunFailure { t: (tick - 1) as f64 / hz, cause });
-            break;
-        }
-        made = tick;
-        (run.seconds, run.evaluations) = (tick as f64 / hz, stepper.evaluations());
-        let now = energy(&*stepper);
-        let gain = sum(now) - start;
-        (fastest, lost, gained) = (fastest.max(now[0]), lost.max(-gain), gained.max(gain));
-        means.take_in(tick, gain);
-        if work(&*stepper, spec, tick) > most_work {
-            run.is_too_much = tick < horizon;
-            break;
-        }
-    }
-    truth.count_work(work(&*stepper, spec, made));
     let scale = fastest.max(lost);
     if scale > 0.0 && scale.is_finite() {
         let [first, .., last] = means.means().map(|mean| mean / scale);
@@ -109,4 +99,44 @@ pub(super) fn follow_energy(
         };
     }
     run
+}
+
+/// A body whose energy is measured, and what the inputs add to it is known.
+struct Metered<'a> {
+    body: FollowedBody<'a>,
+    /// The energy at the start and what the inputs have added, in joules.
+    start: f64,
+}
+
+impl<'a> Metered<'a> {
+    fn new(body: FollowedBody<'a>) -> Self {
+        let mut metered = Self { body, start: 0.0 };
+        metered.start = sum(metered.energy());
+        metered
+    }
+
+    /// The kinetic and the potential energy in joules.
+    fn energy(&self) -> [f64; 2] {
+        self.body.stepper.mechanical_energy().unwrap_or([0.0; 2])
+    }
+}
+
+fn sum([kinetic, potential]: [f64; 2]) -> f64 {
+    kinetic + potential
+}
+
+impl Ticked for Metered<'_> {
+    fn act(&mut self, tick: u64, t: f64, action: &Action) {
+        let before = sum(self.energy());
+        self.body.act(tick, t, action);
+        self.start += sum(self.energy()) - before;
+    }
+
+    fn tick(&mut self, tick: u64, t: f64, h: f64) -> Result<(), StepFailure> {
+        self.body.tick(tick, t, h)
+    }
+
+    fn has_worked_more(&self, than: u64, ticks: u64) -> bool {
+        self.body.has_worked_more(than, ticks)
+    }
 }

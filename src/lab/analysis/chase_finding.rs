@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::truth::BodyTruth;
+use crate::lab::bisection::bisect;
 use crate::lab::chase::Chase;
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::Solver;
@@ -62,12 +63,8 @@ fn true_half_life_s(truth: &BodyTruth) -> Option<f64> {
     };
     let moment = |look: u32| truth.horizon_s * f64::from(look) / f64::from(LOOKS);
     let look = (1..=LOOKS).find(|&look| is_past(moment(look)))?;
-    let (mut low, mut high) = (moment(look - 1), moment(look));
-    for _ in 0..50 {
-        let middle = low + (high - low) / 2.0;
-        if is_past(middle) { high = middle } else { low = middle }
-    }
-    Some(high)
+    let [_, past] = bisect([moment(look - 1), moment(look)], 50, |t| !is_past(t));
+    Some(past)
 }
 
 impl fmt::Display for ChaseFinding {

@@ -12,10 +12,9 @@ use super::limits::TOLERANCE;
 use super::modes::Modes;
 use super::outcome::Outcome;
 use super::run::{MOST_WORK, Run, Until, follow};
-use super::survey::{BodyInput, TimedInput};
+use super::survey::TimedInput;
 use super::truth::{BodyTruth, ticks};
 use super::verdict::{NoTruth, NotJudged, Verdict};
-use crate::lab::action::Action;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::Scene;
 
@@ -37,19 +36,10 @@ pub struct Judge {
     truths: Vec<BodyTruth>,
 }
 
-/// The script's actions on the body at this place of the scene. Their times follow from the scene's own tick rates.
+/// The script's actions on the body at this index of the scene.
 fn inputs_of(scene: &Scene, body: usize) -> Vec<TimedInput> {
-    let (mut tick, mut t, mut hz) = (0, 0.0, f64::from(scene.tick_hz));
-    let mut inputs = Vec::new();
-    for scripted in &scene.script {
-        t += (scripted.tick - tick) as f64 / hz;
-        tick = scripted.tick;
-        if let Action::TickHz(tick_hz) = scripted.action {
-            hz = f64::from(tick_hz);
-        }
-        inputs.extend(BodyInput::of(&scripted.action, body).map(|input| TimedInput { t, input }));
-    }
-    inputs
+    let actions = scene.timed_script().filter(|(_, action)| action.acts_on(body));
+    actions.map(|(t, action)| TimedInput { t, action: action.clone() }).collect()
 }
 
 impl Judge {

@@ -1,10 +1,12 @@
 //! The long-term motion of a linear body under a method of equal steps, from its normal modes.
 
 use super::change::Change;
+use super::followed_body::work_of;
 use super::limits::VISIBLE;
-use super::run::{MOST_WORK, work_of};
+use super::run::MOST_WORK;
 use super::truth::BodyTruth;
 use super::verdict::Verdict;
+use crate::lab::bisection::bisect;
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::integrators::Family;
 use crate::sim::stability::{FOREVER_S, NormalMode, Stability, Tick, unforced};
@@ -43,7 +45,7 @@ impl<'a> Modes<'a> {
         // An implicit step takes differences of the force along every coordinate.
         let evaluations = u64::from(spec.method.evaluations.unwrap_or(modes.len() as u32));
         let steps = STEPS_PER_MODE * n;
-        if work_of(steps * evaluations, n, spec) > MOST_WORK {
+        if work_of(steps * evaluations, n, spec.solver()) > MOST_WORK {
             return Err(TooMuch);
         }
         let free = unforced(&*truth.with_last_parameters());
@@ -112,11 +114,8 @@ impl<'a> Modes<'a> {
                 return None;
             }
         }
-        for _ in 0..60 {
-            let middle = low + (high - low) / 2.0;
-            if is_past(self.amplitude(middle)) { high = middle } else { low = middle }
-        }
-        Some(high)
+        let [_, past] = bisect([low, high], 60, |t| !is_past(self.amplitude(t)));
+        Some(past)
     }
 
     /// Puts the change of the motion into a verdict, and returns the change within the horizon.

@@ -1,26 +1,21 @@
 //! One body under one method, stepped tick by tick and compared with its truth.
 
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
 use super::energy::Energy;
+use super::followed_body::FollowedBody;
 use super::peaks::Peaks;
 use super::truth::{BodyTruth, LONG_RUN, TruthSeries, ticks};
 use super::verdict::RunFailure;
 use crate::lab::chase::Chase;
-use crate::lab::lane::check;
+use crate::lab::follow::StopReason;
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::Stepper;
-use crate::sim::integrators::{Family, StepFailure};
+use crate::sim::integrators::StepFailure;
 
 /// The most work of a run, in evaluations of one coordinate: a second or two.
 pub const MOST_WORK: u64 = 100_000_000;
-
-/// The work of a tick beside its evaluations, for each coordinate: comparing it with the truth, and its energy.
-const WORK_OF_TICK: u64 = 4;
-
-/// The number of coordinates above which an implicit method spends more work on its matrix than on evaluations.
-const SMALL_MATRIX: u64 = 20;
-
-/// Ticks between two checks of the work done, for a body of one coordinate.
-const TICKS_PER_LOOK: u64 = 64;
 
 /// A swing of this many true amplitudes has grown, and a swing below the inverse has died away.
 const TWICE: f64 = 2.0;
@@ -91,24 +86,6 @@ pub(super) struct Run {
     pub(super) half_turns: Vec<f64>,
 }
 
-/// The work done in this many ticks.
-pub(super) fn work(stepper: &dyn Stepper, spec: LaneSpec, ticks: u64) -> u64 {
-    let (n, evaluations) = (stepper.q().len() as u64, stepper.evaluations());
-    let steps = if stepper.is_sparse() {
-        evaluations.saturating_mul(n)
-    } else {
-        work_of(evaluations, n, spec)
-    };
-    steps.saturating_add(WORK_OF_TICK * n * ticks)
-}
-
-/// The work of `evaluations` evaluations of a body of `n` coordinates.
-pub(super) fn work_of(evaluations: u64, n: u64, spec: LaneSpec) -> u64 {
-    let has_matrix = matches!(spec.method.family, Family::Implicit | Family::Linearised);
-    let matrix = if has_matrix { n / SMALL_MATRIX } else { 0 };
-    evaluations.saturating_mul(n * (1 + matrix))
-}
-
 /// Runs `truth`'s body under `spec` from its start.
 pub(super) fn follow(
     truth: &BodyTruth,
@@ -117,96 +94,120 @@ pub(super) fn follow(
     until: Until,
     most_work: u64,
 ) -> Run {
-    let coordinates = truth.coordinates();
     let hz = f64::from(tick_hz);
     let horizon = ticks(truth.horizon_s, tick_hz);
-    let mut end = match until {
+    let end = match until {
         Until::Error(_) | Until::Horizon => horizon,
         Until::Grown | Until::LongRun => ticks(LONG_RUN * truth.horizon_s, tick_hz).max(horizon),
     };
-    let mut stepper = truth.start(spec.solver());
     let mut run = Run::new(horizon as f64 / hz);
-    run.chase = Chase::new(&*stepper, 0.0);
-    let chased_s = truth.inputs.first().map_or(truth.horizon_s, |input| input.t);
     // A run that is judged without its error needs no truth.
     let series = (until != Until::Grown).then(|| truth.series(tick_hz));
     if series.as_ref().is_some_and(|series| series.is_too_much) {
         run.is_too_much = true;
         return run;
     }
-    let mut energy = Energy::of(&*stepper, truth, horizon, end);
-    let ticks_per_look = (TICKS_PER_LOOK / coordinates.len() as u64).max(1);
-    let mut peaks = Peaks::new(truth, &*stepper);
-    let mut tick = 0;
-    while tick < end {
-        tick += 1;
-        let t = tick as f64 / hz;
-        truth.apply_inputs(&mut *stepper, tick - 1, tick_hz);
-        let advanced = stepper.advance((tick - 1) as f64 / hz, 1.0 / hz, spec.substeps);
-        if let Err(cause) = advanced.and_then(|()| check(&*stepper, coordinates)) {
-            let failure = Some(RunFailure { t: (tick - 1) as f64 / hz, cause });
-            if tick <= horizon {
-                run.failure = failure
-            } else {
-                run.later = failure
-            }
-            break;
+    let body = truth.body_under(spec.solver(), spec.substeps);
+    run.chase = Chase::new(&*body.stepper, 0.0);
+    let mut measured = Measured {
+        chased_s: truth.inputs.first().map_or(truth.horizon_s, |input| input.t),
+        energy: Energy::of(&*body.stepper, truth, horizon, end),
+        peaks: Peaks::new(truth, &*body.stepper),
+        run,
+        series,
+        truth,
+        until,
+        horizon,
+        hz,
+    };
+    let mut follow = truth.follow(body, tick_hz).within(most_work);
+    let mut stop = follow.run(end, |body, tick| measured.take_in(body, tick));
+    if stop == StopReason::End && end > horizon {
+        // The truth is not needed beyond the horizon.
+        measured.run.is_losing = measured.energy.is_losing() && truth.swing.is_some();
+        if measured.run.is_losing && measured.is_undecided(&*follow.body.stepper) {
+            stop = follow.run(FOLLOWED_ON * end, |body, tick| measured.take_in(body, tick));
         }
+    }
+    truth.count_work(follow.body.work(follow.ticks()));
+    let Measured { mut run, energy, peaks, .. } = measured;
+    run.half_turns = peaks.map_or(Vec::new(), |peaks| peaks.half_turns);
+    (run.quarters, run.long_quarters) = (energy.horizon.means(), energy.long.means());
+    run.is_too_much = stop == StopReason::TooMuchWork;
+    let failure = RunFailure::of(stop, follow.t());
+    if follow.ticks() < horizon {
+        run.failure = failure;
+    } else {
+        run.later = failure;
+    }
+    if run.failure.is_some() {
+        run.error = f64::INFINITY;
+        (run.error_at_s, run.last_error) = (run.seconds, f64::INFINITY);
+    }
+    run
+}
+
+/// A run that is being measured.
+struct Measured<'a> {
+    run: Run,
+    energy: Energy,
+    peaks: Option<Peaks>,
+    series: Option<Arc<TruthSeries>>,
+    truth: &'a BodyTruth,
+    until: Until,
+    horizon: u64,
+    hz: f64,
+    /// How long it is followed as it closes on a target, in seconds.
+    chased_s: f64,
+}
+
+impl Measured<'_> {
+    /// Measures the body after `tick` ticks, and breaks off where the rest is not needed.
+    fn take_in(&mut self, body: &FollowedBody<'_>, tick: u64) -> ControlFlow<()> {
+        let (stepper, truth, horizon) = (&*body.stepper, self.truth, self.horizon);
+        let t = tick as f64 / self.hz;
+        let run = &mut self.run;
         run.followed_s = t;
         if tick <= horizon {
             run.seconds = t;
             run.evaluations = stepper.evaluations();
-            let place = stepper.q()[0];
-            run.chase.iter_mut().filter(|_| t <= chased_s).for_each(|it| it.take_in(place, t));
-            if let Some(series) = &series {
-                run.compare(&*stepper, series, truth, tick, horizon, t);
+            let first = stepper.q()[0];
+            let chased_s = self.chased_s;
+            run.chase.iter_mut().filter(|_| t <= chased_s).for_each(|it| it.take_in(first, t));
+            if let Some(series) = &self.series {
+                run.compare(stepper, series, truth, tick, horizon, t);
                 if let Some(swing) = &truth.swing {
                     run.series.push(stepper.q()[swing.coordinate]);
                 }
-                peaks.iter_mut().for_each(|peaks| peaks.take_in(&*stepper, truth));
-                if let Until::Error(enough) = until
+                self.peaks.iter_mut().for_each(|peaks| peaks.take_in(stepper, truth));
+                if let Until::Error(enough) = self.until
                     && (run.error > enough || run.no_truth.is_some())
                 {
-                    break;
+                    return ControlFlow::Break(());
                 }
             }
         }
-        let drift = energy.take_in(&*stepper, tick);
+        let drift = self.energy.take_in(stepper, tick);
         if tick <= horizon
-            && let Some((drift, part)) = drift.zip(energy.percent)
+            && let Some((drift, part)) = drift.zip(self.energy.percent)
         {
             let percent = part * drift;
             if run.energy_drift.is_none_or(|largest: f64| percent.abs() > largest.abs()) {
                 run.energy_drift = Some(percent);
             }
         }
-        run.watch_reach(&*stepper, truth, drift, t);
-        if tick == end && tick > horizon && !run.is_losing {
-            // The truth is not needed beyond the horizon.
-            run.is_losing = energy.is_losing() && truth.swing.is_some();
-            end *= if run.is_losing { FOLLOWED_ON } else { 1 };
-        }
-        if run.is_losing
-            && (run.doubled_at.is_some() || run.rushed_at.is_some() || run.rests(&*stepper, truth))
-        {
-            break;
-        }
-        if until == Until::Grown && (run.doubled_at.is_some() || run.rushed_at.is_some()) {
-            break;
-        }
-        if tick.is_multiple_of(ticks_per_look) && work(&*stepper, spec, tick) > most_work {
-            run.is_too_much = tick < end;
-            break;
-        }
+        run.watch_reach(stepper, truth, drift, t);
+        let is_needed = match self.until {
+            Until::Grown if run.has_grown() => false,
+            _ => !run.is_losing || self.is_undecided(stepper),
+        };
+        if is_needed { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     }
-    truth.count_work(work(&*stepper, spec, tick));
-    run.half_turns = peaks.map_or(Vec::new(), |peaks| peaks.half_turns);
-    (run.quarters, run.long_quarters) = (energy.horizon.means(), energy.long.means());
-    if run.failure.is_some() {
-        run.error = f64::INFINITY;
-        (run.error_at_s, run.last_error) = (run.seconds, f64::INFINITY);
+
+    /// Whether a swing that is losing neither grows nor has come to rest.
+    fn is_undecided(&mut self, stepper: &dyn Stepper) -> bool {
+        !self.run.has_grown() && !self.run.rests(stepper, self.truth)
     }
-    run
 }
 
 impl Run {
@@ -293,6 +294,11 @@ impl Run {
     /// Whether it was stopped within the horizon.
     pub(super) fn is_cut_short(&self) -> bool {
         self.is_too_much && self.seconds < self.horizon_s
+    }
+
+    /// Whether a coordinate or a velocity has reached twice its true amplitude.
+    fn has_grown(&self) -> bool {
+        self.doubled_at.is_some() || self.rushed_at.is_some()
     }
 
     /// Whether coordinates and velocities are all near their values at rest.

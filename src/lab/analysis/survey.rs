@@ -1,8 +1,8 @@
 //! Follows the true motion of one body in adaptive steps, and measures the range of each component.
 
 use crate::lab::action::Action;
+use crate::lab::interpolation::hermite;
 use crate::sim::Stepper;
-use crate::sim::bodies::Input;
 use crate::sim::integrators::StepFailure;
 
 /// The part of a step at which it is checked: irrational, so that regular steps do not resonate with a period.
@@ -43,10 +43,7 @@ impl Moment {
     /// Component `i` at the part `s` of the way to `next`, by the cubic through both.
     pub(super) fn between(&self, next: &Self, i: usize, s: f64) -> f64 {
         let h = next.t - self.t;
-        let (a, b) = (self.x[i], next.x[i]);
-        let (da, db) = (h * self.slope[i], h * next.slope[i]);
-        let r = 1.0 - s;
-        (1.0 + 2.0 * s) * r * r * a + s * r * r * da + (1.0 + 2.0 * r) * s * s * b - r * s * s * db
+        hermite(s, h, [self.x[i], next.x[i]], [self.slope[i], next.slope[i]])
     }
 
     fn is_finite(&self) -> bool {
@@ -76,43 +73,11 @@ impl Ranges {
     }
 }
 
-/// A change that an action makes to a body, and its time in seconds.
+/// A script's action on a body, and its time in seconds.
 #[derive(Clone, Debug)]
 pub(super) struct TimedInput {
     pub(super) t: f64,
-    pub(super) input: BodyInput,
-}
-
-/// A change that an action makes to a body.
-#[derive(Clone, Debug)]
-pub(super) enum BodyInput {
-    Input(Input),
-    Parameter { place: usize, value: f64 },
-    State { q: Box<[f64]>, v: Box<[f64]> },
-}
-
-impl BodyInput {
-    /// The change that an action makes to the body at this place of the scene, if it makes one.
-    pub(super) fn of(action: &Action, place: usize) -> Option<Self> {
-        match action {
-            Action::Set { body, parameter, value } if *body == place => {
-                Some(BodyInput::Parameter { place: *parameter, value: *value })
-            }
-            Action::Place { body, q, v } if *body == place => {
-                Some(BodyInput::State { q: q.clone(), v: v.clone() })
-            }
-            other => other.input().map(BodyInput::Input),
-        }
-    }
-
-    /// Applies the change to `body` at time `t` (s).
-    pub(super) fn apply_to(&self, body: &mut dyn Stepper, t: f64) {
-        match self {
-            BodyInput::Input(input) => _ = body.input(t, *input),
-            BodyInput::Parameter { place, value } => _ = body.set_parameter(t, *place, *value),
-            BodyInput::State { q, v } => body.set(t, q, v),
-        }
-    }
+    pub(super) action: Action,
 }
 
 /// Follows `body` from its start over `seconds`, applies its inputs in order, and passes both ends of each step to `see`.
@@ -137,7 +102,7 @@ pub(super) fn follow_truth(
         if let Some((next, rest)) = inputs.split_first()
             && next.t <= here.t
         {
-            next.input.apply_to(body, here.t);
+            next.action.apply_to(body, here.t);
             (here, inputs) = (Moment::of(body, here.t), rest);
             step = FIRST_STEP * seconds;
             continue;
@@ -168,7 +133,7 @@ pub(super) fn follow_truth(
                 && next.t <= t
             {
                 here = Moment::of_advanced(body, here.t, next.t.max(here.t))?;
-                next.input.apply_to(body, here.t);
+                next.action.apply_to(body, here.t);
                 inputs = rest;
             }
             let there = Moment::of_advanced(body, here.t, t)?;

@@ -2,7 +2,8 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::survey::{BodyInput, Moment, Ranges, TimedInput, follow_truth};
+use super::survey::{Moment, Ranges, TimedInput, follow_truth};
+use crate::lab::action::Action;
 use crate::lab::extent::Extent;
 use crate::lab::scene::SceneBody;
 use crate::sim::bodies::{Coordinate, Input, Truth};
@@ -19,7 +20,7 @@ use amplitudes::{amplitudes, largest_alike};
 pub(super) use reach::Reach;
 use reach::ReachSoFar;
 use series::TruthSeriesByRate;
-pub(super) use series::{TruthSeries, ticks};
+pub(super) use series::{TruthSeries, tick_after, ticks};
 pub(super) use swing::Swing;
 
 /// The long run of a nonlinear body in horizons.
@@ -45,7 +46,7 @@ pub(super) struct BodyTruth {
     pub(super) body: SceneBody,
     pub(super) throttle: f64,
     /// The script's actions on the body at tick 0, in order. The motion begins after them.
-    at_start: Vec<BodyInput>,
+    at_start: Vec<Action>,
     /// The script's later actions on the body within the horizon, in order.
     pub(super) inputs: Vec<TimedInput>,
     pub(super) horizon_s: f64,
@@ -86,7 +87,7 @@ impl BodyTruth {
         let mut truth = Self {
             body: body.clone(),
             throttle,
-            at_start: at_start.into_iter().map(|input| input.input.clone()).collect(),
+            at_start: at_start.into_iter().map(|input| input.action.clone()).collect(),
             inputs: later.cloned().collect(),
             horizon_s,
             amplitudes: Vec::new(),
@@ -127,7 +128,7 @@ impl BodyTruth {
                 break;
             }
             t = input.t;
-            input.input.apply_to(&mut *body, t);
+            input.action.apply_to(&mut *body, t);
         }
         body
     }
@@ -135,8 +136,8 @@ impl BodyTruth {
     /// The body in its initial state, with the parameters that are in force after the last input.
     pub(super) fn with_last_parameters(&self) -> Box<dyn Stepper> {
         let mut body = self.start(Solver::Truth);
-        let is_parameter = |input: &&TimedInput| matches!(input.input, BodyInput::Parameter { .. });
-        self.inputs.iter().filter(is_parameter).for_each(|it| it.input.apply_to(&mut *body, it.t));
+        let is_parameter = |input: &&TimedInput| matches!(input.action, Action::Set { .. });
+        self.inputs.iter().filter(is_parameter).for_each(|it| it.action.apply_to(&mut *body, it.t));
         body
     }
 

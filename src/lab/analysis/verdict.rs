@@ -6,6 +6,7 @@ use super::chase_finding::ChaseFinding;
 use super::energy_finding::EnergyFinding;
 use super::limits::TOLERANCE;
 use super::outcome::Outcome;
+use crate::lab::follow::StopReason;
 use crate::sim::bodies::Truth;
 use crate::sim::integrators::StepFailure;
 use crate::sim::number::{round, significant, superscript};
@@ -25,6 +26,14 @@ pub struct RunFailure {
 }
 
 impl RunFailure {
+    /// That of a run that stopped at `t` (s), if it failed.
+    pub(super) fn of(stop: StopReason, t: f64) -> Option<Self> {
+        match stop {
+            StopReason::Failed(cause) => Some(Self { t, cause }),
+            _ => None,
+        }
+    }
+
     pub(super) fn outcome(&self) -> Outcome {
         match self.cause {
             StepFailure::Escaped { .. } | StepFailure::NotFinite { .. } => Outcome::BlewUp,

@@ -97,25 +97,6 @@ fn a_halted_body_has_no_next_step() {
 }
 
 #[test]
-fn the_time_of_a_tick_is_the_least_of_its_runs_and_a_halted_lane_has_none() {
-    use std::cell::Cell;
-    let spring = lab("spring", "rk4", 1);
-    let lane = &spring.race().entrants()[0].lane;
-    let (reading, step) = (Cell::new(0), Cell::new(900));
-    // Each run takes 100 ns less than the one before.
-    let clock = || {
-        reading.set(reading.get() + step.get());
-        step.set(step.get() - 50);
-        reading.get()
-    };
-    let start = (1, 1.0 / 60.0, 1.0 / 60.0);
-    assert_eq!(lane.ns_per_tick(start, 10, 3, clock), Some(65.0));
-    let stiff = lab("stiff", "explicit-euler", 300);
-    let lane = &stiff.race().entrants()[0].lane;
-    assert_eq!(lane.ns_per_tick(start, 400, 1, || 0), None);
-}
-
-#[test]
 fn runge_kutta_4_loses_the_same_part_of_the_swing_in_every_tick_and_a_32nd_of_it_in_half_ticks() {
     for ticks in [0, 1, 5] {
         let mut lab = lab("spring", "rk4", 0);

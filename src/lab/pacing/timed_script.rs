@@ -14,10 +14,9 @@ pub(super) struct TimedScript {
 }
 
 impl TimedScript {
-    /// All of a scene's script, at the scene's tick rate.
+    /// All of a scene's script.
     pub(super) fn new(scene: &Scene) -> Self {
-        let hz = f64::from(scene.tick_hz);
-        let rows = scene.script.iter().map(|row| (row.tick as f64 / hz, row.action.clone()));
+        let rows = scene.timed_script().map(|(t, action)| (t, action.clone()));
         Self { rows: rows.collect(), done: 0 }
     }
 

@@ -9,6 +9,7 @@ use glam::DVec2;
 use super::energies::Energies;
 use super::swept_range::SweptRange;
 use super::windowed_log::WindowedLog;
+use crate::lab::interpolation::{hermite, slope};
 use crate::lab::lane::LaneBody;
 use crate::lab::quantity::Quantity;
 use crate::lab::race::LastTick;
@@ -305,17 +306,12 @@ impl TruthCurve {
 /// The coordinate and its velocity at a part of the way between two samples, on the cubic through both with their
 /// velocities. Where no time passes, they are those of the first.
 fn cubic(from: &TruthSample, to: &TruthSample, part: f64) -> [f64; 2] {
-    let (wide, rest) = (to.t - from.t, 1.0 - part);
-    if wide <= 0.0 {
+    let h = to.t - from.t;
+    if h <= 0.0 {
         return [from.q, from.v];
     }
-    let [out, into] = [from.v, to.v].map(|v| wide * v);
-    let q = rest * rest * ((1.0 + 2.0 * part) * from.q + part * out)
-        + part * part * ((3.0 - 2.0 * part) * to.q - rest * into);
-    let v = 6.0 * part * rest * (to.q - from.q) / wide
-        + rest * (1.0 - 3.0 * part) * from.v
-        + part * (3.0 * part - 2.0) * to.v;
-    [q, v]
+    let (q, v) = ([from.q, to.q], [from.v, to.v]);
+    [hermite(part, h, q, v), slope(part, h, q, v)]
 }
 
 #[cfg(test)]

@@ -1,14 +1,15 @@
 //! A session with its past and its future: it can go to any tick that it has reached, with identical bits, and takes back
 //! what a person did.
 
+use super::Session;
 use super::run_with_past::{Event, EventKind, RunWithPast, Snapshot};
 use super::start::StartSettings;
 use super::undo::{Change, Exchanged, Future, Other, UndoStack};
-use super::{Session, TimeScale};
 use crate::lab::action::Action;
 use crate::lab::journal::Journal;
 use crate::lab::past::Past;
 use crate::lab::race::{ActionResult, Observer, Race};
+use crate::lab::time_scale::TimeScale;
 
 /// The memory that snapshots may take, in bytes.
 pub const SNAPSHOT_BYTES: usize = 64 << 20;
@@ -57,7 +58,9 @@ impl Timeline {
     }
     /// The time of every tick, by the performed and the pending changes of the tick rate.
     pub fn times(&self) -> TimeScale {
-        TimeScale::new(self.start().tick_hz(), self.run.session.journal().rows())
+        let rows = self.run.session.journal().rows().iter();
+        let changes = rows.filter_map(|row| Some((row.tick, row.action.tick_hz()?)));
+        TimeScale::new((0, 0.0), self.start().tick_hz(), changes)
     }
     /// The recorded past that is drawn.
     pub fn past(&self) -> &Past {

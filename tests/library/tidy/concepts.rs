@@ -11,7 +11,7 @@ struct Concept {
     marks: &'static [&'static str],
 }
 
-const CONCEPTS: [Concept; 11] = [
+const CONCEPTS: [Concept; 13] = [
     Concept {
         name: "dispatch by the type of a method",
         file: "src/sim/integrators/mod.rs",
@@ -63,6 +63,16 @@ const CONCEPTS: [Concept; 11] = [
         marks: &["by_stiffness[0] * by_damping[1]"],
     },
     Concept {
+        name: "times at several tick rates",
+        file: "src/lab/time_scale.rs",
+        marks: &["(tick - self.tick) as f64 /"],
+    },
+    Concept {
+        name: "cubic between two states",
+        file: "src/lab/interpolation.rs",
+        marks: &["b * b * (1.0 + 2.0 * a)"],
+    },
+    Concept {
         name: "hash of a state",
         file: "src/lab/race/hash.rs",
         marks: &["0x0000_0100_0000_01b3"],
@@ -97,4 +107,71 @@ fn a_second_and_a_lost_implementation_are_seen() {
     assert_eq!(misplaced(&concept, &[]).len(), 1);
     assert_eq!(misplaced(&concept, &[file("src/pot.rs", "fn brew() {}")]).len(), 2);
     none(misplaced(&concept, &[tea, file("src/pot.rs", "// fn brew() {}")]));
+}
+
+/// Who steps a body or a lane of the lab by a length of time. A loop of ticks is [`Follow`](regatta::lab::Follow)'s, or
+/// that of the run.
+const STEPPERS: [(&str, &str); 11] = [
+    ("src/lab/lane.rs", "a tick of a body, which may fail"),
+    ("src/lab/follow.rs", "the loop of ticks outside the run"),
+    ("src/lab/analysis/by_energy.rs", "a body that is measured as it is followed"),
+    ("src/lab/race.rs", "the tick of the run"),
+    ("src/lab/pacing/paced_lane.rs", "the steps of a game loop"),
+    ("src/lab/pacing/scripted_truth.rs", "the truth at the moments of display"),
+    ("src/lab/past/truth_curve.rs", "the true curve between ticks"),
+    ("src/lab/analysis/survey.rs", "the truth in adaptive steps"),
+    ("src/lab/analysis/truth.rs", "the truth from input to input"),
+    ("src/lab/one_step.rs", "the anatomy of the next tick"),
+    ("src/lab/analysis/chase_finding.rs", "the truth at the half-life"),
+];
+
+/// The lines of a source that call [`Stepper::advance`](regatta::sim::Stepper::advance) or
+/// [`Lane::tick`](regatta::lab::Lane::tick): the methods of these names with three arguments.
+fn steps(source: &Source) -> Vec<String> {
+    let code = code(&source.text);
+    let code = code.split("#[cfg(test)]").next().unwrap_or_default();
+    let calls = [".advance(", ".tick("].map(|call| code.match_indices(call)).into_iter().flatten();
+    let others = ["schedule", "accumulator"];
+    let with_three = calls.filter(|(at, call)| {
+        if others.iter().any(|other| code[..*at].ends_with(other)) {
+            return false;
+        }
+        let (mut depth, mut commas) = (1, 0);
+        for c in code[at + call.len()..].chars().take_while(|c| *c != ';') {
+            match c {
+                '(' | '[' | '{' => depth += 1,
+                ')' | ']' | '}' => depth -= 1,
+                ',' if depth == 1 => commas += 1,
+                _ => {}
+            }
+            if depth == 0 {
+                break;
+            }
+        }
+        commas == 2
+    });
+    with_three.map(|(_, call)| format!("{} calls `{call}…)`", source.path)).collect()
+}
+
+#[test]
+fn a_body_of_the_lab_is_ticked_by_one_loop_outside_the_run() {
+    let is_own = |source: &Source| STEPPERS.iter().any(|(file, _)| *file == source.path);
+    let is_watched = |source: &&Source| {
+        let path = source.path.as_str();
+        !path.starts_with("src/sim/") && !path.ends_with("tests.rs") && !is_own(source)
+    };
+    none(sources("src", &["rs"]).iter().filter(is_watched).flat_map(steps).collect());
+    for (file, _) in STEPPERS {
+        let source = sources("src/lab", &["rs"]).into_iter().find(|source| source.path == file);
+        assert!(source.is_some_and(|source| !steps(&source).is_empty()), "{file} steps nothing");
+    }
+}
+
+#[test]
+fn a_second_loop_of_ticks_is_seen() {
+    let source = |text: &str| Source { path: "src/lab/x.rs".into(), text: text.into() };
+    let bad = "stepper.advance((tick - 1) as f64 / hz, 1.0 / hz, spec.substeps)?;";
+    assert_eq!(steps(&source(bad)).len(), 1);
+    assert_eq!(steps(&source("lane.tick(tick, t, h);")).len(), 1);
+    none(steps(&source("lab.tick(); lab.advance(16_666_667); clock.advance(f(a, b, c));")));
 }

@@ -1,13 +1,13 @@
 //! The true states of one body at the ticks of one rate, and the inputs at those ticks.
 
 use std::collections::HashMap;
+use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, OnceLock};
 
 use super::BodyTruth;
-use crate::lab::analysis::survey::TimedInput;
-use crate::lab::lane::check;
+use crate::lab::follow::StopReason;
+use crate::sim::Solver;
 use crate::sim::integrators::StepFailure;
-use crate::sim::{Solver, Stepper};
 
 /// The most products of the exact flow for one series: less than a second of work.
 const MOST_SERIES_PRODUCTS: u64 = 500_000_000;
@@ -46,20 +46,6 @@ impl TruthSeries {
 }
 
 impl BodyTruth {
-    /// Applies to `stepper`, which has made `tick` ticks at this rate, the inputs that are due then.
-    pub(in crate::lab::analysis) fn apply_inputs(
-        &self,
-        stepper: &mut dyn Stepper,
-        tick: u64,
-        tick_hz: u32,
-    ) {
-        let hz = f64::from(tick_hz);
-        let due = |input: &&TimedInput| (input.t * hz - ON_TIME).ceil().max(0.0) as u64 == tick;
-        for TimedInput { input, .. } in self.inputs.iter().filter(due) {
-            input.apply_to(stepper, tick as f64 / hz);
-        }
-    }
-
     /// The largest error of the truth up to this moment, in amplitudes, at the ticks of this rate.
     pub(in crate::lab::analysis) fn gap(&self, seconds: f64, tick_hz: u32) -> f64 {
         self.series(tick_hz).gap(ticks(seconds, tick_hz).max(1))
@@ -76,12 +62,11 @@ impl BodyTruth {
             }
             Arc::clone(series_by_rate.entry(tick_hz).or_default())
         };
-        Arc::clone(cell.get_or_init(|| Arc::new(self.follow(tick_hz))))
+        Arc::clone(cell.get_or_init(|| Arc::new(self.compute_series(tick_hz))))
     }
 
-    fn follow(&self, tick_hz: u32) -> TruthSeries {
-        let mut body = self.start(Solver::Truth);
-        let (n, hz) = (body.q().len(), f64::from(tick_hz));
+    fn compute_series(&self, tick_hz: u32) -> TruthSeries {
+        let n = self.coordinates().len();
         let mut series = TruthSeries {
             values: Vec::new(),
             components: 2 * n,
@@ -99,13 +84,9 @@ impl BodyTruth {
             series.failure.clone_from(&self.failure);
             return series;
         }
-        for tick in 0..ticks {
-            self.apply_inputs(&mut *body, tick, tick_hz);
-            let advanced = body.advance(tick as f64 / hz, 1.0 / hz, 1);
-            if let Err(failure) = advanced.and_then(|()| check(&*body, self.coordinates())) {
-                series.failure = Some(failure);
-                break;
-            }
+        let mut follow = self.follow(self.body_under(Solver::Truth, 1), tick_hz);
+        let stop = follow.run(ticks, |body, _| {
+            let body = &*body.stepper;
             series.values.extend(body.q().iter().chain(body.v()));
             let off = body.truth_error().unwrap_or([0.0; 2]);
             for (i, amplitude) in self.amplitudes.iter().enumerate() {
@@ -113,8 +94,12 @@ impl BodyTruth {
                 gap = if part <= gap { gap } else { part };
             }
             series.gaps.push(gap);
+            ControlFlow::Continue(())
+        });
+        if let StopReason::Failed(failure) = stop {
+            series.failure = Some(failure);
         }
-        self.count_moments(series.gaps.len() as u64, &*body);
+        self.count_moments(series.gaps.len() as u64, &*follow.body.stepper);
         series
     }
 }
@@ -125,4 +110,9 @@ const ON_TIME: f64 = 1e-6;
 /// The number of whole ticks of this rate in `seconds`.
 pub(in crate::lab::analysis) fn ticks(seconds: f64, tick_hz: u32) -> u64 {
     (seconds * f64::from(tick_hz) + ON_TIME).floor() as u64
+}
+
+/// The first tick of this rate that does not begin before `seconds`.
+pub(in crate::lab::analysis) fn tick_after(seconds: f64, tick_hz: u32) -> u64 {
+    (seconds * f64::from(tick_hz) - ON_TIME).ceil().max(0.0) as u64
 }

@@ -1,0 +1,141 @@
+//! The times of ticks whose rate changes.
+
+use super::action::Action;
+use super::scene::Scene;
+
+/// The tolerance, in ticks, by which a tie between two ticks goes to the later one: a time may be off by its last bit.
+const TIE: f64 = 1e-6;
+
+/// Converts between the ticks and the times of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimeScale {
+    /// In order; there is a first.
+    pieces: Vec<Piece>,
+}
+
+/// Consecutive ticks of one rate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Piece {
+    tick: u64,
+    t: f64,
+    tick_hz: u32,
+}
+
+impl Piece {
+    fn t(self, tick: u64) -> f64 {
+        self.t + (tick - self.tick) as f64 / f64::from(self.tick_hz)
+    }
+}
+
+impl TimeScale {
+    /// The times from tick `tick`, at `t` seconds, on: at `tick_hz`, and from each tick of `changes`, in order, at the rate
+    /// beside it.
+    pub(super) fn new(
+        (tick, t): (u64, f64),
+        tick_hz: u32,
+        changes: impl IntoIterator<Item = (u64, u32)>,
+    ) -> Self {
+        let mut last = Piece { tick, t, tick_hz };
+        let mut pieces = vec![last];
+        for (tick, tick_hz) in changes {
+            last = Piece { tick, t: last.t(tick), tick_hz };
+            pieces.push(last);
+        }
+        Self { pieces }
+    }
+
+    /// The time of a tick, in seconds.
+    pub fn t(&self, tick: u64) -> f64 {
+        let next = self.pieces.partition_point(|piece| piece.tick <= tick);
+        self.pieces[next - 1].t(tick)
+    }
+
+    /// The fractional tick at a time in seconds; the first for all times before the start.
+    pub fn tick_at(&self, t: f64) -> f64 {
+        let next = self.pieces.partition_point(|piece| piece.t <= t).max(1);
+        let piece = self.pieces[next - 1];
+        piece.tick as f64 + ((t - piece.t) * f64::from(piece.tick_hz)).max(0.0)
+    }
+
+    /// The tick nearest to a time in seconds; the first for all times before the start.
+    pub fn nearest_tick(&self, t: f64) -> u64 {
+        (self.tick_at(t) + TIE).round() as u64
+    }
+}
+
+impl Scene {
+    /// The ticks from `tick` on at which the script sets a tick rate, in order, with that rate in Hz.
+    pub fn rates_from(&self, tick: u64) -> impl Iterator<Item = (u64, u32)> {
+        let first = self.script.partition_point(|scripted| scripted.tick < tick);
+        self.script[first..].iter().filter_map(|row| Some((row.tick, row.action.tick_hz()?)))
+    }
+
+    /// The actions of the script with their times in seconds, in order.
+    pub(super) fn timed_script(&self) -> impl Iterator<Item = (f64, &Action)> {
+        let times = TimeScale::new((0, 0.0), self.tick_hz, self.rates_from(0));
+        self.script.iter().map(move |row| (times.t(row.tick), &row.action))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::Lab;
+
+    #[test]
+    fn time_goes_on_at_each_rate_from_where_the_rate_was_set() {
+        let scale = TimeScale::new((0, 0.0), 60, [(60, 10), (70, 100), (70, 1000)]);
+        for (tick, t) in [(0, 0.0), (30, 0.5), (60, 1.0), (65, 1.5), (70, 2.0), (570, 2.5)] {
+            assert!((scale.t(tick) - t).abs() < 1e-12, "tick {tick}: {}", scale.t(tick));
+            assert_eq!(scale.nearest_tick(t), tick);
+        }
+        assert_eq!(scale.nearest_tick(-3.0), 0);
+        assert_eq!(scale.nearest_tick(0.991), 59);
+        assert_eq!(scale.nearest_tick(1.06), 61);
+    }
+
+    /// 1 Hz, from tick 5 on 100 Hz, from tick 45 on 2 Hz.
+    fn scene() -> Scene {
+        let text = "title = 'x'\ntick_hz = 1\nseconds = 9\n[[spring]]\nmass_kg = 1\n\
+                    stiffness_n_per_m = 1\n[[command]]\ntick = 5\ntick_hz = 100\n\
+                    [[command]]\ntick = 45\ntick_hz = 2\n[[command]]\ntick = 46\nkick = 1\n";
+        Scene::parse("x.toml", text).unwrap()
+    }
+
+    #[test]
+    fn the_actions_of_a_script_come_at_their_times_at_the_rates_that_it_sets() {
+        let times: Vec<f64> = scene().timed_script().map(|(t, _)| t).collect();
+        assert_eq!(times, [5.0, 5.4, 5.9]);
+    }
+
+    #[test]
+    fn seconds_are_counted_across_the_rates_of_a_script() {
+        let lab = Lab::new(scene());
+        for (seconds, tick) in [
+            (0.0, 0),
+            (0.4, 0),
+            (4.4, 4),
+            (4.5, 5),
+            (5.0, 5),
+            (5.2, 25),
+            (5.254, 30),
+            (5.4, 45),
+            (5.6, 45),
+            (5.65, 46),
+            (9.4, 53),
+        ] {
+            assert_eq!(lab.nearest_tick(seconds), tick, "{seconds} s");
+        }
+    }
+
+    #[test]
+    fn the_tick_is_the_same_seen_from_any_tick_before_it() {
+        let mut lab = Lab::new(scene());
+        for tick in 0..60 {
+            assert_eq!(lab.race().tick(), tick);
+            assert_eq!(lab.nearest_tick(9.4), 53.max(tick));
+            assert_eq!(lab.nearest_tick(lab.race().t()), tick);
+            lab.tick();
+        }
+    }
+}
