@@ -204,6 +204,107 @@ pub enum Command {
     Escape,
 }
 
+/// What a command acts on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Receiver {
+    /// The run. The loop lab has none of it.
+    Run,
+    /// What the stage shows: the run, or the loop lab while it is open.
+    Stage,
+    /// The window around the stage, and the whole program.
+    Window,
+}
+
+impl Command {
+    pub(super) fn receiver(&self) -> Receiver {
+        match self {
+            Command::Act(_)
+            | Command::Fly(_)
+            | Command::Seek(_)
+            | Command::WatchAgain
+            | Command::Undo
+            | Command::Redo
+            | Command::SpeedPercent(_)
+            | Command::Throttle(_)
+            | Command::ThrottleUp
+            | Command::ThrottleDown
+            | Command::Rudder(_)
+            | Command::RudderLeft
+            | Command::RudderRight
+            | Command::Kick(_)
+            | Command::Hold(_)
+            | Command::Seconds(_)
+            | Command::MapParameter(_)
+            | Command::NextInterpolation
+            | Command::ToggleInspector
+            | Command::Record
+            | Command::ToggleEqualCost => Receiver::Run,
+            Command::Loop(_)
+            | Command::Method(_)
+            | Command::Pick(_)
+            | Command::NextMethod
+            | Command::PreviousMethod
+            | Command::ToggleRace
+            | Command::TickForward
+            | Command::TickBack
+            | Command::SecondForward
+            | Command::SecondBack
+            | Command::Restart
+            | Command::TickHz(_)
+            | Command::TickRateUp
+            | Command::TickRateDown
+            | Command::SpeedUp
+            | Command::SpeedDown
+            | Command::Scene(_)
+            | Command::NextScene
+            | Command::PreviousScene
+            | Command::OpenSpring
+            | Command::ToggleArrangement
+            | Command::Instrument(_)
+            | Command::NextInstrument
+            | Command::PreviousInstrument
+            | Command::Metric(_)
+            | Command::Body(_) => Receiver::Stage,
+            Command::TogglePause
+            | Command::PointerDown(_)
+            | Command::AskForPath
+            | Command::TypePath(_)
+            | Command::CompletePath
+            | Command::OpenTypedPath
+            | Command::AskForSpring
+            | Command::DescribeSpring(_)
+            | Command::CloseDialog
+            | Command::ToggleGhost
+            | Command::ToggleTheme
+            | Command::ScaleUp
+            | Command::ScaleDown
+            | Command::UsualScale
+            | Command::Quantity(_)
+            | Command::Coordinate { .. }
+            | Command::PlotRanges(_)
+            | Command::ToggleEnlarged
+            | Command::Copy
+            | Command::CopyInstrument
+            | Command::CopyMethod { .. }
+            | Command::CopyJoint(_)
+            | Command::PointAt(_)
+            | Command::ExportInstrument
+            | Command::AdviseOnOneBody(_)
+            | Command::LetGo
+            | Command::ZoomPan { .. }
+            | Command::ToggleHelp
+            | Command::Screenshot
+            | Command::ToggleFullScreen
+            | Command::ToggleGuide
+            | Command::GoToStop(_)
+            | Command::NextStop
+            | Command::PreviousStop
+            | Command::Predict(_)
+            | Command::Escape => Receiver::Window,
+        }
+    }
+}
+
 /// The tick rates of the bracket keys in Hz: the usual ones of games and screens, and 49 and 50 next to the limit of the
 /// stiff spring.
 pub const TICK_LADDER: [u32; 14] = [2, 5, 10, 15, 20, 30, 49, 50, 60, 100, 120, 144, 240, 1000];
@@ -214,6 +315,16 @@ pub const SPEED_LADDER: [u32; 6] = [25, 50, 100, 200, 400, 1600];
 /// The sizes of type and panels of the keys `Ctrl +` and `Ctrl −`, in percent of the usual one: type is legible from the
 /// smallest on, and the panels fit a screen of 1920 × 1080 up to the largest.
 pub const SCALE_LADDER: [u32; 8] = [75, 90, 100, 110, 125, 150, 175, 200];
+
+/// The next higher rung of a ladder; `None` at its top.
+pub(super) fn rung_above(ladder: &[u32], rung: u32) -> Option<u32> {
+    ladder.iter().copied().find(|&other| other > rung)
+}
+
+/// The next lower rung of a ladder; `None` at its bottom.
+pub(super) fn rung_below(ladder: &[u32], rung: u32) -> Option<u32> {
+    ladder.iter().copied().rfind(|&other| other < rung)
+}
 
 /// The size of type and panels that nobody chose, in percent.
 pub const USUAL_SCALE_PERCENT: u32 = 100;

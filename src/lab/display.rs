@@ -30,7 +30,7 @@ pub enum Motion {
     Live,
 }
 
-/// How the lab is displayed. It does not affect the physics.
+/// How the lab is displayed, whatever the scene is. It does not affect the physics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Display {
     /// Whether the exact ghost is drawn.
@@ -43,17 +43,10 @@ pub struct Display {
     pub enlarged: bool,
     /// What the motion instrument shows of every body.
     pub quantity: Quantity,
-    /// The coordinate of each body that a person has chosen for the plots, by its index; a body beyond the end has the
-    /// [usual one](super::LaneBody::plotted_coordinate).
-    pub coordinates: Vec<Option<usize>>,
     /// The metric of the error instrument, by its place in [`METRICS`](super::METRICS).
     pub metric: usize,
-    /// The body of the plots and the lane list, by its place in the scene.
-    pub body: usize,
-    /// Whether the advice is about that body alone, and not about all.
+    /// Whether the advice is about the [displayed body](View::body) alone, and not about all.
     pub advises_on_one_body: bool,
-    /// The body and its parameter that a person has chosen for the stability map, by their places.
-    pub mapped_parameter: Option<(usize, usize)>,
     /// How the lanes of a race share the stage.
     pub arrangement: Arrangement,
     /// A dark or a light chart.
@@ -66,6 +59,18 @@ pub struct Display {
     pub inspector: bool,
     /// What moves besides the bodies.
     pub motion: Motion,
+}
+
+/// Where a person looks in a scene. It ends with the scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct View {
+    /// The body of the plots and the lane list, by its place in the scene.
+    pub body: usize,
+    /// The coordinate of each body that a person has chosen for the plots, by its index; a body beyond the end has the
+    /// [usual one](super::LaneBody::plotted_coordinate).
+    pub coordinates: Vec<Option<usize>>,
+    /// The body and its parameter that a person has chosen for the stability map, by their places.
+    pub mapped_parameter: Option<(usize, usize)>,
     /// What a person has zoomed and panned the plots to: a range of each axis, by its name. An axis without a range is
     /// fitted.
     pub plot_ranges: BTreeMap<String, [f64; 2]>,
@@ -73,7 +78,7 @@ pub struct Display {
     pub zoom_pans: Vec<ZoomPan>,
 }
 
-impl Display {
+impl View {
     /// The zoom and the pan of the body at this place of the scene.
     pub fn zoom_pan(&self, body: usize) -> ZoomPan {
         self.zoom_pans.get(body).copied().unwrap_or_default()

@@ -1,7 +1,7 @@
 //! The lab: a run with its past, the clock that drives it, and its display. Commands come in; state goes out.
 
 use super::command::SCALE_LADDER;
-use super::display::{Display, Motion, Pace};
+use super::display::{Display, Motion, Pace, View};
 use super::lane_spec::LaneSpec;
 use super::loop_lab::LoopLab;
 use super::notice::Notice;
@@ -147,11 +147,15 @@ impl Lab {
     }
     /// How the lab is displayed.
     pub fn display(&self) -> &Display {
-        &self.viewer.display
+        &self.viewer.preferences.display
+    }
+    /// Where a person looks in the scene.
+    pub fn view(&self) -> &View {
+        &self.viewer.view
     }
     /// The history of the displayed body in each lane, with the lane's place on the list.
     pub fn plotted(&self) -> impl Iterator<Item = (usize, &History)> {
-        let body = self.display().body;
+        let body = self.view().body;
         let entries = self.race().entrants().iter().map(|entrant| entrant.entry);
         entries.enumerate().map(move |(place, entry)| (entry, &self.past().histories(place)[body]))
     }
@@ -162,27 +166,27 @@ impl Lab {
     }
     /// Sets what moves on the stage besides the bodies.
     pub fn set_motion(&mut self, motion: Motion) {
-        self.viewer.display.motion = motion;
+        self.viewer.preferences.display.motion = motion;
     }
     /// Shows the system's theme, unless a person has chosen one.
     pub fn follow_theme(&mut self, theme: Theme) {
-        if !self.viewer.theme_is_chosen {
-            self.viewer.display.theme = theme;
+        if !self.viewer.preferences.theme_is_chosen {
+            self.viewer.preferences.display.theme = theme;
         }
     }
     /// Shows this theme, whatever the system's is.
     pub fn choose_theme(&mut self, theme: Theme) {
-        self.viewer.theme_is_chosen = true;
-        self.viewer.display.theme = theme;
+        self.viewer.preferences.theme_is_chosen = true;
+        self.viewer.preferences.display.theme = theme;
     }
     /// The theme that a person has chosen; `None` while it follows the system's.
     pub fn chosen_theme(&self) -> Option<Theme> {
-        self.viewer.theme_is_chosen.then_some(self.viewer.display.theme)
+        self.viewer.preferences.theme_is_chosen.then_some(self.viewer.preferences.display.theme)
     }
     /// Shows type and panels at this size in percent, within the bounds of [`SCALE_LADDER`].
     pub fn choose_scale(&mut self, percent: u32) {
         let [least, .., most] = SCALE_LADDER;
-        self.viewer.display.scale_percent = percent.clamp(least, most);
+        self.viewer.preferences.display.scale_percent = percent.clamp(least, most);
     }
     /// Sets the pace that the driver has measured.
     pub fn set_pace(&mut self, pace: Pace) {

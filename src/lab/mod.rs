@@ -69,7 +69,7 @@ pub use appearance::Appearance;
 pub use chase::Chase;
 pub use command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT};
 pub use custom::{Draw, Options, OptionsError};
-pub use display::{Arrangement, Display, DriverRequest, Motion, Pace};
+pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, View};
 pub use equal_cost::{equal_cost, lanes_that_race};
 pub use follow::{Follow, StopReason, Ticked};
 pub use gesture::{GESTURES, Gesture};
@@ -120,5 +120,5 @@ pub use session::{
 };
 pub use source_code::{Language, MethodInput, MethodSource, NoSourceCode, Precision, source_code};
 pub use time_scale::TimeScale;
-pub use viewer::{Dialog, Viewer};
+pub use viewer::{Dialog, Preferences, Viewer};
 pub use zoom_pan::{ZOOMS, ZoomPan};

@@ -64,13 +64,13 @@ impl Lab {
         let spec = LaneSpec { substeps: entrant.lane.substeps(), ..self.entries()[entrant.entry] };
         let h = 1.0 / f64::from(race.tick_hz());
         let tick = Tick { t: race.t(), h, substeps: spec.substeps };
-        one_step(&entrant.lane.bodies()[self.display().body], spec, race.tick(), tick)
+        one_step(&entrant.lane.bodies()[self.view().body], spec, race.tick(), tick)
     }
 
     /// Lines through the states of the displayed body that have the energy of the state `through`, with coordinates in
     /// `range`. Empty if the body has several coordinates, or conserves no energy.
     pub fn orbit(&self, through: [f64; 2], range: [f64; 2]) -> Vec<Vec<[f64; 2]>> {
-        let body = &self.selected().lane.bodies()[self.display().body];
+        let body = &self.selected().lane.bodies()[self.view().body];
         match body.coordinates().len() {
             1 => orbit(body, self.race().t(), through, range),
             _ => Vec::new(),

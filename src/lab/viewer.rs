@@ -1,10 +1,8 @@
 //! What a person looks at. It does not change a run and is not part of one.
 
-use std::collections::BTreeMap;
-
 use super::analysis::{Advice, Findings, StabilityMap, Verdict};
 use super::command::USUAL_SCALE_PERCENT;
-use super::display::{Arrangement, Display, Motion, Pace};
+use super::display::{Arrangement, Display, Motion, Pace, View};
 use super::guide::{Hints, Tour};
 use super::held::HeldBody;
 use super::instrument::Instrument;
@@ -36,19 +34,61 @@ pub enum Dialog {
     },
 }
 
+/// What a person has chosen. It survives the scene.
+#[derive(Clone, Debug)]
+pub struct Preferences {
+    /// What is shown, and how.
+    pub display: Display,
+    /// Whether a person chose the theme: then it no longer follows the system's.
+    pub(super) theme_is_chosen: bool,
+    /// The language in which a method was copied last.
+    pub(super) language: Language,
+    pub(super) typed_path: String,
+    pub(super) my_spring: MySpring,
+    /// The stop at which the guide was closed.
+    pub(super) left_at: usize,
+}
+
+impl Default for Preferences {
+    fn default() -> Self {
+        Self {
+            display: Display {
+                ghost: true,
+                interpolation: Interpolation::default(),
+                instrument: Instrument::Motion,
+                quantity: Quantity::default(),
+                enlarged: false,
+                metric: 0,
+                advises_on_one_body: false,
+                arrangement: Arrangement::Overlay,
+                theme: Theme::Dark,
+                scale_percent: USUAL_SCALE_PERCENT,
+                help: false,
+                inspector: false,
+                motion: Motion::Recorded,
+            },
+            theme_is_chosen: false,
+            language: Language::default(),
+            typed_path: String::new(),
+            my_spring: MySpring::default(),
+            left_at: 0,
+        }
+    }
+}
+
 /// How a run is looked at, and the texts beside it.
 #[derive(Clone, Debug)]
 pub struct Viewer {
-    /// What is shown, and how.
-    pub display: Display,
+    /// What a person has chosen.
+    pub preferences: Preferences,
+    /// Where the person looks.
+    pub view: View,
     /// The number of the lane selected in a race: it stays selected, whatever method it is put under.
     pub(super) selected: usize,
     /// Whether a person, a script or a verdict has selected it.
     pub(super) is_selected: bool,
     /// The place of the lane that the pointer or the keyboard's focus is on.
     pub(super) pointed: Option<usize>,
-    /// The language in which a method was copied last.
-    pub(super) language: Language,
     /// The driver's pace while time runs; `None` without real time, as in a capture.
     pub pace: Option<Pace>,
     /// The time of a tick of each lane that flew when the driver measured it last, in nanoseconds: `None` of a lane that
@@ -63,45 +103,20 @@ pub struct Viewer {
     /// The body that the person holds.
     pub(super) held: Option<HeldBody>,
     pub(super) dialog: Option<Dialog>,
-    pub(super) typed_path: String,
-    pub(super) my_spring: MySpring,
-    /// Whether a person chose the theme: then it no longer follows the system's.
-    pub(super) theme_is_chosen: bool,
     pub(super) hints: Hints,
     /// The open guide.
     pub(super) tour: Option<Tour>,
-    /// The stop at which the guide was closed.
-    pub(super) left_at: usize,
 }
 
 impl Viewer {
     /// A viewer who has selected the lane of this number.
     pub(super) fn new(selected: usize) -> Self {
         Self {
-            display: Display {
-                ghost: true,
-                interpolation: Interpolation::default(),
-                instrument: Instrument::Motion,
-                quantity: Quantity::default(),
-                coordinates: Vec::new(),
-                enlarged: false,
-                metric: 0,
-                body: 0,
-                advises_on_one_body: false,
-                mapped_parameter: None,
-                arrangement: Arrangement::Overlay,
-                theme: Theme::Dark,
-                scale_percent: USUAL_SCALE_PERCENT,
-                help: false,
-                inspector: false,
-                motion: Motion::Recorded,
-                plot_ranges: BTreeMap::new(),
-                zoom_pans: Vec::new(),
-            },
+            preferences: Preferences::default(),
+            view: View::default(),
             selected,
             is_selected: false,
             pointed: None,
-            language: Language::default(),
             pace: None,
             tick_times: Vec::new(),
             notice: None,
@@ -110,12 +125,8 @@ impl Viewer {
             pointer_is_down: false,
             held: None,
             dialog: None,
-            typed_path: String::new(),
-            my_spring: MySpring::default(),
-            theme_is_chosen: false,
             hints: Hints::default(),
             tour: None,
-            left_at: 0,
         }
     }
 
@@ -131,7 +142,7 @@ impl Viewer {
 
     /// The language in which the next method is copied: that of the last, and Rust at first.
     pub fn language(&self) -> Language {
-        self.language
+        self.preferences.language
     }
 
     /// The open dialog.
@@ -146,12 +157,12 @@ impl Viewer {
 
     /// The path typed so far.
     pub fn typed_path(&self) -> &str {
-        &self.typed_path
+        &self.preferences.typed_path
     }
 
     /// The spring that was described last.
     pub fn my_spring(&self) -> MySpring {
-        self.my_spring
+        self.preferences.my_spring
     }
 
     /// The body that the person holds, if any.
@@ -183,29 +194,29 @@ impl Viewer {
 
     /// Switches to the next way of drawing between ticks, and shows its name.
     pub(super) fn next_interpolation(&mut self) {
-        self.display.interpolation = self.display.interpolation.next();
-        let name = self.display.interpolation.name();
+        self.preferences.display.interpolation = self.preferences.display.interpolation.next();
+        let name = self.preferences.display.interpolation.name();
         self.notice = Some(format!("drawing between ticks: {name}").into());
     }
 
     /// Shows type and panels at this size, and tells which.
     pub(super) fn show_scale(&mut self, percent: u32) {
-        self.display.scale_percent = percent;
+        self.preferences.display.scale_percent = percent;
         self.notice = Some(format!("text and panels at {percent} %").into());
     }
 
     /// Shows the lanes of a race in the other arrangement, and tells which.
     pub(super) fn toggle_arrangement(&mut self) {
-        let (arrangement, told) = match self.display.arrangement {
+        let (arrangement, told) = match self.preferences.display.arrangement {
             Arrangement::Overlay => (Arrangement::SideBySide, "lanes side by side"),
             Arrangement::SideBySide => (Arrangement::Overlay, "lanes over each other"),
         };
-        self.display.arrangement = arrangement;
+        self.preferences.display.arrangement = arrangement;
         self.notice = Some(told.to_owned().into());
     }
 
     /// Switches to the instrument this many tabs further on, cyclically.
     pub(super) fn instrument_beside(&mut self, step: isize) {
-        self.display.instrument = self.display.instrument.beside(step);
+        self.preferences.display.instrument = self.preferences.display.instrument.beside(step);
     }
 }

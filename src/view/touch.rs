@@ -138,7 +138,7 @@ impl Touch {
                 Pressed::Body { grasp, entry }
             }
             None => {
-                let zoom_pan = stage.lab.display().zoom_pan(cell.zoomed_as);
+                let zoom_pan = stage.lab.view().zoom_pan(cell.zoomed_as);
                 Pressed::Sea { cell: cell.clone(), zoom_pan }
             }
         };
@@ -236,7 +236,7 @@ fn zoom(ui: &Ui, stage: &Stage<'_>, at: Pos2, commands: &mut Vec<Command>) {
         commands.push(Command::ZoomPan { body, zoom_pan: ZoomPan::default() });
     } else if times != 1.0 {
         let about = cell.part(stage.point(at));
-        let zoom_pan = stage.lab.display().zoom_pan(body).zoomed(f64::from(times), about);
+        let zoom_pan = stage.lab.view().zoom_pan(body).zoomed(f64::from(times), about);
         commands.push(Command::ZoomPan { body, zoom_pan });
     }
 }

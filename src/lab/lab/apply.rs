@@ -1,12 +1,17 @@
 //! The effects of commands: each becomes an [action](Action) on the run, or changes the display.
 
+use std::mem::take;
+
 use super::Lab;
 use crate::lab::action::Action;
-use crate::lab::command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT};
+use crate::lab::command::{
+    Command, Receiver, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT, rung_above,
+    rung_below,
+};
 use crate::lab::display::DriverRequest;
 use crate::lab::equal_cost::equal_cost;
 use crate::lab::lane_spec::LaneSpec;
-use crate::lab::loop_lab::LoopCommand;
+use crate::lab::loop_lab::{LoopCommand, LoopLab};
 use crate::lab::metrics::METRICS;
 use crate::lab::race::{ActionResult, Mode};
 use crate::lab::session::StartSettings;
@@ -30,7 +35,18 @@ impl Lab {
     }
 
     pub(super) fn carry_out(&mut self, command: Command) -> Option<DriverRequest> {
-        let command = self.carry_out_in_loop_lab(command)?;
+        if self.loop_lab.is_some() {
+            self.viewer.notice = None;
+            match command.receiver() {
+                Receiver::Run => {
+                    self.set_notice("not in the loop lab: L leaves it");
+                    self.loop_lab.iter_mut().for_each(LoopLab::end_opening);
+                    return None;
+                }
+                Receiver::Stage => return self.carry_out_in_loop_lab(command),
+                Receiver::Window => {}
+            }
+        }
         let race = self.race();
         match command {
             Command::Act(action) => self.act(action),
@@ -48,21 +64,21 @@ impl Lab {
             Command::PreviousMethod => self.pick_beside(-1),
             Command::TickHz(tick_hz) => self.act(Action::TickHz(tick_hz)),
             Command::TickRateUp => {
-                let higher = TICK_LADDER.iter().find(|&&hz| hz > race.tick_hz());
-                higher.into_iter().for_each(|&hz| self.act(Action::TickHz(hz)));
+                let higher = rung_above(&TICK_LADDER, race.tick_hz());
+                higher.into_iter().for_each(|hz| self.act(Action::TickHz(hz)));
             }
             Command::TickRateDown => {
-                let lower = TICK_LADDER.iter().rfind(|&&hz| hz < race.tick_hz());
-                lower.into_iter().for_each(|&hz| self.act(Action::TickHz(hz)));
+                let lower = rung_below(&TICK_LADDER, race.tick_hz());
+                lower.into_iter().for_each(|hz| self.act(Action::TickHz(hz)));
             }
             Command::SpeedPercent(percent) => self.clock.set_speed_percent(percent),
             Command::SpeedUp => {
-                let faster = SPEED_LADDER.iter().find(|&&p| p > self.clock.speed_percent());
-                self.clock.set_speed_percent(*faster.unwrap_or(&self.clock.speed_percent()));
+                let faster = rung_above(&SPEED_LADDER, self.clock.speed_percent());
+                faster.into_iter().for_each(|percent| self.clock.set_speed_percent(percent));
             }
             Command::SpeedDown => {
-                let slower = SPEED_LADDER.iter().rfind(|&&p| p < self.clock.speed_percent());
-                self.clock.set_speed_percent(*slower.unwrap_or(&self.clock.speed_percent()));
+                let slower = rung_below(&SPEED_LADDER, self.clock.speed_percent());
+                slower.into_iter().for_each(|percent| self.clock.set_speed_percent(percent));
             }
             Command::Throttle(part) => self.act(Action::Throttle(part)),
             Command::ThrottleUp => self.act(Action::Throttle(tenths(race.throttle(), 1.0))),
@@ -112,37 +128,43 @@ impl Lab {
             Command::Scene(place) => self.open(place),
             Command::NextScene => self.open_beside(true),
             Command::PreviousScene => self.open_beside(false),
-            Command::ToggleGhost => self.viewer.display.ghost = !self.viewer.display.ghost,
+            Command::ToggleGhost => {
+                self.viewer.preferences.display.ghost = !self.viewer.preferences.display.ghost
+            }
             Command::NextInterpolation => self.viewer.next_interpolation(),
             Command::ToggleArrangement => self.viewer.toggle_arrangement(),
             Command::ToggleTheme => {
-                self.viewer.theme_is_chosen = true;
-                self.viewer.display.theme = self.viewer.display.theme.other();
+                self.viewer.preferences.theme_is_chosen = true;
+                self.viewer.preferences.display.theme =
+                    self.viewer.preferences.display.theme.other();
             }
             Command::ScaleUp => {
-                let scale = self.viewer.display.scale_percent;
-                let larger = SCALE_LADDER.iter().find(|&&percent| percent > scale);
-                larger.into_iter().for_each(|&percent| self.viewer.show_scale(percent));
+                let larger = rung_above(&SCALE_LADDER, self.display().scale_percent);
+                larger.into_iter().for_each(|percent| self.viewer.show_scale(percent));
             }
             Command::ScaleDown => {
-                let scale = self.viewer.display.scale_percent;
-                let smaller = SCALE_LADDER.iter().rfind(|&&percent| percent < scale);
-                smaller.into_iter().for_each(|&percent| self.viewer.show_scale(percent));
+                let smaller = rung_below(&SCALE_LADDER, self.display().scale_percent);
+                smaller.into_iter().for_each(|percent| self.viewer.show_scale(percent));
             }
             Command::UsualScale => self.viewer.show_scale(USUAL_SCALE_PERCENT),
-            Command::Instrument(instrument) => self.viewer.display.instrument = instrument,
-            Command::Quantity(quantity) => self.viewer.display.quantity = quantity,
+            Command::Instrument(instrument) => {
+                self.viewer.preferences.display.instrument = instrument
+            }
+            Command::Quantity(quantity) => self.viewer.preferences.display.quantity = quantity,
             Command::Coordinate { body, coordinate } => self.plot_coordinate(body, coordinate),
-            Command::PlotRanges(ranges) => self.viewer.display.plot_ranges = ranges,
+            Command::PlotRanges(ranges) => self.viewer.view.plot_ranges = ranges,
             Command::MapParameter(parameter) => {
-                let display = &mut self.viewer.display;
-                display.mapped_parameter = Some((display.body, parameter));
+                let view = &mut self.viewer.view;
+                view.mapped_parameter = Some((view.body, parameter));
             }
             Command::NextInstrument => self.viewer.instrument_beside(1),
             Command::PreviousInstrument => self.viewer.instrument_beside(-1),
-            Command::Metric(place) => self.viewer.display.metric = place.min(METRICS.len() - 1),
+            Command::Metric(place) => {
+                self.viewer.preferences.display.metric = place.min(METRICS.len() - 1)
+            }
             Command::ToggleEnlarged => {
-                self.viewer.display.enlarged = !self.viewer.display.enlarged;
+                self.viewer.preferences.display.enlarged =
+                    !self.viewer.preferences.display.enlarged;
             }
             Command::Copy => {
                 let pointed = self.viewer.pointed.filter(|entry| *entry < self.entries().len());
@@ -154,7 +176,7 @@ impl Lab {
             }
             Command::CopyInstrument => return Some(DriverRequest::CopyInstrument),
             Command::CopyMethod { entry, language } => {
-                self.viewer.language = language;
+                self.viewer.preferences.language = language;
                 let known = entry < self.entries().len();
                 return known.then_some(DriverRequest::CopyMethod(entry));
             }
@@ -164,32 +186,32 @@ impl Lab {
             Command::PointAt(entry) => self.viewer.pointed = entry,
             Command::ExportInstrument => return Some(DriverRequest::ExportInstrument),
             Command::Body(body) => {
-                self.viewer.display.body = body.min(self.scene().bodies.len() - 1);
+                self.viewer.view.body = body.min(self.scene().bodies.len() - 1);
             }
             Command::AdviseOnOneBody(is_one) => {
-                self.viewer.display.advises_on_one_body = is_one;
+                self.viewer.preferences.display.advises_on_one_body = is_one;
             }
-            Command::ToggleHelp => self.viewer.display.help = !self.viewer.display.help,
+            Command::ToggleHelp => {
+                self.viewer.preferences.display.help = !self.viewer.preferences.display.help
+            }
             Command::ToggleInspector => {
-                self.viewer.display.inspector = !self.viewer.display.inspector;
+                self.viewer.preferences.display.inspector =
+                    !self.viewer.preferences.display.inspector;
             }
             Command::Seconds(seconds) => {
                 self.set_start("the length", |start| start.set_seconds(seconds));
             }
             Command::Hold(held) => self.viewer.held = Some(held),
             Command::LetGo => self.viewer.held = None,
-            Command::ZoomPan { body, zoom_pan } => self.viewer.display.set_zoom_pan(body, zoom_pan),
-            Command::Escape if self.viewer.held.is_some() => self.viewer.held = None,
+            Command::ZoomPan { body, zoom_pan } => self.viewer.view.set_zoom_pan(body, zoom_pan),
             Command::AskForPath => self.viewer.dialog = Some(Dialog::Path { refused: None }),
             Command::TypePath(path) => self.type_path(path),
             Command::CompletePath => return Some(DriverRequest::CompletePath),
             Command::OpenTypedPath => return Some(DriverRequest::OpenTypedPath),
             Command::AskForSpring => self.viewer.dialog = Some(Dialog::Spring),
-            Command::DescribeSpring(spring) => self.viewer.my_spring = spring,
+            Command::DescribeSpring(spring) => self.viewer.preferences.my_spring = spring,
             Command::OpenSpring => self.open_spring(),
             Command::CloseDialog => self.viewer.dialog = None,
-            Command::Escape if self.viewer.dialog.is_some() => self.viewer.dialog = None,
-            Command::Escape if self.viewer.display.help => self.viewer.display.help = false,
             Command::ToggleGuide => self.toggle_guide(),
             Command::GoToStop(place) => self.go_to_stop(place),
             Command::NextStop => self.go_to_stop_beside(1),
@@ -197,18 +219,23 @@ impl Lab {
             Command::Predict(choice) => {
                 self.viewer.tour.iter_mut().for_each(|tour| tour.predict(choice));
             }
-            Command::Escape if self.viewer.tour.is_some() => self.toggle_guide(),
-            Command::Escape if self.viewer.display.enlarged => self.viewer.display.enlarged = false,
-            Command::Escape if self.viewer.display.inspector => {
-                self.viewer.display.inspector = false;
-            }
-            Command::Escape => return Some(DriverRequest::Quit),
+            Command::Escape => return (!self.escape()).then_some(DriverRequest::Quit),
             Command::Screenshot => return Some(DriverRequest::Screenshot),
             Command::Record => return Some(DriverRequest::Record),
             Command::ToggleEqualCost => self.toggle_equal_cost(),
             Command::ToggleFullScreen => return Some(DriverRequest::ToggleFullScreen),
         }
         None
+    }
+
+    /// Closes the foremost of what is open. Returns whether anything was.
+    fn escape(&mut self) -> bool {
+        self.viewer.held.take().is_some()
+            || self.viewer.dialog.take().is_some()
+            || take(&mut self.viewer.preferences.display.help)
+            || self.close_guide()
+            || take(&mut self.viewer.preferences.display.enlarged)
+            || take(&mut self.viewer.preferences.display.inspector)
     }
 
     /// Performs an action on the run by hand.

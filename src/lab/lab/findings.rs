@@ -36,15 +36,15 @@ impl Lab {
 
     /// The bodies that advice is about.
     fn advised_bodies(&self) -> AdvisedBodies {
-        match self.display() {
-            display if display.advises_on_one_body => AdvisedBodies::One(display.body),
-            _ => AdvisedBodies::All,
+        match self.display().advises_on_one_body {
+            true => AdvisedBodies::One(self.view().body),
+            false => AdvisedBodies::All,
         }
     }
 
     /// The map of the scene's lanes, and of the selected method, at the present values.
     fn map_request(&self) -> Option<MapRequest> {
-        let (body, parameter) = (self.display().body, self.mapped_parameter()?);
+        let (body, parameter) = (self.view().body, self.mapped_parameter()?);
         let lanes = 0..self.scene().lanes.len();
         let other = Some(self.active()).filter(|active| !lanes.contains(active));
         let specs = lanes.chain(other).map(|entry| (entry, self.entries()[entry])).collect();
@@ -56,7 +56,7 @@ impl Lab {
     /// The parameters of the displayed body that a stability map can show, by their places: those that act at once and
     /// are not negative, so that they have a logarithmic scale.
     pub fn mappable_parameters(&self) -> impl Iterator<Item = usize> {
-        let SceneBody { kind, values, .. } = &self.scene().bodies[self.display().body];
+        let SceneBody { kind, values, .. } = &self.scene().bodies[self.view().body];
         let parameters = kind.parameters.iter();
         let is_mappable = |(place, parameter): &(usize, &Parameter)| {
             // The constants of a law may have any sign, and a kick changes no motion.
@@ -72,8 +72,8 @@ impl Lab {
     /// The parameter that the stability map shows: the one chosen for the displayed body, or else the one that makes it
     /// stiffer. `None` if the body has none.
     pub fn mapped_parameter(&self) -> Option<usize> {
-        let body = self.display().body;
-        let chosen = self.display().mapped_parameter.filter(|(of, _)| *of == body);
+        let body = self.view().body;
+        let chosen = self.view().mapped_parameter.filter(|(of, _)| *of == body);
         let kind = &self.scene().bodies[body].kind;
         let leading = kind.parameter(&kind.leading).map(|(place, _)| place);
         let mut places = self.mappable_parameters();

@@ -55,7 +55,7 @@ impl Lab {
     /// Opens the guide where it was left, or closes it.
     pub(super) fn toggle_guide(&mut self) {
         if !self.close_guide() {
-            self.go_to_stop(self.viewer.left_at);
+            self.go_to_stop(self.viewer.preferences.left_at);
         }
     }
 
@@ -68,10 +68,10 @@ impl Lab {
 
     /// Closes the guide and shows again what the person chose before it. Scene, run and instrument stay: they are in sight.
     /// Returns whether the guide was open.
-    fn close_guide(&mut self) -> bool {
+    pub(super) fn close_guide(&mut self) -> bool {
         let Some(tour) = self.viewer.tour.take() else { return false };
-        self.viewer.left_at = tour.place();
-        tour.before().restore(&mut self.viewer.display);
+        self.viewer.preferences.left_at = tour.place();
+        tour.before().restore(&mut self.viewer.preferences.display);
         true
     }
 
@@ -85,7 +85,7 @@ impl Lab {
     /// Opens this stop of the guide: its scene from the start under its method and rate, and its instrument. Time runs,
     /// unless a person is to step.
     pub(super) fn go_to_stop(&mut self, place: usize) {
-        let display = &self.viewer.display;
+        let display = &self.viewer.preferences.display;
         let before = self.viewer.tour.take().map_or_else(|| Chosen::of(display), |t| t.before());
         let tour = Tour::at(place, before);
         let Stop { scene, method, tick_hz, mode, instrument, quantity, goal, .. } = *tour.stop();
@@ -98,10 +98,10 @@ impl Lab {
         self.restart();
         self.clock.set_speed_percent(100);
         self.running = !matches!(goal, Goal::SteppedTo(_));
-        self.viewer.display.instrument = instrument;
-        self.viewer.display.quantity = quantity;
-        self.viewer.display.metric = error_of(quantity);
-        self.viewer.display.interpolation = Interpolation::default();
+        self.viewer.preferences.display.instrument = instrument;
+        self.viewer.preferences.display.quantity = quantity;
+        self.viewer.preferences.display.metric = error_of(quantity);
+        self.viewer.preferences.display.interpolation = Interpolation::default();
         self.viewer.tour = Some(tour);
     }
 

@@ -56,7 +56,7 @@ impl Lab {
     /// The lines of code that tell the engine with this index in the list the displayed body's spring. `None` if it is no
     /// engine with a joint, or the body no spring.
     pub fn joint_code(&self, entry: usize) -> Option<String> {
-        let spring = self.spring_joint(self.display().body)?;
+        let spring = self.spring_joint(self.view().body)?;
         let spec = self.entries().get(entry)?;
         let mode = spec.method.engine?.modes.first()?;
         let joint = spec.joint.map_or(spring.joint, joint_per_mass);

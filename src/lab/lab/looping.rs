@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::Lab;
-use crate::lab::command::{Command, TICK_LADDER};
+use crate::lab::command::{Command, TICK_LADDER, rung_above, rung_below};
+use crate::lab::display::DriverRequest;
 use crate::lab::guide::Goal;
 use crate::lab::instrument::Instrument;
 use crate::lab::loop_lab::{FoundLoop, LoopCommand, LoopLab, LoopRequest, LoopWorker, SLOWNESS};
@@ -18,7 +19,7 @@ impl Lab {
     /// Why the loop lab does not take the displayed body: a net, because what is made ready for every loop would take too
     /// long. `None` if it does.
     pub fn loop_lab_refusal(&self) -> Option<String> {
-        let SceneBody { name, kind, .. } = &self.scene().bodies[self.display().body];
+        let SceneBody { name, kind, .. } = &self.scene().bodies[self.view().body];
         let refusal = "is a net, which the loop lab does not take; open another scene";
         kind.net().is_some().then(|| format!("{name} {refusal}"))
     }
@@ -26,7 +27,7 @@ impl Lab {
     /// Opens the loop lab with the displayed body, unless it is [refused](Self::loop_lab_refusal).
     pub(super) fn open_loop_lab(&mut self) {
         let method = method(METHOD_AT_FIRST).expect("a built-in method");
-        let body = self.display().body;
+        let body = self.view().body;
         if let Some(refusal) = self.loop_lab_refusal() {
             return self.set_notice(refusal);
         }
@@ -35,8 +36,8 @@ impl Lab {
         loops.run_goes_on = self.running;
         loops.play_opening();
         self.loop_lab = Some(loops);
-        self.viewer.display.instrument = Instrument::Loop;
-        self.viewer.display.inspector = false;
+        self.viewer.preferences.display.instrument = Instrument::Loop;
+        self.viewer.preferences.display.inspector = false;
         self.viewer.held = None;
         self.viewer.notice = None;
         if self.viewer.tour.as_ref().is_some_and(|tour| tour.stop().goal != Goal::LoopLab) {
@@ -51,7 +52,7 @@ impl Lab {
         self.running = loops.run_goes_on;
         self.viewer.notice = None;
         if self.display().instrument == Instrument::Loop {
-            self.viewer.display.instrument = Instrument::Motion;
+            self.viewer.preferences.display.instrument = Instrument::Motion;
         }
     }
 
@@ -101,10 +102,10 @@ impl Lab {
         }
     }
 
-    /// Carries out a command on the open loop lab. Returns the command if it is one for the rest of the lab.
-    pub(super) fn carry_out_in_loop_lab(&mut self, command: Command) -> Option<Command> {
-        let Some(loops) = &mut self.loop_lab else { return Some(command) };
-        self.viewer.notice = None;
+    /// Carries out a command of the stage on the open loop lab. Returns what the driver has to do for
+    /// it, if anything.
+    pub(super) fn carry_out_in_loop_lab(&mut self, command: Command) -> Option<DriverRequest> {
+        let loops = self.loop_lab.as_mut()?;
         let tick_hz = loops.scene().tick_hz;
         let (slowness, traces) = (loops.slowness(), loops.traces().len());
         let frames_per_second = loops.traces()[loops.trace()].refresh().hz().round() as i64;
@@ -112,7 +113,7 @@ impl Lab {
             Command::Loop(command) => self.change_loop_lab(command),
             Command::ToggleRace | Command::OpenSpring => {
                 self.leave_loop_lab();
-                return Some(command);
+                return self.carry_out(command);
             }
             Command::Pick(place) => loops.select(place),
             Command::ToggleArrangement => loops.toggle_overlay(),
@@ -136,22 +137,20 @@ impl Lab {
             Command::Method(method) => self.set_loop_method(method),
             Command::TickHz(tick_hz) => loops.set_tick_hz(tick_hz),
             Command::TickRateUp => {
-                let higher = TICK_LADDER.iter().find(|&&hz| hz > tick_hz);
-                higher.into_iter().for_each(|&hz| loops.set_tick_hz(hz));
+                let higher = rung_above(&TICK_LADDER, tick_hz);
+                higher.into_iter().for_each(|hz| loops.set_tick_hz(hz));
             }
             Command::TickRateDown => {
-                let lower = TICK_LADDER.iter().rfind(|&&hz| hz < tick_hz);
-                lower.into_iter().for_each(|&hz| loops.set_tick_hz(hz));
+                let lower = rung_below(&TICK_LADDER, tick_hz);
+                lower.into_iter().for_each(|hz| loops.set_tick_hz(hz));
             }
             Command::SpeedUp => {
-                loops.set_slowness(
-                    *SLOWNESS.iter().rfind(|&&rung| rung < slowness).unwrap_or(&slowness),
-                );
+                let faster = rung_below(&SLOWNESS, slowness);
+                faster.into_iter().for_each(|slowness| loops.set_slowness(slowness));
             }
             Command::SpeedDown => {
-                loops.set_slowness(
-                    *SLOWNESS.iter().find(|&&rung| rung > slowness).unwrap_or(&slowness),
-                );
+                let slower = rung_above(&SLOWNESS, slowness);
+                slower.into_iter().for_each(|slowness| loops.set_slowness(slowness));
             }
             Command::Scene(_) | Command::NextScene | Command::PreviousScene | Command::Body(_) => {
                 let (loops, running) = (self.loop_lab.take(), self.running);
@@ -163,7 +162,7 @@ impl Lab {
                     self.set_notice(refusal);
                     return None;
                 }
-                let (scene, body) = (self.start.scene.clone(), self.display().body);
+                let (scene, body) = (self.start.scene.clone(), self.view().body);
                 self.loop_lab.iter_mut().for_each(|loops| loops.show(&scene, body));
             }
             Command::Metric(place) => loops.set_metric(place),
@@ -173,27 +172,11 @@ impl Lab {
                     instrument.name()
                 ));
             }
-            Command::Act(_)
-            | Command::Fly(_)
-            | Command::Throttle(_)
-            | Command::ThrottleUp
-            | Command::ThrottleDown
-            | Command::Rudder(_)
-            | Command::RudderLeft
-            | Command::RudderRight
-            | Command::Kick(_)
-            | Command::Undo
-            | Command::WatchAgain
-            | Command::Redo
-            | Command::Hold(_)
-            | Command::ToggleEqualCost
-            | Command::NextInterpolation
-            | Command::ToggleInspector
-            | Command::Record
-            | Command::Seek(_) => {
-                self.set_notice("not in the loop lab: L leaves it");
+            Command::Instrument(instrument) => {
+                self.viewer.preferences.display.instrument = instrument;
+                return None;
             }
-            other => return Some(other),
+            other => unreachable!("{other:?} is not a command of the stage"),
         }
         self.loop_lab.iter_mut().for_each(LoopLab::end_opening);
         None

@@ -1,11 +1,9 @@
 //! Opening built-in scenes and scene files, which may change while they run.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::Lab;
 use super::restarting::is_by_hand;
-use crate::lab::display::Display;
 use crate::lab::instrument::Instrument;
 use crate::lab::race::Mode;
 use crate::lab::scene::Scene;
@@ -45,11 +43,11 @@ impl Lab {
     /// of scenes under a name that is no file's.
     pub(super) fn open_spring(&mut self) {
         let path = Path::new(MY_SPRING);
-        match self.viewer.my_spring.scene(self.clock.tick_hz()) {
+        match self.viewer.preferences.my_spring.scene(self.clock.tick_hz()) {
             Ok(scene) => {
                 self.start.mode = Mode::Solo;
                 self.open_file(path, scene);
-                self.viewer.display.instrument = Instrument::Advice;
+                self.viewer.preferences.display.instrument = Instrument::Advice;
             }
             Err(errors) => {
                 let report = errors.to_string();
@@ -105,11 +103,11 @@ impl Lab {
 
     pub(super) fn type_path(&mut self, path: String) {
         if let Some(Dialog::Path { refused }) = &mut self.viewer.dialog
-            && path != self.viewer.typed_path
+            && path != self.viewer.preferences.typed_path
         {
             *refused = None;
         }
-        self.viewer.typed_path = path;
+        self.viewer.preferences.typed_path = path;
     }
 
     /// Tells that a file on the list is not there any more. The run goes on.
@@ -168,27 +166,17 @@ impl Lab {
     }
 
     /// Opens the scene at this place of the list, modulo its length, under the scene's opening method, and closes the
-    /// guide, which is about another. The look stays, and so does the mode, unless the scene opens as a race.
+    /// guide, which is about another. The preferences stay, and so does the mode, unless the scene opens as a race.
     pub(super) fn open(&mut self, place: usize) {
         let place = place % self.scene_list.count();
         let mut lab = Lab::new(self.scene_list.scene(place));
         lab.scene_list = self.scene_list.clone();
         lab.scene_list.set_open(place);
         lab.start.mode = if lab.scene().opens_as_race { Mode::Race } else { self.mode() };
-        lab.viewer.display = Display {
-            body: 0,
-            coordinates: Vec::new(),
-            plot_ranges: BTreeMap::new(),
-            zoom_pans: Vec::new(),
-            ..self.display().clone()
-        };
-        lab.viewer.typed_path = self.viewer.typed_path.clone();
-        lab.viewer.my_spring = self.viewer.my_spring;
+        lab.viewer.preferences = self.viewer.preferences.clone();
         lab.viewer.pace = self.viewer.pace;
-        lab.viewer.theme_is_chosen = self.viewer.theme_is_chosen;
         lab.viewer.hints = self.viewer.hints.of_next_scene();
         lab.viewer.tour = self.viewer.tour.take();
-        lab.viewer.left_at = self.viewer.left_at;
         lab.clock.set_speed_percent(self.clock.speed_percent());
         lab.running = self.running;
         lab.timeline.set_limit(self.timeline.limit());

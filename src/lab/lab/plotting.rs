@@ -9,7 +9,7 @@ impl Lab {
         let Some(of) = self.race().truth().bodies().get(body) else { return };
         let Some(chosen) = of.coordinates().get(coordinate) else { return };
         let name = chosen.name.clone();
-        self.viewer.display.choose_coordinate(body, coordinate);
+        self.viewer.view.choose_coordinate(body, coordinate);
         if self.record_chosen_coordinates() {
             return self.timeline.show_present();
         }
@@ -18,7 +18,7 @@ impl Lab {
 
     /// Records the coordinates that a person has chosen, and of other bodies the usual ones. Returns whether it could.
     pub(super) fn record_chosen_coordinates(&mut self) -> bool {
-        let chosen = &self.viewer.display.coordinates;
+        let chosen = &self.viewer.view.coordinates;
         let coordinate = |(place, usual): (usize, usize)| {
             let count = self.race().truth().bodies()[place].coordinates().len();
             let chosen = chosen.get(place).copied().flatten();

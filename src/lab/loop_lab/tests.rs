@@ -183,3 +183,27 @@ fn a_loop_that_is_stopped_is_run_again() {
     let place = worker.work(&|| false).map(|found| found.place);
     assert_eq!(place, Some(lab.on_stage()[0]));
 }
+
+#[test]
+fn the_loop_lab_keeps_every_command_on_the_run_from_the_run_behind_it() {
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    (0..40).for_each(|_| lab.tick());
+    lab.apply(Command::Loop(LoopCommand::ToggleLab));
+    let before = (lab.race().state_hash(), lab.clock().speed_percent(), lab.scene().seconds);
+    for command in [
+        Command::Kick(1.0),
+        Command::Seek(3),
+        Command::Undo,
+        Command::SpeedPercent(400),
+        Command::Seconds(7.0),
+        Command::MapParameter(1),
+        Command::ToggleEqualCost,
+    ] {
+        assert_eq!(lab.apply(command.clone()), None);
+        let now = (lab.race().state_hash(), lab.clock().speed_percent(), lab.scene().seconds);
+        assert_eq!(now, before, "{command:?}");
+        assert_eq!(lab.view().mapped_parameter, None);
+        let notice = lab.viewer().notice.as_deref().unwrap_or_default();
+        assert_eq!(notice, "not in the loop lab: L leaves it", "{command:?}");
+    }
+}

@@ -365,7 +365,7 @@ impl Band<'_> {
         let places = legs.iter().flatten().map(|place| place.at);
         let away = Lost::of(flag, camera, self.room(), std::iter::once(from).chain(places));
         // A person who zooms in has chosen what to see.
-        let is_fitted = moment.lab.display().zoom_pan(view.zoomed_as) == ZoomPan::default();
+        let is_fitted = moment.lab.view().zoom_pan(view.zoomed_as) == ZoomPan::default();
         if is_fitted && away.is_some() {
             return away;
         }

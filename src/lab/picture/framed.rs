@@ -162,7 +162,7 @@ impl Moment<'_> {
     pub(super) fn camera(&self, rect: Rect, index: usize, view: &View) -> Camera {
         let unit = drawn_unit(&self.lab.race().truth().bodies()[index].kind);
         let camera = Camera { unit, ..self.fitted(rect, view) }.grown(view.grown);
-        camera.through(self.lab.display().zoom_pan(view.zoomed_as))
+        camera.through(self.lab.view().zoom_pan(view.zoomed_as))
     }
 
     fn fitted(&self, rect: Rect, view: &View) -> Camera {
@@ -263,7 +263,7 @@ mod tests {
             lab.advance(100_000_000);
             let before = compose(&lab, [780.0, 500.0]);
             let zoomed_as = before.cells[over].zoomed_as;
-            let zoom_pan = lab.display().zoom_pan(zoomed_as).zoomed(0.5, [0.1, 0.0]);
+            let zoom_pan = lab.view().zoom_pan(zoomed_as).zoomed(0.5, [0.1, 0.0]);
             lab.apply(Command::ZoomPan { body: zoomed_as, zoom_pan });
             let after = compose(&lab, [780.0, 500.0]);
             let [free, damped, ship] = [0, 1, 2].map(|body| after.cells[body].camera);

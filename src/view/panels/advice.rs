@@ -56,7 +56,7 @@ fn which_bodies(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         for (is_one, name) in [
             (false, format!("all {} bodies", bodies.len())),
-            (true, format!("{} alone", bodies[display.body].name)),
+            (true, format!("{} alone", bodies[lab.view().body].name)),
         ] {
             let is_chosen = display.advises_on_one_body == is_one;
             let choice = ui.selectable_label(is_chosen, RichText::new(name).size(SMALL));

@@ -96,7 +96,7 @@ fn key_hints(lab: &Lab) -> Vec<KeyHint> {
         ("rudder", "← →", lab.race().rudder(), 0.0),
     ];
     // Of a body that nobody looks at, an input is told only where it is in use.
-    let shown = &lab.scene().bodies[lab.display().body].kind;
+    let shown = &lab.scene().bodies[lab.view().body].kind;
     for (input, key, part, at_start) in inputs {
         let is_in_use = shown.inputs.contains(&input) || part != at_start;
         if lab.race().takes(input) && is_in_use {

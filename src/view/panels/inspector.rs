@@ -54,7 +54,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         ui.set_max_width(ui.available_width() - 8.0);
         let bodies = &lab.scene().bodies;
         for (index, body) in bodies.iter().enumerate() {
-            let is_open = bodies.len() <= FEW_BODIES || index == lab.display().body;
+            let is_open = bodies.len() <= FEW_BODIES || index == lab.view().body;
             let title = RichText::new(&body.name).color(ink(ui).text);
             let header = CollapsingHeader::new(title).id_salt(("body", &body.name));
             header.default_open(is_open).show_unindented(ui, |ui| {

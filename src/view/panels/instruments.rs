@@ -248,7 +248,7 @@ fn choices(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     }
     if !has_all && lab.scene().bodies.len() > 1 {
         let names = lab.scene().bodies.iter().map(|body| body.name.as_str());
-        let body = lab.display().body;
+        let body = lab.view().body;
         let chosen = (Command::Body(body), lab.scene().bodies[body].name.as_str());
         ui.label(RichText::new("of").color(ink(ui).dim));
         choice(ui, "body", (0..).map(Command::Body).zip(names), chosen, commands);
@@ -257,12 +257,12 @@ fn choices(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 
 /// The coordinates of the displayed body.
 fn shown_coordinates(lab: &Lab) -> &[Coordinate] {
-    lab.race().truth().bodies()[lab.display().body].coordinates()
+    lab.race().truth().bodies()[lab.view().body].coordinates()
 }
 
 /// Offers the coordinates of the displayed body, if it has several.
 fn coordinate_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
-    let body = lab.display().body;
+    let body = lab.view().body;
     let coordinates = shown_coordinates(lab);
     if coordinates.len() > 1 {
         let command = |index| Command::Coordinate { body, coordinate: index };

@@ -111,7 +111,7 @@ fn whose_numbers(ui: &Ui, lab: &Lab, rect: Rect, beside: &str) {
         return;
     }
     let font = || FontId::proportional(TYPE);
-    let of = format!("{}:", bodies[lab.display().body].name);
+    let of = format!("{}:", bodies[lab.view().body].name);
     let room =
         |words: &str| ui.painter().layout_no_wrap(words.to_owned(), font(), ink(ui).dim).size().x;
     if room(beside) + room(&of) + 30.0 < rect.width() {

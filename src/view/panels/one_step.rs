@@ -76,7 +76,7 @@ fn said(ui: &Ui, lab: &Lab, step: &OneStep, width: f32) -> Arc<Galley> {
 }
 
 fn shown_coordinate(lab: &Lab) -> &Coordinate {
-    &lab.race().truth().bodies()[lab.display().body].coordinates()[0]
+    &lab.race().truth().bodies()[lab.view().body].coordinates()[0]
 }
 
 fn head(ui: &mut Ui, step: &OneStep) {

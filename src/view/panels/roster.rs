@@ -53,7 +53,7 @@ impl Roster {
             runners: runners.collect(),
             front: lab.active(),
             is_race: lab.mode() == Mode::Race,
-            exact: lab.race().truth().bodies()[lab.display().body].truth_in_words(),
+            exact: lab.race().truth().bodies()[lab.view().body].truth_in_words(),
             exact_colour: ink.exact,
             now_s: lab.race().t(),
             length_s: lab.scene().seconds,

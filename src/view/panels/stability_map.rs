@@ -52,7 +52,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Comman
     };
     head(ui, lab, place, commands);
     let map = lab.viewer().stability_map();
-    let wanted = (lab.display().body, place);
+    let wanted = (lab.view().body, place);
     let map = map.filter(|map| (map.request.body, map.request.parameter) == wanted);
     let Some(map) = map else {
         ui.label(RichText::new("Working out the map …").color(ink(ui).dim));
@@ -74,12 +74,12 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Comman
 }
 
 fn parameter(lab: &Lab, place: usize) -> &Parameter {
-    &lab.scene().bodies[lab.display().body].kind.parameters[place]
+    &lab.scene().bodies[lab.view().body].kind.parameters[place]
 }
 
 /// The title, and the menu of the parameters.
 fn head(ui: &mut Ui, lab: &Lab, place: usize, commands: &mut Vec<Command>) {
-    let body = &lab.scene().bodies[lab.display().body];
+    let body = &lab.scene().bodies[lab.view().body];
     ui.horizontal(|ui| {
         let title = RichText::new(format!("Stability: {} over", body.name));
         ui.add(Label::new(title.font(strong_font(13.0))).truncate());

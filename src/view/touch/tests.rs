@@ -246,7 +246,7 @@ fn the_wheel_zooms_about_the_pointer_a_drag_of_the_sea_pans_and_a_double_click_f
     ]);
     // It turns smoothly, over some frames.
     (0..40).for_each(|_| _ = table.frame(Vec::new()));
-    let zoom = table.lab.display().zoom_pan(0).zoom();
+    let zoom = table.lab.view().zoom_pan(0).zoom();
     assert!((1.1..2.0).contains(&zoom), "{zoom}");
     assert!(under(&table, at).distance(before) < 1e-4);
 
@@ -261,12 +261,12 @@ fn the_wheel_zooms_about_the_pointer_a_drag_of_the_sea_pans_and_a_double_click_f
         table.press(to);
         table.release(to, false);
     }
-    assert_eq!(table.lab.display().zoom_pan(0), ZoomPan::default());
+    assert_eq!(table.lab.view().zoom_pan(0), ZoomPan::default());
     table
         .lab
         .apply(Command::ZoomPan { body: 0, zoom_pan: ZoomPan::default().zoomed(2.0, [0.0; 2]) });
     table.lab.apply(Command::Restart);
-    assert_eq!(table.lab.display().zoom_pan(0).zoom(), 2.0);
+    assert_eq!(table.lab.view().zoom_pan(0).zoom(), 2.0);
     table.lab.apply(Command::NextScene);
-    assert_eq!(table.lab.display().zoom_pan(0), ZoomPan::default());
+    assert_eq!(table.lab.view().zoom_pan(0), ZoomPan::default());
 }

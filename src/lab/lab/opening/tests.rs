@@ -1,5 +1,5 @@
 use super::*;
-use crate::lab::{Action, Command, Mode, SCENES};
+use crate::lab::{Action, Command, Language, Mode, SCENES, View};
 
 fn text(name: &str) -> &'static str {
     SCENES.iter().find(|scene| scene.name == name).unwrap().text
@@ -58,7 +58,7 @@ fn a_changed_file_with_the_same_lanes_and_bodies_is_run_again_to_the_tick() {
         )
     );
     assert_eq!((old.mode(), old.active()), (Mode::Race, 2));
-    assert_eq!(old.display().zoom_pan(0).zoom(), 2.0);
+    assert_eq!(old.view().zoom_pan(0).zoom(), 2.0);
 
     let mut new = lab(&after);
     new.apply(Command::ToggleRace);
@@ -176,4 +176,27 @@ fn the_memory_for_rewinding_is_that_of_every_scene_that_is_opened() {
         lab.tick();
         assert!(lab.timeline().bytes() <= 1 << 20, "{}", lab.timeline().bytes());
     }
+}
+
+#[test]
+fn what_a_person_prefers_survives_a_scene_and_where_they_look_does_not() {
+    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    let chosen = lab.viewer().preferences.clone();
+    for command in [
+        Command::Body(1),
+        Command::MapParameter(0),
+        Command::CopyMethod { entry: 0, language: Language::GdScript },
+        Command::ToggleTheme,
+        Command::ToggleGhost,
+        Command::ScaleUp,
+        Command::TypePath("boat.toml".into()),
+    ] {
+        lab.apply(command);
+    }
+    let (preferences, view) = (format!("{:?}", lab.viewer().preferences), lab.view().clone());
+    assert!(preferences != format!("{chosen:?}") && view != View::default());
+    lab.apply(Command::NextScene);
+    assert_eq!(format!("{:?}", lab.viewer().preferences), preferences);
+    assert_eq!(lab.viewer().language(), Language::GdScript);
+    assert_eq!(*lab.view(), View::default());
 }

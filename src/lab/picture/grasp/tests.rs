@@ -42,7 +42,7 @@ fn a_body_that_is_placed_where_it_is_held_is_seen_there() {
     for kind in BODIES.iter() {
         let mut lab = lab(kind.id);
         // Zoomed and panned, too.
-        let zoom_pan = lab.display().zoom_pan(0).zoomed(1.25, [0.1, 0.05]).panned([0.03, -0.02]);
+        let zoom_pan = lab.view().zoom_pan(0).zoomed(1.25, [0.1, 0.05]).panned([0.03, -0.02]);
         lab.apply(Command::ZoomPan { body: 0, zoom_pan });
         let before = picture(&lab);
         let cell = &before.cells[0];
@@ -161,7 +161,7 @@ fn a_ghost_is_grabbed_where_its_lane_is_out_of_reach() {
 fn a_point_of_the_stage_and_its_metres_are_each_others_inverse() {
     let mut lab = lab("harbour");
     for body in 0..3 {
-        let zoom_pan = lab.display().zoom_pan(body).zoomed(3.0, [0.3, -0.2]);
+        let zoom_pan = lab.view().zoom_pan(body).zoomed(3.0, [0.3, -0.2]);
         lab.apply(Command::ZoomPan { body, zoom_pan });
     }
     for cell in picture(&lab).cells {

@@ -106,7 +106,7 @@ impl Plots<'_> {
         let view = self.time_in_view();
         let plot = self.over_time("energy by loop", up, tracks, Some(exact), (view, y));
         let drift = METRICS.iter().find(|metric| metric.id == "energy_drift");
-        let truth = &self.lab.race().truth().bodies()[self.lab.display().body];
+        let truth = &self.lab.race().truth().bodies()[self.lab.view().body];
         let why = drift.filter(|_| is_empty).map(|metric| metric.absent_on(truth).to_owned());
         PlotModel { title: self.title(STEPPED), nothing: why, ..plot }
     }
@@ -126,7 +126,7 @@ impl Plots<'_> {
         PlotModel {
             id: "phase portrait by loop".into(),
             title: self.title(STEPPED),
-            body: self.lab.display().body,
+            body: self.lab.view().body,
             axes: [PlotAxis::of(coordinate), PlotAxis::of_velocity(coordinate)],
             fit: PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]),
             tracks,
@@ -148,7 +148,7 @@ impl Plots<'_> {
         PlotModel {
             id: id.into(),
             title: self.title(SHOWN),
-            body: self.lab.display().body,
+            body: self.lab.view().body,
             axes: [PlotAxis::new("moment of display", "s", AxisScale::Linear), up],
             fit: PlotBounds::from_min_max([from, low], [to, high]),
             tracks,

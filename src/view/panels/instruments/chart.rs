@@ -67,8 +67,8 @@ impl Views {
 pub(super) fn show(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Command>) {
     let room = ui.available_rect_before_wrap();
     ui.allocate_rect(room, Sense::hover());
-    let body = lab.display().body;
-    let mut views = Views(lab.display().plot_ranges.clone());
+    let body = lab.view().body;
+    let mut views = Views(lab.view().plot_ranges.clone());
     // The heights of plots do not depend on the room beside them.
     let left = room_for_numbers(ui, &cells(sheet, room, LEFT, body), &views);
     let cells = cells(sheet, room, left, body);
@@ -103,14 +103,14 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Com
         }
     }
     focused.into_iter().for_each(|rect| ring(ui, rect));
-    if views.0 != lab.display().plot_ranges {
+    if views.0 != lab.view().plot_ranges {
         commands.push(Command::PlotRanges(views.0));
     }
 }
 
 /// Whether a person has zoomed or panned.
 pub(super) fn is_zoomed(lab: &Lab) -> bool {
-    !lab.display().plot_ranges.is_empty()
+    !lab.view().plot_ranges.is_empty()
 }
 
 /// The room that the numbers of all plots take, in points.
@@ -206,7 +206,7 @@ fn show_plot(
     let name = FontId::proportional(WORDS);
     let name = painter.text(edge, Align2::LEFT_CENTER, plot.axes[1].name(), name, ink.dim);
     let title = pos2(frame.left().max(name.right() + 12.0), edge.y);
-    let is_chosen = lab.display().body == plot.body;
+    let is_chosen = lab.view().body == plot.body;
     let font = if is_chosen { strong_font(WORDS) } else { FontId::proportional(WORDS) };
     // Up to the values beside the plot.
     let (words, is_whole) = short(ui, &plot.title, font, frame.right() - title.x, ink.text);

@@ -22,7 +22,7 @@ const PARTS: [Part; 3] = [
 ];
 
 pub(super) fn sheet(lab: &Lab) -> Sheet {
-    let body = lab.display().body;
+    let body = lab.view().body;
     let drift = METRICS.iter().position(|metric| metric.id == "energy_drift");
     let drift =
         drift.map(|place| error::plot(lab, body, place, "share of the swing's energy".into()));

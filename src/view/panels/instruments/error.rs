@@ -19,7 +19,7 @@ pub(super) fn choices() -> impl Iterator<Item = usize> {
 }
 
 pub(super) fn sheet(lab: &Lab) -> Sheet {
-    let (body, place) = (lab.display().body, lab.display().metric);
+    let (body, place) = (lab.view().body, lab.display().metric);
     let metric = &METRICS[place];
     let name = capitalised(&lab.scene().bodies[body].name);
     Sheet {

@@ -86,7 +86,7 @@ pub(in crate::view) fn svg(lab: &Lab) -> Option<String> {
     drawing.words(head, "start", 17.0, ink.text, &format!("{}: {}", lab.scene_name(), sheet.title));
     drawing.legend(&sheet);
     let room = Rect::from_min_max(pos2(MARGIN, HEAD), all.max - vec2(MARGIN, MARGIN / 2.0));
-    for (place, cell) in cells(&sheet, room, LEFT, lab.display().body).iter().enumerate() {
+    for (place, cell) in cells(&sheet, room, LEFT, lab.view().body).iter().enumerate() {
         drawing.plot(lab, &sheet.roster, cell, place);
     }
     drawing.line("</svg>".into());
@@ -163,7 +163,7 @@ impl Svg {
 
     fn plot(&mut self, lab: &Lab, roster: &Roster, cell: &Cell<'_>, place: usize) {
         let (frame, plot, ink) = (cell.frame, cell.plot, self.ink);
-        let bounds = plot.in_view(&lab.display().plot_ranges);
+        let bounds = plot.in_view(&lab.view().plot_ranges);
         self.rect(frame, ink.plot);
         let title = pos2(frame.center().x, frame.top() - TITLE / 2.0 + 4.0);
         self.words(title, "middle", WORDS, ink.text, &plot.title);

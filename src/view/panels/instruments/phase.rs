@@ -16,7 +16,7 @@ use crate::view::plot::SwitchMark;
 pub(super) const SAMPLES: usize = 360;
 
 pub(super) fn sheet(lab: &Lab) -> Sheet {
-    let body = lab.display().body;
+    let body = lab.view().body;
     let mut tracks = Track::of(lab, body, |s| [s.q, s.v]);
     tracks.iter_mut().for_each(|lane| lane.keep_latest(SAMPLES));
     // As much of the exact solution as of the lanes that still move.

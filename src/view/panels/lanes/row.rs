@@ -31,7 +31,7 @@ impl<'a> Row<'a> {
         exact: &[Option<f64>],
     ) -> Vec<Self> {
         let flown = lab.race().entrants().iter().find(|entrant| entrant.entry == entry);
-        let shown = lab.display().body;
+        let shown = lab.view().body;
         let count = lab.scene().bodies.len();
         let is_active = entry == lab.active();
         let is_of_body = lab.mode() == Mode::Solo && flown.is_some() && count > 1;

@@ -32,7 +32,7 @@ impl Said {
         let halts = flown.into_iter().flat_map(|entrant| entrant.lane.halts());
         let mut halts: Vec<_> = halts.filter(|halt| body.is_none_or(|b| b == halt.body)).collect();
         // The displayed body first: of several, not all may fit.
-        halts.sort_by_key(|halt| halt.body != lab.display().body);
+        halts.sort_by_key(|halt| halt.body != lab.view().body);
         if let Some(first) = halts.first() {
             let did = if first.is_blow_up() { "blew up" } else { "gave up" };
             let several = lab.scene().bodies.len() > 1 && body.is_none();
