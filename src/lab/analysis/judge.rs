@@ -172,8 +172,11 @@ impl Judge {
     /// The verdict on a body that has no reference solution.
     fn by_energy(&self, body: usize, spec: LaneSpec, tick_hz: u32, most_work: u64) -> Verdict {
         let truth = &self.truths[body];
+        let ticks = ticks(self.horizon_s, tick_hz);
+        // Growth would be sought beyond the horizon for a verdict that nobody gets.
+        let most_work = if ticks == 0 { 0 } else { most_work };
         let run = follow_energy(truth, spec, tick_hz, most_work);
-        let not_judged = match ticks(self.horizon_s, tick_hz) {
+        let not_judged = match ticks {
             0 => Some(NotJudged::ShorterThanATick),
             _ => run.is_too_much.then_some(NotJudged::TooMuchWork),
         };

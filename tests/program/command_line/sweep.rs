@@ -55,7 +55,7 @@ fn every_scene_body_method_and_rate_has_a_row_in_that_order() {
 
 #[test]
 fn without_options_all_methods_sweep_all_scenes_by_octaves() {
-    let rows = rows("--seconds 0.1");
+    let rows = rows("--seconds 0.001");
     let mut scenes: Vec<&str> = rows.iter().map(|row| text(row, "scene")).collect();
     scenes.dedup();
     assert_eq!(scenes, SCENES.iter().map(|scene| scene.name).collect::<Vec<_>>());
