@@ -39,7 +39,7 @@
 //!   that any number of threads makes the same rows (`commands/jobs.rs`).
 //!
 //! Each layer is a feature that has those below it. `view`, `window` and `commands` are there with the default feature
-//! `desktop`. `lab` alone pulls in no graphics crate: what a game's own tests want. Without any feature the package is
+//! `desktop`. `lab` alone pulls in no graphics crate: what a game's own tests want. The feature `batch` adds [`sim::batch`], on all cores, and `lab` has it. Without any feature the package is
 //! `sim` without its [`bodies`](sim::bodies) and [`law`](sim::law)s, and needs two crates: what a game's loop wants.
 //!
 //! # A frame
@@ -102,6 +102,12 @@
 //!
 //! ```
 #![doc = include_str!("../examples/custom_body.rs")]
+//! ```
+//!
+//! A million copies of such a body are a [`Batch`](sim::batch::Batch):
+//!
+//! ```
+#![doc = include_str!("../examples/batch.rs")]
 //! ```
 //!
 //! A custom method is an [`Integrator`](sim::integrators::Integrator) and a card, which

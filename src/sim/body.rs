@@ -2,8 +2,14 @@
 
 use glam::DVec2;
 
+#[cfg(feature = "batch")]
+use super::batch::{InstructionSet, NewBatch};
 use super::parameter::{self, ParameterOf};
 use super::piece::{Distances, NO_BOUNDARIES, Piece};
+#[cfg(feature = "batch")]
+use super::solver::Solver;
+#[cfg(feature = "batch")]
+use super::state::State;
 use super::state::Vector;
 use super::system::{BodyClass, StateOf, System};
 
@@ -172,6 +178,17 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
 
     /// Applies an input to the body or its state at once. Returns whether this kind of body accepts it.
     fn input(&mut self, input: Input, state: &mut StateOf<Self>) -> bool;
+
+    /// Copies of the body from these starts, on an instruction set; `None` if it has several coordinates, or its copies cannot be stepped at once.
+    #[cfg(feature = "batch")]
+    fn batch(
+        &self,
+        _set: InstructionSet,
+        _solver: Solver,
+        _starts: Vec<State<f64>>,
+    ) -> Option<NewBatch> {
+        None
+    }
 
     /// The position of the body in metres, to which the camera, trails and arrows refer.
     fn place(&self, q: &Self::Vector) -> DVec2;

@@ -4,6 +4,8 @@ use std::any::Any;
 
 use glam::DVec2;
 
+#[cfg(feature = "batch")]
+use super::batch::{InstructionSet, NewBatch};
 use super::body::Body;
 use super::exact_flow::ExactFlow;
 use super::exact_since_start::{ExactSinceStart, is_start};
@@ -176,6 +178,16 @@ impl<B: Body> PlacedBody for Placed<B> {
     }
     fn engine_settings(&self, t: f64) -> EngineSettings {
         EngineSettings::of(&self.body.system, t, &self.state, &mut self.state.q.clone())
+    }
+
+    #[cfg(feature = "batch")]
+    fn batch(
+        &self,
+        set: InstructionSet,
+        solver: Solver,
+        starts: Vec<State<f64>>,
+    ) -> Option<NewBatch> {
+        self.body.system.batch(set, solver, starts)
     }
 
     fn place(&self) -> DVec2 {

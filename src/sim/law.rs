@@ -19,6 +19,7 @@ mod expression;
 mod form;
 mod function;
 mod jet;
+mod lanes;
 mod layout;
 mod op;
 mod refusal;
@@ -29,6 +30,7 @@ mod text;
 mod token;
 
 pub use expression::{MAX_BYTES, MAX_DEPTH};
+pub(in crate::sim) use lanes::LawLanes;
 pub use layout::Layout;
 pub use refusal::{Part, Refusal, Remedy};
 pub use registers::Registers;

@@ -5,6 +5,8 @@
 //! in every build profile.
 
 mod accumulator;
+#[cfg(feature = "batch")]
+pub mod batch;
 #[cfg(feature = "lab")]
 pub mod bodies;
 mod body;

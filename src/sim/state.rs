@@ -27,14 +27,14 @@ pub trait Elementwise: Clone + Send + 'static {
     /// `self *= h`.
     fn scale(&mut self, h: f64);
     /// `v += k a`, then `q += h v`: a kick and the drift after it.
-    #[inline]
+    #[inline(always)]
     fn kick_and_drift(k: f64, a: &Self, v: &mut Self, h: f64, q: &mut Self) {
         v.add_scaled(k, a);
         q.add_scaled(h, v);
     }
     /// `self += h1 x1 + h2 x2 …`, term by term in this order, each rounded after the product and after the
     /// sum.
-    #[inline]
+    #[inline(always)]
     fn add_terms<const N: usize>(&mut self, terms: [(f64, &Self); N]) {
         for (h, x) in terms {
             self.add_scaled(h, x);
@@ -42,13 +42,13 @@ pub trait Elementwise: Clone + Send + 'static {
     }
     /// `self = x + h d`, rounded after the product and after the sum, for an `x` with as many numbers.
     /// Never allocates.
-    #[inline]
+    #[inline(always)]
     fn assign_sum(&mut self, x: &Self, h: f64, d: &Self) {
         self.assign(x);
         self.add_scaled(h, d);
     }
     /// `self = h x`, for an `x` with as many numbers. Never allocates.
-    #[inline]
+    #[inline(always)]
     fn assign_scaled(&mut self, h: f64, x: &Self) {
         self.assign(x);
         self.scale(h);
@@ -90,6 +90,24 @@ macro_rules! elementwise {
     )+};
 }
 elementwise!(f64, glam::DVec2, glam::DVec3);
+
+/// One coordinate of each of `W` bodies.
+impl<const W: usize> Elementwise for [f64; W] {
+    #[inline(always)]
+    fn assign(&mut self, from: &Self) {
+        *self = *from;
+    }
+    #[inline(always)]
+    fn add_scaled(&mut self, h: f64, x: &Self) {
+        for i in 0..W {
+            self[i] += h * x[i];
+        }
+    }
+    #[inline(always)]
+    fn scale(&mut self, h: f64) {
+        self.iter_mut().for_each(|number| *number *= h);
+    }
+}
 
 impl Vector for f64 {
     fn components(&self) -> &[f64] {
@@ -193,28 +211,28 @@ pub struct State<V> {
 
 impl<V: Elementwise> State<V> {
     /// Copies `from`. Never allocates.
-    #[inline]
+    #[inline(always)]
     pub fn assign(&mut self, from: &Self) {
         self.q.assign(&from.q);
         self.v.assign(&from.v);
     }
 
     /// `self += h1 x1 + h2 x2 …` in both halves.
-    #[inline]
+    #[inline(always)]
     pub fn add_terms<const N: usize>(&mut self, terms: [(f64, &Self); N]) {
         self.q.add_terms(terms.map(|(h, x)| (h, &x.q)));
         self.v.add_terms(terms.map(|(h, x)| (h, &x.v)));
     }
 
     /// `self = x + h d` in both halves. Never allocates.
-    #[inline]
+    #[inline(always)]
     pub fn assign_sum(&mut self, x: &Self, h: f64, d: &Self) {
         self.q.assign_sum(&x.q, h, &d.q);
         self.v.assign_sum(&x.v, h, &d.v);
     }
 
     /// `self += h x` in both halves.
-    #[inline]
+    #[inline(always)]
     pub fn add_scaled(&mut self, h: f64, x: &Self) {
         self.q.add_scaled(h, &x.q);
         self.v.add_scaled(h, &x.v);

@@ -16,7 +16,7 @@ pub trait System {
     fn acceleration(&self, t: f64, q: &Self::Vector, v: &Self::Vector, a: &mut Self::Vector);
 
     /// Overwrites `d` with the derivative `(v, a)` of the state: one evaluation.
-    #[inline]
+    #[inline(always)]
     fn derivative(&self, t: f64, state: &StateOf<Self>, d: &mut StateOf<Self>) {
         d.q.assign(&state.v);
         self.acceleration(t, &state.q, &state.v, &mut d.v);

@@ -5,6 +5,7 @@ mod advice_work;
 mod allocation;
 mod as_printed;
 mod bad_scenes;
+mod batches;
 mod blocks;
 mod blow_up;
 mod bodies;

@@ -8,8 +8,10 @@ use std::f64::consts::TAU;
 use glam::DVec2;
 
 use super::kind::{Coordinate, Kind};
+use crate::sim::batch::{Batch, InstructionSet, NewBatch};
 use crate::sim::body::{Body, Input};
 use crate::sim::parameter::{ParameterOf, Range};
+use crate::sim::solver::Solver;
 use crate::sim::state::State;
 use crate::sim::system::{BodyClass, Pursuit, Question, System};
 
@@ -234,6 +236,15 @@ impl Body for Follow {
             state.v -= self.rate * times * self.kick;
         }
         true
+    }
+
+    fn batch(
+        &self,
+        set: InstructionSet,
+        solver: Solver,
+        starts: Vec<State<f64>>,
+    ) -> Option<NewBatch> {
+        Some(Batch::of_body(self, set, solver, starts))
     }
 
     fn place(&self, x: &f64) -> DVec2 {

@@ -6,9 +6,11 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::claims::{Checked, Claimant, FalseClaims};
+use crate::sim::batch::{Batch, InstructionSet, LawCopies, NewBatch};
 use crate::sim::body::{Body, Input};
 use crate::sim::law::{At, Equations, Layout, Registers};
 use crate::sim::piece::{Distances, NO_BOUNDARIES, Piece};
+use crate::sim::solver::Solver;
 use crate::sim::state::State;
 use crate::sim::system::System;
 
@@ -204,6 +206,18 @@ impl Body for Law {
             }
         }
         true
+    }
+
+    fn batch(
+        &self,
+        set: InstructionSet,
+        solver: Solver,
+        starts: Vec<State<f64>>,
+    ) -> Option<NewBatch> {
+        let Self { equations, values, steering, .. } = self;
+        let values = known(equations, values).into();
+        let copies = LawCopies { equations: equations.clone(), values, steering: *steering };
+        (self.coordinates() == 1).then(|| Batch::of_law(&copies, set, solver, starts))
     }
 
     /// The first place, the coordinates of the plane, or the first coordinate to the right or up.

@@ -3,8 +3,10 @@
 use glam::DVec2;
 
 use super::kind::{Coordinate, Kind};
+use crate::sim::batch::{Batch, InstructionSet, NewBatch};
 use crate::sim::body::{Body, Input};
 use crate::sim::parameter::{ParameterOf, Range};
+use crate::sim::solver::Solver;
 use crate::sim::state::State;
 use crate::sim::system::{Question, System};
 
@@ -138,6 +140,15 @@ impl Body for Ship {
             Input::Rudder(_) => return false,
         }
         true
+    }
+
+    fn batch(
+        &self,
+        set: InstructionSet,
+        solver: Solver,
+        starts: Vec<State<f64>>,
+    ) -> Option<NewBatch> {
+        Some(Batch::of_body(self, set, solver, starts))
     }
 
     fn place(&self, s: &f64) -> DVec2 {

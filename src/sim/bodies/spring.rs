@@ -4,8 +4,10 @@ use glam::DVec2;
 
 use super::kind::{Coordinate, Kind};
 use super::oscillator;
+use crate::sim::batch::{Batch, InstructionSet, NewBatch};
 use crate::sim::body::{Body, Input};
 use crate::sim::parameter::{ParameterOf, Range};
+use crate::sim::solver::Solver;
 use crate::sim::state::State;
 use crate::sim::system::{BodyClass, Question, System};
 
@@ -130,6 +132,15 @@ impl Body for Spring {
             Input::Throttle(_) | Input::Rudder(_) => return false,
         }
         true
+    }
+
+    fn batch(
+        &self,
+        set: InstructionSet,
+        solver: Solver,
+        starts: Vec<State<f64>>,
+    ) -> Option<NewBatch> {
+        Some(Batch::of_body(self, set, solver, starts))
     }
 
     fn place(&self, x: &f64) -> DVec2 {

@@ -38,7 +38,7 @@ impl<S: System> Integrator<S> for AdamsBashforth2<S::Vector> {
         Self { f: zero.clone(), g: zero.clone(), end: zero, last_step: LastStep::NONE }
     }
 
-    #[inline]
+    #[inline(always)]
     fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { f, g, end, last_step } = self;
         system.derivative(t, y, f);

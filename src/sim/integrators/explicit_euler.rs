@@ -32,7 +32,7 @@ impl<S: System> Integrator<S> for ExplicitEuler<S::Vector> {
         Self { k1: State { q: like.clone(), v: like.clone() } }
     }
 
-    #[inline]
+    #[inline(always)]
     fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { k1 } = self;
         system.derivative(t, y, k1);

@@ -36,7 +36,7 @@ impl<S: System> Integrator<S> for ImprovedEuler<S::Vector> {
         Self { k1: zero.clone(), k2: zero.clone(), end: zero }
     }
 
-    #[inline]
+    #[inline(always)]
     fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { k1, k2, end } = self;
         system.derivative(t, y, k1);

@@ -38,7 +38,7 @@ impl<S: System> Integrator<S> for ImprovedEulerAsPrinted<S::Vector> {
         Self { k1: like.clone(), k2: like.clone(), end: like.clone() }
     }
 
-    #[inline]
+    #[inline(always)]
     fn step(&mut self, system: &S, t: f64, h: f64, State { q, v }: &mut StateOf<S>) -> Stepped {
         let Self { k1, k2, end } = self;
         system.acceleration(t, q, v, k1);

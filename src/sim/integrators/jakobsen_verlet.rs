@@ -42,6 +42,7 @@ impl<S: System> Integrator<S> for JakobsenVerlet<S::Vector> {
         Self { a: like.clone() }
     }
 
+    #[inline(always)]
     fn step(&mut self, system: &S, t: f64, h: f64, State { q, v }: &mut StateOf<S>) -> Stepped {
         let Self { a } = self;
         system.acceleration(t, q, v, a);

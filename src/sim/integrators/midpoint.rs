@@ -36,7 +36,7 @@ impl<S: System> Integrator<S> for Midpoint<S::Vector> {
         Self { k1: zero.clone(), k2: zero.clone(), middle: zero }
     }
 
-    #[inline]
+    #[inline(always)]
     fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { k1, k2, middle } = self;
         system.derivative(t, y, k1);

@@ -102,8 +102,18 @@ macro_rules! method_type {
     ($S:ident, $Rule:ident, $Family:ident) => { $Family<$S::Vector, $Rule> };
 }
 
+/// Returns the result of `construct` if `method` is this one, and is one that steps blocks.
+macro_rules! construct_in_blocks {
+    ($S:ident, $method:ident, $construct:ident, $file:ident, $Type:ident, blocks) => {
+        if $method.id == $file::CARD.id {
+            return Some($construct.of(<$Type<$S::Vector> as Integrator<$S>>::new));
+        }
+    };
+    ($S:ident, $method:ident, $construct:ident, $file:ident, $Type:ident) => {};
+}
+
 macro_rules! methods {
-    ($($file:ident::$Type:ident $(as $Family:ident)?),+ $(,)?) => {
+    ($($file:ident::$Type:ident $(as $Family:ident)? $(in $blocks:ident)?),+ $(,)?) => {
         $(pub use $file::$Type;)+
 
         /// Every method, in the order of the digit keys and of race lanes.
@@ -134,22 +144,33 @@ macro_rules! methods {
             };
             construct.of(|_| Unfit { reason })
         }
+
+        /// Calls `construct` with the integrator type of a `method` that steps each number by itself, as blocks of bodies
+        /// need. `None` for all others.
+        #[cfg(feature = "batch")]
+        pub(in crate::sim) fn construct_in_blocks<S: System, C: Construct<S>>(
+            method: &Method,
+            construct: C,
+        ) -> Option<C::Output> {
+            $(construct_in_blocks!(S, method, construct, $file, $Type $(, $blocks)?);)+
+            None
+        }
     };
 }
 
 methods! {
-    explicit_euler::ExplicitEuler,
-    midpoint::Midpoint,
-    improved_euler::ImprovedEuler,
-    ssp_rk3::SspRk3,
-    rk4::Rk4,
-    adams_bashforth_2::AdamsBashforth2,
-    semi_implicit_euler::SemiImplicitEuler,
-    velocity_verlet::VelocityVerlet,
-    position_verlet::PositionVerlet,
-    stormer_verlet::StormerVerlet,
-    yoshida4::Yoshida4,
-    pefrl::Pefrl,
+    explicit_euler::ExplicitEuler in blocks,
+    midpoint::Midpoint in blocks,
+    improved_euler::ImprovedEuler in blocks,
+    ssp_rk3::SspRk3 in blocks,
+    rk4::Rk4 in blocks,
+    adams_bashforth_2::AdamsBashforth2 in blocks,
+    semi_implicit_euler::SemiImplicitEuler in blocks,
+    velocity_verlet::VelocityVerlet in blocks,
+    position_verlet::PositionVerlet in blocks,
+    stormer_verlet::StormerVerlet in blocks,
+    yoshida4::Yoshida4 in blocks,
+    pefrl::Pefrl in blocks,
     adaptive_euler::AdaptiveEuler,
     bogacki_shampine_32::BogackiShampine32,
     dormand_prince_54::DormandPrince54,
@@ -163,10 +184,10 @@ methods! {
     semi_implicit_euler_implicit_drag::SemiImplicitEulerImplicitDrag,
     verlet_exact_drag::VerletExactDrag,
     exponential_rosenbrock_euler::ExponentialRosenbrockEuler,
-    improved_euler_as_printed::ImprovedEulerAsPrinted,
-    rk4_as_printed::Rk4AsPrinted,
+    improved_euler_as_printed::ImprovedEulerAsPrinted in blocks,
+    rk4_as_printed::Rk4AsPrinted in blocks,
     adaptive_euler_as_printed::AdaptiveEulerAsPrinted,
-    jakobsen_verlet::JakobsenVerlet,
+    jakobsen_verlet::JakobsenVerlet in blocks,
     lerp_per_frame::LerpPerFrame as Follower,
     lerp_dt::LerpDt as Follower,
     exponential_decay::ExponentialDecay as Follower,

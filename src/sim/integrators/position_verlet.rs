@@ -31,7 +31,7 @@ impl<S: System> Integrator<S> for PositionVerlet<S::Vector> {
         Self { a: like.clone() }
     }
 
-    #[inline]
+    #[inline(always)]
     fn step(&mut self, system: &S, t: f64, h: f64, State { q, v }: &mut StateOf<S>) -> Stepped {
         let Self { a } = self;
         q.add_scaled(h / 2.0, v);

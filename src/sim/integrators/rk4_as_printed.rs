@@ -42,7 +42,7 @@ impl<S: System> Integrator<S> for Rk4AsPrinted<S::Vector> {
         Self { k1, k2, k3, k4, stage: like.clone() }
     }
 
-    #[inline]
+    #[inline(always)]
     fn step(&mut self, system: &S, t: f64, h: f64, State { q, v }: &mut StateOf<S>) -> Stepped {
         let Self { k1, k2, k3, k4, stage } = self;
         system.acceleration(t, q, v, k1);

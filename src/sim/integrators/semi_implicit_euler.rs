@@ -32,7 +32,7 @@ impl<S: System> Integrator<S> for SemiImplicitEuler<S::Vector> {
         Self { a: like.clone() }
     }
 
-    #[inline]
+    #[inline(always)]
     fn step(&mut self, system: &S, t: f64, h: f64, State { q, v }: &mut StateOf<S>) -> Stepped {
         let Self { a } = self;
         system.acceleration(t, q, v, a);

@@ -46,7 +46,7 @@ impl<S: System> Integrator<S> for SspRk3<S::Vector> {
         Self { k1: zero.clone(), k2: zero.clone(), k3: zero.clone(), stage: zero }
     }
 
-    #[inline]
+    #[inline(always)]
     fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { k1, k2, k3, stage } = self;
         system.derivative(t, y, k1);

@@ -45,7 +45,7 @@ impl<S: System> Integrator<S> for StormerVerlet<S::Vector> {
         Self { p, a, q_end, last_step: LastStep::NONE }
     }
 
-    #[inline]
+    #[inline(always)]
     fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { p, a, q_end, last_step } = self;
         let State { q, v } = y;

@@ -42,7 +42,7 @@ impl<S: System> Integrator<S> for VelocityVerlet<S::Vector> {
         Self { a, a_end, v_end, last_step: LastStep::NONE }
     }
 
-    #[inline]
+    #[inline(always)]
     fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { a, a_end, v_end, last_step } = self;
         if !last_step.is_continued_by(h) {

@@ -46,7 +46,7 @@ impl<S: System> Integrator<S> for Yoshida4<S::Vector> {
         Self { a: like.clone() }
     }
 
-    #[inline]
+    #[inline(always)]
     fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         compose(system, t, h, y, &mut self.a, &STAGES, LAST);
         Ok(())

@@ -3,6 +3,7 @@
 //! What depends on constants alone is a prelude, which is evaluated only when a constant changes. Equal
 //! operations on equal operands are done once. Neither changes a bit of the result.
 
+use std::array::from_fn;
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -12,6 +13,8 @@ use super::op::Op;
 use super::refusal::Part;
 use super::switch::Switch;
 use crate::sim::curve::Curve;
+
+mod lanes;
 
 /// The most operations of a tape: a step of ten microseconds.
 pub const MAX_OPERATIONS: usize = 4096;
@@ -234,26 +237,45 @@ impl Tape {
         &self,
         instructions: &[Instruction],
         slots: &mut [f64],
+        switched: impl FnMut(Switch, f64, f64, Option<&Curve>) -> f64,
+    ) {
+        self.run_lanes::<1>(instructions, slots.as_chunks_mut().0, &[], switched);
+    }
+
+    /// Evaluates instructions on `W` motions at once, each with the bits that it has alone. A slot whose place in `alike`
+    /// is set has the same value in all motions: a function is called once for it.
+    #[inline(always)]
+    fn run_lanes<const W: usize>(
+        &self,
+        instructions: &[Instruction],
+        slots: &mut [[f64; W]],
+        alike: &[bool],
         mut switched: impl FnMut(Switch, f64, f64, Option<&Curve>) -> f64,
     ) {
         for instruction in instructions {
             let [a, b, c] = instruction.operands.map(|slot| slots[slot as usize]);
-            slots[instruction.to as usize] = match instruction.op {
-                Op::Negate => -a,
-                Op::Add => a + b,
-                Op::Subtract => a - b,
-                Op::Multiply => a * b,
-                Op::Divide => a / b,
-                Op::Power => libm::pow(a, b),
-                Op::And => a * b,
-                Op::Or => f64::from(u8::from(a + b > 0.0)),
-                Op::Not => 1.0 - a,
-                Op::If if a == 1.0 => b,
-                Op::If => c,
-                Op::Smooth(smooth) => (smooth.value)(a, b),
-                Op::Switch(switch) => switched(switch, a, b, self.table(instruction)),
+            let to = instruction.to as usize;
+            let is_alike = alike.get(to).copied().unwrap_or(false);
+            let called = |value: fn(f64, f64) -> f64| {
+                if is_alike { [value(a[0], b[0]); W] } else { from_fn(|i| value(a[i], b[i])) }
+            };
+            slots[to] = match instruction.op {
+                Op::Negate => a.map(|a| -a),
+                Op::Add => from_fn(|i| a[i] + b[i]),
+                Op::Subtract => from_fn(|i| a[i] - b[i]),
+                Op::Multiply | Op::And => from_fn(|i| a[i] * b[i]),
+                Op::Divide => from_fn(|i| a[i] / b[i]),
+                Op::Power => called(libm::pow),
+                Op::Or => from_fn(|i| f64::from(u8::from(a[i] + b[i] > 0.0))),
+                Op::Not => a.map(|a| 1.0 - a),
+                Op::If => from_fn(|i| if a[i] == 1.0 { b[i] } else { c[i] }),
+                Op::Smooth(smooth) => called(smooth.value),
+                Op::Switch(switch) => {
+                    let table = self.table(instruction);
+                    from_fn(|i| switched(switch, a[i], b[i], table))
+                }
                 // The caller writes them.
-                Op::Number | Op::Input => slots[instruction.to as usize],
+                Op::Number | Op::Input => slots[to],
             };
         }
     }

@@ -7,7 +7,7 @@ use crate::sim::system::{StateOf, System};
 ///
 /// Time advances with the drifts, and a kick uses the current velocity: forces that depend on velocity
 /// reduce the order.
-#[inline]
+#[inline(always)]
 pub(in crate::sim::integrators) fn compose<S: System>(
     system: &S,
     t: f64,

@@ -18,13 +18,13 @@ impl LastStep {
 
     /// Whether a step of `h` is as long as the last one. The last step is forgotten until the next
     /// [ends](Self::end), so that a step that fails leaves no memory.
-    #[inline]
+    #[inline(always)]
     pub(in crate::sim::integrators) fn is_continued_by(&mut self, h: f64) -> bool {
         std::mem::replace(&mut self.h, f64::NAN) == h
     }
 
     /// Remembers that a step of `h` has ended.
-    #[inline]
+    #[inline(always)]
     pub(in crate::sim::integrators) fn end(&mut self, h: f64) {
         self.h = h;
     }

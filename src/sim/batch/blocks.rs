@@ -1,0 +1,143 @@
+//! Copies stepped in blocks, by the formula files of the methods.
+
+use std::marker::PhantomData;
+
+use rayon::prelude::*;
+
+use super::copies::{BlockSystem, Copies};
+use super::instruction_set::{InstructionSet, Kernel};
+use super::{Advance, Ticks};
+use crate::sim::integrators::{Construct, Integrator, Method};
+use crate::sim::state::State;
+
+/// The copies that a thread takes at a time: their state is 64 KiB, which the second cache of every processor holds. A
+/// multiple of every width of a block.
+pub(super) const GRAIN: usize = 4096;
+
+/// The copies that a thread steps through all ticks before it goes on to the next: their state is 4 KiB, which stays in the
+/// first cache. Their blocks do not wait for each other, as the ticks of one block do.
+const TILE: usize = 256;
+
+/// Makes what steps `copies` under `method` in blocks; `None` if the method is not for blocks.
+pub(super) fn in_blocks<C: Copies>(
+    copies: &C,
+    method: &Method,
+    set: InstructionSet,
+    count: usize,
+) -> Option<Box<dyn Advance>> {
+    if const { C::IS_INTERPRETED } {
+        return construct::<C, 32>(copies, method, set, count);
+    }
+    match set {
+        InstructionSet::Portable => construct::<C, 4>(copies, method, set, count),
+        InstructionSet::Avx2 => construct::<C, 4>(copies, method, set, count),
+        InstructionSet::Avx512 => construct::<C, 8>(copies, method, set, count),
+    }
+}
+
+fn construct<C: Copies, const W: usize>(
+    copies: &C,
+    method: &Method,
+    set: InstructionSet,
+    count: usize,
+) -> Option<Box<dyn Advance>> {
+    let blocks = method.restart.map_or(0, |_| count.div_ceil(W));
+    let make = Make::<C, W> { copies: copies.clone(), set, blocks };
+    crate::sim::integrators::construct_in_blocks(method, make)
+}
+
+struct Make<C, const W: usize> {
+    copies: C,
+    set: InstructionSet,
+    /// How many blocks the method has a memory of.
+    blocks: usize,
+}
+
+impl<C: Copies, const W: usize> Construct<C::Block<W>> for Make<C, W> {
+    type Output = Box<dyn Advance>;
+
+    fn of<I: Integrator<C::Block<W>> + Clone + 'static>(
+        self,
+        new: impl FnOnce(&[f64; W]) -> I,
+    ) -> Self::Output {
+        let Self { copies, set, blocks } = self;
+        let integrator = new(&[0.0; W]);
+        let memory = vec![integrator.clone(); blocks];
+        Box::new(Blocks::<C, I, W> { copies, set, integrator, memory })
+    }
+}
+
+/// Copies under a method whose integrator is `I`.
+struct Blocks<C, I, const W: usize> {
+    copies: C,
+    set: InstructionSet,
+    /// Before its first step.
+    integrator: I,
+    /// That of each block, of a method with memory; empty for all others.
+    memory: Vec<I>,
+}
+
+impl<C: Copies, I: Integrator<C::Block<W>> + Clone, const W: usize> Advance for Blocks<C, I, W> {
+    fn advance(&mut self, ticks: Ticks, q: &mut [f64], v: &mut [f64]) {
+        let Self { copies, set, integrator, memory } = self;
+        let (copies, set) = (&*copies, *set);
+        let work = |integrator: &mut I, (grain, ((q, v), memory)): (_, ((_, _), _))| {
+            let (system, integrator) = (copies.block::<W>(set), integrator.clone());
+            let first = grain * GRAIN;
+            set.run(Grain { system, integrator, memory, first, ticks, q, v, of: PhantomData });
+        };
+        let grains = q.par_chunks_mut(GRAIN).zip(v.par_chunks_mut(GRAIN));
+        if memory.is_empty() {
+            let grains = grains.map(|grain| (grain, &mut [][..]));
+            grains.enumerate().for_each_with(integrator.clone(), work);
+        } else {
+            let grains = grains.zip(memory.par_chunks_mut(GRAIN / W));
+            grains.enumerate().for_each_with(integrator.clone(), work);
+        }
+    }
+
+    fn reset(&mut self) {
+        self.memory.iter_mut().for_each(Integrator::reset);
+    }
+}
+
+/// The blocks that one thread steps.
+struct Grain<'a, S, I, const W: usize> {
+    system: S,
+    integrator: I,
+    memory: &'a mut [I],
+    first: usize,
+    ticks: Ticks,
+    q: &'a mut [f64],
+    v: &'a mut [f64],
+    of: PhantomData<[f64; W]>,
+}
+
+impl<S: BlockSystem<W>, I: Integrator<S> + Clone, const W: usize> Kernel for Grain<'_, S, I, W> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { mut system, integrator, memory, first, ticks, q, v, of: _ } = self;
+        let [q, v] = [q, v].map(|numbers| numbers.as_chunks_mut::<W>().0);
+        let part = ticks.part();
+        let tiles = q.chunks_mut(TILE / W).zip(v.chunks_mut(TILE / W)).enumerate();
+        for (tile, (q, v)) in tiles {
+            let tile = tile * (TILE / W);
+            for tick in ticks.first..ticks.first + ticks.count {
+                for substep in 0..ticks.substeps {
+                    let t = ticks.t(tick) + part * f64::from(substep);
+                    for (n, (q, v)) in q.iter_mut().zip(v.iter_mut()).enumerate() {
+                        system.turn_to(first + (tile + n) * W);
+                        let mut own = memory.get(tile + n).unwrap_or(&integrator).clone();
+                        let mut state = State { q: *q, v: *v };
+                        let stepped = own.step(&system, t, part, &mut state);
+                        debug_assert!(stepped.is_ok(), "a method for blocks never gives up");
+                        (*q, *v) = (state.q, state.v);
+                        if let Some(memory) = memory.get_mut(tile + n) {
+                            *memory = own;
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

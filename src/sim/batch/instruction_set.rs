@@ -1,0 +1,81 @@
+//! The instruction sets of a processor that blocks are compiled for.
+
+use multiversion::multiversion;
+use multiversion::target::match_target;
+
+/// An instruction set for blocks of bodies. All give the same bits: none fuses a product with a sum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InstructionSet {
+    /// What every processor of the platform has: two numbers at once on x86-64 and on ARM.
+    Portable,
+    /// Four numbers at once.
+    Avx2,
+    /// Eight numbers at once.
+    Avx512,
+}
+
+impl InstructionSet {
+    /// All, narrowest first.
+    pub const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
+
+    /// The widest that this processor has.
+    pub fn widest() -> Self {
+        let widest = Self::ALL.into_iter().rev().find(|set| set.is_available());
+        widest.unwrap_or(Self::Portable)
+    }
+
+    /// Whether this processor has it.
+    pub fn is_available(self) -> bool {
+        match self {
+            Self::Portable => true,
+            Self::Avx2 => has_avx2(),
+            Self::Avx512 => has_avx512(),
+        }
+    }
+
+    /// Runs a loop that is compiled for this instruction set.
+    pub(super) fn run(self, kernel: impl Kernel) {
+        match self {
+            Self::Portable => kernel.run(),
+            Self::Avx2 => with_avx2(kernel),
+            Self::Avx512 => with_avx512(kernel),
+        }
+    }
+}
+
+/// A loop to be compiled for an instruction set.
+pub(super) trait Kernel {
+    /// Runs it. Inlined always, with all that is to be compiled for the same instruction set.
+    fn run(self);
+}
+
+#[multiversion(targets("x86_64+avx+avx2"))]
+fn with_avx2<K: Kernel>(kernel: K) {
+    match_target! {
+        "x86_64+avx+avx2" => kernel.run(),
+        _ => missing(kernel),
+    }
+}
+
+#[multiversion(targets("x86_64+avx+avx2+avx512f+avx512vl"))]
+fn with_avx512<K: Kernel>(kernel: K) {
+    match_target! {
+        "x86_64+avx+avx2+avx512f+avx512vl" => kernel.run(),
+        _ => missing(kernel),
+    }
+}
+
+#[multiversion(targets("x86_64+avx+avx2"))]
+fn has_avx2() -> bool {
+    match_target! { "x86_64+avx+avx2" => true, _ => false }
+}
+
+#[multiversion(targets("x86_64+avx+avx2+avx512f+avx512vl"))]
+fn has_avx512() -> bool {
+    match_target! { "x86_64+avx+avx2+avx512f+avx512vl" => true, _ => false }
+}
+
+#[cold]
+fn missing<K>(_: K) {
+    unreachable!("an instruction set is chosen only if the processor has it")
+}

@@ -1,0 +1,86 @@
+//! Copies of a law of one coordinate: its tape runs over blocks.
+
+use std::cell::RefCell;
+use std::slice::{from_mut, from_ref};
+use std::sync::Arc;
+
+use super::copies::{BlockSystem, Copies};
+use super::instruction_set::{InstructionSet, Kernel};
+use crate::sim::law::{At, Equations, LawLanes, Registers};
+use crate::sim::system::System;
+
+/// Copies of a law of one coordinate.
+#[derive(Clone)]
+pub(in crate::sim) struct LawCopies {
+    /// The law.
+    pub(in crate::sim) equations: Arc<Equations>,
+    /// Its values, as those of [`Registers`].
+    pub(in crate::sim) values: Arc<[f64]>,
+    /// Throttle and rudder.
+    pub(in crate::sim) steering: [f64; 2],
+}
+
+/// A block of [`LawCopies`].
+pub(in crate::sim) struct LawBlock<const W: usize> {
+    equations: Arc<Equations>,
+    lanes: RefCell<LawLanes<W>>,
+    set: InstructionSet,
+}
+
+impl Copies for LawCopies {
+    const IS_INTERPRETED: bool = true;
+    type Block<const W: usize> = LawBlock<W>;
+
+    fn block<const W: usize>(&self, set: InstructionSet) -> LawBlock<W> {
+        let lanes = RefCell::new(LawLanes::new(&self.equations, &self.values, self.steering));
+        LawBlock { equations: self.equations.clone(), lanes, set }
+    }
+
+    fn alone(&self, _copy: usize) -> Box<dyn System<Vector = f64>> {
+        let registers = RefCell::new(Registers::new(&self.equations, &self.values));
+        Box::new(LawAlone { equations: self.equations.clone(), registers, steering: self.steering })
+    }
+}
+
+impl<const W: usize> System for LawBlock<W> {
+    type Vector = [f64; W];
+
+    fn acceleration(&self, t: f64, q: &[f64; W], v: &[f64; W], a: &mut [f64; W]) {
+        let Self { equations, lanes, set } = self;
+        set.run(Evaluation { equations, lanes: &mut lanes.borrow_mut(), t, at: [q, v], a });
+    }
+}
+
+impl<const W: usize> BlockSystem<W> for LawBlock<W> {}
+
+/// An evaluation of a block, compiled apart from the methods: it is long.
+struct Evaluation<'a, const W: usize> {
+    equations: &'a Equations,
+    lanes: &'a mut LawLanes<W>,
+    t: f64,
+    at: [&'a [f64; W]; 2],
+    a: &'a mut [f64; W],
+}
+
+impl<const W: usize> Kernel for Evaluation<'_, W> {
+    #[inline(always)]
+    fn run(self) {
+        self.equations.accelerate_lanes(self.lanes, self.t, self.at, self.a);
+    }
+}
+
+/// One copy, by its only coordinate.
+struct LawAlone {
+    equations: Arc<Equations>,
+    registers: RefCell<Registers>,
+    steering: [f64; 2],
+}
+
+impl System for LawAlone {
+    type Vector = f64;
+
+    fn acceleration(&self, t: f64, q: &f64, v: &f64, a: &mut f64) {
+        let at = At { t, steering: self.steering, q: from_ref(q), v: from_ref(v) };
+        self.equations.accelerate(&mut self.registers.borrow_mut(), at, from_mut(a));
+    }
+}

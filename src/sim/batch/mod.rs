@@ -1,0 +1,223 @@
+//! Many copies of a body of one coordinate, from other starts, stepped at once.
+//!
+//! A method that steps each number by itself steps blocks of copies: its formula file is compiled for `[f64; W]` in place
+//! of `f64`, for each [`InstructionSet`], and the widest that the processor has is taken. Other methods step copy by copy.
+//! Both share the work between the threads of rayon's pool. Neither instruction set nor number of threads changes a bit:
+//! each copy has the state that the body has alone.
+
+mod alone;
+mod blocks;
+mod copies;
+mod instruction_set;
+#[cfg(feature = "lab")]
+mod law;
+
+use std::collections::TryReserveError;
+
+use alone::Alone;
+use blocks::in_blocks;
+pub use copies::OneCoordinate;
+use copies::{Alike, Copies, Each};
+pub use instruction_set::InstructionSet;
+#[cfg(feature = "lab")]
+pub(in crate::sim) use law::LawCopies;
+
+use super::integrators::Method;
+use super::solver::Solver;
+use super::state::State;
+
+/// Consecutive ticks of one rate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ticks {
+    /// The time of tick 0 if it has this rate, in seconds.
+    pub origin: f64,
+    /// The first tick.
+    pub first: u64,
+    /// How many ticks.
+    pub count: u64,
+    /// Ticks per second.
+    pub hz: u32,
+    /// Steps in a tick.
+    pub substeps: u32,
+}
+
+impl Ticks {
+    /// The first ticks of a run.
+    pub fn from_start(hz: u32, substeps: u32, count: u64) -> Self {
+        Self { origin: 0.0, first: 0, count, hz, substeps }
+    }
+
+    /// The ticks after these.
+    pub fn next(self, count: u64) -> Self {
+        Self { first: self.first + self.count, count, ..self }
+    }
+
+    /// The time of a tick, in seconds.
+    #[inline]
+    pub fn t(self, tick: u64) -> f64 {
+        self.origin + tick as f64 / f64::from(self.hz)
+    }
+
+    /// The length of a tick, in seconds.
+    #[inline]
+    pub fn h(self) -> f64 {
+        1.0 / f64::from(self.hz)
+    }
+
+    /// The length of a step, in seconds.
+    #[inline]
+    fn part(self) -> f64 {
+        self.h() / f64::from(self.substeps)
+    }
+}
+
+/// What advances the copies of a batch.
+trait Advance: Send {
+    /// Steps the copies whose coordinates and velocities these are.
+    fn advance(&mut self, ticks: Ticks, q: &mut [f64], v: &mut [f64]);
+
+    /// Forgets what the method carries from step to step.
+    fn reset(&mut self);
+}
+
+/// Copies of a body of one coordinate under one method.
+///
+/// ```
+/// # use regatta::sim::State;
+/// # use regatta::sim::batch::{Batch, Ticks};
+/// # use regatta::sim::integrators::method;
+/// # use regatta::sim::System;
+/// #[derive(Clone)]
+/// struct Spring;
+/// impl System for Spring {
+///     type Vector = f64;
+///     fn acceleration(&self, _t: f64, x: &f64, _v: &f64, a: &mut f64) {
+///         *a = -40.0 * x;
+///     }
+/// }
+/// let starts = (0..1000).map(|n| State { q: f64::from(n), v: 0.0 });
+/// let mut batch = Batch::new(&Spring, method("rk4").unwrap(), starts)?;
+/// batch.run(Ticks::from_start(60, 1, 600));
+/// assert_eq!(batch.q().len(), 1000);
+/// # Ok::<(), std::collections::TryReserveError>(())
+/// ```
+pub struct Batch {
+    /// In whole blocks: those beyond the last copy are like the last.
+    q: Vec<f64>,
+    v: Vec<f64>,
+    count: usize,
+    advance: Box<dyn Advance>,
+}
+
+/// A batch, unless its copies do not fit into memory.
+pub type NewBatch = Result<Batch, TryReserveError>;
+
+/// A multiple of every width of a block.
+const PADDING: usize = 32;
+
+impl Batch {
+    /// Copies of `system` from these starts.
+    ///
+    /// # Errors
+    /// If they do not fit into memory.
+    pub fn new<S: OneCoordinate>(
+        system: &S,
+        method: &'static Method,
+        starts: impl ExactSizeIterator<Item = State<f64>>,
+    ) -> NewBatch {
+        Self::with(&Alike(system.clone()), Solver::Method(method), starts, InstructionSet::widest())
+    }
+
+    /// As [`Batch::new`], with an instruction set that this processor must [have](InstructionSet::is_available).
+    ///
+    /// # Errors
+    /// As [`Batch::new`].
+    pub fn on<S: OneCoordinate>(
+        set: InstructionSet,
+        system: &S,
+        method: &'static Method,
+        starts: impl ExactSizeIterator<Item = State<f64>>,
+    ) -> NewBatch {
+        Self::with(&Alike(system.clone()), Solver::Method(method), starts, set)
+    }
+
+    /// A body for each start: copies with other parameters.
+    ///
+    /// # Errors
+    /// As [`Batch::new`].
+    pub fn of_each<S: OneCoordinate>(
+        method: &'static Method,
+        bodies: impl IntoIterator<Item = (S, State<f64>)>,
+    ) -> NewBatch {
+        let (systems, starts): (Vec<_>, Vec<_>) = bodies.into_iter().unzip();
+        let set = InstructionSet::widest();
+        Self::with(&Each(systems.into()), Solver::Method(method), starts.into_iter(), set)
+    }
+
+    pub(in crate::sim) fn of_body<S: OneCoordinate>(
+        body: &S,
+        set: InstructionSet,
+        solver: Solver,
+        starts: Vec<State<f64>>,
+    ) -> NewBatch {
+        Self::with(&Alike(body.clone()), solver, starts.into_iter(), set)
+    }
+
+    #[cfg(feature = "lab")]
+    pub(in crate::sim) fn of_law(
+        law: &LawCopies,
+        set: InstructionSet,
+        solver: Solver,
+        starts: Vec<State<f64>>,
+    ) -> NewBatch {
+        Self::with(law, solver, starts.into_iter(), set)
+    }
+
+    pub(in crate::sim) fn with<C: Copies>(
+        copies: &C,
+        solver: Solver,
+        starts: impl ExactSizeIterator<Item = State<f64>>,
+        set: InstructionSet,
+    ) -> NewBatch {
+        assert!(set.is_available(), "{set:?} is an instruction set that this processor has not");
+        let count = starts.len();
+        let padded = count.next_multiple_of(PADDING);
+        let [mut q, mut v] = [Vec::new(), Vec::new()];
+        q.try_reserve_exact(padded)?;
+        v.try_reserve_exact(padded)?;
+        starts.for_each(|start| {
+            q.push(start.q);
+            v.push(start.v);
+        });
+        for numbers in [&mut q, &mut v] {
+            numbers.resize(padded, numbers.last().copied().unwrap_or(0.0));
+        }
+        let blocks = solver.method().and_then(|method| in_blocks(copies, method, set, padded));
+        let alone = || Alone::new(copies, solver, count).map(|alone| Box::new(alone) as _);
+        let advance = blocks.or_else(alone).expect("a method");
+        Ok(Self { q, v, count, advance })
+    }
+
+    /// Steps every copy through `ticks`. A method with memory goes on from the last run.
+    ///
+    /// A copy that blows up has a coordinate or a velocity that is not finite, and so has one whose method gives up.
+    pub fn run(&mut self, ticks: Ticks) {
+        self.advance.advance(ticks, &mut self.q, &mut self.v);
+    }
+
+    /// The coordinates, in the order of the starts.
+    pub fn q(&self) -> &[f64] {
+        &self.q[..self.count]
+    }
+
+    /// The velocities, in the order of the starts.
+    pub fn v(&self) -> &[f64] {
+        &self.v[..self.count]
+    }
+
+    /// Changes the states, and restarts the method from them.
+    pub fn change(&mut self, mut change: impl FnMut(&mut f64, &mut f64)) {
+        self.q.iter_mut().zip(&mut self.v).for_each(|(q, v)| change(q, v));
+        self.advance.reset();
+    }
+}
