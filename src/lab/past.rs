@@ -29,6 +29,15 @@ pub use truth_curve::{TruthCurve, TruthSample};
 /// samples would make axes too narrow for it.
 const BEGUN: f64 = 0.1;
 
+/// The most memory of the histories in bytes: room for ninety of [`CAPACITY`] samples. Those of more lanes and bodies
+/// are coarser.
+const MAX_BYTES: usize = 64 << 20;
+
+/// The capacity with which so many histories fit into [`MAX_BYTES`].
+fn capacity_of(histories: usize) -> usize {
+    CAPACITY.min(CAPACITY * (MAX_BYTES / histories.max(1)) / History::heap_bytes(CAPACITY))
+}
+
 /// The recent past of a race.
 pub struct Past {
     /// One for each body, for each lane.
@@ -39,6 +48,8 @@ pub struct Past {
     truth_curves: Vec<TruthCurve>,
     /// The duration of the histories in seconds.
     span_s: f64,
+    /// The most samples of a history.
+    capacity: usize,
     /// When a body was last placed or a parameter last set, in seconds; before the start if neither was done.
     changed_s: f64,
 }
@@ -78,12 +89,14 @@ impl Past {
     ) -> Self {
         let bodies = race.truth().bodies();
         let curves = bodies.iter().zip(coordinates);
-        let histories = || bodies.iter().map(|_| History::new()).collect();
+        let capacity = capacity_of(race.entrants().len() * bodies.len());
+        let histories = || bodies.iter().map(|_| History::new(capacity)).collect();
         let mut past = Self {
             histories: race.entrants().iter().map(|_| histories()).collect(),
             lanes: race.entrants().iter().map(|entrant| entrant.lane_number).collect(),
             truth_curves: curves.map(|(body, of)| TruthCurve::new(body, of, span_s)).collect(),
             span_s,
+            capacity,
             changed_s: f64::NEG_INFINITY,
         };
         past.sample(race);
@@ -137,7 +150,7 @@ impl Past {
     /// Ticks between samples.
     fn stride(&self, race: &Race) -> u64 {
         let samples = self.span_s * f64::from(race.tick_hz());
-        ((samples / CAPACITY as f64).ceil() as u64).max(1)
+        ((samples / self.capacity as f64).ceil() as u64).max(1)
     }
 
     /// Adds the present to the histories if a sample is due, or else to the range that the next sample sweeps.
@@ -218,7 +231,8 @@ impl Past {
                 let place = race.entrants().iter().position(|e| e.lane_number == *number);
                 let place = place.expect("a mark is of the lanes that the race then had");
                 self.lanes.insert(place, *number);
-                self.histories.insert(place, marks.iter().map(|_| History::new()).collect());
+                let histories = marks.iter().map(|_| History::new(self.capacity));
+                self.histories.insert(place, histories.collect());
             }
             let place = self.lanes.iter().position(|lane| lane == number).expect("it is there now");
             for (history, &mark) in self.histories[place].iter_mut().zip(marks) {
@@ -369,5 +383,27 @@ mod tests {
         // 20 s at 1000 Hz are ten times the capacity.
         assert!((times[times.len() - 1] - times[times.len() - 2] - 0.01).abs() < 1e-9);
         assert!(times[0] == 0.0 && (times[times.len() - 1] - 20.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn many_histories_have_fewer_samples_each_reach_as_far_back_and_fit_into_the_memory() {
+        for (histories, is_full) in [(1, true), (32, true), (80, true), (128, false), (2048, false)]
+        {
+            let capacity = capacity_of(histories);
+            assert_eq!(capacity == CAPACITY, is_full, "{histories}");
+            let bytes = histories * History::heap_bytes(capacity);
+            assert!(bytes <= MAX_BYTES + histories * History::heap_bytes(1), "{bytes} bytes");
+            assert!(is_full || bytes > MAX_BYTES * 9 / 10, "{bytes} bytes");
+        }
+        let spring =
+            |n: usize| format!("[[spring]]\nname = 'b{n}'\nmass_kg = 1\nstiffness_n_per_m = 9\n");
+        let head = "title = 't'\ntick_hz = 60\nseconds = 20\nmethods = ['rk4']\n".to_owned();
+        let text = (0..64).fold(head, |text, n| text + &spring(n));
+        let scene = Scene::parse("t", &text).unwrap();
+        let rk4 = LaneSpec::plain(method("rk4").unwrap());
+        let race = Race::new(&scene, (0..32).map(|_| (0, rk4)));
+        let past = Past::new(&race, scene.seconds);
+        assert_eq!(past.capacity, capacity_of(2048));
+        assert_eq!(past.stride(&race), (1200.0 / past.capacity as f64).ceil() as u64);
     }
 }

@@ -6,7 +6,7 @@
 use std::collections::vec_deque;
 use std::{iter, option};
 
-use super::sample::{CAPACITY, SPARE, Sample};
+use super::sample::Sample;
 use super::summary::{MOST_SUMMED, Summary, SummaryLog, SummaryMark};
 use super::swept_range::SweptRange;
 use super::windowed_log::WindowedLog;
@@ -44,14 +44,23 @@ pub struct Run<'h> {
 }
 
 impl History {
-    /// An empty history with room for [`CAPACITY`] samples.
-    pub fn new() -> Self {
+    /// An empty history that shows `capacity` samples, and keeps half as many more for going back without a repetition:
+    /// of [`CAPACITY`](super::CAPACITY) 17 s at 60 Hz.
+    pub(super) fn new(capacity: usize) -> Self {
+        let spare = capacity / 2;
         Self {
-            samples: WindowedLog::new(CAPACITY, SPARE),
-            summaries: MOST_SUMMED.map(SummaryLog::new),
+            samples: WindowedLog::new(capacity, spare),
+            summaries: MOST_SUMMED.map(|most_summed| SummaryLog::new(most_summed, capacity, spare)),
             present: None,
             since: SweptRange::NOTHING,
         }
+    }
+
+    /// The heap memory in bytes of a history of this capacity.
+    pub(super) fn heap_bytes(capacity: usize) -> usize {
+        let kept = capacity + capacity / 2;
+        let summaries: usize = MOST_SUMMED.iter().map(|most_summed| kept / most_summed + 1).sum();
+        kept * size_of::<Sample>() + summaries * size_of::<Summary>()
     }
 
     /// The samples, oldest first. The newest is the present, unless the body has halted.
@@ -195,18 +204,13 @@ impl History {
     }
 }
 
-impl Default for History {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use glam::DVec2;
 
     use super::*;
     use crate::lab::metrics::METRICS;
+    use crate::lab::past::sample::CAPACITY;
 
     fn sample(t: f64, entry: usize) -> Sample {
         Sample {
@@ -229,7 +233,7 @@ mod tests {
 
     /// A history of `entry` at 0, 1 and 2 s.
     fn flown(entry: usize) -> History {
-        let mut history = History::new();
+        let mut history = History::new(CAPACITY);
         (0..3).for_each(|t| history.record(sample(f64::from(t), entry)));
         history
     }
@@ -248,7 +252,7 @@ mod tests {
         assert_eq!(runs(&history), [first.clone(), (3, vec![2.5, 3.0])]);
         switch(&mut history, 3.0, 3, 0);
         assert_eq!(runs(&history), [first, (3, vec![2.5, 3.0]), (0, vec![3.0])]);
-        assert_eq!(runs(&History::new()), []);
+        assert_eq!(runs(&History::new(CAPACITY)), []);
     }
 
     #[test]
@@ -259,7 +263,7 @@ mod tests {
         assert_eq!(runs(&history), [(0, vec![0.0, 1.0, 2.0]), (2, vec![2.0])]);
         switch(&mut history, 2.0, 2, 0);
         assert_eq!(runs(&history), [(0, vec![0.0, 1.0, 2.0])]);
-        let mut history = History::new();
+        let mut history = History::new(CAPACITY);
         history.record(sample(0.0, 0));
         switch(&mut history, 0.0, 0, 1);
         assert_eq!(runs(&history), [(1, vec![0.0])]);
@@ -319,7 +323,7 @@ mod tests {
 
     #[test]
     fn a_full_history_forgets_its_oldest_sample() {
-        let mut history = History::new();
+        let mut history = History::new(CAPACITY);
         (0..=CAPACITY).for_each(|t| history.record(sample(t as f64, 0)));
         history.record_passing(sample(1e9, 0));
         assert_eq!(history.samples().count(), CAPACITY + 1, "the present is beside them");
@@ -335,7 +339,7 @@ mod tests {
     #[test]
     fn a_summary_stands_for_four_samples_of_one_motion_and_for_all_that_they_sweep() {
         let at = |t: u32, q: f64| Sample { q, ..sample(f64::from(t), 0) };
-        let mut history = History::new();
+        let mut history = History::new(CAPACITY);
         (0..6).for_each(|t| history.record(at(t, f64::from(t))));
         assert_eq!(summaries(&history), [(3.0, 0, [0.0, 3.0], false), (5.0, 0, [4.0, 5.0], false)]);
         switch(&mut history, 5.5, 0, 1);
@@ -354,7 +358,7 @@ mod tests {
         let tick = |history: &mut History, t: u32| {
             history.record(Sample { q: f64::from(t % 7), ..sample(f64::from(t), 0) });
         };
-        let mut history = History::new();
+        let mut history = History::new(CAPACITY);
         let mut seen = Vec::new();
         for t in 0..6000 {
             tick(&mut history, t);

@@ -10,9 +10,6 @@ use crate::lab::metrics::METRICS;
 /// The most samples shown: every tick of 30 s at 60 Hz, and more than a plot has pixels.
 pub const CAPACITY: usize = 2048;
 
-/// Further samples that are kept for going back without a repetition: 17 s at 60 Hz.
-pub(super) const SPARE: usize = 1024;
-
 /// One moment of a body.
 #[derive(Clone, Debug)]
 pub struct Sample {

@@ -3,7 +3,7 @@
 use std::collections::vec_deque;
 use std::{iter, option};
 
-use super::sample::{CAPACITY, SPARE, Sample};
+use super::sample::Sample;
 use super::swept_range::SweptRange;
 use super::windowed_log::WindowedLog;
 
@@ -77,9 +77,9 @@ pub(super) type Summaries<'l> =
     iter::Chain<iter::Copied<vec_deque::Iter<'l, Summary>>, option::IntoIter<Summary>>;
 
 impl SummaryLog {
-    /// A log of summaries, each of this number of samples at most.
-    pub(super) fn new(most_summed: usize) -> Self {
-        let whole = WindowedLog::new(CAPACITY / most_summed + 1, SPARE / most_summed);
+    /// A log of summaries, each of this number of samples at most, with room for `samples` of them and `spare` more.
+    pub(super) fn new(most_summed: usize, samples: usize, spare: usize) -> Self {
+        let whole = WindowedLog::new(samples / most_summed + 1, spare / most_summed);
         Self { most_summed, whole, last: None }
     }
 

@@ -26,11 +26,16 @@ impl Ghost {
         let body = &race.truth().bodies()[index];
         let remembered = moment.lab.past();
         let curve = &remembered.truth_curves()[index];
-        let (q, v) = moment.lab.shown_truth(index);
         let look = Look::of(body);
+        let framing = look.framing();
+        // To find the truth between ticks, a body is copied. One that is not drawn is wanted only where the view follows it.
+        let is_needed = moment.lab.display().ghost || matches!(framing, Framing::Follow { .. });
+        let (q, v) = match is_needed {
+            true => moment.lab.shown_truth(index),
+            false => (body.stepper.q().to_vec(), body.stepper.v().to_vec()),
+        };
         let course = look.course(&q, &v);
         let outline = Outline { course, ..look.outline(moment.t, &q) };
-        let framing = look.framing();
         let centre_m = match framing {
             Framing::Follow { .. } | Framing::Recorder { .. } => DVec2::ZERO,
             Framing::Fixed { centre_m, .. } => centre_m,
