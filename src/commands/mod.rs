@@ -16,6 +16,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 mod advise;
 mod capture;
 mod chapter;
+mod cloud;
 mod completions;
 mod game_loop;
 mod help;
@@ -59,6 +60,7 @@ mod terminal;
 use advise::AdviseArgs;
 use capture::CaptureArgs;
 use chapter::ChapterArgs;
+use cloud::CloudArgs;
 use completions::CompletionsArgs;
 pub use error::{Cause, Error};
 use game_loop::LoopArgs;
@@ -84,6 +86,7 @@ Examples:
   regatta capture --scene spring --race --out clip
   regatta advise --scene stiff
   regatta sweep --scene spring --plot spring.png > spring.csv
+  regatta cloud --scene liouville --shape cat --out cat.png
   regatta loop --trace steady-144 --policy fixed --policy fixed-linear
   regatta identify spring.csv --tick-hz 60 --k 40
   regatta port --want 2.5Hz --zeta 0.3             the settings of every engine for a spring
@@ -140,6 +143,7 @@ enum Command {
     Trace(TraceArgs),
     Advise(AdviseArgs),
     Sweep(SweepArgs),
+    Cloud(CloudArgs),
     Loop(LoopArgs),
     Identify(IdentifyArgs),
     Port(PortArgs),
@@ -162,6 +166,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Command::Trace(args) => trace::run(&args),
         Command::Advise(args) => advise::run(&args),
         Command::Sweep(args) => sweep::run(&args),
+        Command::Cloud(args) => cloud::run(&args),
         Command::Loop(args) => game_loop::run(&args),
         Command::Identify(args) => identify::run(&args),
         Command::Port(args) => port::run(&args),

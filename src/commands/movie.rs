@@ -29,7 +29,7 @@ pub(super) enum MovieFormat {
 
 /// One pixel in this many is sampled for a GIF's palette. The coarsest sampling: twice as fast as a
 /// medium one, and on flat colours no worse.
-const GIF_SPEED: i32 = 30;
+pub(super) const GIF_SPEED: i32 = 30;
 
 /// Draws a run into `output` and reports on standard error what it wrote.
 pub(super) fn record(

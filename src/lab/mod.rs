@@ -9,6 +9,7 @@ mod analysis;
 mod appearance;
 mod bisection;
 mod chase;
+mod cloud;
 mod command;
 mod custom;
 mod display;
@@ -67,6 +68,10 @@ pub use analysis::{
 };
 pub use appearance::Appearance;
 pub use chase::Chase;
+pub use cloud::{
+    Cloud, CloudMeasure, CloudShape, CloudStart, Density, ExactBorder, NoCloud, PlaneView,
+    USUAL_POINTS,
+};
 pub use command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT};
 pub use custom::{Draw, Options, OptionsError};
 pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, View};

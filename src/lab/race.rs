@@ -9,7 +9,7 @@ use super::lane_spec::LaneSpec;
 use super::scene::{Scene, Scripted};
 use crate::sim::Solver;
 
-use hash::Fnv;
+pub(super) use hash::Fnv;
 
 mod acting;
 mod hash;

@@ -238,6 +238,8 @@ pub static SCENES: &[BuiltIn] = &[
     BuiltIn { name: "surge", text: include_str!("../../assets/scenes/surge.toml") },
     BuiltIn { name: "chain", text: include_str!("../../assets/scenes/chain.toml") },
     BuiltIn { name: "pendulum", text: include_str!("../../assets/scenes/pendulum.toml") },
+    BuiltIn { name: "liouville", text: include_str!("../../assets/scenes/liouville.toml") },
+    BuiltIn { name: "kicked-rotor", text: include_str!("../../assets/scenes/kicked-rotor.toml") },
     BuiltIn { name: "orbit", text: include_str!("../../assets/scenes/orbit.toml") },
     BuiltIn { name: "helm", text: include_str!("../../assets/scenes/helm.toml") },
     BuiltIn { name: "follow", text: include_str!("../../assets/scenes/follow.toml") },

@@ -147,6 +147,9 @@ impl<B: Body> PlacedBody for Placed<B> {
     fn is_linear(&self) -> bool {
         self.body.system.is_linear()
     }
+    fn is_angle(&self, coordinate: usize) -> bool {
+        self.body.system.is_angle(coordinate)
+    }
     fn is_beyond_reference(&self) -> bool {
         self.body.system.reference_work() > MAX_REFERENCE_WORK
     }

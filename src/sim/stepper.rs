@@ -180,6 +180,8 @@ pub trait PlacedBody {
     }
     /// Whether the equation of motion is linear apart from a constant.
     fn is_linear(&self) -> bool;
+    /// Whether this coordinate is an angle, so that a full turn leaves the body unchanged.
+    fn is_angle(&self, coordinate: usize) -> bool;
     /// Whether a reference solution would take more than [`MAX_REFERENCE_WORK`](super::MAX_REFERENCE_WORK).
     fn is_beyond_reference(&self) -> bool;
     /// Whether implicit methods solve the body's equations without a matrix.

@@ -11,6 +11,7 @@ mod blow_up;
 mod bodies;
 mod chapter;
 mod ci_recipe;
+mod clouds;
 mod compilers;
 mod conformance;
 mod custom;

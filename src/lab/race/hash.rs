@@ -4,10 +4,10 @@ use crate::lab::lane::Lane;
 use crate::sim::Stepper;
 
 /// The hash so far.
-pub(super) struct Fnv(pub(super) u64);
+pub(in crate::lab) struct Fnv(pub(in crate::lab) u64);
 
 impl Fnv {
-    pub(super) fn new() -> Self {
+    pub(in crate::lab) fn new() -> Self {
         Self(0xcbf2_9ce4_8422_2325)
     }
 
@@ -26,9 +26,13 @@ impl Fnv {
         for body in lane.bodies() {
             let stepper: &dyn Stepper = &*body.stepper;
             for &value in stepper.q().iter().chain(stepper.v()) {
-                self.word(if value == 0.0 { 0 } else { value.to_bits() });
+                self.number(value);
             }
         }
+    }
+
+    pub(in crate::lab) fn number(&mut self, value: f64) {
+        self.word(if value == 0.0 { 0 } else { value.to_bits() });
     }
 
     pub(super) fn word(&mut self, word: u64) {

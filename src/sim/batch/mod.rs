@@ -22,7 +22,7 @@ pub use instruction_set::InstructionSet;
 #[cfg(feature = "lab")]
 pub(in crate::sim) use law::LawCopies;
 
-use super::integrators::Method;
+use super::integrators::{Family, Method};
 use super::solver::Solver;
 use super::state::State;
 
@@ -112,6 +112,10 @@ pub struct Batch {
 /// A batch, unless its copies do not fit into memory.
 pub type NewBatch = Result<Batch, TryReserveError>;
 
+/// The most memory of a copy in bytes: in blocks its state and what a method carries, alone an integrator of its own.
+const BLOCK_BYTES: usize = 256;
+const ALONE_BYTES: usize = 2048;
+
 /// A multiple of every width of a block.
 const PADDING: usize = 32;
 
@@ -196,6 +200,18 @@ impl Batch {
         let alone = || Alone::new(copies, solver, count).map(|alone| Box::new(alone) as _);
         let advance = blocks.or_else(alone).expect("a method");
         Ok(Self { q, v, count, advance })
+    }
+
+    /// Whether there is memory for so many copies under a solver. None is taken.
+    ///
+    /// # Errors
+    /// If there is not.
+    pub fn find_room(copies: usize, solver: Solver) -> Result<(), TryReserveError> {
+        let is_in_blocks = solver.method().is_some_and(|method| {
+            matches!(method.family, Family::Explicit | Family::Symplectic | Family::AsPrinted)
+        });
+        let bytes = if is_in_blocks { BLOCK_BYTES } else { ALONE_BYTES };
+        Vec::<u8>::new().try_reserve_exact(copies.saturating_mul(bytes).min(isize::MAX as usize))
     }
 
     /// Steps every copy through `ticks`. A method with memory goes on from the last run.

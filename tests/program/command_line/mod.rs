@@ -8,6 +8,7 @@ mod advise;
 mod bless;
 mod capture;
 mod chapter;
+mod cloud;
 mod files;
 mod formats;
 mod help;

@@ -1,0 +1,455 @@
+//! `regatta cloud`: a shape of many starts under some methods, as a picture, and what becomes of its area, as a table.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use clap::{Args, ValueEnum};
+use image::codecs::gif::{GifEncoder, Repeat};
+use image::{Delay, Frame, RgbaImage};
+use rayon::ThreadPoolBuilder;
+use serde_json::json;
+
+use super::error::{Cause, Error};
+use super::experiment::{ExperimentArgs, Lineup, some_seconds};
+use super::interrupt::{Interrupted, watch_for_interrupt};
+use super::output::picture_format::ending;
+use super::output::table::{self, Column, RowFormat};
+use super::output::{AtomicOutput, Older, Place, STDOUT, finish, print};
+use super::terminal::tell;
+use crate::lab::palette::{Rgba, Theme};
+use crate::lab::{
+    Cloud, CloudMeasure, CloudShape, CloudStart, Density, ExactBorder, LaneSpec, NoCloud,
+    PlaneView, Scene, USUAL_POINTS,
+};
+use crate::sim::{Solver, Stepper};
+use crate::view::png;
+
+const ABOUT: &str = "\
+The starts fill the shape evenly about the scene's start, in the plane of the coordinate and the
+velocity of its first body of one coordinate. Inputs of the scene's script are left out. One row
+for each method:
+  method            the methods named, else those of the scene
+  points            the starts that have not blown up
+  area_ratio        the area over that at the start: on a linear body by the determinant of the
+                    method's map, elsewhere by the cells that hold points, of which about eight fall
+                    in each at the start; empty where no point is left, or with fewer than 1000
+  spread            the root mean square distance from the middle, over that at the start
+  body_steps_per_s  measured here and now
+  hash              of all states, to the bit: the same for any number of threads
+
+A picture has the methods side by side on the same axes, brighter where more points are, the exact
+cloud in white outline; the rows then go to standard output. --section draws the points at each
+period of a drive only, one over the other: a section after Poincaré.
+
+Examples:
+  regatta cloud --scene pendulum --out pendulum.png
+  regatta cloud --scene liouville --shape cat --out cat.gif
+  regatta cloud --scene spring --method explicit-euler --method rk4 --points 1000000 --out cloud.csv
+  regatta cloud --scene kicked-rotor --points 500 --size 0.5 --seconds 200 --section 10 --out islands.png";
+
+/// Step a shape of many starts by each method and show what becomes of its area
+#[derive(Debug, Args)]
+#[command(after_help = ABOUT)]
+pub(super) struct CloudArgs {
+    #[command(flatten)]
+    experiment: ExperimentArgs,
+
+    /// Starts, 1 to 1000000000
+    #[arg(long, value_name = "N", default_value_t = USUAL_POINTS as u64)]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    points: u64,
+
+    /// The shape of the starts: disc, ring or cat
+    #[arg(long, value_name = "SHAPE", default_value = "disc", hide_possible_values = true)]
+    shape: ShapeArg,
+
+    /// How far the shape reaches, in the unit of the coordinate [default: a quarter of the swing]
+    #[arg(long, value_name = "R", value_parser = reach)]
+    size: Option<f64>,
+
+    /// Length of the run in simulated seconds, to the nearest tick [default: the scene's, 60 at most]
+    #[arg(long, value_name = "S", value_parser = some_seconds)]
+    #[arg(allow_negative_numbers = true)]
+    seconds: Option<f64>,
+
+    /// Draw the points at this frequency only, in hertz: that of a drive
+    #[arg(long, value_name = "HZ", value_parser = reach)]
+    section: Option<f64>,
+
+    /// Threads that step, 1 to 256 [default: one for each core, or RAYON_NUM_THREADS]
+    #[arg(long, value_name = "N")]
+    #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
+    threads: Option<u16>,
+
+    /// The file: FILE.png for the end, FILE.gif for the way there, FILE.csv for the rows, or - for
+    /// the rows on standard output
+    #[arg(long, value_name = "FILE", default_value = STDOUT)]
+    out: PathBuf,
+
+    /// Replace the file if it is there
+    #[arg(long)]
+    force: bool,
+}
+
+/// A shape on the command line.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum ShapeArg {
+    Disc,
+    Ring,
+    Cat,
+}
+
+impl From<ShapeArg> for CloudShape {
+    fn from(shape: ShapeArg) -> Self {
+        match shape {
+            ShapeArg::Disc => Self::Disc,
+            ShapeArg::Ring => Self::Ring,
+            ShapeArg::Cat => Self::Cat,
+        }
+    }
+}
+
+fn reach(written: &str) -> Result<f64, String> {
+    match written.parse() {
+        Ok(number) if number > 0.0 && number <= 1e9 => Ok(number),
+        _ => Err("give a number above 0, up to 1e9".into()),
+    }
+}
+
+/// Why there is no such cloud.
+#[derive(Debug, thiserror::Error)]
+enum CloudError {
+    /// No body has one coordinate.
+    #[error("{0}; give a scene with a body of one coordinate, such as pendulum, spring or duffing")]
+    NoBody(NoCloud),
+    /// The memory does not suffice.
+    #[error("{0} --points")]
+    TooMany(NoCloud),
+    /// The name of the file promises something else.
+    #[error("{} would not hold what its name says; give --out a name that ends in .png, .gif or .csv", .0.display())]
+    Ending(PathBuf),
+    /// The drive is faster than the ticks, or its period is no whole number of them.
+    #[error(
+        "a section of {hz} Hz falls between the ticks of {tick_hz} Hz; give --section a part of it, or --tick-hz a multiple"
+    )]
+    Section { hz: f64, tick_hz: u32 },
+}
+
+impl Cause for CloudError {
+    fn exit_code(&self) -> u8 {
+        2
+    }
+}
+
+impl From<NoCloud> for CloudError {
+    fn from(why: NoCloud) -> Self {
+        match why {
+            NoCloud::TooMany { .. } => Self::TooMany(why),
+            why => Self::NoBody(why),
+        }
+    }
+}
+
+/// What is written.
+#[derive(Clone, Copy, PartialEq)]
+enum Form {
+    Rows,
+    Png,
+    Gif,
+}
+
+fn form(out: &Path) -> Result<Form, CloudError> {
+    if out == Path::new(STDOUT) {
+        return Ok(Form::Rows);
+    }
+    match ending(out).as_deref() {
+        Some("csv") => Ok(Form::Rows),
+        Some("png") => Ok(Form::Png),
+        Some("gif") => Ok(Form::Gif),
+        _ => Err(CloudError::Ending(out.into())),
+    }
+}
+
+/// Pixels of a method's picture, each way, and between two.
+const SIDE_PX: usize = 512;
+const GAP_PX: usize = 8;
+
+/// The most pictures of a GIF, and the hundredths of a second that each is shown.
+const MOST_FRAMES: u64 = 100;
+const SHOWN_CS: u32 = 8;
+
+/// The longest run that nobody asked for, in seconds.
+const USUAL_SECONDS: f64 = 60.0;
+
+/// The points of each method that find what is to be shown, and for how long at most, in seconds.
+const SCOUTS: usize = 100;
+const LONGEST_SCOUTED_S: u64 = 30;
+
+/// The moments that a picture shows: so many, evenly through these ticks.
+#[derive(Clone, Copy)]
+struct Shown {
+    ticks: u64,
+    times: u64,
+}
+
+/// A method's cloud on its way.
+struct Run {
+    spec: LaneSpec,
+    cloud: Cloud,
+    stepping: Duration,
+    /// All points of a section so far.
+    section: Option<Density>,
+}
+
+pub(super) fn run(args: &CloudArgs) -> Result<(), Error> {
+    let form = form(&args.out)?;
+    let scene = args.experiment.load(Lineup::Everyone)?.scene;
+    let specs = match args.experiment.names_no_method() {
+        true => scene.lanes.clone(),
+        false => args.experiment.lanes_named(&scene),
+    };
+    let strobe = args.section.map(|hz| strobe(hz, scene.tick_hz)).transpose()?;
+    let older = if args.force { Older::Replace } else { Older::Keep };
+    let place = Place { path: &args.out, option: "--out", older };
+    let output = match form {
+        Form::Rows => AtomicOutput::open_for_text(place)?,
+        Form::Png | Form::Gif => AtomicOutput::open(place)?,
+    };
+    let interrupted = watch_for_interrupt();
+    let threads = args.threads.map_or(0, usize::from);
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.expect("the system starts a thread for each core");
+    let made = pool.install(|| make(args, &scene, &specs, form, strobe, &interrupted))?;
+    let rows = table::rows(RowFormat::Csv, COLUMNS, &made.rows);
+    if form == Form::Rows {
+        let what =
+            format!("{} row{}", made.rows.len(), if made.rows.len() == 1 { "" } else { "s" });
+        return Ok(finish(output, rows.as_bytes(), &what)?);
+    }
+    let [width, height] = made.size_px;
+    finish(output, &made.bytes, &format!("a picture of {width}x{height}"))?;
+    Ok(print(&rows)?)
+}
+
+/// The ticks of a period.
+fn strobe(hz: f64, tick_hz: u32) -> Result<u64, CloudError> {
+    let ticks = f64::from(tick_hz) / hz;
+    let is_whole = ticks >= 0.5 && (ticks - ticks.round()).abs() < 1e-6 * ticks;
+    is_whole.then_some(ticks.round() as u64).ok_or(CloudError::Section { hz, tick_hz })
+}
+
+/// The results of all methods.
+struct Made {
+    rows: Vec<Row>,
+    size_px: [usize; 2],
+    /// The picture's file.
+    bytes: Vec<u8>,
+}
+
+/// A row of the table.
+struct Row {
+    method: &'static str,
+    measure: CloudMeasure,
+    body_steps_per_s: f64,
+}
+
+const COLUMNS: &[Column<Row>] = &[
+    Column { key: "method", heading: None, value: |row| json!(row.method) },
+    Column { key: "points", heading: None, value: |row| json!(row.measure.points) },
+    Column { key: "area_ratio", heading: None, value: |row| json!(row.measure.area_ratio) },
+    Column { key: "spread", heading: None, value: |row| json!(row.measure.spread) },
+    Column {
+        key: "body_steps_per_s",
+        heading: None,
+        value: |row| json!(row.body_steps_per_s.round()),
+    },
+    Column { key: "hash", heading: None, value: |row| json!(format!("{:016x}", row.measure.hash)) },
+];
+
+fn make(
+    args: &CloudArgs,
+    scene: &Scene,
+    specs: &[LaneSpec],
+    form: Form,
+    strobe: Option<u64>,
+    interrupted: &AtomicBool,
+) -> Result<Made, Error> {
+    let (name, body) = body(scene, specs[0].solver());
+    let start = CloudStart::about(&name, &*body, args.shape.into(), args.size);
+    let start = start.map_err(CloudError::from)?;
+    let points = args.points as usize;
+    let cloud = |spec: &LaneSpec| {
+        let cloud = Cloud::new(&name, &*body, spec, start, points, scene.tick_hz);
+        cloud.map(|cloud| Run { spec: *spec, cloud, stepping: Duration::ZERO, section: None })
+    };
+    let mut runs =
+        specs.iter().map(cloud).collect::<Result<Vec<_>, _>>().map_err(CloudError::from)?;
+    let seconds = args.seconds.unwrap_or(scene.seconds.min(USUAL_SECONDS));
+    let ticks = ((seconds * f64::from(scene.tick_hz)).round() as u64).max(1);
+    // The first part of a long run is as wide as the rest.
+    let long = ticks.min(LONGEST_SCOUTED_S * u64::from(scene.tick_hz));
+    let shown = match (form, strobe) {
+        (Form::Png, None) => Shown { ticks, times: 1 },
+        _ => Shown { ticks: long, times: long.min(MOST_FRAMES) },
+    };
+    let view = match form {
+        Form::Rows => None,
+        Form::Png | Form::Gif => Some(view(&name, &*body, start, scene, specs, shown)?),
+    };
+    let size_px = [runs.len() * (SIDE_PX + GAP_PX) - GAP_PX, SIDE_PX];
+    let mut frames = Vec::new();
+    let mut border =
+        ExactBorder::new(&name, &*body, start, scene.tick_hz).map_err(CloudError::from)?;
+    let every = match (strobe, form) {
+        (Some(strobe), _) => strobe,
+        (None, Form::Gif) => ticks.div_ceil(MOST_FRAMES),
+        (None, Form::Rows | Form::Png) => ticks.div_ceil(16),
+    };
+    let mut done = 0;
+    let frames_every = ticks.div_ceil(every).div_ceil(MOST_FRAMES);
+    while done < ticks {
+        let part = every.min(ticks - done);
+        for run in &mut runs {
+            let begun = Instant::now();
+            run.cloud.advance(part);
+            run.stepping += begun.elapsed();
+            if let (Some(view), Some(strobe)) = (view, strobe) {
+                let empty = || Density::new([SIDE_PX; 2], view);
+                if part == strobe {
+                    run.section.get_or_insert_with(empty).add(run.cloud.q(), run.cloud.v());
+                }
+            }
+        }
+        done += part;
+        if interrupted.load(Ordering::Relaxed) {
+            let done = format!("{done} of {ticks} ticks");
+            return Err(Interrupted::After { done }.into());
+        }
+        let Some(view) = view else { continue };
+        let is_last = done == ticks;
+        if strobe.is_none() {
+            border.advance(part);
+        }
+        let is_frame = form == Form::Gif && (done / every).is_multiple_of(frames_every);
+        if is_frame || is_last {
+            let lines = if strobe.is_none() { border.lines() } else { Vec::new() };
+            frames.push(picture(&runs, view, size_px, &lines));
+        }
+    }
+    let bytes = match form {
+        Form::Rows => Vec::new(),
+        Form::Png => {
+            let last = frames.pop().expect("a run ends with a picture");
+            png::encode(size_px.map(|pixels| pixels as u32), &last)
+        }
+        Form::Gif => gif(size_px, frames).map_err(|error| NoGif(error.to_string()))?,
+    };
+    let rows = runs.iter().map(|run| row(run, points, ticks, form)).collect();
+    Ok(Made { rows, size_px, bytes })
+}
+
+/// The encoder of GIF failed.
+#[derive(Debug, thiserror::Error)]
+#[error("the GIF cannot be encoded: {0}")]
+struct NoGif(String);
+
+impl Cause for NoGif {
+    fn exit_code(&self) -> u8 {
+        1
+    }
+}
+
+/// The first body of one coordinate, else the first, with its name.
+fn body(scene: &Scene, solver: Solver) -> (String, Box<dyn Stepper>) {
+    let of_one = |body: &&crate::lab::SceneBody| body.kind.coordinates(&body.values).len() == 1;
+    let body = scene.bodies.iter().find(of_one).unwrap_or(&scene.bodies[0]);
+    (body.name.clone(), (body.kind.build)(&body.values, solver))
+}
+
+/// What the pictures show: where the exact cloud comes, and a few points of the others.
+fn view(
+    name: &str,
+    body: &dyn Stepper,
+    start: CloudStart,
+    scene: &Scene,
+    specs: &[LaneSpec],
+    shown: Shown,
+) -> Result<PlaneView, CloudError> {
+    let mut border = ExactBorder::new(name, body, start, scene.tick_hz)?;
+    let scouts = specs.iter().map(|s| Cloud::new(name, body, s, start, SCOUTS, scene.tick_hz));
+    let mut scouts = scouts.collect::<Result<Vec<_>, _>>()?;
+    let (mut exact, mut others) = (Vec::new(), Vec::new());
+    let every = shown.ticks / shown.times;
+    for _ in 0..shown.times {
+        border.advance(every);
+        exact.extend(border.lines().concat());
+        for scout in &mut scouts {
+            scout.advance(every);
+            others.extend(scout.q().iter().zip(scout.v()).map(|(&q, &v)| [q, v]));
+        }
+    }
+    Ok(PlaneView::around(&exact, &others, body.is_angle(0)))
+}
+
+/// The clouds side by side.
+fn picture(
+    runs: &[Run],
+    view: PlaneView,
+    [width, height]: [usize; 2],
+    lines: &[Vec<[f64; 2]>],
+) -> Vec<u8> {
+    let theme = Theme::default();
+    let mut pixels: Vec<Rgba> = vec![theme.palette().background; width * height];
+    for (place, run) in runs.iter().enumerate() {
+        let now = || {
+            let mut density = Density::new([SIDE_PX; 2], view);
+            density.add(run.cloud.q(), run.cloud.v());
+            density
+        };
+        let density = run.section.clone().unwrap_or_else(now);
+        let (colour, _) = theme.style(run.spec.method);
+        let picture = density.picture(theme, colour, lines);
+        for (y, row) in picture.chunks_exact(SIDE_PX).enumerate() {
+            let at = y * width + place * (SIDE_PX + GAP_PX);
+            pixels[at..at + SIDE_PX].copy_from_slice(row);
+        }
+    }
+    pixels.concat()
+}
+
+fn gif(size_px: [usize; 2], frames: Vec<Vec<u8>>) -> Result<Vec<u8>, image::ImageError> {
+    let [width, height] = size_px.map(|pixels| pixels as u32);
+    let mut bytes = io::Cursor::new(Vec::new());
+    let mut encoder = GifEncoder::new_with_speed(&mut bytes, super::movie::GIF_SPEED);
+    encoder.set_repeat(Repeat::Infinite)?;
+    for rgba in frames {
+        let picture = RgbaImage::from_raw(width, height, rgba).expect("a frame has all its pixels");
+        let shown = Delay::from_numer_denom_ms(SHOWN_CS * 10, 1);
+        encoder.encode_frame(Frame::from_parts(picture, 0, 0, shown))?;
+    }
+    drop(encoder);
+    Ok(bytes.into_inner())
+}
+
+/// A method's row; tells what has become of its area in words.
+fn row(Run { spec, cloud, stepping, .. }: &Run, points: usize, ticks: u64, form: Form) -> Row {
+    let measure = cloud.measure();
+    let method = spec.method.id;
+    let lost = points - measure.points;
+    let lost = match lost {
+        0 => String::new(),
+        lost => format!("; {lost} of {points} starts blew up and are left out"),
+    };
+    let across = cloud.cells_across();
+    let how = match cloud.is_by_determinant() {
+        true => "by the determinant".to_owned(),
+        false => format!("by cells, {across} across the start"),
+    };
+    if form != Form::Rows || !lost.is_empty() {
+        tell(&format!("{method} {} ({how}){lost}", cloud.in_words(&measure)));
+    }
+    let steps = points as f64 * ticks as f64 * f64::from(spec.substeps);
+    Row { method, measure, body_steps_per_s: steps / stepping.as_secs_f64().max(1e-9) }
+}

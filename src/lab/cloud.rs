@@ -1,0 +1,320 @@
+//! A cloud: many starts about the state of a body, stepped by one method, and what becomes of their area.
+//!
+//! A method is a map of the phase plane. What it does to an area is its character: it keeps it, spreads it, shrinks it or
+//! tears it.
+
+use crate::sim::batch::{Batch, InstructionSet, Ticks};
+use crate::sim::integrators::{Family, method};
+use crate::sim::{Solver, State, Stepper};
+
+mod density;
+mod shape;
+
+pub use density::{Density, PlaneView};
+pub use shape::CloudShape;
+
+use super::lane::ESCAPE;
+use super::lane_spec::LaneSpec;
+use super::race::Fnv;
+
+/// The points of a cloud that does not say how many.
+pub const USUAL_POINTS: usize = 100_000;
+
+/// Why there is no cloud.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum NoCloud {
+    /// The body has no phase plane, or several.
+    #[error(
+        "a cloud is of one coordinate and its velocity, and {body} has {coordinates} coordinates"
+    )]
+    SeveralCoordinates {
+        /// Its name.
+        body: String,
+        /// How many.
+        coordinates: usize,
+    },
+    /// A custom body is not shared between threads.
+    #[error("{body} is a custom body, whose copies are stepped by sim::batch alone")]
+    Custom {
+        /// Its name.
+        body: String,
+    },
+    /// The points do not fit into memory.
+    #[error("{points} points do not fit into memory; give fewer")]
+    TooMany {
+        /// How many.
+        points: usize,
+    },
+}
+
+/// Where a cloud starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CloudStart {
+    /// Its shape.
+    pub shape: CloudShape,
+    /// The middle: coordinate and velocity.
+    pub middle: [f64; 2],
+    /// How far it reaches in the coordinate and in the velocity.
+    pub reach: [f64; 2],
+}
+
+impl CloudStart {
+    /// A cloud about the state of a body at time 0. `size` is its reach in the unit of the coordinate, by default a quarter
+    /// of the swing; in the velocity it reaches as far by the rate of the body's motion there.
+    ///
+    /// # Errors
+    /// If the body, named `name`, has several coordinates.
+    pub fn about(
+        name: &str,
+        body: &dyn Stepper,
+        shape: CloudShape,
+        size: Option<f64>,
+    ) -> Result<Self, NoCloud> {
+        let coordinates = body.q().len();
+        if coordinates > 1 {
+            return Err(NoCloud::SeveralCoordinates { body: name.into(), coordinates });
+        }
+        let middle = [body.q()[0], body.v()[0]];
+        let near = 1e-3 * (1.0 + middle[0].abs());
+        let force = |q: f64| {
+            let mut a = [0.0];
+            body.acceleration(0.0, &[q], &[middle[1]], &mut a);
+            a[0]
+        };
+        let slope = (force(middle[0] + near) - force(middle[0] - near)) / (2.0 * near);
+        let rate = if slope.abs() > 1e-12 { slope.abs().sqrt() } else { 1.0 };
+        let swing = middle[0].abs().max(middle[1].abs() / rate);
+        let usual = if swing > 0.0 { swing / 4.0 } else { 0.25 };
+        let size = size.unwrap_or(usual);
+        Ok(Self { shape, middle, reach: [size, size * rate] })
+    }
+
+    fn state(&self, [x, y]: [f64; 2]) -> State<f64> {
+        State { q: self.middle[0] + self.reach[0] * x, v: self.middle[1] + self.reach[1] * y }
+    }
+}
+
+/// What has become of a cloud.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CloudMeasure {
+    /// The points that are still there; the others blew up.
+    pub points: usize,
+    /// The area over that at the start; `None` if no point is left, or too few were there for cells.
+    pub area_ratio: Option<f64>,
+    /// The mean distance of the points from their middle, root mean square, over that at the start.
+    pub spread: Option<f64>,
+    /// The states to the bit: as those of a [race](super::Race::lane_hashes), 64-bit FNV-1a with -0 as 0.
+    pub hash: u64,
+}
+
+/// Many starts of a body under one method.
+pub struct Cloud {
+    batch: Batch,
+    start: CloudStart,
+    ticks: Ticks,
+    points: usize,
+    /// Whether the method maps the plane of this body linearly, so that one determinant says all of area.
+    is_linear: bool,
+    cells: usize,
+    spread: f64,
+}
+
+/// The least points whose area is measured by cells.
+const LEAST_POINTS: usize = 1000;
+
+/// Points of the exact border.
+const BORDER_POINTS: usize = 1200;
+
+/// The tolerance of the exact border: far below a pixel.
+const BORDER_TOLERANCE: f64 = 1e-9;
+
+/// Three starts whose triangle is mapped as every area is, if the map is linear.
+const TRIANGLE: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+
+impl Cloud {
+    /// A cloud of `points` starts of `body`, named `name`, under a lane of a race at this tick rate.
+    ///
+    /// # Errors
+    /// Why the body has none.
+    pub fn new(
+        name: &str,
+        body: &dyn Stepper,
+        spec: &LaneSpec,
+        start: CloudStart,
+        points: usize,
+        tick_hz: u32,
+    ) -> Result<Self, NoCloud> {
+        let is_linear = body.is_linear() && spec.method.family != Family::Adaptive;
+        let shape = start.shape.points(points).chain(TRIANGLE).map(|point| start.state(point));
+        let batch = batch(name, body, spec.solver(), points, || shape.collect())?;
+        let ticks = Ticks::from_start(tick_hz, spec.substeps, 0);
+        let mut cloud = Self { batch, start, ticks, points, is_linear, cells: 0, spread: 0.0 };
+        cloud.cells = cloud.covered_cells();
+        cloud.spread = cloud.distance().unwrap_or(0.0);
+        Ok(cloud)
+    }
+
+    /// Steps all points.
+    pub fn advance(&mut self, ticks: u64) {
+        self.ticks = self.ticks.next(ticks);
+        self.batch.run(self.ticks);
+    }
+
+    /// The coordinates of the points.
+    pub fn q(&self) -> &[f64] {
+        &self.batch.q()[..self.points]
+    }
+
+    /// Their velocities.
+    pub fn v(&self) -> &[f64] {
+        &self.batch.v()[..self.points]
+    }
+
+    /// Whether the area is by a determinant; otherwise it is by covered [cells](Cloud::cells_across).
+    pub fn is_by_determinant(&self) -> bool {
+        self.is_linear
+    }
+
+    /// The cells into which the box of the start is cut, each way: so many that some eight points fall in each.
+    pub fn cells_across(&self) -> usize {
+        cells_across(self.points)
+    }
+
+    /// What has become of it.
+    pub fn measure(&self) -> CloudMeasure {
+        let points = self.present().count();
+        let area_ratio = match self.is_linear {
+            true => Some(self.determinant()).filter(|ratio| ratio.is_finite()),
+            false if self.points < LEAST_POINTS => None,
+            false => Some(self.covered_cells() as f64 / self.cells as f64),
+        };
+        let mut hash = Fnv::new();
+        for &number in self.q().iter().chain(self.v()) {
+            // What is not a number has bits that depend on the processor.
+            hash.number(if number.is_nan() { f64::NAN } else { number });
+        }
+        let area_ratio = area_ratio.filter(|_| points > 0);
+        let spread = self.distance().map(|distance| distance / self.spread);
+        CloudMeasure { points, area_ratio, spread, hash: hash.0 }
+    }
+
+    /// What the area has become, in words.
+    pub fn in_words(&self, measure: &CloudMeasure) -> String {
+        let Some(ratio) = measure.area_ratio else {
+            let is_lost = measure.points == 0;
+            return if is_lost { "is lost" } else { "has too few points for an area" }.into();
+        };
+        let seconds = (self.ticks.first + self.ticks.count) as f64 / f64::from(self.ticks.hz);
+        // Covered cells are a rough measure of a thin cloud.
+        let little = if self.is_linear { 1e-6 } else { 0.1 };
+        let change = libm::log(ratio);
+        let time = || super::duration(seconds * std::f64::consts::LN_2 / change.abs());
+        match change {
+            _ if change.abs() <= little => "keeps area".into(),
+            _ if change > 0.0 => format!("grows ×2 in {}", time()),
+            _ if change.is_finite() => format!("shrinks ×½ in {}", time()),
+            _ => "shrinks to nothing".into(),
+        }
+    }
+
+    /// The points that have not blown up.
+    fn present(&self) -> impl Iterator<Item = [f64; 2]> {
+        let is_there = |state: &[f64; 2]| state.iter().all(|number| number.abs() <= ESCAPE);
+        self.q().iter().zip(self.v()).map(|(&q, &v)| [q, v]).filter(is_there)
+    }
+
+    fn determinant(&self) -> f64 {
+        let corner = |n: usize| {
+            let at = self.points + n;
+            let [q, v] = [self.batch.q()[at], self.batch.v()[at]];
+            [q / self.start.reach[0], v / self.start.reach[1]]
+        };
+        let [a, b, c] = [corner(0), corner(1), corner(2)];
+        ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
+    }
+
+    fn covered_cells(&self) -> usize {
+        let across = cells_across(self.points) as f64 / 2.0;
+        let CloudStart { middle, reach, .. } = self.start;
+        let cell = |state: [f64; 2]| {
+            [0, 1].map(|i| ((state[i] - middle[i]) / reach[i] * across).floor() as i32)
+        };
+        let mut cells: Vec<[i32; 2]> = self.present().map(cell).collect();
+        cells.sort_unstable();
+        cells.dedup();
+        cells.len()
+    }
+
+    /// The root mean square distance of the points from their middle, in units of the reach; `None` without points.
+    fn distance(&self) -> Option<f64> {
+        let reach = self.start.reach;
+        let states = || self.present().map(|state| [state[0] / reach[0], state[1] / reach[1]]);
+        let count = states().count() as f64;
+        let sum = states().fold([0.0; 2], |sum, state| [sum[0] + state[0], sum[1] + state[1]]);
+        let middle = sum.map(|sum| sum / count);
+        let square = |state: [f64; 2]| {
+            let [x, y] = [state[0] - middle[0], state[1] - middle[1]];
+            x * x + y * y
+        };
+        (count > 0.0).then(|| (states().map(square).sum::<f64>() / count).sqrt())
+    }
+}
+
+fn cells_across(points: usize) -> usize {
+    ((points as f64 / 8.0).sqrt() as usize).max(4)
+}
+
+/// Copies of the body from the starts, which are made only if there is memory for them.
+fn batch(
+    name: &str,
+    body: &dyn Stepper,
+    solver: Solver,
+    points: usize,
+    starts: impl FnOnce() -> Vec<State<f64>>,
+) -> Result<Batch, NoCloud> {
+    let too_many = |_| NoCloud::TooMany { points };
+    Batch::find_room(points, solver).map_err(too_many)?;
+    let batch = body.batch(InstructionSet::widest(), solver, starts());
+    batch.ok_or_else(|| NoCloud::Custom { body: name.into() })?.map_err(too_many)
+}
+
+/// The border of a cloud that moves exactly: by a method of high order to a tolerance that no picture shows.
+pub struct ExactBorder {
+    batch: Batch,
+    ticks: Ticks,
+    /// The points of each line.
+    lengths: Vec<usize>,
+}
+
+impl ExactBorder {
+    /// The border at the start.
+    ///
+    /// # Errors
+    /// As [`Cloud::new`].
+    pub fn new(
+        name: &str,
+        body: &dyn Stepper,
+        start: CloudStart,
+        tick_hz: u32,
+    ) -> Result<Self, NoCloud> {
+        let borders = start.shape.borders(BORDER_POINTS);
+        let lengths = borders.iter().map(Vec::len).collect();
+        let method = method("dormand-prince-54").expect("a method of the table");
+        let solver = Solver::WithTolerance(method, BORDER_TOLERANCE);
+        let starts = || borders.concat().into_iter().map(|point| start.state(point)).collect();
+        let batch = batch(name, body, solver, BORDER_POINTS, starts)?;
+        Ok(Self { batch, ticks: Ticks::from_start(tick_hz, 1, 0), lengths })
+    }
+
+    /// Moves it on.
+    pub fn advance(&mut self, ticks: u64) {
+        self.ticks = self.ticks.next(ticks);
+        self.batch.run(self.ticks);
+    }
+
+    /// The lines, of coordinates and velocities.
+    pub fn lines(&self) -> Vec<Vec<[f64; 2]>> {
+        let mut states = self.batch.q().iter().zip(self.batch.v()).map(|(&q, &v)| [q, v]);
+        self.lengths.iter().map(|&length| states.by_ref().take(length).collect()).collect()
+    }
+}

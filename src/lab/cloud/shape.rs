@@ -1,0 +1,132 @@
+//! The shapes of clouds of starts.
+
+use std::f64::consts::TAU;
+
+/// The shape of a cloud at its start, in the square from -1 to 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CloudShape {
+    /// A disc.
+    #[default]
+    Disc,
+    /// A ring, a fifth of its radius wide.
+    Ring,
+    /// The head of a cat, as Arnold drew it to show what a map does.
+    Cat,
+}
+
+/// The inner radius of the ring.
+const RING: f64 = 0.8;
+/// The head of the cat: its middle below the centre, and its radius.
+const HEAD: (f64, f64) = (-0.2, 0.8);
+/// The right ear: its corners, two of which lie within the head.
+const EAR: [[f64; 2]; 3] = [[0.1, 0.5], [0.75, 1.0], [0.78, -0.1]];
+/// The right eye: its middle, and its radius.
+const EYE: ([f64; 2], f64) = ([0.3, 0.05], 0.13);
+
+/// The parts of 1 that the coordinates of a point go on by: powers of the reciprocal of the plastic number, which fill a
+/// square evenly (M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018).
+const EVENLY: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
+
+impl CloudShape {
+    /// All, the plainest first.
+    pub const ALL: [Self; 3] = [Self::Disc, Self::Ring, Self::Cat];
+
+    /// Its name on the command line.
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::Disc => "disc",
+            Self::Ring => "ring",
+            Self::Cat => "cat",
+        }
+    }
+
+    /// The first `count` points of an even cover. The same for ever.
+    pub fn points(self, count: usize) -> impl Iterator<Item = [f64; 2]> {
+        let square = (1_u64..).map(|n| EVENLY.map(|part| (n as f64 * part).fract() * 2.0 - 1.0));
+        square.filter(move |&point| self.contains(point)).take(count)
+    }
+
+    fn contains(self, [x, y]: [f64; 2]) -> bool {
+        let within = |[cx, cy]: [f64; 2], radius: f64| {
+            (x - cx) * (x - cx) + (y - cy) * (y - cy) <= radius * radius
+        };
+        match self {
+            Self::Disc => within([0.0, 0.0], 1.0),
+            Self::Ring => within([0.0, 0.0], 1.0) && !within([0.0, 0.0], RING),
+            Self::Cat => {
+                let side = |[ax, ay]: [f64; 2], [bx, by]: [f64; 2]| {
+                    (bx - ax) * (y - ay) - (by - ay) * (x.abs() - ax) <= 0.0
+                };
+                let is_ear = side(EAR[0], EAR[1]) && side(EAR[1], EAR[2]) && side(EAR[2], EAR[0]);
+                let ([ex, ey], eye) = EYE;
+                (within([0.0, HEAD.0], HEAD.1) || is_ear)
+                    && !within([ex, ey], eye)
+                    && !within([-ex, ey], eye)
+            }
+        }
+    }
+
+    /// Its borders: closed lines of some `count` points together.
+    pub fn borders(self, count: usize) -> Vec<Vec<[f64; 2]>> {
+        let arc = |[x, y]: [f64; 2], radius: f64, from: f64, to: f64, count: usize| {
+            let angle = move |n| from + (to - from) * n as f64 / count as f64;
+            let point = move |a: f64| [x + radius * libm::cos(a), y + radius * libm::sin(a)];
+            (0..=count).map(move |n| point(angle(n))).collect::<Vec<_>>()
+        };
+        let circle = |centre, radius, count| arc(centre, radius, 0.0, TAU, count);
+        match self {
+            Self::Disc => vec![circle([0.0, 0.0], 1.0, count)],
+            Self::Ring => [1.0, RING].map(|radius| circle([0.0, 0.0], radius, count / 2)).into(),
+            Self::Cat => {
+                // From the outer foot of the right ear clockwise below to that of the left one, then over the ears.
+                let (middle, radius) = ([0.0, HEAD.0], HEAD.1);
+                let meets = |[ax, ay]: [f64; 2], [bx, by]: [f64; 2]| {
+                    let (dx, dy, fy) = (bx - ax, by - ay, ay - HEAD.0);
+                    let (a, b, c) =
+                        (dx * dx + dy * dy, ax * dx + fy * dy, ax * ax + fy * fy - HEAD.1 * HEAD.1);
+                    let s = (-b - (b * b - a * c).sqrt()) / a;
+                    [ax + s * dx, ay + s * dy]
+                };
+                let feet = [meets(EAR[1], EAR[0]), meets(EAR[1], EAR[2])];
+                let angles = feet.map(|[x, y]| libm::atan2(y - HEAD.0, x));
+                let left = |[x, y]: [f64; 2]| [-x, y];
+                let straight = |from: [f64; 2], to: [f64; 2]| {
+                    let point = move |n: usize| {
+                        let part = n as f64 / (count / 10) as f64;
+                        [0, 1].map(|i| from[i] + part * (to[i] - from[i]))
+                    };
+                    (0..count / 10).map(point).collect::<Vec<_>>()
+                };
+                let pi = std::f64::consts::PI;
+                let mut head = arc(middle, radius, angles[0], pi - angles[0], count / 10);
+                head.extend(straight(left(feet[0]), left(EAR[1])));
+                head.extend(straight(left(EAR[1]), left(feet[1])));
+                head.extend(arc(middle, radius, pi - angles[1], TAU + angles[1], count / 3));
+                head.extend(straight(feet[1], EAR[1]));
+                head.extend(straight(EAR[1], feet[0]));
+                head.push(feet[0]);
+                let eyes = [EYE.0, left(EYE.0)].map(|eye| circle(eye, EYE.1, count / 12));
+                std::iter::once(head).chain(eyes).collect()
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_lie_within_the_shape_and_the_border_between_within_and_without() {
+        for shape in CloudShape::ALL {
+            assert_eq!(shape.points(1000).count(), 1000);
+            assert!(shape.points(1000).all(|point| shape.contains(point)));
+            for [x, y] in shape.borders(400).concat() {
+                let around = (0..64).map(|n| f64::from(n) / 64.0 * TAU);
+                let around = around.map(|a| [x + 0.02 * libm::cos(a), y + 0.02 * libm::sin(a)]);
+                let within = around.filter(|&point| shape.contains(point)).count();
+                assert!((1..64).contains(&within), "{shape:?} at {x}, {y}: {within}");
+            }
+        }
+    }
+}

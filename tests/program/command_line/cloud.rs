@@ -1,0 +1,67 @@
+//! `cloud`: a table of what methods do to an area, and the picture.
+
+use std::fs;
+
+use super::{refusal, run, run_in, stderr, stdout_of};
+
+#[test]
+fn a_row_for_each_method_with_the_same_hash_for_any_number_of_threads() {
+    let run = |threads: u32| {
+        let options = "cloud --scene spring --method explicit-euler --method implicit-midpoint";
+        let csv = stdout_of(&format!("{options} --points 5000 --seconds 0.5 --threads {threads}"));
+        let rows: Vec<Vec<String>> =
+            csv.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect();
+        assert_eq!(rows[0].join(","), "method,points,area_ratio,spread,body_steps_per_s,hash");
+        assert_eq!(
+            (rows[1][0].as_str(), rows[2][0].as_str()),
+            ("explicit-euler", "implicit-midpoint")
+        );
+        assert!(rows[1][2].parse::<f64>().unwrap() > 1.2 && rows.len() == 3);
+        rows.into_iter().map(|row| row[5].clone()).collect::<Vec<_>>()
+    };
+    let one = run(1);
+    assert_eq!(one, run(2));
+    assert_eq!(one, run(7));
+}
+
+#[test]
+fn pictures_are_the_same_bytes_every_time_and_say_what_became_of_the_area() {
+    let folder = tempfile::tempdir().unwrap();
+    let make = |name: &str, options: &str| {
+        let options =
+            format!("cloud --scene liouville --points 1200 --seconds 0.5 {options} --out {name}");
+        let done = run_in(folder.path(), &options);
+        assert!(done.status.success(), "{}", stderr(&done));
+        (fs::read(folder.path().join(name)).unwrap(), stderr(&done))
+    };
+    let (first, said) = make("a.png", "--shape cat");
+    assert!(first.starts_with(b"\x89PNG") && said.contains("explicit-euler grows ×2 in"), "{said}");
+    assert!(make("b.png", "--shape cat").0 == first);
+    assert!(make("c.gif", "").0.starts_with(b"GIF89a"));
+    assert!(make("d.png", "--section 12").0 != first);
+    assert!(make("e.csv", "").0.starts_with(b"method,points,"));
+}
+
+#[test]
+fn what_is_no_cloud_is_said_in_one_line() {
+    for (options, why) in [
+        (
+            "--scene orbit",
+            "satellite has 2 coordinates; give a scene with a body of one coordinate",
+        ),
+        ("--scene spring --points 1000000000", "1000000000 points do not fit into memory"),
+        ("--scene spring --section 7", "a section of 7 Hz falls between the ticks of 60 Hz"),
+        ("--out cloud.svg", "cloud.svg would not hold what its name says"),
+        ("--shape cow", "cow"),
+    ] {
+        let said = refusal(&format!("cloud {options}"), 2);
+        assert!(said.contains(why), "{said}");
+    }
+    let lost = "cloud --scene stiff --method explicit-euler --points 100 --seconds 5";
+    let done = run(lost);
+    assert!(
+        stderr(&done).contains("100 of 100 starts blew up and are left out"),
+        "{}",
+        stderr(&done)
+    );
+}
