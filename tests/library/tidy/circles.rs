@@ -27,7 +27,9 @@ fn names(sources: &[Source]) -> BTreeMap<Module, Vec<Module>> {
     let modules: BTreeSet<Module> = sources.iter().map(|source| module_of(&source.path)).collect();
     let names_in = |source: &Source| {
         let module = module_of(&source.path);
-        let (code, _) = source.text.split_once("#[cfg(test)]\nmod ").unwrap_or((&source.text, ""));
+        let tests = ["#[cfg(test)]\nmod ", "#[cfg(all(test, "];
+        let ends = tests.iter().filter_map(|start| source.text.find(start));
+        let code = &source.text[..ends.min().unwrap_or(source.text.len())];
         let names = named(code).into_iter();
         let names = names.filter_map(|path| from_the_root(&module, &path, &modules)).collect();
         (module, names)
