@@ -37,7 +37,7 @@ chapters! {
     logs: "which engine or method made a log"
     questions: "why a spring dies, a camera lags, a jump is lower: each with a command and a number"
     code: "a method as source code for a game"
-    library: "bodies and methods of one's own, in a game or its tests"
+    library: "custom bodies and methods, in a game or its tests"
     ci: "frames and hashes in continuous integration"
     methods: "every method: order, cost, stability limit"
     engines: "what the physics engines do to one body"

@@ -52,7 +52,7 @@ evaluations of the cheapest.
 In JSON a criterion that is not met has only met, which is false; one that cannot be told is null.
 Where nothing is recommended, none says why.
 
-The recommendations come first. For a spring of one's own (--k or --frequency), or with --as, the
+The recommendations come first. For a custom spring (--k or --frequency), or with --as, the
 method recommended for looks-right, or else for bounded, follows as a function.
 
 Examples:

@@ -1,4 +1,4 @@
-//! A spring of one's own on the command line, in the place of a scene.
+//! A custom spring on the command line, in the place of a scene.
 
 use clap::Args;
 

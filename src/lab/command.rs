@@ -96,7 +96,7 @@ pub enum Command {
     CompletePath,
     /// Opens the file at that path.
     OpenTypedPath,
-    /// Opens a dialog with the numbers of a spring of one's own.
+    /// Opens a dialog with the numbers of a custom spring.
     AskForSpring,
     /// Sets those numbers.
     DescribeSpring(MySpring),

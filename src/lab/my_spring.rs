@@ -1,4 +1,4 @@
-//! A spring of one's own: a scene from three numbers.
+//! A custom spring: a scene from three numbers.
 
 use std::f64::consts::TAU;
 

@@ -192,7 +192,7 @@ pub struct Ported {
     pub floor: Option<f64>,
     /// What lowers it, where the wish is below it.
     pub relief: Option<Relief>,
-    /// The stiffness in N/m and damping in N s/m of a force of one's own that the engine holds through each tick, with which
+    /// The stiffness in N/m and damping in N s/m of a custom force that the engine holds through each tick, with which
     /// the wish is reached; only where the joint does not.
     pub own_force: Option<[f64; 2]>,
 }

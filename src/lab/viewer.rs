@@ -18,7 +18,7 @@ use super::source_code::Language;
 /// A dialog over the window.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Dialog {
-    /// The numbers of a spring of one's own.
+    /// The numbers of a custom spring.
     Spring,
     /// A field for the path of a scene file.
     Path {

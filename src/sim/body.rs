@@ -15,7 +15,7 @@ use super::system::{BodyClass, StateOf, System};
 
 /// Something that moves by an equation of motion.
 pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
-    /// What it is to the methods that are for [some](super::integrators::Only) bodies only.
+    /// Its class for the methods that step [some](super::integrators::Only) bodies only.
     const CLASS: BodyClass = BodyClass::Forced;
 
     /// Whether it has a closed form: [`Body::exact`] and the like.

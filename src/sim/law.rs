@@ -313,7 +313,7 @@ impl Equations {
         }
     }
 
-    /// Passes the exact solution at time `t` (s) to `to`: each coordinate's place among the coordinates, and
+    /// Passes the exact solution at time `t` (s) to `to`: each coordinate's index, and
     /// its value, velocity and acceleration. Returns whether the law gives one. Never allocates.
     pub(super) fn solve(
         &self,

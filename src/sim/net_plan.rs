@@ -81,7 +81,7 @@ pub struct PlannedSpring {
     pub between: [usize; 2],
     /// Its own stiffness, in newtons per metre.
     pub stiffness: Option<f64>,
-    /// Its own damping, in newtons for each metre per second.
+    /// Its own damping, in N·s/m.
     pub damping: Option<f64>,
     /// Its own length at rest, in metres.
     pub rest: Option<f64>,
@@ -234,21 +234,21 @@ impl Lists {
         let numbers = format!("write a number from 0 to {}", nodes - 1);
         let mut faults = Vec::new();
         let mut is_fixed = vec![false; nodes];
-        for (place, &node) in self.fixed.iter().enumerate() {
+        for (index, &node) in self.fixed.iter().enumerate() {
             match is_fixed.get_mut(node) {
-                None => faults.push(fault(NetPart::Fixed(place), unknown(node), &numbers)),
+                None => faults.push(fault(NetPart::Fixed(index), unknown(node), &numbers)),
                 Some(true) => {
                     let what = format!("node {node} is in the list already");
-                    faults.push(fault(NetPart::Fixed(place), what, "remove one of the two"));
+                    faults.push(fault(NetPart::Fixed(index), what, "remove one of the two"));
                 }
                 Some(fixed) => *fixed = true,
             }
         }
         let mut joined: Vec<([usize; 2], usize)> = Vec::new();
-        for (place, spring) in self.springs.iter().enumerate() {
+        for (index, spring) in self.springs.iter().enumerate() {
             let [a, b] = spring.between;
             let mut refuse = |what: String, remedy: &str| {
-                faults.push(fault(NetPart::Spring(place), what, remedy));
+                faults.push(fault(NetPart::Spring(index), what, remedy));
             };
             match [a, b].into_iter().find(|end| *end >= nodes) {
                 Some(end) => refuse(unknown(end), &numbers),
@@ -266,7 +266,7 @@ impl Lists {
                     ),
                     "move one of them",
                 ),
-                None => joined.push(([a.min(b), a.max(b)], place)),
+                None => joined.push(([a.min(b), a.max(b)], index)),
             }
         }
         joined.sort_unstable();

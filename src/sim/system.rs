@@ -135,11 +135,11 @@ impl<V: Elementwise> Pursuit<V> {
 /// every coordinate, with the spring at rest where `q` is 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EngineSettings {
-    /// K, the stiffness of the joint for each kilogram, per second squared.
+    /// K, the stiffness of the joint per unit mass, in 1/s².
     pub stiffness: f64,
-    /// c, the damping of the joint for each kilogram, per second.
+    /// c, the damping of the joint per unit mass, in 1/s.
     pub damping: f64,
-    /// C, the damping setting of the body, per second.
+    /// C, the damping setting of the body, in 1/s.
     pub drag: f64,
 }
 
@@ -176,7 +176,7 @@ impl EngineSettings {
     }
 }
 
-/// What a kind of body is to the methods that are for [some](super::integrators::Only) only.
+/// The class of a kind of body for the methods that step [some](super::integrators::Only) only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BodyClass {
     /// It moves by a force, which an engine holds for a tick beside a drag that it integrates itself.

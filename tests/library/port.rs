@@ -209,7 +209,7 @@ fn the_floor_of_box2d_is_that_of_its_card_and_more_substeps_lower_it() {
     let relief = found.relief.unwrap();
     assert_eq!(relief.setup.substeps, 8);
     assert!((relief.damping_ratio / 0.01309 - 1.0).abs() < 0.01, "{relief:?}");
-    // Over four substeps a force of one's own gains energy, which its damping takes.
+    // Over four substeps a custom force gains energy, which its damping takes.
     assert!(found.own_force.is_some_and(|[_, damping]| damping > 0.0), "{found:?}");
     let eased = Wish { damping_ratio: 0.005, ..wish };
     assert_eq!(port(&eased, setup).unwrap().relief.unwrap().enough, Some(32));

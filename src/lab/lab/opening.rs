@@ -10,7 +10,7 @@ use crate::lab::scene::Scene;
 use crate::lab::scene_list::SceneList;
 use crate::lab::viewer::Dialog;
 
-/// The name of a spring of one's own on the list of scenes.
+/// The name of a custom spring on the list of scenes.
 const MY_SPRING: &str = "my spring";
 /// The most ticks for which a changed scene is run again: an hour at 60 Hz, which takes about a second.
 const LONGEST_RERUN: u64 = 60 * 3600;

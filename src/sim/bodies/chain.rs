@@ -77,7 +77,7 @@ pub struct Chain {
     mass: f64,
     /// k, in newtons per metre.
     stiffness: f64,
-    /// c, in newtons for each metre per second.
+    /// c, in N·s/m.
     damping: f64,
     /// The number of the mass that is plucked and kicked, from 1.
     plucked: usize,

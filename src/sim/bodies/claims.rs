@@ -1,4 +1,4 @@
-//! Whether the exact solution and the energy that a body claims are so: the one checker of a
+//! The one checker of the exact solution and the energy that a body claims, of a
 //! [law](super::Law) and of a [custom body](super::Custom).
 //!
 //! A claim is held against the equation at the start and at a wide range of times, which is cheap enough for every change
@@ -47,24 +47,24 @@ pub struct ClaimHorizon {
     pub ticks: u64,
 }
 
-/// Claims of a body that a change of its parameters has made untrue: of a [law](super::Law) or of a [custom
+/// Claims of a body that do not hold: of a [law](super::Law) or of a [custom
 /// body](super::Custom) with its present parameters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FalseClaims {
-    /// That the energy is conserved.
+    /// The energy is not conserved.
     pub energy: bool,
-    /// That the exact solution satisfies the equation.
+    /// The exact solution does not satisfy the equation.
     pub exact: bool,
 }
 
 /// The number of sets of parameters whose findings are kept: some minutes of a slider.
 const MAX_FINDINGS: usize = 256;
 
-/// The findings on the bodies of one kind: the bits of their parameters, and what does not hold with them; oldest
+/// The findings on the bodies of one kind: the bits of their parameters, and the claims that are false with them; oldest
 /// first.
 type Findings = Mutex<Vec<(Vec<u64>, FalseClaims)>>;
 
-/// Which claims of a body hold with its present parameters. Copies of a body share the findings, so that each set of
+/// The false claims of a body with its present parameters. Copies of a body share the findings, so that each set of
 /// parameters is checked once.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Checked {
@@ -110,7 +110,7 @@ impl Checked {
 
 /// A body that may claim to know its exact motion and its energy.
 pub(super) trait Claimant: Body<Vector = Vec<f64>> + Clone {
-    /// The most that a true claim may be off by, as a part of what is compared.
+    /// Tolerance of a claim, relative to the size of what is compared.
     const TOLERANCE: f64;
 
     /// Overwrites `to` with the claimed state at `t` (s). Returns whether there is one.
@@ -129,7 +129,7 @@ pub(super) trait Claimant: Body<Vector = Vec<f64>> + Clone {
     fn without_claims(&self) -> Self;
 }
 
-/// Why an exact solution is none.
+/// Why an exact solution is false.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum NotSolved {
     /// It does not begin at the start.
@@ -149,9 +149,9 @@ pub(super) enum Leak {
     NotFinite(f64),
     /// It is the same in every state.
     Constant(f64),
-    /// It changes by so many watts near the state at `t`.
+    /// It changes by `leaks` watts near the state at `t`.
     Power { t: f64, leaks: f64, exchanged: f64 },
-    /// It is another one at `t`.
+    /// It differs at `t` from the start.
     Change { t: f64, first: f64, now: f64 },
 }
 
@@ -160,7 +160,7 @@ fn is_near(a: f64, b: f64, most: f64) -> bool {
     (a - b).abs() <= most
 }
 
-/// Why the exact solution does not satisfy the equation; `None` if it does, or if there is none.
+/// Why the exact solution does not satisfy the equation; `None` if it does, or was not given.
 pub(super) fn find_unsolved<B: Claimant>(body: &B) -> Option<NotSolved> {
     let body = body.without_claims();
     let start = body.start();
@@ -170,7 +170,7 @@ pub(super) fn find_unsolved<B: Claimant>(body: &B) -> Option<NotSolved> {
     }
     let n = start.q.len();
     let mut largest = vec![[0.0_f64; 3]; n];
-    let even = (1..EVEN_TIMES).map(|place| f64::from(place) * EVEN_TIME_S);
+    let even = (1..EVEN_TIMES).map(|index| f64::from(index) * EVEN_TIME_S);
     for t in TIMES.into_iter().chain(even) {
         body.claimed(t, &mut at);
         let mut wanted = State { q: at.v.clone(), v: vec![0.0; n] };
@@ -201,7 +201,7 @@ pub(super) fn find_unsolved<B: Claimant>(body: &B) -> Option<NotSolved> {
     None
 }
 
-/// Where the motion from one tick to the next leaves the exact solution; `None` if it does not, or if there is none.
+/// The first tick whose motion leaves the exact solution; `None` if it does not, or was not given.
 pub(super) fn find_departure<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<NotSolved> {
     let body = body.without_claims();
     let mut from = body.start();
@@ -238,7 +238,7 @@ pub(super) fn find_departure<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Op
     None
 }
 
-/// Where energy leaks around the start; `None` if it does not, or if none is claimed.
+/// The first violation of energy conservation around the start; `None` without one, or without an energy.
 pub(super) fn find_leak<B: Claimant>(body: &B) -> Option<Leak> {
     let body = body.without_claims();
     let start = body.start();
@@ -256,7 +256,7 @@ pub(super) fn find_leak<B: Claimant>(body: &B) -> Option<Leak> {
     })
 }
 
-/// Where energy leaks along the motion; `None` if it does not, or if none is claimed.
+/// The first violation of energy conservation along the motion; `None` without one, or without an energy.
 pub(super) fn find_later_leak<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<Leak> {
     let body = body.without_claims();
     let mut there = body.start();

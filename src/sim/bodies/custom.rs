@@ -47,7 +47,7 @@ impl Custom {
         self.motion.system()
     }
 
-    /// What was told of it and does not hold with the present parameters.
+    /// Its claims that do not hold with the present parameters.
     pub fn false_claims(&self) -> FalseClaims {
         self.checked.false_claims(self, &self.values)
     }

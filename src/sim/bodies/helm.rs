@@ -78,13 +78,13 @@ pub struct Helm {
     pub mass: f64,
     /// I, in kilogram square metres.
     pub inertia: f64,
-    /// C, in newtons for each metre per second ahead.
+    /// C, in N·s/m.
     pub drag: f64,
-    /// S, in newtons for each metre per second sideways.
+    /// S, in N·s/m.
     pub side_drag: f64,
-    /// D, in newton metres for each radian per second.
+    /// D, in N·m·s.
     pub yaw_drag: f64,
-    /// L, in newton metres for each metre per second ahead.
+    /// L, in N·s.
     pub rudder_moment: f64,
     /// T in newtons, over the speed ahead in m/s.
     pub thrust: Curve,

@@ -82,7 +82,7 @@ pub struct Kind {
     /// Builds a body from these parameter values (see
     /// [`Body::with_parameters`](super::Body::with_parameters)), at its start under a solver.
     pub build: Box<Build>,
-    /// What it is to the methods that are for some bodies only.
+    /// Its class for the methods that step some bodies only.
     pub class: BodyClass,
     /// What the kind was made of.
     pub origin: Origin,

@@ -57,9 +57,9 @@ pub struct Net {
     mass: f64,
     /// k, in newtons per metre.
     stiffness: f64,
-    /// c, in newtons for each metre per second.
+    /// c, in N·s/m.
     damping: f64,
-    /// b, in newtons for each metre per second.
+    /// b, in N·s/m.
     drag: f64,
     /// g, in metres per second squared.
     gravity: f64,
@@ -112,17 +112,17 @@ impl Net {
     /// The places of both ends of each spring with the free nodes at `q`, in the order of the arrays.
     fn spring_ends<'a>(&'a self, q: &'a [f64]) -> impl Iterator<Item = [DVec2; 2]> + 'a {
         let Frame { ends, anchors, .. } = &*self.frame;
-        let at = |place: u32| DVec2::from(Self::nodes(q)[place as usize]);
+        let at = |index: u32| DVec2::from(Self::nodes(q)[index as usize]);
         let free = ends.iter().map(move |[a, b]| [at(*a), at(*b)]);
         free.chain(anchors.iter().map(move |(a, anchor)| [at(*a), DVec2::from(*anchor)]))
     }
 
     /// The place of a node, by its number in the plan, with the free nodes at `q`.
     pub fn place_of(&self, node: usize, q: &[f64]) -> DVec2 {
-        let Frame { lists, place_of, .. } = &*self.frame;
-        match place_of[node] {
+        let Frame { lists, index_of, .. } = &*self.frame;
+        match index_of[node] {
             FIXED => DVec2::from(lists.nodes[node]),
-            place => DVec2::from(Self::nodes(q)[place as usize]),
+            index => DVec2::from(Self::nodes(q)[index as usize]),
         }
     }
 
@@ -137,8 +137,8 @@ impl Net {
     fn fastest(&self, constants: &[[f64; 3]]) -> [f64; 2] {
         let Frame { ends, anchors, free, .. } = &*self.frame;
         let mut sums = vec![[0.0; 2]; free.len()];
-        let mut add = |place: u32, [k, c, _]: &[f64; 3], times: f64| {
-            let [stiffness, damping] = &mut sums[place as usize];
+        let mut add = |index: u32, [k, c, _]: &[f64; 3], times: f64| {
+            let [stiffness, damping] = &mut sums[index as usize];
             *stiffness += times * k;
             *damping += times * c;
         };
@@ -249,8 +249,8 @@ impl Body for Net {
 
     fn prepare(&mut self) {
         let Frame { lists, order, .. } = &*self.frame;
-        let constants = order.iter().map(|&place| {
-            let spring = &lists.springs[place];
+        let constants = order.iter().map(|&index| {
+            let spring = &lists.springs[index];
             let stiffness = spring.stiffness.unwrap_or(self.stiffness);
             let damping = spring.damping.unwrap_or(self.damping);
             let rest = || self.rest_ratio * lists.length(spring.between);

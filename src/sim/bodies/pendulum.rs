@@ -60,7 +60,7 @@ pub struct Pendulum {
     pub mass: f64,
     /// g, in metres per second squared.
     pub gravity: f64,
-    /// c, in newton metres for each radian per second.
+    /// c, in N·m·s.
     pub damping: f64,
     /// Angle at the start, in radians.
     pub theta0: f64,

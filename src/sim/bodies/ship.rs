@@ -51,7 +51,7 @@ pub struct Ship {
     pub thrust: f64,
     /// The throttle: the fraction of full thrust, -1 to 1.
     pub throttle: f64,
-    /// C, in newtons for each metre per second.
+    /// C, in N·s/m.
     pub drag: f64,
     /// m, in kilograms.
     pub mass: f64,

@@ -52,7 +52,7 @@ pub struct Spring {
     pub mass: f64,
     /// k, in newtons per metre.
     pub stiffness: f64,
-    /// c, in newtons for each metre per second.
+    /// c, in N·s/m.
     pub damping: f64,
     /// Stretch at the start, in metres.
     pub x0: f64,

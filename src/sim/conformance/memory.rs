@@ -14,11 +14,11 @@ fn step(integrator: &mut dyn Integrator<Problem<f64>>, state: &mut State<f64>) -
 fn carries(method: &Method) -> Result<bool, StepFailure> {
     let mut left_alone = State { q: -0.3, v: 11.0 };
     let mut interrupted = left_alone.clone();
-    let [mut going_on, mut beginning_anew] = [fresh(method), fresh(method)];
+    let [mut continued, mut restarted] = [fresh(method), fresh(method)];
     for _ in 0..20 {
-        step(&mut *going_on, &mut left_alone)?;
-        beginning_anew.reset();
-        step(&mut *beginning_anew, &mut interrupted)?;
+        step(&mut *continued, &mut left_alone)?;
+        restarted.reset();
+        step(&mut *restarted, &mut interrupted)?;
     }
     Ok(left_alone != interrupted)
 }

@@ -62,7 +62,7 @@ impl<V: Vector> Course<V> {
     }
 }
 
-/// The largest error of position and of velocity in so many steps, as parts of the largest position and
+/// The largest error of position and of velocity in `steps` steps, as parts of the largest position and
 /// velocity, in units of round-off.
 fn errors<V: Vector>(method: &Method, course: &Course<V>, steps: u32) -> Result<[f64; 2], String> {
     let Course { name, system, span, truths, round_off, .. } = course;

@@ -111,10 +111,10 @@ impl Only {
     }
 }
 
-/// What the card of a physics engine says beside.
+/// The part of a card that only a physics engine has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Engine {
-    /// The tick rate that it runs at unless it is told another, in hertz; 60 where the caller gives the tick.
+    /// Its default tick rate in hertz; 60 where the caller gives the tick.
     pub tick_hz: u32,
     /// The damping ratio that a spring of 1 Hz without damping has at that rate and the card's substeps; negative if
     /// it gains energy. `None` if the engine has no spring.
@@ -129,11 +129,11 @@ pub struct Engine {
     /// The day on which logs of that version were made, as year-month-day, that the formula is held against; `None` if
     /// there are none.
     pub logged: Option<&'static str>,
-    /// The ways in which it is told a spring; empty if it has none.
+    /// The ways to set a spring in it; empty if it has none.
     pub modes: &'static [JointMode],
 }
 
-/// What a follower's card says beside: how a game says how fast it follows.
+/// The part of a card that only a follower has: how a game sets its speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FollowerSetting {
     /// Its name.
@@ -172,7 +172,7 @@ pub struct Method {
     pub id: &'static str,
     /// Name for people.
     pub name: &'static str,
-    /// Other ids by which people ask for it. A scene or command line that has one is told this method's id; `regatta
+    /// Other ids by which people ask for it. An error about one names this method's id; `regatta
     /// show` shows the method.
     pub also: &'static [&'static str],
     /// What to expect, in one line.
@@ -245,7 +245,7 @@ impl Method {
         self.family == Family::AsPrinted
     }
 
-    /// Evaluations of the acceleration per tick of so many substeps, averaged over a long run; `None` if the method
+    /// Evaluations of the acceleration per tick of `substeps` substeps, averaged over a long run; `None` if the method
     /// decides. An engine that substeps by itself reads the force once a tick.
     pub fn evaluations_per_tick(&self, substeps: u32) -> Option<u32> {
         let reads_once = self.engine.is_some_and(|engine| engine.has_substeps);
@@ -366,7 +366,7 @@ pub(super) const ENGINE: Method = Method {
     evaluations: Some(1),
     only: Some(Only {
         needs: Needs::Engine,
-        reason: "an engine is told of one body's spring, its drag and the force on it, and of nothing else",
+        reason: "an engine takes one body's spring, its drag and the force on it, and nothing else",
     }),
     ..PLAIN
 };

@@ -1,4 +1,4 @@
-//! What physics engines do to a body that spins freely in space.
+//! How physics engines integrate torque-free rotation in space.
 //!
 //! With `I` the principal moments of inertia, `ω` the angular velocity in the frame of their axes and `L = I ω` the
 //! angular momentum, `dL/dt = -ω × L`: without torque the axis of a body changes unless it is a principal one. None of
@@ -9,7 +9,7 @@ use glam::{DMat3, DVec3};
 /// One step of the angular velocity of a body without torque. `'` marks what is after the step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpinMap {
-    /// `ω' = ω`: the term `ω × L` is left out. Jolt and PhysX unless they are told otherwise; Godot.
+    /// `ω' = ω`: the term `ω × L` is left out. The default of Jolt and PhysX; Godot.
     Constant,
     /// `L' = L - h ω × L`, then scaled to the length of `L`. It keeps that length and changes the energy. Rapier; Jolt
     /// with `mApplyGyroscopicForce`, PhysX with `eENABLE_GYROSCOPIC_FORCES`.
@@ -87,10 +87,10 @@ fn cross_matrix(a: DVec3) -> DMat3 {
     DMat3::from_cols(a.cross(DVec3::X), a.cross(DVec3::Y), a.cross(DVec3::Z))
 }
 
-/// What an engine does to a body that spins freely.
+/// How an engine integrates torque-free rotation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FreeSpin {
-    /// The map that it uses unless it is told otherwise.
+    /// Its default map.
     pub default: SpinMap,
     /// The map that a setting of the body or of the engine switches on; `None` if there is none.
     pub opt_in: Option<SpinMap>,

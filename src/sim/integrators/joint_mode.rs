@@ -1,8 +1,8 @@
-//! What an engine calls the stiffness and the damping of a spring, and in which units it takes them.
+//! Names and units of the stiffness and the damping of a spring in an engine.
 
 use std::f64::consts::TAU;
 
-/// A way in which an engine is told a spring: one setting for its stiffness and one for its damping.
+/// A way to set a spring in an engine: one setting for its stiffness and one for its damping.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointMode {
     /// Kebab-case name, unique among the modes of the engine.

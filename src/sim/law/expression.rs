@@ -21,7 +21,7 @@ pub const MAX_BYTES: usize = 4096;
 pub const MAX_DEPTH: usize = 64;
 
 /// The largest whole exponent that is written out as a product; a larger one is `libm::pow`'s.
-const LARGEST_PRODUCT: u32 = 16;
+const MAX_PRODUCT: u32 = 16;
 
 /// One operation of an expression. Its arguments come before it.
 #[derive(Clone, Copy, Debug)]
@@ -31,7 +31,7 @@ pub(super) struct Node {
     count: usize,
     /// The value of a number.
     pub(super) number: f64,
-    /// The place of an input among the inputs, or of a table among the tables.
+    /// The index of an input among the inputs, or of a table among the tables.
     pub(super) index: usize,
 }
 
@@ -57,7 +57,7 @@ pub(super) struct Expression {
 
 /// The names that an expression may use.
 pub(super) trait Scope {
-    /// The place of a name among the inputs.
+    /// The index of a name among the inputs.
     fn input(&self, name: &str) -> Option<usize>;
     /// All names.
     fn names(&self) -> Vec<String>;
@@ -268,7 +268,7 @@ impl Parser<'_> {
             Op::Negate => (nodes[nodes[node].operands[0]], true),
             _ => (nodes[node], false),
         };
-        let is_small = node.number.fract() == 0.0 && node.number <= f64::from(LARGEST_PRODUCT);
+        let is_small = node.number.fract() == 0.0 && node.number <= f64::from(MAX_PRODUCT);
         (node.op == Op::Number && is_small).then_some((node.number as u32, is_negative))
     }
 

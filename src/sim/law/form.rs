@@ -1,4 +1,4 @@
-//! What the form of a tape tells of the motion: whether it is linear, and which coordinates are angles.
+//! Linearity and angles of a motion, from the form of its tape.
 
 use super::op::Op;
 use super::tape::Tape;

@@ -11,7 +11,7 @@ pub struct LawText {
     pub coordinates: Vec<CoordinateText>,
     /// The conserved energy in joules, of coordinates, velocities and constants.
     pub energy: Option<String>,
-    /// The places of the coordinates that are drawn as x and y of one point.
+    /// The indices of the coordinates that are drawn as x and y of one point.
     pub plane: Option<[usize; 2]>,
     /// How the first coordinates lie in space.
     pub layout: Layout,

@@ -14,7 +14,7 @@ const REJECTED_FACTOR: f64 = 0.25;
 
 /// The largest magnitude of an angle before full turns are removed: slightly more than half a turn, so
 /// that a motion about half a turn does not alternate.
-const LARGEST_ANGLE: f64 = 3.3;
+const MAX_ANGLE: f64 = 3.3;
 
 /// How close a step must end to the boundary of a piece of the force law, relative to its distance. The
 /// error of the state is of second order in this.
@@ -84,7 +84,7 @@ enum Tried {
     LeftPiece,
     /// It ended after this part of it, at the boundary of its piece, and the piece was changed.
     AtBoundary { part: f64 },
-    /// It was taken, with so many columns.
+    /// It was taken, with this number of columns.
     Accepted { columns: usize },
 }
 
@@ -400,7 +400,7 @@ impl<V: Vector> Trajectory<V> {
         let rows = self.at.q.components_mut().iter_mut().zip(self.low.q.components_mut());
         let rows = rows.zip(self.turns.components_mut()).enumerate();
         for (i, ((at, low), turns)) in rows {
-            if body.is_angle(i) && at.abs() > LARGEST_ANGLE {
+            if body.is_angle(i) && at.abs() > MAX_ANGLE {
                 let more = libm::rint(*at / TWO_PI.high);
                 let left = DoubleDouble { high: *at, low: *low } - TWO_PI * more;
                 (*at, *low) = (left.high, left.low);

@@ -20,7 +20,7 @@ pub struct Stability {
 }
 
 /// An amplitude that takes longer than this to double counts as bounded: a year, in seconds. No game
-/// runs as long, and at 10 000 Hz a smaller growth could not be told from rounding.
+/// runs as long, and at 10 000 Hz a smaller growth is indistinguishable from rounding.
 pub const FOREVER_S: f64 = 365.0 * 86_400.0;
 
 impl Stability {

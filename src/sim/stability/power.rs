@@ -48,7 +48,7 @@ pub fn spectral_radius(
     Ok(logs.as_deref().and_then(settled_radius))
 }
 
-/// The logarithms of the lengths of a deviation after each tick, where the method begins each tick anew.
+/// The logarithms of the lengths of a deviation after each tick, where the method restarts at each tick.
 /// `None` if the deviation vanishes or overflows.
 fn logs_of_displaced_ticks(
     body: &dyn Stepper,

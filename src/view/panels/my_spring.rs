@@ -1,4 +1,4 @@
-//! A spring of one's own: its numbers, each of which can be typed, and a button that asks for advice on it.
+//! A custom spring: its numbers, each of which can be typed, and a button that asks for advice on it.
 
 use egui::{Align2, Button, FontId, Id, RichText, Sense, Ui, vec2};
 

@@ -22,7 +22,7 @@ pub struct CustomFault {
     pub remedy: &'static str,
 }
 
-/// The most that a true claim may be off by, as a part of what is compared: the error of differences.
+/// Tolerance of a claim, relative to the size of what is compared: the error of differences.
 const TOLERANCE: f64 = 1e-6;
 
 /// The steps of differences in seconds. A motion of any pace is smooth and well above rounding over one of
@@ -139,7 +139,7 @@ fn leaking(leak: Leak) -> CustomFault {
     CustomFault { field: "energy", what, remedy }
 }
 
-/// Where a body that was told to be linear is not; `None` if it is, or if nobody has said so.
+/// The first nonlinearity of a body that is declared linear; `None` without one, or if it is not declared so.
 fn find_nonlinearity(body: &Custom) -> Option<CustomFault> {
     if !body.is_linear {
         return None;
@@ -178,7 +178,7 @@ fn find_nonlinearity(body: &Custom) -> Option<CustomFault> {
     None
 }
 
-/// Checks a custom body at its start, and what is told of it, at the ticks of the horizon too.
+/// Checks a custom body at its start, and its claims, at the ticks of the horizon too.
 pub(super) fn check(body: &Custom, horizon: ClaimHorizon) -> Result<(), CustomFault> {
     let State { q, v } = body.start();
     let mut a = v.clone();

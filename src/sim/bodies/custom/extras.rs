@@ -1,4 +1,4 @@
-//! What a person may tell of a custom body beyond its motion.
+//! Optional properties of a custom body.
 
 use crate::sim::parameter::ParameterOf;
 use crate::sim::state::State;
@@ -15,7 +15,7 @@ pub struct Extras<S: System> {
     /// The name and the unit of each coordinate, such as `("height", "m")`; an angle has the unit `rad`. Empty:
     /// x, y and z, or q1, q2 …, in metres.
     pub coordinates: Vec<(&'static str, &'static str)>,
-    /// The coordinates, by their places, that are x and y of the plane in which it is drawn. `None`: two
+    /// The indices of the coordinates that are x and y of the plane in which it is drawn. `None`: two
     /// coordinates in metres make a plane, others have a rail each.
     pub plane: Option<[usize; 2]>,
     /// Numbers of the system that may be changed while it moves, made by

@@ -21,7 +21,7 @@ const MAX_COORDINATES: usize = 256;
 /// ticks of `horizon`. Its parameters have the numbers of `system` as defaults.
 ///
 /// # Errors
-/// If the start, a name or a unit is unfit, or if something that is told in `extras` is not so.
+/// If the start, a name or a unit is unfit, or if a claim of `extras` does not hold.
 pub fn custom_kind<S>(
     system: &S,
     start: &StateOf<S>,
@@ -42,7 +42,7 @@ where
     let plane = plane(extras.plane, &coordinates)?;
     let parameters: Vec<Parameter> = match &extras.parameters[..] {
         [] => vec![force_parameter()],
-        told => told.iter().map(|parameter| told_parameter(parameter, system)).collect(),
+        given => given.iter().map(|of| with_default(of, system)).collect(),
     };
     check_keys(&parameters)?;
     let mut kick = vec![0.0; n];
@@ -67,7 +67,7 @@ where
 }
 
 /// The parameter, with the number of `system` as its default.
-fn told_parameter<S: System<Vector: Vector> + Clone>(
+fn with_default<S: System<Vector: Vector> + Clone>(
     parameter: &ParameterOf<S>,
     system: &S,
 ) -> Parameter {
@@ -122,7 +122,7 @@ fn kind(body: Custom, parameters: Vec<Parameter>) -> Kind {
 
 /// The names and units of `n` coordinates.
 fn coordinates(
-    told: &[(&'static str, &'static str)],
+    given: &[(&'static str, &'static str)],
     n: usize,
 ) -> Result<Vec<Coordinate>, CustomFault> {
     let coordinate = |name: Text, unit| {
@@ -133,22 +133,22 @@ fn coordinates(
         let remedy = "give each a name of its own of letters, digits and underscores";
         Err(CustomFault { field: "coordinates", what, remedy })
     };
-    if told.is_empty() {
+    if given.is_empty() {
         let name = |i: usize| match n {
             ..=3 => ["x", "y", "z"][i].into(),
             _ => format!("q{}", i + 1).into(),
         };
         return Ok((0..n).map(|i| coordinate(name(i), "m")).collect());
     }
-    if told.len() != n {
-        return fault(format!("it names {} coordinates, and the start has {n}", told.len()));
+    if given.len() != n {
+        return fault(format!("it names {} coordinates, and the start has {n}", given.len()));
     }
-    for (i, (name, _)) in told.iter().enumerate() {
-        if !is_name(name) || told[..i].iter().any(|(earlier, _)| earlier == name) {
+    for (i, (name, _)) in given.iter().enumerate() {
+        if !is_name(name) || given[..i].iter().any(|(earlier, _)| earlier == name) {
             return fault(format!("{name:?} is no name for a coordinate, or the second"));
         }
     }
-    Ok(told.iter().map(|&(name, unit)| coordinate(name.into(), unit)).collect())
+    Ok(given.iter().map(|&(name, unit)| coordinate(name.into(), unit)).collect())
 }
 
 fn is_name(name: &str) -> bool {
@@ -156,19 +156,19 @@ fn is_name(name: &str) -> bool {
     name.starts_with(|c: char| c.is_ascii_alphabetic()) && name.chars().all(is_letter)
 }
 
-/// The plane that was told, or that of two coordinates in metres.
+/// The given plane, or that of two coordinates in metres.
 fn plane(
-    told: Option<[usize; 2]>,
+    given: Option<[usize; 2]>,
     coordinates: &[Coordinate],
 ) -> Result<Option<[usize; 2]>, CustomFault> {
-    match (told, coordinates) {
+    match (given, coordinates) {
         (Some([x, y]), _) if x == y || x.max(y) >= coordinates.len() => Err(CustomFault {
             field: "plane",
             what: format!("coordinates {x} and {y} of {} make no plane", coordinates.len()),
-            remedy: "name two coordinates by their places, from 0",
+            remedy: "name two coordinates by their indices, from 0",
         }),
         (None, [Coordinate { unit: "m", .. }, Coordinate { unit: "m", .. }]) => Ok(Some([0, 1])),
-        (told, _) => Ok(told),
+        (given, _) => Ok(given),
     }
 }
 

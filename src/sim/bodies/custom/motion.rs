@@ -12,9 +12,9 @@ use crate::sim::vec_system::{Scratch, VecSystem};
 
 /// The motion of a custom body. It answers for no target: a body that follows one has a kind of its own.
 pub(super) trait Motion: System<Vector = Vec<f64>> + Send {
-    /// The energy of a state, or of the same place at rest; `None` if nobody has said what it is.
+    /// The energy of a state, or of the same coordinates at rest; `None` if it was not given.
     fn energy(&self, q: &[f64], v: Option<&[f64]>) -> Option<f64>;
-    /// Overwrites `to` with the exact state at time `t` (s). Returns whether anybody has said what it is.
+    /// Overwrites `to` with the exact state at time `t` (s). Returns whether it was given.
     fn exact(&self, t: f64, to: &mut State<Vec<f64>>) -> bool;
     /// Sets the parameter with this index.
     fn set(&mut self, index: usize, value: f64);
@@ -38,7 +38,7 @@ impl fmt::Debug for dyn Motion {
     }
 }
 
-/// A system with what was told of it.
+/// A system with its optional properties.
 #[derive(Clone)]
 pub(super) struct Typed<S: System<Vector: Vector>> {
     system: S,

@@ -52,7 +52,7 @@ impl Claimant for Law {
 /// is conserved at every tick.
 ///
 /// # Errors
-/// The first of these that is not so, with its place in the text.
+/// The first of these that does not hold, with its position in the text.
 pub fn check_law(
     equations: &Arc<Equations>,
     values: &[f64],

@@ -2,7 +2,7 @@
 
 use crate::sim::net_plan::{Lists, NetPlan};
 
-/// The place of a fixed node.
+/// The index of a fixed node, which is no coordinate.
 pub(super) const FIXED: u32 = u32::MAX;
 
 /// What the bodies of one plan share.
@@ -12,11 +12,11 @@ pub(super) struct Frame {
     /// The number of each free node, in the order of the coordinates: the kicked node, or else the last one,
     /// comes first, because plots show the first coordinate.
     pub(super) free: Vec<usize>,
-    /// The place of each node among the free ones, or [`FIXED`].
-    pub(super) place_of: Vec<u32>,
+    /// The index of each node among the free ones, or [`FIXED`].
+    pub(super) index_of: Vec<u32>,
     /// Where the free nodes stand at the start.
     pub(super) start: Vec<f64>,
-    /// The places of the ends, among the free nodes, of each spring between two of them.
+    /// The indices of the ends, among the free nodes, of each spring between two of them.
     pub(super) ends: Vec<[u32; 2]>,
     /// For each anchored spring: index of its free node, position of its anchor.
     pub(super) anchors: Vec<(u32, [f64; 2])>,
@@ -36,27 +36,27 @@ impl Frame {
         let first = plan.kicked.and_then(|kicked| free.iter().position(|&node| node == kicked));
         let first = first.unwrap_or(free.len() - 1);
         free[..=first].rotate_right(1);
-        let mut place_of = vec![FIXED; lists.nodes.len()];
-        for (place, &node) in free.iter().enumerate() {
-            place_of[node] = place as u32;
+        let mut index_of = vec![FIXED; lists.nodes.len()];
+        for (index, &node) in free.iter().enumerate() {
+            index_of[node] = index as u32;
         }
         let (mut ends, mut anchors) = (Vec::new(), Vec::new());
         let (mut order, mut anchored) = (Vec::new(), Vec::new());
-        for (place, spring) in lists.springs.iter().enumerate() {
+        for (index, spring) in lists.springs.iter().enumerate() {
             let [a, b] = spring.between;
             if is_fixed[a] || is_fixed[b] {
                 let (free, fixed) = if is_fixed[a] { (b, a) } else { (a, b) };
-                anchors.push((place_of[free], lists.nodes[fixed]));
-                anchored.push(place);
+                anchors.push((index_of[free], lists.nodes[fixed]));
+                anchored.push(index);
             } else {
-                ends.push([place_of[a], place_of[b]]);
-                order.push(place);
+                ends.push([index_of[a], index_of[b]]);
+                order.push(index);
             }
         }
         order.append(&mut anchored);
         let start = free.iter().flat_map(|&node| lists.nodes[node]).collect();
         let kicks_first = plan.kicked.is_some();
-        Self { lists, free, place_of, start, ends, anchors, order, kicks_first }
+        Self { lists, free, index_of, start, ends, anchors, order, kicks_first }
     }
 
     /// As many zeros as there are coordinates.

@@ -16,7 +16,7 @@ const MODES: [JointMode; 1] = [mode(
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-chipmunk",
     name: "Chipmunk",
-    about: "semi-implicit Euler on a spring, the drift first; a force of one's own is explicit Euler",
+    about: "semi-implicit Euler on a spring, the drift first; a custom force is explicit Euler",
     stability_limit: Some(2.0),
     symplectic: true,
     engine: Some(Engine {

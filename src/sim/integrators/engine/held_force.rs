@@ -1,4 +1,4 @@
-//! A force of one's own, applied once a tick over an engine's substeps.
+//! A custom force, applied once a tick over an engine's substeps.
 
 use super::{Rule, Tick};
 use crate::sim::integrators::StepFailure;
@@ -18,7 +18,7 @@ const MODES: [JointMode; 1] = [mode(
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "held-force",
     name: "Held force",
-    about: "one's own force, applied once a tick over an engine's substeps: with more than one a spring gains energy, and \
+    about: "a custom force, applied once a tick over an engine's substeps: with more than one a spring gains energy, and \
             with each the faster",
     only: Some(Only { needs: Needs::Force, reason: "a follower has no force" }),
     stability_limit: Some(0.0),

@@ -1,7 +1,7 @@
 //! What a tick of a physics engine does to one body.
 //!
 //! Each file has the formula of one engine, read from its source and held against logs of the engine
-//! itself (`tests/library/engines`). They share this: an engine is told the spring's stiffness and damping as
+//! itself (`tests/library/engines`). They share this: an engine takes the spring's stiffness and damping as
 //! settings of a joint and the drag as a setting of the body, and any other force once a tick, which it
 //! holds for all its substeps; see [`EngineSettings::of`].
 //!
@@ -33,7 +33,7 @@ pub(super) mod physx_tgs;
 pub(super) mod pybullet;
 pub(super) mod rapier;
 
-/// A tick of an engine: what it is told, and how it is divided.
+/// A tick of an engine: its settings, and its substeps.
 #[derive(Debug)]
 pub struct Tick<'a, V> {
     /// H, in seconds.

@@ -18,7 +18,7 @@ const MODES: [JointMode; 1] = [mode(
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-mujoco-rk4",
     name: "MuJoCo, RK4",
-    about: "the classical fourth order on springs and damping of its own; a force of one's own is held through its stages",
+    about: "the classical fourth order on the engine's springs and damping; a custom force is held through its stages",
     order: 4,
     order_with_drag: 4,
     stability_limit: Some(2.0 * std::f64::consts::SQRT_2),

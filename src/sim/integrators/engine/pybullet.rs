@@ -1,4 +1,4 @@
-//! The multibody that pybullet loads a model as, unless it is told otherwise.
+//! The multibody that pybullet loads a model as by default.
 
 use super::{Rule, Tick, each};
 use crate::sim::integrators::StepFailure;

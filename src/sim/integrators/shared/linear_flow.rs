@@ -77,7 +77,7 @@ pub(in crate::sim::integrators) struct LinearFlow {
 }
 
 impl LinearFlow {
-    /// For so many equations of coordinates that act on each other so.
+    /// For `size` equations of coordinates with this coupling.
     pub(in crate::sim::integrators) fn new(size: usize, coupling: Coupling) -> Self {
         let is_small = coupling != Coupling::Few && size <= SMALL;
         let squaring = is_small.then(|| Box::new(Squaring::new(size + 2)));

@@ -241,13 +241,13 @@ impl StageLu {
         }
         let Self { lu, n, strides: [stages, _], ordered, .. } = self;
         for (stage, x) in x.chunks_exact(*n).enumerate() {
-            let places = ordered[stage..].iter_mut().step_by(*stages);
-            places.zip(x).for_each(|(place, x)| *place = *x);
+            let entries = ordered[stage..].iter_mut().step_by(*stages);
+            entries.zip(x).for_each(|(entry, x)| *entry = *x);
         }
         lu.solve(ordered);
         for (stage, x) in x.chunks_exact_mut(*n).enumerate() {
-            let places = ordered[stage..].iter().step_by(*stages);
-            places.zip(x).for_each(|(place, x)| *x = *place);
+            let entries = ordered[stage..].iter().step_by(*stages);
+            entries.zip(x).for_each(|(entry, x)| *x = *entry);
         }
     }
 }

@@ -19,7 +19,7 @@ const FACTORS: (f64, f64) = (0.2, 5.0);
 const MIN_GROWTH: f64 = 1.25;
 /// A step keeps its size up to this error, relative to the tolerance. If larger, the next step is often
 /// rejected.
-const LARGEST_STEADY_ERROR: f64 = 0.8;
+const MAX_STEADY_ERROR: f64 = 0.8;
 /// The largest number of attempts in one tick. Usual ticks take 1 to 50; without a limit a
 /// discontinuous force would never end.
 const MAX_ATTEMPTS: u32 = 10_000;
@@ -35,7 +35,7 @@ pub(in crate::sim::integrators) fn factor(root: f64) -> f64 {
 #[inline]
 pub(in crate::sim::integrators) fn steady_factor(error: f64, order: u32) -> f64 {
     let steady = (0..order).fold(1.0, |product, _| product * (SAFETY / MIN_GROWTH));
-    if (steady..=LARGEST_STEADY_ERROR).contains(&error) {
+    if (steady..=MAX_STEADY_ERROR).contains(&error) {
         1.0
     } else {
         factor(libm::pow(error, 1.0 / f64::from(order)))

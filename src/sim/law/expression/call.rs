@@ -41,8 +41,8 @@ impl Parser<'_> {
         self.expect(")", "the arguments")?;
         let span = name.start..self.tokens[self.next - 1].1.end;
         let condition = matches!(function.meaning, Meaning::If);
-        for (place, &argument) in arguments.iter().enumerate() {
-            if condition && place == 0 {
+        for (index, &argument) in arguments.iter().enumerate() {
+            if condition && index == 0 {
                 self.want_truth(argument)?;
             } else {
                 self.want_number(argument)?;

@@ -14,9 +14,9 @@ use crate::sim::system::System;
 
 /// The longest arc length of a step, in each of three attempts: longer steps can jump to a nearby curve
 /// that leads nowhere, shorter ones take longer.
-const LONGEST_STEPS: [f64; 3] = [0.25, 0.05, 0.01];
+const MAX_STEP_LENGTHS: [f64; 3] = [0.25, 0.05, 0.01];
 /// The shortest arc length of a step: a force that is not smooth at this scale is given up.
-const SHORTEST_STEP: f64 = 1e-7;
+const MIN_STEP_LENGTH: f64 = 1e-7;
 /// The factors by which a step grows if it converged, and shrinks if it did not.
 const STEP_FACTORS: (f64, f64) = (1.5, 0.3);
 /// The largest number of steps of an attempt.
@@ -70,7 +70,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         system: &dyn System<Vector = V>,
         stages: &Stages<S>,
     ) -> bool {
-        LONGEST_STEPS.iter().any(|&longest| self.continue_by(system, stages, longest))
+        MAX_STEP_LENGTHS.iter().any(|&longest| self.continue_by(system, stages, longest))
     }
 
     /// Follows the curve by steps of at most `longest`, in units of λ, and of the force for
@@ -124,7 +124,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
             self.go_back();
             self.curve.lambda = begun;
             step *= STEP_FACTORS.1;
-            if step < SHORTEST_STEP {
+            if step < MIN_STEP_LENGTH {
                 return false;
             }
         }
