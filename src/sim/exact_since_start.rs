@@ -51,14 +51,14 @@ impl<B: Body> Propagator<B> for ExactSinceStart<B::Vector> {
         body: &Counted<B>,
         t: f64,
         h: f64,
-        substeps: u32,
-        state: &mut StateOf<B>,
+        n: u32,
+        y: &mut StateOf<B>,
     ) -> Stepped {
         self.t = t + h;
-        if self.is_untouched && body.system.exact_since_start(self.t, state) {
+        if self.is_untouched && body.system.exact_since_start(self.t, y) {
             return Ok(());
         }
-        self.reference.advance(body, t, h, substeps, state)
+        self.reference.advance(body, t, h, n, y)
     }
 
     fn jump(&mut self, t: f64, change: Change<'_>, body: &mut B, state: &mut StateOf<B>) -> bool {

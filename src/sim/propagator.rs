@@ -24,16 +24,9 @@ use crate::sim::system::StateOf;
 
 /// A method or a truth that advances bodies of type `B`.
 pub(super) trait Propagator<B: Body>: Send + 'static {
-    /// Advances `state` from `t` to `t + h` (s). A method takes `substeps` equal steps; a truth ignores
-    /// them.
-    fn advance(
-        &mut self,
-        body: &Counted<B>,
-        t: f64,
-        h: f64,
-        substeps: u32,
-        state: &mut StateOf<B>,
-    ) -> Stepped;
+    /// Advances the state `y` from `t` to `t + h` (s). A method takes `n` equal steps; a truth ignores `n`.
+    fn advance(&mut self, body: &Counted<B>, t: f64, h: f64, n: u32, y: &mut StateOf<B>)
+    -> Stepped;
 
     /// Applies `change` to the body and its state at time `t` (s), and restarts from the result. If nothing
     /// changed, the propagator keeps its memory. Returns whether anything changed.
@@ -66,10 +59,10 @@ impl<B: Body, I: Integrator<Counted<B>> + Clone + 'static> Propagator<B> for Met
         body: &Counted<B>,
         t: f64,
         h: f64,
-        substeps: u32,
-        state: &mut StateOf<B>,
+        n: u32,
+        y: &mut StateOf<B>,
     ) -> Stepped {
-        self.0.steps(body, t, h, substeps, state)
+        self.0.steps(body, t, h, n, y)
     }
 
     #[inline]

@@ -205,11 +205,11 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
         body: &Counted<B>,
         t: f64,
         h: f64,
-        _substeps: u32,
-        state: &mut StateOf<B>,
+        _n: u32,
+        y: &mut StateOf<B>,
     ) -> Stepped {
         // Bypasses the counters of `body`: the truth does not compete.
-        self.solve(&body.system, t, h, state)
+        self.solve(&body.system, t, h, y)
     }
 
     fn jump(&mut self, t: f64, change: Change<'_>, body: &mut B, state: &mut StateOf<B>) -> bool {

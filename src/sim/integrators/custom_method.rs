@@ -26,50 +26,19 @@ impl System for AnySystem<'_> {
 }
 
 /// A custom method behind a pointer. Every `Clone` [`Integrator`] of systems with a `Vec` is one.
-pub trait CustomIntegrator: Send {
-    /// As [`Integrator::step`].
-    ///
-    /// # Errors
-    /// As [`Integrator::step`].
-    fn step(
-        &mut self,
-        system: AnySystem<'_>,
-        t: f64,
-        h: f64,
-        state: &mut State<Vec<f64>>,
-    ) -> Stepped;
-    /// As [`Integrator::reset`].
-    fn reset(&mut self);
-    /// As [`Integrator::set_tolerance`].
-    fn set_tolerance(&mut self, tolerance: Tolerance);
+pub trait CustomIntegrator: for<'a> Integrator<AnySystem<'a>> {
     /// Memory in bytes, without its coordinate vectors.
     fn bytes(&self) -> usize;
+
     /// A copy with the same memory.
     fn boxed_clone(&self) -> Box<dyn CustomIntegrator>;
 }
 
-impl<I> CustomIntegrator for I
-where
-    I: for<'a> Integrator<AnySystem<'a>> + Clone + 'static,
-{
-    fn step(
-        &mut self,
-        system: AnySystem<'_>,
-        t: f64,
-        h: f64,
-        state: &mut State<Vec<f64>>,
-    ) -> Stepped {
-        Integrator::step(self, &system, t, h, state)
-    }
-    fn reset(&mut self) {
-        Integrator::reset(self);
-    }
-    fn set_tolerance(&mut self, tolerance: Tolerance) {
-        Integrator::set_tolerance(self, tolerance);
-    }
+impl<I: for<'a> Integrator<AnySystem<'a>> + Clone + 'static> CustomIntegrator for I {
     fn bytes(&self) -> usize {
-        size_of::<I>() + Integrator::heap_bytes(self)
+        size_of::<I>() + self.heap_bytes()
     }
+
     fn boxed_clone(&self) -> Box<dyn CustomIntegrator> {
         Box::new(self.clone())
     }
@@ -113,7 +82,7 @@ where
 /// };
 /// assert_eq!(PLAIN.stability_limit, Some(0.0));
 /// ```
-pub fn custom_integrator<I: CustomIntegrator + for<'a> Integrator<AnySystem<'a>> + 'static>(
+pub fn custom_integrator<I: CustomIntegrator + 'static>(
     coordinates: usize,
 ) -> Box<dyn CustomIntegrator> {
     Box::new(I::new(&vec![0.0; coordinates]))
@@ -158,7 +127,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for CustomMethod<S::Vector> {
         let Self { integrator, state: many, scratch } = self;
         many.q.copy_from_slice(state.q.components());
         many.v.copy_from_slice(state.v.components());
-        let stepped = integrator.step(AnySystem(&VecSystem { system, scratch }), t, h, many);
+        let stepped = integrator.step(&AnySystem(&VecSystem { system, scratch }), t, h, many);
         state.q.components_mut().copy_from_slice(&many.q);
         state.v.components_mut().copy_from_slice(&many.v);
         stepped

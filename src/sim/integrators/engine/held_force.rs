@@ -1,12 +1,10 @@
 //! A custom force, applied once a tick over an engine's substeps.
 
 use super::{Rule, Tick};
-use crate::sim::integrators::StepFailure;
 use crate::sim::integrators::card::{ENGINE, Engine, Method, Needs, Only};
 use crate::sim::integrators::joint_mode::JointQuantity::{Damping, Stiffness};
 use crate::sim::integrators::joint_mode::{JointMode, mode};
 use crate::sim::state::Vector;
-use crate::sim::system::{EngineSettings, StateOf, System};
 
 const MODES: [JointMode; 1] = [mode(
     "force",
@@ -52,15 +50,5 @@ impl Rule for HeldForce {
         for _ in 0..tick.substeps {
             V::kick_and_drift(h, tick.force, v, h, q);
         }
-    }
-
-    fn read<S: System<Vector: Vector>>(
-        system: &S,
-        t: f64,
-        state: &StateOf<S>,
-        force: &mut S::Vector,
-    ) -> Result<EngineSettings, StepFailure> {
-        system.acceleration(t, &state.q, &state.v, force);
-        Ok(EngineSettings::NONE)
     }
 }

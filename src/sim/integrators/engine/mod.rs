@@ -11,7 +11,7 @@
 
 use std::marker::PhantomData;
 
-use super::card::Method;
+use super::card::{Method, Needs};
 use super::failure::{StepFailure, Stepped};
 use super::integrator::Integrator;
 use crate::sim::state::{State, Vector};
@@ -62,20 +62,6 @@ pub trait Rule: Clone + Send + 'static {
 
     /// Advances the coordinates `q` and the velocities `v` by a tick.
     fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V);
-
-    /// Writes the force the engine holds constant for the tick; returns the settings it integrates itself.
-    ///
-    /// # Errors
-    /// If the engine cannot express the system.
-    #[inline]
-    fn read<S: System<Vector: Vector>>(
-        system: &S,
-        t: f64,
-        state: &StateOf<S>,
-        force: &mut S::Vector,
-    ) -> Result<EngineSettings, StepFailure> {
-        Ok(EngineSettings::of(system, t, state, force))
-    }
 }
 
 /// An engine as a method: it reads the force at the start of a tick, and applies its rule.
@@ -129,7 +115,15 @@ impl<V: Vector, R: Rule> EngineMethod<V, R> {
         state: &mut State<V>,
     ) -> Stepped {
         let Self { force, carried, joint, .. } = self;
-        let mut settings = R::read(system, t, state, force)?;
+        let only = R::CARD.only.expect("an engine's card says what it steps");
+        let mut settings = EngineSettings::NONE;
+        match only.needs {
+            Needs::Force => system.acceleration(t, &state.q, &state.v, force),
+            _ => settings = EngineSettings::of(system, t, state, force),
+        }
+        if only.needs == Needs::EngineWithoutJoint && settings.has_spring() {
+            return Err(StepFailure::Refused { reason: only.reason });
+        }
         if let (Some([stiffness, damping]), true) = (*joint, settings.has_spring()) {
             settings = EngineSettings { stiffness, damping, ..settings };
         }

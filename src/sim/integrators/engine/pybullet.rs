@@ -1,21 +1,17 @@
 //! The multibody that pybullet loads a model as by default.
 
 use super::{Rule, Tick, each};
-use crate::sim::integrators::StepFailure;
 use crate::sim::integrators::card::{ENGINE, Engine, Method, Needs, Only};
 use crate::sim::state::Vector;
-use crate::sim::system::{EngineSettings, StateOf, System};
-
-const ONLY: Only = Only {
-    needs: Needs::EngineWithoutJoint,
-    reason: "pybullet's multibody has no joint with a spring",
-};
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-pybullet",
     name: "pybullet, multibody",
     about: "explicit drag that also grows with the square of the speed, so that a driven body stops gaining early",
-    only: Some(ONLY),
+    only: Some(Only {
+        needs: Needs::EngineWithoutJoint,
+        reason: "pybullet's multibody has no joint with a spring",
+    }),
     stability_limit: Some(2.0),
     symplectic: true,
     engine: Some(Engine {
@@ -49,18 +45,5 @@ impl Rule for Pybullet {
             *v += h * (f - drag * *v);
             *x += h * *v;
         });
-    }
-
-    fn read<S: System<Vector: Vector>>(
-        system: &S,
-        t: f64,
-        state: &StateOf<S>,
-        force: &mut S::Vector,
-    ) -> Result<EngineSettings, StepFailure> {
-        let settings = EngineSettings::of(system, t, state, force);
-        match settings.has_spring() {
-            true => Err(StepFailure::Refused { reason: ONLY.reason }),
-            false => Ok(settings),
-        }
     }
 }
