@@ -11,8 +11,7 @@ use super::spring::SpringArgs;
 use crate::lab::pacing::{POLICIES, PolicyCard, TRACES, TraceCard, policy, trace_card};
 use crate::lab::palette::Theme;
 use crate::lab::{
-    Clock, Command, Lab, LaneSpec, MANY_LANES, MOST_SECONDS, SCENES, Scene, lanes_that_race,
-    nearest,
+    Clock, Command, Lab, LaneSpec, MANY_LANES, MAX_SECONDS, SCENES, Scene, lanes_that_race, nearest,
 };
 use crate::sim::integrators::{METHODS, Method, method};
 
@@ -249,8 +248,8 @@ impl From<ThemeName> for Theme {
 /// A duration on the command line, in seconds.
 pub(super) fn seconds(written: &str) -> Result<f64, String> {
     match written.parse::<f64>() {
-        Ok(seconds) if (0.0..=MOST_SECONDS).contains(&seconds) => Ok(seconds),
-        Ok(_) => Err(format!("give 0 to {MOST_SECONDS} seconds")),
+        Ok(seconds) if (0.0..=MAX_SECONDS).contains(&seconds) => Ok(seconds),
+        Ok(_) => Err(format!("give 0 to {MAX_SECONDS} seconds")),
         Err(_) => Err("give a number of seconds, such as 8.5".into()),
     }
 }

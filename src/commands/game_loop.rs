@@ -18,7 +18,7 @@ use super::output::{AtomicOutput, Older, Place, STDOUT, finish, print};
 use super::plot::Plot;
 use super::scene_file;
 use super::trace_source::traces;
-use crate::lab::pacing::{FrameTrace, LEAST_RUN_S, POLICIES, PolicyCard, RefreshRate, trace_card};
+use crate::lab::pacing::{FrameTrace, MIN_RUN_S, POLICIES, PolicyCard, RefreshRate, trace_card};
 use crate::lab::{Clock, LaneSpec, Scene};
 use crate::sim::integrators::Method;
 
@@ -245,7 +245,7 @@ impl LoopArgs {
     fn until_ns(&self, scene: &Scene, trace: &FrameTrace) -> i64 {
         match self.seconds {
             None if trace.ends() => i64::MAX,
-            seconds => (seconds.unwrap_or(scene.seconds.max(LEAST_RUN_S)) * 1e9).round() as i64,
+            seconds => (seconds.unwrap_or(scene.seconds.max(MIN_RUN_S)) * 1e9).round() as i64,
         }
     }
 }

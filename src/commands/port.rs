@@ -8,7 +8,7 @@ use super::identify::{LogArgs, number, positive, rate};
 use super::output::print;
 use super::output::table::TableFormat;
 use crate::lab::{
-    DriveLimits, MOST_SUBSTEPS, Ported, Setup, Wish, WishError, drive_limits, followers, identify,
+    DriveLimits, MAX_SUBSTEPS, Ported, Setup, Wish, WishError, drive_limits, followers, identify,
     nearest, port, setups,
 };
 use crate::sim::integrators::{METHODS, Method};
@@ -89,7 +89,7 @@ pub(super) struct PortArgs {
 
     /// Substeps per tick, 1 to 1000 [default: each engine's own]
     #[arg(long, value_name = "N")]
-    #[arg(value_parser = RangedU64ValueParser::<u32>::new().range(1..=u64::from(MOST_SUBSTEPS)))]
+    #[arg(value_parser = RangedU64ValueParser::<u32>::new().range(1..=u64::from(MAX_SUBSTEPS)))]
     substeps: Option<u32>,
 
     /// The engines (`regatta list methods`), or all

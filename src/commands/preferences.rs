@@ -10,7 +10,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::terminal::tell;
 use crate::lab::palette::Theme;
-use crate::lab::{LARGEST_FILE, Lab, SCALE_LADDER};
+use crate::lab::{Lab, MAX_FILE_BYTES, SCALE_LADDER};
 use crate::window::regular_file;
 
 /// The name of the file.
@@ -40,7 +40,7 @@ impl Preferences {
     }
 
     fn read(path: &Path) -> Result<Self, String> {
-        let bytes = match regular_file::read(path, LARGEST_FILE) {
+        let bytes = match regular_file::read(path, MAX_FILE_BYTES) {
             Err(missing) if missing.is_missing() => return Ok(Self::default()),
             read => read.map_err(|why| why.to_string())?,
         };

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::error::{Cause, message};
-use crate::lab::{BuiltIn, LARGEST_FILE, Refusal, SCENES, Scene, SceneErrors, nearest};
+use crate::lab::{BuiltIn, MAX_FILE_BYTES, Refusal, SCENES, Scene, SceneErrors, nearest};
 use crate::sim::integrators::Method;
 use crate::window::regular_file::{self, Unreadable};
 
@@ -86,7 +86,7 @@ fn built_in(path: &Path) -> Option<&'static BuiltIn> {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, SceneFileError> {
-    regular_file::read(path, LARGEST_FILE).map_err(|source| {
+    regular_file::read(path, MAX_FILE_BYTES).map_err(|source| {
         let path = path.to_owned();
         match source {
             Unreadable::Directory => SceneFileError::Directory { path },

@@ -7,7 +7,7 @@ use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings};
 use super::recording::Recording;
 use super::schedule::{MOST_FPS, Schedule};
 use crate::lab::palette::Theme;
-use crate::lab::{Clock, LaneSpec, MOST_LANES, MOST_SUBSTEPS, Scene, TOLERANCES};
+use crate::lab::{Clock, LaneSpec, MAX_LANES, MAX_SUBSTEPS, Scene, TOLERANCES};
 use crate::sim::integrators::method;
 use crate::view::Panels;
 
@@ -56,7 +56,7 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
     let known = |id: &str| method(id).ok_or_else(|| format!("this program has no method {id:?}"));
     let mut scene = Scene::parse(&format!("{name}.toml"), text)
         .map_err(|errors| format!("this program cannot read the scene: {errors}"))?;
-    let substeps = |lane: &LaneEntry| (1..=MOST_SUBSTEPS).contains(&lane.substeps);
+    let substeps = |lane: &LaneEntry| (1..=MAX_SUBSTEPS).contains(&lane.substeps);
     let tolerance = |lane: &LaneEntry| {
         lane.tolerance.is_none_or(|given| (TOLERANCES.0..=TOLERANCES.1).contains(&given))
     };
@@ -71,7 +71,7 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
         ("fps", (1..=MOST_FPS).contains(&settings.fps)),
         ("scale", (0.5..=4.0).contains(&settings.scale)),
         ("mark_every", settings.mark_every > 0),
-        ("lanes", (1..=MOST_LANES).contains(&settings.lanes.len())),
+        ("lanes", (1..=MAX_LANES).contains(&settings.lanes.len())),
         ("substeps", settings.lanes.iter().all(substeps)),
         ("tolerance", settings.lanes.iter().all(tolerance)),
         ("joint", settings.lanes.iter().all(joint)),

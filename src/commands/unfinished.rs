@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::output::{AtomicFile, write_whole};
 use super::preferences;
-use crate::lab::LARGEST_FILE;
+use crate::lab::MAX_FILE_BYTES;
 use crate::window::{KeepRecording, regular_file};
 
 /// The folder of the notes.
@@ -117,7 +117,7 @@ pub(super) fn left_behind() -> Vec<String> {
 fn left_behind_in(note: &Path) -> Option<String> {
     // The program that has written it would hold the lock.
     let is_free = File::open(note).is_ok_and(|file| file.try_lock().is_ok());
-    let text = is_free.then(|| regular_file::read(note, LARGEST_FILE).ok())??;
+    let text = is_free.then(|| regular_file::read(note, MAX_FILE_BYTES).ok())??;
     let recording = PathBuf::from(String::from_utf8(text).ok()?);
     fs::remove_file(note).ok()?;
     let name = recording.display();

@@ -23,7 +23,7 @@ pub enum Action {
     Substeps {
         /// The lane's number, from 1.
         lane: usize,
-        /// Steps per tick, 1 to [`MOST_SUBSTEPS`](super::MOST_SUBSTEPS).
+        /// Steps per tick, 1 to [`MAX_SUBSTEPS`](super::MAX_SUBSTEPS).
         substeps: u32,
     },
     /// Sets the tolerance of a lane under an adaptive method.
@@ -43,7 +43,7 @@ pub enum Action {
     Kick(f64),
     /// Sets a parameter of a body.
     Set {
-        /// The body's place in the scene.
+        /// The body's index in the scene.
         body: usize,
         /// The parameter's place among those of its kind.
         parameter: usize,
@@ -52,7 +52,7 @@ pub enum Action {
     },
     /// Puts a body into a state, in every lane and in truth.
     Place {
-        /// The body's place in the scene.
+        /// The body's index in the scene.
         body: usize,
         /// Its coordinates.
         q: Box<[f64]>,

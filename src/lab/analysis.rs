@@ -24,15 +24,15 @@ mod verdict;
 mod worker;
 
 pub use advice::{
-    Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MOST_ADVISED_SUBSTEPS,
+    Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS,
     MethodAdvice, recommended,
 };
 pub use chase_finding::ChaseFinding;
 pub use energy_finding::EnergyFinding;
-pub use judge::{Judge, LONGEST_HORIZON_S};
+pub use judge::{Judge, MAX_HORIZON_S};
 pub use limits::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 pub use outcome::{Outcome, Severity};
-pub use run::MOST_WORK;
+pub use run::MAX_WORK;
 pub use stability_map::{Coverage, Here, MapRequest, Region, SeenLine, StabilityMap};
 pub use truth::LONG_RUN;
 pub use verdict::{NoTruth, NotJudged, RunFailure, Verdict, duration};

@@ -24,7 +24,7 @@ pub enum Command {
     Pick(usize),
     /// Sets the substeps and the tolerance of this method of the list, and switches to it like [`Command::Method`]. A lane
     /// that races keeps its state.
-    Fly(LaneSpec),
+    SetLane(LaneSpec),
     /// The next method or lane on the list, cyclically.
     NextMethod,
     /// The previous method or lane on the list, cyclically.
@@ -82,7 +82,7 @@ pub enum Command {
     RudderRight,
     /// Gives every body an impulse of this many times its own kick.
     Kick(f64),
-    /// Opens the scene at this place of the [list](super::SceneList), from 0.
+    /// Opens the scene at this index of the [list](super::SceneList), from 0.
     Scene(usize),
     /// The next scene of the list, cyclically.
     NextScene,
@@ -124,7 +124,7 @@ pub enum Command {
     Quantity(Quantity),
     /// Shows this coordinate of a body in the plots.
     Coordinate {
-        /// The body's place in the scene.
+        /// The body's index in the scene.
         body: usize,
         /// The index of the coordinate.
         coordinate: usize,
@@ -153,13 +153,13 @@ pub enum Command {
         /// The language.
         language: Language,
     },
-    /// Copies the lines of code that tell the engine at this place of the list of lanes the displayed spring.
+    /// Copies the lines of code that tell the engine at this index of the list of lanes the displayed spring.
     CopyJoint(usize),
-    /// The pointer or the keyboard's focus comes to the lane at this place of the list, or leaves the list.
+    /// The pointer or the keyboard's focus comes to the lane at this index of the list, or leaves the list.
     PointAt(Option<usize>),
     /// Saves the instrument to files.
     ExportInstrument,
-    /// Selects the body of the plots and the lane list, by its place in the scene, from 0.
+    /// Selects the body of the plots and the lane list, by its index in the scene, from 0.
     Body(usize),
     /// Has the advice be about the displayed body alone, or about all bodies.
     AdviseOnOneBody(bool),
@@ -169,7 +169,7 @@ pub enum Command {
     LetGo,
     /// Zooms and pans a body's part of the stage.
     ZoomPan {
-        /// The body's place in the scene.
+        /// The body's index in the scene.
         body: usize,
         /// The zoom and the pan.
         zoom_pan: ZoomPan,
@@ -179,7 +179,7 @@ pub enum Command {
     /// Opens or closes the inspector.
     ToggleInspector,
     /// Sets how long the scene is, in seconds, within
-    /// [`LEAST_SECONDS`](super::LEAST_SECONDS) and [`MOST_SECONDS`](super::MOST_SECONDS): plots and verdicts cover it.
+    /// [`MIN_SECONDS`](super::MIN_SECONDS) and [`MAX_SECONDS`](super::MAX_SECONDS): plots and verdicts cover it.
     Seconds(f64),
     /// Saves what the window shows to a file.
     Screenshot,
@@ -219,7 +219,7 @@ impl Command {
     pub(super) fn receiver(&self) -> Receiver {
         match self {
             Command::Act(_)
-            | Command::Fly(_)
+            | Command::SetLane(_)
             | Command::Seek(_)
             | Command::WatchAgain
             | Command::Undo

@@ -9,7 +9,7 @@ use super::lane_spec::LaneSpec;
 use super::outline::Mark;
 use super::race::Race;
 use super::scene::{
-    LEAST_SECONDS, MOST_LANES, MOST_NAME_CHARS, MOST_SECONDS, MOST_TICK_HZ, Scene, SceneBody,
+    MAX_LANES, MAX_NAME_CHARS, MAX_SECONDS, MAX_TICK_HZ, MIN_SECONDS, Scene, SceneBody,
     claim_horizon,
 };
 use crate::sim::bodies::{CustomFault, Extras, custom_kind, refusal};
@@ -21,14 +21,14 @@ pub type Draw<S> = fn(&S, &<S as System>::Vector) -> Vec<Mark>;
 
 /// The experiment on a custom body. Every field has a [default](Options::default).
 pub struct Options<S: System> {
-    /// The name of the body, for people: at most [`MOST_NAME_CHARS`] characters. The default is `body`.
+    /// The name of the body, for people: at most [`MAX_NAME_CHARS`] characters. The default is `body`.
     pub name: &'static str,
-    /// Ticks per second, 1 to [`MOST_TICK_HZ`]. The default is 60.
+    /// Ticks per second, 1 to [`MAX_TICK_HZ`]. The default is 60.
     pub tick_hz: u32,
-    /// How long it runs, in seconds, from [`LEAST_SECONDS`] to [`MOST_SECONDS`]. The default is 20. Verdicts are
+    /// How long it runs, in seconds, from [`MIN_SECONDS`] to [`MAX_SECONDS`]. The default is 20. Verdicts are
     /// on the first minute.
     pub seconds: f64,
-    /// The methods, at most [`MOST_LANES`], from [`METHODS`] or custom ones. Empty: all that step such a body.
+    /// The methods, at most [`MAX_LANES`], from [`METHODS`] or custom ones. Empty: all that step such a body.
     pub methods: Vec<&'static Method>,
     /// What is known of the body beyond its equation.
     pub extras: Extras<S>,
@@ -94,16 +94,16 @@ impl Scene {
         S: System<Vector: Vector> + Clone + Send + 'static,
     {
         let Options { name, tick_hz, seconds, methods, extras, draw } = options;
-        if name.is_empty() || name.chars().count() > MOST_NAME_CHARS {
+        if name.is_empty() || name.chars().count() > MAX_NAME_CHARS {
             let what = format!("{name:?} has {} characters", name.chars().count());
-            return Err(error("name", what, format!("give it 1 to {MOST_NAME_CHARS}")));
+            return Err(error("name", what, format!("give it 1 to {MAX_NAME_CHARS}")));
         }
-        if !(1..=MOST_TICK_HZ).contains(&tick_hz) {
-            let remedy = format!("give a rate from 1 to {MOST_TICK_HZ} Hz");
+        if !(1..=MAX_TICK_HZ).contains(&tick_hz) {
+            let remedy = format!("give a rate from 1 to {MAX_TICK_HZ} Hz");
             return Err(error("tick_hz", tick_hz.to_string(), remedy));
         }
-        if !(LEAST_SECONDS..=MOST_SECONDS).contains(&seconds) {
-            let remedy = format!("give a length from {LEAST_SECONDS} to {MOST_SECONDS} s");
+        if !(MIN_SECONDS..=MAX_SECONDS).contains(&seconds) {
+            let remedy = format!("give a length from {MIN_SECONDS} to {MAX_SECONDS} s");
             return Err(error("seconds", seconds.to_string(), remedy));
         }
         let drawing = draw.map(|draw| drawing::<S>(draw, start.q.clone()));
@@ -193,8 +193,8 @@ where
 }
 
 fn check_methods(chosen: &[&'static Method]) -> Result<(), OptionsError> {
-    if chosen.len() > MOST_LANES {
-        let remedy = format!("name at most {MOST_LANES}");
+    if chosen.len() > MAX_LANES {
+        let remedy = format!("name at most {MAX_LANES}");
         return Err(error("methods", format!("these are {}", chosen.len()), remedy));
     }
     for (i, method) in chosen.iter().enumerate() {

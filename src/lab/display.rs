@@ -64,7 +64,7 @@ pub struct Display {
 /// Where a person looks in a scene. It ends with the scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct View {
-    /// The body of the plots and the lane list, by its place in the scene.
+    /// The body of the plots and the lane list, by its index in the scene.
     pub body: usize,
     /// The coordinate of each body that a person has chosen for the plots, by its index; a body beyond the end has the
     /// [usual one](super::LaneBody::plotted_coordinate).
@@ -74,12 +74,12 @@ pub struct View {
     /// What a person has zoomed and panned the plots to: a range of each axis, by its name. An axis without a range is
     /// fitted.
     pub plot_ranges: BTreeMap<String, [f64; 2]>,
-    /// The zoom and the pan of each body, by its place in the scene; a body beyond the end is fitted.
+    /// The zoom and the pan of each body, by its index in the scene; a body beyond the end is fitted.
     pub zoom_pans: Vec<ZoomPan>,
 }
 
 impl View {
-    /// The zoom and the pan of the body at this place of the scene.
+    /// The zoom and the pan of the body at this index of the scene.
     pub fn zoom_pan(&self, body: usize) -> ZoomPan {
         self.zoom_pans.get(body).copied().unwrap_or_default()
     }
@@ -122,10 +122,10 @@ pub enum DriverRequest {
     Record,
     /// Copy the instrument's values to the clipboard.
     CopyInstrument,
-    /// Copy the method at this place of the list to the clipboard, as source code in the viewer's
+    /// Copy the method at this index of the list to the clipboard, as source code in the viewer's
     /// [language](super::Viewer::language).
     CopyMethod(usize),
-    /// Copy the lines of code that tell the engine at this place of the list the displayed body's spring.
+    /// Copy the lines of code that tell the engine at this index of the list the displayed body's spring.
     CopyJoint(usize),
     /// Save the instrument as a picture, a drawing and a table.
     ExportInstrument,

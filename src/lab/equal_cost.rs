@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::follow::{Follow, StopReason};
 use super::lane::Lane;
 use super::lane_spec::LaneSpec;
-use super::scene::{MOST_SUBSTEPS, Scene};
+use super::scene::{MAX_SUBSTEPS, Scene};
 
 /// The fewest ticks over which a cost is counted, and how many are counted after the script's last action: a second of
 /// most scenes, and enough for step sizes to settle.
@@ -13,7 +13,7 @@ const SETTLING_TICKS: u64 = 60;
 
 /// The most ticks over which a cost is counted. More would keep a person waiting who asks for equal cost; the actions of
 /// a longer script are left out beyond them.
-const MOST_COUNTED_TICKS: u64 = 600;
+const MAX_COUNTED_TICKS: u64 = 600;
 
 /// The lanes of a scene, each with as many substeps as bring its evaluations nearest to those of the dearest of them as
 /// it stands. Evaluations are counted at `tick_hz` from the scene's start until its script is over and step sizes have
@@ -42,7 +42,7 @@ pub fn lanes_that_race(scene: &Scene) -> Vec<LaneSpec> {
 /// less. `cost` may be infinite where it is more than its second argument.
 fn nearest(wanted: f64, spec: LaneSpec, cost: impl Fn(&LaneSpec, f64) -> f64) -> LaneSpec {
     let with = |substeps: u32| LaneSpec { substeps, ..spec };
-    let (mut low, mut high) = (1, MOST_SUBSTEPS);
+    let (mut low, mut high) = (1, MAX_SUBSTEPS);
     while high - low > 1 {
         let middle = low.midpoint(high);
         if cost(&with(middle), wanted) <= wanted {
@@ -60,7 +60,7 @@ fn nearest(wanted: f64, spec: LaneSpec, cost: impl Fn(&LaneSpec, f64) -> f64) ->
 /// The mean cost of a tick; infinite where it is more than `most`.
 fn evaluations_per_tick(scene: &Scene, spec: &LaneSpec, tick_hz: u32, most: f64) -> f64 {
     let over = scene.script.last().map_or(0, |last| last.tick);
-    let end = over.saturating_add(SETTLING_TICKS).min(MOST_COUNTED_TICKS);
+    let end = over.saturating_add(SETTLING_TICKS).min(MAX_COUNTED_TICKS);
     let lane = Lane::new(scene, spec.solver(), spec.substeps);
     let mut follow =
         Follow::new(lane, tick_hz).with_script(&scene.script).within((most * end as f64) as u64);

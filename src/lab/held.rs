@@ -8,7 +8,7 @@ use glam::DVec2;
 pub struct HeldBody {
     /// The number of the lane in whose cell it is held.
     pub lane: usize,
-    /// The body's place in the scene.
+    /// The body's index in the scene.
     pub body: usize,
     /// The coordinates with which it would be released.
     pub q: Box<[f64]>,

@@ -37,7 +37,7 @@ pub struct Fitted {
 
 /// What is said of a log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Word {
+pub enum Conclusion {
     /// One method fits, and those that do the same on this body.
     Identified,
     /// Methods that differ on this body fit equally well.
@@ -46,13 +46,13 @@ pub enum Word {
     Unknown,
 }
 
-impl Word {
+impl Conclusion {
     /// The word in output.
     pub fn id(self) -> &'static str {
         match self {
-            Word::Identified => "identified",
-            Word::CannotTell => "cannot tell",
-            Word::Unknown => "unknown",
+            Conclusion::Identified => "identified",
+            Conclusion::CannotTell => "cannot tell",
+            Conclusion::Unknown => "unknown",
         }
     }
 }
@@ -61,7 +61,7 @@ impl Word {
 #[derive(Clone, Debug)]
 pub struct Identification {
     /// What is said.
-    pub word: Word,
+    pub word: Conclusion,
     /// The candidate that fits best.
     pub best: Fitted,
     /// Others that do the same on this body.
@@ -85,7 +85,7 @@ pub struct Identification {
 }
 
 /// The most methods that are recommended.
-const MOST_RECOMMENDED: usize = 3;
+const MAX_RECOMMENDED: usize = 3;
 
 /// Finds out which method made `log`, a motion of `body` at `tick_hz`. What is not known of the body is fitted too.
 ///
@@ -103,8 +103,8 @@ pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identifica
     let body = best_fit.body.clone();
     let tick_s = 1.0 / tick_hz;
     let effective = match word {
-        Word::Unknown => nearest(log, &body, tick_hz),
-        Word::CannotTell if best_fit.is_short() => None,
+        Conclusion::Unknown => nearest(log, &body, tick_hz),
+        Conclusion::CannotTell if best_fit.is_short() => None,
         _ => Effective::of(*best, &body, tick_s),
     };
     let exact = Effective::exact(&body);
@@ -140,6 +140,6 @@ fn recommended(
         })
         .collect();
     found.sort_by_key(|(method, _)| method.evaluations.unwrap_or(u32::MAX));
-    found.truncate(MOST_RECOMMENDED);
+    found.truncate(MAX_RECOMMENDED);
     found
 }

@@ -98,16 +98,16 @@ impl Lab {
     pub fn entries(&self) -> &[LaneSpec] {
         self.race().list()
     }
-    /// The name of the method on this place of the list, told apart from others of the same method.
+    /// The name of the method on this index of the list, told apart from others of the same method.
     pub fn lane_name(&self, entry: usize) -> String {
         let spec = &self.entries()[entry];
-        spec.told_apart(spec.method.name, self.entries())
+        spec.distinct_name(spec.method.name, self.entries())
     }
     /// Solo or race.
     pub fn mode(&self) -> Mode {
         self.race().mode()
     }
-    /// The method in solo mode, or of the selected lane in a race, by its place on the list.
+    /// The method in solo mode, or of the selected lane in a race, by its index on the list.
     pub fn active(&self) -> usize {
         self.selected().entry
     }
@@ -153,7 +153,7 @@ impl Lab {
     pub fn view(&self) -> &View {
         &self.viewer.view
     }
-    /// The history of the displayed body in each lane, with the lane's place on the list.
+    /// The history of the displayed body in each lane, with the lane's index on the list.
     pub fn plotted(&self) -> impl Iterator<Item = (usize, &History)> {
         let body = self.view().body;
         let entries = self.race().entrants().iter().map(|entrant| entrant.entry);

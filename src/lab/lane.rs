@@ -27,7 +27,7 @@ pub struct Halt {
     pub tick: u64,
     /// When that tick began, in seconds.
     pub t: f64,
-    /// The body that failed, by its place in the scene.
+    /// The body that failed, by its index in the scene.
     pub body: usize,
     /// Why.
     pub failure: StepFailure,
@@ -193,7 +193,7 @@ impl LaneBody {
     }
 
     /// Steps from `t` by `h` (s), from tick `tick` to the next, or halts in its present state. `place` is the body's
-    /// place in the scene.
+    /// index in the scene.
     fn tick(&mut self, place: usize, tick: u64, (t, h): (f64, f64), substeps: u32) {
         if self.halted.is_some() {
             return;

@@ -9,7 +9,7 @@ use crate::sim::{Range, Solver};
 pub struct LaneSpec {
     /// The method of its bodies.
     pub method: &'static Method,
-    /// Equal steps per tick, 1 to [`MOST_SUBSTEPS`](super::MOST_SUBSTEPS).
+    /// Equal steps per tick, 1 to [`MAX_SUBSTEPS`](super::MAX_SUBSTEPS).
     pub substeps: u32,
     /// Overrides the absolute and the relative tolerance of an adaptive method's card, within
     /// [`TOLERANCES`](super::TOLERANCES); `None` keeps the card's tolerance, and is the only value for other methods.
@@ -30,7 +30,7 @@ impl LaneSpec {
 
     /// `name`, which is its method's, with its substeps or its tolerance after it where another of `lanes` has the method
     /// with others.
-    pub fn told_apart(&self, name: &str, lanes: &[LaneSpec]) -> String {
+    pub fn distinct_name(&self, name: &str, lanes: &[LaneSpec]) -> String {
         let alike = || lanes.iter().filter(|other| other.method == self.method);
         let has_others = alike().any(|other| other.substeps != self.substeps);
         let times = if has_others { format!(" ×{}", self.substeps) } else { String::new() };
@@ -97,7 +97,7 @@ mod tests {
             lane("adaptive-euler", 1, Some(1e-6)),
             lane("rk4", 1, None),
         ];
-        let names = lanes.map(|lane| lane.told_apart(lane.method.name, &lanes));
+        let names = lanes.map(|lane| lane.distinct_name(lane.method.name, &lanes));
         let expected = [
             "Box2D, told 1 Hz",
             "Held force ×1",

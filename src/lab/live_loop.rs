@@ -5,9 +5,9 @@ use std::collections::VecDeque;
 use super::pacing::{Frame, FrameTrace, RefreshRate};
 
 /// The frames that are remembered: ten seconds at 60 Hz.
-const MOST_FRAMES: usize = 600;
+const MAX_FRAMES: usize = 600;
 /// The fewest that make a trace.
-const FEWEST_FRAMES: usize = 60;
+const MIN_FRAMES: usize = 60;
 
 /// A frame of the lab's own loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +34,7 @@ pub struct LiveLoop {
 impl Default for LiveLoop {
     /// No frame, and room for all: adding one allocates nothing.
     fn default() -> Self {
-        Self { frames: VecDeque::with_capacity(MOST_FRAMES), shown_s: None }
+        Self { frames: VecDeque::with_capacity(MAX_FRAMES), shown_s: None }
     }
 }
 
@@ -50,7 +50,7 @@ impl LiveLoop {
         let progress_ms = before_s.map(|before_s| 1000.0 * (shown_s - before_s) / speed);
         let passed_ms = frame.duration_ns as f64 / 1e6;
         let animation_error_ms = progress_ms.map_or(0.0, |progress_ms| progress_ms - passed_ms);
-        if self.frames.len() == MOST_FRAMES {
+        if self.frames.len() == MAX_FRAMES {
             self.frames.pop_front();
         }
         self.frames.push_back(LiveFrame { animation_error_ms, ..frame });
@@ -64,7 +64,7 @@ impl LiveLoop {
     /// The trace of these frames, displayed when they begin, if there are enough.
     pub(super) fn trace(&self) -> Option<FrameTrace> {
         let mut durations: Vec<i64> = self.frames.iter().map(|frame| frame.duration_ns).collect();
-        if durations.len() < FEWEST_FRAMES {
+        if durations.len() < MIN_FRAMES {
             return None;
         }
         let starts = self.frames.iter().scan(0, |began_ns, frame| {
@@ -109,8 +109,8 @@ mod tests {
     fn it_is_a_trace_once_a_second_was_measured_and_never_grows_beyond_ten() {
         let mut live = LiveLoop::default();
         assert!(live.trace().is_none());
-        (0..2 * MOST_FRAMES).for_each(|_| live.add(FRAME, 0.0, 1.0));
-        assert_eq!(live.frames().len(), MOST_FRAMES);
+        (0..2 * MAX_FRAMES).for_each(|_| live.add(FRAME, 0.0, 1.0));
+        assert_eq!(live.frames().len(), MAX_FRAMES);
         let trace = live.trace().unwrap();
         assert_eq!((trace.name(), trace.refresh().hz()), ("live", 100.0));
         let mut frames = trace.frames();

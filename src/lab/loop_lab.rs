@@ -29,7 +29,7 @@ const OPENING: [(&str, [&str; 2]); 2] =
 /// How much of a trace the opening shows before it goes on, in nanoseconds of the display: long enough to see a judder.
 const OPENING_NS: i64 = 1_500_000_000;
 /// The most policies on the stage.
-pub const MOST_ON_STAGE: usize = 4;
+pub const MAX_ON_STAGE: usize = 4;
 /// How many times slower than real time it can be played; a monitor adds its own judder to what is faster.
 pub const SLOWNESS: [u32; 6] = [1, 2, 4, 8, 16, 32];
 /// How slow it is at first.
@@ -321,7 +321,7 @@ impl LoopLab {
         self.selected = place;
         self.is_stage_chosen = true;
         if !self.on_stage.contains(&place) {
-            if self.on_stage.len() == MOST_ON_STAGE {
+            if self.on_stage.len() == MAX_ON_STAGE {
                 self.on_stage.remove(0);
             }
             self.on_stage.push(place);

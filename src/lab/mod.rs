@@ -62,8 +62,8 @@ pub use action::Action;
 pub use analysis::{
     Advice, AdvisedBodies, Adviser, AnalysisRequest, AnalysisWorker, CRITERIA, ChaseFinding,
     Coverage, Criterion, CriterionMet, CriterionResult, EnergyFinding, FREQUENCY_TOLERANCE,
-    Findings, Here, Judge, LONG_RUN, LONGEST_HORIZON_S, MOST_ADVISED_SUBSTEPS, MOST_WORK,
-    MapRequest, MethodAdvice, NoTruth, NotJudged, Outcome, Region, RunFailure, SeenLine, Severity,
+    Findings, Here, Judge, LONG_RUN, MAX_ADVISED_SUBSTEPS, MAX_HORIZON_S, MAX_WORK, MapRequest,
+    MethodAdvice, NoTruth, NotJudged, Outcome, Region, RunFailure, SeenLine, Severity,
     StabilityMap, TOLERANCE, VISIBLE, Verdict, duration, recommended,
 };
 pub use appearance::Appearance;
@@ -81,8 +81,8 @@ pub use gesture::{GESTURES, Gesture};
 pub use guide::{Goal, STOPS, Stop, Tour};
 pub use held::HeldBody;
 pub use identify::{
-    Candidate, Columns, Effective, Fitted, Identification, Log, LogError, LogRow, LoggedBody, Word,
-    identify,
+    Candidate, Columns, Conclusion, Effective, Fitted, Identification, Log, LogError, LogRow,
+    LoggedBody, identify,
 };
 pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow};
 pub use interpolation::Interpolation;
@@ -94,7 +94,7 @@ pub use lane_spec::LaneSpec;
 pub use live_loop::{LiveFrame, LiveLoop};
 pub use loop_lab::{
     FRAME_METRICS, FoundLoop, FrameMetric, LoopCommand, LoopFrame, LoopLab, LoopLane, LoopRequest,
-    LoopState, LoopVerdict, LoopWorker, MOST_ON_STAGE, SLOWNESS,
+    LoopState, LoopVerdict, LoopWorker, MAX_ON_STAGE, SLOWNESS,
 };
 pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use my_spring::MySpring;
@@ -114,8 +114,8 @@ pub use report::{Criteria, MethodReport, Recommendation, Report, advise};
 #[cfg(feature = "desktop")]
 pub(crate) use scene::clip::clip;
 pub use scene::{
-    BuiltIn, Check, EditError, LARGEST_FILE, LAST_TICK, LEAST_SECONDS, MOST_BODIES, MOST_LANES,
-    MOST_NAME_CHARS, MOST_SECONDS, MOST_SHOWN, MOST_SUBSTEPS, MOST_TICK_HZ, Refusal, SCENES, Scene,
+    BuiltIn, Check, EditError, LAST_TICK, MAX_BODIES, MAX_FILE_BYTES, MAX_LANES, MAX_NAME_CHARS,
+    MAX_SECONDS, MAX_SHOWN, MAX_SUBSTEPS, MAX_TICK_HZ, MIN_SECONDS, Refusal, SCENES, Scene,
     SceneBody, SceneError, SceneErrors, Scripted, TOLERANCES, USUAL_SECONDS, edited_values,
     nearest, parameter_named,
 };

@@ -6,7 +6,7 @@ use super::scene::{Scene, SceneErrors, USUAL_SECONDS};
 use crate::sim::number::round;
 
 /// The fewest periods in a scene of a slow spring.
-const LEAST_PERIODS: f64 = 10.0;
+const MIN_PERIODS: f64 = 10.0;
 
 /// The largest number of a spring that is taken.
 const MAX_NUMBER: f64 = 1e12;
@@ -75,7 +75,7 @@ impl MySpring {
     pub fn scene_text(self, tick_hz: u32) -> String {
         let Self { mass_kg, stiffness_n_per_m, damping_n_s_per_m } = self;
         let (frequency, ratio) = (self.frequency_hz(), self.damping_ratio());
-        let seconds = (LEAST_PERIODS / frequency).max(USUAL_SECONDS);
+        let seconds = (MIN_PERIODS / frequency).max(USUAL_SECONDS);
         let damped = match ratio {
             0.0 => "undamped".to_owned(),
             ratio => format!("damping ratio {}", round(ratio, 3)),

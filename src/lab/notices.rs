@@ -30,7 +30,7 @@ impl<'s> Notices<'s> {
 
 impl Observer for Notices<'_> {
     fn after(&mut self, race: &Race, action: &Action, resumed: &[Resumed]) {
-        self.tell(of_taken_up(self.scene, resumed));
+        self.tell(resumed_notice(self.scene, resumed));
         self.tell(of_claims(self.scene, race, action));
     }
 
@@ -98,7 +98,7 @@ fn of_halts(scene: &Scene, race: &Race) -> Option<String> {
             Some(place) => {
                 let entrant = &race.entrants()[place];
                 let spec = race.list()[entrant.entry];
-                let name = spec.told_apart(spec.method.name, race.list());
+                let name = spec.distinct_name(spec.method.name, race.list());
                 let fate = entrant.lane.bodies()[*index].fate().unwrap_or_default();
                 format!("{name}: {} {fate}", body.name)
             }
@@ -114,7 +114,7 @@ fn of_halts(scene: &Scene, race: &Race) -> Option<String> {
 }
 
 /// A notice about the halted bodies that a switch has resumed, if there are any.
-fn of_taken_up(scene: &Scene, resumed: &[Resumed]) -> Option<String> {
+fn resumed_notice(scene: &Scene, resumed: &[Resumed]) -> Option<String> {
     let told = resumed.iter().map(|Resumed { halt, from }| {
         let body = &scene.bodies[halt.body];
         let fate = if halt.is_blow_up() { "had blown up" } else { "had halted" };
@@ -154,7 +154,8 @@ mod tests {
         ];
         let [gave_up, blew_up] =
             failures.map(|failure| Halt { tick: 3, t: 0.05, body: 0, failure });
-        let told = |halt: &Halt, from| of_taken_up(&scene, &[Resumed { halt: halt.clone(), from }]);
+        let told =
+            |halt: &Halt, from| resumed_notice(&scene, &[Resumed { halt: halt.clone(), from }]);
         assert_eq!(
             told(&gave_up, ResumedFrom::Truth).unwrap(),
             "helm had halted: resumed from the reference solution"
@@ -163,7 +164,7 @@ mod tests {
             told(&blew_up, ResumedFrom::LastGood).unwrap(),
             "helm had blown up: resumed from its last good state"
         );
-        assert_eq!(of_taken_up(&scene, &[]), None);
+        assert_eq!(resumed_notice(&scene, &[]), None);
     }
 
     #[test]

@@ -23,7 +23,7 @@ pub mod trace_file;
 pub use crate::sim::{Accumulator, Due, LONGEST_FRAME_MS};
 pub use advice::advised_loop;
 pub use frame::Frame;
-pub use loop_run::{LEAST_RUN_S, LoopRun};
+pub use loop_run::{LoopRun, MIN_RUN_S};
 pub use metrics::{FrameRecord, PACING_METRICS, PacingMetric, PacingReport};
 pub use paced_lane::PacedLane;
 pub use pacer::Pacer;

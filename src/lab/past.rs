@@ -118,7 +118,7 @@ impl Past {
         self.truth_curves.iter().map(TruthCurve::coordinate)
     }
 
-    /// The recorded coordinate of the body at this place of the scene, and its index.
+    /// The recorded coordinate of the body at this index of the scene, and its index.
     pub fn coordinate<'r>(&self, race: &'r Race, body: usize) -> (&'r Coordinate, usize) {
         let index = self.truth_curves[body].coordinate();
         (&race.truth().bodies()[body].coordinates()[index], index)
@@ -136,7 +136,7 @@ impl Past {
         if has_begun { f64::NEG_INFINITY } else { self.changed_s }
     }
 
-    /// The true coordinates and velocities of the body at this place of the scene within the last tick of `race`, in which
+    /// The true coordinates and velocities of the body at this index of the scene within the last tick of `race`, in which
     /// `part` goes from 0 to 1, or beyond it.
     pub fn truth_between(&self, race: &Race, body: usize, part: f64) -> (Vec<f64>, Vec<f64>) {
         self.truth_curves[body].state(&race.truth().bodies()[body], race.last_tick(), part)

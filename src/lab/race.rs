@@ -146,7 +146,7 @@ impl Race {
         race
     }
 
-    /// The race of the methods on these places of a list, at its start, with the scene's script.
+    /// The race of the methods on these indices of a list, at its start, with the scene's script.
     pub(super) fn among(
         scene: &Scene,
         list: Vec<LaneSpec>,
@@ -201,7 +201,7 @@ impl Race {
     pub fn list(&self) -> &[LaneSpec] {
         &self.list
     }
-    /// The present parameters of the body at this place of the scene, in the order of
+    /// The present parameters of the body at this index of the scene, in the order of
     /// [`Kind::build`](crate::sim::bodies::Kind::build).
     pub fn values(&self, body: usize) -> &[f64] {
         &self.values[body]

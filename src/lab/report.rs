@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::analysis::{
-    Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MOST_ADVISED_SUBSTEPS,
+    Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS,
     MethodAdvice, recommended,
 };
 use super::custom::{Options, scene};
@@ -183,7 +183,7 @@ impl fmt::Display for Report {
             match self.recommended.get(criterion) {
                 Some(recommendation) => writeln!(f, "{recommendation}")?,
                 None if self.not_known.get(criterion).is_empty() => {
-                    writeln!(f, "none of these with up to {MOST_ADVISED_SUBSTEPS} substeps")?;
+                    writeln!(f, "none of these with up to {MAX_ADVISED_SUBSTEPS} substeps")?;
                 }
                 None => {
                     writeln!(f, "not known of {}", self.not_known.get(criterion).join(", "))?;

@@ -31,43 +31,43 @@ mod table;
 mod writer;
 
 pub use edit::{EditError, edited_values, parameter_named};
-pub use errors::{MOST_SHOWN, SceneError, SceneErrors};
+pub use errors::{MAX_SHOWN, SceneError, SceneErrors};
 pub use nearest::nearest;
 pub use refusal::Refusal;
 
 /// The largest scene file in bytes: tens of thousands of scripted commands. A file of nothing but
 /// mistakes takes the parser some hundred times its size in memory.
-pub const LARGEST_FILE: usize = 1 << 20;
+pub const MAX_FILE_BYTES: usize = 1 << 20;
 
 /// The highest tick rate in Hz: ten times the finest rate of physics in games.
-pub const MOST_TICK_HZ: u32 = 10_000;
+pub const MAX_TICK_HZ: u32 = 10_000;
 
 /// The ticks of a scene of this length (s) and rate, at which the claims of its bodies are held against their motion.
 pub(in crate::lab) fn claim_horizon(seconds: f64, tick_hz: u32) -> ClaimHorizon {
     ClaimHorizon { tick_hz, ticks: (seconds * f64::from(tick_hz)).round() as u64 }
 }
 
-/// The longest a scene may run, in seconds: a year. At [`MOST_TICK_HZ`] its last tick is far below
+/// The longest a scene may run, in seconds: a year. At [`MAX_TICK_HZ`] its last tick is far below
 /// 2⁵³, so that `tick / rate` is exact to the last bit of an f64.
-pub const MOST_SECONDS: f64 = 365.0 * 86_400.0;
+pub const MAX_SECONDS: f64 = 365.0 * 86_400.0;
 
-/// The shortest that a scene may run, in seconds: a tick at [`MOST_TICK_HZ`].
-pub const LEAST_SECONDS: f64 = 1.0 / MOST_TICK_HZ as f64;
+/// The shortest that a scene may run, in seconds: a tick at [`MAX_TICK_HZ`].
+pub const MIN_SECONDS: f64 = 1.0 / MAX_TICK_HZ as f64;
 
 /// How long a scene runs that does not say so, in seconds: twenty swings of a spring at 1 Hz.
 pub const USUAL_SECONDS: f64 = 20.0;
 
 /// The last tick of the longest scene at the highest rate.
-pub const LAST_TICK: u64 = 365 * 86_400 * MOST_TICK_HZ as u64;
+pub const LAST_TICK: u64 = 365 * 86_400 * MAX_TICK_HZ as u64;
 
 /// The most bodies in a scene: more cells than this cannot be told apart on a stage.
-pub const MOST_BODIES: usize = 64;
+pub const MAX_BODIES: usize = 64;
 
 /// The most lanes in a scene: twice the number of colours that can be told apart.
-pub const MOST_LANES: usize = 32;
+pub const MAX_LANES: usize = 32;
 
 /// The most substeps in a tick of a lane.
-pub const MOST_SUBSTEPS: u32 = 1_000;
+pub const MAX_SUBSTEPS: u32 = 1_000;
 
 /// The tolerances that a lane may be given: below the least, round-off alone is more; with the largest, an
 /// error may be as large as the value.
@@ -75,10 +75,10 @@ pub const TOLERANCES: (f64, f64) = (1e-14, 1.0);
 
 /// The largest magnitude of a coordinate that a body can be placed at. Beyond it bodies halt; see
 /// [`ESCAPE`](super::ESCAPE).
-const LARGEST_COORDINATE: f64 = 1e38;
+const MAX_COORDINATE: f64 = 1e38;
 
 /// The most characters in a body's name: it stands in one line beside its cell.
-pub const MOST_NAME_CHARS: usize = 64;
+pub const MAX_NAME_CHARS: usize = 64;
 
 /// What is simulated, and how.
 #[derive(Clone, Debug)]
@@ -91,11 +91,11 @@ pub struct Scene {
     pub about: String,
     /// What to try, for the line under the stage.
     pub hint: Option<String>,
-    /// Ticks per second, 1 to [`MOST_TICK_HZ`].
+    /// Ticks per second, 1 to [`MAX_TICK_HZ`].
     pub tick_hz: u32,
-    /// How long it runs, from [`LEAST_SECONDS`] to [`MOST_SECONDS`].
+    /// How long it runs, from [`MIN_SECONDS`] to [`MAX_SECONDS`].
     pub seconds: f64,
-    /// The methods that race, 1 to [`MOST_LANES`], no two alike.
+    /// The methods that race, 1 to [`MAX_LANES`], no two alike.
     pub lanes: Vec<LaneSpec>,
     /// The method that the program opens the scene with, one of the lanes'; `None` for the first lane's.
     pub opening_method: Option<&'static Method>,
@@ -103,7 +103,7 @@ pub struct Scene {
     pub equal_cost: bool,
     /// Whether the program opens it as a race, and not under one method.
     pub opens_as_race: bool,
-    /// The bodies in the order of the file, 1 to [`MOST_BODIES`], no two of one name.
+    /// The bodies in the order of the file, 1 to [`MAX_BODIES`], no two of one name.
     pub bodies: Vec<SceneBody>,
     /// The scripted commands by tick, and within a tick in the order of the file.
     pub script: Vec<Scripted>,
@@ -158,7 +158,7 @@ impl Scene {
     /// # Errors
     /// As [`Scene::parse`], and where the bytes are not UTF-8.
     pub fn from_bytes(file: &str, bytes: &[u8]) -> Result<Scene, SceneErrors> {
-        if bytes.len() > LARGEST_FILE {
+        if bytes.len() > MAX_FILE_BYTES {
             return Err(SceneErrors::too_large(file));
         }
         match str::from_utf8(bytes) {
@@ -172,7 +172,7 @@ impl Scene {
     /// # Errors
     /// All faults of the text, in its order.
     pub fn parse(file: &str, text: &str) -> Result<Scene, SceneErrors> {
-        if text.len() > LARGEST_FILE {
+        if text.len() > MAX_FILE_BYTES {
             return Err(SceneErrors::too_large(file));
         }
         // Some editors begin a file with a byte order mark, and none of them counts it as a column.

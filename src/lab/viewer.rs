@@ -170,7 +170,7 @@ impl Viewer {
         self.held.as_ref()
     }
 
-    /// The verdict on the method at this place of the list, of the run that [`Lab::analysis_request`](super::Lab::analysis_request)
+    /// The verdict on the method at this index of the list, of the run that [`Lab::analysis_request`](super::Lab::analysis_request)
     /// describes; `None` until it has been [found](super::Lab::accept_findings).
     pub fn verdict(&self, entry: usize) -> Option<&Verdict> {
         self.findings.as_ref()?.verdicts.get(entry)?.as_ref()

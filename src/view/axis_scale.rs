@@ -59,7 +59,7 @@ impl AxisScale {
         };
         let evenly = || ticks::linear(input(), apart);
         // In as many digits as tell the marks apart.
-        let told_apart = || {
+        let distinct_name = || {
             let texts = |digits: usize| -> Vec<(f64, String)> {
                 let text = |mark: &GridMark| round(self.value(mark.value), digits);
                 evenly().iter().map(|mark| (mark.value, text(mark))).collect()
@@ -79,14 +79,14 @@ impl AxisScale {
                 if decades.len() >= FEWEST {
                     return decades;
                 }
-                told_apart()
+                distinct_name()
             }
             Self::SymLog(_) => {
                 let marks = self.symmetric_marks((low, high), apart * (high - low) / room.max(1.0));
                 if marks.len() >= FEWEST {
                     return marks;
                 }
-                told_apart()
+                distinct_name()
             }
         }
     }

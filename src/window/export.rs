@@ -27,7 +27,7 @@ impl App {
         });
     }
 
-    /// Puts the method at this place of the list on the clipboard, as source code.
+    /// Puts the method at this index of the list on the clipboard, as source code.
     pub(super) fn copy_method(&mut self, entry: usize) {
         let language = self.lab.viewer().language();
         let Some(method) = self.lab.entries().get(entry).map(|spec| spec.method) else { return };

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::{Closed, SceneFiles, WindowError, WindowSettings, regular_file, run};
-use crate::lab::{LARGEST_FILE, Lab, Scene, Session};
+use crate::lab::{Lab, MAX_FILE_BYTES, Scene, Session};
 
 /// The window of the program.
 #[derive(Debug)]
@@ -27,7 +27,7 @@ impl Window {
     pub fn run(session: Session) -> Result<Closed, WindowError> {
         let read = |path: &Path| {
             let name = path.display().to_string();
-            let bytes = regular_file::read(path, LARGEST_FILE)
+            let bytes = regular_file::read(path, MAX_FILE_BYTES)
                 .map_err(|why| format!("error: cannot read {name}: {why}"))?;
             let scene = Scene::from_bytes(&name, &bytes).map_err(|errors| errors.to_string())?;
             Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))

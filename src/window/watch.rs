@@ -10,7 +10,7 @@ use winit::event_loop::EventLoopProxy;
 use super::Event;
 use super::opening::ReadScene;
 use super::regular_file::{self, Unreadable};
-use crate::lab::LARGEST_FILE;
+use crate::lab::MAX_FILE_BYTES;
 
 /// The time between two looks at the files: short enough for a change to seem immediate.
 const INTERVAL: Duration = Duration::from_millis(400);
@@ -173,7 +173,7 @@ impl WatchedFile {
     }
 
     fn read(&self) -> Option<Option<Vec<u8>>> {
-        match regular_file::read(&self.path, LARGEST_FILE) {
+        match regular_file::read(&self.path, MAX_FILE_BYTES) {
             Ok(bytes) => Some(Some(bytes)),
             Err(Unreadable::TooLarge { .. }) => Some(None),
             Err(_) => None,

@@ -6,7 +6,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use regatta::lab::{LARGEST_FILE, MOST_BODIES, MOST_SHOWN, Scene, SceneErrors};
+use regatta::lab::{MAX_BODIES, MAX_FILE_BYTES, MAX_SHOWN, Scene, SceneErrors};
 
 /// A bad scene and what is said of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -212,24 +212,24 @@ fn a_million_bodies_are_refused_for_the_size_of_their_file() {
 fn as_many_bodies_as_a_file_can_hold_are_refused_by_their_number() {
     let head = "title = 'many'\ntick_hz = 60\nseconds = 1\n";
     let body = "[[ship]]\n";
-    let count = (LARGEST_FILE - head.len()) / body.len();
+    let count = (MAX_FILE_BYTES - head.len()) / body.len();
     let errors = refused(&(head.to_owned() + &body.repeat(count)));
     // Three keys are missing in each ship that is looked at.
-    assert_eq!(errors.errors.len() + errors.more, 3 * MOST_BODIES + 1);
+    assert_eq!(errors.errors.len() + errors.more, 3 * MAX_BODIES + 1);
 
     let good = "[[ship]]\nthrust_n = 1\ndrag_n_s_per_m = 1\nmass_kg = 1\n";
-    let count = (LARGEST_FILE - head.len()) / good.len();
+    let count = (MAX_FILE_BYTES - head.len()) / good.len();
     let errors = refused(&(head.to_owned() + &good.repeat(count)));
     let message =
-        format!("bad.toml:260:1: the scene has {count} bodies; keep at most {MOST_BODIES}");
+        format!("bad.toml:260:1: the scene has {count} bodies; keep at most {MAX_BODIES}");
     assert_eq!(errors.to_string(), message);
 }
 
 #[test]
 fn a_file_of_nothing_but_mistakes_is_refused_without_a_word_too_many() {
     for mistake in ["=\n", "a=\n", "a=1\n", "\0", "\0\n", "[", "\"", "a=1 1\n", "[[x]]\n", "é\r"] {
-        let errors = refused(&mistake.repeat(LARGEST_FILE / mistake.len()));
-        assert!(errors.to_string().lines().count() <= MOST_SHOWN + 1);
+        let errors = refused(&mistake.repeat(MAX_FILE_BYTES / mistake.len()));
+        assert!(errors.to_string().lines().count() <= MAX_SHOWN + 1);
         check_places(&errors);
     }
 }
@@ -238,7 +238,7 @@ fn a_file_of_nothing_but_mistakes_is_refused_without_a_word_too_many() {
 fn nesting_as_deep_as_a_file_can_hold_does_not_overflow_the_stack() {
     for opening in ["[", "{a=", "a.", "[[", "[{a="] {
         for start in ["", "a=", "methods=", "[a."] {
-            let text = start.to_owned() + &opening.repeat((LARGEST_FILE - 8) / opening.len());
+            let text = start.to_owned() + &opening.repeat((MAX_FILE_BYTES - 8) / opening.len());
             check_places(&refused(&text));
         }
     }

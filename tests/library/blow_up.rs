@@ -17,7 +17,7 @@ fn entries(without: &str) -> impl Iterator<Item = (usize, LaneSpec)> {
     lanes.filter(move |(_, spec)| spec.method.id != without)
 }
 
-/// The bits of each lane but the named method's, with the lane's place on the list.
+/// The bits of each lane but the named method's, with the lane's index on the list.
 fn states(race: &Race, without: &str) -> Vec<(usize, Vec<u64>)> {
     let others =
         race.entrants().iter().filter(|entrant| GENERAL_METHODS[entrant.entry].id != without);

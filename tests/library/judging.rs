@@ -1,7 +1,7 @@
 //! Verdicts and advice against plain runs: energies, amplitudes and errors counted out here once more.
 
 use regatta::lab::{
-    Adviser, CRITERIA, CriterionResult, Judge, LONGEST_HORIZON_S, LaneSpec, NoTruth, NotJudged,
+    Adviser, CRITERIA, CriterionResult, Judge, LaneSpec, MAX_HORIZON_S, NoTruth, NotJudged,
     Outcome, Scene, TOLERANCE, Verdict,
 };
 use regatta::sim::integrators::method;
@@ -356,8 +356,8 @@ fn the_body_that_fares_worst_speaks_and_all_are_counted() {
 fn a_scene_is_judged_under_its_throttle_and_over_a_minute_of_it() {
     let long = scene(600.0, "[[ship]]\nthrust_n = 2000\ndrag_n_s_per_m = 100\nmass_kg = 1000");
     let judge = Judge::new(&long, 0.3);
-    assert_eq!((judge.throttle(), judge.horizon_s()), (0.3, LONGEST_HORIZON_S));
-    assert_eq!(judge.verdict(spec("rk4"), 10).seconds, LONGEST_HORIZON_S);
+    assert_eq!((judge.throttle(), judge.horizon_s()), (0.3, MAX_HORIZON_S));
+    assert_eq!(judge.verdict(spec("rk4"), 10).seconds, MAX_HORIZON_S);
     assert_eq!(Judge::new(&spring(), -1.0).horizon_s(), 20.0);
     assert_eq!(Judge::over(&spring(), 1.0, 7.5).verdict(spec("rk4"), 10).horizon_s, 7.5);
 }

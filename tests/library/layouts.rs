@@ -100,7 +100,7 @@ fn a_lane_takes_the_substeps_that_are_advised_in_flight_and_keeps_them() {
     let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
     (0..10).for_each(|_| lab.tick());
     let before = lab.race().entrants()[0].lane.bodies()[0].stepper.q().to_vec();
-    lab.apply(Command::Fly(spec(8)));
+    lab.apply(Command::SetLane(spec(8)));
     let lane = &lab.race().entrants()[0].lane;
     assert_eq!((lane.solver(), lane.substeps()), (spec(8).solver(), 8));
     assert_eq!(lane.bodies()[0].stepper.q(), before);
@@ -110,11 +110,14 @@ fn a_lane_takes_the_substeps_that_are_advised_in_flight_and_keeps_them() {
     // In a race the method's own lane takes them, and the others go on.
     lab.apply(Command::ToggleRace);
     (0..10).for_each(|_| lab.tick());
-    lab.apply(Command::Fly(spec(4)));
+    lab.apply(Command::SetLane(spec(4)));
     let substeps = lab.race().entrants().iter().map(|entrant| entrant.lane.substeps());
     assert_eq!(substeps.collect::<Vec<_>>(), [1, 1, 1, 4, 1]);
     // One that is not in the race is taken in.
-    lab.apply(Command::Fly(LaneSpec { substeps: 3, ..LaneSpec::plain(method("pefrl").unwrap()) }));
+    lab.apply(Command::SetLane(LaneSpec {
+        substeps: 3,
+        ..LaneSpec::plain(method("pefrl").unwrap())
+    }));
     assert_eq!(lab.viewer().notice.as_deref(), Some("the race restarted with PEFRL in it"));
     assert_eq!((lab.race().tick(), lab.race().entrants().len()), (0, 6));
     assert_eq!(lab.entries()[lab.active()].substeps, 3);

@@ -6,7 +6,7 @@ use super::judged::{Row, recommended_row};
 use crate::commands::output::table::{self, Column};
 use crate::lab::number::round;
 use crate::lab::{
-    Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, Language, MOST_ADVISED_SUBSTEPS,
+    Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, Language, MAX_ADVISED_SUBSTEPS,
     Precision, Recommendation, Scene, Verdict, source_code,
 };
 
@@ -34,7 +34,7 @@ pub(super) fn text(
             text += &table::text(METS, &met, "  ");
         }
         for (meets, why) in [
-            (CriterionResult::No, format!("not with up to {MOST_ADVISED_SUBSTEPS} substeps")),
+            (CriterionResult::No, format!("not with up to {MAX_ADVISED_SUBSTEPS} substeps")),
             (CriterionResult::Unknown, "not known: no truth, or too much work".to_owned()),
         ] {
             let those = rows.iter().filter(|row| row.advised.met[i] == meets);
@@ -96,7 +96,7 @@ fn why_none(scene: &Scene, rows: &[Row], criterion: usize) -> String {
         bodies => format!("the {} bodies", bodies.len()),
     };
     format!(
-        "none of these with up to {MOST_ADVISED_SUBSTEPS} substeps; raise the tick rate, soften the stiffest of \
+        "none of these with up to {MAX_ADVISED_SUBSTEPS} substeps; raise the tick rate, soften the stiffest of \
          {bodies}, or damp it"
     )
 }

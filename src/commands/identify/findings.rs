@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::lab::number::significant;
-use crate::lab::{Candidate, Effective, Fitted, Identification, Log, Word};
+use crate::lab::{Candidate, Conclusion, Effective, Fitted, Identification, Log};
 use crate::sim::integrators::Method;
 
 /// A residual beyond which no method is named as the nearest.
@@ -32,7 +32,7 @@ pub(super) fn object(found: Option<&Identification>, mass: f64) -> Value {
     };
     let recommended = found.map(|found| &found.recommended[..]).unwrap_or_default();
     json!({
-        "word": found.map_or(Word::Unknown, |found| found.word).id(),
+        "word": found.map_or(Conclusion::Unknown, |found| found.word).id(),
         "best": best.map(|best| best.candidate.method.id),
         "substeps": best.map(|best| best.candidate.substeps),
         "held": best.map(|best| best.candidate.is_held),
@@ -140,10 +140,10 @@ pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
     let residual = |fitted: &Fitted| format!("residual {:.1e}", fitted.residual);
     let rival = runner_up.as_ref();
     let mut lines = vec![match (word, rival) {
-        (Word::Identified, _) => {
+        (Conclusion::Identified, _) => {
             format!("made by {}, {}", makers(&best.candidate, &found.also), residual(best))
         }
-        (Word::CannotTell, Some(rival)) => format!(
+        (Conclusion::CannotTell, Some(rival)) => format!(
             "cannot tell {} from {}: {} and {:.1e}; {}",
             best.candidate,
             rival.candidate,
@@ -158,17 +158,17 @@ pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
         _ if best.residual > FAR => "unknown: no method comes near".to_owned(),
         _ => format!("unknown: the nearest is {}, {}", best.candidate, residual(best)),
     }];
-    if *word == Word::Unknown {
+    if *word == Conclusion::Unknown {
         lines.push(HINT.to_owned());
     }
-    let told = *word != Word::Unknown;
+    let told = *word != Conclusion::Unknown;
     if told && !found.also.is_empty() {
         lines.push(format!("the same on this body: {}", names(&found.also)));
     }
-    if *word == Word::Identified && !found.unusual.is_empty() {
+    if *word == Conclusion::Identified && !found.unusual.is_empty() {
         lines.push(format!("would fit too, but few set them: {}", names(&found.unusual)));
     }
-    if let (Word::Identified, Some(rival)) = (word, rival) {
+    if let (Conclusion::Identified, Some(rival)) = (word, rival) {
         lines.push(format!("runner-up: {}, {}", rival.candidate, residual(rival)));
     }
     if let Some(effective) = effective {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::engine;
-use crate::lab::{Approach, MOST_SUBSTEPS, Setup, Wish};
+use crate::lab::{Approach, MAX_SUBSTEPS, Setup, Wish};
 use crate::sim::integrators::{JointMode, Method, Setting};
 
 /// Where a wish comes from.
@@ -96,9 +96,9 @@ fn of_engine(
             }
             "tick_hz" => tick_hz = above_0(value, "Hz", "tick_hz")?,
             "substeps" => {
-                let number = value.parse().ok().filter(|n| (1..=MOST_SUBSTEPS).contains(n));
+                let number = value.parse().ok().filter(|n| (1..=MAX_SUBSTEPS).contains(n));
                 substeps =
-                    number.ok_or(format!("substeps is {value}; give 1 to {MOST_SUBSTEPS}"))?;
+                    number.ok_or(format!("substeps is {value}; give 1 to {MAX_SUBSTEPS}"))?;
             }
             key if values.iter().any(|(known, _)| *known == key) => {
                 return Err(format!("{key} is given twice"));

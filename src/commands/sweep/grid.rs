@@ -12,7 +12,7 @@ use crate::commands::interrupt::Interrupted;
 use crate::commands::jobs;
 use crate::commands::stopwatch;
 use crate::commands::terminal::progress;
-use crate::lab::{Clock, Judge, LONGEST_HORIZON_S, LaneSpec, Scene, SceneBody, Verdict};
+use crate::lab::{Clock, Judge, LaneSpec, MAX_HORIZON_S, Scene, SceneBody, Verdict};
 use crate::sim::bodies::Text;
 use crate::sim::integrators::Method;
 
@@ -109,7 +109,7 @@ impl Grid {
     pub(super) fn new(swept: &Swept) -> Self {
         let mut grid = Self { subjects: Vec::new(), cells: Vec::new() };
         for (name, scene) in &swept.scenes {
-            let horizon_s = swept.seconds.unwrap_or(scene.seconds.min(LONGEST_HORIZON_S));
+            let horizon_s = swept.seconds.unwrap_or(scene.seconds.min(MAX_HORIZON_S));
             let own = octaves(scene.tick_hz);
             let rates = if swept.rates.is_empty() { &own } else { &swept.rates };
             let bodies = scene.bodies.iter().flat_map(|body| variants(body, &swept.varied));

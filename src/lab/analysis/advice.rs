@@ -65,19 +65,19 @@ impl Criterion {
 }
 
 /// The most substeps per tick that are tried.
-pub const MOST_ADVISED_SUBSTEPS: u32 = 64;
+pub const MAX_ADVISED_SUBSTEPS: u32 = 64;
 
 /// The number of substeps up to which each is tried before the most.
 const FEW_SUBSTEPS: u32 = 8;
 
-/// The most work for one run of a stiffer scene, in the unit of [`MOST_WORK`](super::MOST_WORK). There are many such runs.
+/// The most work for one run of a stiffer scene, in the unit of [`MAX_WORK`](super::MAX_WORK). There are many such runs.
 const WORK_WHEN_STIFFER: u64 = 10_000_000;
 
 /// A body of more coordinates has its margins searched for methods of about the least cost only: its runs are dear.
 const MANY_COORDINATES: usize = 8;
 
 /// The most times the evaluations of the cheapest method that one of about the least cost needs.
-const MOST_TIMES_CHEAPEST: f64 = 4.0;
+const MAX_TIMES_CHEAPEST: f64 = 4.0;
 
 /// The advice on one method on a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,7 +104,7 @@ impl MethodAdvice {
 pub enum CriterionResult {
     /// It does, in this way.
     With(CriterionMet),
-    /// It does not with 8 substeps or fewer, nor with [`MOST_ADVISED_SUBSTEPS`]; what lies between is not searched then.
+    /// It does not with 8 substeps or fewer, nor with [`MAX_ADVISED_SUBSTEPS`]; what lies between is not searched then.
     No,
     /// Not known: it takes too much work, or there is no truth.
     Unknown,
@@ -183,7 +183,7 @@ impl Adviser {
         let is_dear =
             |body: &SceneBody| body.kind.coordinates(&body.values).len() > MANY_COORDINATES;
         let most =
-            if self.scene.bodies.iter().any(is_dear) { MOST_TIMES_CHEAPEST } else { f64::INFINITY };
+            if self.scene.bodies.iter().any(is_dear) { MAX_TIMES_CHEAPEST } else { f64::INFINITY };
         let evaluations = |advised: &MethodAdvice, criterion: usize| {
             advised.met[criterion].met().map(|met| met.evaluations_per_s)
         };
@@ -216,15 +216,15 @@ impl Adviser {
         let with = |substeps: u32| LaneSpec { substeps, ..spec };
         let tried = |substeps| find(&self.judge, criterion, with(substeps), self.tick_hz);
         let (mut fails, mut holds, mut with_most) = (0, None, None);
-        for substeps in (0..).map(tried_substeps).take_while(|&n| n <= MOST_ADVISED_SUBSTEPS) {
+        for substeps in (0..).map(tried_substeps).take_while(|&n| n <= MAX_ADVISED_SUBSTEPS) {
             // What fails with the most substeps is not searched.
             if substeps > FEW_SUBSTEPS && with_most.is_none() {
-                with_most = Some(tried(MOST_ADVISED_SUBSTEPS));
+                with_most = Some(tried(MAX_ADVISED_SUBSTEPS));
                 if matches!(with_most, Some(CriterionFinding::Fails { .. })) {
                     return CriterionResult::No;
                 }
             }
-            let finding = with_most.filter(|_| substeps == MOST_ADVISED_SUBSTEPS);
+            let finding = with_most.filter(|_| substeps == MAX_ADVISED_SUBSTEPS);
             match finding.unwrap_or_else(|| tried(substeps)) {
                 CriterionFinding::Holds { evaluations_per_s } => {
                     holds = Some((substeps, evaluations_per_s));

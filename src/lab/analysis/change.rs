@@ -65,7 +65,7 @@ pub(super) fn fill_from_run(
         .map(|measured| measured.error);
     let within = |at: Option<f64>| at.is_some_and(|t| t <= horizon_s);
     if truth.energy_scale.is_none() {
-        let grows = within(run.doubled_at) || within(run.rushed_at);
+        let grows = within(run.doubled_at) || within(run.velocity_doubled_at);
         return if grows { Change::Grows } else { Change::None };
     }
     verdict.energy_change = Some(run.quarters[3]).filter(|change| change.is_finite());
@@ -81,7 +81,7 @@ pub(super) fn amplitude(energy_change: f64) -> f64 {
 /// Whether the amplitude of a body stays bounded by the true one; `None` if the run did not get to its end.
 pub(super) fn bounded(truth: &BodyTruth, run: &Run) -> Option<bool> {
     let failed = run.failure.is_some() || run.later.is_some();
-    if failed || run.doubled_at.is_some() || run.rushed_at.is_some() {
+    if failed || run.doubled_at.is_some() || run.velocity_doubled_at.is_some() {
         return Some(false);
     }
     if run.is_too_much || truth.failure.is_some() || run.is_losing && !run.has_come_to_rest {
@@ -111,7 +111,7 @@ fn steadily_doubles_in_s(truth: &BodyTruth, run: &Run) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::analysis::run::{MOST_WORK, Until, follow};
+    use crate::lab::analysis::run::{MAX_WORK, Until, follow};
     use crate::lab::analysis::verdict::RunFailure;
     use crate::lab::{Judge, LaneSpec, Scene};
     use crate::sim::integrators::StepFailure;
@@ -145,7 +145,7 @@ mod tests {
         let judge = Judge::new(&scene, 1.0);
         let verdict = judge.verdict(spec, 60);
         let truth = BodyTruth::new(&scene.bodies[0], &[], 1.0, scene.seconds);
-        let run = follow(&truth, spec, 60, Until::LongRun, MOST_WORK);
+        let run = follow(&truth, spec, 60, Until::LongRun, MAX_WORK);
         (truth, run, verdict)
     }
 
@@ -159,7 +159,7 @@ mod tests {
             ("ended early", Run { failure: failure.clone(), ..run.clone() }, Some(false)),
             ("ended late", Run { later: failure.clone(), ..run.clone() }, Some(false)),
             ("doubled", Run { doubled_at: Some(7.0), ..run.clone() }, Some(false)),
-            ("rushed", Run { rushed_at: Some(150.0), ..run.clone() }, Some(false)),
+            ("rushed", Run { velocity_doubled_at: Some(150.0), ..run.clone() }, Some(false)),
             ("cut short", Run { is_too_much: true, ..run.clone() }, None),
             (
                 "doubled, and then cut short",
@@ -206,7 +206,7 @@ mod tests {
         for (at, change) in [(9.0, Change::Grows), (11.0, Change::None)] {
             let doubled = Run { doubled_at: Some(at), ..run.clone() };
             assert_eq!(tell(&doubled, &truth), change, "doubled at {at} s");
-            let rushed = Run { rushed_at: Some(at), ..run.clone() };
+            let rushed = Run { velocity_doubled_at: Some(at), ..run.clone() };
             assert_eq!(tell(&rushed, &truth), change, "rushed at {at} s");
         }
         assert_eq!(tell(&run, &truth), Change::None);

@@ -3,7 +3,7 @@
 use crate::sim::number::round;
 
 /// The largest factor by which bodies are made stiffer.
-pub(super) const MOST_STIFFER: f64 = 10.0;
+pub(super) const MAX_STIFFER: f64 = 10.0;
 
 /// The fewest substeps with which a method meets a criterion, and its margins.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,7 +46,7 @@ impl CriterionMet {
 
     fn stiffer(&self) -> Option<String> {
         let factor = self.stiffness_factor?;
-        let more = if factor >= MOST_STIFFER { "more than " } else { "" };
+        let more = if factor >= MAX_STIFFER { "more than " } else { "" };
         Some(format!("{more}{} × {}", round(factor, 3), self.limited_by.as_deref()?))
     }
 }

@@ -11,7 +11,7 @@ use super::chase_finding::ChaseFinding;
 use super::limits::TOLERANCE;
 use super::modes::Modes;
 use super::outcome::Outcome;
-use super::run::{MOST_WORK, Run, Until, follow};
+use super::run::{MAX_WORK, Run, Until, follow};
 use super::survey::TimedInput;
 use super::truth::{BodyTruth, ticks};
 use super::verdict::{NoTruth, NotJudged, Verdict};
@@ -23,7 +23,7 @@ mod criteria;
 pub(super) use criteria::CriterionFinding;
 
 /// The longest horizon in simulated seconds. A shorter scene is judged over its whole length.
-pub const LONGEST_HORIZON_S: f64 = 60.0;
+pub const MAX_HORIZON_S: f64 = 60.0;
 
 /// The largest error in amplitudes that counts as rounding.
 const ROUNDING: f64 = 1e-9;
@@ -43,9 +43,9 @@ fn inputs_of(scene: &Scene, body: usize) -> Vec<TimedInput> {
 }
 
 impl Judge {
-    /// A judge of `scene` under this throttle, -1 to 1, over its length but at most [`LONGEST_HORIZON_S`].
+    /// A judge of `scene` under this throttle, -1 to 1, over its length but at most [`MAX_HORIZON_S`].
     pub fn new(scene: &Scene, throttle: f64) -> Self {
-        Self::over(scene, throttle, scene.seconds.min(LONGEST_HORIZON_S))
+        Self::over(scene, throttle, scene.seconds.min(MAX_HORIZON_S))
     }
 
     /// A judge of `scene` under this throttle over `horizon_s` simulated seconds, which is positive and may exceed the
@@ -54,10 +54,10 @@ impl Judge {
         let of =
             |(place, body)| BodyTruth::new(body, &inputs_of(scene, place), throttle, horizon_s);
         let truths = scene.bodies.iter().enumerate().map(of);
-        Self { horizon_s, throttle, most_work: MOST_WORK, truths: truths.collect() }
+        Self { horizon_s, throttle, most_work: MAX_WORK, truths: truths.collect() }
     }
 
-    /// Limits the work of each run to less than [`MOST_WORK`]; what takes more is not known.
+    /// Limits the work of each run to less than [`MAX_WORK`]; what takes more is not known.
     pub(super) fn within(mut self, most_work: u64) -> Self {
         self.most_work = most_work;
         self
@@ -83,7 +83,7 @@ impl Judge {
         self.verdict_within(self.most_work, spec, tick_hz)
     }
 
-    /// The work done so far, that on the truth included, in the unit of [`MOST_WORK`].
+    /// The work done so far, that on the truth included, in the unit of [`MAX_WORK`].
     pub(super) fn work_done(&self) -> u64 {
         self.truths.iter().map(BodyTruth::work_done).sum()
     }

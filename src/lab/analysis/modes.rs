@@ -3,7 +3,7 @@
 use super::change::Change;
 use super::followed_body::work_of;
 use super::limits::VISIBLE;
-use super::run::MOST_WORK;
+use super::run::MAX_WORK;
 use super::truth::BodyTruth;
 use super::verdict::Verdict;
 use crate::lab::bisection::bisect;
@@ -45,7 +45,7 @@ impl<'a> Modes<'a> {
         // An implicit step takes differences of the force along every coordinate.
         let evaluations = u64::from(spec.method.evaluations.unwrap_or(modes.len() as u32));
         let steps = STEPS_PER_MODE * n;
-        if work_of(steps * evaluations, n, spec.solver()) > MOST_WORK {
+        if work_of(steps * evaluations, n, spec.solver()) > MAX_WORK {
             return Err(TooMuch);
         }
         let free = unforced(&*truth.with_last_parameters());

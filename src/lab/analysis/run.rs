@@ -15,7 +15,7 @@ use crate::sim::Stepper;
 use crate::sim::integrators::StepFailure;
 
 /// The most work of a run, in evaluations of one coordinate: a second or two.
-pub const MOST_WORK: u64 = 100_000_000;
+pub const MAX_WORK: u64 = 100_000_000;
 
 /// A swing of this many true amplitudes has grown, and a swing below the inverse has died away.
 const TWICE: f64 = 2.0;
@@ -68,7 +68,7 @@ pub(super) struct Run {
     pub(super) later: Option<RunFailure>,
     /// When a coordinate, and when a velocity, first reached twice its true amplitude.
     pub(super) doubled_at: Option<f64>,
-    pub(super) rushed_at: Option<f64>,
+    pub(super) velocity_doubled_at: Option<f64>,
     /// Since when the swing stays below half the true amplitude.
     pub(super) halved_at: Option<f64>,
     /// Whether the swing was losing and was followed beyond the long run; and whether it came to rest there.
@@ -226,7 +226,7 @@ impl Run {
             followed_s: 0.0,
             later: None,
             doubled_at: None,
-            rushed_at: None,
+            velocity_doubled_at: None,
             halved_at: None,
             is_losing: false,
             has_come_to_rest: false,
@@ -279,8 +279,8 @@ impl Run {
         if swing >= TWICE && self.doubled_at.is_none() {
             self.doubled_at = Some(t);
         }
-        if self.rushed_at.is_none() && truth.reach.of_velocities(stepper.v()) >= TWICE {
-            self.rushed_at = Some(t);
+        if self.velocity_doubled_at.is_none() && truth.reach.of_velocities(stepper.v()) >= TWICE {
+            self.velocity_doubled_at = Some(t);
         }
         if swing * TWICE > 1.0 {
             self.halved_at = None;
@@ -298,7 +298,7 @@ impl Run {
 
     /// Whether a coordinate or a velocity has reached twice its true amplitude.
     fn has_grown(&self) -> bool {
-        self.doubled_at.is_some() || self.rushed_at.is_some()
+        self.doubled_at.is_some() || self.velocity_doubled_at.is_some()
     }
 
     /// Whether coordinates and velocities are all near their values at rest.

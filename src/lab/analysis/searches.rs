@@ -1,6 +1,6 @@
 //! Searches for the limit of a property.
 
-use super::criterion_met::MOST_STIFFER;
+use super::criterion_met::MAX_STIFFER;
 
 /// The number of substeps tried at this place of the sequence 1, 2, 3, 4, 6, 8, 12 … 64.
 pub(super) fn tried_substeps(place: u32) -> u32 {
@@ -42,7 +42,7 @@ pub(super) const FACTORS: [f64; 30] = [
     7.9,
     8.6,
     9.4,
-    MOST_STIFFER,
+    MAX_STIFFER,
 ];
 
 /// The lowest rate in Hz, going down from `hz`, at which `holds` is still true; it is true at `hz`. Each stride is the
@@ -98,7 +98,7 @@ mod tests {
 
     #[test]
     fn factors_rise_from_one_by_a_tenth_and_print_as_they_are() {
-        assert_eq!((FACTORS[0], FACTORS[FACTORS.len() - 1]), (1.0, MOST_STIFFER));
+        assert_eq!((FACTORS[0], FACTORS[FACTORS.len() - 1]), (1.0, MAX_STIFFER));
         let (small, large) = FACTORS.split_at(11);
         assert!(small.windows(2).all(|pair| (pair[1] - pair[0] - 0.1).abs() < 1e-9));
         assert!(large.windows(2).all(|pair| pair[1] > pair[0] && pair[1] / pair[0] < 1.101));

@@ -39,11 +39,11 @@ const MANY_COUPLED: usize = 9;
 /// A map that is wanted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapRequest {
-    /// The body's place in the scene.
+    /// The body's index in the scene.
     pub body: usize,
     /// The place of the mapped parameter among those of the body's kind.
     pub parameter: usize,
-    /// The methods, with their places on the list.
+    /// The methods, with their indices on the list.
     pub specs: Vec<(usize, LaneSpec)>,
     /// The present tick rate.
     pub tick_hz: u32,

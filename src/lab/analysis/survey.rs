@@ -23,7 +23,7 @@ const KEPT: usize = 4;
 
 /// A moment of the true motion.
 #[derive(Clone, Debug)]
-pub(super) struct Moment {
+pub(super) struct TruthNode {
     pub(super) t: f64,
     /// Coordinates, then velocities.
     pub(super) x: Vec<f64>,
@@ -31,7 +31,7 @@ pub(super) struct Moment {
     pub(super) slope: Vec<f64>,
 }
 
-impl Moment {
+impl TruthNode {
     pub(super) fn of(body: &dyn Stepper, t: f64) -> Self {
         let x = [body.q(), body.v()].concat();
         let mut slope = [body.v(), body.v()].concat();
@@ -61,7 +61,7 @@ impl Ranges {
     }
 
     /// Extends the ranges by the motion between two moments.
-    pub(super) fn take_in(&mut self, from: &Moment, to: &Moment) {
+    pub(super) fn take_in(&mut self, from: &TruthNode, to: &TruthNode) {
         for (i, range) in self.0.iter_mut().enumerate() {
             let turns = from.slope[i] * to.slope[i] < 0.0;
             let steps = if turns { 1..=BETWEEN } else { BETWEEN..=BETWEEN };
@@ -91,10 +91,10 @@ pub(super) fn follow_truth(
     mut inputs: &[TimedInput],
     seconds: f64,
     most: usize,
-    mut see: impl FnMut(&Moment, &Moment),
+    mut see: impl FnMut(&TruthNode, &TruthNode),
 ) -> Result<(), StepFailure> {
     let mut ranges = Ranges::at(body);
-    let mut here = Moment::of(body, 0.0);
+    let mut here = TruthNode::of(body, 0.0);
     let mut step = FIRST_STEP * seconds;
     let mut moments = 0;
     let kept = most / KEPT;
@@ -103,14 +103,14 @@ pub(super) fn follow_truth(
             && next.t <= here.t
         {
             next.action.apply_to(body, here.t);
-            (here, inputs) = (Moment::of(body, here.t), rest);
+            (here, inputs) = (TruthNode::of(body, here.t), rest);
             step = FIRST_STEP * seconds;
             continue;
         }
         let seconds = inputs.first().map_or(seconds, |next| next.t.min(seconds));
         let end = if here.t + 1.001 * step < seconds { here.t + step } else { seconds };
-        let check = Moment::of_advanced(body, here.t, here.t + CHECKED_AT * (end - here.t))?;
-        let there = Moment::of_advanced(body, check.t, end)?;
+        let check = TruthNode::of_advanced(body, here.t, here.t + CHECKED_AT * (end - here.t))?;
+        let there = TruthNode::of_advanced(body, check.t, end)?;
         moments += 2;
         ranges.take_in(&here, &check);
         ranges.take_in(&check, &there);
@@ -132,11 +132,11 @@ pub(super) fn follow_truth(
             while let Some((next, rest)) = inputs.split_first()
                 && next.t <= t
             {
-                here = Moment::of_advanced(body, here.t, next.t.max(here.t))?;
+                here = TruthNode::of_advanced(body, here.t, next.t.max(here.t))?;
                 next.action.apply_to(body, here.t);
                 inputs = rest;
             }
-            let there = Moment::of_advanced(body, here.t, t)?;
+            let there = TruthNode::of_advanced(body, here.t, t)?;
             see(&there, &there);
             here = there;
         }
@@ -144,7 +144,7 @@ pub(super) fn follow_truth(
     Ok(())
 }
 
-impl Moment {
+impl TruthNode {
     fn of_advanced(body: &mut dyn Stepper, from: f64, to: f64) -> Result<Self, StepFailure> {
         body.advance(from, to - from, 1)?;
         let moment = Self::of(body, to);
@@ -162,7 +162,13 @@ impl Moment {
 }
 
 /// The largest error of the cubic from `here` to `there` at `check`, as a part of the range of its kind of component.
-fn worst_chord(here: &Moment, check: &Moment, there: &Moment, part: f64, ranges: &Ranges) -> f64 {
+fn worst_chord(
+    here: &TruthNode,
+    check: &TruthNode,
+    there: &TruthNode,
+    part: f64,
+    ranges: &Ranges,
+) -> f64 {
     let n = here.x.len() / 2;
     let covered = |half: std::ops::Range<usize>| {
         let cover = |i: usize| {

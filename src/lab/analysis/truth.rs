@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::survey::{Moment, Ranges, TimedInput, follow_truth};
+use super::survey::{Ranges, TimedInput, TruthNode, follow_truth};
 use crate::lab::action::Action;
 use crate::lab::extent::Extent;
 use crate::lab::scene::SceneBody;
@@ -27,10 +27,10 @@ pub(super) use swing::Swing;
 pub const LONG_RUN: f64 = 20.0;
 
 /// Limits of [`follow_truth`], in moments and in products of the exact flow, n² for a chain of n masses.
-const MOST_MOMENTS: usize = 100_000;
-const MOST_REFERENCE_MOMENTS: usize = 20_000;
-const FEWEST_MOMENTS: usize = 512;
-const MOST_PRODUCTS: usize = 40_000_000;
+const MAX_MOMENTS: usize = 100_000;
+const MAX_REFERENCE_MOMENTS: usize = 20_000;
+const MIN_MOMENTS: usize = 512;
+const MAX_PRODUCTS: usize = 40_000_000;
 
 /// The tolerance within which a body without a closed form is followed over the long run, absolute and relative.
 const LONG_RUN_TOLERANCE: f64 = 1e-9;
@@ -169,10 +169,10 @@ impl BodyTruth {
         let mut body = self.start(Solver::Truth);
         let n = body.q().len();
         let most_moments = match self.body.kind.truth {
-            Truth::Exact => MOST_MOMENTS,
-            Truth::Reference => MOST_REFERENCE_MOMENTS,
+            Truth::Exact => MAX_MOMENTS,
+            Truth::Reference => MAX_REFERENCE_MOMENTS,
         };
-        let most = (MOST_PRODUCTS / (n * n)).clamp(FEWEST_MOMENTS, most_moments);
+        let most = (MAX_PRODUCTS / (n * n)).clamp(MIN_MOMENTS, most_moments);
         let after_inputs = self.after_inputs();
         self.modes = normal_modes(&*after_inputs).map(|modes| shares(&*after_inputs, modes));
         let mut there = self.start(Solver::Truth);
@@ -287,14 +287,14 @@ fn close_solver() -> Solver {
 }
 
 /// The second of two moments, and 15 between them if a velocity has an extreme there.
-fn fastest(from: &Moment, to: &Moment) -> Vec<Moment> {
+fn fastest(from: &TruthNode, to: &TruthNode) -> Vec<TruthNode> {
     let n = to.x.len() / 2;
     let turns = (n..2 * n).any(|i| from.slope[i] * to.slope[i] < 0.0);
     let steps = if turns { 1..=16 } else { 16..=16 };
     let at = |step: i32| {
         let part = f64::from(step) / 16.0;
         let x = (0..2 * n).map(|i| from.between(to, i, part)).collect();
-        Moment { t: from.t + part * (to.t - from.t), x, slope: to.slope.clone() }
+        TruthNode { t: from.t + part * (to.t - from.t), x, slope: to.slope.clone() }
     };
     steps.map(at).collect()
 }

@@ -66,7 +66,7 @@ impl fmt::Display for NoTruth {
 /// Why a lane is not judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NotJudged {
-    /// Its run takes more than [`MOST_WORK`](super::MOST_WORK).
+    /// Its run takes more than [`MAX_WORK`](super::MAX_WORK).
     TooMuchWork,
     /// The scene is shorter than one tick.
     ShorterThanATick,
@@ -87,7 +87,7 @@ impl fmt::Display for NotJudged {
 pub struct Verdict {
     /// The outcome.
     pub outcome: Outcome,
-    /// The place in the scene of the worst body, which the verdict is about.
+    /// The index in the scene of the worst body, which the verdict is about.
     pub body: usize,
     /// The body's name; `None` in a scene of one body.
     pub body_name: Option<String>,

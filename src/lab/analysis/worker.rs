@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::advice::{Adviser, MethodAdvice};
 use super::judge::Judge;
-use super::run::MOST_WORK;
+use super::run::MAX_WORK;
 use super::stability_map::{MapRequest, MapWork, StabilityMap};
 use super::verdict::Verdict;
 use crate::lab::intervention::Interventions;
@@ -19,7 +19,7 @@ pub enum AdvisedBodies {
     /// All of them, under one method.
     #[default]
     All,
-    /// The body at this place of the scene, alone.
+    /// The body at this index of the scene, alone.
     One(usize),
 }
 
@@ -102,7 +102,7 @@ pub struct Advice {
 }
 
 /// The most work of a bounded worker on all verdicts together, the truth's included: a second or two.
-const MOST_WORK_OF_ALL: u64 = MOST_WORK;
+const MAX_WORK_OF_ALL: u64 = MAX_WORK;
 
 /// Works on one request at a time.
 pub struct AnalysisWorker {
@@ -173,7 +173,7 @@ impl AnalysisWorker {
 
     /// The same worker, which does a stated amount of work only: what is left then is not judged, and no advice is given.
     pub(in crate::lab) fn bounded(self) -> Self {
-        Self { most_work: MOST_WORK_OF_ALL, ..self }
+        Self { most_work: MAX_WORK_OF_ALL, ..self }
     }
 
     /// Replaces the request. Results that answer the new one too are kept.
@@ -227,7 +227,7 @@ impl AnalysisWorker {
             // What earlier verdicts have left over is for the later ones.
             let left = self.most_work.saturating_sub(judge.work_done());
             let share = left / (entries.len() - self.judged) as u64;
-            let verdict = judge.verdict_within(share.min(MOST_WORK), spec, *tick_hz);
+            let verdict = judge.verdict_within(share.min(MAX_WORK), spec, *tick_hz);
             self.verdicts[self.judged] = Some(verdict.starting_at(by_hand.starts_at_s()));
             self.judged += 1;
         } else if let Some(bodies) = *advice {

@@ -28,7 +28,7 @@ const USUAL_OF_ENGINES: &[u32] = &[1, 2, 4, 8, 16];
 /// The substeps that people set of a method of their own.
 const USUAL: &[u32] = &[1, 2, 4];
 /// The most substeps that are tried.
-const MOST_SUBSTEPS: u32 = 16;
+const MAX_SUBSTEPS: u32 = 16;
 /// The id of the method whose force is held whatever the body.
 const HELD: &str = "held-force";
 
@@ -91,7 +91,7 @@ pub(super) fn candidates(body: &LoggedBody) -> Vec<Candidate> {
             }
             let is_held = is_held || method.id == HELD;
             let of = |substeps| Candidate { method, substeps, is_held };
-            all.extend((1..=MOST_SUBSTEPS).map(of));
+            all.extend((1..=MAX_SUBSTEPS).map(of));
         }
     }
     all.retain(|candidate| body.spring.is_some() || candidate.is_usual());

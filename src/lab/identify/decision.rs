@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::Word;
+use super::Conclusion;
 use super::candidates::{Candidate, candidates};
 use super::fit::Fit;
 use super::logged_body::LoggedBody;
@@ -35,7 +35,7 @@ pub(super) fn rounding(closest: f64, is_double: bool) -> f64 {
 
 /// What the fits say.
 pub(super) struct Decision<'a> {
-    pub(super) word: Word,
+    pub(super) word: Conclusion,
     /// The best, and those that do the same.
     pub(super) same: Vec<&'a (Candidate, Fit)>,
     /// Others that explain the log as well and are set aside, as they are rare.
@@ -90,11 +90,11 @@ pub(super) fn decide<'a>(
     let unusual = others.iter().copied().filter(is_set_aside).collect();
     let is_doubtful = best.1.is_doubtful() && !is_clear;
     let word = if !explains(best) {
-        Word::Unknown
+        Conclusion::Unknown
     } else if says_nothing || is_doubtful || rival.is_some_and(is_plausible) {
-        Word::CannotTell
+        Conclusion::CannotTell
     } else {
-        Word::Identified
+        Conclusion::Identified
     };
     Some(Decision { word, same, unusual, rival })
 }

@@ -19,7 +19,7 @@ pub struct Effective {
 /// How long a run is from which the motion is read, in ticks: the fewest that show a slow spring turn.
 const TICKS: u64 = 400;
 /// The fewest of these that are read.
-const LEAST_TICKS: usize = 6;
+const MIN_TICKS: usize = 6;
 /// Where such a run starts, in metres and in metres per second.
 pub(in crate::lab) const SLOW: f64 = 1e-6;
 /// How far it is read, in the same units: engines limit a body only at far higher speeds.
@@ -97,7 +97,7 @@ impl Effective {
         let states = run(candidate, &body, [SLOW; 2], tick_s, 0..TICKS)?;
         let is_slow = |state: &[f64; 2]| state.iter().all(|x| x.abs() < FAST);
         let slow = states.iter().take_while(|state| is_slow(state)).count();
-        let states: Vec<(u64, [f64; 2])> = (0..).zip(states).take(slow.max(LEAST_TICKS)).collect();
+        let states: Vec<(u64, [f64; 2])> = (0..).zip(states).take(slow.max(MIN_TICKS)).collect();
         Self::of_states(&states, &body, tick_s)
     }
 

@@ -28,7 +28,7 @@ const NOTHING: f64 = 0.01;
 /// How often a step that leads no nearer is halved.
 const HALVINGS: u32 = 8;
 /// In fewer rows than this, noise cannot be told from what follows from row to row.
-const LEAST_ROWS_OF_NOISE: usize = 20;
+const MIN_ROWS_OF_NOISE: usize = 20;
 /// Autocorrelation tolerated beyond the 3σ bound of white noise.
 const FOLLOWING: f64 = 0.1;
 /// How many rows apart residuals are compared.
@@ -166,12 +166,12 @@ fn mean_square(left: &[f64]) -> f64 {
 }
 
 impl Fit {
-    /// The sum of squares of all that is left over.
+    /// The sum of squares of the residual.
     pub(super) fn squares(&self) -> f64 {
         squares(&self.left)
     }
 
-    /// The root mean square of all that is left over.
+    /// The root mean square of the residual.
     pub(super) fn residual(&self) -> f64 {
         mean_square(&self.left.concat()).sqrt()
     }
@@ -203,7 +203,7 @@ impl Fit {
 
     /// Whether there are too few rows to tell whether the residual is noise.
     pub(super) fn is_short(&self) -> bool {
-        self.run.len() < LEAST_ROWS_OF_NOISE
+        self.run.len() < MIN_ROWS_OF_NOISE
     }
 
     /// Whether the residual may be neither rounding nor noise.
@@ -213,12 +213,12 @@ impl Fit {
             && (self.follows(EXACT) || (self.is_short() && self.residual() > self.precise))
     }
 
-    /// Whether what is left over follows from row to row and is more than rounding, so that it is no noise.
+    /// Whether the residual is autocorrelated and above rounding level, so that it is not noise.
     pub(super) fn is_systematic(&self) -> bool {
         self.follows(self.precise)
     }
 
-    /// Whether more than `precise` is left over and follows from row to row.
+    /// Whether the residual is autocorrelated and larger than `precise`.
     fn follows(&self, precise: f64) -> bool {
         self.left.iter().any(|left| {
             let square = mean_square(left);

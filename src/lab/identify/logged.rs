@@ -60,9 +60,9 @@ const OFF_TICK: f64 = 0.05;
 
 impl Log {
     /// The fewest rows, with velocities and without: two numbers more than a start has.
-    pub const LEAST_ROWS: [usize; 2] = [2, 4];
+    pub const MIN_ROWS: [usize; 2] = [2, 4];
     /// Rows after this many ticks are not used.
-    pub const MOST_TICKS: u64 = 3000;
+    pub const MAX_TICKS: u64 = 3000;
 
     /// Reads a log from the text of a CSV file with a header; `name` is the file's, for messages.
     ///
@@ -154,12 +154,12 @@ impl Log {
                     format!("tick {tick} does not follow the row before; put rows in order");
                 return Err(error(line, fault));
             }
-            if tick > Self::MOST_TICKS {
+            if tick > Self::MAX_TICKS {
                 break;
             }
             rows.push(LogRow { tick, x: number(x)?, v: v.map(number).transpose()? });
         }
-        let least = Self::LEAST_ROWS[usize::from(v.is_none())];
+        let least = Self::MIN_ROWS[usize::from(v.is_none())];
         if rows.len() < least {
             let fault =
                 format!("a log of {} rows says too little; log at least {least}", rows.len());
@@ -180,7 +180,7 @@ impl Log {
 
     /// The part up to this tick, and as many rows as a log has at least. Its scale is that of the whole.
     pub(super) fn head(&self, last_tick: u64) -> Log {
-        let least = Self::LEAST_ROWS[1].min(self.rows.len());
+        let least = Self::MIN_ROWS[1].min(self.rows.len());
         let count = self.rows.partition_point(|row| row.tick <= last_tick).max(least);
         Log { rows: self.rows[..count].to_vec(), scale: self.scale }
     }

@@ -59,7 +59,7 @@ impl Lab {
                 }
             }
             Command::Pick(entry) => self.pick(entry),
-            Command::Fly(spec) => self.fly(spec),
+            Command::SetLane(spec) => self.set_lane(spec),
             Command::NextMethod => self.pick_beside(1),
             Command::PreviousMethod => self.pick_beside(-1),
             Command::TickHz(tick_hz) => self.act(Action::TickHz(tick_hz)),
@@ -278,7 +278,7 @@ impl Lab {
         }
     }
 
-    /// The number of the lane that a pick of this place of the list selects: in solo mode that of the only lane.
+    /// The number of the lane that a pick of this index of the list selects: in solo mode that of the only lane.
     pub(super) fn picked(&self, entry: usize) -> Option<usize> {
         let lanes = self.race().entrants();
         let picked = match self.mode() {
@@ -301,7 +301,7 @@ impl Lab {
 
     /// Gives a method of the list new substeps and a new tolerance, switches its lane in a race to them, and picks it. A race
     /// without the method restarts with it.
-    fn fly(&mut self, spec: LaneSpec) {
+    fn set_lane(&mut self, spec: LaneSpec) {
         let listed = self.entries().iter().position(|known| known.method == spec.method);
         let entry = listed.expect("every method is on the list");
         let flown = self.race().entrants().iter().find(|entrant| entrant.entry == entry);
@@ -325,7 +325,7 @@ impl Lab {
         }
     }
 
-    /// Picks the next place on the list that can be picked, cyclically, in the direction of `step`.
+    /// Picks the next index on the list that can be picked, cyclically, in the direction of `step`.
     fn pick_beside(&mut self, step: isize) {
         let (active, count) = (self.active() as isize, self.entries().len() as isize);
         let mut around = (1..=count).map(|i| (active + i * step).rem_euclid(count) as usize);

@@ -13,7 +13,7 @@ use crate::lab::viewer::Dialog;
 /// The name of a custom spring on the list of scenes.
 const MY_SPRING: &str = "my spring";
 /// The most ticks for which a changed scene is run again: an hour at 60 Hz, which takes about a second.
-const LONGEST_RERUN: u64 = 60 * 3600;
+const MAX_RERUN: u64 = 60 * 3600;
 
 impl Lab {
     /// The scenes that can be opened.
@@ -78,7 +78,7 @@ impl Lab {
         let told = if !keeps {
             self.open(place);
             "reloaded from the start, with other lanes or bodies".into()
-        } else if tick > LONGEST_RERUN {
+        } else if tick > MAX_RERUN {
             self.run_again(place, 0);
             format!("reloaded from the start: tick {tick} is too far to rerun")
         } else {
@@ -165,7 +165,7 @@ impl Lab {
         self.open(self.scene_list.open().map_or(0, |here| (here + offset) % count));
     }
 
-    /// Opens the scene at this place of the list, modulo its length, under the scene's opening method, and closes the
+    /// Opens the scene at this index of the list, modulo its length, under the scene's opening method, and closes the
     /// guide, which is about another. The preferences stay, and so does the mode, unless the scene opens as a race.
     pub(super) fn open(&mut self, place: usize) {
         let place = place % self.scene_list.count();

@@ -10,7 +10,7 @@ use crate::sim::number::{round, significant};
 
 /// How long before it was over a blow-up is watched again, in seconds, and at least in ticks.
 const LEAD_S: f64 = 1.0;
-const LEAST_LEAD: u64 = 24;
+const MIN_LEAD: u64 = 24;
 
 impl Lab {
     /// Whether the run rests at this tick.
@@ -77,7 +77,7 @@ impl Lab {
         let Some(tick) = self.lost_at() else {
             return self.set_notice("nothing has blown up in this lane");
         };
-        let lead = ((LEAD_S * f64::from(self.race().tick_hz())) as u64).max(LEAST_LEAD);
+        let lead = ((LEAD_S * f64::from(self.race().tick_hz())) as u64).max(MIN_LEAD);
         self.seek(tick.saturating_sub(lead));
         self.viewer.notice = None;
         self.running = true;

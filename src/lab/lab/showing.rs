@@ -26,7 +26,7 @@ impl Lab {
         (drawn.coordinates(body, alpha, h), drawn.velocities(body, alpha, h))
     }
 
-    /// The true coordinates and velocities of the body at this place of the scene at the moment shown.
+    /// The true coordinates and velocities of the body at this index of the scene at the moment shown.
     pub fn shown_truth(&self, body: usize) -> (Vec<f64>, Vec<f64>) {
         self.past().truth_between(self.race(), body, 1.0 + self.shown_ticks())
     }

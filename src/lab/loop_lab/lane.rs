@@ -2,13 +2,13 @@
 
 use crate::lab::lane::LaneBody;
 use crate::lab::lane_spec::LaneSpec;
-use crate::lab::pacing::{FrameTrace, LEAST_RUN_S, LoopRun, PacingReport, PolicyCard};
+use crate::lab::pacing::{FrameTrace, LoopRun, MIN_RUN_S, PacingReport, PolicyCard};
 use crate::lab::past::Energies;
 use crate::lab::scene::Scene;
 use crate::sim::integrators::Method;
 
 /// The longest run, in seconds of the display.
-const LONGEST_S: f64 = 20.0;
+const MAX_S: f64 = 20.0;
 
 /// The body in one loop: all its frames, once it was run.
 pub struct LoopLane {
@@ -79,7 +79,7 @@ impl LoopLane {
     ) -> Self {
         let mut frames: Vec<LoopFrame> = Vec::new();
         let mut ticks = 0;
-        let until_ns = (scene.seconds.clamp(LEAST_RUN_S, LONGEST_S) * 1e9) as i64;
+        let until_ns = (scene.seconds.clamp(MIN_RUN_S, MAX_S) * 1e9) as i64;
         let run = LoopRun::new(scene, LaneSpec::plain(method), card, trace);
         let report = run.measure(until_ns, stop, |run, record| {
             ticks += record.steps.count;

@@ -120,7 +120,7 @@ fn the_stage_holds_one_to_four_lanes_in_the_order_of_the_table() {
     for place in [0, 1, 2, 99] {
         lab.select(place);
     }
-    assert_eq!(lab.on_stage().len(), MOST_ON_STAGE);
+    assert_eq!(lab.on_stage().len(), MAX_ON_STAGE);
     assert!(lab.on_stage().is_sorted() && lab.on_stage().contains(&lab.selected()));
     for place in 0..POLICIES.len() {
         if lab.on_stage().contains(&place) {

@@ -5,7 +5,7 @@ use super::policy::PolicyCard;
 
 /// Animation errors that differ by less are alike, in milliseconds: no display shows the difference.
 const ALIKE_MS: f64 = 1e-3;
-/// The largest [difference](PacingReport::time_difference_ms) of a game that is as fast at any frame rate: a few ticks.
+/// The largest [difference](PacingReport::time_difference_ms) of a game whose speed does not depend on the frame rate: a few ticks.
 const AS_FAST_MS: f64 = 100.0;
 
 /// A motion that is further off than this, in amplitudes, has blown up: what is shown late is off by two at most.

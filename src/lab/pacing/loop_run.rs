@@ -14,7 +14,7 @@ use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::Scene;
 
 /// Default minimum length, in seconds: every one-off event of a built-in trace lies before it.
-pub const LEAST_RUN_S: f64 = 10.0;
+pub const MIN_RUN_S: f64 = 10.0;
 
 /// A scene under one method in one loop, frame by frame.
 ///
@@ -77,12 +77,12 @@ impl LoopRun {
         &self.lane
     }
 
-    /// The exact coordinates of the body at this place of the scene at the moment of the last displayed frame.
+    /// The exact coordinates of the body at this index of the scene at the moment of the last displayed frame.
     pub fn exact(&self, body: usize) -> &[f64] {
         self.truth.body(body).stepper.q()
     }
 
-    /// The body at this place of the scene, exactly, at the moment of the last displayed frame.
+    /// The body at this index of the scene, exactly, at the moment of the last displayed frame.
     pub(in crate::lab) fn exact_body(&self, body: usize) -> &LaneBody {
         self.truth.body(body)
     }

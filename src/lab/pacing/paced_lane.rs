@@ -55,7 +55,7 @@ impl PacedLane {
         steps
     }
 
-    /// The coordinates of the body at this place of the scene as the picture shows them.
+    /// The coordinates of the body at this index of the scene as the picture shows them.
     pub fn drawn(&self, body: usize) -> Vec<f64> {
         let drawing = self.pacer.card().drawing;
         drawing.coordinates(&self.lane.bodies()[body], self.pacer.alpha(), self.last_step_s)

@@ -7,7 +7,7 @@ use std::collections::vec_deque;
 use std::{iter, option};
 
 use super::sample::Sample;
-use super::summary::{MOST_SUMMED, Summary, SummaryLog, SummaryMark};
+use super::summary::{MAX_SUMMED, Summary, SummaryLog, SummaryMark};
 use super::swept_range::SweptRange;
 use super::windowed_log::WindowedLog;
 
@@ -15,7 +15,7 @@ use super::windowed_log::WindowedLog;
 #[derive(Debug)]
 pub struct History {
     samples: WindowedLog<Sample>,
-    summaries: [SummaryLog; MOST_SUMMED.len()],
+    summaries: [SummaryLog; MAX_SUMMED.len()],
     /// The present, if no sample is due at it.
     present: Option<Sample>,
     /// The range of the recorded coordinate since the newest sample.
@@ -27,7 +27,7 @@ pub struct History {
 pub(super) struct HistoryMark {
     /// The number of samples since the start.
     samples: u64,
-    summaries: [SummaryMark; MOST_SUMMED.len()],
+    summaries: [SummaryMark; MAX_SUMMED.len()],
     since: SweptRange,
 }
 
@@ -37,7 +37,7 @@ pub type Samples<'h> = iter::Chain<vec_deque::Iter<'h, Sample>, option::Iter<'h,
 /// Consecutive samples under one method.
 #[derive(Clone, Debug)]
 pub struct Run<'h> {
-    /// The method's place on the list, which gives the run its colour.
+    /// The method's index on the list, which gives the run its colour.
     pub entry: usize,
     /// The samples, oldest first; at least one.
     pub samples: iter::Take<Samples<'h>>,
@@ -50,7 +50,7 @@ impl History {
         let spare = capacity / 2;
         Self {
             samples: WindowedLog::new(capacity, spare),
-            summaries: MOST_SUMMED.map(|most_summed| SummaryLog::new(most_summed, capacity, spare)),
+            summaries: MAX_SUMMED.map(|most_summed| SummaryLog::new(most_summed, capacity, spare)),
             present: None,
             since: SweptRange::NOTHING,
         }
@@ -59,7 +59,7 @@ impl History {
     /// The heap memory in bytes of a history of this capacity.
     pub(super) fn heap_bytes(capacity: usize) -> usize {
         let kept = capacity + capacity / 2;
-        let summaries: usize = MOST_SUMMED.iter().map(|most_summed| kept / most_summed + 1).sum();
+        let summaries: usize = MAX_SUMMED.iter().map(|most_summed| kept / most_summed + 1).sum();
         kept * size_of::<Sample>() + summaries * size_of::<Summary>()
     }
 
@@ -71,7 +71,7 @@ impl History {
     /// The coarsest summary with at least `least` records that covers the same time, oldest first. `None` if there is
     /// none.
     pub fn summaries(&self, least: usize) -> Option<impl Iterator<Item = Summary>> {
-        self.summaries.iter().zip(MOST_SUMMED).find_map(|(log, most_summed)| {
+        self.summaries.iter().zip(MAX_SUMMED).find_map(|(log, most_summed)| {
             let oldest = self.samples.range(most_summed.min(self.samples.len())).next();
             let reaches = |summary: Summary| oldest.is_none_or(|oldest| summary.t <= oldest.t);
             let all = log.shown().chain(self.present.as_ref().map(Summary::of));

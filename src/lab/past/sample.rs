@@ -25,7 +25,7 @@ pub struct Sample {
     pub at: DVec2,
     /// Its energies, if it conserves energy.
     pub energies: Option<Energies>,
-    /// The lane's place on the list of methods at that moment: a trail changes colour at a switch.
+    /// The lane's index on the list of methods at that moment: a trail changes colour at a switch.
     pub entry: usize,
     /// One value for each of [`METRICS`]; NaN where it has no meaning.
     pub metrics: [f64; METRICS.len()],

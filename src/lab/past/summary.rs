@@ -1,4 +1,4 @@
-//! The samples of a history in fewer records: what a plot shows that has fewer columns than there are samples.
+//! The samples of a history, several to a record: for a plot that has fewer columns than there are samples.
 
 use std::collections::vec_deque;
 use std::{iter, option};
@@ -8,7 +8,7 @@ use super::swept_range::SweptRange;
 use super::windowed_log::WindowedLog;
 
 /// The most samples that a summary stands for, one for each log, the fewest summaries first.
-pub(super) const MOST_SUMMED: [usize; 2] = [4, 2];
+pub(super) const MAX_SUMMED: [usize; 2] = [4, 2];
 
 /// Consecutive samples of one motion under one method.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +19,7 @@ pub struct Summary {
     pub q: f64,
     /// The range of that coordinate since the summary before.
     pub swept: SweptRange,
-    /// The lane's place on the list of methods.
+    /// The lane's index on the list of methods.
     pub entry: usize,
     /// Whether the body was put where they begin, so that no path leads from the summary before.
     pub jumped: bool,

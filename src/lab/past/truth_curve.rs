@@ -21,10 +21,10 @@ const GRID: usize = 4096;
 
 /// The most products of the exact flow for the points of one tick, some milliseconds of work: n² a point for a body of n
 /// coordinates. With few points the curve is a cubic between them.
-const MOST_PRODUCTS: usize = 2_000_000;
+const MAX_PRODUCTS: usize = 2_000_000;
 
 /// The fewest points that a tick may have, whatever they cost.
-const FEWEST_POINTS: usize = 16;
+const MIN_POINTS: usize = 16;
 
 /// The capacity for samples off the grid, which are made at inputs.
 const OFF_GRID: usize = 512;
@@ -33,7 +33,7 @@ const OFF_GRID: usize = 512;
 const KINDS_OF_INPUT: usize = 3;
 
 /// The most points that are put between two samples.
-const MOST_BETWEEN: f64 = 1e4;
+const MAX_BETWEEN: f64 = 1e4;
 
 /// The relative difference up to which a flow leads to a sample.
 const FOLLOWS: f64 = 1e-9;
@@ -164,7 +164,7 @@ impl TruthCurve {
             let wide = to.t - from.t;
             let near = |a: f64, b: f64| (a - b).abs() <= FOLLOWS * a.abs().max(b.abs());
             let follows = flow(from, to.t).is_some_and(|[q, v]| near(q, to.q) && near(v, to.v));
-            let count = libm::ceil(wide / spacing_s).clamp(1.0, MOST_BETWEEN) as u32;
+            let count = libm::ceil(wide / spacing_s).clamp(1.0, MAX_BETWEEN) as u32;
             for i in 0..count {
                 let part = f64::from(i) / f64::from(count);
                 let t = from.t + part * wide;
@@ -213,7 +213,7 @@ impl TruthCurve {
         }
         // A tick longer than the curve has as many points as the curve, or as many as are affordable.
         let coordinates = truth.coordinates().len();
-        let most = (MOST_PRODUCTS / (coordinates * coordinates)).clamp(FEWEST_POINTS, GRID);
+        let most = (MAX_PRODUCTS / (coordinates * coordinates)).clamp(MIN_POINTS, GRID);
         let spacing_s = self.spacing_s.max((to_s - from_s) / most as f64);
         let first = libm::floor(from_s / spacing_s);
         let count = (libm::floor(to_s / spacing_s) - first) as u64;

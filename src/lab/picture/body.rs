@@ -1,8 +1,8 @@
 //! A body in front, behind, or exact: how each part of its outline is drawn.
 
 use super::coil::{Span, coil, silhouette, strut};
-use super::hull::{self, Berth};
-use super::mass::{self, Coat};
+use super::hull::{self, ShipPose};
+use super::mass::{self, LaneStyle};
 use super::sketch::{Camera, SOLID, line, path};
 use super::{Align, Label, Mark, Outline, Picture, Shape};
 use crate::lab::outline::Thread;
@@ -14,7 +14,7 @@ const THREAD: f32 = 1.1;
 
 /// An outline as one camera sees it.
 #[derive(Clone, Copy)]
-pub(super) struct Seen<'a> {
+pub(super) struct OutlineView<'a> {
     pub(super) outline: &'a Outline,
     pub(super) camera: &'a Camera,
     pub(super) palette: &'static Palette,
@@ -29,17 +29,17 @@ enum Part {
     Sprung(Span),
     /// Two corners.
     Block([[f32; 2]; 2]),
-    Hull(Berth),
+    Hull(ShipPose),
 }
 
-impl Seen<'_> {
+impl OutlineView<'_> {
     fn span(&self) -> Span {
         let quay = self.camera.points(glam::DVec2::new(self.camera.quay_m, 0.0))[0];
         Span { quay, block: self.camera.points(self.outline.at), size: self.camera.block }
     }
 
-    fn berth(&self, bow: glam::DVec2, length: f64) -> Berth {
-        Berth {
+    fn berth(&self, bow: glam::DVec2, length: f64) -> ShipPose {
+        ShipPose {
             at: self.camera.points(self.outline.at),
             bow: [bow.x as f32, -bow.y as f32],
             length: self.camera.size(length),
@@ -62,8 +62,8 @@ impl Seen<'_> {
         let marks = self.outline.marks.iter().filter(is_still).copied().collect();
         let Outline { t, at, .. } = *self.outline;
         let outline = Outline { marks, t, at, ..Outline::default() };
-        let nothing = Coat { colour: self.palette.chart, dash: SOLID, fill: 0.0 };
-        Seen { outline: &outline, ..*self }.carried(picture, nothing);
+        let nothing = LaneStyle { colour: self.palette.chart, dash: SOLID, fill: 0.0 };
+        OutlineView { outline: &outline, ..*self }.carried(picture, nothing);
     }
 
     /// Writes a lane's number on its body of this colour, if that is one thing and has room.
@@ -89,7 +89,7 @@ impl Seen<'_> {
     }
 
     /// What carries the body: springs, rods, and what does not move, with names. It is drawn below the exact solution.
-    pub(super) fn carried(&self, picture: &mut Picture, coat: Coat) {
+    pub(super) fn carried(&self, picture: &mut Picture, coat: LaneStyle) {
         let shapes = &mut picture.shapes;
         let (camera, clip) = (self.camera, self.camera.rect);
         let still = mixed(self.palette.chart, self.palette.sea[1], 0.35);
@@ -179,7 +179,7 @@ impl Seen<'_> {
     }
 
     /// The body itself, in front of everything.
-    pub(super) fn front(&self, shapes: &mut Vec<Shape>, coat: Coat) {
+    pub(super) fn front(&self, shapes: &mut Vec<Shape>, coat: LaneStyle) {
         let (camera, clip) = (self.camera, self.camera.rect);
         for part in self.parts() {
             match part {
@@ -196,7 +196,7 @@ impl Seen<'_> {
     }
 
     /// A lane behind, hollow: what tells where it is, and nothing of what does not move.
-    pub(super) fn behind(&self, shapes: &mut Vec<Shape>, coat: Coat) {
+    pub(super) fn behind(&self, shapes: &mut Vec<Shape>, coat: LaneStyle) {
         let (camera, clip) = (self.camera, self.camera.rect);
         for Thread { points, .. } in self.outline.threads.iter().filter(|it| it.is_border) {
             let points = points.iter().map(|point| camera.points(*point));

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::moment::Moment;
+use super::moment::DrawContext;
 use super::sketch::{Camera, SOLID, fill, line, path, ring, rounded};
 use super::{Align, Label, Picture, Rect, Rgba};
 use crate::lab::palette::{Palette, faded};
@@ -31,7 +31,7 @@ const LETTER: f32 = 6.7;
 const LANES: (f32, f32) = (124.0, 18.0);
 /// From this width of the stage on, in points, lane names fit, and the part of it that they may take.
 const ROOM_FOR_LANES: f32 = 520.0;
-const MOST_FOR_LANES: f32 = 0.28;
+const MAX_FOR_LANES: f32 = 0.28;
 /// How far the name of a lane keeps from the left edge of its column, in points.
 const LANE_INSET: f32 = 8.0;
 /// Room for a word at the ghost, in points.
@@ -61,11 +61,11 @@ fn lane_name(lab: &Lab, entrant: &Entrant) -> String {
 pub(super) fn lanes_width(lab: &Lab, entrants: &[&Entrant], stage: f32) -> f32 {
     let width = |lane: &&Entrant| LANE_INSET + LETTER * lane_name(lab, lane).chars().count() as f32;
     let widest = entrants.iter().map(width).fold(LANES.0, f32::max);
-    if stage >= ROOM_FOR_LANES { widest.min(MOST_FOR_LANES * stage) } else { LANES.1 }
+    if stage >= ROOM_FOR_LANES { widest.min(MAX_FOR_LANES * stage) } else { LANES.1 }
 }
 
 /// Names a lane at the left of its row, with a bar where it is selected.
-pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &Moment<'_>, entrant: &Entrant) {
+pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, entrant: &Entrant) {
     let lab = moment.lab;
     let (colour, _) = moment.style(entrant.entry);
     let (left, right) = (rect.min[0] + LANE_INSET, rect.max[0]);
@@ -153,7 +153,7 @@ fn inset(rect: Rect) -> f32 {
 }
 
 /// Names a body at the head of its cell.
-pub(super) fn name(picture: &mut Picture, rect: Rect, moment: &Moment<'_>, index: usize) {
+pub(super) fn name(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, index: usize) {
     if let Some(at) = caption_place(rect) {
         let name = capitalised(&moment.lab.scene().bodies[index].name);
         let size = if inset(rect) > 0.0 { 14.0 } else { 11.5 };
@@ -163,7 +163,7 @@ pub(super) fn name(picture: &mut Picture, rect: Rect, moment: &Moment<'_>, index
 }
 
 /// The room of the name of a body at the head of its cell, if it is named there.
-pub(super) fn name_room(rect: Rect, moment: &Moment<'_>, index: usize) -> Option<Rect> {
+pub(super) fn name_room(rect: Rect, moment: &DrawContext<'_>, index: usize) -> Option<Rect> {
     let [x, y] = caption_place(rect)?;
     let letters = moment.lab.scene().bodies[index].name.chars().count();
     Some(Rect { min: [x, y - 7.0], max: [x + NAME_LETTER * letters as f32, y + 7.0] })
@@ -179,7 +179,7 @@ fn capitalised(name: &str) -> String {
 pub(super) fn head(
     picture: &mut Picture,
     rect: Rect,
-    moment: &Moment<'_>,
+    moment: &DrawContext<'_>,
     index: usize,
     entrant: &Entrant,
 ) {
@@ -223,7 +223,7 @@ fn state(
     picture: &mut Picture,
     at: [f32; 2],
     rect: Rect,
-    moment: &Moment<'_>,
+    moment: &DrawContext<'_>,
     index: usize,
     body: &LaneBody,
 ) {
@@ -269,7 +269,7 @@ struct Chip {
 
 impl Chip {
     /// The chip of a body whose method does not do what it should.
-    fn of(moment: &Moment<'_>, index: usize, entrant: &Entrant) -> Option<Self> {
+    fn of(moment: &DrawContext<'_>, index: usize, entrant: &Entrant) -> Option<Self> {
         let verdict = moment.lab.viewer().verdict(entrant.entry)?;
         let palette = moment.palette;
         let (sign, tone) = match verdict.outcome.severity() {

@@ -2,14 +2,14 @@
 
 use glam::DVec2;
 
-use super::body::Seen;
+use super::body::OutlineView;
 use super::flags::{Flag, Lost, badges, flags, row_width};
 use super::framed::{View, on_one_stage, quay_width};
 use super::ghost::Ghost;
 use super::layout::{bands, grid, mosaic};
-use super::loupe::Near;
-use super::mass::Coat;
-use super::moment::Moment;
+use super::loupe::LoupeLane;
+use super::mass::LaneStyle;
+use super::moment::DrawContext;
 use super::sketch::{Camera, line, path};
 use super::{
     Cell, Framing, Look, Mark, Picture, Rect, Rgba, Whose, captions, chart, loop_stage, loupe,
@@ -43,7 +43,7 @@ pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
     if let Some(loops) = lab.loop_lab() {
         return loop_stage::compose(lab, loops, size);
     }
-    let moment = Moment::of(lab);
+    let moment = DrawContext::of(lab);
     let mut picture = Picture::default();
     let stage = Rect { min: [0.0; 2], max: size };
     chart::sea(&mut picture, stage, moment.palette);
@@ -64,7 +64,7 @@ pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
 /// All lanes of a body on one band of the stage, the selected one in front.
 fn overlay(
     picture: &mut Picture,
-    moment: &Moment<'_>,
+    moment: &DrawContext<'_>,
     stage: Rect,
     ghosts: &[Ghost],
     entrants: &[&Entrant],
@@ -118,7 +118,7 @@ fn overlay(
 /// Each lane in cells of its own.
 fn side_by_side(
     picture: &mut Picture,
-    moment: &Moment<'_>,
+    moment: &DrawContext<'_>,
     stage: Rect,
     ghosts: &[Ghost],
     entrants: &[&Entrant],
@@ -172,7 +172,7 @@ fn frame(picture: &mut Picture, Rect { min, max }: Rect, colour: Rgba) {
 
 /// One body of the scene in one cell: its ghost, and some lanes' bodies.
 struct Band<'a> {
-    moment: &'a Moment<'a>,
+    moment: &'a DrawContext<'a>,
     index: usize,
     ghost: &'a Ghost,
     /// What the camera shows, of the ghost's world and of others that are seen with it.
@@ -193,7 +193,7 @@ impl Band<'_> {
         let behind = self.lanes.iter().filter(|lane| !self.is_front(lane));
         let mut flagged: Vec<Flag> = Vec::new();
         let mut lost: Vec<Lost> = Vec::new();
-        let mut near: Vec<Near> = Vec::new();
+        let mut near: Vec<LoupeLane> = Vec::new();
         let mut cell = Cell {
             rect: camera.rect,
             lane: self.front.lane_number,
@@ -212,8 +212,8 @@ impl Band<'_> {
             let flag = Flag { at, number: lane.entry + 1, colour };
             let is_front = self.is_front(lane);
             let colour_of_body = faded(colour, if is_front { 1.0 } else { BEHIND.0 });
-            let coat = Coat { colour: colour_of_body, dash, fill: self.fill() };
-            let seen = Seen { outline: &outline, camera, palette };
+            let coat = LaneStyle { colour: colour_of_body, dash, fill: self.fill() };
+            let seen = OutlineView { outline: &outline, camera, palette };
             let whose = Whose::Lane { number: lane.lane_number, entry: lane.entry };
             cell.add_grips(body, &coordinates, whose);
             let held = lab.viewer().held().filter(|held| held.body == index);
@@ -226,16 +226,17 @@ impl Band<'_> {
                 }
                 continue;
             }
-            near.push(Near::of(moment, lane, index, colour));
+            near.push(LoupeLane::of(moment, lane, index, colour));
             if !is_front {
                 seen.behind(&mut picture.shapes, coat);
                 flagged.push(flag);
                 continue;
             }
             let in_hand = held.map(|held| look.outline(moment.t, &held.q));
-            let shown = Seen { outline: in_hand.as_ref().unwrap_or(&outline), ..seen };
+            let shown = OutlineView { outline: in_hand.as_ref().unwrap_or(&outline), ..seen };
             if held.is_some() {
-                let left = Coat { colour: faded(colour, LEFT_BEHIND), dash, fill: self.fill() };
+                let left =
+                    LaneStyle { colour: faded(colour, LEFT_BEHIND), dash, fill: self.fill() };
                 seen.behind(&mut picture.shapes, left);
             }
             shown.carried(picture, coat);
@@ -336,7 +337,7 @@ impl Band<'_> {
     fn draw_ghost(&self, picture: &mut Picture, shows_ghost: bool) {
         if shows_ghost {
             let outline = &self.ghost.outline;
-            let seen = Seen { outline, camera: &self.camera, palette: self.moment.palette };
+            let seen = OutlineView { outline, camera: &self.camera, palette: self.moment.palette };
             seen.ghost(&mut picture.shapes);
         }
     }
@@ -383,7 +384,7 @@ impl Band<'_> {
 }
 
 /// How far back the trail of a body reaches that is framed like this, in seconds; ships leave a wake.
-fn trail_s(framing: Framing, moment: &Moment<'_>) -> Option<f64> {
+fn trail_s(framing: Framing, moment: &DrawContext<'_>) -> Option<f64> {
     match framing {
         Framing::Follow { .. } => None,
         Framing::Recorder { .. } => Some(moment.paper_s),

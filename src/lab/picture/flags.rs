@@ -14,7 +14,7 @@ const GAP: f32 = 3.0;
 const MANY: usize = 8;
 const NEAR: f32 = 9.0;
 /// The most numbers on one flag.
-const MOST_NUMBERS: usize = 3;
+const MAX_NUMBERS: usize = 3;
 /// How often flags are pushed apart, for each of them.
 const PUSHES: usize = 3;
 /// The height of a badge, the least width of one with words, and the width of one without.
@@ -141,7 +141,7 @@ fn space_out(places: &mut [[f32; 2]], widths: &[f32], right: f32) {
 fn text(flags: &[Flag]) -> String {
     let numbers = flags.iter().map(|flag| flag.number.to_string());
     match flags.len() {
-        0..=MOST_NUMBERS => numbers.collect::<Vec<_>>().join(" "),
+        0..=MAX_NUMBERS => numbers.collect::<Vec<_>>().join(" "),
         many => format!("{many} lanes"),
     }
 }

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::look::drawn_unit;
-use super::moment::{Moment, turns};
+use super::moment::{DrawContext, turns};
 use super::outgrown::{Room, strayed_m};
 use super::sketch::Camera;
 use super::{Framing, Rect};
@@ -19,11 +19,11 @@ const WIDEST_QUAY: f32 = 56.0;
 /// that it never exceeds.
 const BLOCK: f32 = 0.31;
 const BLOCKS: (f32, f32) = (12.0, 88.0);
-const MOST_BLOCK: f32 = 0.65;
+const MAX_BLOCK: f32 = 0.65;
 /// How much further than the true one a lane's motion may be for the camera to show it, in solo: along a chart
 /// recorder, and where the body moves both across and up.
-const MOST_SWING: f64 = 2.3;
-const MOST_ROOM: f64 = 5.0;
+const MAX_SWING: f64 = 2.3;
+const MAX_ROOM: f64 = 5.0;
 /// How far from the true body a ship may be before the stage zooms out, as a part of what is seen.
 const STRAYED: f64 = 0.35;
 /// Chart recorders whose scales differ by less than this factor have one scale.
@@ -38,7 +38,7 @@ pub(super) struct View {
     /// How far a body goes from what its camera looks at, along x and along y, in metres.
     pub(super) reach_m: DVec2,
     pub(super) turns: bool,
-    /// The body whose zoom and pan it is seen with, by its place in the scene.
+    /// The body whose zoom and pan it is seen with, by its index in the scene.
     pub(super) zoomed_as: usize,
     /// How many times more it shows because a lane has outgrown the stage.
     pub(super) grown: f64,
@@ -47,7 +47,7 @@ pub(super) struct View {
 /// The views of the bodies of a scene that share a stage. Where a lane is alone on it they have room for that lane. Chart
 /// recorders are moored to one quay, and are zoomed as one; those of about one scale have one scale.
 pub(super) fn on_one_stage(
-    moment: &Moment<'_>,
+    moment: &DrawContext<'_>,
     mut views: Vec<View>,
     alone: Option<&Entrant>,
 ) -> Vec<View> {
@@ -105,7 +105,7 @@ impl View {
 
     /// Makes room for how far a lane goes, which is alone on the stage: some times further than the truth, or for a person
     /// who watches as far as it goes.
-    fn widened(mut self, moment: &Moment<'_>, lane: &Entrant, body: usize) -> Self {
+    fn widened(mut self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> Self {
         if moment.lab.display().motion == Motion::Live {
             return self.outgrown(moment, lane, body);
         }
@@ -117,11 +117,11 @@ impl View {
         };
         match self.framing {
             Framing::Recorder { half_width_m } => {
-                let most = MOST_SWING * half_width_m.max(self.reach_m.x);
+                let most = MAX_SWING * half_width_m.max(self.reach_m.x);
                 self.reach_m.x = self.reach_m.x.max(furthest(DVec2::ZERO).x.min(most));
             }
             Framing::Fixed { centre_m, half_m, .. } => {
-                let most = MOST_ROOM * half_m.max(self.reach_m);
+                let most = MAX_ROOM * half_m.max(self.reach_m);
                 self.reach_m = self.reach_m.max(furthest(centre_m).min(most));
             }
             Framing::Follow { .. } => {}
@@ -130,7 +130,7 @@ impl View {
     }
 
     /// Makes room for all of a lane's motion.
-    fn outgrown(mut self, moment: &Moment<'_>, lane: &Entrant, body: usize) -> Self {
+    fn outgrown(mut self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> Self {
         match &mut self.framing {
             Framing::Recorder { half_width_m } => {
                 let base_m = DVec2::new(half_width_m.max(1.1 * self.reach_m.x) / 1.1, f64::MAX);
@@ -157,8 +157,8 @@ pub(super) fn quay_width(cell: Rect) -> f32 {
     (QUAY * cell.size()[0] as f32).min(WIDEST_QUAY)
 }
 
-impl Moment<'_> {
-    /// The camera of a cell that shows the body at this place of the scene, zoomed and panned as a person has it.
+impl DrawContext<'_> {
+    /// The camera of a cell that shows the body at this index of the scene, zoomed and panned as a person has it.
     pub(super) fn camera(&self, rect: Rect, index: usize, view: &View) -> Camera {
         let unit = drawn_unit(&self.lab.race().truth().bodies()[index].kind);
         let camera = Camera { unit, ..self.fitted(rect, view) }.grown(view.grown);
@@ -175,9 +175,7 @@ impl Moment<'_> {
             points_per_metre: 1.0,
             paper: 0.0,
             magnified: 1.0,
-            block: (BLOCK * height as f32)
-                .clamp(BLOCKS.0, BLOCKS.1)
-                .min(MOST_BLOCK * height as f32),
+            block: (BLOCK * height as f32).clamp(BLOCKS.0, BLOCKS.1).min(MAX_BLOCK * height as f32),
             quay_m: 0.0,
             unit: "m",
         };

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::framed::View;
-use super::moment::{Moment, turns};
+use super::moment::{DrawContext, turns};
 use super::trails::Place;
 use super::{Framing, Look, Outline, Rgba};
 use crate::lab::palette::faded;
@@ -20,8 +20,8 @@ pub(super) struct Ghost {
 }
 
 impl Ghost {
-    /// The ghost of the body at this place of the scene: the exact flow at the moment drawn, which is that of the lanes.
-    pub(super) fn new(moment: &Moment<'_>, index: usize) -> Self {
+    /// The ghost of the body at this index of the scene: the exact flow at the moment drawn, which is that of the lanes.
+    pub(super) fn new(moment: &DrawContext<'_>, index: usize) -> Self {
         let race = moment.lab.race();
         let body = &race.truth().bodies()[index];
         let remembered = moment.lab.past();
@@ -51,7 +51,7 @@ impl Ghost {
     /// Where it has been in the last `trail_s` seconds, newest first, within this tolerance in metres.
     pub(super) fn past(
         &self,
-        moment: &Moment<'_>,
+        moment: &DrawContext<'_>,
         index: usize,
         trail_s: f64,
         tolerance_m: f64,

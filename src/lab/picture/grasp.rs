@@ -7,7 +7,7 @@ use super::{Look, Pull, Rect};
 use crate::lab::{HeldBody, Lab, LaneBody};
 
 /// How close to the middle of a small handle a hand can take hold of it, in points: as close as people aim.
-const LEAST_RADIUS: f32 = 14.0;
+const MIN_RADIUS: f32 = 14.0;
 
 /// One body's cell of one lane.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,9 +18,9 @@ pub struct Cell {
     pub lane: usize,
     /// The place of the lane's method on the list.
     pub entry: usize,
-    /// The body's place in the scene.
+    /// The body's index in the scene.
     pub body: usize,
-    /// The body whose zoom and pan it is seen with, by its place in the scene: with those on one ruler that of the first.
+    /// The body whose zoom and pan it is seen with, by its index in the scene: with those on one ruler that of the first.
     pub zoomed_as: usize,
     /// Where the body can be taken hold of.
     pub grips: Vec<Grip>,
@@ -86,8 +86,7 @@ impl Cell {
     pub(super) fn add_grips(&mut self, body: &LaneBody, q: &[f64], whose: Whose) {
         let handles = Look::of(body).handles(q);
         let is_recorder = self.camera.quay_m != 0.0;
-        let least =
-            if is_recorder { LEAST_RADIUS.max(self.camera.block / 2.0) } else { LEAST_RADIUS };
+        let least = if is_recorder { MIN_RADIUS.max(self.camera.block / 2.0) } else { MIN_RADIUS };
         self.grips.extend(handles.into_iter().enumerate().map(|(handle, part)| {
             let radius = self.camera.size(part.radius).max(least);
             Grip { at: self.camera.points(part.at), radius, handle, whose }

@@ -2,7 +2,7 @@
 
 use std::f32::consts::FRAC_PI_2;
 
-use super::mass::Coat;
+use super::mass::LaneStyle;
 use super::sketch::{SOLID, disc, fill, line, path, ring, rounded, shaded};
 use super::{Rect, Rgba, Shape};
 use crate::lab::palette::{Palette, faded, mixed};
@@ -19,14 +19,14 @@ const ROOM_FOR_HOUSE: f32 = 70.0;
 
 /// Where a ship is and how it lies, in points.
 #[derive(Clone, Copy)]
-pub(super) struct Berth {
+pub(super) struct ShipPose {
     pub(super) at: [f32; 2],
     /// The direction of the bow, of length 1, y down.
     pub(super) bow: [f32; 2],
     pub(super) length: f32,
 }
 
-impl Berth {
+impl ShipPose {
     /// A place on the ship: so far from its middle to the bow and to starboard, in lengths.
     fn place(self, ahead: f32, aside: f32) -> [f32; 2] {
         let [bx, by] = self.bow;
@@ -65,7 +65,7 @@ impl Berth {
 /// The ship itself.
 pub(super) fn ship(
     shapes: &mut Vec<Shape>,
-    berth: Berth,
+    berth: ShipPose,
     colour: Rgba,
     palette: &Palette,
     clip: Rect,
@@ -84,7 +84,7 @@ pub(super) fn ship(
             clip,
         ));
     }
-    let shadow = Berth { at: [berth.at[0] + 2.0 * part, berth.at[1] + 4.0 * part], ..berth };
+    let shadow = ShipPose { at: [berth.at[0] + 2.0 * part, berth.at[1] + 4.0 * part], ..berth };
     shapes.push(fill(&shadow.hull(-2.0 * part), faded(BLACK, 0.22), clip));
     let hull = berth.hull(0.0);
     shapes.push(fill(&hull, mixed(colour, BLACK, 0.08), clip));
@@ -127,14 +127,14 @@ pub(super) fn ship(
 }
 
 /// The outline of a ship of a lane behind.
-pub(super) fn hollow(shapes: &mut Vec<Shape>, berth: Berth, coat: Coat, clip: Rect) {
+pub(super) fn hollow(shapes: &mut Vec<Shape>, berth: ShipPose, coat: LaneStyle, clip: Rect) {
     let hull = berth.hull(0.0);
     shapes.push(fill(&hull, faded(coat.colour, coat.fill), clip));
     shapes.push(ring(&hull, 1.8, coat.colour, coat.dash, clip));
 }
 
 /// The outline of the exact ship.
-pub(super) fn ghost(shapes: &mut Vec<Shape>, berth: Berth, palette: &Palette, clip: Rect) {
+pub(super) fn ghost(shapes: &mut Vec<Shape>, berth: ShipPose, palette: &Palette, clip: Rect) {
     let hull = berth.hull(-2.0);
     shapes.push(fill(&hull, faded(palette.exact, 0.12), clip));
     shapes.push(ring(&hull, 4.0, faded(palette.sea[1], 0.6), SOLID, clip));

@@ -6,7 +6,7 @@ use super::Rect;
 
 /// Space round the stage and between its cells, in points, and the largest part of the room for a cell that it takes.
 const MARGIN: f32 = 6.0;
-const MOST_MARGIN: f32 = 0.15;
+const MAX_MARGIN: f32 = 0.15;
 
 /// The stage in bands, one below the other, of these parts of its height.
 pub(super) fn bands(stage: Rect, heights: &[f32]) -> Vec<Rect> {
@@ -24,7 +24,7 @@ pub(super) fn bands(stage: Rect, heights: &[f32]) -> Vec<Rect> {
 pub(super) fn grid(stage: Rect, rows: usize, columns: usize) -> Vec<Rect> {
     let sides = |axis: usize, count: usize| {
         let room = (stage.max[axis] - stage.min[axis]).max(0.0);
-        let margin = MARGIN.min(MOST_MARGIN * room / count as f32);
+        let margin = MARGIN.min(MAX_MARGIN * room / count as f32);
         let side = (room - margin * (count as f32 + 1.0)) / count as f32;
         move |place: usize| {
             let least = stage.min[axis] + margin + place as f32 * (side + margin);

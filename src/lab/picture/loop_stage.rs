@@ -3,8 +3,8 @@
 
 use glam::DVec2;
 
-use super::body::Seen;
-use super::mass::Coat;
+use super::body::OutlineView;
+use super::mass::LaneStyle;
 use super::sketch::{Camera, SOLID, line, path};
 use super::{Align, Framing, Label, Look, Outline, Picture, Rect, Rgba, chart};
 use crate::lab::palette::{Palette, faded};
@@ -17,7 +17,7 @@ const ROOM_FOR_RULER: f32 = 260.0;
 const ROOM_FOR_PATH: f32 = 90.0;
 /// From this width of the stage on, and this height of a band, in points, words fit beside bodies.
 const ROOM_FOR_WORDS: f32 = 420.0;
-const LEAST_FOR_WORDS: f32 = 46.0;
+const MIN_FOR_WORDS: f32 = 46.0;
 /// From this width of the stage on, in points, the method fits beside the loop's name.
 const ROOM_FOR_METHOD: f32 = 620.0;
 /// How many frames before the present one are seen.
@@ -26,7 +26,7 @@ const FRAMES_BEFORE: usize = 14;
 const STRENGTHS: (f32, f32) = (0.5, 0.06);
 /// The side of a block, as a part of the band's height, at most in points.
 const BLOCK: f32 = 0.27;
-const LARGEST_BLOCK: f32 = 44.0;
+const MAX_BLOCK_POINTS: f32 = 44.0;
 /// The room that the words on a frame's latency take, in points.
 const ROOM_FOR_LATENESS: f32 = 112.0;
 /// The foot of a band, in which its loop is named, in points.
@@ -200,7 +200,7 @@ impl<'a> Band<'a> {
             points_per_metre: 1.0,
             paper: 0.0,
             magnified: 1.0,
-            block: (BLOCK * height as f32).min(LARGEST_BLOCK),
+            block: (BLOCK * height as f32).min(MAX_BLOCK_POINTS),
             quay_m: 0.0,
             unit: "m",
         };
@@ -250,27 +250,27 @@ impl<'a> Band<'a> {
         self.is_recorded().then_some(camera)
     }
 
-    fn seen<'s>(&self, camera: &'s Camera, outline: &'s Outline) -> Seen<'s> {
-        Seen { outline, camera, palette: self.palette }
+    fn seen<'s>(&self, camera: &'s Camera, outline: &'s Outline) -> OutlineView<'s> {
+        OutlineView { outline, camera, palette: self.palette }
     }
 
     /// The frames before the one that the display holds.
     fn before(&self, picture: &mut Picture, camera: &Camera, frames: &[LoopFrame]) {
         for (strength, before) in distinct_before(frames) {
             let outline = self.shown(before);
-            let coat = Coat { colour: faded(self.colour, strength), dash: SOLID, fill: 0.12 };
+            let coat = LaneStyle { colour: faded(self.colour, strength), dash: SOLID, fill: 0.12 };
             self.seen(camera, &outline).behind(&mut picture.shapes, coat);
         }
     }
 
     fn ghost(&self, picture: &mut Picture, camera: &Camera, exact: &Outline) {
-        let coat = Coat { colour: self.palette.exact, dash: SOLID, fill: 0.08 };
+        let coat = LaneStyle { colour: self.palette.exact, dash: SOLID, fill: 0.08 };
         self.seen(camera, exact).behind(&mut picture.shapes, coat);
     }
 
     fn body(&self, picture: &mut Picture, camera: &Camera, drawn: &Outline) {
         let seen = self.seen(camera, drawn);
-        let coat = || Coat { colour: self.colour, dash: SOLID, fill: 0.0 };
+        let coat = || LaneStyle { colour: self.colour, dash: SOLID, fill: 0.0 };
         // A coil would hide the frames before.
         if !self.is_recorded() {
             seen.carried(picture, coat());
@@ -314,7 +314,7 @@ impl<'a> Band<'a> {
         let name = self.label([left, y], Align::Left, 14.5, name.into());
         picture.labels.push(Label { is_strong: true, ..name });
         let [width, height] = self.size();
-        if width < ROOM_FOR_WORDS || height < LEAST_FOR_WORDS {
+        if width < ROOM_FOR_WORDS || height < MIN_FOR_WORDS {
             return;
         }
         let verdict = self.lane.verdict(self.loops.scene().tick_hz);
@@ -346,7 +346,7 @@ impl<'a> Band<'a> {
         self.title(picture);
         let [drawn, exact] = at.map(|at| camera.points(at));
         let above = drawn[1] - 0.5 * camera.block - 9.0;
-        let has_room = width >= ROOM_FOR_WORDS && height >= LEAST_FOR_WORDS;
+        let has_room = width >= ROOM_FOR_WORDS && height >= MIN_FOR_WORDS;
         if has_room && above > self.rect.min[1] + 6.0 {
             let (accent, rect) = (self.palette.accent, self.rect);
             let ends = [drawn[0], exact[0]].map(|x| [x, above]);

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::moment::Moment;
+use super::moment::DrawContext;
 use super::sketch::{Camera, SOLID, demote, disc, fill, line, ring};
 use super::{Align, Label, Picture, Rect, Rgba};
 use crate::lab::METRICS;
@@ -29,7 +29,7 @@ const LANE: f32 = 4.0;
 
 /// A lane under the loupe.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Near {
+pub(super) struct LoupeLane {
     /// How far it is from the truth at the present tick, in metres.
     pub(super) off_m: DVec2,
     /// The furthest that it was in the last second, in metres.
@@ -37,8 +37,8 @@ pub(super) struct Near {
     pub(super) colour: Rgba,
 }
 
-impl Near {
-    pub(super) fn of(moment: &Moment<'_>, lane: &Entrant, body: usize, colour: Rgba) -> Self {
+impl LoupeLane {
+    pub(super) fn of(moment: &DrawContext<'_>, lane: &Entrant, body: usize, colour: Rgba) -> Self {
         let race = moment.lab.race();
         let [place, truth] =
             [&lane.lane, race.truth()].map(|lane| lane.bodies()[body].stepper.place());
@@ -54,9 +54,9 @@ impl Near {
 /// last.
 pub(super) fn draw(
     picture: &mut Picture,
-    moment: &Moment<'_>,
+    moment: &DrawContext<'_>,
     camera: &Camera,
-    (lanes, reach_m): (&[Near], f64),
+    (lanes, reach_m): (&[LoupeLane], f64),
     (room, busy): (Rect, Rect),
 ) {
     let furthest_m = lanes.iter().map(|lane| lane.lately_m.max(lane.off_m.length()));

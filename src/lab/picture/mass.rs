@@ -6,7 +6,7 @@ use crate::lab::palette::{Palette, faded, mixed};
 
 /// How a lane looks.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Coat {
+pub(super) struct LaneStyle {
     pub(super) colour: Rgba,
     /// Drawn length and gap in points; a gap of 0 is solid.
     pub(super) dash: [f32; 2],
@@ -75,7 +75,7 @@ pub(super) fn hollow_block(
     shapes: &mut Vec<Shape>,
     at: [f32; 2],
     side: f32,
-    coat: Coat,
+    coat: LaneStyle,
     clip: Rect,
 ) {
     let face = square(at, 0.78 * side, 6.0 * side / 60.0);
@@ -105,7 +105,7 @@ pub(super) fn slab(shapes: &mut Vec<Shape>, at: [[f32; 2]; 2], colour: Rgba, cli
 }
 
 /// A block of a lane behind that is wider than high.
-pub(super) fn hollow_slab(shapes: &mut Vec<Shape>, at: [[f32; 2]; 2], coat: Coat, clip: Rect) {
+pub(super) fn hollow_slab(shapes: &mut Vec<Shape>, at: [[f32; 2]; 2], coat: LaneStyle, clip: Rect) {
     let face = box_round(at, 0.0);
     shapes.push(fill(&face, faded(coat.colour, coat.fill), clip));
     shapes.push(ring(&face, 2.0, coat.colour, short(coat.dash), clip));
@@ -155,7 +155,7 @@ pub(super) fn hollow_disc(
     shapes: &mut Vec<Shape>,
     at: [f32; 2],
     radius: f32,
-    coat: Coat,
+    coat: LaneStyle,
     clip: Rect,
 ) {
     shapes.push(fill(&round(at, radius), faded(coat.colour, coat.fill), clip));

@@ -9,10 +9,10 @@ use crate::lab::{History, Lab, LaneBody};
 /// 1 Hz spring, and no more of a faster one than can be told apart.
 const PAPER: f64 = 0.15;
 /// The most that the paper holds, in seconds.
-const LONGEST_PAPER_S: f64 = 3.0;
+const MAX_PAPER_S: f64 = 3.0;
 
 /// The moment that is drawn.
-pub(super) struct Moment<'a> {
+pub(super) struct DrawContext<'a> {
     pub(super) lab: &'a Lab,
     pub(super) palette: &'static Palette,
     /// The moment in seconds.
@@ -21,17 +21,17 @@ pub(super) struct Moment<'a> {
     pub(super) paper_s: f64,
 }
 
-impl<'a> Moment<'a> {
+impl<'a> DrawContext<'a> {
     pub(super) fn of(lab: &'a Lab) -> Self {
         Self {
             lab,
             palette: lab.display().theme.palette(),
             t: lab.shown_s(),
-            paper_s: (PAPER * lab.scene().seconds).min(LONGEST_PAPER_S),
+            paper_s: (PAPER * lab.scene().seconds).min(MAX_PAPER_S),
         }
     }
 
-    /// The colour and the dash pattern of the lane on this place of the list.
+    /// The colour and the dash pattern of the lane on this index of the list.
     pub(super) fn style(&self, entry: usize) -> (Rgba, [f32; 2]) {
         let lanes = self.lab.entries();
         self.lab.display().theme.lane_style(lanes, &lanes[entry])

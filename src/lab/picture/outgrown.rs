@@ -4,7 +4,7 @@
 
 use glam::DVec2;
 
-use super::moment::Moment;
+use super::moment::DrawContext;
 use super::{Framing, Look, Outline};
 use crate::lab::race::Entrant;
 use crate::lab::{History, Lab, METRICS, Mode, Motion};
@@ -38,7 +38,7 @@ pub(super) struct Room {
 
 impl Room {
     /// How far the stage reaches with the lane, across and up, in metres.
-    pub(super) fn taken(&self, moment: &Moment<'_>, lane: &Entrant, body: usize) -> DVec2 {
+    pub(super) fn taken(&self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> DVec2 {
         let history = moment.history(lane, body);
         let furthest = |t: f64| self.furthest(history, [t - self.window_s, t]);
         let part_s = EVENED_S / f64::from(PARTS);
@@ -61,7 +61,7 @@ impl Room {
     }
 
     /// How far the parts of a body are now, at most.
-    fn present(&self, moment: &Moment<'_>, lane: &Entrant, body: usize) -> DVec2 {
+    fn present(&self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> DVec2 {
         let body = &lane.lane.bodies()[body];
         let look = Look::of(body);
         let race = moment.lab.race();
@@ -94,7 +94,7 @@ fn parts(outline: &Outline) -> impl Iterator<Item = DVec2> {
 }
 
 /// How far from the truth a lane has been lately, in metres.
-pub(super) fn strayed_m(moment: &Moment<'_>, lane: &Entrant, body: usize) -> f64 {
+pub(super) fn strayed_m(moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> f64 {
     let error = METRICS.iter().position(|metric| metric.id == "position_error");
     let lately = moment.history(lane, body).since(moment.t - REMEMBERED_S);
     let errors = lately.filter_map(|sample| Some(sample.metrics[error?]));

@@ -4,7 +4,7 @@ use std::iter;
 
 use glam::{DVec2, Vec2};
 
-use super::moment::Moment;
+use super::moment::DrawContext;
 use super::sketch::{Camera, SOLID, demote, disc, taper};
 use super::{Framing, Path, PathPoint, Picture, Rect, Rgba, Shape};
 use crate::lab::palette::{faded, mixed};
@@ -43,7 +43,7 @@ fn trail(places: &[Place], clip: Rect, point: impl FnMut(&Place) -> PathPoint) -
     Shape::Path(Path { points: places.iter().map(point).collect(), dash: SOLID, clip })
 }
 
-impl Moment<'_> {
+impl DrawContext<'_> {
     /// The samples of the last `trail_s` seconds before the moment drawn, newest first, thinned to
     /// what shows, each with its age.
     fn recent<'h>(

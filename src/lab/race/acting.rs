@@ -188,7 +188,7 @@ impl Race {
         entrant.lane.switch(spec.solver(), spec.substeps, t, truth)
     }
 
-    /// The place on the list for a lane that is at place `present` and switches to `spec`.
+    /// The index on the list for a lane that is at place `present` and switches to `spec`.
     fn entry_for(&self, present: usize, spec: LaneSpec) -> usize {
         let listed = self.list.iter().position(|known| *known == spec);
         let own = (self.list[present].method == spec.method).then_some(present);

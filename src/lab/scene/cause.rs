@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::RangeInclusive;
 
-use super::LARGEST_FILE;
+use super::MAX_FILE_BYTES;
 use super::clip::clip;
 use super::refusal::Refusal;
 use crate::lab::lane_spec::LaneSpec;
@@ -11,10 +11,10 @@ use crate::sim::bodies::{self, BODIES, Fault, Pin, Text};
 use crate::sim::integrators::{METHODS, Method};
 use crate::sim::law::Layout;
 
-/// A fault of a scene file. Its display says what is wrong, and [`Cause::remedy`] what to do.
+/// A fault of a scene file. Its display says what is wrong, and [`SceneFault::remedy`] what to do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub(super) enum Cause {
-    #[error("the file holds more than {LARGEST_FILE} bytes")]
+pub(super) enum SceneFault {
+    #[error("the file holds more than {MAX_FILE_BYTES} bytes")]
     TooLarge,
     #[error("the file is not text: byte {byte} is not UTF-8")]
     NotUtf8 { byte: usize },
@@ -168,98 +168,98 @@ pub(super) enum Wanted {
     /// The name of a [`Pin`].
     Pin,
     /// `true` or `false`.
-    Truth,
+    Boolean,
     /// A list of this many numbers.
     Numbers(usize),
     /// The state of a lane, as 16 hexadecimal digits.
     Hash,
 }
 
-impl Cause {
+impl SceneFault {
     /// How to mend it.
     pub(super) fn remedy(&self) -> String {
         match self {
-            Cause::TooLarge => "give a scene file, with a shorter script".into(),
-            Cause::NotUtf8 { .. } => "give a scene file, saved as UTF-8".into(),
-            Cause::Empty => {
+            SceneFault::TooLarge => "give a scene file, with a shorter script".into(),
+            SceneFault::NotUtf8 { .. } => "give a scene file, saved as UTF-8".into(),
+            SceneFault::Empty => {
                 "write `title`, `tick_hz`, `seconds` and a table such as `[[ship]]`".into()
             }
-            Cause::Syntax { remedy, .. }
-            | Cause::Law { remedy, .. }
-            | Cause::Net { remedy, .. } => remedy.clone(),
-            Cause::DuplicateKey { key, is_table: true } => {
+            SceneFault::Syntax { remedy, .. }
+            | SceneFault::Law { remedy, .. }
+            | SceneFault::Net { remedy, .. } => remedy.clone(),
+            SceneFault::DuplicateKey { key, is_table: true } => {
                 format!("write `[[{}]]` each time", clip(key))
             }
-            Cause::DuplicateKey { .. } => "keep one of them".into(),
-            Cause::MissingKey { key, place: Place::Top, about, wanted } => {
+            SceneFault::DuplicateKey { .. } => "keep one of them".into(),
+            SceneFault::MissingKey { key, place: Place::Top, about, wanted } => {
                 format!("write `{key} = …` above the first table: {about}, {wanted}")
             }
-            Cause::MissingKey { key, about, wanted, .. } => {
+            SceneFault::MissingKey { key, about, wanted, .. } => {
                 format!("write `{key} = …`: {about}, {wanted}")
             }
-            Cause::UnknownKey { nearest, known, .. } => offer(nearest.as_deref(), known, '`'),
-            Cause::Misplaced { .. } => "move it above the first table".into(),
-            Cause::UnknownTable { nearest, known, .. } => offer(*nearest, known, '['),
-            Cause::UnknownMethod { nearest, known, .. } => offer(*nearest, known, '"'),
-            Cause::WrongType { wanted, .. }
-            | Cause::OutOfRange { wanted, .. }
-            | Cause::ItemOutOfRange { wanted, .. }
-            | Cause::PointCount { wanted, .. }
-            | Cause::NumberCount { wanted, .. }
-            | Cause::EmptyText { wanted, .. }
-            | Cause::LongText { wanted, .. } => format!("write {wanted}"),
-            Cause::NotRising { .. } => {
+            SceneFault::UnknownKey { nearest, known, .. } => offer(nearest.as_deref(), known, '`'),
+            SceneFault::Misplaced { .. } => "move it above the first table".into(),
+            SceneFault::UnknownTable { nearest, known, .. } => offer(*nearest, known, '['),
+            SceneFault::UnknownMethod { nearest, known, .. } => offer(*nearest, known, '"'),
+            SceneFault::WrongType { wanted, .. }
+            | SceneFault::OutOfRange { wanted, .. }
+            | SceneFault::ItemOutOfRange { wanted, .. }
+            | SceneFault::PointCount { wanted, .. }
+            | SceneFault::NumberCount { wanted, .. }
+            | SceneFault::EmptyText { wanted, .. }
+            | SceneFault::LongText { wanted, .. } => format!("write {wanted}"),
+            SceneFault::NotRising { .. } => {
                 "order the points by their first numbers, each greater than the one before".into()
             }
-            Cause::Fault(fault) => fault.remedy.clone(),
-            Cause::ControlCharacter { .. } => "remove it".into(),
-            Cause::NoBody => {
+            SceneFault::Fault(fault) => fault.remedy.clone(),
+            SceneFault::ControlCharacter { .. } => "remove it".into(),
+            SceneFault::NoBody => {
                 let kinds: Vec<_> = BODIES.iter().map(|kind| kind.id).collect();
                 format!("add a table {}", list(&kinds, '[', " or "))
             }
-            Cause::TooManyBodies { most, .. } => format!("keep at most {most}"),
-            Cause::DuplicateName { .. } => "give it another".into(),
-            Cause::NoLanes => "name a method, or remove the line and all of them race".into(),
-            Cause::TooManyLanes { most, .. } => format!("keep at most {most}"),
-            Cause::DuplicateLane { lane, .. } => {
+            SceneFault::TooManyBodies { most, .. } => format!("keep at most {most}"),
+            SceneFault::DuplicateName { .. } => "give it another".into(),
+            SceneFault::NoLanes => "name a method, or remove the line and all of them race".into(),
+            SceneFault::TooManyLanes { most, .. } => format!("keep at most {most}"),
+            SceneFault::DuplicateLane { lane, .. } => {
                 let or =
                     if lane.method.tolerance.is_some() { " or another `tolerance`" } else { "" };
                 format!("remove one, or give it other `substeps`{or} in a `[[lane]]`")
             }
-            Cause::TwoLaneLists => "keep one of them".into(),
-            Cause::NotALane { known, .. } => {
+            SceneFault::TwoLaneLists => "keep one of them".into(),
+            SceneFault::NotALane { known, .. } => {
                 format!("write one of {}, or give it a lane", list(known, '"', ", "))
             }
-            Cause::Refused { .. } => {
+            SceneFault::Refused { .. } => {
                 "name another method, or change the body; `regatta list methods` has what each is for".into()
             }
-            Cause::NoTolerance { .. } => {
+            SceneFault::NoTolerance { .. } => {
                 format!("remove it, or choose an adaptive method: {}", adaptive_methods())
             }
-            Cause::NoJoint { .. } => format!("remove it, or choose an engine: {}", engines()),
-            Cause::Alone { needed, .. } => format!("remove it, or write `{needed}` too"),
-            Cause::NoToleranceInLane { .. } => {
+            SceneFault::NoJoint { .. } => format!("remove it, or choose an engine: {}", engines()),
+            SceneFault::Alone { needed, .. } => format!("remove it, or write `{needed}` too"),
+            SceneFault::NoToleranceInLane { .. } => {
                 format!("remove it, or give it with an adaptive `method`: {}", adaptive_methods())
             }
-            Cause::NoAction { known } => format!("write one of {}", list(known, '`', ", ")),
-            Cause::ManyActions { .. } => {
+            SceneFault::NoAction { known } => format!("write one of {}", list(known, '`', ", ")),
+            SceneFault::ManyActions { .. } => {
                 "write a `[[command]]` with the same `tick` for each".into()
             }
-            Cause::LaneAlone { known } => {
+            SceneFault::LaneAlone { known } => {
                 format!("remove it, or give one of {}", list(known, '`', ", "))
             }
-            Cause::NoLane { lanes } => format!("write `lane = …`: its number, from 1 to {lanes}"),
-            Cause::UnknownBody { known, .. } => {
+            SceneFault::NoLane { lanes } => format!("write `lane = …`: its number, from 1 to {lanes}"),
+            SceneFault::UnknownBody { known, .. } => {
                 let known: Vec<&str> = known.iter().map(String::as_str).collect();
                 format!("write one of {}", list(&known, '"', ", "))
             }
-            Cause::UnknownParameter { nearest, known, .. } => offer(nearest.as_deref(), known, '"'),
-            Cause::ActsAtStart { settable, .. } => format!(
+            SceneFault::UnknownParameter { nearest, known, .. } => offer(nearest.as_deref(), known, '"'),
+            SceneFault::ActsAtStart { settable, .. } => format!(
                 "write it in the body's table, move the body by `place`, or set one of {}",
                 list(settable, '"', ", ")
             ),
-            Cause::NoHash { .. } => format!("write {}", Wanted::Hash),
-            Cause::NoTaker { input } => {
+            SceneFault::NoHash { .. } => format!("write {}", Wanted::Hash),
+            SceneFault::NoTaker { input } => {
                 let takers = BODIES.iter().filter(|kind| kind.inputs.contains(input));
                 let takers: Vec<_> = takers.map(|kind| kind.id).collect();
                 format!("remove the command, or add a table {}", list(&takers, '[', " or "))
@@ -305,7 +305,7 @@ impl Wanted {
             Wanted::Springs => "a list of tables",
             Wanted::Spring => "a table",
             Wanted::Numbers(_) => "a list of numbers",
-            Wanted::Truth => "a boolean",
+            Wanted::Boolean => "a boolean",
             Wanted::Table(_) | Wanted::Constants | Wanted::Coordinates(_) => "a table",
             Wanted::Point => "a pair of numbers",
             Wanted::Tables(_) => "an array of tables",
@@ -329,7 +329,7 @@ impl fmt::Display for Wanted {
                 f,
                 "16 digits from 0 to 9 and a to f in double quotes, as a recording has them"
             ),
-            Wanted::Truth => write!(f, "true or false"),
+            Wanted::Boolean => write!(f, "true or false"),
             Wanted::Numbers(1) => write!(f, "one number in brackets, such as [0.5]"),
             Wanted::Numbers(count) => write!(f, "{count} numbers in brackets, with commas between"),
             Wanted::Table(name) => write!(f, "`[{name}]` in brackets and its keys below"),

@@ -1,21 +1,21 @@
 //! Shortens the text of a file or of an argument for messages.
 
 /// The most characters of a file's text in one message, so that it stays a line.
-const MOST_QUOTED_CHARS: usize = 40;
+const MAX_QUOTED_CHARS: usize = 40;
 
 /// The most characters of a list of names from a file, such as a header.
-const MOST_LISTED_CHARS: usize = 200;
+const MAX_LISTED_CHARS: usize = 200;
 
 /// Text for a message: shortened, and without control characters.
 pub(crate) fn clip(text: &str) -> String {
-    clip_to(MOST_QUOTED_CHARS, text)
+    clip_to(MAX_QUOTED_CHARS, text)
 }
 
 /// Names from a file for a message, with commas between.
 pub(in crate::lab) fn clip_list<'a>(names: impl Iterator<Item = &'a str>) -> String {
     // No more of a file's text than can be shown.
-    let shown = names.take(MOST_LISTED_CHARS).map(clip).collect::<Vec<_>>().join(", ");
-    clip_to(MOST_LISTED_CHARS, &shown)
+    let shown = names.take(MAX_LISTED_CHARS).map(clip).collect::<Vec<_>>().join(", ");
+    clip_to(MAX_LISTED_CHARS, &shown)
 }
 
 fn clip_to(most_chars: usize, text: &str) -> String {

@@ -3,19 +3,19 @@
 use std::ops::Range as Span;
 use std::sync::Arc;
 
-use super::cause::Cause;
+use super::cause::SceneFault;
 use super::errors::position;
 use super::fields::{TOP, optional, required};
 use super::law::{LAW, read_law};
 use super::net::{NET, read_net};
 use super::table::{Field, Table};
-use super::{MOST_BODIES, MOST_NAME_CHARS, SceneBody};
+use super::{MAX_BODIES, MAX_NAME_CHARS, SceneBody};
 use crate::sim::bodies::{BODIES, ClaimHorizon, Kind, Net, Parameter, Range, kind};
 
 const NAME: Field = optional("name");
 
 /// A body as the file describes it, faults included.
-pub(super) struct Described {
+pub(super) struct BodyDraft {
     /// What it is; `None` for a law or a net with faults.
     pub(super) kind: Option<Arc<Kind>>,
     /// The name of its table array.
@@ -27,19 +27,19 @@ pub(super) struct Described {
 }
 
 /// The bodies in the order of the file. The claims of laws are held against their motion at the ticks of `horizon`.
-pub(super) fn read_bodies(top: &mut Table<'_>, horizon: ClaimHorizon) -> Vec<Described> {
+pub(super) fn read_bodies(top: &mut Table<'_>, horizon: ClaimHorizon) -> Vec<BodyDraft> {
     let mut rows: Vec<(&'static str, Table<'_>)> = Vec::new();
     for id in BODIES.iter().map(|kind| kind.id).chain([LAW, NET]) {
         rows.extend(top.rows(id).into_iter().map(|row| (id, row)));
     }
     rows.sort_by_key(|(_, row)| row.header.start);
-    if let Some((_, row)) = rows.get(MOST_BODIES) {
-        let cause = Cause::TooManyBodies { found: rows.len(), most: MOST_BODIES };
+    if let Some((_, row)) = rows.get(MAX_BODIES) {
+        let cause = SceneFault::TooManyBodies { found: rows.len(), most: MAX_BODIES };
         top.complain(row.header.clone(), cause);
     }
     let mut bodies = Vec::new();
-    for (id, mut row) in rows.into_iter().take(MOST_BODIES) {
-        let name = row.text(NAME, MOST_NAME_CHARS);
+    for (id, mut row) in rows.into_iter().take(MAX_BODIES) {
+        let name = row.text(NAME, MAX_NAME_CHARS);
         let name_at = row.span(NAME.key);
         let (kind, values) = match kind(id) {
             Some(kind) => (Some(kind.clone()), read_values(&kind.parameters, &mut row)),
@@ -53,9 +53,9 @@ pub(super) fn read_bodies(top: &mut Table<'_>, horizon: ClaimHorizon) -> Vec<Des
             && let Err(fault) = (kind.check)(values)
             && kind.law().is_none()
         {
-            row.complain(row.span(&fault.key), Cause::Fault(fault));
+            row.complain(row.span(&fault.key), SceneFault::Fault(fault));
         }
-        bodies.push(Described { kind, id, name, name_at, values });
+        bodies.push(BodyDraft { kind, id, name, name_at, values });
         top.adopt(row, &TOP);
     }
     bodies
@@ -78,22 +78,22 @@ fn read_values(parameters: &'static [Parameter], row: &mut Table<'_>) -> Option<
 }
 
 /// Reports names that several bodies have.
-pub(super) fn check_names(text: &str, bodies: &[Described], top: &mut Table<'_>) {
+pub(super) fn check_names(text: &str, bodies: &[BodyDraft], top: &mut Table<'_>) {
     for (n, body) in bodies.iter().enumerate() {
         let Some(name) = &body.name else { continue };
         if let Some(first) = bodies[..n].iter().find(|earlier| earlier.name == body.name) {
             let (line, _) = position(text, first.name_at.start);
-            let cause = Cause::DuplicateName { name: name.clone(), line };
+            let cause = SceneFault::DuplicateName { name: name.clone(), line };
             top.complain(body.name_at.clone(), cause);
         }
     }
 }
 
 /// Names the nameless after their kind, numbered where the kind has several bodies.
-pub(super) fn name_the_nameless(bodies: &mut [Described]) {
+pub(super) fn name_the_nameless(bodies: &mut [BodyDraft]) {
     let mut taken: Vec<String> = bodies.iter().filter_map(|body| body.name.clone()).collect();
     let ids: Vec<_> = bodies.iter().map(|body| body.id).collect();
-    for (Described { name, .. }, id) in bodies.iter_mut().zip(&ids) {
+    for (BodyDraft { name, .. }, id) in bodies.iter_mut().zip(&ids) {
         let is_alone = ids.iter().filter(|other| *other == id).count() == 1;
         let name = name.get_or_insert_with(|| {
             let plain = is_alone.then(|| (*id).to_owned());
@@ -106,8 +106,8 @@ pub(super) fn name_the_nameless(bodies: &mut [Described]) {
 }
 
 /// The bodies that have all their parameters.
-pub(super) fn finish_bodies(bodies: Vec<Described>) -> Vec<SceneBody> {
-    let finish = |Described { kind, name, values, .. }| {
+pub(super) fn finish_bodies(bodies: Vec<BodyDraft>) -> Vec<SceneBody> {
+    let finish = |BodyDraft { kind, name, values, .. }| {
         Some(SceneBody::new(name.expect("each has one by now"), kind?, values?))
     };
     bodies.into_iter().filter_map(finish).collect()

@@ -2,8 +2,8 @@
 
 use toml::de::DeTable;
 
-use super::cause::{Cause, Wanted};
-use super::described::{Described, check_names, finish_bodies, name_the_nameless, read_bodies};
+use super::cause::{SceneFault, Wanted};
+use super::described::{BodyDraft, check_names, finish_bodies, name_the_nameless, read_bodies};
 use super::errors::{SceneError, position};
 use super::fields::{
     ABOUT, HINT, METHOD_LIST, OPENING_METHOD, SECONDS, TICK_HZ, TITLE, TOP, optional,
@@ -14,20 +14,20 @@ use super::script::{self, SceneContext};
 use super::syntax;
 use super::table::{Field, Table};
 use super::{
-    LEAST_SECONDS, MOST_LANES, MOST_SECONDS, MOST_TICK_HZ, Scene, USUAL_SECONDS, claim_horizon,
+    MAX_LANES, MAX_SECONDS, MAX_TICK_HZ, MIN_SECONDS, Scene, USUAL_SECONDS, claim_horizon,
 };
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::Range;
 use crate::sim::integrators::Method;
 
 /// The most characters of a title, which is shown in the window's title bar.
-const MOST_TITLE_CHARS: usize = 80;
+const MAX_TITLE_CHARS: usize = 80;
 
 /// The most characters of `about`: a few lines of a panel.
-const MOST_ABOUT_CHARS: usize = 400;
+const MAX_ABOUT_CHARS: usize = 400;
 
 /// The most characters of a hint, which is the line under the stage.
-const MOST_HINT_CHARS: usize = 120;
+const MAX_HINT_CHARS: usize = 120;
 
 const LANE_METHOD: Field = required("method", "the method that races");
 const EQUAL_COST: Field = optional("equal_cost");
@@ -41,19 +41,19 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
     let (document, errors) = DeTable::parse_recoverable(text);
     let mut errors = syntax::errors(text, errors);
     // After a duplicate key the rest of the file can be read; after other syntax errors it cannot.
-    if errors.iter().any(|error| !matches!(error.cause, Cause::DuplicateKey { .. })) {
+    if errors.iter().any(|error| !matches!(error.cause, SceneFault::DuplicateKey { .. })) {
         return Err(errors);
     }
     if document.get_ref().is_empty() {
-        return Err(vec![SceneError { span: 0..0, cause: Cause::Empty }]);
+        return Err(vec![SceneError { span: 0..0, cause: SceneFault::Empty }]);
     }
 
     let mut top = Table::top(text, document.get_ref());
-    let title = top.text(TITLE, MOST_TITLE_CHARS);
-    let about = top.text(ABOUT, MOST_ABOUT_CHARS).unwrap_or_default();
-    let hint = top.text(HINT, MOST_HINT_CHARS);
-    let tick_hz = top.whole(TICK_HZ, 1..=MOST_TICK_HZ);
-    let seconds = top.number(SECONDS, Range::Between(LEAST_SECONDS, MOST_SECONDS));
+    let title = top.text(TITLE, MAX_TITLE_CHARS);
+    let about = top.text(ABOUT, MAX_ABOUT_CHARS).unwrap_or_default();
+    let hint = top.text(HINT, MAX_HINT_CHARS);
+    let tick_hz = top.whole(TICK_HZ, 1..=MAX_TICK_HZ);
+    let seconds = top.number(SECONDS, Range::Between(MIN_SECONDS, MAX_SECONDS));
     let seconds = seconds.unwrap_or(USUAL_SECONDS);
     // A scene without a tick rate is refused, whatever its laws claim.
     let horizon = claim_horizon(seconds, tick_hz.unwrap_or(1));
@@ -70,11 +70,12 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
     let may_mean_a_body = |error: &SceneError| {
         matches!(
             error.cause,
-            Cause::UnknownTable { .. } | Cause::WrongType { wanted: Wanted::Tables(_), .. }
+            SceneFault::UnknownTable { .. }
+                | SceneFault::WrongType { wanted: Wanted::Tables(_), .. }
         )
     };
     if bodies.is_empty() && !errors.iter().any(may_mean_a_body) {
-        errors.push(SceneError { span: text.len()..text.len(), cause: Cause::NoBody });
+        errors.push(SceneError { span: text.len()..text.len(), cause: SceneFault::NoBody });
     }
 
     match (title, tick_hz) {
@@ -100,22 +101,22 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
     }
 }
 
-fn read_lanes(text: &str, bodies: &[Described], top: &mut Table<'_>) -> Vec<LaneSpec> {
-    let listed = top.methods(METHOD_LIST, MOST_LANES);
+fn read_lanes(text: &str, bodies: &[BodyDraft], top: &mut Table<'_>) -> Vec<LaneSpec> {
+    let listed = top.methods(METHOD_LIST, MAX_LANES);
     let is_listed = listed.is_some();
     let listed = listed.into_iter().flatten();
     let mut lanes: Vec<_> = listed.map(|(span, method)| (span, LaneSpec::plain(method))).collect();
 
     let rows = top.rows("lane");
     if let (true, Some(row)) = (is_listed, rows.first()) {
-        top.complain(row.header.clone(), Cause::TwoLaneLists);
+        top.complain(row.header.clone(), SceneFault::TwoLaneLists);
     }
-    if let Some(row) = rows.get(MOST_LANES) {
-        let cause = Cause::TooManyLanes { found: rows.len(), most: MOST_LANES };
+    if let Some(row) = rows.get(MAX_LANES) {
+        let cause = SceneFault::TooManyLanes { found: rows.len(), most: MAX_LANES };
         top.complain(row.header.clone(), cause);
     }
     let is_given = is_listed || !rows.is_empty();
-    for mut row in rows.into_iter().take(MOST_LANES) {
+    for mut row in rows.into_iter().take(MAX_LANES) {
         let method = row.method(LANE_METHOD);
         let spec = read_lane_spec(&mut row, method);
         let span = row.span(LANE_METHOD.key);
@@ -128,7 +129,7 @@ fn read_lanes(text: &str, bodies: &[Described], top: &mut Table<'_>) -> Vec<Lane
         check_method(key, lane.method, span.clone(), bodies, top);
         if let Some((first, _)) = lanes[..n].iter().find(|(_, earlier)| earlier == lane) {
             let (line, _) = position(text, first.start);
-            top.complain(span.clone(), Cause::DuplicateLane { lane: *lane, line });
+            top.complain(span.clone(), SceneFault::DuplicateLane { lane: *lane, line });
         }
     }
     if is_given { lanes.into_iter().map(|(_, lane)| lane).collect() } else { every_lane(bodies) }
@@ -144,7 +145,7 @@ fn read_opening_method(lanes: &[LaneSpec], top: &mut Table<'_>) -> Option<&'stat
                 known.push(lane.method.id);
             }
         }
-        let cause = Cause::NotALane { key: OPENING_METHOD.key, method: method.id, known };
+        let cause = SceneFault::NotALane { key: OPENING_METHOD.key, method: method.id, known };
         top.complain(top.span(OPENING_METHOD.key), cause);
     }
     Some(method)
@@ -154,7 +155,7 @@ fn read_opening_method(lanes: &[LaneSpec], top: &mut Table<'_>) -> Option<&'stat
 fn read_race(top: &mut Table<'_>) -> (bool, bool) {
     let Some(mut race) = top.table("race") else { return (false, false) };
     let [equal_cost, opens_as_race] =
-        [EQUAL_COST, OPENS_AS_RACE].map(|field| race.truth(field).unwrap_or(false));
+        [EQUAL_COST, OPENS_AS_RACE].map(|field| race.boolean(field).unwrap_or(false));
     top.adopt(race, &TOP);
     (equal_cost, opens_as_race)
 }

@@ -1,6 +1,6 @@
 //! A change of one value of a body, checked and refused as a scene file with that value would be.
 
-use super::cause::{Cause, Place, Wanted};
+use super::cause::{Place, SceneFault, Wanted};
 use super::nearest::nearest;
 use crate::sim::bodies::{Fault, Kind, Parameter, Range};
 
@@ -8,14 +8,14 @@ use crate::sim::bodies::{Fault, Kind, Parameter, Range};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{cause}; {}", cause.remedy())]
 pub struct EditError {
-    cause: Cause,
+    cause: SceneFault,
 }
 
 impl EditError {
     /// What is wrong with the values together, if that is it.
     pub(super) fn fault(self) -> Option<Fault> {
         match self.cause {
-            Cause::Fault(fault) => Some(fault),
+            SceneFault::Fault(fault) => Some(fault),
             _ => None,
         }
     }
@@ -31,7 +31,7 @@ pub fn parameter_named<'k>(kind: &'k Kind, key: &str) -> Result<(usize, &'k Para
         let nearest = nearest(key, known.iter().map(|name| (&**name, &**name)));
         let nearest = nearest.map(|name| name.to_owned().into());
         let place = Place::Table(kind.id);
-        EditError { cause: Cause::UnknownKey { key: key.into(), place, nearest, known } }
+        EditError { cause: SceneFault::UnknownKey { key: key.into(), place, nearest, known } }
     })
 }
 
@@ -53,16 +53,16 @@ pub fn edited_values(
     let (wanted, written) = (Wanted::of(*range), written(value));
     if let Range::Curve { .. } = range {
         let (subject, found) = (format!("`{key}`"), format!("the number {written}"));
-        return Err(EditError { cause: Cause::WrongType { subject, found, wanted } });
+        return Err(EditError { cause: SceneFault::WrongType { subject, found, wanted } });
     }
     if !range.contains(value) {
         return Err(EditError {
-            cause: Cause::OutOfRange { key: key.clone(), value: written, wanted },
+            cause: SceneFault::OutOfRange { key: key.clone(), value: written, wanted },
         });
     }
     let mut edited = values.to_vec();
     edited[place] = value;
-    (kind.check)(&edited).map_err(|fault| EditError { cause: Cause::Fault(fault) })?;
+    (kind.check)(&edited).map_err(|fault| EditError { cause: SceneFault::Fault(fault) })?;
     Ok(edited)
 }
 

@@ -3,10 +3,10 @@
 use std::fmt;
 use std::ops::Range;
 
-use super::cause::Cause;
+use super::cause::SceneFault;
 
 /// How many errors of one file are shown: as many as a person mends before trying again.
-pub const MOST_SHOWN: usize = 10;
+pub const MAX_SHOWN: usize = 10;
 
 /// Everything that is wrong with one scene file. Its display has one line for each error.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,7 +15,7 @@ pub struct SceneErrors {
     pub file: String,
     /// The text to which the errors' spans refer.
     pub text: String,
-    /// The first [`MOST_SHOWN`] errors in the order of the text; at least one.
+    /// The first [`MAX_SHOWN`] errors in the order of the text; at least one.
     pub errors: Vec<SceneError>,
     /// How many more there are.
     pub more: usize,
@@ -27,7 +27,7 @@ pub struct SceneErrors {
 pub struct SceneError {
     /// The bytes of the text at fault; where a key is missing, its table's header or nothing.
     pub span: Range<usize>,
-    pub(super) cause: Cause,
+    pub(super) cause: SceneFault,
 }
 
 impl SceneError {
@@ -45,21 +45,21 @@ impl SceneError {
 impl SceneErrors {
     pub(super) fn new(file: &str, text: &str, mut errors: Vec<SceneError>) -> Self {
         errors.sort_by_key(|error| error.span.start);
-        let more = errors.len().saturating_sub(MOST_SHOWN);
-        errors.truncate(MOST_SHOWN);
+        let more = errors.len().saturating_sub(MAX_SHOWN);
+        errors.truncate(MAX_SHOWN);
         Self { file: file.into(), text: text.into(), errors, more }
     }
 
     /// The error of a file that is larger than a scene file may be, whatever it holds.
     pub fn too_large(file: &str) -> Self {
-        let error = SceneError { span: 0..0, cause: Cause::TooLarge };
+        let error = SceneError { span: 0..0, cause: SceneFault::TooLarge };
         Self::new(file, "", vec![error])
     }
 
     pub(super) fn not_utf8(file: &str, bytes: &[u8], byte: usize) -> Self {
         let text = String::from_utf8_lossy(bytes);
         let span = byte..byte + char::REPLACEMENT_CHARACTER.len_utf8();
-        Self::new(file, &text, vec![SceneError { span, cause: Cause::NotUtf8 { byte } }])
+        Self::new(file, &text, vec![SceneError { span, cause: SceneFault::NotUtf8 { byte } }])
     }
 
     /// The line and the column of a byte of the text, both from 1, the column in characters.

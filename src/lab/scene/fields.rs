@@ -1,8 +1,8 @@
 //! The keys at the top level of a scene file, and the keys that several of its tables share.
 
-use super::cause::Cause;
+use super::cause::SceneFault;
 use super::table::{Field, Table};
-use super::{MOST_SUBSTEPS, TOLERANCES};
+use super::{MAX_SUBSTEPS, TOLERANCES};
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::Range;
 use crate::sim::integrators::Method;
@@ -35,7 +35,7 @@ pub(super) fn read_lane_spec(
     row: &mut Table<'_>,
     method: Option<&'static Method>,
 ) -> Option<LaneSpec> {
-    let substeps = row.whole(SUBSTEPS, 1..=MOST_SUBSTEPS);
+    let substeps = row.whole(SUBSTEPS, 1..=MAX_SUBSTEPS);
     let tolerance = read_tolerance(row, method);
     let joint = read_joint(row, method);
     let method = method?;
@@ -50,10 +50,13 @@ fn read_joint(row: &mut Table<'_>, method: Option<&'static Method>) -> Option<[f
     let damping_ratio = row.number(JOINT_DAMPING_RATIO, damping_ratio);
     let given = [JOINT_HZ, JOINT_DAMPING_RATIO].into_iter().find(|field| row.has(field.key))?;
     if let Some(method) = method.filter(|method| !method.has_joint()) {
-        row.complain(row.span(given.key), Cause::NoJoint { key: given.key, method: method.id });
+        row.complain(
+            row.span(given.key),
+            SceneFault::NoJoint { key: given.key, method: method.id },
+        );
     } else if !row.has(JOINT_HZ.key) {
         let (key, needed) = (JOINT_DAMPING_RATIO.key, JOINT_HZ.key);
-        row.complain(row.span(key), Cause::Alone { key, needed });
+        row.complain(row.span(key), SceneFault::Alone { key, needed });
     }
     Some([hz?, damping_ratio.unwrap_or(0.0)])
 }
@@ -64,7 +67,7 @@ pub(super) fn read_tolerance(row: &mut Table<'_>, method: Option<&'static Method
     if let (Some(method), true) = (method, row.has(TOLERANCE.key))
         && method.tolerance.is_none()
     {
-        let cause = Cause::NoTolerance { key: TOLERANCE.key, method: method.id };
+        let cause = SceneFault::NoTolerance { key: TOLERANCE.key, method: method.id };
         row.complain(row.span(TOLERANCE.key), cause);
     }
     tolerance

@@ -2,8 +2,8 @@
 
 use std::ops::Range as Span;
 
-use super::cause::Cause;
-use super::described::Described;
+use super::cause::SceneFault;
+use super::described::BodyDraft;
 use super::refusal::Refusal;
 use super::table::Table;
 use crate::lab::lane_spec::LaneSpec;
@@ -15,23 +15,23 @@ pub(super) fn check_method(
     key: &'static str,
     method: &'static Method,
     span: Span<usize>,
-    bodies: &[Described],
+    bodies: &[BodyDraft],
     table: &mut Table<'_>,
 ) {
-    let refused = bodies.iter().find_map(|Described { kind, name, values, .. }| {
+    let refused = bodies.iter().find_map(|BodyDraft { kind, name, values, .. }| {
         let kind = kind.as_ref()?;
         let reason = refusal(method, kind, values.as_ref()?)?;
         let body = name.clone().unwrap_or_else(|| kind.id.into());
         Some(Refusal { method: method.id, body, reason })
     });
     if let Some(refusal) = refused {
-        table.complain(span, Cause::Refused { key, refusal });
+        table.complain(span, SceneFault::Refused { key, refusal });
     }
 }
 
 /// A plain lane for each method that steps all of these bodies, without those of engines.
-pub(super) fn every_lane(bodies: &[Described]) -> Vec<LaneSpec> {
-    let steps = |method: &Method, body: &Described| {
+pub(super) fn every_lane(bodies: &[BodyDraft]) -> Vec<LaneSpec> {
+    let steps = |method: &Method, body: &BodyDraft| {
         let known = body.kind.as_ref().zip(body.values.as_ref());
         known.is_none_or(|(kind, values)| refusal(method, kind, values).is_none())
     };

@@ -3,7 +3,7 @@
 use std::ops::Range as Span;
 use std::sync::Arc;
 
-use super::cause::{Cause, Wanted};
+use super::cause::{SceneFault, Wanted};
 use super::fields::{TOP, optional, required};
 use super::nearest::nearest;
 use super::table::{Field, Named, Table, Written};
@@ -29,7 +29,7 @@ const AT: Field = optional("at");
 const KICK: Field = optional("kick");
 
 /// The most characters of the name of a unit or of a layout.
-const MOST_WORD_CHARS: usize = 16;
+const MAX_WORD_CHARS: usize = 16;
 
 /// A name and its bytes in the file.
 type WrittenName = (String, Span<usize>);
@@ -102,7 +102,7 @@ fn check_count(row: &mut Table<'_>, what: &str, entries: &[Named<'_>], most: usi
         let what = format!("the law has {} {what}", entries.len());
         row.complain(
             entry.span.clone(),
-            Cause::Law { what, remedy: format!("keep at most {most}") },
+            SceneFault::Law { what, remedy: format!("keep at most {most}") },
         );
     }
 }
@@ -112,7 +112,7 @@ fn read_coordinates(row: &mut Table<'_>) -> Option<Vec<WrittenCoordinate>> {
     let entries = row.entries(COORDINATES, &Wanted::Coordinates(place))?;
     check_count(row, "coordinates", &entries, MAX_COORDINATES);
     if entries.is_empty() {
-        let cause = Cause::Law {
+        let cause = SceneFault::Law {
             what: "the law has no coordinate".into(),
             remedy: format!("write {}", Wanted::Coordinates(place)),
         };
@@ -152,19 +152,19 @@ fn read_at(table: &mut Table<'_>) -> Option<[WrittenName; 2]> {
     if pair.is_err() {
         let what = "`at` is not an x and a y".into();
         let remedy = format!("write {}", Wanted::At);
-        table.complain(table.span(AT.key), Cause::Law { what, remedy });
+        table.complain(table.span(AT.key), SceneFault::Law { what, remedy });
     }
     Some(pair.ok()?.map(|(span, text)| (text.to_owned(), span)))
 }
 
 fn read_unit(table: &mut Table<'_>) -> &'static str {
-    let Some(written) = table.text(UNIT, MOST_WORD_CHARS) else { return UNITS[0] };
+    let Some(written) = table.text(UNIT, MAX_WORD_CHARS) else { return UNITS[0] };
     if let Some(unit) = UNITS.iter().find(|unit| **unit == written) {
         return unit;
     }
     let what = format!("unknown unit {written:?}");
     let remedy = offer(&written, &UNITS);
-    table.complain(table.span(UNIT.key), Cause::Law { what, remedy });
+    table.complain(table.span(UNIT.key), SceneFault::Law { what, remedy });
     UNITS[0]
 }
 
@@ -177,7 +177,7 @@ fn read_plane(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) -> Option<
             Some(place) => places.push(place),
             None => {
                 let what = format!("no coordinate is called {name:?}");
-                let cause = Cause::Law { what, remedy: offer(name, &known) };
+                let cause = SceneFault::Law { what, remedy: offer(name, &known) };
                 row.complain(span.clone(), cause);
                 return None;
             }
@@ -188,14 +188,14 @@ fn read_plane(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) -> Option<
         _ => {
             let what = "`plane` does not name two coordinates".into();
             let remedy = format!("write {}", Wanted::Plane);
-            row.complain(row.span(PLANE.key), Cause::Law { what, remedy });
+            row.complain(row.span(PLANE.key), SceneFault::Law { what, remedy });
             None
         }
     }
 }
 
 fn read_layout(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) -> Layout {
-    let Some(written) = row.text_for(DRAW, MOST_WORD_CHARS, Wanted::Layout) else {
+    let Some(written) = row.text_for(DRAW, MAX_WORD_CHARS, Wanted::Layout) else {
         return Layout::default();
     };
     let known = Layout::ALL.map(|(id, _)| id);
@@ -213,7 +213,7 @@ fn read_layout(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) -> Layout
         ),
         Some((_, layout)) => return *layout,
     };
-    row.complain(row.span(DRAW.key), Cause::Law { what, remedy });
+    row.complain(row.span(DRAW.key), SceneFault::Law { what, remedy });
     Layout::default()
 }
 
@@ -223,7 +223,10 @@ fn check_one_picture(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) {
     let other = [PLANE, DRAW].into_iter().find(|field| row.has(field.key));
     if let (true, Some(Field { key, .. })) = (has_places, other) {
         let what = format!("the law has a `{key}`, and a coordinate has an `at`");
-        row.complain(row.span(key), Cause::Law { what, remedy: "leave one of them out".into() });
+        row.complain(
+            row.span(key),
+            SceneFault::Law { what, remedy: "leave one of them out".into() },
+        );
     }
 }
 
@@ -291,6 +294,6 @@ impl WrittenLaw {
                 offer(&written, &known.iter().map(String::as_str).collect::<Vec<_>>())
             }
         };
-        row.complain(at, Cause::Law { what, remedy });
+        row.complain(at, SceneFault::Law { what, remedy });
     }
 }

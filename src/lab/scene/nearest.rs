@@ -5,7 +5,7 @@
 const ALIKE: f64 = 0.8;
 
 /// Longer words are not compared: no known name comes near, and comparing takes time.
-const MOST_CHARS: usize = 64;
+const MAX_CHARS: usize = 64;
 
 /// The name that `written` is a part of, if of one only; else the name with the most similar spelling,
 /// if one is similar at all. A name may have several spellings; case, blanks and the kind of hyphen do
@@ -14,7 +14,7 @@ pub fn nearest<'n>(
     written: &str,
     names: impl Iterator<Item = (&'n str, &'n str)>,
 ) -> Option<&'n str> {
-    if written.chars().nth(MOST_CHARS).is_some() {
+    if written.chars().nth(MAX_CHARS).is_some() {
         return None;
     }
     let plain = |word: &str| word.trim().to_lowercase().replace(['_', ' '], "-");

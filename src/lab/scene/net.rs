@@ -3,7 +3,7 @@
 use std::ops::Range as Span;
 use std::sync::Arc;
 
-use super::cause::{Cause, Wanted};
+use super::cause::{SceneFault, Wanted};
 use super::fields::{TOP, optional, required};
 use super::nearest::nearest;
 use super::table::{Field, Table};
@@ -34,7 +34,7 @@ const GRID_KEYS: [Field; 5] = [COLUMNS, ROWS, SPACING, SHEAR, PIN];
 const LIST_KEYS: [Field; 3] = [NODES, FIXED, SPRINGS];
 
 /// The most characters of the name of a pin.
-const MOST_PIN_CHARS: usize = 16;
+const MAX_PIN_CHARS: usize = 16;
 
 /// Where the parts of a plan stand in the file.
 #[derive(Default)]
@@ -52,7 +52,7 @@ pub(super) fn read_net(row: &mut Table<'_>) -> Option<Arc<Kind>> {
     if let (Some(list), Some(of_grid)) = (lists, given(&GRID_KEYS, row)) {
         let what = format!("the net is given twice, by `{}` and by `{}`", list.key, of_grid.key);
         let remedy = "keep the grid, whose fixed nodes `pin` names, or the lists `nodes`, `fixed` and `springs`";
-        row.complain(row.span(of_grid.key), Cause::Net { what, remedy: remedy.into() });
+        row.complain(row.span(of_grid.key), SceneFault::Net { what, remedy: remedy.into() });
         return None;
     }
     let form = match lists {
@@ -79,13 +79,13 @@ fn read_grid(row: &mut Table<'_>) -> Option<Grid> {
     let most = MAX_NODES as u32;
     let [columns, rows] = [COLUMNS, ROWS].map(|field| row.whole(field, 1..=most));
     let spacing = row.number(SPACING, Range::POSITIVE);
-    let shear = row.truth(SHEAR).unwrap_or(false);
+    let shear = row.boolean(SHEAR).unwrap_or(false);
     let pin = read_pin(row);
     Some(Grid { columns: columns? as usize, rows: rows? as usize, spacing: spacing?, shear, pin })
 }
 
 fn read_pin(row: &mut Table<'_>) -> Option<Pin> {
-    let written = row.text_for(PIN, MOST_PIN_CHARS, Wanted::Pin)?;
+    let written = row.text_for(PIN, MAX_PIN_CHARS, Wanted::Pin)?;
     let pin = Pin::ALL.into_iter().find(|pin| pin.id() == written);
     if pin.is_none() {
         let known = Pin::ALL.map(Pin::id);
@@ -94,7 +94,7 @@ fn read_pin(row: &mut Table<'_>) -> Option<Pin> {
             Some(id) => format!("did you mean {id:?}?"),
             None => format!("write {}, or remove it and no node is fixed", Wanted::Pin),
         };
-        row.complain(row.span(PIN.key), Cause::Net { what, remedy });
+        row.complain(row.span(PIN.key), SceneFault::Net { what, remedy });
     }
     pin
 }
@@ -113,7 +113,7 @@ fn read_lists(row: &mut Table<'_>, spans: &mut Spans) -> Option<Lists> {
             Some(_) => {
                 let what = "`between` does not name two nodes".into();
                 let remedy = format!("write {}", Wanted::Ends);
-                spring.complain(spring.span(BETWEEN.key), Cause::Net { what, remedy });
+                spring.complain(spring.span(BETWEEN.key), SceneFault::Net { what, remedy });
                 None
             }
             None => None,
@@ -145,5 +145,5 @@ fn complain(row: &mut Table<'_>, spans: &Spans, are_lists: bool, fault: NetFault
         }
         NetPart::Kicked => row.span(KICKED.key),
     };
-    row.complain(at, Cause::Net { what, remedy });
+    row.complain(at, SceneFault::Net { what, remedy });
 }

@@ -1,14 +1,14 @@
 //! Reads a scene's script and the hashes that its race has to reproduce: `[[command]]` and `[[check]]`.
 
-use super::cause::Cause;
-use super::described::Described;
+use super::cause::SceneFault;
+use super::described::BodyDraft;
 use super::fields::{
     JOINT_HZ, SUBSTEPS, TOLERANCE, TOP, optional, read_lane_spec, read_tolerance, required,
 };
 use super::fitting::check_method;
 use super::nearest::nearest;
 use super::table::{Field, Table};
-use super::{Check, LAST_TICK, MOST_NAME_CHARS, MOST_SUBSTEPS, MOST_TICK_HZ, Scripted};
+use super::{Check, LAST_TICK, MAX_NAME_CHARS, MAX_SUBSTEPS, MAX_TICK_HZ, Scripted};
 use crate::lab::action::Action;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::edit::edited_values;
@@ -33,7 +33,7 @@ const HASH: Field = required("hash", "the lane's state then");
 /// The bodies and lanes that a script can refer to.
 pub(super) struct SceneContext<'d> {
     /// Each with a name.
-    pub(super) bodies: &'d [Described],
+    pub(super) bodies: &'d [BodyDraft],
     pub(super) lanes: &'d [LaneSpec],
 }
 
@@ -67,9 +67,9 @@ static COMMAND_KEYS: [CommandKey; 10] = [
     input("throttle", |_, row, field| row.number(field, Range::Within(1.0)).map(Action::Throttle)),
     input("rudder", |_, row, field| row.number(field, Range::Within(1.0)).map(Action::Rudder)),
     input("kick", |_, row, field| row.number(field, Range::Within(LARGEST)).map(Action::Kick)),
-    command_key("tick_hz", |_, row, field| row.whole(field, 1..=MOST_TICK_HZ).map(Action::TickHz)),
+    command_key("tick_hz", |_, row, field| row.whole(field, 1..=MAX_TICK_HZ).map(Action::TickHz)),
     command_key(SUBSTEPS.key, |context, row, field| {
-        let substeps = row.whole(field, 1..=MOST_SUBSTEPS);
+        let substeps = row.whole(field, 1..=MAX_SUBSTEPS);
         let lane = read_lane(context, row)?;
         Some(Action::Substeps { lane, substeps: substeps? })
     }),
@@ -142,7 +142,7 @@ fn check_tolerances(
                 let methods = [in_race[lane - 1], in_solo[lane - 1]];
                 if methods.iter().all(|method| method.tolerance.is_none()) {
                     let method = methods[0].id;
-                    let cause = Cause::NoToleranceInLane { lane, method, tick: *tick };
+                    let cause = SceneFault::NoToleranceInLane { lane, method, tick: *tick };
                     top.complain(span.clone(), cause);
                 }
             }
@@ -172,20 +172,20 @@ fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
                 .iter()
                 .any(|body| body.kind.as_ref().is_none_or(|kind| kind.inputs.contains(&input)))
         {
-            row.complain(row.span(field.key), Cause::NoTaker { input });
+            row.complain(row.span(field.key), SceneFault::NoTaker { input });
         }
     }
     if row.has(LANE.key) && !found.is_empty() && !found.iter().any(|key| OF_A_LANE.contains(key)) {
-        row.complain(row.span(LANE.key), Cause::LaneAlone { known: OF_A_LANE });
+        row.complain(row.span(LANE.key), SceneFault::LaneAlone { known: OF_A_LANE });
     }
     let header = row.header.clone();
     match found.len() {
         0 => {
             let known = COMMAND_KEYS.iter().map(|command_key| command_key.field.key).collect();
-            row.complain(header, Cause::NoAction { known });
+            row.complain(header, SceneFault::NoAction { known });
         }
         1 => {}
-        _ => row.complain(header, Cause::ManyActions { found }),
+        _ => row.complain(header, SceneFault::ManyActions { found }),
     }
     action
 }
@@ -194,7 +194,7 @@ fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
 fn read_lane(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<usize> {
     if !row.has(LANE.key) {
         if context.lanes.len() != 1 {
-            row.complain(row.header.clone(), Cause::NoLane { lanes: context.lanes.len() });
+            row.complain(row.header.clone(), SceneFault::NoLane { lanes: context.lanes.len() });
             return None;
         }
         return Some(1);
@@ -215,16 +215,16 @@ fn read_method(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
     method.map(Action::Method)
 }
 
-/// The body that a table names, with its place in the scene.
+/// The body that a table names, with its index in the scene.
 fn read_body<'d>(
     context: &SceneContext<'d>,
     table: &mut Table<'_>,
-) -> Option<(usize, &'d Described)> {
-    let name = table.text(BODY, MOST_NAME_CHARS)?;
-    let is_called = |body: &Described| body.name.as_ref() == Some(&name);
+) -> Option<(usize, &'d BodyDraft)> {
+    let name = table.text(BODY, MAX_NAME_CHARS)?;
+    let is_called = |body: &BodyDraft| body.name.as_ref() == Some(&name);
     let Some(place) = context.bodies.iter().position(is_called) else {
         let known = context.bodies.iter().filter_map(|body| body.name.clone()).collect();
-        table.complain(table.span(BODY.key), Cause::UnknownBody { name, known });
+        table.complain(table.span(BODY.key), SceneFault::UnknownBody { name, known });
         return None;
     };
     Some((place, &context.bodies[place]))
@@ -232,21 +232,21 @@ fn read_body<'d>(
 
 fn read_set(context: &SceneContext<'_>, set: &mut Table<'_>) -> Option<Action> {
     let body = read_body(context, set);
-    let key = set.text(KEY, MOST_NAME_CHARS);
+    let key = set.text(KEY, MAX_NAME_CHARS);
     set.knows(VALUE.key);
-    let (place, Described { kind, values, .. }) = body?;
+    let (place, BodyDraft { kind, values, .. }) = body?;
     let (key, kind) = (key?, kind.as_ref()?);
     let Some((parameter, Parameter { key: known, range, acts, .. })) = kind.parameter(&key) else {
         let known: Vec<_> = kind.parameters.iter().map(|parameter| parameter.key.clone()).collect();
         let nearest = nearest(&key, known.iter().map(|name| (&**name, &**name)));
         let nearest = nearest.map(|name| name.to_owned().into());
-        set.complain(set.span(KEY.key), Cause::UnknownParameter { key, nearest, known });
+        set.complain(set.span(KEY.key), SceneFault::UnknownParameter { key, nearest, known });
         return None;
     };
     if *acts == Acts::AtStart {
         let at_once = kind.parameters.iter().filter(|parameter| parameter.acts == Acts::AtOnce);
         let settable = at_once.map(|parameter| parameter.key.clone()).collect();
-        set.complain(set.span(KEY.key), Cause::ActsAtStart { key: known.clone(), settable });
+        set.complain(set.span(KEY.key), SceneFault::ActsAtStart { key: known.clone(), settable });
         return None;
     }
     let value = match *range {
@@ -258,7 +258,7 @@ fn read_set(context: &SceneContext<'_>, set: &mut Table<'_>) -> Option<Action> {
         && let Err(error) = edited_values(kind, values, parameter, value)
         && let Some(fault) = error.fault()
     {
-        set.complain(set.span(VALUE.key), Cause::Fault(fault));
+        set.complain(set.span(VALUE.key), SceneFault::Fault(fault));
     }
     Some(Action::Set { body: place, parameter, value })
 }
@@ -266,7 +266,7 @@ fn read_set(context: &SceneContext<'_>, set: &mut Table<'_>) -> Option<Action> {
 fn read_place(context: &SceneContext<'_>, place: &mut Table<'_>) -> Option<Action> {
     let body = read_body(context, place);
     [Q, V].iter().for_each(|field| place.knows(field.key));
-    let (at, Described { kind, values, .. }) = body?;
+    let (at, BodyDraft { kind, values, .. }) = body?;
     let count = kind.as_ref()?.coordinates(values.as_ref()?).len();
     let (q, v) = (place.coordinates(Q, count), place.coordinates(V, count));
     Some(Action::Place { body: at, q: q?.into(), v: v?.into() })

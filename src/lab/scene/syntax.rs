@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use toml::de::Error;
 
-use super::cause::Cause;
+use super::cause::SceneFault;
 use super::clip::clip;
 use super::errors::SceneError;
 
@@ -27,10 +27,10 @@ pub(super) fn errors(text: &str, found: Vec<Error>) -> Vec<SceneError> {
         }
         let cause = cause(text, span.clone(), error.message());
         // The parser puts both tables' keys into one.
-        if is_table_twice && matches!(cause, Cause::DuplicateKey { .. }) {
+        if is_table_twice && matches!(cause, SceneFault::DuplicateKey { .. }) {
             continue;
         }
-        is_table_twice |= matches!(cause, Cause::DuplicateKey { is_table: true, .. });
+        is_table_twice |= matches!(cause, SceneFault::DuplicateKey { is_table: true, .. });
         let newline = text.as_bytes()[span.start..].iter().position(|byte| *byte == b'\n');
         next_line = newline.map_or(usize::MAX, |n| span.start + n + 1);
         errors.push(SceneError { span, cause });
@@ -42,7 +42,7 @@ pub(super) fn errors(text: &str, found: Vec<Error>) -> Vec<SceneError> {
     errors
 }
 
-fn cause(text: &str, span: Range<usize>, message: &str) -> Cause {
+fn cause(text: &str, span: Range<usize>, message: &str) -> SceneFault {
     let written = text.get(span.clone()).unwrap_or_default();
     let rest_of_line =
         text.get(span.start..).and_then(|rest| rest.lines().next()).unwrap_or_default();
@@ -52,11 +52,11 @@ fn cause(text: &str, span: Range<usize>, message: &str) -> Cause {
         None => (message, None),
     };
     let syntax =
-        |what: &str, remedy: &str| Cause::Syntax { what: what.into(), remedy: remedy.into() };
+        |what: &str, remedy: &str| SceneFault::Syntax { what: what.into(), remedy: remedy.into() };
     match (what, expected) {
         ("duplicate key", _) => {
             let is_table = before.trim_end().ends_with('[');
-            Cause::DuplicateKey { key: written.into(), is_table }
+            SceneFault::DuplicateKey { key: written.into(), is_table }
         }
         ("string values must be quoted", _) if written.trim().is_empty() => {
             syntax("a key has no value", "write one after the `=`")

@@ -5,7 +5,7 @@ use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::cause::{Cause, Place, Wanted};
+use super::cause::{Place, SceneFault, Wanted};
 use super::clip::clip;
 use super::errors::SceneError;
 use super::nearest::nearest;
@@ -57,7 +57,7 @@ impl<'t> Table<'t> {
         }
     }
 
-    pub(super) fn complain(&mut self, span: Range<usize>, cause: Cause) {
+    pub(super) fn complain(&mut self, span: Range<usize>, cause: SceneFault) {
         self.errors.push(SceneError { span, cause });
     }
 
@@ -100,11 +100,11 @@ impl<'t> Table<'t> {
         };
         let chars = text.chars().count();
         if text.trim().is_empty() {
-            self.complain(span, Cause::EmptyText { key, wanted });
+            self.complain(span, SceneFault::EmptyText { key, wanted });
         } else if chars > most_chars {
-            self.complain(span, Cause::LongText { key, chars, wanted });
+            self.complain(span, SceneFault::LongText { key, chars, wanted });
         } else if let Some(character) = text.chars().find(|c| c.is_control()) {
-            self.complain(span, Cause::ControlCharacter { key, character });
+            self.complain(span, SceneFault::ControlCharacter { key, character });
         } else {
             return Some(text.into());
         }
@@ -149,10 +149,10 @@ impl<'t> Table<'t> {
             return self.wrong_type(format!("`{}`", field.key), value, Wanted::Methods);
         };
         if entries.is_empty() {
-            self.complain(value.span(), Cause::NoLanes);
+            self.complain(value.span(), SceneFault::NoLanes);
         }
         if let Some(first_too_many) = entries.get(most) {
-            let cause = Cause::TooManyLanes { found: entries.len(), most };
+            let cause = SceneFault::TooManyLanes { found: entries.len(), most };
             self.complain(first_too_many.span(), cause);
         }
         let mut methods = Vec::new();
@@ -194,10 +194,10 @@ impl<'t> Table<'t> {
         }
     }
 
-    pub(super) fn truth(&mut self, field: Field) -> Option<bool> {
-        let value = self.value(field, &Wanted::Truth)?;
+    pub(super) fn boolean(&mut self, field: Field) -> Option<bool> {
+        let value = self.value(field, &Wanted::Boolean)?;
         let truth = value.get_ref().as_bool();
-        truth.or_else(|| self.wrong_type(format!("`{}`", field.key), value, Wanted::Truth))
+        truth.or_else(|| self.wrong_type(format!("`{}`", field.key), value, Wanted::Boolean))
     }
 
     /// A hash, written as 16 hexadecimal digits.
@@ -210,7 +210,7 @@ impl<'t> Table<'t> {
         let is_hex = text.len() == 16 && text.bytes().all(|digit| digit.is_ascii_hexdigit());
         let hash = is_hex.then(|| u64::from_str_radix(text, 16).ok()).flatten();
         if hash.is_none() {
-            self.complain(span, Cause::NoHash { key, text: clip(text) });
+            self.complain(span, SceneFault::NoHash { key, text: clip(text) });
         }
         hash
     }
@@ -231,17 +231,17 @@ impl<'t> Table<'t> {
         }
         // A misspelt or misplaced key is not reported as missing too.
         let misspelt = unknown.iter().filter_map(|error| match &error.cause {
-            Cause::UnknownKey { nearest, .. } => nearest.as_deref(),
+            SceneFault::UnknownKey { nearest, .. } => nearest.as_deref(),
             _ => None,
         });
         let misplaced = self.below.iter().filter_map(|error| match error.cause {
-            Cause::Misplaced { key, .. } => Some(key),
+            SceneFault::Misplaced { key, .. } => Some(key),
             _ => None,
         });
         let meant: Vec<&str> = misspelt.chain(misplaced).collect();
         self.errors.retain(|error| match &error.cause {
-            Cause::MissingKey { key, .. } => !meant.contains(key),
-            Cause::NoAction { known } => !known.iter().any(|key| meant.contains(key)),
+            SceneFault::MissingKey { key, .. } => !meant.contains(key),
+            SceneFault::NoAction { known } => !known.iter().any(|key| meant.contains(key)),
             _ => true,
         });
         self.errors.append(&mut unknown);
@@ -249,20 +249,25 @@ impl<'t> Table<'t> {
         self.errors
     }
 
-    fn unknown(&self, key: &str, value: &DeValue<'_>, top: &[Field]) -> Cause {
+    fn unknown(&self, key: &str, value: &DeValue<'_>, top: &[Field]) -> SceneFault {
         let place = self.place;
         if let Some(field) = top.iter().find(|field| field.key == key) {
-            return Cause::Misplaced { key: field.key, place };
+            return SceneFault::Misplaced { key: field.key, place };
         }
         let is_table = place == Place::Top && is_table(value);
         let known = if is_table { self.arrays.clone() } else { self.keys.clone() };
         let nearest = nearest(key, known.iter().map(|name| (*name, *name)));
         let key = key.into();
         match is_table {
-            true => Cause::UnknownTable { key, nearest, known },
+            true => SceneFault::UnknownTable { key, nearest, known },
             false => {
                 let known = known.into_iter().map(bodies::Text::from).collect();
-                Cause::UnknownKey { key, place, nearest: nearest.map(bodies::Text::from), known }
+                SceneFault::UnknownKey {
+                    key,
+                    place,
+                    nearest: nearest.map(bodies::Text::from),
+                    known,
+                }
             }
         }
     }
@@ -273,7 +278,10 @@ impl<'t> Table<'t> {
         let value = self.entries.get(key);
         if let (None, Some(about)) = (value, needed_as) {
             let (place, wanted) = (self.place, wanted.clone());
-            self.complain(self.header.clone(), Cause::MissingKey { key, place, about, wanted });
+            self.complain(
+                self.header.clone(),
+                SceneFault::MissingKey { key, place, about, wanted },
+            );
         }
         value
     }
@@ -294,7 +302,7 @@ impl<'t> Table<'t> {
             let known = METHODS.iter().map(|method| method.id).collect();
             self.complain(
                 value.span(),
-                Cause::UnknownMethod { id: id.into(), key, nearest, known },
+                SceneFault::UnknownMethod { id: id.into(), key, nearest, known },
             );
         }
         method
@@ -311,7 +319,7 @@ impl<'t> Table<'t> {
             let written = clip(&self.text[value.span()]);
             self.complain(
                 value.span(),
-                Cause::OutOfRange { key: field.key.into(), value: written, wanted },
+                SceneFault::OutOfRange { key: field.key.into(), value: written, wanted },
             );
         }
         number
@@ -334,7 +342,7 @@ impl<'t> Table<'t> {
             DeValue::Array(_) => "a list".into(),
             DeValue::Table(_) => "a table".into(),
         };
-        self.complain(value.span(), Cause::WrongType { subject, found, wanted });
+        self.complain(value.span(), SceneFault::WrongType { subject, found, wanted });
         None
     }
 }

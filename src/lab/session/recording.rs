@@ -6,10 +6,10 @@ use super::Session;
 use crate::lab::action::Action;
 use crate::lab::journal::Journal;
 use crate::lab::race::{Mode, Observer, Race};
-use crate::lab::scene::{Check, LARGEST_FILE, LEAST_SECONDS, Scene, Scripted};
+use crate::lab::scene::{Check, MAX_FILE_BYTES, MIN_SECONDS, Scene, Scripted};
 
 /// The most checks of a recording, so that its file is not too large to read. A long run has fewer than one per second.
-const MOST_CHECKS: usize = 8_000;
+const MAX_CHECKS: usize = 8_000;
 
 /// The tolerance in seconds for the end of a second: times may be off by their last bits.
 const ON_TIME_S: f64 = 1e-6;
@@ -19,7 +19,7 @@ const ON_TIME_S: f64 = 1e-6;
 pub enum RecordingError {
     /// It is too long to be read as a scene.
     #[error(
-        "this run has so many actions that its file would be {bytes} bytes long, and a scene file may be at most {LARGEST_FILE}; record a shorter run"
+        "this run has so many actions that its file would be {bytes} bytes long, and a scene file may be at most {MAX_FILE_BYTES}; record a shorter run"
     )]
     TooLong {
         /// The size of its file.
@@ -114,7 +114,7 @@ impl Recorder {
         let text = repeated.scene(run).to_toml();
         self.last = Some((run.clone(), repeated));
         let bytes = text.len();
-        if bytes > LARGEST_FILE { Err(RecordingError::TooLong { bytes }) } else { Ok(text) }
+        if bytes > MAX_FILE_BYTES { Err(RecordingError::TooLong { bytes }) } else { Ok(text) }
     }
 }
 
@@ -175,7 +175,7 @@ impl Repeated {
             ..(*run.scene).clone()
         };
         let before_end: Vec<_> = self.checks.iter().filter(|(tick, _)| *tick < end).collect();
-        let every = (before_end.len() * self.recorder.lanes.len()).div_ceil(MOST_CHECKS).max(1);
+        let every = (before_end.len() * self.recorder.lanes.len()).div_ceil(MAX_CHECKS).max(1);
         let kept = before_end.into_iter().skip(every - 1).step_by(every);
         let at_end = (end, self.recorder.hashes(&self.race));
         for (tick, hashes) in kept.chain([&at_end]) {
@@ -187,7 +187,7 @@ impl Repeated {
         race.catch_up(&mut recorder);
         scene.script = recorder.script;
         if end > 0 {
-            scene.seconds = race.t().max(LEAST_SECONDS);
+            scene.seconds = race.t().max(MIN_SECONDS);
         }
         scene
     }

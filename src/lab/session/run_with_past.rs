@@ -60,7 +60,7 @@ pub enum EventKind {
     Halted {
         /// The lane's number, from 1; 0 is the truth.
         lane: usize,
-        /// The body's place in the scene.
+        /// The body's index in the scene.
         body: usize,
         /// Whether a value left its range, rather than the solver failing.
         is_blow_up: bool,

@@ -7,7 +7,7 @@ use crate::lab::action::Action;
 use crate::lab::equal_cost;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::race::{Mode, Race};
-use crate::lab::scene::{LEAST_SECONDS, MOST_SECONDS, Scene, SceneBody, edited_values};
+use crate::lab::scene::{MAX_SECONDS, MIN_SECONDS, Scene, SceneBody, edited_values};
 
 /// The settings of the next restart. They include a person's choices, and no effects of a script.
 #[derive(Clone, Debug)]
@@ -19,9 +19,9 @@ pub(in crate::lab) struct StartSettings {
     /// The methods with the substeps and tolerances that the person has set.
     pub(in crate::lab) list: Vec<LaneSpec>,
     pub(in crate::lab) mode: Mode,
-    /// The methods of the lanes of a race, by their places on the list.
+    /// The methods of the lanes of a race, by their indices on the list.
     lanes: Vec<usize>,
-    /// The method in solo mode, which is in a race too, by its place on the list.
+    /// The method in solo mode, which is in a race too, by its index on the list.
     pub(in crate::lab) entry: usize,
     pub(in crate::lab) tick_hz: u32,
     /// The lanes before equal cost was switched on; `None` while it is off.
@@ -77,7 +77,7 @@ impl StartSettings {
     /// Sets the scene's length in seconds, if it is in the allowed range. Returns whether that changes it.
     pub(in crate::lab) fn set_seconds(&mut self, seconds: f64) -> bool {
         let changes =
-            (LEAST_SECONDS..=MOST_SECONDS).contains(&seconds) && seconds != self.scene.seconds;
+            (MIN_SECONDS..=MAX_SECONDS).contains(&seconds) && seconds != self.scene.seconds;
         if changes {
             Arc::make_mut(&mut self.scene).seconds = seconds;
         }

@@ -19,7 +19,7 @@ const SPACING: u64 = 32;
 
 /// The most work of a run that is repeated to record another coordinate: evaluations of accelerations, times the
 /// coordinates of a body and [`WORK_OF_AN_EVALUATION`]. It takes about a second.
-const MOST_REPEATED_WORK: u64 = 10_000_000;
+const MAX_REPEATED_WORK: u64 = 10_000_000;
 
 /// What an evaluation costs beside its coordinates, in the cost of one.
 const WORK_OF_AN_EVALUATION: u64 = 4;
@@ -297,7 +297,7 @@ impl Timeline {
         let work = bodies.map(|body| {
             body.stepper.evaluations() * (body.coordinates().len() as u64 + WORK_OF_AN_EVALUATION)
         });
-        if work.sum::<u64>() > MOST_REPEATED_WORK {
+        if work.sum::<u64>() > MAX_REPEATED_WORK {
             return false;
         }
         let (tick, journal) = (self.run.session.race.tick(), self.run.session.journal().clone());

@@ -7,7 +7,7 @@ use super::{ink, strong_font, tone};
 use crate::lab::number::significant;
 use crate::lab::{
     Advice, AdvisedBodies, CRITERIA, Command, CriterionMet, CriterionResult, Lab, LaneSpec,
-    MOST_ADVISED_SUBSTEPS, MethodAdvice, recommended,
+    MAX_ADVISED_SUBSTEPS, MethodAdvice, recommended,
 };
 use crate::view::theme::TYPE;
 
@@ -114,7 +114,7 @@ fn answer(
                 let all_miss = advice.advised.iter().all(|row| row.met[i] == CriterionResult::No);
                 let none = match () {
                     () if done < wanted => "none yet".to_owned(),
-                    () if all_miss => format!("none with up to {MOST_ADVISED_SUBSTEPS} substeps"),
+                    () if all_miss => format!("none with up to {MAX_ADVISED_SUBSTEPS} substeps"),
                     () => "unknown for those that might".into(),
                 };
                 line(ui, RichText::new(none).color(ink(ui).text));
@@ -246,7 +246,7 @@ fn row(
             let met = match met {
                 CriterionResult::With(met) => met,
                 CriterionResult::No => {
-                    let missed = format!("not with {MOST_ADVISED_SUBSTEPS} substeps");
+                    let missed = format!("not with {MAX_ADVISED_SUBSTEPS} substeps");
                     ui.label(RichText::new("-").color(ink(ui).dim)).on_hover_text(missed);
                     return;
                 }
@@ -262,7 +262,7 @@ fn row(
             let name = format!("{}: {}", criterion.name(), spec.method.name);
             used.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
             if used.on_hover_text(format!("use this: {}", told_of(met))).clicked() {
-                commands.push(Command::Fly(LaneSpec { substeps: met.substeps, ..*spec }));
+                commands.push(Command::SetLane(LaneSpec { substeps: met.substeps, ..*spec }));
             }
         });
     }

@@ -46,7 +46,7 @@ impl Roster {
         let runners = lab.entries().iter().map(|spec| {
             let (colour, dash) = ink.style(lab.entries(), spec);
             let [id, name] = [spec.method.id, spec.method.name];
-            let [id, name] = [id, name].map(|name| spec.told_apart(name, lab.entries()));
+            let [id, name] = [id, name].map(|name| spec.distinct_name(name, lab.entries()));
             Runner { id, name, colour, dash }
         });
         Self {

@@ -15,7 +15,7 @@ use crate::view::plot::{Arrow, Drawing, Switch};
 #[derive(Clone, Copy, Debug)]
 struct Point {
     t: f64,
-    /// The method that flew the lane there, by its place on the list.
+    /// The method that flew the lane there, by its index on the list.
     entry: usize,
     at: [f64; 2],
     /// The least and the greatest height on the way there.
@@ -53,7 +53,7 @@ fn finite(points: impl Iterator<Item = Point>) -> Vec<Point> {
 #[derive(Clone, Debug)]
 pub(super) struct Track {
     points: Vec<Point>,
-    /// The method of the lane now, by its place on the list.
+    /// The method of the lane now, by its index on the list.
     pub(super) entry: usize,
     /// Whether it is drawn in front: the lane in solo mode, or the selected lane of a race.
     pub(super) is_front: bool,

@@ -1,7 +1,7 @@
 //! What a scene file may say, and what it then means.
 
 use regatta::lab::{
-    Action, Command, LAST_TICK, Lab, LaneSpec, MOST_BODIES, MOST_LANES, MOST_SECONDS, MOST_TICK_HZ,
+    Action, Command, LAST_TICK, Lab, LaneSpec, MAX_BODIES, MAX_LANES, MAX_SECONDS, MAX_TICK_HZ,
     Race, Scene, SceneBody,
 };
 use regatta::sim::integrators::{GENERAL_METHODS, method};
@@ -129,15 +129,15 @@ fn numbers_may_be_whole_signed_grouped_hexadecimal_and_physically_extreme() {
 #[test]
 fn each_limit_itself_is_allowed() {
     let lanes: String =
-        (1..=MOST_LANES).map(|n| format!("[[lane]]\nmethod = 'rk4'\nsubsteps = {n}\n")).collect();
+        (1..=MAX_LANES).map(|n| format!("[[lane]]\nmethod = 'rk4'\nsubsteps = {n}\n")).collect();
     let scene = parse(&format!(
-        "title = '{}'\ntick_hz = {MOST_TICK_HZ}\nseconds = {MOST_SECONDS}\n{lanes}{}\
+        "title = '{}'\ntick_hz = {MAX_TICK_HZ}\nseconds = {MAX_SECONDS}\n{lanes}{}\
          [[command]]\ntick = {LAST_TICK}\nkick = 1\n",
         "é".repeat(80),
-        SPRING.repeat(MOST_BODIES),
+        SPRING.repeat(MAX_BODIES),
     ));
-    assert_eq!((scene.lanes.len(), scene.bodies.len()), (MOST_LANES, MOST_BODIES));
-    assert_eq!((scene.tick_hz, scene.seconds), (MOST_TICK_HZ, MOST_SECONDS));
+    assert_eq!((scene.lanes.len(), scene.bodies.len()), (MAX_LANES, MAX_BODIES));
+    assert_eq!((scene.tick_hz, scene.seconds), (MAX_TICK_HZ, MAX_SECONDS));
     assert_eq!(scene.script[0].tick, LAST_TICK);
 }
 

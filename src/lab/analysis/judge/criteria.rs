@@ -15,7 +15,7 @@ use crate::lab::lane_spec::LaneSpec;
 pub(in crate::lab::analysis) enum CriterionFinding {
     /// It does, at this cost.
     Holds { evaluations_per_s: f64 },
-    /// The body at this place of the scene does not.
+    /// The body at this index of the scene does not.
     Fails { body: usize },
     /// Not known: it would take too much work, or there is no truth or no tick.
     Unknown,

@@ -1,6 +1,6 @@
 //! How far the true motion reaches, by which the growth of a swing is told.
 
-use super::{Moment, largest_alike};
+use super::{TruthNode, largest_alike};
 use crate::lab::analysis::survey::Ranges;
 use crate::lab::scene::SceneBody;
 
@@ -75,7 +75,7 @@ impl ReachSoFar {
         Self { ranges, is_central, turns: false, distance: 0.0, speed: 0.0 }
     }
 
-    pub(super) fn take_in(&mut self, from: &Moment, to: &Moment) {
+    pub(super) fn take_in(&mut self, from: &TruthNode, to: &TruthNode) {
         self.ranges.take_in(from, to);
         if !self.is_central {
             return;

@@ -10,11 +10,11 @@ use crate::sim::Solver;
 use crate::sim::integrators::StepFailure;
 
 /// The most products of the exact flow for one series: less than a second of work.
-const MOST_SERIES_PRODUCTS: u64 = 500_000_000;
+const MAX_SERIES_PRODUCTS: u64 = 500_000_000;
 
 /// The most values that are cached, some thirty megabytes: a rope's at each of the rates that a search of margins tries. A
 /// full cache is cleared.
-const MOST_KEPT: usize = 1 << 22;
+const MAX_KEPT: usize = 1 << 22;
 
 /// The cached series by tick rate in Hz. Of several threads that ask for one, the first computes it.
 pub(in crate::lab::analysis) type TruthSeriesByRate =
@@ -57,7 +57,7 @@ impl BodyTruth {
             let mut series_by_rate = self.series_by_rate.lock().expect("no thread panics with it");
             let known = series_by_rate.values().filter_map(|cell| cell.get());
             let held: usize = known.map(|series| series.values.len()).sum();
-            if held > MOST_KEPT && !series_by_rate.contains_key(&tick_hz) {
+            if held > MAX_KEPT && !series_by_rate.contains_key(&tick_hz) {
                 series_by_rate.clear();
             }
             Arc::clone(series_by_rate.entry(tick_hz).or_default())
@@ -76,7 +76,7 @@ impl BodyTruth {
         };
         let mut gap: f64 = 0.0;
         let ticks = ticks(self.horizon_s, tick_hz);
-        if ticks.saturating_mul((n * n) as u64) > MOST_SERIES_PRODUCTS {
+        if ticks.saturating_mul((n * n) as u64) > MAX_SERIES_PRODUCTS {
             series.is_too_much = true;
             return series;
         }

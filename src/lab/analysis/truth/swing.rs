@@ -1,6 +1,6 @@
 //! The true swing of a body: its crossings and the width of its half turns.
 
-use super::{BodyTruth, Moment};
+use super::{BodyTruth, TruthNode};
 use crate::lab::analysis::survey::follow_truth;
 use crate::lab::bisection::bisect;
 use crate::sim::Solver;
@@ -24,7 +24,7 @@ impl BodyTruth {
     pub(super) fn watch(
         &self,
         middles: &[f64],
-        seen: Option<&[(Moment, Moment)]>,
+        seen: Option<&[(TruthNode, TruthNode)]>,
         most: usize,
     ) -> Option<Swing> {
         let n = middles.len();
@@ -33,7 +33,7 @@ impl BodyTruth {
         let fast: Vec<f64> = self.amplitudes[n..].iter().map(|v| FAINT * v).collect();
         let mut peaks: Vec<(f64, f64)> = Vec::new();
         let mut body = self.start(Solver::Truth);
-        let mut see = |from: &Moment, to: &Moment| {
+        let mut see = |from: &TruthNode, to: &TruthNode| {
             let mut peak: f64 = 0.0;
             for i in 0..n {
                 let (a, b) = (from.x[i] - middles[i], to.x[i] - middles[i]);
@@ -72,7 +72,7 @@ impl BodyTruth {
 }
 
 /// The time in seconds at which coordinate `i` crosses `level` between two moments.
-fn crossing(from: &Moment, to: &Moment, i: usize, level: f64) -> f64 {
+fn crossing(from: &TruthNode, to: &TruthNode, i: usize, level: f64) -> f64 {
     let [low, _] = bisect([0.0, 1.0], 50, |part| from.between(to, i, part) < level);
     from.t + low * (to.t - from.t)
 }

@@ -10,7 +10,7 @@ pub(super) const SEED: u64 = 4;
 
 /// The most by which a frame begins early or late: what a sleeping thread is woken off by. Below half the shortest refresh,
 /// 1 ms, so that each frame begins after the one before.
-const MOST_NS: i64 = 499_999;
+const MAX_NS: i64 = 499_999;
 
 /// Frame n begins at refresh n plus noise, the first without; it is displayed at refresh n, by design also where that is
 /// before it began, so that the mean latency is that of the loop alone.
@@ -31,7 +31,7 @@ impl Edge {
 impl Pattern for Edge {
     fn next(&mut self, _steps: u32) -> Frame {
         let at = self.refresh.refresh_ns(self.next);
-        let off = if self.next == 0 { 0 } else { self.noise.up_to(2 * MOST_NS) - MOST_NS };
+        let off = if self.next == 0 { 0 } else { self.noise.up_to(2 * MAX_NS) - MAX_NS };
         self.next += 1;
         Frame { began_ns: at + off, displayed_ns: Some(at) }
     }

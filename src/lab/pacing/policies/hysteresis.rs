@@ -6,7 +6,7 @@ use crate::lab::pacing::time_base::TimeBase;
 /// The frames whose counts are compared.
 const FRAMES: usize = 12;
 /// The most ticks in a frame; the others are dropped.
-const MOST_TICKS: i128 = 8;
+const MAX_TICKS: i128 = 8;
 
 /// Whole ticks, the same number each frame as far as that is off by at most half a tick.
 ///
@@ -59,7 +59,7 @@ impl Policy for Hysteresis {
         self.owed += duration;
         let due = self.due();
         self.owed -= due * self.tick;
-        let ticks = due.min(MOST_TICKS);
+        let ticks = due.min(MAX_TICKS);
         self.remember(ticks);
         Steps { count: ticks as u32, span: ticks * self.tick, dropped: (due - ticks) * self.tick }
     }

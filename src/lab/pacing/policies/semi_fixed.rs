@@ -3,7 +3,7 @@
 use crate::lab::pacing::policy::{Policy, Steps};
 
 /// The most steps in a frame; those of a longer one are longer than a tick.
-const MOST_STEPS: i128 = 6;
+const MAX_STEPS: i128 = 6;
 
 /// The fewest equal steps of at most a tick.
 #[derive(Clone, Copy)]
@@ -14,7 +14,7 @@ pub(super) struct SemiFixed {
 impl Policy for SemiFixed {
     fn frame(&mut self, duration: i128) -> Steps {
         let fewest = -(-duration).div_euclid(self.tick);
-        Steps { count: fewest.min(MOST_STEPS) as u32, span: duration, dropped: 0 }
+        Steps { count: fewest.min(MAX_STEPS) as u32, span: duration, dropped: 0 }
     }
 
     fn boxed_clone(&self) -> Box<dyn Policy> {

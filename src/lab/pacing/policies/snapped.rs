@@ -8,11 +8,11 @@ use crate::lab::pacing::time_base::TimeBase;
 /// 60 and 62 Hz.
 const NEAR_NS: i64 = 200_000;
 /// The longest duration that is made whole, in refreshes.
-const MOST_REFRESHES: i128 = 8;
+const MAX_REFRESHES: i128 = 8;
 /// The durations of a mean.
 const AVERAGED: usize = 4;
 /// The most ticks that may be owed; a frame that is longer counts as one tick.
-const MOST_TICKS: u32 = 8;
+const MAX_TICKS: u32 = 8;
 
 /// A fixed tick whose time is snapped to refreshes.
 #[derive(Clone, Copy)]
@@ -35,13 +35,13 @@ impl Snapped {
             near: base.nanoseconds(NEAR_NS),
             last: [base.refresh(); AVERAGED],
             remainder: 0,
-            fixed: Fixed::with_most_ticks(base, MOST_TICKS),
+            fixed: Fixed::with_most_ticks(base, MAX_TICKS),
         }
     }
 
     fn snapped(&self, duration: i128) -> i128 {
         let nearest = (2 * duration + self.refresh) / (2 * self.refresh);
-        let whole = nearest.clamp(1, MOST_REFRESHES) * self.refresh;
+        let whole = nearest.clamp(1, MAX_REFRESHES) * self.refresh;
         if (duration - whole).abs() < self.near { whole } else { duration }
     }
 
@@ -57,7 +57,7 @@ impl Snapped {
 
 impl Policy for Snapped {
     fn frame(&mut self, duration: i128) -> Steps {
-        let longest = i128::from(MOST_TICKS) * self.tick;
+        let longest = i128::from(MAX_TICKS) * self.tick;
         let counted = if duration > longest { self.tick } else { duration };
         let snapped = self.snapped(counted);
         let mean = self.mean(snapped);

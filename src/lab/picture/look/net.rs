@@ -12,7 +12,7 @@ use crate::sim::State;
 use crate::sim::bodies::Net;
 
 /// The most nodes with beads: of more, beads hide the threads.
-const MOST_BEADS: usize = 64;
+const MAX_BEADS: usize = 64;
 
 /// The radius of a bead, of a pin, and of what a hand can take hold of, in units of the shortest spring.
 const BEAD: f64 = 0.13;
@@ -20,7 +20,7 @@ const PIN: f64 = 0.16;
 const GRIP: f64 = 0.45;
 
 /// The largest radius of a bead and of a pin, in units of the picture's width.
-const LARGEST_BEAD: f64 = 0.01;
+const MAX_BEAD: f64 = 0.01;
 
 /// The room around the motion, as a part of it.
 const MARGIN: f64 = 0.12;
@@ -41,7 +41,7 @@ impl BodyPicture for NetPicture<'_> {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         let Self { net, preview } = self;
         let [low, high] = preview.corners;
-        let largest = LARGEST_BEAD * (high - low).max_element();
+        let largest = MAX_BEAD * (high - low).max_element();
         let radius = |part: f64| (part * preview.springs.shortest).min(largest);
         outline.threads.extend(preview.springs.lines.iter().map(|line| Thread {
             points: line.nodes.iter().map(|&node| net.place_of(node, q)).collect(),
@@ -50,7 +50,7 @@ impl BodyPicture for NetPicture<'_> {
         for &centre in &preview.springs.fixed {
             outline.marks.push(Mark::Anchor { centre, radius: radius(PIN) });
         }
-        let beads = Net::nodes(q).len() <= MOST_BEADS;
+        let beads = Net::nodes(q).len() <= MAX_BEADS;
         for &node in Net::nodes(q).iter().filter(|_| beads) {
             outline.marks.push(Mark::Disc { centre: DVec2::from(node), radius: radius(BEAD) });
         }

@@ -6,8 +6,8 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::{Field, Table, integer, number};
-use crate::lab::scene::LARGEST_COORDINATE;
-use crate::lab::scene::cause::{Cause, Wanted};
+use crate::lab::scene::MAX_COORDINATE;
+use crate::lab::scene::cause::{SceneFault, Wanted};
 use crate::lab::scene::clip::clip;
 use crate::sim::bodies::{LARGEST, MAX_NODES, MAX_POINTS, Range};
 
@@ -26,13 +26,13 @@ impl Table<'_> {
         };
         let found = entries.len();
         if !(2..=MAX_POINTS).contains(&found) {
-            self.complain(value.span(), Cause::PointCount { key, found, wanted });
+            self.complain(value.span(), SceneFault::PointCount { key, found, wanted });
         }
         let mut points: Vec<[f64; 2]> = Vec::new();
         for entry in entries.iter().take(MAX_POINTS) {
             let point = self.point(field, entry)?;
             if let Some([before, _]) = points.last().filter(|last| last[0] >= point[0]) {
-                let cause = Cause::NotRising { key, value: point[0], before: *before };
+                let cause = SceneFault::NotRising { key, value: point[0], before: *before };
                 self.complain(entry.span(), cause);
             }
             points.push(point);
@@ -82,8 +82,11 @@ impl Table<'_> {
         if let Some((value, _)) = far {
             let subject = format!("a coordinate of node {node}");
             let written = clip(&self.text[value.span()]);
-            let cause =
-                Cause::ItemOutOfRange { subject, value: written, wanted: Wanted::Number(range) };
+            let cause = SceneFault::ItemOutOfRange {
+                subject,
+                value: written,
+                wanted: Wanted::Number(range),
+            };
             self.complain(value.span(), cause);
             return None;
         }
@@ -115,7 +118,7 @@ impl Table<'_> {
     }
 
     /// The coordinates or the velocities of a body that has `count` of them, each of a magnitude of at most
-    /// [`LARGEST_COORDINATE`].
+    /// [`MAX_COORDINATE`].
     pub(in crate::lab::scene) fn coordinates(
         &mut self,
         field: Field,
@@ -130,11 +133,11 @@ impl Table<'_> {
             return self.wrong_type(format!("`{}`", field.key), value, wanted);
         };
         if numbers.len() != count {
-            let cause = Cause::NumberCount { key: field.key, found: numbers.len(), wanted };
+            let cause = SceneFault::NumberCount { key: field.key, found: numbers.len(), wanted };
             self.complain(value.span(), cause);
             return None;
         }
-        let range = Range::Within(LARGEST_COORDINATE);
+        let range = Range::Within(MAX_COORDINATE);
         for (entry, number) in entries.iter().zip(&numbers) {
             let number = range.contains(*number).then_some(());
             self.within(field, entry, number, Wanted::Number(range))?;

@@ -6,7 +6,7 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::{Field, Table, number};
-use crate::lab::scene::cause::{Cause, Place, Wanted};
+use crate::lab::scene::cause::{Place, SceneFault, Wanted};
 use crate::lab::scene::clip::clip;
 use crate::sim::bodies;
 
@@ -70,7 +70,7 @@ impl<'t> Table<'t> {
         if !range.contains(number) {
             let written = clip(&self.text[entry.value.span()]);
             let what = format!("{subject} is {written}, out of range");
-            let cause = Cause::Law { what, remedy: format!("write {wanted}") };
+            let cause = SceneFault::Law { what, remedy: format!("write {wanted}") };
             self.complain(entry.value.span(), cause);
         }
         range.contains(number).then_some(number)

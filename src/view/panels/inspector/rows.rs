@@ -13,7 +13,7 @@ const FEWEST: f64 = 16.0;
 
 /// A parameter of a body.
 pub(super) struct Row<'l> {
-    /// The body's place in the scene.
+    /// The body's index in the scene.
     pub(super) body: usize,
     /// The parameter's place among those of its kind.
     pub(super) place: usize,

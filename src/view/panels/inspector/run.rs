@@ -5,8 +5,8 @@ use egui::{ComboBox, Id, RichText, Ui, vec2};
 use super::number::Field;
 use super::{LINE, RESTORE, line, restore};
 use crate::lab::{
-    Action, Command, Entrant, LEAST_SECONDS, Lab, LaneSpec, MOST_SECONDS, MOST_SUBSTEPS,
-    MOST_TICK_HZ, Mode, TOLERANCES,
+    Action, Command, Entrant, Lab, LaneSpec, MAX_SECONDS, MAX_SUBSTEPS, MAX_TICK_HZ, MIN_SECONDS,
+    Mode, TOLERANCES,
 };
 use crate::view::panels::ink;
 
@@ -41,7 +41,7 @@ fn show_lane(ui: &mut Ui, lab: &Lab, entrant: &Entrant, commands: &mut Vec<Comma
         is_whole: true,
     };
     let (response, entered) =
-        substeps.show(ui, vec2(SUBSTEPS, LINE), |value| whole("substeps", value, MOST_SUBSTEPS));
+        substeps.show(ui, vec2(SUBSTEPS, LINE), |value| whole("substeps", value, MAX_SUBSTEPS));
     response.on_hover_text("equal steps in a tick");
     let act = |action| Command::Act(action);
     commands.extend(entered.map(|value| act(Action::Substeps { lane, substeps: value as u32 })));
@@ -87,7 +87,7 @@ fn show_methods(
 ) {
     let present = lab.entries()[entrant.entry];
     let menu = ComboBox::from_id_salt(("method", entrant.lane_number)).width(width).truncate();
-    let name = |spec: &LaneSpec| spec.told_apart(spec.method.name, lab.entries());
+    let name = |spec: &LaneSpec| spec.distinct_name(spec.method.name, lab.entries());
     let menu = menu.selected_text(RichText::new(name(&present)).color(ink(ui).text));
     menu.show_ui(ui, |ui| {
         for (entry, spec) in lab.entries().iter().enumerate() {
@@ -130,7 +130,7 @@ pub(super) fn show_time(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     line(ui, "tick rate", about, |ui, [room, number]| {
         ui.add_space(room - number - RESTORE - ui.spacing().item_spacing.x);
         let size = vec2(number, LINE);
-        let (_, entered) = rate.show(ui, size, |value| whole("tick rate", value, MOST_TICK_HZ));
+        let (_, entered) = rate.show(ui, size, |value| whole("tick rate", value, MAX_TICK_HZ));
         commands.extend(entered.map(|value| Command::TickHz(value as u32)));
         let about = format!("back to {} Hz", opened.tick_hz);
         restore(ui, tick_hz != opened.tick_hz, &about, "tick rate", || {
@@ -153,7 +153,7 @@ pub(super) fn show_time(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         |ui, [room, number]| {
             ui.add_space(room - number - RESTORE - ui.spacing().item_spacing.x);
             let size = vec2(number, LINE);
-            let check = |value| within("length", value, (LEAST_SECONDS, MOST_SECONDS), " s");
+            let check = |value| within("length", value, (MIN_SECONDS, MAX_SECONDS), " s");
             let (_, entered) = length.show(ui, size, check);
             commands.extend(entered.map(Command::Seconds));
             let about = format!("back to {} s", opened.seconds);

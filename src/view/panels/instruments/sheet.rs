@@ -33,7 +33,7 @@ pub(super) struct PlotModel {
     /// Names it among all plots of a scene, for its zoom.
     pub(super) id: String,
     pub(super) title: String,
-    /// The body, by its place in the scene.
+    /// The body, by its index in the scene.
     pub(super) body: usize,
     /// Along, and up.
     pub(super) axes: [PlotAxis; 2],

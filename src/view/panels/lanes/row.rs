@@ -7,7 +7,7 @@ use crate::lab::{ChaseFinding, Entrant, Lab, LaneBody, LaneSpec, METRICS, Mode};
 /// A method, or a body of the lane that is flown solo.
 pub(super) struct Row<'a> {
     pub(super) lab: &'a Lab,
-    /// The method's place on the list.
+    /// The method's index on the list.
     pub(super) entry: usize,
     pub(super) spec: &'a LaneSpec,
     /// The lane that flies this method now.
@@ -24,7 +24,7 @@ pub(super) struct Row<'a> {
 }
 
 impl<'a> Row<'a> {
-    /// The rows of the method on this place of the list. `exact` holds where each exact body is.
+    /// The rows of the method on this index of the list. `exact` holds where each exact body is.
     pub(super) fn of_method(
         lab: &'a Lab,
         (entry, spec): (usize, &'a LaneSpec),

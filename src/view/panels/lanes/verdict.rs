@@ -20,7 +20,7 @@ pub(super) struct Said {
 }
 
 impl Said {
-    /// What is said of the method on this place of the list, and of the lane under it if there is one. The judged body is
+    /// What is said of the method on this index of the list, and of the lane under it if there is one. The judged body is
     /// named, unless the row is the body's own or it is the one `named_above`.
     pub(super) fn of(
         lab: &Lab,

@@ -96,7 +96,7 @@ fn longest(lab: &Lab, map: &StabilityMap) -> [String; 2] {
 /// The names of the methods of the map, in its order.
 fn names(map: &StabilityMap) -> Vec<String> {
     let specs: Vec<LaneSpec> = map.request.specs.iter().map(|(_, spec)| *spec).collect();
-    specs.iter().map(|spec| spec.told_apart(spec.method.name, &specs)).collect()
+    specs.iter().map(|spec| spec.distinct_name(spec.method.name, &specs)).collect()
 }
 
 fn append(job: &mut LayoutJob, text: &str, font_id: FontId, color: Color32) {
