@@ -6,7 +6,7 @@ use super::lane_spec::LaneSpec;
 use super::loop_lab::LoopLab;
 use super::notice::Notice;
 use super::palette::Theme;
-use super::past::{History, Past};
+use super::past::Past;
 use super::race::{Entrant, Mode, Race};
 use super::scene::Scene;
 use super::scene_list::SceneList;
@@ -152,12 +152,6 @@ impl Lab {
     /// Where a person looks in the scene.
     pub fn view(&self) -> &View {
         &self.viewer.view
-    }
-    /// The history of the displayed body in each lane, with the lane's index on the list.
-    pub fn plotted(&self) -> impl Iterator<Item = (usize, &History)> {
-        let body = self.view().body;
-        let entries = self.race().entrants().iter().map(|entrant| entrant.entry);
-        entries.enumerate().map(move |(place, entry)| (entry, &self.past().histories(place)[body]))
     }
 
     /// Sets the memory in bytes that a run may take to be rewound; see [`Timeline`].

@@ -110,12 +110,6 @@ impl History {
         })
     }
 
-    /// The time (s) of the last jump of the body, since when the samples are one continuous motion.
-    pub fn unbroken_since(&self) -> f64 {
-        let jump = self.samples().rev().find(|sample| sample.jumped);
-        jump.map_or(f64::NEG_INFINITY, |sample| sample.t)
-    }
-
     /// Adds a tick at which no sample is due.
     pub(super) fn pass(&mut self, q: f64) {
         self.since = self.since.and(q);
