@@ -194,10 +194,9 @@ impl Vector for Vec<f64> {
 /// The largest magnitude; NaN if a component is NaN.
 #[inline]
 pub(in crate::sim) fn largest<'a>(components: impl IntoIterator<Item = &'a f64>) -> f64 {
-    components.into_iter().fold(0.0, |largest: f64, component| {
-        let size = component.abs();
-        if size > largest || size.is_nan() { size } else { largest }
-    })
+    // The bits of magnitudes are in the order of the magnitudes, those of a NaN above all others.
+    let bits = components.into_iter().map(|component| component.abs().to_bits());
+    f64::from_bits(bits.fold(0, u64::max))
 }
 
 /// Coordinates and velocities. Also their time derivative `(v, a)`.

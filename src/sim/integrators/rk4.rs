@@ -3,7 +3,7 @@
 use super::card::{EXPLICIT, Method};
 use super::failure::Stepped;
 use super::integrator::Integrator;
-use crate::sim::state::State;
+use crate::sim::state::{Elementwise, State};
 use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
@@ -29,37 +29,44 @@ pub(super) const CARD: Method = Method {
 };
 
 /// Runge-Kutta 4, by the [formula](Method::formula) on its card.
+///
+/// A slope `k` is a velocity and an acceleration, here `(v, a1)`, `(v2, a2)`, `(v3, a3)` and `(v4, a4)`: the velocity of a
+/// stage is its slope's, and is not copied.
 #[derive(Clone)]
 pub struct Rk4<V> {
-    k1: State<V>,
-    k2: State<V>,
-    k3: State<V>,
-    k4: State<V>,
-    /// The state at which a stage is evaluated.
-    stage: State<V>,
+    a1: V,
+    a2: V,
+    a3: V,
+    a4: V,
+    v2: V,
+    v3: V,
+    v4: V,
+    /// The coordinates at which a stage is evaluated.
+    stage: V,
 }
 
 impl<S: System> Integrator<S> for Rk4<S::Vector> {
     fn new(like: &S::Vector) -> Self {
-        let zero = State { q: like.clone(), v: like.clone() };
-        Self { k1: zero.clone(), k2: zero.clone(), k3: zero.clone(), k4: zero.clone(), stage: zero }
+        let [a1, a2, a3, a4] = [(); 4].map(|()| like.clone());
+        let [v2, v3, v4, stage] = [(); 4].map(|()| like.clone());
+        Self { a1, a2, a3, a4, v2, v3, v4, stage }
     }
 
-    #[inline(always)]
-    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
-        let Self { k1, k2, k3, k4, stage } = self;
-        system.derivative(t, y, k1);
-
-        stage.assign_sum(y, h / 2.0, k1);
-        system.derivative(t + h / 2.0, stage, k2);
-
-        stage.assign_sum(y, h / 2.0, k2);
-        system.derivative(t + h / 2.0, stage, k3);
-
-        stage.assign_sum(y, h, k3);
-        system.derivative(t + h, stage, k4);
-
-        y.add_terms([(h / 6.0, k1), (h / 3.0, k2), (h / 3.0, k3), (h / 6.0, k4)]);
+    #[inline]
+    fn step(&mut self, system: &S, t: f64, h: f64, State { q, v }: &mut StateOf<S>) -> Stepped {
+        let Self { a1, a2, a3, a4, v2, v3, v4, stage } = self;
+        system.acceleration(t, q, v, a1);
+        stage.assign_sum(q, h / 2.0, v);
+        v2.assign_sum(v, h / 2.0, a1);
+        system.acceleration(t + h / 2.0, stage, v2, a2);
+        stage.assign_sum(q, h / 2.0, v2);
+        v3.assign_sum(v, h / 2.0, a2);
+        system.acceleration(t + h / 2.0, stage, v3, a3);
+        stage.assign_sum(q, h, v3);
+        v4.assign_sum(v, h, a3);
+        system.acceleration(t + h, stage, v4, a4);
+        q.add_terms([(h / 6.0, v), (h / 3.0, v2), (h / 3.0, v3), (h / 6.0, v4)]);
+        v.add_terms([(h / 6.0, a1), (h / 3.0, a2), (h / 3.0, a3), (h / 6.0, a4)]);
         Ok(())
     }
 }

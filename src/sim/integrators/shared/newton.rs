@@ -181,7 +181,9 @@ impl<V: Vector, const S: usize> Newton<V, S> {
             if is_stale {
                 self.factor(system, stages, stages);
             }
-            let is_at_rounding = self.compute_residual();
+            self.compute_residual();
+            let is_at_rounding = self.is_at_rounding();
+            self.correction.copy_from_slice(&self.residual);
             self.linearisation.solve(&mut self.correction);
             let (correction, size) = self.correct();
             is_stale = match convergence.judge(correction, size, is_at_rounding) {
@@ -215,28 +217,32 @@ impl<V: Vector, const S: usize> Newton<V, S> {
             .max(RELATIVE_DIFFERENCES.1 * q)
             .clamp(EXTREMES.0, EXTREMES.1);
         let size = v.max(q).min(EXTREMES.1);
-        let rows = evaluated.iter().flat_map(V::components);
-        rounding_scale.iter_mut().zip(rows).for_each(|(scale, force)| *scale = force.abs());
+        let n = rounding_scale.len() / S;
+        for (scales, forces) in rounding_scale.chunks_exact_mut(n).zip(evaluated.iter()) {
+            let rows = scales.iter_mut().zip(forces.components());
+            rows.for_each(|(scale, force)| *scale = force.abs());
+        }
         linearisation.factor(system, stages, Some((evaluated, difference)), |row, slope| {
             rounding_scale[row] += slope.abs() * size;
         });
     }
 
-    /// Computes the residual, as the next right-hand side too. Returns whether it is at rounding level.
+    /// Overwrites the residual with that of the last evaluation.
     #[inline]
-    fn compute_residual(&mut self) -> bool {
-        let Self { a, evaluated, residual, correction, rounding_scale, .. } = self;
-        let mut is_at_rounding = true;
-        let forces = evaluated.iter().flat_map(V::components);
-        let rows = forces.zip(a.iter().flat_map(V::components)).zip(&*rounding_scale);
-        for ((residual, correction), ((force, a), scale)) in
-            residual.iter_mut().zip(correction).zip(rows)
-        {
-            *residual = force - a;
-            *correction = *residual;
-            is_at_rounding &= residual.abs() <= ROUND_OFF * scale + EXTREMES.0;
+    fn compute_residual(&mut self) {
+        let Self { a, evaluated, residual, .. } = self;
+        let n = residual.len() / S;
+        for (residual, (force, a)) in residual.chunks_exact_mut(n).zip(evaluated.iter().zip(a)) {
+            let known = force.components().iter().zip(a.components());
+            residual.iter_mut().zip(known).for_each(|(residual, (force, a))| *residual = force - a);
         }
-        is_at_rounding
+    }
+
+    /// Whether the residual is at rounding level.
+    #[inline]
+    fn is_at_rounding(&self) -> bool {
+        let mut rows = self.residual.iter().zip(&self.rounding_scale);
+        rows.all(|(residual, scale)| residual.abs() <= ROUND_OFF * scale + EXTREMES.0)
     }
 
     /// Adds the correction to `A`. Returns the largest components of both.

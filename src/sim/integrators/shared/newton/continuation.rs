@@ -163,6 +163,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         for _ in 0..MAX_CORRECTIONS {
             self.linearise_on_curve(system, stages);
             self.compute_residual();
+            self.correction.copy_from_slice(&self.residual);
             self.linearisation.solve(&mut self.correction);
             let Self { a, correction: residual, curve, .. } = self;
             let Curve { lambda, scale, slope_by_lambda, tangent, tangent_lambda, .. } = curve;

@@ -69,15 +69,9 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     /// Evaluates the forces, the residual and the reach of slopes at the current `A`.
     fn evaluate_residual(&mut self, system: &dyn System<Vector = V>, stages: &Stages<S>) {
         self.evaluate(system, stages);
-        let Self { a, evaluated, residual, linearisation, .. } = self;
+        let Self { evaluated, linearisation, .. } = &mut *self;
         linearisation.slopes.reach_for(stages.beta[0][0], &linearisation.at[0], &evaluated[0]);
-        let rows = evaluated
-            .iter()
-            .zip(a)
-            .flat_map(|(evaluated, a)| evaluated.components().iter().zip(a.components()));
-        for (residual, (evaluated, a)) in residual.iter_mut().zip(rows) {
-            *residual = evaluated - a;
-        }
+        self.compute_residual();
     }
 
     /// A step down the energy whose gradient is the residual.
