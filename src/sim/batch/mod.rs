@@ -158,6 +158,7 @@ impl Batch {
         Self::with(&Each(systems.into()), Solver::Method(method), starts.into_iter(), set)
     }
 
+    #[cfg(feature = "lab")]
     pub(in crate::sim) fn of_body<S: OneCoordinate>(
         body: &S,
         set: InstructionSet,

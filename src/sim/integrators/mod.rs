@@ -103,6 +103,7 @@ macro_rules! method_type {
 }
 
 /// Returns the result of `construct` if `method` is this one, and is one that steps blocks.
+#[cfg(feature = "batch")]
 macro_rules! construct_in_blocks {
     ($S:ident, $method:ident, $construct:ident, $file:ident, $Type:ident, blocks) => {
         if $method.id == $file::CARD.id {
