@@ -38,8 +38,9 @@
 //!   which `regatta verify` judges. A sweep's runs and the methods that `advise` judges share nothing, so
 //!   that any number of threads makes the same rows (`commands/jobs.rs`).
 //!
-//! Each layer is a feature that has those below it. `view`, `window` and `commands` are there with the default feature
-//! `desktop`. `lab` alone pulls in no graphics crate: what a game's own tests want. The feature `batch` adds [`sim::batch`], on all cores, and `lab` has it. Without any feature the package is
+//! Each layer is a feature that has those below it: `lab`, `view`, `window`; `cli` is the commands, of which those that
+//! draw come with `view` and `play` with `window`. The default, `desktop`, has all. `lab` and `cli` pull in no graphics
+//! crate. The feature `batch` adds [`sim::batch`], on all cores, and `lab` has it. Without any feature the package is
 //! `sim` without its [`bodies`](sim::bodies) and [`law`](sim::law)s, and needs two crates: what a game's loop wants.
 //!
 //! # A frame
@@ -136,16 +137,20 @@
 //! (`commands/sweep/round_off.rs`); and constraints, because a closed body with natural coordinates needs
 //! none.
 
-#[cfg(feature = "desktop")]
+#[cfg(feature = "cli")]
 pub mod commands;
 #[cfg(feature = "lab")]
 pub mod lab;
 pub mod manual;
+#[cfg(any(feature = "cli", feature = "view"))]
+mod picture_note;
 pub mod prelude;
+#[cfg(any(feature = "cli", feature = "window"))]
+mod regular_file;
 pub mod sim;
-#[cfg(feature = "desktop")]
+#[cfg(feature = "view")]
 pub mod view;
-#[cfg(feature = "desktop")]
+#[cfg(feature = "window")]
 pub mod window;
 
 #[cfg(feature = "lab")]

@@ -20,5 +20,5 @@ pub use crate::sim::{
     Body, Clock, Due, Elementwise, Input, ParameterOf, Range, Solver, State, Stepper, System,
     Vector, stepper,
 };
-#[cfg(feature = "desktop")]
+#[cfg(feature = "window")]
 pub use crate::window::Window;

@@ -26,7 +26,6 @@ mod new_file;
 mod opening;
 mod pace;
 mod recording;
-pub(crate) mod regular_file;
 mod run_of_session;
 mod schedule;
 #[cfg(feature = "accessibility")]

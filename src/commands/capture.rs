@@ -7,8 +7,8 @@ use clap::{Args, ValueEnum};
 
 use super::error::{Cause, Error};
 use super::experiment::{self, Experiment, ExperimentArgs, Lineup, ThemeName, known_trace};
-use super::frame_folder::names::MOST_FRAMES;
 use super::frame_folder::{Existing, FrameFolder};
+use super::frame_names::MOST_FRAMES;
 use super::movie::{self, MovieFormat};
 use super::output::picture_format::PictureFormat;
 use super::output::{AtomicOutput, Older, OutputError, Place};
@@ -17,7 +17,6 @@ use super::schedule::{FPS, MOST_FPS, Schedule, frames_in};
 use super::{clip, sheet, state_log};
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
-use crate::view::Panels;
 
 const EXAMPLES: &str = "\
 Frame i shows the run at i / fps seconds. The same command makes the same bytes. manifest.json,
@@ -96,7 +95,7 @@ pub(super) struct CaptureArgs {
     force: bool,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 enum Shown {
     On,
     Off,
@@ -160,10 +159,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
         schedule,
         size_px: args.size.unwrap_or(format.or_sheet([1280, 720], [320, 180])),
         scale: args.scale,
-        panels: match args.panels.unwrap_or(format.or_sheet(Shown::On, Shown::Off)) {
-            Shown::On => Panels::Shown,
-            Shown::Off => Panels::Off,
-        },
+        panels: args.panels.unwrap_or(format.or_sheet(Shown::On, Shown::Off)) == Shown::On,
         motion: true,
         theme: args.theme.map(Theme::from).unwrap_or_default(),
         mark_every: args

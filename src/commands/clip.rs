@@ -1,13 +1,14 @@
 //! Draws a run into a folder of numbered pictures, and writes a manifest beside them.
 
+use super::drawing::{DrawingError, adapter, closing_line};
 use super::experiment::Experiment;
 use super::fingerprint::fingerprint;
 use super::frame_folder::FrameFolder;
-use super::frame_folder::names::frame_name;
+use super::frame_names::frame_name;
 use super::interrupt::watch_for_interrupt;
 use super::manifest::{FrameEntry, Manifest, SCHEMA};
 use super::pipeline::{Drawn, Run, Stop};
-use super::recording::{Recording, RecordingError, adapter, closing_line};
+use super::recording::Recording;
 use super::settings;
 use super::state_log::{self, StateLog};
 use super::terminal::{progress, tell};
@@ -18,7 +19,7 @@ pub(super) fn record(
     experiment: &Experiment,
     recording: Recording,
     mut folder: FrameFolder,
-) -> Result<(), RecordingError> {
+) -> Result<(), DrawingError> {
     let Recording { schedule, size_px, .. } = recording;
     let mut renderer = recording.renderer()?;
     let adapter = adapter(&renderer);
@@ -50,12 +51,12 @@ pub(super) fn record(
     match drawn {
         Ok(_) => {}
         Err(Stop::Readback(error)) => return Err(error.into()),
-        Err(Stop::Taken(source)) => return Err(RecordingError::Write { source, whole }),
+        Err(Stop::Taken(source)) => return Err(DrawingError::Write { source, whole }),
     }
-    settled.map_err(|source| RecordingError::Write { source, whole: whole.clone() })?;
+    settled.map_err(|source| DrawingError::Write { source, whole: whole.clone() })?;
     let (done, frames) = (entries.len() as u32, schedule.frames);
     if done < frames && !folder.takes_a_part() {
-        return Err(RecordingError::interrupted(done, frames, "the old frames"));
+        return Err(DrawingError::interrupted(done, frames, "the old frames"));
     }
     let settings = settings::written(experiment, &recording);
     let manifest = Manifest {
@@ -71,9 +72,9 @@ pub(super) fn record(
     };
     let (path, others) = (folder.path().to_owned(), folder.others().to_vec());
     let written = folder.finish(&manifest.to_text());
-    written.map_err(|source| RecordingError::Write { source, whole: whole.clone() })?;
+    written.map_err(|source| DrawingError::Write { source, whole: whole.clone() })?;
     if done < frames {
-        return Err(RecordingError::interrupted(done, frames, &whole));
+        return Err(DrawingError::interrupted(done, frames, &whole));
     }
     tell(&closing_line(&recording, &whole));
     if !others.is_empty() {

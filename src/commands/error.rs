@@ -2,7 +2,9 @@
 
 use annotate_snippets::{Group, Level, Renderer};
 
+#[cfg(feature = "view")]
 use crate::view::{GpuError, ReadbackError};
+#[cfg(feature = "window")]
 use crate::window::WindowError;
 
 /// An error that can end a command. Each is declared beside the code that raises it.
@@ -56,6 +58,7 @@ impl<C: Cause> From<C> for Error {
     }
 }
 
+#[cfg(feature = "view")]
 impl Cause for GpuError {
     fn exit_code(&self) -> u8 {
         match self {
@@ -65,12 +68,14 @@ impl Cause for GpuError {
     }
 }
 
+#[cfg(feature = "view")]
 impl Cause for ReadbackError {
     fn exit_code(&self) -> u8 {
         1
     }
 }
 
+#[cfg(feature = "window")]
 impl Cause for WindowError {
     fn exit_code(&self) -> u8 {
         1

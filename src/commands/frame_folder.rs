@@ -12,15 +12,14 @@ use super::output::{AtomicFile, DirectoryLock, FileError, sync_directory, write_
 pub(super) mod blessing;
 mod entries;
 mod errors;
-pub(super) mod names;
 mod queue;
 #[cfg(test)]
 mod tests;
 
+use super::frame_names::{frame_name, is_pending};
 use blessing::Blessing;
 use entries::{Entries, is_a_captures};
 pub(super) use errors::FrameFolderError;
-use names::frame_name;
 use queue::{FrameQueue, Settled};
 
 /// What may become of the frames that a folder holds.
@@ -120,7 +119,7 @@ impl FrameFolder {
         if let Some(path) = entries.foreign {
             return Err(FrameFolderError::NotOurs { path, option });
         }
-        if self.existing != Existing::Refuse && blessing::is_pending(path) {
+        if self.existing != Existing::Refuse && is_pending(path) {
             let fail = FileError::of("finish the --bless in", path, option);
             blessing::complete(path).map_err(fail)?;
             entries = read()?;

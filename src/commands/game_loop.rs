@@ -1,7 +1,7 @@
 //! `regatta loop`: what a game loop does to motion, over the frames of a display.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
 use clap::Args;
@@ -15,6 +15,7 @@ use super::file_names::{check_picture_name, row_format, same_file_path};
 use super::interrupt::{Interrupted, watch_for_interrupt};
 use super::output::table::{self, Column, RowFormat};
 use super::output::{AtomicOutput, Older, Place, STDOUT, finish, print};
+#[cfg(feature = "view")]
 use super::plot::Plot;
 use super::scene_file;
 use super::trace_source::traces;
@@ -23,6 +24,7 @@ use crate::lab::{Clock, LaneSpec, Scene};
 use crate::sim::integrators::Method;
 
 mod advice;
+#[cfg(feature = "view")]
 mod diagram;
 mod measured;
 
@@ -117,7 +119,8 @@ pub(super) struct LoopArgs {
     frames: Option<PathBuf>,
 
     /// Draw the moment shown against the moment of display, and what each loop costs, on up to four traces, as PNG into FILE
-    #[arg(long, value_name = "FILE")]
+    #[cfg(feature = "view")]
+    #[arg(long, value_name = "FILE", conflicts_with = "show")]
     plot: Option<PathBuf>,
 
     /// Replace the files that are there
@@ -128,7 +131,7 @@ pub(super) struct LoopArgs {
     #[arg(long, value_name = "ID", value_parser = known_policy)]
     #[arg(conflicts_with_all = [
         "policies", "traces", "tick_hz", "display_hz", "scene", "method", "seconds", "latency_ms", "format", "out",
-        "frames", "plot", "force",
+        "frames", "force",
     ])]
     show: Option<&'static PolicyCard>,
 
@@ -165,12 +168,11 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     let scene = Scene { tick_hz: args.tick_hz.unwrap_or(scene.tick_hz), ..scene };
     let traces = traces(&args.traces, args.display_hz)?;
     let format = row_format(&args.out, args.format)?;
-    if let Some(plot) = &args.plot {
+    if let Some(plot) = args.plot() {
         check_picture_name(plot, &args.out)?;
     }
-    let places = [Some(&args.out), args.frames.as_ref(), args.plot.as_ref()];
-    let places: Vec<PathBuf> =
-        places.into_iter().flatten().map(|path| same_file_path(path)).collect();
+    let places = [Some(&*args.out), args.frames.as_deref(), args.plot()];
+    let places: Vec<PathBuf> = places.into_iter().flatten().map(same_file_path).collect();
     if (1..places.len()).any(|n| places[..n].contains(&places[n])) {
         return Err(LoopError::SamePlace.into());
     }
@@ -187,10 +189,10 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     let out = AtomicOutput::open_for_text(place(&args.out, "--out"))?;
     let frames = args.frames.as_deref().map(|path| place(path, "--frames"));
     let mut frames = frames.map(AtomicOutput::open_for_text).transpose()?;
-    let plot = args
-        .plot
-        .as_deref()
-        .map(|path| Plot::open(place(path, "--plot"), diagram::charts(traces.len())));
+    #[cfg(feature = "view")]
+    let plot =
+        args.plot().map(|path| Plot::open(place(path, "--plot"), diagram::charts(traces.len())));
+    #[cfg(feature = "view")]
     let plot = plot.transpose()?;
 
     if let Some(frames) = &mut frames {
@@ -200,7 +202,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     for trace in &traces {
         let from = rows.len();
         let until_ns = args.until_ns(&scene, trace);
-        let drawn_from_ns = plot.as_ref().map(|_| drawn_from_ns(trace, until_ns));
+        let drawn_from_ns = args.plot().map(|_| drawn_from_ns(trace, until_ns));
         let stretch = Stretch { until_ns, drawn_from_ns };
         for card in args.policies() {
             let spec = LaneSpec::plain(args.method);
@@ -221,6 +223,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     if let Some(frames) = frames {
         finish(frames, &[], "the frames")?;
     }
+    #[cfg(feature = "view")]
     if let Some(plot) = plot {
         let (output, [width, height], png) = plot.draw(&diagram::figure(&scene, &rows))?;
         finish(output, &png, &format!("a picture of {width}x{height}"))?;
@@ -229,6 +232,14 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
 }
 
 impl LoopArgs {
+    /// Where the picture goes, if one is asked for.
+    fn plot(&self) -> Option<&Path> {
+        #[cfg(feature = "view")]
+        return self.plot.as_deref();
+        #[cfg(not(feature = "view"))]
+        None
+    }
+
     /// The policies asked for, each once.
     fn policies(&self) -> Vec<&'static PolicyCard> {
         let mut policies: Vec<&'static PolicyCard> = Vec::new();

@@ -13,7 +13,7 @@ Examples:
   regatta help scenes | less";
 
 /// Print this help, that of a command, or a chapter of the manual
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 #[command(after_help = after_help())]
 pub(super) struct HelpArgs {
     /// A command, or a chapter of the manual

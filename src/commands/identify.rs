@@ -8,7 +8,7 @@ use super::error::{Cause, Error};
 use super::output::print;
 use super::output::table::TableFormat;
 use crate::lab::{Columns, Log, LogError, LoggedBody, identify};
-use crate::window::regular_file::{self, MAX_TABLE_BYTES, Unreadable};
+use crate::regular_file::{self, MAX_TABLE_BYTES, Unreadable};
 
 mod findings;
 

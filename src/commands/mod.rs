@@ -8,20 +8,33 @@
 //! into a folder, a stream or a sheet; and what all of them share. Each error type is declared beside the
 //! code that raises it, and gives the exit code as a [`Cause`].
 
+#![cfg_attr(
+    not(feature = "window"),
+    allow(
+        dead_code,
+        unused_imports,
+        reason = "files, formats and settings are shared with commands that draw, which are not compiled here"
+    )
+)]
+
 use std::ffi::OsString;
 
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
 
 mod advise;
+#[cfg(feature = "view")]
 mod capture;
+#[cfg(feature = "view")]
 mod chapter;
+#[cfg(feature = "view")]
 mod cloud;
 mod completions;
 mod game_loop;
 mod help;
 mod identify;
 mod list;
+#[cfg(feature = "window")]
 mod play;
 mod port;
 mod show;
@@ -33,18 +46,28 @@ mod experiment;
 mod scene_file;
 mod spring;
 mod trace_source;
+#[cfg(feature = "window")]
 mod unfinished;
 
+#[cfg(feature = "view")]
 mod clip;
+#[cfg(feature = "view")]
+mod drawing;
 mod fingerprint;
+#[cfg(feature = "view")]
 mod frame_folder;
+mod frame_names;
 pub mod manifest;
+#[cfg(feature = "view")]
 mod movie;
+#[cfg(feature = "view")]
 mod pipeline;
+#[cfg(feature = "window")]
 mod preferences;
 mod recording;
 mod schedule;
 mod settings;
+#[cfg(feature = "view")]
 mod sheet;
 mod state_log;
 
@@ -53,13 +76,17 @@ mod file_names;
 mod interrupt;
 mod jobs;
 mod output;
+#[cfg(feature = "view")]
 mod plot;
 mod stopwatch;
 mod terminal;
 
 use advise::AdviseArgs;
+#[cfg(feature = "view")]
 use capture::CaptureArgs;
+#[cfg(feature = "view")]
 use chapter::ChapterArgs;
+#[cfg(feature = "view")]
 use cloud::CloudArgs;
 use completions::CompletionsArgs;
 pub use error::{Cause, Error};
@@ -67,6 +94,7 @@ use game_loop::LoopArgs;
 use help::HelpArgs;
 use identify::IdentifyArgs;
 use list::ListArgs;
+#[cfg(feature = "window")]
 use play::PlayArgs;
 use port::PortArgs;
 use show::ShowArgs;
@@ -106,6 +134,7 @@ In the window, H shows the keys. `regatta help COMMAND` explains a command;
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
+    #[cfg(feature = "window")]
     #[command(flatten)]
     play: PlayArgs,
 }
@@ -137,17 +166,21 @@ impl Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    #[cfg(feature = "window")]
     Play(PlayArgs),
+    #[cfg(feature = "view")]
     Capture(CaptureArgs),
     Verify(VerifyArgs),
     Trace(TraceArgs),
     Advise(AdviseArgs),
     Sweep(SweepArgs),
+    #[cfg(feature = "view")]
     Cloud(CloudArgs),
     Loop(LoopArgs),
     Identify(IdentifyArgs),
     Port(PortArgs),
     Show(ShowArgs),
+    #[cfg(feature = "view")]
     Chapter(ChapterArgs),
     List(ListArgs),
     Completions(CompletionsArgs),
@@ -159,18 +192,26 @@ enum Command {
 /// # Errors
 /// If the command fails. A closed standard output is not an error.
 pub fn run(cli: Cli) -> Result<(), Error> {
-    let done = match cli.command.unwrap_or(Command::Play(cli.play)) {
+    #[cfg(feature = "window")]
+    let command = cli.command.unwrap_or(Command::Play(cli.play));
+    #[cfg(not(feature = "window"))]
+    let command = cli.command.unwrap_or(Command::Help(HelpArgs::default()));
+    let done = match command {
+        #[cfg(feature = "window")]
         Command::Play(args) => play::run(&args),
+        #[cfg(feature = "view")]
         Command::Capture(args) => capture::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Trace(args) => trace::run(&args),
         Command::Advise(args) => advise::run(&args),
         Command::Sweep(args) => sweep::run(&args),
+        #[cfg(feature = "view")]
         Command::Cloud(args) => cloud::run(&args),
         Command::Loop(args) => game_loop::run(&args),
         Command::Identify(args) => identify::run(&args),
         Command::Port(args) => port::run(&args),
         Command::Show(args) => show::run(&args),
+        #[cfg(feature = "view")]
         Command::Chapter(args) => chapter::run(&args),
         Command::List(args) => list::run(&args),
         Command::Help(args) => help::run(&args, Cli::command()),

@@ -5,11 +5,12 @@ use std::io::{self, Write};
 use image::codecs::gif::{GifEncoder, Repeat};
 use image::{Delay, Frame, ImageError, RgbaImage};
 
+use super::drawing::{DrawingError, closing_line};
 use super::experiment::Experiment;
 use super::interrupt::watch_for_interrupt;
 use super::output::AtomicOutput;
 use super::pipeline::{Drawn, Run, Stop};
-use super::recording::{Recording, RecordingError, closing_line};
+use super::recording::Recording;
 use super::schedule::Schedule;
 use super::state_log::StateLog;
 use super::terminal::{progress, tell};
@@ -37,7 +38,7 @@ pub(super) fn record(
     recording: Recording,
     format: MovieFormat,
     mut output: AtomicOutput,
-) -> Result<(), RecordingError> {
+) -> Result<(), DrawingError> {
     let mut renderer = recording.renderer()?;
     let interrupted = watch_for_interrupt();
     let Schedule { frames, .. } = recording.schedule;
@@ -77,7 +78,7 @@ pub(super) fn record(
                 }
                 AtomicOutput::File { .. } => "none, a stream is whole at its end".into(),
             };
-            Err(RecordingError::interrupted(done, frames, &whole))
+            Err(DrawingError::interrupted(done, frames, &whole))
         }
         Ok(_) => {
             let name = output.name();

@@ -21,7 +21,6 @@ use super::{clip, scene_file, state_log};
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
 use crate::lab::{Lab, Motion, RecordingError};
-use crate::view::Panels;
 use crate::window::{self, Closed, SceneFiles, WindowError, WindowSettings};
 
 const EXAMPLES: &str = "\
@@ -227,7 +226,7 @@ fn without_display(args: &PlayArgs, experiment: &Experiment, reason: &str) -> Re
         schedule,
         size_px: SIZE_PX,
         scale: 1.0,
-        panels: Panels::Shown,
+        panels: true,
         motion: !args.reduced_motion,
         theme: args.theme.map(Theme::from).unwrap_or_default(),
         mark_every: state_log::usual_stride(schedule.ticks(&experiment.lab())),

@@ -11,7 +11,7 @@ use toml::de::{DeTable, DeValue};
 use super::terminal::tell;
 use crate::lab::palette::Theme;
 use crate::lab::{Lab, MAX_FILE_BYTES, SCALE_LADDER};
-use crate::window::regular_file;
+use crate::regular_file;
 
 /// The name of the file.
 const FILE_NAME: &str = "window.toml";

@@ -1,19 +1,9 @@
-//! The settings with which a run is drawn, and the errors of drawing it.
+//! The settings with which a run is drawn.
 
-use super::error::Cause;
 use super::experiment::Experiment;
-use super::frame_folder::FrameFolderError;
-use super::interrupt::Interrupted;
-use super::manifest::Adapter;
-use super::output::OutputError;
 use super::schedule::Schedule;
 use crate::lab::palette::Theme;
 use crate::lab::{Lab, Motion};
-use crate::view::{AdapterPreference, Gpu, GpuError, OffscreenRenderer, Panels, ReadbackError};
-
-/// The most pixels of a whole capture: hours of drawing and about a hundred gigabytes of files. More is
-/// probably a typing mistake.
-const MOST_PIXELS: u64 = 1_000_000_000_000;
 
 /// How a run is drawn: its frames, their size and what they show.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +12,8 @@ pub(super) struct Recording {
     pub(super) size_px: [u32; 2],
     /// Pixels per point.
     pub(super) scale: f32,
-    pub(super) panels: Panels,
+    /// Whether panels are shown around the stage.
+    pub(super) panels: bool,
     /// Whether trails fade and the camera glides.
     pub(super) motion: bool,
     pub(super) theme: Theme,
@@ -37,113 +28,5 @@ impl Recording {
         lab.set_motion(if self.motion { Motion::Recorded } else { Motion::Reduced });
         lab.choose_theme(self.theme);
         lab
-    }
-
-    /// A renderer for frames of this size.
-    pub(super) fn renderer(&self) -> Result<OffscreenRenderer, RecordingError> {
-        let (frames, size_px) = (self.schedule.frames, self.size_px);
-        let pixels = u64::from(frames) * u64::from(size_px[0]) * u64::from(size_px[1]);
-        if pixels > MOST_PIXELS {
-            return Err(RecordingError::TooManyPixels {
-                frames,
-                size_px,
-                pixels,
-                most: MOST_PIXELS,
-            });
-        }
-        let gpu = Gpu::headless(AdapterPreference::Any)?;
-        log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
-        Ok(OffscreenRenderer::new(gpu, size_px, self.scale)?.with_panels(self.panels))
-    }
-}
-
-/// Why a run was not drawn or written whole.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum RecordingError {
-    /// The frames have more pixels in all than a capture may have.
-    #[error(
-        "{frames} frames of {}x{} are {} gigapixels, and a capture has at most {}; \
-         give fewer --frames or a smaller --size",
-        size_px[0], size_px[1], pixels / GIGA, most / GIGA
-    )]
-    TooManyPixels {
-        /// Asked for.
-        frames: u32,
-        /// Asked for.
-        size_px: [u32; 2],
-        /// Of all frames together.
-        pixels: u64,
-        /// The most there may be.
-        most: u64,
-    },
-    /// The folder cannot be used.
-    #[error(transparent)]
-    Folder(#[from] FrameFolderError),
-    /// A frame could not be written.
-    #[error("{source}; whole before that: {whole}; the same command with --force draws all frames")]
-    Write {
-        /// The error.
-        source: FrameFolderError,
-        /// The names of the frames written before.
-        whole: String,
-    },
-    /// No graphics device can draw the frames.
-    #[error(transparent)]
-    Gpu(#[from] GpuError),
-    /// A frame was drawn, but not read back from the device.
-    #[error(transparent)]
-    Readback(#[from] ReadbackError),
-    /// One file, or standard output, could not be written.
-    #[error(transparent)]
-    Output(#[from] OutputError),
-    /// Ctrl-C was pressed.
-    #[error(transparent)]
-    Interrupted(Interrupted),
-}
-
-const GIGA: u64 = 1_000_000_000;
-
-impl RecordingError {
-    /// An interrupt after `done` of `frames` frames; `whole` names those that are written whole.
-    pub(super) fn interrupted(done: u32, frames: u32, whole: &str) -> Self {
-        let done = format!("{done} of {frames} frames; whole: {whole}");
-        Self::Interrupted(Interrupted::After { done })
-    }
-}
-
-impl Cause for RecordingError {
-    fn exit_code(&self) -> u8 {
-        match self {
-            RecordingError::TooManyPixels { .. } => 2,
-            RecordingError::Folder(error) => error.exit_code(),
-            RecordingError::Gpu(error) => error.exit_code(),
-            RecordingError::Output(error) => error.exit_code(),
-            RecordingError::Interrupted(error) => error.exit_code(),
-            RecordingError::Write { .. } | RecordingError::Readback(_) => 1,
-        }
-    }
-
-    fn is_closed_pipe(&self) -> bool {
-        matches!(self, RecordingError::Output(error) if error.is_closed_pipe())
-    }
-}
-
-/// The message at the end of a recording: what was written, and where.
-pub(super) fn closing_line(recording: &Recording, place: &str) -> String {
-    let Schedule { frames, fps } = recording.schedule;
-    let [width, height] = recording.size_px;
-    let plural = if frames == 1 { "" } else { "s" };
-    format!("wrote {frames} frame{plural}, {width}x{height}, {fps} fps: {place}")
-}
-
-/// The adapter as the manifest describes it.
-pub(super) fn adapter(renderer: &OffscreenRenderer) -> Adapter {
-    let info = renderer.adapter();
-    Adapter {
-        name: info.name.clone(),
-        driver: info.driver.clone(),
-        driver_info: info.driver_info.clone(),
-        backend: info.backend.to_str().to_owned(),
-        kind: format!("{:?}", info.device_type),
     }
 }

@@ -6,8 +6,8 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::error::{Cause, message};
 use crate::lab::{BuiltIn, MAX_FILE_BYTES, Refusal, SCENES, Scene, SceneErrors, nearest};
+use crate::regular_file::{self, Unreadable};
 use crate::sim::integrators::Method;
-use crate::window::regular_file::{self, Unreadable};
 
 /// The reason why a scene cannot be loaded.
 #[derive(Debug, thiserror::Error)]

@@ -2,7 +2,7 @@
 //! read from a clock.
 
 use super::error::Cause;
-use super::frame_folder::names::MOST_FRAMES;
+use super::frame_names::MOST_FRAMES;
 use crate::lab::pacing::LONGEST_FRAME_MS;
 use crate::lab::{Lab, Observer};
 

@@ -2,14 +2,13 @@
 
 use super::experiment::{Experiment, Lineup, known_trace};
 use super::fingerprint::fingerprint;
-use super::frame_folder::names::{MOST_FRAMES, frame_name};
+use super::frame_names::{MOST_FRAMES, frame_name};
 use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings};
 use super::recording::Recording;
 use super::schedule::{MOST_FPS, Schedule};
 use crate::lab::palette::Theme;
 use crate::lab::{Clock, LaneSpec, MAX_LANES, MAX_SUBSTEPS, Scene, TOLERANCES};
 use crate::sim::integrators::method;
-use crate::view::Panels;
 
 /// The light theme in a manifest; the dark one is not written.
 const LIGHT: &str = "light";
@@ -40,7 +39,7 @@ pub(super) fn written(experiment: &Experiment, recording: &Recording) -> Setting
         size: recording.size_px,
         // The shortest decimal of an f32 is the same number as an f64 for people, and reads back.
         scale: recording.scale.to_string().parse().expect("a number's own text"),
-        panels: recording.panels == Panels::Shown,
+        panels: recording.panels,
         motion: recording.motion,
         theme: (recording.theme == Theme::Light).then(|| LIGHT.to_owned()),
         mark_every: recording.mark_every,
@@ -106,7 +105,7 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
         schedule: Schedule { frames: settings.frames, fps: settings.fps },
         size_px: settings.size,
         scale: settings.scale as f32,
-        panels: if settings.panels { Panels::Shown } else { Panels::Off },
+        panels: settings.panels,
         motion: settings.motion,
         theme: match settings.theme.as_deref() {
             None => Theme::Dark,

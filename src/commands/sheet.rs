@@ -2,11 +2,12 @@
 
 use std::io::Write;
 
+use super::drawing::DrawingError;
 use super::experiment::{Experiment, Lineup};
 use super::interrupt::watch_for_interrupt;
 use super::output::AtomicOutput;
 use super::pipeline::complete_analysis;
-use super::recording::{Recording, RecordingError};
+use super::recording::Recording;
 use super::terminal::{progress, tell};
 use crate::lab::LaneSpec;
 use crate::view::png;
@@ -19,7 +20,7 @@ pub(super) fn draw(
     experiment: &Experiment,
     recording: Recording,
     mut output: AtomicOutput,
-) -> Result<(), RecordingError> {
+) -> Result<(), DrawingError> {
     let [width, height] = recording.size_px;
     let columns = recording.schedule.frames;
     let lab = experiment.lab();
@@ -31,7 +32,7 @@ pub(super) fn draw(
     let pixels = u64::from(cells) * u64::from(width) * u64::from(height);
     if pixels > MOST_SHEET_PIXELS {
         let (frames, size_px) = (cells, recording.size_px);
-        return Err(RecordingError::TooManyPixels {
+        return Err(DrawingError::TooManyPixels {
             frames,
             size_px,
             pixels,
@@ -62,7 +63,7 @@ pub(super) fn draw(
             if !complete_analysis(&mut lab, &renderer, &interrupted) {
                 progress.finish_and_clear();
                 let done = row as u32 * columns + column;
-                return Err(RecordingError::interrupted(done, cells, "none, a sheet is one"));
+                return Err(DrawingError::interrupted(done, cells, "none, a sheet is one"));
             }
             renderer.draw(&lab, &mut cell)?;
             let top = row * height as usize;

@@ -1,6 +1,6 @@
 //! `regatta sweep`: every method at every tick rate on every scene, as a tidy table and as diagrams.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde_json::json;
@@ -11,6 +11,7 @@ use super::file_names::{check_picture_name, row_format};
 use super::interrupt::watch_for_interrupt;
 use super::output::table::{self, Column, RowFormat};
 use super::output::{AtomicOutput, Older, Place, STDOUT, finish};
+#[cfg(feature = "view")]
 use super::plot::Plot;
 use super::scene_file;
 use super::spring::SpringArgs;
@@ -18,8 +19,10 @@ use crate::lab::{Clock, SCENES, Scene, SceneBody};
 use crate::sim::bodies::refusal;
 use crate::sim::integrators::{METHODS, Method};
 
+#[cfg(feature = "view")]
 mod diagrams;
 mod grid;
+#[cfg(feature = "view")]
 mod round_off;
 mod varied;
 
@@ -80,7 +83,7 @@ pub(super) struct SweepArgs {
 
     /// Values of a parameter, of every body that has it (`regatta list bodies`), or of a constant of a law:
     /// a row for each
-    #[arg(long, value_name = "KEY=V,V,...", value_parser = varied, conflicts_with = "plot")]
+    #[arg(long, value_name = "KEY=V,V,...", value_parser = varied)]
     vary: Option<Varied>,
 
     /// Length of each run in simulated seconds, to the nearest tick, one at least [default: the
@@ -104,7 +107,8 @@ pub(super) struct SweepArgs {
 
     /// Draw work-precision diagrams of the rows, and the round-off of f32 and f64 on the chapter's ship,
     /// as PNG into FILE, or - for standard output
-    #[arg(long, value_name = "FILE")]
+    #[cfg(feature = "view")]
+    #[arg(long, value_name = "FILE", conflicts_with = "vary")]
     plot: Option<PathBuf>,
 
     /// Replace the files that are there
@@ -115,7 +119,7 @@ pub(super) struct SweepArgs {
 pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
     let swept = args.load()?;
     let format = row_format(&args.out, args.format)?;
-    if let Some(plot) = &args.plot {
+    if let Some(plot) = args.plot() {
         check_picture_name(plot, &args.out)?;
     }
     let interrupted = watch_for_interrupt();
@@ -123,13 +127,15 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
     let older = if args.force { Older::Replace } else { Older::Keep };
     let out = Place { path: &args.out, option: "--out", older };
     let out = AtomicOutput::open_for_text(out)?;
-    let charts = swept.scenes.len() + 1;
-    let plot = args.plot.as_deref().map(|path| Place { path, option: "--plot", older });
-    let plot = plot.map(|place| Plot::open(place, charts)).transpose()?;
+    #[cfg(feature = "view")]
+    let plot = args.plot().map(|path| Place { path, option: "--plot", older });
+    #[cfg(feature = "view")]
+    let plot = plot.map(|place| Plot::open(place, swept.scenes.len() + 1)).transpose()?;
     let rows = Grid::new(&swept).run(args.threads.map(usize::from), &interrupted)?;
     let what = format!("{} row{}", rows.len(), if rows.len() == 1 { "" } else { "s" });
     let written = finish(out, table::rows(format, COLUMNS, &rows).as_bytes(), &what);
     // Even if the rows could not be written: their reader may have closed the pipe after the first few.
+    #[cfg(feature = "view")]
     if let Some(plot) = plot {
         let (output, [width, height], png) = plot.draw(&diagrams::figure(&swept, &rows))?;
         finish(output, &png, &format!("a picture of {width}x{height}"))?;
@@ -138,6 +144,14 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
 }
 
 impl SweepArgs {
+    /// Where the picture goes, if one is asked for.
+    fn plot(&self) -> Option<&Path> {
+        #[cfg(feature = "view")]
+        return self.plot.as_deref();
+        #[cfg(not(feature = "view"))]
+        None
+    }
+
     /// The scenes, methods and rates asked for, without repetitions.
     fn load(&self) -> Result<Swept, Error> {
         let built_in = || SCENES.iter().map(|scene| PathBuf::from(scene.name)).collect();

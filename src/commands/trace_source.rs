@@ -6,7 +6,7 @@ use super::error::Cause;
 use crate::lab::nearest;
 use crate::lab::pacing::trace_file::{self, TraceFileError};
 use crate::lab::pacing::{FrameTrace, RefreshRate, TRACES, steady_trace, trace_card};
-use crate::window::regular_file::{self, MAX_TABLE_BYTES, Unreadable};
+use crate::regular_file::{self, MAX_TABLE_BYTES, Unreadable};
 
 /// The refresh rate of a trace that any display will do for.
 const USUAL: RefreshRate = RefreshRate::new(60, 1);

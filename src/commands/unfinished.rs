@@ -12,7 +12,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::output::{AtomicFile, write_whole};
 use super::preferences;
 use crate::lab::MAX_FILE_BYTES;
-use crate::window::{KeepRecording, regular_file};
+use crate::regular_file;
+use crate::window::KeepRecording;
 
 /// The folder of the notes.
 const NOTES: &str = "recordings";

@@ -8,27 +8,24 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use super::clip::record;
 use super::error::{Cause, Error};
-use super::experiment::Experiment;
-use super::frame_folder::blessing;
-use super::frame_folder::names::is_of_a_capture;
-use super::frame_folder::{Existing, FrameFolder};
-use super::manifest::{self, Adapter, FILE_NAME, Manifest, SCHEMA};
+use super::frame_names::{is_of_a_capture, is_pending};
+use super::manifest::{self, FILE_NAME, Manifest, SCHEMA};
 use super::output::{DirectoryLock, Older, OutputError, Place, write_text};
-use super::recording::{self, Recording, RecordingError};
 use super::terminal::tell;
 use super::{scene_file, settings};
-use crate::window::regular_file::{self, Unreadable};
+use crate::regular_file::{self, Unreadable};
 
 mod checks;
 mod errors;
 mod physics;
+#[cfg(feature = "view")]
 mod pixels;
+#[cfg(feature = "view")]
+mod redrawn;
 mod report;
 
 pub(super) use errors::VerifyError;
-use pixels::Limits;
 use report::Report;
 
 const EXAMPLES: &str = "\
@@ -129,8 +126,13 @@ fn judge(args: &VerifyArgs) -> Result<(), VerifyError> {
     let reports = reports(args.report.as_deref().unwrap_or_default(), &args.dir)?;
     let path = args.dir.join(FILE_NAME);
     let unjudged = |reason| VerifyError::Unjudged { manifest: path.clone(), reason };
+    #[cfg(feature = "view")]
     if args.bless {
-        return bless(&args.dir, unjudged);
+        return redrawn::bless(&args.dir, unjudged);
+    }
+    #[cfg(not(feature = "view"))]
+    if !args.physics_only {
+        return Err(VerifyError::NoGraphics);
     }
     let _lock = lock(&args.dir).map_err(unjudged)?;
     let manifest = read(&path).map_err(unjudged)?;
@@ -150,8 +152,9 @@ fn judge(args: &VerifyArgs) -> Result<(), VerifyError> {
     let mut report = Report::new(&args.dir);
     physics::judge(&manifest, &experiment, &recording, &mut report);
     report.say_physics()?;
+    #[cfg(feature = "view")]
     if !args.physics_only {
-        match judge_pixels(args, &manifest, &experiment, &recording, &mut report) {
+        match redrawn::judge(args, &manifest, &experiment, &recording, &mut report) {
             // Different physics is a result, even if the pixels cannot be judged.
             Err(error) if report.physics.is_some() && error.exit_code() == 2 => {
                 tell(&error.to_string());
@@ -166,25 +169,6 @@ fn judge(args: &VerifyArgs) -> Result<(), VerifyError> {
     }
 }
 
-/// Draws the clip in `dir` again and replaces the old one once the new one is complete.
-fn bless(dir: &Path, unjudged: impl Fn(String) -> VerifyError) -> Result<(), VerifyError> {
-    let path = dir.join(FILE_NAME);
-    // Checked first, so that a missing clip is not reported as a problem with the folder.
-    if !path.exists() && !blessing::is_pending(dir) {
-        read(&path).map_err(&unjudged)?;
-    }
-    let folder = FrameFolder::inspect(dir, Existing::Bless, "DIR")?;
-    let manifest = read(&path).map_err(&unjudged)?;
-    let (experiment, recording) = settings::read(&manifest.settings).map_err(&unjudged)?;
-    match record(&experiment, recording, folder) {
-        Err(RecordingError::Write { source, .. } | RecordingError::Folder(source)) => {
-            Err(source.into())
-        }
-        Err(error) => Err(VerifyError::Bless(error)),
-        Ok(()) => Ok(()),
-    }
-}
-
 /// Locks `dir` against writers while it is judged. `None` if there is no such directory.
 fn lock(dir: &Path) -> Result<Option<DirectoryLock>, String> {
     let busy = || "another regatta is writing to it; wait until it has finished".to_owned();
@@ -195,37 +179,11 @@ fn lock(dir: &Path) -> Result<Option<DirectoryLock>, String> {
         }
         Err(error) => return Err(format!("it cannot be locked: {error}")),
     };
-    if blessing::is_pending(dir) {
+    if is_pending(dir) {
         let reason = "a --bless was interrupted while it replaced the frames; --bless completes it";
         return Err(reason.into());
     }
     Ok(Some(lock))
-}
-
-fn judge_pixels(
-    args: &VerifyArgs,
-    manifest: &Manifest,
-    experiment: &Experiment,
-    recording: &Recording,
-    report: &mut Report,
-) -> Result<(), VerifyError> {
-    let mut renderer = recording.renderer()?;
-    let (was, is) = (&manifest.adapter, recording::adapter(&renderer));
-    let limits = Limits::of(*was == is, args.max_channel, args.max_pixels);
-    if *was != is {
-        let name = |a: &Adapter| format!("{} ({}, {})", a.name, a.backend, a.driver_info);
-        tell(&format!(
-            "drawn then with {}, now with {}: a channel may differ by {}, and {} % of a frame's \
-             pixels by more than 1",
-            name(was),
-            name(&is),
-            limits.max_channel,
-            limits.max_pixels_percent,
-        ));
-    }
-    let folder = pixels::Folder { frames: &args.dir, differences: args.diff.as_deref() };
-    pixels::judge(manifest, experiment, recording, &mut renderer, limits, folder, report)?;
-    Ok(report.say_pixels()?)
 }
 
 /// Reads the manifest at `path`.

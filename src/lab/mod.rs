@@ -111,7 +111,7 @@ pub use port::{
 pub use quantity::Quantity;
 pub use race::{Entrant, Mode, Observer, Race};
 pub use report::{Criteria, MethodReport, Recommendation, Report, advise};
-#[cfg(feature = "desktop")]
+#[cfg(feature = "cli")]
 pub(crate) use scene::clip::clip;
 pub use scene::{
     BuiltIn, Check, EditError, LAST_TICK, MAX_BODIES, MAX_FILE_BYTES, MAX_LANES, MAX_NAME_CHARS,

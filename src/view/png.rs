@@ -4,14 +4,10 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use png::text_metadata::{EncodableTextChunk, TEXtChunk};
 
+use crate::picture_note::SOFTWARE;
+
 /// Signature and header, after which the note stands.
 const HEADER_BYTES: usize = 33;
-
-/// What each file says of where it comes from, under the keyword that PNG has for it.
-const SOFTWARE: (&str, &str) = ("Software", "regatta");
-
-/// Signature, header and note stand in as many bytes at the start of a file.
-pub const NOTED_WITHIN: usize = 128;
 
 /// The file for `rgba`, straight 8-bit pixels of a picture of `size_px`, top row first. One fixed
 /// filter, since choosing one for each row takes twenty times as long: the difference to the pixel at the
@@ -36,18 +32,10 @@ fn note() -> Vec<u8> {
     chunk
 }
 
-/// Whether the file that begins with these bytes, [`NOTED_WITHIN`] of them if it has as many, says that
-/// this program made it.
-pub fn is_encoded_here(start: &[u8]) -> bool {
-    let (keyword, text) = SOFTWARE;
-    let note = format!("tEXt{keyword}\0{text}");
-    start.starts_with(b"\x89PNG\r\n\x1a\n")
-        && start.windows(note.len()).any(|window| window == note.as_bytes())
-}
-
-#[cfg(test)]
+#[cfg(all(test, feature = "cli"))]
 mod tests {
     use super::*;
+    use crate::picture_note::{NOTED_WITHIN, is_encoded_here};
 
     #[test]
     fn a_picture_survives_to_the_bit_and_says_where_it_comes_from() {

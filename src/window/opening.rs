@@ -3,9 +3,9 @@
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use std::sync::Arc;
 
-use super::regular_file::{self, MAX_TABLE_BYTES};
 use crate::lab::pacing::trace_file;
 use crate::lab::{Command, Lab, SCENES, Scene};
+use crate::regular_file::{self, MAX_TABLE_BYTES};
 
 /// Reads a scene file and returns its scene and its text, or the error report that the command line would print.
 pub type ReadScene = Arc<dyn Fn(&Path) -> Result<(Scene, String), String> + Send + Sync>;

@@ -3,8 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::{Closed, SceneFiles, WindowError, WindowSettings, regular_file, run};
+use super::{Closed, SceneFiles, WindowError, WindowSettings, run};
 use crate::lab::{Lab, MAX_FILE_BYTES, Scene, Session};
+use crate::regular_file;
 
 /// The window of the program.
 #[derive(Debug)]

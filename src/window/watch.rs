@@ -9,8 +9,8 @@ use winit::event_loop::EventLoopProxy;
 
 use super::Event;
 use super::opening::ReadScene;
-use super::regular_file::{self, Unreadable};
 use crate::lab::MAX_FILE_BYTES;
+use crate::regular_file::{self, Unreadable};
 
 /// The time between two looks at the files: short enough for a change to seem immediate.
 const INTERVAL: Duration = Duration::from_millis(400);

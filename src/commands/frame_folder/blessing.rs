@@ -10,15 +10,12 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
-use super::names::{frame_number, frames_claimed, is_marked};
+use crate::commands::frame_names::{READY, frame_number, frames_claimed, is_marked};
 use crate::commands::manifest;
 use crate::commands::output::sync_directory;
 
 /// The prefix of directories in which frames are drawn.
 const UNDER_WAY: &str = ".regatta-bless-";
-
-/// The directory of a complete set of new frames. Once it has this name, the frames replace the old ones.
-const READY: &str = ".regatta-blessed";
 
 /// New frames for a clip. Dropped before [`swap`](Self::swap), it leaves nothing.
 #[derive(Debug)]
@@ -49,19 +46,12 @@ impl Blessing {
     }
 }
 
-/// Whether a swap was interrupted: the manifest, which comes last, has not taken its place.
-pub(crate) fn is_pending(clip: &Path) -> bool {
-    let ready = clip.join(READY);
-    fs::symlink_metadata(&ready).is_ok_and(|entry| entry.is_dir())
-        && frames_claimed(&ready.join(manifest::FILE_NAME)).is_some()
-}
-
 /// Whether this is the name of a directory that an interrupted blessing left.
 pub(crate) fn is_left_over(name: &str) -> bool {
     name.starts_with(UNDER_WAY)
 }
 
-/// Finishes a [pending](is_pending) swap: moves the frames that the new manifest lists, and no other file. Every step can
+/// Finishes a [pending](crate::commands::frame_names::is_pending) swap: moves the frames that the new manifest lists, and no other file. Every step can
 /// be repeated, and the manifest comes last.
 pub(crate) fn complete(clip: &Path) -> io::Result<()> {
     let ready = clip.join(READY);
@@ -101,6 +91,7 @@ pub(crate) fn in_the_way(clip: &Path) -> Option<PathBuf> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::commands::frame_names::is_pending;
 
     const FRAMES: [&str; 3] = ["frame-000000.png", "frame-000001.png", "frame-000002.png"];
 

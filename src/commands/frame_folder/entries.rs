@@ -7,7 +7,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::blessing;
-use super::names::{frame_number, frames_claimed, is_marked};
+use crate::commands::frame_names::{frame_number, frames_claimed, is_marked};
 use crate::commands::manifest;
 use crate::commands::output::{final_name, is_lock};
 

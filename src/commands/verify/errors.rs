@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use super::super::error::Cause;
-use super::super::frame_folder::FrameFolderError;
-use super::super::output::{FileError, OutputError};
-use super::super::recording::RecordingError;
+use super::super::output::OutputError;
+#[cfg(feature = "view")]
+use super::pixels::PixelError;
 
 /// The reason why a capture does not pass or cannot be judged.
 #[derive(Debug, thiserror::Error)]
@@ -41,50 +41,32 @@ pub(in crate::commands) enum VerifyError {
         /// The file.
         path: PathBuf,
     },
-    /// Pictures of differences would replace the frames.
-    #[error("{} holds the frames that are judged; give another --diff", .path.display())]
-    DifferencesAmongFrames {
-        /// The folder.
-        path: PathBuf,
-    },
-    /// Pictures of differences would replace the frames of another capture.
-    #[error("{} holds another capture; give another --diff", .path.display())]
-    DifferencesInCapture {
-        /// The folder.
-        path: PathBuf,
-    },
     /// A report, or a line for people, could not be written.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// A difference could not be written.
+    /// The frames were not judged, or not drawn again.
+    #[cfg(feature = "view")]
     #[error(transparent)]
-    File(#[from] FileError),
-    /// A folder cannot take what would be written there.
-    #[error(transparent)]
-    Folder(#[from] FrameFolderError),
-    /// The frames could not be drawn.
-    #[error("the pixels cannot be judged: {0}")]
-    Capture(#[from] RecordingError),
-    /// The frames could not be drawn again.
-    #[error("not blessed: {0}")]
-    Bless(RecordingError),
+    Pixels(#[from] PixelError),
+    /// This build draws nothing.
+    #[cfg(not(feature = "view"))]
+    #[error("this build has no graphics; give --physics-only")]
+    NoGraphics,
 }
 
 impl Cause for VerifyError {
     fn exit_code(&self) -> u8 {
         match self {
-            VerifyError::Different { .. } | VerifyError::File(_) => 1,
+            VerifyError::Different { .. } => 1,
             VerifyError::Output(error) => error.exit_code(),
-            VerifyError::Folder(error) => error.exit_code(),
-            VerifyError::Bless(error) => error.exit_code(),
-            VerifyError::Capture(RecordingError::Interrupted(_)) => 130,
+            #[cfg(feature = "view")]
+            VerifyError::Pixels(error) => error.exit_code(),
+            #[cfg(not(feature = "view"))]
+            VerifyError::NoGraphics => 2,
             VerifyError::Unjudged { .. }
             | VerifyError::Format(_)
             | VerifyError::SameReport { .. }
-            | VerifyError::ReportOverCapture { .. }
-            | VerifyError::DifferencesAmongFrames { .. }
-            | VerifyError::DifferencesInCapture { .. }
-            | VerifyError::Capture(_) => 2,
+            | VerifyError::ReportOverCapture { .. } => 2,
         }
     }
 }

@@ -1,24 +1,25 @@
 //! Draws the frames of a capture again and compares them with the files.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use super::super::drawing::DrawingError;
+use super::super::error::Cause;
 use super::super::experiment::Experiment;
 use super::super::fingerprint::fingerprint;
 use super::super::frame_folder::FrameFolderError;
-use super::super::frame_folder::names::{frames_claimed, is_marked};
+use super::super::frame_names::{frames_claimed, is_marked};
 use super::super::interrupt::watch_for_interrupt;
 use super::super::manifest::{FILE_NAME, FrameEntry, Manifest};
 use super::super::output::{FileError, write_whole};
 use super::super::pipeline::{Drawn, Run, Stop};
-use super::super::recording::{Recording, RecordingError};
+use super::super::recording::Recording;
 use super::super::schedule::Schedule;
 use super::super::state_log::StateLog;
 use super::super::terminal::progress;
-use super::errors::VerifyError;
 use super::report::{FrameChange, Report};
+use crate::regular_file;
 use crate::view::{OffscreenRenderer, png};
-use crate::window::regular_file;
 
 /// The limits on another driver: a little more than the differences that were seen.
 const OTHER_DRIVER: (u8, f64) = (2, 0.01);
@@ -28,6 +29,49 @@ const BYTES_PER_PIXEL: usize = 8;
 
 /// The most bytes of a picture beside its pixels.
 const MAX_NOTES_BYTES: usize = 1 << 20;
+
+/// Why frames were not judged, or not drawn again.
+#[derive(Debug, thiserror::Error)]
+pub(in crate::commands) enum PixelError {
+    /// Pictures of differences would replace the frames.
+    #[error("{} holds the frames that are judged; give another --diff", .path.display())]
+    DifferencesAmongFrames {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Pictures of differences would replace the frames of another capture.
+    #[error("{} holds another capture; give another --diff", .path.display())]
+    DifferencesInCapture {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A difference could not be written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A folder cannot take what would be written there.
+    #[error(transparent)]
+    Folder(#[from] FrameFolderError),
+    /// The frames could not be drawn.
+    #[error("the pixels cannot be judged: {0}")]
+    Capture(#[from] DrawingError),
+    /// The frames could not be drawn again.
+    #[error("not blessed: {0}")]
+    Bless(DrawingError),
+}
+
+impl Cause for PixelError {
+    fn exit_code(&self) -> u8 {
+        match self {
+            PixelError::File(_) => 1,
+            PixelError::Folder(error) => error.exit_code(),
+            PixelError::Bless(error) => error.exit_code(),
+            PixelError::Capture(DrawingError::Interrupted(_)) => 130,
+            PixelError::DifferencesAmongFrames { .. }
+            | PixelError::DifferencesInCapture { .. }
+            | PixelError::Capture(_) => 2,
+        }
+    }
+}
 
 /// How much a frame may differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,16 +136,16 @@ pub(super) fn judge(
     limits: Limits,
     folder: Folder<'_>,
     report: &mut Report,
-) -> Result<(), VerifyError> {
+) -> Result<(), PixelError> {
     let frames = manifest.frames.len() as u32;
     let schedule = Schedule { frames, ..recording.schedule };
     if let Some(path) = folder.differences {
         fs::create_dir_all(path).map_err(FileError::of("make the directory", path, "--diff"))?;
         if fs::canonicalize(path).ok() == fs::canonicalize(folder.frames).ok() {
-            return Err(VerifyError::DifferencesAmongFrames { path: path.to_owned() });
+            return Err(PixelError::DifferencesAmongFrames { path: path.to_owned() });
         }
         if frames_claimed(&path.join(FILE_NAME)).is_some() {
-            return Err(VerifyError::DifferencesInCapture { path: path.to_owned() });
+            return Err(PixelError::DifferencesInCapture { path: path.to_owned() });
         }
     }
     let interrupted = watch_for_interrupt();
@@ -129,11 +173,11 @@ pub(super) fn judge(
     progress.finish_and_clear();
     let done = match drawn {
         Ok(done) => done,
-        Err(Stop::Readback(error)) => return Err(RecordingError::from(error).into()),
+        Err(Stop::Readback(error)) => return Err(DrawingError::from(error).into()),
         Err(Stop::Taken(error)) => return Err(error),
     };
     if done < frames {
-        return Err(RecordingError::interrupted(done, frames, "nothing is written").into());
+        return Err(DrawingError::interrupted(done, frames, "nothing is written").into());
     }
     report.frames = Some(manifest.frames.iter().map(|entry| entry.file.clone()).collect());
     report.is_exact = limits.max_channel == 0;
@@ -148,7 +192,7 @@ fn compare(
     now: &[u8],
     limits: Limits,
     folder: Folder<'_>,
-) -> Result<Option<String>, VerifyError> {
+) -> Result<Option<String>, PixelError> {
     let path = folder.frames.join(&entry.file);
     let [width, height] = size_px.map(|px| px as usize);
     let max_bytes = BYTES_PER_PIXEL * width * height + MAX_NOTES_BYTES;

@@ -53,7 +53,11 @@ pub(super) trait Kernel {
 fn with_avx2<K: Kernel>(kernel: K) {
     match_target! {
         "x86_64+avx+avx2" => kernel.run(),
-        _ => missing(kernel),
+        // Chosen only where the processor has it.
+        _ => {
+            let _ = kernel;
+            unreachable!()
+        }
     }
 }
 
@@ -61,7 +65,11 @@ fn with_avx2<K: Kernel>(kernel: K) {
 fn with_avx512<K: Kernel>(kernel: K) {
     match_target! {
         "x86_64+avx+avx2+avx512f+avx512vl" => kernel.run(),
-        _ => missing(kernel),
+        // Chosen only where the processor has it.
+        _ => {
+            let _ = kernel;
+            unreachable!()
+        }
     }
 }
 
@@ -73,9 +81,4 @@ fn has_avx2() -> bool {
 #[multiversion(targets("x86_64+avx+avx2+avx512f+avx512vl"))]
 fn has_avx512() -> bool {
     match_target! { "x86_64+avx+avx2+avx512f+avx512vl" => true, _ => false }
-}
-
-#[cold]
-fn missing<K>(_: K) {
-    unreachable!("an instruction set is chosen only if the processor has it")
 }

@@ -31,6 +31,7 @@ pub(crate) enum Unreadable {
 
 impl Unreadable {
     /// Whether there is no such file.
+    #[cfg(feature = "cli")]
     pub(crate) fn is_missing(&self) -> bool {
         matches!(self, Unreadable::System(error) if error.kind() == io::ErrorKind::NotFound)
     }

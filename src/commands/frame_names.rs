@@ -8,11 +8,14 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use crate::commands::manifest;
-use crate::view::png;
-use crate::window::regular_file;
+use crate::picture_note::{NOTED_WITHIN, is_encoded_here};
+use crate::regular_file;
 
 /// The most frames in a folder: as many as six digits number.
 pub(crate) const MOST_FRAMES: u32 = 1_000_000;
+
+/// The directory of a complete set of new frames. Once it has this name, the frames replace the old ones.
+pub(crate) const READY: &str = ".regatta-blessed";
 
 /// The file name of the frame with this number, from 0.
 pub(crate) fn frame_name(frame: u32) -> String {
@@ -28,8 +31,8 @@ pub(crate) fn frame_number(name: &str) -> Option<u32> {
 
 /// Whether the picture at `path` bears this program's mark.
 pub(crate) fn is_marked(path: &Path) -> bool {
-    let start = regular_file::read_start(path, png::NOTED_WITHIN);
-    start.is_ok_and(|start| png::is_encoded_here(&start))
+    let start = regular_file::read_start(path, NOTED_WITHIN);
+    start.is_ok_and(|start| is_encoded_here(&start))
 }
 
 /// The files listed in the manifest at `path`, of any schema; `None` if a capture did not write it.
@@ -44,6 +47,13 @@ pub(crate) fn frames_claimed(path: &Path) -> Option<BTreeSet<String>> {
         files.map(String::from).collect()
     };
     is_ours.then(|| manifest["frames"].as_array().map(files).unwrap_or_default())
+}
+
+/// Whether the swap of a `--bless` was interrupted: the manifest, which comes last, has not taken its place.
+pub(crate) fn is_pending(clip: &Path) -> bool {
+    let ready = clip.join(READY);
+    fs::symlink_metadata(&ready).is_ok_and(|entry| entry.is_dir())
+        && frames_claimed(&ready.join(manifest::FILE_NAME)).is_some()
 }
 
 /// Whether `path` is the place of the manifest or of a frame in `clip`, existing or not, or a file that any
@@ -93,7 +103,8 @@ mod tests {
             fs::write(&path, bytes).unwrap();
             path
         };
-        assert!(is_marked(&file("frame-000000.png", &png::encode([1, 1], &[0; 4]))));
+        let encoded = b"\x89PNG\r\n\x1a\n....IHDR.................tEXtSoftware\0regatta....";
+        assert!(is_marked(&file("frame-000000.png", encoded)));
         assert!(!is_marked(&file("frame-000000.png", b"my own")));
         let text = r#"{"schema":9,"regatta":"0.1.0","settings_hash":"x","frames":[{"file":"a"}]}"#;
         let ours = file("manifest.json", text.as_bytes());
