@@ -344,7 +344,7 @@ mod tests {
             let mut lab = line.experiment.load(Lineup::Solo).unwrap().lab();
             assert_eq!(lab.entries()[lab.active()].method.id, ids[0]);
             lab.analyse();
-            let outcome = |entry: usize| lab.viewer().verdict(entry).unwrap().outcome;
+            let outcome = |entry: usize| lab.viewer().verdict(entry).unwrap().outcome();
             let best = (0..count).map(outcome).min().unwrap();
             assert_ne!(outcome(0), best);
             assert_eq!(outcome(lab.active()) == best, is_best, "{count}");

@@ -34,7 +34,8 @@ One row for each scene, body, method and tick rate, in that order whatever the n
   scene, body, method, tick_hz
   seconds               simulated seconds that the run got through
   error                 the largest of a coordinate or a velocity on the way, as a part of its
-                        amplitude; empty where the method did not come to the end
+                        amplitude; empty where the method did not come to the end or there is no
+                        truth
   energy_drift_percent  the largest on the way, of the energy that the exact motion exchanges, or
                         without a reference of the largest kinetic energy or the most lost; empty
                         where the body conserves no energy
@@ -42,7 +43,7 @@ One row for each scene, body, method and tick rate, in that order whatever the n
   ns_per_s              nanoseconds per simulated second, measured here and now, one run at a
                         time
   verdict               rounding, accurate, out-of-phase, loses-energy, gains-energy, blew-up,
-                        gave-up, no-truth or not-judged
+                        gave-up, no-truth or not-judged; in JSON an object with that as its kind
   halted                why, if it blew up or gave up: a method that blows up is a row like others
   half_life_ms          the time in which a follower covers half of the way to a target that
                         stays; empty where it does not, and of other bodies
@@ -196,19 +197,19 @@ const COLUMNS: &[Column<Row>] = &[
     Column { key: "method", heading: None, value: |row| json!(row.method.id) },
     Column { key: "tick_hz", heading: None, value: |row| json!(row.tick_hz) },
     Column { key: "seconds", heading: None, value: |row| json!(row.seconds()) },
-    Column { key: "error", heading: None, value: |row| json!(row.error()) },
+    Column { key: "error", heading: None, value: |row| json!(row.verdict.error()) },
     Column {
         key: "energy_drift_percent",
         heading: None,
-        value: |row| json!(row.verdict.energy_drift),
+        value: |row| json!(row.verdict.energy_drift_percent()),
     },
     Column { key: "evaluations_per_s", heading: None, value: |row| json!(row.evaluations_per_s()) },
     Column { key: "ns_per_s", heading: None, value: |row| json!(row.ns_per_s.map(f64::round)) },
-    Column { key: "verdict", heading: None, value: |row| json!(row.verdict.outcome.id()) },
+    Column { key: "verdict", heading: None, value: |row| json!(row.verdict) },
     Column {
         key: "halted",
         heading: None,
-        value: |row| json!(row.verdict.failure.as_ref().map(|failure| failure.cause.to_string())),
+        value: |row| json!(row.verdict.failure().map(|failure| failure.cause.to_string())),
     },
     Column {
         key: "half_life_ms",

@@ -2,6 +2,7 @@
 //! runs of it.
 
 mod advice;
+mod amplitude;
 mod by_energy;
 mod change;
 mod chase_finding;
@@ -27,6 +28,7 @@ pub use advice::{
     Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS,
     MethodAdvice, recommended,
 };
+pub use amplitude::Change;
 pub use chase_finding::ChaseFinding;
 pub use energy_finding::EnergyFinding;
 pub use judge::{Judge, MAX_HORIZON_S};
@@ -35,5 +37,7 @@ pub use outcome::{Outcome, Severity};
 pub use run::MAX_WORK;
 pub use stability_map::{Coverage, Here, MapRequest, Region, SeenLine, StabilityMap};
 pub use truth::LONG_RUN;
-pub use verdict::{NoTruth, NotJudged, RunFailure, Verdict, duration};
+pub use verdict::{
+    Comparison, Finding, LongTerm, NoTruth, NotJudged, RunFailure, Verdict, duration,
+};
 pub use worker::{Advice, AdvisedBodies, AnalysisRequest, AnalysisWorker, Findings};

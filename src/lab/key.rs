@@ -1,6 +1,8 @@
 //! The keys that commands are bound to: [`KEYS`] is the one table from which the window, the help overlay and
 //! `regatta list keys` are made.
 
+use std::fmt;
+
 use super::command::Command;
 use super::loop_lab::LoopCommand;
 
@@ -39,6 +41,30 @@ pub enum Key {
     Escape,
     /// A function key.
     Function(u8),
+}
+
+/// As people call it.
+impl fmt::Display for Key {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Key::Digit(digit) => write!(f, "{digit}"),
+            Key::Sign(sign) => write!(f, "{}", sign.to_uppercase()),
+            Key::ShiftSign(sign) => write!(f, "Shift {}", sign.to_uppercase()),
+            Key::ControlSign(sign) => write!(f, "Ctrl {}", sign.to_uppercase()),
+            Key::ControlShiftSign(sign) => write!(f, "Ctrl Shift {}", sign.to_uppercase()),
+            Key::Function(number) => write!(f, "F{number}"),
+            Key::Space => f.write_str("Space"),
+            Key::Up => f.write_str("↑"),
+            Key::Down => f.write_str("↓"),
+            Key::Left => f.write_str("←"),
+            Key::Right => f.write_str("→"),
+            Key::Home => f.write_str("Home"),
+            Key::PageUp => f.write_str("Page Up"),
+            Key::PageDown => f.write_str("Page Down"),
+            Key::Enter => f.write_str("Enter"),
+            Key::Escape => f.write_str("Esc"),
+        }
+    }
 }
 
 /// One line of the key table.

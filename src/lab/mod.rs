@@ -60,11 +60,12 @@ pub use crate::sim::number;
 pub use crate::sim::stability::NoSmallMotion;
 pub use action::Action;
 pub use analysis::{
-    Advice, AdvisedBodies, Adviser, AnalysisRequest, AnalysisWorker, CRITERIA, ChaseFinding,
-    Coverage, Criterion, CriterionMet, CriterionResult, EnergyFinding, FREQUENCY_TOLERANCE,
-    Findings, Here, Judge, LONG_RUN, MAX_ADVISED_SUBSTEPS, MAX_HORIZON_S, MAX_WORK, MapRequest,
-    MethodAdvice, NoTruth, NotJudged, Outcome, Region, RunFailure, SeenLine, Severity,
-    StabilityMap, TOLERANCE, VISIBLE, Verdict, duration, recommended,
+    Advice, AdvisedBodies, Adviser, AnalysisRequest, AnalysisWorker, CRITERIA, Change,
+    ChaseFinding, Comparison, Coverage, Criterion, CriterionMet, CriterionResult, EnergyFinding,
+    FREQUENCY_TOLERANCE, Finding, Findings, Here, Judge, LONG_RUN, LongTerm, MAX_ADVISED_SUBSTEPS,
+    MAX_HORIZON_S, MAX_WORK, MapRequest, MethodAdvice, NoTruth, NotJudged, Outcome, Region,
+    RunFailure, SeenLine, Severity, StabilityMap, TOLERANCE, VISIBLE, Verdict, duration,
+    recommended,
 };
 pub use appearance::Appearance;
 pub use chase::Chase;

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::analysis::{
     Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS,
-    MethodAdvice, recommended,
+    MethodAdvice, Verdict, recommended,
 };
 use super::custom::{Options, scene};
 use super::scene::Scene;
@@ -62,12 +62,8 @@ pub struct Report {
 pub struct MethodReport {
     /// Its id.
     pub method: &'static str,
-    /// Its [outcome](super::Outcome) in a word.
-    pub word: &'static str,
-    /// The verdict in a sentence.
-    pub verdict: String,
-    /// The largest error in amplitudes; `None` if it failed.
-    pub error: Option<f64>,
+    /// The verdict, displayed as a sentence.
+    pub verdict: Verdict,
     /// How it meets each criterion with the fewest substeps; `None` if it does not, or if it is not known.
     pub criteria: Criteria<Option<CriterionMet>>,
 }
@@ -159,12 +155,9 @@ impl Report {
 }
 
 fn method(advice: &MethodAdvice, place: &dyn Fn(Criterion) -> usize) -> MethodReport {
-    let verdict = &advice.verdict;
     MethodReport {
         method: advice.spec.method.id,
-        word: verdict.outcome.id(),
-        verdict: verdict.to_string(),
-        error: Some(verdict.error).filter(|error| error.is_finite()),
+        verdict: advice.verdict.clone(),
         criteria: Criteria::of(|criterion| advice.met[place(criterion)].met().cloned()),
     }
 }

@@ -47,6 +47,11 @@ pub const MAX_CONSTANTS: usize = 64;
 pub const UNITS: [&str; 14] =
     ["m", "rad", "km", "cm", "mm", "deg", "kg", "N", "J", "V", "A", "C", "K", "1"];
 
+/// A unit for people: empty for that of a pure number.
+pub(in crate::sim) fn shown_unit(unit: &'static str) -> &'static str {
+    if unit == "1" { "" } else { unit }
+}
+
 /// The operators of expressions: signs and words.
 pub fn operators() -> impl Iterator<Item = &'static str> {
     token::operator_signs().chain(op::OPERATOR_WORDS)

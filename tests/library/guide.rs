@@ -218,34 +218,41 @@ fn the_ships_settle_at_half_the_step_only() {
 
 #[test]
 fn the_verdicts_on_the_springs_are_those_that_the_guide_names() {
-    let outcome = |scene: &str, id: &str, hz: u32| verdict(scene, id, hz).outcome;
+    let outcome = |scene: &str, id: &str, hz: u32| verdict(scene, id, hz).outcome();
     for hz in [60, 100, 1000] {
         assert_eq!(outcome("spring", "explicit-euler", hz), Outcome::GainsEnergy, "{hz}");
     }
     let (at_60, at_100) =
         (verdict("spring", "explicit-euler", 60), verdict("spring", "explicit-euler", 100));
-    assert!(at_100.doubles_in_s > at_60.doubles_in_s);
+    assert!(at_100.long_term.doubles_in_s > at_60.long_term.doubles_in_s);
     let held = verdict("spring", "semi-implicit-euler", 60);
-    assert_eq!(held.is_bounded, Some(true));
-    assert!(held.frequency_error.is_some_and(|error| error > 0.0), "a little too fast");
-    assert_eq!(verdict("stiff", "semi-implicit-euler", 60).is_bounded, Some(true));
-    assert_eq!(verdict("stiff", "semi-implicit-euler", 50).is_bounded, Some(true));
+    assert_eq!(held.long_term.is_bounded, Some(true));
+    assert!(
+        held.comparison().unwrap().frequency_error.is_some_and(|error| error > 0.0),
+        "a little too fast"
+    );
+    assert_eq!(verdict("stiff", "semi-implicit-euler", 60).long_term.is_bounded, Some(true));
+    assert_eq!(verdict("stiff", "semi-implicit-euler", 50).long_term.is_bounded, Some(true));
     for hz in [49, 30] {
         assert_eq!(outcome("stiff", "semi-implicit-euler", hz), Outcome::BlewUp);
     }
     for hz in [60, 30, 2] {
         let implicit = verdict("stiff", "implicit-euler", hz);
-        assert_eq!(implicit.is_bounded, Some(true), "{hz}");
+        assert_eq!(implicit.long_term.is_bounded, Some(true), "{hz}");
     }
     let implicit = verdict("stiff", "implicit-euler", 30);
-    assert_eq!(implicit.outcome, Outcome::LosesEnergy);
-    assert!(implicit.halves_in_s.is_some_and(|s| s < 0.2), "{:?}", implicit.halves_in_s);
+    assert_eq!(implicit.outcome(), Outcome::LosesEnergy);
+    assert!(
+        implicit.long_term.halves_in_s.is_some_and(|s| s < 0.2),
+        "{:?}",
+        implicit.long_term.halves_in_s
+    );
 }
 
 #[test]
 fn runge_kutta_on_the_ship_comes_within_rounding_and_then_more_ticks_take_no_error_away() {
-    assert_eq!(verdict("ship", "rk4", 2).outcome, Outcome::Accurate);
-    assert_eq!(verdict("ship", "rk4", 30).outcome, Outcome::Rounding);
+    assert_eq!(verdict("ship", "rk4", 2).outcome(), Outcome::Accurate);
+    assert_eq!(verdict("ship", "rk4", 30).outcome(), Outcome::Rounding);
     let [fine, finest] = [240, 10_000].map(|hz| error_percent("rk4", hz).abs());
     // Truncation alone would be three million times smaller.
     assert!(finest > 0.1 * fine, "{fine} {finest}");
@@ -293,7 +300,7 @@ fn a_spring_4_times_as_stiff_needs_2_times_the_tick_rate() {
         let place = body.kind.parameters.iter().position(|it| it.key == key).unwrap();
         body.values[place] *= stiffness;
         let spec = LaneSpec::plain(method("semi-implicit-euler").unwrap());
-        Judge::new(&scene, 1.0).verdict(spec, hz).is_bounded
+        Judge::new(&scene, 1.0).verdict(spec, hz).long_term.is_bounded
     };
     assert_eq!([49, 50].map(|hz| is_bounded(1.0, hz)), [Some(false), Some(true)]);
     assert_eq!([99, 100].map(|hz| is_bounded(4.0, hz)), [Some(false), Some(true)]);

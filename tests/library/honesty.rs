@@ -201,7 +201,7 @@ fn lies(scene: &Scene, spec: LaneSpec, tick_hz: u32, verdict: &Verdict) -> Vec<S
         }
     };
     let near = |a: f64, b: f64, part: f64| (a - b).abs() <= part * b.abs();
-    match verdict.outcome {
+    match verdict.outcome() {
         Outcome::NotJudged | Outcome::NoTruth => return lies,
         Outcome::BlewUp | Outcome::GaveUp => {
             check(plain.error.is_infinite(), "it came through".into());
@@ -210,31 +210,32 @@ fn lies(scene: &Scene, spec: LaneSpec, tick_hz: u32, verdict: &Verdict) -> Vec<S
         _ => {}
     }
     let rounding = if kind.truth == Truth::Exact { 1e-9 } else { 2e-9 };
+    let compared = verdict.comparison().expect("there is a truth");
     check(
-        near(verdict.error, plain.error, 0.01) || (verdict.error - plain.error).abs() < rounding,
-        format!("error {} not {}", verdict.error, plain.error),
+        near(compared.error, plain.error, 0.01) || (compared.error - plain.error).abs() < rounding,
+        format!("error {} not {}", compared.error, plain.error),
     );
     check(
-        (verdict.outcome <= Outcome::Accurate) == (plain.error <= 0.01)
+        (verdict.outcome() <= Outcome::Accurate) == (plain.error <= 0.01)
             || near(plain.error, 0.01, 0.01),
-        format!("{} with an error of {}", verdict.outcome.id(), plain.error),
+        format!("{} with an error of {}", verdict.outcome().id(), plain.error),
     );
-    if verdict.is_bounded == Some(true) {
+    if verdict.long_term.is_bounded == Some(true) {
         check(plain.failed_at.is_none(), format!("bounded, and fails at {:?}", plain.failed_at));
         let tenth = plain.reach.len() / 10;
         let most = |part: &[f64]| part.iter().fold(0.0_f64, |most, x| most.max(*x));
         let (early, late) = (most(&plain.reach[..tenth]), most(&plain.reach[tenth..]));
         let most = if matches!(kind.id, "spring" | "chain") { 1.3 } else { 2.0 };
-        let swings = verdict.swings;
+        let swings = verdict.long_term.swings;
         check(!swings || late <= most * early.max(1.0), format!("bounded: {early} then {late}"));
     }
-    if verdict.is_bounded == Some(false) {
+    if verdict.long_term.is_bounded == Some(false) {
         check(grows(scene, spec, tick_hz, verdict), "not bounded, and nothing grows".into());
     }
     let undamped_spring = kind.id == "spring" && scene.bodies[0].values[2] == 0.0;
-    if let Some(doubles) = verdict.doubles_in_s
+    if let Some(doubles) = verdict.long_term.doubles_in_s
         && doubles * hz < 0.9 * plain.reach.len() as f64
-        && verdict.swings
+        && verdict.long_term.swings
     {
         let at = if undamped_spring {
             let start = stepper(scene, Solver::Truth).energy().unwrap();
@@ -251,7 +252,7 @@ fn lies(scene: &Scene, spec: LaneSpec, tick_hz: u32, verdict: &Verdict) -> Vec<S
             );
         }
     }
-    if let Some(halves) = verdict.halves_in_s
+    if let Some(halves) = verdict.long_term.halves_in_s
         && halves * hz < 0.9 * plain.reach.len() as f64
         && undamped_spring
     {
@@ -268,8 +269,9 @@ fn lies(scene: &Scene, spec: LaneSpec, tick_hz: u32, verdict: &Verdict) -> Vec<S
         );
     }
     // A swing that changes much from tick to tick does not pass its middle evenly.
-    let changes_in = verdict.doubles_in_s.into_iter().chain(verdict.halves_in_s);
-    if let Some(error) = verdict.frequency_error
+    let changes_in =
+        verdict.long_term.doubles_in_s.into_iter().chain(verdict.long_term.halves_in_s);
+    if let Some(error) = compared.frequency_error
         && changes_in.fold(f64::INFINITY, f64::min) * hz > 20.0
         && (kind.id == "spring" || kind.id == "pendulum")
     {
@@ -312,7 +314,7 @@ fn grows(scene: &Scene, spec: LaneSpec, tick_hz: u32, verdict: &Verdict) -> bool
     if is_linear && method.tolerance.is_none() {
         return grows_within_a_year(scene, spec, tick_hz)
             || method.restart.is_some()
-                && verdict.doubles_in_s.is_none_or(|doubles| doubles > seconds);
+                && verdict.long_term.doubles_in_s.is_none_or(|doubles| doubles > seconds);
     }
     let about_origin = scene.bodies[0].kind.id == "orbit";
     let sizes = |x: &[f64]| -> Vec<f64> {
@@ -402,7 +404,7 @@ fn an_ellipse_that_turns_does_not_grow() {
         let spec = LaneSpec::plain(regatta::sim::integrators::method(id).unwrap());
         let found = Judge::new(scene, 1.0).verdict(spec, tick_hz);
         let wanted = !grows(scene, spec, tick_hz, &found);
-        assert_eq!(found.is_bounded, Some(wanted), "{id} at {tick_hz} Hz: {found}");
+        assert_eq!(found.long_term.is_bounded, Some(wanted), "{id} at {tick_hz} Hz: {found}");
     }
 }
 
@@ -418,7 +420,7 @@ fn verdicts_on_random_scenes_are_true() {
         let tick_hz = dice.scaled(2.0, 500.0).round() as u32;
         let verdict = Judge::new(&scene, 1.0).verdict(spec, tick_hz);
         let what = format!("{} at {tick_hz} Hz on\n{text}  says: {verdict}", spec.method.id);
-        match verdict.outcome {
+        match verdict.outcome() {
             Outcome::NotJudged => unknown.push(what),
             Outcome::NoTruth => unknown.push(what),
             _ => {

@@ -365,12 +365,7 @@ fn events_are_ordered_by_tick_and_are_discarded_and_restored_with_their_future()
     let ticks: Vec<u64> = timeline.events().iter().map(|event| event.tick).collect();
     assert_eq!(ticks, [50, 100]);
     assert!(timeline.undo());
-    assert_eq!((timeline.events(), timeline.end()), (events.clone(), 300));
-
-    timeline.seek(300);
-    timeline.act(Action::Kick(0.1));
-    let kept = timeline.events();
-    assert_eq!((&kept[..events.len()], kept.len()), (&events[..], events.len() + 1));
+    assert_eq!((timeline.events(), timeline.end()), (events, 300));
 }
 
 #[test]

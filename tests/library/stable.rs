@@ -104,9 +104,8 @@ fn a_report_has_the_fields_that_are_promised() {
     }
     let ids: Vec<&str> = methods.iter().map(|row| row.method).collect();
     assert_eq!(ids, two);
-    for MethodReport { method: _, word, verdict, error, criteria } in methods {
-        assert!(!word.contains(' ') && verdict.len() > word.len());
-        assert!(error.is_some_and(f64::is_finite));
+    for MethodReport { method: _, verdict, criteria } in methods {
+        assert!(verdict.error().is_some_and(f64::is_finite));
         assert!(criteria.accurate.is_some());
     }
 }

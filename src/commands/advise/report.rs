@@ -7,7 +7,7 @@ use crate::commands::output::table::{self, Column};
 use crate::lab::number::round;
 use crate::lab::{
     Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, Language, MAX_ADVISED_SUBSTEPS,
-    Precision, Recommendation, Scene, Verdict, source_code,
+    Precision, Recommendation, Scene, source_code,
 };
 
 /// The answer as text: the recommendations, the recommended method in this language if there is one, the verdicts, and
@@ -120,26 +120,20 @@ pub(super) fn object(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usi
         "horizon_s": adviser.judge().horizon_s(),
         "bodies": scene.bodies.iter().map(|body| &body.name).collect::<Vec<_>>(),
         "complete": rows.len() == wanted,
-        "methods": rows.iter().map(|row| method(scene, row)).collect::<Vec<_>>(),
+        "methods": rows.iter().map(method).collect::<Vec<_>>(),
         "recommended": recommended.collect::<Map<_, _>>(),
     })
 }
 
-fn method(scene: &Scene, row: &Row) -> Value {
-    let Verdict { outcome, body, error, doubles_in_s, halves_in_s, frequency_error, .. } =
-        &row.advised.verdict;
+fn method(row: &Row) -> Value {
     let criteria = CRITERIA.iter().enumerate().map(|(i, criterion)| {
         let found = match &row.advised.met[i] {
-            CriterionResult::With(met) => json!({
-                "met": true,
-                "substeps": met.substeps,
-                "evaluations_per_s": met.evaluations_per_s,
-                "ns_per_s": row.ns_per_s(i).map(f64::round),
-                "margins_searched": met.are_margins_searched,
-                "slowest_hz": met.slowest_hz,
-                "stiffness_factor": met.stiffness_factor,
-                "limited_by": met.limited_by,
-            }),
+            CriterionResult::With(met) => {
+                let mut found = json!(met);
+                found["met"] = true.into();
+                found["ns_per_s"] = json!(row.ns_per_s(i).map(f64::round));
+                found
+            }
             CriterionResult::No => json!({ "met": false }),
             CriterionResult::Unknown => Value::Null,
         };
@@ -147,22 +141,9 @@ fn method(scene: &Scene, row: &Row) -> Value {
     });
     let mut object = json!({
         "method": row.advised.spec.method.id,
-        "verdict": {
-            "word": outcome.id(),
-            "body": scene.bodies[*body].name,
-            "error": Some(*error).filter(|error| error.is_finite()),
-            "doubles_in_s": doubles_in_s,
-            "halves_in_s": halves_in_s,
-            "frequency_error": frequency_error,
-            "text": row.advised.verdict.to_string(),
-        },
+        "verdict": row.advised.verdict,
         "criteria": criteria.collect::<Map<_, _>>(),
     });
-    if let Some(chase) = &row.advised.verdict.chase {
-        object["verdict"]["half_life_s"] = json!(chase.half_life_s);
-        object["verdict"]["true_half_life_s"] = json!(chase.true_half_life_s);
-        object["verdict"]["overshoot_percent"] = json!(chase.overshoot_percent);
-    }
     if let Some(rates) = &row.rates {
         let rates = CRITERIA.iter().zip(rates).map(|(c, hz)| (c.id().to_owned(), json!(hz)));
         object["rates"] = Value::Object(rates.collect());

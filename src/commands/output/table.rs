@@ -60,11 +60,16 @@ pub(crate) fn rows<T>(format: RowFormat, columns: &[Column<T>], items: &[T]) -> 
 /// A cell of CSV: text quoted only if it must be, numbers as in JSON, so that they read back the same, and
 /// nothing for `Null`.
 fn bare(value: &Value) -> String {
-    match value {
+    match in_a_cell(value) {
         Value::Null => String::new(),
         Value::String(text) => csv_cell(text),
         value => value.to_string(),
     }
+}
+
+/// What stands in a cell for a value: for an object its kind.
+fn in_a_cell(value: &Value) -> &Value {
+    value.get("kind").unwrap_or(value)
 }
 
 /// Text as a cell of CSV, quoted if it must be.
@@ -93,7 +98,7 @@ pub(crate) fn text<T>(columns: &[Column<T>], items: &[T], indent: &str) -> Strin
 }
 
 fn plain(value: &Value) -> String {
-    match value {
+    match in_a_cell(value) {
         Value::Null => "-".into(),
         Value::Bool(true) => "yes".into(),
         Value::Bool(false) => "no".into(),

@@ -88,7 +88,7 @@ impl Row {
     /// The simulated seconds of the run.
     pub(super) fn seconds(&self) -> f64 {
         let verdict = &self.verdict;
-        verdict.failure.as_ref().map_or(verdict.seconds, |failure| failure.t)
+        verdict.failure().map_or(verdict.seconds, |failure| failure.t)
     }
 
     /// Evaluations of the body's acceleration per simulated second.
@@ -96,11 +96,6 @@ impl Row {
         let (verdict, hz) = (&self.verdict, f64::from(self.tick_hz));
         // Whole ticks, so that a method with a fixed number of evaluations per step has a whole number.
         verdict.evaluations as f64 * hz / (verdict.seconds * hz).round()
-    }
-
-    /// The largest error in amplitudes; `None` if the run ended early.
-    pub(super) fn error(&self) -> Option<f64> {
-        Some(self.verdict.error).filter(|error| error.is_finite())
     }
 }
 

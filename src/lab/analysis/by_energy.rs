@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use super::change::{Change, amplitude};
+use super::amplitude::{Change, amplitude};
 use super::energy::Means;
 use super::energy_finding::EnergyFinding;
 use super::followed_body::FollowedBody;
@@ -22,11 +22,7 @@ const WORK_OF_RADIUS: u64 = 12;
 /// A run without a truth.
 pub(super) struct EnergyRun {
     pub(super) finding: EnergyFinding,
-    /// How the energy changes.
-    pub(super) change: Change,
     pub(super) failure: Option<RunFailure>,
-    /// The change of a conserved energy of largest magnitude, in percent of the unit of [`EnergyFinding::change`].
-    pub(super) drift: Option<f64>,
     /// Whether the run was stopped within the horizon because it took too much work.
     pub(super) is_too_much: bool,
     pub(super) evaluations: u64,
@@ -36,9 +32,7 @@ pub(super) struct EnergyRun {
 impl EnergyRun {
     /// Whether neither the energy nor a small deviation grows.
     pub(super) fn is_bounded(&self) -> bool {
-        self.failure.is_none()
-            && self.change != Change::Grows
-            && !self.finding.has_growing_deviations()
+        self.failure.is_none() && self.finding.is_bounded()
     }
 }
 
@@ -74,11 +68,11 @@ pub(super) fn follow_energy(
     let mut run = EnergyRun {
         finding: EnergyFinding {
             change: 0.0,
+            trend: Change::None,
+            drift_percent: None,
             is_conserved,
             spectral_radius: radius.ok().flatten().filter(|radius| radius.is_finite()),
         },
-        change: Change::None,
-        drift: None,
         is_too_much: stop == StopReason::TooMuchWork,
         failure: RunFailure::of(stop, follow.t()),
         evaluations,
@@ -89,8 +83,8 @@ pub(super) fn follow_energy(
         let [first, .., last] = means.means().map(|mean| mean / scale);
         run.finding.change = last;
         let drift = if gained > lost { gained } else { -lost };
-        run.drift = is_conserved.then_some(100.0 * drift / scale);
-        run.change = if is_conserved {
+        run.finding.drift_percent = is_conserved.then_some(100.0 * drift / scale);
+        run.finding.trend = if is_conserved {
             Change::between(amplitude(first), amplitude(last))
         } else if last > first.max(0.0) + 2.0 * VISIBLE {
             Change::Grows

@@ -1,10 +1,10 @@
 //! The change of a body's amplitude, within the horizon and in the long run, from a run.
 
+use super::amplitude::{Change, amplitude};
 use super::frequency::{FrequencyError, frequency_error};
-use super::limits::VISIBLE;
 use super::run::Run;
 use super::truth::{BodyTruth, Swing};
-use super::verdict::Verdict;
+use super::verdict::LongTerm;
 use crate::sim::stability::FOREVER_S;
 
 /// The relative growth of the swing over the second half of the long run above which it counts as growth.
@@ -13,69 +13,46 @@ const GROWTH_SEEN: f64 = 2e-3;
 /// How alike the gains of energy from quarter to quarter of the long run are where they are steady, smallest to largest.
 const STEADY: f64 = 0.5;
 
-/// A change of the amplitude by this factor counts even if it happens at once and then stops.
-const LEAP: f64 = 1.5;
-
-/// The change of the amplitude within the horizon.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Change {
-    None,
-    Grows,
-    Dies,
+/// How the amplitude, the energy and the frequency of a motion change.
+pub(super) struct MotionChange {
+    pub(super) long_term: LongTerm,
+    /// The change of the amplitude within the horizon.
+    pub(super) within: Change,
+    pub(super) energy_change: Option<f64>,
+    pub(super) frequency_error: Option<f64>,
 }
 
-impl Change {
-    /// The change of a swing whose amplitude has changed by this factor.
-    pub(super) fn of(amplitude: f64) -> Self {
-        match amplitude {
-            a if a >= 1.0 + VISIBLE => Change::Grows,
-            a if a <= 1.0 - VISIBLE => Change::Dies,
-            _ => Change::None,
+impl MotionChange {
+    /// The change of the motion in a run.
+    pub(super) fn of_run(truth: &BodyTruth, run: &Run, horizon_s: f64) -> Self {
+        let period = truth.swing.as_ref().map_or(horizon_s, Swing::period);
+        let end = run.followed_s;
+        // The swing stays small for some turns, after so many turns that the time of halving is sharp.
+        let died = |t: f64| end - t >= 4.0 * period && t >= 10.0 * period;
+        let long_term = LongTerm {
+            swings: truth.swing.is_some(),
+            doubles_in_s: run.doubled_at.or_else(|| steadily_doubles_in_s(truth, run)),
+            halves_in_s: run.halved_at.filter(|&t| died(t)),
+            parasite_doubles_in_s: None,
+            is_bounded: bounded(truth, run),
+        };
+        let has_in_time = |at: Option<f64>| at.is_some_and(|t| t <= horizon_s);
+        let [first, .., last] = run.quarters.map(amplitude);
+        let conserves = truth.energy_scale.is_some();
+        let rushes = !conserves && has_in_time(run.velocity_doubled_at);
+        let within = match conserves {
+            _ if rushes || has_in_time(run.doubled_at) => Change::Grows,
+            true => Change::between(first, last),
+            false => Change::None,
+        };
+        let frequency_error = frequency_error(truth, run).filter(FrequencyError::is_steady);
+        Self {
+            long_term,
+            within,
+            energy_change: Some(run.quarters[3]).filter(|change| conserves && change.is_finite()),
+            frequency_error: frequency_error.map(|measured| measured.error),
         }
     }
-
-    /// The change of a swing whose amplitude, in units of the initial one, is `first` in the first quarter and `last` in
-    /// the last. A change that happens at once and then stops does not count, unless it is a [leap](LEAP).
-    pub(super) fn between(first: f64, last: f64) -> Self {
-        let trend = Change::of(last / first);
-        match Change::of(last) {
-            Change::Grows if trend == Change::Grows || last >= LEAP => Change::Grows,
-            Change::Dies if trend == Change::Dies || last * LEAP <= 1.0 => Change::Dies,
-            _ => Change::None,
-        }
-    }
-}
-
-/// Puts the change of the motion into a verdict, from the run, and returns the change within the horizon.
-pub(super) fn fill_from_run(
-    verdict: &mut Verdict,
-    truth: &BodyTruth,
-    run: &Run,
-    horizon_s: f64,
-) -> Change {
-    verdict.is_bounded = bounded(truth, run);
-    verdict.doubles_in_s = run.doubled_at.or_else(|| steadily_doubles_in_s(truth, run));
-    let period = truth.swing.as_ref().map_or(horizon_s, Swing::period);
-    let end = run.followed_s;
-    // The swing stays small for some turns, after so many turns that the time of halving is sharp.
-    let died = |t: f64| end - t >= 4.0 * period && t >= 10.0 * period;
-    verdict.halves_in_s = run.halved_at.filter(|&t| died(t));
-    verdict.frequency_error = frequency_error(truth, run)
-        .filter(FrequencyError::is_steady)
-        .map(|measured| measured.error);
-    let within = |at: Option<f64>| at.is_some_and(|t| t <= horizon_s);
-    if truth.energy_scale.is_none() {
-        let grows = within(run.doubled_at) || within(run.velocity_doubled_at);
-        return if grows { Change::Grows } else { Change::None };
-    }
-    verdict.energy_change = Some(run.quarters[3]).filter(|change| change.is_finite());
-    let [first, .., last] = run.quarters.map(amplitude);
-    if within(run.doubled_at) { Change::Grows } else { Change::between(first, last) }
-}
-
-/// The amplitude, in units of the initial one, of a swing whose energy has changed by this part.
-pub(super) fn amplitude(energy_change: f64) -> f64 {
-    (1.0 + energy_change).max(0.0).sqrt()
 }
 
 /// Whether the amplitude of a body stays bounded by the true one; `None` if the run did not get to its end.
@@ -113,45 +90,23 @@ mod tests {
     use super::*;
     use crate::lab::analysis::run::{MAX_WORK, Until, follow};
     use crate::lab::analysis::verdict::RunFailure;
-    use crate::lab::{Judge, LaneSpec, Scene};
+    use crate::lab::{LaneSpec, Scene};
     use crate::sim::integrators::StepFailure;
     use crate::sim::integrators::method;
 
-    #[test]
-    fn a_change_goes_on_or_is_a_leap() {
-        for (first, last, change) in [
-            (1.0, 1.06, Change::Grows),
-            (1.04, 1.06, Change::None),
-            (1.0, 1.04, Change::None),
-            (1.45, 1.49, Change::None),
-            (1.45, 1.51, Change::Grows),
-            (1.0, 0.94, Change::Dies),
-            (0.96, 0.94, Change::None),
-            (1.0, 0.96, Change::None),
-            (0.69, 0.67, Change::None),
-            (0.69, 0.66, Change::Dies),
-            // What grows first and then dies has not grown.
-            (2.0, 1.2, Change::None),
-        ] {
-            assert_eq!(Change::between(first, last), change, "{first} to {last}");
-        }
-    }
-
     /// A run to the end of a swing that neither grows nor dies.
-    fn followed() -> (BodyTruth, Run, Verdict) {
+    fn followed() -> (BodyTruth, Run) {
         let text = "title = 't'\ntick_hz = 60\nseconds = 10\n[[pendulum]]\nlength_m = 1\n";
         let scene = Scene::parse("t", text).unwrap();
         let spec = LaneSpec::plain(method("velocity-verlet").unwrap());
-        let judge = Judge::new(&scene, 1.0);
-        let verdict = judge.verdict(spec, 60);
         let truth = BodyTruth::new(&scene.bodies[0], &[], 1.0, scene.seconds);
         let run = follow(&truth, spec, 60, Until::LongRun, MAX_WORK);
-        (truth, run, verdict)
+        (truth, run)
     }
 
     #[test]
     fn bounded_is_what_neither_fails_nor_leaves_nor_goes_on_gaining() {
-        let (mut truth, run, _) = followed();
+        let (mut truth, run) = followed();
         let cause = StepFailure::Escaped { coordinate: "x".into(), value: 1e39 };
         let failure = Some(RunFailure { t: 1.0, cause: cause.clone() });
         let cases: [(&str, Run, Option<bool>); 12] = [
@@ -196,8 +151,8 @@ mod tests {
 
     #[test]
     fn what_grows_after_the_horizon_has_not_grown_within_it() {
-        let (mut truth, run, mut verdict) = followed();
-        let mut tell = |run: &Run, truth: &BodyTruth| fill_from_run(&mut verdict, truth, run, 10.0);
+        let (mut truth, run) = followed();
+        let tell = |run: &Run, truth: &BodyTruth| MotionChange::of_run(truth, run, 10.0).within;
         for (at, change) in [(9.0, Change::Grows), (11.0, Change::None)] {
             let doubled = Run { doubled_at: Some(at), ..run.clone() };
             assert_eq!(tell(&doubled, &truth), change, "doubled at {at} s");

@@ -14,6 +14,7 @@ pub struct CriterionMet {
     /// Evaluations of all bodies' accelerations per simulated second.
     pub evaluations_per_s: f64,
     /// Whether the margins have been searched. Where that is dear, they are for methods of about the least cost only.
+    #[cfg_attr(feature = "serde", serde(rename = "margins_searched"))]
     pub are_margins_searched: bool,
     /// The lowest tick rate in Hz, going down from the requested one, at which the criterion still holds with as many
     /// substeps, as it does at all rates between that were tried; `None` if one hertz lower it is not known, for want of

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::amplitude::Change;
+use super::outcome::Outcome;
 use crate::sim::bodies::Truth;
 use crate::sim::number::round;
 
@@ -14,6 +16,10 @@ pub struct EnergyFinding {
     /// The mean change of the kinetic and potential energy in the last quarter of the run, in units of the
     /// largest kinetic energy or of the most that was lost. What an input brings does not count.
     pub change: f64,
+    /// How the energy changes.
+    pub trend: Change,
+    /// The change of a conserved energy of largest magnitude, in percent of the unit of `change`.
+    pub drift_percent: Option<f64>,
     /// Whether the body conserves its energy, so that a loss is the method's too.
     pub is_conserved: bool,
     /// The spectral radius of a tick about the start, of state and memory; `None` for a method that chooses its
@@ -22,8 +28,21 @@ pub struct EnergyFinding {
 }
 
 impl EnergyFinding {
+    pub(super) fn outcome(&self) -> Outcome {
+        match self.trend {
+            Change::Grows => Outcome::GainsEnergy,
+            Change::Dies => Outcome::LosesEnergy,
+            Change::None => Outcome::NoTruth,
+        }
+    }
+
+    /// Whether neither the energy nor a small deviation grows.
+    pub(super) fn is_bounded(&self) -> bool {
+        self.trend != Change::Grows && !self.has_growing_deviations()
+    }
+
     /// Whether a small deviation grows, as far as the radius is known.
-    pub(super) fn has_growing_deviations(&self) -> bool {
+    fn has_growing_deviations(&self) -> bool {
         self.spectral_radius.is_some_and(|radius| radius >= GROWING_RADIUS)
     }
 

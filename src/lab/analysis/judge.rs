@@ -6,15 +6,14 @@
 //! beyond that.
 
 use super::by_energy::follow_energy;
-use super::change::{Change, fill_from_run};
+use super::change::MotionChange;
 use super::chase_finding::ChaseFinding;
 use super::limits::TOLERANCE;
 use super::modes::Modes;
-use super::outcome::Outcome;
 use super::run::{MAX_WORK, Run, Until, follow};
 use super::survey::TimedInput;
 use super::truth::{BodyTruth, ticks};
-use super::verdict::{NoTruth, NotJudged, Verdict};
+use super::verdict::{Comparison, Finding, LongTerm, NoTruth, NotJudged, Verdict};
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::Scene;
 
@@ -24,9 +23,6 @@ pub(super) use criteria::CriterionFinding;
 
 /// The longest horizon in simulated seconds. A shorter scene is judged over its whole length.
 pub const MAX_HORIZON_S: f64 = 60.0;
-
-/// The largest error in amplitudes that counts as rounding.
-const ROUNDING: f64 = 1e-9;
 
 /// The true motion of a scene, with which lanes are compared.
 pub struct Judge {
@@ -93,15 +89,16 @@ impl Judge {
         let of_body = |body| self.of_body(body, spec, tick_hz, most_work);
         let verdicts: Vec<Verdict> = (0..self.truths.len()).map(of_body).collect();
         let evaluations = verdicts.iter().map(|verdict| verdict.evaluations).sum();
-        let bounded = verdicts.iter().map(|verdict| verdict.is_bounded);
+        let bounded = verdicts.iter().map(|verdict| verdict.long_term.is_bounded);
         let is_bounded = bounded.reduce(|a, b| match (a, b) {
             (Some(false), _) | (_, Some(false)) => Some(false),
             (Some(true), Some(true)) => Some(true),
             _ => None,
         });
-        let worst = verdicts.iter().reduce(|a, b| if b.is_worse_than(a) { b } else { a });
+        let worst = verdicts.iter().reduce(|a, b| if b.badness() > a.badness() { b } else { a });
         let worst = worst.expect("a scene has a body").clone();
-        Verdict { evaluations, is_bounded: is_bounded.flatten(), of_bodies: verdicts, ..worst }
+        let long_term = LongTerm { is_bounded: is_bounded.flatten(), ..worst.long_term };
+        Verdict { evaluations, long_term, of_bodies: verdicts, ..worst }
     }
 
     fn of_body(&self, body: usize, spec: LaneSpec, tick_hz: u32, most_work: u64) -> Verdict {
@@ -114,132 +111,81 @@ impl Judge {
         let modes = found.ok().flatten();
         let until = if modes.is_some() { Until::Horizon } else { Until::LongRun };
         let run = follow(truth, spec, tick_hz, until, most_work);
-        let mut verdict = Verdict {
-            outcome: Outcome::Accurate,
-            body,
-            body_name: (self.truths.len() > 1).then(|| truth.body.name.clone()),
-            error: run.error,
-            error_at_s: run.error_at_s,
-            last_error: run.last_error,
-            swings: truth.swing.is_some(),
-            doubles_in_s: None,
-            halves_in_s: None,
-            parasite_doubles_in_s: None,
-            energy_change: None,
-            frequency_error: None,
-            is_bounded: None,
-            energy_drift: run.energy_drift,
-            chase: ChaseFinding::of(truth, spec, tick_hz, run.chase.as_ref()),
-            failure: run.failure.clone(),
-            by_energy: None,
-            no_truth: None,
-            not_judged: None,
-            evaluations: run.evaluations,
-            seconds: run.seconds,
-            horizon_s: self.horizon_s,
-            starts_at_s: 0.0,
-            of_bodies: Vec::new(),
+        let MotionChange { long_term, within, energy_change, frequency_error } = match &modes {
+            Some(modes) => {
+                modes.change(truth.swing.is_some(), self.horizon_s - truth.last_input_s())
+            }
+            None => MotionChange::of_run(truth, &run, self.horizon_s),
         };
-        let change = match &modes {
-            Some(modes) => modes.fill(&mut verdict, self.horizon_s - truth.last_input_s()),
-            None => fill_from_run(&mut verdict, truth, &run, self.horizon_s),
+        let truth_error = truth.gap(run.seconds, tick_hz);
+        let not_judged = self.not_judged(tick_hz, run.is_cut_short());
+        let finding = if let Some(failure) = run.failure.clone() {
+            Finding::Failed { failure, by_energy: None }
+        } else if let Some(why) = not_judged {
+            Finding::NotJudged(why)
+        } else if let Some(why) = without_truth(truth, &run, truth_error) {
+            Finding::NoTruth(why)
+        } else {
+            Finding::Compared(Comparison {
+                error: run.error,
+                error_at_s: run.error_at_s,
+                last_error: run.last_error,
+                truth_error,
+                change: within,
+                energy_change,
+                energy_drift_percent: run.energy_drift,
+                frequency_error,
+            })
         };
-        if run.failure.is_some() {
-            verdict.is_bounded = Some(false);
-        }
-        verdict.not_judged = match ticks(self.horizon_s, tick_hz) {
-            0 => Some(NotJudged::ShorterThanATick),
-            _ => run.is_cut_short().then_some(NotJudged::TooMuchWork),
-        };
-        let gap = truth.gap(run.seconds, tick_hz);
-        if verdict.not_judged.is_none() {
-            verdict.no_truth = without_truth(truth, &run, gap);
-        }
-        verdict.outcome = outcome_of(&verdict, &run, change, gap);
-        if matches!(
-            verdict.outcome,
-            Outcome::NotJudged | Outcome::NoTruth | Outcome::BlewUp | Outcome::GaveUp
-        ) {
-            verdict.frequency_error = None;
-            verdict.energy_drift = None;
-        }
-        if verdict.outcome == Outcome::NotJudged {
-            verdict.is_bounded = None;
-        }
-        verdict
+        let chase = ChaseFinding::of(truth, spec, tick_hz, run.chase.as_ref());
+        let verdict = self.verdict_on(body, finding, long_term);
+        Verdict { chase, evaluations: run.evaluations, seconds: run.seconds, ..verdict }
     }
 
     /// The verdict on a body that has no reference solution.
     fn by_energy(&self, body: usize, spec: LaneSpec, tick_hz: u32, most_work: u64) -> Verdict {
-        let truth = &self.truths[body];
-        let ticks = ticks(self.horizon_s, tick_hz);
         // Growth would be sought beyond the horizon for a verdict that nobody gets.
-        let most_work = if ticks == 0 { 0 } else { most_work };
-        let run = follow_energy(truth, spec, tick_hz, most_work);
-        let not_judged = match ticks {
-            0 => Some(NotJudged::ShorterThanATick),
-            _ => run.is_too_much.then_some(NotJudged::TooMuchWork),
+        let most_work = if self.has_ticks(tick_hz) { most_work } else { 0 };
+        let run = follow_energy(&self.truths[body], spec, tick_hz, most_work);
+        let found = run.finding;
+        let finding = match (run.failure, self.not_judged(tick_hz, run.is_too_much)) {
+            (Some(failure), _) => Finding::Failed { failure, by_energy: Some(found) },
+            (None, Some(why)) => Finding::NotJudged(why),
+            (None, None) => Finding::ByEnergy(found),
         };
-        let outcome = match (&run.failure, not_judged, run.change) {
-            (Some(failure), ..) => failure.outcome(),
-            (None, Some(_), _) => Outcome::NotJudged,
-            (None, None, Change::Grows) => Outcome::GainsEnergy,
-            (None, None, Change::Dies) => Outcome::LosesEnergy,
-            (None, None, Change::None) => Outcome::NoTruth,
+        // A run over the horizon does not show that nothing grows later.
+        let is_bounded = (!found.is_bounded()).then_some(false);
+        let verdict =
+            self.verdict_on(body, finding, LongTerm { is_bounded, ..LongTerm::default() });
+        Verdict { evaluations: run.evaluations, seconds: run.seconds, ..verdict }
+    }
+
+    /// Why a run at this rate is not judged, if it is not.
+    fn not_judged(&self, tick_hz: u32, is_cut_short: bool) -> Option<NotJudged> {
+        match self.has_ticks(tick_hz) {
+            false => Some(NotJudged::ShorterThanATick),
+            true => is_cut_short.then_some(NotJudged::TooMuchWork),
+        }
+    }
+
+    fn verdict_on(&self, body: usize, finding: Finding, long_term: LongTerm) -> Verdict {
+        let is_bounded = match finding {
+            Finding::Failed { .. } => Some(false),
+            Finding::NotJudged(_) => None,
+            _ => long_term.is_bounded,
         };
-        let is_bounded = match outcome {
-            Outcome::NotJudged => None,
-            Outcome::BlewUp | Outcome::GaveUp => Some(false),
-            // A run over the horizon does not show that nothing grows later.
-            _ => (!run.is_bounded()).then_some(false),
-        };
-        let is_whole = run.failure.is_none() && not_judged.is_none();
         Verdict {
-            outcome,
-            body,
-            body_name: (self.truths.len() > 1).then(|| truth.body.name.clone()),
-            error: f64::INFINITY,
-            error_at_s: run.seconds,
-            last_error: f64::INFINITY,
-            swings: false,
-            doubles_in_s: None,
-            halves_in_s: None,
-            parasite_doubles_in_s: None,
-            energy_change: Some(run.finding.change).filter(|_| is_whole),
-            frequency_error: None,
-            is_bounded,
-            energy_drift: run.drift.filter(|_| is_whole),
+            finding,
+            long_term: LongTerm { is_bounded, ..long_term },
             chase: None,
-            failure: run.failure,
-            by_energy: Some(run.finding),
-            no_truth: truth.failure.clone().map(NoTruth::Failed),
-            not_judged,
-            evaluations: run.evaluations,
-            seconds: run.seconds,
+            body,
+            body_name: self.truths[body].body.name.clone(),
+            evaluations: 0,
+            seconds: 0.0,
             horizon_s: self.horizon_s,
             starts_at_s: 0.0,
             of_bodies: Vec::new(),
         }
-    }
-}
-
-/// The outcome of a run; `change` is that of its amplitude, `gap` the largest error of the truth.
-fn outcome_of(verdict: &Verdict, run: &Run, change: Change, gap: f64) -> Outcome {
-    if let Some(failure) = &run.failure {
-        return failure.outcome();
-    }
-    if verdict.not_judged.is_some() {
-        return Outcome::NotJudged;
-    }
-    if verdict.no_truth.is_some() {
-        return Outcome::NoTruth;
-    }
-    match change {
-        _ if run.error <= ROUNDING && gap <= ROUNDING => Outcome::Rounding,
-        _ if run.error <= TOLERANCE => Outcome::Accurate,
-        Change::Grows => Outcome::GainsEnergy,
-        Change::Dies => Outcome::LosesEnergy,
-        Change::None => Outcome::OutOfPhase,
     }
 }
 

@@ -1,11 +1,12 @@
 //! The long-term motion of a linear body under a method of equal steps, from its normal modes.
 
-use super::change::Change;
+use super::amplitude::Change;
+use super::change::MotionChange;
 use super::followed_body::work_of;
 use super::limits::VISIBLE;
 use super::run::MAX_WORK;
 use super::truth::BodyTruth;
-use super::verdict::Verdict;
+use super::verdict::LongTerm;
 use crate::lab::bisection::bisect;
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::integrators::Family;
@@ -118,28 +119,31 @@ impl<'a> Modes<'a> {
         Some(past)
     }
 
-    /// Puts the change of the motion into a verdict, and returns the change within the horizon.
-    pub(super) fn fill(&self, verdict: &mut Verdict, horizon_s: f64) -> Change {
-        verdict.is_bounded = Some(self.are_bounded());
-        verdict.frequency_error = self.frequency_error();
+    /// The change of the motion within the horizon and later.
+    pub(super) fn change(&self, swings: bool, horizon_s: f64) -> MotionChange {
         let moves = self.modes.iter().any(|(_, share, _)| *share > 0.0);
-        if moves {
-            verdict.doubles_in_s = self.reaches(|amplitude| amplitude >= 2.0);
-            if self.are_conserved() {
-                verdict.halves_in_s = self.reaches(|amplitude| amplitude <= 0.5);
-            }
-        }
+        let is_conserved = moves && self.are_conserved();
+        let reaches = |is_wanted: bool, is_past: fn(f64) -> bool| {
+            if is_wanted { self.reaches(is_past) } else { None }
+        };
+        let doubles_in_s = reaches(moves, |amplitude| amplitude >= 2.0);
         let worst = self.modes.iter().filter_map(|(.., stability)| stability.doubling_s());
         let worst = worst.min_by(f64::total_cmp);
-        // A mode that has no energy at the start grows out of rounding.
-        let hidden =
-            worst.filter(|&worst| verdict.doubles_in_s.is_none_or(|all| worst < all / 2.0));
-        verdict.parasite_doubles_in_s = hidden;
         let amplitude = if moves { self.amplitude(horizon_s) } else { 1.0 };
-        if self.are_conserved() && moves {
-            verdict.energy_change = Some(amplitude * amplitude - 1.0);
+        MotionChange {
+            long_term: LongTerm {
+                swings,
+                doubles_in_s,
+                halves_in_s: reaches(is_conserved, |amplitude| amplitude <= 0.5),
+                // A mode that has no energy at the start grows out of rounding.
+                parasite_doubles_in_s: worst
+                    .filter(|&worst| doubles_in_s.is_none_or(|all| worst < all / 2.0)),
+                is_bounded: Some(self.are_bounded()),
+            },
+            within: Change::of(amplitude),
+            energy_change: is_conserved.then_some(amplitude * amplitude - 1.0),
+            frequency_error: self.frequency_error(),
         }
-        Change::of(amplitude)
     }
 }
 

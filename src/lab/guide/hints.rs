@@ -3,7 +3,7 @@
 
 use crate::lab::analysis::Outcome;
 use crate::lab::command::Command;
-use crate::lab::key::{KEYS, Key};
+use crate::lab::key::KEYS;
 
 /// What a hint after the scene's own asks for.
 struct Lead {
@@ -126,36 +126,7 @@ fn keys(text: &str) -> impl Iterator<Item = &str> {
 /// The commands of the key that people call so.
 fn bound_to(name: &str) -> impl Iterator<Item = &'static Command> {
     let bound = KEYS.iter().flat_map(|binding| binding.keys);
-    bound.filter(move |(key, _)| is_named(*key, name)).map(|(_, command)| command)
-}
-
-/// Whether people call a key so.
-fn is_named(key: Key, name: &str) -> bool {
-    let sign = |sign: char| name.chars().eq(sign.to_uppercase());
-    match key {
-        Key::Digit(digit) => name == digit.to_string(),
-        Key::Sign(letter) => sign(letter),
-        Key::ShiftSign(letter) => {
-            name.strip_prefix("Shift ").is_some_and(|n| n.chars().eq(letter.to_uppercase()))
-        }
-        Key::ControlSign(letter) => {
-            name.strip_prefix("Ctrl ").is_some_and(|n| n.chars().eq(letter.to_uppercase()))
-        }
-        Key::ControlShiftSign(letter) => {
-            name.strip_prefix("Ctrl Shift ").is_some_and(|n| n.chars().eq(letter.to_uppercase()))
-        }
-        Key::Function(number) => name == format!("F{number}"),
-        Key::Space => name == "Space",
-        Key::Up => name == "↑",
-        Key::Down => name == "↓",
-        Key::Left => name == "←",
-        Key::Right => name == "→",
-        Key::Home => name == "Home",
-        Key::PageUp => name == "Page Up",
-        Key::PageDown => name == "Page Down",
-        Key::Enter => name == "Enter",
-        Key::Escape => name == "Esc",
-    }
+    bound.filter(move |(key, _)| key.to_string() == name).map(|(_, command)| command)
 }
 
 #[cfg(test)]

@@ -59,10 +59,9 @@ impl Lab {
         let SceneBody { kind, values, .. } = &self.scene().bodies[self.view().body];
         let parameters = kind.parameters.iter();
         let is_mappable = |(place, parameter): &(usize, &Parameter)| {
-            // The constants of a law may have any sign, and a kick changes no motion.
-            let is_positive =
-                kind.law().is_some() && values[*place] > 0.0 && !parameter.key.contains('.');
-            let is_signless = is_positive
+            // The constants of a law may have any sign.
+            let is_constant = kind.law().is_some_and(|law| *place < law.text().constants.len());
+            let is_signless = is_constant && values[*place] > 0.0
                 || matches!(parameter.range, Range::Positive(_) | Range::NonNegative(_));
             parameter.acts == Acts::AtOnce && is_signless
         };
@@ -109,7 +108,7 @@ impl Lab {
         }
         let judged = |lane: &Entrant| {
             let verdict = self.viewer.verdict(lane.entry)?;
-            Some(((verdict.outcome, verdict.error), (lane.lane_number, lane.entry)))
+            Some((verdict.badness(), (lane.lane_number, lane.entry)))
         };
         let Some(judged) = lanes.iter().map(judged).collect::<Option<Vec<_>>>() else { return };
         let best =
@@ -163,7 +162,8 @@ mod tests {
             }
             let first = lab.active();
             lab.analyse();
-            let outcome = |entry: usize| lab.viewer().verdict(entry).expect("it is judged").outcome;
+            let outcome =
+                |entry: usize| lab.viewer().verdict(entry).expect("it is judged").outcome();
             let best = (0..lanes).map(outcome).min().expect("there are lanes");
             assert_eq!(lab.active() != first, is_best, "{lanes} lanes, picked: {picks}");
             assert_eq!(outcome(lab.active()) == best, is_best, "{lanes} lanes, picked: {picks}");

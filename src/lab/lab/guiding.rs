@@ -30,7 +30,7 @@ impl Lab {
             return Some(rest);
         }
         let entry = self.active();
-        let outcome = self.viewer.verdict(entry).map(|verdict| verdict.outcome);
+        let outcome = self.viewer.verdict(entry).map(|verdict| verdict.outcome());
         let flown = (self.entries()[entry].method.name, outcome);
         let suits = |hint: &&str| self.mode() == Mode::Solo || suits_race(hint);
         let hint = self.scene().hint.as_deref().filter(suits);

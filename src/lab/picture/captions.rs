@@ -7,7 +7,7 @@ use super::sketch::{Camera, SOLID, fill, line, path, ring, rounded};
 use super::{Align, Label, Picture, Rect, Rgba};
 use crate::lab::palette::{Palette, faded};
 use crate::lab::race::Entrant;
-use crate::lab::{Halt, Lab, LaneBody, Severity, Verdict};
+use crate::lab::{Halt, Lab, LaneBody, Severity};
 use crate::sim::bodies::Coordinate;
 use crate::sim::number::{round, significant};
 
@@ -272,7 +272,7 @@ impl Chip {
     fn of(moment: &DrawContext<'_>, index: usize, entrant: &Entrant) -> Option<Self> {
         let verdict = moment.lab.viewer().verdict(entrant.entry)?;
         let palette = moment.palette;
-        let (sign, tone) = match verdict.outcome.severity() {
+        let (sign, tone) = match verdict.outcome().severity() {
             Severity::Bad => ("▲", palette.bad),
             Severity::Doubtful => ("◆", palette.warn),
             Severity::Fine | Severity::Unknown => return None,
@@ -292,7 +292,6 @@ impl Chip {
         let unit = moment.lab.race().truth().bodies()[index].coordinates()[0].shown_unit();
         let how_far =
             |reach: f64| format!("{} {unit}", significant(reach, 2)).trim_end().to_owned();
-        let of_body = Verdict { body_name: None, ..verdict.clone() };
         // The run on the screen is another than the judged one.
         let is_other = moment.lab.was_changed_on_the_way();
         let halt = entrant.lane.bodies()[index].halted();
@@ -301,11 +300,10 @@ impl Chip {
             colours: [tone, moment.style(entrant.entry).0],
             verdict: match halt {
                 Some(halt) => halt.fate(),
-                None if is_other => format!("{of_body:#}"),
-                None => of_body.to_string(),
+                None => verdict.wordings(false)[usize::from(!is_other)].clone(),
             },
-            brief: of_body.fails_in_brief().filter(|_| is_other && halt.is_none()),
-            swing: (verdict.swings && past.coordinate(moment.lab.race(), index).1 == 0)
+            brief: verdict.fails_in_brief().filter(|_| is_other && halt.is_none()),
+            swing: (verdict.long_term.swings && past.coordinate(moment.lab.race(), index).1 == 0)
                 .then(|| format!("{}, exact {}", how_far(lane), how_far(exact))),
         })
     }

@@ -149,33 +149,3 @@ impl UndoStack {
         is_there
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::lab::Scene;
-
-    fn change(other: Other) -> Change {
-        let settings = StartSettings::of(Scene::built_in("pendulum").unwrap());
-        Change { what: "a change".into(), settings, other }
-    }
-
-    #[test]
-    fn the_oldest_changes_are_forgotten_beyond_so_many_or_so_many_runs() {
-        let mut stack = UndoStack::default();
-        assert!(!stack.drop_last(), "there is none");
-        for _ in 0..MAX_RUNS + 2 {
-            let settings = StartSettings::of(Scene::built_in("pendulum").unwrap());
-            let run = RunWithPast::new(settings.session());
-            stack.push(change(Other::Settings));
-            stack.push(change(Other::Run(Box::new(run))));
-        }
-        assert_eq!(stack.done.len(), 2 * MAX_RUNS, "each with the change of settings before it");
-        for _ in 0..MAX_CHANGES + 7 {
-            stack.push(change(Other::Settings));
-        }
-        assert_eq!(stack.done.len(), MAX_CHANGES);
-        assert!(stack.drop_last());
-        assert_eq!(stack.done.len(), MAX_CHANGES - 1);
-    }
-}

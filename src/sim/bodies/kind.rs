@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::sim::body::Body;
 use crate::sim::body_stepper::stepper;
-use crate::sim::law::Equations;
+use crate::sim::law::{Equations, shown_unit};
 use crate::sim::net_plan::NetPlan;
 use crate::sim::parameter::{Fault, Parameter, ParameterOf, Text};
 use crate::sim::reference::REFERENCE_ACCURACY;
@@ -212,17 +212,6 @@ impl Coordinate {
 
     /// Its unit for people: empty for a pure number.
     pub fn shown_unit(&self) -> &'static str {
-        if self.unit == "1" { "" } else { self.unit }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_unit_of_a_pure_number_is_not_shown() {
-        let shown = |unit| Coordinate::new("q", "v", unit).shown_unit();
-        assert_eq!((shown("1"), shown("m")), ("", "m"));
+        shown_unit(self.unit)
     }
 }

@@ -239,7 +239,7 @@ fn row(
     commands: &mut Vec<Command>,
 ) {
     let MethodAdvice { spec, verdict, met } = advised;
-    let name = RichText::new(spec.method.name).color(tone(ui, verdict.outcome));
+    let name = RichText::new(spec.method.name).color(tone(ui, verdict.outcome()));
     slot(ui, widths.name, |ui| line(ui, name)).on_hover_text(verdict.to_string());
     for ((met, best), criterion) in met.iter().zip(best).zip(&CRITERIA) {
         slot(ui, widths.cell, |ui| {

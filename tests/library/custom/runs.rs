@@ -26,7 +26,7 @@ fn a_report_says_what_the_adviser_finds() {
     assert_eq!((report.tick_hz, report.horizon_s, report.methods.len()), (30, 20.0, 3));
     for (lane, row) in scene.lanes.iter().zip(&report.methods) {
         assert_eq!(row.method, lane.method.id);
-        assert_eq!(row.verdict, adviser.verdict(*lane).to_string());
+        assert_eq!(row.verdict, adviser.verdict(*lane));
         for criterion in CRITERIA {
             let found = adviser.meets(LaneSpec::plain(lane.method), criterion);
             assert_eq!(row.criteria.get(criterion).as_ref(), found.met(), "{}", row.method);
@@ -48,6 +48,9 @@ fn a_report_is_written_as_json_with_the_keys_of_the_command() {
     let value = serde_json::to_value(Report::of_scene(&scene())).unwrap();
     assert_eq!(value["tick_hz"], 30);
     assert_eq!(value["methods"][2]["method"], "rk4");
+    let verdict = &value["methods"][2]["verdict"];
+    assert_eq!((&verdict["kind"], &verdict["body"]), (&"accurate".into(), &"body".into()));
+    assert!(verdict["error"].is_f64() && verdict["failed_at_s"].is_null(), "{verdict}");
     let criteria = &value["methods"][2]["criteria"]["looks-right"];
     for key in ["substeps", "evaluations_per_s", "slowest_hz", "stiffness_factor", "limited_by"] {
         assert!(!criteria[key].is_null(), "{key}: {criteria}");

@@ -60,7 +60,7 @@ impl Said {
             return Self { outcome: None, wordings: vec!["judging…".into()] };
         };
         let is_named = body.is_none() && named_above != Some(verdict.body);
-        Self { outcome: Some(verdict.outcome), wordings: verdict.wordings(is_named) }
+        Self { outcome: Some(verdict.outcome()), wordings: verdict.wordings(is_named) }
     }
 
     /// Everything.
