@@ -13,12 +13,12 @@ use super::lane_spec::LaneSpec;
 use crate::sim::bodies::{ClaimHorizon, Kind, Origin};
 use crate::sim::integrators::Method;
 
-mod cause;
 pub(super) mod clip;
 mod described;
 mod document;
 mod edit;
 mod errors;
+mod fault;
 mod fields;
 mod fitting;
 mod law;
@@ -28,6 +28,7 @@ mod refusal;
 mod script;
 mod syntax;
 mod table;
+mod wanted;
 mod writer;
 
 pub use edit::{EditError, edited_values, parameter_named};

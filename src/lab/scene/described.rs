@@ -3,7 +3,6 @@
 use std::ops::Range as Span;
 use std::sync::Arc;
 
-use super::cause::SceneFault;
 use super::errors::position;
 use super::fields::{TOP, optional, required};
 use super::law::{LAW, read_law};
@@ -34,8 +33,8 @@ pub(super) fn read_bodies(top: &mut Table<'_>, horizon: ClaimHorizon) -> Vec<Bod
     }
     rows.sort_by_key(|(_, row)| row.header.start);
     if let Some((_, row)) = rows.get(MAX_BODIES) {
-        let cause = SceneFault::TooManyBodies { found: rows.len(), most: MAX_BODIES };
-        top.complain(row.header.clone(), cause);
+        let what = format!("the scene has {} bodies", rows.len());
+        top.complain(row.header.clone(), what, format!("keep at most {MAX_BODIES}"));
     }
     let mut bodies = Vec::new();
     for (id, mut row) in rows.into_iter().take(MAX_BODIES) {
@@ -53,7 +52,7 @@ pub(super) fn read_bodies(top: &mut Table<'_>, horizon: ClaimHorizon) -> Vec<Bod
             && let Err(fault) = (kind.check)(values)
             && kind.law().is_none()
         {
-            row.complain(row.span(&fault.key), SceneFault::Fault(fault));
+            row.complain_of(row.span(&fault.key), fault.into());
         }
         bodies.push(BodyDraft { kind, id, name, name_at, values });
         top.adopt(row, &TOP);
@@ -83,8 +82,8 @@ pub(super) fn check_names(text: &str, bodies: &[BodyDraft], top: &mut Table<'_>)
         let Some(name) = &body.name else { continue };
         if let Some(first) = bodies[..n].iter().find(|earlier| earlier.name == body.name) {
             let (line, _) = position(text, first.name_at.start);
-            let cause = SceneFault::DuplicateName { name: name.clone(), line };
-            top.complain(body.name_at.clone(), cause);
+            let what = format!("the name {name:?} is taken by the body on line {line}");
+            top.complain(body.name_at.clone(), what, "give it another");
         }
     }
 }

@@ -2,14 +2,15 @@
 
 use toml::de::DeTable;
 
-use super::cause::{SceneFault, Wanted};
 use super::described::{BodyDraft, check_names, finish_bodies, name_the_nameless, read_bodies};
 use super::errors::{SceneError, position};
+use super::fault::{FaultKind, SceneFault};
 use super::fields::{
     ABOUT, HINT, METHOD_LIST, OPENING_METHOD, SECONDS, TICK_HZ, TITLE, TOP, optional,
     read_lane_spec, required,
 };
 use super::fitting::{check_method, every_lane};
+use super::nearest::listed;
 use super::script::{self, SceneContext};
 use super::syntax;
 use super::table::{Field, Table};
@@ -17,7 +18,7 @@ use super::{
     MAX_LANES, MAX_SECONDS, MAX_TICK_HZ, MIN_SECONDS, Scene, USUAL_SECONDS, claim_horizon,
 };
 use crate::lab::lane_spec::LaneSpec;
-use crate::sim::bodies::Range;
+use crate::sim::bodies::{BODIES, Range};
 use crate::sim::integrators::Method;
 
 /// The most characters of a title, which is shown in the window's title bar.
@@ -41,11 +42,13 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
     let (document, errors) = DeTable::parse_recoverable(text);
     let mut errors = syntax::errors(text, errors);
     // After a duplicate key the rest of the file can be read; after other syntax errors it cannot.
-    if errors.iter().any(|error| !matches!(error.cause, SceneFault::DuplicateKey { .. })) {
+    if errors.iter().any(|error| !matches!(error.fault.kind, FaultKind::Duplicate { .. })) {
         return Err(errors);
     }
     if document.get_ref().is_empty() {
-        return Err(vec![SceneError { span: 0..0, cause: SceneFault::Empty }]);
+        let remedy = "write `title`, `tick_hz`, `seconds` and a table such as `[[ship]]`";
+        let fault = SceneFault::new("the file holds no scene", remedy);
+        return Err(vec![SceneError { span: 0..0, fault }]);
     }
 
     let mut top = Table::top(text, document.get_ref());
@@ -67,15 +70,12 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
     let script = script::read(&context, &mut top);
     let checks = script::read_checks(&context, &mut top);
     errors.extend(top.finish(&[]));
-    let may_mean_a_body = |error: &SceneError| {
-        matches!(
-            error.cause,
-            SceneFault::UnknownTable { .. }
-                | SceneFault::WrongType { wanted: Wanted::Tables(_), .. }
-        )
-    };
+    let may_mean_a_body = |error: &SceneError| error.fault.kind == FaultKind::NoTable;
     if bodies.is_empty() && !errors.iter().any(may_mean_a_body) {
-        errors.push(SceneError { span: text.len()..text.len(), cause: SceneFault::NoBody });
+        let kinds: Vec<_> = BODIES.iter().map(|kind| kind.id).collect();
+        let remedy = format!("add a table {}", listed(&kinds, '[', " or "));
+        let fault = SceneFault::new("the scene has no body", remedy);
+        errors.push(SceneError { span: text.len()..text.len(), fault });
     }
 
     match (title, tick_hz) {
@@ -109,11 +109,12 @@ fn read_lanes(text: &str, bodies: &[BodyDraft], top: &mut Table<'_>) -> Vec<Lane
 
     let rows = top.rows("lane");
     if let (true, Some(row)) = (is_listed, rows.first()) {
-        top.complain(row.header.clone(), SceneFault::TwoLaneLists);
+        let what = "lanes are given twice, as `methods` and as `[[lane]]`";
+        top.complain(row.header.clone(), what, "keep one of them");
     }
     if let Some(row) = rows.get(MAX_LANES) {
-        let cause = SceneFault::TooManyLanes { found: rows.len(), most: MAX_LANES };
-        top.complain(row.header.clone(), cause);
+        let what = format!("the scene has {} lanes", rows.len());
+        top.complain(row.header.clone(), what, format!("keep at most {MAX_LANES}"));
     }
     let is_given = is_listed || !rows.is_empty();
     for mut row in rows.into_iter().take(MAX_LANES) {
@@ -129,10 +130,23 @@ fn read_lanes(text: &str, bodies: &[BodyDraft], top: &mut Table<'_>) -> Vec<Lane
         check_method(key, lane.method, span.clone(), bodies, top);
         if let Some((first, _)) = lanes[..n].iter().find(|(_, earlier)| earlier == lane) {
             let (line, _) = position(text, first.start);
-            top.complain(span.clone(), SceneFault::DuplicateLane { lane: *lane, line });
+            let what = format!("a lane {} is on line {line} already", described(lane));
+            let is_adaptive = lane.method.tolerance.is_some();
+            let or = if is_adaptive { " or another `tolerance`" } else { "" };
+            let remedy = format!("remove one, or give it other `substeps`{or} in a `[[lane]]`");
+            top.complain(span.clone(), what, remedy);
         }
     }
     if is_given { lanes.into_iter().map(|(_, lane)| lane).collect() } else { every_lane(bodies) }
+}
+
+/// A lane as a message names it.
+fn described(lane: &LaneSpec) -> String {
+    let LaneSpec { method, substeps, tolerance, joint } = lane;
+    let within = tolerance.map(|tolerance| format!(" and `tolerance = {tolerance:e}`"));
+    let told = joint.map(|[hz, _]| format!(" and `joint_hz = {hz}`"));
+    let beside = [within, told].into_iter().flatten().collect::<String>();
+    format!("{:?} with `substeps = {substeps}`{beside}", method.id)
 }
 
 /// The opening method, which must be that of a lane, so that it races too.
@@ -145,8 +159,10 @@ fn read_opening_method(lanes: &[LaneSpec], top: &mut Table<'_>) -> Option<&'stat
                 known.push(lane.method.id);
             }
         }
-        let cause = SceneFault::NotALane { key: OPENING_METHOD.key, method: method.id, known };
-        top.complain(top.span(OPENING_METHOD.key), cause);
+        let (key, id) = (OPENING_METHOD.key, method.id);
+        let remedy = format!("write one of {}, or give it a lane", listed(&known, '"', ", "));
+        let what = format!("`{key}` is {id:?}, which no lane of this scene has");
+        top.complain(top.span(key), what, remedy);
     }
     Some(method)
 }

@@ -1,21 +1,20 @@
 //! A change of one value of a body, checked and refused as a scene file with that value would be.
 
-use super::cause::{Place, SceneFault, Wanted};
+use super::fault::{FaultKind, SceneFault};
 use super::nearest::nearest;
+use super::wanted::{Place, Wanted};
 use crate::sim::bodies::{Fault, Kind, Parameter, Range};
 
 /// Why a parameter of a body cannot be set, and what to do about it, in one line.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{cause}; {}", cause.remedy())]
-pub struct EditError {
-    cause: SceneFault,
-}
+#[error(transparent)]
+pub struct EditError(#[from] SceneFault);
 
 impl EditError {
     /// What is wrong with the values together, if that is it.
     pub(super) fn fault(self) -> Option<Fault> {
-        match self.cause {
-            SceneFault::Fault(fault) => Some(fault),
+        match self.0.kind {
+            FaultKind::Values(fault) => Some(fault),
             _ => None,
         }
     }
@@ -27,11 +26,9 @@ impl EditError {
 /// If there is none: names the nearest key, or all.
 pub fn parameter_named<'k>(kind: &'k Kind, key: &str) -> Result<(usize, &'k Parameter), EditError> {
     kind.parameter(key).ok_or_else(|| {
-        let known: Vec<_> = kind.parameters.iter().map(|parameter| parameter.key.clone()).collect();
-        let nearest = nearest(key, known.iter().map(|name| (&**name, &**name)));
-        let nearest = nearest.map(|name| name.to_owned().into());
-        let place = Place::Table(kind.id);
-        EditError { cause: SceneFault::UnknownKey { key: key.into(), place, nearest, known } }
+        let known: Vec<&str> = kind.parameters.iter().map(|parameter| &*parameter.key).collect();
+        let nearest = nearest(key, known.iter().map(|name| (*name, *name)));
+        SceneFault::unknown_key(key, Place::Table(kind.id), nearest, &known).into()
     })
 }
 
@@ -52,17 +49,15 @@ pub fn edited_values(
     let Parameter { key, range, .. } = &kind.parameters[place];
     let (wanted, written) = (Wanted::of(*range), written(value));
     if let Range::Curve { .. } = range {
-        let (subject, found) = (format!("`{key}`"), format!("the number {written}"));
-        return Err(EditError { cause: SceneFault::WrongType { subject, found, wanted } });
+        let found = format!("the number {written}");
+        return Err(SceneFault::wrong_type(&format!("`{key}`"), &found, &wanted).into());
     }
     if !range.contains(value) {
-        return Err(EditError {
-            cause: SceneFault::OutOfRange { key: key.clone(), value: written, wanted },
-        });
+        return Err(SceneFault::out_of_range(&format!("`{key}`"), &written, &wanted).into());
     }
     let mut edited = values.to_vec();
     edited[place] = value;
-    (kind.check)(&edited).map_err(|fault| EditError { cause: SceneFault::Fault(fault) })?;
+    (kind.check)(&edited).map_err(SceneFault::from)?;
     Ok(edited)
 }
 

@@ -3,7 +3,8 @@
 use std::fmt;
 use std::ops::Range;
 
-use super::cause::SceneFault;
+use super::MAX_FILE_BYTES;
+use super::fault::SceneFault;
 
 /// How many errors of one file are shown: as many as a person mends before trying again.
 pub const MAX_SHOWN: usize = 10;
@@ -23,22 +24,22 @@ pub struct SceneErrors {
 
 /// One thing that is wrong with a scene file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{cause}; {}", cause.remedy())]
+#[error("{fault}")]
 pub struct SceneError {
     /// The bytes of the text at fault; where a key is missing, its table's header or nothing.
     pub span: Range<usize>,
-    pub(super) cause: SceneFault,
+    pub(super) fault: SceneFault,
 }
 
 impl SceneError {
     /// What is wrong, in lower case: the title of a longer message.
-    pub fn what(&self) -> String {
-        self.cause.to_string()
+    pub fn what(&self) -> &str {
+        &self.fault.what
     }
 
     /// What to do about it: the label of the span in a longer message.
-    pub fn remedy(&self) -> String {
-        self.cause.remedy()
+    pub fn remedy(&self) -> &str {
+        &self.fault.remedy
     }
 }
 
@@ -52,14 +53,17 @@ impl SceneErrors {
 
     /// The error of a file that is larger than a scene file may be, whatever it holds.
     pub fn too_large(file: &str) -> Self {
-        let error = SceneError { span: 0..0, cause: SceneFault::TooLarge };
-        Self::new(file, "", vec![error])
+        let what = format!("the file holds more than {MAX_FILE_BYTES} bytes");
+        let fault = SceneFault::new(what, "give a scene file, with a shorter script");
+        Self::new(file, "", vec![SceneError { span: 0..0, fault }])
     }
 
     pub(super) fn not_utf8(file: &str, bytes: &[u8], byte: usize) -> Self {
         let text = String::from_utf8_lossy(bytes);
         let span = byte..byte + char::REPLACEMENT_CHARACTER.len_utf8();
-        Self::new(file, &text, vec![SceneError { span, cause: SceneFault::NotUtf8 { byte } }])
+        let what = format!("the file is not text: byte {byte} is not UTF-8");
+        let fault = SceneFault::new(what, "give a scene file, saved as UTF-8");
+        Self::new(file, &text, vec![SceneError { span, fault }])
     }
 
     /// The line and the column of a byte of the text, both from 1, the column in characters.

@@ -1,11 +1,11 @@
 //! The keys at the top level of a scene file, and the keys that several of its tables share.
 
-use super::cause::SceneFault;
+use super::nearest::listed;
 use super::table::{Field, Table};
 use super::{MAX_SUBSTEPS, TOLERANCES};
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::Range;
-use crate::sim::integrators::Method;
+use crate::sim::integrators::{METHODS, Method};
 
 pub(super) const TITLE: Field = required("title", "the scene's name for people");
 pub(super) const ABOUT: Field = optional("about");
@@ -50,13 +50,14 @@ fn read_joint(row: &mut Table<'_>, method: Option<&'static Method>) -> Option<[f
     let damping_ratio = row.number(JOINT_DAMPING_RATIO, damping_ratio);
     let given = [JOINT_HZ, JOINT_DAMPING_RATIO].into_iter().find(|field| row.has(field.key))?;
     if let Some(method) = method.filter(|method| !method.has_joint()) {
-        row.complain(
-            row.span(given.key),
-            SceneFault::NoJoint { key: given.key, method: method.id },
-        );
+        let (key, id) = (given.key, method.id);
+        let what = format!("`{key}` does not apply to the method {id:?}, which is told no spring");
+        let remedy = format!("remove it, or choose an engine: {}", methods(Method::has_joint));
+        row.complain(row.span(key), what, remedy);
     } else if !row.has(JOINT_HZ.key) {
         let (key, needed) = (JOINT_DAMPING_RATIO.key, JOINT_HZ.key);
-        row.complain(row.span(key), SceneFault::Alone { key, needed });
+        let remedy = format!("remove it, or write `{needed}` too");
+        row.complain(row.span(key), format!("`{key}` stands alone"), remedy);
     }
     Some([hz?, damping_ratio.unwrap_or(0.0)])
 }
@@ -67,8 +68,19 @@ pub(super) fn read_tolerance(row: &mut Table<'_>, method: Option<&'static Method
     if let (Some(method), true) = (method, row.has(TOLERANCE.key))
         && method.tolerance.is_none()
     {
-        let cause = SceneFault::NoTolerance { key: TOLERANCE.key, method: method.id };
-        row.complain(row.span(TOLERANCE.key), cause);
+        let (key, id) = (TOLERANCE.key, method.id);
+        let remedy = format!("remove it, or choose an adaptive method: {}", adaptive_methods());
+        row.complain(row.span(key), format!("`{key}` does not apply to the method {id:?}"), remedy);
     }
     tolerance
+}
+
+/// The ids of the methods that choose their own steps.
+pub(super) fn adaptive_methods() -> String {
+    methods(|method| method.tolerance.is_some())
+}
+
+fn methods(fits: fn(&Method) -> bool) -> String {
+    let fitting = METHODS.iter().filter(|method| fits(method));
+    listed(&fitting.map(|method| method.id).collect::<Vec<_>>(), '"', ", ")
 }

@@ -2,7 +2,6 @@
 
 use std::ops::Range as Span;
 
-use super::cause::SceneFault;
 use super::described::BodyDraft;
 use super::refusal::Refusal;
 use super::table::Table;
@@ -25,7 +24,9 @@ pub(super) fn check_method(
         Some(Refusal { method: method.id, body, reason })
     });
     if let Some(refusal) = refused {
-        table.complain(span, SceneFault::Refused { key, refusal });
+        let remedy =
+            "name another method, or change the body; `regatta list methods` has what each is for";
+        table.complain(span, format!("`{key}`: {refusal}"), remedy);
     }
 }
 

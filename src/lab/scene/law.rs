@@ -3,10 +3,10 @@
 use std::ops::Range as Span;
 use std::sync::Arc;
 
-use super::cause::{SceneFault, Wanted};
 use super::fields::{TOP, optional, required};
-use super::nearest::nearest;
+use super::nearest::{self, nearest};
 use super::table::{Field, Named, Table, Written};
+use super::wanted::Wanted;
 use crate::sim::bodies::{ClaimHorizon, Kind, Range, check_law, law_kind};
 use crate::sim::law::{
     CoordinateText, LawText, Layout, MAX_CONSTANTS, MAX_COORDINATES, Part, Refusal, Remedy, UNITS,
@@ -100,10 +100,7 @@ fn read_constants(row: &mut Table<'_>) -> (Vec<WrittenName>, Option<Vec<f64>>) {
 fn check_count(row: &mut Table<'_>, what: &str, entries: &[Named<'_>], most: usize) {
     if let Some(entry) = entries.get(most) {
         let what = format!("the law has {} {what}", entries.len());
-        row.complain(
-            entry.span.clone(),
-            SceneFault::Law { what, remedy: format!("keep at most {most}") },
-        );
+        row.complain(entry.span.clone(), what, format!("keep at most {most}"));
     }
 }
 
@@ -112,11 +109,8 @@ fn read_coordinates(row: &mut Table<'_>) -> Option<Vec<WrittenCoordinate>> {
     let entries = row.entries(COORDINATES, &Wanted::Coordinates(place))?;
     check_count(row, "coordinates", &entries, MAX_COORDINATES);
     if entries.is_empty() {
-        let cause = SceneFault::Law {
-            what: "the law has no coordinate".into(),
-            remedy: format!("write {}", Wanted::Coordinates(place)),
-        };
-        row.complain(row.span(COORDINATES.key), cause);
+        let remedy = Wanted::Coordinates(place).remedy();
+        row.complain(row.span(COORDINATES.key), "the law has no coordinate", remedy);
         return None;
     }
     let mut coordinates = Vec::new();
@@ -150,9 +144,7 @@ fn read_at(table: &mut Table<'_>) -> Option<[WrittenName; 2]> {
     let written = table.names(AT, &Wanted::At)?;
     let pair = <[_; 2]>::try_from(written);
     if pair.is_err() {
-        let what = "`at` is not an x and a y".into();
-        let remedy = format!("write {}", Wanted::At);
-        table.complain(table.span(AT.key), SceneFault::Law { what, remedy });
+        table.complain(table.span(AT.key), "`at` is not an x and a y", Wanted::At.remedy());
     }
     Some(pair.ok()?.map(|(span, text)| (text.to_owned(), span)))
 }
@@ -164,7 +156,7 @@ fn read_unit(table: &mut Table<'_>) -> &'static str {
     }
     let what = format!("unknown unit {written:?}");
     let remedy = offer(&written, &UNITS);
-    table.complain(table.span(UNIT.key), SceneFault::Law { what, remedy });
+    table.complain(table.span(UNIT.key), what, remedy);
     UNITS[0]
 }
 
@@ -177,8 +169,7 @@ fn read_plane(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) -> Option<
             Some(place) => places.push(place),
             None => {
                 let what = format!("no coordinate is called {name:?}");
-                let cause = SceneFault::Law { what, remedy: offer(name, &known) };
-                row.complain(span.clone(), cause);
+                row.complain(span.clone(), what, offer(name, &known));
                 return None;
             }
         }
@@ -186,9 +177,8 @@ fn read_plane(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) -> Option<
     match places[..] {
         [x, y] if x != y => Some([x, y]),
         _ => {
-            let what = "`plane` does not name two coordinates".into();
-            let remedy = format!("write {}", Wanted::Plane);
-            row.complain(row.span(PLANE.key), SceneFault::Law { what, remedy });
+            let what = "`plane` does not name two coordinates";
+            row.complain(row.span(PLANE.key), what, Wanted::Plane.remedy());
             None
         }
     }
@@ -213,7 +203,7 @@ fn read_layout(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) -> Layout
         ),
         Some((_, layout)) => return *layout,
     };
-    row.complain(row.span(DRAW.key), SceneFault::Law { what, remedy });
+    row.complain(row.span(DRAW.key), what, remedy);
     Layout::default()
 }
 
@@ -223,21 +213,12 @@ fn check_one_picture(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) {
     let other = [PLANE, DRAW].into_iter().find(|field| row.has(field.key));
     if let (true, Some(Field { key, .. })) = (has_places, other) {
         let what = format!("the law has a `{key}`, and a coordinate has an `at`");
-        row.complain(
-            row.span(key),
-            SceneFault::Law { what, remedy: "leave one of them out".into() },
-        );
+        row.complain(row.span(key), what, "leave one of them out");
     }
 }
 
 fn offer(written: &str, known: &[&str]) -> String {
-    match nearest(written, known.iter().map(|name| (*name, *name))) {
-        Some(name) => format!("did you mean `{name}`?"),
-        None => {
-            let known: Vec<_> = known.iter().map(|name| format!("`{name}`")).collect();
-            format!("write one of {}", known.join(", "))
-        }
-    }
+    nearest::offer(nearest(written, known.iter().map(|name| (*name, *name))), known, '`')
 }
 
 impl WrittenLaw {
@@ -294,6 +275,6 @@ impl WrittenLaw {
                 offer(&written, &known.iter().map(String::as_str).collect::<Vec<_>>())
             }
         };
-        row.complain(at, SceneFault::Law { what, remedy });
+        row.complain(at, what, remedy);
     }
 }

@@ -38,6 +38,23 @@ pub fn nearest<'n>(
         .map(|(_, name)| name)
 }
 
+/// The remedy for a name that is unknown.
+pub(super) fn offer(nearest: Option<&str>, known: &[impl AsRef<str>], quote: char) -> String {
+    match nearest {
+        Some(name) => format!("did you mean {}?", listed(&[name], quote, "")),
+        None => format!("write one of {}", listed(known, quote, ", ")),
+    }
+}
+
+/// Names between quotes; `[` stands for the brackets of a table array.
+pub(super) fn listed(names: &[impl AsRef<str>], quote: char, between: &str) -> String {
+    let quoted = names.iter().map(AsRef::as_ref).map(|name| match quote {
+        '[' => format!("`[[{name}]]`"),
+        _ => format!("{quote}{name}{quote}"),
+    });
+    quoted.collect::<Vec<_>>().join(between)
+}
+
 #[cfg(test)]
 mod tests {
     use super::nearest;

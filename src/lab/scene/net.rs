@@ -3,10 +3,10 @@
 use std::ops::Range as Span;
 use std::sync::Arc;
 
-use super::cause::{SceneFault, Wanted};
 use super::fields::{TOP, optional, required};
 use super::nearest::nearest;
 use super::table::{Field, Table};
+use super::wanted::Wanted;
 use crate::sim::bodies::{
     Form, Grid, Kind, Lists, MAX_NODES, NetFault, NetPart, NetPlan, Pin, PlannedSpring, Range,
     net_kind,
@@ -52,7 +52,7 @@ pub(super) fn read_net(row: &mut Table<'_>) -> Option<Arc<Kind>> {
     if let (Some(list), Some(of_grid)) = (lists, given(&GRID_KEYS, row)) {
         let what = format!("the net is given twice, by `{}` and by `{}`", list.key, of_grid.key);
         let remedy = "keep the grid, whose fixed nodes `pin` names, or the lists `nodes`, `fixed` and `springs`";
-        row.complain(row.span(of_grid.key), SceneFault::Net { what, remedy: remedy.into() });
+        row.complain(row.span(of_grid.key), what, remedy);
         return None;
     }
     let form = match lists {
@@ -94,7 +94,7 @@ fn read_pin(row: &mut Table<'_>) -> Option<Pin> {
             Some(id) => format!("did you mean {id:?}?"),
             None => format!("write {}, or remove it and no node is fixed", Wanted::Pin),
         };
-        row.complain(row.span(PIN.key), SceneFault::Net { what, remedy });
+        row.complain(row.span(PIN.key), what, remedy);
     }
     pin
 }
@@ -111,9 +111,8 @@ fn read_lists(row: &mut Table<'_>, spans: &mut Spans) -> Option<Lists> {
         let ends = match between.as_deref() {
             Some([(_, a), (_, b)]) => Some([*a, *b]),
             Some(_) => {
-                let what = "`between` does not name two nodes".into();
-                let remedy = format!("write {}", Wanted::Ends);
-                spring.complain(spring.span(BETWEEN.key), SceneFault::Net { what, remedy });
+                let what = "`between` does not name two nodes";
+                spring.complain(spring.span(BETWEEN.key), what, Wanted::Ends.remedy());
                 None
             }
             None => None,
@@ -145,5 +144,5 @@ fn complain(row: &mut Table<'_>, spans: &Spans, are_lists: bool, fault: NetFault
         }
         NetPart::Kicked => row.span(KICKED.key),
     };
-    row.complain(at, SceneFault::Net { what, remedy });
+    row.complain(at, what, remedy);
 }

@@ -1,18 +1,20 @@
 //! Reads a scene's script and the hashes that its race has to reproduce: `[[command]]` and `[[check]]`.
 
-use super::cause::SceneFault;
+use super::clip::clip;
 use super::described::BodyDraft;
+use super::fault::{FaultKind, SceneFault};
 use super::fields::{
-    JOINT_HZ, SUBSTEPS, TOLERANCE, TOP, optional, read_lane_spec, read_tolerance, required,
+    JOINT_HZ, SUBSTEPS, TOLERANCE, TOP, adaptive_methods, optional, read_lane_spec, read_tolerance,
+    required,
 };
 use super::fitting::check_method;
-use super::nearest::nearest;
+use super::nearest::{listed, nearest, offer};
 use super::table::{Field, Table};
 use super::{Check, LAST_TICK, MAX_NAME_CHARS, MAX_SUBSTEPS, MAX_TICK_HZ, Scripted};
 use crate::lab::action::Action;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::edit::edited_values;
-use crate::sim::bodies::{Acts, LARGEST, Parameter, Range};
+use crate::sim::bodies::{Acts, BODIES, LARGEST, Parameter, Range};
 use crate::sim::integrators::Method;
 
 const TICK: Field = required("tick", "the tick before which it is done");
@@ -142,8 +144,13 @@ fn check_tolerances(
                 let methods = [in_race[lane - 1], in_solo[lane - 1]];
                 if methods.iter().all(|method| method.tolerance.is_none()) {
                     let method = methods[0].id;
-                    let cause = SceneFault::NoToleranceInLane { lane, method, tick: *tick };
-                    top.complain(span.clone(), cause);
+                    let what = format!(
+                        "`tolerance` does not apply to lane {lane}: at tick {tick} its method is {method:?}"
+                    );
+                    let those = adaptive_methods();
+                    let remedy =
+                        format!("remove it, or give it with an adaptive `method`: {those}");
+                    top.complain(span.clone(), what, remedy);
                 }
             }
             _ => {}
@@ -172,20 +179,33 @@ fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
                 .iter()
                 .any(|body| body.kind.as_ref().is_none_or(|kind| kind.inputs.contains(&input)))
         {
-            row.complain(row.span(field.key), SceneFault::NoTaker { input });
+            let takers = BODIES.iter().filter(|kind| kind.inputs.contains(&input));
+            let takers = listed(&takers.map(|kind| kind.id).collect::<Vec<_>>(), '[', " or ");
+            let remedy = format!("remove the command, or add a table {takers}");
+            row.complain(
+                row.span(field.key),
+                format!("no body of this scene takes `{input}`"),
+                remedy,
+            );
         }
     }
     if row.has(LANE.key) && !found.is_empty() && !found.iter().any(|key| OF_A_LANE.contains(key)) {
-        row.complain(row.span(LANE.key), SceneFault::LaneAlone { known: OF_A_LANE });
+        let remedy = format!("remove it, or give one of {}", listed(&OF_A_LANE, '`', ", "));
+        row.complain(row.span(LANE.key), "`lane` does not apply to this command", remedy);
     }
     let header = row.header.clone();
     match found.len() {
         0 => {
-            let known = COMMAND_KEYS.iter().map(|command_key| command_key.field.key).collect();
-            row.complain(header, SceneFault::NoAction { known });
+            let known: Vec<_> = COMMAND_KEYS.iter().map(|command| command.field.key).collect();
+            let remedy = format!("write one of {}", listed(&known, '`', ", "));
+            let fault = SceneFault::new("the command does nothing", remedy);
+            row.complain_of(header, fault.of(FaultKind::Missing(known)));
         }
         1 => {}
-        _ => row.complain(header, SceneFault::ManyActions { found }),
+        many => {
+            let what = format!("the command does {many} things: {}", listed(&found, '`', " and "));
+            row.complain(header, what, "write a `[[command]]` with the same `tick` for each");
+        }
     }
     action
 }
@@ -194,7 +214,8 @@ fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
 fn read_lane(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<usize> {
     if !row.has(LANE.key) {
         if context.lanes.len() != 1 {
-            row.complain(row.header.clone(), SceneFault::NoLane { lanes: context.lanes.len() });
+            let remedy = format!("write `lane = …`: its number, from 1 to {}", context.lanes.len());
+            row.complain(row.header.clone(), "the command does not say of which lane", remedy);
             return None;
         }
         return Some(1);
@@ -223,8 +244,10 @@ fn read_body<'d>(
     let name = table.text(BODY, MAX_NAME_CHARS)?;
     let is_called = |body: &BodyDraft| body.name.as_ref() == Some(&name);
     let Some(place) = context.bodies.iter().position(is_called) else {
-        let known = context.bodies.iter().filter_map(|body| body.name.clone()).collect();
-        table.complain(table.span(BODY.key), SceneFault::UnknownBody { name, known });
+        let known = context.bodies.iter().filter_map(|body| body.name.as_deref());
+        let remedy = format!("write one of {}", listed(&known.collect::<Vec<_>>(), '"', ", "));
+        let what = format!("no body of this scene is called {:?}", clip(&name));
+        table.complain(table.span(BODY.key), what, remedy);
         return None;
     };
     Some((place, &context.bodies[place]))
@@ -237,16 +260,21 @@ fn read_set(context: &SceneContext<'_>, set: &mut Table<'_>) -> Option<Action> {
     let (place, BodyDraft { kind, values, .. }) = body?;
     let (key, kind) = (key?, kind.as_ref()?);
     let Some((parameter, Parameter { key: known, range, acts, .. })) = kind.parameter(&key) else {
-        let known: Vec<_> = kind.parameters.iter().map(|parameter| parameter.key.clone()).collect();
-        let nearest = nearest(&key, known.iter().map(|name| (&**name, &**name)));
-        let nearest = nearest.map(|name| name.to_owned().into());
-        set.complain(set.span(KEY.key), SceneFault::UnknownParameter { key, nearest, known });
+        let known: Vec<&str> = kind.parameters.iter().map(|parameter| &*parameter.key).collect();
+        let nearest = nearest(&key, known.iter().map(|name| (*name, *name)));
+        let what = format!("{:?} is no parameter of this body", clip(&key));
+        set.complain(set.span(KEY.key), what, offer(nearest, &known, '"'));
         return None;
     };
     if *acts == Acts::AtStart {
         let at_once = kind.parameters.iter().filter(|parameter| parameter.acts == Acts::AtOnce);
-        let settable = at_once.map(|parameter| parameter.key.clone()).collect();
-        set.complain(set.span(KEY.key), SceneFault::ActsAtStart { key: known.clone(), settable });
+        let settable: Vec<&str> = at_once.map(|parameter| &*parameter.key).collect();
+        let remedy = format!(
+            "write it in the body's table, move the body by `place`, or set one of {}",
+            listed(&settable, '"', ", ")
+        );
+        let what = format!("`{known}` acts at the start only, and a command comes later");
+        set.complain(set.span(KEY.key), what, remedy);
         return None;
     }
     let value = match *range {
@@ -258,7 +286,7 @@ fn read_set(context: &SceneContext<'_>, set: &mut Table<'_>) -> Option<Action> {
         && let Err(error) = edited_values(kind, values, parameter, value)
         && let Some(fault) = error.fault()
     {
-        set.complain(set.span(VALUE.key), SceneFault::Fault(fault));
+        set.complain_of(set.span(VALUE.key), fault.into());
     }
     Some(Action::Set { body: place, parameter, value })
 }

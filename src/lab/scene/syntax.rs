@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use toml::de::Error;
 
-use super::cause::SceneFault;
 use super::clip::clip;
 use super::errors::SceneError;
+use super::fault::{FaultKind, SceneFault};
 
 const MISSING_COMMA: &str = "missing comma between array elements";
 
@@ -25,15 +25,15 @@ pub(super) fn errors(text: &str, found: Vec<Error>) -> Vec<SceneError> {
         if span.start < next_line {
             continue;
         }
-        let cause = cause(text, span.clone(), error.message());
+        let fault = fault(text, span.clone(), error.message());
         // The parser puts both tables' keys into one.
-        if is_table_twice && matches!(cause, SceneFault::DuplicateKey { .. }) {
+        if is_table_twice && matches!(fault.kind, FaultKind::Duplicate { .. }) {
             continue;
         }
-        is_table_twice |= matches!(cause, SceneFault::DuplicateKey { is_table: true, .. });
+        is_table_twice |= fault.kind == FaultKind::Duplicate { is_table: true };
         let newline = text.as_bytes()[span.start..].iter().position(|byte| *byte == b'\n');
         next_line = newline.map_or(usize::MAX, |n| span.start + n + 1);
-        errors.push(SceneError { span, cause });
+        errors.push(SceneError { span, fault });
         // To the parser, a list that is not closed goes on through all the lines that follow.
         if error.message().starts_with(MISSING_COMMA) {
             break;
@@ -42,7 +42,7 @@ pub(super) fn errors(text: &str, found: Vec<Error>) -> Vec<SceneError> {
     errors
 }
 
-fn cause(text: &str, span: Range<usize>, message: &str) -> SceneFault {
+fn fault(text: &str, span: Range<usize>, message: &str) -> SceneFault {
     let written = text.get(span.clone()).unwrap_or_default();
     let rest_of_line =
         text.get(span.start..).and_then(|rest| rest.lines().next()).unwrap_or_default();
@@ -51,12 +51,17 @@ fn cause(text: &str, span: Range<usize>, message: &str) -> SceneFault {
         Some((what, expected)) => (what, Some(expected)),
         None => (message, None),
     };
-    let syntax =
-        |what: &str, remedy: &str| SceneFault::Syntax { what: what.into(), remedy: remedy.into() };
+    let syntax = |what: &str, remedy: &str| SceneFault::new(what, remedy);
     match (what, expected) {
         ("duplicate key", _) => {
             let is_table = before.trim_end().ends_with('[');
-            SceneFault::DuplicateKey { key: written.into(), is_table }
+            let key = clip(written);
+            let remedy = match is_table {
+                true => format!("write `[[{key}]]` each time"),
+                false => "keep one of them".into(),
+            };
+            SceneFault::new(format!("`{key}` is given twice"), remedy)
+                .of(FaultKind::Duplicate { is_table })
         }
         ("string values must be quoted", _) if written.trim().is_empty() => {
             syntax("a key has no value", "write one after the `=`")

@@ -5,10 +5,11 @@ use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::cause::{Place, SceneFault, Wanted};
 use super::clip::clip;
 use super::errors::SceneError;
-use super::nearest::nearest;
+use super::fault::{FaultKind, SceneFault};
+use super::nearest::{nearest, offer};
+use super::wanted::{Place, Wanted};
 use crate::sim::bodies;
 use crate::sim::integrators::{METHODS, Method};
 
@@ -57,8 +58,17 @@ impl<'t> Table<'t> {
         }
     }
 
-    pub(super) fn complain(&mut self, span: Range<usize>, cause: SceneFault) {
-        self.errors.push(SceneError { span, cause });
+    pub(super) fn complain(
+        &mut self,
+        span: Range<usize>,
+        what: impl Into<String>,
+        remedy: impl Into<String>,
+    ) {
+        self.complain_of(span, SceneFault::new(what, remedy));
+    }
+
+    pub(super) fn complain_of(&mut self, span: Range<usize>, fault: SceneFault) {
+        self.errors.push(SceneError { span, fault });
     }
 
     /// Whether no fault has been found so far, in this table or below it.
@@ -100,11 +110,13 @@ impl<'t> Table<'t> {
         };
         let chars = text.chars().count();
         if text.trim().is_empty() {
-            self.complain(span, SceneFault::EmptyText { key, wanted });
+            self.complain(span, format!("`{key}` is empty"), wanted.remedy());
         } else if chars > most_chars {
-            self.complain(span, SceneFault::LongText { key, chars, wanted });
+            self.complain(span, format!("`{key}` has {chars} characters"), wanted.remedy());
         } else if let Some(character) = text.chars().find(|c| c.is_control()) {
-            self.complain(span, SceneFault::ControlCharacter { key, character });
+            let code = character as u32;
+            let what = format!("`{key}` holds the control character U+{code:04X}");
+            self.complain(span, what, "remove it");
         } else {
             return Some(text.into());
         }
@@ -149,11 +161,12 @@ impl<'t> Table<'t> {
             return self.wrong_type(format!("`{}`", field.key), value, Wanted::Methods);
         };
         if entries.is_empty() {
-            self.complain(value.span(), SceneFault::NoLanes);
+            let remedy = "name a method, or remove the line and all of them race";
+            self.complain(value.span(), format!("`{}` is empty", field.key), remedy);
         }
         if let Some(first_too_many) = entries.get(most) {
-            let cause = SceneFault::TooManyLanes { found: entries.len(), most };
-            self.complain(first_too_many.span(), cause);
+            let what = format!("the scene has {} lanes", entries.len());
+            self.complain(first_too_many.span(), what, format!("keep at most {most}"));
         }
         let mut methods = Vec::new();
         for entry in entries.iter().take(most) {
@@ -210,7 +223,8 @@ impl<'t> Table<'t> {
         let is_hex = text.len() == 16 && text.bytes().all(|digit| digit.is_ascii_hexdigit());
         let hash = is_hex.then(|| u64::from_str_radix(text, 16).ok()).flatten();
         if hash.is_none() {
-            self.complain(span, SceneFault::NoHash { key, text: clip(text) });
+            let what = format!("`{key}` is {:?}, not a hash", clip(text));
+            self.complain(span, what, Wanted::Hash.remedy());
         }
         hash
     }
@@ -226,22 +240,21 @@ impl<'t> Table<'t> {
         for (key, value) in self.entries {
             let (span, key) = (key.span(), key.get_ref().as_ref());
             if !self.keys.contains(&key) && !self.arrays.contains(&key) {
-                unknown.push(SceneError { span, cause: self.unknown(key, value.get_ref(), top) });
+                unknown.push(SceneError { span, fault: self.unknown(key, value.get_ref(), top) });
             }
         }
         // A misspelt or misplaced key is not reported as missing too.
-        let misspelt = unknown.iter().filter_map(|error| match &error.cause {
-            SceneFault::UnknownKey { nearest, .. } => nearest.as_deref(),
+        let misspelt = unknown.iter().filter_map(|error| match &error.fault.kind {
+            FaultKind::Unknown(nearest) => nearest.as_deref(),
             _ => None,
         });
-        let misplaced = self.below.iter().filter_map(|error| match error.cause {
-            SceneFault::Misplaced { key, .. } => Some(key),
+        let misplaced = self.below.iter().filter_map(|error| match error.fault.kind {
+            FaultKind::Misplaced(key) => Some(key),
             _ => None,
         });
         let meant: Vec<&str> = misspelt.chain(misplaced).collect();
-        self.errors.retain(|error| match &error.cause {
-            SceneFault::MissingKey { key, .. } => !meant.contains(key),
-            SceneFault::NoAction { known } => !known.iter().any(|key| meant.contains(key)),
+        self.errors.retain(|error| match &error.fault.kind {
+            FaultKind::Missing(keys) => !keys.iter().any(|key| meant.contains(key)),
             _ => true,
         });
         self.errors.append(&mut unknown);
@@ -252,24 +265,18 @@ impl<'t> Table<'t> {
     fn unknown(&self, key: &str, value: &DeValue<'_>, top: &[Field]) -> SceneFault {
         let place = self.place;
         if let Some(field) = top.iter().find(|field| field.key == key) {
-            return SceneFault::Misplaced { key: field.key, place };
+            let what = format!("`{key}` does not belong {place}");
+            return SceneFault::new(what, "move it above the first table")
+                .of(FaultKind::Misplaced(field.key));
         }
         let is_table = place == Place::Top && is_table(value);
-        let known = if is_table { self.arrays.clone() } else { self.keys.clone() };
+        let known = if is_table { &self.arrays } else { &self.keys };
         let nearest = nearest(key, known.iter().map(|name| (*name, *name)));
-        let key = key.into();
-        match is_table {
-            true => SceneFault::UnknownTable { key, nearest, known },
-            false => {
-                let known = known.into_iter().map(bodies::Text::from).collect();
-                SceneFault::UnknownKey {
-                    key,
-                    place,
-                    nearest: nearest.map(bodies::Text::from),
-                    known,
-                }
-            }
+        if !is_table {
+            return SceneFault::unknown_key(key, place, nearest, known);
         }
+        SceneFault::new(format!("unknown table `{}`", clip(key)), offer(nearest, known, '['))
+            .of(FaultKind::NoTable)
     }
 
     fn value(&mut self, field: Field, wanted: &Wanted) -> Option<&'t Spanned<DeValue<'t>>> {
@@ -277,11 +284,11 @@ impl<'t> Table<'t> {
         self.knows(key);
         let value = self.entries.get(key);
         if let (None, Some(about)) = (value, needed_as) {
-            let (place, wanted) = (self.place, wanted.clone());
-            self.complain(
-                self.header.clone(),
-                SceneFault::MissingKey { key, place, about, wanted },
-            );
+            let place = self.place;
+            let above = if place == Place::Top { " above the first table" } else { "" };
+            let remedy = format!("write `{key} = …`{above}: {about}, {wanted}");
+            let fault = SceneFault::new(format!("missing key `{key}` {place}"), remedy);
+            self.complain_of(self.header.clone(), fault.of(FaultKind::Missing(vec![key])));
         }
         value
     }
@@ -299,11 +306,9 @@ impl<'t> Table<'t> {
         if method.is_none() {
             let spellings = METHODS.iter().flat_map(Method::spellings);
             let nearest = nearest(id, spellings);
-            let known = METHODS.iter().map(|method| method.id).collect();
-            self.complain(
-                value.span(),
-                SceneFault::UnknownMethod { id: id.into(), key, nearest, known },
-            );
+            let known: Vec<_> = METHODS.iter().map(|method| method.id).collect();
+            let what = format!("unknown method {:?} in `{key}`", clip(id));
+            self.complain(value.span(), what, offer(nearest, &known, '"'));
         }
         method
     }
@@ -317,10 +322,9 @@ impl<'t> Table<'t> {
     ) -> Option<T> {
         if number.is_none() {
             let written = clip(&self.text[value.span()]);
-            self.complain(
-                value.span(),
-                SceneFault::OutOfRange { key: field.key.into(), value: written, wanted },
-            );
+            let subject = format!("`{}`", field.key);
+            let fault = SceneFault::out_of_range(&subject, &written, &wanted);
+            self.complain_of(value.span(), fault);
         }
         number
     }
@@ -342,7 +346,7 @@ impl<'t> Table<'t> {
             DeValue::Array(_) => "a list".into(),
             DeValue::Table(_) => "a table".into(),
         };
-        self.complain(value.span(), SceneFault::WrongType { subject, found, wanted });
+        self.complain_of(value.span(), SceneFault::wrong_type(&subject, &found, &wanted));
         None
     }
 }

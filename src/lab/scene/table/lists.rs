@@ -7,8 +7,9 @@ use toml::de::DeValue;
 
 use super::{Field, Table, integer, number};
 use crate::lab::scene::MAX_COORDINATE;
-use crate::lab::scene::cause::{SceneFault, Wanted};
 use crate::lab::scene::clip::clip;
+use crate::lab::scene::fault::SceneFault;
+use crate::lab::scene::wanted::Wanted;
 use crate::sim::bodies::{LARGEST, MAX_NODES, MAX_POINTS, Range};
 
 impl Table<'_> {
@@ -26,14 +27,17 @@ impl Table<'_> {
         };
         let found = entries.len();
         if !(2..=MAX_POINTS).contains(&found) {
-            self.complain(value.span(), SceneFault::PointCount { key, found, wanted });
+            let what = format!("`{key}` has {found} point{}", if found == 1 { "" } else { "s" });
+            self.complain(value.span(), what, wanted.remedy());
         }
         let mut points: Vec<[f64; 2]> = Vec::new();
         for entry in entries.iter().take(MAX_POINTS) {
             let point = self.point(field, entry)?;
             if let Some([before, _]) = points.last().filter(|last| last[0] >= point[0]) {
-                let cause = SceneFault::NotRising { key, value: point[0], before: *before };
-                self.complain(entry.span(), cause);
+                let what = format!("`{key}` goes from {before} to {}", point[0]);
+                let remedy =
+                    "order the points by their first numbers, each greater than the one before";
+                self.complain(entry.span(), what, remedy);
             }
             points.push(point);
         }
@@ -82,12 +86,8 @@ impl Table<'_> {
         if let Some((value, _)) = far {
             let subject = format!("a coordinate of node {node}");
             let written = clip(&self.text[value.span()]);
-            let cause = SceneFault::ItemOutOfRange {
-                subject,
-                value: written,
-                wanted: Wanted::Number(range),
-            };
-            self.complain(value.span(), cause);
+            let fault = SceneFault::out_of_range(&subject, &written, &Wanted::Number(range));
+            self.complain_of(value.span(), fault);
             return None;
         }
         Some(numbers)
@@ -133,8 +133,9 @@ impl Table<'_> {
             return self.wrong_type(format!("`{}`", field.key), value, wanted);
         };
         if numbers.len() != count {
-            let cause = SceneFault::NumberCount { key: field.key, found: numbers.len(), wanted };
-            self.complain(value.span(), cause);
+            let (key, found) = (field.key, numbers.len());
+            let what = format!("`{key}` has {found} number{}", if found == 1 { "" } else { "s" });
+            self.complain(value.span(), what, wanted.remedy());
             return None;
         }
         let range = Range::Within(MAX_COORDINATE);

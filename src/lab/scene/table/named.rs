@@ -6,8 +6,9 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::{Field, Table, number};
-use crate::lab::scene::cause::{Place, SceneFault, Wanted};
 use crate::lab::scene::clip::clip;
+use crate::lab::scene::fault::SceneFault;
+use crate::lab::scene::wanted::{Place, Wanted};
 use crate::sim::bodies;
 
 /// An entry whose key the file chooses.
@@ -69,9 +70,8 @@ impl<'t> Table<'t> {
         };
         if !range.contains(number) {
             let written = clip(&self.text[entry.value.span()]);
-            let what = format!("{subject} is {written}, out of range");
-            let cause = SceneFault::Law { what, remedy: format!("write {wanted}") };
-            self.complain(entry.value.span(), cause);
+            let fault = SceneFault::out_of_range(&subject, &written, &wanted);
+            self.complain_of(entry.value.span(), fault);
         }
         range.contains(number).then_some(number)
     }
