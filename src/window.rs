@@ -12,7 +12,7 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Fullscreen, WindowId};
 
-use crate::lab::{AnalysisWorker, Command, DriverRequest, Lab, LoopWorker};
+use crate::lab::{AnalysisWorker, CloudWorker, Command, DriverRequest, Lab, LoopWorker};
 
 mod canvas;
 mod clipboard;
@@ -89,6 +89,7 @@ pub fn run(
     let mut app = App {
         analysis: WorkThread::new(analysis, analysed, proxy.clone()),
         loops: WorkThread::new(LoopWorker::default(), None, proxy.clone()),
+        clouds: WorkThread::new(CloudWorker::default(), None, proxy.clone()),
         recording: keep.map(|keep| GrowingRecording::new(keep, proxy.clone())),
         tick_timer: TickTimer::new(proxy.clone()),
         lab,
@@ -122,6 +123,7 @@ struct App {
     lab: Lab,
     analysis: WorkThread<AnalysisWorker>,
     loops: WorkThread<LoopWorker>,
+    clouds: WorkThread<CloudWorker>,
     recording: Option<GrowingRecording>,
     tick_timer: TickTimer,
     read: ReadScene,
@@ -240,6 +242,7 @@ impl App {
         }
         self.analysis.ask(self.lab.analysis_request());
         self.loops.ask(self.lab.loop_request());
+        self.clouds.ask(self.lab.cloud_request().map(Arc::new));
         self.tick_timer.ask(&self.lab, now);
         let frame = self.last_frame.map_or(FIRST_FRAME, |last| now.duration_since(last));
         self.last_frame = self.lab.running().then_some(now);

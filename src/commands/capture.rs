@@ -6,7 +6,9 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::error::{Cause, Error};
-use super::experiment::{self, Experiment, ExperimentArgs, Lineup, ThemeName, known_trace};
+use super::experiment::{
+    self, Experiment, ExperimentArgs, Lineup, ThemeName, known_instrument, known_trace,
+};
 use super::frame_folder::{Existing, FrameFolder};
 use super::frame_names::MOST_FRAMES;
 use super::movie::{self, MovieFormat};
@@ -15,6 +17,7 @@ use super::output::{AtomicOutput, Older, OutputError, Place};
 use super::recording::Recording;
 use super::schedule::{FPS, MOST_FPS, Schedule, frames_in};
 use super::{clip, sheet, state_log};
+use crate::lab::Instrument;
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
 
@@ -80,6 +83,10 @@ pub(super) struct CaptureArgs {
     /// Whether panels are shown around the stage: on or off [default: on; sheet: off]
     #[arg(long, value_name = "WHEN", hide_possible_values = true)]
     panels: Option<Shown>,
+
+    /// The instrument among the panels, such as energy, phase-portrait or cloud [default: motion]
+    #[arg(long, value_name = "NAME", value_parser = known_instrument, conflicts_with = "loop_trace")]
+    instrument: Option<Instrument>,
 
     /// Ticks between two states in the manifest [default: about 500 states in all]
     #[arg(long, value_name = "N")]
@@ -160,6 +167,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
         size_px: args.size.unwrap_or(format.or_sheet([1280, 720], [320, 180])),
         scale: args.scale,
         panels: args.panels.unwrap_or(format.or_sheet(Shown::On, Shown::Off)) == Shown::On,
+        instrument: args.instrument,
         motion: true,
         theme: args.theme.map(Theme::from).unwrap_or_default(),
         mark_every: args

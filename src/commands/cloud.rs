@@ -20,8 +20,8 @@ use super::output::{AtomicOutput, Older, Place, STDOUT, finish, print};
 use super::terminal::tell;
 use crate::lab::palette::{Rgba, Theme};
 use crate::lab::{
-    Cloud, CloudMeasure, CloudShape, CloudStart, Density, ExactBorder, LaneSpec, NoCloud,
-    PlaneView, Scene, USUAL_POINTS,
+    Cloud, CloudAxes, CloudMeasure, CloudShape, CloudStart, Density, ExactBorder, LaneSpec,
+    NoCloud, PlaneView, Scene, ShownTicks, USUAL_POINTS,
 };
 use crate::sim::{Solver, Stepper};
 use crate::view::png;
@@ -183,16 +183,11 @@ const SHOWN_CS: u32 = 8;
 /// The longest run that nobody asked for, in seconds.
 const USUAL_SECONDS: f64 = 60.0;
 
-/// The points of each method that find what is to be shown, and for how long at most, in seconds.
-const SCOUTS: usize = 100;
-const LONGEST_SCOUTED_S: u64 = 30;
+/// How far other clouds stretch the axes, in widths of what the exact one covers.
+const BESIDE: f64 = 1.0;
 
-/// The moments that a picture shows: so many, evenly through these ticks.
-#[derive(Clone, Copy)]
-struct Shown {
-    ticks: u64,
-    times: u64,
-}
+/// The longest run that finds what is to be shown, in seconds.
+const LONGEST_SCOUTED_S: u64 = 30;
 
 /// A method's cloud on its way.
 struct Run {
@@ -291,12 +286,15 @@ fn make(
     // The first part of a long run is as wide as the rest.
     let long = ticks.min(LONGEST_SCOUTED_S * u64::from(scene.tick_hz));
     let shown = match (form, strobe) {
-        (Form::Png, None) => Shown { ticks, times: 1 },
-        _ => Shown { ticks: long, times: long.min(MOST_FRAMES) },
+        (Form::Png, None) => ShownTicks { ticks, times: 1, beside: BESIDE },
+        _ => ShownTicks { ticks: long, times: long.min(MOST_FRAMES), beside: BESIDE },
     };
     let view = match form {
         Form::Rows => None,
-        Form::Png | Form::Gif => Some(view(&name, &*body, start, scene, specs, shown)?),
+        Form::Png | Form::Gif => {
+            let axes = CloudAxes::of_run(&name, &*body, start, specs, scene.tick_hz, shown);
+            Some(axes.map_err(CloudError::from)?.whole)
+        }
     };
     let size_px = [runs.len() * (SIDE_PX + GAP_PX) - GAP_PX, SIDE_PX];
     let mut frames = Vec::new();
@@ -368,31 +366,6 @@ fn body(scene: &Scene, solver: Solver) -> (String, Box<dyn Stepper>) {
     (body.name.clone(), (body.kind.build)(&body.values, solver))
 }
 
-/// What the pictures show: where the exact cloud comes, and a few points of the others.
-fn view(
-    name: &str,
-    body: &dyn Stepper,
-    start: CloudStart,
-    scene: &Scene,
-    specs: &[LaneSpec],
-    shown: Shown,
-) -> Result<PlaneView, CloudError> {
-    let mut border = ExactBorder::new(name, body, start, scene.tick_hz)?;
-    let scouts = specs.iter().map(|s| Cloud::new(name, body, s, start, SCOUTS, scene.tick_hz));
-    let mut scouts = scouts.collect::<Result<Vec<_>, _>>()?;
-    let (mut exact, mut others) = (Vec::new(), Vec::new());
-    let every = shown.ticks / shown.times;
-    for _ in 0..shown.times {
-        border.advance(every);
-        exact.extend(border.lines().concat());
-        for scout in &mut scouts {
-            scout.advance(every);
-            others.extend(scout.q().iter().zip(scout.v()).map(|(&q, &v)| [q, v]));
-        }
-    }
-    Ok(PlaneView::around(&exact, &others, body.is_angle(0)))
-}
-
 /// The clouds side by side.
 fn picture(
     runs: &[Run],
@@ -442,13 +415,9 @@ fn row(Run { spec, cloud, stepping, .. }: &Run, points: usize, ticks: u64, form:
         0 => String::new(),
         lost => format!("; {lost} of {points} starts blew up and are left out"),
     };
-    let across = cloud.cells_across();
-    let how = match cloud.is_by_determinant() {
-        true => "by the determinant".to_owned(),
-        false => format!("by cells, {across} across the start"),
-    };
+    let how = cloud.measured_in_words();
     if form != Form::Rows || !lost.is_empty() {
-        tell(&format!("{method} {} ({how}){lost}", cloud.in_words(&measure)));
+        tell(&format!("{method} {} ({how}){lost}", cloud.in_words(measure.area_ratio)));
     }
     let steps = points as f64 * ticks as f64 * f64::from(spec.substeps);
     Row { method, measure, body_steps_per_s: steps / stepping.as_secs_f64().max(1e-9) }

@@ -11,7 +11,8 @@ use super::spring::SpringArgs;
 use crate::lab::pacing::{POLICIES, PolicyCard, TRACES, TraceCard, policy, trace_card};
 use crate::lab::palette::Theme;
 use crate::lab::{
-    Clock, Command, Lab, LaneSpec, MANY_LANES, MAX_SECONDS, SCENES, Scene, lanes_that_race, nearest,
+    Clock, Command, Instrument, Lab, LaneSpec, MANY_LANES, MAX_SECONDS, SCENES, Scene,
+    lanes_that_race, nearest,
 };
 use crate::sim::integrators::{METHODS, Method, method};
 
@@ -205,6 +206,14 @@ pub(super) fn known_trace(id: &str) -> Result<&'static TraceCard, String> {
                 .into();
         }
         no_such("trace", "traces", nearest(id, spellings))
+    })
+}
+
+/// The instrument of this id, for the command line's parser.
+pub(super) fn known_instrument(id: &str) -> Result<Instrument, String> {
+    Instrument::of_id(id).ok_or_else(|| {
+        let ids: Vec<_> = Instrument::all().map(Instrument::id).collect();
+        format!("no such instrument; give one of {}", ids.join(", "))
     })
 }
 

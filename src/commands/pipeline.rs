@@ -16,7 +16,7 @@ use rayon::ThreadPoolBuilder;
 use super::jobs;
 use super::schedule::Schedule;
 use super::state_log::StateLog;
-use crate::lab::Lab;
+use crate::lab::{CloudWorker, Lab};
 use crate::view::{OffscreenRenderer, Panels, ReadbackError};
 
 /// Frames that the device draws at a time. More gain nothing on a software adapter, and cost memory.
@@ -117,14 +117,14 @@ impl Run<'_> {
         mut hand_on: impl FnMut(Drawn),
     ) -> Result<u32, ReadbackError> {
         let Self { renderer, lab, state_log, schedule, interrupted } = self;
-        let mut moments = VecDeque::new();
+        let (mut moments, mut clouds) = (VecDeque::new(), CloudWorker::default());
         let mut drawn = 0;
         let mut next = 0;
         loop {
             let more = next < schedule.frames && !interrupted.load(Ordering::Relaxed);
             if more {
                 schedule.advance(lab, next, state_log);
-                if complete_analysis(lab, renderer, interrupted) {
+                if complete_analysis(lab, renderer, &mut clouds, interrupted) {
                     renderer.submit(lab)?;
                     moments.push_back((lab.race().tick(), lab.clock().alpha_fraction()));
                     next += 1;
@@ -185,17 +185,19 @@ impl<T> ReorderingWindow<T> {
     }
 }
 
-/// Completes the loops on the stage, and the analysis that the panels show, such as verdicts. A window shows results as
+/// Completes the loops on the stage, and the analysis and the clouds that the panels show. A window shows results as
 /// they are found; a recording waits for a stated amount of work on verdicts before each frame, so that its frames are
 /// reproducible. Returns `false` after an interrupt, when the work is not waited for: the process is about to end.
 pub(super) fn complete_analysis(
     lab: &mut Lab,
     renderer: &OffscreenRenderer,
+    clouds: &mut CloudWorker,
     interrupted: &AtomicBool,
 ) -> bool {
     lab.run_loops();
     if renderer.panels() == Panels::Shown {
         lab.analyse_bounded(|worker| jobs::result(interrupted, move || worker.finish()));
+        lab.complete_clouds(clouds, || interrupted.load(Ordering::Relaxed));
     }
     !interrupted.load(Ordering::Relaxed)
 }

@@ -3,7 +3,7 @@
 use super::experiment::Experiment;
 use super::schedule::Schedule;
 use crate::lab::palette::Theme;
-use crate::lab::{Lab, Motion};
+use crate::lab::{Instrument, Lab, Motion};
 
 /// How a run is drawn: its frames, their size and what they show.
 #[derive(Clone, Copy, Debug)]
@@ -14,6 +14,8 @@ pub(super) struct Recording {
     pub(super) scale: f32,
     /// Whether panels are shown around the stage.
     pub(super) panels: bool,
+    /// The instrument among them; `None` for the usual one.
+    pub(super) instrument: Option<Instrument>,
     /// Whether trails fade and the camera glides.
     pub(super) motion: bool,
     pub(super) theme: Theme,
@@ -27,6 +29,7 @@ impl Recording {
         let mut lab = experiment.lab();
         lab.set_motion(if self.motion { Motion::Recorded } else { Motion::Reduced });
         lab.choose_theme(self.theme);
+        self.instrument.into_iter().for_each(|instrument| lab.choose_instrument(instrument));
         lab
     }
 }

@@ -1,13 +1,13 @@
 //! Converts an experiment and a recording to the settings of a manifest, and back.
 
-use super::experiment::{Experiment, Lineup, known_trace};
+use super::experiment::{Experiment, Lineup, known_instrument, known_trace};
 use super::fingerprint::fingerprint;
 use super::frame_names::{MOST_FRAMES, frame_name};
 use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings};
 use super::recording::Recording;
 use super::schedule::{MOST_FPS, Schedule};
 use crate::lab::palette::Theme;
-use crate::lab::{Clock, LaneSpec, MAX_LANES, MAX_SUBSTEPS, Scene, TOLERANCES};
+use crate::lab::{Clock, Instrument, LaneSpec, MAX_LANES, MAX_SUBSTEPS, Scene, TOLERANCES};
 use crate::sim::integrators::method;
 
 /// The light theme in a manifest; the dark one is not written.
@@ -40,6 +40,7 @@ pub(super) fn written(experiment: &Experiment, recording: &Recording) -> Setting
         // The shortest decimal of an f32 is the same number as an f64 for people, and reads back.
         scale: recording.scale.to_string().parse().expect("a number's own text"),
         panels: recording.panels,
+        instrument: recording.instrument.map(Instrument::id),
         motion: recording.motion,
         theme: (recording.theme == Theme::Light).then(|| LIGHT.to_owned()),
         mark_every: recording.mark_every,
@@ -106,6 +107,7 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
         size_px: settings.size,
         scale: settings.scale as f32,
         panels: settings.panels,
+        instrument: settings.instrument.as_deref().map(known_instrument).transpose()?,
         motion: settings.motion,
         theme: match settings.theme.as_deref() {
             None => Theme::Dark,

@@ -9,7 +9,7 @@ use super::output::AtomicOutput;
 use super::pipeline::complete_analysis;
 use super::recording::Recording;
 use super::terminal::{progress, tell};
-use crate::lab::LaneSpec;
+use crate::lab::{CloudWorker, LaneSpec};
 use crate::view::png;
 
 /// The most pixels of a sheet, a gigabyte of memory.
@@ -57,10 +57,10 @@ pub(super) fn draw(
             lineup: Lineup::Solo,
             loop_trace: None,
         };
-        let mut lab = recording.lab(&alone);
+        let (mut lab, mut clouds) = (recording.lab(&alone), CloudWorker::default());
         for column in 0..columns {
             recording.schedule.advance(&mut lab, column, &mut ());
-            if !complete_analysis(&mut lab, &renderer, &interrupted) {
+            if !complete_analysis(&mut lab, &renderer, &mut clouds, &interrupted) {
                 progress.finish_and_clear();
                 let done = row as u32 * columns + column;
                 return Err(DrawingError::interrupted(done, cells, "none, a sheet is one"));

@@ -3,14 +3,26 @@
 //! A method is a map of the phase plane. What it does to an area is its character: it keeps it, spreads it, shrinks it or
 //! tears it.
 
-use crate::sim::batch::{Batch, InstructionSet, Ticks};
+use crate::sim::batch::Ticks;
 use crate::sim::integrators::{Family, method};
 use crate::sim::{Solver, State, Stepper};
 
+mod axes;
+mod course;
 mod density;
+mod request;
+mod running;
+mod section;
 mod shape;
 
+pub use axes::{CloudAxes, ShownTicks};
+use course::{Course, Memory};
 pub use density::{Density, PlaneView};
+pub(super) use request::MAX_CLOUDS;
+pub use request::{
+    CloudChoice, CloudKind, CloudPicture, CloudRequest, FoundCloud, LaneCloud, POINTS,
+};
+pub use running::CloudWorker;
 pub use shape::CloudShape;
 
 use super::lane::ESCAPE;
@@ -52,6 +64,8 @@ pub enum NoCloud {
 pub struct CloudStart {
     /// Its shape.
     pub shape: CloudShape,
+    /// When, in seconds: of forces that depend on time.
+    pub t: f64,
     /// The middle: coordinate and velocity.
     pub middle: [f64; 2],
     /// How far it reaches in the coordinate and in the velocity.
@@ -86,11 +100,15 @@ impl CloudStart {
         let swing = middle[0].abs().max(middle[1].abs() / rate);
         let usual = if swing > 0.0 { swing / 4.0 } else { 0.25 };
         let size = size.unwrap_or(usual);
-        Ok(Self { shape, middle, reach: [size, size * rate] })
+        Ok(Self { shape, t: 0.0, middle, reach: [size, size * rate] })
     }
 
     fn state(&self, [x, y]: [f64; 2]) -> State<f64> {
         State { q: self.middle[0] + self.reach[0] * x, v: self.middle[1] + self.reach[1] * y }
+    }
+
+    fn ticks(&self, tick_hz: u32, substeps: u32) -> Ticks {
+        Ticks { origin: self.t, ..Ticks::from_start(tick_hz, substeps, 0) }
     }
 }
 
@@ -109,9 +127,8 @@ pub struct CloudMeasure {
 
 /// Many starts of a body under one method.
 pub struct Cloud {
-    batch: Batch,
+    course: Course,
     start: CloudStart,
-    ticks: Ticks,
     points: usize,
     /// Whether the method maps the plane of this body linearly, so that one determinant says all of area.
     is_linear: bool,
@@ -121,6 +138,9 @@ pub struct Cloud {
 
 /// The least points whose area is measured by cells.
 const LEAST_POINTS: usize = 1000;
+
+/// The most cells around the points that have a mark each: beyond that the points are sorted.
+const MOST_MARKS: i64 = 1 << 24;
 
 /// Points of the exact border.
 const BORDER_POINTS: usize = 1200;
@@ -146,65 +166,97 @@ impl Cloud {
     ) -> Result<Self, NoCloud> {
         let is_linear = body.is_linear() && spec.method.family != Family::Adaptive;
         let shape = start.shape.points(points).chain(TRIANGLE).map(|point| start.state(point));
-        let batch = batch(name, body, spec.solver(), points, || shape.collect())?;
-        let ticks = Ticks::from_start(tick_hz, spec.substeps, 0);
-        let mut cloud = Self { batch, start, ticks, points, is_linear, cells: 0, spread: 0.0 };
+        let memory = match spec.method.restart {
+            None => Memory::Absent,
+            Some(_) => Memory::Carried,
+        };
+        let (solver, ticks) = (spec.solver(), start.ticks(tick_hz, spec.substeps));
+        let starts = || shape.collect();
+        let course = Course::new((name, body), (solver, memory), ticks, points, starts)?;
+        let mut cloud = Self { course, start, points, is_linear, cells: 0, spread: 0.0 };
         cloud.cells = cloud.covered_cells();
         cloud.spread = cloud.distance().unwrap_or(0.0);
         Ok(cloud)
     }
 
+    /// The same cloud, which keeps states of earlier ticks to go back to.
+    pub fn rewindable(self) -> Self {
+        Self { course: self.course.rewindable(), ..self }
+    }
+
     /// Steps all points.
     pub fn advance(&mut self, ticks: u64) {
-        self.ticks = self.ticks.next(ticks);
-        self.batch.run(self.ticks);
+        self.go_to(self.tick() + ticks);
+    }
+
+    /// Steps all points to a tick. An earlier one has the bits that it had; only a [rewindable](Self::rewindable) cloud
+    /// goes there.
+    pub fn go_to(&mut self, tick: u64) {
+        self.course.go_to(tick);
+    }
+
+    /// The tick reached.
+    pub fn tick(&self) -> u64 {
+        self.course.tick()
     }
 
     /// The coordinates of the points.
     pub fn q(&self) -> &[f64] {
-        &self.batch.q()[..self.points]
+        &self.course.q()[..self.points]
     }
 
     /// Their velocities.
     pub fn v(&self) -> &[f64] {
-        &self.batch.v()[..self.points]
-    }
-
-    /// Whether the area is by a determinant; otherwise it is by covered [cells](Cloud::cells_across).
-    pub fn is_by_determinant(&self) -> bool {
-        self.is_linear
+        &self.course.v()[..self.points]
     }
 
     /// The cells into which the box of the start is cut, each way: so many that some eight points fall in each.
-    pub fn cells_across(&self) -> usize {
+    fn cells_across(&self) -> usize {
         cells_across(self.points)
+    }
+
+    /// How the area is measured.
+    pub fn measured_in_words(&self) -> String {
+        match self.is_linear {
+            true => "by the determinant".into(),
+            false => format!("by cells, {} across the start", self.cells_across()),
+        }
     }
 
     /// What has become of it.
     pub fn measure(&self) -> CloudMeasure {
-        let points = self.present().count();
-        let area_ratio = match self.is_linear {
-            true => Some(self.determinant()).filter(|ratio| ratio.is_finite()),
-            false if self.points < LEAST_POINTS => None,
-            false => Some(self.covered_cells() as f64 / self.cells as f64),
-        };
+        let area_ratio = self.area_ratio();
         let mut hash = Fnv::new();
         for &number in self.q().iter().chain(self.v()) {
             // What is not a number has bits that depend on the processor.
             hash.number(if number.is_nan() { f64::NAN } else { number });
         }
-        let area_ratio = area_ratio.filter(|_| points > 0);
         let spread = self.distance().map(|distance| distance / self.spread);
-        CloudMeasure { points, area_ratio, spread, hash: hash.0 }
+        CloudMeasure { points: self.points_left(), area_ratio, spread, hash: hash.0 }
+    }
+
+    /// The points that are still there; the others blew up.
+    pub fn points_left(&self) -> usize {
+        self.present().count()
+    }
+
+    /// The area over that at the start; `None` if no point is left, or too few were there for cells.
+    pub fn area_ratio(&self) -> Option<f64> {
+        let ratio = match self.is_linear {
+            true => Some(self.determinant()).filter(|ratio| ratio.is_finite()),
+            false if self.points < LEAST_POINTS => None,
+            false => Some(self.covered_cells() as f64 / self.cells as f64),
+        };
+        ratio.filter(|_| self.present().next().is_some())
     }
 
     /// What the area has become, in words.
-    pub fn in_words(&self, measure: &CloudMeasure) -> String {
-        let Some(ratio) = measure.area_ratio else {
-            let is_lost = measure.points == 0;
+    pub fn in_words(&self, area_ratio: Option<f64>) -> String {
+        let Some(ratio) = area_ratio else {
+            let is_lost = self.present().next().is_none();
             return if is_lost { "is lost" } else { "has too few points for an area" }.into();
         };
-        let seconds = (self.ticks.first + self.ticks.count) as f64 / f64::from(self.ticks.hz);
+        let seconds = self.course.t() - self.start.t;
         // Covered cells are a rough measure of a thin cloud.
         let little = if self.is_linear { 1e-6 } else { 0.1 };
         let change = libm::log(ratio);
@@ -226,7 +278,7 @@ impl Cloud {
     fn determinant(&self) -> f64 {
         let corner = |n: usize| {
             let at = self.points + n;
-            let [q, v] = [self.batch.q()[at], self.batch.v()[at]];
+            let [q, v] = [self.course.q()[at], self.course.v()[at]];
             [q / self.start.reach[0], v / self.start.reach[1]]
         };
         let [a, b, c] = [corner(0), corner(1), corner(2)];
@@ -239,10 +291,27 @@ impl Cloud {
         let cell = |state: [f64; 2]| {
             [0, 1].map(|i| ((state[i] - middle[i]) / reach[i] * across).floor() as i32)
         };
-        let mut cells: Vec<[i32; 2]> = self.present().map(cell).collect();
-        cells.sort_unstable();
-        cells.dedup();
-        cells.len()
+        let cells = || self.present().map(cell);
+        let ends = |i: usize| {
+            cells()
+                .map(|cell| cell[i])
+                .fold((i32::MAX, i32::MIN), |(low, high), n| (n.min(low), n.max(high)))
+        };
+        let [(left, right), (low, high)] = [ends(0), ends(1)];
+        let size = [(left, right), (low, high)]
+            .map(|(from, to)| (i64::from(to) - i64::from(from) + 1).max(0));
+        if size[0].saturating_mul(size[1]) > MOST_MARKS {
+            let mut cells: Vec<[i32; 2]> = cells().collect();
+            cells.sort_unstable();
+            cells.dedup();
+            return cells.len();
+        }
+        let mut marks = vec![0_u64; (size[0] * size[1]) as usize / 64 + 1];
+        for [x, y] in cells() {
+            let place = (i64::from(y) - i64::from(low)) * size[0] + i64::from(x) - i64::from(left);
+            marks[place as usize / 64] |= 1 << (place % 64);
+        }
+        marks.iter().map(|marks| marks.count_ones() as usize).sum()
     }
 
     /// The root mean square distance of the points from their middle, in units of the reach; `None` without points.
@@ -264,27 +333,19 @@ fn cells_across(points: usize) -> usize {
     ((points as f64 / 8.0).sqrt() as usize).max(4)
 }
 
-/// Copies of the body from the starts, which are made only if there is memory for them.
-fn batch(
-    name: &str,
-    body: &dyn Stepper,
-    solver: Solver,
-    points: usize,
-    starts: impl FnOnce() -> Vec<State<f64>>,
-) -> Result<Batch, NoCloud> {
-    let too_many = |_| NoCloud::TooMany { points };
-    Batch::find_room(points, solver).map_err(too_many)?;
-    let batch = body.batch(InstructionSet::widest(), solver, starts());
-    batch.ok_or_else(|| NoCloud::Custom { body: name.into() })?.map_err(too_many)
-}
-
 /// The border of a cloud that moves exactly: by a method of high order to a tolerance that no picture shows.
 pub struct ExactBorder {
-    batch: Batch,
-    ticks: Ticks,
+    course: Course,
     /// The points of each line.
     lengths: Vec<usize>,
+    /// The area at the start, and the length of its longest piece there, in units of the reach.
+    start: CloudStart,
+    area: f64,
+    piece: f64,
 }
+
+/// A border whose pieces have become this many times longer than at the start says nothing of its area.
+const LONGEST_PIECE: f64 = 30.0;
 
 impl ExactBorder {
     /// The border at the start.
@@ -297,24 +358,70 @@ impl ExactBorder {
         start: CloudStart,
         tick_hz: u32,
     ) -> Result<Self, NoCloud> {
-        let borders = start.shape.borders(BORDER_POINTS);
+        Self::of_points(BORDER_POINTS, name, body, start, tick_hz)
+    }
+
+    fn of_points(
+        points: usize,
+        name: &str,
+        body: &dyn Stepper,
+        start: CloudStart,
+        tick_hz: u32,
+    ) -> Result<Self, NoCloud> {
+        let borders = start.shape.borders(points);
         let lengths = borders.iter().map(Vec::len).collect();
         let method = method("dormand-prince-54").expect("a method of the table");
-        let solver = Solver::WithTolerance(method, BORDER_TOLERANCE);
+        let solver = (Solver::WithTolerance(method, BORDER_TOLERANCE), Memory::Dropped);
         let starts = || borders.concat().into_iter().map(|point| start.state(point)).collect();
-        let batch = batch(name, body, solver, BORDER_POINTS, starts)?;
-        Ok(Self { batch, ticks: Ticks::from_start(tick_hz, 1, 0), lengths })
+        let course = Course::new((name, body), solver, start.ticks(tick_hz, 1), points, starts)?;
+        let mut border = Self { course, lengths, start, area: 1.0, piece: 0.0 };
+        (border.area, border.piece) = border.area_and_piece();
+        Ok(border)
+    }
+
+    /// The same border, which keeps states of earlier ticks to go back to.
+    pub fn rewindable(self) -> Self {
+        Self { course: self.course.rewindable(), ..self }
     }
 
     /// Moves it on.
     pub fn advance(&mut self, ticks: u64) {
-        self.ticks = self.ticks.next(ticks);
-        self.batch.run(self.ticks);
+        self.go_to(self.course.tick() + ticks);
     }
 
-    /// The lines, of coordinates and velocities.
+    /// Moves it to a tick, as [`Cloud::go_to`].
+    pub fn go_to(&mut self, tick: u64) {
+        self.course.go_to(tick);
+    }
+
+    /// The lines, of coordinates and velocities. The first is around all, and the others are around its holes.
     pub fn lines(&self) -> Vec<Vec<[f64; 2]>> {
-        let mut states = self.batch.q().iter().zip(self.batch.v()).map(|(&q, &v)| [q, v]);
+        let mut states = self.course.q().iter().zip(self.course.v()).map(|(&q, &v)| [q, v]);
         self.lengths.iter().map(|&length| states.by_ref().take(length).collect()).collect()
+    }
+
+    /// The area over that at the start; `None` where the border has become too long for its points.
+    pub fn area_ratio(&self) -> Option<f64> {
+        let (area, piece) = self.area_and_piece();
+        (piece <= LONGEST_PIECE * self.piece && area > 0.0).then_some(area / self.area)
+    }
+
+    /// The area, and the length of the longest piece between two points, in units of the reach.
+    fn area_and_piece(&self) -> (f64, f64) {
+        let CloudStart { middle, reach, .. } = self.start;
+        let unit = |at: [f64; 2]| [0, 1].map(|i| (at[i] - middle[i]) / reach[i]);
+        let mut longest = 0.0_f64;
+        let mut around = |line: Vec<[f64; 2]>| {
+            let pieces = line.windows(2).map(|ends| {
+                let [a, b] = [unit(ends[0]), unit(ends[1])];
+                longest = longest.max((b[0] - a[0]).abs()).max((b[1] - a[1]).abs());
+                a[0] * b[1] - b[0] * a[1]
+            });
+            pieces.sum::<f64>().abs() / 2.0
+        };
+        let mut areas = self.lines().into_iter().map(&mut around);
+        let whole = areas.next().unwrap_or(0.0);
+        let area = areas.fold(whole, |area, hole| area - hole);
+        (area, longest)
     }
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::action::Action;
+use super::cloud::CloudChoice;
 use super::held::HeldBody;
 use super::instrument::Instrument;
 use super::lane_spec::LaneSpec;
@@ -139,6 +140,8 @@ pub enum Command {
     PreviousInstrument,
     /// Shows the metric at this place of [`METRICS`](super::METRICS) in the error instrument.
     Metric(usize),
+    /// Chooses the clouds of the cloud instrument.
+    Cloud(CloudChoice),
     /// Shows the instrument over the stage, or beside it again.
     ToggleEnlarged,
     /// Copies the method of the lane that is [pointed at](Command::PointAt) as source code in the language of the last
@@ -235,6 +238,7 @@ impl Command {
             | Command::Hold(_)
             | Command::Seconds(_)
             | Command::MapParameter(_)
+            | Command::Cloud(_)
             | Command::NextInterpolation
             | Command::ToggleInspector
             | Command::Record

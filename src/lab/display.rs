@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::cloud::CloudChoice;
 use super::instrument::Instrument;
 use super::interpolation::Interpolation;
 use super::palette::Theme;
@@ -47,6 +48,8 @@ pub struct Display {
     pub metric: usize,
     /// Whether the advice is about the [displayed body](View::body) alone, and not about all.
     pub advises_on_one_body: bool,
+    /// The clouds of the cloud instrument.
+    pub cloud: CloudChoice,
     /// How the lanes of a race share the stage.
     pub arrangement: Arrangement,
     /// A dark or a light chart.

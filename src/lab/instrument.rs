@@ -17,6 +17,8 @@ pub enum Instrument {
     StabilityMap,
     /// What the selected method does in the next tick.
     OneStep,
+    /// What each method does to the area of many starts.
+    Cloud,
     /// What game loops show, and what this program's own loop does.
     Loop,
     /// Advice on methods and rates.
@@ -99,6 +101,13 @@ pub static INSTRUMENTS: &[InstrumentCard] = &[
                 where it lands, and where the exact solution lands.",
     },
     InstrumentCard {
+        instrument: Instrument::Cloud,
+        row: Explain,
+        name: "Cloud",
+        about: "A shape of very many starts about that of the body, stepped by each method: brighter where more points are, \
+                the exact cloud outlined. A method keeps their area, grows it or shrinks it.",
+    },
+    InstrumentCard {
         instrument: Instrument::Loop,
         row: Explain,
         name: "Loop",
@@ -143,11 +152,21 @@ impl Instrument {
         self.card().name
     }
 
+    /// Its name on the command line and in the names of files.
+    pub fn id(self) -> String {
+        self.name().to_lowercase().replace(' ', "-")
+    }
+
+    /// The instrument of this [id](Self::id).
+    pub fn of_id(id: &str) -> Option<Self> {
+        Self::all().find(|instrument| instrument.id() == id)
+    }
+
     /// Whether the loop lab has it: each of its loops has a motion, and they have one method in common.
     pub fn is_in_loop_lab(self) -> bool {
         match self {
             Self::Motion | Self::Error | Self::Energy | Self::Phase | Self::Loop => true,
-            Self::Cost | Self::StabilityMap | Self::OneStep | Self::Advice => false,
+            Self::Cost | Self::StabilityMap | Self::OneStep | Self::Cloud | Self::Advice => false,
         }
     }
 

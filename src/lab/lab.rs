@@ -2,6 +2,7 @@
 
 use super::command::SCALE_LADDER;
 use super::display::{Display, Motion, Pace, View};
+use super::instrument::Instrument;
 use super::lane_spec::LaneSpec;
 use super::loop_lab::LoopLab;
 use super::notice::Notice;
@@ -15,6 +16,7 @@ use super::viewer::Viewer;
 use crate::sim::Clock;
 
 mod apply;
+mod clouding;
 mod driving;
 mod findings;
 mod guiding;
@@ -167,6 +169,10 @@ impl Lab {
         if !self.viewer.preferences.theme_is_chosen {
             self.viewer.preferences.display.theme = theme;
         }
+    }
+    /// Shows this instrument at first.
+    pub fn choose_instrument(&mut self, instrument: Instrument) {
+        self.viewer.preferences.display.instrument = instrument;
     }
     /// Shows this theme, whatever the system's is.
     pub fn choose_theme(&mut self, theme: Theme) {

@@ -70,8 +70,9 @@ pub use analysis::{
 pub use appearance::Appearance;
 pub use chase::Chase;
 pub use cloud::{
-    Cloud, CloudMeasure, CloudShape, CloudStart, Density, ExactBorder, NoCloud, PlaneView,
-    USUAL_POINTS,
+    Cloud, CloudAxes, CloudChoice, CloudKind, CloudMeasure, CloudPicture, CloudRequest, CloudShape,
+    CloudStart, CloudWorker, Density, ExactBorder, FoundCloud, LaneCloud, NoCloud, POINTS,
+    PlaneView, ShownTicks, USUAL_POINTS,
 };
 pub use command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT};
 pub use custom::{Draw, Options, OptionsError};

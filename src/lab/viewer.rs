@@ -1,6 +1,7 @@
 //! What a person looks at. It does not change a run and is not part of one.
 
 use super::analysis::{Advice, Findings, StabilityMap, Verdict};
+use super::cloud::{CloudChoice, FoundCloud};
 use super::command::USUAL_SCALE_PERCENT;
 use super::display::{Arrangement, Display, Motion, Pace, View};
 use super::guide::{Hints, Tour};
@@ -60,6 +61,7 @@ impl Default for Preferences {
                 enlarged: false,
                 metric: 0,
                 advises_on_one_body: false,
+                cloud: CloudChoice::default(),
                 arrangement: Arrangement::Overlay,
                 theme: Theme::Dark,
                 scale_percent: USUAL_SCALE_PERCENT,
@@ -99,6 +101,8 @@ pub struct Viewer {
     /// The last frames of the lab's own loop.
     pub live: LiveLoop,
     pub(super) findings: Option<Findings>,
+    /// The clouds that were found last.
+    pub(super) cloud: Option<FoundCloud>,
     pub(super) pointer_is_down: bool,
     /// The body that the person holds.
     pub(super) held: Option<HeldBody>,
@@ -122,6 +126,7 @@ impl Viewer {
             notice: None,
             live: LiveLoop::default(),
             findings: None,
+            cloud: None,
             pointer_is_down: false,
             held: None,
             dialog: None,

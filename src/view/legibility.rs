@@ -7,7 +7,8 @@ use super::{panels, theme};
 use crate::lab::palette::Theme;
 use crate::lab::picture::compose;
 use crate::lab::{
-    Arrangement, Command, Instrument, Lab, LoopCommand, SCALE_LADDER, SCENES, STOPS, Scene,
+    Arrangement, CloudChoice, CloudKind, CloudWorker, Command, Instrument, Lab, LoopCommand,
+    SCALE_LADDER, SCENES, STOPS, Scene,
 };
 
 /// Sizes of windows in points: the first is the least, the last has four times the usual pixels.
@@ -161,6 +162,29 @@ fn every_text_can_be_read_under_every_instrument_beside_the_inspector_on_every_s
         }
     }
     assert!(all.is_empty(), "\n{}", all.join("\n"));
+}
+
+#[test]
+fn every_text_can_be_read_beside_clouds_and_sections() {
+    let scenes = [
+        ("liouville", true, CloudKind::default()),
+        ("spring", false, CloudKind::default()),
+        ("spring", true, CloudKind::default()),
+        ("kicked-rotor", true, CloudKind::Section),
+    ];
+    for (name, race, kind) in scenes {
+        let mut lab = Lab::new(Scene::built_in(name).expect("a built-in scene"));
+        if race {
+            lab.apply(Command::ToggleRace);
+        }
+        (0..lab.race().tick_hz()).for_each(|_| lab.tick());
+        lab.apply(Command::Instrument(Instrument::Cloud));
+        lab.apply(Command::Cloud(CloudChoice { kind, points: 1000 }));
+        lab.complete_clouds(&mut CloudWorker::default(), || false);
+        assert_legible(&lab, &format!("clouds of {name}, race {race}"));
+        lab.apply(Command::ToggleEnlarged);
+        assert_legible(&lab, &format!("large clouds of {name}, race {race}"));
+    }
 }
 
 #[test]

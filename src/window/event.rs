@@ -7,7 +7,7 @@ use winit::event_loop::ActiveEventLoop;
 use super::App;
 #[cfg(feature = "accessibility")]
 use super::screen_reader::{self, Request};
-use crate::lab::{Findings, FoundLoop, LaneSpec, Scene};
+use crate::lab::{Findings, FoundCloud, FoundLoop, LaneSpec, Scene};
 
 /// An event from the program's own threads or from a screen reader.
 pub(super) enum Event {
@@ -18,6 +18,8 @@ pub(super) enum Event {
     Analysed(Findings),
     /// A loop of the loop lab was run.
     LoopRun(FoundLoop),
+    /// Clouds were stepped.
+    Clouds(Box<FoundCloud>),
     /// The ticks of these lanes were timed: nanoseconds per tick, `None` of a lane that halted.
     TicksTimed(Vec<(LaneSpec, Option<f64>)>),
     /// Ctrl-C was pressed in the terminal.
@@ -55,6 +57,12 @@ impl App {
             }
             Event::LoopRun(found) => {
                 self.lab.accept_loop(found);
+                if !self.lab.running() {
+                    self.request_redraw();
+                }
+            }
+            Event::Clouds(found) => {
+                self.lab.accept_cloud(*found);
                 if !self.lab.running() {
                     self.request_redraw();
                 }

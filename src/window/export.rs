@@ -105,7 +105,7 @@ fn try_save(gpu: &Gpu, lab: &Lab) -> Result<Vec<PathBuf>, String> {
 
 /// A file name, without its ending, that says what the files show.
 fn name(lab: &Lab) -> String {
-    let instrument = lab.display().instrument.name().to_lowercase().replace(' ', "-");
+    let instrument = lab.display().instrument.id();
     let scene = &lab.scene().name;
     match lab.loop_lab() {
         Some(loops) => {

@@ -1,5 +1,5 @@
-//! Work on threads of its own, because one step of it can take longer than a frame: the analysis, and the loops of the
-//! loop lab.
+//! Work on threads of its own, because one step of it can take longer than a frame: the analysis, the loops of the
+//! loop lab, and clouds.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -9,7 +9,9 @@ use std::thread;
 use winit::event_loop::EventLoopProxy;
 
 use super::Event;
-use crate::lab::{AnalysisRequest, AnalysisWorker, LoopRequest, LoopWorker};
+use crate::lab::{
+    AnalysisRequest, AnalysisWorker, CloudRequest, CloudWorker, LoopRequest, LoopWorker,
+};
 
 /// Something that is worked on step by step.
 pub(super) trait Work: Send + 'static {
@@ -58,6 +60,26 @@ impl Work for LoopWorker {
     fn work(&mut self, stop: &dyn Fn() -> bool) -> (Option<Event>, bool) {
         let found = self.work(stop);
         (found.map(Event::LoopRun), !self.is_done())
+    }
+}
+
+impl Work for CloudWorker {
+    type Request = Option<Arc<CloudRequest>>;
+
+    fn is_same(one: &Self::Request, other: &Self::Request) -> bool {
+        match (one, other) {
+            (Some(one), Some(other)) => one.is_alike(other) && one.tick() == other.tick(),
+            (one, other) => one.is_none() && other.is_none(),
+        }
+    }
+
+    fn set_request(&mut self, request: Self::Request) {
+        self.set_request(request);
+    }
+
+    fn work(&mut self, _: &dyn Fn() -> bool) -> (Option<Event>, bool) {
+        let found = self.work();
+        (found.map(|found| Event::Clouds(Box::new(found))), !self.is_done())
     }
 }
 

@@ -1,8 +1,9 @@
 //! The guide: every stop is done by its keys and by nothing less, and what it claims is so.
 
 use regatta::lab::{
-    Command, Goal, Instrument, Judge, Lab, LaneSpec, LoopCommand, LoopLab, METRICS, OneStep,
-    Outcome, Quantity, Race, SCENES, STOPS, Scene, Verdict, Wish, command_for, port, setups,
+    CloudChoice, CloudKind, CloudWorker, Command, Goal, Instrument, Judge, Lab, LaneSpec,
+    LoopCommand, LoopLab, METRICS, OneStep, Outcome, Quantity, Race, SCENES, STOPS, Scene, Verdict,
+    Wish, command_for, port, setups,
 };
 use regatta::sim::integrators::method;
 
@@ -120,6 +121,7 @@ fn the_guide_visits_the_instruments_that_explain_and_the_loop_lab() {
     for instrument in [
         Instrument::OneStep,
         Instrument::StabilityMap,
+        Instrument::Cloud,
         Instrument::Energy,
         Instrument::Phase,
         Instrument::Cost,
@@ -128,6 +130,22 @@ fn the_guide_visits_the_instruments_that_explain_and_the_loop_lab() {
         assert!(visits(instrument), "{}", instrument.name());
     }
     assert!(STOPS.iter().any(|stop| stop.goal == Goal::LoopLab));
+}
+
+#[test]
+fn the_area_of_a_cloud_of_pendulums_becomes_what_the_guide_says() {
+    let mut lab = lab_at(STOPS.iter().position(|s| s.instrument == Instrument::Cloud).unwrap());
+    lab.apply(Command::ToggleRace);
+    let kind = CloudKind::default();
+    lab.apply(Command::Cloud(CloudChoice { kind, points: 10_000 }));
+    // 1.25 s.
+    (0..15).for_each(|_| lab.tick());
+    lab.complete_clouds(&mut CloudWorker::default(), || false);
+    let lanes = &lab.cloud().unwrap().picture.as_ref().unwrap().lanes;
+    let areas: Vec<f64> = lanes.iter().map(|lane| lane.area_ratio.unwrap()).collect();
+    assert!((1.4..1.7).contains(&areas[0]), "{areas:?}");
+    assert!(areas[1] < 0.6, "{areas:?}");
+    assert!((areas[2] - 1.0).abs() < 0.05, "{areas:?}");
 }
 
 fn verdict(scene: &str, id: &str, tick_hz: u32) -> Verdict {

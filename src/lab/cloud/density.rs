@@ -17,33 +17,84 @@ pub struct PlaneView {
 }
 
 impl PlaneView {
-    /// One that shows where the exact points come, with a margin, and the others as far as these are no further off than
-    /// the exact ones are wide. An angle that turns over is shown all around.
-    pub fn around(exact: &[[f64; 2]], others: &[[f64; 2]], is_angle: bool) -> Self {
-        let range = |points: &[[f64; 2]], i: usize| {
-            let numbers = points.iter().map(|point| point[i]).filter(|number| number.is_finite());
-            numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], number| {
-                [number.min(least), number.max(most)]
-            })
-        };
+    /// One that shows where the exact points come, with a margin, and the others as far as `beside` times the width of the
+    /// exact ones beside these. An angle that turns over there is shown all around.
+    pub fn around(exact: &[[f64; 2]], others: &[[f64; 2]], beside: f64, is_angle: bool) -> Self {
         let [q, v] = [0, 1].map(|i| {
-            let ([least, most], [low, high]) = (range(exact, i), range(others, i));
+            let ([least, most], [low, high]) = (Self::range(exact, i), Self::range(others, i));
             let width = (most - least).max(1e-9 * (1.0 + most.abs()));
-            let shown = [low.clamp(least - width, least), high.clamp(most, most + width)];
+            let wide = beside * width;
+            let shown = [low.clamp(least - wide, least), high.clamp(most, most + wide)];
             let margin = 0.06 * (shown[1] - shown[0]);
             [shown[0] - margin, shown[1] + margin]
         });
-        let turns = |point: &[f64; 2]| point[0].abs() > PI;
-        let wraps = is_angle && exact.iter().chain(others).any(turns);
+        let wraps = is_angle && (q[0] < -PI || q[1] > PI);
         Self { q: if wraps { [-PI, PI] } else { q }, v, wraps }
     }
 
+    /// The least and the largest coordinate or velocity of points that are finite.
+    pub(super) fn range<'p>(points: impl IntoIterator<Item = &'p [f64; 2]>, i: usize) -> [f64; 2] {
+        let numbers = points.into_iter().map(|point| point[i]).filter(|number| number.is_finite());
+        numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], number| {
+            [number.min(least), number.max(most)]
+        })
+    }
+
     /// Where a point lies, from 0 to 1 to the right and up.
-    fn place(&self, q: f64, v: f64) -> [f64; 2] {
+    pub fn place(&self, q: f64, v: f64) -> [f64; 2] {
         let q = if self.wraps { q - TAU * ((q + PI) / TAU).floor() } else { q };
         let part = |number: f64, [least, most]: [f64; 2]| (number - least) / (most - least);
         [part(q, self.q), part(v, self.v)]
     }
+}
+
+/// Parts of a point that have a tone of their own, and the points up to which they have.
+const PARTS: f32 = 8.0;
+const USUAL: usize = 256;
+
+/// How many times denser than on average a place is that has the brightest tone, if one is.
+const DENSE: f32 = 8.0;
+
+/// Counts as colours: brighter by the logarithm of the count.
+fn shaded(counts: &[f32], theme: Theme, colour: Rgba) -> Vec<Rgba> {
+    let palette = theme.palette();
+    let most = counts.iter().copied().fold(2.0, f32::max);
+    let present = counts.iter().filter(|count| **count > 0.0);
+    let (sum, covered) = present.fold((0.0, 0.0), |(sum, n), count| (sum + count, n + 1.0_f32));
+    // An even cover has the plain colour.
+    let whole = libm::log1pf(most.max(DENSE * sum / covered.max(1.0)));
+    let tone = |count: f32| {
+        let part = libm::log1pf(count) / whole;
+        match part < 0.7 {
+            true => mixed(palette.plot, colour, 0.25 * count.min(1.0) + 0.75 * part / 0.7),
+            false => mixed(colour, palette.text, (part - 0.7) / 0.5),
+        }
+    };
+    // Few counts are large.
+    let usual: Vec<Rgba> =
+        (0..USUAL * PARTS as usize).map(|parts| tone(parts as f32 / PARTS)).collect();
+    let shown = |&count: &f32| {
+        let parts = (count * PARTS).round() as usize;
+        usual.get(parts).copied().unwrap_or_else(|| tone(count))
+    };
+    counts.iter().map(shown).collect()
+}
+
+/// Every `stride`th of these counts, spread evenly over so many places.
+fn spread(counts: &[f32], stride: usize, places: usize) -> Vec<f32> {
+    let count = counts.len().div_ceil(stride);
+    let wide = places as f32 / count as f32;
+    let mut spread = vec![0.0; places];
+    for (n, &count) in counts.iter().step_by(stride).enumerate().filter(|(_, count)| **count > 0.0)
+    {
+        let (from, to) = (n as f32 * wide, (n + 1) as f32 * wide);
+        let touched = (from as usize..places).zip(&mut spread[(from as usize).min(places)..]);
+        for (place, sum) in touched.take_while(|(place, _)| (*place as f32) < to) {
+            let within = to.min(place as f32 + 1.0) - from.max(place as f32);
+            *sum += count * (within / wide).max(0.0);
+        }
+    }
+    spread
 }
 
 /// How many points fall on each pixel.
@@ -80,29 +131,27 @@ impl Density {
 
     /// The picture in a method's colour, brighter by the logarithm of the count, and these lines over it.
     pub fn picture(&self, theme: Theme, colour: Rgba, lines: &[Vec<[f64; 2]>]) -> Vec<Rgba> {
-        let palette = theme.palette();
-        let most = f64::from(self.counts.iter().copied().max().unwrap_or(0).max(2));
-        let tone = |count: u32| match count {
-            0 => palette.plot,
-            _ => {
-                let part = (libm::log1p(f64::from(count)) / libm::log1p(most)) as f32;
-                match part < 0.7 {
-                    true => mixed(palette.plot, colour, 0.25 + 0.75 * part / 0.7),
-                    false => mixed(colour, palette.text, (part - 0.7) / 0.5),
-                }
-            }
-        };
-        // Few counts are large.
-        let usual: Vec<Rgba> = (0..256).map(tone).collect();
-        let shown =
-            |&count: &u32| usual.get(count as usize).copied().unwrap_or_else(|| tone(count));
-        let mut pixels: Vec<Rgba> = self.counts.iter().map(shown).collect();
+        let counts: Vec<f32> = self.counts.iter().map(|&count| count as f32).collect();
+        let mut pixels = shaded(&counts, theme, colour);
         for line in lines {
             for ends in line.windows(2) {
-                self.draw_line(&mut pixels, [ends[0], ends[1]], palette.exact);
+                self.draw_line(&mut pixels, [ends[0], ends[1]], theme.palette().exact);
             }
         }
         pixels
+    }
+
+    /// The picture in another size: what lies between two pixels falls on both.
+    pub fn picture_of_size(&self, size_px: [usize; 2], theme: Theme, colour: Rgba) -> Vec<Rgba> {
+        let [width, height] = self.size_px;
+        let counts: Vec<f32> = self.counts.iter().map(|&count| count as f32).collect();
+        let narrowed: Vec<f32> =
+            counts.chunks(width).flat_map(|row| spread(row, 1, size_px[0])).collect();
+        let column = |x: usize| spread(&narrowed[x..], size_px[0], size_px[1]);
+        debug_assert_eq!(narrowed.len(), size_px[0] * height);
+        let columns: Vec<Vec<f32>> = (0..size_px[0]).map(column).collect();
+        let all = (0..size_px[1]).flat_map(|y| columns.iter().map(move |column| column[y]));
+        shaded(&all.collect::<Vec<_>>(), theme, colour)
     }
 
     /// A pixel for each step along a line.

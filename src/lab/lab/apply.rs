@@ -157,6 +157,7 @@ impl Lab {
                 let view = &mut self.viewer.view;
                 view.mapped_parameter = Some((view.body, parameter));
             }
+            Command::Cloud(choice) => self.viewer.preferences.display.cloud = choice,
             Command::NextInstrument => self.viewer.instrument_beside(1),
             Command::PreviousInstrument => self.viewer.instrument_beside(-1),
             Command::Metric(place) => {

@@ -23,6 +23,7 @@ use sheet::Sheet;
 
 mod by_loop;
 mod chart;
+mod cloud;
 mod energy;
 mod error;
 mod export;
@@ -56,7 +57,7 @@ pub(super) fn least_height(instrument: Instrument) -> f32 {
     match instrument {
         Instrument::OneStep => 430.0,
         Instrument::StabilityMap | Instrument::Loop => 300.0,
-        Instrument::Energy | Instrument::Phase | Instrument::Advice => 260.0,
+        Instrument::Energy | Instrument::Phase | Instrument::Cloud | Instrument::Advice => 260.0,
         Instrument::Motion | Instrument::Error | Instrument::Cost => 200.0,
     }
 }
@@ -79,6 +80,7 @@ pub(super) fn show_alone(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         Instrument::Cost => cost::show(ui, lab, room),
         Instrument::StabilityMap => stability_map::show(ui, lab, room, commands),
         Instrument::OneStep => one_step::show(ui, lab, room),
+        Instrument::Cloud => cloud::show(ui, lab, room, commands),
         Instrument::Loop => loops::show(ui, lab, room, commands),
         Instrument::Advice => advice::show(ui, lab, commands),
     }
@@ -103,6 +105,7 @@ fn sheet_of(lab: &Lab, detail: Detail) -> Option<Sheet> {
         Instrument::Error => Some(error::sheet(lab)),
         Instrument::Energy => Some(energy::sheet(lab)),
         Instrument::Phase => Some(phase::sheet(lab)),
+        Instrument::Cloud => cloud::sheet(lab),
         Instrument::Cost
         | Instrument::StabilityMap
         | Instrument::OneStep
@@ -246,7 +249,14 @@ fn choices(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     if has_all || instrument == Instrument::Phase && lab.loop_lab().is_none() {
         coordinate_choice(ui, lab, commands);
     }
-    if !has_all && lab.scene().bodies.len() > 1 {
+    if !has_all {
+        body_choice(ui, lab, commands);
+    }
+}
+
+/// Offers the bodies of the scene, if it has several.
+fn body_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    if lab.scene().bodies.len() > 1 {
         let names = lab.scene().bodies.iter().map(|body| body.name.as_str());
         let body = lab.view().body;
         let chosen = (Command::Body(body), lab.scene().bodies[body].name.as_str());

@@ -166,3 +166,30 @@ fn without_a_display_the_demo_is_drawn_into_a_fresh_directory() {
         assert_eq!(names(&folder.path().join(out)).len(), 4);
     }
 }
+
+#[test]
+fn a_capture_shows_the_cloud_if_it_is_asked_for_and_is_verified_with_it() {
+    let test = "a_capture_shows_the_cloud_if_it_is_asked_for_and_is_verified_with_it";
+    let folder = tempfile::tempdir().unwrap();
+    // Pixels of the method's blue in the panel.
+    let blue = |out: &str, options: &str| {
+        let capture = "capture --scene liouville --method semi-implicit-euler --frames 1";
+        let arguments = format!("{capture} --size 1280x720 {options} --out {out}");
+        let output = drawn_or_skip(test, folder.path(), &arguments)?;
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let picture = image::open(folder.path().join(out).join("frame-000000.png")).unwrap();
+        let is_blue = |x: u32, [r, g, b]: [u8; 3]| x > 800 && r < 150 && g > 130 && b > 170;
+        let picture = picture.into_rgb8();
+        Some(picture.enumerate_pixels().filter(|(x, _, pixel)| is_blue(*x, pixel.0)).count())
+    };
+    let Some(without) = blue("motion", "") else { return };
+    let with = blue("cloud", "--instrument cloud").unwrap();
+    assert!(with > without + 1000, "{with} and {without}");
+    let manifest = fs::read_to_string(folder.path().join("cloud/manifest.json")).unwrap();
+    assert!(manifest.replace(' ', "").contains("\"instrument\":\"cloud\""));
+    let verified = run_in(folder.path(), "verify cloud");
+    assert_eq!(verified.status.code(), Some(0), "{}", stderr(&verified));
+    let wrong = run_in(folder.path(), "capture --instrument fog --out fog");
+    assert_eq!(wrong.status.code(), Some(2));
+    assert!(stderr(&wrong).contains("give one of motion, error"), "{}", stderr(&wrong));
+}

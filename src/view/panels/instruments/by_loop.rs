@@ -38,6 +38,7 @@ pub(super) fn sheet(lab: &Lab, loops: &LoopLab, instrument: Instrument) -> Optio
         Instrument::Cost
         | Instrument::StabilityMap
         | Instrument::OneStep
+        | Instrument::Cloud
         | Instrument::Loop
         | Instrument::Advice => return None,
     };

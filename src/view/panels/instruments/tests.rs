@@ -6,7 +6,7 @@ use egui::{
 use super::super::tracks::Detail;
 use super::error::NO_ERROR;
 use super::*;
-use crate::lab::{Action, SCENES, Scene};
+use crate::lab::{Action, CloudChoice, CloudWorker, SCENES, Scene};
 use crate::view::panels;
 use crate::view::theme;
 
@@ -329,4 +329,29 @@ fn a_reference_that_has_no_error_yet_is_not_said_to_have_one() {
         (0..60).for_each(|_| lab.tick());
         assert!(words(&lab).starts_with("reference to 10⁻¹"), "{scene}: {}", words(&lab));
     }
+}
+
+#[test]
+fn the_cloud_tells_what_becomes_of_the_area_and_why_a_body_has_none() {
+    const SIZE: Vec2 = vec2(1280.0, 720.0);
+    let said =
+        |lab: &Lab, wanted: &str| texts(lab, SIZE).iter().any(|(_, text)| text.contains(wanted));
+    let lab_of = |scene: &str| {
+        let mut lab = Lab::new(Scene::built_in(scene).unwrap());
+        lab.apply(Command::ToggleRace);
+        lab.apply(Command::Instrument(Instrument::Cloud));
+        lab.apply(Command::Cloud(CloudChoice { points: 1200, ..CloudChoice::default() }));
+        (0..12).for_each(|_| lab.tick());
+        lab
+    };
+    let mut lab = lab_of("liouville");
+    assert!(said(&lab, "Stepping the points") && csv(&lab).is_none());
+    lab.complete_clouds(&mut CloudWorker::default(), || false);
+    for wanted in ["Explicit Euler\n×1.", "grows ×2 in", "keeps area", "shrinks ×½ in"] {
+        assert!(said(&lab, wanted), "{wanted}");
+    }
+    let table = csv(&lab).unwrap();
+    assert!(table.contains(",area / start,,implicit-euler,1,0.") && table.contains(",exact,1,"));
+    assert!(svg(&lab).unwrap().contains("<polyline"));
+    assert!(said(&lab_of("orbit"), "has 2 coordinates"));
 }

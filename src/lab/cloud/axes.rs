@@ -1,0 +1,101 @@
+//! What part of the phase plane a run of clouds is shown on: found by a few points that run ahead.
+
+use super::{Cloud, CloudStart, ExactBorder, NoCloud, PlaneView};
+use crate::lab::lane_spec::LaneSpec;
+use crate::sim::Stepper;
+
+/// The points of each method that run ahead, and those of the exact border.
+const SCOUTS: usize = 100;
+const BORDER_SCOUTS: usize = 90;
+
+/// An axis along which the exact cloud goes this many times further than it is wide follows it.
+const FAR: f64 = 12.0;
+/// How many times wider than the exact cloud at its widest an axis is that follows it.
+const ROOM: f64 = 1.8;
+
+/// The moments through which the axes of a lab are found.
+const MOMENTS: u64 = 60;
+/// How far other clouds stretch these, in widths of what the exact one covers.
+const BESIDE: f64 = 0.1;
+
+/// The moments that a picture shows: so many, evenly through the first ticks of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShownTicks {
+    /// The last.
+    pub ticks: u64,
+    /// How many moments.
+    pub times: u64,
+    /// How far other clouds stretch the axes, in widths of what the exact one covers.
+    pub beside: f64,
+}
+
+impl ShownTicks {
+    /// The longest run through which axes are found, in seconds.
+    pub(super) const LONGEST_S: f64 = 30.0;
+}
+
+impl From<u64> for ShownTicks {
+    /// What the axes of the clouds of a lab show, in a run of so many ticks.
+    fn from(ticks: u64) -> Self {
+        Self { ticks, times: ticks.min(MOMENTS), beside: BESIDE }
+    }
+}
+
+/// The axes of a run of clouds, which do not move but to follow a cloud that goes far.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CloudAxes {
+    /// Where the exact cloud comes, and the others near it.
+    pub whole: PlaneView,
+    /// The width of an axis that follows the exact cloud, of the coordinate and of the velocity.
+    follows: [Option<f64>; 2],
+}
+
+impl CloudAxes {
+    /// The axes for these lanes.
+    ///
+    /// # Errors
+    /// As [`Cloud::new`].
+    pub fn of_run(
+        name: &str,
+        body: &dyn Stepper,
+        start: CloudStart,
+        specs: &[LaneSpec],
+        tick_hz: u32,
+        shown: ShownTicks,
+    ) -> Result<Self, NoCloud> {
+        let mut border = ExactBorder::of_points(BORDER_SCOUTS, name, body, start, tick_hz)?;
+        let scouts = specs.iter().map(|spec| Cloud::new(name, body, spec, start, SCOUTS, tick_hz));
+        let mut scouts = scouts.collect::<Result<Vec<_>, _>>()?;
+        let (mut exact, mut others) = (Vec::new(), Vec::new());
+        let mut widest = [0.0_f64; 2];
+        for moment in 1..=shown.times {
+            let tick = shown.ticks * moment / shown.times;
+            border.go_to(tick);
+            let now = border.lines().concat();
+            let range = [0, 1].map(|i| PlaneView::range(&now, i));
+            widest = [0, 1].map(|i| widest[i].max(range[i][1] - range[i][0]));
+            exact.extend(now);
+            for scout in &mut scouts {
+                scout.go_to(tick);
+                others.extend(scout.q().iter().zip(scout.v()).map(|(&q, &v)| [q, v]));
+            }
+        }
+        let whole = PlaneView::around(&exact, &others, shown.beside, body.is_angle(0));
+        let wide = [0, 1].map(|i| PlaneView::range(&exact, i)).map(|[low, high]| high - low);
+        let is_far = |i: usize| wide[i] > FAR * widest[i] && !(i == 0 && whole.wraps);
+        let follows = [0, 1].map(|i| is_far(i).then_some(ROOM * widest[i]));
+        Ok(Self { whole, follows })
+    }
+
+    /// The part of the plane that is shown while the exact border is there.
+    pub fn around(&self, border: &[Vec<[f64; 2]>]) -> PlaneView {
+        let mut view = self.whole;
+        for (i, range) in [&mut view.q, &mut view.v].into_iter().enumerate() {
+            let Some(width) = self.follows[i] else { continue };
+            let [low, high] = PlaneView::range(border.iter().flatten(), i);
+            let middle = (low + high) / 2.0;
+            *range = [middle - width / 2.0, middle + width / 2.0];
+        }
+        view
+    }
+}

@@ -1,0 +1,175 @@
+//! What is asked of clouds, and what comes back.
+
+use std::sync::Arc;
+
+use super::{CloudShape, Density, NoCloud, PlaneView, USUAL_POINTS};
+use crate::lab::intervention::Interventions;
+use crate::lab::lane_spec::LaneSpec;
+use crate::lab::scene::Scene;
+use crate::sim::Stepper;
+use crate::sim::integrators::Family;
+
+/// The points of a cloud that a person can choose.
+pub const POINTS: [usize; 3] = [10_000, USUAL_POINTS, 1_000_000];
+
+/// The most lanes that have a cloud.
+pub(in crate::lab) const MAX_CLOUDS: usize = 9;
+
+/// The cells of a density image, each way: more than a cloud has pixels in most windows.
+pub(super) const GRID: usize = 512;
+
+/// What a step of a copy alone costs, in evaluations of one in a block.
+const ALONE: u64 = 30;
+
+/// What a person has chosen of the clouds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CloudChoice {
+    /// What is shown.
+    pub kind: CloudKind,
+    /// The points of a cloud of a shape.
+    pub points: usize,
+}
+
+/// What is shown of many starts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CloudKind {
+    /// A shape at the start, and what becomes of it by the present tick.
+    Shape(CloudShape),
+    /// All places to which they come at each period of a drive, or at each tick where nothing drives them.
+    Section,
+}
+
+impl CloudKind {
+    /// All, the usual one first.
+    pub const ALL: [Self; 4] = [
+        Self::Shape(CloudShape::Cat),
+        Self::Shape(CloudShape::Disc),
+        Self::Shape(CloudShape::Ring),
+        Self::Section,
+    ];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Shape(shape) => shape.id(),
+            Self::Section => "section",
+        }
+    }
+}
+
+impl Default for CloudKind {
+    fn default() -> Self {
+        Self::ALL[0]
+    }
+}
+
+impl Default for CloudChoice {
+    fn default() -> Self {
+        Self { kind: CloudKind::default(), points: USUAL_POINTS }
+    }
+}
+
+/// The clouds that a lab wants.
+#[derive(Clone, Debug)]
+pub struct CloudRequest {
+    pub(in crate::lab) scene: Arc<Scene>,
+    /// What has changed in the run.
+    pub(in crate::lab) by_hand: Interventions,
+    /// The body, by its index in the scene.
+    pub(in crate::lab) body: usize,
+    /// The lanes, by their places on the list.
+    pub(in crate::lab) lanes: Vec<(usize, LaneSpec)>,
+    pub(in crate::lab) tick_hz: u32,
+    pub(in crate::lab) choice: CloudChoice,
+    /// Ticks since the clouds started.
+    pub(in crate::lab) tick: u64,
+}
+
+/// A request as it is worked on.
+#[derive(Clone, Copy)]
+pub(super) struct Request<'a> {
+    pub(super) name: &'a str,
+    /// At the start.
+    pub(super) body: &'a dyn Stepper,
+    pub(super) lanes: &'a [(usize, LaneSpec)],
+    pub(super) tick_hz: u32,
+    /// The length of the run, in seconds.
+    pub(super) seconds: f64,
+    /// The time of the start, in seconds.
+    pub(super) t: f64,
+}
+
+impl CloudRequest {
+    /// Whether both are of one run of clouds, at whatever tick.
+    pub fn is_alike(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.scene, &other.scene)
+            && self.by_hand == other.by_hand
+            && self.body == other.body
+            && self.lanes == other.lanes
+            && self.tick_hz == other.tick_hz
+            && self.choice == other.choice
+    }
+
+    /// The tick of the clouds.
+    pub fn tick(&self) -> u64 {
+        self.tick
+    }
+
+    /// How many seconds of the run there are between the request and a picture.
+    pub fn behind_s(&self, picture: &CloudPicture) -> f64 {
+        (self.tick as f64 - picture.tick as f64).abs() / f64::from(self.tick_hz)
+    }
+}
+
+/// What was found: the clouds, or why there are none.
+#[derive(Clone, Debug)]
+pub struct FoundCloud {
+    /// What they were asked for.
+    pub request: Arc<CloudRequest>,
+    /// The clouds at some tick, of which the last found is at the one that was asked for.
+    pub picture: Result<CloudPicture, NoCloud>,
+}
+
+/// The clouds of all lanes at a tick.
+#[derive(Clone, Debug)]
+pub struct CloudPicture {
+    /// Ticks since the start of the clouds; 0 of a section.
+    pub tick: u64,
+    /// Of a section, when its points are taken.
+    pub section: Option<String>,
+    /// What part of the plane the density images show.
+    pub view: PlaneView,
+    /// The border of the exact cloud.
+    pub border: Vec<Vec<[f64; 2]>>,
+    /// The time in seconds and the area of the exact cloud over that at the start, as long as it is known.
+    pub exact: Vec<[f64; 2]>,
+    /// In the order of the lanes.
+    pub lanes: Vec<LaneCloud>,
+}
+
+/// The cloud of a lane.
+#[derive(Clone, Debug)]
+pub struct LaneCloud {
+    /// The place of the lane's method on the list.
+    pub entry: usize,
+    /// Where its points are.
+    pub density: Arc<Density>,
+    /// How many points blew up and are left out.
+    pub lost: usize,
+    /// The area over that at the start, as [`Cloud::area_ratio`].
+    pub area_ratio: Option<f64>,
+    /// What the area has become.
+    pub words: String,
+    /// How the area is measured.
+    pub measured: String,
+    /// The time in seconds and the area so far.
+    pub areas: Vec<[f64; 2]>,
+}
+
+/// What a tick of a point costs, in evaluations of a copy in a block.
+pub(super) fn cost(spec: &LaneSpec) -> u64 {
+    let evaluations = u64::from(spec.method.evaluations.unwrap_or(2)).max(1);
+    let family = spec.method.family;
+    let is_in_blocks = matches!(family, Family::Explicit | Family::Symplectic | Family::AsPrinted);
+    evaluations * u64::from(spec.substeps) * if is_in_blocks { 1 } else { ALONE }
+}

@@ -1,0 +1,219 @@
+//! The clouds of a run, one for each lane, stepped on another thread than the window's: a [`CloudRequest`] goes there, and
+//! each [`FoundCloud`] comes back.
+//!
+//! A cloud is a function of the run, the tick and its choice: whichever way a tick was come to, its picture is the same.
+
+use std::sync::Arc;
+
+use super::request::{GRID, Request, cost};
+use super::section::SectionRun;
+use super::{
+    Cloud, CloudAxes, CloudKind, CloudPicture, CloudRequest, CloudShape, CloudStart, Density,
+    ExactBorder, FoundCloud, LaneCloud, NoCloud, ShownTicks,
+};
+use crate::lab::lane_spec::LaneSpec;
+use crate::lab::race::Race;
+
+/// The samples of an area over the length of a run.
+const SAMPLES: u64 = 200;
+/// How many times further the clouds of a lab reach than others: they are seen small.
+const REACH: f64 = 2.0;
+
+/// About how many evaluations are made before a picture is shown on the way.
+const WORK: u64 = 4_000_000;
+/// Works on one request at a time.
+#[derive(Default)]
+pub struct CloudWorker {
+    request: Option<Arc<CloudRequest>>,
+    /// The run of the last request.
+    run: Option<Result<Running, NoCloud>>,
+    is_done: bool,
+}
+
+impl CloudWorker {
+    /// Replaces the request; `None` asks for nothing. The clouds of a run go on from where they are.
+    pub fn set_request(&mut self, request: Option<Arc<CloudRequest>>) {
+        let goes_on = match (&self.request, &request) {
+            (Some(old), Some(new)) => old.is_alike(new),
+            _ => false,
+        };
+        if !goes_on {
+            self.run = None;
+        }
+        self.is_done = request.is_none();
+        self.request = request;
+    }
+
+    /// Whether there is nothing more to do.
+    pub fn is_done(&self) -> bool {
+        self.is_done || self.request.is_none()
+    }
+
+    /// Goes some ticks nearer to the one that was asked for. Returns what is to be shown then.
+    pub fn work(&mut self) -> Option<FoundCloud> {
+        let request = self.request.as_ref().filter(|_| !self.is_done)?;
+        let run = self.run.get_or_insert_with(|| Running::new(request));
+        let picture = match run {
+            Ok(Running::Section(run)) => {
+                run.work();
+                self.is_done = run.is_done();
+                Ok(run.picture())
+            }
+            Ok(Running::Clouds(run)) => {
+                run.work(request.tick);
+                self.is_done = run.tick == request.tick;
+                let is_shown = self.is_done || run.tick.is_multiple_of(run.sampled_every);
+                is_shown.then(|| Ok(run.picture()))?
+            }
+            Err(why) => {
+                self.is_done = true;
+                Err(why.clone())
+            }
+        };
+        Some(FoundCloud { request: Arc::clone(request), picture })
+    }
+}
+
+/// What is shown, on its way.
+enum Running {
+    Clouds(Box<CloudRun>),
+    Section(SectionRun),
+}
+
+impl Running {
+    fn new(request: &CloudRequest) -> Result<Self, NoCloud> {
+        let &CloudRequest { ref scene, ref by_hand, body, ref lanes, tick_hz, choice, .. } =
+            request;
+        let scene = by_hand.applied_to(scene).of_one_body(body);
+        let mut race = Race::among(&scene, Vec::new(), []);
+        race.catch_up(&mut ());
+        let request = Request {
+            name: &scene.bodies[0].name,
+            body: &*race.truth().bodies()[0].stepper,
+            lanes,
+            tick_hz,
+            seconds: scene.seconds,
+            t: by_hand.starts_at_s(),
+        };
+        match choice.kind {
+            CloudKind::Shape(shape) => {
+                CloudRun::new(request, shape, choice.points).map(|run| Self::Clouds(Box::new(run)))
+            }
+            CloudKind::Section => SectionRun::new(request).map(Self::Section),
+        }
+    }
+}
+
+/// A cloud on its way, with its area at each sampled tick so far.
+struct Run<C> {
+    cloud: C,
+    areas: Vec<Option<f64>>,
+}
+
+/// The clouds of all lanes on their way.
+struct CloudRun {
+    lanes: Vec<(usize, Run<Cloud>)>,
+    exact: Run<ExactBorder>,
+    axes: CloudAxes,
+    start: CloudStart,
+    tick_hz: u32,
+    tick: u64,
+    /// Ticks between two samples.
+    sampled_every: u64,
+    /// Ticks until a picture is shown.
+    part: u64,
+}
+
+impl CloudRun {
+    fn new(request: Request<'_>, shape: CloudShape, points: usize) -> Result<Self, NoCloud> {
+        let Request { name, body, lanes, tick_hz, seconds, t } = request;
+        let about = CloudStart::about(name, body, shape, None)?;
+        let start = CloudStart { t, reach: about.reach.map(|reach| REACH * reach), ..about };
+        let new = |(entry, spec): &(usize, LaneSpec)| {
+            let cloud = Cloud::new(name, body, spec, start, points, tick_hz)?.rewindable();
+            Ok((*entry, Run { cloud, areas: Vec::new() }))
+        };
+        let runs = lanes.iter().map(new).collect::<Result<Vec<_>, NoCloud>>()?;
+        let border = ExactBorder::new(name, body, start, tick_hz)?.rewindable();
+        let ticks = |seconds: f64| ((seconds * f64::from(tick_hz)) as u64).max(1);
+        let specs: Vec<LaneSpec> = lanes.iter().map(|(_, spec)| *spec).collect();
+        let long = ticks(seconds.min(ShownTicks::LONGEST_S));
+        let axes = CloudAxes::of_run(name, body, start, &specs, tick_hz, long.into())?;
+        let work: u64 = specs.iter().map(cost).sum();
+        let mut run = Self {
+            lanes: runs,
+            exact: Run { cloud: border, areas: Vec::new() },
+            axes,
+            start,
+            tick_hz,
+            tick: 0,
+            sampled_every: ticks(seconds).div_ceil(SAMPLES),
+            part: (WORK / (work * points as u64)).max(1),
+        };
+        run.sample();
+        Ok(run)
+    }
+
+    /// Goes nearer to a tick, or back to it.
+    fn work(&mut self, to: u64) {
+        let sampled = (self.tick / self.sampled_every + 1) * self.sampled_every;
+        let tick = to.min(sampled).min(self.tick + self.part);
+        self.exact.cloud.go_to(tick);
+        self.lanes.iter_mut().for_each(|(_, lane)| lane.cloud.go_to(tick));
+        self.tick = tick;
+        self.sample();
+    }
+
+    /// Adds the areas of now, if this tick is sampled and was not before.
+    fn sample(&mut self) {
+        let is_next = |known: usize| known as u64 * self.sampled_every == self.tick;
+        let Self { lanes, exact, .. } = self;
+        if is_next(exact.areas.len()) {
+            exact.areas.push(exact.cloud.area_ratio());
+        }
+        for (_, lane) in lanes.iter_mut().filter(|(_, lane)| is_next(lane.areas.len())) {
+            lane.areas.push(lane.cloud.area_ratio());
+        }
+    }
+
+    fn t(&self, tick: u64) -> f64 {
+        self.start.t + tick as f64 / f64::from(self.tick_hz)
+    }
+
+    fn picture(&self) -> CloudPicture {
+        let border = self.exact.cloud.lines();
+        let view = self.axes.around(&border);
+        let lane = |(entry, Run { cloud, areas }): &(usize, Run<Cloud>)| {
+            let mut density = Density::new([GRID; 2], view);
+            density.add(cloud.q(), cloud.v());
+            let (area_ratio, points) = (cloud.area_ratio(), cloud.q().len());
+            LaneCloud {
+                entry: *entry,
+                density: Arc::new(density),
+                lost: points - cloud.points_left(),
+                area_ratio,
+                words: cloud.in_words(area_ratio),
+                measured: cloud.measured_in_words(),
+                areas: self.samples(areas, area_ratio),
+            }
+        };
+        CloudPicture {
+            tick: self.tick,
+            section: None,
+            view,
+            exact: self.samples(&self.exact.areas, self.exact.cloud.area_ratio()),
+            lanes: self.lanes.iter().map(lane).collect(),
+            border,
+        }
+    }
+
+    /// The areas at the sampled ticks so far, and that of now.
+    fn samples(&self, areas: &[Option<f64>], now: Option<f64>) -> Vec<[f64; 2]> {
+        let sampled = (0..).step_by(self.sampled_every as usize).zip(areas.iter().copied());
+        let so_far = sampled.take_while(|(tick, _)| *tick < self.tick);
+        so_far
+            .chain([(self.tick, now)])
+            .filter_map(|(tick, area)| Some([self.t(tick), area?]))
+            .collect()
+    }
+}

@@ -1,0 +1,76 @@
+//! The clouds of the lab: which it wants, and how it takes them in.
+
+use std::sync::Arc;
+
+use super::Lab;
+use crate::lab::cloud::{CloudKind, CloudRequest, CloudWorker, FoundCloud, MAX_CLOUDS, NoCloud};
+use crate::lab::instrument::Instrument;
+use crate::lab::intervention::Interventions;
+
+impl Lab {
+    /// The clouds that the lab wants at present, for a [`CloudWorker`]: those of its lanes, about the start of the run that
+    /// verdicts are [of](Self::analysis_request). `None` while the instrument is another, or the displayed body has no
+    /// cloud.
+    pub fn cloud_request(&self) -> Option<CloudRequest> {
+        let is_shown = self.display().instrument == Instrument::Cloud && self.loop_lab.is_none();
+        if !is_shown || self.cloud_refusal().is_some() {
+            return None;
+        }
+        let by_hand = Interventions::in_race(self.race());
+        let (tick_hz, choice) = (self.clock.tick_hz(), self.display().cloud);
+        let seconds = (self.race().t() - by_hand.starts_at_s()).max(0.0);
+        Some(CloudRequest {
+            scene: Arc::clone(&self.start.scene),
+            body: self.view().body,
+            lanes: self.clouded_lanes().map(|entry| (entry, self.entries()[entry])).collect(),
+            tick_hz,
+            choice,
+            tick: match choice.kind {
+                CloudKind::Shape(_) => (seconds * f64::from(tick_hz)).round() as u64,
+                CloudKind::Section => 0,
+            },
+            by_hand,
+        })
+    }
+
+    /// The places on the list of the lanes that have a cloud: all, or the first and the selected one of very many.
+    fn clouded_lanes(&self) -> impl Iterator<Item = usize> {
+        let lanes = self.race().entrants();
+        let selected = lanes.iter().position(|lane| lane.entry == self.active()).unwrap_or(0);
+        let last = selected.max(MAX_CLOUDS - 1);
+        let is_shown = move |place: &usize| *place + 1 < MAX_CLOUDS || *place == last;
+        (0..lanes.len()).filter(is_shown).map(|place| lanes[place].entry)
+    }
+
+    /// Why the displayed body has no cloud, if it has several coordinates.
+    pub fn cloud_refusal(&self) -> Option<NoCloud> {
+        let body = &self.race().truth().bodies()[self.view().body];
+        let coordinates = body.coordinates().len();
+        let name = || self.scene().bodies[self.view().body].name.clone();
+        (coordinates > 1).then(|| NoCloud::SeveralCoordinates { body: name(), coordinates })
+    }
+
+    /// The clouds, as far as they have been [found](Self::accept_cloud), at a tick near the present one; `None` while none
+    /// are, or they are not shown.
+    pub fn cloud(&self) -> Option<&FoundCloud> {
+        let wanted = self.cloud_request()?;
+        self.viewer.cloud.as_ref().filter(|found| found.request.is_alike(&wanted))
+    }
+
+    /// Keeps clouds, unless they are of another run.
+    pub fn accept_cloud(&mut self, found: FoundCloud) {
+        if self.cloud_request().is_some_and(|wanted| wanted.is_alike(&found.request)) {
+            self.viewer.cloud = Some(found);
+        }
+    }
+
+    /// Steps the clouds to the present tick, now, with a worker that may know earlier ones; `stop` ends it early.
+    pub fn complete_clouds(&mut self, worker: &mut CloudWorker, stop: impl Fn() -> bool) {
+        worker.set_request(self.cloud_request().map(Arc::new));
+        let mut last = None;
+        while !worker.is_done() && !stop() {
+            last = worker.work().or(last);
+        }
+        last.into_iter().for_each(|found| self.accept_cloud(found));
+    }
+}

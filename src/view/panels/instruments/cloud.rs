@@ -1,0 +1,337 @@
+//! Clouds: where the points of each method are, side by side on the same axes with the exact cloud in outline, and what
+//! becomes of their area over time.
+
+use std::sync::Arc;
+
+use egui::text::LayoutJob;
+use egui::{
+    Color32, ColorImage, FontId, Galley, Label, Pos2, Rect, RichText, Sense, Stroke, StrokeKind,
+    TextFormat, TextureHandle, TextureOptions, Ui, UiBuilder, Vec2, pos2, vec2,
+};
+
+use super::super::plot_area::PlotArea;
+use super::super::roster::Roster;
+use super::super::tracks::{Look, Track};
+use super::super::{focus_ring, ink, strong_font};
+use super::error::capitalised;
+use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet, over_time};
+use super::{body_choice, chart, choice};
+use crate::lab::number::significant;
+use crate::lab::palette::{Rgba, Theme};
+use crate::lab::{
+    CloudChoice, CloudKind, CloudPicture, Command, Density, Lab, LaneCloud, Mode, POINTS,
+};
+use crate::view::axis_scale::AxisScale;
+use crate::view::curves::{self, Curve, Dots};
+use crate::view::plot::SwitchMark;
+
+/// Room for the numbers of the axes, at the left and below, and for the axes' names, in points.
+const LEFT: f32 = 32.0;
+const NUMBERS: f32 = 17.0;
+const NAMES: f32 = 17.0;
+/// Between two clouds, in points.
+const GAP: f32 = 10.0;
+/// From this height on, in points, the areas are drawn over time, on this part of it, of at least this height.
+const ROOM_FOR_AREAS: f32 = 330.0;
+const AREAS: f32 = 0.3;
+const LEAST_AREAS: f32 = 110.0;
+/// How many times wider than high a cloud is at most.
+const WIDEST: f32 = 1.3;
+/// The most texels of a side of a cloud's image: each is two of the density or less.
+const MOST_TEXELS: usize = 1024;
+/// The least side of a cloud, in points.
+const LEAST_SIDE: f32 = 30.0;
+/// The size of the words beside a cloud, in points.
+const WORDS: f32 = 12.0;
+/// The width of the exact outline, in points.
+const OUTLINE: f32 = 1.1;
+/// An area that has grown or shrunk by more than this, as a power of ten, stretches no axis; and one axis shows at least
+/// this much on both sides of 1.
+const MOST_DECADES: f64 = 3.0;
+const LEAST_DECADES: f64 = 0.1;
+/// A cloud that is this far behind the run says so, in seconds.
+const BEHIND_S: f64 = 0.25;
+
+/// The areas of all clouds over time; `None` while there are none.
+pub(super) fn sheet(lab: &Lab) -> Option<Sheet> {
+    let picture = lab.cloud()?.picture.as_ref().ok()?;
+    let body = lab.view().body;
+    let scale = AxisScale::Log;
+    let place = |[t, area]: [f64; 2]| (t, [t, scale.place(area)]);
+    let track = |lane: &LaneCloud| {
+        let places = lane.areas.iter().copied().map(place);
+        Track::of_places(lane.entry, lane.entry == lab.active(), places)
+    };
+    if picture.section.is_some() {
+        return None;
+    }
+    let mut tracks: Vec<Track> = picture.lanes.iter().map(track).collect();
+    tracks.sort_by_key(|track| track.is_front);
+    let exact = ExactLine::of_places(lab, picture.exact.iter().copied().map(place));
+    let values = tracks.iter().flat_map(|track| track.along(1)).chain(exact.values(1));
+    let near = values.filter(|place| place.abs() <= MOST_DECADES);
+    let (low, high) = near.fold((-LEAST_DECADES, LEAST_DECADES), |(low, high), place| {
+        (f64::min(low, place), f64::max(high, place))
+    });
+    let pad = 0.08 * (high - low);
+    let plot = PlotModel {
+        id: format!("area of the cloud of {body}"),
+        title: capitalised(&lab.scene().bodies[body].name),
+        body,
+        axes: [PlotAxis::time(), PlotAxis::new("area / start", "", scale)],
+        fit: over_time(lab, (low - pad, high + pad)),
+        tracks,
+        look: Look { width: FRONT, dots: Dots::None, bounded: [false, true] },
+        exact: vec![exact],
+        switch_mark: SwitchMark::Line,
+        nothing: None,
+    };
+    Some(Sheet { roster: Roster::of(lab), title: "Area of the cloud".into(), plots: vec![plot] })
+}
+
+/// Shows the clouds, and below them their areas where there is room.
+pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Command>) {
+    let bottom = ui.cursor().top() + room.y;
+    head(ui, lab, commands);
+    let say = |ui: &mut Ui, words: String| {
+        ui.add(Label::new(RichText::new(words).color(ink(ui).dim)).wrap());
+    };
+    if let Some(why) = lab.cloud_refusal() {
+        return say(ui, capitalised(&format!("{why}.")));
+    }
+    let picture = match lab.cloud().map(|found| &found.picture) {
+        None => return say(ui, "Stepping the points …".into()),
+        Some(Err(why)) => return say(ui, capitalised(&format!("{why}."))),
+        Some(Ok(picture)) => picture,
+    };
+    let left = (bottom - ui.cursor().top()).max(LEAST_SIDE);
+    let for_areas = if left >= ROOM_FOR_AREAS && picture.section.is_none() {
+        (AREAS * left).max(LEAST_AREAS)
+    } else {
+        0.0
+    };
+    let (clouds, _) = ui.allocate_exact_size(vec2(room.x, left - for_areas), Sense::hover());
+    side_by_side(ui, lab, picture, clouds, commands);
+    if for_areas > 0.0
+        && let Some(sheet) = sheet(lab)
+    {
+        let below = Rect::from_min_max(pos2(clouds.left(), clouds.bottom() + 4.0), clouds.max)
+            .with_max_y(bottom);
+        let mut ui = ui.new_child(UiBuilder::new().max_rect(below));
+        chart::show(&mut ui, lab, &sheet, commands);
+    }
+}
+
+/// The title, and what can be chosen.
+fn head(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    let chosen = lab.display().cloud;
+    let picture = lab.cloud().and_then(|found| found.picture.as_ref().ok());
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new("Cloud").font(strong_font(15.0)).color(ink(ui).text));
+        let kind = |kind: CloudKind| (Command::Cloud(CloudChoice { kind, ..chosen }), kind.name());
+        let offered = CloudKind::ALL.into_iter().map(kind);
+        choice(ui, "shape of the cloud", offered, kind(chosen.kind), commands);
+        if chosen.kind != CloudKind::Section {
+            let counts = POINTS.map(|points| format!("{} points", thousands(points)));
+            let command = |points| Command::Cloud(CloudChoice { points, ..chosen });
+            let now = format!("{} points", thousands(chosen.points));
+            let offered = POINTS.into_iter().map(command).zip(counts.iter().map(String::as_str));
+            choice(ui, "points of the cloud", offered, (command(chosen.points), &now), commands);
+        }
+        body_choice(ui, lab, commands);
+        let told = picture.and_then(|picture| picture.section.clone());
+        let behind = || behind_s(lab).map(|s| format!("{} s behind", significant(s, 2)));
+        if let Some(words) = told.or_else(behind) {
+            ui.label(RichText::new(words).color(ink(ui).dim));
+        }
+    });
+}
+
+/// How far the clouds are behind the run, in seconds, if it is far enough to be seen.
+fn behind_s(lab: &Lab) -> Option<f64> {
+    let picture = lab.cloud()?.picture.as_ref().ok()?;
+    Some(lab.cloud_request()?.behind_s(picture)).filter(|behind| *behind > BEHIND_S)
+}
+
+fn thousands(points: usize) -> String {
+    match points {
+        ..1000 => points.to_string(),
+        _ => format!("{}\u{202f}{:03}", thousands(points / 1000), points % 1000),
+    }
+}
+
+/// The words above a cloud.
+fn caption(ui: &Ui, lab: &Lab, lane: &LaneCloud, width: f32) -> Arc<Galley> {
+    let (spec, ink) = (&lab.entries()[lane.entry], ink(ui));
+    let (colour, _) = ink.style(lab.entries(), spec);
+    let is_front = lane.entry == lab.active();
+    let font = if is_front { strong_font(WORDS) } else { FontId::proportional(WORDS) };
+    let mut job = LayoutJob::default();
+    job.wrap.max_width = width;
+    job.append(&lab.lane_name(lane.entry), 0.0, TextFormat::simple(font.clone(), colour));
+    let line = format!("\n{}", words(lane));
+    job.append(&line, 0.0, TextFormat::simple(font, if is_front { ink.text } else { ink.dim }));
+    ui.painter().layout_job(job)
+}
+
+/// What has become of a cloud.
+fn words(lane: &LaneCloud) -> String {
+    let area = lane.area_ratio.map(|ratio| format!("×{}, ", significant(ratio, 3)));
+    let lost = match lane.lost {
+        0 => String::new(),
+        lost => format!(", {} blew up", thousands(lost)),
+    };
+    format!("{}{}{lost}", area.unwrap_or_default(), lane.words)
+}
+
+/// The clouds in as many columns as make them largest.
+fn side_by_side(
+    ui: &Ui,
+    lab: &Lab,
+    picture: &CloudPicture,
+    room: Rect,
+    commands: &mut Vec<Command>,
+) {
+    let lanes = &picture.lanes;
+    let inner = Rect::from_min_max(
+        pos2(room.left() + LEFT, room.top()),
+        pos2(room.right(), room.bottom() - NUMBERS - NAMES),
+    );
+    let layout = |columns: usize| {
+        let rows = lanes.len().div_ceil(columns);
+        let gaps = GAP * (columns - 1) as f32;
+        let width = ((inner.width() - gaps) / columns as f32).max(LEAST_SIDE);
+        let captions: Vec<_> = lanes.iter().map(|lane| caption(ui, lab, lane, width)).collect();
+        let above = captions.iter().map(|words| words.size().y).fold(0.0, f32::max) + 3.0;
+        let height = (inner.height() / rows as f32 - above - GAP / 2.0).max(LEAST_SIDE);
+        (columns, vec2(width.min(WIDEST * height), height), captions, above)
+    };
+    let layouts = (1..=lanes.len().max(1)).map(layout);
+    let area = |size: Vec2| size.x * size.y;
+    let largest = layouts.max_by(|a, b| area(a.1).total_cmp(&area(b.1)));
+    let Some((columns, size, captions, above)) = largest else { return };
+    let rows = lanes.len().div_ceil(columns);
+    for (place, (lane, words)) in lanes.iter().zip(captions).enumerate() {
+        let (column, row) = (place % columns, place / columns);
+        let is_lowest = row + 1 == rows || place + columns >= lanes.len();
+        let top = inner.top() + row as f32 * (size.y + above + GAP / 2.0);
+        let corner = pos2(inner.left() + column as f32 * (size.x + GAP), top);
+        ui.painter().galley(corner, words, ink(ui).text);
+        let rect = Rect::from_min_size(corner + vec2(0.0, above), size);
+        cloud(ui, lab, picture, lane, (rect, place), [column == 0, is_lowest], commands);
+    }
+    let coordinate = &lab.race().truth().bodies()[lab.view().body].coordinates()[0];
+    let names =
+        [PlotAxis::of(coordinate), PlotAxis::of_velocity(coordinate)].map(|axis| axis.name());
+    let at = pos2(room.left(), room.bottom());
+    let names = format!("across: {}; up: {}", names[0], names[1]);
+    let small = FontId::proportional(11.5);
+    ui.painter().text(at, egui::Align2::LEFT_BOTTOM, names, small, ink(ui).dim);
+}
+
+/// A cloud, with numbers at the left and below where it `has` them.
+fn cloud(
+    ui: &Ui,
+    lab: &Lab,
+    picture: &CloudPicture,
+    lane: &LaneCloud,
+    (rect, place): (Rect, usize),
+    has: [bool; 2],
+    commands: &mut Vec<Command>,
+) {
+    let ink = ink(ui);
+    let px_per_point = ui.pixels_per_point();
+    // On whole pixels, so that each texel is one.
+    let whole = |at: f32| (at * px_per_point).round() / px_per_point;
+    let rect = Rect::from_min_max(
+        pos2(whole(rect.left()), whole(rect.top())),
+        pos2(whole(rect.right()), whole(rect.bottom())),
+    );
+    let pixels = |side: f32| {
+        let pixels = ((side * px_per_point).round() as usize).max(1);
+        pixels.div_ceil(pixels.div_ceil(MOST_TEXELS))
+    };
+    let size_px = [pixels(rect.width()), pixels(rect.height())];
+    let (colour, _) = ink.theme.lane_style(lab.entries(), &lab.entries()[lane.entry]);
+    let texture = image(ui, place, &lane.density, (size_px, ink.theme, colour));
+    let all = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
+    ui.painter().image(texture.id(), rect, all, Color32::WHITE);
+    let view = picture.view;
+    let area = PlotArea { rect, bounds: [view.q, view.v] };
+    let marks = |axis: usize, apart: f64| {
+        let marks = area.marks(axis, apart).into_iter();
+        let is_named = has[1 - axis];
+        marks
+            .map(|(at, text)| (at, if is_named { text } else { String::new() }))
+            .collect::<Vec<_>>()
+    };
+    area.axes(ui.painter(), ink, [&marks(0, 56.0), &marks(1, 24.0)]);
+    let painter = ui.painter().with_clip_rect(rect);
+    let outline = Curve {
+        colour: ink.exact,
+        width: OUTLINE,
+        dash: [1.0, 0.0],
+        dots: Dots::None,
+        points: Vec::new(),
+        swept: Vec::new(),
+    };
+    for line in &picture.border {
+        let at = |&[q, v]: &[f64; 2]| {
+            let [x, y] = view.place(q, v).map(|part| part.clamp(-10.0, 11.0) as f32);
+            pos2(rect.left() + x * rect.width(), rect.bottom() - y * rect.height())
+        };
+        let points: Vec<Pos2> = line.iter().map(at).filter(|at| at.is_finite()).collect();
+        // An angle goes on at the other side.
+        let goes_on = |a: &Pos2, b: &Pos2| (a.x - b.x).abs() < rect.width() / 2.0 || !view.wraps;
+        for piece in points.chunk_by(goes_on) {
+            curves::paint(&painter, piece, &[], &outline);
+        }
+    }
+    let response = ui.interact(rect, ui.scope_id().with(("cloud", place)), Sense::click());
+    let is_front = lab.mode() == Mode::Race && lane.entry == lab.active();
+    if is_front {
+        let rim = Stroke::new(1.6, Color32::from_rgb(colour[0], colour[1], colour[2]));
+        ui.painter().rect_stroke(rect, 0.0, rim, StrokeKind::Outside);
+    }
+    let about = format!("cloud of {}: {}", lab.lane_name(lane.entry), words(lane));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &about));
+    focus_ring(ui, &response);
+    let told = format!("{about} ({})", lane.measured);
+    if response.on_hover_text(told).clicked() && lab.mode() == Mode::Race {
+        commands.push(Command::Pick(lane.entry));
+    }
+}
+
+/// The size in pixels, the theme and the colour of an image.
+type Style = ([usize; 2], Theme, Rgba);
+
+/// An image that was made, and what of.
+#[derive(Clone)]
+struct Made {
+    of: Arc<Density>,
+    style: Style,
+    texture: TextureHandle,
+}
+
+/// The image of a density, which is made again only if that or its style changes.
+fn image(ui: &Ui, place: usize, density: &Arc<Density>, style: Style) -> TextureHandle {
+    let id = egui::Id::unique(("image of a cloud", place));
+    let made = ui.data(|data| data.get_temp::<Made>(id));
+    let old = match made {
+        Some(made) if Arc::ptr_eq(&made.of, density) && made.style == style => return made.texture,
+        made => made,
+    };
+    let (size, theme, colour) = style;
+    let rgba = density.picture_of_size(size, theme, colour).concat();
+    let image = ColorImage::from_rgba_unmultiplied(size, &rgba);
+    let texture = match old {
+        Some(mut old) if old.style.0 == size => {
+            old.texture.set_partial([0, 0], image, TextureOptions::NEAREST);
+            old.texture
+        }
+        _ => ui.ctx().load_texture("cloud", image, TextureOptions::NEAREST),
+    };
+    let made = Made { of: Arc::clone(density), style, texture: texture.clone() };
+    ui.data_mut(|data| data.insert_temp(id, made));
+    texture
+}
