@@ -18,13 +18,13 @@ use super::output::picture_format::ending;
 use super::output::table::{self, Column, RowFormat};
 use super::output::{AtomicOutput, Older, Place, STDOUT, finish, print};
 use super::terminal::tell;
+use crate::lab::number::{round, significant};
 use crate::lab::palette::{Rgba, Theme};
 use crate::lab::{
-    Cloud, CloudAxes, CloudMeasure, CloudShape, CloudStart, Density, ExactBorder, LaneSpec,
-    NoCloud, PlaneView, Scene, ShownTicks, USUAL_POINTS,
+    Cloud, CloudAxes, CloudMeasure, CloudShape, CloudStart, Coordinate, Density, ExactBorder,
+    LaneSpec, NoCloud, PlaneView, Scene, SceneBody, ShownTicks, USUAL_POINTS, Unit,
 };
-use crate::sim::{Solver, Stepper};
-use crate::view::png;
+use crate::view::{Lettering, png};
 
 const ABOUT: &str = "\
 The starts fill the shape evenly about the scene's start, in the plane of the coordinate and the
@@ -175,6 +175,9 @@ fn form(out: &Path) -> Result<Form, CloudError> {
 /// Pixels of a method's picture, each way, and between two.
 const SIDE_PX: usize = 512;
 const GAP_PX: usize = 8;
+/// The pixels of the two lines above the pictures, and of those below.
+const HEAD_PX: usize = 2 * Lettering::LINE_PX + 6;
+const FOOT_PX: usize = 2 * Lettering::LINE_PX + 6;
 
 /// The most pictures of a GIF, and the hundredths of a second that each is shown.
 const MOST_FRAMES: u64 = 100;
@@ -271,12 +274,13 @@ fn make(
     strobe: Option<u64>,
     interrupted: &AtomicBool,
 ) -> Result<Made, Error> {
-    let (name, body) = body(scene, specs[0].solver());
-    let start = CloudStart::about(&name, &*body, args.shape.into(), args.size);
+    let of_scene = scene_body(scene);
+    let (name, body) = (&of_scene.name, (of_scene.kind.build)(&of_scene.values, specs[0].solver()));
+    let start = CloudStart::about(name, &*body, args.shape.into(), args.size);
     let start = start.map_err(CloudError::from)?;
     let points = args.points as usize;
     let cloud = |spec: &LaneSpec| {
-        let cloud = Cloud::new(&name, &*body, spec, start, points, scene.tick_hz);
+        let cloud = Cloud::new(name, &*body, spec, start, points, scene.tick_hz);
         cloud.map(|cloud| Run { spec: *spec, cloud, stepping: Duration::ZERO, section: None })
     };
     let mut runs =
@@ -292,14 +296,23 @@ fn make(
     let view = match form {
         Form::Rows => None,
         Form::Png | Form::Gif => {
-            let axes = CloudAxes::of_run(&name, &*body, start, specs, scene.tick_hz, shown);
+            let axes = CloudAxes::of_run(name, &*body, start, specs, scene.tick_hz, shown);
             Some(axes.map_err(CloudError::from)?.whole)
         }
     };
-    let size_px = [runs.len() * (SIDE_PX + GAP_PX) - GAP_PX, SIDE_PX];
+    let paper = view.map(|view| Paper {
+        lettering: Lettering::default(),
+        view,
+        size_px: [runs.len() * (SIDE_PX + GAP_PX) - GAP_PX, HEAD_PX + SIDE_PX + FOOT_PX],
+        what: format!("{}, {} Hz, {points} points", scene.name, scene.tick_hz),
+        axes: axes_in_words(
+            &scene_body(scene).kind.coordinates(&scene_body(scene).values)[0],
+            view,
+        ),
+    });
     let mut frames = Vec::new();
     let mut border =
-        ExactBorder::new(&name, &*body, start, scene.tick_hz).map_err(CloudError::from)?;
+        ExactBorder::new(name, &*body, start, scene.tick_hz).map_err(CloudError::from)?;
     let every = match (strobe, form) {
         (Some(strobe), _) => strobe,
         (None, Form::Gif) => ticks.div_ceil(MOST_FRAMES),
@@ -325,7 +338,7 @@ fn make(
             let done = format!("{done} of {ticks} ticks");
             return Err(Interrupted::After { done }.into());
         }
-        let Some(view) = view else { continue };
+        let Some(paper) = &paper else { continue };
         let is_last = done == ticks;
         if strobe.is_none() {
             border.advance(part);
@@ -333,9 +346,11 @@ fn make(
         let is_frame = form == Form::Gif && (done / every).is_multiple_of(frames_every);
         if is_frame || is_last {
             let lines = if strobe.is_none() { border.lines() } else { Vec::new() };
-            frames.push(picture(&runs, view, size_px, &lines));
+            let t = done as f64 / f64::from(scene.tick_hz);
+            frames.push(paper.picture(&runs, t, &lines));
         }
     }
+    let size_px = paper.map_or([0; 2], |paper| paper.size_px);
     let bytes = match form {
         Form::Rows => Vec::new(),
         Form::Png => {
@@ -359,37 +374,74 @@ impl Cause for NoGif {
     }
 }
 
-/// The first body of one coordinate, else the first, with its name.
-fn body(scene: &Scene, solver: Solver) -> (String, Box<dyn Stepper>) {
-    let of_one = |body: &&crate::lab::SceneBody| body.kind.coordinates(&body.values).len() == 1;
-    let body = scene.bodies.iter().find(of_one).unwrap_or(&scene.bodies[0]);
-    (body.name.clone(), (body.kind.build)(&body.values, solver))
+/// The first body of one coordinate, else the first.
+fn scene_body(scene: &Scene) -> &SceneBody {
+    let of_one = |body: &&SceneBody| body.kind.coordinates(&body.values).len() == 1;
+    scene.bodies.iter().find(of_one).unwrap_or(&scene.bodies[0])
 }
 
-/// The clouds side by side.
-fn picture(
-    runs: &[Run],
+/// What lies along the axes of a picture.
+fn axes_in_words(coordinate: &Coordinate, view: PlaneView) -> String {
+    let axis = |way: &str, name: &str, [low, high]: [f64; 2], unit: &str| {
+        format!("{way} {name}, {} to {} {unit}", significant(low, 2), significant(high, 2))
+    };
+    let across = axis("across", &coordinate.name, view.q, coordinate.shown_unit());
+    let up = axis("up", &coordinate.velocity, view.v, &Unit::Velocity.on(coordinate));
+    format!("{}; {up}", across.trim_end())
+}
+
+/// What the pictures of all methods are drawn on.
+struct Paper {
+    lettering: Lettering,
     view: PlaneView,
-    [width, height]: [usize; 2],
-    lines: &[Vec<[f64; 2]>],
-) -> Vec<u8> {
-    let theme = Theme::default();
-    let mut pixels: Vec<Rgba> = vec![theme.palette().background; width * height];
-    for (place, run) in runs.iter().enumerate() {
-        let now = || {
-            let mut density = Density::new([SIDE_PX; 2], view);
-            density.add(run.cloud.q(), run.cloud.v());
-            density
-        };
-        let density = run.section.clone().unwrap_or_else(now);
-        let (colour, _) = theme.style(run.spec.method);
-        let picture = density.picture(theme, colour, lines);
-        for (y, row) in picture.chunks_exact(SIDE_PX).enumerate() {
-            let at = y * width + place * (SIDE_PX + GAP_PX);
-            pixels[at..at + SIDE_PX].copy_from_slice(row);
+    size_px: [usize; 2],
+    what: String,
+    axes: String,
+}
+
+impl Paper {
+    /// The clouds side by side at this time in seconds, each below its method and what has become of it.
+    fn picture(&self, runs: &[Run], t: f64, lines: &[Vec<[f64; 2]>]) -> Vec<u8> {
+        let Self { lettering, view, size_px: [width, height], what, axes } = self;
+        let (theme, width) = (Theme::default(), *width);
+        let palette = theme.palette();
+        let mut pixels: Vec<Rgba> = vec![palette.background; width * height];
+        let specs: Vec<LaneSpec> = runs.iter().map(|run| run.spec).collect();
+        for (place, Run { spec, cloud, section, .. }) in runs.iter().enumerate() {
+            let now = || {
+                let mut density = Density::new([SIDE_PX; 2], *view);
+                density.add(cloud.q(), cloud.v());
+                density
+            };
+            let density = section.clone().unwrap_or_else(now);
+            let (colour, _) = theme.style(spec.method);
+            let picture = density.picture(theme, colour, lines);
+            let left = place * (SIDE_PX + GAP_PX);
+            for (y, row) in picture.chunks_exact(SIDE_PX).enumerate() {
+                let at = (HEAD_PX + y) * width + left;
+                pixels[at..at + SIDE_PX].copy_from_slice(row);
+            }
+            let area = cloud.area_ratio();
+            let ratio = area.map(|ratio| format!("area ×{}: ", significant(ratio, 3)));
+            let words = match section {
+                Some(_) => String::new(),
+                None => format!("{}{}", ratio.unwrap_or_default(), cloud.in_words(area)),
+            };
+            let name = spec.distinct_name(spec.method.name, &specs);
+            for (line, (words, style)) in
+                [(name, (colour, true)), (words, (palette.text, false))].iter().enumerate()
+            {
+                let at = [left + 4, 2 + line * Lettering::LINE_PX];
+                lettering.write(&mut pixels, width, at, words, *style);
+            }
         }
+        let what = format!("{what}, after {} s", round(t, 3));
+        for (line, words) in [&what, axes].into_iter().enumerate() {
+            let at = [4, HEAD_PX + SIDE_PX + 2 + line * Lettering::LINE_PX];
+            lettering.write(&mut pixels, width, at, words, (palette.dim, false));
+        }
+        pixels.concat()
     }
-    pixels.concat()
 }
 
 fn gif(size_px: [usize; 2], frames: Vec<Vec<u8>>) -> Result<Vec<u8>, image::ImageError> {

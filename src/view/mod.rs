@@ -13,6 +13,7 @@ mod frame;
 mod gpu;
 #[cfg(test)]
 mod legibility;
+mod lettering;
 mod lines;
 mod meshes;
 mod missing_glyph;
@@ -40,6 +41,7 @@ mod triangles;
 pub use figure::{Axis, Chart, Figure, FigureCurve, Legend, Marks};
 pub use frame::{FrameOutput, FrameRenderer, Layout};
 pub use gpu::{AdapterPreference, Gpu, GpuError};
+pub use lettering::Lettering;
 pub use offscreen::Offscreen;
 pub use offscreen_renderer::OffscreenRenderer;
 pub use panels::Panels;

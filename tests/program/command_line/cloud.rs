@@ -37,6 +37,14 @@ fn pictures_are_the_same_bytes_every_time_and_say_what_became_of_the_area() {
     let (first, said) = make("a.png", "--shape cat");
     assert!(first.starts_with(b"\x89PNG") && said.contains("explicit-euler grows ×2 in"), "{said}");
     assert!(make("b.png", "--shape cat").0 == first);
+    // Words stand above and below: the first method's name in its own colour.
+    let picture = image::load_from_memory(&first).unwrap().into_rgb8();
+    let is_orange = |[r, g, b]: [u8; 3]| r > 180 && g < 170 && b < 120;
+    let head = picture.enumerate_pixels().filter(|(_, y, pixel)| *y < 24 && is_orange(pixel.0));
+    let lefts: Vec<u32> = head.map(|(x, ..)| x).collect();
+    assert!(lefts.len() > 150 && lefts.iter().all(|x| *x < 200), "{}", lefts.len());
+    let foot = picture.rows().rev().take(40).flatten().filter(|pixel| pixel.0[1] > 100).count();
+    assert!(foot > 500, "{foot}");
     assert!(make("c.gif", "").0.starts_with(b"GIF89a"));
     assert!(make("d.png", "--section 12").0 != first);
     assert!(make("e.csv", "").0.starts_with(b"method,points,"));
