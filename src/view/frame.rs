@@ -9,6 +9,7 @@ use super::gpu::Gpu;
 use super::meshes::MeshRenderer;
 use super::panels::{self, Panels};
 use super::stage::{Stage, StageRenderer};
+use super::textures::{Start, pass};
 use super::theme::{self, colour, growth};
 use super::touch::Touch;
 use crate::lab::picture::{self, Align, Label};
@@ -143,7 +144,7 @@ impl FrameRenderer {
         layout: Layout,
     ) -> FrameOutput {
         let Layout { mut panels, stage } = layout;
-        let drawing = self.encode(gpu, target, size_px, &mut panels, stage.as_ref());
+        let drawing = self.encode(gpu, target, size_px, &mut panels, stage);
         let repaint_delay = panels
             .viewport_output
             .get(&egui::ViewportId::ROOT)
@@ -223,7 +224,7 @@ impl FrameRenderer {
         target: &wgpu::TextureView,
         size_px: [u32; 2],
         output: &mut egui::FullOutput,
-        stage: Option<&Stage>,
+        stage: Option<Stage>,
     ) -> Option<wgpu::CommandBuffer> {
         // egui warns of textures that nobody took.
         if gpu.is_lost() {
@@ -236,25 +237,14 @@ impl FrameRenderer {
         }
         let meshes = self.context.tessellate(std::mem::take(&mut output.shapes), px_per_point);
         self.panels.prepare(gpu, &meshes, size_px, px_per_point);
-        if let Some(stage) = stage {
-            self.stage.prepare(gpu, stage, size_px, px_per_point);
-        }
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let has_stage = stage.is_some();
+        let start = stage.map_or(Start::Black, |stage| {
+            self.stage.prepare(gpu, &mut encoder, target.texture(), stage, px_per_point)
+        });
         {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("frame"),
-                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view: target,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations {
-                        load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
-                        store: wgpu::StoreOp::Store,
-                    },
-                })],
-                ..Default::default()
-            });
-            if stage.is_some() {
+            let mut pass = pass(&mut encoder, "frame", target, start);
+            if has_stage {
                 self.stage.paint(&mut pass);
             }
             self.panels.paint(&mut pass);

@@ -12,6 +12,7 @@ use super::gpu::Gpu;
 use super::lines::LineMesh;
 use super::place::{Place, PlaceGroup, pipeline};
 use super::strips::{Strip, Strips};
+use super::textures::texture;
 use super::triangles::Triangles;
 
 const SHADER: &str =
@@ -103,18 +104,10 @@ impl MeshRenderer {
     pub(super) fn set_texture(&mut self, gpu: &Gpu, id: TextureId, delta: &epaint::ImageDelta) {
         let ImageData::Color(image) = &delta.image;
         let [width, height] = image.size.map(|side| side as u32);
-        let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
         if delta.pos.is_none() {
-            let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-                label: Some("panels"),
-                size,
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format: wgpu::TextureFormat::Rgba8Unorm,
-                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-                view_formats: &[],
-            });
+            let usage = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST;
+            let format = wgpu::TextureFormat::Rgba8Unorm;
+            let texture = texture(gpu, "panels", [width, height], format, usage);
             let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
             let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("panels"),
@@ -139,7 +132,7 @@ impl MeshRenderer {
                 bytes_per_row: Some(4 * width),
                 rows_per_image: None,
             },
-            size,
+            wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         );
     }
 

@@ -6,6 +6,7 @@
 //! as they are stored, in gamma space, so all targets have a format without `Srgb` in its name.
 
 mod axis_scale;
+mod backdrop;
 mod bands;
 mod curves;
 mod figure;
@@ -33,6 +34,7 @@ mod strips;
 mod strokes;
 #[cfg(test)]
 mod testing;
+mod textures;
 mod theme;
 mod ticks;
 mod touch;

@@ -1,6 +1,7 @@
 //! A texture of our own to draw on: captures, screenshots, tests.
 
 use super::gpu::{Gpu, GpuError};
+use super::textures::texture;
 
 /// A texture that can be drawn on and then read back.
 #[derive(Debug)]
@@ -23,37 +24,17 @@ impl Offscreen {
     /// [`GpuError::TooLarge`], [`GpuError::Empty`] or [`GpuError::OutOfMemory`].
     pub fn new(gpu: &Gpu, size_px: [u32; 2]) -> Result<Self, GpuError> {
         gpu.check_size(size_px)?;
-        let [width, height] = size_px;
         let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("offscreen"),
-            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: Self::FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        });
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT
+            | wgpu::TextureUsages::COPY_SRC
+            | wgpu::TextureUsages::COPY_DST;
+        let texture = texture(gpu, "offscreen", size_px, Self::FORMAT, usage);
         if pollster::block_on(scope.pop()).is_some() {
+            let [width, height] = size_px;
             return Err(GpuError::OutOfMemory { width, height });
         }
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
         Ok(Self { texture, view, size_px })
-    }
-
-    /// This texture as the target of a pass that begins with `colour`.
-    #[cfg(test)]
-    pub(super) fn cleared(&self, colour: wgpu::Color) -> wgpu::RenderPassColorAttachment<'_> {
-        wgpu::RenderPassColorAttachment {
-            view: &self.view,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations {
-                load: wgpu::LoadOp::Clear(colour),
-                store: wgpu::StoreOp::Store,
-            },
-        }
     }
 }
 

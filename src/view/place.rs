@@ -16,7 +16,7 @@ struct Uniform {
 }
 
 /// Where the points of some part of a frame lie on the target.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Place {
     pub(super) size_px: [u32; 2],
     /// Where the part begins.

@@ -1,5 +1,7 @@
 //! The shapes of a picture, in painting order: strokes, lines through points, and filled outlines.
 
+use std::ops::Range;
+
 use egui::Rect;
 
 use super::gpu::Gpu;
@@ -31,7 +33,7 @@ struct Draw {
 
 #[derive(Debug)]
 enum Drawn {
-    Strokes(StrokeKind, std::ops::Range<u32>),
+    Strokes(StrokeKind, Range<u32>),
     Strip(Strip),
 }
 
@@ -73,10 +75,16 @@ impl ShapeRenderer {
         }
     }
 
-    pub(super) fn upload(&mut self, gpu: &Gpu, shapes: &[Shape], place: &Place) {
+    /// Forgets all shapes.
+    pub(super) fn clear(&mut self) {
         self.draws.clear();
         self.strips.clear();
         self.strokes.clear();
+    }
+
+    /// Adds shapes over the others, and says which draws they got.
+    pub(super) fn add(&mut self, shapes: &[Shape], place: &Place) -> Range<usize> {
+        let first = self.draws.len();
         let alike = |a: &Shape, b: &Shape| clip(a) == clip(b) && Way::of(a) == Way::of(b);
         for run in shapes.chunk_by(alike) {
             let scissor_px = place.scissor_px(clip(&run[0]));
@@ -99,12 +107,18 @@ impl ShapeRenderer {
             };
             self.draws.push(Draw { scissor_px, what });
         }
+        first..self.draws.len()
+    }
+
+    /// Uploads all that was added.
+    pub(super) fn upload(&mut self, gpu: &Gpu) {
         self.strips.upload(gpu);
         self.strokes.upload(gpu);
     }
 
-    pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
-        for Draw { scissor_px: [left, top, width, height], what } in &self.draws {
+    /// Draws some of them.
+    pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>, draws: Range<usize>) {
+        for Draw { scissor_px: [left, top, width, height], what } in &self.draws[draws] {
             pass.set_scissor_rect(*left, *top, *width, *height);
             match what {
                 Drawn::Strokes(kind, quads) => self.strokes.draw(pass, *kind, quads.clone()),

@@ -1,9 +1,13 @@
 //! The stage: a picture's sea, then its shapes, in their place on the target.
 
+use std::ops::Range;
+
+use super::backdrop::{Backdrop, Covered};
 use super::gpu::Gpu;
 use super::place::{Place, PlaceGroup};
 use super::sea::SeaPipeline;
 use super::shapes::ShapeRenderer;
+use super::textures::{Start, pass};
 use crate::lab::picture::{FAR, Picture, Rect};
 
 /// What clips nothing.
@@ -22,8 +26,12 @@ pub(super) struct Stage {
 #[derive(Debug)]
 pub(super) struct StageRenderer {
     place: PlaceGroup,
+    backdrop: Backdrop,
     sea: SeaPipeline,
     shapes: ShapeRenderer,
+    covered: Covered,
+    /// The draws of the shapes that the backdrop covers, and of those over it.
+    draws: [Range<usize>; 2],
     /// Left, top, width and height on the target.
     scissor_px: [u32; 4],
 }
@@ -38,17 +46,29 @@ impl StageRenderer {
         });
         Self {
             place,
+            backdrop: Backdrop::new(format),
             sea: SeaPipeline::new(gpu, &layout, format),
             shapes: ShapeRenderer::new(gpu, &layout, format),
+            covered: Covered::Nothing,
+            draws: [0..0, 0..0],
             scissor_px: [0; 4],
         }
     }
 
-    /// Uploads what [`Self::paint`] will draw on a target of `size_px`.
-    pub(super) fn prepare(&mut self, gpu: &Gpu, stage: &Stage, size_px: [u32; 2], scale: f32) {
+    /// Uploads what [`Self::paint`] will draw, and puts the backdrop on the target, if there is one. Returns what the
+    /// pass begins with.
+    pub(super) fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::Texture,
+        Stage { rect, picture }: Stage,
+        scale: f32,
+    ) -> Start {
+        let size_px = [target.width(), target.height()];
         // On whole pixels: what the picture puts on whole points stays sharp.
-        let low_px = (stage.rect.min.to_vec2() * scale).round();
-        let high_px = (stage.rect.max.to_vec2() * scale).round();
+        let low_px = (rect.min.to_vec2() * scale).round();
+        let high_px = (rect.max.to_vec2() * scale).round();
         let [left, right] = [low_px.x, high_px.x].map(|x| x.clamp(0.0, size_px[0] as f32));
         let [top, bottom] = [low_px.y, high_px.y].map(|y| y.clamp(0.0, size_px[1] as f32));
         let place = Place {
@@ -59,19 +79,55 @@ impl StageRenderer {
         };
         self.place.write(gpu, &place);
         self.scissor_px = place.scissor_px(EVERYWHERE);
-        self.sea.upload(gpu, stage.picture.sea.as_ref(), &place);
-        self.shapes.upload(gpu, &stage.picture.shapes, &place);
+        self.covered = self.backdrop.cover(gpu, target, &place, &picture);
+        let (below, above) = picture.shapes.split_at(self.covered.shapes());
+        self.shapes.clear();
+        self.draws = match self.covered {
+            Covered::Drawn(_) => [0..0, self.shapes.add(above, &place)],
+            Covered::Nothing | Covered::Drawing(_) => {
+                self.sea.upload(gpu, picture.sea.as_ref(), &place);
+                [self.shapes.add(below, &place), self.shapes.add(above, &place)]
+            }
+        };
+        self.shapes.upload(gpu);
+        if let (Covered::Drawing(_), Some(view)) = (self.covered, self.backdrop.view()) {
+            let mut pass = pass(encoder, "backdrop", &view, Start::Black);
+            if self.begin(&mut pass) {
+                self.paint_below(&mut pass);
+            }
+        }
+        self.backdrop.remember(place, picture);
+        if self.covered == Covered::Nothing {
+            return Start::Black;
+        }
+        self.backdrop.copy(encoder, target);
+        Start::AsItIs
     }
 
     /// Draws what was prepared, and nothing outside the stage.
     pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
+        if !self.begin(pass) {
+            return;
+        }
+        if self.covered == Covered::Nothing {
+            self.paint_below(pass);
+        }
+        self.shapes.paint(pass, self.draws[1].clone());
+    }
+
+    /// Whether there is room for a stage, to which all that follows is confined.
+    fn begin(&self, pass: &mut wgpu::RenderPass<'_>) -> bool {
         let [left, top, width, height] = self.scissor_px;
         if width == 0 || height == 0 {
-            return;
+            return false;
         }
         pass.set_scissor_rect(left, top, width, height);
         pass.set_bind_group(0, &self.place.group, &[]);
+        true
+    }
+
+    fn paint_below(&self, pass: &mut wgpu::RenderPass<'_>) {
         self.sea.paint(pass);
-        self.shapes.paint(pass);
+        self.shapes.paint(pass, self.draws[0].clone());
     }
 }

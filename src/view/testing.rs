@@ -6,6 +6,7 @@ use super::stage::Stage;
 use super::{AdapterPreference, Gpu, Offscreen, Readback};
 use crate::lab::picture::{Picture, Rect};
 use crate::view::stage::StageRenderer;
+use crate::view::textures::pass;
 
 /// A software device, or a line on stderr that says which test did not run and why.
 pub(super) fn gpu_or_skip(test: &str) -> Option<Gpu> {
@@ -40,21 +41,26 @@ impl Pixels {
 
 /// A picture alone on black, the stage filling the target, `scale` pixels a point.
 pub(super) fn draw_picture(gpu: &Gpu, size_px: [u32; 2], scale: f32, picture: &Picture) -> Pixels {
+    draw_next(gpu, &mut StageRenderer::new(gpu, Offscreen::FORMAT), size_px, scale, picture)
+}
+
+/// The same with a renderer that has drawn other pictures before.
+pub(super) fn draw_next(
+    gpu: &Gpu,
+    renderer: &mut StageRenderer,
+    size_px: [u32; 2],
+    scale: f32,
+    picture: &Picture,
+) -> Pixels {
     let target = Offscreen::new(gpu, size_px).expect("tests ask for small targets");
-    let mut renderer = StageRenderer::new(gpu, Offscreen::FORMAT);
     let rect = egui::Rect::from_min_size(
         egui::Pos2::ZERO,
         egui::vec2(size_px[0] as f32, size_px[1] as f32) / scale,
     );
-    renderer.prepare(gpu, &Stage { rect, picture: picture.clone() }, size_px, scale);
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    {
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            color_attachments: &[Some(target.cleared(wgpu::Color::BLACK))],
-            ..Default::default()
-        });
-        renderer.paint(&mut pass);
-    }
+    let stage = Stage { rect, picture: picture.clone() };
+    let start = renderer.prepare(gpu, &mut encoder, &target.texture, stage, scale);
+    renderer.paint(&mut pass(&mut encoder, "picture", &target.view, start));
     read(gpu, Some(encoder.finish()), &target)
 }
 

@@ -225,7 +225,7 @@ fn dress_style(style: &mut egui::Style, ink: &Ink) {
         widget.bg_fill = fill;
         widget.bg_stroke = Stroke::new(1.0, rim);
         widget.fg_stroke = Stroke::new(1.0, ink.text);
-        widget.corner_radius = CornerRadius::same(6);
+        widget.corner_radius = CornerRadius::same(5);
         widget.expansion = 0.0;
     }
 }

@@ -148,7 +148,7 @@ fn modes(ui: &mut Ui, lab: &Lab, width: f32, commands: &mut Vec<Command>) {
         ),
         (loops, "see one motion in every game loop, in slow motion (L)", is_in_loops, toggle_loops),
     ];
-    let frame = Frame::new().fill(ink(ui).raised).corner_radius(6.0);
+    let frame = Frame::new().fill(ink(ui).raised).corner_radius(5.0);
     frame.show(ui, |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         for (name, about, is_chosen, command) in parts {

@@ -1,0 +1,205 @@
+//! What stays the same at the bottom of the stage from frame to frame, such as water, depth lines and quay: drawn once
+//! into a texture, and copied from there.
+
+use super::gpu::Gpu;
+use super::place::Place;
+use super::textures::texture;
+use crate::lab::picture::{Picture, Sea, Shape};
+
+/// So many shapes more, for so many frames, are worth another drawing of the texture.
+const WORTH_DRAWING: (usize, u32) = (16, 8);
+
+/// Larger targets have no backdrop: it would take as much memory again.
+const MAX_PIXELS: u64 = 4096 * 4096;
+
+/// Finds what of a picture stays the same, and keeps it as a texture.
+#[derive(Debug)]
+pub(super) struct Backdrop {
+    format: wgpu::TextureFormat,
+    /// What was below the labels of the frame before.
+    last: Option<Scenery>,
+    /// How many shapes of that frame the texture shows.
+    drawn: Option<usize>,
+    /// For how many frames many more could have been on it.
+    frames_with_more: u32,
+    /// Like the target.
+    texture: Option<wgpu::Texture>,
+}
+
+#[derive(Debug)]
+struct Scenery {
+    place: Place,
+    sea: Sea,
+    shapes: Vec<Shape>,
+}
+
+/// How many shapes of a picture, from the bottom, are on the backdrop with the sea.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Covered {
+    /// There is no backdrop.
+    Nothing,
+    /// The backdrop has yet to be drawn with so many.
+    Drawing(usize),
+    /// The backdrop has been drawn with so many.
+    Drawn(usize),
+}
+
+impl Covered {
+    /// How many.
+    pub(super) fn shapes(self) -> usize {
+        match self {
+            Covered::Nothing => 0,
+            Covered::Drawing(shapes) | Covered::Drawn(shapes) => shapes,
+        }
+    }
+}
+
+impl Backdrop {
+    /// For pictures that are drawn in this format.
+    pub(super) fn new(format: wgpu::TextureFormat) -> Self {
+        Self { format, last: None, drawn: None, frames_with_more: 0, texture: None }
+    }
+
+    /// What of a picture in this place is covered. A target that the texture cannot be copied to has none.
+    pub(super) fn cover(
+        &mut self,
+        gpu: &Gpu,
+        target: &wgpu::Texture,
+        place: &Place,
+        picture: &Picture,
+    ) -> Covered {
+        let alike = self.last.as_ref().and_then(|last| last.alike(place, picture));
+        let Some(alike) = alike.filter(|_| self.can_be_copied_to(target)) else {
+            self.drawn = None;
+            return Covered::Nothing;
+        };
+        if let Some(shapes) = self.drawn.filter(|shapes| *shapes <= alike) {
+            let is_more = alike >= shapes + WORTH_DRAWING.0;
+            self.frames_with_more = if is_more { self.frames_with_more + 1 } else { 0 };
+            if self.frames_with_more < WORTH_DRAWING.1 {
+                return Covered::Drawn(shapes);
+            }
+        }
+        self.frames_with_more = 0;
+        self.drawn = Some(alike);
+        if self.texture.as_ref().is_none_or(|texture| texture.size() != target.size()) {
+            let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
+            self.texture = Some(texture(gpu, "backdrop", place.size_px, self.format, usage));
+        }
+        Covered::Drawing(alike)
+    }
+
+    /// Takes the picture to compare the next one with.
+    pub(super) fn remember(&mut self, place: Place, Picture { sea, shapes, .. }: Picture) {
+        self.last = sea.map(|sea| Scenery { place, sea, shapes });
+    }
+
+    fn can_be_copied_to(&self, target: &wgpu::Texture) -> bool {
+        let pixels = u64::from(target.width()) * u64::from(target.height());
+        let is_plain = target.depth_or_array_layers() == 1
+            && target.mip_level_count() == 1
+            && target.sample_count() == 1;
+        let usage = target.usage().contains(wgpu::TextureUsages::COPY_DST);
+        usage && is_plain && target.format() == self.format && pixels <= MAX_PIXELS
+    }
+
+    /// What to draw the backdrop on.
+    pub(super) fn view(&self) -> Option<wgpu::TextureView> {
+        let texture = self.texture.as_ref()?;
+        Some(texture.create_view(&wgpu::TextureViewDescriptor::default()))
+    }
+
+    /// Copies it to the target, all over.
+    pub(super) fn copy(&self, encoder: &mut wgpu::CommandEncoder, target: &wgpu::Texture) {
+        if let Some(texture) = &self.texture {
+            let (from, to) = (texture.as_image_copy(), target.as_image_copy());
+            encoder.copy_texture_to_texture(from, to, target.size());
+        }
+    }
+}
+
+impl Scenery {
+    /// How many shapes of a picture are the same from the bottom, if its sea is.
+    fn alike(&self, place: &Place, picture: &Picture) -> Option<usize> {
+        (self.place == *place && Some(self.sea) == picture.sea).then(|| {
+            let pairs = self.shapes.iter().zip(&picture.shapes);
+            pairs.take_while(|(one, other)| one == other).count()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::picture::{Cap, Rect, Rgba, Stroke};
+    use crate::view::Offscreen;
+    use crate::view::stage::StageRenderer;
+    use crate::view::testing::{EVERYWHERE, draw_next, draw_picture, gpu_or_skip};
+
+    /// Water with so many pale lines across it, and a line of its own over them.
+    fn picture(top: Rgba, lines: usize, own: f32) -> Picture {
+        let rect = Rect { min: [0.0; 2], max: [64.0; 2] };
+        let line = |y: f32, colour| {
+            let (from, to) = ([3.0, y], [60.0, y + 2.3]);
+            let radii = [1.3; 2];
+            Shape::Stroke(Stroke { from, to, radii, colour, cap: Cap::Round, clip: EVERYWHERE })
+        };
+        let pale = (0..lines).map(|place| line(2.0 * place as f32, [120, 200, 255, 90]));
+        Picture {
+            sea: Some(Sea { rect, colours: [top, [10, 20, 30, 255]] }),
+            shapes: pale.chain([line(own, [255, 120, 0, 130])]).collect(),
+            ..Picture::default()
+        }
+    }
+
+    #[test]
+    fn a_backdrop_changes_no_pixel() {
+        let Some(gpu) = gpu_or_skip("a_backdrop_changes_no_pixel") else { return };
+        let mut renderer = StageRenderer::new(&gpu, Offscreen::FORMAT);
+        let [blue, grey] = [[40, 60, 90, 255], [70, 70, 70, 255]];
+        let moving = |n: u8| (blue, 25, 0.5 * f32::from(n));
+        let mut frames: Vec<(Rgba, usize, f32)> = (0..4).map(moving).collect();
+        // Nothing moves for longer than it takes to draw the backdrop with all of it, then something does.
+        frames.extend([moving(4); 12]);
+        frames.extend((5..8).map(moving));
+        frames.extend([
+            (grey, 25, 1.0),
+            (grey, 25, 2.0),
+            (grey, 3, 2.0),
+            (grey, 3, 3.0),
+            (grey, 30, 3.0),
+        ]);
+        for (n, (top, lines, own)) in frames.into_iter().enumerate() {
+            let picture = picture(top, lines, own);
+            let size_px = if n % 7 == 6 { [48, 64] } else { [64, 64] };
+            let drawn = draw_next(&gpu, &mut renderer, size_px, 1.0, &picture);
+            assert!(drawn.rows == draw_picture(&gpu, size_px, 1.0, &picture).rows, "frame {n}");
+        }
+    }
+
+    #[test]
+    fn what_stays_the_same_is_drawn_once_and_grows_when_more_does() {
+        let test = "what_stays_the_same_is_drawn_once_and_grows_when_more_does";
+        let Some(gpu) = gpu_or_skip(test) else { return };
+        let target = Offscreen::new(&gpu, [64; 2]).unwrap().texture;
+        let mut backdrop = Backdrop::new(Offscreen::FORMAT);
+        let edges_px = [0.0, 0.0, 64.0, 64.0];
+        let place = Place { size_px: [64; 2], origin_px: [0.0; 2], px_per_point: 1.0, edges_px };
+        let mut cover = |lines, own| {
+            let picture = picture([40, 60, 90, 255], lines, own);
+            let covered = backdrop.cover(&gpu, &target, &place, &picture);
+            backdrop.remember(place, picture);
+            covered
+        };
+        assert_eq!(cover(25, 0.0), Covered::Nothing);
+        assert_eq!(cover(25, 1.0), Covered::Drawing(25));
+        assert_eq!(cover(25, 2.0), Covered::Drawn(25));
+        assert_eq!(cover(9, 2.0), Covered::Drawing(9));
+        assert_eq!(cover(30, 2.0), Covered::Drawn(9));
+        let covered: Vec<Covered> = (0..9).map(|n| cover(30, 3.0 + n as f32)).collect();
+        let mut expected = vec![Covered::Drawn(9); 9];
+        expected[7] = Covered::Drawing(30);
+        expected[8] = Covered::Drawn(30);
+        assert_eq!(covered, expected);
+    }
+}
