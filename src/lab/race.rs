@@ -315,6 +315,25 @@ mod tests {
     }
 
     #[test]
+    fn the_list_says_of_every_lane_what_it_flies_though_several_fly_one_method() {
+        use crate::lab::action::Action;
+        let scene = Scene::built_in("spring").unwrap();
+        let specs = ["rk4", "explicit-euler"].map(|id| LaneSpec::plain(method(id).unwrap()));
+        let mut race = Race::among(&scene, specs.to_vec(), [0, 1]);
+        let lane = |lane| Action::Lane { lane, spec: specs[0] };
+        let substeps = |lane, substeps| Action::Substeps { lane, substeps };
+        for action in [lane(2), substeps(2, 3), substeps(1, 3), substeps(1, 2), substeps(2, 4)] {
+            race.perform(&action, &mut ());
+            for Entrant { entry, lane, .. } in race.entrants() {
+                let listed = race.list()[*entry];
+                let flown = (lane.solver(), lane.substeps());
+                assert_eq!((listed.solver(), listed.substeps), flown, "{action:?}");
+            }
+        }
+        assert_eq!(race.list()[1], specs[1], "a method stays on the list though no lane flies it");
+    }
+
+    #[test]
     fn time_is_counted_from_the_last_of_several_changes_of_rate() {
         let mut race = race(20.0, 60);
         let mut t = 0.0;

@@ -180,20 +180,32 @@ impl Race {
     /// Puts the lane at this place under another method with its state unchanged. Halted bodies resume from the truth and
     /// are returned. A switch to the lane's present method, substeps and tolerance does nothing.
     pub fn switch(&mut self, place: usize, spec: LaneSpec) -> Vec<Resumed> {
-        let entry = self.entry_for(self.entrants[place].entry, spec);
-        self.list[entry] = spec;
+        let entry = self.entry_for(place, spec);
         let (t, truth) = (self.t(), &self.truth);
         let entrant = &mut self.entrants[place];
         entrant.entry = entry;
         entrant.lane.switch(spec.solver(), spec.substeps, t, truth)
     }
 
-    /// The index on the list for a lane that is at place `present` and switches to `spec`.
-    fn entry_for(&self, present: usize, spec: LaneSpec) -> usize {
-        let listed = self.list.iter().position(|known| *known == spec);
-        let own = (self.list[present].method == spec.method).then_some(present);
-        let of_method = || self.list.iter().position(|known| known.method == spec.method);
-        listed.or(own).or_else(of_method).expect("every method is on the list")
+    /// The index on the list for the lane at this place, which switches to `spec`: that of `spec`, or else one of its method
+    /// that no other lane flies, or else a new one. So the list says of every lane what it flies.
+    fn entry_for(&mut self, place: usize, spec: LaneSpec) -> usize {
+        if let Some(listed) = self.list.iter().position(|known| *known == spec) {
+            return listed;
+        }
+        let present = self.entrants[place].entry;
+        let is_flown = |entry: usize| {
+            let mut lanes = self.entrants.iter().enumerate();
+            lanes.any(|(other, entrant)| other != place && entrant.entry == entry)
+        };
+        let is_free = |&entry: &usize| self.list[entry].method == spec.method && !is_flown(entry);
+        let free = std::iter::once(present).chain(0..self.list.len()).find(is_free);
+        let entry = free.unwrap_or(self.list.len());
+        match self.list.get_mut(entry) {
+            Some(known) => *known = spec,
+            None => self.list.push(spec),
+        }
+        entry
     }
 
     /// Changes the tick rate from the present tick on. Methods restart from the present states. Setting the present rate

@@ -107,7 +107,7 @@ impl StartSettings {
             | Action::Lane { .. }
             | Action::Substeps { .. }
             | Action::Tolerance { .. } => {
-                self.list.copy_from_slice(race.list());
+                self.list = race.list().to_vec();
                 if race.mode() == Mode::Race {
                     let entries = race.entrants().iter().map(|entrant| entrant.entry);
                     self.lanes.iter_mut().zip(entries).for_each(|(lane, entry)| *lane = entry);
