@@ -17,7 +17,7 @@
 //!   [`Timeline`](lab::Timeline) keeps snapshots of it and goes to any tick. What is drawn of earlier ticks is in a
 //!   [`Past`](lab::Past), which watches the race as an [`Observer`](lab::Observer), and what a person looks at in a
 //!   [`Viewer`](lab::Viewer): neither is part of a run. A lane is one method on its own copy of the
-//!   scene's bodies, and a [`Follow`](lab::Follow) ticks one outside a run; a [`Judge`](lab::Judge) measures how far one strays, an
+//!   scene's bodies, known by its [`LaneId`](lab::LaneId), and a [`Follow`](lab::Follow) ticks one outside a run; a [`Judge`](lab::Judge) measures how far one strays, an
 //!   [`Adviser`](lab::Adviser) searches for the substeps that meet a [`Criterion`](lab::Criterion), and an
 //!   [`AnalysisWorker`](lab::AnalysisWorker) runs both, and the stability map, beside the race. The truth is a lane
 //!   whose solver is the exact flow, or a [reference](sim::REFERENCE_ACCURACY) for a body that has none. The layer knows no GPU and no wall clock: time comes in as

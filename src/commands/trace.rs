@@ -259,9 +259,10 @@ struct Halts {
 impl Halts {
     fn note(&mut self, lab: &Lab) {
         let race = lab.race();
-        for (place, halt) in race.just_halted() {
-            let number = place.map_or(0, |place| place + 1);
-            let lane = place.map_or(race.truth(), |place| &race.entrants()[place].lane);
+        for (entrant, halt) in race.just_halted() {
+            let before = |id| race.entrants().iter().take_while(move |other| other.id != id);
+            let number = entrant.map_or(0, |entrant| 1 + before(entrant.id).count());
+            let lane = entrant.map_or(race.truth(), |entrant| &entrant.lane);
             let body = &lab.scene().bodies[halt.body].name;
             let no_truth = if number == 0 { ", and so do its comparisons" } else { "" };
             self.lines.push(format!(

@@ -1,5 +1,6 @@
 //! The actions on a run, which a person, a script, a recording and a test have in common.
 
+use super::lane_id::LaneId;
 use super::lane_spec::LaneSpec;
 use crate::sim::Stepper;
 use crate::sim::bodies::Input;
@@ -14,22 +15,22 @@ pub enum Action {
     Method(&'static Method),
     /// Puts a lane under this method, with these substeps and this tolerance.
     Lane {
-        /// The lane's number, from 1 in the order of the scene.
-        lane: usize,
+        /// The lane.
+        lane: LaneId,
         /// The new method, substeps and tolerance.
         spec: LaneSpec,
     },
     /// Sets the substeps of a lane.
     Substeps {
-        /// The lane's number, from 1.
-        lane: usize,
+        /// The lane.
+        lane: LaneId,
         /// Steps per tick, 1 to [`MAX_SUBSTEPS`](super::MAX_SUBSTEPS).
         substeps: u32,
     },
     /// Sets the tolerance of a lane under an adaptive method.
     Tolerance {
-        /// The lane's number, from 1.
-        lane: usize,
+        /// The lane.
+        lane: LaneId,
         /// Within [`TOLERANCES`](super::TOLERANCES).
         tolerance: f64,
     },
@@ -61,8 +62,8 @@ pub enum Action {
     },
     /// Leaves only this lane in the race.
     Solo {
-        /// The lane's number, from 1.
-        lane: usize,
+        /// The lane.
+        lane: LaneId,
     },
 }
 

@@ -2,12 +2,14 @@
 
 use glam::DVec2;
 
+use super::lane_id::LaneId;
+
 /// A body that the pointer holds in a place. Time stands still until it is released: otherwise the body would move on
 /// meanwhile, and the lanes of a race would diverge before they start from the new state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeldBody {
-    /// The number of the lane in whose cell it is held.
-    pub lane: usize,
+    /// The lane in whose cell it is held.
+    pub lane: LaneId,
     /// The body's index in the scene.
     pub body: usize,
     /// The coordinates with which it would be released.

@@ -57,7 +57,7 @@ impl Lab {
             clock: Clock::new(start.tick_hz),
             running: true,
             dropped: 0,
-            viewer: Viewer::new(timeline.session().race().entrants()[0].lane_number),
+            viewer: Viewer::new(timeline.session().race().entrants()[0].id),
             timeline,
             loop_lab: None,
             start,
@@ -70,7 +70,7 @@ impl Lab {
         let mut lab = Self::new((**session.scene()).clone());
         lab.start = StartSettings::of_session(&session);
         lab.clock = Clock::new(lab.start.tick_hz);
-        lab.viewer = Viewer::new(session.race().entrants()[0].lane_number);
+        lab.viewer = Viewer::new(session.race().entrants()[0].id);
         lab.timeline = Timeline::new(session.before_its_first_tick());
         (0..tick).for_each(|_| lab.timeline.tick());
         lab
@@ -116,7 +116,7 @@ impl Lab {
     /// The lane in solo mode, or the selected lane in a race.
     pub fn selected(&self) -> &Entrant {
         let lanes = self.race().entrants();
-        lanes.iter().find(|lane| lane.lane_number == self.viewer.selected).unwrap_or(&lanes[0])
+        self.race().entrant(self.viewer.selected).unwrap_or(&lanes[0])
     }
     /// The clock.
     pub fn clock(&self) -> &Clock {

@@ -28,6 +28,7 @@ mod key;
 #[expect(clippy::module_inception, reason = "the lab is what this layer is about")]
 mod lab;
 mod lane;
+mod lane_id;
 mod lane_spec;
 mod live_loop;
 mod loop_lab;
@@ -92,6 +93,7 @@ pub use journal::{Journal, JournalRow, Source};
 pub use key::{Binding, KEYS, Key, command_for};
 pub use lab::{Lab, MANY_LANES, SpringJoint};
 pub use lane::{ESCAPE, Halt, Lane, LaneBody, Resumed, ResumedFrom};
+pub use lane_id::LaneId;
 pub use lane_spec::LaneSpec;
 pub use live_loop::{LiveFrame, LiveLoop};
 pub use loop_lab::{

@@ -91,13 +91,12 @@ impl LaneBody {
 fn of_halts(scene: &Scene, race: &Race) -> Option<String> {
     let halts = || race.just_halted().filter(|(_, halt)| !halt.failure.is_foreseen());
     halts().next()?;
-    let told = halts().map(|(place, Halt { tick, body: index, failure, .. })| {
+    let told = halts().map(|(entrant, Halt { tick, body: index, failure, .. })| {
         let truth = race.truth().bodies()[*index].truth().id();
         let body = &scene.bodies[*index];
-        match place {
-            Some(place) => {
-                let entrant = &race.entrants()[place];
-                let spec = race.list()[entrant.entry];
+        match entrant {
+            Some(entrant) => {
+                let spec = race.spec(entrant);
                 let name = spec.distinct_name(spec.method.name, race.list());
                 let fate = entrant.lane.bodies()[*index].fate().unwrap_or_default();
                 format!("{name}: {} {fate}", body.name)

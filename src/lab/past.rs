@@ -5,6 +5,7 @@
 
 use super::action::Action;
 use super::lane::{Resumed, ResumedFrom};
+use super::lane_id::LaneId;
 use super::race::{Entrant, Observer, Race};
 use crate::sim::bodies::Coordinate;
 use history::HistoryMark;
@@ -40,10 +41,8 @@ fn capacity_of(histories: usize) -> usize {
 
 /// The recent past of a race.
 pub struct Past {
-    /// One for each body, for each lane.
-    histories: Vec<Vec<History>>,
-    /// The number of each history's lane.
-    lanes: Vec<usize>,
+    /// One for each body, for each lane, in the order of the race.
+    histories: Vec<(LaneId, Vec<History>)>,
     /// One for each body.
     truth_curves: Vec<TruthCurve>,
     /// The duration of the histories in seconds.
@@ -57,8 +56,8 @@ pub struct Past {
 /// The end of the recorded past at some tick, to which it can be [rewound](Past::rewind).
 #[derive(Clone, Debug)]
 pub(super) struct PastMark {
-    /// By lane number and body.
-    histories: Box<[(usize, Box<[HistoryMark]>)]>,
+    /// By lane and body.
+    histories: Box<[(LaneId, Box<[HistoryMark]>)]>,
     truth_curves: Box<[TruthMark]>,
     changed_s: f64,
 }
@@ -66,7 +65,7 @@ pub(super) struct PastMark {
 impl PastMark {
     /// Its heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
-        let row = |(_, marks): &(usize, Box<[HistoryMark]>)| size_of_val(&marks[..]);
+        let row = |(_, marks): &(LaneId, Box<[HistoryMark]>)| size_of_val(&marks[..]);
         size_of_val(&self.histories[..])
             + self.histories.iter().map(row).sum::<usize>()
             + size_of_val(&self.truth_curves[..])
@@ -92,8 +91,7 @@ impl Past {
         let capacity = capacity_of(race.entrants().len() * bodies.len());
         let histories = || bodies.iter().map(|_| History::new(capacity)).collect();
         let mut past = Self {
-            histories: race.entrants().iter().map(|_| histories()).collect(),
-            lanes: race.entrants().iter().map(|entrant| entrant.lane_number).collect(),
+            histories: race.entrants().iter().map(|entrant| (entrant.id, histories())).collect(),
             truth_curves: curves.map(|(body, of)| TruthCurve::new(body, of, span_s)).collect(),
             span_s,
             capacity,
@@ -103,9 +101,16 @@ impl Past {
         past
     }
 
-    /// The histories of the bodies of the lane at this place of the race.
-    pub fn histories(&self, place: usize) -> &[History] {
-        &self.histories[place]
+    /// The histories of the bodies of a lane that is in the race.
+    ///
+    /// # Panics
+    /// If it is not.
+    pub fn histories(&self, lane: LaneId) -> &[History] {
+        &self.histories[self.index(lane).expect("it is in the race")].1
+    }
+
+    fn index(&self, lane: LaneId) -> Option<usize> {
+        self.histories.iter().position(|(id, _)| *id == lane)
     }
 
     /// The recent past of the truth, one curve for each body.
@@ -158,7 +163,7 @@ impl Past {
         if race.tick().is_multiple_of(self.stride(race)) {
             return self.each(race, History::record);
         }
-        for (entrant, histories) in race.entrants().iter().zip(&mut self.histories) {
+        for (entrant, (_, histories)) in race.entrants().iter().zip(&mut self.histories) {
             let curves = histories.iter_mut().zip(&self.truth_curves);
             let bodies = entrant.lane.bodies().iter().zip(curves);
             for (body, (history, curve)) in bodies.filter(|(body, _)| body.halted().is_none()) {
@@ -169,7 +174,7 @@ impl Past {
 
     fn each(&mut self, race: &Race, add: fn(&mut History, Sample)) {
         let t = race.t();
-        for (Entrant { entry, lane, .. }, histories) in
+        for (Entrant { entry, lane, .. }, (_, histories)) in
             race.entrants().iter().zip(&mut self.histories)
         {
             let curves = histories.iter_mut().zip(&self.truth_curves);
@@ -190,18 +195,16 @@ impl Past {
 
     /// Drops the histories of lanes that have left the race.
     fn leave_with(&mut self, race: &Race) {
-        let is_there = |number: &usize| race.entrants().iter().any(|e| e.lane_number == *number);
-        let mut lanes = self.lanes.iter();
-        self.histories.retain(|_| lanes.next().is_some_and(is_there));
-        self.lanes.retain(is_there);
+        self.histories.retain(|(lane, _)| race.entrant(*lane).is_some());
     }
 
     /// The present end of the recorded past.
     pub(super) fn mark(&self) -> PastMark {
-        let marks = |histories: &Vec<History>| histories.iter().map(History::mark).collect();
-        let rows = self.lanes.iter().copied().zip(self.histories.iter().map(marks));
+        let marks = |(lane, histories): &(LaneId, Vec<History>)| {
+            (*lane, histories.iter().map(History::mark).collect())
+        };
         PastMark {
-            histories: rows.collect(),
+            histories: self.histories.iter().map(marks).collect(),
             truth_curves: self.truth_curves.iter().map(TruthCurve::mark).collect(),
             changed_s: self.changed_s,
         }
@@ -209,11 +212,10 @@ impl Past {
 
     /// Whether a run repeated from the mark `from` will be drawn at `mark` as it was drawn then.
     pub(super) fn fills(&self, from: &PastMark, mark: &PastMark) -> bool {
-        let histories = mark.histories.iter().all(|(number, marks)| {
-            let begun = from.histories.iter().find(|(other, _)| other == number);
-            let kept = self.lanes.iter().position(|lane| lane == number);
-            let (Some((_, begun)), Some(kept)) = (begun, kept) else { return false };
-            let mut bodies = self.histories[kept].iter().zip(begun.iter().zip(marks));
+        let histories = mark.histories.iter().all(|(lane, marks)| {
+            let begun = from.histories.iter().find(|(other, _)| other == lane);
+            let (Some((_, begun)), Some(kept)) = (begun, self.index(*lane)) else { return false };
+            let mut bodies = self.histories[kept].1.iter().zip(begun.iter().zip(marks));
             bodies.all(|(history, (&begun, &mark))| history.fills(begun, mark))
         });
         let mut curves =
@@ -225,17 +227,16 @@ impl Past {
     pub(super) fn rewind(&mut self, mark: &PastMark, race: &Race) {
         self.changed_s = mark.changed_s;
         self.leave_with(race);
-        for (number, marks) in &mark.histories {
-            if !self.lanes.contains(number) {
+        for (lane, marks) in &mark.histories {
+            let index = self.index(*lane).unwrap_or_else(|| {
                 // A lane that has left the race comes back.
-                let place = race.entrants().iter().position(|e| e.lane_number == *number);
-                let place = place.expect("a mark is of the lanes that the race then had");
-                self.lanes.insert(place, *number);
+                let index = race.entrants().iter().position(|entrant| entrant.id == *lane);
+                let index = index.expect("a mark is of the lanes that the race then had");
                 let histories = marks.iter().map(|_| History::new(self.capacity));
-                self.histories.insert(place, histories.collect());
-            }
-            let place = self.lanes.iter().position(|lane| lane == number).expect("it is there now");
-            for (history, &mark) in self.histories[place].iter_mut().zip(marks) {
+                self.histories.insert(index, (*lane, histories.collect()));
+                index
+            });
+            for (history, &mark) in self.histories[index].1.iter_mut().zip(marks) {
                 history.rewind(mark);
             }
         }
@@ -246,7 +247,8 @@ impl Past {
 
     /// Drops the recorded future.
     pub(super) fn forget_future(&mut self) {
-        self.histories.iter_mut().flatten().for_each(History::forget_future);
+        let lanes = self.histories.iter_mut().flat_map(|(_, histories)| histories);
+        lanes.for_each(History::forget_future);
         self.truth_curves.iter_mut().for_each(TruthCurve::forget_future);
     }
 }
@@ -269,7 +271,7 @@ impl Observer for Past {
         if let Action::Place { body, .. } = action {
             let (t, truth) = (race.t(), &race.truth().bodies()[*body]);
             let coordinate = self.truth_curves[*body].coordinate();
-            for (entrant, histories) in race.entrants().iter().zip(&mut self.histories) {
+            for (entrant, (_, histories)) in race.entrants().iter().zip(&mut self.histories) {
                 let placed = &entrant.lane.bodies()[*body];
                 if placed.halted().is_none() {
                     let sample = Sample::new(t, entrant.entry, coordinate, [placed, truth]);
@@ -280,7 +282,7 @@ impl Observer for Past {
         if let Some(place) = race.switched_by(action) {
             let Entrant { entry, lane, .. } = &race.entrants()[place];
             let bodies = lane.bodies().iter().zip(race.truth().bodies());
-            let curves = self.histories[place].iter_mut().zip(&self.truth_curves);
+            let curves = self.histories[place].1.iter_mut().zip(&self.truth_curves);
             for ((body, truth), (history, curve)) in bodies.zip(curves) {
                 if body.halted().is_none() {
                     let sample = Sample::new(race.t(), *entry, curve.coordinate(), [body, truth]);
@@ -307,7 +309,7 @@ impl Observer for Past {
                 let (t, truth) = (race.t(), &race.truth().bodies()[*body]);
                 self.truth_curves[*body].jump(t, truth);
                 let coordinate = self.truth_curves[*body].coordinate();
-                for (entrant, histories) in race.entrants().iter().zip(&mut self.histories) {
+                for (entrant, (_, histories)) in race.entrants().iter().zip(&mut self.histories) {
                     let placed = &entrant.lane.bodies()[*body];
                     let sample = Sample::new(t, entrant.entry, coordinate, [placed, truth]);
                     histories[*body].jump(sample);
@@ -319,7 +321,7 @@ impl Observer for Past {
         let Some(place) = race.switched_by(action) else { return };
         let Entrant { entry, lane, .. } = &race.entrants()[place];
         let bodies = lane.bodies().iter().zip(race.truth().bodies()).enumerate();
-        let curves = self.histories[place].iter_mut().zip(&self.truth_curves);
+        let curves = self.histories[place].1.iter_mut().zip(&self.truth_curves);
         for ((index, (body, truth)), (history, curve)) in bodies.zip(curves) {
             let from_truth = |it: &&Resumed| it.halt.body == index && it.from == ResumedFrom::Truth;
             let jumped = resumed.iter().any(|it| from_truth(&it));
@@ -359,7 +361,7 @@ mod tests {
         while race.t() < end {
             race.step_seen(past);
         }
-        past.histories(0)[0].samples().map(|sample| sample.t).collect()
+        past.histories(LaneId(1))[0].samples().map(|sample| sample.t).collect()
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::equal_cost;
 use super::journal::Journal;
 use super::lane::{Halt, Lane};
+use super::lane_id::LaneId;
 use super::lane_spec::LaneSpec;
 use super::scene::{Scene, Scripted};
 use crate::sim::Solver;
@@ -41,8 +42,8 @@ pub(super) struct LastTick {
 /// A lane in a race.
 #[derive(Clone)]
 pub struct Entrant {
-    /// Its number, from 1 in the order of the race's start. It does not change with the method.
-    pub lane_number: usize,
+    /// Which lane it is, from the race's start on.
+    pub id: LaneId,
     /// The place of its method on the list.
     pub entry: usize,
     /// The lane.
@@ -110,9 +111,8 @@ impl Race {
         list: Vec<LaneSpec>,
         lanes: impl IntoIterator<Item = (usize, LaneSpec)>,
     ) -> Self {
-        let numbered = lanes.into_iter().zip(1..);
-        let entrants = numbered.map(|((entry, spec), lane_number)| Entrant {
-            lane_number,
+        let entrants = lanes.into_iter().enumerate().map(|(index, (entry, spec))| Entrant {
+            id: LaneId::of_index(index),
             entry,
             lane: Lane::new(scene, spec.solver(), spec.substeps),
         });
@@ -141,7 +141,7 @@ impl Race {
         race.mode = Mode::Solo;
         // The number that the lane has in a race, if it is in one.
         if entry < scene.lanes.len() {
-            race.entrants[0].lane_number = entry + 1;
+            race.entrants[0].id = LaneId::of_index(entry);
         }
         race
     }
@@ -206,19 +206,26 @@ impl Race {
     pub fn values(&self, body: usize) -> &[f64] {
         &self.values[body]
     }
-    /// The bodies that halted in the last tick, each with its lane's place among the [entrants](Self::entrants). The bodies
-    /// of the truth come first, with `None`.
-    pub fn just_halted(&self) -> impl Iterator<Item = (Option<usize>, &Halt)> {
-        let lanes = self.entrants.iter().enumerate().map(|(place, e)| (Some(place), &e.lane));
-        std::iter::once((None, &self.truth)).chain(lanes).flat_map(|(place, lane)| {
+    /// The bodies that halted in the last tick, each with its entrant. The bodies of the truth come first, with `None`.
+    pub fn just_halted(&self) -> impl Iterator<Item = (Option<&Entrant>, &Halt)> {
+        let lanes = self.entrants.iter().map(|entrant| (Some(entrant), &entrant.lane));
+        std::iter::once((None, &self.truth)).chain(lanes).flat_map(|(entrant, lane)| {
             let halts = lane.halts().filter(|halt| halt.tick + 1 == self.tick);
-            halts.map(move |halt| (place, halt))
+            halts.map(move |halt| (entrant, halt))
         })
     }
-    /// The [hash](Self::lane_hashes) of the lane with this number; `None` where it has left the race.
-    pub fn lane_hash(&self, lane_number: usize) -> Option<u64> {
-        let place = self.entrants.iter().position(|e| e.lane_number == lane_number)?;
-        self.lane_hashes().nth(place)
+    /// The entrant that is this lane; `None` where it has left the race.
+    pub fn entrant(&self, lane: LaneId) -> Option<&Entrant> {
+        self.entrants.iter().find(|entrant| entrant.id == lane)
+    }
+    /// What the lane of an entrant flies.
+    pub fn spec(&self, entrant: &Entrant) -> LaneSpec {
+        self.list[entrant.entry]
+    }
+    /// The [hash](Self::lane_hashes) of this lane; `None` where it has left the race.
+    pub fn lane_hash(&self, lane: LaneId) -> Option<u64> {
+        let index = self.entrants.iter().position(|entrant| entrant.id == lane)?;
+        self.lane_hashes().nth(index)
     }
     /// The performed and the pending actions.
     pub fn journal(&self) -> &Journal {
@@ -320,9 +327,10 @@ mod tests {
         let scene = Scene::built_in("spring").unwrap();
         let specs = ["rk4", "explicit-euler"].map(|id| LaneSpec::plain(method(id).unwrap()));
         let mut race = Race::among(&scene, specs.to_vec(), [0, 1]);
+        let (a, b) = (LaneId(1), LaneId(2));
         let lane = |lane| Action::Lane { lane, spec: specs[0] };
         let substeps = |lane, substeps| Action::Substeps { lane, substeps };
-        for action in [lane(2), substeps(2, 3), substeps(1, 3), substeps(1, 2), substeps(2, 4)] {
+        for action in [lane(b), substeps(b, 3), substeps(a, 3), substeps(a, 2), substeps(b, 4)] {
             race.perform(&action, &mut ());
             for Entrant { entry, lane, .. } in race.entrants() {
                 let listed = race.list()[*entry];

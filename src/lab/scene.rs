@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use super::action::Action;
 use super::appearance::Appearance;
+use super::lane_id::LaneId;
 use super::lane_spec::LaneSpec;
 use crate::sim::bodies::{ClaimHorizon, Kind, Origin};
 use crate::sim::integrators::Method;
@@ -147,8 +148,8 @@ pub struct Scripted {
 pub struct Check {
     /// When, at most [`LAST_TICK`].
     pub tick: u64,
-    /// The lane's number, from 1.
-    pub lane: usize,
+    /// The lane.
+    pub lane: LaneId,
     /// Its [hash](super::Race::lane_hashes) when the tick is reached, before the actions of that tick.
     pub hash: u64,
 }

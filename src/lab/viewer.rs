@@ -8,6 +8,7 @@ use super::guide::{Hints, Tour};
 use super::held::HeldBody;
 use super::instrument::Instrument;
 use super::interpolation::Interpolation;
+use super::lane_id::LaneId;
 use super::lane_spec::LaneSpec;
 use super::live_loop::LiveLoop;
 use super::my_spring::MySpring;
@@ -85,8 +86,8 @@ pub struct Viewer {
     pub preferences: Preferences,
     /// Where the person looks.
     pub view: View,
-    /// The number of the lane selected in a race: it stays selected, whatever method it is put under.
-    pub(super) selected: usize,
+    /// The lane selected in a race: it stays selected, whatever method it is put under.
+    pub(super) selected: LaneId,
     /// Whether a person, a script or a verdict has selected it.
     pub(super) is_selected: bool,
     /// The place of the lane that the pointer or the keyboard's focus is on.
@@ -113,8 +114,8 @@ pub struct Viewer {
 }
 
 impl Viewer {
-    /// A viewer who has selected the lane of this number.
-    pub(super) fn new(selected: usize) -> Self {
+    /// A viewer who has selected this lane.
+    pub(super) fn new(selected: LaneId) -> Self {
         Self {
             preferences: Preferences::default(),
             view: View::default(),

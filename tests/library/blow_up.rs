@@ -1,6 +1,8 @@
 //! A method that blows up hurts nobody else: it halts, once, and says when and why.
 
-use regatta::lab::{Clock, Command, ESCAPE, Lab, LaneBody, LaneSpec, Mode, Past, Race, Scene};
+use regatta::lab::{
+    Clock, Command, ESCAPE, Lab, LaneBody, LaneId, LaneSpec, Mode, Past, Race, Scene,
+};
 use regatta::sim::integrators::{GENERAL_METHODS, StepFailure, method};
 
 /// Ticks of the long race: 83 min at 60 Hz.
@@ -67,8 +69,8 @@ fn explicit_euler_on_the_stiff_spring_halts_once_and_the_others_go_on() {
     assert_eq!(&*coordinate, "v");
     assert!(value.is_finite() && value.abs() > ESCAPE && value.abs() < 3.0 * ESCAPE, "{value:e}");
     assert!(states(&with, "").iter().all(|(_, bits)| bits.len() == 2));
-    for place in 0..with.entrants().len() {
-        for sample in past.histories(place)[0].samples() {
+    for entrant in with.entrants() {
+        for sample in past.histories(entrant.id)[0].samples() {
             let numbers = [sample.t, sample.q, sample.v];
             assert!(numbers.iter().all(|x| x.is_finite() && x.abs() <= ESCAPE), "{sample:?}");
         }
@@ -87,12 +89,12 @@ fn a_halted_lane_keeps_its_last_good_state() {
         race.step_seen(&mut past);
         assert!(race.tick() < 1000);
     }
-    let samples = past.histories(0)[0].samples().count();
+    let samples = past.histories(LaneId(1))[0].samples().count();
     for _ in 0..100 {
         race.step_seen(&mut past);
     }
     assert_eq!(states(&race, ""), last);
-    assert_eq!(past.histories(0)[0].samples().count(), samples, "nothing is recorded");
+    assert_eq!(past.histories(LaneId(1))[0].samples().count(), samples, "nothing is recorded");
     let body = &race.entrants()[0].lane.bodies()[0];
     assert_eq!(body.previous_q, body.stepper.q(), "nothing is drawn moving");
     assert_eq!(body.previous_v, body.stepper.v());
@@ -147,7 +149,7 @@ fn a_halted_body_keeps_its_last_good_state_beside_others_that_go_on() {
     let lane = &harbour.entrants()[0].lane;
     let (kept, single) = (&lane.bodies()[spring], &alone.entrants()[0].lane.bodies()[0]);
     assert_eq!((kept.stepper.q(), kept.stepper.v()), (single.stepper.q(), single.stepper.v()));
-    let histories = past.histories(0);
+    let histories = past.histories(LaneId(1));
     assert_eq!(histories[spring].samples().count(), 0, "nothing is recorded of it");
     assert!(histories[2].samples().count() > 0);
 }

@@ -1,6 +1,6 @@
 //! Edits during a run: they are in the journal, and a restart keeps them.
 
-use regatta::lab::{Action, Command, Lab, LaneSpec, Mode, Scene, Session};
+use regatta::lab::{Action, Command, Lab, LaneId, LaneSpec, Mode, Scene, Session};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 
 fn stiffness(value: f64) -> Action {
@@ -38,13 +38,13 @@ fn a_selected_lane_stays_selected_when_its_method_changes() {
     lab.apply(Command::Pick(0));
     lab.tick();
     let spec = LaneSpec::plain(method("pefrl").unwrap());
-    lab.apply(Command::Act(Action::Lane { lane: 1, spec }));
-    assert_eq!((lab.selected().lane_number, lab.entries()[lab.active()]), (1, spec));
+    lab.apply(Command::Act(Action::Lane { lane: LaneId(1), spec }));
+    assert_eq!((lab.selected().id, lab.entries()[lab.active()]), (LaneId(1), spec));
     assert!(lab.title().contains("race: PEFRL"), "{}", lab.title());
     lab.apply(Command::Seek(0));
     lab.apply(Command::Seek(1));
     lab.apply(Command::ToggleRace);
-    assert_eq!((lab.mode(), lab.selected().lane_number), (Mode::Solo, 1));
+    assert_eq!((lab.mode(), lab.selected().id), (Mode::Solo, LaneId(1)));
     lab.apply(Command::Restart);
     lab.tick();
 }
@@ -58,7 +58,7 @@ fn a_race_restarts_with_the_methods_that_a_person_gave_its_lanes() {
         lanes.map(|lane| lab.entries()[lane.entry].method.id).collect()
     };
     let opened = methods(&lab);
-    for (lane, id) in [(2, "bdf2"), (1, "pefrl")] {
+    for (lane, id) in [(LaneId(2), "bdf2"), (LaneId(1), "pefrl")] {
         let spec = LaneSpec { substeps: 3, ..LaneSpec::plain(method(id).unwrap()) };
         lab.apply(Command::Act(Action::Lane { lane, spec }));
     }
@@ -66,8 +66,8 @@ fn a_race_restarts_with_the_methods_that_a_person_gave_its_lanes() {
     assert_eq!((given[0], given[1], &given[2..]), ("pefrl", "bdf2", &opened[2..]));
     lab.apply(Command::Restart);
     assert_eq!(methods(&lab), given);
-    assert_eq!((lab.selected().lane_number, lab.selected().lane.substeps()), (1, 3));
-    for (lane, spec) in (1..).zip(lab.scene_as_opened().lanes.clone()) {
+    assert_eq!((lab.selected().id, lab.selected().lane.substeps()), (LaneId(1), 3));
+    for (lane, spec) in (1..).map(LaneId).zip(lab.scene_as_opened().lanes.clone()) {
         lab.apply(Command::Act(Action::Lane { lane, spec }));
     }
     lab.apply(Command::Restart);

@@ -1,7 +1,7 @@
 //! What trails and plots are drawn from: every sample knows the method that it was flown under, a switch leaves a
 //! mark, and the newest sample is the present.
 
-use regatta::lab::{Command, History, Lab, Scene};
+use regatta::lab::{Command, History, Lab, LaneId, Scene};
 
 fn lab(seconds: f64, tick_hz: u32) -> Lab {
     let scene = Scene { seconds, tick_hz, ..Scene::built_in("spring").unwrap() };
@@ -9,7 +9,7 @@ fn lab(seconds: f64, tick_hz: u32) -> Lab {
 }
 
 fn history(lab: &Lab) -> &History {
-    &lab.past().histories(0)[0]
+    &lab.past().histories(LaneId(1))[0]
 }
 
 const FRAME_NS: i64 = 16_666_667;

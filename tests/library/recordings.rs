@@ -1,7 +1,7 @@
 //! A run as a scene file: it is read back unchanged, repeats the run to the bit, and contains its actions.
 
 use regatta::lab::{
-    Action, Command, Lab, LaneSpec, Mode, RecordingError, SCENES, Scene, Scripted, Session,
+    Action, Command, Lab, LaneId, LaneSpec, Mode, RecordingError, SCENES, Scene, Scripted, Session,
     equal_cost, lanes_that_race,
 };
 use regatta::sim::integrators::{GENERAL_METHODS, method};
@@ -15,7 +15,7 @@ fn parsed(text: &str) -> Scene {
 }
 
 /// The lanes that differ from the checks of a recording, run as `regatta verify` runs it.
-fn wrong_lanes(scene: &Scene) -> Vec<usize> {
+fn wrong_lanes(scene: &Scene) -> Vec<LaneId> {
     let mut session = Session::racing(scene.clone().into());
     let mut wrong = Vec::new();
     for check in &scene.checks {
@@ -64,13 +64,16 @@ fn flown() -> Lab {
     let actions = [
         Action::Set { body: 0, parameter: 1, value: 90.0 },
         Action::Kick(0.5),
-        Action::Lane { lane: 1, spec: rk4 },
+        Action::Lane { lane: LaneId(1), spec: rk4 },
         Action::TickHz(50),
         Action::Place { body: 1, q: [0.25].into(), v: [-1.5].into() },
         Action::Throttle(-0.5),
-        Action::Substeps { lane: 1, substeps: 2 },
-        Action::Lane { lane: 1, spec: LaneSpec::plain(method("dormand-prince-54").unwrap()) },
-        Action::Tolerance { lane: 1, tolerance: 1e-7 },
+        Action::Substeps { lane: LaneId(1), substeps: 2 },
+        Action::Lane {
+            lane: LaneId(1),
+            spec: LaneSpec::plain(method("dormand-prince-54").unwrap()),
+        },
+        Action::Tolerance { lane: LaneId(1), tolerance: 1e-7 },
     ];
     for action in actions {
         (0..25).for_each(|_| lab.tick());
@@ -90,7 +93,7 @@ fn a_recording_has_all_actions_and_repeats_the_run_to_the_bit() {
     assert_eq!((scene.lanes.len(), scene.tick_hz), (1, 60));
     assert!((scene.seconds - lab.race().t()).abs() < 1e-12);
     let last = scene.checks.last().unwrap();
-    assert_eq!((last.tick, last.lane), (250, 1));
+    assert_eq!((last.tick, last.lane), (250, LaneId(1)));
     assert_eq!(Some(last.hash), lab.race().lane_hashes().next());
     // In every second at its rate, and at the end.
     let checked: Vec<u64> = scene.checks.iter().map(|check| check.tick).collect();
@@ -119,7 +122,7 @@ fn a_recording_of_a_scripted_race_that_goes_solo_repeats_it_to_the_bit() {
     lab.apply(Command::Rudder(0.4));
     (0..200).for_each(|_| lab.tick());
     let recorded = parsed(&lab.recording().unwrap());
-    assert!(recorded.checks.iter().any(|check| check.lane == recorded.lanes.len()));
+    assert!(recorded.checks.iter().any(|check| check.lane.0 == recorded.lanes.len()));
     assert!(wrong_lanes(&recorded).is_empty());
 
     lab.apply(Command::Pick(2));
@@ -127,8 +130,8 @@ fn a_recording_of_a_scripted_race_that_goes_solo_repeats_it_to_the_bit() {
     (0..50).for_each(|_| lab.tick());
     let recorded = parsed(&lab.recording().unwrap());
     let last = recorded.checks.last().unwrap();
-    assert_eq!((last.tick, last.lane), (450, 3), "its number is that of before");
-    assert!(recorded.script.iter().any(|row| row.action == Action::Solo { lane: 3 }));
+    assert_eq!((last.tick, last.lane), (450, LaneId(3)), "its number is that of before");
+    assert!(recorded.script.iter().any(|row| row.action == Action::Solo { lane: LaneId(3) }));
     assert!(wrong_lanes(&recorded).is_empty());
 }
 
@@ -183,12 +186,12 @@ fn an_action_that_is_out_of_range_or_does_not_fit_is_ignored() {
         Action::Set { body: 0, parameter: 99, value: 1.0 },
         Action::Place { body: 0, q: [1.0, 2.0].into(), v: [0.0].into() },
         Action::Place { body: 0, q: [f64::INFINITY].into(), v: [0.0].into() },
-        Action::Substeps { lane: 99, substeps: 2 },
-        Action::Tolerance { lane: 1, tolerance: 1e-3 },
+        Action::Substeps { lane: LaneId(99), substeps: 2 },
+        Action::Tolerance { lane: LaneId(1), tolerance: 1e-3 },
         Action::Rudder(1.0),
         Action::Throttle(0.5),
         Action::Kick(0.0),
-        Action::Solo { lane: 99 },
+        Action::Solo { lane: LaneId(99) },
     ] {
         assert!(!session.act(action.clone()), "{action:?}");
     }

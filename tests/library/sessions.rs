@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::dice::Dice;
 use regatta::lab::{
-    Action, Command, Event, EventKind, Lab, LaneSpec, Past, SNAPSHOT_BYTES, Scene, Session,
+    Action, Command, Event, EventKind, Lab, LaneId, LaneSpec, Past, SNAPSHOT_BYTES, Scene, Session,
     Timeline, TruthSample,
 };
 use regatta::sim::bodies::BODIES;
@@ -57,7 +57,7 @@ fn scene(dice: &mut Dice, n: usize) -> Scene {
 /// A random action that is possible in the session's present.
 fn action(dice: &mut Dice, session: &Session) -> Action {
     let race = session.race();
-    let lane = race.entrants()[dice.below(race.entrants().len())].lane_number;
+    let lane = race.entrants()[dice.below(race.entrants().len())].id;
     let body = dice.below(race.truth().bodies().len());
     match dice.below(20) {
         0..5 => Action::Lane { lane, spec: dice.spec() },
@@ -195,7 +195,7 @@ fn shown(timeline: &Timeline) -> Shown {
     let race = timeline.session().race();
     let past: &Past = timeline.past();
     let samples = |place: usize| {
-        let histories = past.histories(place).iter();
+        let histories = past.histories(race.entrants()[place].id).iter();
         histories.map(|history| format!("{:?}", history.samples().collect::<Vec<_>>())).collect()
     };
     Shown {
@@ -346,12 +346,12 @@ fn events_are_ordered_by_tick_and_are_discarded_and_restored_with_their_future()
     let done = |event: &Event| matches!(event.kind, EventKind::Done(..));
     assert_eq!(events.iter().filter(|event| done(event)).map(|e| e.tick).collect::<Vec<_>>(), [50]);
     let race = timeline.session().race();
-    let halts = race.entrants().iter().filter_map(|e| Some((e.lane_number, e.lane.halted()?)));
-    let halts: Vec<(u64, usize)> = halts.map(|(lane, halt)| (halt.tick, lane)).collect();
+    let halts = race.entrants().iter().filter_map(|e| Some((e.id, e.lane.halted()?)));
+    let halts: Vec<(u64, LaneId)> = halts.map(|(lane, halt)| (halt.tick, lane)).collect();
     assert!(halts.len() >= 2, "explicit and improved Euler are lost: {halts:?}");
-    let mut told: Vec<(u64, usize)> = Vec::new();
+    let mut told: Vec<(u64, LaneId)> = Vec::new();
     for event in &events {
-        if let EventKind::Halted { lane, body: 0, is_blow_up: true } = event.kind {
+        if let EventKind::Halted { lane: Some(lane), body: 0, is_blow_up: true } = event.kind {
             told.push((event.tick, lane));
         }
     }

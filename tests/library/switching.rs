@@ -2,8 +2,8 @@
 //! left it.
 
 use regatta::lab::{
-    Action, Command, Lab, Lane, LaneBody, LaneSpec, Observer, Past, Race, Resumed, ResumedFrom,
-    Scene, SceneBody,
+    Action, Command, Lab, Lane, LaneBody, LaneId, LaneSpec, Observer, Past, Race, Resumed,
+    ResumedFrom, Scene, SceneBody,
 };
 use regatta::sim::bodies::{Body, Input, Ship, Spring};
 use regatta::sim::integrators::{GENERAL_METHODS, Method, method};
@@ -321,7 +321,7 @@ fn a_body_that_blew_up_resumes_from_the_truth_and_the_others_continue() {
     assert_eq!((halt.body, halt.is_blow_up()), (1, true));
     run(&mut race, 10);
     let ship = body_bits(&race.entrants()[0].lane.bodies()[0]);
-    let switch = Action::Lane { lane: 1, spec: rk4() };
+    let switch = Action::Lane { lane: LaneId(1), spec: rk4() };
     let resumed = race.perform(&switch, &mut past);
     assert_eq!(resumed, [Resumed { halt, from: ResumedFrom::Truth }]);
     let (lane, truth) = (&race.entrants()[0].lane, race.truth());
@@ -330,7 +330,7 @@ fn a_body_that_blew_up_resumes_from_the_truth_and_the_others_continue() {
     let spring = &lane.bodies()[1];
     assert_eq!(body_bits(spring), body_bits(&truth.bodies()[1]));
     assert_eq!(spring.previous_q, spring.stepper.q(), "it is not drawn on its way there");
-    let history = &past.histories(0)[1];
+    let history = &past.histories(LaneId(1))[1];
     let jump = history.samples().rev().find(|sample| sample.jumped);
     assert_eq!(jump.map(|sample| sample.t), Some(race.t()));
     let runs: Vec<usize> = history.runs().map(|run| run.entry).collect();

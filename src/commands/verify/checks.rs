@@ -9,7 +9,7 @@ use crate::commands::error::{Cause, Error};
 use crate::commands::output::{Older, Place, write_text};
 use crate::commands::scene_file;
 use crate::commands::terminal::tell;
-use crate::lab::{Action, Check, Lab, Observer, Race, Resumed, Scene, Session};
+use crate::lab::{Action, Check, Lab, LaneId, Observer, Race, Resumed, Scene, Session};
 
 /// The most ticks that a race is run for its checks: a day at 1000 Hz and more, which takes a body minutes.
 const MAX_TICKS: u64 = 100_000_000;
@@ -46,8 +46,8 @@ pub(super) enum CheckError {
          or the `solo` that removes the lane", .path.display()
     )]
     LaneLeft {
-        /// The lane's number, from 1.
-        lane: usize,
+        /// The lane.
+        lane: LaneId,
         /// The tick of the check.
         tick: u64,
         /// The file.
@@ -229,7 +229,7 @@ struct MethodsSeen(Vec<Vec<&'static str>>);
 impl MethodsSeen {
     fn look(&mut self, race: &Race) {
         for entrant in race.entrants() {
-            let seen = &mut self.0[entrant.lane_number - 1];
+            let seen = &mut self.0[entrant.id.index()];
             let method = entrant.lane.solver().method().map(|method| method.id);
             seen.extend(method.filter(|id| seen.last() != Some(id)));
         }
@@ -280,7 +280,7 @@ fn compare(scene: &Scene) -> Vec<JudgedLane> {
     let mut lanes: Vec<JudgedLane> = lanes.collect();
     for Reached { row, t, hash: is } in all_reached {
         let Check { tick, lane, hash: was } = scene.checks[row];
-        let lane = &mut lanes[lane - 1];
+        let lane = &mut lanes[lane.index()];
         if lane.difference.is_none() && is != Some(was) {
             let same_at = (lane.checks > 0).then_some(lane.last_tick);
             lane.difference = Some(Difference { tick, t, was, is, same_at });

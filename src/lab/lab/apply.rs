@@ -10,6 +10,7 @@ use crate::lab::command::{
 };
 use crate::lab::display::DriverRequest;
 use crate::lab::equal_cost::equal_cost;
+use crate::lab::lane_id::LaneId;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::loop_lab::{LoopCommand, LoopLab};
 use crate::lab::metrics::METRICS;
@@ -94,7 +95,7 @@ impl Lab {
                     self.restart();
                 }
                 Mode::Race => {
-                    let lane = self.selected().lane_number;
+                    let lane = self.selected().id;
                     self.act(Action::Solo { lane });
                     self.start.mode = Mode::Solo;
                     // It may be about a lane that has left the race.
@@ -279,14 +280,14 @@ impl Lab {
         }
     }
 
-    /// The number of the lane that a pick of this index of the list selects: in solo mode that of the only lane.
-    pub(super) fn picked(&self, entry: usize) -> Option<usize> {
+    /// The lane that a pick of this index of the list selects: in solo mode the only one.
+    pub(super) fn picked(&self, entry: usize) -> Option<LaneId> {
         let lanes = self.race().entrants();
         let picked = match self.mode() {
             Mode::Solo => lanes.first().filter(|_| entry < self.entries().len()),
             Mode::Race => lanes.iter().find(|lane| lane.entry == entry),
         };
-        picked.map(|lane| lane.lane_number)
+        picked.map(|lane| lane.id)
     }
 
     fn pick(&mut self, entry: usize) {
@@ -315,12 +316,12 @@ impl Lab {
                 self.set_notice(format!("the race restarted with {} in it", spec.method.name));
             }
             (Mode::Race, Some(flown)) => {
-                let lane = flown.lane_number;
+                let lane = flown.id;
                 self.act(Action::Lane { lane, spec });
                 self.pick(entry);
             }
             (Mode::Solo, _) => {
-                let lane = self.race().entrants()[0].lane_number;
+                let lane = self.race().entrants()[0].id;
                 self.act(Action::Lane { lane, spec });
             }
         }
@@ -340,11 +341,11 @@ impl Lab {
         if self.mode() == Mode::Solo {
             return self.set_notice("equal cost needs a race: press C");
         }
-        let lanes: Vec<(usize, LaneSpec)> = self
+        let lanes: Vec<(LaneId, LaneSpec)> = self
             .race()
             .entrants()
             .iter()
-            .map(|entrant| (entrant.lane_number, self.entries()[entrant.entry]))
+            .map(|entrant| (entrant.id, self.race().spec(entrant)))
             .collect();
         let specs: Vec<LaneSpec> = lanes.iter().map(|(_, spec)| *spec).collect();
         let (wanted, before, notice) = match &self.start.before_equal_cost {

@@ -146,9 +146,9 @@ impl Lab {
         }
         for row in &race.journal().rows()[done..race.done()] {
             let Action::Method(method) = row.action else { continue };
-            let lane = race.entrants().iter().find(|e| race.list()[e.entry].method == method);
+            let lane = race.entrants().iter().find(|e| race.spec(e).method == method);
             if let Some(lane) = lane {
-                self.viewer.selected = lane.lane_number;
+                self.viewer.selected = lane.id;
                 self.viewer.is_selected = true;
             }
         }

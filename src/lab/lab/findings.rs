@@ -108,7 +108,7 @@ impl Lab {
         }
         let judged = |lane: &Entrant| {
             let verdict = self.viewer.verdict(lane.entry)?;
-            Some((verdict.badness(), (lane.lane_number, lane.entry)))
+            Some((verdict.badness(), (lane.id, lane.entry)))
         };
         let Some(judged) = lanes.iter().map(judged).collect::<Option<Vec<_>>>() else { return };
         let best =

@@ -12,7 +12,8 @@ impl Lab {
     pub(super) fn restart(&mut self) {
         self.timeline.restart(self.start.session());
         self.record_chosen_coordinates();
-        self.viewer.selected = self.picked(self.start.entry).unwrap_or_default();
+        self.viewer.selected =
+            self.picked(self.start.entry).unwrap_or(self.race().entrants()[0].id);
         self.viewer.notice = None;
         self.viewer.live.jump();
         self.viewer.held = None;
@@ -74,11 +75,12 @@ impl Lab {
         let entry = self.start.entry;
         self.start = settings;
         // Selecting a lane is not a change: the one that is selected stays so.
-        let is_there = |lane: usize| self.race().entrants().iter().any(|e| e.lane_number == lane);
-        if self.mode() == Mode::Race && is_there(self.viewer.selected) {
+        let is_there = self.race().entrant(self.viewer.selected).is_some();
+        if self.mode() == Mode::Race && is_there {
             self.start.entry = entry;
         } else {
-            self.viewer.selected = self.picked(self.start.entry).unwrap_or_default();
+            self.viewer.selected =
+                self.picked(self.start.entry).unwrap_or(self.race().entrants()[0].id);
         }
         if is_restart {
             self.viewer.findings = None;

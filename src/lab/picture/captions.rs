@@ -70,7 +70,7 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, 
     let (colour, _) = moment.style(entrant.entry);
     let (left, right) = (rect.min[0] + LANE_INSET, rect.max[0]);
     let middle = (rect.min[1] + rect.max[1]) / 2.0;
-    if entrant.lane_number == lab.selected().lane_number {
+    if entrant.id == lab.selected().id {
         let (top, bottom) = (rect.min[1] + 4.0, rect.max[1] - 4.0);
         let x = rect.min[0] + 2.5;
         let bar = line([x, top], [x, bottom.max(top)], 3.0, colour, rect);

@@ -134,7 +134,7 @@ fn side_by_side(
         }
         Band { moment, index, ghost, view, camera, lanes, front: entrant }.draw(picture);
         frame(picture, cell, faded(moment.palette.chart, 0.3));
-        if entrant.lane_number == entrants[entrants.len() - 1].lane_number {
+        if entrant.id == entrants[entrants.len() - 1].id {
             captions::scale_bar(picture, &camera, moment.palette);
         }
     };
@@ -196,7 +196,7 @@ impl Band<'_> {
         let mut near: Vec<LoupeLane> = Vec::new();
         let mut cell = Cell {
             rect: camera.rect,
-            lane: self.front.lane_number,
+            lane: self.front.id,
             entry: self.front.entry,
             body: index,
             zoomed_as: view.zoomed_as,
@@ -214,7 +214,7 @@ impl Band<'_> {
             let colour_of_body = faded(colour, if is_front { 1.0 } else { BEHIND.0 });
             let coat = LaneStyle { colour: colour_of_body, dash, fill: self.fill() };
             let seen = OutlineView { outline: &outline, camera, palette };
-            let whose = Whose::Lane { number: lane.lane_number, entry: lane.entry };
+            let whose = Whose::Lane { lane: lane.id, entry: lane.entry };
             cell.add_grips(body, &coordinates, whose);
             let held = lab.viewer().held().filter(|held| held.body == index);
             let away = self.trail(picture, lane, outline.at, flag).filter(|_| held.is_none());
@@ -242,7 +242,7 @@ impl Band<'_> {
             shown.carried(picture, coat);
             self.draw_ghost(picture, shows_ghost);
             shown.front(&mut picture.shapes, coat);
-            if let Some(held) = held.filter(|held| held.lane == lane.lane_number) {
+            if let Some(held) = held.filter(|held| held.lane == lane.id) {
                 let [handle, hand] = [held.handle, held.hand].map(|at| camera.points(at));
                 picture.shapes.push(line(handle, hand, 1.0, palette.text, camera.rect));
             }
@@ -310,7 +310,7 @@ impl Band<'_> {
     }
 
     fn is_front(&self, lane: &Entrant) -> bool {
-        lane.lane_number == self.front.lane_number
+        lane.id == self.front.id
     }
 
     /// What lies under the bodies: the quay, a course, the exact trail, and how far the exact body swings.

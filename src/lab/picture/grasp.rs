@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::sketch::Camera;
 use super::{Look, Pull, Rect};
-use crate::lab::{HeldBody, Lab, LaneBody};
+use crate::lab::{HeldBody, Lab, LaneBody, LaneId};
 
 /// How close to the middle of a small handle a hand can take hold of it, in points: as close as people aim.
 const MIN_RADIUS: f32 = 14.0;
@@ -14,8 +14,8 @@ const MIN_RADIUS: f32 = 14.0;
 pub struct Cell {
     /// Where it is.
     pub rect: Rect,
-    /// The lane's number.
-    pub lane: usize,
+    /// The lane in front.
+    pub lane: LaneId,
     /// The place of the lane's method on the list.
     pub entry: usize,
     /// The body's index in the scene.
@@ -45,8 +45,8 @@ pub struct Grip {
 pub enum Whose {
     /// A lane's.
     Lane {
-        /// The lane's number.
-        number: usize,
+        /// Which.
+        lane: LaneId,
         /// The place of its method on the list.
         entry: usize,
     },
@@ -67,7 +67,7 @@ impl Cell {
         if !self.rect.contains(at) {
             return None;
         }
-        let own = |whose| matches!(whose, Whose::Lane { number, .. } if number == self.lane);
+        let own = |whose| matches!(whose, Whose::Lane { lane, .. } if lane == self.lane);
         nearest(&own)
             .or_else(|| nearest(&|whose| whose != Whose::Truth))
             .or_else(|| nearest(&|whose| whose == Whose::Truth))
@@ -109,9 +109,7 @@ impl Grasp {
     pub fn new(lab: &Lab, cell: &Cell, grip: &Grip, hand: [f32; 2]) -> Option<Self> {
         let race = lab.race();
         let lane = match grip.whose {
-            Whose::Lane { number, .. } => {
-                &race.entrants().iter().find(|lane| lane.lane_number == number)?.lane
-            }
+            Whose::Lane { lane, .. } => &race.entrant(lane)?.lane,
             Whose::Truth => race.truth(),
         };
         let stepper = &lane.bodies()[cell.body].stepper;
@@ -121,7 +119,7 @@ impl Grasp {
             offset_m: hand_m - place,
             held: HeldBody {
                 lane: match grip.whose {
-                    Whose::Lane { number, .. } => number,
+                    Whose::Lane { lane, .. } => lane,
                     Whose::Truth => cell.lane,
                 },
                 body: cell.body,

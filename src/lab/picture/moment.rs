@@ -39,9 +39,7 @@ impl<'a> DrawContext<'a> {
 
     /// What is remembered of a body in a lane.
     pub(super) fn history(&self, entrant: &Entrant, body: usize) -> &'a History {
-        let entrants = self.lab.race().entrants();
-        let place = entrants.iter().position(|other| other.lane_number == entrant.lane_number);
-        &self.lab.past().histories(place.expect("it is in the race"))[body]
+        &self.lab.past().histories(entrant.id)[body]
     }
 }
 

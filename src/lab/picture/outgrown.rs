@@ -106,7 +106,7 @@ pub(in crate::lab) fn slow_motion_percent(lab: &Lab) -> u32 {
     if lab.display().motion != Motion::Live || lab.mode() != Mode::Solo {
         return 100;
     }
-    let decades = lab.past().histories(0).iter().zip(lab.selected().lane.bodies());
+    let decades = lab.past().histories(lab.selected().id).iter().zip(lab.selected().lane.bodies());
     let decades = decades.map(|(history, body)| {
         let base_m = match Look::of(body).framing() {
             Framing::Recorder { half_width_m } => half_width_m,

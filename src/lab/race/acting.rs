@@ -5,6 +5,7 @@ use super::{Mode, Race};
 use crate::lab::action::{Action, Control};
 use crate::lab::journal::Source;
 use crate::lab::lane::Resumed;
+use crate::lab::lane_id::LaneId;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::edited_values;
 use crate::sim::bodies::{Acts, Input};
@@ -91,8 +92,8 @@ impl Race {
                 })
             }
             Action::Solo { lane } => {
-                let stays = self.entrants.iter().any(|entrant| entrant.lane_number == *lane);
-                stays && (self.mode == Mode::Race || self.entrants.len() > 1)
+                self.entrant(*lane).is_some()
+                    && (self.mode == Mode::Race || self.entrants.len() > 1)
             }
             Action::Method(_)
             | Action::Lane { .. }
@@ -116,20 +117,20 @@ impl Race {
 
     /// The place of the lane that an action switches, and its new method, substeps and tolerance.
     pub(in crate::lab) fn switch_asked(&self, action: &Action) -> Option<(usize, LaneSpec)> {
-        let numbered = |lane: usize| self.entrants.iter().position(|e| e.lane_number == lane);
-        let present = |place: usize| self.list[self.entrants[place].entry];
+        let of_id = |lane: LaneId| self.entrants.iter().position(|e| e.id == lane);
+        let present = |place: usize| self.spec(&self.entrants[place]);
         match *action {
             Action::Method(method) => {
                 let listed = self.list.iter().find(|spec| spec.method == method)?;
                 (self.mode == Mode::Solo).then_some((0, *listed))
             }
-            Action::Lane { lane, spec } => Some((numbered(lane)?, spec)),
+            Action::Lane { lane, spec } => Some((of_id(lane)?, spec)),
             Action::Substeps { lane, substeps } => {
-                let place = numbered(lane)?;
+                let place = of_id(lane)?;
                 Some((place, LaneSpec { substeps, ..present(place) }))
             }
             Action::Tolerance { lane, tolerance } => {
-                let place = numbered(lane)?;
+                let place = of_id(lane)?;
                 let takes_one = present(place).method.tolerance.is_some();
                 let spec = LaneSpec { tolerance: Some(tolerance), ..present(place) };
                 takes_one.then_some((place, spec))
@@ -154,7 +155,7 @@ impl Race {
                 self.values[*body][*parameter] = *value;
             }
             Action::Solo { lane } => {
-                self.entrants.retain(|entrant| entrant.lane_number == *lane);
+                self.entrants.retain(|entrant| entrant.id == *lane);
                 self.mode = Mode::Solo;
             }
             Action::Method(_)

@@ -12,6 +12,7 @@ use super::nearest::{listed, nearest, offer};
 use super::table::{Field, Table};
 use super::{Check, LAST_TICK, MAX_NAME_CHARS, MAX_SUBSTEPS, MAX_TICK_HZ, Scripted};
 use crate::lab::action::Action;
+use crate::lab::lane_id::LaneId;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::edit::edited_values;
 use crate::sim::bodies::{Acts, BODIES, LARGEST, Parameter, Range};
@@ -93,8 +94,7 @@ static COMMAND_KEYS: [CommandKey; 10] = [
         action
     }),
     command_key(SOLO.key, |context, row, field| {
-        row.whole(field, 1..=context.lanes.len() as u32)
-            .map(|lane| Action::Solo { lane: lane as usize })
+        read_number(row, field, context.lanes.len()).map(|lane| Action::Solo { lane })
     }),
 ];
 
@@ -137,11 +137,11 @@ fn check_tolerances(
                 }
             }
             Action::Lane { lane, spec } => {
-                (in_race[lane - 1], in_solo[lane - 1]) = (spec.method, spec.method);
+                (in_race[lane.index()], in_solo[lane.index()]) = (spec.method, spec.method);
             }
             Action::Solo { .. } => race_is_over = true,
             Action::Tolerance { lane, .. } => {
-                let methods = [in_race[lane - 1], in_solo[lane - 1]];
+                let methods = [in_race[lane.index()], in_solo[lane.index()]];
                 if methods.iter().all(|method| method.tolerance.is_none()) {
                     let method = methods[0].id;
                     let what = format!(
@@ -210,17 +210,22 @@ fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
     action
 }
 
-/// The lane's number. If the scene has one lane, it may be left out.
-fn read_lane(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<usize> {
+/// The lane of this number, of so many.
+fn read_number(row: &mut Table<'_>, field: Field, lanes: usize) -> Option<LaneId> {
+    row.whole(field, 1..=lanes as u32).map(|number| LaneId(number as usize))
+}
+
+/// The lane that a command is for. If the scene has one lane, it may be left out.
+fn read_lane(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<LaneId> {
     if !row.has(LANE.key) {
         if context.lanes.len() != 1 {
             let remedy = format!("write `lane = …`: its number, from 1 to {}", context.lanes.len());
             row.complain(row.header.clone(), "the command does not say of which lane", remedy);
             return None;
         }
-        return Some(1);
+        return Some(LaneId(1));
     }
-    row.whole(LANE, 1..=context.lanes.len() as u32).map(|lane| lane as usize)
+    read_number(row, LANE, context.lanes.len())
 }
 
 fn read_method(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action> {
@@ -305,10 +310,10 @@ pub(super) fn read_checks(context: &SceneContext<'_>, top: &mut Table<'_>) -> Ve
     let mut checks: Vec<Check> = Vec::new();
     for mut row in top.rows("check") {
         let tick = row.whole(CHECKED_TICK, 0..=LAST_TICK);
-        let lane = row.whole(CHECKED_LANE, 1..=context.lanes.len().max(1) as u32);
+        let lane = read_number(&mut row, CHECKED_LANE, context.lanes.len().max(1));
         let hash = row.hash(HASH);
         if let (Some(tick), Some(lane), Some(hash)) = (tick, lane, hash) {
-            checks.push(Check { tick, lane: lane as usize, hash });
+            checks.push(Check { tick, lane, hash });
         }
         top.adopt(row, &TOP);
     }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::Session;
 use crate::lab::action::Action;
 use crate::lab::journal::Journal;
+use crate::lab::lane_id::LaneId;
 use crate::lab::race::{Mode, Observer, Race};
 use crate::lab::scene::{Check, MAX_FILE_BYTES, MIN_SECONDS, Scene, Scripted};
 
@@ -123,7 +124,7 @@ struct Repeated {
     race: Race,
     recorder: ScriptRecorder,
     /// The ticks of the checks so far, with the hash of each lane.
-    checks: Vec<(u64, Vec<(usize, u64)>)>,
+    checks: Vec<(u64, Vec<(LaneId, u64)>)>,
     /// When the next is due, in seconds.
     next_s: f64,
 }
@@ -133,7 +134,7 @@ impl Repeated {
     fn new(run: &RunToRecord) -> Self {
         let mut race = (*run.start).clone();
         race.set_journal(run.journal.clone());
-        let lanes = race.entrants().iter().map(|e| e.lane_number).collect();
+        let lanes = race.entrants().iter().map(|e| e.id).collect();
         let recorder = ScriptRecorder { lanes, script: Vec::new() };
         Self { race, recorder, checks: Vec::new(), next_s: 1.0 }
     }
@@ -165,7 +166,7 @@ impl Repeated {
         let start = &run.start;
         let at_start = start.entrants().iter();
         let mut scene = Scene {
-            lanes: at_start.map(|entrant| start.list()[entrant.entry]).collect(),
+            lanes: at_start.map(|entrant| start.spec(entrant)).collect(),
             tick_hz: start.tick_hz(),
             opening_method: None,
             equal_cost: false,
@@ -179,7 +180,7 @@ impl Repeated {
         let kept = before_end.into_iter().skip(every - 1).step_by(every);
         let at_end = (end, self.recorder.hashes(&self.race));
         for (tick, hashes) in kept.chain([&at_end]) {
-            let check = |&(lane, hash): &(usize, u64)| Check { tick: *tick, lane, hash };
+            let check = |&(lane, hash): &(LaneId, u64)| Check { tick: *tick, lane, hash };
             scene.checks.extend(hashes.iter().map(check));
         }
         // The actions at the last tick come after its checks, and may still be followed by others.
@@ -196,20 +197,21 @@ impl Repeated {
 /// Records the actions on a race as the script of a scene.
 #[derive(Clone)]
 struct ScriptRecorder {
-    /// The lane numbers at the start. In the scene they are counted from 1.
-    lanes: Vec<usize>,
+    /// The lanes at the start. In the scene they are counted from 1.
+    lanes: Vec<LaneId>,
     script: Vec<Scripted>,
 }
 
 impl ScriptRecorder {
-    fn lane(&self, number: usize) -> usize {
-        let place = self.lanes.iter().position(|lane| *lane == number);
-        place.expect("a lane is there from the start") + 1
+    /// Which lane of the scene this lane of the run is.
+    fn lane(&self, id: LaneId) -> LaneId {
+        let index = self.lanes.iter().position(|lane| *lane == id);
+        LaneId::of_index(index.expect("a lane is there from the start"))
     }
 
-    /// The hash of each lane that is still in the race, with its number in the scene.
-    fn hashes(&self, race: &Race) -> Vec<(usize, u64)> {
-        let lanes = race.entrants().iter().map(|entrant| self.lane(entrant.lane_number));
+    /// The hash of each lane that is still in the race.
+    fn hashes(&self, race: &Race) -> Vec<(LaneId, u64)> {
+        let lanes = race.entrants().iter().map(|entrant| self.lane(entrant.id));
         lanes.zip(race.lane_hashes()).collect()
     }
 }
@@ -218,7 +220,7 @@ impl Observer for ScriptRecorder {
     fn before(&mut self, race: &Race, action: &Action) {
         let action = match (race.switch_asked(action), action) {
             (Some((place, spec)), _) => {
-                Action::Lane { lane: self.lane(race.entrants()[place].lane_number), spec }
+                Action::Lane { lane: self.lane(race.entrants()[place].id), spec }
             }
             (None, Action::Solo { lane }) => Action::Solo { lane: self.lane(*lane) },
             (None, other) => other.clone(),

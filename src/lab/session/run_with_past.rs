@@ -3,6 +3,7 @@
 use super::Session;
 use crate::lab::action::Action;
 use crate::lab::journal::{Journal, Source};
+use crate::lab::lane_id::LaneId;
 use crate::lab::past::{Past, PastMark};
 use crate::lab::race::Race;
 
@@ -56,10 +57,10 @@ pub struct Event {
 pub enum EventKind {
     /// An action was performed.
     Done(Action, Source),
-    /// A body of this lane halted; 0 is the truth.
+    /// A body halted.
     Halted {
-        /// The lane's number, from 1; 0 is the truth.
-        lane: usize,
+        /// Its lane; `None` for the truth.
+        lane: Option<LaneId>,
         /// The body's index in the scene.
         body: usize,
         /// Whether a value left its range, rather than the solver failing.

@@ -139,8 +139,8 @@ impl Timeline {
     fn note_halts(&mut self) {
         let race = self.run.session.race();
         let halts = race.just_halted().filter(|(_, halt)| !halt.failure.is_foreseen());
-        self.run.halts.extend(halts.map(|(place, halt)| {
-            let lane = place.map_or(0, |place| race.entrants()[place].lane_number);
+        self.run.halts.extend(halts.map(|(entrant, halt)| {
+            let lane = entrant.map(|entrant| entrant.id);
             let is_blow_up = halt.is_blow_up();
             Event { tick: halt.tick, kind: EventKind::Halted { lane, body: halt.body, is_blow_up } }
         }));

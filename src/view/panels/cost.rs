@@ -83,7 +83,7 @@ struct Row {
 
 impl Row {
     fn new(lab: &Lab, place: usize, lane: &Entrant) -> Self {
-        let spec = lab.entries()[lane.entry];
+        let spec = lab.race().spec(lane);
         let times = lab.viewer().tick_times.iter();
         Self {
             entry: lane.entry,

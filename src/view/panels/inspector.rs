@@ -213,7 +213,7 @@ mod tests {
     use egui::{Rect, Shape};
 
     use super::*;
-    use crate::lab::{SCENES, Scene};
+    use crate::lab::{LaneId, SCENES, Scene};
     use crate::view::panels;
     use crate::view::theme;
 
@@ -260,7 +260,7 @@ mod tests {
                 assert!(count(&quantity) >= alike, "{}: {quantity}: {texts:?}", scene.name);
             }
             for entrant in lab.race().entrants() {
-                let name = lab.entries()[entrant.entry].method.name;
+                let name = lab.race().spec(entrant).method.name;
                 // In the list of lanes too.
                 assert!(named(name) >= 2, "{}: {name}", scene.name);
             }
@@ -286,7 +286,7 @@ mod tests {
         for (parameter, value) in [(plucked, 1.0), (masses, 2.0), (0, 3.0), (plucked, 2.0)] {
             lab.apply(Command::Act(Action::Set { body: 0, parameter, value }));
         }
-        lab.apply(Command::Act(Action::Substeps { lane: 1, substeps: 7 }));
+        lab.apply(Command::Act(Action::Substeps { lane: LaneId(1), substeps: 7 }));
         lab.apply(Command::TickHz(20));
         lab.apply(Command::Seconds(3.0));
         lab.tick();

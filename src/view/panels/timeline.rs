@@ -220,7 +220,7 @@ fn fill(painter: &Painter, lab: &Lab, events: &[Event], track: &Track<'_>) {
         round,
         track.ink.dim.gamma_multiply(0.45),
     );
-    let lane = lab.selected().lane_number;
+    let lane = lab.selected().id;
     let colours = marks::colours(lane, events, lab.timeline().start(), track.ink);
     for (i, (from, colour)) in colours.iter().enumerate() {
         let to = colours.get(i + 1).map_or(present, |(tick, _)| track.x(*tick)).min(present);

@@ -110,17 +110,17 @@ impl Track {
     }
 
     fn of_histories(lab: &Lab, body: usize, points: impl Fn(&History) -> Vec<Point>) -> Vec<Self> {
-        let front = lab.selected().lane_number;
-        let track = |(place, lane): (usize, &Entrant)| Self {
-            points: points(&lab.past().histories(place)[body]),
+        let front = lab.selected().id;
+        let track = |lane: &Entrant| Self {
+            points: points(&lab.past().histories(lane.id)[body]),
             entry: lane.entry,
-            is_front: lane.lane_number == front,
+            is_front: lane.id == front,
             part: "",
             dash: None,
             strength: 1.0,
             is_held: false,
         };
-        let lanes = lab.race().entrants().iter().enumerate();
+        let lanes = lab.race().entrants().iter();
         let mut tracks: Vec<Self> = lanes.map(track).collect();
         tracks.sort_by_key(|track| track.is_front);
         tracks

@@ -24,8 +24,8 @@ pub(super) fn show_lanes(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 
 /// A lane's line. Returns its fields.
 fn show_lane(ui: &mut Ui, lab: &Lab, entrant: &Entrant, commands: &mut Vec<Command>) -> [Id; 2] {
-    let lane = entrant.lane_number;
-    let spec = lab.entries()[entrant.entry];
+    let lane = entrant.id;
+    let spec = lab.race().spec(entrant);
     let ids = ["substeps", "tolerance"].map(|field| ui.scope_id().with((lane, field)));
     let number = number(lab, entrant);
     let digits = RichText::new(number.to_string()).color(ink(ui).style(lab.entries(), &spec).0);
@@ -74,7 +74,7 @@ fn show_lane(ui: &mut Ui, lab: &Lab, entrant: &Entrant, commands: &mut Vec<Comma
 fn number(lab: &Lab, entrant: &Entrant) -> usize {
     match lab.mode() {
         Mode::Solo => entrant.entry + 1,
-        Mode::Race => entrant.lane_number,
+        Mode::Race => entrant.id.0,
     }
 }
 
@@ -85,8 +85,8 @@ fn show_methods(
     width: f32,
     commands: &mut Vec<Command>,
 ) {
-    let present = lab.entries()[entrant.entry];
-    let menu = ComboBox::from_id_salt(("method", entrant.lane_number)).width(width).truncate();
+    let present = lab.race().spec(entrant);
+    let menu = ComboBox::from_id_salt(("method", entrant.id)).width(width).truncate();
     let name = |spec: &LaneSpec| spec.distinct_name(spec.method.name, lab.entries());
     let menu = menu.selected_text(RichText::new(name(&present)).color(ink(ui).text));
     menu.show_ui(ui, |ui| {
@@ -96,9 +96,7 @@ fn show_methods(
             if label.on_hover_text(spec.method.about).clicked() && !is_present {
                 commands.push(match lab.mode() {
                     Mode::Solo => Command::Pick(entry),
-                    Mode::Race => {
-                        Command::Act(Action::Lane { lane: entrant.lane_number, spec: *spec })
-                    }
+                    Mode::Race => Command::Act(Action::Lane { lane: entrant.id, spec: *spec }),
                 });
             }
         }
@@ -107,11 +105,12 @@ fn show_methods(
 
 /// What a lane is under in the scene as it was opened; in solo, the method that it is under now as the scene has it.
 fn opened(lab: &Lab, entrant: &Entrant) -> LaneSpec {
-    let present = lab.entries()[entrant.entry];
+    let present = lab.race().spec(entrant);
     let list = lab.scene_as_opened().method_list();
-    let lane = list.get(entrant.lane_number - 1).filter(|_| {
-        lab.mode() == Mode::Race && entrant.lane_number <= lab.scene_as_opened().lanes.len()
-    });
+    let lane = list
+        .get(entrant.id.index())
+        .filter(|_| lab.mode() == Mode::Race)
+        .filter(|_| entrant.id.index() < lab.scene_as_opened().lanes.len());
     let listed = || list.iter().find(|spec| spec.method == present.method);
     *lane.or_else(listed).unwrap_or(&present)
 }
@@ -168,8 +167,8 @@ pub(super) fn show_time(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 /// What makes lanes and time as the scene has them: nothing, where they are so.
 pub(super) fn restoring(lab: &Lab) -> impl Iterator<Item = Command> {
     let lanes = lab.race().entrants().iter().filter_map(|entrant| {
-        let (lane, spec) = (entrant.lane_number, opened(lab, entrant));
-        let is_changed = lab.entries()[entrant.entry] != spec;
+        let (lane, spec) = (entrant.id, opened(lab, entrant));
+        let is_changed = lab.race().spec(entrant) != spec;
         is_changed.then_some(Command::Act(Action::Lane { lane, spec }))
     });
     let opened = lab.scene_as_opened();
@@ -203,7 +202,7 @@ mod tests {
         lab.apply(Command::Method(lab.entries()[7].method));
         assert_eq!(number(&lab, lab.selected()), 8);
         lab.apply(Command::ToggleRace);
-        let is_of_lane = |entrant: &Entrant| number(&lab, entrant) == entrant.lane_number;
+        let is_of_lane = |entrant: &Entrant| number(&lab, entrant) == entrant.id.0;
         assert!(lab.race().entrants().iter().all(is_of_lane));
     }
 

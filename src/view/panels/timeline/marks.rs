@@ -4,7 +4,9 @@ use egui::Color32;
 
 use super::super::Ink;
 use crate::lab::number::round;
-use crate::lab::{Action, Event, EventKind, LaneSpec, Mode, Race, Scene, Source, TimeScale};
+use crate::lab::{
+    Action, Event, EventKind, LaneId, LaneSpec, Mode, Race, Scene, Source, TimeScale,
+};
 
 /// The sign of a mark. Of several in one place the last of this list is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -103,7 +105,7 @@ impl Context<'_> {
             Action::Method(method) => {
                 let what = match mode {
                     Mode::Solo => {
-                        format!("{} in lane {}", method.id, self.start.entrants()[0].lane_number)
+                        format!("{} in lane {}", method.id, self.start.entrants()[0].id)
                     }
                     Mode::Race => format!("{} is selected", method.id),
                 };
@@ -156,12 +158,12 @@ impl Context<'_> {
         }
     }
 
-    fn of_halt(&self, lane: usize, body: usize, is_blow_up: bool) -> String {
+    fn of_halt(&self, lane: Option<LaneId>, body: usize, is_blow_up: bool) -> String {
         let name = &self.scene.bodies[body].name;
         let fate = if is_blow_up { "blew up" } else { "halted: its solver gave up" };
         match lane {
-            0 => format!("the exact solution of {name} {fate}"),
-            _ => format!("{name} in lane {lane} {fate}"),
+            None => format!("the exact solution of {name} {fate}"),
+            Some(lane) => format!("{name} in lane {lane} {fate}"),
         }
     }
 }
@@ -186,14 +188,13 @@ pub(super) fn grouped(marks: Vec<Mark>, x: impl Fn(&Mark) -> f32, apart: f32) ->
 
 /// The colours of the methods that a lane was under, each from a tick on; the first from the start.
 pub(super) fn colours(
-    lane: usize,
+    lane: LaneId,
     events: &[Event],
     start: &Race,
     ink: &Ink,
 ) -> Vec<(u64, Color32)> {
     let of = |spec: &LaneSpec| ink.style(start.list(), spec).0;
-    let entrant = start.entrants().iter().find(|entrant| entrant.lane_number == lane);
-    let first = entrant.map_or(ink.dim, |entrant| of(&start.list()[entrant.entry]));
+    let first = start.entrant(lane).map_or(ink.dim, |entrant| of(&start.spec(entrant)));
     let mut mode = start.mode();
     let mut colours = vec![(0, first)];
     for event in events {
@@ -243,7 +244,7 @@ mod tests {
         lab.apply(Command::Act(Action::Set { body: 0, parameter: 1, value: 90.0 }));
         lab.apply(Command::TickHz(20));
         run(&mut lab, 10);
-        lab.apply(Command::Act(Action::Substeps { lane: 1, substeps: 4 }));
+        lab.apply(Command::Act(Action::Substeps { lane: LaneId(1), substeps: 4 }));
         lab.apply(Command::Kick(-2.5));
         run(&mut lab, 1);
         assert_eq!(
@@ -300,7 +301,8 @@ mod tests {
         lab.apply(Command::Pick(3));
         run(&mut lab, 20);
         let timeline = lab.timeline();
-        let found = colours(1, &timeline.events(), timeline.start(), ink_of(lab.display().theme));
+        let found =
+            colours(LaneId(1), &timeline.events(), timeline.start(), ink_of(lab.display().theme));
         assert_eq!(found, [(0, of(&lab, 0)), (20, of(&lab, 3))]);
     }
 }
