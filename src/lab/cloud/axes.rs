@@ -15,6 +15,8 @@ const ROOM: f64 = 1.8;
 
 /// The moments through which the axes of a lab are found.
 const MOMENTS: u64 = 60;
+/// The most ticks of a run through which they are found: a second of work or less.
+const MAX_TICKS: u64 = 3000;
 /// How far other clouds stretch these, in widths of what the exact one covers.
 const BESIDE: f64 = 0.1;
 
@@ -37,6 +39,7 @@ impl ShownTicks {
 impl From<u64> for ShownTicks {
     /// What the axes of the clouds of a lab show, in a run of so many ticks.
     fn from(ticks: u64) -> Self {
+        let ticks = ticks.min(MAX_TICKS);
         Self { ticks, times: ticks.min(MOMENTS), beside: BESIDE }
     }
 }

@@ -8,7 +8,7 @@ use crate::sim::{Solver, State, Stepper};
 const SPACING: u64 = 32;
 
 /// The memory of the states that a course keeps, in bytes.
-const KEPT_BYTES: usize = 24 << 20;
+const KEPT_BYTES: usize = 12 << 20;
 
 /// What a method carries from step to step, where a course keeps a state.
 #[derive(Clone, Copy, PartialEq)]

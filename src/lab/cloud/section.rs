@@ -16,6 +16,9 @@ const WORK: u64 = 100_000_000;
 const PARTS: u64 = 40;
 /// How far the starts reach, in swings; on an angle all around.
 const REACH: f64 = 1.5;
+/// The longest period of a drive that is looked for, in seconds, and the most periods that are tried.
+const LONGEST_PERIOD_S: f64 = 60.0;
+const MAX_TRIED: f64 = 20_000.0;
 /// The moments at which forces are compared, and the share of their change that is rounding.
 const MOMENTS: u64 = 48;
 const ROUNDING: f64 = 1e-6;
@@ -119,7 +122,8 @@ impl SectionLane {
 /// The period of the force on a body at rest in a state, in seconds; `None` if the force does not depend on time, or does
 /// not come back within so many seconds.
 fn period(body: &dyn Stepper, [q, v]: [f64; 2], seconds: f64, tick_hz: u32) -> Option<f64> {
-    let h = 1.0 / f64::from(tick_hz);
+    let (h, seconds) = (1.0 / f64::from(tick_hz), seconds.min(LONGEST_PERIOD_S));
+    let apart = (h / 2.0).max(seconds / MAX_TRIED);
     let force = |t: f64| {
         let mut a = [0.0];
         body.acceleration(t, &[q], &[v], &mut a);
@@ -139,9 +143,8 @@ fn period(body: &dyn Stepper, [q, v]: [f64; 2], seconds: f64, tick_hz: u32) -> O
         let later = moments.iter().zip(&forces).map(|(t, now)| force(t + period) - now);
         square(&mut { later }) / change
     };
-    let candidates = 2..(2.0 * seconds / h) as u64;
-    let mut on_grid =
-        candidates.map(|n| n as f64 * h / 2.0).map(|period| (period, mismatch(period)));
+    let tried = (h / apart).ceil() as u64..(seconds / apart) as u64;
+    let mut on_grid = tried.map(|n| n as f64 * apart).map(|period| (period, mismatch(period)));
     let (mut before, mut here) = (on_grid.next()?, on_grid.next()?);
     for after in on_grid {
         if here.1 < before.1 && here.1 <= after.1 {
