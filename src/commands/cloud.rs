@@ -33,8 +33,8 @@ for each method:
   method            the methods named, else those of the scene
   points            the starts that have not blown up
   area_ratio        the area over that at the start: on a linear body by the determinant of the
-                    method's map, elsewhere by the cells that hold points, of which about eight fall
-                    in each at the start; empty where no point is left, or with fewer than 1000
+                    method's map, elsewhere by those about up to 64 points; empty where no point is
+                    left, or the cloud is drawn out too finely
   spread            the root mean square distance from the middle, over that at the start
   body_steps_per_s  measured here and now
   hash              of all states, to the bit: the same for any number of threads

@@ -117,7 +117,8 @@ impl CloudStart {
 pub struct CloudMeasure {
     /// The points that are still there; the others blew up.
     pub points: usize,
-    /// The area over that at the start; `None` if no point is left, or too few were there for cells.
+    /// The area over that at the start; `None` if no point is left, or the cloud is drawn out too
+    /// finely.
     pub area_ratio: Option<f64>,
     /// The mean distance of the points from their middle, root mean square, over that at the start.
     pub spread: Option<f64>,
@@ -130,17 +131,23 @@ pub struct Cloud {
     course: Course,
     start: CloudStart,
     points: usize,
-    /// Whether the method maps the plane of this body linearly, so that one determinant says all of area.
-    is_linear: bool,
-    cells: usize,
+    /// The points about which the area is followed, and how far the corners about each are away, in units of the reach.
+    samples: usize,
+    beside: f64,
+    /// A change of the area, as a logarithm, that may be of its measure.
+    little: f64,
     spread: f64,
 }
 
-/// The least points whose area is measured by cells.
-const LEAST_POINTS: usize = 1000;
-
-/// The most cells around the points that have a mark each: beyond that the points are sorted.
-const MOST_MARKS: i64 = 1 << 24;
+/// How far from a sampled point its corners are, so near that the map is linear between them, and under an adaptive method,
+/// whose tolerance is to be nearer.
+const BESIDE: f64 = 1e-4;
+const BESIDE_ADAPTIVE: f64 = 1e-3;
+/// The most sampled points, and the points of a cloud for each.
+const MAX_SAMPLES: usize = 64;
+const POINTS_TO_A_SAMPLE: usize = 16;
+/// Corners that have come further apart than this, in units of the reach, say nothing of an area.
+const LONGEST_SIDE: f64 = 0.05;
 
 /// Points of the exact border.
 const BORDER_POINTS: usize = 1200;
@@ -148,8 +155,8 @@ const BORDER_POINTS: usize = 1200;
 /// The tolerance of the exact border: far below a pixel.
 const BORDER_TOLERANCE: f64 = 1e-9;
 
-/// Three starts whose triangle is mapped as every area is, if the map is linear.
-const TRIANGLE: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+/// The corners about a point of which a lozenge is.
+const CORNERS: [[f64; 2]; 4] = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
 
 impl Cloud {
     /// A cloud of `points` starts of `body`, named `name`, under a lane of a race at this tick rate.
@@ -165,7 +172,15 @@ impl Cloud {
         tick_hz: u32,
     ) -> Result<Self, NoCloud> {
         let is_linear = body.is_linear() && spec.method.family != Family::Adaptive;
-        let shape = start.shape.points(points).chain(TRIANGLE).map(|point| start.state(point));
+        let (samples, beside, little) = match spec.method.family {
+            _ if is_linear => (1, 1.0, 1e-6),
+            Family::Adaptive => (samples(points), BESIDE_ADAPTIVE, 0.02),
+            _ => (samples(points), BESIDE, 2e-3),
+        };
+        let corners =
+            move |[x, y]: [f64; 2]| CORNERS.map(|[dx, dy]| [x + beside * dx, y + beside * dy]);
+        let sampled = start.shape.points(samples).flat_map(corners);
+        let shape = start.shape.points(points).chain(sampled).map(|point| start.state(point));
         let memory = match spec.method.restart {
             None => Memory::Absent,
             Some(_) => Memory::Carried,
@@ -173,8 +188,7 @@ impl Cloud {
         let (solver, ticks) = (spec.solver(), start.ticks(tick_hz, spec.substeps));
         let starts = || shape.collect();
         let course = Course::new((name, body), (solver, memory), ticks, points, starts)?;
-        let mut cloud = Self { course, start, points, is_linear, cells: 0, spread: 0.0 };
-        cloud.cells = cloud.covered_cells();
+        let mut cloud = Self { course, start, points, samples, beside, little, spread: 0.0 };
         cloud.spread = cloud.distance().unwrap_or(0.0);
         Ok(cloud)
     }
@@ -210,16 +224,11 @@ impl Cloud {
         &self.course.v()[..self.points]
     }
 
-    /// The cells into which the box of the start is cut, each way: so many that some eight points fall in each.
-    fn cells_across(&self) -> usize {
-        cells_across(self.points)
-    }
-
     /// How the area is measured.
     pub fn measured_in_words(&self) -> String {
-        match self.is_linear {
-            true => "by the determinant".into(),
-            false => format!("by cells, {} across the start", self.cells_across()),
+        match self.samples {
+            1 => "by the determinant".into(),
+            samples => format!("by the determinants about {samples} points"),
         }
     }
 
@@ -240,29 +249,26 @@ impl Cloud {
         self.present().count()
     }
 
-    /// The area over that at the start; `None` if no point is left, or too few were there for cells.
+    /// The area over that at the start; `None` if no point is left, or the cloud is drawn out too
+    /// finely.
     pub fn area_ratio(&self) -> Option<f64> {
-        let ratio = match self.is_linear {
-            true => Some(self.determinant()).filter(|ratio| ratio.is_finite()),
-            false if self.points < LEAST_POINTS => None,
-            false => Some(self.covered_cells() as f64 / self.cells as f64),
-        };
-        ratio.filter(|_| self.present().next().is_some())
+        let lozenges = (0..self.samples).map(|sample| self.lozenge(sample));
+        let areas: Vec<f64> = lozenges.flatten().collect();
+        let is_known = 2 * areas.len() >= self.samples && self.present().next().is_some();
+        is_known.then(|| areas.iter().sum::<f64>() / areas.len() as f64)
     }
 
     /// What the area has become, in words.
     pub fn in_words(&self, area_ratio: Option<f64>) -> String {
         let Some(ratio) = area_ratio else {
             let is_lost = self.present().next().is_none();
-            return if is_lost { "is lost" } else { "has too few points for an area" }.into();
+            return if is_lost { "is lost" } else { "is drawn out too finely to measure" }.into();
         };
         let seconds = self.course.t() - self.start.t;
-        // Covered cells are a rough measure of a thin cloud.
-        let little = if self.is_linear { 1e-6 } else { 0.1 };
         let change = libm::log(ratio);
         let time = || super::duration(seconds * std::f64::consts::LN_2 / change.abs());
         match change {
-            _ if change.abs() <= little => "keeps area".into(),
+            _ if change.abs() <= self.little => "keeps area".into(),
             _ if change > 0.0 => format!("grows ×2 in {}", time()),
             _ if change.is_finite() => format!("shrinks ×½ in {}", time()),
             _ => "shrinks to nothing".into(),
@@ -275,43 +281,24 @@ impl Cloud {
         self.q().iter().zip(self.v()).map(|(&q, &v)| [q, v]).filter(is_there)
     }
 
-    fn determinant(&self) -> f64 {
+    /// The area between the corners about a sampled point over that at the start; `None` where they are lost, or too far
+    /// apart.
+    fn lozenge(&self, sample: usize) -> Option<f64> {
         let corner = |n: usize| {
-            let at = self.points + n;
+            let at = self.points + CORNERS.len() * sample + n;
             let [q, v] = [self.course.q()[at], self.course.v()[at]];
             [q / self.start.reach[0], v / self.start.reach[1]]
         };
-        let [a, b, c] = [corner(0), corner(1), corner(2)];
-        ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
-    }
-
-    fn covered_cells(&self) -> usize {
-        let across = cells_across(self.points) as f64 / 2.0;
-        let CloudStart { middle, reach, .. } = self.start;
-        let cell = |state: [f64; 2]| {
-            [0, 1].map(|i| ((state[i] - middle[i]) / reach[i] * across).floor() as i32)
+        let side = |from: usize| {
+            let [from, to] = [corner(from), corner(from + 1)];
+            [to[0] - from[0], to[1] - from[1]]
         };
-        let cells = || self.present().map(cell);
-        let ends = |i: usize| {
-            cells()
-                .map(|cell| cell[i])
-                .fold((i32::MAX, i32::MIN), |(low, high), n| (n.min(low), n.max(high)))
-        };
-        let [(left, right), (low, high)] = [ends(0), ends(1)];
-        let size = [(left, right), (low, high)]
-            .map(|(from, to)| (i64::from(to) - i64::from(from) + 1).max(0));
-        if size[0].saturating_mul(size[1]) > MOST_MARKS {
-            let mut cells: Vec<[i32; 2]> = cells().collect();
-            cells.sort_unstable();
-            cells.dedup();
-            return cells.len();
-        }
-        let mut marks = vec![0_u64; (size[0] * size[1]) as usize / 64 + 1];
-        for [x, y] in cells() {
-            let place = (i64::from(y) - i64::from(low)) * size[0] + i64::from(x) - i64::from(left);
-            marks[place as usize / 64] |= 1 << (place % 64);
-        }
-        marks.iter().map(|marks| marks.count_ones() as usize).sum()
+        let [a, b] = [side(0), side(2)];
+        let longest =
+            a.into_iter().chain(b).fold(0.0, |longest: f64, side| longest.max(side.abs()));
+        let area = (a[0] * b[1] - a[1] * b[0]).abs() / (4.0 * self.beside * self.beside);
+        let is_near = self.samples == 1 || longest <= LONGEST_SIDE;
+        (is_near && area.is_finite()).then_some(area)
     }
 
     /// The root mean square distance of the points from their middle, in units of the reach; `None` without points.
@@ -329,8 +316,9 @@ impl Cloud {
     }
 }
 
-fn cells_across(points: usize) -> usize {
-    ((points as f64 / 8.0).sqrt() as usize).max(4)
+/// The sampled points of a cloud of so many.
+fn samples(points: usize) -> usize {
+    (points / POINTS_TO_A_SAMPLE).clamp(POINTS_TO_A_SAMPLE / 2, MAX_SAMPLES)
 }
 
 /// The border of a cloud that moves exactly: by a method of high order to a tolerance that no picture shows.
