@@ -268,7 +268,10 @@ const BODY: &[Column<Arc<Kind>>] = &[
     Column {
         key: "coordinates",
         heading: None,
-        value: |body| table::json(COORDINATE, body.coordinates(&body.plain_values())),
+        value: |body| {
+            let coordinates = body.coordinates(&body.plain_values());
+            table::json(COORDINATE, &coordinates.iter().collect::<Vec<_>>())
+        },
     },
     Column { key: "truth", heading: Some("TRUTH"), value: |body| json!(body.truth.id()) },
     Column {

@@ -37,8 +37,10 @@ impl fmt::Debug for Appearance {
 /// Where a body goes in its first seconds, found by a short run.
 #[derive(Debug)]
 pub(super) struct Preview {
-    /// The least and the largest value of each coordinate.
+    /// The least and the largest value of each coordinate; of a net none are kept.
     pub(super) ranges: Vec<(f64, f64)>,
+    /// The index of the coordinate that moves farthest.
+    pub(super) farthest: usize,
     /// The lower left and the upper right corner of the rectangle that holds the nodes of a net, or the places of a law.
     pub(super) corners: [DVec2; 2],
     /// The springs of a net; of other bodies none.
@@ -74,8 +76,9 @@ impl Appearance {
     pub(super) fn preview(&self, kind: &Kind, body: &dyn Any) -> Arc<Preview> {
         let (law, custom) = (body.downcast_ref::<Law>(), body.downcast_ref::<Custom>());
         let values = law.map(Law::values).or(custom.map(Custom::values)).unwrap_or_default();
-        let mut last = self.preview.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, preview)) = last.as_ref().filter(|(of, _)| of == values) {
+        // Not held while the motion is followed: a large net waits for other threads, which may want a preview too.
+        let last = || self.preview.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, preview)) = last().as_ref().filter(|(of, _)| of == values) {
             return preview.clone();
         }
         let net = body.downcast_ref::<Net>().zip(kind.net());
@@ -85,14 +88,14 @@ impl Appearance {
             (.., Some((net, plan))) => Preview::of_net(net, plan),
             _ => panic!("a body of the table is drawn by its parameters alone"),
         });
-        *last = Some((values.to_vec(), preview.clone()));
+        *last() = Some((values.to_vec(), preview.clone()));
         preview
     }
 }
 
 impl Preview {
-    /// The index of the coordinate that moves farthest.
-    pub(super) fn farthest(&self) -> usize {
+    /// The index of the coordinate with the widest range.
+    fn widest(&self) -> usize {
         let far = |index: usize| self.ranges[index].1 - self.ranges[index].0;
         let farther =
             |best, next| if far(next) > (1.0 + FARTHER) * far(best) { next } else { best };
@@ -103,6 +106,7 @@ impl Preview {
     fn new(coordinates: usize) -> Self {
         Self {
             ranges: vec![(f64::INFINITY, f64::NEG_INFINITY); coordinates],
+            farthest: 0,
             corners: [DVec2::INFINITY, DVec2::NEG_INFINITY],
             springs: Springs::default(),
         }
@@ -119,12 +123,11 @@ impl Preview {
 
     /// Of a net.
     fn of_net(net: &Net, plan: &NetPlan) -> Self {
-        let lists = plan.lists();
-        let fixed: Vec<DVec2> = lists.fixed.iter().map(|&node| lists.nodes[node].into()).collect();
+        let fixed: Vec<DVec2> = plan.fixed_places().map(DVec2::from).collect();
         let mut state = net.start();
         let mut preview = Self::new(state.q.len());
         let h = NET_STEP / net.fastest_rate();
-        let steps = (NET_S / h).min(MAX_SPRINGS / lists.springs.len() as f64) as u64;
+        let steps = (NET_S / h).min(MAX_SPRINGS / net.springs() as f64) as u64;
         let mut solver = <SemiImplicitEuler<Vec<f64>> as Integrator<Net>>::new(&state.q);
         for step in 0..=steps {
             let free = Net::nodes(&state.q).iter().map(|&node| DVec2::from(node));
@@ -133,9 +136,8 @@ impl Preview {
                 break;
             }
         }
-        let lengths = lists.springs.iter().map(|spring| lists.length(spring.between));
-        let shortest = lengths.fold(f64::INFINITY, f64::min);
-        Self { springs: Springs { lines: lines(plan, &lists), fixed, shortest }, ..preview }
+        let springs = Springs { lines: lines(plan), fixed, shortest: net.shortest_spring() };
+        Self { springs, farthest: preview.widest(), ranges: Vec::new(), ..preview }
     }
 
     /// Of a body whose coordinates are at these `places`, until it runs away.
@@ -161,6 +163,7 @@ impl Preview {
                 near = preview.ranges.iter().map(most).collect();
             }
         }
+        preview.farthest = preview.widest();
         preview
     }
 }

@@ -11,7 +11,7 @@ use super::chase::Chase;
 use super::extent::Extent;
 use super::follow::Ticked;
 use super::scene::{Scene, SceneBody};
-use crate::sim::bodies::{Coordinate, Custom, FalseClaims, Input, Kind, Law, Truth};
+use crate::sim::bodies::{Coordinate, Coordinates, Custom, FalseClaims, Input, Kind, Law, Truth};
 use crate::sim::integrators::StepFailure;
 use crate::sim::number::superscript;
 use crate::sim::{Solver, Stepper};
@@ -112,8 +112,8 @@ impl LaneBody {
     }
 
     /// Its coordinates, in state order.
-    pub fn coordinates(&self) -> &[Coordinate] {
-        &self.kind.all_coordinates[..self.stepper.q().len()]
+    pub fn coordinates(&self) -> Coordinates {
+        self.kind.all_coordinates.first(self.stepper.q().len())
     }
 
     /// Why and when the body stopped, if it did.
@@ -150,14 +150,14 @@ impl LaneBody {
     /// The index of the coordinate that a plot shows unless a person chooses another: of a net that which moves farthest
     /// in the first seconds, such as the height of the middle of a bridge, and of other bodies the first.
     pub fn plotted_coordinate(&self) -> usize {
-        self.kind.net().map_or(0, |_| self.preview().farthest())
+        self.kind.net().map_or(0, |_| self.preview().farthest)
     }
 
     /// The values whose coordinate has the same unit as the first; `values` has one per coordinate.
     pub(super) fn like_first(&self, values: &[f64]) -> impl Iterator<Item = f64> {
-        let unit = self.coordinates()[0].unit;
-        let pairs = self.coordinates().iter().zip(values);
-        pairs.filter(move |(coordinate, _)| coordinate.unit == unit).map(|(_, &value)| value)
+        let units = self.kind.all_coordinates.units();
+        let first = units.clone().next();
+        units.zip(values).filter(move |(unit, _)| Some(*unit) == first).map(|(_, &value)| value)
     }
 
     /// The speed in the coordinates that have the unit of the first coordinate.
@@ -200,7 +200,7 @@ impl LaneBody {
         }
         self.remember();
         self.evaluations_before = self.stepper.evaluations();
-        let coordinates = &self.kind.all_coordinates[..self.stepper.q().len()];
+        let coordinates = &self.kind.all_coordinates;
         match advance_checked(&mut *self.stepper, coordinates, (t, h), substeps) {
             Ok(()) => {
                 self.cover();
@@ -227,7 +227,7 @@ impl LaneBody {
         q.copy_from_slice(self.stepper.q());
         v.copy_from_slice(self.stepper.v());
         let is_taken = self.stepper.input(t, input);
-        match check(&*self.stepper, self.coordinates()) {
+        match check(&*self.stepper, &self.kind.all_coordinates) {
             Ok(()) => {
                 self.cover();
                 if is_taken {
@@ -263,7 +263,7 @@ impl LaneBody {
         q0.copy_from_slice(self.stepper.q());
         v0.copy_from_slice(self.stepper.v());
         self.stepper.set(t, q, v);
-        if let Err(failure) = check(&*self.stepper, self.coordinates()) {
+        if let Err(failure) = check(&*self.stepper, &self.kind.all_coordinates) {
             let [q, v] = &self.before_input;
             self.stepper.set(t, q, v);
             self.halted = Some(Halt { tick, t, body: place, failure });
@@ -300,7 +300,7 @@ impl LaneBody {
 /// If its solver fails, or if a coordinate or a velocity is not finite or is beyond [`ESCAPE`].
 pub(super) fn advance_checked(
     body: &mut dyn Stepper,
-    coordinates: &[Coordinate],
+    coordinates: &Coordinates,
     (t, h): (f64, f64),
     substeps: u32,
 ) -> Result<(), StepFailure> {
@@ -308,19 +308,22 @@ pub(super) fn advance_checked(
 }
 
 /// Fails if a coordinate or a velocity of a body is not finite or is beyond [`ESCAPE`].
-fn check(body: &dyn Stepper, coordinates: &[Coordinate]) -> Result<(), StepFailure> {
-    let names = coordinates.iter();
-    let q = names.clone().map(|c| &c.name).zip(body.q());
-    let v = names.map(|c| &c.velocity).zip(body.v());
-    for (coordinate, &value) in q.chain(v) {
-        if !value.is_finite() {
-            return Err(StepFailure::NotFinite { coordinate: coordinate.clone(), value });
-        }
-        if value.abs() > ESCAPE {
-            return Err(StepFailure::Escaped { coordinate: coordinate.clone(), value });
-        }
+fn check(body: &dyn Stepper, coordinates: &Coordinates) -> Result<(), StepFailure> {
+    // Of a NaN neither is true.
+    let is_fine = |value: &f64| value.abs() <= ESCAPE;
+    if [body.q(), body.v()].iter().all(|values| values.iter().all(is_fine)) {
+        return Ok(());
     }
-    Ok(())
+    let (q, v) = (body.q().iter().map(|q| (q, false)), body.v().iter().map(|v| (v, true)));
+    let mut places = (0..body.q().len()).chain(0..body.v().len()).zip(q.chain(v));
+    let (index, (&value, is_velocity)) =
+        places.find(|(_, (value, _))| !is_fine(value)).expect("one is not fine");
+    let Coordinate { name, velocity, .. } = coordinates.at(index);
+    let coordinate = if is_velocity { velocity } else { name };
+    Err(match value.is_finite() {
+        true => StepFailure::Escaped { coordinate, value },
+        false => StepFailure::NotFinite { coordinate, value },
+    })
 }
 
 /// A solver on its own copy of the scene.

@@ -67,10 +67,10 @@ impl LaneBody {
 
     /// The quantity of the body that has this name, in words, and its unit after a space, if it has one.
     fn quantity(&self, name: &str) -> (String, String) {
-        let several = self.coordinates().len() > 1;
-        let velocity = self.coordinates().iter().find(|coordinate| *coordinate.velocity == *name);
-        let of =
-            velocity.or(self.coordinates().iter().find(|coordinate| *coordinate.name == *name));
+        let coordinates = self.coordinates();
+        let several = coordinates.len() > 1;
+        let velocity = coordinates.iter().find(|coordinate| *coordinate.velocity == *name);
+        let of = velocity.clone().or_else(|| coordinates.iter().find(|it| *it.name == *name));
         let quantity = match velocity {
             _ if several => name,
             Some(_) => "speed",

@@ -124,9 +124,9 @@ impl Past {
     }
 
     /// The recorded coordinate of the body at this index of the scene, and its index.
-    pub fn coordinate<'r>(&self, race: &'r Race, body: usize) -> (&'r Coordinate, usize) {
+    pub fn coordinate(&self, race: &Race, body: usize) -> (Coordinate, usize) {
         let index = self.truth_curves[body].coordinate();
-        (&race.truth().bodies()[body].coordinates()[index], index)
+        (race.truth().bodies()[body].coordinates().at(index), index)
     }
 
     /// Since when (s) the motion is one: since a body was last placed or a parameter last set, or since before the start.

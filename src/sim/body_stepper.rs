@@ -4,6 +4,8 @@ use std::any::Any;
 
 use glam::DVec2;
 
+#[cfg(feature = "lab")]
+use super::batch::cores;
 #[cfg(feature = "batch")]
 use super::batch::{InstructionSet, NewBatch};
 use super::body::Body;
@@ -80,10 +82,22 @@ struct BodyStepper<B: Body, D> {
     propagator: D,
 }
 
-impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
-    fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Stepped {
+impl<B: Body, D: Propagator<B>> BodyStepper<B, D> {
+    /// Advances on this thread, but for what it shares.
+    #[inline]
+    fn advance_here(&mut self, t: f64, h: f64, substeps: u32) -> Stepped {
         let Self { placed: Placed { body, state }, propagator } = self;
         propagator.advance(body, t, h, substeps, state)
+    }
+}
+
+impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
+    fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Stepped {
+        #[cfg(feature = "lab")]
+        if B::coupling() == Coupling::Few && cores::is_large(self.placed.q().len()) {
+            return cores::enter(move || self.advance_here(t, h, substeps));
+        }
+        self.advance_here(t, h, substeps)
     }
 
     fn change(&mut self, t: f64, change: Change<'_>) -> bool {

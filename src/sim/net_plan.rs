@@ -1,8 +1,10 @@
 //! The plan of a net: where its nodes stand at the start, which are fixed, and which springs join them.
 
-/// The most nodes of a net. A longer list would be a net that no stage shows, and no lane steps at the rate
-/// of a display.
-pub const MAX_NODES: usize = 10_000;
+use std::ops::Range;
+
+/// The most nodes of a net: of a grid with shear two cores make a few hundred evaluations a second, so that a few lanes of
+/// explicit methods race at the rate of a display.
+pub const MAX_NODES: usize = 100_000;
 
 /// The most springs of a net: eight to a node, twice what a grid with shear has.
 pub const MAX_SPRINGS: usize = 8 * MAX_NODES;
@@ -127,36 +129,84 @@ impl NetPlan {
         }
     }
 
+    /// The springs, in the order in which they act.
+    pub fn springs(&self) -> impl Iterator<Item = PlannedSpring> + '_ {
+        let (grid, lists) = match &self.form {
+            Form::Grid(grid) => (Some(*grid), None),
+            Form::Lists(lists) => (None, Some(lists)),
+        };
+        let of_grid = grid.into_iter().flat_map(|grid| grid.planned_springs());
+        of_grid.chain(lists.into_iter().flat_map(|lists| lists.springs.iter().copied()))
+    }
+
+    /// Where the fixed nodes stand, in metres.
+    pub fn fixed_places(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        let (grid, lists) = match &self.form {
+            Form::Grid(grid) => (Some(*grid), None),
+            Form::Lists(lists) => (None, Some(lists)),
+        };
+        let of_grid = grid.into_iter().flat_map(|grid| {
+            let fixed = (0..grid.columns).filter(move |&node| grid.is_fixed(node));
+            fixed.map(move |node| grid.place(node))
+        });
+        let of_lists =
+            lists.into_iter().flat_map(|lists| lists.fixed.iter().map(|&node| lists.nodes[node]));
+        of_grid.chain(of_lists)
+    }
+
     /// One fault of the net as a whole, else all of its entries; empty if a net can be built.
     pub fn faults(&self) -> Vec<NetFault> {
-        if let Form::Grid(grid) = &self.form
-            && let Some(fault) = grid.fault()
-        {
-            return vec![fault];
+        let faults = match &self.form {
+            Form::Grid(grid) => grid.fault().into_iter().collect(),
+            Form::Lists(lists) => lists.faults(),
+        };
+        match self.kicked {
+            Some(kicked) if faults.is_empty() => self.fault_of_kick(kicked).into_iter().collect(),
+            _ => faults,
         }
-        let lists = self.lists();
-        let mut faults = lists.faults();
-        if let Some(kicked) = self.kicked
-            && faults.is_empty()
-        {
-            faults.extend(lists.fault_of_kick(kicked));
-        }
-        faults
     }
+
+    fn fault_of_kick(&self, kicked: usize) -> Option<NetFault> {
+        let (nodes, is_fixed) = match &self.form {
+            Form::Grid(grid) => (grid.nodes(), grid.is_fixed(kicked)),
+            Form::Lists(lists) => (lists.nodes.len(), lists.fixed.contains(&kicked)),
+        };
+        let (what, remedy) = if kicked >= nodes {
+            let most = nodes - 1;
+            (format!("node {kicked} does not exist"), format!("write a number from 0 to {most}"))
+        } else if is_fixed {
+            let what = format!("node {kicked} is fixed, so that a kick does not move it");
+            (what, "name a free node, or remove the key and every free node is kicked".into())
+        } else {
+            return None;
+        };
+        Some(NetFault { part: NetPart::Kicked, what, remedy })
+    }
+}
+
+/// The fault of a net of too few or too many nodes.
+fn fault_of_count(nodes: usize) -> Option<NetFault> {
+    if (2..=MAX_NODES).contains(&nodes) {
+        return None;
+    }
+    let what = format!("the net has {nodes} node{}", if nodes == 1 { "" } else { "s" });
+    Some(NetFault { part: NetPart::Nodes, what, remedy: format!("give it 2 to {MAX_NODES}") })
 }
 
 impl Grid {
     /// The fault of the counts, the pin or the spacing, if there is one.
     fn fault(&self) -> Option<NetFault> {
-        let Self { columns, rows, spacing, pin, .. } = *self;
+        let Self { columns, rows, spacing, .. } = *self;
         let nodes = columns.saturating_mul(rows);
         let (part, what, remedy) = if nodes > MAX_NODES {
             let remedy = format!("keep at most {MAX_NODES}: fewer `columns` or fewer `rows`");
             (NetPart::Nodes, format!("the grid has {nodes} nodes"), remedy)
-        } else if nodes > 1 && pin.is_some_and(|pin| (0..nodes).all(|node| self.pins(pin, node))) {
+        } else if nodes < 2 {
+            return fault_of_count(nodes);
+        } else if self.free_before(nodes) == 0 {
             let remedy = "give the grid more `rows`, or remove `pin`".into();
             (NetPart::Nodes, ALL_FIXED.into(), remedy)
-        } else if nodes > 1 && spacing * spacing < f64::MIN_POSITIVE {
+        } else if spacing * spacing < f64::MIN_POSITIVE {
             let what = "neighbours stand so near that a spring between them has no length".into();
             (NetPart::Spacing, what, "write a larger `spacing_m`".into())
         } else {
@@ -165,64 +215,155 @@ impl Grid {
         Some(NetFault { part, what, remedy })
     }
 
-    /// Whether `pin` fixes the node of this number.
-    fn pins(&self, pin: Pin, node: usize) -> bool {
-        match pin {
-            Pin::Top => node < self.columns,
-            Pin::Corners => node == 0 || node + 1 == self.columns,
+    /// The nodes and the springs one by one.
+    pub fn lists(&self) -> Lists {
+        let nodes = (0..self.nodes()).map(|node| self.place(node)).collect();
+        let fixed = (0..self.columns).filter(|&node| self.is_fixed(node)).collect();
+        Lists { nodes, fixed, springs: self.planned_springs().collect() }
+    }
+
+    fn planned_springs(self) -> impl Iterator<Item = PlannedSpring> {
+        let of_row = move |row| self.springs(row).map(move |(column, way)| (row, column, way));
+        let spring = move |(row, column, way)| PlannedSpring {
+            between: self.ends(row, column, way),
+            ..Default::default()
+        };
+        (0..self.rows).flat_map(of_row).map(spring)
+    }
+
+    /// How many nodes there are.
+    pub fn nodes(&self) -> usize {
+        self.columns * self.rows
+    }
+
+    /// Where a node stands at the start, in metres.
+    pub fn place(&self, node: usize) -> [f64; 2] {
+        let (column, row) = (node % self.columns, node / self.columns);
+        [column as f64 * self.spacing, -(row as f64) * self.spacing]
+    }
+
+    /// Whether a node is fixed.
+    #[inline]
+    pub(super) fn is_fixed(&self, node: usize) -> bool {
+        match self.pin {
+            None => false,
+            Some(Pin::Top) => node < self.columns,
+            Some(Pin::Corners) => node == 0 || node + 1 == self.columns,
         }
     }
 
-    fn lists(&self) -> Lists {
-        let Self { columns, rows, spacing, shear, pin } = *self;
-        let node = |column: usize, row: usize| row * columns + column;
-        let places = (0..rows).flat_map(|row| {
-            (0..columns).map(move |column| [column as f64 * spacing, -(row as f64) * spacing])
-        });
-        let is_fixed = |node: usize| pin.is_some_and(|pin| self.pins(pin, node));
-        let fixed = (0..columns).filter(|&node| is_fixed(node)).collect();
-        let mut springs = Vec::new();
-        for row in 0..rows {
-            for column in 0..columns {
-                let (right, down) = (column + 1 < columns, row + 1 < rows);
-                let mut join = |from: usize, to: usize| {
-                    if !(is_fixed(from) && is_fixed(to)) {
-                        springs.push(PlannedSpring { between: [from, to], ..Default::default() });
-                    }
-                };
-                if right {
-                    join(node(column, row), node(column + 1, row));
-                }
-                if down {
-                    join(node(column, row), node(column, row + 1));
-                }
-                if right && down && shear {
-                    join(node(column, row), node(column + 1, row + 1));
-                    join(node(column + 1, row), node(column, row + 1));
-                }
-            }
+    /// The columns of the free nodes of a row.
+    #[inline]
+    pub(super) fn free_columns(&self, row: usize) -> Range<usize> {
+        match self.pin {
+            Some(Pin::Top) if row == 0 => 0..0,
+            Some(Pin::Corners) if row == 0 => 1..self.columns.saturating_sub(1).max(1),
+            _ => 0..self.columns,
         }
-        Lists { nodes: places.collect(), fixed, springs }
     }
+
+    /// How many free nodes come before a node.
+    #[inline]
+    pub(super) fn free_before(&self, node: usize) -> usize {
+        let fixed = match self.pin {
+            None => 0,
+            Some(Pin::Top) => node.min(self.columns),
+            Some(Pin::Corners) => {
+                node.min(1) + usize::from(self.columns > 1 && node >= self.columns)
+            }
+        };
+        node - fixed
+    }
+
+    /// The node that comes after so many free ones, and is free.
+    pub(super) fn free_node(&self, before: usize) -> usize {
+        let fixed = match self.pin {
+            None => 0,
+            Some(Pin::Top) => self.columns,
+            Some(Pin::Corners) => 1 + usize::from(self.columns > 1 && before + 2 >= self.columns),
+        };
+        before + fixed
+    }
+
+    /// The springs that begin in a row, each with the column that it is [right or below](Way) of. Those between fixed nodes
+    /// are left out.
+    pub(super) fn springs(&self, row: usize) -> impl Iterator<Item = (usize, Way)> + use<> {
+        let grid = *self;
+        let ways = move |column: usize| {
+            let (right, down) = (column + 1 < grid.columns, row + 1 < grid.rows);
+            let is_there = move |way: &Way| match way {
+                Way::Right => right,
+                Way::Down => down,
+                Way::Falling | Way::Rising => right && down && grid.shear,
+            };
+            let moves = move |way: &Way| {
+                row > 0 || grid.ends(row, column, *way).iter().any(|&end| !grid.is_fixed(end))
+            };
+            Way::ALL.into_iter().filter(is_there).filter(moves).map(move |way| (column, way))
+        };
+        (0..self.columns).flat_map(ways)
+    }
+
+    /// The nodes that a spring joins.
+    #[inline]
+    pub(super) fn ends(&self, row: usize, column: usize, way: Way) -> [usize; 2] {
+        let ([from, to], down) = way.ends();
+        [row * self.columns + column + from, (row + down) * self.columns + column + to]
+    }
+}
+
+/// The directions of the springs of a grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Way {
+    /// Right.
+    Right,
+    /// Down.
+    Down,
+    /// Down right.
+    Falling,
+    /// From the next column down left.
+    Rising,
+}
+
+impl Way {
+    /// In the order of the springs of a plan.
+    const ALL: [Self; 4] = [Self::Right, Self::Down, Self::Falling, Self::Rising];
+
+    /// How many columns the ends are right of the column of the spring, and how many rows it goes down.
+    #[inline(always)]
+    pub(super) const fn ends(self) -> ([usize; 2], usize) {
+        match self {
+            Self::Right => ([0, 1], 0),
+            Self::Down => ([0, 0], 1),
+            Self::Falling => ([0, 1], 1),
+            Self::Rising => ([1, 0], 1),
+        }
+    }
+}
+
+/// The distance of two places, in metres.
+pub(super) fn distance([[ax, ay], [bx, by]]: [[f64; 2]; 2]) -> f64 {
+    ((bx - ax) * (bx - ax) + (by - ay) * (by - ay)).sqrt()
 }
 
 impl Lists {
     /// The distance of the ends of a spring at the start, in metres.
     pub fn length(&self, [a, b]: [usize; 2]) -> f64 {
-        let ([ax, ay], [bx, by]) = (self.nodes[a], self.nodes[b]);
-        ((bx - ax) * (bx - ax) + (by - ay) * (by - ay)).sqrt()
+        distance([self.nodes[a], self.nodes[b]])
     }
 
     fn faults(&self) -> Vec<NetFault> {
         let fault =
             |part, what: String, remedy: &str| NetFault { part, what, remedy: remedy.into() };
         let nodes = self.nodes.len();
-        if !(2..=MAX_NODES).contains(&nodes) {
-            let what = format!("the net has {nodes} node{}", if nodes == 1 { "" } else { "s" });
-            let remedy = format!("give it 2 to {MAX_NODES}");
-            return vec![fault(NetPart::Nodes, what, &remedy)];
+        if let Some(fault) = fault_of_count(nodes) {
+            return vec![fault];
         }
-        if (0..nodes).all(|node| self.fixed.contains(&node)) {
+        let mut is_free = vec![true; nodes];
+        for &node in &self.fixed {
+            is_free.get_mut(node).into_iter().for_each(|is_free| *is_free = false);
+        }
+        if !is_free.contains(&true) {
             return vec![fault(NetPart::Nodes, ALL_FIXED.into(), "free a node")];
         }
         if !(1..=MAX_SPRINGS).contains(&self.springs.len()) {
@@ -277,18 +418,5 @@ impl Lists {
             faults.push(fault(NetPart::Spring(pair[1].1), what, remedy));
         }
         faults
-    }
-
-    fn fault_of_kick(&self, kicked: usize) -> Option<NetFault> {
-        let (what, remedy) = if kicked >= self.nodes.len() {
-            let most = self.nodes.len() - 1;
-            (format!("node {kicked} does not exist"), format!("write a number from 0 to {most}"))
-        } else if self.fixed.contains(&kicked) {
-            let what = format!("node {kicked} is fixed, so that a kick does not move it");
-            (what, "name a free node, or remove the key and every free node is kicked".into())
-        } else {
-            return None;
-        };
-        Some(NetFault { part: NetPart::Kicked, what, remedy })
     }
 }

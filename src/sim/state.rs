@@ -1,5 +1,8 @@
 //! Coordinate vectors, and the state that a body is in.
 
+#[cfg(feature = "batch")]
+use super::batch::cores::in_parts;
+
 /// Numbers that are added and scaled each by itself: what the formula of a method with fixed steps does with coordinates.
 ///
 /// The numbers may be the [components](Vector) of one body, or one coordinate of each of several bodies, which are stepped
@@ -132,54 +135,77 @@ macro_rules! glam_vector {
 }
 glam_vector!(glam::DVec2, glam::DVec3);
 
+/// Long ones are shared by all cores.
 impl Elementwise for Vec<f64> {
     #[inline]
     fn assign(&mut self, from: &Self) {
-        self.copy_from_slice(from);
+        in_parts([self], [from], |[to], [from]| to.copy_from_slice(from));
     }
     #[inline]
     fn add_scaled(&mut self, h: f64, x: &Self) {
-        for (component, x) in self.iter_mut().zip(x) {
-            *component += h * x;
-        }
+        in_parts([self], [x], |[to], [x]| {
+            for (component, x) in to.iter_mut().zip(x) {
+                *component += h * x;
+            }
+        });
     }
     /// Both in one pass.
     #[inline]
     fn kick_and_drift(k: f64, a: &Self, v: &mut Self, h: f64, q: &mut Self) {
-        for ((a, v), q) in a.iter().zip(v).zip(q) {
-            *v += k * a;
-            *q += h * *v;
-        }
+        in_parts([v, q], [a], |[v, q], [a]| {
+            for ((a, v), q) in a.iter().zip(v).zip(q) {
+                *v += k * a;
+                *q += h * *v;
+            }
+        });
     }
     /// All terms in one pass.
     #[inline]
     fn add_terms<const N: usize>(&mut self, terms: [(f64, &Self); N]) {
-        let terms = terms.map(|(h, x)| (h, &x[..self.len()]));
-        for (i, component) in self.iter_mut().enumerate() {
-            for (h, x) in terms {
-                *component += h * x[i];
+        let scales = terms.map(|(h, _)| h);
+        in_parts([self], terms.map(|(_, x)| &x[..]), |[to], from| {
+            let from = from.map(|x| &x[..to.len()]);
+            for (i, component) in to.iter_mut().enumerate() {
+                for (h, x) in scales.iter().zip(from) {
+                    *component += h * x[i];
+                }
             }
-        }
+        });
     }
     #[inline]
     fn assign_sum(&mut self, x: &Self, h: f64, d: &Self) {
-        for ((component, x), d) in self.iter_mut().zip(x).zip(d) {
-            *component = x + h * d;
-        }
+        in_parts([self], [x, d], |[to], [x, d]| {
+            for ((component, x), d) in to.iter_mut().zip(x).zip(d) {
+                *component = x + h * d;
+            }
+        });
     }
     #[inline]
     fn scale(&mut self, h: f64) {
-        self.iter_mut().for_each(|component| *component *= h);
+        in_parts([self], [], |[to], []| to.iter_mut().for_each(|component| *component *= h));
     }
     #[inline]
     fn assign_scaled(&mut self, h: f64, x: &Self) {
-        for (component, x) in self.iter_mut().zip(x) {
-            *component = h * x;
-        }
+        in_parts([self], [x], |[to], [x]| {
+            for (component, x) in to.iter_mut().zip(x) {
+                *component = h * x;
+            }
+        });
     }
     fn heap_bytes(&self) -> usize {
         size_of_val(&self[..])
     }
+}
+
+/// Without threads.
+#[cfg(not(feature = "batch"))]
+#[inline]
+fn in_parts<const M: usize, const N: usize>(
+    to: [&mut [f64]; M],
+    from: [&[f64]; N],
+    work: impl Fn([&mut [f64]; M], [&[f64]; N]),
+) {
+    work(to, from);
 }
 
 impl Vector for Vec<f64> {

@@ -5,11 +5,11 @@ use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
 use std::cell::Cell;
 
 use regatta::lab::{Action, Command, Lab, Options, Past, Race, SCENES, Scene};
-use regatta::sim::bodies::{Follow, Ship, Spring};
+use regatta::sim::bodies::{Follow, Form, Grid, NetPlan, Pin, Ship, Spring, net_kind};
 use regatta::sim::integrators::{
     GENERAL_METHODS, ImplicitMidpoint, METHODS, Method, Rk4, custom_integrator, integrator, method,
 };
-use regatta::sim::{Elementwise, Solver, State, System, Vector};
+use regatta::sim::{Elementwise, Solver, State, Stepper, System, Vector};
 
 use super::conformance::systems::Sparse;
 
@@ -232,4 +232,35 @@ fn a_stepper_takes_no_more_memory_than_it_says_and_not_less_than_a_third() {
             }
         }
     }
+}
+
+/// A grid of so many nodes under Runge-Kutta 4.
+fn large_net(columns: usize, rows: usize) -> Box<dyn Stepper> {
+    let grid = Grid { columns, rows, spacing: 0.1, shear: true, pin: Some(Pin::Corners) };
+    let kind = net_kind(NetPlan { form: Form::Grid(grid), kicked: None }).expect("a net");
+    let solver = Solver::Method(method("rk4").expect("a method"));
+    (kind.build)(&[0.02, 200.0, 0.0, 0.0, 9.81, 1.0, 1.0, 0.0], solver)
+}
+
+#[test]
+fn a_large_net_is_stepped_on_all_cores_without_allocating() {
+    let mut net = large_net(120, 100);
+    // With one thread all allocations are its own.
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let count = pool.install(|| {
+        allocations_in(|| {
+            for tick in 0..20 {
+                net.advance(f64::from(tick) / 240.0, 1.0 / 240.0, 1).expect("a gentle motion");
+            }
+        })
+    });
+    assert_eq!(count, 0);
+}
+
+#[test]
+fn a_large_net_takes_two_hundred_bytes_a_node() {
+    let (net, bytes) = bytes_in(|| large_net(200, 100));
+    let per_node = bytes as f64 / (net.q().len() / 2) as f64;
+    // The state, eight vectors of the method, and for a moment two numbers of each node: all else is by row.
+    assert!((150.0..200.0).contains(&per_node), "{per_node} bytes");
 }

@@ -107,7 +107,7 @@ fn amplitudes(scene: &Scene) -> Vec<f64> {
         }
     }
     let body = &scene.bodies[0];
-    let coordinates = body.kind.coordinates(&body.values);
+    let coordinates: Vec<_> = body.kind.coordinates(&body.values).iter().collect();
     let n = coordinates.len();
     let half = |i: usize| {
         let like = (0..n).filter(|&j| coordinates[j].unit == coordinates[i % n].unit);

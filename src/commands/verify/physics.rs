@@ -95,8 +95,9 @@ fn first_coordinate(then: &LaneMark, now: &LaneMark, lab: &Lab, lane: usize) -> 
             let row = |rows: &[Vec<f64>]| rows.get(n).cloned().unwrap_or_default();
             row(&mark.q).into_iter().chain(row(&mark.v)).collect::<Vec<_>>()
         };
-        let names = body.coordinates().iter();
-        let names = names.clone().map(|c| &c.name).chain(names.map(|c| &c.velocity));
+        let coordinates = body.coordinates();
+        let names = coordinates.iter();
+        let names = names.clone().map(|c| c.name).chain(names.map(|c| c.velocity));
         for ((name, was), is) in names.zip(values(then)).zip(values(now)) {
             if !is_same_value(was, is) {
                 let body = &lab.scene().bodies[n].name;

@@ -96,14 +96,14 @@ pub(super) fn follow_energy(
 }
 
 /// A body whose energy is measured, and what the inputs add to it is known.
-struct Metered<'a> {
-    body: FollowedBody<'a>,
+struct Metered {
+    body: FollowedBody,
     /// The energy at the start and what the inputs have added, in joules.
     start: f64,
 }
 
-impl<'a> Metered<'a> {
-    fn new(body: FollowedBody<'a>) -> Self {
+impl Metered {
+    fn new(body: FollowedBody) -> Self {
         let mut metered = Self { body, start: 0.0 };
         metered.start = sum(metered.energy());
         metered
@@ -119,7 +119,7 @@ fn sum([kinetic, potential]: [f64; 2]) -> f64 {
     kinetic + potential
 }
 
-impl Ticked for Metered<'_> {
+impl Ticked for Metered {
     fn act(&mut self, tick: u64, t: f64, action: &Action) {
         let before = sum(self.energy());
         self.body.act(tick, t, action);

@@ -5,7 +5,7 @@ use crate::lab::action::Action;
 use crate::lab::follow::{Follow, Ticked};
 use crate::lab::lane::advance_checked;
 use crate::lab::scene::Scripted;
-use crate::sim::bodies::Coordinate;
+use crate::sim::bodies::Coordinates;
 use crate::sim::integrators::{Family, StepFailure};
 use crate::sim::{Solver, Stepper};
 
@@ -28,16 +28,16 @@ pub(super) fn work_of(evaluations: u64, n: u64, solver: Solver) -> u64 {
 }
 
 /// A body that is stepped alone.
-pub(super) struct FollowedBody<'a> {
+pub(super) struct FollowedBody {
     pub(super) stepper: Box<dyn Stepper>,
-    coordinates: &'a [Coordinate],
+    coordinates: Coordinates,
     solver: Solver,
     substeps: u32,
 }
 
 impl BodyTruth {
     /// The body at its start under `solver`.
-    pub(super) fn body_under(&self, solver: Solver, substeps: u32) -> FollowedBody<'_> {
+    pub(super) fn body_under(&self, solver: Solver, substeps: u32) -> FollowedBody {
         let (stepper, coordinates) = (self.start(solver), self.coordinates());
         FollowedBody { stepper, coordinates, solver, substeps }
     }
@@ -52,7 +52,7 @@ impl BodyTruth {
     }
 }
 
-impl FollowedBody<'_> {
+impl FollowedBody {
     /// The work done in this many ticks, in evaluations of one coordinate.
     pub(super) fn work(&self, ticks: u64) -> u64 {
         let (n, evaluations) = (self.stepper.q().len() as u64, self.stepper.evaluations());
@@ -64,13 +64,13 @@ impl FollowedBody<'_> {
     }
 }
 
-impl Ticked for FollowedBody<'_> {
+impl Ticked for FollowedBody {
     fn act(&mut self, _: u64, t: f64, action: &Action) {
         action.apply_to(&mut *self.stepper, t);
     }
 
     fn tick(&mut self, _: u64, t: f64, h: f64) -> Result<(), StepFailure> {
-        advance_checked(&mut *self.stepper, self.coordinates, (t, h), self.substeps)
+        advance_checked(&mut *self.stepper, &self.coordinates, (t, h), self.substeps)
     }
 
     fn has_worked_more(&self, than: u64, ticks: u64) -> bool {

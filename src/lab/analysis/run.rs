@@ -163,7 +163,7 @@ struct Measured<'a> {
 
 impl Measured<'_> {
     /// Measures the body after `tick` ticks, and breaks off where the rest is not needed.
-    fn take_in(&mut self, body: &FollowedBody<'_>, tick: u64) -> ControlFlow<()> {
+    fn take_in(&mut self, body: &FollowedBody, tick: u64) -> ControlFlow<()> {
         let (stepper, truth, horizon) = (&*body.stepper, self.truth, self.horizon);
         let t = tick as f64 / self.hz;
         let run = &mut self.run;

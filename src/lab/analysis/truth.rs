@@ -6,7 +6,7 @@ use super::survey::{Ranges, TimedInput, TruthNode, follow_truth};
 use crate::lab::action::Action;
 use crate::lab::extent::Extent;
 use crate::lab::scene::SceneBody;
-use crate::sim::bodies::{Coordinate, Input, Truth};
+use crate::sim::bodies::{Coordinates, Input, Truth};
 use crate::sim::integrators::{GENERAL_METHODS, StepFailure};
 use crate::sim::stability::{NormalMode, normal_modes};
 use crate::sim::{Solver, Stepper};
@@ -141,7 +141,7 @@ impl BodyTruth {
         body
     }
 
-    pub(super) fn coordinates(&self) -> &[Coordinate] {
+    pub(super) fn coordinates(&self) -> Coordinates {
         self.body.kind.coordinates(&self.body.values)
     }
 
@@ -199,7 +199,7 @@ impl BodyTruth {
         self.exchanged_j = extent.exchanged_j(&*self.start(Solver::Truth));
         self.failure = walked.err();
         self.fails_at_start = self.failure.is_some() && moments == 0;
-        self.amplitudes = amplitudes(&reach.ranges.0, self.coordinates());
+        self.amplitudes = amplitudes(&reach.ranges.0, &self.coordinates());
         self.energy_scale =
             Some(kinetic).filter(|&scale| conserves && scale > 0.0 && scale.is_finite());
         let middle = |range: &(f64, f64)| range.0 + (range.1 - range.0) / 2.0;

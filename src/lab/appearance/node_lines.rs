@@ -11,21 +11,38 @@ pub(in crate::lab) struct NodeLine {
     pub(in crate::lab) is_border: bool,
 }
 
-/// The rows and columns of a grid, without the diagonals, or lines through all springs of lists.
-pub(super) fn lines(plan: &NetPlan, lists: &Lists) -> Vec<NodeLine> {
+/// The most rows and the most columns of a grid that are drawn: on a stage of a thousand pixels, threads nearer than
+/// eight pixels would be a surface.
+const MAX_LINES: usize = 128;
+
+/// The most nodes of a line that are drawn, for the same reason.
+const MAX_POINTS: usize = 512;
+
+/// The most springs of lists that are drawn.
+const MAX_SPRINGS: usize = 20_000;
+
+/// The rows and columns of a grid, without the diagonals, or lines through the springs of lists. Of more than pixels show,
+/// every n-th, and the border.
+pub(super) fn lines(plan: &NetPlan) -> Vec<NodeLine> {
     match &plan.form {
         Form::Grid(grid) => of_grid(*grid),
-        Form::Lists(_) => of_lists(lists),
+        Form::Lists(lists) => of_lists(lists),
     }
 }
 
+/// Every n-th of so many, at most one more than `most`, with the last.
+fn some(count: usize, most: usize) -> impl Iterator<Item = usize> + Clone {
+    let step = (count - 1).div_ceil(most).max(1);
+    (0..count).filter(move |index| index.is_multiple_of(step) || index + 1 == count)
+}
+
 fn of_grid(Grid { columns, rows, .. }: Grid) -> Vec<NodeLine> {
-    let across = (0..rows).map(|row| NodeLine {
-        nodes: (0..columns).map(|column| row * columns + column).collect(),
+    let across = some(rows, MAX_LINES).map(|row| NodeLine {
+        nodes: some(columns, MAX_POINTS).map(|column| row * columns + column).collect(),
         is_border: row == 0 || row + 1 == rows,
     });
-    let down = (0..columns).map(|column| NodeLine {
-        nodes: (0..rows).map(|row| row * columns + column).collect(),
+    let down = some(columns, MAX_LINES).map(|column| NodeLine {
+        nodes: some(rows, MAX_POINTS).map(|row| row * columns + column).collect(),
         is_border: column == 0 || column + 1 == columns,
     });
     across.chain(down).filter(|line| line.nodes.len() > 1).collect()
@@ -33,19 +50,23 @@ fn of_grid(Grid { columns, rows, .. }: Grid) -> Vec<NodeLine> {
 
 /// Each line goes on as long as there is a spring that none has.
 fn of_lists(lists: &Lists) -> Vec<NodeLine> {
+    let drawn: Vec<usize> = some(lists.springs.len(), MAX_SPRINGS).collect();
     let mut at_node = vec![Vec::new(); lists.nodes.len()];
-    for (place, spring) in lists.springs.iter().enumerate() {
-        spring.between.iter().for_each(|&end| at_node[end].push(place));
+    for &place in drawn.iter().rev() {
+        lists.springs[place].between.iter().for_each(|&end| at_node[end].push(place));
     }
     let mut is_drawn = vec![false; lists.springs.len()];
     let mut lines = Vec::new();
-    for first in 0..lists.springs.len() {
+    for first in drawn {
         if is_drawn[first] {
             continue;
         }
         is_drawn[first] = true;
         let mut nodes = lists.springs[first].between.to_vec();
-        while let Some(&next) = at_node[nodes[nodes.len() - 1]].iter().find(|it| !is_drawn[**it]) {
+        loop {
+            let offered = &mut at_node[nodes[nodes.len() - 1]];
+            while offered.pop_if(|it| is_drawn[*it]).is_some() {}
+            let Some(next) = offered.pop() else { break };
             is_drawn[next] = true;
             let [a, b] = lists.springs[next].between;
             nodes.push(if a == nodes[nodes.len() - 1] { b } else { a });
@@ -81,6 +102,24 @@ mod tests {
         let lines = of_lists(&lists);
         assert_eq!(drawn(&lines), [[0, 1], [0, 2], [1, 2], [2, 3], [3, 4], [5, 6]]);
         assert_eq!(lines.len(), 3);
+    }
+
+    #[test]
+    fn of_a_large_grid_every_nth_thread_is_drawn_and_the_border() {
+        for (columns, rows) in [(400, 250), (100_000, 1), (1000, 100), (129, 130)] {
+            let lines = of_grid(Grid { columns, rows, spacing: 1.0, shear: true, pin: None });
+            let points: usize = lines.iter().map(|line| line.nodes.len()).sum();
+            assert!(
+                lines.len() <= 2 * (MAX_LINES + 2),
+                "{columns} × {rows}: {} lines",
+                lines.len()
+            );
+            assert!(points <= 2 * (MAX_LINES + 2) * (MAX_POINTS + 2), "{points} points");
+            let corners = [0, columns - 1, (rows - 1) * columns, rows * columns - 1];
+            let has =
+                |node: &usize| lines.iter().any(|line| line.is_border && line.nodes.contains(node));
+            assert!(corners.iter().all(has), "{columns} × {rows}");
+        }
     }
 
     #[test]

@@ -8,7 +8,7 @@ impl Lab {
     pub(super) fn plot_coordinate(&mut self, body: usize, coordinate: usize) {
         let Some(of) = self.race().truth().bodies().get(body) else { return };
         let Some(chosen) = of.coordinates().get(coordinate) else { return };
-        let name = chosen.name.clone();
+        let name = chosen.name;
         self.viewer.view.choose_coordinate(body, coordinate);
         if self.record_chosen_coordinates() {
             return self.timeline.show_present();

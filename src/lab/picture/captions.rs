@@ -188,7 +188,7 @@ pub(super) fn head(
     let name = moment.lab.scene().bodies[index].name.chars().count();
     let left = x + NAME_LETTER * name as f32 + 14.0;
     let (coordinate, _) = moment.lab.past().coordinate(moment.lab.race(), index);
-    let right = left + LETTER * widest_state(coordinate) as f32 + 14.0;
+    let right = left + LETTER * widest_state(&coordinate) as f32 + 14.0;
     let chip =
         Chip::of(moment, index, entrant).filter(|_| rect.max[1] - rect.min[1] >= ROOM_FOR_CHIP);
     let room_for = |from: f32| rect.max[0] - 10.0 - from;
@@ -289,7 +289,7 @@ impl Chip {
         let lane = furthest(&mut samples.map(|sample| sample.q));
         let samples = past.truth_curves()[index].since(since_s);
         let exact = furthest(&mut samples.map(|sample| sample.q));
-        let unit = moment.lab.race().truth().bodies()[index].coordinates()[0].shown_unit();
+        let unit = moment.lab.race().truth().bodies()[index].coordinates().at(0).shown_unit();
         let how_far =
             |reach: f64| format!("{} {unit}", significant(reach, 2)).trim_end().to_owned();
         // The run on the screen is another than the judged one.

@@ -165,7 +165,7 @@ pub(super) fn drawn_unit(kind: &Kind) -> &'static str {
         Origin::Custom(info) => info.plane,
         Origin::Table | Origin::Law(_) | Origin::Net(_) => return "m",
     };
-    kind.all_coordinates[plane.map_or(0, |[x, _]| x)].shown_unit()
+    kind.all_coordinates.at(plane.map_or(0, |[x, _]| x)).shown_unit()
 }
 
 impl LookCard {

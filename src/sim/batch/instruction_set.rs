@@ -34,7 +34,7 @@ impl InstructionSet {
     }
 
     /// Runs a loop that is compiled for this instruction set.
-    pub(super) fn run(self, kernel: impl Kernel) {
+    pub(in crate::sim) fn run(self, kernel: impl Kernel) {
         match self {
             Self::Portable => kernel.run(),
             Self::Avx2 => with_avx2(kernel),
@@ -44,7 +44,7 @@ impl InstructionSet {
 }
 
 /// A loop to be compiled for an instruction set.
-pub(super) trait Kernel {
+pub(in crate::sim) trait Kernel {
     /// Runs it. Inlined always, with all that is to be compiled for the same instruction set.
     fn run(self);
 }

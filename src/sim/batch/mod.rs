@@ -8,6 +8,7 @@
 mod alone;
 mod blocks;
 mod copies;
+pub(in crate::sim) mod cores;
 mod instruction_set;
 #[cfg(feature = "lab")]
 mod law;
@@ -19,6 +20,8 @@ use blocks::in_blocks;
 pub use copies::OneCoordinate;
 use copies::{Alike, Copies, Each};
 pub use instruction_set::InstructionSet;
+#[cfg(feature = "lab")]
+pub(in crate::sim) use instruction_set::Kernel;
 #[cfg(feature = "lab")]
 pub(in crate::sim) use law::LawCopies;
 

@@ -27,7 +27,8 @@ pub(super) fn kind() -> Kind {
     about: "m xᵢ″ = Σ k (xⱼ - xᵢ) + c (xⱼ - xᵢ)′, j = i ± 1: masses joined by springs between two walls".into(),
     all_coordinates: (1..=MAX_MASSES)
         .map(|n| Coordinate::new(format!("x{n}"), format!("v{n}"), "m"))
-        .collect(),
+        .collect::<Vec<_>>()
+        .into(),
     is_counted: true,
     leading: "stiffness_n_per_m".into(),
     check: Box::new(|values| match values {

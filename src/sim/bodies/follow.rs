@@ -20,7 +20,7 @@ pub(super) fn kind() -> Kind {
         id: "follow",
         about: "x′ = k (g - x) or x″ = k² (g - x) - 2 k x′: a camera that follows a target g(t)"
             .into(),
-        all_coordinates: vec![Coordinate::new("x", "v", "m")],
+        all_coordinates: vec![Coordinate::new("x", "v", "m")].into(),
         leading: "rate_per_s".into(),
         ..Kind::of(Follow::BLANK)
     }

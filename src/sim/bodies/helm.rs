@@ -19,7 +19,7 @@ pub(super) fn kind() -> Kind {
     Kind {
     id: "helm",
     about: "m v′ = thrust(u) - C u ahead, - S w abeam; I r′ = rudder L u - D r: a ship that is steered".into(),
-    all_coordinates: vec![Coordinate::new("x", "vx", "m"), Coordinate::new("y", "vy", "m"), Coordinate::new("psi", "r", "rad")],
+    all_coordinates: vec![Coordinate::new("x", "vx", "m"), Coordinate::new("y", "vy", "m"), Coordinate::new("psi", "r", "rad")].into(),
     inputs: &["throttle", "rudder", "kick"],
     leading: "side_drag_n_s_per_m".into(),
         ..Kind::of(Helm::BLANK)

@@ -65,7 +65,7 @@ pub struct Kind {
     /// Its equation of motion, in one line.
     pub about: Text,
     /// The coordinates that such a body can have, in state order.
-    pub all_coordinates: Vec<Coordinate>,
+    pub all_coordinates: Coordinates,
     /// Whether the first parameter is the number of coordinates; otherwise a body has all of them.
     pub is_counted: bool,
     /// The keys of its table, in the order of the values that [`Kind::build`] expects.
@@ -145,7 +145,7 @@ impl Kind {
         Self {
             id: "",
             about: "".into(),
-            all_coordinates: Vec::new(),
+            all_coordinates: Vec::new().into(),
             is_counted: false,
             parameters: B::PARAMETERS.iter().map(ParameterOf::parameter).collect(),
             inputs: &["kick"],
@@ -162,10 +162,10 @@ impl Kind {
     }
 
     /// The coordinates of a body with these parameter values, in state order.
-    pub fn coordinates(&self, values: &[f64]) -> &[Coordinate] {
+    pub fn coordinates(&self, values: &[f64]) -> Coordinates {
         match values {
-            [count, ..] if self.is_counted => &self.all_coordinates[..*count as usize],
-            _ => &self.all_coordinates,
+            [count, ..] if self.is_counted => self.all_coordinates.first(*count as usize),
+            _ => self.all_coordinates.clone(),
         }
     }
 
@@ -199,6 +199,83 @@ pub struct Coordinate {
     pub velocity: Arc<str>,
     /// Its unit.
     pub unit: &'static str,
+}
+
+/// The coordinates of a body, in state order. Those of a net are named when they are asked for.
+#[derive(Clone)]
+pub struct Coordinates {
+    count: usize,
+    named: Named,
+}
+
+/// Names a coordinate by its index.
+type Rule = dyn Fn(usize) -> [String; 2] + Send + Sync;
+
+#[derive(Clone)]
+enum Named {
+    List(Arc<[Coordinate]>),
+    Rule { rule: Arc<Rule>, unit: &'static str },
+}
+
+impl From<Vec<Coordinate>> for Coordinates {
+    fn from(list: Vec<Coordinate>) -> Self {
+        Self { count: list.len(), named: Named::List(list.into()) }
+    }
+}
+
+impl Coordinates {
+    /// So many coordinates of one unit, each named with its velocity by a rule from its index.
+    pub(super) fn by_rule(count: usize, unit: &'static str, rule: Arc<Rule>) -> Self {
+        Self { count, named: Named::Rule { rule, unit } }
+    }
+
+    /// The first of them, at most all.
+    #[must_use]
+    pub fn first(&self, count: usize) -> Self {
+        Self { count: count.min(self.count), named: self.named.clone() }
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    /// Whether there are none, as of a blank kind.
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// The coordinate with this index, if there is one.
+    pub fn get(&self, index: usize) -> Option<Coordinate> {
+        (index < self.count).then(|| match &self.named {
+            Named::List(list) => list[index].clone(),
+            Named::Rule { rule, unit } => {
+                let [name, velocity] = rule(index);
+                Coordinate::new(name, velocity, unit)
+            }
+        })
+    }
+
+    /// The coordinate with this index.
+    ///
+    /// # Panics
+    /// If there is none.
+    pub fn at(&self, index: usize) -> Coordinate {
+        self.get(index).expect("an index of a coordinate")
+    }
+
+    /// All of them.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = Coordinate> + Clone + '_ {
+        (0..self.count).map(|index| self.at(index))
+    }
+
+    /// The unit of each.
+    pub fn units(&self) -> impl Iterator<Item = &'static str> + Clone + '_ {
+        (0..self.count).map(|index| match &self.named {
+            Named::List(list) => list[index].unit,
+            Named::Rule { unit, .. } => unit,
+        })
+    }
 }
 
 impl Coordinate {

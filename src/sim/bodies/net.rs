@@ -1,21 +1,28 @@
 //! Masses joined by springs in the plane: a rope, a cloth, a bridge.
 //!
-//! The coordinates are those of the free nodes. The springs are in arrays, and the forces on a node are
-//! summed in the order of the springs: those to free nodes, then those to fixed ones. That order is part of
-//! the definition, so that a sum by node in parallel would have the same bits.
+//! The coordinates are those of the free nodes. The forces on a node are summed in the order of the springs of
+//! the plan: first those to free nodes, then those to fixed ones. That order is part of the definition, so that a
+//! large grid, whose nodes are summed side by side, has the bits of the same net given as lists.
 
 use std::sync::Arc;
 
 use glam::DVec2;
 
 use crate::sim::body::{Body, Input};
+use crate::sim::net_plan::{PlannedSpring, distance};
 use crate::sim::parameter::{ParameterOf, Range};
 use crate::sim::state::State;
 use crate::sim::system::{BodyClass, Coupling, Question, System};
-use frame::{FIXED, Frame};
+use forces::{Accelerations, Forces, Slopes};
+use frame::{Frame, Layout};
+use rows::{Nodes, RestLengths};
 
+mod forces;
 mod frame;
 mod kind;
+mod rows;
+#[cfg(test)]
+mod tests;
 
 pub use kind::net_kind;
 
@@ -71,15 +78,41 @@ pub struct Net {
     springs: Arc<Springs>,
 }
 
-/// The springs, in the order of the frame's arrays.
-#[derive(Clone, Debug, Default)]
+/// The springs of a net with its present parameters.
+#[derive(Debug, Default)]
 struct Springs {
-    /// Stiffness and damping divided by the mass of a node, and the length at rest.
+    /// Stiffness and damping of the springs of a grid divided by the mass of a node.
+    shared: [f64; 2],
+    /// The lengths at rest of the springs between free nodes of a grid.
+    rest: RestLengths,
+    /// Stiffness and damping divided by the mass of a node, and the length at rest, of the springs that the frame
+    /// [keeps](Frame::kept).
     constants: Vec<[f64; 3]>,
     /// Whether none of them is damped.
     are_elastic: bool,
-    /// An estimate of [`Body::reference_work`].
-    reference_work: f64,
+    /// See [`Net::fastest_rate`].
+    fastest_rate: f64,
+    /// How many there are.
+    count: usize,
+}
+
+/// An end of a spring whose other end is a free node.
+#[derive(Clone, Copy)]
+enum End {
+    /// A free node, by its index.
+    Free(usize),
+    /// A fixed node, by its place.
+    Fixed([f64; 2]),
+}
+
+/// The length of a spring with the free nodes at `q`.
+fn length(from: usize, to: End, q: &[f64]) -> f64 {
+    let at = |index: usize| Net::nodes(q)[index];
+    let to = match to {
+        End::Free(to) => at(to),
+        End::Fixed(place) => place,
+    };
+    distance([at(from), to])
 }
 
 impl Net {
@@ -109,47 +142,109 @@ impl Net {
         components.as_chunks_mut().0
     }
 
-    /// The places of both ends of each spring with the free nodes at `q`, in the order of the arrays.
-    fn spring_ends<'a>(&'a self, q: &'a [f64]) -> impl Iterator<Item = [DVec2; 2]> + 'a {
-        let Frame { ends, anchors, .. } = &*self.frame;
-        let at = |index: u32| DVec2::from(Self::nodes(q)[index as usize]);
-        let free = ends.iter().map(move |[a, b]| [at(*a), at(*b)]);
-        free.chain(anchors.iter().map(move |(a, anchor)| [at(*a), DVec2::from(*anchor)]))
+    /// Calls `see` with the index of a free end, the other end and the constants of each spring, in the order of the sums.
+    fn each_spring(&self, springs: &Springs, mut see: impl FnMut(usize, End, &[f64; 3])) {
+        let Springs { shared: [k, c], rest, constants, .. } = springs;
+        let of_anchors = match &self.frame.layout {
+            Layout::Rows(rows) => {
+                rows.each_spring(|[from, to], (row, column, way)| {
+                    see(from, End::Free(to), &[*k, *c, rest.of(row, column, way)]);
+                });
+                &constants[..]
+            }
+            Layout::Arrays(arrays) => {
+                let (inner, outer) = constants.split_at(arrays.ends.len());
+                for ([from, to], constants) in arrays.ends.iter().zip(inner) {
+                    see(*from as usize, End::Free(*to as usize), constants);
+                }
+                outer
+            }
+        };
+        for ((index, anchor), constants) in self.frame.anchors.iter().zip(of_anchors) {
+            see(*index as usize, End::Fixed(*anchor), constants);
+        }
     }
 
     /// The place of a node, by its number in the plan, with the free nodes at `q`.
     pub fn place_of(&self, node: usize, q: &[f64]) -> DVec2 {
-        let Frame { lists, index_of, .. } = &*self.frame;
-        match index_of[node] {
-            FIXED => DVec2::from(lists.nodes[node]),
-            index => DVec2::from(Self::nodes(q)[index as usize]),
-        }
+        let index = self.frame.index_of(node);
+        DVec2::from(index.map_or_else(|| self.frame.place(node), |index| Self::nodes(q)[index]))
+    }
+
+    /// How many springs it has.
+    pub fn springs(&self) -> usize {
+        self.springs.count
+    }
+
+    /// The length of the shortest spring at the start, in metres.
+    pub fn shortest_spring(&self) -> f64 {
+        let start = self.frame.start();
+        let mut shortest = f64::INFINITY;
+        self.each_spring(&self.springs, |from, to, _| {
+            shortest = shortest.min(length(from, to, &start));
+        });
+        shortest
     }
 
     /// A bound on the fastest frequency, in radians per second, and on the fastest rate of damping; positive.
     pub fn fastest_rate(&self) -> f64 {
-        let [stiffness, damping] = self.fastest(&self.springs.constants);
-        stiffness.sqrt().max(damping).max(f64::MIN_POSITIVE)
+        self.springs.fastest_rate.max(f64::MIN_POSITIVE)
     }
 
-    /// A bound on the square of the fastest frequency, and on the fastest rate of damping, per node: those
-    /// of a node whose neighbours all move against it.
-    fn fastest(&self, constants: &[[f64; 3]]) -> [f64; 2] {
-        let Frame { ends, anchors, free, .. } = &*self.frame;
-        let mut sums = vec![[0.0; 2]; free.len()];
-        let mut add = |index: u32, [k, c, _]: &[f64; 3], times: f64| {
-            let [stiffness, damping] = &mut sums[index as usize];
+    /// The faster of the fastest frequency and the fastest rate of damping, per node: those of a node whose neighbours all
+    /// move against it.
+    fn fastest(&self, springs: &Springs) -> f64 {
+        let mut sums = vec![[0.0; 2]; self.frame.free];
+        let mut add = |index: usize, [k, c, _]: &[f64; 3], times: f64| {
+            let [stiffness, damping] = &mut sums[index];
             *stiffness += times * k;
             *damping += times * c;
         };
-        for (ends, constants) in ends.iter().zip(constants) {
-            ends.iter().for_each(|end| add(*end, constants, 2.0));
-        }
-        for ((end, _), constants) in anchors.iter().zip(&constants[ends.len()..]) {
-            add(*end, constants, 1.0);
-        }
+        self.each_spring(springs, |from, to, constants| match to {
+            End::Free(to) => [from, to].iter().for_each(|end| add(*end, constants, 2.0)),
+            End::Fixed(_) => add(from, constants, 1.0),
+        });
         let most = |i: usize| sums.iter().map(|sums| sums[i]).fold(0.0, f64::max);
-        [most(0), most(1) + self.drag / self.mass]
+        most(0).sqrt().max(most(1) + self.drag / self.mass)
+    }
+
+    /// Overwrites `sums` with what acts on each node, from vectors at the free nodes of which the first has the places.
+    #[inline]
+    fn sum<const N: usize>(
+        &self,
+        forces: impl Forces<N>,
+        vectors: [Nodes<'_>; N],
+        sums: &mut [[f64; 2]],
+    ) {
+        let Springs { shared, rest, constants, .. } = &*self.springs;
+        let of_anchors = match &self.frame.layout {
+            Layout::Rows(rows) => {
+                rows.sum(forces, (*shared, rest), vectors, sums);
+                &constants[..]
+            }
+            Layout::Arrays(arrays) => {
+                for (node, sum) in sums.iter_mut().enumerate() {
+                    *sum = forces.on_node(vectors.map(|vector| vector[node]));
+                }
+                let (inner, outer) = constants.split_at(arrays.ends.len());
+                for ([i, j], constants) in arrays.ends.iter().zip(inner) {
+                    let (i, j) = (*i as usize, *j as usize);
+                    let [from, to] = [i, j].map(|node| vectors.map(|vector| vector[node]));
+                    let f = forces.along(constants, from, to);
+                    sums[i] = [sums[i][0] + f[0], sums[i][1] + f[1]];
+                    sums[j] = [sums[j][0] - f[0], sums[j][1] - f[1]];
+                }
+                outer
+            }
+        };
+        // Less any number, -0 is its negative, of a zero too.
+        let mut to = [[-0.0; 2]; N];
+        for ((i, anchor), constants) in self.frame.anchors.iter().zip(of_anchors) {
+            let i = *i as usize;
+            to[0] = *anchor;
+            let f = forces.along(constants, vectors.map(|vector| vector[i]), to);
+            sums[i] = [sums[i][0] + f[0], sums[i][1] + f[1]];
+        }
     }
 }
 
@@ -162,83 +257,18 @@ impl System for Net {
 
     #[inline]
     fn acceleration(&self, _t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
-        let (q, v, a) = (Self::nodes(q), Self::nodes(v), Self::nodes_mut(a));
-        let Frame { ends, anchors, .. } = &*self.frame;
-        let drag = self.drag / self.mass;
-        for (a, v) in a.iter_mut().zip(v) {
-            *a = [-drag * v[0], -self.gravity - drag * v[1]];
-        }
-        let (inner, outer) = self.springs.constants.split_at(ends.len());
-        for ([i, j], constants) in ends.iter().zip(inner) {
-            let (i, j) = (*i as usize, *j as usize);
-            let d = [q[j][0] - q[i][0], q[j][1] - q[i][1]];
-            let w = [v[j][0] - v[i][0], v[j][1] - v[i][1]];
-            let f = pull(constants, d, w);
-            a[i] = [a[i][0] + f[0], a[i][1] + f[1]];
-            a[j] = [a[j][0] - f[0], a[j][1] - f[1]];
-        }
-        for ((i, anchor), constants) in anchors.iter().zip(outer) {
-            let i = *i as usize;
-            let d = [anchor[0] - q[i][0], anchor[1] - q[i][1]];
-            let f = pull(constants, d, [-v[i][0], -v[i][1]]);
-            a[i] = [a[i][0] + f[0], a[i][1] + f[1]];
-        }
+        let forces = Accelerations { drag: self.drag / self.mass, gravity: self.gravity };
+        self.sum(forces, [q, v].map(|vector| Self::nodes(vector)), Self::nodes_mut(a));
     }
 
     #[inline]
     fn answer(&self, _t: f64, question: Question<'_, Vec<f64>>) -> bool {
         let Question::Slope { state, along, slope } = question else { return false };
-        let (q, v) = (Self::nodes(&state.q), Self::nodes(&state.v));
-        let (dq, dv, slope) =
-            (Self::nodes(&along.q), Self::nodes(&along.v), Self::nodes_mut(slope));
-        let Frame { ends, anchors, .. } = &*self.frame;
-        let drag = self.drag / self.mass;
-        for (slope, dv) in slope.iter_mut().zip(dv) {
-            *slope = [-drag * dv[0], -drag * dv[1]];
-        }
-        let (inner, outer) = self.springs.constants.split_at(ends.len());
-        let between = |x: &[[f64; 2]], i: usize, j: usize| [x[j][0] - x[i][0], x[j][1] - x[i][1]];
-        for ([i, j], constants) in ends.iter().zip(inner) {
-            let (i, j) = (*i as usize, *j as usize);
-            let apart = |x: &[[f64; 2]]| between(x, i, j);
-            let f = pull_slope(constants, [apart(q), apart(v)], [apart(dq), apart(dv)]);
-            slope[i] = [slope[i][0] + f[0], slope[i][1] + f[1]];
-            slope[j] = [slope[j][0] - f[0], slope[j][1] - f[1]];
-        }
-        for ((i, anchor), constants) in anchors.iter().zip(outer) {
-            let i = *i as usize;
-            let d = [anchor[0] - q[i][0], anchor[1] - q[i][1]];
-            let against = |x: &[[f64; 2]]| [-x[i][0], -x[i][1]];
-            let f = pull_slope(constants, [d, against(v)], [against(dq), against(dv)]);
-            slope[i] = [slope[i][0] + f[0], slope[i][1] + f[1]];
-        }
+        let vectors = [&state.q, &state.v, &along.q, &along.v].map(|vector| Self::nodes(vector));
+        let forces = Slopes { drag: self.drag / self.mass };
+        self.sum(forces, vectors, Self::nodes_mut(slope));
         true
     }
-}
-
-/// The acceleration of the first end of a spring, whose other end is `d` away and moves by `w` against it.
-/// A spring of no length has no direction, and does not pull.
-#[inline(always)]
-fn pull([k, c, rest]: &[f64; 3], d: [f64; 2], w: [f64; 2]) -> [f64; 2] {
-    let length = (d[0] * d[0] + d[1] * d[1]).sqrt();
-    let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
-    let u = [d[0] * inverse, d[1] * inverse];
-    let pull = k * (length - rest) + c * (u[0] * w[0] + u[1] * w[1]);
-    [pull * u[0], pull * u[1]]
-}
-
-/// The derivative of [`pull`] at `[d, w]` in the direction `[dd, dw]`.
-#[inline(always)]
-fn pull_slope([k, c, rest]: &[f64; 3], [d, w]: [[f64; 2]; 2], [dd, dw]: [[f64; 2]; 2]) -> [f64; 2] {
-    let length = (d[0] * d[0] + d[1] * d[1]).sqrt();
-    let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
-    let u = [d[0] * inverse, d[1] * inverse];
-    let pull = k * (length - rest) + c * (u[0] * w[0] + u[1] * w[1]);
-    let longer = u[0] * dd[0] + u[1] * dd[1];
-    let turned = [(dd[0] - u[0] * longer) * inverse, (dd[1] - u[1] * longer) * inverse];
-    let faster = turned[0] * w[0] + turned[1] * w[1] + u[0] * dw[0] + u[1] * dw[1];
-    let more = k * longer + c * faster;
-    [more * u[0] + pull * turned[0], more * u[1] + pull * turned[1]]
 }
 
 impl Body for Net {
@@ -248,28 +278,39 @@ impl Body for Net {
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn prepare(&mut self) {
-        let Frame { lists, order, .. } = &*self.frame;
-        let constants = order.iter().map(|&index| {
-            let spring = &lists.springs[index];
+        let constants = |spring: &PlannedSpring, length: f64| {
             let stiffness = spring.stiffness.unwrap_or(self.stiffness);
             let damping = spring.damping.unwrap_or(self.damping);
-            let rest = || self.rest_ratio * lists.length(spring.between);
-            [stiffness / self.mass, damping / self.mass, spring.rest.unwrap_or_else(rest)]
+            let rest = spring.rest.unwrap_or(self.rest_ratio * length);
+            [stiffness / self.mass, damping / self.mass, rest]
+        };
+        let of = |spring: PlannedSpring| {
+            constants(&spring, distance(spring.between.map(|node| self.frame.place(node))))
+        };
+        let rest = match &self.frame.layout {
+            Layout::Rows(rows) => RestLengths::new(&rows.grid, self.rest_ratio),
+            Layout::Arrays(_) => RestLengths::default(),
+        };
+        let [k, c, _] = constants(&PlannedSpring::default(), 0.0);
+        let constants: Vec<[f64; 3]> = self.frame.kept().map(of).collect();
+        let mut springs = Springs { shared: [k, c], rest, constants, ..Default::default() };
+        let (mut count, mut are_elastic) = (0, true);
+        self.each_spring(&springs, |_, _, [_, c, _]| {
+            count += 1;
+            are_elastic &= *c == 0.0;
         });
-        let constants: Vec<[f64; 3]> = constants.collect();
-        let are_elastic = constants.iter().all(|[_, c, _]| *c == 0.0);
-        let [stiffness, damping] = self.fastest(&constants);
-        let rate = stiffness.sqrt().max(damping);
-        let reference_work = EVALUATIONS_PER_RADIAN * rate * constants.len() as f64;
-        self.springs = Arc::new(Springs { constants, are_elastic, reference_work });
+        springs.are_elastic = are_elastic;
+        springs.fastest_rate = self.fastest(&springs);
+        springs.count = count;
+        self.springs = Arc::new(springs);
     }
 
     fn start(&self) -> State<Vec<f64>> {
-        State { q: self.frame.start.clone(), v: self.frame.zeros() }
+        State { q: self.frame.start(), v: vec![0.0; 2 * self.frame.free] }
     }
 
     fn reference_work(&self) -> f64 {
-        self.springs.reference_work
+        EVALUATIONS_PER_RADIAN * self.springs.fastest_rate * self.springs.count as f64
     }
 
     fn energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
@@ -287,7 +328,7 @@ impl Body for Net {
 
     fn input(&mut self, input: Input, state: &mut State<Vec<f64>>) -> bool {
         let Input::Kick(times) = input else { return false };
-        let kicked = if self.frame.kicks_first { 1 } else { self.frame.free.len() };
+        let kicked = if self.frame.kicks_first { 1 } else { self.frame.free };
         for [vx, vy] in &mut Self::nodes_mut(&mut state.v)[..kicked] {
             *vx += times * self.kick.x;
             *vy += times * self.kick.y;
@@ -312,11 +353,11 @@ impl Net {
 
     fn potential(&self, state: &State<Vec<f64>>) -> f64 {
         let heights = Self::nodes(&state.q).iter().map(|q| q[1]);
-        let stretched = self.spring_ends(&state.q).zip(&self.springs.constants);
-        let elastic = stretched.map(|([a, b], [k, _, rest])| {
-            let stretch = (b - a).length() - rest;
-            k * stretch * stretch
+        let mut elastic = 0.0;
+        self.each_spring(&self.springs, |from, to, [k, _, rest]| {
+            let stretch = length(from, to, &state.q) - rest;
+            elastic += k * stretch * stretch;
         });
-        self.mass * (self.gravity * heights.sum::<f64>() + elastic.sum::<f64>() / 2.0)
+        self.mass * (self.gravity * heights.sum::<f64>() + elastic / 2.0)
     }
 }

@@ -13,7 +13,7 @@ pub(super) fn kind() -> Kind {
     Kind {
     id: "orbit",
     about: "r″ = -μ r / |r|³: a satellite about a fixed centre, on an ellipse, parabola or hyperbola".into(),
-    all_coordinates: vec![Coordinate::new("x", "vx", "m"), Coordinate::new("y", "vy", "m")],
+    all_coordinates: vec![Coordinate::new("x", "vx", "m"), Coordinate::new("y", "vy", "m")].into(),
     leading: "mu_m3_per_s2".into(),
     check: Box::new(|values| match values {
         [_, 0.0, 0.0, ..] => Err(Fault {

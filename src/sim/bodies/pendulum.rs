@@ -14,7 +14,7 @@ pub(super) fn kind() -> Kind {
     Kind {
         id: "pendulum",
         about: "m l² θ″ = -m g l sin θ - c θ′: a bob on a rod, at any angle".into(),
-        all_coordinates: vec![Coordinate::new("theta", "omega", "rad")],
+        all_coordinates: vec![Coordinate::new("theta", "omega", "rad")].into(),
         leading: "gravity_m_per_s2".into(),
         ..Kind::of(Pendulum::BLANK)
     }

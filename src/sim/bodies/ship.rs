@@ -14,7 +14,7 @@ pub(super) fn kind() -> Kind {
     Kind {
         id: "ship",
         about: "m s″ = T - C s′: full thrust times throttle, against linear drag".into(),
-        all_coordinates: vec![Coordinate::new("s", "v", "m")],
+        all_coordinates: vec![Coordinate::new("s", "v", "m")].into(),
         inputs: &["throttle", "kick"],
         leading: "drag_n_s_per_m".into(),
         ..Kind::of(Ship::BLANK)

@@ -15,7 +15,7 @@ pub(super) fn kind() -> Kind {
     Kind {
         id: "spring",
         about: "m x″ = -k x - c x′: a mass on a spring with a dash-pot".into(),
-        all_coordinates: vec![Coordinate::new("x", "v", "m")],
+        all_coordinates: vec![Coordinate::new("x", "v", "m")].into(),
         leading: "stiffness_n_per_m".into(),
         ..Kind::of(Spring::BLANK)
     }

@@ -13,8 +13,8 @@ use super::roster::Roster;
 use super::tracks::Detail;
 use super::{advice, cost, focus_ring, ink, loops, one_step, stability_map};
 use crate::lab::{
-    Command, Coordinate, FRAME_METRICS, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow,
-    Lab, METRICS, Quantity,
+    Command, FRAME_METRICS, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow, Lab, METRICS,
+    Quantity,
 };
 use crate::view::plot;
 use crate::view::theme::{TYPE, strong_font};
@@ -265,29 +265,24 @@ fn body_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     }
 }
 
-/// The coordinates of the displayed body.
-fn shown_coordinates(lab: &Lab) -> &[Coordinate] {
-    lab.race().truth().bodies()[lab.view().body].coordinates()
-}
-
 /// Offers the coordinates of the displayed body, if it has several.
 fn coordinate_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let body = lab.view().body;
-    let coordinates = shown_coordinates(lab);
+    let coordinates = lab.race().truth().bodies()[body].coordinates();
     if coordinates.len() > 1 {
         let command = |index| Command::Coordinate { body, coordinate: index };
         let (chosen, index) = lab.past().coordinate(lab.race(), body);
         ui.label(RichText::new("of").color(ink(ui).dim));
-        let offered = (0..).map(command).zip(coordinates.iter().map(|of| &*of.name));
+        let offered = (0..).map(command).zip(coordinates.iter().map(|of| of.name));
         choice(ui, "coordinate", offered, (command(index), &*chosen.name), commands);
     }
 }
 
 /// Offers commands by name, as a menu.
-fn choice<'a>(
+fn choice<N: AsRef<str>>(
     ui: &mut Ui,
     id: &str,
-    offered: impl Iterator<Item = (Command, &'a str)>,
+    offered: impl Iterator<Item = (Command, N)>,
     chosen: (Command, &str),
     commands: &mut Vec<Command>,
 ) {
@@ -300,7 +295,7 @@ fn choice<'a>(
                 ui.allocate_space(place.size());
                 continue;
             }
-            let label = ui.selectable_label(command == chosen.0, name);
+            let label = ui.selectable_label(command == chosen.0, name.as_ref());
             height = Some(label.rect.height());
             if label.clicked() {
                 commands.push(command);

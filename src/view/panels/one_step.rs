@@ -71,12 +71,12 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
 
 /// [`words`] as they are painted.
 fn said(ui: &Ui, lab: &Lab, step: &OneStep, width: f32) -> Arc<Galley> {
-    let words = words(step, shown_coordinate(lab));
+    let words = words(step, &shown_coordinate(lab));
     ui.painter().layout(words, FontId::proportional(TYPE), ink(ui).text, width)
 }
 
-fn shown_coordinate(lab: &Lab) -> &Coordinate {
-    &lab.race().truth().bodies()[lab.view().body].coordinates()[0]
+fn shown_coordinate(lab: &Lab) -> Coordinate {
+    lab.race().truth().bodies()[lab.view().body].coordinates().at(0)
 }
 
 fn head(ui: &mut Ui, step: &OneStep) {
@@ -124,7 +124,7 @@ fn plot(ui: &mut Ui, lab: &Lab, step: &OneStep, size: Vec2) {
     let painter = ui.painter_at(whole);
     painter.rect_filled(rect, 0.0, ink.plot);
     area.axes(&painter, ink, [&area.marks(0, 64.0), &area.marks(1, 26.0)]);
-    let coordinate = shown_coordinate(lab);
+    let coordinate = &shown_coordinate(lab);
     let small = FontId::proportional(11.5);
     let up = format!("velocity {}, {}", coordinate.velocity, Unit::Velocity.on(coordinate));
     painter.text(whole.left_top(), Align2::LEFT_TOP, up, small.clone(), ink.dim);
@@ -279,7 +279,7 @@ fn table_height(step: &OneStep) -> f32 {
 
 /// The formula, every evaluation in numbers, and where the tick ends.
 fn table(ui: &mut Ui, lab: &Lab, step: &OneStep) {
-    let coordinate = shown_coordinate(lab);
+    let coordinate = &shown_coordinate(lab);
     let (q, v) = (&coordinate.name, &coordinate.velocity);
     ui.spacing_mut().item_spacing.y = 1.0;
     let (figures, gap) = if ui.available_width() < ROOM_FOR_FIGURES { (3, 5.0) } else { (4, 14.0) };

@@ -133,8 +133,11 @@ fn a_kick_hits_one_node_or_all_and_drag_slows_them() {
     let velocities = kicked(&plan);
     assert!(velocities[..2] == [6.0, 0.0] && velocities[2..].iter().all(|v| *v == 0.0));
     let kind = net_kind(plan.clone()).unwrap();
-    let names: Vec<_> = kind.coordinates(&[]).iter().map(|it| &*it.name).collect();
-    assert_eq!(names[..6], ["x5", "y5", "x0", "y0", "x1", "y1"]);
+    let names: Vec<_> = kind.coordinates(&[]).iter().map(|it| it.name).collect();
+    assert_eq!(
+        names.iter().map(|it| &**it).take(6).collect::<Vec<_>>(),
+        ["x5", "y5", "x0", "y0", "x1", "y1"]
+    );
 
     // All nodes move as one: v′ = -b v / m.
     let plan = grid(4, 3, None);

@@ -28,8 +28,8 @@ fn a_chain_and_a_helm_are_read_with_their_counts_and_points() {
     assert_eq!(scene.bodies[0].values, [3.0, 1.0, 40.0, 0.0, 3.0, 1.0, 3.0]);
     assert_eq!(scene.bodies[1].values[11..], [-2.0, 7.5, 16.0, -1e3, 1e15, 0.0]);
     let names = |body: &SceneBody| {
-        let coordinates = body.kind.coordinates(&body.values).iter();
-        coordinates.map(|c| format!("{} {}", c.name, c.velocity)).collect::<Vec<_>>()
+        let coordinates = body.kind.coordinates(&body.values);
+        coordinates.iter().map(|c| format!("{} {}", c.name, c.velocity)).collect::<Vec<_>>()
     };
     assert_eq!(names(&scene.bodies[0]), ["x1 v1", "x2 v2", "x3 v3"]);
     assert_eq!(names(&scene.bodies[1]), ["x vx", "y vy", "psi r"]);

@@ -91,7 +91,7 @@ fn a_body_is_listed_with_the_keys_of_its_table() {
         let coordinates = object["coordinates"].as_array().unwrap();
         let names: Vec<_> = coordinates.iter().map(|c| c["name"].as_str().unwrap()).collect();
         let expected: Vec<_> =
-            body.coordinates(&body.plain_values()).iter().map(|c| &*c.name).collect();
+            body.coordinates(&body.plain_values()).iter().map(|c| c.name.to_string()).collect();
         assert_eq!(names, expected);
         assert!(!names.is_empty() && names.iter().all(|name| name.is_ascii()));
     }

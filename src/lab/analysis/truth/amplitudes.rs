@@ -1,12 +1,12 @@
 //! The amplitudes of a body's components, from their true ranges.
 
-use crate::sim::bodies::Coordinate;
+use crate::sim::bodies::Coordinates;
 
 /// A component whose half range is smaller than this part of its largest value is constant but for rounding.
 const KEEPS_STILL: f64 = 1e-9;
 
 /// For each component, the largest value among those that have its unit and are, like it, coordinates or velocities.
-pub(super) fn largest_alike(coordinates: &[Coordinate], values: &[f64]) -> Vec<f64> {
+pub(super) fn largest_alike(coordinates: &Coordinates, values: &[f64]) -> Vec<f64> {
     let mut units: Vec<&str> = Vec::new();
     let mut unit_index = |unit: &'static str| {
         units.iter().position(|known| *known == unit).unwrap_or_else(|| {
@@ -14,8 +14,7 @@ pub(super) fn largest_alike(coordinates: &[Coordinate], values: &[f64]) -> Vec<f
             units.len() - 1
         })
     };
-    let of_coordinate: Vec<usize> =
-        coordinates.iter().map(|coordinate| unit_index(coordinate.unit)).collect();
+    let of_coordinate: Vec<usize> = coordinates.units().map(&mut unit_index).collect();
     let groups = || {
         let velocities = of_coordinate.iter().map(|unit| units.len() + unit);
         of_coordinate.iter().copied().chain(velocities)
@@ -28,7 +27,7 @@ pub(super) fn largest_alike(coordinates: &[Coordinate], values: &[f64]) -> Vec<f
 }
 
 /// The amplitude of each component, from the true ranges.
-pub(super) fn amplitudes(ranges: &[(f64, f64)], coordinates: &[Coordinate]) -> Vec<f64> {
+pub(super) fn amplitudes(ranges: &[(f64, f64)], coordinates: &Coordinates) -> Vec<f64> {
     let halves: Vec<f64> = ranges.iter().map(|(low, high)| (high - low) / 2.0).collect();
     let sizes: Vec<f64> = ranges.iter().map(|(low, high)| low.abs().max(high.abs())).collect();
     let largest = largest_alike(coordinates, &sizes);
@@ -44,7 +43,7 @@ pub(super) fn amplitudes(ranges: &[(f64, f64)], coordinates: &[Coordinate]) -> V
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::bodies::kind;
+    use crate::sim::bodies::{Coordinate, kind};
 
     #[test]
     fn the_amplitude_is_half_the_range_or_the_constant_value() {
@@ -61,7 +60,7 @@ mod tests {
             unit,
         };
         let coordinates = [coordinate("x", "m"), coordinate("a", "rad"), coordinate("y", "m")];
-        let found = largest_alike(&coordinates, &[1.0, 7.0, 3.0, 20.0, 5.0, 10.0]);
+        let found = largest_alike(&coordinates.to_vec().into(), &[1.0, 7.0, 3.0, 20.0, 5.0, 10.0]);
         assert_eq!(found, [3.0, 7.0, 3.0, 20.0, 5.0, 20.0]);
     }
 }

@@ -71,7 +71,7 @@ impl ReachSoFar {
     pub(super) fn new(ranges: Ranges, body: &SceneBody) -> Self {
         let coordinates = body.kind.coordinates(&body.values);
         let is_central =
-            coordinates.len() > 1 && coordinates.iter().all(|it| it.unit == coordinates[0].unit);
+            coordinates.len() > 1 && coordinates.units().all(|unit| unit == coordinates.at(0).unit);
         Self { ranges, is_central, turns: false, distance: 0.0, speed: 0.0 }
     }
 
@@ -103,7 +103,7 @@ impl ReachSoFar {
         };
         let each: Vec<(f64, f64)> = self.ranges.0.iter().enumerate().map(about).collect();
         let halves: Vec<f64> = each.iter().map(|(_, half)| *half).collect();
-        let largest = largest_alike(coordinates, &halves);
+        let largest = largest_alike(&coordinates, &halves);
         Reach::Each(each.iter().map(|(centre, _)| *centre).zip(largest).collect())
     }
 }

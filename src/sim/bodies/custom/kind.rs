@@ -111,7 +111,7 @@ fn kind(body: Custom, parameters: Vec<Parameter>) -> Kind {
     Kind {
         id: "custom",
         about: "a body written in Rust".into(),
-        all_coordinates: info.coordinates.clone(),
+        all_coordinates: info.coordinates.clone().into(),
         parameters,
         leading,
         check: Box::new(check),

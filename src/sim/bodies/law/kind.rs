@@ -34,7 +34,7 @@ pub fn law_kind(text: LawText) -> Result<Arc<Kind>, Vec<Refusal>> {
     Ok(Arc::new(Kind {
         id: "law",
         about: about.join("; ").into(),
-        all_coordinates: text.coordinates.iter().map(coordinate).collect(),
+        all_coordinates: text.coordinates.iter().map(coordinate).collect::<Vec<_>>().into(),
         parameters,
         inputs,
         leading: leading.unwrap_or_else(|| first_key.clone()),

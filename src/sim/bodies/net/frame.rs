@@ -1,66 +1,145 @@
-//! A plan prepared for stepping: the free nodes, and the springs in arrays.
+//! A plan prepared for stepping: which nodes are free, and where each is in a vector.
 
-use crate::sim::net_plan::{Lists, NetPlan};
+use std::sync::Arc;
+
+use super::rows::Rows;
+use crate::sim::net_plan::{Form, Lists, NetPlan, PlannedSpring};
 
 /// The index of a fixed node, which is no coordinate.
-pub(super) const FIXED: u32 = u32::MAX;
+const FIXED: u32 = u32::MAX;
+
+/// The fewest nodes of a grid that is stepped by rows: smaller ones are as fast as lists.
+const MIN_ROWS_NODES: usize = 2048;
 
 /// What the bodies of one plan share.
 #[derive(Debug)]
 pub(super) struct Frame {
-    pub(super) lists: Lists,
-    /// The number of each free node, in the order of the coordinates: the kicked node, or else the last one,
-    /// comes first, because plots show the first coordinate.
-    pub(super) free: Vec<usize>,
-    /// The index of each node among the free ones, or [`FIXED`].
-    pub(super) index_of: Vec<u32>,
-    /// Where the free nodes stand at the start.
-    pub(super) start: Vec<f64>,
-    /// The indices of the ends, among the free nodes, of each spring between two of them.
-    pub(super) ends: Vec<[u32; 2]>,
-    /// For each anchored spring: index of its free node, position of its anchor.
+    pub(super) plan: Arc<NetPlan>,
+    pub(super) layout: Layout,
+    /// How many nodes are free.
+    pub(super) free: usize,
+    /// For each spring with a fixed end: index of its free node, position of its anchor.
     pub(super) anchors: Vec<(u32, [f64; 2])>,
-    /// The springs of the plan in the order of the arrays: those of `ends`, then those of `anchors`.
-    pub(super) order: Vec<usize>,
     /// Whether a kick hits only the first of the free nodes, and not all of them.
     pub(super) kicks_first: bool,
 }
 
+/// Where the free nodes are in a vector: the kicked node, or else the last one, comes first, because plots show the
+/// first coordinate, and the others follow by their numbers.
+#[derive(Debug)]
+pub(super) enum Layout {
+    /// Of a large grid.
+    Rows(Rows),
+    /// Of lists, and of a small grid as lists.
+    Arrays(Arrays),
+}
+
+/// The nodes and springs of lists, in arrays.
+#[derive(Debug)]
+pub(super) struct Arrays {
+    /// The number of each free node.
+    free: Vec<u32>,
+    /// The index of each node among the free ones, or [`FIXED`].
+    index_of: Vec<u32>,
+    /// The indices of the ends of each spring between free nodes.
+    pub(super) ends: Vec<[u32; 2]>,
+}
+
 impl Frame {
     /// Prepares a plan without [faults](NetPlan::faults).
-    pub(super) fn new(plan: &NetPlan) -> Self {
-        let lists = plan.lists();
-        let mut is_fixed = vec![false; lists.nodes.len()];
-        lists.fixed.iter().for_each(|&node| is_fixed[node] = true);
-        let mut free: Vec<usize> = (0..lists.nodes.len()).filter(|&node| !is_fixed[node]).collect();
-        let first = plan.kicked.and_then(|kicked| free.iter().position(|&node| node == kicked));
-        let first = first.unwrap_or(free.len() - 1);
-        free[..=first].rotate_right(1);
-        let mut index_of = vec![FIXED; lists.nodes.len()];
-        for (index, &node) in free.iter().enumerate() {
-            index_of[node] = index as u32;
-        }
-        let (mut ends, mut anchors) = (Vec::new(), Vec::new());
-        let (mut order, mut anchored) = (Vec::new(), Vec::new());
-        for (index, spring) in lists.springs.iter().enumerate() {
-            let [a, b] = spring.between;
-            if is_fixed[a] || is_fixed[b] {
-                let (free, fixed) = if is_fixed[a] { (b, a) } else { (a, b) };
-                anchors.push((index_of[free], lists.nodes[fixed]));
-                anchored.push(index);
-            } else {
-                ends.push([index_of[a], index_of[b]]);
-                order.push(index);
-            }
-        }
-        order.append(&mut anchored);
-        let start = free.iter().flat_map(|&node| lists.nodes[node]).collect();
-        let kicks_first = plan.kicked.is_some();
-        Self { lists, free, index_of, start, ends, anchors, order, kicks_first }
+    pub(super) fn new(plan: Arc<NetPlan>) -> Self {
+        let by_rows = matches!(plan.form, Form::Grid(grid) if grid.nodes() >= MIN_ROWS_NODES);
+        Self::laid_out(plan, by_rows)
     }
 
-    /// As many zeros as there are coordinates.
-    pub(super) fn zeros(&self) -> Vec<f64> {
-        vec![0.0; self.start.len()]
+    /// Prepares a plan, a grid by rows or as lists.
+    pub(super) fn laid_out(plan: Arc<NetPlan>, by_rows: bool) -> Self {
+        let layout = match &plan.form {
+            Form::Grid(grid) if by_rows => Layout::Rows(Rows::new(*grid, plan.kicked)),
+            Form::Grid(grid) => Layout::Arrays(Arrays::new(&grid.lists(), plan.kicked)),
+            Form::Lists(lists) => Layout::Arrays(Arrays::new(lists, plan.kicked)),
+        };
+        let free = match &layout {
+            Layout::Rows(rows) => rows.len(),
+            Layout::Arrays(arrays) => arrays.free.len(),
+        };
+        let kicks_first = plan.kicked.is_some();
+        let mut frame = Self { plan, layout, free, anchors: Vec::new(), kicks_first };
+        let anchors = frame.anchored().map(|PlannedSpring { between: [a, b], .. }| {
+            let of = |node| frame.index_of(node).map(|index| index as u32);
+            match (of(a), of(b)) {
+                (Some(index), _) => (index, frame.place(b)),
+                (None, index) => (index.expect("a free end"), frame.place(a)),
+            }
+        });
+        frame.anchors = anchors.collect();
+        frame
+    }
+
+    /// The springs whose constants are kept, in the order of the sums: of lists all, of rows those with a fixed end.
+    pub(super) fn kept(&self) -> impl Iterator<Item = PlannedSpring> + '_ {
+        let is_kept = |_: &PlannedSpring| matches!(self.layout, Layout::Arrays(_));
+        let inner = self.plan.springs().filter(is_kept).filter(|it| !self.is_anchored(it));
+        inner.chain(self.anchored())
+    }
+
+    /// The springs with a fixed end, in the order of the plan.
+    fn anchored(&self) -> impl Iterator<Item = PlannedSpring> + '_ {
+        self.plan.springs().filter(|spring| self.is_anchored(spring))
+    }
+
+    /// Whether an end of a spring is fixed.
+    fn is_anchored(&self, spring: &PlannedSpring) -> bool {
+        spring.between.iter().any(|&node| self.index_of(node).is_none())
+    }
+
+    /// Where a node stands at the start.
+    pub(super) fn place(&self, node: usize) -> [f64; 2] {
+        match &self.plan.form {
+            Form::Grid(grid) => grid.place(node),
+            Form::Lists(lists) => lists.nodes[node],
+        }
+    }
+
+    /// The index of a node among the free ones; `None` if it is fixed.
+    #[inline]
+    pub(super) fn index_of(&self, node: usize) -> Option<usize> {
+        match &self.layout {
+            Layout::Rows(rows) => (!rows.grid.is_fixed(node)).then(|| rows.index_of(node)),
+            Layout::Arrays(arrays) => {
+                Some(arrays.index_of[node]).filter(|&it| it != FIXED).map(|index| index as usize)
+            }
+        }
+    }
+
+    /// The number of the free node with this index.
+    pub(super) fn node_at(&self, index: usize) -> usize {
+        match &self.layout {
+            Layout::Rows(rows) => rows.node_at(index),
+            Layout::Arrays(arrays) => arrays.free[index] as usize,
+        }
+    }
+
+    /// Where the free nodes stand at the start.
+    pub(super) fn start(&self) -> Vec<f64> {
+        (0..self.free).flat_map(|index| self.place(self.node_at(index))).collect()
+    }
+}
+
+impl Arrays {
+    fn new(lists: &Lists, kicked: Option<usize>) -> Self {
+        let mut index_of = vec![0; lists.nodes.len()];
+        lists.fixed.iter().for_each(|&node| index_of[node] = FIXED);
+        let mut free: Vec<u32> =
+            (0..lists.nodes.len() as u32).filter(|&it| index_of[it as usize] != FIXED).collect();
+        let first = kicked.and_then(|kicked| free.iter().position(|&node| node as usize == kicked));
+        let first = first.unwrap_or(free.len() - 1);
+        free[..=first].rotate_right(1);
+        for (index, &node) in free.iter().enumerate() {
+            index_of[node as usize] = index as u32;
+        }
+        let ends = lists.springs.iter().map(|spring| spring.between.map(|node| index_of[node]));
+        let ends = ends.filter(|ends| !ends.contains(&FIXED)).collect();
+        Self { free, index_of, ends }
     }
 }

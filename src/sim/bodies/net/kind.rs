@@ -4,7 +4,7 @@ use std::sync::{Arc, LazyLock};
 
 use super::frame::Frame;
 use super::{Net, PARAMETERS};
-use crate::sim::bodies::kind::{Coordinate, Kind, Origin};
+use crate::sim::bodies::kind::{Coordinates, Kind, Origin};
 use crate::sim::net_plan::{NetFault, NetPlan};
 use crate::sim::parameter::{Parameter, ParameterOf};
 
@@ -26,19 +26,21 @@ pub fn net_kind(plan: NetPlan) -> Result<Arc<Kind>, Vec<NetFault>> {
     if !faults.is_empty() {
         return Err(faults);
     }
-    let frame = Frame::new(&plan);
-    let axes = |node: &usize| {
-        ['x', 'y']
-            .map(|axis| Coordinate::new(format!("{axis}{node}"), format!("v{axis}{node}"), "m"))
+    let plan = Arc::new(plan);
+    let frame = Arc::new(Frame::new(plan.clone()));
+    let of = frame.clone();
+    let name = move |index: usize| {
+        let (axis, node) = (['x', 'y'][index % 2], of.node_at(index / 2));
+        [format!("{axis}{node}"), format!("v{axis}{node}")]
     };
     Ok(Arc::new(Kind {
         id: "net",
         about:
             "m xᵢ″ = Σ (k (ℓ - ℓ₀) + c ℓ′) u - b xᵢ′ + m g: masses joined by springs in the plane"
                 .into(),
-        all_coordinates: frame.free.iter().flat_map(axes).collect(),
+        all_coordinates: Coordinates::by_rule(2 * frame.free, "m", Arc::new(name)),
         leading: "stiffness_n_per_m".into(),
-        origin: Origin::Net(Arc::new(plan)),
-        ..Kind::of(Net::blank(Arc::new(frame)))
+        origin: Origin::Net(plan),
+        ..Kind::of(Net::blank(frame))
     }))
 }

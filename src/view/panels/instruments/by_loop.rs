@@ -73,7 +73,7 @@ impl Plots<'_> {
         let exact = self.exact(|t, frame| [t, frame.exact[0]]);
         let range = self.loops.range();
         let y = ranges::around_truth(range.into_iter(), &tracks, 1, HEALTHY);
-        let up = PlotAxis::of(&self.loops.body().coordinates()[0]);
+        let up = PlotAxis::of(&self.loops.body().coordinates().at(0));
         self.over_time("motion by loop", up, tracks, Some(exact), (self.last_frames(), y))
     }
 
@@ -89,7 +89,7 @@ impl Plots<'_> {
             Scale::Log => ranges::of_decades(&tracks, least.abs().max(most.abs())),
             Scale::Linear => ranges::from_zero(&tracks),
         };
-        let unit = metric.unit.on(&self.loops.body().coordinates()[0]);
+        let unit = metric.unit.on(&self.loops.body().coordinates().at(0));
         let up = PlotAxis::new(metric.name, &unit, scale);
         let is_empty = tracks.iter().all(Track::is_empty);
         let id = format!("{} by loop", metric.id);
@@ -123,7 +123,7 @@ impl Plots<'_> {
         });
         let [x, y] =
             [0, 1].map(|axis| ranges::around_orbit(exact.values(axis), &tracks, axis, HEALTHY));
-        let coordinate = &self.loops.body().coordinates()[0];
+        let coordinate = &self.loops.body().coordinates().at(0);
         PlotModel {
             id: "phase portrait by loop".into(),
             title: self.title(STEPPED),

@@ -33,7 +33,7 @@ pub(super) fn sheet(lab: &Lab) -> Sheet {
 pub(super) fn plot(lab: &Lab, body: usize, place: usize, title: String) -> PlotModel {
     let metric = &METRICS[place];
     let truth = &lab.race().truth().bodies()[body];
-    let unit = metric.unit.on(&truth.coordinates()[0]);
+    let unit = metric.unit.on(&truth.coordinates().at(0));
     let values = Track::of(lab, body, |s| [s.t, s.metrics[place]]);
     let scale = scale(metric, &values);
     let tracks = Track::of(lab, body, |s| [s.t, scale.place(s.metrics[place])]);

@@ -39,13 +39,13 @@ fn plot(lab: &Lab, body: usize, detail: Detail) -> PlotModel {
     let y = ranges::around_truth(exact.fitted(lab, 1).chain(selected), &lanes, 1, healthy(lab));
     let name = capitalised(&lab.scene().bodies[body].name);
     PlotModel {
-        id: format!("{} of {body}", quantity.symbol(coordinate)),
+        id: format!("{} of {body}", quantity.symbol(&coordinate)),
         title: match truth.halted() {
             Some(_) => format!("{name}, {}", truth.truth().missing()),
             None => name,
         },
         body,
-        axes: [PlotAxis::time(), PlotAxis::of_quantity(quantity, coordinate)],
+        axes: [PlotAxis::time(), PlotAxis::of_quantity(quantity, &coordinate)],
         fit: over_time(lab, y),
         tracks,
         look: Look { width: FRONT, dots: Dots::SparseAlongX, bounded: [false, true] },

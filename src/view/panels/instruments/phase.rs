@@ -31,7 +31,7 @@ pub(super) fn sheet(lab: &Lab) -> Sheet {
         id: format!("phase portrait of {} of {body}", coordinate.name),
         title: capitalised(&lab.scene().bodies[body].name),
         body,
-        axes: [PlotAxis::of(coordinate), PlotAxis::of_velocity(coordinate)],
+        axes: [PlotAxis::of(&coordinate), PlotAxis::of_velocity(&coordinate)],
         fit: PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]),
         tracks,
         look: Look { width: FRONT, dots: Dots::Sparse, bounded: [true; 2] },

@@ -91,7 +91,7 @@ impl<'a> Row<'a> {
 
     /// A value with the unit of the body's first coordinate.
     pub(super) fn in_unit(&self, value: f64) -> Option<String> {
-        let unit = self.truth().coordinates()[0].shown_unit();
+        let unit = self.truth().coordinates().at(0).shown_unit();
         Some(format!("{} {unit}", significant(value, 3)).trim_end().to_owned())
     }
 

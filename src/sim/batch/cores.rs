@@ -1,0 +1,51 @@
+//! Long loops over the numbers of one large body, shared by all cores. The shares are cut by size alone, and no sum
+//! passes from one to another, so that the number of threads changes no bit.
+
+/// The numbers of a vector that a thread takes at a time: some ten microseconds of memory. A vector of fewer is left to
+/// one thread.
+const GRAIN: usize = 1 << 15;
+
+/// Whether a body of so many coordinates is stepped on all cores.
+#[cfg(feature = "lab")]
+pub(in crate::sim) fn is_large(coordinates: usize) -> bool {
+    coordinates > GRAIN / 2
+}
+
+/// Does `work` on a thread that shares with all others what it [joins](join). Never allocates there.
+#[cfg(feature = "lab")]
+pub(in crate::sim) fn enter<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    join(work, || ()).0
+}
+
+/// Does both, at once if a core is free.
+pub(in crate::sim) fn join<A: Send, B: Send>(
+    a: impl FnOnce() -> A + Send,
+    b: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    rayon::join(a, b)
+}
+
+/// Does `work` on equal parts of vectors of one length: of those `to` write and `from` read.
+#[inline]
+pub(in crate::sim) fn in_parts<const M: usize, const N: usize>(
+    to: [&mut [f64]; M],
+    from: [&[f64]; N],
+    work: impl Fn([&mut [f64]; M], [&[f64]; N]) + Copy + Sync + Send,
+) {
+    if to[0].len() <= GRAIN { work(to, from) } else { in_halves(to, from, work) }
+}
+
+#[cold]
+fn in_halves<const M: usize, const N: usize>(
+    to: [&mut [f64]; M],
+    from: [&[f64]; N],
+    work: impl Fn([&mut [f64]; M], [&[f64]; N]) + Copy + Sync + Send,
+) {
+    let middle = to[0].len() / 2;
+    let [mut to_near, mut to_far] = [(); 2].map(|()| [(); M].map(|()| &mut [][..]));
+    for (place, to) in to.into_iter().enumerate() {
+        (to_near[place], to_far[place]) = to.split_at_mut(middle);
+    }
+    let (near, far) = (from.map(|from| &from[..middle]), from.map(|from| &from[middle..]));
+    join(|| in_parts(to_near, near, work), || in_parts(to_far, far, work));
+}
