@@ -4,11 +4,11 @@ use std::any::Any;
 
 use glam::DVec2;
 
-#[cfg(feature = "lab")]
-use super::batch::cores;
 #[cfg(feature = "batch")]
 use super::batch::{InstructionSet, NewBatch};
 use super::body::Body;
+#[cfg(feature = "lab")]
+use super::cores;
 use super::exact_flow::ExactFlow;
 use super::exact_since_start::{ExactSinceStart, is_start};
 use super::integrators::{Construct, Integrator, Method, Stepped, Tolerance, construct};

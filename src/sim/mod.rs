@@ -14,6 +14,7 @@ mod body_stepper;
 mod clock;
 #[cfg(feature = "lab")]
 pub mod conformance;
+mod cores;
 #[cfg(feature = "lab")]
 mod curve;
 mod double_double;

@@ -1,7 +1,6 @@
 //! Coordinate vectors, and the state that a body is in.
 
-#[cfg(feature = "batch")]
-use super::batch::cores::in_parts;
+use super::cores::in_parts;
 
 /// Numbers that are added and scaled each by itself: what the formula of a method with fixed steps does with coordinates.
 ///
@@ -195,17 +194,6 @@ impl Elementwise for Vec<f64> {
     fn heap_bytes(&self) -> usize {
         size_of_val(&self[..])
     }
-}
-
-/// Without threads.
-#[cfg(not(feature = "batch"))]
-#[inline]
-fn in_parts<const M: usize, const N: usize>(
-    to: [&mut [f64]; M],
-    from: [&[f64]; N],
-    work: impl Fn([&mut [f64]; M], [&[f64]; N]),
-) {
-    work(to, from);
 }
 
 impl Vector for Vec<f64> {

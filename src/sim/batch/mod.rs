@@ -8,7 +8,6 @@
 mod alone;
 mod blocks;
 mod copies;
-pub(in crate::sim) mod cores;
 mod instruction_set;
 #[cfg(feature = "lab")]
 mod law;

@@ -201,7 +201,7 @@ pub struct Coordinate {
     pub unit: &'static str,
 }
 
-/// The coordinates of a body, in state order. Those of a net are named when they are asked for.
+/// The coordinates of a body, in state order. Those of a large grid are named when they are asked for.
 #[derive(Clone)]
 pub struct Coordinates {
     count: usize,

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, LazyLock};
 
-use super::frame::Frame;
+use super::frame::{Frame, Layout};
 use super::{Net, PARAMETERS};
 use crate::sim::bodies::kind::{Coordinates, Kind, Origin};
 use crate::sim::net_plan::{NetFault, NetPlan};
@@ -28,19 +28,28 @@ pub fn net_kind(plan: NetPlan) -> Result<Arc<Kind>, Vec<NetFault>> {
     }
     let plan = Arc::new(plan);
     let frame = Arc::new(Frame::new(plan.clone()));
-    let of = frame.clone();
-    let name = move |index: usize| {
-        let (axis, node) = (['x', 'y'][index % 2], of.node_at(index / 2));
-        [format!("{axis}{node}"), format!("v{axis}{node}")]
-    };
     Ok(Arc::new(Kind {
         id: "net",
         about:
             "m xᵢ″ = Σ (k (ℓ - ℓ₀) + c ℓ′) u - b xᵢ′ + m g: masses joined by springs in the plane"
                 .into(),
-        all_coordinates: Coordinates::by_rule(2 * frame.free, "m", Arc::new(name)),
+        all_coordinates: coordinates(&frame),
         leading: "stiffness_n_per_m".into(),
         origin: Origin::Net(plan),
         ..Kind::of(Net::blank(frame))
     }))
+}
+
+/// The names of the coordinates: of a large grid by a rule, and of others in a list, so that no halt allocates.
+fn coordinates(frame: &Arc<Frame>) -> Coordinates {
+    let (of, count) = (frame.clone(), 2 * frame.free);
+    let names = move |index: usize| {
+        let (axis, node) = (['x', 'y'][index % 2], of.node_at(index / 2));
+        [format!("{axis}{node}"), format!("v{axis}{node}")]
+    };
+    let by_rule = Coordinates::by_rule(count, "m", Arc::new(names));
+    match frame.layout {
+        Layout::Rows(_) => by_rule,
+        Layout::Arrays(_) => by_rule.iter().collect::<Vec<_>>().into(),
+    }
 }

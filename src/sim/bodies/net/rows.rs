@@ -9,8 +9,8 @@ use std::ops::Range;
 use std::slice;
 
 use super::forces::Forces;
-use crate::sim::batch::cores::join;
 use crate::sim::batch::{InstructionSet, Kernel};
+use crate::sim::cores::join;
 use crate::sim::net_plan::{Grid, Way, distance};
 
 /// The numbers of a vector at the nodes, as x and y.

@@ -1,24 +1,26 @@
 //! Long loops over the numbers of one large body, shared by all cores. The shares are cut by size alone, and no sum
-//! passes from one to another, so that the number of threads changes no bit.
+//! passes from one to another, so that the number of threads changes no bit. Without the feature `batch` one does all.
 
 /// The numbers of a vector that a thread takes at a time: some ten microseconds of memory. A vector of fewer is left to
 /// one thread.
+#[cfg(feature = "batch")]
 const GRAIN: usize = 1 << 15;
 
 /// Whether a body of so many coordinates is stepped on all cores.
 #[cfg(feature = "lab")]
-pub(in crate::sim) fn is_large(coordinates: usize) -> bool {
+pub(super) fn is_large(coordinates: usize) -> bool {
     coordinates > GRAIN / 2
 }
 
 /// Does `work` on a thread that shares with all others what it [joins](join). Never allocates there.
 #[cfg(feature = "lab")]
-pub(in crate::sim) fn enter<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+pub(super) fn enter<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     join(work, || ()).0
 }
 
 /// Does both, at once if a core is free.
-pub(in crate::sim) fn join<A: Send, B: Send>(
+#[cfg(feature = "batch")]
+pub(super) fn join<A: Send, B: Send>(
     a: impl FnOnce() -> A + Send,
     b: impl FnOnce() -> B + Send,
 ) -> (A, B) {
@@ -27,14 +29,19 @@ pub(in crate::sim) fn join<A: Send, B: Send>(
 
 /// Does `work` on equal parts of vectors of one length: of those `to` write and `from` read.
 #[inline]
-pub(in crate::sim) fn in_parts<const M: usize, const N: usize>(
+pub(super) fn in_parts<const M: usize, const N: usize>(
     to: [&mut [f64]; M],
     from: [&[f64]; N],
     work: impl Fn([&mut [f64]; M], [&[f64]; N]) + Copy + Sync + Send,
 ) {
-    if to[0].len() <= GRAIN { work(to, from) } else { in_halves(to, from, work) }
+    #[cfg(feature = "batch")]
+    if to[0].len() > GRAIN {
+        return in_halves(to, from, work);
+    }
+    work(to, from);
 }
 
+#[cfg(feature = "batch")]
 #[cold]
 fn in_halves<const M: usize, const N: usize>(
     to: [&mut [f64]; M],
