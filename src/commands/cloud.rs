@@ -306,7 +306,7 @@ fn make(
         size_px: [runs.len() * (SIDE_PX + GAP_PX) - GAP_PX, HEAD_PX + SIDE_PX + FOOT_PX],
         what: format!("{}, {} Hz, {points} points", scene.name, scene.tick_hz),
         axes: axes_in_words(
-            &scene_body(scene).kind.coordinates(&scene_body(scene).values)[0],
+            &scene_body(scene).kind.coordinates(&scene_body(scene).values).at(0),
             view,
         ),
     });

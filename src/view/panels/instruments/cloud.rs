@@ -220,7 +220,7 @@ fn side_by_side(
         let rect = Rect::from_min_size(corner + vec2(0.0, above), size);
         cloud(ui, lab, picture, lane, (rect, place), [column == 0, is_lowest], commands);
     }
-    let coordinate = &lab.race().truth().bodies()[lab.view().body].coordinates()[0];
+    let coordinate = &lab.race().truth().bodies()[lab.view().body].coordinates().at(0);
     let names =
         [PlotAxis::of(coordinate), PlotAxis::of_velocity(coordinate)].map(|axis| axis.name());
     let at = pos2(room.left(), room.bottom());
