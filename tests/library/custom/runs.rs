@@ -49,7 +49,7 @@ fn a_report_is_written_as_json_with_the_keys_of_the_command() {
     assert_eq!(value["tick_hz"], 30);
     assert_eq!(value["methods"][2]["method"], "rk4");
     let verdict = &value["methods"][2]["verdict"];
-    assert_eq!((&verdict["kind"], &verdict["body"]), (&"accurate".into(), &"body".into()));
+    assert_eq!((&verdict["word"], &verdict["body"]), (&"accurate".into(), &"body".into()));
     assert!(verdict["error"].is_f64() && verdict["failed_at_s"].is_null(), "{verdict}");
     let criteria = &value["methods"][2]["criteria"]["looks-right"];
     for key in ["substeps", "evaluations_per_s", "slowest_hz", "stiffness_factor", "limited_by"] {

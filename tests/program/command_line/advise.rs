@@ -35,7 +35,7 @@ fn every_method_has_a_verdict_and_meets_criteria_with_so_many_substeps() {
     assert_eq!((&advice["horizon_s"], &advice["bodies"]), (&20.0.into(), &["spring"][..].into()));
 
     let explicit = row(&advice, "explicit-euler");
-    assert_eq!(explicit["verdict"]["kind"], "gains-energy");
+    assert_eq!(explicit["verdict"]["word"], "gains-energy");
     assert_eq!(explicit["verdict"]["body"], "spring");
     assert_eq!(explicit["verdict"]["text"], "gains energy: swing ×2 in 2.12 s");
     let doubles = explicit["verdict"]["doubles_in_s"].as_f64().unwrap();
@@ -58,7 +58,7 @@ fn every_method_has_a_verdict_and_meets_criteria_with_so_many_substeps() {
     assert_eq!(semi_implicit["rates"]["bounded"], 4);
 
     let runge_kutta = row(&advice, "rk4");
-    assert_eq!(runge_kutta["verdict"]["kind"], "accurate");
+    assert_eq!(runge_kutta["verdict"]["word"], "accurate");
     let halving = runge_kutta["verdict"]["halves_in_s"].as_f64().unwrap() / 86_400.0;
     assert!((14.5..14.7).contains(&halving), "{halving} days");
     assert_eq!(runge_kutta["rates"]["accurate"], 21);
@@ -94,7 +94,7 @@ fn the_verdict_follows_the_tick_rate_and_the_rates_do_not() {
         row(advice, "semi-implicit-euler").clone()
     };
     let (coarse, fine) = (only(&coarse), only(&fine));
-    let words = [&coarse, &fine].map(|row| row["verdict"]["kind"].clone());
+    let words = [&coarse, &fine].map(|row| row["verdict"]["word"].clone());
     assert_eq!(words, ["blew-up", "out-of-phase"]);
     assert!(coarse["verdict"]["error"].is_null());
     assert_eq!(coarse["rates"], fine["rates"]);

@@ -139,7 +139,7 @@ fn json_holds_what_csv_holds() {
         let same = others.map(|(_, value)| match value {
             Value::Null => String::new(),
             Value::String(text) => text.clone(),
-            Value::Object(verdict) => verdict["kind"].as_str().unwrap().to_owned(),
+            Value::Object(verdict) => verdict["word"].as_str().unwrap().to_owned(),
             number => number.to_string(),
         });
         assert_eq!(cells, same.collect::<Vec<_>>());
@@ -246,7 +246,7 @@ fn energy_drifts_where_it_is_conserved_and_is_none_where_it_is_not() {
 fn a_blow_up_is_a_row() {
     let rows = rows("--scene stiff --method semi-implicit-euler --tick-hz 49,60");
     let [lost, kept] = &rows[..] else { panic!("{rows:?}") };
-    assert_eq!(lost["verdict"]["kind"], "blew-up");
+    assert_eq!(lost["verdict"]["word"], "blew-up");
     let at = lost["verdict"]["failed_at_s"].as_f64().unwrap();
     assert!((4.1..4.2).contains(&at), "{lost}");
     let halted = text(lost, "halted");
@@ -257,7 +257,7 @@ fn a_blow_up_is_a_row() {
     assert!((4.1..4.2).contains(&number(lost, "seconds")), "{lost}");
     assert_eq!(number(lost, "evaluations_per_s"), 49.0);
     assert!(number(lost, "ns_per_s") > 0.0);
-    assert_eq!((&kept["verdict"]["kind"], number(kept, "seconds")), (&"out-of-phase".into(), 5.0));
+    assert_eq!((&kept["verdict"]["word"], number(kept, "seconds")), (&"out-of-phase".into(), 5.0));
     assert!(kept["halted"].is_null());
 }
 

@@ -7,8 +7,8 @@ use super::{Finding, LongTerm, Verdict};
 /// What has no meaning for a verdict of a kind is null.
 #[derive(Serialize)]
 struct Schema<'a> {
-    /// The id of the outcome.
-    kind: &'static str,
+    /// That of the outcome.
+    word: &'static str,
     body: &'a str,
     error: Option<f64>,
     error_at_s: Option<f64>,
@@ -40,7 +40,7 @@ impl Serialize for Verdict {
         let compared = self.comparison();
         let LongTerm { doubles_in_s, halves_in_s, parasite_doubles_in_s, .. } = self.long_term;
         Schema {
-            kind: self.outcome().id(),
+            word: self.outcome().id(),
             body: &self.body_name,
             error: self.error(),
             error_at_s: compared.map(|found| found.error_at_s),
