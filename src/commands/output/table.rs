@@ -67,9 +67,9 @@ fn bare(value: &Value) -> String {
     }
 }
 
-/// What stands in a cell for a value: for an object its kind.
+/// What stands in a cell for a value: for an object, such as a verdict, its word.
 fn in_a_cell(value: &Value) -> &Value {
-    value.get("kind").unwrap_or(value)
+    value.get("word").unwrap_or(value)
 }
 
 /// Text as a cell of CSV, quoted if it must be.

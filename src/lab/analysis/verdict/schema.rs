@@ -7,7 +7,7 @@ use super::{Finding, LongTerm, Verdict};
 /// What has no meaning for a verdict of a kind is null.
 #[derive(Serialize)]
 struct Schema<'a> {
-    /// That of the outcome.
+    /// The id of the outcome.
     word: &'static str,
     body: &'a str,
     error: Option<f64>,
