@@ -92,7 +92,7 @@ fn a_constant_of_a_law_is_varied_like_a_parameter_of_a_body() {
     assert_eq!([0, 1].map(|row| number(&rows[row], "value")), [1.6e5, 1.6e6]);
     assert!(rows[2]["value"].is_null());
     // ω h of the wheel is 0.7 and 2.
-    assert_eq!([0, 1].map(|row| text(&rows[row]["verdict"], "kind")), ["out-of-phase", "blew-up"]);
+    assert_eq!([0, 1].map(|row| text(&rows[row]["verdict"], "word")), ["out-of-phase", "blew-up"]);
     for (options, why) in [
         (
             "--scene ship --vary kt=1",
