@@ -133,7 +133,7 @@ mod tests {
     use super::*;
     use crate::lab::picture::{Cap, Rect, Rgba, Stroke};
     use crate::view::Offscreen;
-    use crate::view::stage::StageRenderer;
+    use crate::view::stage::{Stage, StageRenderer};
     use crate::view::testing::{EVERYWHERE, draw_next, draw_picture, gpu_or_skip};
 
     /// Water with so many pale lines across it, and a line of its own over them.
@@ -172,6 +172,17 @@ mod tests {
         for (n, (top, lines, own)) in frames.into_iter().enumerate() {
             let picture = picture(top, lines, own);
             let size_px = if n % 7 == 6 { [48, 64] } else { [64, 64] };
+            if n % 5 == 1 {
+                // Somebody lays out a frame, and never shows it.
+                let target = Offscreen::new(&gpu, size_px).unwrap().texture;
+                let rect = egui::Rect::from_min_size(
+                    egui::Pos2::ZERO,
+                    size_px.map(|side| side as f32).into(),
+                );
+                let stage = Stage { rect, picture: picture.clone() };
+                let mut encoder = gpu.device.create_command_encoder(&Default::default());
+                renderer.prepare(&gpu, &mut encoder, &target, stage, 1.0);
+            }
             let drawn = draw_next(&gpu, &mut renderer, size_px, 1.0, &picture);
             assert!(drawn.rows == draw_picture(&gpu, size_px, 1.0, &picture).rows, "frame {n}");
         }

@@ -91,10 +91,14 @@ impl StageRenderer {
         };
         self.shapes.upload(gpu);
         if let (Covered::Drawing(_), Some(view)) = (self.covered, self.backdrop.view()) {
-            let mut pass = pass(encoder, "backdrop", &view, Start::Black);
+            // At once: whether this frame is ever submitted is the caller's business, and later ones need it.
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            let mut pass = pass(&mut encoder, "backdrop", &view, Start::Black);
             if self.begin(&mut pass) {
                 self.paint_below(&mut pass);
             }
+            drop(pass);
+            gpu.queue.submit([encoder.finish()]);
         }
         self.backdrop.remember(place, picture);
         if self.covered == Covered::Nothing {
