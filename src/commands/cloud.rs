@@ -47,7 +47,7 @@ Examples:
   regatta cloud --scene pendulum --out pendulum.png
   regatta cloud --scene liouville --shape cat --out cat.gif
   regatta cloud --scene spring --method explicit-euler --method rk4 --points 1000000 --out cloud.csv
-  regatta cloud --scene kicked-rotor --points 500 --size 0.5 --seconds 200 --section 10 --out islands.png";
+  regatta cloud --scene kicked-rotor --points 500 --size 3 --seconds 99 --section 10 --out rotor.png";
 
 /// Step a shape of many starts by each method and show what becomes of its area
 #[derive(Debug, Args)]

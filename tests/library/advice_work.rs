@@ -4,12 +4,14 @@ use regatta::lab::{Adviser, LaneSpec, SCENES, Scene};
 
 /// The work of the advice on all methods of a scene, in millions of evaluations of one coordinate. That of most nets is
 /// that of hundreds of runs over twenty times the scene, which is what *bounded* claims.
-const MILLIONS: [(&str, f64); 23] = [
+const MILLIONS: [(&str, f64); 25] = [
     ("ship", 4.2),
     ("spring", 136.0),
     ("stiff", 97.0),
     ("chain", 932.0),
     ("pendulum", 366.0),
+    ("liouville", 41.0),
+    ("kicked-rotor", 99.0),
     ("orbit", 317.0),
     ("helm", 160.0),
     ("surge", 9.2),
