@@ -13,7 +13,7 @@ use super::exact_flow::ExactFlow;
 use super::exact_since_start::{ExactSinceStart, is_start};
 use super::integrators::{Construct, Integrator, Method, Stepped, Tolerance, construct};
 use super::propagator::{MethodPropagator, Propagator};
-use super::reference::{MAX_REFERENCE_WORK, Reference};
+use super::reference::{Reference, is_beyond_reference};
 use super::solver::Solver;
 use super::state::{Elementwise, State, Vector};
 use super::stepper::{Change, Memory, PlacedBody, RecordedTick, Stepper};
@@ -34,10 +34,10 @@ pub(super) fn with_solver<B: Body>(placed: Placed<B>, solver: Solver, t: f64) ->
         let propagator = ExactFlow::new(&placed.state, t);
         Box::new(BodyStepper { placed, propagator })
     } else if is_solved(&placed, t) {
-        let propagator = ExactSinceStart::new(&placed.state);
+        let propagator = ExactSinceStart::new(&placed.body.system, &placed.state);
         Box::new(BodyStepper { placed, propagator })
     } else {
-        let propagator = Reference::new(&placed.state);
+        let propagator = Reference::new(&placed.body.system, &placed.state);
         Box::new(BodyStepper { placed, propagator })
     }
 }
@@ -165,7 +165,7 @@ impl<B: Body> PlacedBody for Placed<B> {
         self.body.system.is_angle(coordinate)
     }
     fn is_beyond_reference(&self) -> bool {
-        self.body.system.reference_work() > MAX_REFERENCE_WORK
+        is_beyond_reference(&self.body.system)
     }
     fn is_sparse(&self) -> bool {
         B::coupling() == Coupling::Few

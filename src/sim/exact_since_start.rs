@@ -28,10 +28,10 @@ pub(super) struct ExactSinceStart<V> {
 }
 
 impl<V: Vector> ExactSinceStart<V> {
-    /// The motion of a body that stands at its start at time 0.
-    pub(super) fn new(like: &State<V>) -> Self {
-        let a = RefCell::new(like.v.clone());
-        let (start, reference) = (like.clone(), Reference::new(like));
+    /// The motion of `body`, which stands at its start at time 0.
+    pub(super) fn new<B: Body<Vector = V>>(body: &B, start: &State<V>) -> Self {
+        let a = RefCell::new(start.v.clone());
+        let (start, reference) = (start.clone(), Reference::new(body, start));
         Self { is_untouched: true, t: 0.0, start, reference, a }
     }
 }

@@ -62,11 +62,8 @@ impl Allowance {
 /// A reference solution.
 #[derive(Clone, Debug)]
 pub(super) struct Reference<V> {
-    solution: Trajectory<V>,
-    /// The second solution, with other steps.
-    check: Trajectory<V>,
-    work: Extrapolation<V>,
-    difference: State<V>,
+    /// `None` of a body whose solutions would take too much work.
+    solutions: Option<Box<Solutions<V>>>,
     /// Whether both solutions have started from the state of the body.
     has_begun: bool,
     allowance: Allowance,
@@ -79,17 +76,50 @@ pub(super) struct Reference<V> {
     fastest: [f64; 2],
 }
 
-impl<V: Vector> Reference<V> {
-    pub(super) fn new(like: &State<V>) -> Self {
-        Self::with_allowance(like, Allowance::new(EVALUATIONS_PER_CALL, MAX_SAVED_EVALUATIONS))
-    }
+/// The two solutions: some forty vectors of the body's coordinates.
+#[derive(Clone, Debug)]
+struct Solutions<V> {
+    solution: Trajectory<V>,
+    /// The second solution, with other steps.
+    check: Trajectory<V>,
+    work: Extrapolation<V>,
+    difference: State<V>,
+}
 
-    fn with_allowance(like: &State<V>, allowance: Allowance) -> Self {
-        Self {
+impl<V: Vector> Solutions<V> {
+    fn new(like: &State<V>) -> Box<Self> {
+        Box::new(Self {
             solution: Trajectory::new(like, StepControl::Long),
             check: Trajectory::new(like, StepControl::Uneven),
             work: Extrapolation::new(like),
             difference: like.clone(),
+        })
+    }
+
+    /// An upper bound of its memory in bytes, as if every field were a coordinate vector.
+    fn bytes(&self) -> usize {
+        let vectors = size_of::<Self>() / size_of::<V>() * self.difference.q.heap_bytes();
+        size_of::<Self>() + vectors + self.work.heap_bytes()
+    }
+}
+
+/// Whether a reference solution of the body would take too much work.
+pub(super) fn is_beyond_reference<B: Body>(body: &B) -> bool {
+    body.reference_work() > MAX_REFERENCE_WORK
+}
+
+impl<V: Vector> Reference<V> {
+    /// A reference of `body`, which is as large as `like`.
+    pub(super) fn new<B: Body<Vector = V>>(body: &B, like: &State<V>) -> Self {
+        // Made here where they are needed, so that no tick allocates.
+        let solutions = (!is_beyond_reference(body)).then(|| Solutions::new(like));
+        let allowance = Allowance::new(EVALUATIONS_PER_CALL, MAX_SAVED_EVALUATIONS);
+        Self::with_allowance(solutions, allowance)
+    }
+
+    fn with_allowance(solutions: Option<Box<Solutions<V>>>, allowance: Allowance) -> Self {
+        Self {
+            solutions,
             has_begun: false,
             allowance,
             failed: None,
@@ -112,10 +142,11 @@ impl<V: Vector> Reference<V> {
     /// two solutions.
     fn push<B: Body<Vector = V>>(&mut self, body: &B, t: f64, state: &State<V>) {
         self.failed = None;
-        if self.has_begun {
-            self.check.subtract(&self.solution, &mut self.difference);
-            self.solution.begin(body, t, state);
-            self.check.begin_beside(body, t, &self.solution, &self.difference);
+        if let Some(solutions) = self.solutions.as_mut().filter(|_| self.has_begun) {
+            let Solutions { solution, check, difference, .. } = &mut **solutions;
+            check.subtract(solution, difference);
+            solution.begin(body, t, state);
+            check.begin_beside(body, t, solution, difference);
         }
     }
 
@@ -132,14 +163,15 @@ impl<V: Vector> Reference<V> {
         if let Some(failure) = &self.failed {
             return Err(failure.clone());
         }
-        let work_per_s = body.reference_work();
-        if work_per_s > MAX_REFERENCE_WORK {
-            let failure =
-                StepFailure::ReferenceTooExpensive { work_per_s, most: MAX_REFERENCE_WORK };
+        if is_beyond_reference(body) {
+            let (work_per_s, most) = (body.reference_work(), MAX_REFERENCE_WORK);
+            let failure = StepFailure::ReferenceTooExpensive { work_per_s, most };
             self.failed = Some(failure.clone());
             return Err(failure);
         }
-        let Self { solution, check, work, allowance, .. } = self;
+        let Self { solutions, allowance, .. } = self;
+        let solutions = solutions.get_or_insert_with(|| Solutions::new(y));
+        let Solutions { solution, check, work, difference } = &mut **solutions;
         if !self.has_begun {
             solution.begin(body, t, y);
             check.begin(body, t, y);
@@ -161,10 +193,10 @@ impl<V: Vector> Reference<V> {
         }
         solution.write(y);
         self.elapsed += h.abs();
-        solution.subtract(check, &mut self.difference);
+        solution.subtract(check, difference);
         self.largest_difference = [
-            self.largest_difference[0].max(size(&self.difference.q)),
-            self.largest_difference[1].max(size(&self.difference.v)),
+            self.largest_difference[0].max(size(&difference.q)),
+            self.largest_difference[1].max(size(&difference.v)),
         ];
         Ok(())
     }
@@ -190,7 +222,7 @@ impl<V: Vector> Reference<V> {
 impl<V: Vector> Reference<V> {
     /// A reference that fails after about this many evaluations in all.
     pub(super) fn within(like: &State<V>, evaluations: u64) -> Self {
-        Self::with_allowance(like, Allowance::new(0, evaluations))
+        Self::with_allowance(Some(Solutions::new(like)), Allowance::new(0, evaluations))
     }
 
     /// The evaluations that it may still use.
@@ -227,7 +259,7 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
     }
 
     fn heap_bytes(&self) -> usize {
-        self.work.heap_bytes()
+        self.solutions.as_ref().map_or(0, |solutions| solutions.bytes())
     }
 }
 

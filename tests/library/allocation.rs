@@ -7,7 +7,8 @@ use std::cell::Cell;
 use regatta::lab::{Action, Command, Lab, Options, Past, Race, SCENES, Scene};
 use regatta::sim::bodies::{Follow, Form, Grid, NetPlan, Pin, Ship, Spring, net_kind};
 use regatta::sim::integrators::{
-    GENERAL_METHODS, ImplicitMidpoint, METHODS, Method, Rk4, custom_integrator, integrator, method,
+    GENERAL_METHODS, ImplicitMidpoint, METHODS, Method, Rk4, StepFailure, custom_integrator,
+    integrator, method,
 };
 use regatta::sim::{Elementwise, Solver, State, Stepper, System, Vector};
 
@@ -236,9 +237,13 @@ fn a_stepper_takes_no_more_memory_than_it_says_and_not_less_than_a_third() {
 
 /// A grid of so many nodes under Runge-Kutta 4.
 fn large_net(columns: usize, rows: usize) -> Box<dyn Stepper> {
+    net_under(Solver::Method(method("rk4").expect("a method")), columns, rows)
+}
+
+/// A grid of so many nodes.
+fn net_under(solver: Solver, columns: usize, rows: usize) -> Box<dyn Stepper> {
     let grid = Grid { columns, rows, spacing: 0.1, shear: true, pin: Some(Pin::Corners) };
     let kind = net_kind(NetPlan { form: Form::Grid(grid), kicked: None }).expect("a net");
-    let solver = Solver::Method(method("rk4").expect("a method"));
     (kind.build)(&[0.02, 200.0, 0.0, 0.0, 9.81, 1.0, 1.0, 0.0], solver)
 }
 
@@ -263,4 +268,25 @@ fn a_large_net_takes_two_hundred_bytes_a_node() {
     let per_node = bytes as f64 / (net.q().len() / 2) as f64;
     // The state, eight vectors of the method, and for a moment two numbers of each node: all else is by row.
     assert!((150.0..200.0).contains(&per_node), "{per_node} bytes");
+}
+
+#[test]
+fn a_truth_that_is_refused_takes_the_memory_of_a_state_and_one_that_is_solved_that_which_it_says() {
+    let (mut refused, bytes) = bytes_in(|| net_under(Solver::Truth, 200, 100));
+    let nodes = refused.q().len() / 2;
+    assert!(bytes / nodes < 150, "{} bytes a node", bytes / nodes);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let (failed, more) =
+        pool.install(|| bytes_in(|| refused.advance(0.0, 1.0 / 60.0, 1).expect_err("too dear")));
+    assert!(matches!(failed, StepFailure::ReferenceTooExpensive { .. }), "{failed}");
+    assert!(more < 1000, "{more} bytes");
+    let (copy, allocated) = bytes_in(|| refused.clone());
+    assert!((allocated..=6 * allocated).contains(&copy.bytes()), "{} {allocated}", copy.bytes());
+    let small = net_under(Solver::Truth, 4, 4);
+    let (solved, allocated) = bytes_in(|| small.clone());
+    assert!(
+        (allocated..=3 * allocated).contains(&solved.bytes()),
+        "{} {allocated}",
+        solved.bytes()
+    );
 }
