@@ -22,6 +22,7 @@ mod jet;
 mod lanes;
 mod layout;
 mod op;
+mod power;
 mod refusal;
 mod registers;
 mod switch;
