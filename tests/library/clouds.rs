@@ -1,5 +1,6 @@
 //! What a method does to an area, and what a cloud says of it.
 
+use rayon::ThreadPoolBuilder;
 use regatta::lab::palette::Theme;
 use regatta::lab::{
     Cloud, CloudChoice, CloudKind, CloudPicture, CloudShape, CloudStart, CloudWorker, Command,
@@ -96,6 +97,23 @@ fn an_accurate_method_fills_the_exact_border_and_a_picture_shows_every_point() {
     let picture = density.picture(Theme::Dark, colour, &[]);
     let lit = |n: &usize| picture[*n] != Theme::Dark.palette().plot;
     assert!((0..picture.len()).all(|n| lit(&n) == (density.counts()[n] > 0)));
+}
+
+#[test]
+fn the_number_of_threads_changes_no_count_of_a_picture() {
+    let view = PlaneView { q: [0.0, 1.0], v: [0.0, 1.0], wraps: false };
+    let part = |by: f64| (0..300_001).map(|n| (f64::from(n) * by).fract() * 1.1).collect();
+    let [q, v]: [Vec<f64>; 2] = [part(0.754_877_666), part(0.569_840_29)];
+    let counts = |threads| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let mut density = Density::new([64, 48], view);
+        pool.install(|| density.add(&q, &v));
+        density.counts().to_vec()
+    };
+    let one = counts(1);
+    let shown = q.iter().zip(&v).filter(|(q, v)| **q < 1.0 && **v < 1.0).count();
+    assert_eq!(one.iter().map(|count| *count as usize).sum::<usize>(), shown);
+    assert!(one == counts(2) && one == counts(7));
 }
 
 /// A race that shows the clouds of its lanes.

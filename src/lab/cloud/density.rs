@@ -3,6 +3,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use rayon::prelude::*;
+
 use crate::lab::palette::{Rgba, Theme, mixed};
 
 /// The part of the phase plane that a picture shows.
@@ -74,7 +76,7 @@ fn shaded(counts: &[f32], theme: Theme, colour: Rgba) -> Vec<Rgba> {
     let usual: Vec<Rgba> =
         (0..USUAL * PARTS as usize).map(|parts| tone(parts as f32 / PARTS)).collect();
     let shown = |&count: &f32| {
-        let parts = (count * PARTS).round() as usize;
+        let parts = (count * PARTS + 0.5) as usize;
         usual.get(parts).copied().unwrap_or_else(|| tone(count))
     };
     counts.iter().map(shown).collect()
@@ -97,6 +99,9 @@ fn spread(counts: &[f32], stride: usize, places: usize) -> Vec<f32> {
     spread
 }
 
+/// The fewest points for which a thread has counts of its own, which are added up in the end.
+const GRAIN: usize = 1 << 17;
+
 /// How many points fall on each pixel.
 #[derive(Clone, Debug)]
 pub struct Density {
@@ -112,8 +117,23 @@ impl Density {
         Self { size_px, view, counts: vec![0; size_px[0] * size_px[1]] }
     }
 
-    /// Adds the points within the view; those that are not finite are nowhere.
+    /// Adds the points within the view; those that are not finite are nowhere. All cores share many points.
     pub fn add(&mut self, q: &[f64], v: &[f64]) {
+        if q.len() <= GRAIN {
+            return self.add_here(q, v);
+        }
+        let part = q.len().div_ceil(rayon::current_num_threads()).max(GRAIN);
+        let counted = q.par_chunks(part).zip(v.par_chunks(part)).map(|(q, v)| {
+            let mut density = Self::new(self.size_px, self.view);
+            density.add_here(q, v);
+            density.counts
+        });
+        for counts in counted.collect::<Vec<_>>() {
+            self.counts.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count);
+        }
+    }
+
+    fn add_here(&mut self, q: &[f64], v: &[f64]) {
         let [width, height] = self.size_px;
         for (&q, &v) in q.iter().zip(v) {
             let [x, y] = self.view.place(q, v);

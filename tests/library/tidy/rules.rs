@@ -81,9 +81,10 @@ fn trespasses(source: &Source, crates: &BTreeSet<String>) -> Vec<String> {
     let Some(layer) = LAYERS.iter().find(|known| known.name == layer) else {
         return Vec::new();
     };
-    // Batches share their work between threads, and choose an instruction set; so do large bodies. Neither changes a bit.
+    // Batches share their work between threads, and choose an instruction set. Large bodies and the counts of a picture are
+    // shared too. None of it changes a bit.
     let allowed: &[&str] = match inside {
-        "sim/cores.rs" => &["rayon"],
+        "sim/cores.rs" | "lab/cloud/density.rs" => &["rayon"],
         _ if inside.starts_with("sim/batch/") => &["rayon", "multiversion"],
         _ => &[],
     };
