@@ -79,7 +79,9 @@ impl AxisScale {
                 if decades.len() >= FEWEST {
                     return decades;
                 }
-                distinct_name()
+                let named = |place: f64| (place, round(self.value(place), 3));
+                let numbers = ticks::round_numbers(input(), apart);
+                numbers.map_or_else(distinct_name, |it| it.into_iter().map(named).collect())
             }
             Self::SymLog(_) => {
                 let marks = self.symmetric_marks((low, high), apart * (high - low) / room.max(1.0));

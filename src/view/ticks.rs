@@ -77,6 +77,30 @@ pub(super) fn decades(input: GridInput, apart: f64) -> Vec<GridMark> {
     marks(step)
 }
 
+/// What the numbers at the marks of an axis of few decades begin with, from few to many.
+const DIGITS: [&[f64]; 4] = [
+    &[1.0, 3.0],
+    &[1.0, 2.0, 5.0],
+    &[1.0, 1.5, 2.0, 3.0, 5.0, 7.0],
+    &[1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0],
+];
+
+/// The logarithms of round numbers, as many as are at least `apart` points from each other; `None` if there are fewer than
+/// [`FEWEST`].
+pub(super) fn round_numbers(input: GridInput, apart: f64) -> Option<Vec<f64>> {
+    let (low, high) = input.bounds;
+    let least = input.base_step_size / FINEST * apart;
+    let marks = |digits: &&[f64]| -> Vec<f64> {
+        let decades = libm::floor(low) as i32..=libm::floor(high) as i32;
+        let of_decade = |decade| digits.iter().map(move |x| libm::log10(*x) + f64::from(decade));
+        decades.flat_map(of_decade).filter(|place| (low..=high).contains(place)).collect()
+    };
+    let fit = |marks: &Vec<f64>| {
+        marks.len() as i64 >= FEWEST && marks.windows(2).all(|pair| pair[1] - pair[0] >= least)
+    };
+    DIGITS.iter().map(marks).rfind(fit)
+}
+
 /// The number at a mark that [`decades`] made, with its unit.
 pub(super) fn decade_label(mark: GridMark, unit: &str) -> String {
     with_unit(format!("10{}", superscript(mark.value.round() as i32)), unit)
@@ -134,6 +158,22 @@ mod tests {
         assert_eq!(labels(-6.2, 0.2, 120.0), ["10⁻⁶ m", "10⁻⁴ m", "10⁻² m", "10⁰ m"]);
         assert_eq!(labels(-17.2, 3.2, 60.0).len(), 3);
         assert_eq!(labels(-2.2, 0.2, 10.0).len(), 3);
+    }
+
+    #[test]
+    fn an_axis_of_few_decades_is_marked_at_round_numbers() {
+        let numbers = |low: f64, high: f64, room: f64| -> Option<Vec<f64>> {
+            let bounds = (libm::log10(low), libm::log10(high));
+            let base_step_size = FINEST * (bounds.1 - bounds.0) / room;
+            let marks = round_numbers(GridInput { bounds, base_step_size }, 24.0)?;
+            Some(marks.into_iter().map(|x| (1e3 * libm::pow(10.0, x)).round() / 1e3).collect())
+        };
+        assert_eq!(numbers(0.4, 2.5, 80.0), Some(vec![0.5, 1.0, 2.0]));
+        assert_eq!(numbers(0.78, 1.28, 80.0), Some(vec![0.8, 1.0, 1.2]));
+        assert_eq!(numbers(0.09, 1.1, 80.0), Some(vec![0.1, 0.3, 1.0]));
+        assert_eq!(numbers(0.09, 1.1, 100.0), Some(vec![0.1, 0.2, 0.5, 1.0]));
+        assert_eq!(numbers(0.98, 1.02, 80.0), None);
+        assert_eq!(numbers(0.4, 2.5, 40.0), None);
     }
 
     #[test]
