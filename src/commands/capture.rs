@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 
 use super::error::{Cause, Error};
 use super::experiment::{
-    self, Experiment, ExperimentArgs, Lineup, ThemeName, known_instrument, known_trace,
+    self, Experiment, ExperimentArgs, Lineup, ThemeName, known_cloud, known_instrument, known_trace,
 };
 use super::frame_folder::{Existing, FrameFolder};
 use super::frame_names::MOST_FRAMES;
@@ -17,9 +17,9 @@ use super::output::{AtomicOutput, Older, OutputError, Place};
 use super::recording::Recording;
 use super::schedule::{FPS, MOST_FPS, Schedule, frames_in};
 use super::{clip, sheet, state_log};
-use crate::lab::Instrument;
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
+use crate::lab::{CloudKind, Instrument};
 
 const EXAMPLES: &str = "\
 Frame i shows the run at i / fps seconds. The same command makes the same bytes. manifest.json,
@@ -88,6 +88,10 @@ pub(super) struct CaptureArgs {
     #[arg(long, value_name = "NAME", value_parser = known_instrument, conflicts_with = "loop_trace")]
     instrument: Option<Instrument>,
 
+    /// What the instrument cloud shows: cat, disc, ring or section [default: cat]
+    #[arg(long, value_name = "SHAPE", value_parser = known_cloud, requires = "instrument")]
+    shape: Option<CloudKind>,
+
     /// Ticks between two states in the manifest [default: about 500 states in all]
     #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
@@ -139,7 +143,21 @@ impl Cause for NoLoop {
     }
 }
 
+/// No other instrument has a shape.
+#[derive(Debug, thiserror::Error)]
+#[error("--shape is that of the instrument cloud; give --instrument cloud, or no --shape")]
+struct NoShape;
+
+impl Cause for NoShape {
+    fn exit_code(&self) -> u8 {
+        2
+    }
+}
+
 pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
+    if args.shape.is_some() && args.instrument != Some(Instrument::Cloud) {
+        return Err(NoShape.into());
+    }
     let format = PictureFormat::of(&args.out, args.format)?;
     let everyone = args.race || format == PictureFormat::Sheet && args.experiment.names_no_method();
     let lineup = if everyone { Lineup::Everyone } else { Lineup::Solo };
@@ -168,6 +186,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
         scale: args.scale,
         panels: args.panels.unwrap_or(format.or_sheet(Shown::On, Shown::Off)) == Shown::On,
         instrument: args.instrument,
+        cloud: args.shape,
         motion: true,
         theme: args.theme.map(Theme::from).unwrap_or_default(),
         mark_every: args

@@ -11,7 +11,7 @@ use super::spring::SpringArgs;
 use crate::lab::pacing::{POLICIES, PolicyCard, TRACES, TraceCard, policy, trace_card};
 use crate::lab::palette::Theme;
 use crate::lab::{
-    Clock, Command, Instrument, Lab, LaneSpec, MANY_LANES, MAX_SECONDS, SCENES, Scene,
+    Clock, CloudKind, Command, Instrument, Lab, LaneSpec, MANY_LANES, MAX_SECONDS, SCENES, Scene,
     lanes_that_race, nearest,
 };
 use crate::sim::integrators::{METHODS, Method, method};
@@ -215,6 +215,12 @@ pub(super) fn known_instrument(id: &str) -> Result<Instrument, String> {
         let ids: Vec<_> = Instrument::all().map(Instrument::id).collect();
         format!("no such instrument; give one of {}", ids.join(", "))
     })
+}
+
+/// The cloud of this name, for the command line's parser.
+pub(super) fn known_cloud(name: &str) -> Result<CloudKind, String> {
+    let names = || CloudKind::ALL.map(CloudKind::name).join(", ");
+    CloudKind::named(name).ok_or_else(|| format!("no such cloud; give one of {}", names()))
 }
 
 /// The policy of this id, for the command line's parser.

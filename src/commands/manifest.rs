@@ -13,7 +13,7 @@
 //!     method, and among many lanes for the best.
 //!   - `tick_hz` at the start, `frames` asked for, `fps`, `size` in pixels, `scale` in pixels a point,
 //!     whether there are `panels`, the `instrument` among
-//!     them where one was asked for, whether there is `motion`, the `theme` where it is `light`, the trace of the `loop` lab where that is shown, and `mark_every`, in ticks.
+//!     them and what the `cloud` is where they were asked for, whether there is `motion`, the `theme` where it is `light`, the trace of the `loop` lab where that is shown, and `mark_every`, in ticks.
 //! - `settings_hash`: the hash of `settings` as JSON without spaces.
 //! - `adapter`: the graphics adapter: `name`, `driver`, `driver_info`, `backend`, `kind`.
 //! - `complete`: `false` if the capture was interrupted.
@@ -82,6 +82,8 @@ pub struct Settings {
     pub panels: bool,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub instrument: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cloud: Option<String>,
     pub motion: bool,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub theme: Option<String>,

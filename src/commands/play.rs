@@ -228,6 +228,7 @@ fn without_display(args: &PlayArgs, experiment: &Experiment, reason: &str) -> Re
         scale: 1.0,
         panels: true,
         instrument: None,
+        cloud: None,
         motion: !args.reduced_motion,
         theme: args.theme.map(Theme::from).unwrap_or_default(),
         mark_every: state_log::usual_stride(schedule.ticks(&experiment.lab())),

@@ -3,7 +3,7 @@
 use super::experiment::Experiment;
 use super::schedule::Schedule;
 use crate::lab::palette::Theme;
-use crate::lab::{Instrument, Lab, Motion};
+use crate::lab::{CloudChoice, CloudKind, Command, Instrument, Lab, Motion};
 
 /// How a run is drawn: its frames, their size and what they show.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +16,8 @@ pub(super) struct Recording {
     pub(super) panels: bool,
     /// The instrument among them; `None` for the usual one.
     pub(super) instrument: Option<Instrument>,
+    /// What the clouds are; `None` for the usual shape.
+    pub(super) cloud: Option<CloudKind>,
     /// Whether trails fade and the camera glides.
     pub(super) motion: bool,
     pub(super) theme: Theme,
@@ -30,6 +32,9 @@ impl Recording {
         lab.set_motion(if self.motion { Motion::Recorded } else { Motion::Reduced });
         lab.choose_theme(self.theme);
         self.instrument.into_iter().for_each(|instrument| lab.choose_instrument(instrument));
+        if let Some(kind) = self.cloud {
+            lab.apply(Command::Cloud(CloudChoice { kind, ..lab.display().cloud }));
+        }
         lab
     }
 }

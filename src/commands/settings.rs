@@ -1,6 +1,6 @@
 //! Converts an experiment and a recording to the settings of a manifest, and back.
 
-use super::experiment::{Experiment, Lineup, known_instrument, known_trace};
+use super::experiment::{Experiment, Lineup, known_cloud, known_instrument, known_trace};
 use super::fingerprint::fingerprint;
 use super::frame_names::{MOST_FRAMES, frame_name};
 use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings};
@@ -41,6 +41,7 @@ pub(super) fn written(experiment: &Experiment, recording: &Recording) -> Setting
         scale: recording.scale.to_string().parse().expect("a number's own text"),
         panels: recording.panels,
         instrument: recording.instrument.map(Instrument::id),
+        cloud: recording.cloud.map(|kind| kind.name().to_owned()),
         motion: recording.motion,
         theme: (recording.theme == Theme::Light).then(|| LIGHT.to_owned()),
         mark_every: recording.mark_every,
@@ -108,6 +109,7 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
         scale: settings.scale as f32,
         panels: settings.panels,
         instrument: settings.instrument.as_deref().map(known_instrument).transpose()?,
+        cloud: settings.cloud.as_deref().map(known_cloud).transpose()?,
         motion: settings.motion,
         theme: match settings.theme.as_deref() {
             None => Theme::Dark,

@@ -315,6 +315,7 @@ light\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l panels -d 'Whether panels are shown around the stage: on or off [default: on; sheet: off]' -r -f -a "on\t''
 off\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l instrument -d 'The instrument among the panels, such as energy, phase-portrait or cloud [default: motion]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l shape -d 'What the instrument cloud shows: cat, disc, ring or section [default: cat]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l mark-every -d 'Ticks between two states in the manifest [default: about 500 states in all]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l format -d 'The format: png, apng, gif, y4m, rgba or sheet [default: by the ending of FILE; png for a DIR]' -r -f -a "png\t'Numbered pictures and a manifest in a directory'
 apng\t'One animated PNG'

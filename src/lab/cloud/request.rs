@@ -55,6 +55,11 @@ impl CloudKind {
             Self::Section => "section",
         }
     }
+
+    /// The one of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
 }
 
 impl Default for CloudKind {
