@@ -71,7 +71,7 @@ impl Exponent {
     fn of_base(self, x: f64) -> (f64, u64) {
         let all = x.to_bits();
         let bits = all & !SIGN;
-        let is_base = (bits >= NORMAL) & (bits < INFINITE) & (all < self.refused);
+        let is_base = (NORMAL..INFINITE).contains(&bits) & (all < self.refused);
 
         // The base as 2^n ax, and the nearer of 1 and 3/2.
         let part = (bits >> 32) & 0xfffff;
@@ -81,8 +81,8 @@ impl Exponent {
         let ax_bits = ((bits & MANTISSA) | ONE) - (is_large << 52);
         let ax = f64::from_bits(ax_bits);
         let near = if is_middle { 1.5 } else { 1.0 };
-        let near_log_high = if is_middle { 5.84962487220764160156e-01 } else { 0.0 };
-        let near_log_low = if is_middle { 1.35003920212974897128e-08 } else { 0.0 };
+        let near_log_high = if is_middle { 0.5849624872207642 } else { 0.0 };
+        let near_log_low = if is_middle { 1.350039202129749e-08 } else { 0.0 };
 
         // s = (ax - near) / (ax + near) in two halves.
         let u = ax - near;
@@ -98,12 +98,11 @@ impl Exponent {
         let s2 = ss * ss;
         let mut r = s2
             * s2
-            * (5.99999999999994648725e-01
-                + s2 * (4.28571428578550184252e-01
-                    + s2 * (3.33333329818377432918e-01
-                        + s2 * (2.72728123808534006489e-01
-                            + s2 * (2.30660745775561754067e-01
-                                + s2 * 2.06975017800338417784e-01)))));
+            * (0.5999999999999946
+                + s2 * (0.4285714285785502
+                    + s2 * (0.33333332981837743
+                        + s2 * (0.272728123808534
+                            + s2 * (0.23066074577556175 + s2 * 0.20697501780033842)))));
         r += s_l * (s_h + ss);
         let s2 = s_h * s_h;
         let t_h = high(3.0 + s2 + r);
@@ -112,9 +111,8 @@ impl Exponent {
         let v = s_l * t_h + t_l * ss;
         let p_h = high(u + v);
         let p_l = v - (p_h - u);
-        let z_h = 9.61796700954437255859e-01 * p_h;
-        let z_l =
-            -7.02846165095275826516e-09 * p_h + p_l * 9.61796693925975554329e-01 + near_log_low;
+        let z_h = 0.9617967009544373 * p_h;
+        let z_l = -7.028461650952758e-09 * p_h + p_l * 0.9617966939259756 + near_log_low;
 
         // The logarithm to base 2 of the base in two halves.
         let t = whole(n);
@@ -144,16 +142,16 @@ impl Exponent {
 
         // Two to the power of the rest.
         let t = high(p_l + p_h);
-        let u = t * 6.93147182464599609375e-01;
-        let v = (p_l - (t - p_h)) * 6.93147180559945286227e-01 + t * -1.90465429995776804525e-09;
+        let u = t * 0.6931471824645996;
+        let v = (p_l - (t - p_h)) * 0.6931471805599453 + t * -1.904654299957768e-09;
         let z = u + v;
         let w = v - (z - u);
         let t = z * z;
         let t1 = z - t
-            * (1.66666666666666019037e-01
-                + t * (-2.77777777770155933842e-03
-                    + t * (6.61375632143793436117e-05
-                        + t * (-1.65339022054652515390e-06 + t * 4.13813679705723846039e-08))));
+            * (0.16666666666666602
+                + t * (-0.0027777777777015593
+                    + t * (6.613756321437934e-05
+                        + t * (-1.6533902205465252e-06 + t * 4.1381367970572385e-08))));
         let r = (z * t1) / (t1 - 2.0) - (w + z * w);
         let power = 1.0 - (r - z);
         let bits = power.to_bits().wrapping_add(n << 52) | (all & self.odd);
