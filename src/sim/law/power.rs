@@ -4,6 +4,8 @@
 //! After FreeBSD's `e_pow.c`, Copyright (C) 2004 by Sun Microsystems, Inc. All rights reserved. Permission to use, copy,
 //! modify, and distribute this software is freely granted, provided that this notice is preserved.
 
+use std::f64::consts::LN_2;
+
 /// The numbers to the power of one exponent each.
 #[inline(always)]
 pub(super) fn powers<const W: usize>(x: &[f64; W], y: &[f64; W]) -> [f64; W] {
@@ -143,7 +145,7 @@ impl Exponent {
         // Two to the power of the rest.
         let t = high(p_l + p_h);
         let u = t * 0.6931471824645996;
-        let v = (p_l - (t - p_h)) * 0.6931471805599453 + t * -1.904654299957768e-09;
+        let v = (p_l - (t - p_h)) * LN_2 + t * -1.904654299957768e-09;
         let z = u + v;
         let w = v - (z - u);
         let t = z * z;
