@@ -9,7 +9,7 @@ use super::error::Error;
 use super::output::print;
 use super::output::table::{self, Column, TableFormat};
 use crate::lab::pacing::{POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
-use crate::lab::{Binding, KEYS, METRICS, Metric, SCENES, Scale, Scene};
+use crate::lab::{Binding, KEYS, METRICS, Metric, SCENES, Scale, Scene, SceneKey, scene_tables};
 use crate::sim::BodyClass;
 use crate::sim::bodies::{BODIES, Body, Coordinate, Kind, Net, Parameter, stepped_kinds};
 use crate::sim::integrators::{FreeSpin, METHODS, Method, SpinMap};
@@ -77,8 +77,8 @@ fn write<T>(columns: &[Column<T>], items: &[T], format: TableFormat) -> String {
     }
 }
 
-/// What a scene can write beside the bodies of the table.
-fn laws() -> String {
+/// What expressions of laws are made of.
+fn expressions() -> String {
     let values: Vec<&str> = values().collect();
     let (first, others) = UNITS.split_first().expect("there are units");
     let (values, others) = (values.join(", "), others.join(", "));
@@ -95,19 +95,9 @@ fn laws() -> String {
     let functions = rows.join("\n             ");
     format!(
         "
-[[law]]: your own equation of motion
-  name = \"spring\"
-  constants = {{ m = 2.0, k = 80.0 }}     # numbers, which the inspector and `set` change
-  plane = [\"x\", \"y\"]                    # draw these coordinates as a point; without it each has a rail
-  energy = \"...\"                        # in joules, if the law conserves it
-  [law.coordinates.x]                   # a table for each coordinate; the velocity of x is vx
-  acceleration = \"-k*x/m\"               # of coordinates, velocities, constants, {values}
-  unit = \"{first}\"                            # or {others}
-  start = 0.5
-  start_velocity = 0.0
-  kick = 1.0                            # the change of vx by a kick
-  exact = \"x0*cos(sqrt(k/m)*t)\"         # of t, constants and starts, if the motion is known
-  at = [\"x\", \"0\"]                       # where to draw it in metres, of coordinates and constants
+expressions
+  Of coordinates, velocities (of x: vx), constants, {values}
+  Units: {first}, or {others}
   Operators: {operators}
   Functions: {functions}
 "
@@ -117,30 +107,18 @@ fn laws() -> String {
 /// Characters of a row of functions: with the margin it fits a line of a terminal.
 const FUNCTIONS_WIDTH: usize = 80;
 
-/// How a scene lays out a net; the keys of [`Net::descriptions`] follow.
-const NETS: &str = "
-[[net]]: masses joined by springs in the plane, as a grid or as lists
-  columns = 24                          # a grid, numbered from 0 at the top left, row by row
-  rows = 16
-  spacing_m = 0.1
-  shear = true                          # springs across each square too; false if not given
-  pin = \"top\"                           # fixes the top row, or \"corners\" both its ends
-  nodes = [[0.0, 0.0], [1.0, 0.0]]      # or where each node stands,
-  fixed = [0]                           # which of them stay there,
-  springs = [{ between = [0, 1] }]      # and which are joined; each may have stiffness_n_per_m,
-                                        # damping_n_s_per_m and rest_m of its own
-  kicked_node = 1                       # whose first coordinate plots show; without it a kick hits all
-";
-
 fn bodies_with_keys() -> String {
     let keys = BODIES.iter().map(|body| {
         let keys = table::text(PARAMETER, &body.parameters, "  ");
         let refused = refused_by_engines(body.class);
         format!("\n[[{}]]\n{keys}{}", body.id, refused.unwrap_or_default())
     });
-    let of_nets = table::text(PARAMETER, Net::descriptions(), "  ");
-    let of_nets = of_nets + &refused_by_engines(Net::CLASS).unwrap_or_default();
-    table::text(BODY, &BODIES, "") + &keys.collect::<String>() + &laws() + NETS + &of_nets
+    let tables = scene_tables().into_iter();
+    let tables =
+        tables.map(|(name, keys)| format!("\n{name}\n{}", table::text(SCENE_KEY, &keys, "  ")));
+    let (keys, tables) = (keys.collect::<String>(), tables.collect::<String>());
+    let of_nets = refused_by_engines(Net::CLASS).unwrap_or_default();
+    table::text(BODY, &BODIES, "") + &keys + &tables + &expressions() + "\nnets\n" + &of_nets
 }
 
 /// Two lines that say why engines do not step bodies of this class, and which methods of the family do.
@@ -305,6 +283,13 @@ const PARAMETER: &[Column<Parameter>] = &[
     Column { key: "range", heading: Some("RANGE"), value: |p| json!(p.range.to_string()) },
     Column { key: "acts", heading: None, value: |parameter| json!(parameter.acts.id()) },
     Column { key: "about", heading: Some("ABOUT"), value: |p| json!(p.described()) },
+];
+
+const SCENE_KEY: &[Column<SceneKey>] = &[
+    Column { key: "key", heading: Some("KEY"), value: |key| json!(key.key) },
+    Column { key: "required", heading: None, value: |key| json!(key.is_required) },
+    Column { key: "value", heading: None, value: |key| json!(key.value) },
+    Column { key: "about", heading: Some("ABOUT"), value: |key| json!(key.about) },
 ];
 
 const METRIC: &[Column<Metric>] = &[

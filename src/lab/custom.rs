@@ -133,6 +133,7 @@ impl Scene {
         };
         Ok(Scene {
             name: name.to_owned(),
+            source: None,
             title: name.to_owned(),
             about: String::new(),
             hint: None,

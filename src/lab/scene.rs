@@ -20,12 +20,15 @@ mod document;
 mod edit;
 mod errors;
 mod fault;
-mod fields;
 mod fitting;
+mod keys;
+mod known;
 mod law;
 mod nearest;
 mod net;
 mod refusal;
+mod saved;
+
 mod script;
 mod syntax;
 mod table;
@@ -34,6 +37,7 @@ mod writer;
 
 pub use edit::{EditError, edited_values, parameter_named};
 pub use errors::{MAX_SHOWN, SceneError, SceneErrors};
+pub use known::{SceneKey, scene_tables};
 pub use nearest::nearest;
 pub use refusal::Refusal;
 
@@ -87,6 +91,8 @@ pub const MAX_NAME_CHARS: usize = 64;
 pub struct Scene {
     /// The built-in scene's name, or its file's name without directory and ending.
     pub name: String,
+    /// The text that it was read from; `None` if there is none.
+    pub source: Option<Arc<str>>,
     /// Its name for people.
     pub title: String,
     /// What it shows; empty if the file does not say.

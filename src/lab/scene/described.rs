@@ -4,14 +4,18 @@ use std::ops::Range as Span;
 use std::sync::Arc;
 
 use super::errors::position;
-use super::fields::{TOP, optional, required};
 use super::law::{LAW, read_law};
 use super::net::{NET, read_net};
-use super::table::{Field, Table};
+use super::table::Table;
+use super::wanted::{Field, Wanted};
 use super::{MAX_BODIES, MAX_NAME_CHARS, SceneBody};
 use crate::sim::bodies::{BODIES, ClaimHorizon, Kind, Net, Parameter, Range, kind};
 
-const NAME: Field = optional("name");
+pub(super) const NAME: Field = Field::optional(
+    "name",
+    "its name, which no other body has; that of its kind if left out",
+    Wanted::Text(MAX_NAME_CHARS),
+);
 
 /// A body as the file describes it, faults included.
 pub(super) struct BodyDraft {
@@ -38,7 +42,7 @@ pub(super) fn read_bodies(top: &mut Table<'_>, horizon: ClaimHorizon) -> Vec<Bod
     }
     let mut bodies = Vec::new();
     for (id, mut row) in rows.into_iter().take(MAX_BODIES) {
-        let name = row.text(NAME, MAX_NAME_CHARS);
+        let name = row.text(&NAME);
         let name_at = row.span(NAME.key);
         let (kind, values) = match kind(id) {
             Some(kind) => (Some(kind.clone()), read_values(&kind.parameters, &mut row)),
@@ -55,19 +59,24 @@ pub(super) fn read_bodies(top: &mut Table<'_>, horizon: ClaimHorizon) -> Vec<Bod
             row.complain_of(row.span(&fault.key), fault.into());
         }
         bodies.push(BodyDraft { kind, id, name, name_at, values });
-        top.adopt(row, &TOP);
+        top.adopt(row);
     }
     bodies
 }
 
+/// The key of a parameter.
+pub(super) fn field_of(parameter: &'static Parameter) -> Field {
+    let Parameter { key, about, default, range, .. } = parameter;
+    Field { key, is_required: default.is_none(), about, wanted: Wanted::of(*range) }
+}
+
 fn read_values(parameters: &'static [Parameter], row: &mut Table<'_>) -> Option<Vec<f64>> {
     let read = |parameter: &'static Parameter| {
-        let Parameter { key, about, default, range, .. } = parameter;
-        let field = if default.is_some() { optional(key) } else { required(key, about) };
+        let (field, Parameter { default, range, .. }) = (field_of(parameter), parameter);
         let given = match range {
-            Range::Curve { .. } => row.curve(field, *range).map(|points| points.concat()),
-            Range::Count(most) => row.whole(field, 1..=*most).map(|count| vec![f64::from(count)]),
-            _ => row.number(field, *range).map(|number| vec![number]),
+            Range::Curve { .. } => row.curve(&field).map(|points| points.concat()),
+            Range::Count(_) => row.whole::<u32>(&field).map(|count| vec![f64::from(count)]),
+            _ => row.number(&field).map(|number| vec![number]),
         };
         given.or(default.map(|number| vec![number]))
     };

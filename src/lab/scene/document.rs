@@ -1,25 +1,28 @@
-//! Reads a scene file from its top level down into a [`Scene`].
+//! The keys at the top of a scene file, and how it is read into a [`Scene`].
+
+use std::ops::Range as Span;
 
 use toml::de::DeTable;
 
 use super::described::{BodyDraft, check_names, finish_bodies, name_the_nameless, read_bodies};
 use super::errors::{SceneError, position};
 use super::fault::{FaultKind, SceneFault};
-use super::fields::{
-    ABOUT, HINT, METHOD_LIST, OPENING_METHOD, SECONDS, TICK_HZ, TITLE, TOP, optional,
-    read_lane_spec, required,
-};
 use super::fitting::{check_method, every_lane};
+use super::keys::{Key, METHOD, keep, list, number, quoted, read_lane_spec};
 use super::nearest::listed;
 use super::script::{self, SceneContext};
 use super::syntax;
-use super::table::{Field, Table};
+use super::table::Table;
+use super::wanted::{Field, Wanted};
 use super::{
     MAX_LANES, MAX_SECONDS, MAX_TICK_HZ, MIN_SECONDS, Scene, USUAL_SECONDS, claim_horizon,
 };
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::{BODIES, Range};
 use crate::sim::integrators::Method;
+
+/// The name of the table array of lanes.
+pub(super) const LANE: &str = "lane";
 
 /// The most characters of a title, which is shown in the window's title bar.
 const MAX_TITLE_CHARS: usize = 80;
@@ -30,9 +33,105 @@ const MAX_ABOUT_CHARS: usize = 400;
 /// The most characters of a hint, which is the line under the stage.
 const MAX_HINT_CHARS: usize = 120;
 
-const LANE_METHOD: Field = required("method", "the method that races");
-const EQUAL_COST: Field = optional("equal_cost");
-const OPENS_AS_RACE: Field = optional("open");
+pub(super) const METHOD_LIST: Field = Field::optional(
+    "methods",
+    "the methods that race; all that step the bodies, but for engines, if left out",
+    Wanted::Methods,
+);
+const OPENING_METHOD: Field = Field::optional(
+    "method",
+    "the method shown first; the first lane's if left out",
+    Wanted::Method,
+);
+pub(super) const RACE_TABLE: Field =
+    Field::optional("race", "how the lanes race", Wanted::Table("race"));
+
+/// A scene as far as it has been read, and the lanes that `methods` lists.
+pub(super) struct Draft {
+    scene: Scene,
+    listed: Option<Vec<(Span<usize>, &'static Method)>>,
+}
+
+/// The keys above the first table.
+pub(super) static TOP: [Key<Draft, Scene>; 7] = [
+    Key {
+        field: Field::required(
+            "title",
+            "the scene's name for people",
+            Wanted::Text(MAX_TITLE_CHARS),
+        ),
+        read: |draft, top, field| keep(&mut draft.scene.title, top.text(field)),
+        write: |scene| Some(quoted(&scene.title)),
+    },
+    Key {
+        field: Field::optional("about", "what it shows", Wanted::Text(MAX_ABOUT_CHARS)),
+        read: |draft, top, field| keep(&mut draft.scene.about, top.text(field)),
+        write: |scene| (!scene.about.is_empty()).then(|| quoted(&scene.about)),
+    },
+    Key {
+        field: Field::optional(
+            "hint",
+            "what to try, under the stage",
+            Wanted::Text(MAX_HINT_CHARS),
+        ),
+        read: |draft, top, field| draft.scene.hint = top.text(field),
+        write: |scene| scene.hint.as_deref().map(quoted),
+    },
+    Key {
+        field: Field::required(
+            "tick_hz",
+            "ticks per second",
+            Wanted::Whole(1..=MAX_TICK_HZ as u64),
+        ),
+        read: |draft, top, field| keep(&mut draft.scene.tick_hz, top.whole(field)),
+        write: |scene| Some(scene.tick_hz.to_string()),
+    },
+    Key {
+        field: Field::optional(
+            "seconds",
+            "how long it is; 20 if left out",
+            Wanted::Number(Range::Between(MIN_SECONDS, MAX_SECONDS)),
+        ),
+        read: |draft, top, field| keep(&mut draft.scene.seconds, top.number(field)),
+        write: |scene| Some(number(scene.seconds)),
+    },
+    Key {
+        field: METHOD_LIST,
+        read: |draft, top, field| draft.listed = top.methods(field),
+        write: |scene| {
+            let ids = scene.lanes.iter().map(|spec| quoted(spec.method.id));
+            scene.has_plain_lanes().then(|| list(ids))
+        },
+    },
+    Key {
+        field: OPENING_METHOD,
+        read: |draft, top, field| draft.scene.opening_method = top.method(field),
+        write: |scene| scene.opening_method.map(|method| quoted(method.id)),
+    },
+];
+
+/// The keys of `[race]`.
+pub(super) static RACE: [Key<Scene, Scene>; 2] = [
+    Key {
+        field: Field::optional(
+            "equal_cost",
+            "gives each lane the substeps that bring its cost nearest to the dearest lane's",
+            Wanted::Boolean,
+        ),
+        read: |scene, race, field| keep(&mut scene.equal_cost, race.boolean(field)),
+        write: |scene| scene.equal_cost.then(|| "true".into()),
+    },
+    Key {
+        field: Field::optional("open", "opens the scene as a race", Wanted::Boolean),
+        read: |scene, race, field| keep(&mut scene.opens_as_race, race.boolean(field)),
+        write: |scene| scene.opens_as_race.then(|| "true".into()),
+    },
+];
+
+/// The key above the first table that is called so.
+fn at_top(key: &str) -> Option<&'static str> {
+    TOP.iter().map(|it| it.field.key).find(|it| *it == key)
+}
 
 /// Reads the scene called `name`.
 ///
@@ -51,25 +150,40 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
         return Err(vec![SceneError { span: 0..0, fault }]);
     }
 
-    let mut top = Table::top(text, document.get_ref());
-    let title = top.text(TITLE, MAX_TITLE_CHARS);
-    let about = top.text(ABOUT, MAX_ABOUT_CHARS).unwrap_or_default();
-    let hint = top.text(HINT, MAX_HINT_CHARS);
-    let tick_hz = top.whole(TICK_HZ, 1..=MAX_TICK_HZ);
-    let seconds = top.number(SECONDS, Range::Between(MIN_SECONDS, MAX_SECONDS));
-    let seconds = seconds.unwrap_or(USUAL_SECONDS);
-    // A scene without a tick rate is refused, whatever its laws claim.
-    let horizon = claim_horizon(seconds, tick_hz.unwrap_or(1));
-    let mut bodies = read_bodies(&mut top, horizon);
+    let mut top = Table::top(text, at_top, document.get_ref());
+    let scene = Scene {
+        name: name.into(),
+        source: Some(text.into()),
+        title: String::new(),
+        about: String::new(),
+        hint: None,
+        // One without a rate is refused, whatever its laws claim.
+        tick_hz: 1,
+        seconds: USUAL_SECONDS,
+        lanes: Vec::new(),
+        opening_method: None,
+        equal_cost: false,
+        opens_as_race: false,
+        bodies: Vec::new(),
+        script: Vec::new(),
+        checks: Vec::new(),
+    };
+    let mut draft = Draft { scene, listed: None };
+    Key::read_all(&TOP, &mut draft, &mut top);
+    let Draft { mut scene, listed: by_name } = draft;
+    let mut bodies = read_bodies(&mut top, claim_horizon(scene.seconds, scene.tick_hz));
     check_names(text, &bodies, &mut top);
     name_the_nameless(&mut bodies);
-    let lanes = read_lanes(text, &bodies, &mut top);
-    let opening_method = read_opening_method(&lanes, &mut top);
-    let (equal_cost, opens_as_race) = read_race(&mut top);
-    let context = SceneContext { bodies: &bodies, lanes: &lanes };
-    let script = script::read(&context, &mut top);
-    let checks = script::read_checks(&context, &mut top);
-    errors.extend(top.finish(&[]));
+    scene.lanes = read_lanes(text, &bodies, by_name, &mut top);
+    check_opening_method(&scene, &mut top);
+    if let Some(mut race) = top.table(&RACE_TABLE) {
+        Key::read_all(&RACE, &mut scene, &mut race);
+        top.adopt(race);
+    }
+    let context = SceneContext { bodies: &bodies, lanes: &scene.lanes };
+    scene.script = script::read(&context, &mut top);
+    scene.checks = script::read_checks(&context, &mut top);
+    errors.extend(top.finish());
     let may_mean_a_body = |error: &SceneError| error.fault.kind == FaultKind::NoTable;
     if bodies.is_empty() && !errors.iter().any(may_mean_a_body) {
         let kinds: Vec<_> = BODIES.iter().map(|kind| kind.id).collect();
@@ -78,36 +192,24 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
         errors.push(SceneError { span: text.len()..text.len(), fault });
     }
 
-    match (title, tick_hz) {
-        (Some(title), Some(tick_hz)) if errors.is_empty() => {
-            let (name, bodies) = (name.into(), finish_bodies(bodies));
-            Ok(Scene {
-                name,
-                title,
-                about,
-                hint,
-                tick_hz,
-                seconds,
-                lanes,
-                opening_method,
-                equal_cost,
-                opens_as_race,
-                bodies,
-                script,
-                checks,
-            })
-        }
-        _ => Err(errors),
+    if !errors.is_empty() {
+        return Err(errors);
     }
+    scene.bodies = finish_bodies(bodies);
+    Ok(scene)
 }
 
-fn read_lanes(text: &str, bodies: &[BodyDraft], top: &mut Table<'_>) -> Vec<LaneSpec> {
-    let listed = top.methods(METHOD_LIST, MAX_LANES);
+fn read_lanes(
+    text: &str,
+    bodies: &[BodyDraft],
+    listed: Option<Vec<(Span<usize>, &'static Method)>>,
+    top: &mut Table<'_>,
+) -> Vec<LaneSpec> {
     let is_listed = listed.is_some();
     let listed = listed.into_iter().flatten();
     let mut lanes: Vec<_> = listed.map(|(span, method)| (span, LaneSpec::plain(method))).collect();
 
-    let rows = top.rows("lane");
+    let rows = top.rows(LANE);
     if let (true, Some(row)) = (is_listed, rows.first()) {
         let what = "lanes are given twice, as `methods` and as `[[lane]]`";
         top.complain(row.header.clone(), what, "keep one of them");
@@ -118,14 +220,12 @@ fn read_lanes(text: &str, bodies: &[BodyDraft], top: &mut Table<'_>) -> Vec<Lane
     }
     let is_given = is_listed || !rows.is_empty();
     for mut row in rows.into_iter().take(MAX_LANES) {
-        let method = row.method(LANE_METHOD);
-        let spec = read_lane_spec(&mut row, method);
-        let span = row.span(LANE_METHOD.key);
-        lanes.extend(spec.map(|spec| (span, spec)));
-        top.adopt(row, &TOP);
+        let span = row.span(METHOD.key);
+        lanes.extend(read_lane_spec(&mut row).map(|spec| (span, spec)));
+        top.adopt(row);
     }
 
-    let key = if is_listed { METHOD_LIST.key } else { LANE_METHOD.key };
+    let key = if is_listed { METHOD_LIST.key } else { METHOD.key };
     for (n, (span, lane)) in lanes.iter().enumerate() {
         check_method(key, lane.method, span.clone(), bodies, top);
         if let Some((first, _)) = lanes[..n].iter().find(|(_, earlier)| earlier == lane) {
@@ -149,10 +249,12 @@ fn described(lane: &LaneSpec) -> String {
     format!("{:?} with `substeps = {substeps}`{beside}", method.id)
 }
 
-/// The opening method, which must be that of a lane, so that it races too.
-fn read_opening_method(lanes: &[LaneSpec], top: &mut Table<'_>) -> Option<&'static Method> {
-    let method = top.method(OPENING_METHOD)?;
-    if !lanes.is_empty() && !lanes.iter().any(|lane| lane.method == method) {
+/// Complains of an opening method that no lane has, so that it does not race.
+fn check_opening_method(Scene { lanes, opening_method, .. }: &Scene, top: &mut Table<'_>) {
+    if let Some(method) = opening_method
+        && !lanes.is_empty()
+        && !lanes.iter().any(|lane| lane.method == *method)
+    {
         let mut known: Vec<&str> = Vec::new();
         for lane in lanes {
             if !known.contains(&lane.method.id) {
@@ -164,14 +266,4 @@ fn read_opening_method(lanes: &[LaneSpec], top: &mut Table<'_>) -> Option<&'stat
         let what = format!("`{key}` is {id:?}, which no lane of this scene has");
         top.complain(top.span(key), what, remedy);
     }
-    Some(method)
-}
-
-/// The scene's `[race]`: whether its lanes have equal cost, and whether the program opens it as a race.
-fn read_race(top: &mut Table<'_>) -> (bool, bool) {
-    let Some(mut race) = top.table("race") else { return (false, false) };
-    let [equal_cost, opens_as_race] =
-        [EQUAL_COST, OPENS_AS_RACE].map(|field| race.boolean(field).unwrap_or(false));
-    top.adopt(race, &TOP);
-    (equal_cost, opens_as_race)
 }

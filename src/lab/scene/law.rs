@@ -3,10 +3,11 @@
 use std::ops::Range as Span;
 use std::sync::Arc;
 
-use super::fields::{TOP, optional, required};
+use super::SceneBody;
+use super::keys::{Key, list, number, quoted};
 use super::nearest::{self, nearest};
-use super::table::{Field, Named, Table, Written};
-use super::wanted::Wanted;
+use super::table::{Named, Table, Written};
+use super::wanted::{Field, Wanted};
 use crate::sim::bodies::{ClaimHorizon, Kind, Range, check_law, law_kind};
 use crate::sim::law::{
     CoordinateText, LawText, Layout, MAX_CONSTANTS, MAX_COORDINATES, Part, Refusal, Remedy, UNITS,
@@ -15,35 +16,149 @@ use crate::sim::law::{
 /// The name of the table array.
 pub(super) const LAW: &str = "law";
 
-const CONSTANTS: Field = optional("constants");
-const COORDINATES: Field = required("coordinates", "what moves");
-const ENERGY: Field = optional("energy");
-const PLANE: Field = optional("plane");
-const DRAW: Field = optional("draw");
-const UNIT: Field = optional("unit");
-const START: Field = optional("start");
-const START_VELOCITY: Field = optional("start_velocity");
-const ACCELERATION: Field = required("acceleration", "its second derivative by time");
-const EXACT: Field = optional("exact");
-const AT: Field = optional("at");
-const KICK: Field = optional("kick");
+const CONSTANTS: Field = Field::optional(
+    "constants",
+    "the numbers that its expressions know by name",
+    Wanted::Constants,
+);
+const COORDINATES: Field =
+    Field::required("coordinates", "what moves", Wanted::Coordinates("law.coordinates"));
+const PLANE: Field =
+    Field::optional("plane", "the coordinates that are drawn as a point", Wanted::Plane);
+const DRAW: Field = Field::optional("draw", "how the coordinates lie in space", Wanted::Layout);
+const UNIT: Field = Field::optional("unit", "its unit; metres if left out", Wanted::Text(16));
+const AT: Field =
+    Field::optional("at", "where it is drawn in metres, of coordinates and constants", Wanted::At);
 
-/// The most characters of the name of a unit or of a layout.
-const MAX_WORD_CHARS: usize = 16;
+/// The keys of `[[law]]` beside its name.
+pub(super) static LAW_KEYS: [Key<WrittenLaw, SceneBody>; 5] = [
+    Key {
+        field: CONSTANTS,
+        read: |law, row, field| (law.constants, law.numbers) = read_constants(row, field),
+        write: |body| {
+            let names = &body.kind.law()?.text().constants;
+            let row = |(name, value): (&String, &f64)| format!("{name} = {}", number(*value));
+            let rows: Vec<_> = names.iter().zip(&body.values).map(row).collect();
+            (!rows.is_empty()).then(|| format!("{{ {} }}", rows.join(", ")))
+        },
+    },
+    Key {
+        field: COORDINATES,
+        read: |law, row, field| law.coordinates = read_coordinates(row, field),
+        // They have tables of their own.
+        write: |_| None,
+    },
+    Key {
+        field: Field::optional("energy", "in joules, if the law conserves it", Wanted::Expression),
+        read: |law, row, field| law.energy = row.expression(field),
+        write: |body| body.kind.law()?.text().energy.as_deref().map(quoted),
+    },
+    Key {
+        field: PLANE,
+        read: |law, row, field| law.plane = read_plane(row, field, law.coordinates.as_deref()),
+        write: |body| {
+            let LawText { plane, coordinates, .. } = body.kind.law()?.text();
+            Some(list(plane.as_ref()?.iter().map(|&place| quoted(&coordinates[place].name))))
+        },
+    },
+    Key {
+        field: DRAW,
+        read: |law, row, field| {
+            let coordinates = law.coordinates.as_deref().unwrap_or_default();
+            law.layout = read_layout(row, field, coordinates);
+        },
+        write: |body| {
+            let layout = body.kind.law()?.text().layout;
+            (layout != Layout::default()).then(|| quoted(layout.id()))
+        },
+    },
+];
+
+/// A coordinate with its numbers.
+pub(super) struct SetCoordinate {
+    text: CoordinateText,
+    start: f64,
+    start_velocity: f64,
+    kick: f64,
+}
+
+/// The keys of a coordinate.
+pub(super) static COORDINATE_KEYS: [Key<WrittenCoordinate, SetCoordinate>; 7] = [
+    Key {
+        field: UNIT,
+        read: |coordinate, table, field| coordinate.unit = read_unit(table, field),
+        write: |coordinate| Some(quoted(coordinate.text.unit)),
+    },
+    Key {
+        field: Field::optional("start", "where it starts; 0 if left out", Wanted::ANY),
+        read: |coordinate, table, field| set(&mut coordinate.start, table, field),
+        write: |coordinate| Some(number(coordinate.start)),
+    },
+    Key {
+        field: Field::optional(
+            "start_velocity",
+            "its velocity at the start; 0 if left out",
+            Wanted::ANY,
+        ),
+        read: |coordinate, table, field| set(&mut coordinate.start_velocity, table, field),
+        write: |coordinate| Some(number(coordinate.start_velocity)),
+    },
+    Key {
+        field: Field::required("acceleration", "its second derivative by time", Wanted::Expression),
+        read: |coordinate, table, field| coordinate.acceleration = table.expression(field),
+        write: |coordinate| Some(quoted(&coordinate.text.acceleration)),
+    },
+    Key {
+        field: Field::optional(
+            "exact",
+            "its motion, of `t`, constants and starts, if it is known",
+            Wanted::Expression,
+        ),
+        read: |coordinate, table, field| coordinate.exact = table.expression(field),
+        write: |coordinate| coordinate.text.exact.as_deref().map(quoted),
+    },
+    Key {
+        field: AT,
+        read: |coordinate, table, field| coordinate.at = read_at(table, field),
+        write: |coordinate| {
+            Some(list(coordinate.text.at.as_ref()?.iter().map(|text| quoted(text))))
+        },
+    },
+    Key {
+        field: Field::optional(
+            "kick",
+            "how much a kick changes its velocity; 1 for the first coordinate, 0 for others",
+            Wanted::ANY,
+        ),
+        read: |coordinate, table, field| set(&mut coordinate.kick, table, field),
+        write: |coordinate| Some(number(coordinate.kick)),
+    },
+];
+
+/// Replaces a number by the one that is given; by `None` if it has a fault.
+fn set(number: &mut Option<f64>, table: &mut Table<'_>, field: &Field) {
+    let read = table.number(field);
+    if table.has(field.key) {
+        *number = read;
+    }
+}
 
 /// A name and its bytes in the file.
 type WrittenName = (String, Span<usize>);
 
 /// A law as the file writes it.
-struct WrittenLaw {
+#[derive(Default)]
+pub(super) struct WrittenLaw {
     constants: Vec<WrittenName>,
-    coordinates: Vec<WrittenCoordinate>,
+    /// The values of the constants, unless one has a fault.
+    numbers: Option<Vec<f64>>,
+    coordinates: Option<Vec<WrittenCoordinate>>,
     energy: Option<Written>,
     plane: Option<[usize; 2]>,
     layout: Layout,
 }
 
-struct WrittenCoordinate {
+pub(super) struct WrittenCoordinate {
     name: String,
     span: Span<usize>,
     unit: &'static str,
@@ -61,14 +176,9 @@ pub(super) fn read_law(
     row: &mut Table<'_>,
     horizon: ClaimHorizon,
 ) -> (Option<Arc<Kind>>, Option<Vec<f64>>) {
-    let (constants, numbers) = read_constants(row);
-    let coordinates = read_coordinates(row);
-    let energy = row.expression(ENERGY);
-    let plane = coordinates.as_ref().and_then(|coordinates| read_plane(row, coordinates));
-    let layout = read_layout(row, coordinates.as_deref().unwrap_or_default());
-    check_one_picture(row, coordinates.as_deref().unwrap_or_default());
-    let Some(coordinates) = coordinates else { return (None, None) };
-    let law = WrittenLaw { constants, coordinates, energy, plane, layout };
+    let mut law = WrittenLaw::default();
+    Key::read_all(&LAW_KEYS, &mut law, row);
+    check_one_picture(row, law.coordinates());
     let Some(text) = law.text() else { return (None, None) };
     let kind = match law_kind(text) {
         Ok(kind) => kind,
@@ -77,7 +187,7 @@ pub(super) fn read_law(
             return (None, None);
         }
     };
-    let values = law.values(numbers);
+    let values = law.values();
     if let (Some(values), Some(equations)) = (&values, kind.law())
         && row.is_faultless()
         && let Err(refusal) = check_law(equations, values, horizon)
@@ -88,8 +198,8 @@ pub(super) fn read_law(
 }
 
 /// The names of the constants, and their values unless one has a fault.
-fn read_constants(row: &mut Table<'_>) -> (Vec<WrittenName>, Option<Vec<f64>>) {
-    let entries = row.entries(CONSTANTS, &Wanted::Constants).unwrap_or_default();
+fn read_constants(row: &mut Table<'_>, field: &Field) -> (Vec<WrittenName>, Option<Vec<f64>>) {
+    let entries = row.entries(field).unwrap_or_default();
     check_count(row, "constants", &entries, MAX_CONSTANTS);
     let entries = &entries[..entries.len().min(MAX_CONSTANTS)];
     let numbers: Vec<_> = entries.iter().map(|entry| row.number_of(entry, Range::ANY)).collect();
@@ -104,64 +214,65 @@ fn check_count(row: &mut Table<'_>, what: &str, entries: &[Named<'_>], most: usi
     }
 }
 
-fn read_coordinates(row: &mut Table<'_>) -> Option<Vec<WrittenCoordinate>> {
-    let place = "law.coordinates";
-    let entries = row.entries(COORDINATES, &Wanted::Coordinates(place))?;
+fn read_coordinates(row: &mut Table<'_>, field: &Field) -> Option<Vec<WrittenCoordinate>> {
+    let entries = row.entries(field)?;
     check_count(row, "coordinates", &entries, MAX_COORDINATES);
     if entries.is_empty() {
-        let remedy = Wanted::Coordinates(place).remedy();
-        row.complain(row.span(COORDINATES.key), "the law has no coordinate", remedy);
+        row.complain(row.span(field.key), "the law has no coordinate", field.wanted.remedy());
         return None;
     }
     let mut coordinates = Vec::new();
     for (n, entry) in entries.iter().enumerate().take(MAX_COORDINATES) {
-        let mut table = row.table_of(entry, place)?;
-        let number = |table: &mut Table<'_>, field: Field, default: f64| match table.has(field.key)
-        {
-            true => table.number(field, Range::ANY),
-            false => {
-                table.knows(field.key);
-                Some(default)
-            }
-        };
-        coordinates.push(WrittenCoordinate {
+        let mut table = row.table_of(entry, &field.wanted)?;
+        let mut coordinate = WrittenCoordinate {
             name: entry.key.into(),
             span: entry.span.clone(),
-            unit: read_unit(&mut table),
-            start: number(&mut table, START, 0.0),
-            start_velocity: number(&mut table, START_VELOCITY, 0.0),
-            acceleration: table.expression(ACCELERATION),
-            exact: table.expression(EXACT),
-            at: read_at(&mut table),
-            kick: number(&mut table, KICK, f64::from(u8::from(n == 0))),
-        });
-        row.adopt(table, &TOP);
+            unit: UNITS[0],
+            acceleration: None,
+            exact: None,
+            at: None,
+            start: Some(0.0),
+            start_velocity: Some(0.0),
+            kick: Some(f64::from(u8::from(n == 0))),
+        };
+        Key::read_all(&COORDINATE_KEYS, &mut coordinate, &mut table);
+        coordinates.push(coordinate);
+        row.adopt(table);
     }
     Some(coordinates)
 }
 
-fn read_at(table: &mut Table<'_>) -> Option<[WrittenName; 2]> {
-    let written = table.names(AT, &Wanted::At)?;
+fn read_at(table: &mut Table<'_>, field: &Field) -> Option<[WrittenName; 2]> {
+    let written = table.names(field)?;
     let pair = <[_; 2]>::try_from(written);
     if pair.is_err() {
-        table.complain(table.span(AT.key), "`at` is not an x and a y", Wanted::At.remedy());
+        let remedy = field.wanted.remedy();
+        table.complain(table.span(field.key), "`at` is not an x and a y", remedy);
     }
     Some(pair.ok()?.map(|(span, text)| (text.to_owned(), span)))
 }
 
-fn read_unit(table: &mut Table<'_>) -> &'static str {
-    let Some(written) = table.text(UNIT, MAX_WORD_CHARS) else { return UNITS[0] };
+fn read_unit(table: &mut Table<'_>, field: &Field) -> &'static str {
+    let Some(written) = table.text(field) else { return UNITS[0] };
     if let Some(unit) = UNITS.iter().find(|unit| **unit == written) {
         return unit;
     }
     let what = format!("unknown unit {written:?}");
     let remedy = offer(&written, &UNITS);
-    table.complain(table.span(UNIT.key), what, remedy);
+    table.complain(table.span(field.key), what, remedy);
     UNITS[0]
 }
 
-fn read_plane(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) -> Option<[usize; 2]> {
-    let names = row.names(PLANE, &Wanted::Plane)?;
+fn read_plane(
+    row: &mut Table<'_>,
+    field: &Field,
+    coordinates: Option<&[WrittenCoordinate]>,
+) -> Option<[usize; 2]> {
+    let Some(coordinates) = coordinates else {
+        row.knows(field.key);
+        return None;
+    };
+    let names = row.names(field)?;
     let known: Vec<&str> = coordinates.iter().map(|coordinate| &*coordinate.name).collect();
     let mut places = Vec::new();
     for (span, name) in &names {
@@ -178,16 +289,14 @@ fn read_plane(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) -> Option<
         [x, y] if x != y => Some([x, y]),
         _ => {
             let what = "`plane` does not name two coordinates";
-            row.complain(row.span(PLANE.key), what, Wanted::Plane.remedy());
+            row.complain(row.span(field.key), what, field.wanted.remedy());
             None
         }
     }
 }
 
-fn read_layout(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) -> Layout {
-    let Some(written) = row.text_for(DRAW, MAX_WORD_CHARS, Wanted::Layout) else {
-        return Layout::default();
-    };
+fn read_layout(row: &mut Table<'_>, field: &Field, coordinates: &[WrittenCoordinate]) -> Layout {
+    let Some(written) = row.text(field) else { return Layout::default() };
     let known = Layout::ALL.map(|(id, _)| id);
     let found = Layout::ALL.iter().find(|(id, _)| *id == written);
     let is_pair = matches!(coordinates, [body, wheel, ..] if body.unit == wheel.unit);
@@ -203,7 +312,7 @@ fn read_layout(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) -> Layout
         ),
         Some((_, layout)) => return *layout,
     };
-    row.complain(row.span(DRAW.key), what, remedy);
+    row.complain(row.span(field.key), what, remedy);
     Layout::default()
 }
 
@@ -221,8 +330,24 @@ fn offer(written: &str, known: &[&str]) -> String {
     nearest::offer(nearest(written, known.iter().map(|name| (*name, *name))), known, '`')
 }
 
+/// The tables of a law's coordinates.
+pub(super) fn coordinate_tables(SceneBody { values, .. }: &SceneBody, law: &LawText) -> String {
+    let (n, rest) = (law.coordinates.len(), &values[law.constants.len()..]);
+    let table = |(i, text): (usize, &CoordinateText)| {
+        let text = text.clone();
+        let [start, start_velocity, kick] = [rest[i], rest[n + i], rest[2 * n + i]];
+        let head = format!("\n[{LAW}.{}.{}]\n", COORDINATES.key, text.name);
+        head + &Key::lines(&COORDINATE_KEYS, &SetCoordinate { text, start, start_velocity, kick })
+    };
+    law.coordinates.iter().enumerate().map(table).collect()
+}
+
 impl WrittenLaw {
-    /// `None` if an acceleration is missing.
+    fn coordinates(&self) -> &[WrittenCoordinate] {
+        self.coordinates.as_deref().unwrap_or_default()
+    }
+
+    /// `None` if there is no coordinate, or if an acceleration is missing.
     fn text(&self) -> Option<LawText> {
         let text = |written: &Written| written.text.clone();
         let coordinate = |of: &WrittenCoordinate| {
@@ -236,20 +361,25 @@ impl WrittenLaw {
         };
         Some(LawText {
             constants: self.constants.iter().map(|(name, _)| name.clone()).collect(),
-            coordinates: self.coordinates.iter().map(coordinate).collect::<Option<_>>()?,
+            coordinates: self
+                .coordinates
+                .as_ref()?
+                .iter()
+                .map(coordinate)
+                .collect::<Option<_>>()?,
             energy: self.energy.as_ref().map(text),
             plane: self.plane,
             layout: self.layout,
         })
     }
 
-    fn values(&self, constants: Option<Vec<f64>>) -> Option<Vec<f64>> {
+    fn values(&self) -> Option<Vec<f64>> {
         let of = |read: fn(&WrittenCoordinate) -> Option<f64>| {
-            self.coordinates.iter().map(read).collect::<Option<Vec<f64>>>()
+            self.coordinates().iter().map(read).collect::<Option<Vec<f64>>>()
         };
         let [starts, velocities, kicks] =
             [of(|it| it.start)?, of(|it| it.start_velocity)?, of(|it| it.kick)?];
-        Some([constants?, starts, velocities, kicks].concat())
+        Some([self.numbers.clone()?, starts, velocities, kicks].concat())
     }
 
     /// Reports what is wrong with a part of the law at its place in the file.
@@ -260,11 +390,11 @@ impl WrittenLaw {
         };
         let at = match part {
             Part::Constant(i) => self.constants[i].1.clone(),
-            Part::Coordinate(i) => self.coordinates[i].span.clone(),
-            Part::Acceleration(i) => within(&self.coordinates[i].acceleration),
-            Part::Exact(i) => within(&self.coordinates[i].exact),
+            Part::Coordinate(i) => self.coordinates()[i].span.clone(),
+            Part::Acceleration(i) => within(&self.coordinates()[i].acceleration),
+            Part::Exact(i) => within(&self.coordinates()[i].exact),
             Part::Place(i, axis) => {
-                let at = &self.coordinates[i].at;
+                let at = &self.coordinates()[i].at;
                 at.as_ref().map_or(row.header.clone(), |at| at[axis].1.clone())
             }
             Part::Energy => within(&self.energy),

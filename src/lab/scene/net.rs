@@ -3,10 +3,10 @@
 use std::ops::Range as Span;
 use std::sync::Arc;
 
-use super::fields::{TOP, optional, required};
+use super::keys::{Key, keep, list, number, numbers, quoted};
 use super::nearest::nearest;
-use super::table::{Field, Table};
-use super::wanted::Wanted;
+use super::table::Table;
+use super::wanted::{Field, Wanted};
 use crate::sim::bodies::{
     Form, Grid, Kind, Lists, MAX_NODES, NetFault, NetPart, NetPlan, Pin, PlannedSpring, Range,
     net_kind,
@@ -15,77 +15,170 @@ use crate::sim::bodies::{
 /// The name of the table array.
 pub(super) const NET: &str = "net";
 
-const COLUMNS: Field = required("columns", "how many nodes are in a row");
-const ROWS: Field = required("rows", "how many rows there are");
-const SPACING: Field = required("spacing_m", "the distance of neighbours");
-const SHEAR: Field = optional("shear");
-const PIN: Field = optional("pin");
-const NODES: Field = optional("nodes");
-const FIXED: Field = optional("fixed");
-const SPRINGS: Field = required("springs", "which nodes are joined");
-const KICKED: Field = optional("kicked_node");
+const COUNT: Wanted = Wanted::Whole(1..=MAX_NODES as u64);
+const COLUMNS: Field = Field::required("columns", "how many nodes are in a row", COUNT);
+const SPACING: Field =
+    Field::required("spacing_m", "the distance of neighbours", Wanted::Number(Range::POSITIVE));
+const PIN: Field = Field::optional(
+    "pin",
+    "`top` fixes the top row, `corners` its ends; none if left out",
+    Wanted::Pin,
+);
+const NODES: Field = Field::optional("nodes", "where each node stands, in metres", Wanted::Places);
+const FIXED: Field = Field::optional("fixed", "which nodes stay where they are", Wanted::Nodes);
+const SPRINGS: Field = Field::required("springs", "which nodes are joined", Wanted::Springs);
+pub(super) const KICKED: Field = Field::optional(
+    "kicked_node",
+    "the node that a kick hits, and that plots show; every free node if left out",
+    Wanted::Whole(0..=MAX_NODES as u64 - 1),
+);
+const BETWEEN: Field =
+    Field::required("between", "the numbers of the nodes at its ends, from 0", Wanted::Ends);
+const OWN: &str = "its own, in place of the net's";
 
-const BETWEEN: Field = required("between", "the numbers of the nodes at its ends, from 0");
-const STIFFNESS: Field = optional("stiffness_n_per_m");
-const DAMPING: Field = optional("damping_n_s_per_m");
-const REST: Field = optional("rest_m");
+/// The keys of a net that is a grid.
+pub(super) static GRID_KEYS: [Key<Grid, Grid>; 5] = [
+    Key {
+        field: COLUMNS,
+        read: |grid, row, field| keep(&mut grid.columns, row.whole::<u32>(field).map(index)),
+        write: |grid| Some(grid.columns.to_string()),
+    },
+    Key {
+        field: Field::required("rows", "how many rows there are", COUNT),
+        read: |grid, row, field| keep(&mut grid.rows, row.whole::<u32>(field).map(index)),
+        write: |grid| Some(grid.rows.to_string()),
+    },
+    Key {
+        field: SPACING,
+        read: |grid, row, field| keep(&mut grid.spacing, row.number(field)),
+        write: |grid| Some(number(grid.spacing)),
+    },
+    Key {
+        field: Field::optional(
+            "shear",
+            "springs across each square too; false if left out",
+            Wanted::Boolean,
+        ),
+        read: |grid, row, field| keep(&mut grid.shear, row.boolean(field)),
+        write: |grid| Some(grid.shear.to_string()),
+    },
+    Key {
+        field: PIN,
+        read: |grid, row, field| grid.pin = read_pin(row, field),
+        write: |grid| grid.pin.map(|pin| quoted(pin.id())),
+    },
+];
 
-const GRID_KEYS: [Field; 5] = [COLUMNS, ROWS, SPACING, SHEAR, PIN];
-const LIST_KEYS: [Field; 3] = [NODES, FIXED, SPRINGS];
+/// The keys of a net that is written as lists.
+pub(super) static LIST_KEYS: [Key<(Lists, Spans), Lists>; 3] = [
+    Key {
+        field: NODES,
+        read: |(lists, _), row, field| {
+            let field = Field { is_required: true, ..field.clone() };
+            keep(&mut lists.nodes, row.points(&field));
+        },
+        write: |lists| Some(list(lists.nodes.iter().map(|node| numbers(node)))),
+    },
+    Key {
+        field: FIXED,
+        read: |(lists, spans), row, field| {
+            let fixed = row.node_numbers(field).unwrap_or_default();
+            (spans.fixed, lists.fixed) = fixed.into_iter().unzip();
+        },
+        write: |lists| Some(list(lists.fixed.iter().map(usize::to_string))),
+    },
+    Key {
+        field: SPRINGS,
+        read: |(lists, spans), row, field| {
+            for mut table in row.spring_rows(field).unwrap_or_default() {
+                spans.springs.push(table.header.clone());
+                let mut spring = PlannedSpring::default();
+                Key::read_all(&SPRING_KEYS, &mut spring, &mut table);
+                lists.springs.push(spring);
+                row.adopt(table);
+            }
+        },
+        write: |lists| {
+            let row = |spring| Key::lines(&SPRING_KEYS, spring).trim_end().replace('\n', ", ");
+            let rows = lists.springs.iter().map(|spring| format!("  {{ {} }},\n", row(spring)));
+            Some(format!("[\n{}]", rows.collect::<String>()))
+        },
+    },
+];
 
-/// The most characters of the name of a pin.
-const MAX_PIN_CHARS: usize = 16;
+/// The keys of a spring in such a list.
+pub(super) static SPRING_KEYS: [Key<PlannedSpring, PlannedSpring>; 4] = [
+    Key {
+        field: BETWEEN,
+        read: |spring, table, field| keep(&mut spring.between, read_ends(table, field)),
+        write: |spring| Some(list(spring.between.iter().map(usize::to_string))),
+    },
+    Key {
+        field: Field::optional("stiffness_n_per_m", OWN, Wanted::Number(Range::POSITIVE)),
+        read: |spring, table, field| spring.stiffness = table.number(field),
+        write: |spring| spring.stiffness.map(number),
+    },
+    Key {
+        field: Field::optional("damping_n_s_per_m", OWN, Wanted::Number(Range::NON_NEGATIVE)),
+        read: |spring, table, field| spring.damping = table.number(field),
+        write: |spring| spring.damping.map(number),
+    },
+    Key {
+        field: Field::optional("rest_m", OWN, Wanted::Number(Range::NON_NEGATIVE)),
+        read: |spring, table, field| spring.rest = table.number(field),
+        write: |spring| spring.rest.map(number),
+    },
+];
+
+fn index(count: u32) -> usize {
+    count as usize
+}
 
 /// Where the parts of a plan stand in the file.
 #[derive(Default)]
-struct Spans {
+pub(super) struct Spans {
     fixed: Vec<Span<usize>>,
     springs: Vec<Span<usize>>,
 }
 
 /// The kind of a net; `None` where there is a fault.
 pub(super) fn read_net(row: &mut Table<'_>) -> Option<Arc<Kind>> {
-    let mut spans = Spans::default();
-    let given = |keys: &[Field], row: &Table<'_>| keys.iter().find(|it| row.has(it.key)).copied();
-    let lists = given(&LIST_KEYS, row);
-    GRID_KEYS.iter().chain(&LIST_KEYS).chain(&[KICKED]).for_each(|field| row.knows(field.key));
-    if let (Some(list), Some(of_grid)) = (lists, given(&GRID_KEYS, row)) {
-        let what = format!("the net is given twice, by `{}` and by `{}`", list.key, of_grid.key);
+    let of_grid: Vec<&str> = GRID_KEYS.iter().map(|it| it.field.key).collect();
+    let of_lists: Vec<&str> = LIST_KEYS.iter().map(|it| it.field.key).collect();
+    let all = of_grid.iter().chain(&of_lists).chain([&KICKED.key]);
+    all.for_each(|key| row.knows(key));
+    let given = |keys: &[&'static str]| keys.iter().find(|key| row.has(key)).copied();
+    let list = given(&of_lists);
+    if let (Some(list), Some(of_grid)) = (list, given(&of_grid)) {
+        let what = format!("the net is given twice, by `{list}` and by `{of_grid}`");
         let remedy = "keep the grid, whose fixed nodes `pin` names, or the lists `nodes`, `fixed` and `springs`";
-        row.complain(row.span(of_grid.key), what, remedy);
+        row.complain(row.span(of_grid), what, remedy);
         return None;
     }
-    let form = match lists {
-        Some(_) => read_lists(row, &mut spans).map(Form::Lists),
-        None => read_grid(row).map(Form::Grid),
+    let (form, spans) = if list.is_some() {
+        let mut read = (Lists::default(), Spans::default());
+        Key::read_all(&LIST_KEYS, &mut read, row);
+        (Form::Lists(read.0), read.1)
+    } else {
+        let mut grid = Grid { columns: 1, rows: 1, spacing: 1.0, shear: false, pin: None };
+        Key::read_all(&GRID_KEYS, &mut grid, row);
+        (Form::Grid(grid), Spans::default())
     };
-    let most = MAX_NODES as u32 - 1;
-    let kicked = row.whole(KICKED, 0..=most).map(|node| node as usize);
-    let is_given = row.has(KICKED.key);
-    let plan = NetPlan { form: form?, kicked };
-    if (is_given && kicked.is_none()) || !row.is_faultless() {
+    let plan = NetPlan { form, kicked: row.whole::<u32>(&KICKED).map(index) };
+    if !row.is_faultless() {
         return None;
     }
     match net_kind(plan) {
         Ok(kind) => Some(kind),
         Err(faults) => {
-            faults.into_iter().for_each(|fault| complain(row, &spans, lists.is_some(), fault));
+            faults.into_iter().for_each(|fault| complain(row, &spans, list.is_some(), fault));
             None
         }
     }
 }
 
-fn read_grid(row: &mut Table<'_>) -> Option<Grid> {
-    let most = MAX_NODES as u32;
-    let [columns, rows] = [COLUMNS, ROWS].map(|field| row.whole(field, 1..=most));
-    let spacing = row.number(SPACING, Range::POSITIVE);
-    let shear = row.boolean(SHEAR).unwrap_or(false);
-    let pin = read_pin(row);
-    Some(Grid { columns: columns? as usize, rows: rows? as usize, spacing: spacing?, shear, pin })
-}
-
-fn read_pin(row: &mut Table<'_>) -> Option<Pin> {
-    let written = row.text_for(PIN, MAX_PIN_CHARS, Wanted::Pin)?;
+fn read_pin(row: &mut Table<'_>, field: &Field) -> Option<Pin> {
+    let written = row.text(field)?;
     let pin = Pin::ALL.into_iter().find(|pin| pin.id() == written);
     if pin.is_none() {
         let known = Pin::ALL.map(Pin::id);
@@ -94,39 +187,18 @@ fn read_pin(row: &mut Table<'_>) -> Option<Pin> {
             Some(id) => format!("did you mean {id:?}?"),
             None => format!("write {}, or remove it and no node is fixed", Wanted::Pin),
         };
-        row.complain(row.span(PIN.key), what, remedy);
+        row.complain(row.span(field.key), what, remedy);
     }
     pin
 }
 
-fn read_lists(row: &mut Table<'_>, spans: &mut Spans) -> Option<Lists> {
-    let nodes = row.points(Field { needed_as: Some("where each node stands"), ..NODES });
-    let fixed = row.node_numbers(FIXED, &Wanted::Nodes);
-    let springs = row.spring_rows(SPRINGS, &Wanted::Springs);
-    let is_whole = fixed.is_some() || !row.has(FIXED.key);
-    let mut planned = Vec::new();
-    for mut spring in springs? {
-        spans.springs.push(spring.header.clone());
-        let between = spring.node_numbers(BETWEEN, &Wanted::Ends);
-        let ends = match between.as_deref() {
-            Some([(_, a), (_, b)]) => Some([*a, *b]),
-            Some(_) => {
-                let what = "`between` does not name two nodes";
-                spring.complain(spring.span(BETWEEN.key), what, Wanted::Ends.remedy());
-                None
-            }
-            None => None,
-        };
-        let stiffness = spring.number(STIFFNESS, Range::POSITIVE);
-        let damping = spring.number(DAMPING, Range::NON_NEGATIVE);
-        let rest = spring.number(REST, Range::NON_NEGATIVE);
-        planned.push(ends.map(|between| PlannedSpring { between, stiffness, damping, rest }));
-        row.adopt(spring, &TOP);
+fn read_ends(spring: &mut Table<'_>, field: &Field) -> Option<[usize; 2]> {
+    if let [(_, a), (_, b)] = spring.node_numbers(field)?[..] {
+        return Some([a, b]);
     }
-    let (fixed_spans, fixed) = fixed.unwrap_or_default().into_iter().unzip();
-    spans.fixed = fixed_spans;
-    let springs = planned.into_iter().collect::<Option<Vec<_>>>()?;
-    is_whole.then_some(Lists { nodes: nodes?, fixed, springs })
+    let what = "`between` does not name two nodes";
+    spring.complain(spring.span(field.key), what, field.wanted.remedy());
+    None
 }
 
 /// Reports what is wrong with a part of the plan at its place in the file.

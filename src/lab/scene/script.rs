@@ -3,14 +3,15 @@
 use super::clip::clip;
 use super::described::BodyDraft;
 use super::fault::{FaultKind, SceneFault};
-use super::fields::{
-    JOINT_HZ, SUBSTEPS, TOLERANCE, TOP, adaptive_methods, optional, read_lane_spec, read_tolerance,
-    required,
-};
 use super::fitting::check_method;
+use super::keys::{
+    JOINT_HZ, Key, METHOD, SPEC, SUBSTEPS, TOLERANCE, adaptive_methods, keep, number, numbers,
+    quoted, read_lane_spec, read_tolerance,
+};
 use super::nearest::{listed, nearest, offer};
-use super::table::{Field, Table};
-use super::{Check, LAST_TICK, MAX_NAME_CHARS, MAX_SUBSTEPS, MAX_TICK_HZ, Scripted};
+use super::table::Table;
+use super::wanted::{Field, Wanted};
+use super::{Check, LAST_TICK, MAX_LANES, MAX_NAME_CHARS, MAX_TICK_HZ, Scene, Scripted};
 use crate::lab::action::Action;
 use crate::lab::lane_id::LaneId;
 use crate::lab::lane_spec::LaneSpec;
@@ -18,20 +19,51 @@ use crate::lab::scene::edit::edited_values;
 use crate::sim::bodies::{Acts, BODIES, LARGEST, Parameter, Range};
 use crate::sim::integrators::Method;
 
-const TICK: Field = required("tick", "the tick before which it is done");
-const LANE: Field = optional("lane");
-const METHOD: Field = optional("method");
-const SOLO: Field = optional("solo");
+/// The name of the table array of a script.
+pub(super) const COMMAND: &str = "command";
 
-const BODY: Field = required("body", "the body's name");
-const KEY: Field = required("key", "the parameter's key");
-const VALUE: Field = required("value", "what it is set to");
-const Q: Field = required("q", "the coordinates");
-const V: Field = required("v", "the velocities");
+/// The name of the table array of checks.
+pub(super) const CHECKS: &str = "check";
 
-const CHECKED_LANE: Field = required("lane", "the lane's number");
-const CHECKED_TICK: Field = required("tick", "the tick at which it is known");
-const HASH: Field = required("hash", "the lane's state then");
+const LANE_NUMBER: Wanted = Wanted::Whole(1..=MAX_LANES as u64);
+const NAME: Wanted = Wanted::Text(MAX_NAME_CHARS);
+
+pub(super) const TICK: Field =
+    Field::required("tick", "the tick before which it is done", Wanted::Whole(0..=LAST_TICK));
+pub(super) const LANE: Field =
+    Field::optional("lane", "the lane whose method, substeps or tolerance it sets", LANE_NUMBER);
+
+const BODY: Field = Field::required("body", "the body's name", NAME);
+const KEY: Field = Field::required("key", "the parameter's key", NAME);
+const VALUE: Field = Field::required("value", "what it is set to", Wanted::ANY);
+const Q: Field = Field::required("q", "the coordinates", Wanted::Numbers(1));
+const V: Field = Field::required("v", "the velocities", Wanted::Numbers(1));
+/// The keys of `set` and of `place`.
+pub(super) static OF_A_BODY: [(&str, &[Field]); 2] =
+    [("set", &[BODY, KEY, VALUE]), ("place", &[BODY, Q, V])];
+
+/// The keys of `[[check]]`, read with the number of lanes.
+pub(super) static CHECK: [Key<(Check, usize), Check>; 3] = [
+    Key {
+        field: Field::required(
+            "tick",
+            "the tick at which it is known",
+            Wanted::Whole(0..=LAST_TICK),
+        ),
+        read: |(check, _), row, field| keep(&mut check.tick, row.whole(field)),
+        write: |check| Some(check.tick.to_string()),
+    },
+    Key {
+        field: Field::required("lane", "the lane's number", LANE_NUMBER),
+        read: |(check, lanes), row, field| keep(&mut check.lane, read_number(row, field, *lanes)),
+        write: |check| Some(check.lane.to_string()),
+    },
+    Key {
+        field: Field::required("hash", "the lane's state then", Wanted::Hash),
+        read: |(check, _), row, field| keep(&mut check.hash, row.hash(field)),
+        write: |check| Some(format!("\"{:016x}\"", check.hash)),
+    },
+];
 
 /// The bodies and lanes that a script can refer to.
 pub(super) struct SceneContext<'d> {
@@ -40,74 +72,176 @@ pub(super) struct SceneContext<'d> {
     pub(super) lanes: &'d [LaneSpec],
 }
 
+type Read = fn(&SceneContext<'_>, &mut Table<'_>, &Field) -> Option<Action>;
+type Write = fn(&Scene, &Action) -> Option<String>;
+
 /// A key of `[[command]]`, which stands for an action.
-struct CommandKey {
-    field: Field,
-    /// The input that some body must take for the action to have an effect.
-    input: Option<&'static str>,
-    read: fn(&SceneContext<'_>, &mut Table<'_>, Field) -> Option<Action>,
+pub(super) struct CommandKey {
+    pub(super) field: Field,
+    /// Whether some body must take an input of this name for the action to have an effect.
+    is_input: bool,
+    read: Read,
+    /// The value, if the action is this key's.
+    write: Write,
 }
 
-const fn command_key(
-    key: &'static str,
-    read: fn(&SceneContext<'_>, &mut Table<'_>, Field) -> Option<Action>,
-) -> CommandKey {
-    CommandKey { field: optional(key), input: None, read }
+const fn command_key(field: Field, read: Read, write: Write) -> CommandKey {
+    CommandKey { field, is_input: false, read, write }
 }
 
 const fn input(
     key: &'static str,
-    read: fn(&SceneContext<'_>, &mut Table<'_>, Field) -> Option<Action>,
+    about: &'static str,
+    range: Range,
+    read: Read,
+    write: Write,
 ) -> CommandKey {
-    CommandKey { input: Some(key), ..command_key(key, read) }
+    let field = Field::optional(key, about, Wanted::Number(range));
+    CommandKey { is_input: true, ..command_key(field, read, write) }
 }
 
 /// The keys that change a lane; `lane` says which.
 const OF_A_LANE: [&str; 3] = [METHOD.key, SUBSTEPS.key, TOLERANCE.key];
 
-static COMMAND_KEYS: [CommandKey; 10] = [
-    command_key(METHOD.key, |context, row, _| read_method(context, row)),
-    input("throttle", |_, row, field| row.number(field, Range::Within(1.0)).map(Action::Throttle)),
-    input("rudder", |_, row, field| row.number(field, Range::Within(1.0)).map(Action::Rudder)),
-    input("kick", |_, row, field| row.number(field, Range::Within(LARGEST)).map(Action::Kick)),
-    command_key("tick_hz", |_, row, field| row.whole(field, 1..=MAX_TICK_HZ).map(Action::TickHz)),
-    command_key(SUBSTEPS.key, |context, row, field| {
-        let substeps = row.whole(field, 1..=MAX_SUBSTEPS);
-        let lane = read_lane(context, row)?;
-        Some(Action::Substeps { lane, substeps: substeps? })
-    }),
-    command_key(TOLERANCE.key, |context, row, _| {
-        let tolerance = read_tolerance(row, None);
-        let lane = read_lane(context, row)?;
-        Some(Action::Tolerance { lane, tolerance: tolerance? })
-    }),
-    command_key("set", |context, row, _| {
-        let mut set = row.table("set")?;
-        let action = read_set(context, &mut set);
-        row.adopt(set, &TOP);
-        action
-    }),
-    command_key("place", |context, row, _| {
-        let mut place = row.table("place")?;
-        let action = read_place(context, &mut place);
-        row.adopt(place, &TOP);
-        action
-    }),
-    command_key(SOLO.key, |context, row, field| {
-        read_number(row, field, context.lanes.len()).map(|lane| Action::Solo { lane })
-    }),
+pub(super) static COMMAND_KEYS: [CommandKey; 10] = [
+    command_key(
+        Field::optional("method", "the method, for a lane with what else it has", Wanted::Method),
+        |context, row, _| read_method(context, row),
+        |_, action| if let Action::Method(it) = action { Some(quoted(it.id)) } else { None },
+    ),
+    input(
+        "throttle",
+        "the throttle of every body that has one",
+        Range::Within(1.0),
+        |_, row, field| row.number(field).map(Action::Throttle),
+        |_, action| if let Action::Throttle(part) = action { Some(number(*part)) } else { None },
+    ),
+    input(
+        "rudder",
+        "the rudder of every body that has one; positive is left",
+        Range::Within(1.0),
+        |_, row, field| row.number(field).map(Action::Rudder),
+        |_, action| if let Action::Rudder(part) = action { Some(number(*part)) } else { None },
+    ),
+    input(
+        "kick",
+        "an impulse for every body, of this many times its own kick",
+        Range::Within(LARGEST),
+        |_, row, field| row.number(field).map(Action::Kick),
+        |_, action| if let Action::Kick(times) = action { Some(number(*times)) } else { None },
+    ),
+    command_key(
+        Field::optional("tick_hz", "ticks per second", Wanted::Whole(1..=MAX_TICK_HZ as u64)),
+        |_, row, field| row.whole(field).map(Action::TickHz),
+        |_, action| action.tick_hz().map(|tick_hz| tick_hz.to_string()),
+    ),
+    command_key(
+        SUBSTEPS,
+        |context, row, field| {
+            let substeps = row.whole(field);
+            let lane = read_lane(context, row)?;
+            Some(Action::Substeps { lane, substeps: substeps? })
+        },
+        |_, action| match action {
+            Action::Substeps { substeps, .. } => Some(substeps.to_string()),
+            _ => None,
+        },
+    ),
+    command_key(
+        TOLERANCE,
+        |context, row, _| {
+            let tolerance = read_tolerance(row, None);
+            let lane = read_lane(context, row)?;
+            Some(Action::Tolerance { lane, tolerance: tolerance? })
+        },
+        |_, action| match action {
+            Action::Tolerance { tolerance, .. } => Some(number(*tolerance)),
+            _ => None,
+        },
+    ),
+    command_key(
+        Field::optional("set", "sets a parameter of a body", Wanted::Table("set")),
+        |context, row, field| {
+            let mut set = row.table(field)?;
+            let action = read_set(context, &mut set);
+            row.adopt(set);
+            action
+        },
+        |scene, action| {
+            let Action::Set { body, parameter, value } = action else { return None };
+            let body = &scene.bodies[*body];
+            let parameter = &body.kind.parameters[*parameter];
+            let value = parameter_value(parameter.range, *value);
+            let (name, key) = (quoted(&body.name), quoted(&parameter.key));
+            Some(inline(&[(BODY, name), (KEY, key), (VALUE, value)]))
+        },
+    ),
+    command_key(
+        Field::optional("place", "puts a body into a state", Wanted::Table("place")),
+        |context, row, field| {
+            let mut place = row.table(field)?;
+            let action = read_place(context, &mut place);
+            row.adopt(place);
+            action
+        },
+        |scene, action| {
+            let Action::Place { body, q, v } = action else { return None };
+            let name = quoted(&scene.bodies[*body].name);
+            Some(inline(&[(BODY, name), (Q, numbers(q)), (V, numbers(v))]))
+        },
+    ),
+    command_key(
+        Field::optional("solo", "the only lane that goes on", LANE_NUMBER),
+        |context, row, field| {
+            read_number(row, field, context.lanes.len()).map(|lane| Action::Solo { lane })
+        },
+        |_, action| if let Action::Solo { lane } = action { Some(lane.to_string()) } else { None },
+    ),
 ];
+
+/// A table in braces.
+fn inline(entries: &[(Field, String)]) -> String {
+    let entries = entries.iter().map(|(field, value)| format!("{} = {value}", field.key));
+    format!("{{ {} }}", entries.collect::<Vec<_>>().join(", "))
+}
+
+/// A value of a parameter that is no curve.
+pub(super) fn parameter_value(range: Range, value: f64) -> String {
+    match range {
+        Range::Count(_) => format!("{}", value as u64),
+        _ => number(value),
+    }
+}
+
+/// The table of a command of `scene`.
+pub(super) fn command_table(scene: &Scene, Scripted { tick, action }: &Scripted) -> String {
+    let mut text = format!("\n[[{COMMAND}]]\n{} = {tick}\n", TICK.key);
+    if let Action::Lane { lane, .. }
+    | Action::Substeps { lane, .. }
+    | Action::Tolerance { lane, .. } = action
+    {
+        text += &format!("{} = {lane}\n", LANE.key);
+    }
+    if let Action::Lane { spec, .. } = action {
+        return text + &Key::lines(&SPEC, spec);
+    }
+    for CommandKey { field, write, .. } in &COMMAND_KEYS {
+        let value = write(scene, action);
+        text.extend(value.map(|value| format!("{} = {value}\n", field.key)));
+    }
+    text
+}
 
 /// The scripted commands by tick, and within a tick in the order of the file.
 pub(super) fn read(context: &SceneContext<'_>, top: &mut Table<'_>) -> Vec<Scripted> {
     let mut script = Vec::new();
-    for mut row in top.rows("command") {
-        let tick = row.whole(TICK, 0..=LAST_TICK);
+    for mut row in top.rows(COMMAND) {
+        let tick = row.whole(&TICK);
         let action = read_action(context, &mut row);
         let span = row.span(TOLERANCE.key);
         let scripted = tick.zip(action).map(|(tick, action)| (Scripted { tick, action }, span));
         script.extend(scripted);
-        top.adopt(row, &TOP);
+        top.adopt(row);
     }
     script.sort_by_key(|(scripted, _)| scripted.tick);
     // If a lane or a command could not be read, the methods in force are unknown.
@@ -165,20 +299,17 @@ fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
     let given = COMMAND_KEYS.iter().filter(|it| row.has(it.field.key) && !goes_with(it.field.key));
     let found: Vec<_> = given.map(|command_key| command_key.field.key).collect();
     let mut action = None;
-    for CommandKey { field, input, read } in &COMMAND_KEYS {
+    for CommandKey { field, is_input, read, .. } in &COMMAND_KEYS {
         row.knows(field.key);
         if !found.contains(&field.key) {
             continue;
         }
         // All are read, even if only one is allowed, so that all faults are found.
-        action = read(context, row, *field).or(action);
-        if let Some(input) = *input
-            && !context.bodies.is_empty()
-            && !context
-                .bodies
-                .iter()
-                .any(|body| body.kind.as_ref().is_none_or(|kind| kind.inputs.contains(&input)))
-        {
+        action = read(context, row, field).or(action);
+        let input = field.key;
+        let takes =
+            |body: &BodyDraft| body.kind.as_ref().is_none_or(|kind| kind.inputs.contains(&input));
+        if *is_input && !context.bodies.is_empty() && !context.bodies.iter().any(takes) {
             let takers = BODIES.iter().filter(|kind| kind.inputs.contains(&input));
             let takers = listed(&takers.map(|kind| kind.id).collect::<Vec<_>>(), '[', " or ");
             let remedy = format!("remove the command, or add a table {takers}");
@@ -211,8 +342,9 @@ fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
 }
 
 /// The lane of this number, of so many.
-fn read_number(row: &mut Table<'_>, field: Field, lanes: usize) -> Option<LaneId> {
-    row.whole(field, 1..=lanes as u32).map(|number| LaneId(number as usize))
+fn read_number(row: &mut Table<'_>, field: &Field, lanes: usize) -> Option<LaneId> {
+    let field = Field { wanted: Wanted::Whole(1..=lanes as u64), ..field.clone() };
+    row.whole::<u32>(&field).map(|number| LaneId(number as usize))
 }
 
 /// The lane that a command is for. If the scene has one lane, it may be left out.
@@ -225,20 +357,19 @@ fn read_lane(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<LaneId> 
         }
         return Some(LaneId(1));
     }
-    read_number(row, LANE, context.lanes.len())
+    read_number(row, &LANE, context.lanes.len())
 }
 
 fn read_method(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action> {
-    let method = row.method(METHOD);
-    if let Some(method) = method {
+    let spec = read_lane_spec(row);
+    if let Some(LaneSpec { method, .. }) = spec {
         check_method(METHOD.key, method, row.span(METHOD.key), context.bodies, row);
     }
-    let spec = read_lane_spec(row, method);
     if [LANE, SUBSTEPS, TOLERANCE, JOINT_HZ].iter().any(|field| row.has(field.key)) {
         let lane = read_lane(context, row)?;
         return Some(Action::Lane { lane, spec: spec? });
     }
-    method.map(Action::Method)
+    spec.map(|spec| Action::Method(spec.method))
 }
 
 /// The body that a table names, with its index in the scene.
@@ -246,7 +377,7 @@ fn read_body<'d>(
     context: &SceneContext<'d>,
     table: &mut Table<'_>,
 ) -> Option<(usize, &'d BodyDraft)> {
-    let name = table.text(BODY, MAX_NAME_CHARS)?;
+    let name = table.text(&BODY)?;
     let is_called = |body: &BodyDraft| body.name.as_ref() == Some(&name);
     let Some(place) = context.bodies.iter().position(is_called) else {
         let known = context.bodies.iter().filter_map(|body| body.name.as_deref());
@@ -260,7 +391,7 @@ fn read_body<'d>(
 
 fn read_set(context: &SceneContext<'_>, set: &mut Table<'_>) -> Option<Action> {
     let body = read_body(context, set);
-    let key = set.text(KEY, MAX_NAME_CHARS);
+    let key = set.text(&KEY);
     set.knows(VALUE.key);
     let (place, BodyDraft { kind, values, .. }) = body?;
     let (key, kind) = (key?, kind.as_ref()?);
@@ -282,9 +413,10 @@ fn read_set(context: &SceneContext<'_>, set: &mut Table<'_>) -> Option<Action> {
         set.complain(set.span(KEY.key), what, remedy);
         return None;
     }
+    let field = Field { wanted: Wanted::of(*range), ..VALUE };
     let value = match *range {
-        Range::Count(most) => f64::from(set.whole(VALUE, 1..=most)?),
-        _ => set.number(VALUE, *range)?,
+        Range::Count(_) => f64::from(set.whole::<u32>(&field)?),
+        _ => set.number(&field)?,
     };
     // A fault with what the body has otherwise; where that was set before, it may be none.
     if let Some(values) = values
@@ -301,21 +433,20 @@ fn read_place(context: &SceneContext<'_>, place: &mut Table<'_>) -> Option<Actio
     [Q, V].iter().for_each(|field| place.knows(field.key));
     let (at, BodyDraft { kind, values, .. }) = body?;
     let count = kind.as_ref()?.coordinates(values.as_ref()?).len();
-    let (q, v) = (place.coordinates(Q, count), place.coordinates(V, count));
+    let mut read = |field| place.coordinates(&Field { wanted: Wanted::Numbers(count), ..field });
+    let (q, v) = (read(Q), read(V));
     Some(Action::Place { body: at, q: q?.into(), v: v?.into() })
 }
 
 /// The states that lanes are known to reach.
 pub(super) fn read_checks(context: &SceneContext<'_>, top: &mut Table<'_>) -> Vec<Check> {
     let mut checks: Vec<Check> = Vec::new();
-    for mut row in top.rows("check") {
-        let tick = row.whole(CHECKED_TICK, 0..=LAST_TICK);
-        let lane = read_number(&mut row, CHECKED_LANE, context.lanes.len().max(1));
-        let hash = row.hash(HASH);
-        if let (Some(tick), Some(lane), Some(hash)) = (tick, lane, hash) {
-            checks.push(Check { tick, lane, hash });
-        }
-        top.adopt(row, &TOP);
+    for mut row in top.rows(CHECKS) {
+        let check = Check { tick: 0, lane: LaneId(1), hash: 0 };
+        let mut draft = (check, context.lanes.len().max(1));
+        Key::read_all(&CHECK, &mut draft, &mut row);
+        checks.push(draft.0);
+        top.adopt(row);
     }
     checks
 }

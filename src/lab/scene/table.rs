@@ -1,16 +1,16 @@
 //! Reads a table of a scene file key by key; keys that are never asked for are reported as unknown.
 
-use std::ops::{Range, RangeInclusive};
+use std::ops::Range;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::MAX_LANES;
 use super::clip::clip;
 use super::errors::SceneError;
 use super::fault::{FaultKind, SceneFault};
 use super::nearest::{nearest, offer};
-use super::wanted::{Place, Wanted};
-use crate::sim::bodies;
+use super::wanted::{Field, Place, Wanted};
 use crate::sim::integrators::{METHODS, Method};
 
 mod lists;
@@ -18,18 +18,12 @@ mod named;
 
 pub(super) use named::{Named, Written};
 
-/// A key that a table may or must have.
-#[derive(Clone, Copy)]
-pub(super) struct Field {
-    pub(super) key: &'static str,
-    /// What the key stands for, if it is required; `None` if it is optional.
-    pub(super) needed_as: Option<&'static str>,
-}
-
 /// A table with the faults found in it so far. A value with a fault is read as `None`.
 pub(super) struct Table<'t> {
     text: &'t str,
     place: Place,
+    /// The key at the top of the file that is called so.
+    at_top: fn(&str) -> Option<&'static str>,
     /// The bytes of its header; none at the top.
     pub(super) header: Range<usize>,
     entries: &'t DeTable<'t>,
@@ -41,21 +35,19 @@ pub(super) struct Table<'t> {
 }
 
 impl<'t> Table<'t> {
-    pub(super) fn top(text: &'t str, entries: &'t DeTable<'t>) -> Self {
-        Self::new(text, Place::Top, 0..0, entries)
+    pub(super) fn top(
+        text: &'t str,
+        at_top: fn(&str) -> Option<&'static str>,
+        entries: &'t DeTable<'t>,
+    ) -> Self {
+        let (place, header) = (Place::Top, 0..0);
+        let (keys, arrays, errors, below) = (vec![], vec![], vec![], vec![]);
+        Self { text, place, at_top, header, entries, keys, arrays, errors, below }
     }
 
-    fn new(text: &'t str, place: Place, header: Range<usize>, entries: &'t DeTable<'t>) -> Self {
-        Self {
-            text,
-            place,
-            header,
-            entries,
-            keys: vec![],
-            arrays: vec![],
-            errors: vec![],
-            below: vec![],
-        }
+    /// A table in this file.
+    fn other(&self, place: Place, header: Range<usize>, entries: &'t DeTable<'t>) -> Self {
+        Self { place, header, ..Self::top(self.text, self.at_top, entries) }
     }
 
     pub(super) fn complain(
@@ -92,26 +84,15 @@ impl<'t> Table<'t> {
         }
     }
 
-    pub(super) fn text(&mut self, field: Field, most_chars: usize) -> Option<String> {
-        self.text_for(field, most_chars, Wanted::Text(most_chars))
-    }
-
-    /// A text that is to be what is `wanted`.
-    pub(super) fn text_for(
-        &mut self,
-        field: Field,
-        most_chars: usize,
-        wanted: Wanted,
-    ) -> Option<String> {
-        let value = self.value(field, &wanted)?;
-        let (span, key) = (value.span(), field.key);
-        let Some(text) = value.get_ref().as_str() else {
-            return self.wrong_type(format!("`{key}`"), value, wanted);
-        };
+    /// A text of at most [`Wanted::max_chars`].
+    pub(super) fn text(&mut self, field: &Field) -> Option<String> {
+        let value = self.value(field)?;
+        let (span, Field { key, wanted, .. }) = (value.span(), field);
+        let Some(text) = value.get_ref().as_str() else { return self.wrong_type(field, value) };
         let chars = text.chars().count();
         if text.trim().is_empty() {
             self.complain(span, format!("`{key}` is empty"), wanted.remedy());
-        } else if chars > most_chars {
+        } else if chars > wanted.max_chars() {
             self.complain(span, format!("`{key}` has {chars} characters"), wanted.remedy());
         } else if let Some(character) = text.chars().find(|c| c.is_control()) {
             let code = character as u32;
@@ -123,53 +104,45 @@ impl<'t> Table<'t> {
         None
     }
 
-    pub(super) fn number(&mut self, field: Field, range: bodies::Range) -> Option<f64> {
-        let wanted = Wanted::Number(range);
-        let value = self.value(field, &wanted)?;
-        let Some(number) = number(value) else {
-            return self.wrong_type(format!("`{}`", field.key), value, wanted);
-        };
-        self.within(field, value, range.contains(number).then_some(number), wanted)
+    /// A number of [`Wanted::Number`].
+    pub(super) fn number(&mut self, field: &Field) -> Option<f64> {
+        let value = self.value(field)?;
+        let Some(number) = number(value) else { return self.wrong_type(field, value) };
+        self.within(field, value, field.wanted.takes(number).then_some(number))
     }
 
-    pub(super) fn whole<T>(&mut self, field: Field, range: RangeInclusive<T>) -> Option<T>
-    where
-        T: Copy + PartialOrd + Into<u64> + TryFrom<i128>,
-    {
-        let wanted = Wanted::Whole((*range.start()).into()..=(*range.end()).into());
-        let value = self.value(field, &wanted)?;
+    /// A number of [`Wanted::Whole`].
+    pub(super) fn whole<T: TryFrom<u64>>(&mut self, field: &Field) -> Option<T> {
+        let value = self.value(field)?;
         if !value.get_ref().is_integer() {
-            return self.wrong_type(format!("`{}`", field.key), value, wanted);
+            return self.wrong_type(field, value);
         }
-        let whole = integer(value).and_then(|whole| T::try_from(whole).ok());
-        self.within(field, value, whole.filter(|whole| range.contains(whole)), wanted)
+        let whole = integer(value).and_then(|whole| u64::try_from(whole).ok());
+        let whole = whole.filter(|whole| field.wanted.takes_whole(*whole));
+        self.within(field, value, whole.and_then(|whole| T::try_from(whole).ok()))
     }
 
-    pub(super) fn method(&mut self, field: Field) -> Option<&'static Method> {
-        let value = self.value(field, &Wanted::Method)?;
+    pub(super) fn method(&mut self, field: &Field) -> Option<&'static Method> {
+        let value = self.value(field)?;
         self.method_named(field.key, format!("`{}`", field.key), value)
     }
 
-    /// Methods with the bytes of their names. At most `most` entries are read.
+    /// Methods with the bytes of their names. At most [`MAX_LANES`] entries are read.
     pub(super) fn methods(
         &mut self,
-        field: Field,
-        most: usize,
+        field: &Field,
     ) -> Option<Vec<(Range<usize>, &'static Method)>> {
-        let value = self.value(field, &Wanted::Methods)?;
-        let Some(entries) = value.get_ref().as_array() else {
-            return self.wrong_type(format!("`{}`", field.key), value, Wanted::Methods);
-        };
+        let (value, entries) = self.list(field)?;
         if entries.is_empty() {
             let remedy = "name a method, or remove the line and all of them race";
             self.complain(value.span(), format!("`{}` is empty", field.key), remedy);
         }
-        if let Some(first_too_many) = entries.get(most) {
+        if let Some(first_too_many) = entries.get(MAX_LANES) {
             let what = format!("the scene has {} lanes", entries.len());
-            self.complain(first_too_many.span(), what, format!("keep at most {most}"));
+            self.complain(first_too_many.span(), what, format!("keep at most {MAX_LANES}"));
         }
         let mut methods = Vec::new();
-        for entry in entries.iter().take(most) {
+        for entry in entries.iter().take(MAX_LANES) {
             let subject = format!("an entry of `{}`", field.key);
             let method = self.method_named(field.key, subject, entry);
             methods.extend(method.map(|method| (entry.span(), method)));
@@ -182,43 +155,40 @@ impl<'t> Table<'t> {
         self.arrays.push(name);
         let Some(value) = self.entries.get(name) else { return vec![] };
         let Some(array) = value.get_ref().as_array() else {
-            self.wrong_type::<()>(format!("`{name}`"), value, Wanted::Tables(name));
+            self.wrong_type_of::<()>(format!("`{name}`"), value, &Wanted::Tables(name));
             return vec![];
         };
         let table = |entry: &'t Spanned<DeValue<'t>>| {
             let entries = entry.get_ref().as_table()?;
-            Some(Table::new(self.text, Place::Table(name), entry.span(), entries))
+            Some(self.other(Place::Table(name), entry.span(), entries))
         };
         let rows: Option<Vec<_>> = array.iter().map(table).collect();
         if rows.is_none() {
-            self.wrong_type::<()>(format!("`{name}`"), value, Wanted::Tables(name));
+            self.wrong_type_of::<()>(format!("`{name}`"), value, &Wanted::Tables(name));
         }
         rows.unwrap_or_default()
     }
 
-    /// The table `name`, if there is one.
-    pub(super) fn table(&mut self, name: &'static str) -> Option<Table<'t>> {
-        let value = self.value(Field { key: name, needed_as: None }, &Wanted::Table(name))?;
+    /// The table of [`Wanted::Table`], if there is one.
+    pub(super) fn table(&mut self, field: &Field) -> Option<Table<'t>> {
+        let value = self.value(field)?;
         match value.get_ref().as_table() {
-            Some(entries) => {
-                Some(Table::new(self.text, Place::Within(name), value.span(), entries))
-            }
-            None => self.wrong_type(format!("`{name}`"), value, Wanted::Table(name)),
+            Some(entries) => Some(self.other(Place::Within(field.key), value.span(), entries)),
+            None => self.wrong_type(field, value),
         }
     }
 
-    pub(super) fn boolean(&mut self, field: Field) -> Option<bool> {
-        let value = self.value(field, &Wanted::Boolean)?;
-        let truth = value.get_ref().as_bool();
-        truth.or_else(|| self.wrong_type(format!("`{}`", field.key), value, Wanted::Boolean))
+    pub(super) fn boolean(&mut self, field: &Field) -> Option<bool> {
+        let value = self.value(field)?;
+        value.get_ref().as_bool().or_else(|| self.wrong_type(field, value))
     }
 
     /// A hash, written as 16 hexadecimal digits.
-    pub(super) fn hash(&mut self, field: Field) -> Option<u64> {
-        let value = self.value(field, &Wanted::Hash)?;
+    pub(super) fn hash(&mut self, field: &Field) -> Option<u64> {
+        let value = self.value(field)?;
         let (span, key) = (value.span(), field.key);
         let Some(text) = value.get_ref().as_str() else {
-            return self.wrong_type(format!("`{key}`"), value, Wanted::Hash);
+            return self.wrong_type(field, value);
         };
         let is_hex = text.len() == 16 && text.bytes().all(|digit| digit.is_ascii_hexdigit());
         let hash = is_hex.then(|| u64::from_str_radix(text, 16).ok()).flatten();
@@ -229,18 +199,18 @@ impl<'t> Table<'t> {
         hash
     }
 
-    /// Collects the faults of a table below this one. Keys of `top` in it are reported as misplaced.
-    pub(super) fn adopt(&mut self, row: Table<'t>, top: &[Field]) {
-        self.below.extend(row.finish(top));
+    /// Collects the faults of a table below this one.
+    pub(super) fn adopt(&mut self, row: Table<'t>) {
+        self.below.extend(row.finish());
     }
 
     /// All faults of the table, once all its keys have been asked for.
-    pub(super) fn finish(mut self, top: &[Field]) -> Vec<SceneError> {
+    pub(super) fn finish(mut self) -> Vec<SceneError> {
         let mut unknown = Vec::new();
         for (key, value) in self.entries {
             let (span, key) = (key.span(), key.get_ref().as_ref());
             if !self.keys.contains(&key) && !self.arrays.contains(&key) {
-                unknown.push(SceneError { span, fault: self.unknown(key, value.get_ref(), top) });
+                unknown.push(SceneError { span, fault: self.unknown(key, value.get_ref()) });
             }
         }
         // A misspelt or misplaced key is not reported as missing too.
@@ -262,12 +232,12 @@ impl<'t> Table<'t> {
         self.errors
     }
 
-    fn unknown(&self, key: &str, value: &DeValue<'_>, top: &[Field]) -> SceneFault {
+    fn unknown(&self, key: &str, value: &DeValue<'_>) -> SceneFault {
         let place = self.place;
-        if let Some(field) = top.iter().find(|field| field.key == key) {
+        if let Some(key) = (self.at_top)(key).filter(|_| place != Place::Top) {
             let what = format!("`{key}` does not belong {place}");
             return SceneFault::new(what, "move it above the first table")
-                .of(FaultKind::Misplaced(field.key));
+                .of(FaultKind::Misplaced(key));
         }
         let is_table = place == Place::Top && is_table(value);
         let known = if is_table { &self.arrays } else { &self.keys };
@@ -279,11 +249,11 @@ impl<'t> Table<'t> {
             .of(FaultKind::NoTable)
     }
 
-    fn value(&mut self, field: Field, wanted: &Wanted) -> Option<&'t Spanned<DeValue<'t>>> {
-        let Field { key, needed_as } = field;
+    fn value(&mut self, field: &Field) -> Option<&'t Spanned<DeValue<'t>>> {
+        let Field { key, is_required, about, wanted } = field;
         self.knows(key);
-        let value = self.entries.get(key);
-        if let (None, Some(about)) = (value, needed_as) {
+        let value = self.entries.get(*key);
+        if value.is_none() && *is_required {
             let place = self.place;
             let above = if place == Place::Top { " above the first table" } else { "" };
             let remedy = format!("write `{key} = …`{above}: {about}, {wanted}");
@@ -293,6 +263,18 @@ impl<'t> Table<'t> {
         value
     }
 
+    /// A value that is a list, and its entries.
+    fn list(
+        &mut self,
+        field: &Field,
+    ) -> Option<(&'t Spanned<DeValue<'t>>, &'t [Spanned<DeValue<'t>>])> {
+        let value = self.value(field)?;
+        match value.get_ref().as_array() {
+            Some(entries) => Some((value, entries)),
+            None => self.wrong_type(field, value),
+        }
+    }
+
     fn method_named(
         &mut self,
         key: &'static str,
@@ -300,7 +282,7 @@ impl<'t> Table<'t> {
         value: &Spanned<DeValue<'_>>,
     ) -> Option<&'static Method> {
         let Some(id) = value.get_ref().as_str() else {
-            return self.wrong_type(subject, value, Wanted::Method);
+            return self.wrong_type_of(subject, value, &Wanted::Method);
         };
         let method = METHODS.iter().find(|method| method.id == id);
         if method.is_none() {
@@ -315,25 +297,34 @@ impl<'t> Table<'t> {
 
     fn within<T>(
         &mut self,
-        field: Field,
+        field: &Field,
         value: &Spanned<DeValue<'_>>,
         number: Option<T>,
-        wanted: Wanted,
     ) -> Option<T> {
-        if number.is_none() {
-            let written = clip(&self.text[value.span()]);
-            let subject = format!("`{}`", field.key);
-            let fault = SceneFault::out_of_range(&subject, &written, &wanted);
-            self.complain_of(value.span(), fault);
-        }
-        number
+        let subject = format!("`{}`", field.key);
+        number.or_else(|| self.out_of_range(&subject, value, &field.wanted))
     }
 
-    fn wrong_type<T>(
+    fn out_of_range<T>(
+        &mut self,
+        subject: &str,
+        value: &Spanned<DeValue<'_>>,
+        wanted: &Wanted,
+    ) -> Option<T> {
+        let written = clip(&self.text[value.span()]);
+        self.complain_of(value.span(), SceneFault::out_of_range(subject, &written, wanted));
+        None
+    }
+
+    fn wrong_type<T>(&mut self, field: &Field, value: &Spanned<DeValue<'_>>) -> Option<T> {
+        self.wrong_type_of(format!("`{}`", field.key), value, &field.wanted)
+    }
+
+    fn wrong_type_of<T>(
         &mut self,
         subject: String,
         value: &Spanned<DeValue<'_>>,
-        wanted: Wanted,
+        wanted: &Wanted,
     ) -> Option<T> {
         let written = clip(&self.text[value.span()]);
         let found = match value.get_ref() {
@@ -346,7 +337,7 @@ impl<'t> Table<'t> {
             DeValue::Array(_) => "a list".into(),
             DeValue::Table(_) => "a table".into(),
         };
-        self.complain_of(value.span(), SceneFault::wrong_type(&subject, &found, &wanted));
+        self.complain_of(value.span(), SceneFault::wrong_type(&subject, &found, wanted));
         None
     }
 }

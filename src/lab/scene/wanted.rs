@@ -7,6 +7,9 @@ use super::nearest::listed;
 use crate::sim::bodies::{self, Pin};
 use crate::sim::law::Layout;
 
+/// The most characters of the name of a layout or of a pin.
+const MAX_WORD_CHARS: usize = 16;
+
 /// Where a key stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {
@@ -16,6 +19,26 @@ pub(super) enum Place {
     Table(&'static str),
     /// In a table of this name.
     Within(&'static str),
+}
+
+/// A key that a table may or must have.
+#[derive(Clone, Debug)]
+pub(super) struct Field {
+    pub(super) key: &'static str,
+    pub(super) is_required: bool,
+    /// What it stands for.
+    pub(super) about: &'static str,
+    pub(super) wanted: Wanted,
+}
+
+impl Field {
+    pub(super) const fn required(key: &'static str, about: &'static str, wanted: Wanted) -> Self {
+        Self { key, is_required: true, about, wanted }
+    }
+
+    pub(super) const fn optional(key: &'static str, about: &'static str, wanted: Wanted) -> Self {
+        Self { key, is_required: false, about, wanted }
+    }
 }
 
 /// The kind of value that a key takes.
@@ -84,6 +107,9 @@ impl fmt::Display for Place {
 }
 
 impl Wanted {
+    /// Any number.
+    pub(super) const ANY: Self = Self::Number(bodies::Range::ANY);
+
     /// The kind of value that a parameter of this range takes.
     pub(super) fn of(range: bodies::Range) -> Self {
         match range {
@@ -91,6 +117,21 @@ impl Wanted {
             bodies::Range::Curve { .. } => Wanted::Curve(range),
             _ => Wanted::Number(range),
         }
+    }
+
+    /// Whether a number is in the range.
+    pub(super) fn takes(&self, number: f64) -> bool {
+        matches!(self, Wanted::Number(range) if range.contains(number))
+    }
+
+    /// Whether a whole number is in the range.
+    pub(super) fn takes_whole(&self, whole: u64) -> bool {
+        matches!(self, Wanted::Whole(range) if range.contains(&whole))
+    }
+
+    /// The most characters of a text.
+    pub(super) fn max_chars(&self) -> usize {
+        if let Wanted::Text(most) = self { *most } else { MAX_WORD_CHARS }
     }
 
     /// What to do where something else stands.

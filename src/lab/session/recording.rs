@@ -112,7 +112,7 @@ impl Recorder {
         let mut repeated = known.map_or_else(|| Repeated::new(run), |(_, repeated)| repeated);
         repeated.race.set_journal(run.journal.clone());
         repeated.advance(run.end, stop);
-        let text = repeated.scene(run).to_toml();
+        let text = repeated.scene(run).to_saved_toml();
         self.last = Some((run.clone(), repeated));
         let bytes = text.len();
         if bytes > MAX_FILE_BYTES { Err(RecordingError::TooLong { bytes }) } else { Ok(text) }

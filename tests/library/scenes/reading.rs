@@ -2,7 +2,7 @@
 
 use regatta::lab::{
     Action, Command, LAST_TICK, Lab, LaneSpec, MAX_BODIES, MAX_LANES, MAX_SECONDS, MAX_TICK_HZ,
-    Race, Scene, SceneBody,
+    Race, Scene, SceneBody, SceneKey, scene_tables,
 };
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 
@@ -144,11 +144,12 @@ fn each_limit_itself_is_allowed() {
 #[test]
 fn other_editors_line_ends_byte_order_mark_and_inline_tables_are_the_same_scene() {
     let text = format!("title = 'Mine'\ntick_hz = 60\nseconds = 10\n{SPRING}");
-    let expected = format!("{:?}", parse(&text));
+    let read = |text: &str| format!("{:?}", Scene { source: None, ..parse(text) });
+    let expected = read(&text);
     let inline = "title = 'Mine'\ntick_hz = 60\nseconds = 10\n\
                   spring = [{ mass_kg = 1, stiffness_n_per_m = 40 }]";
     for variant in [&text.replace('\n', "\r\n"), &format!("\u{feff}{text}"), inline] {
-        assert_eq!(format!("{:?}", parse(variant)), expected);
+        assert_eq!(read(variant), expected);
     }
 }
 
@@ -179,4 +180,19 @@ fn a_method_that_does_not_fit_is_not_taken_up_and_the_reason_is_told() {
     assert_eq!(lab.active(), before);
     let notice = lab.viewer().notice.as_deref().unwrap_or_default();
     assert!(notice.contains("smooth-damp does not step the body \"spring\""), "{notice}");
+}
+
+#[test]
+fn the_manual_has_every_key_of_a_scene_file() {
+    let mut section = String::new();
+    for (name, keys) in scene_tables() {
+        let name = if name.starts_with('[') { format!("`{name}`") } else { name };
+        section += &format!("\n| {name} | | |\n|---|---|---|\n");
+        for SceneKey { key, is_required, about, value } in keys {
+            let key = if is_required { format!("**`{key}`**") } else { format!("`{key}`") };
+            section += &format!("| {key} | {about} | {value} |\n");
+        }
+    }
+    let manual = regatta::manual::chapter("scenes").expect("a chapter").text;
+    assert!(manual.contains(&section), "{section}");
 }

@@ -44,6 +44,7 @@ pub(crate) const LAYERS: [Layer; 5] = [
             "nalgebra",
             "thiserror",
             "toml",
+            "toml_edit",
             "serde",
             "strsim",
         ]),

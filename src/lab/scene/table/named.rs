@@ -5,10 +5,9 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::{Field, Table, number};
+use super::{Table, number};
 use crate::lab::scene::clip::clip;
-use crate::lab::scene::fault::SceneFault;
-use crate::lab::scene::wanted::{Place, Wanted};
+use crate::lab::scene::wanted::{Field, Place, Wanted};
 use crate::sim::bodies;
 
 /// An entry whose key the file chooses.
@@ -40,14 +39,10 @@ impl Written {
 
 impl<'t> Table<'t> {
     /// The entries of the table under this key, in the order of the file.
-    pub(in crate::lab::scene) fn entries(
-        &mut self,
-        field: Field,
-        wanted: &Wanted,
-    ) -> Option<Vec<Named<'t>>> {
-        let value = self.value(field, wanted)?;
+    pub(in crate::lab::scene) fn entries(&mut self, field: &Field) -> Option<Vec<Named<'t>>> {
+        let value = self.value(field)?;
         let Some(entries) = value.get_ref().as_table() else {
-            return self.wrong_type(format!("`{}`", field.key), value, wanted.clone());
+            return self.wrong_type(field, value);
         };
         let named = |(key, value): (&'t Spanned<_>, &'t Spanned<DeValue<'t>>)| {
             let text: &std::borrow::Cow<'t, str> = key.get_ref();
@@ -66,53 +61,41 @@ impl<'t> Table<'t> {
     ) -> Option<f64> {
         let (wanted, subject) = (Wanted::Number(range), format!("`{}`", clip(entry.key)));
         let Some(number) = number(entry.value) else {
-            return self.wrong_type(subject, entry.value, wanted);
+            return self.wrong_type_of(subject, entry.value, &wanted);
         };
-        if !range.contains(number) {
-            let written = clip(&self.text[entry.value.span()]);
-            let fault = SceneFault::out_of_range(&subject, &written, &wanted);
-            self.complain_of(entry.value.span(), fault);
+        match range.contains(number) {
+            true => Some(number),
+            false => self.out_of_range(&subject, entry.value, &wanted),
         }
-        range.contains(number).then_some(number)
     }
 
-    /// The table of an entry, which stands in the table `place`.
+    /// The table of an entry of [`Wanted::Coordinates`].
     pub(in crate::lab::scene) fn table_of(
         &mut self,
         entry: &Named<'t>,
-        place: &'static str,
+        wanted: &Wanted,
     ) -> Option<Table<'t>> {
-        match entry.value.get_ref().as_table() {
-            Some(entries) => {
-                Some(Table::new(self.text, Place::Within(place), entry.span.clone(), entries))
+        match (entry.value.get_ref().as_table(), wanted) {
+            (Some(entries), Wanted::Coordinates(place)) => {
+                Some(self.other(Place::Within(place), entry.span.clone(), entries))
             }
-            None => {
-                let subject = format!("`{}`", clip(entry.key));
-                self.wrong_type(subject, entry.value, Wanted::Coordinates(place))
-            }
+            _ => self.wrong_type_of(format!("`{}`", clip(entry.key)), entry.value, wanted),
         }
     }
 
     /// The tables of springs in a list, in the order of the file.
-    pub(in crate::lab::scene) fn spring_rows(
-        &mut self,
-        field: Field,
-        wanted: &Wanted,
-    ) -> Option<Vec<Table<'t>>> {
-        let value = self.value(field, wanted)?;
-        let Some(entries) = value.get_ref().as_array() else {
-            return self.wrong_type(format!("`{}`", field.key), value, wanted.clone());
-        };
+    pub(in crate::lab::scene) fn spring_rows(&mut self, field: &Field) -> Option<Vec<Table<'t>>> {
+        let (_, entries) = self.list(field)?;
         let mut rows = Vec::new();
         for entry in entries {
             match entry.get_ref().as_table() {
                 Some(entries) => {
                     let place = Place::Within(field.key);
-                    rows.push(Table::new(self.text, place, entry.span(), entries));
+                    rows.push(self.other(place, entry.span(), entries));
                 }
                 None => {
                     let subject = format!("an entry of `{}`", field.key);
-                    self.wrong_type::<()>(subject, entry, Wanted::Spring);
+                    self.wrong_type_of::<()>(subject, entry, &Wanted::Spring);
                 }
             }
         }
@@ -120,11 +103,9 @@ impl<'t> Table<'t> {
     }
 
     /// An expression. A line break in it counts as a space.
-    pub(in crate::lab::scene) fn expression(&mut self, field: Field) -> Option<Written> {
-        let value = self.value(field, &Wanted::Expression)?;
-        let Some(text) = value.get_ref().as_str() else {
-            return self.wrong_type(format!("`{}`", field.key), value, Wanted::Expression);
-        };
+    pub(in crate::lab::scene) fn expression(&mut self, field: &Field) -> Option<Written> {
+        let value = self.value(field)?;
+        let Some(text) = value.get_ref().as_str() else { return self.wrong_type(field, value) };
         let span = value.span();
         let start = self.text[span.clone()].find(text).map(|at| span.start + at);
         let text = text.replace(['\n', '\r', '\t'], " ");
@@ -134,14 +115,13 @@ impl<'t> Table<'t> {
     /// The names in a list of texts, with their bytes.
     pub(in crate::lab::scene) fn names(
         &mut self,
-        field: Field,
-        wanted: &Wanted,
+        field: &Field,
     ) -> Option<Vec<(Range<usize>, &'t str)>> {
-        let value = self.value(field, wanted)?;
+        let value = self.value(field)?;
         let entries = value.get_ref().as_array();
         let name =
             |entry: &'t Spanned<DeValue<'t>>| Some((entry.span(), entry.get_ref().as_str()?));
         let names = entries.and_then(|entries| entries.iter().map(name).collect());
-        names.or_else(|| self.wrong_type(format!("`{}`", field.key), value, wanted.clone()))
+        names.or_else(|| self.wrong_type(field, value))
     }
 }

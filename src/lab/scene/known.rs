@@ -1,0 +1,56 @@
+//! Every key of a scene file, for lists and the manual.
+
+use super::described::{NAME, field_of};
+use super::document::{LANE, RACE, RACE_TABLE, TOP};
+use super::keys::{Key, SPEC};
+use super::law::{COORDINATE_KEYS, LAW, LAW_KEYS};
+use super::net::{GRID_KEYS, KICKED, LIST_KEYS, NET, SPRING_KEYS};
+use super::script::{CHECK, CHECKS, COMMAND, COMMAND_KEYS, LANE as LANE_NUMBER, OF_A_BODY, TICK};
+use super::wanted::Field;
+use crate::sim::bodies::Net;
+
+/// A key of a scene file.
+#[derive(Clone, Debug)]
+pub struct SceneKey {
+    /// Its name.
+    pub key: &'static str,
+    /// Whether it must be given, at least in its way of writing the table.
+    pub is_required: bool,
+    /// What it stands for.
+    pub about: &'static str,
+    /// What value it takes.
+    pub value: String,
+}
+
+/// The tables of a scene file, as the file writes their names, each with its keys in order. Bodies of the table
+/// [`BODIES`](crate::sim::bodies::BODIES) have a `name` and their parameters.
+pub fn scene_tables() -> Vec<(String, Vec<SceneKey>)> {
+    let array = |name: &str| format!("[[{name}]]");
+    let [set, place] = OF_A_BODY.map(|(name, keys)| (format!("`{name}`"), keys.to_vec()));
+    let of_commands = COMMAND_KEYS.iter().map(|command| command.field.clone());
+    let of_nets = Net::descriptions().iter().map(field_of).collect();
+    let of_nets =
+        [vec![NAME], fields(&GRID_KEYS), fields(&LIST_KEYS), vec![KICKED], of_nets].concat();
+    let tables = [
+        ("the top of the file".to_owned(), [fields(&TOP), vec![RACE_TABLE]].concat()),
+        ("[race]".to_owned(), fields(&RACE)),
+        (array(LANE), fields(&SPEC)),
+        (array(LAW), [vec![NAME], fields(&LAW_KEYS)].concat()),
+        (format!("[{LAW}.coordinates.x]"), fields(&COORDINATE_KEYS)),
+        (array(NET), of_nets),
+        ("a spring of `springs`".to_owned(), fields(&SPRING_KEYS)),
+        (array(COMMAND), [TICK, LANE_NUMBER].into_iter().chain(of_commands).collect()),
+        set,
+        place,
+        (array(CHECKS), fields(&CHECK)),
+    ];
+    let described = |Field { key, is_required, about, wanted }: Field| {
+        let value = wanted.to_string();
+        SceneKey { key, is_required, about, value }
+    };
+    tables.map(|(table, keys)| (table, keys.into_iter().map(described).collect())).into()
+}
+
+fn fields<D, T>(keys: &[Key<D, T>]) -> Vec<Field> {
+    keys.iter().map(|key| key.field.clone()).collect()
+}

@@ -1,0 +1,123 @@
+//! Saves a scene in the words of the file that it was read from.
+
+use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, TableLike};
+
+use super::Scene;
+use super::document::{LANE, METHOD_LIST};
+use super::script::COMMAND;
+
+/// The table arrays whose rows are written anew when they change: a key that a row leaves out may depend on another.
+const WRITTEN_ANEW: [&str; 2] = [LANE, COMMAND];
+
+impl Scene {
+    /// The text of a scene file that [reads](Scene::parse) as this scene. If the scene was read from a file, comments, order
+    /// and spelling are the author's, and only what has changed since differs. Lines end as on Unix.
+    pub fn to_saved_toml(&self) -> String {
+        let plain = self.to_toml();
+        let saved = self.source.as_deref().and_then(|source| {
+            let saved = saved(&source.replace("\r\n", "\n"), &plain)?;
+            // An author's text may say things in a way that is not known here.
+            (Scene::parse(&self.name, &saved).ok()?.to_toml() == plain).then_some(saved)
+        });
+        saved.unwrap_or(plain)
+    }
+}
+
+/// The author's text with what is other in the `plain` text of a scene than in that of the author's own.
+fn saved(source: &str, plain: &str) -> Option<String> {
+    let read = |text: &str| text.parse::<DocumentMut>().ok();
+    let mut author = read(source)?;
+    let before = read(&Scene::parse("", source).ok()?.to_toml())?;
+    let after = read(plain)?;
+    // Lanes that are plain may be given as tables too.
+    let lanes = METHOD_LIST.key;
+    if !is_same(before.get(lanes), after.get(lanes)) {
+        author.remove(LANE);
+    }
+    change(author.as_table_mut(), before.as_table(), after.as_table());
+    Some(author.to_string())
+}
+
+/// Makes the changes between two tables in the author's.
+fn change(author: &mut dyn TableLike, before: &dyn TableLike, after: &dyn TableLike) {
+    for (key, _) in before.iter().filter(|(key, _)| !after.contains_key(key)) {
+        author.remove(key);
+    }
+    for (key, new) in after.iter().filter(|(key, new)| !is_same(before.get(key), Some(new))) {
+        match (author.get_mut(key), before.get(key)) {
+            (Some(item), Some(old)) => change_item(key, item, old, new),
+            _ => _ = author.insert(key, at_the_end(new.clone())),
+        }
+    }
+}
+
+fn change_item(key: &str, author: &mut Item, before: &Item, after: &Item) {
+    if let (Some(author), Some(after)) = (author.as_value_mut(), after.as_value()) {
+        let decor = author.decor().clone();
+        *author = after.clone();
+        *author.decor_mut() = decor;
+    } else if let (Some(author), Some(before), Some(after)) =
+        (author.as_table_like_mut(), before.as_table_like(), after.as_table_like())
+    {
+        change(author, before, after);
+    } else if let (Some(author), Some(before), Some(after)) =
+        (author.as_array_of_tables_mut(), before.as_array_of_tables(), after.as_array_of_tables())
+    {
+        if before.len() == after.len() && !WRITTEN_ANEW.contains(&key) {
+            for (author, (before, after)) in author.iter_mut().zip(before.iter().zip(after)) {
+                change(author, before, after);
+            }
+        } else {
+            *author = with_known_rows(author, before, after);
+        }
+    } else {
+        *author = at_the_end(after.clone());
+    }
+}
+
+/// The rows `after`, of which those that are in `before` are the author's.
+fn with_known_rows(
+    author: &ArrayOfTables,
+    before: &ArrayOfTables,
+    after: &ArrayOfTables,
+) -> ArrayOfTables {
+    let known: Vec<_> = author.iter().zip(before).collect();
+    let mut rest = &known[..];
+    let row = |new: &Table| match rest.iter().position(|(_, before)| is_same_table(*before, new)) {
+        Some(index) => {
+            let (author, _) = rest[index];
+            rest = &rest[index + 1..];
+            author.clone()
+        }
+        None => {
+            let mut new = new.clone();
+            new.set_position(None);
+            new
+        }
+    };
+    after.iter().map(row).collect()
+}
+
+/// An item whose tables stand behind all others.
+fn at_the_end(mut item: Item) -> Item {
+    let rows = item.as_array_of_tables_mut().into_iter().flat_map(ArrayOfTables::iter_mut);
+    rows.for_each(|row| row.set_position(Some(isize::MAX)));
+    item.as_table_mut().into_iter().for_each(|table| table.set_position(Some(isize::MAX)));
+    item
+}
+
+/// Whether two items of plain texts are the same.
+fn is_same(a: Option<&Item>, b: Option<&Item>) -> bool {
+    let (Some(a), Some(b)) = (a, b) else { return a.is_none() && b.is_none() };
+    if let (Some(a), Some(b)) = (a.as_table_like(), b.as_table_like()) {
+        return is_same_table(a, b);
+    }
+    if let (Some(a), Some(b)) = (a.as_array_of_tables(), b.as_array_of_tables()) {
+        return a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_same_table(a, b));
+    }
+    a.as_value().zip(b.as_value()).is_some_and(|(a, b)| a.to_string() == b.to_string())
+}
+
+fn is_same_table(a: &dyn TableLike, b: &dyn TableLike) -> bool {
+    a.len() == b.len() && a.iter().all(|(key, item)| is_same(Some(item), b.get(key)))
+}
