@@ -209,8 +209,19 @@ impl Vector for Vec<f64> {
 #[inline]
 pub(in crate::sim) fn largest<'a>(components: impl IntoIterator<Item = &'a f64>) -> f64 {
     // The bits of magnitudes are in the order of the magnitudes, those of a NaN above all others.
-    let bits = components.into_iter().map(|component| component.abs().to_bits());
-    f64::from_bits(bits.fold(0, u64::max))
+    let mut bits = components.into_iter().map(|component| component.abs().to_bits());
+    // Four maxima in turn, of which none waits for the last.
+    let mut most = [0; 4];
+    while let Some(a) = bits.next() {
+        most[0] = a.max(most[0]);
+        let Some(b) = bits.next() else { break };
+        most[1] = b.max(most[1]);
+        let Some(c) = bits.next() else { break };
+        most[2] = c.max(most[2]);
+        let Some(d) = bits.next() else { break };
+        most[3] = d.max(most[3]);
+    }
+    f64::from_bits(most.into_iter().fold(0, u64::max))
 }
 
 /// Coordinates and velocities. Also their time derivative `(v, a)`.
@@ -249,5 +260,22 @@ impl<V: Elementwise> State<V> {
     pub fn add_scaled(&mut self, h: f64, x: &Self) {
         self.q.add_scaled(h, &x.q);
         self.v.add_scaled(h, &x.v);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::largest;
+
+    #[test]
+    fn the_largest_magnitude_is_found_wherever_it_is_and_a_component_that_is_not_a_number_too() {
+        for index in 0..9 {
+            for found in [-7.0, f64::INFINITY, f64::NAN] {
+                let mut components = [0.5, -1.0, 2.0, 0.0, -3.0, 1.0, 0.1, -0.0, 4.0];
+                components[index] = found;
+                assert_eq!(largest(&components).to_bits(), found.abs().to_bits(), "{index}");
+            }
+        }
+        assert_eq!(largest(&[]), 0.0);
     }
 }

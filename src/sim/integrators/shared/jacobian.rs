@@ -3,7 +3,7 @@
 //! They are kept as matrices, or where [few](Coupling::Few) coordinates act on each taken along each vector.
 
 use super::linearisation::alternate;
-use super::slopes::Slopes;
+use super::slopes::{Slopes, comb};
 use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::{Coupling, System};
 
@@ -82,10 +82,9 @@ impl<V: Vector> Jacobian<V> {
         for (is_by_v, matrix) in [by_q, by_v].into_iter().enumerate().filter(|(_, m)| !m.is_empty())
         {
             for begin in 0..apart {
-                along.q.components_mut().fill(0.0);
-                along.v.components_mut().fill(0.0);
-                let part = if is_by_v == 1 { &mut along.v } else { &mut along.q };
-                part.components_mut().iter_mut().skip(begin).step_by(apart).for_each(|x| *x = 1.0);
+                let by_v = is_by_v as u32;
+                comb(&mut along.q, begin, apart, f64::from(1 - by_v));
+                comb(&mut along.v, begin, apart, f64::from(by_v));
                 slopes.take(system, t, at, along, None, slope);
                 for j in (begin..n).step_by(apart) {
                     let (first, height) = rows(j, reach, n);

@@ -6,7 +6,7 @@
 
 use super::krylov::{Krylov, add};
 use super::lu::StageLu;
-use super::slopes::{Forward, Slopes};
+use super::slopes::{Forward, Slopes, comb};
 use super::stages::Stages;
 use crate::sim::integrators::failure::{StepFailure, Stepped};
 use crate::sim::state::{State, Vector, largest};
@@ -70,15 +70,9 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
         mut see: impl FnMut(usize, f64),
     ) {
         let Self { at, slopes, along, slope, alone, matrix, .. } = self;
-        let n = slope.components().len();
         let mut take = |s: usize, i: usize, first: usize, apart: usize, slope: &mut V| {
-            let State { q, v } = &mut *along;
-            for (half, weight) in [(q, stages.alpha[i][s]), (v, stages.beta[i][s])] {
-                half.components_mut().fill(0.0);
-                for j in (first..n).step_by(apart) {
-                    half.components_mut()[j] = weight;
-                }
-            }
+            comb(&mut along.q, first, apart, stages.alpha[i][s]);
+            comb(&mut along.v, first, apart, stages.beta[i][s]);
             let forward = forward.map(|(from, part)| Forward { from: &from[i], part });
             slopes.take(system, stages.t[i], &at[i], along, forward, slope);
         };
@@ -91,21 +85,12 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
         };
         // Coordinates that act on different ones are moved together.
         let apart = matrix.apart();
+        matrix.begin();
         for s in 0..S {
             for first in 0..apart {
-                for j in (first..n).step_by(apart) {
-                    matrix.begin_column(s, j);
-                }
                 for i in 0..S {
                     take(s, i, first, apart, slope);
-                    for j in (first..n).step_by(apart) {
-                        let rows = matrix.rows(j);
-                        let slopes = &slope.components()[rows.clone()];
-                        matrix.put([s, j], i, slopes);
-                        (i * n + rows.start..)
-                            .zip(slopes)
-                            .for_each(|(row, slope)| see(row, *slope));
-                    }
+                    matrix.put([s, first], i, slope.components(), &mut see);
                 }
             }
         }

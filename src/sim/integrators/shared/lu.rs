@@ -3,15 +3,14 @@
 //! Written out because nalgebra allocates in every factorisation of dynamic size and has none for bands, and faer
 //! would be many times the size of this layer.
 
-use std::ops::Range;
-
 /// A square matrix, replaced by its triangular factors in [`Lu::factor`].
 #[derive(Clone)]
 pub(super) struct Lu {
     size: usize,
-    /// How far from the diagonal an entry may lie.
-    reach: usize,
-    /// The rows that are stored of a column: pivoting moves entries up to twice the reach above the diagonal.
+    /// How far from the diagonal an entry of a band may lie; `None` if all entries are stored.
+    band: Option<usize>,
+    /// The rows that are stored of a column. Of a band those from twice the reach above the diagonal on, to where pivoting
+    /// moves entries; some may lie outside the matrix.
     height: usize,
     /// Column by column.
     entries: Vec<f64>,
@@ -20,12 +19,11 @@ pub(super) struct Lu {
 }
 
 impl Lu {
-    /// A matrix of `size` rows whose entries lie at most `reach` from the diagonal: all of them where that is no
-    /// less than `size - 1`.
+    /// A matrix of `size` rows whose entries lie at most `reach` from the diagonal. All are stored where that is no more.
     pub(super) fn new(size: usize, reach: usize) -> Self {
-        let reach = reach.min(size.saturating_sub(1));
-        let height = size.min(3 * reach + 1);
-        Self { size, reach, height, entries: vec![0.0; size * height], swaps: vec![0; size] }
+        let band = Some(reach).filter(|reach| 3 * reach + 1 < size);
+        let height = band.map_or(size, |reach| 3 * reach + 1);
+        Self { size, band, height, entries: vec![0.0; size * height], swaps: vec![0; size] }
     }
 
     /// Memory on the heap, in bytes.
@@ -33,28 +31,17 @@ impl Lu {
         size_of_val(&self.entries[..]) + size_of_val(&self.swaps[..])
     }
 
-    /// Overwrites column `j` with zeros. Returns the rows in which it may have entries, and these entries.
-    #[inline]
-    fn clear_column(&mut self, j: usize) -> (Range<usize>, &mut [f64]) {
-        let Self { size, reach, height, .. } = *self;
-        let rows = j.saturating_sub(reach)..(j + reach + 1).min(size);
-        let first = first(j, reach, size, height);
-        let column = &mut self.entries[j * height..][..height];
-        column.fill(0.0);
-        (rows.clone(), &mut column[rows.start - first..rows.end - first])
-    }
-
     /// What is stored of column `j` from this row on.
     #[inline]
     fn column_from(&mut self, j: usize, row: usize) -> &mut [f64] {
-        let first = first(j, self.reach, self.size, self.height);
-        &mut self.entries[j * self.height..][..self.height][row - first..]
+        let (diagonal, _) = self.stored(j, self.band);
+        &mut self.entries[j * self.height..][..self.height][diagonal + row - j..]
     }
 
-    /// Factors the matrix. A singular matrix gives solutions that are not finite.
+    /// Factors the matrix. A singular matrix gives solutions that are not finite. Common bands are compiled for themselves.
     #[inline]
     pub(super) fn factor(&mut self) {
-        match self.band() {
+        match self.band {
             None => self.eliminate(None),
             Some(1) => self.eliminate(Some(1)),
             Some(3) => self.eliminate(Some(3)),
@@ -65,7 +52,7 @@ impl Lu {
     /// Overwrites the right-hand side `x` with the solution.
     #[inline]
     pub(super) fn solve(&self, x: &mut [f64]) {
-        match self.band() {
+        match self.band {
             None => self.substitute(x, None),
             Some(1) => self.substitute(x, Some(1)),
             Some(3) => self.substitute(x, Some(3)),
@@ -73,34 +60,24 @@ impl Lu {
         }
     }
 
-    /// The reach of a band, whose common values are compiled for themselves; `None` where all is stored.
-    #[inline]
-    fn band(&self) -> Option<usize> {
-        (self.height < self.size).then_some(self.reach)
-    }
-
-    /// The first row that is stored of column `j`, and the end of the rows that may have entries below the diagonal.
+    /// The index of the diagonal in what is stored of column `j`, and the end of the rows that may have entries below it.
     #[inline(always)]
     fn stored(&self, j: usize, band: Option<usize>) -> (usize, usize) {
-        let Self { size, height, .. } = *self;
         match band {
-            Some(reach) => (first(j, reach, size, height), (j + reach + 1).min(size)),
-            None => (0, size),
+            Some(reach) => (2 * reach, (j + reach + 1).min(self.size)),
+            None => (j, self.size),
         }
     }
 
     #[inline(always)]
     fn eliminate(&mut self, band: Option<usize>) {
-        let (size, height) = (self.size, self.height);
+        let Self { size, height, .. } = *self;
         for k in 0..size {
-            let (start, end) = self.stored(k, band);
+            let (diagonal, end) = self.stored(k, band);
             let below = end - k;
-            let right = match band {
-                Some(reach) => 2 * reach,
-                None => size,
-            };
+            let right = band.map_or(size, |reach| 2 * reach);
             let (done, rest) = self.entries.split_at_mut((k + 1) * height);
-            let column = &mut done[k * height + k - start..][..below];
+            let column = &mut done[k * height + diagonal..][..below];
             let mut largest = 0;
             for row in 1..below {
                 if column[row].abs() > column[largest].abs() {
@@ -108,18 +85,20 @@ impl Lu {
                 }
             }
             self.swaps[k] = k + largest;
-            column.swap(0, largest);
+            // Behind a branch, which seldom is taken: a swap in memory would delay each column.
+            if largest > 0 {
+                column.swap(0, largest);
+            }
             let pivot = column[0];
             for below in &mut column[1..] {
                 *below /= pivot;
             }
             for (j, right) in (k + 1..).zip(rest.chunks_exact_mut(height)).take(right) {
-                let start = match band {
-                    Some(reach) => first(j, reach, size, height),
-                    None => 0,
-                };
-                let right = &mut right[k - start..][..below];
-                right.swap(0, largest);
+                let above = band.map_or(k, |reach| 2 * reach + k - j);
+                let right = &mut right[above..][..below];
+                if largest > 0 {
+                    right.swap(0, largest);
+                }
                 let factor = right[0];
                 // Few entries of a band that pivoting has not widened.
                 if factor != 0.0 {
@@ -134,28 +113,24 @@ impl Lu {
     #[inline(always)]
     fn substitute(&self, x: &mut [f64], band: Option<usize>) {
         for (k, column) in self.entries.chunks_exact(self.height).enumerate() {
-            let (start, end) = self.stored(k, band);
-            x.swap(k, self.swaps[k]);
+            let (diagonal, end) = self.stored(k, band);
+            if self.swaps[k] != k {
+                x.swap(k, self.swaps[k]);
+            }
             let solved = x[k];
-            for (x, below) in x[k + 1..end].iter_mut().zip(&column[k - start + 1..]) {
+            for (x, below) in x[k + 1..end].iter_mut().zip(&column[diagonal + 1..]) {
                 *x -= solved * below;
             }
         }
         for (k, column) in self.entries.chunks_exact(self.height).enumerate().rev() {
-            let (start, _) = self.stored(k, band);
-            x[k] /= column[k - start];
-            let solved = x[k];
-            for (x, above) in x[start..k].iter_mut().zip(column) {
+            let (diagonal, _) = self.stored(k, band);
+            x[k] /= column[diagonal];
+            let (solved, above) = (x[k], diagonal.min(k));
+            for (x, above) in x[k - above..k].iter_mut().zip(&column[diagonal - above..]) {
                 *x -= solved * above;
             }
         }
     }
-}
-
-/// The first row that is stored of column `j`.
-#[inline]
-fn first(j: usize, reach: usize, size: usize, height: usize) -> usize {
-    j.saturating_sub(2 * reach).min(size - height)
 }
 
 /// The factored equations of several stages of `n` coordinates each: an [`Lu`] whose unknowns are ordered stage by
@@ -195,31 +170,39 @@ impl StageLu {
         (2 * self.reach + 1).min(self.n)
     }
 
-    /// The coordinates on which coordinate `j` acts.
+    /// Begins a matrix: swaps of the last leave entries outside its band.
     #[inline]
-    pub(super) fn rows(&self, j: usize) -> Range<usize> {
-        j.saturating_sub(self.reach)..(j + self.reach + 1).min(self.n)
+    pub(super) fn begin(&mut self) {
+        self.lu.entries.fill(0.0);
     }
 
-    /// Begins the column of coordinate `j` at stage `s`.
+    /// Puts the `slopes` at stage `i` along coordinate `first` at stage `s`, and along those [apart](Self::apart) from it,
+    /// into their columns, as entries of `I - slopes`. Shows each with its row of the matrix stage by stage to `see`.
     #[inline]
-    pub(super) fn begin_column(&mut self, s: usize, j: usize) {
-        // All of a dense column is going to be put.
-        if self.lu.band().is_some() {
-            self.lu.clear_column(self.index(s, j));
-        }
-    }
-
-    /// Puts the `slopes` at stage `i`, in the [rows](Self::rows) of coordinate `j`, into its column at stage `s`, as
-    /// entries of `I - slopes`.
-    #[inline]
-    pub(super) fn put(&mut self, [s, j]: [usize; 2], i: usize, slopes: &[f64]) {
-        let (index, row) = (self.index(s, j), self.index(i, j.saturating_sub(self.reach)));
-        let column = self.lu.column_from(index, row);
-        let entries = column.iter_mut().step_by(self.strides[0]);
-        entries.zip(slopes).for_each(|(entry, slope)| *entry = -slope);
-        if i == s {
-            self.lu.column_from(index, index)[0] += 1.0;
+    pub(super) fn put(
+        &mut self,
+        [s, first]: [usize; 2],
+        i: usize,
+        slopes: &[f64],
+        see: &mut impl FnMut(usize, f64),
+    ) {
+        let (reach, apart, [stride, _]) = (self.reach, self.apart(), self.strides);
+        // Counted by hand: `step_by` divides.
+        let mut j = first;
+        while j < self.n {
+            let rows = j.saturating_sub(reach)..(j + reach + 1).min(self.n);
+            let (index, row) = (self.index(s, j), self.index(i, rows.start));
+            let column = self.lu.column_from(index, row);
+            let mut entry = 0;
+            for row in rows {
+                column[entry] = -slopes[row];
+                entry += stride;
+                see(i * self.n + row, slopes[row]);
+            }
+            if i == s {
+                self.lu.column_from(index, index)[0] += 1.0;
+            }
+            j += apart;
         }
     }
 
@@ -254,7 +237,7 @@ impl StageLu {
 
 #[cfg(all(test, feature = "lab"))]
 mod tests {
-    use super::Lu;
+    use super::{Lu, StageLu};
     use crate::sim::xor_shift::XorShift;
 
     #[test]
@@ -269,7 +252,7 @@ mod tests {
         let mut lu = Lu::new(4, 3);
         let mut x = [0.0; 4];
         for (j, column) in columns.iter().enumerate() {
-            lu.clear_column(j).1.copy_from_slice(column);
+            lu.column_from(j, 0).copy_from_slice(column);
             for (x, entry) in x.iter_mut().zip(column) {
                 *x += entry * wanted[j];
             }
@@ -284,8 +267,8 @@ mod tests {
     #[test]
     fn a_singular_matrix_gives_nothing_finite() {
         let mut lu = Lu::new(2, 1);
-        lu.clear_column(0).1.copy_from_slice(&[1.0, 2.0]);
-        lu.clear_column(1).1.copy_from_slice(&[2.0, 4.0]);
+        lu.column_from(0, 0).copy_from_slice(&[1.0, 2.0]);
+        lu.column_from(1, 0).copy_from_slice(&[2.0, 4.0]);
         lu.factor();
         let mut x = [1.0, 1.0];
         lu.solve(&mut x);
@@ -300,13 +283,14 @@ mod tests {
             let b: Vec<f64> = (0..size).map(|_| random.next()).collect();
             // Twice, for what the first factors leave behind.
             for _ in 0..2 {
+                band.entries.fill(0.0);
+                full.entries.fill(0.0);
                 for j in 0..size {
-                    let (rows, column) = band.clear_column(j);
-                    let (_, whole) = full.clear_column(j);
-                    for (row, entry) in rows.zip(column) {
+                    for row in j.saturating_sub(reach)..(j + reach + 1).min(size) {
                         // A small diagonal, so that rows are swapped.
-                        *entry = if row == j { 1e-3 } else { random.next() };
-                        whole[row] = *entry;
+                        let entry = if row == j { 1e-3 } else { random.next() };
+                        band.column_from(j, row)[0] = entry;
+                        full.column_from(j, row)[0] = entry;
                     }
                 }
                 let [x, wanted] = [&mut band, &mut full].map(|matrix| {
@@ -317,6 +301,28 @@ mod tests {
                 });
                 assert_eq!(x, wanted, "{reach}");
             }
+        }
+    }
+
+    #[test]
+    fn what_the_swaps_of_a_matrix_leave_is_not_in_the_next() {
+        // Bands that are stored as such, and one so small that all of it is.
+        for n in [4, 9] {
+            let mut matrix = StageLu::new(1, n, 1);
+            let [once, again] = [(); 2].map(|()| {
+                matrix.begin();
+                for first in 0..matrix.apart() {
+                    // A small diagonal of `I - slopes`, so that rows are swapped.
+                    let slope = |row: usize| if row % 3 == first { 0.999 } else { -1.0 };
+                    let slopes: Vec<f64> = (0..n).map(slope).collect();
+                    matrix.put([0, first], 0, &slopes, &mut |_, _| ());
+                }
+                let mut x = vec![1.0; n];
+                matrix.factor();
+                matrix.solve(&mut x);
+                x
+            });
+            assert_eq!(once, again, "{n}");
         }
     }
 }

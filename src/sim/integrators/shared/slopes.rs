@@ -23,6 +23,23 @@ pub(in crate::sim::integrators) struct Forward<'a, V> {
     pub(in crate::sim::integrators) part: f64,
 }
 
+/// Overwrites `x` with a `weight` at the coordinates `first`, `first + apart` and so on, and 0 elsewhere.
+#[inline(always)]
+pub(super) fn comb<V: Vector>(x: &mut V, first: usize, apart: usize, weight: f64) {
+    let x = x.components_mut();
+    // The one coordinate stays in a register.
+    if let [x] = x {
+        *x = weight;
+        return;
+    }
+    x.fill(0.0);
+    let mut next = first;
+    while let Some(x) = x.get_mut(next) {
+        *x = weight;
+        next += apart;
+    }
+}
+
 /// Scratch for the differences.
 #[derive(Clone)]
 pub(in crate::sim::integrators) struct Slopes<V> {

@@ -44,5 +44,6 @@ impl<const S: usize> Stages<S> {
 /// The largest magnitude over all stages; NaN if a component is NaN.
 #[inline]
 pub(super) fn largest_of<V: Vector, const S: usize>(vectors: &[V; S]) -> f64 {
-    largest(vectors.iter().flat_map(V::components))
+    let bits = vectors.iter().map(|vector| largest(vector.components()).to_bits());
+    f64::from_bits(bits.fold(0, u64::max))
 }
