@@ -13,6 +13,10 @@ use super::state::State;
 use super::state::Vector;
 use super::system::{BodyClass, StateOf, System};
 
+/// Makes copies of a body from these starts, on an instruction set; `None` if it cannot.
+#[cfg(feature = "batch")]
+pub type MakeBatch<B> = fn(&B, InstructionSet, Solver, Vec<State<f64>>) -> Option<NewBatch>;
+
 /// Something that moves by an equation of motion.
 pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// Its class for the methods that step [some](super::integrators::Only) bodies only.
@@ -20,6 +24,10 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
 
     /// Whether it has a closed form: [`Body::exact`] and the like.
     const HAS_EXACT: bool = false;
+
+    /// How copies of the body from other starts are stepped at once; it makes none of a body of several coordinates.
+    #[cfg(feature = "batch")]
+    const BATCH: MakeBatch<Self> = |_, _, _, _| None;
 
     /// The parameters of this kind of body. Its card lists their descriptions as
     /// [`Kind::parameters`](super::bodies::Kind::parameters).
@@ -178,17 +186,6 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
 
     /// Applies an input to the body or its state at once. Returns whether this kind of body accepts it.
     fn input(&mut self, input: Input, state: &mut StateOf<Self>) -> bool;
-
-    /// Copies of the body from these starts, on an instruction set; `None` if it has several coordinates, or its copies cannot be stepped at once.
-    #[cfg(feature = "batch")]
-    fn batch(
-        &self,
-        _set: InstructionSet,
-        _solver: Solver,
-        _starts: Vec<State<f64>>,
-    ) -> Option<NewBatch> {
-        None
-    }
 
     /// The position of the body in metres, to which the camera, trails and arrows refer.
     fn place(&self, q: &Self::Vector) -> DVec2;

@@ -204,7 +204,7 @@ impl<B: Body> PlacedBody for Placed<B> {
         solver: Solver,
         starts: Vec<State<f64>>,
     ) -> Option<NewBatch> {
-        self.body.system.batch(set, solver, starts)
+        B::BATCH(&self.body.system, set, solver, starts)
     }
 
     fn place(&self) -> DVec2 {

@@ -45,6 +45,8 @@ mod xor_shift;
 #[cfg(feature = "lab")]
 pub(crate) use accumulator::most_ticks;
 pub use accumulator::{Accumulator, Due, LONGEST_FRAME_MS};
+#[cfg(feature = "batch")]
+pub use body::MakeBatch;
 pub use body::{Body, Input};
 pub use body_stepper::stepper;
 pub use clock::Clock;

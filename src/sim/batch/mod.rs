@@ -160,24 +160,15 @@ impl Batch {
         Self::with(&Each(systems.into()), Solver::Method(method), starts.into_iter(), set)
     }
 
+    /// Copies of a body of one coordinate, as its [`Body::BATCH`](super::Body::BATCH).
     #[cfg(feature = "lab")]
     pub(in crate::sim) fn of_body<S: OneCoordinate>(
         body: &S,
         set: InstructionSet,
         solver: Solver,
         starts: Vec<State<f64>>,
-    ) -> NewBatch {
-        Self::with(&Alike(body.clone()), solver, starts.into_iter(), set)
-    }
-
-    #[cfg(feature = "lab")]
-    pub(in crate::sim) fn of_law(
-        law: &LawCopies,
-        set: InstructionSet,
-        solver: Solver,
-        starts: Vec<State<f64>>,
-    ) -> NewBatch {
-        Self::with(law, solver, starts.into_iter(), set)
+    ) -> Option<NewBatch> {
+        Some(Self::with(&Alike(body.clone()), solver, starts.into_iter(), set))
     }
 
     pub(in crate::sim) fn with<C: Copies>(

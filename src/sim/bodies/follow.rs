@@ -8,10 +8,9 @@ use std::f64::consts::TAU;
 use glam::DVec2;
 
 use super::kind::{Coordinate, Kind};
-use crate::sim::batch::{Batch, InstructionSet, NewBatch};
-use crate::sim::body::{Body, Input};
+use crate::sim::batch::Batch;
+use crate::sim::body::{Body, Input, MakeBatch};
 use crate::sim::parameter::{ParameterOf, Range};
-use crate::sim::solver::Solver;
 use crate::sim::state::State;
 use crate::sim::system::{BodyClass, Pursuit, Question, System};
 
@@ -188,6 +187,7 @@ impl Body for Follow {
         "a follower moves towards its target by a rule, and an engine moves bodies by forces",
     );
     const HAS_EXACT: bool = true;
+    const BATCH: MakeBatch<Self> = Batch::of_body;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn start(&self) -> State<f64> {
@@ -236,15 +236,6 @@ impl Body for Follow {
             state.v -= self.rate * times * self.kick;
         }
         true
-    }
-
-    fn batch(
-        &self,
-        set: InstructionSet,
-        solver: Solver,
-        starts: Vec<State<f64>>,
-    ) -> Option<NewBatch> {
-        Some(Batch::of_body(self, set, solver, starts))
     }
 
     fn place(&self, x: &f64) -> DVec2 {

@@ -6,11 +6,10 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::claims::{Checked, Claimant, FalseClaims};
-use crate::sim::batch::{Batch, InstructionSet, LawCopies, NewBatch};
-use crate::sim::body::{Body, Input};
+use crate::sim::batch::{Batch, LawCopies};
+use crate::sim::body::{Body, Input, MakeBatch};
 use crate::sim::law::{At, Equations, Layout, Registers};
 use crate::sim::piece::{Distances, NO_BOUNDARIES, Piece};
-use crate::sim::solver::Solver;
 use crate::sim::state::State;
 use crate::sim::system::System;
 
@@ -106,6 +105,13 @@ impl System for Law {
 }
 
 impl Body for Law {
+    const BATCH: MakeBatch<Self> = |law, set, solver, starts| {
+        let Self { equations, values, steering, .. } = law;
+        let values = known(equations, values).into();
+        let copies = LawCopies { equations: equations.clone(), values, steering: *steering };
+        (law.coordinates() == 1).then(|| Batch::with(&copies, solver, starts.into_iter(), set))
+    };
+
     fn with_parameters(mut self, values: &[f64]) -> Self {
         self.values.copy_from_slice(values);
         self.prepare();
@@ -206,18 +212,6 @@ impl Body for Law {
             }
         }
         true
-    }
-
-    fn batch(
-        &self,
-        set: InstructionSet,
-        solver: Solver,
-        starts: Vec<State<f64>>,
-    ) -> Option<NewBatch> {
-        let Self { equations, values, steering, .. } = self;
-        let values = known(equations, values).into();
-        let copies = LawCopies { equations: equations.clone(), values, steering: *steering };
-        (self.coordinates() == 1).then(|| Batch::of_law(&copies, set, solver, starts))
     }
 
     /// The first place, the coordinates of the plane, or the first coordinate to the right or up.

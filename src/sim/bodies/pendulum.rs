@@ -3,10 +3,9 @@
 use glam::DVec2;
 
 use super::kind::{Coordinate, Kind};
-use crate::sim::batch::{Batch, InstructionSet, NewBatch};
-use crate::sim::body::{Body, Input};
+use crate::sim::batch::Batch;
+use crate::sim::body::{Body, Input, MakeBatch};
 use crate::sim::parameter::{ParameterOf, Range};
-use crate::sim::solver::Solver;
 use crate::sim::state::State;
 use crate::sim::system::{BodyClass, System};
 
@@ -107,6 +106,7 @@ impl Body for Pendulum {
     const CLASS: BodyClass = BodyClass::NoEngine(
         "in an engine a pendulum is a hinge, whose rod the solver holds by constraint forces",
     );
+    const BATCH: MakeBatch<Self> = Batch::of_body;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn start(&self) -> State<f64> {
@@ -132,15 +132,6 @@ impl Body for Pendulum {
             Input::Throttle(_) | Input::Rudder(_) => return false,
         }
         true
-    }
-
-    fn batch(
-        &self,
-        set: InstructionSet,
-        solver: Solver,
-        starts: Vec<State<f64>>,
-    ) -> Option<NewBatch> {
-        Some(Batch::of_body(self, set, solver, starts))
     }
 
     fn place(&self, theta: &f64) -> DVec2 {

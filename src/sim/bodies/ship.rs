@@ -3,10 +3,9 @@
 use glam::DVec2;
 
 use super::kind::{Coordinate, Kind};
-use crate::sim::batch::{Batch, InstructionSet, NewBatch};
-use crate::sim::body::{Body, Input};
+use crate::sim::batch::Batch;
+use crate::sim::body::{Body, Input, MakeBatch};
 use crate::sim::parameter::{ParameterOf, Range};
-use crate::sim::solver::Solver;
 use crate::sim::state::State;
 use crate::sim::system::{Question, System};
 
@@ -92,6 +91,7 @@ impl System for Ship {
 
 impl Body for Ship {
     const HAS_EXACT: bool = true;
+    const BATCH: MakeBatch<Self> = Batch::of_body;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn start(&self) -> State<f64> {
@@ -140,15 +140,6 @@ impl Body for Ship {
             Input::Rudder(_) => return false,
         }
         true
-    }
-
-    fn batch(
-        &self,
-        set: InstructionSet,
-        solver: Solver,
-        starts: Vec<State<f64>>,
-    ) -> Option<NewBatch> {
-        Some(Batch::of_body(self, set, solver, starts))
     }
 
     fn place(&self, s: &f64) -> DVec2 {

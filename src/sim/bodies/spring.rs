@@ -4,10 +4,9 @@ use glam::DVec2;
 
 use super::kind::{Coordinate, Kind};
 use super::oscillator;
-use crate::sim::batch::{Batch, InstructionSet, NewBatch};
-use crate::sim::body::{Body, Input};
+use crate::sim::batch::Batch;
+use crate::sim::body::{Body, Input, MakeBatch};
 use crate::sim::parameter::{ParameterOf, Range};
-use crate::sim::solver::Solver;
 use crate::sim::state::State;
 use crate::sim::system::{BodyClass, Question, System};
 
@@ -101,6 +100,7 @@ impl System for Spring {
 impl Body for Spring {
     const CLASS: BodyClass = BodyClass::Joint;
     const HAS_EXACT: bool = true;
+    const BATCH: MakeBatch<Self> = Batch::of_body;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn start(&self) -> State<f64> {
@@ -132,15 +132,6 @@ impl Body for Spring {
             Input::Throttle(_) | Input::Rudder(_) => return false,
         }
         true
-    }
-
-    fn batch(
-        &self,
-        set: InstructionSet,
-        solver: Solver,
-        starts: Vec<State<f64>>,
-    ) -> Option<NewBatch> {
-        Some(Batch::of_body(self, set, solver, starts))
     }
 
     fn place(&self, x: &f64) -> DVec2 {

@@ -6,6 +6,30 @@ use crate::sim::integrators::{Integrator, Method, Stepped, integrator};
 use crate::sim::state::largest;
 use crate::sim::{Solver, State, Stepper, System};
 
+/// The acceleration of a body in a state, coordinates first.
+pub(super) fn acceleration_at(body: &dyn Stepper, t: f64, state: &[f64]) -> Vec<f64> {
+    let (q, v) = state.split_at(state.len() / 2);
+    let mut a = vec![0.0; q.len()];
+    body.acceleration(t, q, v, &mut a);
+    a
+}
+
+/// The derivative of the acceleration of a body in a direction, by a difference to one side over `part` of it, from the
+/// acceleration `here` in the state `at`.
+pub(super) fn slope(
+    body: &dyn Stepper,
+    t: f64,
+    at: &[f64],
+    here: &[f64],
+    part: f64,
+    along: &[f64],
+) -> Vec<f64> {
+    let moved: Vec<f64> = at.iter().zip(along).map(|(x, along)| x + part * along).collect();
+    let mut slope = acceleration_at(body, t, &moved);
+    slope.iter_mut().zip(here).for_each(|(slope, here)| *slope = (*slope - here) / part);
+    slope
+}
+
 /// An acceleration function on slices: coordinates, velocities, output.
 type Acceleration = Box<dyn Fn(&[f64], &[f64], &mut [f64])>;
 
@@ -49,21 +73,15 @@ impl Deviation {
         method: &Method,
     ) -> Self {
         let body = body.with_solver(Solver::Truth, t);
-        let (q0, v0) = (body.q().to_vec(), body.v().to_vec());
-        let n = q0.len();
+        let at = [body.q(), body.v()].concat();
         let size_of = move |q: &[f64], v: &[f64]| largest(q).max(h * largest(v));
-        let size = size_of(&q0, &v0);
+        let size = size_of(body.q(), body.v());
         let distance = displacement * if size > 0.0 { size } else { 1.0 };
-        let mut a0 = vec![0.0; n];
-        body.acceleration(t, &q0, &v0, &mut a0);
-        let moved = |x0: &[f64], part: f64, x: &[f64]| {
-            x0.iter().zip(x).map(|(x0, x)| x0 + part * x).collect()
-        };
+        let here = acceleration_at(&*body, t, &at);
+        let n = here.len();
         let acceleration: Acceleration = Box::new(move |q, v, a| {
             let part = distance / size_of(q, v);
-            let (q, v): (Vec<f64>, Vec<f64>) = (moved(&q0, part, q), moved(&v0, part, v));
-            body.acceleration(t, &q, &v, a);
-            a.iter_mut().zip(&a0).for_each(|(a, a0)| *a = (*a - a0) / part);
+            a.copy_from_slice(&slope(&*body, t, &at, &here, part, &[q, v].concat()));
         });
         Self::of(acceleration, n, method)
     }

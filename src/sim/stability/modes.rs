@@ -7,6 +7,7 @@
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::comparison::{Mode, Stability, compare_step};
+use super::deviation::{acceleration_at, slope};
 use super::spectrum::{self, NEUTRAL_WITH_MEMORY, linear_maps};
 use super::tick::Tick;
 use super::trend::growth_of_energy;
@@ -179,45 +180,22 @@ pub(super) fn linear_jacobian(body: &dyn Stepper) -> DMatrix<f64> {
     force_slopes(body, &vec![0.0; 2 * body.q().len()], 1.0, 0.0)
 }
 
-/// The acceleration of a body in the state `at`, coordinates first, with component `moved.0` displaced by `moved.1`.
-fn acceleration_at(
-    body: &dyn Stepper,
-    at: &[f64],
-    moved: Option<(usize, f64)>,
-    t: f64,
-) -> Vec<f64> {
-    let mut state = at.to_vec();
-    if let Some((index, by)) = moved {
-        state[index] += by;
-    }
-    let (q, v) = state.split_at(at.len() / 2);
-    let mut a = vec![0.0; q.len()];
-    body.acceleration(t, q, v, &mut a);
-    a
-}
-
 /// The Jacobian of the acceleration of a body with respect to coordinates and velocities, by differences over `by` to one
 /// side.
 pub(super) fn force_slopes(body: &dyn Stepper, at: &[f64], by: f64, t: f64) -> DMatrix<f64> {
-    let here = acceleration_at(body, at, None, t);
+    let here = acceleration_at(body, t, at);
     let column = |j: usize| {
-        let moved = acceleration_at(body, at, Some((j, by)), t).into_iter();
-        moved.zip(&here).map(|(moved, here)| (moved - here) / by).collect::<Vec<_>>()
+        let mut along = vec![0.0; at.len()];
+        along[j] = 1.0;
+        slope(body, t, at, &here, by, &along)
     };
     DMatrix::from_vec(here.len(), at.len(), (0..at.len()).flat_map(column).collect())
 }
 
-/// The acceleration of `body` at rest at the origin at time `t` (s), which a target causes.
-fn push_at_rest(body: &dyn Stepper, t: f64) -> Vec<f64> {
-    let rest = vec![0.0; body.q().len()];
-    let mut push = rest.clone();
-    body.acceleration(t, &rest, &rest, &mut push);
-    push
-}
-
 /// Whether no target moves `body` from rest at the origin.
 fn stays_at_rest(body: &dyn Stepper, t: f64) -> bool {
-    body.pursuit(t).is_none() && push_at_rest(body, t).iter().all(|&push| push == 0.0)
+    let rest = vec![0.0; 2 * body.q().len()];
+    body.pursuit(t).is_none() && acceleration_at(body, t, &rest).iter().all(|&push| push == 0.0)
 }
 
 /// The modes of `x″ = -stiffness x - damping x′`; `None` if damping couples them or one grows.

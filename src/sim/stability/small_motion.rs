@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::comparison::{Mode, Stability, compare_step};
-use super::deviation::Deviation;
+use super::deviation::{Deviation, acceleration_at};
 use super::modes::{NormalMode, force_slopes, linear_jacobian, modes_of, unforced};
 use super::spectrum::{self, Eigenvalue, linear_maps};
 use super::tick::Tick;
@@ -198,11 +198,8 @@ fn true_modes(jacobian: &DMatrix<f64>) -> Option<(Vec<Mode>, f64)> {
 fn place_of_rest(free: &dyn Stepper) -> Result<Vec<f64>, NoSmallMotion> {
     let n = free.q().len();
     let origin = vec![0.0; n];
-    let push = |q: &[f64], t: f64| {
-        let mut a = vec![0.0; n];
-        free.acceleration(t, q, &origin, &mut a);
-        DVector::from_vec(a)
-    };
+    let push =
+        |q: &[f64], t: f64| DVector::from_vec(acceleration_at(free, t, &[q, &origin].concat()));
     if push(&origin, 0.0).iter().all(|&a| a == 0.0) {
         return Ok(origin);
     }

@@ -11,7 +11,7 @@ struct Concept {
     marks: &'static [&'static str],
 }
 
-const CONCEPTS: [Concept; 13] = [
+const CONCEPTS: [Concept; 16] = [
     Concept {
         name: "dispatch by the type of a method",
         file: "src/sim/integrators/mod.rs",
@@ -41,6 +41,21 @@ const CONCEPTS: [Concept; 13] = [
         name: "slope of a force, by its formula or by a difference",
         file: "src/sim/integrators/shared/slopes.rs",
         marks: &["Question::Slope { state: y,"],
+    },
+    Concept {
+        name: "difference of forces about a state, for stability",
+        file: "src/sim/stability/deviation.rs",
+        marks: &["(*slope - here) / part"],
+    },
+    Concept {
+        name: "copies of a body of the table, stepped at once",
+        file: "src/sim/batch/mod.rs",
+        marks: &["Alike(body.clone())"],
+    },
+    Concept {
+        name: "largest magnitude",
+        file: "src/sim/state.rs",
+        marks: &["component.abs().to_bits()"],
     },
     Concept {
         name: "convergence of the equations of a step",
