@@ -66,7 +66,7 @@ pub(super) struct CloudArgs {
     shape: ShapeArg,
 
     /// How far the shape reaches, in the unit of the coordinate [default: a quarter of the swing]
-    #[arg(long, value_name = "R", value_parser = reach)]
+    #[arg(long, value_name = "R", value_parser = size)]
     size: Option<f64>,
 
     /// Length of the run in simulated seconds, to the nearest tick [default: the scene's, 60 at most]
@@ -116,6 +116,14 @@ fn reach(written: &str) -> Result<f64, String> {
         Ok(number) if number > 0.0 && number <= 1e9 => Ok(number),
         _ => Err("give a number above 0, up to 1e9".into()),
     }
+}
+
+/// A cloud that is smaller is lost in the rounding of its states.
+const MIN_SIZE: f64 = 1e-6;
+
+fn size(written: &str) -> Result<f64, String> {
+    let size = reach(written).ok().filter(|size| *size >= MIN_SIZE);
+    size.ok_or_else(|| format!("give a number from {MIN_SIZE:e} to 1e9"))
 }
 
 /// Why there is no such cloud.

@@ -61,6 +61,9 @@ fn what_is_no_cloud_is_said_in_one_line() {
         ("--scene spring --section 7", "a section of 7 Hz falls between the ticks of 60 Hz"),
         ("--out cloud.svg", "cloud.svg would not hold what its name says"),
         ("--shape cow", "cow"),
+        ("--size 1e-300", "give a number from 1e-6 to 1e9"),
+        ("--size NaN", "give a number from 1e-6 to 1e9"),
+        ("--points 0", "0 is not in 1..=1000000000"),
     ] {
         let said = refusal(&format!("cloud {options}"), 2);
         assert!(said.contains(why), "{said}");
@@ -72,4 +75,23 @@ fn what_is_no_cloud_is_said_in_one_line() {
         "{}",
         stderr(&done)
     );
+}
+
+#[test]
+fn a_start_that_blows_up_is_left_out_and_the_others_are_measured() {
+    let folder = tempfile::tempdir().unwrap();
+    // Without damping or a well beyond 1: who starts there runs away.
+    let law = "title = 'A hill'\ntick_hz = 60\nseconds = 9\n[[law]]\n[law.coordinates.x]\nstart = 0.9\n\
+               acceleration = 'x^3 - x'";
+    fs::write(folder.path().join("hill.toml"), law).unwrap();
+    let done = run_in(
+        folder.path(),
+        "cloud --scene hill.toml --method rk4 --points 400 --size 0.4 --seconds 3",
+    );
+    let (row, said) = (String::from_utf8(done.stdout.clone()).unwrap(), stderr(&done));
+    let points: usize = row.lines().nth(1).unwrap().split(',').nth(1).unwrap().parse().unwrap();
+    assert!((50..350).contains(&points), "{row}");
+    assert!(said.contains(&format!("{} of 400 starts blew up", 400 - points)), "{said}");
+    let ratio: f64 = row.lines().nth(1).unwrap().split(',').nth(2).unwrap().parse().unwrap();
+    assert!((0.5..2.0).contains(&ratio), "{row}");
 }
