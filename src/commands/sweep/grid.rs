@@ -140,19 +140,20 @@ impl Grid {
         let grid = Arc::new(self);
         let verdicts = judge_all(&grid, threads, interrupted)?;
         let progress = progress(grid.cells.len() as u32, "runs timed");
+        let effort = effort(grid.cells.len());
         let rows = grid.cells.iter().zip(verdicts).map(|(cell, verdict)| {
             if interrupted.load(Ordering::Relaxed) {
                 return Err(Interrupted::NothingWritten.into());
             }
             progress.inc(1);
-            Ok(grid.row(cell, verdict))
+            Ok(grid.row(cell, verdict, effort))
         });
         let rows = rows.collect();
         progress.finish_and_clear();
         rows
     }
 
-    fn row(&self, cell: &Cell, verdict: Verdict) -> Row {
+    fn row(&self, cell: &Cell, verdict: Verdict, effort: Duration) -> Row {
         let &Cell { subject, spec, tick_hz } = cell;
         let Subject { scene_name, alone, varied, .. } = &self.subjects[subject];
         let mut row = Row {
@@ -165,7 +166,7 @@ impl Grid {
             varied: varied.clone(),
         };
         let ticks = (row.seconds() * f64::from(tick_hz)).round() as u64;
-        row.ns_per_s = stopwatch::ns_per_s(alone, spec, tick_hz, ticks, EFFORT);
+        row.ns_per_s = stopwatch::ns_per_s(alone, spec, tick_hz, ticks, effort);
         row
     }
 }
@@ -185,8 +186,16 @@ fn variants(body: &SceneBody, varied: &Option<Varied>) -> Vec<(SceneBody, Option
     values.iter().map(variant).collect()
 }
 
-/// The duration for which a run is timed: a thousand runs take seconds.
-const EFFORT: Duration = Duration::from_millis(1);
+/// The longest and the shortest duration for which a run is timed, and about that for which all are: one after the other,
+/// thousands would take longer to time than to judge.
+const MAX_EFFORT: Duration = Duration::from_millis(1);
+const MIN_EFFORT: Duration = Duration::from_micros(100);
+const EFFORT_ON_ALL: Duration = Duration::from_millis(500);
+
+/// The duration for which each of so many runs is timed.
+fn effort(runs: usize) -> Duration {
+    (EFFORT_ON_ALL / (runs as u32).max(1)).clamp(MIN_EFFORT, MAX_EFFORT)
+}
 
 /// The verdict on every run, in the order of the grid.
 fn judge_all(
@@ -219,6 +228,12 @@ fn octaves(tick_hz: u32) -> Vec<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn of_many_runs_each_is_timed_for_less_time() {
+        let micros = [1, 500, 1000, 5000, 1_000_000].map(|runs| effort(runs).as_micros());
+        assert_eq!(micros, [1000, 1000, 500, 100, 100]);
+    }
 
     #[test]
     fn octaves_are_whole_rates_about_the_scenes_own() {
