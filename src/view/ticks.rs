@@ -85,8 +85,11 @@ const DIGITS: [&[f64]; 4] = [
     &[1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0],
 ];
 
-/// The logarithms of round numbers, as many as are at least `apart` points from each other; `None` if there are fewer than
-/// [`FEWEST`].
+/// How much nearer marks may be where none are further apart.
+const NEARER: f64 = 0.6;
+
+/// The logarithms of round numbers, as many as are at least `apart` points from each other, or a little nearer; `None` if
+/// there are fewer than [`FEWEST`].
 pub(super) fn round_numbers(input: GridInput, apart: f64) -> Option<Vec<f64>> {
     let (low, high) = input.bounds;
     let least = input.base_step_size / FINEST * apart;
@@ -95,10 +98,12 @@ pub(super) fn round_numbers(input: GridInput, apart: f64) -> Option<Vec<f64>> {
         let of_decade = |decade| digits.iter().map(move |x| libm::log10(*x) + f64::from(decade));
         decades.flat_map(of_decade).filter(|place| (low..=high).contains(place)).collect()
     };
-    let fit = |marks: &Vec<f64>| {
+    let fit = |marks: &Vec<f64>, least: f64| {
         marks.len() as i64 >= FEWEST && marks.windows(2).all(|pair| pair[1] - pair[0] >= least)
     };
-    DIGITS.iter().map(marks).rfind(fit)
+    let mut all = DIGITS.iter().map(marks);
+    let far = all.clone().rfind(|marks| fit(marks, least));
+    far.or_else(|| all.find(|marks| fit(marks, NEARER * least)))
 }
 
 /// The number at a mark that [`decades`] made, with its unit.
@@ -173,7 +178,8 @@ mod tests {
         assert_eq!(numbers(0.09, 1.1, 80.0), Some(vec![0.1, 0.3, 1.0]));
         assert_eq!(numbers(0.09, 1.1, 100.0), Some(vec![0.1, 0.2, 0.5, 1.0]));
         assert_eq!(numbers(0.98, 1.02, 80.0), None);
-        assert_eq!(numbers(0.4, 2.5, 40.0), None);
+        assert_eq!(numbers(0.47, 2.1, 50.0), Some(vec![0.5, 1.0, 2.0]));
+        assert_eq!(numbers(0.4, 2.5, 30.0), None);
     }
 
     #[test]

@@ -46,9 +46,9 @@ const WORDS: f32 = 12.0;
 /// The width of the exact outline, in points.
 const OUTLINE: f32 = 1.1;
 /// An area that has grown or shrunk by more than this, as a power of ten, stretches no axis; and one axis shows at least
-/// this much on both sides of 1.
+/// this much on both sides of 1: half of it and twice.
 const MOST_DECADES: f64 = 3.0;
-const LEAST_DECADES: f64 = 0.1;
+const LEAST_DECADES: f64 = 0.31;
 /// A cloud that is this far behind the run says so, in seconds.
 const BEHIND_S: f64 = 0.25;
 
