@@ -59,27 +59,32 @@ const DENSE: f32 = 8.0;
 
 /// Counts as colours: brighter by the logarithm of the count.
 fn shaded(counts: &[f32], theme: Theme, colour: Rgba) -> Vec<Rgba> {
-    let palette = theme.palette();
-    let most = counts.iter().copied().fold(2.0, f32::max);
+    let most = counts.iter().copied().fold(0.0, f32::max);
     let present = counts.iter().filter(|count| **count > 0.0);
     let (sum, covered) = present.fold((0.0, 0.0), |(sum, n), count| (sum + count, n + 1.0_f32));
+    let (tone, usual) = tones(most, sum / covered.max(1.0), theme, colour);
+    let shown = |&count: &f32| {
+        let parts = (count * PARTS + 0.5) as usize;
+        usual.get(parts).copied().unwrap_or_else(|| tone(count))
+    };
+    counts.iter().map(shown).collect()
+}
+
+/// The colours of counts of which these are the largest and the mean of those above 0, and a table of the small ones, which
+/// most are.
+fn tones(most: f32, mean: f32, theme: Theme, colour: Rgba) -> (impl Fn(f32) -> Rgba, Vec<Rgba>) {
+    let palette = theme.palette();
     // An even cover has the plain colour.
-    let whole = libm::log1pf(most.max(DENSE * sum / covered.max(1.0)));
-    let tone = |count: f32| {
+    let whole = libm::log1pf(most.max(2.0).max(DENSE * mean));
+    let tone = move |count: f32| {
         let part = libm::log1pf(count) / whole;
         match part < 0.7 {
             true => mixed(palette.plot, colour, 0.25 * count.min(1.0) + 0.75 * part / 0.7),
             false => mixed(colour, palette.text, (part - 0.7) / 0.5),
         }
     };
-    // Few counts are large.
-    let usual: Vec<Rgba> =
-        (0..USUAL * PARTS as usize).map(|parts| tone(parts as f32 / PARTS)).collect();
-    let shown = |&count: &f32| {
-        let parts = (count * PARTS + 0.5) as usize;
-        usual.get(parts).copied().unwrap_or_else(|| tone(count))
-    };
-    counts.iter().map(shown).collect()
+    let usual = (0..USUAL * PARTS as usize).map(|parts| tone(parts as f32 / PARTS)).collect();
+    (tone, usual)
 }
 
 /// Every `stride`th of these counts, spread evenly over so many places.
@@ -134,12 +139,13 @@ impl Density {
     }
 
     fn add_here(&mut self, q: &[f64], v: &[f64]) {
-        let [width, height] = self.size_px;
+        let Self { size_px: [width, height], view, ref mut counts } = *self;
+        let [wide, high] = [width, height].map(|side| side as f64);
         for (&q, &v) in q.iter().zip(v) {
-            let [x, y] = self.view.place(q, v);
+            let [x, y] = view.place(q, v);
             if (0.0..1.0).contains(&x) && (0.0..1.0).contains(&y) {
-                let [x, y] = [(x * width as f64) as usize, (y * height as f64) as usize];
-                self.counts[(height - 1 - y) * width + x] += 1;
+                let [x, y] = [(x * wide) as i32 as usize, (y * high) as i32 as usize];
+                counts[(height - 1 - y) * width + x] += 1;
             }
         }
     }
@@ -151,8 +157,15 @@ impl Density {
 
     /// The picture in a method's colour, brighter by the logarithm of the count, and these lines over it.
     pub fn picture(&self, theme: Theme, colour: Rgba, lines: &[Vec<[f64; 2]>]) -> Vec<Rgba> {
-        let counts: Vec<f32> = self.counts.iter().map(|&count| count as f32).collect();
-        let mut pixels = shaded(&counts, theme, colour);
+        let counts = &self.counts;
+        let covered = counts.iter().filter(|count| **count > 0).count();
+        let sum: u64 = counts.iter().map(|&count| u64::from(count)).sum();
+        let most = counts.iter().copied().max().unwrap_or(0);
+        let mean = sum as f32 / covered.max(1) as f32;
+        let (tone, usual) = tones(most as f32, mean, theme, colour);
+        let whole: Vec<Rgba> = usual.into_iter().step_by(PARTS as usize).collect();
+        let shown = |&n: &u32| whole.get(n as usize).copied().unwrap_or_else(|| tone(n as f32));
+        let mut pixels: Vec<Rgba> = counts.iter().map(shown).collect();
         for line in lines {
             for ends in line.windows(2) {
                 self.draw_line(&mut pixels, [ends[0], ends[1]], theme.palette().exact);
