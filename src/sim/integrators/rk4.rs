@@ -52,7 +52,7 @@ impl<S: System> Integrator<S> for Rk4<S::Vector> {
         Self { a1, a2, a3, a4, v2, v3, v4, stage }
     }
 
-    #[inline]
+    #[inline(always)]
     fn step(&mut self, system: &S, t: f64, h: f64, State { q, v }: &mut StateOf<S>) -> Stepped {
         let Self { a1, a2, a3, a4, v2, v3, v4, stage } = self;
         system.acceleration(t, q, v, a1);
