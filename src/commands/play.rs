@@ -248,9 +248,8 @@ fn without_display(args: &PlayArgs, experiment: &Experiment, reason: &str) -> Re
 /// are. Errors are worded as on the command line.
 fn files(args: &ExperimentArgs, experiment: &Experiment) -> SceneFiles {
     let given = args.clone();
-    let read = move |path: &Path| {
-        given.read(path).map_err(|error| Error::from(error).report(&Renderer::plain()))
-    };
+    let read =
+        move |path: &Path| given.read(path).map_err(|error| error.mistakes(&Renderer::plain()));
     let is_file = !scene_file::is_built_in(args.scene());
     let opened = is_file.then(|| (args.scene().to_owned(), experiment.text.clone()));
     SceneFiles { read: Arc::new(read), opened, keep: None }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::error::{Cause, message};
-use crate::lab::{BuiltIn, MAX_FILE_BYTES, Refusal, SCENES, Scene, SceneErrors, nearest};
+use crate::lab::{BuiltIn, MAX_FILE_BYTES, Mistake, Refusal, SCENES, Scene, SceneErrors, nearest};
 use crate::regular_file::{self, Unreadable};
 use crate::sim::integrators::Method;
 
@@ -47,9 +47,33 @@ impl Cause for SceneFileError {
 
     fn report(&self, renderer: &Renderer) -> String {
         match self {
-            SceneFileError::Invalid(errors) => report(errors, renderer),
+            SceneFileError::Invalid(_) => {
+                let parts = self.mistakes(renderer).into_iter();
+                let parts = parts.flat_map(|Mistake { message, quoted }| [message, quoted]);
+                parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join("\n")
+            }
             _ => message(self, renderer),
         }
+    }
+}
+
+impl SceneFileError {
+    /// The error's messages, each with the lines of the file that it is about.
+    pub(super) fn mistakes(&self, renderer: &Renderer) -> Vec<Mistake> {
+        let SceneFileError::Invalid(errors) = self else {
+            return vec![message(self, renderer).into()];
+        };
+        let mut spans = errors.errors.iter().map(|error| error.span.clone());
+        let mistake = |message| {
+            let span = spans.next().filter(|_| !errors.text.is_empty());
+            let quoted = span.map(|span| {
+                let annotation = AnnotationKind::Primary.span(span);
+                let snippet = Snippet::source(&errors.text).annotation(annotation);
+                renderer.render(&[Group::with_level(Level::ERROR).element(snippet)])
+            });
+            Mistake { message, quoted: quoted.unwrap_or_default() }
+        };
+        errors.messages().map(mistake).collect()
     }
 }
 
@@ -97,23 +121,6 @@ fn read(path: &Path) -> Result<Vec<u8>, SceneFileError> {
             source => SceneFileError::Unreadable { path, source },
         }
     })
-}
-
-/// The error messages, each followed by the lines of the file that it refers to.
-fn report(errors: &SceneErrors, renderer: &Renderer) -> String {
-    let message = errors.to_string();
-    // One line for each error, then perhaps how many more there are.
-    let mut spans = errors.errors.iter().map(|error| error.span.clone());
-    let mut report = Vec::new();
-    for line in message.lines() {
-        report.push(line.to_owned());
-        if let Some(span) = spans.next().filter(|_| !errors.text.is_empty()) {
-            let annotation = AnnotationKind::Primary.span(span);
-            let snippet = Snippet::source(&errors.text).annotation(annotation);
-            report.push(renderer.render(&[Group::with_level(Level::ERROR).element(snippet)]));
-        }
-    }
-    report.join("\n")
 }
 
 fn remedy(path: &Path) -> String {

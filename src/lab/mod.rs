@@ -119,8 +119,8 @@ pub use report::{Criteria, MethodReport, Recommendation, Report, advise};
 pub(crate) use scene::clip::clip;
 pub use scene::{
     BuiltIn, Check, EditError, LAST_TICK, MAX_BODIES, MAX_FILE_BYTES, MAX_LANES, MAX_NAME_CHARS,
-    MAX_SECONDS, MAX_SHOWN, MAX_SUBSTEPS, MAX_TICK_HZ, MIN_SECONDS, Refusal, SCENES, Scene,
-    SceneBody, SceneError, SceneErrors, SceneKey, Scripted, TOLERANCES, USUAL_SECONDS,
+    MAX_SECONDS, MAX_SHOWN, MAX_SUBSTEPS, MAX_TICK_HZ, MIN_SECONDS, Mistake, Refusal, SCENES,
+    Scene, SceneBody, SceneError, SceneErrors, SceneKey, Scripted, TOLERANCES, USUAL_SECONDS,
     edited_values, nearest, parameter_named, scene_tables,
 };
 pub use scene_list::SceneList;

@@ -36,7 +36,7 @@ mod wanted;
 mod writer;
 
 pub use edit::{EditError, edited_values, parameter_named};
-pub use errors::{MAX_SHOWN, SceneError, SceneErrors};
+pub use errors::{MAX_SHOWN, Mistake, SceneError, SceneErrors};
 pub use known::{SceneKey, scene_tables};
 pub use nearest::nearest;
 pub use refusal::Refusal;

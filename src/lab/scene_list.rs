@@ -3,7 +3,7 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use super::scene::{BuiltIn, SCENES, Scene};
+use super::scene::{BuiltIn, Mistake, SCENES, Scene};
 
 /// The list of scenes, and which of them is open.
 #[derive(Clone, Debug)]
@@ -21,7 +21,7 @@ pub(super) struct SceneFile {
     /// The scene as last read without errors.
     pub(super) scene: Scene,
     /// The errors of the file's present text, if it has any.
-    pub(super) mistakes: Option<String>,
+    pub(super) mistakes: Option<Vec<Mistake>>,
 }
 
 impl SceneFile {
@@ -106,7 +106,7 @@ impl SceneList {
     }
 
     /// Records the errors of a file on the list.
-    pub(super) fn mark(&mut self, path: &Path, mistakes: String) {
+    pub(super) fn mark(&mut self, path: &Path, mistakes: Vec<Mistake>) {
         if let Some(file) = self.files.iter_mut().find(|file| file.path == path) {
             file.mistakes = Some(mistakes);
         }

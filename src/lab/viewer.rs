@@ -15,6 +15,7 @@ use super::my_spring::MySpring;
 use super::notice::Notice;
 use super::palette::Theme;
 use super::quantity::Quantity;
+use super::scene::Mistake;
 use super::source_code::Language;
 
 /// A dialog over the window.
@@ -25,14 +26,14 @@ pub enum Dialog {
     /// A field for the path of a scene file.
     Path {
         /// Why the scene at the typed path could not be opened; `None` once the path is edited.
-        refused: Option<String>,
+        refused: Option<Vec<Mistake>>,
     },
     /// The errors of a scene file.
     Mistakes {
         /// The file.
         file: String,
-        /// The errors with their places.
-        report: String,
+        /// The errors.
+        report: Vec<Mistake>,
     },
 }
 

@@ -50,8 +50,8 @@ pub use panels::Panels;
 pub use readback::{Readback, ReadbackError};
 pub use screen::Screen;
 
-/// The values of the instrument shown, as comma-separated text; `None` if it has no plots.
-pub fn instrument_csv(lab: &crate::lab::Lab) -> Option<String> {
+/// The values of the instrument shown, as lines of comma-separated text under a heading; `None` if it has no plots.
+pub fn instrument_csv(lab: &crate::lab::Lab) -> Option<Vec<String>> {
     panels::csv(lab)
 }
 

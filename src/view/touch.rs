@@ -127,8 +127,8 @@ impl Touch {
     fn press(&mut self, stage: &Stage<'_>, time: f64, at: Pos2, commands: &mut Vec<Command>) {
         let Some(cell) = stage.cell(at) else { return };
         let point = stage.point(at);
-        let grip = cell.grip_at(point);
-        let on = match grip.and_then(|grip| Grasp::new(stage.lab, cell, grip, point)) {
+        let grip = cell.grip_at(stage.lab, point);
+        let on = match grip.and_then(|grip| Grasp::new(stage.lab, cell, &grip, point)) {
             Some(grasp) => {
                 commands.push(Command::Hold(grasp.held().clone()));
                 let entry = match grip.map(|grip| grip.whose) {
@@ -209,7 +209,7 @@ impl Touch {
             None => {
                 let Some(at) = hover else { return };
                 let Some(cell) = stage.cell(at) else { return };
-                let Some(grip) = cell.grip_at(stage.point(at)) else { return };
+                let Some(grip) = cell.grip_at(stage.lab, stage.point(at)) else { return };
                 let origin = stage.rect.min.to_vec2();
                 let [low, high] = [cell.rect.min, cell.rect.max].map(|at| Pos2::from(at) + origin);
                 let painter = ui.painter().with_clip_rect(Rect::from_min_max(low, high));

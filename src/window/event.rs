@@ -7,7 +7,7 @@ use winit::event_loop::ActiveEventLoop;
 use super::App;
 #[cfg(feature = "accessibility")]
 use super::screen_reader::{self, Request};
-use crate::lab::{Findings, FoundCloud, FoundLoop, LaneSpec, Scene};
+use crate::lab::{Findings, FoundCloud, FoundLoop, LaneSpec, Mistake, Scene};
 
 /// An event from the program's own threads or from a screen reader.
 pub(super) enum Event {
@@ -27,7 +27,7 @@ pub(super) enum Event {
     /// The run is not recorded as it grows, for this reason.
     NotRecorded(String),
     /// A watched scene file has changed; `read` is what it holds now.
-    FileChanged { path: PathBuf, read: Result<(Scene, String), String> },
+    FileChanged { path: PathBuf, read: Result<(Scene, String), Vec<Mistake>> },
     /// A watched scene file cannot be read any more.
     FileGone(PathBuf),
     /// A scene file that was gone exists again, unchanged.

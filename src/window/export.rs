@@ -16,9 +16,9 @@ impl App {
     /// Puts the values on the clipboard.
     pub(super) fn copy_instrument(&mut self) {
         self.lab.set_notice(match instrument_csv(&self.lab) {
-            Some(table) => {
-                let rows = table.lines().count().saturating_sub(1);
-                match self.clipboard.set_text(table) {
+            Some(lines) => {
+                let rows = lines.len() - 1;
+                match self.clipboard.set_text(lines.concat()) {
                     Ok(()) => format!("copied {rows} values as CSV"),
                     Err(reason) => format!("no clipboard: {reason}; Ctrl E saves the values"),
                 }
@@ -93,7 +93,7 @@ fn try_save(gpu: &Gpu, lab: &Lab) -> Result<Vec<PathBuf>, String> {
         .map_err(|error| error.to_string())?;
     let png = png::encode(SIZE_PX, &rgba);
     let svg = instrument_svg(lab).map(String::into_bytes);
-    let files = [("png", Some(png)), ("svg", svg), ("csv", Some(csv.into_bytes()))];
+    let files = [("png", Some(png)), ("svg", svg), ("csv", Some(csv.concat().into_bytes()))];
     let name = name(lab);
     let files = files.into_iter().filter_map(|(ending, bytes)| Some((ending, bytes?)));
     let written = files.map(|(ending, bytes)| {

@@ -4,11 +4,11 @@ use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use std::sync::Arc;
 
 use crate::lab::pacing::trace_file;
-use crate::lab::{Command, Lab, SCENES, Scene};
+use crate::lab::{Command, Lab, Mistake, SCENES, Scene};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
 
-/// Reads a scene file and returns its scene and its text, or the error report that the command line would print.
-pub type ReadScene = Arc<dyn Fn(&Path) -> Result<(Scene, String), String> + Send + Sync>;
+/// Reads a scene file and returns its scene and its text, or what the command line would print of its mistakes.
+pub type ReadScene = Arc<dyn Fn(&Path) -> Result<(Scene, String), Vec<Mistake>> + Send + Sync>;
 
 /// Keeps the recording of a run so far, a scene file's text, or says why not. It is called every few seconds, with more each
 /// time, on a thread of its own.
@@ -46,16 +46,16 @@ fn is_trace(path: &Path) -> bool {
 }
 
 /// Opens the loop lab on the traces in a CSV file.
-fn open_trace(lab: &mut Lab, path: &Path) -> Result<(), String> {
+fn open_trace(lab: &mut Lab, path: &Path) -> Result<(), Vec<Mistake>> {
     let bytes = regular_file::read(path, MAX_TABLE_BYTES)
-        .map_err(|why| format!("error: cannot read {}: {why}", path.display()))?;
+        .map_err(|why| vec![format!("error: cannot read {}: {why}", path.display()).into()])?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let traces = trace_file::from_bytes(&name, &bytes);
-    lab.open_traces(traces.map_err(|error| format!("error: {error}"))?);
+    lab.open_traces(traces.map_err(|error| vec![format!("error: {error}").into()])?);
     Ok(())
 }
 
-fn open_listed(lab: &mut Lab, read: &ReadScene, path: &Path) -> Result<String, String> {
+fn open_listed(lab: &mut Lab, read: &ReadScene, path: &Path) -> Result<String, Vec<Mistake>> {
     let (scene, text) = read(path)?;
     lab.open_file(path, scene);
     Ok(text)
@@ -141,9 +141,10 @@ mod tests {
     /// Reads scene files without the command line's options.
     fn read() -> ReadScene {
         Arc::new(|path: &Path| {
-            let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
+            let text =
+                std::fs::read_to_string(path).map_err(|error| vec![error.to_string().into()])?;
             let scene = Scene::parse(&path.display().to_string(), &text);
-            scene.map(|scene| (scene, text)).map_err(|errors| errors.to_string())
+            scene.map(|scene| (scene, text)).map_err(Vec::from)
         })
     }
 
@@ -162,12 +163,14 @@ mod tests {
         assert_eq!(open(&mut lab, &read(), &bad), None);
         assert_eq!((lab.scene_name().as_str(), lab.race().tick()), ("ship.toml", 1));
         let Some(Dialog::Mistakes { report, .. }) = lab.viewer().dialog() else { panic!() };
-        assert!(report.starts_with(&format!("{}:1:", bad.display())), "{report}");
+        let message = &report[0].message;
+        assert!(message.starts_with(&format!("{}:1:", bad.display())), "{message}");
         lab.apply(Command::AskForPath);
         lab.apply(Command::TypePath(bad.display().to_string()));
         assert_eq!(open_typed(&mut lab, &read()), None);
         let Some(Dialog::Path { refused: Some(report) }) = lab.viewer().dialog() else { panic!() };
-        assert!(report.starts_with(&format!("{}:1:", bad.display())), "{report}");
+        let message = &report[0].message;
+        assert!(message.starts_with(&format!("{}:1:", bad.display())), "{message}");
         // The name of a built-in scene opens that, as on the command line.
         lab.apply(Command::TypePath(" ship ".into()));
         assert_eq!(open_typed(&mut lab, &read()), None);

@@ -29,8 +29,8 @@ impl Window {
         let read = |path: &Path| {
             let name = path.display().to_string();
             let bytes = regular_file::read(path, MAX_FILE_BYTES)
-                .map_err(|why| format!("error: cannot read {name}: {why}"))?;
-            let scene = Scene::from_bytes(&name, &bytes).map_err(|errors| errors.to_string())?;
+                .map_err(|why| vec![format!("error: cannot read {name}: {why}").into()])?;
+            let scene = Scene::from_bytes(&name, &bytes).map_err(Vec::from)?;
             Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
         };
         let files = SceneFiles { read: Arc::new(read), opened: None, keep: None };

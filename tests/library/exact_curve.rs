@@ -101,9 +101,8 @@ fn an_input_bends_the_curve_from_its_tick_on_and_not_the_tick_before_it() {
 }
 
 /// Where a hand can take hold of the ghost.
-fn ghost(picture: &Picture) -> Vec<Grip> {
-    let grips = picture.cells[0].grips.iter();
-    grips.filter(|grip| grip.whose == Whose::Truth).copied().collect()
+fn ghost(lab: &Lab, picture: &Picture) -> Vec<Grip> {
+    picture.cells[0].grips(lab).filter(|grip| grip.whose == Whose::Truth).collect()
 }
 
 #[test]
@@ -124,7 +123,7 @@ fn the_ghost_is_the_exact_motion_at_the_moment_of_the_lanes_however_they_are_dra
         for _ in Interpolation::ALL {
             lab.apply(Command::NextInterpolation);
             let picture = compose(&lab, size);
-            let x = picture.cells[0].metres(ghost(&picture)[0].at).x;
+            let x = picture.cells[0].metres(ghost(&lab, &picture)[0].at).x;
             let exact = libm::cos(TAU * lab.shown_s());
             assert!((x - exact).abs() < 1e-3, "frame {frame}: {x} m, truly {exact} m");
             reach = (reach.0.min(x), reach.1.max(x));

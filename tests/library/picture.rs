@@ -195,7 +195,7 @@ fn over_each_other_every_lane_has_a_number_and_the_selected_one_its_own_body() {
             let is_told = picture.labels.iter().any(|label| label.text == number);
             assert!(is_told || lane.entry == entry, "{number} with {entry} in front");
             let is_own = |whose| matches!(whose, Whose::Lane { entry, .. } if entry == lane.entry);
-            assert!(picture.cells[0].grips.iter().any(|grip| is_own(grip.whose)), "{number}");
+            assert!(picture.cells[0].grips(&lab).any(|grip| is_own(grip.whose)), "{number}");
         }
     }
 }
@@ -213,7 +213,7 @@ fn side_by_side_bodies_and_words_stay_in_their_cells_however_low_those_are() {
     assert!(lanes > 25 && picture.cells.len() == 3 * lanes);
     let is_truth = |whose| matches!(whose, Whose::Truth);
     for cell in &picture.cells {
-        let truth = cell.grips.iter().find(|grip| is_truth(grip.whose)).expect("a ghost");
+        let truth = cell.grips(&lab).find(|grip| is_truth(grip.whose)).expect("a ghost");
         assert!(cell.rect.contains(truth.at), "{:?} in {:?}", truth.at, cell.rect);
     }
     for label in &picture.labels {
@@ -241,7 +241,7 @@ fn a_body_that_comes_and_goes_is_drawn_while_it_is_inside_and_told_of_by_how_far
         let picture = compose(&lab, [780.0, 500.0]);
         let cell = &picture.cells[0];
         let is_lane = |whose| matches!(whose, Whose::Lane { .. });
-        let grip = cell.grips.iter().find(|grip| is_lane(grip.whose)).expect("it can be grabbed");
+        let grip = cell.grips(&lab).find(|grip| is_lane(grip.whose)).expect("it can be grabbed");
         let is_inside = grip.at[0] > 70.0 && cell.rect.contains(grip.at);
         // A block has a face in its own colour, and so has a badge: but only a block has a pen.
         let colour = Theme::Dark.style(lab.entries()[euler.unwrap()].method).0;
@@ -289,8 +289,8 @@ fn the_ghost_shows_only_when_it_is_asked_for() {
     lab.advance(100_000_000);
     let drawn = |lab: &Lab| {
         let picture = compose(lab, [780.0, 500.0]);
-        let is_ghost = |grip: &&regatta::lab::picture::Grip| grip.whose == Whose::Truth;
-        let ghosts = picture.cells.iter().flat_map(|cell| &cell.grips).filter(is_ghost).count();
+        let is_ghost = |grip: &regatta::lab::picture::Grip| grip.whose == Whose::Truth;
+        let ghosts = picture.cells.iter().flat_map(|cell| cell.grips(lab)).filter(is_ghost).count();
         (picture.shapes.len(), ghosts)
     };
     let with = drawn(&lab);
@@ -321,7 +321,7 @@ fn the_stage_says_which_body_halted_and_where_there_is_no_truth() {
     // A kick that neither lanes nor truth survive: the ghost is gone with the truth.
     let ghosts = |lab: &Lab| {
         let cells = compose(lab, [780.0, 500.0]).cells;
-        let grips = cells.iter().flat_map(|cell| &cell.grips);
+        let grips = cells.iter().flat_map(|cell| cell.grips(lab));
         grips.filter(|grip| grip.whose == Whose::Truth).count()
     };
     assert_eq!(ghosts(&lab), 2);

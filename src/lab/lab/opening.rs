@@ -6,7 +6,7 @@ use super::Lab;
 use super::restarting::is_by_hand;
 use crate::lab::instrument::Instrument;
 use crate::lab::race::Mode;
-use crate::lab::scene::Scene;
+use crate::lab::scene::{Mistake, Scene};
 use crate::lab::scene_list::SceneList;
 use crate::lab::viewer::Dialog;
 
@@ -50,7 +50,7 @@ impl Lab {
                 self.viewer.preferences.display.instrument = Instrument::Advice;
             }
             Err(errors) => {
-                let report = errors.to_string();
+                let report = errors.into();
                 self.viewer.dialog = Some(Dialog::Mistakes { file: MY_SPRING.into(), report });
             }
         }
@@ -96,7 +96,7 @@ impl Lab {
 
     /// Shows why the scene at the typed path, which is that of the file at `path`, cannot be opened. The field for the
     /// path stays open.
-    pub fn refuse_typed_path(&mut self, path: &Path, report: String) {
+    pub fn refuse_typed_path(&mut self, path: &Path, report: Vec<Mistake>) {
         self.scene_list.mark(path, report.clone());
         self.viewer.dialog = Some(Dialog::Path { refused: Some(report) });
     }
@@ -127,13 +127,13 @@ impl Lab {
     }
 
     /// Shows the errors of a file. The open run goes on.
-    pub fn show_mistakes(&mut self, path: &Path, report: String) {
+    pub fn show_mistakes(&mut self, path: &Path, report: Vec<Mistake>) {
         self.scene_list.mark(path, report.clone());
         self.viewer.dialog = Some(Dialog::Mistakes { file: path.display().to_string(), report });
     }
 
     /// Records the errors of a changed file, and shows them if it is open. The run goes on.
-    pub fn reload_failed(&mut self, path: &Path, report: String) {
+    pub fn reload_failed(&mut self, path: &Path, report: Vec<Mistake>) {
         if self.scene_list.open_path() == Some(path) {
             self.show_mistakes(path, report);
         } else {

@@ -200,7 +200,7 @@ impl Band<'_> {
             entry: self.front.entry,
             body: index,
             zoomed_as: view.zoomed_as,
-            grips: Vec::new(),
+            seen: Vec::new(),
             camera: *camera,
         };
         for lane in behind.chain([&self.front]) {
@@ -215,7 +215,7 @@ impl Band<'_> {
             let coat = LaneStyle { colour: colour_of_body, dash, fill: self.fill() };
             let seen = OutlineView { outline: &outline, camera, palette };
             let whose = Whose::Lane { lane: lane.id, entry: lane.entry };
-            cell.add_grips(body, &coordinates, whose);
+            cell.seen.push((whose, coordinates));
             let held = lab.viewer().held().filter(|held| held.body == index);
             let away = self.trail(picture, lane, outline.at, flag).filter(|_| held.is_none());
             lost.extend(away);
@@ -252,7 +252,7 @@ impl Band<'_> {
             }
         }
         if shows_ghost {
-            cell.add_grips(truth, &ghost.q, Whose::Truth);
+            cell.seen.push((Whose::Truth, ghost.q.clone()));
         }
         let lift = match framing {
             Framing::Recorder { .. } => 0.72 * camera.block,

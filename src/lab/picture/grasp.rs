@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::sketch::Camera;
 use super::{Look, Pull, Rect};
-use crate::lab::{HeldBody, Lab, LaneBody, LaneId};
+use crate::lab::{HeldBody, Lab, LaneId};
 
 /// How close to the middle of a small handle a hand can take hold of it, in points: as close as people aim.
 const MIN_RADIUS: f32 = 14.0;
@@ -22,8 +22,8 @@ pub struct Cell {
     pub body: usize,
     /// The body whose zoom and pan it is seen with, by its index in the scene: with those on one ruler that of the first.
     pub zoomed_as: usize,
-    /// Where the body can be taken hold of.
-    pub grips: Vec<Grip>,
+    /// The bodies that can be taken hold of, with their coordinates as they are drawn.
+    pub(super) seen: Vec<(Whose, Vec<f64>)>,
     pub(super) camera: Camera,
 }
 
@@ -55,22 +55,33 @@ pub enum Whose {
 }
 
 impl Cell {
+    /// Where the bodies can be taken hold of.
+    pub fn grips(&self, lab: &Lab) -> impl Iterator<Item = Grip> {
+        let look = Look::of(&lab.race().truth().bodies()[self.body]);
+        let is_recorder = self.camera.quay_m != 0.0;
+        let least = if is_recorder { MIN_RADIUS.max(self.camera.block / 2.0) } else { MIN_RADIUS };
+        self.seen.iter().flat_map(move |(whose, q)| {
+            look.handles(q).into_iter().enumerate().map(move |(handle, part)| {
+                let radius = self.camera.size(part.radius).max(least);
+                Grip { at: self.camera.points(part.at), radius, handle, whose: *whose }
+            })
+        })
+    }
+
     /// What a hand at this point of the stage takes hold of: of what it touches the nearest, another lane's body or a
     /// ghost only where that of the cell's own lane is out of reach.
-    pub fn grip_at(&self, at: [f32; 2]) -> Option<&Grip> {
-        let away = |grip: &Grip| (grip.at[0] - at[0]).hypot(grip.at[1] - at[1]);
-        let nearest = |is_wanted: &dyn Fn(Whose) -> bool| {
-            let touched = self.grips.iter().filter(|grip| is_wanted(grip.whose));
-            let touched = touched.filter(|grip| away(grip) <= grip.radius);
-            touched.min_by(|a, b| away(a).total_cmp(&away(b)))
-        };
+    pub fn grip_at(&self, lab: &Lab, at: [f32; 2]) -> Option<Grip> {
         if !self.rect.contains(at) {
             return None;
         }
-        let own = |whose| matches!(whose, Whose::Lane { lane, .. } if lane == self.lane);
-        nearest(&own)
-            .or_else(|| nearest(&|whose| whose != Whose::Truth))
-            .or_else(|| nearest(&|whose| whose == Whose::Truth))
+        let away = |grip: &Grip| (grip.at[0] - at[0]).hypot(grip.at[1] - at[1]);
+        let rank = |grip: &Grip| match grip.whose {
+            Whose::Lane { lane, .. } if lane == self.lane => 0,
+            Whose::Lane { .. } => 1,
+            Whose::Truth => 2,
+        };
+        let touched = self.grips(lab).filter(|grip| away(grip) <= grip.radius);
+        touched.min_by(|a, b| rank(a).cmp(&rank(b)).then(away(a).total_cmp(&away(b))))
     }
 
     /// Where a point of the stage is in the body's world, in metres.
@@ -81,16 +92,6 @@ impl Cell {
     /// Where a point of the stage is in the cell: across and down from its middle, in its widths and heights.
     pub fn part(&self, at: [f32; 2]) -> [f64; 2] {
         self.rect.part(at)
-    }
-
-    pub(super) fn add_grips(&mut self, body: &LaneBody, q: &[f64], whose: Whose) {
-        let handles = Look::of(body).handles(q);
-        let is_recorder = self.camera.quay_m != 0.0;
-        let least = if is_recorder { MIN_RADIUS.max(self.camera.block / 2.0) } else { MIN_RADIUS };
-        self.grips.extend(handles.into_iter().enumerate().map(|(handle, part)| {
-            let radius = self.camera.size(part.radius).max(least);
-            Grip { at: self.camera.points(part.at), radius, handle, whose }
-        }));
     }
 }
 

@@ -68,7 +68,7 @@ mod tests {
         let picture = compose(lab, [780.0, 500.0]);
         let cell = &picture.cells[0];
         let of = |truth: bool| {
-            let grip = cell.grips.iter().find(|grip| (grip.whose == Whose::Truth) == truth);
+            let grip = cell.grips(lab).find(|grip| (grip.whose == Whose::Truth) == truth);
             cell.camera.metres(grip.expect("it is on the stage").at).x
         };
         let mut texts = picture.labels.into_iter().map(|label| label.text);

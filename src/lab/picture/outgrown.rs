@@ -151,7 +151,7 @@ mod tests {
         let picture = compose(lab, SIZE);
         let cell = &picture.cells[0];
         let is_lane = |whose| matches!(whose, Whose::Lane { .. });
-        let grip = cell.grips.iter().find(|grip| is_lane(grip.whose)).expect("it can be grabbed");
+        let grip = cell.grips(lab).find(|grip| is_lane(grip.whose)).expect("it can be grabbed");
         (cell.rect.contains(grip.at), cell.camera.points_per_metre)
     }
 
@@ -205,7 +205,7 @@ mod tests {
                         (cell.rect.min[i] - room..cell.rect.max[i] + room).contains(&at[i])
                     })
                 };
-                let grips = cell.grips.iter().filter(|grip| is_lane(grip.whose));
+                let grips = cell.grips(&lab).filter(|grip| is_lane(grip.whose));
                 let away = grips.map(|grip| grip.at).find(|at| !is_near(*at));
                 assert_eq!(away, None, "{scene} at frame {frame}");
             }

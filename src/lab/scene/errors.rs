@@ -22,6 +22,28 @@ pub struct SceneErrors {
     pub more: usize,
 }
 
+/// What is wrong with a file, as it is shown.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mistake {
+    /// What is wrong, with its place.
+    pub message: String,
+    /// The lines of the file that the message is about, with marks; empty if there are none.
+    pub quoted: String,
+}
+
+/// A mistake that is about no line of a file.
+impl<T: Into<String>> From<T> for Mistake {
+    fn from(message: T) -> Self {
+        Self { message: message.into(), quoted: String::new() }
+    }
+}
+
+impl From<SceneErrors> for Vec<Mistake> {
+    fn from(errors: SceneErrors) -> Self {
+        errors.messages().map(Mistake::from).collect()
+    }
+}
+
 /// One thing that is wrong with a scene file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{fault}")]
@@ -66,6 +88,17 @@ impl SceneErrors {
         Self::new(file, &text, vec![SceneError { span, fault }])
     }
 
+    /// A line for each of [`errors`](Self::errors), and one for those that are not among them if there are any.
+    pub fn messages(&self) -> impl Iterator<Item = String> {
+        let Self { file, errors, more, .. } = self;
+        let message = move |error: &SceneError| {
+            let (line, column) = self.position(error.span.start);
+            format!("{file}:{line}:{column}: {error}")
+        };
+        let rest = (*more > 0).then(|| format!("{file}: and {more} more; mend these first"));
+        errors.iter().map(message).chain(rest)
+    }
+
     /// The line and the column of a byte of the text, both from 1, the column in characters.
     pub fn position(&self, byte: usize) -> (usize, usize) {
         position(&self.text, byte)
@@ -74,16 +107,7 @@ impl SceneErrors {
 
 impl fmt::Display for SceneErrors {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { file, errors, more, .. } = self;
-        for (n, error) in errors.iter().enumerate() {
-            let (line, column) = self.position(error.span.start);
-            let newline = if n == 0 { "" } else { "\n" };
-            write!(f, "{newline}{file}:{line}:{column}: {error}")?;
-        }
-        if *more > 0 {
-            write!(f, "\n{file}: and {more} more; mend these first")?;
-        }
-        Ok(())
+        f.write_str(&self.messages().collect::<Vec<_>>().join("\n"))
     }
 }
 

@@ -4,13 +4,13 @@ use egui::{Align2, Id, Key, Label, RichText, ScrollArea, TextEdit, TextStyle, Te
 
 use super::dialog::{select, window};
 use super::ink;
-use crate::lab::{Command, Lab};
+use crate::lab::{Command, Lab, Mistake};
 
 /// The width of a path that can be read without scrolling, in points.
 const WIDTH: f32 = 460.0;
 
 /// A field that has the focus as long as it is there: what is typed is meant for it.
-pub(super) fn path(ui: &Ui, lab: &Lab, refused: Option<&str>, commands: &mut Vec<Command>) {
+pub(super) fn path(ui: &Ui, lab: &Lab, refused: Option<&[Mistake]>, commands: &mut Vec<Command>) {
     let ctx = ui.ctx();
     let width = WIDTH.min(ctx.content_rect().width() - 40.0).max(40.0);
     window("Open a scene or a frame log").anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(ctx, |ui| {
@@ -48,21 +48,25 @@ pub(super) fn path(ui: &Ui, lab: &Lab, refused: Option<&str>, commands: &mut Vec
         if let Some(report) = refused {
             ui.separator();
             let room = egui::vec2(width, ctx.content_rect().height() - 240.0);
-            report_within(ui, lab.viewer().typed_path(), report, room);
+            report_within(ui, report, room);
         }
     });
 }
 
 /// The report, as the command line prints it, in a window of its own.
-pub(super) fn mistakes(ui: &Ui, file: &str, report: &str, commands: &mut Vec<Command>) {
+pub(super) fn mistakes(ui: &Ui, file: &str, report: &[Mistake], commands: &mut Vec<Command>) {
     let ctx = ui.ctx();
     let room = ctx.content_rect().size() - egui::vec2(60.0, 120.0);
     let title = format!("{file} cannot be opened");
     window(&title).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(ctx, |ui| {
         let font = TextStyle::Monospace.resolve(ui.style());
-        let text = ui.painter().layout_no_wrap(report.to_owned(), font, ink(ui).dim);
-        ui.set_min_width(text.size().x.min(room.x).max(0.0));
-        report_within(ui, file, report, room);
+        let width = |text: &String| {
+            let text = ui.painter().layout_no_wrap(text.clone(), font.clone(), ink(ui).dim);
+            text.size().x
+        };
+        let texts = report.iter().flat_map(|mistake| [&mistake.message, &mistake.quoted]);
+        ui.set_min_width(texts.map(width).fold(0.0, f32::max).min(room.x).max(0.0));
+        report_within(ui, report, room);
         ui.add_space(4.0);
         if ui.button("Close (Esc)").clicked() {
             commands.push(Command::CloseDialog);
@@ -72,30 +76,22 @@ pub(super) fn mistakes(ui: &Ui, file: &str, report: &str, commands: &mut Vec<Com
 
 /// Writes a report into this room, scrolled where it is larger: messages are wrapped, lines of the file are not, as
 /// what is marked in them would lose its mark.
-fn report_within(ui: &mut Ui, file: &str, report: &str, room: egui::Vec2) {
+fn report_within(ui: &mut Ui, report: &[Mistake], room: egui::Vec2) {
     let room = room.max(egui::Vec2::ZERO);
     ScrollArea::both().max_width(room.x).max_height(room.y).show(ui, |ui| {
-        for line in report.lines() {
-            let is_of_file = line.starts_with(file) || line.starts_with("error");
-            let text = RichText::new(line).monospace();
-            let text = if is_of_file { text.color(ink(ui).bad) } else { text };
-            if is_quoted(line) {
-                ui.add(Label::new(text).wrap_mode(TextWrapMode::Extend));
-            } else {
-                // A scroll area as such has no right edge to wrap at.
-                ui.scope(|ui| {
-                    ui.set_max_width(room.x);
-                    ui.add(Label::new(text).wrap());
-                });
+        for Mistake { message, quoted } in report {
+            let message = RichText::new(message).monospace().color(ink(ui).bad);
+            // A scroll area as such has no right edge to wrap at.
+            ui.scope(|ui| {
+                ui.set_max_width(room.x);
+                ui.add(Label::new(message).wrap());
+            });
+            if !quoted.is_empty() {
+                let quoted = RichText::new(quoted).monospace();
+                ui.add(Label::new(quoted).wrap_mode(TextWrapMode::Extend));
             }
         }
     });
-}
-
-/// Whether a line of a report shows a line of the file, or marks a place in it.
-fn is_quoted(line: &str) -> bool {
-    let after_number = line.trim_start_matches(|c: char| c == ' ' || c.is_ascii_digit());
-    after_number.starts_with('|')
 }
 
 #[cfg(test)]
@@ -129,16 +125,16 @@ mod tests {
     #[test]
     fn a_long_message_is_wrapped_and_a_quoted_line_is_not() {
         let message = |words: usize| format!("a.toml:1:1: {}", "words ".repeat(words));
-        let shown = |report: String| {
+        let shown = |report: Mistake| {
             let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-            lab.show_mistakes(std::path::Path::new("a.toml"), report);
+            lab.show_mistakes(std::path::Path::new("a.toml"), vec![report]);
             size_of_dialog(&lab, "a.toml cannot be opened")
         };
-        let [short, long] = [8, 80].map(|words| shown(message(words)));
+        let [short, long] = [8, 80].map(|words| shown(message(words).into()));
         assert!(long.x <= 800.0 && long.y > short.y + 20.0, "{short:?} {long:?}");
-        let quoted = shown(format!("{}\n1 | {}", message(8), "words ".repeat(80)));
+        let quoted = format!("1 | {}", "words ".repeat(80));
+        let quoted = shown(Mistake { message: message(8), quoted });
         assert!(quoted.x <= 800.0 && quoted.y < long.y, "{quoted:?} {long:?}");
-        assert!(is_quoted("  |      ^^^") && is_quoted(" 12 | a = 1") && !is_quoted("a | b"));
     }
 
     #[test]
@@ -146,7 +142,10 @@ mod tests {
         let mut lab = Lab::new(Scene::built_in("spring").unwrap());
         lab.apply(Command::AskForPath);
         let before = size_of_dialog(&lab, "Open a scene or a frame log");
-        lab.refuse_typed_path(std::path::Path::new("a.toml"), "error: none ".repeat(40));
+        lab.refuse_typed_path(
+            std::path::Path::new("a.toml"),
+            vec!["error: none ".repeat(40).into()],
+        );
         let after = size_of_dialog(&lab, "Open a scene or a frame log");
         assert!(after.y > before.y + 40.0 && after.x <= before.x + 20.0, "{before:?} {after:?}");
     }

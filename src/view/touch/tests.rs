@@ -32,7 +32,7 @@ impl Table {
     /// Where the body of the first cell is, in points of the frame.
     fn body(&self) -> Pos2 {
         let picture = self.picture();
-        let grip = picture.cells[0].grips.iter().find(|grip| grip.whose != Whose::Truth);
+        let grip = picture.cells[0].grips(&self.lab).find(|grip| grip.whose != Whose::Truth);
         Pos2::from(grip.unwrap().at) + STAGE.min.to_vec2()
     }
 
@@ -189,7 +189,8 @@ fn in_a_race_any_lanes_body_can_be_thrown_and_all_go_on_from_there() {
     table.lab.apply(Command::ToggleArrangement);
     (0..40).for_each(|_| table.lab.tick());
     let last = table.picture().cells.last().unwrap().clone();
-    let at = Pos2::from(last.grips[0].at) + STAGE.min.to_vec2();
+    let grip = last.grips(&table.lab).next().unwrap();
+    let at = Pos2::from(grip.at) + STAGE.min.to_vec2();
     table.press(at);
     table.move_to(at + vec2(12.0, 9.0));
     assert_eq!(table.held().unwrap().lane, last.lane);
@@ -208,9 +209,10 @@ fn over_each_other_a_click_on_a_lanes_body_brings_it_to_the_front() {
     (0..40).for_each(|_| table.lab.tick());
     let cell = table.picture().cells[0].clone();
     assert_eq!((table.picture().cells.len(), cell.entry), (1, table.lab.active()));
-    let other = cell.grips.iter().find_map(|grip| match grip.whose {
-        Whose::Lane { entry, .. } if cell.grip_at(grip.at) == Some(grip) && entry != cell.entry => {
-            Some((entry, grip.at))
+    let other = cell.grips(&table.lab).find_map(|grip| match grip.whose {
+        Whose::Lane { entry, .. } if entry != cell.entry => {
+            let found = cell.grip_at(&table.lab, grip.at);
+            (found == Some(grip)).then_some((entry, grip.at))
         }
         _ => None,
     });

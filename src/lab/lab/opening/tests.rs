@@ -121,9 +121,9 @@ fn a_path_that_is_refused_stays_in_its_field_with_the_reason_until_it_is_edited(
     lab.apply(Command::AskForPath);
     lab.apply(Command::TypePath("boat/none.toml".into()));
     assert_eq!(lab.apply(Command::OpenTypedPath), Some(crate::lab::DriverRequest::OpenTypedPath));
-    lab.refuse_typed_path(Path::new("boat/none.toml"), "no such file".into());
+    lab.refuse_typed_path(Path::new("boat/none.toml"), vec!["no such file".into()]);
     assert_eq!(lab.viewer().typed_path(), "boat/none.toml");
-    assert_eq!(refused(&lab).as_deref(), Some("no such file"));
+    assert_eq!(refused(&lab), Some(vec!["no such file".into()]));
     lab.apply(Command::TypePath("boat/none.toml".into()));
     assert!(refused(&lab).is_some());
     lab.apply(Command::TypePath("boat/non.toml".into()));
@@ -146,7 +146,7 @@ fn a_broken_file_shows_its_mistakes_and_the_run_goes_on() {
     let mut lab = lab(text("spring"));
     (0..50).for_each(|_| lab.tick());
     let hash = lab.race().state_hash();
-    lab.reload_failed(Path::new(PATH), "boat/ship.toml:1:1: no".into());
+    lab.reload_failed(Path::new(PATH), vec!["boat/ship.toml:1:1: no".into()]);
     let shown = |lab: &Lab| matches!(lab.viewer().dialog(), Some(Dialog::Mistakes { .. }));
     assert!(shown(&lab) && lab.race().state_hash() == hash);
     assert_eq!(lab.apply(Command::Escape), None);
@@ -160,7 +160,7 @@ fn a_broken_file_shows_its_mistakes_and_the_run_goes_on() {
     assert!(!shown(&lab));
     // Of a file that is not open, nothing is shown yet.
     lab.apply(Command::NextScene);
-    lab.reload_failed(Path::new(PATH), "boat/ship.toml:1:1: no".into());
+    lab.reload_failed(Path::new(PATH), vec!["boat/ship.toml:1:1: no".into()]);
     assert!(!shown(&lab));
 }
 

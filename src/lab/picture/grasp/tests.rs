@@ -24,14 +24,15 @@ fn off(grip: &Grip, by: [f32; 2]) -> [f32; 2] {
 #[test]
 fn every_handle_of_every_kind_can_be_grabbed_and_is_at_least_12_points_wide() {
     for kind in BODIES.iter() {
-        let picture = picture(&lab(kind.id));
+        let lab = lab(kind.id);
+        let picture = picture(&lab);
         let cell = &picture.cells[0];
-        let own = cell.grips.iter().filter(|grip| grip.whose != Whose::Truth);
+        let own = cell.grips(&lab).filter(|grip| grip.whose != Whose::Truth);
         for grip in own {
-            assert_eq!(cell.grip_at(grip.at), Some(grip), "{}", kind.id);
+            assert_eq!(cell.grip_at(&lab, grip.at), Some(grip), "{}", kind.id);
             assert!(grip.radius >= 12.0);
             // Beads may be closer together.
-            let beside = cell.grip_at(off(grip, [0.0, 12.0]));
+            let beside = cell.grip_at(&lab, off(&grip, [0.0, 12.0]));
             assert!(beside.is_some_and(|grip| grip.whose != Whose::Truth), "{}", kind.id);
         }
     }
@@ -46,7 +47,7 @@ fn a_body_that_is_placed_where_it_is_held_is_seen_there() {
         lab.apply(Command::ZoomPan { body: 0, zoom_pan });
         let before = picture(&lab);
         let cell = &before.cells[0];
-        let grip = *cell.grips.iter().find(|grip| grip.whose != Whose::Truth).unwrap();
+        let grip = cell.grips(&lab).find(|grip| grip.whose != Whose::Truth).unwrap();
         let mut grasp = Grasp::new(&lab, cell, &grip, off(&grip, [3.0, -2.0])).unwrap();
         assert!(cell.metres(grip.at).distance(grasp.held().handle) < 1e-3, "{}", kind.id);
         grasp.pull(&lab, off(&grip, [43.0, -33.0]), [0.0; 2]);
@@ -81,8 +82,9 @@ fn a_body_is_flung_in_simulated_metres_per_second_and_up_is_up() {
         let lab = lab(kind);
         let picture = picture(&lab);
         let cell = &picture.cells[0];
-        let mut grasp = Grasp::new(&lab, cell, &cell.grips[0], cell.grips[0].at).unwrap();
-        grasp.pull(&lab, cell.grips[0].at, velocity);
+        let grip = cell.grips(&lab).next().unwrap();
+        let mut grasp = Grasp::new(&lab, cell, &grip, grip.at).unwrap();
+        grasp.pull(&lab, grip.at, velocity);
         let scale = cell.camera.points_per_metre;
         let v = &grasp.held().v;
         assert!((v[0] - velocity[0] / scale).abs() < 1e-12, "{kind}");
@@ -97,12 +99,13 @@ fn a_bob_that_is_led_round_counts_its_turns_and_is_flung_along_its_circle() {
     let picture = picture(&lab);
     let cell = &picture.cells[0];
     let pivot = cell.camera.points(DVec2::ZERO);
-    let length = cell.metres(cell.grips[0].at).length() * cell.camera.points_per_metre;
+    let grip = cell.grips(&lab).next().unwrap();
+    let length = cell.metres(grip.at).length() * cell.camera.points_per_metre;
     let at = |angle: f64| {
         let (x, y) = (length * libm::sin(angle), length * libm::cos(angle));
         [pivot[0] + x as f32, pivot[1] + y as f32]
     };
-    let mut grasp = Grasp::new(&lab, cell, &cell.grips[0], cell.grips[0].at).unwrap();
+    let mut grasp = Grasp::new(&lab, cell, &grip, grip.at).unwrap();
     let start = grasp.held().q[0];
     for step in 0..=100 {
         let angle = start + f64::from(step) * 0.15;
@@ -122,7 +125,7 @@ fn of_a_chain_only_the_bead_in_hand_moves() {
     let lab = lab("chain");
     let picture = picture(&lab);
     let cell = &picture.cells[0];
-    let grip = cell.grips[2];
+    let grip = cell.grips(&lab).nth(2).unwrap();
     let stepper = &lab.race().entrants()[0].lane.bodies()[0].stepper;
     let mut grasp = Grasp::new(&lab, cell, &grip, grip.at).unwrap();
     grasp.pull(&lab, off(&grip, [5.0, -20.0]), [0.0, -7.0]);
@@ -138,23 +141,23 @@ fn of_a_chain_only_the_bead_in_hand_moves() {
 fn a_ghost_is_grabbed_where_its_lane_is_out_of_reach() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
     lab.apply(Command::TogglePause);
-    let own_and_ghost = |picture: &Picture| {
+    let own_and_ghost = |lab: &Lab| {
         [false, true].map(|is_ghost| {
-            let of = |grip: &&Grip| (grip.whose == Whose::Truth) == is_ghost;
-            *picture.cells[0].grips.iter().find(of).unwrap()
+            let of = |grip: &Grip| (grip.whose == Whose::Truth) == is_ghost;
+            picture(lab).cells[0].grips(lab).find(of).unwrap()
         })
     };
     let apart = |[own, ghost]: [Grip; 2]| (own.at[0] - ghost.at[0]).abs() > own.radius + 1.0;
-    while !apart(own_and_ghost(&picture(&lab))) {
+    while !apart(own_and_ghost(&lab)) {
         assert!(lab.race().tick() < 600);
         lab.tick();
     }
     let picture = picture(&lab);
-    let (cell, [_, ghost]) = (&picture.cells[0], own_and_ghost(&picture));
-    assert_eq!(cell.grip_at(ghost.at), Some(&ghost));
+    let (cell, [_, ghost]) = (&picture.cells[0], own_and_ghost(&lab));
+    assert_eq!(cell.grip_at(&lab, ghost.at), Some(ghost));
     let grasp = Grasp::new(&lab, cell, &ghost, ghost.at).unwrap();
     assert!((grasp.held().q[0] - cell.metres(ghost.at).x).abs() < 1e-6);
-    assert_eq!(cell.grip_at([cell.rect.min[0] + 2.0, cell.rect.max[1] - 2.0]), None);
+    assert_eq!(cell.grip_at(&lab, [cell.rect.min[0] + 2.0, cell.rect.max[1] - 2.0]), None);
 }
 
 #[test]
@@ -179,8 +182,9 @@ fn no_trail_leads_to_where_a_body_was_put() {
         (0..20).for_each(|_| lab.tick());
         let before = picture(&lab);
         let cell = &before.cells[0];
-        let mut grasp = Grasp::new(&lab, cell, &cell.grips[0], cell.grips[0].at).unwrap();
-        let to = off(&cell.grips[0], [90.0, 60.0]);
+        let grip = cell.grips(&lab).next().unwrap();
+        let mut grasp = Grasp::new(&lab, cell, &grip, grip.at).unwrap();
+        let to = off(&grip, [90.0, 60.0]);
         grasp.pull(&lab, to, [0.0; 2]);
         let (q, v) = (grasp.held().q.clone(), grasp.held().v.clone());
         lab.apply(Command::Act(crate::lab::Action::Place { body: 0, q, v }));

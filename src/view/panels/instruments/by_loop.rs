@@ -240,7 +240,7 @@ mod tests {
             for instrument in Instrument::all().filter(|one| one.is_in_loop_lab()) {
                 lab.apply(Command::Instrument(instrument));
                 assert_eq!(lab.display().instrument, instrument);
-                let table = csv(&lab).unwrap();
+                let table = csv(&lab).unwrap().concat();
                 let names = ["lockstep", "fixed", "whole-refresh"];
                 let drawing = svg(&lab);
                 let lines = drawing.as_ref().map(|text| text.matches("<polyline").count());

@@ -350,7 +350,7 @@ fn the_cloud_tells_what_becomes_of_the_area_and_why_a_body_has_none() {
     for wanted in ["Explicit Euler\n×1.", "grows ×2 in", "keeps area", "shrinks ×½ in"] {
         assert!(said(&lab, wanted), "{wanted}");
     }
-    let table = csv(&lab).unwrap();
+    let table = csv(&lab).unwrap().concat();
     assert!(table.contains(",area / start,,implicit-euler,1,0.") && table.contains(",exact,1,"));
     assert!(svg(&lab).unwrap().contains("<polyline"));
     assert!(said(&lab_of("orbit"), "has 2 coordinates"));

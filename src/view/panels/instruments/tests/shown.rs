@@ -21,7 +21,7 @@ fn motion_shows_the_chosen_quantity_and_its_table_follows() {
     lab.apply(Command::Quantity(Quantity::Velocity));
     let [speed, exact_speed] = at_the_end(&lab);
     assert!((speed - 11.64).abs() < 0.01 && (exact_speed - 11.45).abs() < 0.01, "{speed}");
-    let table = csv(&lab).unwrap();
+    let table = csv(&lab).unwrap().concat();
     assert!(table.lines().skip(1).all(|line| line.contains(",v,m/s,")), "{table}");
     assert!(svg(&lab).unwrap().contains(">v, m/s<"));
     assert_legible(&lab, "the ship's velocity");
@@ -37,7 +37,7 @@ fn a_net_plots_what_moves_far_and_any_other_coordinate_that_is_chosen() {
     let chosen = coordinates.iter().position(|coordinate| &*coordinate.name == "x7").unwrap();
     lab.apply(Command::Coordinate { body: 0, coordinate: chosen });
     assert_eq!(lab.race().tick(), 90);
-    let table = csv(&lab).unwrap();
+    let table = csv(&lab).unwrap().concat();
     let rows: Vec<&str> = table.lines().filter(|line| line.contains(",x7,m,")).collect();
     assert!(rows.len() > 90 && rows.len() + 1 == table.lines().count(), "from the start: {table}");
     let now = lab.race().entrants()[0].lane.bodies()[0].stepper.q()[chosen];
@@ -46,7 +46,7 @@ fn a_net_plots_what_moves_far_and_any_other_coordinate_that_is_chosen() {
     // To go back repeats the run as it was recorded.
     lab.apply(Command::Seek(40));
     lab.apply(Command::Seek(90));
-    assert_eq!(csv(&lab).unwrap(), table);
+    assert_eq!(csv(&lab).unwrap().concat(), table);
     lab.apply(Command::Restart);
     assert_eq!(named(&lab), "x7", "the choice stays with the scene");
     lab.apply(Command::Instrument(Instrument::Phase));
