@@ -95,7 +95,9 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
     fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Stepped {
         #[cfg(feature = "lab")]
         if B::coupling() == Coupling::Few && cores::is_large(self.placed.q().len()) {
-            return cores::enter(move || self.advance_here(t, h, substeps));
+            let mut stepped = Ok(());
+            cores::enter(&mut || stepped = self.advance_here(t, h, substeps));
+            return stepped;
         }
         self.advance_here(t, h, substeps)
     }

@@ -12,10 +12,10 @@ pub(super) fn is_large(coordinates: usize) -> bool {
     coordinates > GRAIN / 2
 }
 
-/// Does `work` on a thread that shares with all others what it [joins](join). Never allocates there.
+/// Does `work` once on a thread that shares with all others what it [joins](join). Never allocates there.
 #[cfg(feature = "lab")]
-pub(super) fn enter<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    join(work, || ()).0
+pub(super) fn enter(work: &mut (dyn FnMut() + Send)) {
+    join(work, || ());
 }
 
 /// Does both, at once if a core is free.

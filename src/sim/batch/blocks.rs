@@ -1,11 +1,11 @@
 //! Copies stepped in blocks, by the formula files of the methods.
 
 use std::marker::PhantomData;
-
-use rayon::prelude::*;
+use std::ops::Range;
 
 use super::copies::{BlockSystem, Copies};
 use super::instruction_set::{InstructionSet, Kernel};
+use super::parts::Parts;
 use super::{Advance, Ticks};
 use crate::sim::integrators::{Construct, Integrator, Method};
 use crate::sim::state::State;
@@ -41,16 +41,16 @@ fn construct<C: Copies, const W: usize>(
     set: InstructionSet,
     count: usize,
 ) -> Option<Box<dyn Advance>> {
-    let blocks = method.restart.map_or(0, |_| count.div_ceil(W));
-    let make = Make::<C, W> { copies: copies.clone(), set, blocks };
+    let make =
+        Make::<C, W> { copies: copies.clone(), set, count, has_memory: method.restart.is_some() };
     crate::sim::integrators::construct_in_blocks(method, make)
 }
 
 struct Make<C, const W: usize> {
     copies: C,
     set: InstructionSet,
-    /// How many blocks the method has a memory of.
-    blocks: usize,
+    count: usize,
+    has_memory: bool,
 }
 
 impl<C: Copies, const W: usize> Construct<C::Block<W>> for Make<C, W> {
@@ -60,10 +60,16 @@ impl<C: Copies, const W: usize> Construct<C::Block<W>> for Make<C, W> {
         self,
         new: impl FnOnce(&[f64; W]) -> I,
     ) -> Self::Output {
-        let Self { copies, set, blocks } = self;
+        let Self { copies, set, count, has_memory } = self;
         let integrator = new(&[0.0; W]);
-        let memory = vec![integrator.clone(); blocks];
-        Box::new(Blocks::<C, I, W> { copies, set, integrator, memory })
+        let part = |copies_of: Range<usize>| {
+            let blocks = if has_memory { copies_of.len() / W } else { 0 };
+            let memory = vec![integrator.clone(); blocks];
+            let (copies, integrator) = (copies.clone(), integrator.clone());
+            let first = copies_of.start;
+            Box::new(Blocks::<C, I, W> { copies, set, first, integrator, memory }) as _
+        };
+        Box::new(Parts::new(GRAIN, count, part))
     }
 }
 
@@ -71,6 +77,7 @@ impl<C: Copies, const W: usize> Construct<C::Block<W>> for Make<C, W> {
 struct Blocks<C, I, const W: usize> {
     copies: C,
     set: InstructionSet,
+    first: usize,
     /// Before its first step.
     integrator: I,
     /// That of each block, of a method with memory; empty for all others.
@@ -79,21 +86,9 @@ struct Blocks<C, I, const W: usize> {
 
 impl<C: Copies, I: Integrator<C::Block<W>> + Clone, const W: usize> Advance for Blocks<C, I, W> {
     fn advance(&mut self, ticks: Ticks, q: &mut [f64], v: &mut [f64]) {
-        let Self { copies, set, integrator, memory } = self;
-        let (copies, set) = (&*copies, *set);
-        let work = |integrator: &mut I, (grain, ((q, v), memory)): (_, ((_, _), _))| {
-            let (system, integrator) = (copies.block::<W>(set), integrator.clone());
-            let first = grain * GRAIN;
-            set.run(Grain { system, integrator, memory, first, ticks, q, v, of: PhantomData });
-        };
-        let grains = q.par_chunks_mut(GRAIN).zip(v.par_chunks_mut(GRAIN));
-        if memory.is_empty() {
-            let grains = grains.map(|grain| (grain, &mut [][..]));
-            grains.enumerate().for_each_with(integrator.clone(), work);
-        } else {
-            let grains = grains.zip(memory.par_chunks_mut(GRAIN / W));
-            grains.enumerate().for_each_with(integrator.clone(), work);
-        }
+        let Self { copies, set, first, integrator, memory } = self;
+        let (system, integrator, first) = (copies.block::<W>(*set), integrator.clone(), *first);
+        set.run(Grain { system, integrator, memory, first, ticks, q, v, of: PhantomData });
     }
 
     fn reset(&mut self) {
@@ -114,6 +109,8 @@ struct Grain<'a, S, I, const W: usize> {
 }
 
 impl<S: BlockSystem<W>, I: Integrator<S> + Clone, const W: usize> Kernel for Grain<'_, S, I, W> {
+    const WIDTH: Option<usize> = Some(W);
+
     #[inline(always)]
     fn run(self) {
         let Self { mut system, integrator, memory, first, ticks, q, v, of: _ } = self;

@@ -33,18 +33,34 @@ impl InstructionSet {
         }
     }
 
-    /// Runs a loop that is compiled for this instruction set.
-    pub(in crate::sim) fn run(self, kernel: impl Kernel) {
+    /// Whether it takes blocks so wide: with room for so many numbers, or for whatever comes.
+    const fn takes(self, width: Option<usize>) -> bool {
         match self {
-            Self::Portable => kernel.run(),
-            Self::Avx2 => with_avx2(kernel),
-            Self::Avx512 => with_avx512(kernel),
+            Self::Portable | Self::Avx2 => !matches!(width, Some(8)),
+            Self::Avx512 => !matches!(width, Some(4)),
+        }
+    }
+
+    /// Runs a loop that is compiled for this instruction set.
+    ///
+    /// # Panics
+    /// If the loop's blocks are not for it.
+    pub(in crate::sim) fn run<K: Kernel>(self, kernel: K) {
+        // A loop is compiled only for the sets that can come to it.
+        match self {
+            Self::Portable if const { Self::Portable.takes(K::WIDTH) } => kernel.run(),
+            Self::Avx2 if const { Self::Avx2.takes(K::WIDTH) } => with_avx2(kernel),
+            Self::Avx512 if const { Self::Avx512.takes(K::WIDTH) } => with_avx512(kernel),
+            _ => unreachable!("{self:?} takes no blocks of {:?}", K::WIDTH),
         }
     }
 }
 
 /// A loop to be compiled for an instruction set.
 pub(in crate::sim) trait Kernel {
+    /// How many copies its blocks have; `None` where any instruction set takes it.
+    const WIDTH: Option<usize> = None;
+
     /// Runs it. Inlined always, with all that is to be compiled for the same instruction set.
     fn run(self);
 }

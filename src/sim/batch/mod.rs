@@ -11,10 +11,11 @@ mod copies;
 mod instruction_set;
 #[cfg(feature = "lab")]
 mod law;
+mod parts;
 
 use std::collections::TryReserveError;
 
-use alone::Alone;
+use alone::each_alone;
 use blocks::in_blocks;
 pub use copies::OneCoordinate;
 use copies::{Alike, Copies, Each};
@@ -191,8 +192,7 @@ impl Batch {
             numbers.resize(padded, numbers.last().copied().unwrap_or(0.0));
         }
         let blocks = solver.method().and_then(|method| in_blocks(copies, method, set, padded));
-        let alone = || Alone::new(copies, solver, count).map(|alone| Box::new(alone) as _);
-        let advance = blocks.or_else(alone).expect("a method");
+        let advance = blocks.or_else(|| each_alone(copies, solver, count)).expect("a method");
         Ok(Self { q, v, count, advance })
     }
 

@@ -1,0 +1,40 @@
+//! Copies in parts, which the threads of rayon's pool share.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::{Advance, Ticks};
+
+/// Neighbouring copies, each part of which has its own way to advance: for methods and bodies of every type the threads
+/// are shared by the same code.
+pub(super) struct Parts {
+    grain: usize,
+    parts: Vec<Box<dyn Advance>>,
+}
+
+impl Parts {
+    /// `count` copies in parts of `grain` and a rest.
+    pub(super) fn new(
+        grain: usize,
+        count: usize,
+        part: impl FnMut(Range<usize>) -> Box<dyn Advance>,
+    ) -> Self {
+        let firsts = (0..count).step_by(grain);
+        Self {
+            grain,
+            parts: firsts.map(|first| first..count.min(first + grain)).map(part).collect(),
+        }
+    }
+}
+
+impl Advance for Parts {
+    fn advance(&mut self, ticks: Ticks, q: &mut [f64], v: &mut [f64]) {
+        let states = q.par_chunks_mut(self.grain).zip(v.par_chunks_mut(self.grain));
+        states.zip(&mut self.parts).for_each(|((q, v), part)| part.advance(ticks, q, v));
+    }
+
+    fn reset(&mut self) {
+        self.parts.iter_mut().for_each(|part| part.reset());
+    }
+}
