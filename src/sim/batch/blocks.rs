@@ -114,7 +114,7 @@ impl<S: BlockSystem<W>, I: Integrator<S> + Clone, const W: usize> Kernel for Gra
     #[inline(always)]
     fn run(self) {
         let Self { mut system, integrator, memory, first, ticks, q, v, of: _ } = self;
-        let [q, v] = [q, v].map(|numbers| numbers.as_chunks_mut::<W>().0);
+        let (q, v) = (q.as_chunks_mut::<W>().0, v.as_chunks_mut::<W>().0);
         let part = ticks.part();
         let tiles = q.chunks_mut(TILE / W).zip(v.chunks_mut(TILE / W)).enumerate();
         for (tile, (q, v)) in tiles {
