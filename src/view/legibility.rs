@@ -1,6 +1,7 @@
 //! No text of a frame is cut off, elided, or written over another, at any usual size of the window.
 
 use egui::{Context, Pos2, RawInput, Rect, Shape, Vec2, vec2};
+use rayon::prelude::*;
 
 use super::frame::write;
 use super::{panels, theme};
@@ -134,11 +135,11 @@ fn assert_legible(lab: &Lab, what: &str) {
 
 #[test]
 fn every_text_of_every_scene_can_be_read_alone_and_racing() {
-    for scene in SCENES {
+    SCENES.par_iter().for_each(|scene| {
         for race in [false, true] {
             assert_legible(&run(scene.name, race), &format!("{}, race {race}", scene.name));
         }
-    }
+    });
 }
 
 /// Every instrument on every scene, and of inspector, mode and size each combination of two, with each scene and each

@@ -2,6 +2,7 @@ use egui::{
     Context, Event, Modifiers, MouseWheelUnit, PointerButton, Pos2, RawInput, Rect, Shape,
     TouchPhase, Vec2, vec2,
 };
+use rayon::prelude::*;
 
 use super::super::tracks::Detail;
 use super::error::NO_ERROR;
@@ -91,7 +92,7 @@ fn assert_legible(lab: &Lab, what: &str) {
 
 #[test]
 fn every_axis_of_every_instrument_is_named_and_has_three_marks() {
-    for scene in SCENES {
+    SCENES.par_iter().for_each(|scene| {
         let mut lab = Lab::new(Scene::built_in(scene.name).unwrap());
         for mode in ["solo", "race"] {
             for seconds in [0, 3] {
@@ -110,7 +111,7 @@ fn every_axis_of_every_instrument_is_named_and_has_three_marks() {
             }
             lab.apply(Command::ToggleRace);
         }
-    }
+    });
 }
 
 #[test]
