@@ -17,6 +17,7 @@
 
 use std::marker::PhantomData;
 
+use crate::any_system::any;
 use evaluation::{Evaluation, Step, Values, acceleration};
 use regatta::sim::integrators::{
     DormandPrince54, EmbeddedPair, Family, METHODS, Method, Pair, integrator,
@@ -115,7 +116,7 @@ fn steps(method: &Method, formula: &[&str], case: &Case) -> Vec<Step> {
     let [stiffness, damping, drag, force] = case.told;
     let settings = EngineSettings { stiffness, damping, drag };
     let order = method.law_order().unwrap_or(1);
-    let told = Told { settings, force, rate: case.rate, order };
+    let told = any(Told { settings, force, rate: case.rate, order });
     let [q, v] = case.start;
     let mut state = State { q, v };
     let mut stepper = integrator(method, &state.q);
@@ -206,7 +207,7 @@ fn judged<'a>(method: &'a Method, formula: &'a [&str]) -> impl Iterator<Item = S
 /// The longest step from the first start that an adaptive method makes at once.
 fn longest_step(method: &Method) -> f64 {
     let evaluations = |h: f64| {
-        let told = Told { settings: EngineSettings::NONE, force: 0.0, rate: 1.0, order: 1 };
+        let told = any(Told { settings: EngineSettings::NONE, force: 0.0, rate: 1.0, order: 1 });
         let (system, mut state) = (Counted::new(told), State { q: 1.0, v: 0.5 });
         integrator(method, &state.q).steps(&system, 0.0, h, 1, &mut state).unwrap();
         system.evaluations()

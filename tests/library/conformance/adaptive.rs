@@ -8,6 +8,7 @@ use regatta::sim::integrators::{
 use regatta::sim::{Counted, State, System};
 
 use super::systems::{bits, spring};
+use crate::any_system::any;
 
 fn adaptive() -> impl Iterator<Item = &'static Method> {
     GENERAL_METHODS.iter().filter(|method| method.family == Family::Adaptive)
@@ -16,7 +17,7 @@ fn adaptive() -> impl Iterator<Item = &'static Method> {
 #[test]
 fn work_depends_on_the_tolerance_by_the_order() {
     let evaluations = |method: &Method, tolerance| {
-        let system = Counted::new(spring(1.0, 0.0));
+        let system = Counted::new(any(spring(1.0, 0.0)));
         let mut state = State { q: 1.0, v: 0.7 };
         let mut integrator = integrator(method, &state.q);
         integrator.set_tolerance(Tolerance::uniform(tolerance));

@@ -8,6 +8,7 @@ use regatta::sim::integrators::{Family, METHODS, Method, StepFailure, integrator
 use regatta::sim::{Counted, Pursuit, Question, State, System, Vector};
 
 use super::systems::{bits, fresh, spring};
+use crate::any_system::{AnySystem, any};
 
 fn followers() -> impl Iterator<Item = &'static Method> {
     METHODS.iter().filter(|method| method.family == Family::Follower)
@@ -62,9 +63,9 @@ fn behind_an_even_target_each_follower_has_the_order_on_its_card() {
 #[test]
 fn a_step_costs_the_evaluations_of_the_target_on_the_card() {
     for method in followers() {
-        let counted = Counted::new(still(method, 3.0));
-        let mut state = counted.system.start();
-        let mut integrator = fresh::<Counted<Follow>>(method);
+        let counted = Counted::new(any(still(method, 3.0)));
+        let mut state = still(method, 3.0).start();
+        let mut integrator = fresh::<Counted<AnySystem>>(method);
         for steps in 1..50 {
             integrator.step(&counted, 0.0, 0.1, &mut state).expect("the law it is for");
             assert_eq!(counted.evaluations(), u64::from(steps * method.evaluations.unwrap()));

@@ -6,6 +6,7 @@ use regatta::sim::integrators::{Family, GENERAL_METHODS, Method, StepFailure, in
 use regatta::sim::{Counted, State, System};
 
 use super::systems::{Kepler, Timetable, fresh, kepler_orbit, spring};
+use crate::any_system::any;
 
 fn implicit() -> impl Iterator<Item = &'static Method> {
     GENERAL_METHODS.iter().filter(|method| method.family == Family::Implicit)
@@ -128,7 +129,7 @@ fn one_step_multiplies_the_amplitude_by_its_formula() {
 #[test]
 fn bdf2_takes_less_energy_than_implicit_euler_for_the_same_work() {
     let left = |id| {
-        let system = Counted::new(spring(1.0, 0.0));
+        let system = Counted::new(any(spring(1.0, 0.0)));
         let mut state = State { q: 1.0, v: 0.7 };
         let mut integrator = fresh(method(id).expect("a method"));
         integrator.steps(&system, 0.0, 100.0, 1000, &mut state).unwrap();
@@ -198,7 +199,7 @@ fn a_linear_force_takes_two_iterations_at_any_scale() {
         let evaluations = 100 * cost..=(100 + u32::from(method.restart.is_some())) * cost;
         for (omega, h) in [(1.0, 0.1), (100.0, 0.1), (0.01, 0.1)] {
             let run = |scale: f64| {
-                let system = Counted::new(spring(omega, 0.1));
+                let system = Counted::new(any(spring(omega, 0.1)));
                 let mut state = State { q: scale, v: -0.3 * scale };
                 let mut integrator = fresh(method);
                 for step in 0..100 {
@@ -316,7 +317,7 @@ impl System for Pole {
 fn an_equation_without_a_solution_is_reported() {
     for method in implicit() {
         let mut state = State { q: 0.0, v: 0.01 };
-        let stepped = fresh(method).step(&DryFriction, 0.0, 0.1, &mut state);
+        let stepped = fresh(method).step(&any(DryFriction), 0.0, 0.1, &mut state);
         let Err(failure @ StepFailure::NewtonFailed { limit }) = stepped else {
             panic!("{}: {stepped:?}", method.id)
         };
@@ -334,8 +335,8 @@ fn a_force_or_a_state_that_is_not_finite_is_reported() {
     for method in implicit() {
         for broken in [f64::NAN, f64::INFINITY] {
             let mut state = State { q: DVec2::ONE, v: DVec2::ZERO };
-            let mut integrator = integrator::<Broken>(method, &state.q);
-            let stepped = integrator.step(&Broken(broken), 0.0, 0.1, &mut state);
+            let mut integrator = integrator(method, &state.q);
+            let stepped = integrator.step(&any(Broken(broken)), 0.0, 0.1, &mut state);
             assert!(matches!(stepped, Err(StepFailure::NewtonFailed { .. })), "{}", method.id);
 
             let mut state = State { q: broken, v: 0.0 };
@@ -349,7 +350,7 @@ fn a_force_or_a_state_that_is_not_finite_is_reported() {
 fn a_pole_is_no_solution() {
     for method in implicit() {
         let mut state = State { q: 1.0, v: 0.0 };
-        let stepped = fresh(method).step(&Pole, 0.0, 0.1, &mut state);
+        let stepped = fresh(method).step(&any(Pole), 0.0, 0.1, &mut state);
         if ["newmark", "tr-bdf2"].contains(&method.id) {
             // They use the force at the start, which the caller must check.
             assert!(!state.q.is_finite(), "{stepped:?} at {state:?}");
@@ -372,9 +373,9 @@ fn a_coordinate_far_away_does_not_degrade_the_others() {
     for method in implicit() {
         let run = |far: f64| {
             let mut state = State { q: DVec2::new(far, 1.0), v: DVec2::new(20.0, 0.0) };
-            let mut integrator = integrator::<Apart>(method, &state.q);
+            let mut integrator = integrator(method, &state.q);
             for step in 0..1000 {
-                integrator.step(&Apart, 0.01 * f64::from(step), 0.01, &mut state).unwrap();
+                integrator.step(&any(Apart), 0.01 * f64::from(step), 0.01, &mut state).unwrap();
             }
             [state.q.y, state.v.y, state.v.x]
         };

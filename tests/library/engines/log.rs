@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::fs;
 use std::path::PathBuf;
 
+use crate::any_system::{AnySystem, any};
 use regatta::sim::integrators::{Method, StepFailure, integrator, method};
 use regatta::sim::{Question, State, System};
 
@@ -23,6 +24,12 @@ pub(crate) struct Body {
     pub(crate) push: f64,
     /// Whether user code applies the spring.
     pub(crate) is_held: bool,
+}
+
+impl Body {
+    pub(crate) fn any(&self) -> AnySystem {
+        any(self.clone())
+    }
 }
 
 impl System for Body {
@@ -154,13 +161,13 @@ impl Log {
     /// The run of its card from the first row, at the ticks of all rows.
     pub(crate) fn run(&self) -> Result<Vec<Row>, StepFailure> {
         let mut state = State { q: self.rows[0].x, v: self.rows[0].v };
-        let mut stepper = integrator::<Body>(self.method(), &state.q);
+        let (body, mut stepper) = (self.body.any(), integrator(self.method(), &state.q));
         let mut tick = self.rows[0].tick;
         let mut reached = Vec::new();
         for row in &self.rows {
             while tick < row.tick {
                 let t = tick as f64 * self.tick_s;
-                stepper.steps(&self.body, t, self.tick_s, self.substeps, &mut state)?;
+                stepper.steps(&body, t, self.tick_s, self.substeps, &mut state)?;
                 tick += 1;
             }
             reached.push(Row { tick, x: state.q, v: state.v });

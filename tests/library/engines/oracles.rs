@@ -68,10 +68,10 @@ const HZ_1: f64 = std::f64::consts::TAU;
 fn after(id: &str, body: &Body, hz: f64, ticks: u32, from: [f64; 2]) -> State<f64> {
     let method = method(id).expect("a method of the table");
     let mut state = State { q: from[0], v: from[1] };
-    let mut engine = integrator::<Body>(method, &state.q);
+    let (body, mut engine) = (body.any(), integrator(method, &state.q));
     for tick in 0..ticks {
         let t = f64::from(tick) / hz;
-        engine.steps(body, t, 1.0 / hz, method.default_substeps, &mut state).unwrap();
+        engine.steps(&body, t, 1.0 / hz, method.default_substeps, &mut state).unwrap();
     }
     state
 }

@@ -1,5 +1,6 @@
 //! The runs that are compared: their forces and targets, and the steps of the methods of the table.
 
+use crate::any_system::any;
 use regatta::lab::MethodSource;
 use regatta::sim::integrators::{METHODS, Method, integrator};
 use regatta::sim::{Pursuit, Question, State, System};
@@ -109,7 +110,7 @@ impl System for Run {
 pub(crate) fn steps(method: &Method, case: &Case) -> Vec<[f64; 2]> {
     let force = FORCES[case.force].a;
     let order = method.law_order().unwrap_or(1);
-    let run = Run { force, order, has_joint: method.id != "engine-pybullet" };
+    let run = any(Run { force, order, has_joint: method.id != "engine-pybullet" });
     let [q, v] = case.start;
     let mut state = State { q, v };
     let mut stepper = integrator(method, &state.q);
