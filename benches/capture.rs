@@ -21,7 +21,7 @@ const FPS: u32 = 30;
 /// The aims, in frames a second and as a ratio, on two cores with a software adapter.
 const FEWEST_WITH_PANELS: f64 = 60.0;
 const FEWEST_WITHOUT: f64 = 150.0;
-const MOST_OF_STAGES: f64 = 1.1;
+const MAX_OF_STAGES: f64 = 1.1;
 
 fn main() {
     for (panels, fewest) in [(Panels::Shown, FEWEST_WITH_PANELS), (Panels::Off, FEWEST_WITHOUT)] {
@@ -43,9 +43,9 @@ fn main() {
         let holds = |held: bool| if held { "holds" } else { "MISSED" };
         println!(
             "aims: {fewest} frames per second {}; processor time {ratio:.2} of the stages' together, at \
-             most {MOST_OF_STAGES}, {}",
+             most {MAX_OF_STAGES}, {}",
             holds(fps >= fewest),
-            holds(ratio <= MOST_OF_STAGES)
+            holds(ratio <= MAX_OF_STAGES)
         );
     }
 }

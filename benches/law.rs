@@ -28,7 +28,7 @@ const STEPS: u32 = 5_000;
 const ROUNDS: usize = 301;
 
 /// The most a law's step may cost in steps of the built-in spring.
-const MOST: f64 = 10.0;
+const MAX_RATIO: f64 = 10.0;
 
 fn stepper(text: &str, id: &str) -> Box<dyn Stepper> {
     let text = format!("title = 'Spring'\ntick_hz = 60\nseconds = 10\n{text}");
@@ -65,6 +65,6 @@ fn main() {
         worst = worst.max(ratio);
         println!("{id:22} {:12.1} {:12.1} {ratio:8.2}", least[0], least[1]);
     }
-    let word = if worst <= MOST { "within" } else { "beyond" };
-    println!("{word} the aim: at most {MOST} times the built-in spring");
+    let word = if worst <= MAX_RATIO { "within" } else { "beyond" };
+    println!("{word} the aim: at most {MAX_RATIO} times the built-in spring");
 }

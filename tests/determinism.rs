@@ -271,7 +271,7 @@ fn ragged_frames_lose_ticks_to_the_cap_and_the_loss_is_counted() {
         let frame = frames();
         real_ns += frame.max(0);
         let due = lab.advance(frame);
-        assert!(due.ticks <= lab.clock().most_ticks());
+        assert!(due.ticks <= lab.clock().max_ticks());
         ticks += u64::from(due.ticks);
         dropped += due.dropped;
     }

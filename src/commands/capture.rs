@@ -10,12 +10,12 @@ use super::experiment::{
     self, Experiment, ExperimentArgs, Lineup, ThemeName, known_cloud, known_instrument, known_trace,
 };
 use super::frame_folder::{Existing, FrameFolder};
-use super::frame_names::MOST_FRAMES;
+use super::frame_names::MAX_FRAMES;
 use super::movie::{self, MovieFormat};
 use super::output::picture_format::PictureFormat;
 use super::output::{AtomicOutput, Older, OutputError, Place};
 use super::recording::Recording;
-use super::schedule::{FPS, MOST_FPS, Schedule, frames_in};
+use super::schedule::{FPS, MAX_FPS, Schedule, frames_in};
 use super::{clip, sheet, state_log};
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
@@ -54,7 +54,7 @@ pub(super) struct CaptureArgs {
 
     /// How many frames to draw, 1 to 1000000; in a sheet the number of columns [sheet: 6]
     #[arg(long, value_name = "N", conflicts_with = "seconds")]
-    #[arg(value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_FRAMES)))]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_FRAMES)))]
     frames: Option<u32>,
 
     /// How many simulated seconds to draw [default: the scene's]
@@ -64,7 +64,7 @@ pub(super) struct CaptureArgs {
 
     /// Frames per simulated second, 1 to 1000 [default: 30; sheet: 1]
     #[arg(long, value_name = "F")]
-    #[arg(value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_FPS)))]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_FPS)))]
     fps: Option<u32>,
 
     /// Width and height in pixels, 1x1 to 8192x8192; in a sheet those of each cell [default: 1280x720;

@@ -188,7 +188,7 @@ const HEAD_PX: usize = 2 * Lettering::LINE_PX + 6;
 const FOOT_PX: usize = 2 * Lettering::LINE_PX + 6;
 
 /// The most pictures of a GIF, and the hundredths of a second that each is shown.
-const MOST_FRAMES: u64 = 100;
+const MAX_FRAMES: u64 = 100;
 const SHOWN_CS: u32 = 8;
 
 /// The longest run that nobody asked for, in seconds.
@@ -299,7 +299,7 @@ fn make(
     let long = ticks.min(LONGEST_SCOUTED_S * u64::from(scene.tick_hz));
     let shown = match (form, strobe) {
         (Form::Png, None) => ShownTicks { ticks, times: 1, beside: BESIDE },
-        _ => ShownTicks { ticks: long, times: long.min(MOST_FRAMES), beside: BESIDE },
+        _ => ShownTicks { ticks: long, times: long.min(MAX_FRAMES), beside: BESIDE },
     };
     let view = match form {
         Form::Rows => None,
@@ -323,11 +323,11 @@ fn make(
         ExactBorder::new(name, &*body, start, scene.tick_hz).map_err(CloudError::from)?;
     let every = match (strobe, form) {
         (Some(strobe), _) => strobe,
-        (None, Form::Gif) => ticks.div_ceil(MOST_FRAMES),
+        (None, Form::Gif) => ticks.div_ceil(MAX_FRAMES),
         (None, Form::Rows | Form::Png) => ticks.div_ceil(16),
     };
     let mut done = 0;
-    let frames_every = ticks.div_ceil(every).div_ceil(MOST_FRAMES);
+    let frames_every = ticks.div_ceil(every).div_ceil(MAX_FRAMES);
     while done < ticks {
         let part = every.min(ticks - done);
         for run in &mut runs {

@@ -11,15 +11,15 @@ use crate::view::{AdapterPreference, Gpu, GpuError, OffscreenRenderer, Panels, R
 
 /// The most pixels of a whole capture: hours of drawing and about a hundred gigabytes of files. More is
 /// probably a typing mistake.
-const MOST_PIXELS: u64 = 1_000_000_000_000;
+const MAX_PIXELS: u64 = 1_000_000_000_000;
 
 impl Recording {
     /// A renderer for frames of this size.
     pub(super) fn renderer(&self) -> Result<OffscreenRenderer, DrawingError> {
         let (frames, size_px) = (self.schedule.frames, self.size_px);
         let pixels = u64::from(frames) * u64::from(size_px[0]) * u64::from(size_px[1]);
-        if pixels > MOST_PIXELS {
-            return Err(DrawingError::TooManyPixels { frames, size_px, pixels, most: MOST_PIXELS });
+        if pixels > MAX_PIXELS {
+            return Err(DrawingError::TooManyPixels { frames, size_px, pixels, most: MAX_PIXELS });
         }
         let panels = if self.panels { Panels::Shown } else { Panels::Off };
         let gpu = Gpu::headless(AdapterPreference::Any)?;

@@ -12,7 +12,7 @@ use crate::picture_note::{NOTED_WITHIN, is_encoded_here};
 use crate::regular_file;
 
 /// The most frames in a folder: as many as six digits number.
-pub(crate) const MOST_FRAMES: u32 = 1_000_000;
+pub(crate) const MAX_FRAMES: u32 = 1_000_000;
 
 /// The directory of a complete set of new frames. Once it has this name, the frames replace the old ones.
 pub(crate) const READY: &str = ".regatta-blessed";

@@ -20,10 +20,10 @@ use crate::lab::{CloudWorker, Lab};
 use crate::view::{OffscreenRenderer, Panels, ReadbackError};
 
 /// Frames that the device draws at a time. More gain nothing on a software adapter, and cost memory.
-const MOST_IN_FLIGHT: usize = 2;
+const MAX_IN_FLIGHT: usize = 2;
 
 /// Threads that encode: no device draws fast enough to keep more of them busy, and each holds a frame.
-const MOST_ENCODERS: usize = 4;
+const MAX_ENCODERS: usize = 4;
 
 /// Buffers beyond one per encoder: one frame waits for an encoder, and one is being passed on.
 const SPARE_BUFFERS: usize = 2;
@@ -72,7 +72,7 @@ impl Run<'_> {
     ) -> Result<u32, Stop<E>> {
         let processors = thread::available_parallelism().map_or(1, NonZero::get);
         // One is left to drawing.
-        self.draw_beside((processors - 1).clamp(1, MOST_ENCODERS), encode, take)
+        self.draw_beside((processors - 1).clamp(1, MAX_ENCODERS), encode, take)
     }
 
     /// [`draw_all`](Self::draw_all) with this number of encoder threads.
@@ -130,7 +130,7 @@ impl Run<'_> {
                     next += 1;
                 }
             }
-            if moments.len() == MOST_IN_FLIGHT || !more {
+            if moments.len() == MAX_IN_FLIGHT || !more {
                 let Some((tick, alpha)) = moments.pop_front() else { return Ok(drawn) };
                 let Ok(mut rgba) = buffers.recv() else { return Ok(drawn) };
                 renderer.collect(&mut rgba)?;

@@ -2,7 +2,7 @@
 //! read from a clock.
 
 use super::error::Cause;
-use super::frame_names::MOST_FRAMES;
+use super::frame_names::MAX_FRAMES;
 use crate::lab::pacing::LONGEST_FRAME_MS;
 use crate::lab::{Lab, Observer};
 
@@ -10,7 +10,7 @@ use crate::lab::{Lab, Observer};
 pub(super) const FPS: u32 = 30;
 
 /// The most frames per simulated second: no display shows as many.
-pub(super) const MOST_FPS: u32 = 1000;
+pub(super) const MAX_FPS: u32 = 1000;
 
 /// The moments of `frames` frames, the first at the start, `fps` per simulated second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +24,7 @@ const SECOND_NS: u64 = 1_000_000_000;
 /// A recording would have more frames than six digits can number.
 #[derive(Debug, thiserror::Error)]
 #[error(
-    "{frames} frames are asked for, and a capture has at most {MOST_FRAMES}; \
+    "{frames} frames are asked for, and a capture has at most {MAX_FRAMES}; \
      give a lower --fps or fewer --seconds"
 )]
 pub(super) struct TooManyFrames {
@@ -40,7 +40,7 @@ impl Cause for TooManyFrames {
 /// The number of frames in this many seconds, at least one.
 pub(super) fn frames_in(seconds: f64, fps: u32) -> Result<u32, TooManyFrames> {
     let frames = (seconds * f64::from(fps)).round().max(1.0);
-    if frames > f64::from(MOST_FRAMES) {
+    if frames > f64::from(MAX_FRAMES) {
         return Err(TooManyFrames { frames });
     }
     Ok(frames as u32)

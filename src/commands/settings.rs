@@ -2,10 +2,10 @@
 
 use super::experiment::{Experiment, Lineup, known_cloud, known_instrument, known_trace};
 use super::fingerprint::fingerprint;
-use super::frame_names::{MOST_FRAMES, frame_name};
+use super::frame_names::{MAX_FRAMES, frame_name};
 use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings};
 use super::recording::Recording;
-use super::schedule::{MOST_FPS, Schedule};
+use super::schedule::{MAX_FPS, Schedule};
 use crate::lab::palette::Theme;
 use crate::lab::{Clock, Instrument, LaneSpec, MAX_LANES, MAX_SUBSTEPS, Scene, TOLERANCES};
 use crate::sim::integrators::method;
@@ -68,8 +68,8 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
     };
     for (key, is_in_range) in [
         ("tick_hz", Clock::TICK_HZ.contains(&settings.tick_hz)),
-        ("frames", (1..=MOST_FRAMES).contains(&settings.frames)),
-        ("fps", (1..=MOST_FPS).contains(&settings.fps)),
+        ("frames", (1..=MAX_FRAMES).contains(&settings.frames)),
+        ("fps", (1..=MAX_FPS).contains(&settings.fps)),
         ("scale", (0.5..=4.0).contains(&settings.scale)),
         ("mark_every", settings.mark_every > 0),
         ("lanes", (1..=MAX_LANES).contains(&settings.lanes.len())),

@@ -13,7 +13,7 @@ use crate::lab::{CloudWorker, LaneSpec};
 use crate::view::png;
 
 /// The most pixels of a sheet, a gigabyte of memory.
-const MOST_SHEET_PIXELS: u64 = 1 << 28;
+const MAX_SHEET_PIXELS: u64 = 1 << 28;
 
 /// Draws every lane of the experiment alone, at the moments of the recording, into one picture.
 pub(super) fn draw(
@@ -30,13 +30,13 @@ pub(super) fn draw(
     let rows = lanes.len() as u32;
     let cells = rows * columns;
     let pixels = u64::from(cells) * u64::from(width) * u64::from(height);
-    if pixels > MOST_SHEET_PIXELS {
+    if pixels > MAX_SHEET_PIXELS {
         let (frames, size_px) = (cells, recording.size_px);
         return Err(DrawingError::TooManyPixels {
             frames,
             size_px,
             pixels,
-            most: MOST_SHEET_PIXELS,
+            most: MAX_SHEET_PIXELS,
         });
     }
     let mut renderer = recording.renderer()?;

@@ -12,7 +12,7 @@ const TOGETHER: u64 = 256;
 
 /// The fewest runs of which the fastest is taken, so that one that the system interrupts is not: unless they take this
 /// many times the effort.
-const LEAST_RUNS: usize = 5;
+const MIN_RUNS: usize = 5;
 const PATIENCE: u32 = 20;
 
 /// The cost of a lane.
@@ -55,7 +55,7 @@ fn runs(
     let mut runs = vec![run()];
     loop {
         let passed = elapsed();
-        let are_few = runs.len() < LEAST_RUNS && passed < PATIENCE * effort;
+        let are_few = runs.len() < MIN_RUNS && passed < PATIENCE * effort;
         if passed >= effort && !are_few {
             runs.sort_by(f64::total_cmp);
             return runs;

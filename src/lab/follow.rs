@@ -50,7 +50,7 @@ pub struct Follow<'a, B> {
     start_s: f64,
     tick_hz: f64,
     ticks: u64,
-    most_work: u64,
+    max_work: u64,
 }
 
 /// Why a [`Follow`] stopped.
@@ -76,7 +76,7 @@ impl<'a, B: Ticked> Follow<'a, B> {
             start_s: 0.0,
             tick_hz: tick_hz.into(),
             ticks: 0,
-            most_work: u64::MAX,
+            max_work: u64::MAX,
         }
     }
 
@@ -91,8 +91,8 @@ impl<'a, B: Ticked> Follow<'a, B> {
     }
 
     /// With a limit of its work, in the unit of [`Ticked::has_worked_more`].
-    pub fn within(self, most_work: u64) -> Self {
-        Self { most_work, ..self }
+    pub fn within(self, max_work: u64) -> Self {
+        Self { max_work, ..self }
     }
 
     /// The ticks that were made.
@@ -112,7 +112,7 @@ impl<'a, B: Ticked> Follow<'a, B> {
         mut see: impl FnMut(&mut B, u64) -> ControlFlow<()>,
     ) -> StopReason {
         while self.ticks < end {
-            if self.ticks > 0 && self.body.has_worked_more(self.most_work, self.ticks) {
+            if self.ticks > 0 && self.body.has_worked_more(self.max_work, self.ticks) {
                 return StopReason::TooMuchWork;
             }
             if let Err(failure) = self.tick() {

@@ -15,7 +15,7 @@ mod seen;
 
 pub use drive::{DriveLimits, drive_limits};
 pub use follow::{Approach, FollowerPort, followers};
-use inverse::{Found, invert, least_damping};
+use inverse::{Found, invert, min_damping};
 pub use seen::Setup;
 
 /// What a player is to see of a spring.
@@ -231,7 +231,7 @@ pub fn port(wish: &Wish, setup: Setup) -> Option<Ported> {
     let wanted = wish.seen();
     let sees = |joint| setup.sees(joint);
     let Found { joint, seen, missed } = invert(&sees, &wanted)?;
-    let least = least_damping(&sees, wanted.omega).map(|(_, ratio)| ratio);
+    let least = min_damping(&sees, wanted.omega).map(|(_, ratio)| ratio);
     let floor = least.filter(|ratio| *ratio > REACHED);
     let is_below = floor.is_some_and(|floor| wish.damping_ratio < floor);
     let reach = match missed <= REACHED {
@@ -256,7 +256,7 @@ pub fn port(wish: &Wish, setup: Setup) -> Option<Ported> {
 
 /// How far twice the substeps lead, or twice the rate.
 fn relief(wish: &Wish, setup: Setup, floor: Option<f64>) -> Option<Relief> {
-    let least = |setup: Setup| Some(least_damping(&|joint| setup.sees(joint), wish.omega())?.1);
+    let least = |setup: Setup| Some(min_damping(&|joint| setup.sees(joint), wish.omega())?.1);
     let by = |times: u32| Setup { substeps: setup.substeps * times, ..setup };
     let lower = least(by(2)).filter(|ratio| floor.is_some_and(|floor| *ratio < 0.99 * floor));
     let Some(damping_ratio) = lower else {

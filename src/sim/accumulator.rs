@@ -50,7 +50,7 @@ impl Accumulator {
 
 /// The most ticks in a frame: those of `longest_ms`, and at least one. `tick_hz_percent` is the tick rate in Hz times the
 /// speed in percent.
-pub(crate) fn most_ticks(tick_hz_percent: u64, longest_ms: u32) -> u32 {
+pub(crate) fn max_ticks(tick_hz_percent: u64, longest_ms: u32) -> u32 {
     let most = (tick_hz_percent * u64::from(longest_ms)).div_ceil(100 * 1000);
     u32::try_from(most.max(1)).expect("at most 10 000 Hz at a hundredfold speed")
 }

@@ -43,7 +43,7 @@ mod vec_system;
 mod xor_shift;
 
 #[cfg(feature = "lab")]
-pub(crate) use accumulator::most_ticks;
+pub(crate) use accumulator::max_ticks;
 pub use accumulator::{Accumulator, Due, LONGEST_FRAME_MS};
 #[cfg(feature = "batch")]
 pub use body::MakeBatch;

@@ -17,7 +17,7 @@ pub(super) enum AxisScale {
 }
 
 /// The most significant digits of a mark.
-const MOST_DIGITS: usize = 15;
+const MAX_DIGITS: usize = 15;
 /// The powers of ten that are written out on a symmetric scale.
 const PLAIN_FROM: i32 = -3;
 const PLAIN_TO: i32 = 4;
@@ -65,7 +65,7 @@ impl AxisScale {
                 evenly().iter().map(|mark| (mark.value, text(mark))).collect()
             };
             let differ = |marks: &Vec<(f64, String)>| marks.windows(2).all(|m| m[0].1 != m[1].1);
-            (3..MOST_DIGITS).map(texts).find(differ).unwrap_or_else(|| texts(MOST_DIGITS))
+            (3..MAX_DIGITS).map(texts).find(differ).unwrap_or_else(|| texts(MAX_DIGITS))
         };
         match self {
             Self::Linear => {

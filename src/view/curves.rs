@@ -56,13 +56,13 @@ const ARROW_INSET: f32 = 9.0;
 
 /// A crowded curve with more turns than this part of its points, or than these in a point of the screen, is not drawn as
 /// a line: it would beat against the samples or the pixels.
-const MOST_TURNS: f32 = 0.25;
-const MOST_TURNS_PER_POINT: f32 = 0.5;
+const MAX_TURNS: f32 = 0.25;
+const MAX_TURNS_PER_POINT: f32 = 0.5;
 
 /// A curve that goes further than this beyond the line through its points, in points of the screen, on more than this
 /// part of the ways between them, is not drawn as a line either: that would show a swing that nothing made.
 const HIDDEN: f32 = 2.0;
-const MOST_HIDDEN: f32 = 1.0 / 16.0;
+const MAX_HIDDEN: f32 = 1.0 / 16.0;
 
 /// Draws a curve through `points` on the screen, as far as the painter's clip shows it: its line, or where swings are
 /// too narrow to be told apart, their [band](bands). `swept` has the heights that the curve comes to on the way to each
@@ -91,7 +91,7 @@ pub(super) fn paint(painter: &Painter, points: &[Pos2], swept: &[[f32; 2]], curv
 fn beats(points: &[Pos2]) -> bool {
     let turns = turns(points);
     let wide = points.first().zip(points.last()).map_or(0.0, |(from, to)| (to.x - from.x).abs());
-    turns > MOST_TURNS || turns * points.len() as f32 > MOST_TURNS_PER_POINT * wide.max(BEGINNING)
+    turns > MAX_TURNS || turns * points.len() as f32 > MAX_TURNS_PER_POINT * wide.max(BEGINNING)
 }
 
 /// Whether the line through `points` would leave out much of what the curve sweeps over between them.
@@ -101,7 +101,7 @@ fn hides(points: &[Pos2], swept: &[[f32; 2]]) -> bool {
         swept.iter().any(|&y| y < high - HIDDEN || y > low + HIDDEN)
     };
     let hidden = points.windows(2).zip(swept.iter().skip(1)).filter(hides).count();
-    hidden as f32 > MOST_HIDDEN * points.len() as f32
+    hidden as f32 > MAX_HIDDEN * points.len() as f32
 }
 
 /// The part of the points at which a curve turns up or down.
@@ -221,7 +221,7 @@ mod tests {
         };
         assert!((turns(&swings(4)) - 0.5).abs() < 0.02);
         assert!((turns(&swings(8)) - 0.25).abs() < 0.02);
-        assert!(turns(&swings(9)) < MOST_TURNS && turns(&swings(7)) > MOST_TURNS);
+        assert!(turns(&swings(9)) < MAX_TURNS && turns(&swings(7)) > MAX_TURNS);
         assert_eq!(turns(&[]), 0.0);
     }
 

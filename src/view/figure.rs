@@ -201,7 +201,7 @@ fn laid_out(curve: &FigureCurve, chart: &Chart) -> Curve {
 
 impl Marks {
     /// The most powers of ten that are named along an axis.
-    const MOST_NAMED: f64 = 7.0;
+    const MAX_NAMED: f64 = 7.0;
 
     /// Where a value lies along the axis.
     fn place(self, value: f64) -> f64 {
@@ -260,7 +260,7 @@ impl Marks {
 
     /// Of how many powers of ten between these one is named.
     fn named_every(low: f64, high: f64) -> i64 {
-        ((high - low) / Self::MOST_NAMED).ceil().max(1.0) as i64
+        ((high - low) / Self::MAX_NAMED).ceil().max(1.0) as i64
     }
 }
 

@@ -31,7 +31,7 @@ enum Kind {
 }
 
 /// Fills smaller than this, in square pixels, are not worth a draw of their own.
-const LEAST_FILL_PX: f32 = 4096.0;
+const MIN_FILL_PX: f32 = 4096.0;
 
 #[derive(Debug)]
 struct Draw {
@@ -207,7 +207,7 @@ impl MeshRenderer {
 fn kind(mesh: &Mesh, corners: &[u32; 3], px_per_point: f32) -> Kind {
     let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize]);
     let (ab, ac) = (px_per_point * (b.pos - a.pos), px_per_point * (c.pos - a.pos));
-    let is_large = (ab.x * ac.y - ab.y * ac.x).abs() / 2.0 >= LEAST_FILL_PX;
+    let is_large = (ab.x * ac.y - ab.y * ac.x).abs() / 2.0 >= MIN_FILL_PX;
     let is_plain = [a, b, c].iter().all(|v| v.uv == WHITE_UV && v.color == a.color);
     if is_large && is_plain && a.color.is_opaque() { Kind::Fill } else { Kind::Textured }
 }

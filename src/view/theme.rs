@@ -94,13 +94,13 @@ pub(super) fn growth(size: [f32; 2]) -> f32 {
 }
 
 /// The least window in which every text can be read at the usual size of type, in points.
-const LEAST_ROOM: [f32; 2] = [800.0, 480.0];
+const MIN_ROOM: [f32; 2] = [800.0, 480.0];
 
 /// How much larger everything is in a window of this size, in points, than at the usual one, where a person has chosen this
 /// size of type and panels in percent. A window that is too small for the choice shows the largest that fits.
 pub(super) fn zoom(size: [f32; 2], percent: u32) -> f32 {
     let grown = growth(size);
-    let largest = (size[0] / LEAST_ROOM[0]).min(size[1] / LEAST_ROOM[1]);
+    let largest = (size[0] / MIN_ROOM[0]).min(size[1] / MIN_ROOM[1]);
     (grown * percent as f32 / 100.0).min(largest.max(grown))
 }
 

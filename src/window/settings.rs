@@ -29,7 +29,7 @@ pub struct Closed {
 
 /// The size of a window in points if nothing else is asked for, and the smallest one.
 const USUAL_SIZE: [u32; 2] = [1280, 720];
-const LEAST_SIZE: [u32; 2] = [320, 240];
+const MIN_SIZE: [u32; 2] = [320, 240];
 
 /// The attributes of a window of this size.
 pub(super) fn attributes(size: Option<[u32; 2]>) -> WindowAttributes {
@@ -44,7 +44,7 @@ pub(super) fn size_of(window: &Window, size_px: PhysicalSize<u32>) -> Option<[u3
     }
     let LogicalSize { width, height } = size_px.to_logical::<u32>(window.scale_factor());
     let size = [width, height];
-    (0..2).all(|side| size[side] >= LEAST_SIZE[side]).then_some(size)
+    (0..2).all(|side| size[side] >= MIN_SIZE[side]).then_some(size)
 }
 
 /// The system's theme.

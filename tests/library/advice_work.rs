@@ -33,14 +33,14 @@ const MILLIONS: [(&str, f64); 25] = [
 ];
 
 /// An unoptimised build would take half an hour for all.
-const MOST_MILLIONS: f64 = if cfg!(debug_assertions) { 12.0 } else { f64::INFINITY };
+const MAX_MILLIONS: f64 = if cfg!(debug_assertions) { 12.0 } else { f64::INFINITY };
 
 #[test]
 fn the_work_of_advice_on_each_built_in_scene_is_what_it_was() {
     for scene in SCENES {
         let known = MILLIONS.iter().find(|(name, _)| *name == scene.name);
         let (name, wanted) = *known.unwrap_or_else(|| panic!("{} has no bound", scene.name));
-        if wanted > MOST_MILLIONS {
+        if wanted > MAX_MILLIONS {
             continue;
         }
         let scene = Scene::built_in(name).unwrap();

@@ -48,8 +48,8 @@ const EVENTS: usize = 2100;
 const REWIND_MB: usize = 1;
 /// The most that the program may hold more after the second half of the events than after the first, in MB, and the least
 /// that it holds at all.
-const MOST_GROWTH_MB: f64 = 5.0;
-const LEAST_MB: f64 = 1.0;
+const MAX_GROWTH_MB: f64 = 5.0;
+const MIN_MB: f64 = 1.0;
 
 struct Program {
     lab: Lab,
@@ -151,6 +151,6 @@ fn thousands_of_random_events_leave_no_more_memory_held_than_a_few_megabytes() {
     println!("held at rest: {held:.2?} MB");
     let [first, second] =
         [&held[..3], &held[3..]].map(|half| half.iter().copied().fold(f64::INFINITY, f64::min));
-    assert!(first > LEAST_MB && second > LEAST_MB, "{held:?}");
-    assert!(second - first < MOST_GROWTH_MB, "{held:?}");
+    assert!(first > MIN_MB && second > MIN_MB, "{held:?}");
+    assert!(second - first < MAX_GROWTH_MB, "{held:?}");
 }

@@ -11,7 +11,7 @@ use crate::commands::output::{AtomicFile, Older};
 
 /// Frames that may wait for the disk. They are written already and hold no memory of ours; a loss of power
 /// loses them.
-const MOST_WAITING: usize = 4;
+const MAX_WAITING: usize = 4;
 
 /// A written frame, and its path for messages.
 type Frame = (AtomicFile, PathBuf);
@@ -35,7 +35,7 @@ pub(super) struct FrameQueue {
 impl FrameQueue {
     /// Starts the thread.
     pub(super) fn open() -> Self {
-        let (frames, waiting) = sync_channel(MOST_WAITING);
+        let (frames, waiting) = sync_channel(MAX_WAITING);
         Self { open: Some((frames, thread::spawn(move || settle(&waiting)))) }
     }
 

@@ -7,10 +7,10 @@ use crate::lab::palette::Theme;
 use crate::view::{Axis, Chart, Figure, FigureCurve, Legend, Marks};
 
 /// The most traces of which a picture has charts.
-const MOST_TRACES: usize = 4;
+const MAX_TRACES: usize = 4;
 
 /// An animation error that is drawn at the bottom: no display shows it.
-const LEAST_MS: f64 = 1e-3;
+const MIN_MS: f64 = 1e-3;
 /// The radius of a dot, and how much further the dot of a loop reaches for each other that is drawn over it, in points.
 const DOT: f32 = 4.0;
 const RING: f32 = 3.0;
@@ -21,15 +21,15 @@ const LARGEST_LATENCY_MS: f64 = 200.0;
 
 /// The number of charts in a picture of `traces` traces.
 pub(super) fn charts(traces: usize) -> usize {
-    2 * traces.min(MOST_TRACES)
+    2 * traces.min(MAX_TRACES)
 }
 
 /// The picture of the rows, which are in the order of their traces: two charts for each of the first traces.
 pub(super) fn figure(scene: &Scene, rows: &[Measured]) -> Figure {
     let mut by_trace: Vec<&[Measured]> =
         rows.chunk_by(|one, other| one.trace == other.trace).collect();
-    let left_out = by_trace.len().saturating_sub(MOST_TRACES);
-    by_trace.truncate(MOST_TRACES);
+    let left_out = by_trace.len().saturating_sub(MAX_TRACES);
+    by_trace.truncate(MAX_TRACES);
     let what = format!("{} Hz ticks: what each loop shows, and what it costs", scene.tick_hz);
     let (title, note) = match by_trace[..] {
         [rows] => (format!("{}, {what}", rows[0].trace), note(rows)),
@@ -96,7 +96,7 @@ fn costs(rows: &[Measured], before: &str) -> Chart {
     let latencies = known.iter().map(|point| point[0]).filter(|ms| ms.abs() <= LARGEST_LATENCY_MS);
     let (least, most) =
         latencies.fold((0.0, 10.0), |(least, most): (f64, f64), ms| (least.min(ms), most.max(ms)));
-    let worst = known.iter().map(|point| point[1]).fold(LEAST_MS, f64::max);
+    let worst = known.iter().map(|point| point[1]).fold(MIN_MS, f64::max);
     Chart {
         title: sentence(before, "animation error against latency, lower left is better"),
         legend: Legend::Shared,
@@ -108,7 +108,7 @@ fn costs(rows: &[Measured], before: &str) -> Chart {
             },
             Axis {
                 name: "animation error, RMS (ms)",
-                view: [LEAST_MS / 2.0, 10.0 * worst],
+                view: [MIN_MS / 2.0, 10.0 * worst],
                 marks: Marks::Decades,
             },
         ],
@@ -123,7 +123,7 @@ fn is_near([x, y]: [f64; 2], [other_x, other_y]: [f64; 2]) -> bool {
 
 fn point(row: &Measured) -> Option<[f64; 2]> {
     let report = &row.report;
-    Some([report.latency_mean_ms?, report.animation_error_rms_ms?.max(LEAST_MS)])
+    Some([report.latency_mean_ms?, report.animation_error_rms_ms?.max(MIN_MS)])
 }
 
 /// A title, after what comes before it.

@@ -13,7 +13,7 @@ const BEFORE: usize = 8;
 /// A frame is long from this number of refreshes on.
 const LONG: f64 = 2.5;
 /// The most frames that are searched for a long one.
-const MOST_SEARCHED: usize = 100_000;
+const MAX_SEARCHED: usize = 100_000;
 
 /// A row of the table.
 pub(super) struct Measured {
@@ -69,7 +69,7 @@ pub(super) fn drawn_from_ns(trace: &FrameTrace, until_ns: i64) -> i64 {
     let mut frames = trace.frames();
     let displayed: Vec<i64> = iter::from_fn(|| frames.next(0))
         .take_while(|frame| frame.began_ns < until_ns)
-        .take(MOST_SEARCHED)
+        .take(MAX_SEARCHED)
         .filter_map(|frame| frame.displayed_ns)
         .collect();
     let gaps = displayed.windows(2).map(|pair| pair[1] - pair[0]).enumerate();

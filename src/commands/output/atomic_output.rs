@@ -17,7 +17,7 @@ pub(crate) const STDOUT: &str = "-";
 const OPEN_ALREADY: [&str; 4] = ["/dev/fd", "/dev/stdout", "/dev/stderr", "/proc/self/fd"];
 
 /// A longer chain of links is a ring, on every system.
-const MOST_LINKS: usize = 40;
+const MAX_LINKS: usize = 40;
 
 /// Where an output goes, and the option to name in its errors.
 #[derive(Clone, Copy, Debug)]
@@ -262,7 +262,7 @@ fn begin(path: &Path, older: Option<&Metadata>) -> io::Result<AtomicFile> {
 /// The end of the chain of links at `path`, whether a file exists there or not.
 fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
-    for _ in 0..MOST_LINKS {
+    for _ in 0..MAX_LINKS {
         match fs::read_link(&path) {
             Ok(target) => path = path.parent().unwrap_or(Path::new("")).join(target),
             Err(_) => return Ok(path),

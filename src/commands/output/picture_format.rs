@@ -25,7 +25,7 @@ pub(crate) enum PictureFormat {
 }
 
 /// Players show a GIF's frame for two hundredths of a second at least.
-const MOST_GIF_FPS: u32 = 50;
+const MAX_GIF_FPS: u32 = 50;
 
 /// What files with these endings hold, of what a capture writes; other endings promise nothing.
 const ENDINGS: &[(&str, &[PictureFormat])] = &[
@@ -117,7 +117,7 @@ pub(crate) enum FormatError {
     )]
     NoStream,
     /// A GIF would be played slower.
-    #[error("a GIF has at most {MOST_GIF_FPS} frames a second, not {fps}; give a lower --fps")]
+    #[error("a GIF has at most {MAX_GIF_FPS} frames a second, not {fps}; give a lower --fps")]
     TooFastForGif {
         /// Asked for.
         fps: u32,
@@ -170,7 +170,7 @@ impl PictureFormat {
     /// Whether a run can be written at this many frames per second.
     pub(crate) fn check(self, fps: u32) -> Result<(), FormatError> {
         match self {
-            PictureFormat::Gif if fps > MOST_GIF_FPS => Err(FormatError::TooFastForGif { fps }),
+            PictureFormat::Gif if fps > MAX_GIF_FPS => Err(FormatError::TooFastForGif { fps }),
             _ => Ok(()),
         }
     }

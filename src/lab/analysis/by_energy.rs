@@ -41,7 +41,7 @@ pub(super) fn follow_energy(
     truth: &BodyTruth,
     spec: LaneSpec,
     tick_hz: u32,
-    most_work: u64,
+    max_work: u64,
 ) -> EnergyRun {
     let (hz, horizon) = (f64::from(tick_hz), ticks(truth.horizon_s, tick_hz));
     let body = truth.body_under(spec.solver(), spec.substeps);
@@ -49,9 +49,9 @@ pub(super) fn follow_energy(
     let n = stepper.q().len() as u64;
     let is_conserved = stepper.energy().is_some();
     let tick = Tick { t: 0.0, h: 1.0 / hz, substeps: spec.substeps };
-    let most_evaluations = most_work / n / WORK_OF_RADIUS;
-    let radius = spectral_radius(stepper, spec.solver(), tick, most_evaluations);
-    let mut follow = truth.follow(Metered::new(body), tick_hz).within(most_work);
+    let max_evaluations = max_work / n / WORK_OF_RADIUS;
+    let radius = spectral_radius(stepper, spec.solver(), tick, max_evaluations);
+    let mut follow = truth.follow(Metered::new(body), tick_hz).within(max_work);
     let mut means = Means::over(horizon);
     // The largest kinetic energy, the most energy that was lost, and the most that was gained.
     let (mut fastest, mut lost, mut gained) = (0.0_f64, 0.0_f64, 0.0_f64);

@@ -28,7 +28,7 @@ pub const MAX_HORIZON_S: f64 = 60.0;
 pub struct Judge {
     horizon_s: f64,
     throttle: f64,
-    most_work: u64,
+    max_work: u64,
     truths: Vec<BodyTruth>,
 }
 
@@ -50,12 +50,12 @@ impl Judge {
         let of =
             |(place, body)| BodyTruth::new(body, &inputs_of(scene, place), throttle, horizon_s);
         let truths = scene.bodies.iter().enumerate().map(of);
-        Self { horizon_s, throttle, most_work: MAX_WORK, truths: truths.collect() }
+        Self { horizon_s, throttle, max_work: MAX_WORK, truths: truths.collect() }
     }
 
     /// Limits the work of each run to less than [`MAX_WORK`]; what takes more is not known.
-    pub(super) fn within(mut self, most_work: u64) -> Self {
-        self.most_work = most_work;
+    pub(super) fn within(mut self, max_work: u64) -> Self {
+        self.max_work = max_work;
         self
     }
 
@@ -76,7 +76,7 @@ impl Judge {
 
     /// The verdict on a lane at this tick rate: that of its worst body.
     pub fn verdict(&self, spec: LaneSpec, tick_hz: u32) -> Verdict {
-        self.verdict_within(self.most_work, spec, tick_hz)
+        self.verdict_within(self.max_work, spec, tick_hz)
     }
 
     /// The work done so far, that on the truth included, in the unit of [`MAX_WORK`].
@@ -85,8 +85,8 @@ impl Judge {
     }
 
     /// The verdict on a lane, whose run on each body takes at most this work, or is not judged.
-    pub(super) fn verdict_within(&self, most_work: u64, spec: LaneSpec, tick_hz: u32) -> Verdict {
-        let of_body = |body| self.of_body(body, spec, tick_hz, most_work);
+    pub(super) fn verdict_within(&self, max_work: u64, spec: LaneSpec, tick_hz: u32) -> Verdict {
+        let of_body = |body| self.of_body(body, spec, tick_hz, max_work);
         let verdicts: Vec<Verdict> = (0..self.truths.len()).map(of_body).collect();
         let evaluations = verdicts.iter().map(|verdict| verdict.evaluations).sum();
         let bounded = verdicts.iter().map(|verdict| verdict.long_term.is_bounded);
@@ -101,16 +101,16 @@ impl Judge {
         Verdict { evaluations, long_term, of_bodies: verdicts, ..worst }
     }
 
-    fn of_body(&self, body: usize, spec: LaneSpec, tick_hz: u32, most_work: u64) -> Verdict {
+    fn of_body(&self, body: usize, spec: LaneSpec, tick_hz: u32, max_work: u64) -> Verdict {
         let truth = &self.truths[body];
         if truth.is_too_dear() {
-            return self.by_energy(body, spec, tick_hz, most_work);
+            return self.by_energy(body, spec, tick_hz, max_work);
         }
         let found = Modes::of(truth, spec, tick_hz);
-        let most_work = if found.is_ok() { most_work } else { 0 };
+        let max_work = if found.is_ok() { max_work } else { 0 };
         let modes = found.ok().flatten();
         let until = if modes.is_some() { Until::Horizon } else { Until::LongRun };
-        let run = follow(truth, spec, tick_hz, until, most_work);
+        let run = follow(truth, spec, tick_hz, until, max_work);
         let MotionChange { long_term, within, energy_change, frequency_error } = match &modes {
             Some(modes) => {
                 modes.change(truth.swing.is_some(), self.horizon_s - truth.last_input_s())
@@ -143,10 +143,10 @@ impl Judge {
     }
 
     /// The verdict on a body that has no reference solution.
-    fn by_energy(&self, body: usize, spec: LaneSpec, tick_hz: u32, most_work: u64) -> Verdict {
+    fn by_energy(&self, body: usize, spec: LaneSpec, tick_hz: u32, max_work: u64) -> Verdict {
         // Growth would be sought beyond the horizon for a verdict that nobody gets.
-        let most_work = if self.has_ticks(tick_hz) { most_work } else { 0 };
-        let run = follow_energy(&self.truths[body], spec, tick_hz, most_work);
+        let max_work = if self.has_ticks(tick_hz) { max_work } else { 0 };
+        let run = follow_energy(&self.truths[body], spec, tick_hz, max_work);
         let found = run.finding;
         let finding = match (run.failure, self.not_judged(tick_hz, run.is_too_much)) {
             (Some(failure), _) => Finding::Failed { failure, by_energy: Some(found) },

@@ -92,7 +92,7 @@ pub(super) fn follow(
     spec: LaneSpec,
     tick_hz: u32,
     until: Until,
-    most_work: u64,
+    max_work: u64,
 ) -> Run {
     let hz = f64::from(tick_hz);
     let horizon = ticks(truth.horizon_s, tick_hz);
@@ -120,7 +120,7 @@ pub(super) fn follow(
         horizon,
         hz,
     };
-    let mut follow = truth.follow(body, tick_hz).within(most_work);
+    let mut follow = truth.follow(body, tick_hz).within(max_work);
     let mut stop = follow.run(end, |body, tick| measured.take_in(body, tick));
     if stop == StopReason::End && end > horizon {
         // The truth is not needed beyond the horizon.

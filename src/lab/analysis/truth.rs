@@ -168,11 +168,11 @@ impl BodyTruth {
     fn survey(&mut self) {
         let mut body = self.start(Solver::Truth);
         let n = body.q().len();
-        let most_moments = match self.body.kind.truth {
+        let max_moments = match self.body.kind.truth {
             Truth::Exact => MAX_MOMENTS,
             Truth::Reference => MAX_REFERENCE_MOMENTS,
         };
-        let most = (MAX_PRODUCTS / (n * n)).clamp(MIN_MOMENTS, most_moments);
+        let most = (MAX_PRODUCTS / (n * n)).clamp(MIN_MOMENTS, max_moments);
         let after_inputs = self.after_inputs();
         self.modes = normal_modes(&*after_inputs).map(|modes| shares(&*after_inputs, modes));
         let mut there = self.start(Solver::Truth);

@@ -107,7 +107,7 @@ const MAX_WORK_OF_ALL: u64 = MAX_WORK;
 /// Works on one request at a time.
 pub struct AnalysisWorker {
     /// The most work on all verdicts.
-    most_work: u64,
+    max_work: u64,
     request: AnalysisRequest,
     judge: Option<Judge>,
     verdicts: Vec<Option<Verdict>>,
@@ -161,7 +161,7 @@ impl AnalysisWorker {
     pub fn new(request: AnalysisRequest) -> Self {
         let verdicts = vec![None; request.entries.len()];
         Self {
-            most_work: u64::MAX,
+            max_work: u64::MAX,
             request,
             judge: None,
             verdicts,
@@ -173,7 +173,7 @@ impl AnalysisWorker {
 
     /// The same worker, which does a stated amount of work only: what is left then is not judged, and no advice is given.
     pub(in crate::lab) fn bounded(self) -> Self {
-        Self { most_work: MAX_WORK_OF_ALL, ..self }
+        Self { max_work: MAX_WORK_OF_ALL, ..self }
     }
 
     /// Replaces the request. Results that answer the new one too are kept.
@@ -181,7 +181,7 @@ impl AnalysisWorker {
         self.set_map(&request);
         if !request.is_of(&self.request.scene) {
             let mapping = self.mapping.take();
-            *self = Self { most_work: self.most_work, mapping, ..Self::new(request) };
+            *self = Self { max_work: self.max_work, mapping, ..Self::new(request) };
             return;
         }
         let is_same_run = request.by_hand == self.request.by_hand;
@@ -225,7 +225,7 @@ impl AnalysisWorker {
             let judge =
                 self.judge.get_or_insert_with(|| Judge::new(&by_hand.applied_to(scene), 1.0));
             // What earlier verdicts have left over is for the later ones.
-            let left = self.most_work.saturating_sub(judge.work_done());
+            let left = self.max_work.saturating_sub(judge.work_done());
             let share = left / (entries.len() - self.judged) as u64;
             let verdict = judge.verdict_within(share.min(MAX_WORK), spec, *tick_hz);
             self.verdicts[self.judged] = Some(verdict.starting_at(by_hand.starts_at_s()));

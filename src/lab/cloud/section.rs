@@ -11,7 +11,7 @@ use crate::sim::number::significant;
 const STARTS: usize = 400;
 /// The most crossings of a lane, the work on all of them, and that before a picture is shown, in evaluations of a copy in a
 /// block.
-const MOST_CROSSINGS: u64 = 3000;
+const MAX_CROSSINGS: u64 = 3000;
 const WORK: u64 = 100_000_000;
 const PARTS: u64 = 40;
 /// How far the starts reach, in swings; on an angle all around.
@@ -60,7 +60,7 @@ impl SectionRun {
         let lane = |(entry, spec): &(usize, _)| {
             let cloud = Cloud::new(name, body, spec, start, STARTS, tick_hz)?;
             let work = (cost(spec) * STARTS as u64) as f64 * period;
-            let wanted = ((WORK as f64 / work) as u64).clamp(1, MOST_CROSSINGS);
+            let wanted = ((WORK as f64 / work) as u64).clamp(1, MAX_CROSSINGS);
             let density = Density::new([GRID; 2], axes.whole);
             Ok(SectionLane { entry: *entry, cloud, density, crossings: 0, wanted })
         };

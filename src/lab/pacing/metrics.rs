@@ -166,7 +166,7 @@ pub(super) struct PacingMeter {
     doubled: u64,
     latency: i128,
     largest_latency: Option<i128>,
-    most_owed: i128,
+    max_owed: i128,
 }
 
 impl PacingMeter {
@@ -178,7 +178,7 @@ impl PacingMeter {
     /// Adds a frame, after its steps. Returns its animation error in milliseconds, if it and another were displayed.
     pub(super) fn frame(&mut self, frame: Frame, pacer: &Pacer) -> Option<f64> {
         self.frames += 1;
-        self.most_owed = self.most_owed.max(pacer.owed());
+        self.max_owed = self.max_owed.max(pacer.owed());
         let base = pacer.base();
         let (displayed, shown) = (base.nanoseconds(frame.displayed_ns?), pacer.shown());
         self.displayed += 1;
@@ -217,7 +217,7 @@ impl PacingMeter {
             latency_mean_ms: (displayed > 0.0).then(|| base.milliseconds(self.latency) / displayed),
             latency_max_ms: self.largest_latency.map(|latency| base.milliseconds(latency)),
             dropped_ms: base.milliseconds(pacer.dropped()),
-            owed_max_ms: base.milliseconds(self.most_owed),
+            owed_max_ms: base.milliseconds(self.max_owed),
             position_error_rms: None,
             ticks,
             evaluations,

@@ -50,7 +50,7 @@ impl History {
         let spare = capacity / 2;
         Self {
             samples: WindowedLog::new(capacity, spare),
-            summaries: MAX_SUMMED.map(|most_summed| SummaryLog::new(most_summed, capacity, spare)),
+            summaries: MAX_SUMMED.map(|max_summed| SummaryLog::new(max_summed, capacity, spare)),
             present: None,
             since: SweptRange::NOTHING,
         }
@@ -59,7 +59,7 @@ impl History {
     /// The heap memory in bytes of a history of this capacity.
     pub(super) fn heap_bytes(capacity: usize) -> usize {
         let kept = capacity + capacity / 2;
-        let summaries: usize = MAX_SUMMED.iter().map(|most_summed| kept / most_summed + 1).sum();
+        let summaries: usize = MAX_SUMMED.iter().map(|max_summed| kept / max_summed + 1).sum();
         kept * size_of::<Sample>() + summaries * size_of::<Summary>()
     }
 
@@ -71,8 +71,8 @@ impl History {
     /// The coarsest summary with at least `least` records that covers the same time, oldest first. `None` if there is
     /// none.
     pub fn summaries(&self, least: usize) -> Option<impl Iterator<Item = Summary>> {
-        self.summaries.iter().zip(MAX_SUMMED).find_map(|(log, most_summed)| {
-            let oldest = self.samples.range(most_summed.min(self.samples.len())).next();
+        self.summaries.iter().zip(MAX_SUMMED).find_map(|(log, max_summed)| {
+            let oldest = self.samples.range(max_summed.min(self.samples.len())).next();
             let reaches = |summary: Summary| oldest.is_none_or(|oldest| summary.t <= oldest.t);
             let all = log.shown().chain(self.present.as_ref().map(Summary::of));
             let is_enough = all.size_hint().0 >= least && log.shown().next().is_none_or(reaches);

@@ -60,7 +60,7 @@ type Unfinished = Option<(Summary, usize)>;
 /// The summaries of a history.
 #[derive(Debug)]
 pub(super) struct SummaryLog {
-    most_summed: usize,
+    max_summed: usize,
     whole: WindowedLog<Summary>,
     last: Unfinished,
 }
@@ -78,9 +78,9 @@ pub(super) type Summaries<'l> =
 
 impl SummaryLog {
     /// A log of summaries, each of this number of samples at most, with room for `samples` of them and `spare` more.
-    pub(super) fn new(most_summed: usize, samples: usize, spare: usize) -> Self {
-        let whole = WindowedLog::new(samples / most_summed + 1, spare / most_summed);
-        Self { most_summed, whole, last: None }
+    pub(super) fn new(max_summed: usize, samples: usize, spare: usize) -> Self {
+        let whole = WindowedLog::new(samples / max_summed + 1, spare / max_summed);
+        Self { max_summed, whole, last: None }
     }
 
     pub(super) fn shown(&self) -> Summaries<'_> {
@@ -90,7 +90,7 @@ impl SummaryLog {
     /// Adds a sample. Never allocates.
     pub(super) fn push(&mut self, sample: &Sample) {
         let next = Summary::of(sample);
-        let together = self.last.filter(|(_, count)| *count < self.most_summed);
+        let together = self.last.filter(|(_, count)| *count < self.max_summed);
         let together = together.and_then(|(last, count)| Some((last.and(next)?, count + 1)));
         if together.is_none()
             && let Some((last, _)) = self.last

@@ -14,7 +14,7 @@ const LEAD: f32 = 0.09;
 /// Points of half a turn.
 const PIECES: u16 = 7;
 /// Below this length a spring is not drawn, in points: its block is at the quay or beyond.
-const LEAST: f32 = 6.0;
+const MIN_LENGTH: f32 = 6.0;
 
 /// Where a spring is, in points.
 #[derive(Clone, Copy)]
@@ -31,7 +31,7 @@ impl Span {
     fn ends(self) -> Option<(f32, f32)> {
         let lead = LEAD * self.size;
         let (from, to) = (self.quay + lead, self.block[0] - self.size / 2.0 - lead);
-        (to - from >= LEAST).then_some((from, to))
+        (to - from >= MIN_LENGTH).then_some((from, to))
     }
 
     /// A point of the wire, which has made this turn, in radians.

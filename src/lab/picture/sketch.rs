@@ -33,8 +33,8 @@ impl Camera {
     /// further it goes.
     pub(super) fn grown(self, times: f64) -> Self {
         /// The least part of its size that a body keeps.
-        const LEAST: f64 = 0.4;
-        let size = (1.0 / libm::sqrt(times)).max(LEAST);
+        const MIN: f64 = 0.4;
+        let size = (1.0 / libm::sqrt(times)).max(MIN);
         Self { magnified: times * size, block: self.block * demote(size), ..self }
     }
 

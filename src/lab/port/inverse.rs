@@ -51,7 +51,7 @@ pub(super) fn invert(sees: Sees, wanted: &Effective) -> Option<Found> {
         return Some(found);
     }
     let nearer = |a: &Found, b: &Found| a.missed.total_cmp(&b.missed);
-    let kept = least_damping(sees, wanted.omega)
+    let kept = min_damping(sees, wanted.omega)
         .and_then(|(stiffness, _)| found(sees, wanted, [stiffness, 0.0]));
     let all = [solved, kept, zoomed(sees, wanted)].into_iter().flatten();
     let best = all.min_by(nearer)?;
@@ -139,7 +139,7 @@ fn newton(
 }
 
 /// The least stiffness with which an undamped spring has the frequency `omega` in rad/s, and its damping ratio.
-pub(super) fn least_damping(sees: Sees, omega: f64) -> Option<(f64, f64)> {
+pub(super) fn min_damping(sees: Sees, omega: f64) -> Option<(f64, f64)> {
     let at = |s: f64| sees([omega * omega * libm::exp(s), 0.0]);
     let is_fast = |s: f64| at(s).map(|seen| seen.omega >= omega);
     let (low, high) = intervals()

@@ -18,15 +18,15 @@ pub(in crate::lab) fn clip_list<'a>(names: impl Iterator<Item = &'a str>) -> Str
     clip_to(MAX_LISTED_CHARS, &shown)
 }
 
-fn clip_to(most_chars: usize, text: &str) -> String {
+fn clip_to(max_chars: usize, text: &str) -> String {
     let mut shown = String::new();
-    for character in text.chars().take(most_chars) {
+    for character in text.chars().take(max_chars) {
         match character {
             '"' | '\'' | '\\' => shown.push(character),
             _ => shown.extend(character.escape_debug()),
         }
     }
-    if text.chars().nth(most_chars).is_some() {
+    if text.chars().nth(max_chars).is_some() {
         shown.push('…');
     }
     shown

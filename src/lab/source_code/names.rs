@@ -236,12 +236,12 @@ mod tests {
 
     #[test]
     fn fields_conditions_and_constants_are_written_as_each_language_has_them() {
-        let text = "memory.last_h == h and is_nan(LEAST_H) or x < nan";
+        let text = "memory.last_h == h and is_nan(MIN_H) or x < nan";
         let expected = [
-            "memory.last_h == h && f64::is_nan(LEAST_H) || x < f64::NAN",
-            "memory->last_h == h && isnan(LEAST_H) || x < NAN",
+            "memory.last_h == h && f64::is_nan(MIN_H) || x < f64::NAN",
+            "memory->last_h == h && isnan(MIN_H) || x < NAN",
             "memory.lastH == h && double.IsNaN(LeastH) || x < double.NaN",
-            "memory.last_h == h and is_nan(LEAST_H) or x < NAN",
+            "memory.last_h == h and is_nan(MIN_H) or x < NAN",
         ];
         assert_eq!(Language::ALL.map(|language| written(language, text)), expected);
     }

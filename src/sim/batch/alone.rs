@@ -16,6 +16,7 @@ type AnySystem = Box<dyn System<Vector = f64>>;
 /// Neighbouring copies with an integrator each.
 struct Alone<C> {
     copies: C,
+    /// The index of the first copy.
     first: usize,
     integrators: Vec<Box<dyn Integrator<AnySystem>>>,
 }

@@ -4,7 +4,7 @@ use std::marker::PhantomData;
 use std::ops::Range;
 
 use super::copies::{BlockSystem, Copies};
-use super::instruction_set::{InstructionSet, Kernel};
+use super::instruction_set::{InstructionSet, Kernel, NARROW, WIDE};
 use super::parts::Parts;
 use super::{Advance, Ticks};
 use crate::sim::integrators::{Construct, Integrator, Method};
@@ -28,10 +28,9 @@ pub(super) fn in_blocks<C: Copies>(
     if const { C::IS_INTERPRETED } {
         return construct::<C, 32>(copies, method, set, count);
     }
-    match set {
-        InstructionSet::Portable => construct::<C, 4>(copies, method, set, count),
-        InstructionSet::Avx2 => construct::<C, 4>(copies, method, set, count),
-        InstructionSet::Avx512 => construct::<C, 8>(copies, method, set, count),
+    match set.width() {
+        WIDE => construct::<C, WIDE>(copies, method, set, count),
+        _ => construct::<C, NARROW>(copies, method, set, count),
     }
 }
 
@@ -77,6 +76,7 @@ impl<C: Copies, const W: usize> Construct<C::Block<W>> for Make<C, W> {
 struct Blocks<C, I, const W: usize> {
     copies: C,
     set: InstructionSet,
+    /// The index of the first copy.
     first: usize,
     /// Before its first step.
     integrator: I,

@@ -3,6 +3,10 @@
 use multiversion::multiversion;
 use multiversion::target::match_target;
 
+/// The widths of blocks: as many numbers as two registers or one hold.
+pub(super) const NARROW: usize = 4;
+pub(super) const WIDE: usize = 8;
+
 /// An instruction set for blocks of bodies. All give the same bits: none fuses a product with a sum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InstructionSet {
@@ -33,11 +37,19 @@ impl InstructionSet {
         }
     }
 
-    /// Whether it takes blocks so wide: with room for so many numbers, or for whatever comes.
-    const fn takes(self, width: Option<usize>) -> bool {
+    /// How many copies a block of a compiled method has.
+    pub(super) const fn width(self) -> usize {
         match self {
-            Self::Portable | Self::Avx2 => !matches!(width, Some(8)),
-            Self::Avx512 => !matches!(width, Some(4)),
+            Self::Portable | Self::Avx2 => NARROW,
+            Self::Avx512 => WIDE,
+        }
+    }
+
+    /// Whether a loop with blocks so wide comes to it; `None` and the blocks of an interpreted law come to all.
+    const fn takes(self, width: Option<usize>) -> bool {
+        match width {
+            Some(width @ (NARROW | WIDE)) => width == self.width(),
+            _ => true,
         }
     }
 

@@ -44,7 +44,7 @@ pub(super) struct Extrapolation<V> {
     now: State<V>,
     stage: State<V>,
     /// The smallest of [`Body::distances_to_ends`] at the intermediate states.
-    pub(super) least_distances: Distances,
+    pub(super) min_distances: Distances,
     /// Evaluations so far.
     pub(super) evaluations: u64,
     /// The largest coordinate and velocity at the starts of steps so far, of lengths and of angles, for a
@@ -64,7 +64,7 @@ impl<V: Vector> Extrapolation<V> {
             before: state(),
             now: state(),
             stage: state(),
-            least_distances: NO_BOUNDARIES,
+            min_distances: NO_BOUNDARIES,
             evaluations: 0,
             largest: [[0.0; 2]; 2],
         }
@@ -117,7 +117,7 @@ impl<V: Vector> Extrapolation<V> {
         y: &State<V>,
         tolerance: f64,
     ) -> Option<usize> {
-        self.least_distances = NO_BOUNDARIES;
+        self.min_distances = NO_BOUNDARIES;
         for column in 0..COLUMNS {
             self.midpoint(body, piece, t, h, 2 * (column + 1), y);
             // Aitken and Neville: afterwards `table[0]` has the highest order and `table[1]` the next.
@@ -147,7 +147,7 @@ impl<V: Vector> Extrapolation<V> {
         let system = SmoothPiece { body, piece };
         let switches = body.switches();
         let samples_room = switches > 0 && n > 2 * FIRST_SAMPLED;
-        let Self { table, begin, d, before, now, stage, least_distances, evaluations, .. } = self;
+        let Self { table, begin, d, before, now, stage, min_distances, evaluations, .. } = self;
         let part = h / n as f64;
         fill(before, 0.0);
         fill(now, 0.0);
@@ -157,7 +157,7 @@ impl<V: Vector> Extrapolation<V> {
             system.derivative(t + part * i as f64, stage, d);
             if samples_room {
                 let distances = body.distances_to_ends(piece, t + part * i as f64, stage);
-                for (least, distance) in least_distances.iter_mut().zip(distances).take(switches) {
+                for (least, distance) in min_distances.iter_mut().zip(distances).take(switches) {
                     *least = [least[0].min(distance[0]), least[1].min(distance[1])];
                 }
             }

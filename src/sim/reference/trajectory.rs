@@ -267,7 +267,7 @@ impl<V: Vector> Trajectory<V> {
             *mode = body.neighbour(switch, *mode, side);
             return Tried::AtBoundary { part };
         }
-        if halvings < MAX_HALVINGS && self.leaves_piece(body, &work.least_distances) {
+        if halvings < MAX_HALVINGS && self.leaves_piece(body, &work.min_distances) {
             return Tried::LeftPiece;
         }
         self.add(work.added());

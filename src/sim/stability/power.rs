@@ -21,7 +21,7 @@ const DISPLACEMENT: f64 = 1e-7;
 const START: f64 = 1e-150;
 
 /// The spectral radius of a tick of `solver` on `body`, linearised about its current state: of the map of state and
-/// memory for a method with memory. `None` if the iteration has not settled within `most_evaluations`, for a method
+/// memory for a method with memory. `None` if the iteration has not settled within `max_evaluations`, for a method
 /// that chooses its substeps, and for an implicit one with memory.
 ///
 /// Up to rounding, n iterations grow like ρⁿ nᵖ (p > 0 for a drifting body); a second difference of the
@@ -33,15 +33,15 @@ pub fn spectral_radius(
     body: &dyn Stepper,
     solver: Solver,
     tick: Tick,
-    most_evaluations: u64,
+    max_evaluations: u64,
 ) -> Result<Option<f64>, StepFailure> {
     let Some(method) = solver.method().filter(|it| it.keeps_time && it.tolerance.is_none()) else {
         return Ok(None);
     };
     let logs = match (method.restart, method.evaluations_per_tick(tick.substeps)) {
-        (None, _) => logs_of_displaced_ticks(body, solver, tick, most_evaluations)?,
+        (None, _) => logs_of_displaced_ticks(body, solver, tick, max_evaluations)?,
         (Some(_), Some(evaluations)) => {
-            logs_of_continued_run(body, method, tick, most_evaluations / u64::from(evaluations))
+            logs_of_continued_run(body, method, tick, max_evaluations / u64::from(evaluations))
         }
         (Some(_), None) => None,
     };
@@ -54,7 +54,7 @@ fn logs_of_displaced_ticks(
     body: &dyn Stepper,
     solver: Solver,
     tick: Tick,
-    most_evaluations: u64,
+    max_evaluations: u64,
 ) -> Result<Option<Vec<f64>>, StepFailure> {
     let Tick { t, h, substeps } = tick;
     let mut stepper = body.with_solver(solver, t);
@@ -70,7 +70,7 @@ fn logs_of_displaced_ticks(
     // Coordinates, then velocities times the tick, so that both have one unit.
     let mut direction = start_vector(2 * n);
     let (mut sum, mut logs) = (0.0, Vec::with_capacity(MAX_ITERATIONS));
-    while logs.len() < MAX_ITERATIONS && stepper.evaluations() - before <= most_evaluations {
+    while logs.len() < MAX_ITERATIONS && stepper.evaluations() - before <= max_evaluations {
         let length = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
         // Displaced by this much in the largest component.
         let longest = largest(&direction);
@@ -97,13 +97,13 @@ fn logs_of_displaced_ticks(
     Ok(Some(logs))
 }
 
-/// The logarithms of the lengths of a deviation after each of at most `most_ticks` ticks of one run under the linearised
+/// The logarithms of the lengths of a deviation after each of at most `max_ticks` ticks of one run under the linearised
 /// forces, in which the method keeps its memory. They end where the deviation overflows or underflows.
 fn logs_of_continued_run(
     body: &dyn Stepper,
     method: &Method,
     tick: Tick,
-    most_ticks: u64,
+    max_ticks: u64,
 ) -> Option<Vec<f64>> {
     let Tick { t, h, substeps } = tick;
     let n = body.q().len();
@@ -113,7 +113,7 @@ fn logs_of_continued_run(
     start[n..].iter_mut().for_each(|v| *v /= h);
     deviation.set(&start);
     let mut logs = Vec::with_capacity(MAX_ITERATIONS);
-    while logs.len() < MAX_ITERATIONS && (logs.len() as u64) < most_ticks {
+    while logs.len() < MAX_ITERATIONS && (logs.len() as u64) < max_ticks {
         if deviation.advance(t, h, substeps).is_err() {
             break;
         }

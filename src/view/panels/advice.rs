@@ -21,7 +21,7 @@ const SMALL: f32 = 11.5;
 /// The height of a line, the room between two columns and the least width of a method's name, in points.
 const LINE: f32 = 20.0;
 const GAP: f32 = 6.0;
-const LEAST_NAME: f32 = 120.0;
+const MIN_NAME: f32 = 120.0;
 /// The width of a criterion's name before its answer, in points.
 const CRITERION: f32 = 76.0;
 /// From this width of an answer on, in points, the whole name of its button fits.
@@ -187,7 +187,7 @@ impl Widths {
         };
         let beside = |cell: f32| room - CRITERIA.len() as f32 * (cell + GAP);
         let with_rates = widest(true);
-        let has_rates = beside(with_rates) >= LEAST_NAME;
+        let has_rates = beside(with_rates) >= MIN_NAME;
         let cell = if has_rates { with_rates } else { widest(false) };
         Self { name: beside(cell).max(0.0), cell, has_rates }
     }

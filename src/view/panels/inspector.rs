@@ -20,10 +20,10 @@ const LINE: f32 = 20.0;
 /// The widths of a line's parts, in points: a name and a typed number as parts of the line, at most so much, and the
 /// button that restores.
 const NUMBER_PART: f32 = 0.3;
-const NUMBER_MOST: f32 = 108.0;
+const MAX_NUMBER: f32 = 108.0;
 const RESTORE: f32 = 20.0;
 const NAME_PART: f32 = 0.32;
-const NAME_MOST: f32 = 150.0;
+const MAX_NAME: f32 = 150.0;
 /// A name that is longer takes up to this part of the line.
 const NAME_WIDEST: f32 = 0.42;
 /// Scenes of more bodies than this open with one of them unfolded, the displayed one.
@@ -159,7 +159,7 @@ fn line(ui: &mut Ui, name: &str, about: &str, rest: impl FnOnce(&mut Ui, [f32; 2
     let width = ui.available_width();
     let font = egui::TextStyle::Body.resolve(ui.style());
     let whole = ui.painter().layout_no_wrap(name.to_owned(), font, ink(ui).text).size().x.ceil();
-    let name_width = (NAME_PART * width).min(NAME_MOST).max(whole.min(NAME_WIDEST * width));
+    let name_width = (NAME_PART * width).min(MAX_NAME).max(whole.min(NAME_WIDEST * width));
     ui.horizontal(|ui| {
         let layout = Layout::left_to_right(Align::Center);
         ui.allocate_ui_with_layout(vec2(name_width, LINE), layout, |ui| {
@@ -168,7 +168,7 @@ fn line(ui: &mut Ui, name: &str, about: &str, rest: impl FnOnce(&mut Ui, [f32; 2
             ui.add(label).on_hover_text(about);
         });
         let room = width - name_width - ui.spacing().item_spacing.x;
-        rest(ui, [room, (NUMBER_PART * width).min(NUMBER_MOST)]);
+        rest(ui, [room, (NUMBER_PART * width).min(MAX_NUMBER)]);
     });
 }
 

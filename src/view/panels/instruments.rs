@@ -43,7 +43,7 @@ const TIGHT: f32 = 2.5;
 /// Below this height, in points, there is no legend.
 const ROOM_FOR_LEGEND: f32 = 170.0;
 /// With more lines than this there is no legend either: the table below has the names, and the plots need the room.
-const MOST_IN_LEGEND: usize = 12;
+const MAX_IN_LEGEND: usize = 12;
 /// The most lines of a legend beside the title.
 const BESIDE_TITLE: usize = 2;
 /// The room before a legend that is beside the title, in points, and between its lines.
@@ -53,7 +53,7 @@ const BETWEEN_LINES: f32 = 13.0;
 const SWATCH: f32 = 26.0;
 
 /// The least height of an instrument with its tabs, in points: below it the plot is a smudge, or words lie over words.
-pub(super) fn least_height(instrument: Instrument) -> f32 {
+pub(super) fn min_height(instrument: Instrument) -> f32 {
     match instrument {
         Instrument::OneStep => 430.0,
         Instrument::StabilityMap | Instrument::Loop => 300.0,
@@ -193,7 +193,7 @@ fn tab(ui: &mut Ui, card: &InstrumentCard, is_chosen: bool, is_open: bool) -> bo
 /// An instrument of plots, below its title, its choices and its legend.
 fn plots(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Command>) {
     let lines = legend_lines(sheet);
-    let has_legend = ui.available_height() >= ROOM_FOR_LEGEND && lines.len() <= MOST_IN_LEGEND;
+    let has_legend = ui.available_height() >= ROOM_FOR_LEGEND && lines.len() <= MAX_IN_LEGEND;
     let may_be_beside =
         has_legend && lines.len() <= BESIDE_TITLE && lab.display().instrument == Instrument::Motion;
     let is_beside = ui.horizontal_wrapped(|ui| {

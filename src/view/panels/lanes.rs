@@ -211,7 +211,7 @@ pub(super) fn menu(ui: &mut Ui, lab: &Lab, entry: usize, commands: &mut Vec<Comm
 }
 
 /// The smallest type of a cell, in points.
-const LEAST_TYPE: f32 = 9.0;
+const MIN_TYPE: f32 = 9.0;
 
 fn cell(ui: &Ui, row: &Row<'_>, column: &Column, from: Pos2, width: f32, said: &verdict::Said) {
     let text = if row.flown.is_some() { ink(ui).text } else { ink(ui).dim };
@@ -221,7 +221,7 @@ fn cell(ui: &Ui, row: &Row<'_>, column: &Column, from: Pos2, width: f32, said: &
         let galley = loop {
             let font = FontId::new(size, font.family.clone());
             let (galley, is_whole) = short(ui, words, font, width, text);
-            if is_whole || size <= LEAST_TYPE {
+            if is_whole || size <= MIN_TYPE {
                 break galley;
             }
             size -= 0.5;

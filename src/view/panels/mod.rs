@@ -59,7 +59,7 @@ pub(super) const INSTRUMENTS: f32 = 0.38;
 
 /// The part of their height that the inspector takes at first, where it leaves them enough, and the least that it has.
 const INSPECTOR: f32 = 0.62;
-const LEAST_INSPECTOR: f32 = 130.0;
+const MIN_INSPECTOR: f32 = 130.0;
 
 /// Shows all panels. Returns what was asked for and the rectangle left for the stage, in points.
 pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
@@ -152,15 +152,15 @@ pub(super) fn show_instrument(ui: &mut Ui, lab: &Lab) {
 
 /// The instruments; with the inspector open they keep the upper part, where there is room for both.
 fn beside_the_stage(ui: &mut Ui, lab: &Lab, indent: f32, commands: &mut Vec<Command>) {
-    let most = ui.available_height() - instruments::least_height(lab.display().instrument);
+    let most = ui.available_height() - instruments::min_height(lab.display().instrument);
     if !lab.display().inspector || lab.display().enlarged {
         instruments::show(ui, lab, indent, commands);
-    } else if most < LEAST_INSPECTOR {
+    } else if most < MIN_INSPECTOR {
         inspector::show(ui, lab, commands);
     } else {
         let usual = (ui.available_height() * INSPECTOR).min(most);
         let panel = egui::Panel::bottom("inspector").default_size(usual);
-        let panel = panel.size_range(LEAST_INSPECTOR..=most).resizable(true);
+        let panel = panel.size_range(MIN_INSPECTOR..=most).resizable(true);
         let frame = Frame::new().inner_margin(Margin { top: 6, ..Margin::ZERO });
         panel.frame(frame).show(ui, |ui| inspector::show(ui, lab, commands));
         instruments::show(ui, lab, indent, commands);

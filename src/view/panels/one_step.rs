@@ -37,7 +37,7 @@ const SLOPE: f32 = 0.13;
 /// How much of its colour an orbit of constant energy has.
 const ORBIT: f32 = 0.7;
 /// The most evaluations that are drawn: an implicit or an adaptive method may take hundreds.
-const MOST_DRAWN: usize = 12;
+const MAX_DRAWN: usize = 12;
 /// How much wider the plot is than what it shows.
 const MARGIN: f64 = 0.16;
 
@@ -96,13 +96,13 @@ fn head(ui: &mut Ui, step: &OneStep) {
 /// The evaluations that are drawn, each with its number and its colour.
 fn drawn<'s>(ui: &Ui, step: &'s OneStep) -> Vec<(usize, Color32, &'s Slope)> {
     let theme = ink(ui).theme;
-    let numbered = step.evaluations.iter().enumerate().take(MOST_DRAWN);
+    let numbered = step.evaluations.iter().enumerate().take(MAX_DRAWN);
     numbered.map(|(i, slope)| (i + 1, colour(theme.evaluation(i)), slope)).collect()
 }
 
 /// The range along an axis of all that is drawn.
 fn range(step: &OneStep, axis: usize) -> [f64; 2] {
-    let evaluated = step.evaluations.iter().take(MOST_DRAWN).map(|slope| &slope.at);
+    let evaluated = step.evaluations.iter().take(MAX_DRAWN).map(|slope| &slope.at);
     let ends = std::iter::once(&step.from).chain(&step.landing);
     let all = ends.chain(&step.exact).chain(&step.chain).chain(evaluated);
     let values = all.map(|point| point[axis]).filter(|value| value.is_finite());
@@ -273,7 +273,7 @@ fn badge(painter: &egui::Painter, at: Pos2, number: usize, [colour, text]: [Colo
 /// The height of the table, in points.
 fn table_height(step: &OneStep) -> f32 {
     let lines = step.spec.method.formula.len();
-    let rows = step.evaluations.len().min(MOST_DRAWN) + 3;
+    let rows = step.evaluations.len().min(MAX_DRAWN) + 3;
     FORMULA * lines as f32 + ROW * rows as f32
 }
 
@@ -383,7 +383,7 @@ fn words(step: &OneStep, coordinate: &Coordinate) -> String {
     if let Some(growth) = step.growth {
         words = format!("{} {words}", swing(growth));
     }
-    let more = step.evaluations.len().saturating_sub(MOST_DRAWN);
+    let more = step.evaluations.len().saturating_sub(MAX_DRAWN);
     if more > 0 {
         words += &format!(" {more} more evaluations are not drawn.");
     }

@@ -12,7 +12,7 @@ const HEALTHY_SHARE: f64 = 25.0;
 const LOST_SHARE: f64 = 300.0;
 /// A drift (%) of more than this is lost, and one below is rounding.
 const LOST_DRIFT: f64 = 1e4;
-const LEAST_DRIFT: f64 = 1e-9;
+const MIN_DRIFT: f64 = 1e-9;
 /// The least half range of an axis, against the values on it: a body that has not moved yet is shown with labels no
 /// longer than when it has.
 const NARROWEST: f64 = 0.02;
@@ -73,7 +73,7 @@ pub(super) fn linear_drift(lanes: &[Track]) -> f64 {
     let most = |lane: &Track| lane.along(1).map(f64::abs).fold(0.0, f64::max);
     let least = lanes.iter().map(most).filter(|&drift| drift > 0.0).fold(f64::INFINITY, f64::min);
     if least.is_finite() {
-        libm::pow(10.0, libm::floor(libm::log10(least))).clamp(LEAST_DRIFT, 0.1)
+        libm::pow(10.0, libm::floor(libm::log10(least))).clamp(MIN_DRIFT, 0.1)
     } else {
         0.1
     }

@@ -39,11 +39,11 @@ const NEAR_THE_BOUND: f64 = 0.75;
 const NUMBERS_APART: f64 = 64.0;
 const MARKS_APART: f32 = 15.0;
 /// The ticks in the closest view.
-const LEAST_TICKS: f64 = 12.0;
+const MIN_TICKS: f64 = 12.0;
 /// The points by which the wheel turns to zoom by *e*.
 const WHEEL: f64 = 240.0;
 /// The most marks that a tooltip tells of.
-const MOST_TOLD: usize = 8;
+const MAX_TOLD: usize = 8;
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let room = ui.available_rect_before_wrap();
@@ -145,9 +145,9 @@ fn viewed(ui: &Ui, lab: &Lab, times: &TimeScale, response: &Response, along: Ran
     if let Some(pointer) = response.hover_pos() {
         let (scroll, pinch) = ui.input(|i| (i.smooth_scroll_delta(), i.zoom_delta()));
         let factor = f64::from(pinch) * libm::exp(f64::from(scroll.y) / WHEEL);
-        let least_s = LEAST_TICKS / f64::from(lab.race().tick_hz());
+        let min_s = MIN_TICKS / f64::from(lab.race().tick_hz());
         if factor != 1.0 {
-            span = span.zoomed(span.t(pointer.x, along), factor, least_s, whole);
+            span = span.zoomed(span.t(pointer.x, along), factor, min_s, whole);
         }
         let by_s = -f64::from(scroll.x / along.span()) * span.length_s();
         span = span.moved(by_s, whole);
@@ -333,9 +333,9 @@ fn tooltip(ui: &Ui, response: Response, track: &Track<'_>, groups: &[Group]) {
             ui.label(marks::moment(track.tick(x), track.times));
             return;
         };
-        group.marks.iter().take(MOST_TOLD).for_each(|mark| drop(ui.label(&mark.text)));
-        if group.marks.len() > MOST_TOLD {
-            ui.label(format!("and {} more", group.marks.len() - MOST_TOLD));
+        group.marks.iter().take(MAX_TOLD).for_each(|mark| drop(ui.label(&mark.text)));
+        if group.marks.len() > MAX_TOLD {
+            ui.label(format!("and {} more", group.marks.len() - MAX_TOLD));
         }
     });
 }

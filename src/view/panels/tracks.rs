@@ -35,7 +35,7 @@ pub(super) enum Detail {
 
 impl Detail {
     /// The number of a curve's points that is enough.
-    fn least_points(self) -> usize {
+    fn min_points(self) -> usize {
         match self {
             Self::Samples => usize::MAX,
             Self::Columns(columns) => columns.ceil() as usize,
@@ -98,7 +98,7 @@ impl Track {
             swept: s.swept.ends(),
             jumped: s.jumped,
         };
-        let points = |history: &History| match history.summaries(detail.least_points()) {
+        let points = |history: &History| match history.summaries(detail.min_points()) {
             Some(summaries) => finite(summaries.map(point)),
             None => finite(history.samples().map(|sample| point(Summary::of(sample)))),
         };
@@ -319,7 +319,7 @@ fn goes_on(from: &Point, to: &Point) -> bool {
 fn stays(
     points: &[Point],
     within: impl Fn(&Point) -> bool,
-    least_s: f64,
+    min_s: f64,
 ) -> Vec<RangeInclusive<usize>> {
     let mut stays = Vec::new();
     let mut next = 0;
@@ -327,7 +327,7 @@ fn stays(
         let outside = (first..points.len()).find(|&i| !within(&points[i]));
         let last = outside.unwrap_or(points.len()) - 1;
         let begins = first == 0 || !goes_on(&points[first - 1], &points[first]);
-        if begins || points[last].t - points[first].t >= least_s {
+        if begins || points[last].t - points[first].t >= min_s {
             stays.push(first..=last);
         }
         next = last + 1;

@@ -12,7 +12,7 @@ use super::{regatta, run_in, stderr};
 
 const FRAMES: usize = 25;
 /// Frames that wait for the disk at most.
-const MOST_WAITING: usize = 4;
+const MAX_WAITING: usize = 4;
 const CAPTURE: &str = "capture --scene harbour --race --frames 25 --size 96x54 --scale 0.5 --out";
 
 /// Random numbers from a seed that is printed, so that a failure can be had again.
@@ -90,7 +90,7 @@ fn killed_at_any_moment_it_leaves_whole_frames_in_order_and_can_be_drawn_again()
         child.wait().unwrap();
         let (frames, rest) = first_of_whole(folder);
         // Those that wait for the disk, the one being synced and the one being written.
-        let under_way = (frames..frames + MOST_WAITING + 2).map(|n| format!("frame-{n:06}.png."));
+        let under_way = (frames..frames + MAX_WAITING + 2).map(|n| format!("frame-{n:06}.png."));
         let under_way: Vec<_> = under_way.chain(["manifest.json.".to_owned()]).collect();
         let is_part = |name: &String| {
             name.ends_with(".part") && under_way.iter().any(|whole| name.starts_with(whole))

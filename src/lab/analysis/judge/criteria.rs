@@ -45,7 +45,7 @@ impl Judge {
     ) -> CriterionFinding {
         self.each(tick_hz, |truth| {
             if truth.is_too_dear() {
-                let run = follow_energy(truth, spec, tick_hz, self.most_work);
+                let run = follow_energy(truth, spec, tick_hz, self.max_work);
                 return match run.is_bounded() {
                     _ if run.is_too_much => Err(CriterionMiss::Unknown),
                     true => Ok(run.evaluations as f64 / run.seconds),
@@ -56,10 +56,10 @@ impl Judge {
                 if !modes.are_bounded() {
                     return Err(CriterionMiss::Fails);
                 }
-                let run = follow(truth, spec, tick_hz, Until::Horizon, self.most_work);
+                let run = follow(truth, spec, tick_hz, Until::Horizon, self.max_work);
                 return cost_if(run.failure.is_none(), &run);
             }
-            let run = follow(truth, spec, tick_hz, Until::Grown, self.most_work);
+            let run = follow(truth, spec, tick_hz, Until::Grown, self.max_work);
             match bounded(truth, &run) {
                 Some(is_bounded) => cost_if(is_bounded, &run),
                 None => Err(CriterionMiss::Unknown),
@@ -119,7 +119,7 @@ impl Judge {
         if truth.is_too_dear() {
             return Err(CriterionMiss::Unknown);
         }
-        let run = follow(truth, spec, tick_hz, until, self.most_work);
+        let run = follow(truth, spec, tick_hz, until, self.max_work);
         let gap = truth.gap(run.seconds, tick_hz);
         without_truth(truth, &run, gap).map_or(Ok(run), |_| Err(CriterionMiss::Unknown))
     }

@@ -140,8 +140,8 @@ fn a_body_can_be_asked_about_alone() {
 #[test]
 fn a_bounded_worker_counts_its_work_and_leaves_the_rest_unjudged() {
     let fast = AnalysisRequest { tick_hz: 1000, ..request("orbit") };
-    let judged = |most_work: u64| {
-        let worker = AnalysisWorker { most_work, ..AnalysisWorker::new(fast.clone()) };
+    let judged = |max_work: u64| {
+        let worker = AnalysisWorker { max_work, ..AnalysisWorker::new(fast.clone()) };
         let findings = worker.finish();
         assert!(findings.complete);
         let texts = findings.verdicts.iter().map(|found| found.as_ref().unwrap().to_string());

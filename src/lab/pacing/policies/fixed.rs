@@ -2,26 +2,26 @@
 
 use crate::lab::pacing::policy::{Policy, Steps};
 use crate::lab::pacing::time_base::TimeBase;
-use crate::sim::{Accumulator, LONGEST_FRAME_MS, most_ticks};
+use crate::sim::{Accumulator, LONGEST_FRAME_MS, max_ticks};
 
 /// An accumulator that gives whole ticks.
 #[derive(Clone, Copy)]
 pub(super) struct Fixed {
     tick: i128,
-    most_ticks: u32,
+    max_ticks: u32,
     accumulator: Accumulator,
 }
 
 impl Fixed {
     /// At most the ticks of [`LONGEST_FRAME_MS`] in a frame.
     pub(super) fn new(base: TimeBase) -> Self {
-        let most = most_ticks(100 * u64::from(base.tick_hz()), LONGEST_FRAME_MS);
-        Self::with_most_ticks(base, most)
+        let most = max_ticks(100 * u64::from(base.tick_hz()), LONGEST_FRAME_MS);
+        Self::with_max_ticks(base, most)
     }
 
     /// At most this many ticks in a frame.
-    pub(super) fn with_most_ticks(base: TimeBase, most_ticks: u32) -> Self {
-        Self { tick: base.tick(), most_ticks, accumulator: Accumulator::default() }
+    pub(super) fn with_max_ticks(base: TimeBase, max_ticks: u32) -> Self {
+        Self { tick: base.tick(), max_ticks, accumulator: Accumulator::default() }
     }
 
     /// Forgets the time owed, and returns it.
@@ -34,7 +34,7 @@ impl Fixed {
 
 impl Policy for Fixed {
     fn frame(&mut self, duration: i128) -> Steps {
-        let due = self.accumulator.advance(duration, self.tick, self.most_ticks);
+        let due = self.accumulator.advance(duration, self.tick, self.max_ticks);
         Steps {
             count: due.ticks,
             span: i128::from(due.ticks) * self.tick,

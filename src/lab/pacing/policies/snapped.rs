@@ -35,7 +35,7 @@ impl Snapped {
             near: base.nanoseconds(NEAR_NS),
             last: [base.refresh(); AVERAGED],
             remainder: 0,
-            fixed: Fixed::with_most_ticks(base, MAX_TICKS),
+            fixed: Fixed::with_max_ticks(base, MAX_TICKS),
         }
     }
 

@@ -9,7 +9,7 @@ use super::super::ink;
 /// What one point of a drag changes, as a part of the number.
 const SPEED: f64 = 0.004;
 /// And what it changes at least, so that a drag gets away from 0.
-const LEAST_SPEED: f64 = 1e-4;
+const MIN_SPEED: f64 = 1e-4;
 
 /// What was wrong with what was typed last in a field.
 #[derive(Clone)]
@@ -43,7 +43,7 @@ impl Field<'_> {
         let mut value = self.value;
         let speed = match self.is_whole {
             true => 0.1,
-            false => (SPEED * self.value.abs()).max(LEAST_SPEED),
+            false => (SPEED * self.value.abs()).max(MIN_SPEED),
         };
         let suffix = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
         let is_left = is_left_by_escape(ui, self.id);

@@ -34,21 +34,21 @@ const GAP: f32 = 10.0;
 /// From this height on, in points, the areas are drawn over time, on this part of it, of at least this height.
 const ROOM_FOR_AREAS: f32 = 330.0;
 const AREAS: f32 = 0.3;
-const LEAST_AREAS: f32 = 110.0;
+const MIN_AREAS: f32 = 110.0;
 /// How many times wider than high a cloud is at most.
 const WIDEST: f32 = 1.3;
 /// The most texels of a side of a cloud's image: each is two of the density or less.
-const MOST_TEXELS: usize = 1024;
+const MAX_TEXELS: usize = 1024;
 /// The least side of a cloud, in points.
-const LEAST_SIDE: f32 = 30.0;
+const MIN_SIDE: f32 = 30.0;
 /// The size of the words beside a cloud, in points.
 const WORDS: f32 = 12.0;
 /// The width of the exact outline, in points.
 const OUTLINE: f32 = 1.1;
 /// An area that has grown or shrunk by more than this, as a power of ten, stretches no axis; and one axis shows at least
 /// this much on both sides of 1: half of it and twice.
-const MOST_DECADES: f64 = 3.0;
-const LEAST_DECADES: f64 = 0.31;
+const MAX_DECADES: f64 = 3.0;
+const MIN_DECADES: f64 = 0.31;
 /// A cloud that is this far behind the run says so, in seconds.
 const BEHIND_S: f64 = 0.25;
 
@@ -69,8 +69,8 @@ pub(super) fn sheet(lab: &Lab) -> Option<Sheet> {
     tracks.sort_by_key(|track| track.is_front);
     let exact = ExactLine::of_places(lab, picture.exact.iter().copied().map(place));
     let values = tracks.iter().flat_map(|track| track.along(1)).chain(exact.values(1));
-    let near = values.filter(|place| place.abs() <= MOST_DECADES);
-    let (low, high) = near.fold((-LEAST_DECADES, LEAST_DECADES), |(low, high), place| {
+    let near = values.filter(|place| place.abs() <= MAX_DECADES);
+    let (low, high) = near.fold((-MIN_DECADES, MIN_DECADES), |(low, high), place| {
         (f64::min(low, place), f64::max(high, place))
     });
     let pad = 0.08 * (high - low);
@@ -104,9 +104,9 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Comman
         Some(Err(why)) => return say(ui, capitalised(&format!("{why}."))),
         Some(Ok(picture)) => picture,
     };
-    let left = (bottom - ui.cursor().top()).max(LEAST_SIDE);
+    let left = (bottom - ui.cursor().top()).max(MIN_SIDE);
     let for_areas = if left >= ROOM_FOR_AREAS && picture.section.is_none() {
-        (AREAS * left).max(LEAST_AREAS)
+        (AREAS * left).max(MIN_AREAS)
     } else {
         0.0
     };
@@ -200,10 +200,10 @@ fn side_by_side(
     let layout = |columns: usize| {
         let rows = lanes.len().div_ceil(columns);
         let gaps = GAP * (columns - 1) as f32;
-        let width = ((inner.width() - gaps) / columns as f32).max(LEAST_SIDE);
+        let width = ((inner.width() - gaps) / columns as f32).max(MIN_SIDE);
         let captions: Vec<_> = lanes.iter().map(|lane| caption(ui, lab, lane, width)).collect();
         let above = captions.iter().map(|words| words.size().y).fold(0.0, f32::max) + 3.0;
-        let height = (inner.height() / rows as f32 - above - GAP / 2.0).max(LEAST_SIDE);
+        let height = (inner.height() / rows as f32 - above - GAP / 2.0).max(MIN_SIDE);
         (columns, vec2(width.min(WIDEST * height), height), captions, above)
     };
     let layouts = (1..=lanes.len().max(1)).map(layout);
@@ -249,7 +249,7 @@ fn cloud(
     );
     let pixels = |side: f32| {
         let pixels = ((side * px_per_point).round() as usize).max(1);
-        pixels.div_ceil(pixels.div_ceil(MOST_TEXELS))
+        pixels.div_ceil(pixels.div_ceil(MAX_TEXELS))
     };
     let size_px = [pixels(rect.width()), pixels(rect.height())];
     let (colour, _) = ink.theme.lane_style(lab.entries(), &lab.entries()[lane.entry]);

@@ -21,7 +21,7 @@ pub(super) const NAME: f32 = 16.0;
 /// Between plots, in points.
 const GAP: f32 = 5.0;
 /// The least height of a plot, in points: with less there are fewer plots.
-const LEAST: f32 = 44.0;
+const MIN_HEIGHT: f32 = 44.0;
 /// How many times higher the plot of the chosen body is than the others.
 const CHOSEN: f32 = 2.0;
 
@@ -41,21 +41,21 @@ pub(super) struct Cell<'s> {
 pub(super) fn cells(sheet: &Sheet, room: Rect, left: f32, body: usize) -> Vec<Cell<'_>> {
     let below = NUMBERS + NAME;
     let height = (room.height() - below).max(1.0);
-    let fit = ((height + GAP) / (TITLE + LEAST + GAP)).floor().max(1.0) as usize;
+    let fit = ((height + GAP) / (TITLE + MIN_HEIGHT + GAP)).floor().max(1.0) as usize;
     let count = sheet.plots.len().min(fit);
     let chosen = sheet.plots.iter().position(|plot| plot.body == body).unwrap_or(0);
     let first = chosen.min(sheet.plots.len() - count);
     let shown = &sheet.plots[first..first + count];
     let weight = |plot: &PlotModel| if plot.body == body { CHOSEN } else { 1.0 };
     let weights: f32 = shown.iter().map(weight).sum();
-    let spare = height - count as f32 * (TITLE + LEAST) - (count - 1) as f32 * GAP;
+    let spare = height - count as f32 * (TITLE + MIN_HEIGHT) - (count - 1) as f32 * GAP;
     let has_parts = shown.iter().any(|plot| plot.tracks.iter().any(|track| !track.part.is_empty()));
     let for_values = if has_parts { RIGHT_OF_PARTS } else { RIGHT };
     let has_values = room.width() - left - for_values >= ROOM_FOR_VALUES;
     let beside = if has_values { for_values } else { 10.0 };
     let mut top = room.top();
     let cell = |(i, plot): (usize, &'_ PlotModel)| {
-        let tall = (LEAST + spare * weight(plot) / weights).max(1.0);
+        let tall = (MIN_HEIGHT + spare * weight(plot) / weights).max(1.0);
         let frame = Rect::from_min_max(
             pos2(room.left() + left, top + TITLE),
             pos2((room.right() - beside).max(room.left() + left + 1.0), top + TITLE + tall),

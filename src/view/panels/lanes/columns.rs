@@ -41,7 +41,7 @@ pub(super) struct Column {
 
 /// The room between two columns, and the least width of the verdict, in points.
 pub(super) const GAP: f32 = 8.0;
-const LEAST_VERDICT: f32 = 320.0;
+const MIN_VERDICT: f32 = 320.0;
 /// The least width that the verdict keeps beside columns of what the stage or an instrument shows too, in points.
 const ROOMY_VERDICT: f32 = 700.0;
 /// The first turn of such columns.
@@ -207,7 +207,7 @@ pub(super) fn fitting(lab: &Lab, width: f32) -> Vec<(&'static Column, f32, f32)>
     };
     for turn in 1..=7 {
         let more = [&taken[..], &[turn]].concat();
-        let least = if turn < TURN_OF_EXTRAS { LEAST_VERDICT } else { ROOMY_VERDICT };
+        let least = if turn < TURN_OF_EXTRAS { MIN_VERDICT } else { ROOMY_VERDICT };
         if room_for_verdict(&more) >= least {
             taken = more;
         }

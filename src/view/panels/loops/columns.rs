@@ -31,7 +31,7 @@ pub(super) struct Column {
 
 /// The room between two columns, and the least width of the verdict, in points.
 const GAP: f32 = 8.0;
-const LEAST_VERDICT: f32 = 264.0;
+const MIN_VERDICT: f32 = 264.0;
 
 const fn fixed(head: &'static str, width: f32, cell: Cell) -> Column {
     Column { head, width, turn: 0, cell }
@@ -132,16 +132,16 @@ const MANY_MS: f64 = 10_000.0;
 /// From here on a share of the amplitude is that of a motion that has blown up.
 const LOST_PERCENT: f64 = 1e5;
 /// Frames begin early and late by more than this: a lesser mean latency is none.
-const LEAST_LATENCY_MS: f64 = 0.1;
+const MIN_LATENCY_MS: f64 = 0.1;
 /// Less is not told from nothing by three decimals.
-const LEAST: f64 = 1e-3;
+const MIN_SHOWN: f64 = 1e-3;
 /// From here on three digits have no more than two decimals.
 const SMALL: f64 = 0.1;
 
 /// A mean latency in milliseconds as the table has it.
 fn latency(ms: f64) -> String {
     match ms {
-        ms if ms.abs() < LEAST_LATENCY_MS => "0 ms".into(),
+        ms if ms.abs() < MIN_LATENCY_MS => "0 ms".into(),
         // It grows as long as the run goes on.
         ahead if ahead < 0.0 => "ahead".into(),
         behind => shown(behind, "ms"),
@@ -158,7 +158,7 @@ pub(super) fn shown(value: f64, unit: &str) -> String {
     let number = match value.abs() {
         lost if unit == "%" && lost >= LOST_PERCENT => return "lost".into(),
         0.0 => "0".into(),
-        small if small < LEAST => "<0.001".into(),
+        small if small < MIN_SHOWN => "<0.001".into(),
         small if small < SMALL => round(libm::round(value * 1000.0) / 1000.0, 3),
         _ => round(value, 3),
     };
@@ -172,7 +172,7 @@ pub(super) fn fitting(width: f32) -> Vec<(&'static Column, f32, f32)> {
         width - columns.map(|column| column.width + GAP).sum::<f32>() + GAP
     };
     let last = COLUMNS.iter().map(|column| column.turn).max().unwrap_or_default();
-    let fits = |most: &u8| room_for_verdict(*most) >= LEAST_VERDICT;
+    let fits = |most: &u8| room_for_verdict(*most) >= MIN_VERDICT;
     let most = (1..=last).rev().find(fits).unwrap_or(0);
     let verdict = room_for_verdict(most).max(0.0);
     let mut left = 0.0;
@@ -208,7 +208,7 @@ mod tests {
             before = columns.len();
             let verdict = columns.iter().find(|(column, ..)| column.cell == Cell::Verdict).unwrap();
             let has_numbers = columns.iter().any(|(column, ..)| column.turn > 0);
-            assert!(verdict.2 >= LEAST_VERDICT || !has_numbers, "{width}");
+            assert!(verdict.2 >= MIN_VERDICT || !has_numbers, "{width}");
             let (_, left, own) = columns[columns.len() - 1];
             assert!(!has_numbers || (left + own - width).abs() < 0.01, "{width}");
         }

@@ -11,7 +11,7 @@ use crate::view::panels::ink;
 const ROOM_FOR_TRACES: f32 = 1180.0;
 
 /// The most characters of a trace's name in the closed menu.
-const MOST_CHARS: usize = 18;
+const MAX_CHARS: usize = 18;
 /// A name of a trace with more characters leaves no room for the number of the frame.
 const LONG_NAME: usize = 14;
 
@@ -53,8 +53,8 @@ pub(in crate::view::panels) fn speed_menu(
 /// A trace's name as it fits into the closed menu.
 fn short(name: &str) -> String {
     match name.chars().count() {
-        0..=MOST_CHARS => name.into(),
-        _ => name.chars().take(MOST_CHARS - 1).chain(['…']).collect(),
+        0..=MAX_CHARS => name.into(),
+        _ => name.chars().take(MAX_CHARS - 1).chain(['…']).collect(),
     }
 }
 

@@ -21,7 +21,7 @@ const BARS: f32 = 0.78;
 /// From this width on, in points, every bar has its number.
 const ROOM_FOR_NUMBER: f32 = 30.0;
 /// The least height of a bar in points: that of a share of nothing.
-const LEAST: f32 = 1.5;
+const MIN_HEIGHT: f32 = 1.5;
 
 /// The shares of one loop.
 pub(super) struct Series {
@@ -99,7 +99,7 @@ pub(super) fn show(ui: &Ui, room: Rect, series: &[Series]) {
             let at = pos2(x, y - 1.0);
             painter.text(at, Align2::CENTER_BOTTOM, text, strong_font(11.0), colour);
         };
-        let top_of = |share: f64| area.at([0.0, share]).y.min(rect.bottom() - LEAST);
+        let top_of = |share: f64| area.at([0.0, share]).y.min(rect.bottom() - MIN_HEIGHT);
         for (i, series) in series.iter().enumerate() {
             let share = series.shares_percent[count];
             let left = middle - group * BARS / 2.0 + width * i as f32;

@@ -12,10 +12,10 @@ use crate::view::panels::{ink, strong_font};
 /// The number of frames shown.
 const FRAMES: usize = 24;
 /// The least reach of the axis, in milliseconds: less is not seen.
-const LEAST_MS: f64 = 1.0;
+const MIN_MS: f64 = 1.0;
 /// The part of a frame's width that its bars take, and the least height of a bar in points.
 const BARS: f32 = 0.84;
-const LEAST: f32 = 1.0;
+const MIN_HEIGHT: f32 = 1.0;
 
 /// The next of 1, 2, 5, 10 and so on.
 pub(super) fn round_up(value: f64) -> f64 {
@@ -48,7 +48,7 @@ pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]
     let told =
         format!("Animation error of the last {FRAMES} frames: {} ms at most", round(largest, 3));
     bars.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &told));
-    let reach = round_up((1.1 * largest).max(LEAST_MS));
+    let reach = round_up((1.1 * largest).max(MIN_MS));
     let area = PlotArea { rect, bounds: [[-(FRAMES as f64), 0.0], [-reach, reach]] };
     painter.rect_filled(rect, 0.0, ink.plot);
     let along = [0.0, 8.0, 16.0].map(|back| (-back - 0.5, round(-back, 3)));
@@ -63,7 +63,7 @@ pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]
             let end = area.at([0.0, *error]).y;
             let bar = Rect::from_x_y_ranges(
                 left..=left + width.max(1.0),
-                end.min(zero - LEAST)..=end.max(zero + LEAST),
+                end.min(zero - MIN_HEIGHT)..=end.max(zero + MIN_HEIGHT),
             );
             painter.rect_filled(bar, 0.0, lane.colour);
         }

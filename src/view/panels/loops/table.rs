@@ -16,13 +16,13 @@ use crate::view::plot;
 use crate::view::theme::{TYPE, colour};
 
 /// Rows in sight: the stage and the instrument need the room. The rest is scrolled to.
-const MOST_ROWS: usize = 6;
+const MAX_ROWS: usize = 6;
 /// Half the size of the sign of a verdict, and the room that it takes, in points.
 const SIGN: f32 = 4.5;
 const SIGN_ROOM: f32 = 17.0;
 
 pub(in crate::view::panels) fn height(loops: &LoopLab) -> f32 {
-    lanes::height_of(loops.lanes().len().min(MOST_ROWS))
+    lanes::height_of(loops.lanes().len().min(MAX_ROWS))
 }
 
 pub(in crate::view::panels) fn show(ui: &mut Ui, loops: &LoopLab, commands: &mut Vec<Command>) {

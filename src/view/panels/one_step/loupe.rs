@@ -9,11 +9,11 @@ use crate::view::theme::Ink;
 
 /// Its radius, its least radius, and how far it keeps from the plot's edges and from all else in the plot, in points.
 const RADIUS: f32 = 44.0;
-const LEAST_RADIUS: f32 = 28.0;
+const MIN_RADIUS: f32 = 28.0;
 const INSET: f32 = 6.0;
 const APART: f32 = 8.0;
 /// Its radius is at most this part of the plot's height.
-const MOST_OF_HEIGHT: f32 = 0.3;
+const MAX_PART_OF_HEIGHT: f32 = 0.3;
 /// A landing further than this from the exact one can be told from it, in points.
 const SEEN: f64 = 9.0;
 /// The distance of both landings in the loupe, as a part of its radius.
@@ -33,11 +33,11 @@ pub(super) fn show(
     let (Some(landing), Some(exact)) = (step.landing, step.exact_landing()) else { return };
     let [right, up] = area.lengths([0, 1].map(|axis| landing[axis] - exact[axis]));
     let distance = libm::hypot(right, up);
-    let radius = RADIUS.min(MOST_OF_HEIGHT * area.rect.height());
+    let radius = RADIUS.min(MAX_PART_OF_HEIGHT * area.rect.height());
     let times = enlargement(distance, REACH * f64::from(radius));
     let Some(times) = times.filter(|_| distance <= SEEN) else { return };
     let room = area.rect.shrink(radius + INSET);
-    if radius < LEAST_RADIUS || !room.is_positive() {
+    if radius < MIN_RADIUS || !room.is_positive() {
         return;
     }
     let curve = step.exact.iter().map(|point| area.at(*point));

@@ -34,15 +34,15 @@ impl Span {
         self.from_s + f64::from((x - track.min) / track.span()) * self.length_s()
     }
 
-    /// `factor` times closer, with `about_s` staying where it is; no less than `least_s`, and nothing outside `whole`.
+    /// `factor` times closer, with `about_s` staying where it is; no less than `min_s`, and nothing outside `whole`.
     pub(in crate::view::panels) fn zoomed(
         self,
         about_s: f64,
         factor: f64,
-        least_s: f64,
+        min_s: f64,
         whole: Self,
     ) -> Self {
-        let length_s = (self.length_s() / factor).max(least_s).min(whole.length_s());
+        let length_s = (self.length_s() / factor).max(min_s).min(whole.length_s());
         let part = (about_s - self.from_s) / self.length_s();
         let from_s = about_s - part * length_s;
         Self { from_s, to_s: from_s + length_s }.within(whole)

@@ -11,7 +11,7 @@ const DISC: f64 = 0.045;
 
 /// The room beyond the motion, in parts of half the motion, and the least extent either way.
 const BEYOND: f64 = 1.25;
-const LEAST: f64 = 0.4;
+const MIN_PART: f64 = 0.4;
 
 /// How long the trail is, in seconds.
 const TRAIL_S: f64 = 4.0;
@@ -44,7 +44,7 @@ impl Places<'_> {
         }
         let most = half.max_element();
         let size = if most > 0.0 { most } else { 1.0 };
-        [middle, BEYOND * half.max(DVec2::splat(LEAST * size))]
+        [middle, BEYOND * half.max(DVec2::splat(MIN_PART * size))]
     }
 
     fn radius(&self) -> f64 {
@@ -69,7 +69,7 @@ impl Places<'_> {
 }
 
 /// The least change of the coordinates that moves a place with these slopes by `by`, as far as they can.
-fn least_change(slopes: &[DVec2], by: DVec2) -> Vec<f64> {
+fn smallest_change(slopes: &[DVec2], by: DVec2) -> Vec<f64> {
     let outer = |slope: &DVec2| DMat2::from_cols(slope.x * *slope, slope.y * *slope);
     let square = slopes.iter().fold(DMat2::ZERO, |sum, slope| sum + outer(slope));
     let trace = square.x_axis.x + square.y_axis.y;
@@ -103,14 +103,14 @@ impl BodyPicture for Places<'_> {
             if !off.is_finite() {
                 return;
             }
-            let changes = least_change(&self.slopes(pull.handle, &state.q), off);
+            let changes = smallest_change(&self.slopes(pull.handle, &state.q), off);
             for (q, change) in state.q.iter_mut().zip(changes) {
                 let most = MAX_CHANGE * q.abs().max(1.0);
                 *q += change.clamp(-most, most);
             }
         }
         let slopes = self.slopes(pull.handle, &state.q);
-        let velocities = least_change(&slopes, pull.velocity);
+        let velocities = smallest_change(&slopes, pull.velocity);
         for ((v, velocity), slope) in state.v.iter_mut().zip(velocities).zip(&slopes) {
             if *slope != DVec2::ZERO {
                 *v = velocity;
