@@ -73,7 +73,7 @@
 //! - **A method**: copy `sim/integrators/improved_euler.rs`, declare the file, add its line to
 //!   `methods!`. If its card claims too much or too little, `tests/library/conformance` fails. One that is for some bodies
 //!   [only](sim::integrators::Only) comes after all others, and is refused elsewhere with the reason on its card. A physics engine is a
-//!   [family](sim::integrators::Family::Engine) of such methods: a rule in `sim/integrators/engine`, which reads the
+//!   [family](sim::integrators::Family::Engine) of such methods: a rule like `sim/integrators/bullet.rs`, which reads the
 //!   [settings](sim::EngineSettings) of a body.
 //!   Its formula is on its card, and its [source code](lab::MethodSource) for other games in `assets/methods`: both are
 //!   evaluated beside it.

@@ -15,7 +15,7 @@ use super::integrators::{Construct, Integrator, Method, Stepped, Tolerance, cons
 use super::propagator::{MethodPropagator, Propagator};
 use super::reference::{Reference, is_beyond_reference};
 use super::solver::Solver;
-use super::state::{Elementwise, State, Vector};
+use super::state::{State, Vector, bytes_with_vectors};
 use super::stepper::{Change, Memory, PlacedBody, RecordedTick, Stepper};
 use super::system::{BodyClass, Counted, Counts, Coupling, EngineSettings, Pursuit, Recorded};
 use crate::sim::system::StateOf;
@@ -83,11 +83,11 @@ struct BodyStepper<B: Body, D> {
 }
 
 impl<B: Body, D: Propagator<B>> BodyStepper<B, D> {
-    /// Advances on this thread, but for what it shares.
+    /// Advances on the calling thread.
     #[inline]
     fn advance_here(&mut self, t: f64, h: f64, substeps: u32) -> Stepped {
         let Self { placed: Placed { body, state }, propagator } = self;
-        propagator.advance(body, t, h, substeps, state)
+        propagator.step(body, t, h, substeps, state)
     }
 }
 
@@ -112,8 +112,7 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
     }
 
     fn memory(&self) -> Memory<'_> {
-        let heap_bytes = self.propagator.heap_bytes();
-        Memory { propagator: &self.propagator, stepper_size: size_of::<Self>(), heap_bytes }
+        Memory { propagator: &self.propagator, heap_bytes: self.propagator.heap_bytes() }
     }
 
     fn boxed_clone(&self) -> Box<dyn Stepper> {
@@ -221,10 +220,9 @@ impl<B: Body> PlacedBody for Placed<B> {
     }
 
     fn bytes_with(&self, memory: Memory<'_>) -> usize {
-        let Memory { stepper_size, heap_bytes, .. } = memory;
-        // An upper bound: as if every field were a coordinate vector.
-        let vectors = stepper_size / size_of::<B::Vector>() * self.state.q.heap_bytes();
-        stepper_size + vectors + self.body.system.heap_bytes() + heap_bytes
+        let Memory { propagator, heap_bytes } = memory;
+        let size = size_of_val(self) + size_of_val(propagator);
+        bytes_with_vectors(size, self.q()) + self.body.system.heap_bytes() + heap_bytes
     }
 }
 

@@ -113,7 +113,7 @@ fn is_listed(method: &Method) -> bool {
     METHODS.iter().any(|listed| listed.id == method.id)
 }
 
-/// Whether the card can be told from others.
+/// Whether the card is distinguishable from others.
 fn named(method: &Method) -> Claim {
     let Method { id, name, .. } = *method;
     let is_kebab = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
@@ -132,7 +132,7 @@ fn named(method: &Method) -> Claim {
     Claim { field: "id", claimed: id.to_owned(), measured, holds }
 }
 
-/// A claim that something is so or is not so, where `found` is what it is and why.
+/// A yes-or-no claim; `found` has the measured answer and why.
 fn yes_or_no(field: &'static str, claimed: bool, found: Result<(bool, String), String>) -> Claim {
     let word = if claimed { "yes" } else { "no" };
     let (measured, holds) = match found {

@@ -6,13 +6,13 @@
 #[cfg(feature = "batch")]
 const GRAIN: usize = 1 << 15;
 
-/// Whether a body of so many coordinates is stepped on all cores.
+/// Whether a body with this number of coordinates is stepped on all cores.
 #[cfg(feature = "lab")]
 pub(super) fn is_large(coordinates: usize) -> bool {
     coordinates > GRAIN / 2
 }
 
-/// Does `work` once on a thread that shares with all others what it [joins](join). Never allocates there.
+/// Runs `work` once, on a thread of the pool that [`join`] shares work with. Never allocates there.
 #[cfg(feature = "lab")]
 pub(super) fn enter(work: &mut (dyn FnMut() + Send)) {
     join(work, || ());

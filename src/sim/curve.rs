@@ -1,15 +1,12 @@
 //! A curve through points: straight between them, level beyond them.
 
 /// Points in order of rising x. Without points the curve is 0.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Curve {
     points: Vec<[f64; 2]>,
 }
 
 impl Curve {
-    /// No points.
-    pub const EMPTY: Self = Self { points: Vec::new() };
-
     /// The curve through these points.
     ///
     /// # Panics

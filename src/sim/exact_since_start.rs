@@ -46,19 +46,12 @@ fn are_equal<V: Vector>(a: &State<V>, b: &State<V>) -> bool {
 }
 
 impl<B: Body> Propagator<B> for ExactSinceStart<B::Vector> {
-    fn advance(
-        &mut self,
-        body: &Counted<B>,
-        t: f64,
-        h: f64,
-        n: u32,
-        y: &mut StateOf<B>,
-    ) -> Stepped {
+    fn step(&mut self, body: &Counted<B>, t: f64, h: f64, n: u32, y: &mut StateOf<B>) -> Stepped {
         self.t = t + h;
         if self.is_untouched && body.system.exact_since_start(self.t, y) {
             return Ok(());
         }
-        self.reference.advance(body, t, h, n, y)
+        self.reference.step(body, t, h, n, y)
     }
 
     fn jump(&mut self, t: f64, change: Change<'_>, body: &mut B, state: &mut StateOf<B>) -> bool {

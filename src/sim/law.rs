@@ -38,7 +38,7 @@ pub use registers::Registers;
 pub use tape::MAX_OPERATIONS;
 pub use text::{CoordinateText, LawText};
 
-/// The most coordinates of a law: as many as can be told apart on a stage.
+/// The most coordinates of a law: as many as are distinguishable on a stage.
 pub const MAX_COORDINATES: usize = 16;
 
 /// The most constants of a law.
@@ -176,11 +176,6 @@ impl Equations {
     /// Whether the law says where coordinates are drawn.
     pub fn has_places(&self) -> bool {
         self.places.is_some()
-    }
-
-    /// Whether the law gives an energy.
-    pub fn has_energy(&self) -> bool {
-        self.energy.is_some()
     }
 
     /// Whether the law gives an exact solution.

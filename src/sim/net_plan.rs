@@ -1,5 +1,6 @@
 //! The plan of a net: where its nodes stand at the start, which are fixed, and which springs join them.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// The most nodes of a net: of a grid with shear two cores make a few hundred evaluations a second, so that a few lanes of
@@ -172,8 +173,7 @@ impl NetPlan {
             Form::Lists(lists) => (lists.nodes.len(), lists.fixed.contains(&kicked)),
         };
         let (what, remedy) = if kicked >= nodes {
-            let most = nodes - 1;
-            (format!("node {kicked} does not exist"), format!("write a number from 0 to {most}"))
+            unknown(kicked, nodes)
         } else if is_fixed {
             let what = format!("node {kicked} is fixed, so that a kick does not move it");
             (what, "name a free node, or remove the key and every free node is kicked".into())
@@ -182,6 +182,11 @@ impl NetPlan {
         };
         Some(NetFault { part: NetPart::Kicked, what, remedy })
     }
+}
+
+/// The fault of a node number that is out of range, and its remedy.
+fn unknown(node: usize, nodes: usize) -> (String, String) {
+    (format!("node {node} does not exist"), format!("write a number from 0 to {}", nodes - 1))
 }
 
 /// The fault of a net of too few or too many nodes.
@@ -262,7 +267,7 @@ impl Grid {
         }
     }
 
-    /// How many free nodes come before a node.
+    /// The number of free nodes before a node.
     #[inline]
     pub(super) fn free_before(&self, node: usize) -> usize {
         let fixed = match self.pin {
@@ -275,7 +280,7 @@ impl Grid {
         node - fixed
     }
 
-    /// The node that comes after so many free ones, and is free.
+    /// The free node that `before` free ones precede.
     pub(super) fn free_node(&self, before: usize) -> usize {
         let fixed = match self.pin {
             None => 0,
@@ -353,60 +358,31 @@ impl Lists {
     }
 
     fn faults(&self) -> Vec<NetFault> {
-        let fault =
-            |part, what: String, remedy: &str| NetFault { part, what, remedy: remedy.into() };
-        let nodes = self.nodes.len();
-        if let Some(fault) = fault_of_count(nodes) {
+        if let Some(fault) = self.fault_as_a_whole() {
             return vec![fault];
         }
-        let mut is_free = vec![true; nodes];
-        for &node in &self.fixed {
-            is_free.get_mut(node).into_iter().for_each(|is_free| *is_free = false);
-        }
-        if !is_free.contains(&true) {
-            return vec![fault(NetPart::Nodes, ALL_FIXED.into(), "free a node")];
-        }
-        if !(1..=MAX_SPRINGS).contains(&self.springs.len()) {
-            let what = format!("the net has {} springs", self.springs.len());
-            let remedy = format!("give it 1 to {MAX_SPRINGS}");
-            return vec![fault(NetPart::Springs, what, &remedy)];
-        }
-        let unknown = |node: usize| format!("node {node} does not exist");
-        let numbers = format!("write a number from 0 to {}", nodes - 1);
         let mut faults = Vec::new();
-        let mut is_fixed = vec![false; nodes];
+        let mut is_fixed = vec![false; self.nodes.len()];
         for (index, &node) in self.fixed.iter().enumerate() {
-            match is_fixed.get_mut(node) {
-                None => faults.push(fault(NetPart::Fixed(index), unknown(node), &numbers)),
+            let (what, remedy) = match is_fixed.get_mut(node) {
+                None => unknown(node, is_fixed.len()),
                 Some(true) => {
-                    let what = format!("node {node} is in the list already");
-                    faults.push(fault(NetPart::Fixed(index), what, "remove one of the two"));
+                    (format!("node {node} is in the list already"), "remove one of the two".into())
                 }
-                Some(fixed) => *fixed = true,
-            }
+                Some(fixed) => {
+                    *fixed = true;
+                    continue;
+                }
+            };
+            faults.push(NetFault { part: NetPart::Fixed(index), what, remedy });
         }
         let mut joined: Vec<([usize; 2], usize)> = Vec::new();
         for (index, spring) in self.springs.iter().enumerate() {
             let [a, b] = spring.between;
-            let mut refuse = |what: String, remedy: &str| {
-                faults.push(fault(NetPart::Spring(index), what, remedy));
-            };
-            match [a, b].into_iter().find(|end| *end >= nodes) {
-                Some(end) => refuse(unknown(end), &numbers),
-                None if a == b => refuse(
-                    format!("the spring joins node {a} to itself"),
-                    "name two different nodes",
-                ),
-                None if is_fixed[a] && is_fixed[b] => refuse(
-                    format!("nodes {a} and {b} are both fixed, so that the spring moves nothing"),
-                    "remove the spring, or free one of the nodes",
-                ),
-                None if self.length(spring.between) == 0.0 => refuse(
-                    format!(
-                        "nodes {a} and {b} stand in one place, so that the spring has no direction"
-                    ),
-                    "move one of them",
-                ),
+            match self.fault_of_ends(spring.between, &is_fixed) {
+                Some((what, remedy)) => {
+                    faults.push(NetFault { part: NetPart::Spring(index), what, remedy });
+                }
                 None => joined.push(([a.min(b), a.max(b)], index)),
             }
         }
@@ -414,9 +390,49 @@ impl Lists {
         for pair in joined.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
             let [a, b] = pair[1].0;
             let what = format!("nodes {a} and {b} are joined by spring {} already", pair[0].1);
-            let remedy = "remove one of the two, or give one the stiffness of both";
-            faults.push(fault(NetPart::Spring(pair[1].1), what, remedy));
+            let remedy = "remove one of the two, or give one the stiffness of both".into();
+            faults.push(NetFault { part: NetPart::Spring(pair[1].1), what, remedy });
         }
         faults
+    }
+
+    /// The fault of the counts of nodes and springs, if there is one.
+    fn fault_as_a_whole(&self) -> Option<NetFault> {
+        let (nodes, springs) = (self.nodes.len(), self.springs.len());
+        if let Some(fault) = fault_of_count(nodes) {
+            return Some(fault);
+        }
+        let fixed: BTreeSet<_> = self.fixed.iter().filter(|&&node| node < nodes).collect();
+        let (part, what, remedy) = if fixed.len() == nodes {
+            (NetPart::Nodes, ALL_FIXED.into(), "free a node".into())
+        } else if (1..=MAX_SPRINGS).contains(&springs) {
+            return None;
+        } else {
+            let remedy = format!("give it 1 to {MAX_SPRINGS}");
+            (NetPart::Springs, format!("the net has {springs} springs"), remedy)
+        };
+        Some(NetFault { part, what, remedy })
+    }
+
+    /// What is wrong with a spring between these nodes, and its remedy; `None` if nothing is.
+    fn fault_of_ends(&self, [a, b]: [usize; 2], is_fixed: &[bool]) -> Option<(String, String)> {
+        let (what, remedy) =
+            if let Some(end) = [a, b].into_iter().find(|&end| end >= is_fixed.len()) {
+                return Some(unknown(end, is_fixed.len()));
+            } else if a == b {
+                (format!("the spring joins node {a} to itself"), "name two different nodes")
+            } else if is_fixed[a] && is_fixed[b] {
+                let what =
+                    format!("nodes {a} and {b} are both fixed, so that the spring moves nothing");
+                (what, "remove the spring, or free one of the nodes")
+            } else if self.length([a, b]) == 0.0 {
+                let what = format!(
+                    "nodes {a} and {b} stand in one place, so that the spring has no direction"
+                );
+                (what, "move one of them")
+            } else {
+                return None;
+            };
+        Some((what, remedy.into()))
     }
 }

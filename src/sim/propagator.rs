@@ -25,8 +25,7 @@ use crate::sim::system::StateOf;
 /// A method or a truth that advances bodies of type `B`.
 pub(super) trait Propagator<B: Body>: Send + 'static {
     /// Advances the state `y` from `t` to `t + h` (s). A method takes `n` equal steps; a truth ignores `n`.
-    fn advance(&mut self, body: &Counted<B>, t: f64, h: f64, n: u32, y: &mut StateOf<B>)
-    -> Stepped;
+    fn step(&mut self, body: &Counted<B>, t: f64, h: f64, n: u32, y: &mut StateOf<B>) -> Stepped;
 
     /// Applies `change` to the body and its state at time `t` (s), and restarts from the result. If nothing
     /// changed, the propagator keeps its memory. Returns whether anything changed.
@@ -54,14 +53,7 @@ pub(super) struct MethodPropagator<I>(pub(super) I);
 
 impl<B: Body, I: Integrator<Counted<B>> + Clone + 'static> Propagator<B> for MethodPropagator<I> {
     #[inline]
-    fn advance(
-        &mut self,
-        body: &Counted<B>,
-        t: f64,
-        h: f64,
-        n: u32,
-        y: &mut StateOf<B>,
-    ) -> Stepped {
+    fn step(&mut self, body: &Counted<B>, t: f64, h: f64, n: u32, y: &mut StateOf<B>) -> Stepped {
         self.0.steps(body, t, h, n, y)
     }
 

@@ -7,7 +7,7 @@
 use super::body::Body;
 use super::integrators::{StepFailure, Stepped};
 use super::propagator::Propagator;
-use super::state::{State, Vector, largest};
+use super::state::{State, Vector, bytes_with_vectors, largest};
 use super::stepper::Change;
 use super::system::Counted;
 
@@ -94,12 +94,6 @@ impl<V: Vector> Solutions<V> {
             work: Extrapolation::new(like),
             difference: like.clone(),
         })
-    }
-
-    /// An upper bound of its memory in bytes, as if every field were a coordinate vector.
-    fn bytes(&self) -> usize {
-        let vectors = size_of::<Self>() / size_of::<V>() * self.difference.q.heap_bytes();
-        size_of::<Self>() + vectors + self.work.heap_bytes()
     }
 }
 
@@ -232,14 +226,7 @@ impl<V: Vector> Reference<V> {
 }
 
 impl<B: Body> Propagator<B> for Reference<B::Vector> {
-    fn advance(
-        &mut self,
-        body: &Counted<B>,
-        t: f64,
-        h: f64,
-        _n: u32,
-        y: &mut StateOf<B>,
-    ) -> Stepped {
+    fn step(&mut self, body: &Counted<B>, t: f64, h: f64, _n: u32, y: &mut StateOf<B>) -> Stepped {
         // Bypasses the counters of `body`: the truth does not compete.
         self.solve(&body.system, t, h, y)
     }
@@ -259,7 +246,9 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
     }
 
     fn heap_bytes(&self) -> usize {
-        self.solutions.as_ref().map_or(0, |solutions| solutions.bytes())
+        self.solutions.as_deref().map_or(0, |solutions| {
+            bytes_with_vectors(size_of_val(solutions), solutions.difference.q.components())
+        })
     }
 }
 

@@ -10,7 +10,7 @@ pub enum Solver {
     /// An adaptive method from the table; the number replaces its card's tolerance, absolute and
     /// relative.
     WithTolerance(&'static Method, f64),
-    /// An engine from the table whose joint is told this stiffness in 1/s² and this damping in 1/s, each per unit of
+    /// An engine from the table whose joint has this stiffness in 1/s² and this damping in 1/s, each per unit of
     /// mass, in place of the body's. Other methods, and engines on a body without a joint, ignore it.
     WithJoint(&'static Method, [f64; 2]),
     /// The exact flow from the last jump; for a body without a closed form, a reference solution.

@@ -55,10 +55,6 @@ pub trait Elementwise: Clone + Send + 'static {
         self.assign(x);
         self.scale(h);
     }
-    /// Memory on the heap, in bytes.
-    fn heap_bytes(&self) -> usize {
-        0
-    }
 }
 
 /// The coordinates of one body.
@@ -191,9 +187,6 @@ impl Elementwise for Vec<f64> {
             }
         });
     }
-    fn heap_bytes(&self) -> usize {
-        size_of_val(&self[..])
-    }
 }
 
 impl Vector for Vec<f64> {
@@ -203,6 +196,11 @@ impl Vector for Vec<f64> {
     fn components_mut(&mut self) -> &mut [f64] {
         self
     }
+}
+
+/// An upper bound on the memory in bytes of a value of this `size`, as if every field were a vector as long as `like`.
+pub(in crate::sim) fn bytes_with_vectors(size: usize, like: &[f64]) -> usize {
+    size + size / size_of::<Vec<f64>>() * size_of_val(like)
 }
 
 /// The largest magnitude; NaN if a component is NaN.

@@ -54,8 +54,6 @@ pub trait Stepper: Send {
 pub struct Memory<'a> {
     /// The propagator.
     pub(super) propagator: &'a dyn Any,
-    /// The size of the whole stepper, in bytes.
-    pub(super) stepper_size: usize,
     /// The propagator's memory on the heap without its coordinate vectors, in bytes.
     pub(super) heap_bytes: usize,
 }

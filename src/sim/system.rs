@@ -179,7 +179,7 @@ impl EngineSettings {
 /// The class of a kind of body for the methods that step [some](super::integrators::Only) only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BodyClass {
-    /// It moves by a force, which an engine holds for a tick beside a drag that it integrates itself.
+    /// It moves by a force, which an engine holds for a tick, and a drag, which the engine integrates itself.
     Forced,
     /// A spring, which an engine has as a joint.
     Joint,

@@ -20,10 +20,6 @@ pub(super) struct Scratch<V> {
 }
 
 impl<V: Vector> Scratch<V> {
-    /// The number of coordinate vectors.
-    #[cfg(feature = "lab")]
-    pub(super) const VECTORS: usize = 5;
-
     /// For coordinates shaped `like` these.
     pub(super) fn new(like: &V) -> Self {
         let state = State { q: like.clone(), v: like.clone() };

@@ -144,7 +144,7 @@ fn no_follower_allocates_in_a_thousand_steps() {
     let engines = special.iter().position(Method::is_engine).expect("engines after the followers");
     let (first, second) = special[..engines].split_at(3);
     for (order, methods) in [(1, first), (2, second)] {
-        let camera = Follow { order, rate: 5.0, step: 1.0, ..Follow::BLANK };
+        let camera = Follow { order, rate: 5.0, step: 1.0, ..Follow::default() };
         all_step_without_allocating(methods, &camera, &0.0);
     }
 }

@@ -294,7 +294,7 @@ fn every_follower_halves_the_distance_in_the_same_time_at_every_rate_of_frames()
         };
         let order = port.method.law_order().unwrap() as usize;
         // Its target rests at 0.
-        let system = Follow { order, rate, ..Follow::BLANK };
+        let system = Follow { order, rate, ..Follow::default() };
         let mut state = State { q: 1.0, v: 0.0 };
         let mut follower = integrator::<Follow>(port.method, &state.q);
         for _ in 0..frames as u32 {

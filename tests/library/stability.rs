@@ -121,7 +121,7 @@ fn the_1_hz_spring_doubles_and_halves_as_tabled() {
         let stability = of(&*body, id, 1.0 / f64::from(tick_hz));
         let found = match stability.doubling_s() {
             Some(doubling) => doubling,
-            None => -stability.halving_s().expect("it grows or decays"),
+            None => -std::f64::consts::LN_2 / stability.loss_per_s,
         };
         assert!((found - wanted).abs() <= resolution, "{id} at {tick_hz} Hz: {found} s");
     }
@@ -149,7 +149,10 @@ fn symplectic_methods_are_bounded_and_swing_too_fast_or_too_slowly_as_tabled() {
         ] {
             let stability = of(&*body, id, 1.0 / f64::from(tick_hz));
             assert!(stability.is_bounded(), "{id} at {tick_hz} Hz: {stability:?}");
-            assert_eq!(stability.halving_s(), None, "{id} at {tick_hz} Hz");
+            assert!(
+                stability.loss_per_s * FOREVER_S < std::f64::consts::LN_2,
+                "{id} at {tick_hz} Hz"
+            );
             let found = 100.0 * stability.frequency_error.expect("it swings");
             assert!((found - percent).abs() <= resolution, "{id} at {tick_hz} Hz: {found} %");
         }
@@ -207,7 +210,6 @@ fn the_ship_stands_neutral_and_its_speed_is_held_up_to_a_step_of_twice_its_time(
         let loss = if method.order == 0 { -60.0 * libm::log(0.99) } else { 0.0 };
         assert!(found.is_bounded(), "{}: {found:?}", method.id);
         assert!((found.loss_per_s - loss).abs() < 1e-9, "{}: {found:?}", method.id);
-        assert_eq!(found.halving_s().is_some(), loss > 0.0, "{}: {found:?}", method.id);
     }
 }
 

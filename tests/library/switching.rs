@@ -242,7 +242,7 @@ fn a_kick_reaches_truth_and_lanes_and_the_flow_goes_on_from_there() {
     let kicked = state(&race.entrants()[0].lane);
     run(&mut race, 40);
 
-    let spring = Spring::BLANK.with_parameters(&scene.bodies[0].values);
+    let spring = Spring::default().with_parameters(&scene.bodies[0].values);
     let gained = -2.0 * spring.kick / spring.mass;
     assert_eq!((kicked.q, kicked.v), (before.q, before.v + gained));
     let h = 1.0 / f64::from(scene.tick_hz);
@@ -266,7 +266,7 @@ fn a_change_of_tick_rate_keeps_the_time_and_the_truth() {
     run(&mut race, 50);
     let wanted = t + 0.5;
     assert!((race.t() - wanted).abs() < 1e-12, "{}", race.t());
-    let spring = Spring::BLANK.with_parameters(&scene.bodies[0].values);
+    let spring = Spring::default().with_parameters(&scene.bodies[0].values);
     let there = spring.exact(wanted, &spring.start()).unwrap();
     let truth = state(race.truth());
     assert!(close(truth.q, there.q) && close(truth.v, there.v), "{truth:?}, {there:?}");

@@ -61,7 +61,7 @@ impl Approach {
 fn half_life(method: &Method, rate: f64, fps: f64) -> Option<f64> {
     let order = method.law_order()?;
     // Its target rests at 0.
-    let system = Follow { order: order as usize, rate, ..Follow::BLANK };
+    let system = Follow { order: order as usize, rate, ..Follow::default() };
     let step = |x: f64, v: f64| {
         let mut state = State { q: x, v };
         integrator::<Follow>(method, &x).steps(&system, 0.0, 1.0 / fps, 1, &mut state).ok()?;

@@ -34,7 +34,7 @@ pub trait OneCoordinate: System<Vector = f64> + Clone + Send + Sync + 'static {}
 
 impl<S: System<Vector = f64> + Clone + Send + Sync + 'static> OneCoordinate for S {}
 
-/// Copies that are alike.
+/// Identical copies.
 #[derive(Clone)]
 pub(super) struct Alike<S>(pub(super) S);
 

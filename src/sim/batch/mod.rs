@@ -196,7 +196,7 @@ impl Batch {
         Ok(Self { q, v, count, advance })
     }
 
-    /// Whether there is memory for so many copies under a solver. None is taken.
+    /// Whether memory suffices for this number of copies under a solver. Allocates nothing.
     ///
     /// # Errors
     /// If there is not.

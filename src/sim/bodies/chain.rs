@@ -8,16 +8,10 @@
 
 use std::f64::consts::PI;
 
-use glam::DVec2;
-
-use super::kind::{Coordinate, Kind};
 use super::oscillator;
-use crate::sim::body::{Body, Input};
-use crate::sim::parameter::{Fault, ParameterOf, Range};
-use crate::sim::state::State;
-use crate::sim::system::{BodyClass, Coupling, System};
+use super::prelude::*;
 
-/// The largest number of masses: as many as can be told apart on a wide stage. The closed form needs of
+/// The largest number of masses: as many as are distinguishable on a wide stage. The closed form needs of
 /// the order of its square multiplications per tick.
 const MAX_MASSES: u32 = 256;
 
@@ -39,7 +33,7 @@ pub(super) fn kind() -> Kind {
         }),
         _ => Ok(()),
     }),
-        ..Kind::of(Chain::BLANK)
+        ..Kind::of(Chain::default())
     }
 }
 
@@ -70,7 +64,7 @@ const PARAMETERS: [Of; 7] = [
 ];
 
 /// A chain of masses. Its coordinates are their displacements, in metres.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chain {
     /// How many masses there are.
     masses: usize,
@@ -92,40 +86,8 @@ pub struct Chain {
 }
 
 impl Chain {
-    /// No masses and all parameters 0, to be set by [`Body::with_parameters`].
-    pub const BLANK: Self = Self {
-        masses: 0,
-        mass: 0.0,
-        stiffness: 0.0,
-        damping: 0.0,
-        plucked: 0,
-        x0: 0.0,
-        kick: 0.0,
-        sines: Vec::new(),
-    };
-
     /// Half the distance between the walls, in units of the amplitude.
     pub const HALF_LENGTH: f64 = 2.4;
-
-    /// `masses` of `mass` kg, joined by springs of `stiffness` N/m with dash-pots of `damping` N·s/m;
-    /// number `plucked`, from 1, is held at `x0` m and kicked with `kick` N·s.
-    ///
-    /// # Panics
-    /// If `plucked` is not from 1 to `masses`.
-    pub fn new(
-        masses: usize,
-        mass: f64,
-        stiffness: f64,
-        damping: f64,
-        plucked: usize,
-        x0: f64,
-        kick: f64,
-    ) -> Self {
-        let mut chain =
-            Self { masses, mass, stiffness, damping, plucked, x0, kick, sines: Vec::new() };
-        chain.prepare();
-        chain
-    }
 
     /// The undamped angular frequency of mode `n`, from 1, in radians per second.
     pub fn angular_frequency(&self, n: usize) -> f64 {
@@ -198,10 +160,6 @@ impl Body for Chain {
         let quarter = |i: usize| sine(i.min(masses + 1 - i));
         let half = (0..=masses).map(quarter);
         self.sines = half.clone().chain(half.map(|sine| -sine)).collect();
-    }
-
-    fn heap_bytes(&self) -> usize {
-        size_of_val(&self.sines[..])
     }
 
     fn start(&self) -> State<Vec<f64>> {

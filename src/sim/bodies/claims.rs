@@ -16,22 +16,22 @@ use crate::sim::xor_shift::XorShift;
 pub(super) const TIMES: [f64; 12] =
     [0.0, 1e-3, 0.01, 0.07, 0.2, 0.5, 1.0, 1.7, 3.1, 6.3, 11.0, 20.0];
 
-/// The even moments at which an exact solution is held against the equation too, for what acts for a while only: their
-/// number, and their distance in seconds, so crooked that no force is written to begin at one of them.
+/// Number and spacing (s) of further times at which an exact solution is checked, for forces that act for a while only. The
+/// spacing is odd, so that no force is written to begin at one of them.
 const EVEN_TIMES: u32 = 160;
 const EVEN_TIME_S: f64 = 0.12361;
 
-/// States that are tried around the start: enough to go beyond a coincidence.
+/// Trial states around the start: enough to rule out a coincidence.
 const STATES: usize = 12;
 
-/// States that are tried around each later one.
+/// Trial states around each later one.
 const LATER_STATES: usize = 3;
 
-/// The most by which a tick may change the energy, or lead away from an exact solution, relative to its size: far above
-/// the accuracy of the reference, and far below what is seen.
+/// The largest relative change of the energy, or distance from an exact solution, after one tick: far above the accuracy of
+/// the reference, and far below what is visible.
 const TICK_TOLERANCE: f64 = 1e-7;
 
-/// The most by which the energy may change in all ticks together.
+/// The largest relative change of the energy over all ticks.
 const RUN_TOLERANCE: f64 = 1e-6;
 
 /// The most evaluations of the acceleration by the reference for one claim: a minute or two at 60 Hz of a motion like
@@ -110,7 +110,7 @@ impl Checked {
 
 /// A body that may claim to know its exact motion and its energy.
 pub(super) trait Claimant: Body<Vector = Vec<f64>> + Clone {
-    /// Tolerance of a claim, relative to the size of what is compared.
+    /// The relative tolerance of a claim.
     const TOLERANCE: f64;
 
     /// Overwrites `to` with the claimed state at `t` (s). Returns whether there is one.
@@ -122,7 +122,7 @@ pub(super) trait Claimant: Body<Vector = Vec<f64>> + Clone {
     /// The claimed energy in joules; `None` if there is none.
     fn claimed_energy(&self, state: &State<Vec<f64>>) -> Option<f64>;
 
-    /// The power in watts by which the energy changes, and the power that is exchanged; `None` where they are not finite.
+    /// The rate of change of the energy and the exchanged power, in watts; `None` if one is not finite.
     fn power(&self, t: f64, state: &State<Vec<f64>>) -> Option<[f64; 2]>;
 
     /// The same body without its claims and its steering, as it is at the start of a run.
@@ -284,11 +284,11 @@ pub(super) fn find_later_leak<B: Claimant>(body: &B, horizon: ClaimHorizon) -> O
     None
 }
 
-/// The largest power that is exchanged at `states` states around `state` at time `t` (s): by others too, for at a
-/// turning point nothing is exchanged.
+/// The largest power exchanged at `states` states around `state` at time `t` (s). One state is not enough: at a turning
+/// point nothing is exchanged.
 ///
 /// # Errors
-/// The largest leak at one of them, beside that power.
+/// The largest leak at one of them.
 fn find_power<B: Claimant>(
     body: &B,
     t: f64,
@@ -304,7 +304,7 @@ fn find_power<B: Claimant>(
     Ok(exchanged)
 }
 
-/// `state`, and others around it, the same in every run.
+/// `state`, then pseudo-random states around it, the same in every run.
 fn states_around(
     state: &State<Vec<f64>>,
     count: usize,

@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::claims::{Checked, FalseClaims};
 use super::kind::CustomInfo;
 use crate::sim::body::{Body, Input};
-use crate::sim::state::State;
+use crate::sim::state::{State, bytes_with_vectors};
 use crate::sim::system::{Question, System};
 
 mod claims;
@@ -100,9 +100,8 @@ impl Body for Custom {
     }
 
     fn heap_bytes(&self) -> usize {
-        let vectors = 3 + self.motion.vectors();
-        let values = size_of_val(&self.values[..]);
-        self.motion.bytes() + vectors * size_of_val(&self.start.q[..]) + values
+        bytes_with_vectors(size_of_val(&*self.motion), &self.start.q)
+            + 2 * size_of_val(&self.values[..])
     }
 
     fn start(&self) -> State<Vec<f64>> {

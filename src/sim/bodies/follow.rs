@@ -5,14 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use glam::DVec2;
-
-use super::kind::{Coordinate, Kind};
-use crate::sim::batch::Batch;
-use crate::sim::body::{Body, Input, MakeBatch};
-use crate::sim::parameter::{ParameterOf, Range};
-use crate::sim::state::State;
-use crate::sim::system::{BodyClass, Pursuit, Question, System};
+use super::prelude::*;
 
 pub(super) fn kind() -> Kind {
     Kind {
@@ -21,7 +14,7 @@ pub(super) fn kind() -> Kind {
             .into(),
         all_coordinates: vec![Coordinate::new("x", "v", "m")].into(),
         leading: "rate_per_s".into(),
-        ..Kind::of(Follow::BLANK)
+        ..Kind::of(Follow::default())
     }
 }
 
@@ -77,7 +70,7 @@ const RATES: Range = Range::Between(1e-3, 1e6);
 const MAX_SINE_HZ: f64 = 1e4;
 
 /// A follower. Its coordinate is where it is, in metres.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Follow {
     /// The order of the law: 1 or 2.
     pub order: usize,
@@ -100,19 +93,6 @@ pub struct Follow {
 }
 
 impl Follow {
-    /// Order 2 and all other parameters 0, to be set by [`Body::with_parameters`].
-    pub const BLANK: Self = Self {
-        order: 2,
-        rate: 0.0,
-        step: 0.0,
-        ramp: 0.0,
-        sine: 0.0,
-        sine_hz: 0.0,
-        x0: 0.0,
-        v0: 0.0,
-        kick: 0.0,
-    };
-
     /// Where the target is at time `t` (s), in metres.
     pub fn target(&self, t: f64) -> f64 {
         self.step + self.ramp * t + self.sine * libm::sin(TAU * self.sine_hz * t)

@@ -5,24 +5,19 @@
 //! `m (vx, vy)′ = (δₜ T(u) - C u) bow - S w port` and `I r′ = δᵣ L u - D r`, with the surge speed `u`
 //! along the bow and the sway speed `w` to port.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
-use super::kind::{Coordinate, Kind};
-use crate::sim::body::{Body, Input};
+use super::prelude::*;
 use crate::sim::curve::Curve;
-use crate::sim::parameter::{ParameterOf, Range};
 use crate::sim::piece::{Distances, NO_BOUNDARIES, Piece};
-use crate::sim::state::State;
-use crate::sim::system::System;
 
 pub(super) fn kind() -> Kind {
     Kind {
     id: "helm",
     about: "m v′ = thrust(u) - C u ahead, - S w abeam; I r′ = rudder L u - D r: a ship that is steered".into(),
     all_coordinates: vec![Coordinate::new("x", "vx", "m"), Coordinate::new("y", "vy", "m"), Coordinate::new("psi", "r", "rad")].into(),
-    inputs: &["throttle", "rudder", "kick"],
     leading: "side_drag_n_s_per_m".into(),
-        ..Kind::of(Helm::BLANK)
+        ..Kind::of(Helm { throttle: 1.0, ..Helm::default() })
     }
 }
 
@@ -72,7 +67,7 @@ const PARAMETERS: [Of; 12] = [
 
 /// A steered ship. Its coordinates are x and y in metres and the heading ψ, in radians
 /// counter-clockwise from x.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Helm {
     /// m, in kilograms.
     pub mass: f64,
@@ -110,22 +105,6 @@ fn surge(state: &State<DVec3>) -> f64 {
 }
 
 impl Helm {
-    /// Full throttle, rudder amidships and all parameters 0, to be set by [`Body::with_parameters`].
-    pub const BLANK: Self = Self {
-        mass: 0.0,
-        inertia: 0.0,
-        drag: 0.0,
-        side_drag: 0.0,
-        yaw_drag: 0.0,
-        rudder_moment: 0.0,
-        thrust: Curve::EMPTY,
-        throttle: 1.0,
-        rudder: 0.0,
-        q0: DVec3::ZERO,
-        u0: 0.0,
-        kick: 0.0,
-    };
-
     /// The largest magnitude of a speed of the curve; 1 if that is 0.
     fn fastest(&self) -> f64 {
         let fastest = self.thrust.points().iter().map(|[speed, _]| speed.abs()).fold(0.0, f64::max);

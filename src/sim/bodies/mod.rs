@@ -18,6 +18,7 @@ mod net;
 mod orbit;
 mod oscillator;
 mod pendulum;
+mod prelude;
 mod refusal;
 mod ship;
 mod spring;

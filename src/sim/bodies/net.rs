@@ -6,13 +6,8 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
-
-use crate::sim::body::{Body, Input};
+use super::prelude::*;
 use crate::sim::net_plan::{PlannedSpring, distance};
-use crate::sim::parameter::{ParameterOf, Range};
-use crate::sim::state::State;
-use crate::sim::system::{BodyClass, Coupling, Question, System};
 use forces::{Accelerations, Forces, Slopes};
 use frame::{Frame, Layout};
 use rows::{Nodes, RestLengths};
@@ -136,7 +131,7 @@ impl Net {
         components.as_chunks().0
     }
 
-    /// The same, mutable.
+    /// The free nodes, mutable.
     #[inline]
     pub fn nodes_mut(components: &mut [f64]) -> &mut [[f64; 2]] {
         components.as_chunks_mut().0

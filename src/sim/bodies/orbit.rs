@@ -1,13 +1,7 @@
 //! A satellite about a fixed centre of gravity: `r″ = -μ r / |r|³`.
 
-use glam::DVec2;
-
 use super::kepler;
-use super::kind::{Coordinate, Kind};
-use crate::sim::body::{Body, Input};
-use crate::sim::parameter::{Fault, ParameterOf, Range};
-use crate::sim::state::State;
-use crate::sim::system::System;
+use super::prelude::*;
 
 pub(super) fn kind() -> Kind {
     Kind {
@@ -23,7 +17,7 @@ pub(super) fn kind() -> Kind {
         }),
         _ => Ok(()),
     }),
-        ..Kind::of(Orbit::BLANK)
+        ..Kind::of(Orbit::default())
     }
 }
 
@@ -52,7 +46,7 @@ const PARAMETERS: [Of; 6] = [
 
 /// A satellite of negligible mass; its energy is per kilogram. Its coordinates are its position
 /// relative to the centre, in metres.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Orbit {
     /// μ, in cubic metres per second squared.
     pub mu: f64,
@@ -76,9 +70,6 @@ pub struct Ellipse {
 }
 
 impl Orbit {
-    /// All parameters 0, to be set by [`Body::with_parameters`].
-    pub const BLANK: Self = Self { mu: 0.0, q0: DVec2::ZERO, v0: DVec2::ZERO, kick: 0.0 };
-
     /// The ellipse of the initial state; `None` on a parabola or hyperbola.
     pub fn ellipse(&self) -> Option<Ellipse> {
         let Self { mu, q0, v0, .. } = *self;

@@ -1,13 +1,6 @@
 //! A pendulum at any amplitude: `m l² θ″ = -m g l sin θ - c θ′`.
 
-use glam::DVec2;
-
-use super::kind::{Coordinate, Kind};
-use crate::sim::batch::Batch;
-use crate::sim::body::{Body, Input, MakeBatch};
-use crate::sim::parameter::{ParameterOf, Range};
-use crate::sim::state::State;
-use crate::sim::system::{BodyClass, System};
+use super::prelude::*;
 
 pub(super) fn kind() -> Kind {
     Kind {
@@ -15,7 +8,7 @@ pub(super) fn kind() -> Kind {
         about: "m l² θ″ = -m g l sin θ - c θ′: a bob on a rod, at any angle".into(),
         all_coordinates: vec![Coordinate::new("theta", "omega", "rad")].into(),
         leading: "gravity_m_per_s2".into(),
-        ..Kind::of(Pendulum::BLANK)
+        ..Kind::of(Pendulum::default())
     }
 }
 
@@ -51,7 +44,7 @@ const PARAMETERS: [Of; 7] = [
 ];
 
 /// A pendulum. Its coordinate is the angle from hanging down, in radians, counter-clockwise.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pendulum {
     /// l, in metres.
     pub length: f64,
@@ -70,17 +63,6 @@ pub struct Pendulum {
 }
 
 impl Pendulum {
-    /// All parameters 0, to be set by [`Body::with_parameters`].
-    pub const BLANK: Self = Self {
-        length: 0.0,
-        mass: 0.0,
-        gravity: 0.0,
-        damping: 0.0,
-        theta0: 0.0,
-        omega0: 0.0,
-        kick: 0.0,
-    };
-
     /// m l², in kilogram square metres.
     fn inertia(&self) -> f64 {
         self.mass * self.length * self.length

@@ -1,20 +1,12 @@
 //! The chapter's ship: thrust against drag that grows with speed, `m v′ = T - C v`.
 
-use glam::DVec2;
-
-use super::kind::{Coordinate, Kind};
-use crate::sim::batch::Batch;
-use crate::sim::body::{Body, Input, MakeBatch};
-use crate::sim::parameter::{ParameterOf, Range};
-use crate::sim::state::State;
-use crate::sim::system::{Question, System};
+use super::prelude::*;
 
 pub(super) fn kind() -> Kind {
     Kind {
         id: "ship",
         about: "m s″ = T - C s′: full thrust times throttle, against linear drag".into(),
         all_coordinates: vec![Coordinate::new("s", "v", "m")].into(),
-        inputs: &["throttle", "kick"],
         leading: "drag_n_s_per_m".into(),
         ..Kind::of(Ship::BLANK)
     }

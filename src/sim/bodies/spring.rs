@@ -1,14 +1,7 @@
 //! A mass on a spring with a dash-pot: `m x″ = -k x - c x′`.
 
-use glam::DVec2;
-
-use super::kind::{Coordinate, Kind};
 use super::oscillator;
-use crate::sim::batch::Batch;
-use crate::sim::body::{Body, Input, MakeBatch};
-use crate::sim::parameter::{ParameterOf, Range};
-use crate::sim::state::State;
-use crate::sim::system::{BodyClass, Question, System};
+use super::prelude::*;
 
 pub(super) fn kind() -> Kind {
     Kind {
@@ -16,7 +9,7 @@ pub(super) fn kind() -> Kind {
         about: "m x″ = -k x - c x′: a mass on a spring with a dash-pot".into(),
         all_coordinates: vec![Coordinate::new("x", "v", "m")].into(),
         leading: "stiffness_n_per_m".into(),
-        ..Kind::of(Spring::BLANK)
+        ..Kind::of(Spring::default())
     }
 }
 
@@ -45,7 +38,7 @@ const PARAMETERS: [Of; 6] = [
 ];
 
 /// A mass on a spring. Its coordinate is the stretch, in metres.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spring {
     /// m, in kilograms.
     pub mass: f64,
@@ -62,10 +55,6 @@ pub struct Spring {
 }
 
 impl Spring {
-    /// All parameters 0, to be set by [`Body::with_parameters`].
-    pub const BLANK: Self =
-        Self { mass: 0.0, stiffness: 0.0, damping: 0.0, x0: 0.0, v0: 0.0, kick: 0.0 };
-
     /// The undamped angular frequency √(k/m), in radians per second.
     pub fn angular_frequency(&self) -> f64 {
         (self.stiffness / self.mass).sqrt()

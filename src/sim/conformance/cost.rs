@@ -42,7 +42,7 @@ pub(super) fn evaluations(method: &Method) -> Claim {
             counts.extend(others);
             let (least, most) = (counts.first().copied(), counts.last().copied());
             let [least, most] = [least, most].map(|count| count.expect("of many steps"));
-            // A method that reuses what it has evaluated owes one evaluation more at its first step.
+            // A method that reuses evaluations owes one evaluation more at its first step.
             let owed = u64::from(method.restart.is_some());
             let holds = match method.evaluations.map(u64::from) {
                 Some(count) => (least, most, first) == (count, count, count + owed),
@@ -55,7 +55,7 @@ pub(super) fn evaluations(method: &Method) -> Claim {
     Claim { field: "evaluations", claimed, measured, holds }
 }
 
-/// A coordinate at an even speed of 1, which tells the time, beside a damped spring.
+/// A coordinate at constant speed 1, which measures time, and a damped spring.
 struct ClockAndDrag;
 
 impl System for ClockAndDrag {
@@ -65,7 +65,7 @@ impl System for ClockAndDrag {
     }
 }
 
-/// Whether a step of `h` takes `h`, and what is left out is reported; of a method of order 0, the report alone.
+/// Whether a step of `h` advances by `h` and reports the rest; for a method of order 0, the report alone.
 pub(super) fn keeps_time(method: &Method) -> Claim {
     let measure = || {
         let mut state = State { q: DVec2::new(0.0, 1.0), v: DVec2::new(1.0, 0.0) };

@@ -5,7 +5,7 @@ use super::{Claim, yes_or_no};
 use crate::sim::body::Body;
 use crate::sim::integrators::{Method, StepFailure};
 
-/// An error below this is rounding: what is rounded in a step, over all steps.
+/// An error below this is rounding, summed over all steps.
 const EXACT: f64 = 1e-13;
 
 /// What is off by more is not exact; the nearest to it, Gauss-Legendre 4 on the ship, is 1e-6 off.

@@ -35,7 +35,7 @@ const SWING: f64 = 7.7;
 /// By how much a measured order may be off.
 const MARGIN: f64 = 0.1;
 
-/// A system, and what is known of it.
+/// A test problem with its truth.
 struct Course<V> {
     name: &'static str,
     system: Problem<V>,

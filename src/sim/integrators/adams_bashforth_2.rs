@@ -1,11 +1,7 @@
 //! Adams-Bashforth 2: extrapolates the slopes here and one step ago to the middle of the step.
 
-use super::card::{EXPLICIT, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
+use super::prelude::*;
 use super::shared::last_step::LastStep;
-use crate::sim::state::State;
-use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "adams-bashforth-2",

@@ -1,13 +1,9 @@
 //! Adaptive Euler: the difference of one whole step and two half steps is the error, which controls the
 //! step size.
 
-use super::card::{ADAPTIVE, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
+use super::prelude::*;
 use super::shared::step_size::{StepSize, factor};
 use super::tolerance::Tolerance;
-use crate::sim::state::{State, Vector};
-use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "adaptive-euler",

@@ -1,11 +1,8 @@
 //! Adaptive Euler as the chapter prints it: a shortened step still ends the tick.
 
-use super::card::{AS_PRINTED, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
+use super::prelude::*;
 use super::tolerance::Tolerance;
-use crate::sim::state::{Elementwise, State, Vector};
-use crate::sim::system::{Question, StateOf, System};
+use crate::sim::system::Question;
 
 pub(super) const CARD: Method = Method {
     id: "adaptive-euler-as-printed",
@@ -42,7 +39,7 @@ pub struct AdaptiveEulerAsPrinted<V> {
 }
 
 impl<V: Vector> AdaptiveEulerAsPrinted<V> {
-    /// The method with its own tolerance, of which only `absolute_v` is used.
+    /// The method with this tolerance; only `absolute_v` is used.
     pub fn with_tolerance(like: &V, tolerance: Tolerance) -> Self {
         Self { tolerance, a: like.clone(), v1: like.clone(), v2: like.clone() }
     }

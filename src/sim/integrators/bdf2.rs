@@ -1,12 +1,8 @@
 //! BDF2: the slope at the end from a parabola through the last two states and the new one.
 
-use super::card::{IMPLICIT, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
+use super::prelude::*;
 use super::shared::last_step::LastStep;
 use super::shared::newton::Newton;
-use crate::sim::state::{State, Vector};
-use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "bdf2",

@@ -1,6 +1,6 @@
 //! Bogacki-Shampine 3(2): keeps order 3 and estimates the error by order 2; four slopes, three of them new.
 
-use super::card::{ADAPTIVE, Method};
+use super::prelude::*;
 use super::shared::embedded_pair::{EmbeddedPair, Pair};
 use super::tolerance::Tolerance;
 

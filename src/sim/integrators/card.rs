@@ -26,7 +26,7 @@ pub enum Family {
     AsPrinted,
     /// Moves a body towards its target by a rule of its own, without the acceleration.
     Follower,
-    /// Does what a tick of a physics engine does.
+    /// Reproduces a tick of a physics engine.
     Engine,
 }
 
@@ -172,7 +172,7 @@ pub struct Method {
     pub id: &'static str,
     /// Name for people.
     pub name: &'static str,
-    /// Other ids by which people ask for it. An error about one names this method's id; `regatta
+    /// Other ids that people ask for it by. An error about one names this method's id; `regatta
     /// show` shows the method.
     pub also: &'static [&'static str],
     /// What to expect, in one line.
@@ -260,7 +260,7 @@ impl Method {
         }
     }
 
-    /// Whether it does what a physics engine does. Such a method is used only where it is asked for.
+    /// Whether it reproduces a physics engine. Such a method is used only on request.
     pub fn is_engine(&self) -> bool {
         self.family == Family::Engine
     }

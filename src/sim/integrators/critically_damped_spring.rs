@@ -1,7 +1,6 @@
 //! Critically damped spring: the exact solution for a target that rests during the step.
 
-use super::card::{FollowerSetting, Method, SECOND_ORDER_FOLLOWER};
-use super::follower::FollowerRule;
+use super::prelude::*;
 
 pub(super) const CARD: Method = Method {
     id: "critically-damped-spring",

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use super::failure::Stepped;
 use super::integrator::Integrator;
 use super::tolerance::Tolerance;
-use crate::sim::state::{State, Vector};
+use crate::sim::state::{State, Vector, bytes_with_vectors};
 use crate::sim::system::{Question, StateOf, System};
 use crate::sim::vec_system::{Scratch, VecSystem};
 
@@ -27,18 +27,11 @@ impl System for AnySystem<'_> {
 
 /// A custom method behind a pointer. Every `Clone` [`Integrator`] of systems with a `Vec` is one.
 pub trait CustomIntegrator: for<'a> Integrator<AnySystem<'a>> {
-    /// Memory in bytes, without its coordinate vectors.
-    fn bytes(&self) -> usize;
-
     /// A copy with the same memory.
     fn boxed_clone(&self) -> Box<dyn CustomIntegrator>;
 }
 
 impl<I: for<'a> Integrator<AnySystem<'a>> + Clone + 'static> CustomIntegrator for I {
-    fn bytes(&self) -> usize {
-        size_of::<I>() + self.heap_bytes()
-    }
-
     fn boxed_clone(&self) -> Box<dyn CustomIntegrator> {
         Box::new(self.clone())
     }
@@ -142,8 +135,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for CustomMethod<S::Vector> {
     }
 
     fn heap_bytes(&self) -> usize {
-        // An upper bound: as if every field were a coordinate vector.
-        let fields = self.integrator.bytes();
-        fields + (2 + fields / size_of::<Vec<f64>>()) * size_of_val(&self.state.q[..])
+        let integrator = &*self.integrator;
+        bytes_with_vectors(size_of_val(integrator), &self.state.q) + integrator.heap_bytes()
     }
 }

@@ -1,6 +1,6 @@
 //! Dormand-Prince 5(4): keeps order 5 and estimates the error by order 4; seven slopes, six of them new.
 
-use super::card::{ADAPTIVE, Method};
+use super::prelude::*;
 use super::shared::embedded_pair::{EmbeddedPair, Pair};
 use super::tolerance::Tolerance;
 

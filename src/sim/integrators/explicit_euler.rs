@@ -1,10 +1,6 @@
 //! Explicit Euler: follows the tangent at the start for the whole step.
 
-use super::card::{EXPLICIT, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
-use crate::sim::state::State;
-use crate::sim::system::{StateOf, System};
+use super::prelude::*;
 
 pub(super) const CARD: Method = Method {
     id: "explicit-euler",

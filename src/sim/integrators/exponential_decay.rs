@@ -1,7 +1,6 @@
 //! Exponential decay: the exact solution for a target that rests during the step.
 
-use super::card::{FIRST_ORDER_FOLLOWER, FollowerSetting, Method};
-use super::follower::{FollowerRule, lerp};
+use super::prelude::*;
 
 pub(super) const CARD: Method = Method {
     id: "exponential-decay",

@@ -1,12 +1,8 @@
 //! Exponential Rosenbrock-Euler: solves the equation linearised at the start of the step exactly.
 
-use super::card::{LINEARISED, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
+use super::prelude::*;
 use super::shared::jacobian::Jacobian;
 use super::shared::linear_flow::{LinearFlow, response};
-use crate::sim::state::{State, Vector};
-use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "exponential-rosenbrock-euler",
@@ -114,7 +110,6 @@ impl<S: System<Vector: Vector>> Integrator<S> for ExponentialRosenbrockEuler<S::
     }
 
     fn heap_bytes(&self) -> usize {
-        let vectors = [&self.x, &self.f, &self.f_t].map(|vector| size_of_val(&vector[..]));
-        self.jacobian.heap_bytes() + self.flow.heap_bytes() + vectors.iter().sum::<usize>()
+        self.jacobian.heap_bytes() + self.flow.heap_bytes()
     }
 }

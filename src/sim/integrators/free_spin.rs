@@ -6,7 +6,7 @@
 
 use glam::{DMat3, DVec3};
 
-/// One step of the angular velocity of a body without torque. `'` marks what is after the step.
+/// One step of the angular velocity of a body without torque. `'` marks values at the end of the step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpinMap {
     /// `ω' = ω`: the term `ω × L` is left out. The default of Jolt and PhysX; Godot.

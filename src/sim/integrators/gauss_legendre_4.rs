@@ -1,12 +1,8 @@
 //! Gauss-Legendre of two stages: collocation at the two points of Gauss's quadrature.
 
-use super::card::{IMPLICIT, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
+use super::prelude::*;
 use super::shared::newton::Newton;
 use super::shared::stages::Stages;
-use crate::sim::state::{Elementwise, Vector};
-use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "gauss-legendre-4",

@@ -1,11 +1,7 @@
 //! Implicit Euler: follows the tangent at the end of the step.
 
-use super::card::{IMPLICIT, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
+use super::prelude::*;
 use super::shared::newton::Newton;
-use crate::sim::state::Vector;
-use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "implicit-euler",

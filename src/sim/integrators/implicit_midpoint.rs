@@ -1,11 +1,7 @@
 //! Implicit midpoint: follows the slope at the middle of the chord for the whole step.
 
-use super::card::{IMPLICIT, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
+use super::prelude::*;
 use super::shared::newton::Newton;
-use crate::sim::state::{Elementwise, State, Vector};
-use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "implicit-midpoint",

@@ -1,7 +1,6 @@
 //! Implicit spring: backward Euler of the critically damped spring, solved by hand.
 
-use super::card::{FollowerSetting, Method, SECOND_ORDER_FOLLOWER};
-use super::follower::FollowerRule;
+use super::prelude::*;
 
 pub(super) const CARD: Method = Method {
     id: "implicit-spring",

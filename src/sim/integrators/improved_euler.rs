@@ -1,10 +1,6 @@
 //! Improved Euler (Heun): the mean of the slopes at both ends of the step.
 
-use super::card::{EXPLICIT, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
-use crate::sim::state::State;
-use crate::sim::system::{StateOf, System};
+use super::prelude::*;
 
 pub(super) const CARD: Method = Method {
     id: "improved-euler",

@@ -1,10 +1,6 @@
 //! Improved Euler as the chapter prints it: the velocity alone is improved, and moves the position.
 
-use super::card::{AS_PRINTED, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
-use crate::sim::state::{Elementwise, State};
-use crate::sim::system::{StateOf, System};
+use super::prelude::*;
 
 pub(super) const CARD: Method = Method {
     id: "improved-euler-as-printed",

@@ -43,8 +43,8 @@ pub trait Integrator<S: System>: Send {
     /// Sets the tolerance of an adaptive method; other methods ignore it.
     fn set_tolerance(&mut self, _tolerance: Tolerance) {}
 
-    /// Sets the stiffness in 1/s² and the damping in 1/s, each per unit of mass, that an engine is told of a joint in
-    /// place of the body's; other methods ignore it.
+    /// Overrides the stiffness in 1/s² and the damping in 1/s, each per unit of mass, of a joint in an engine; other
+    /// methods ignore it.
     fn set_joint(&mut self, _joint: [f64; 2]) {}
 
     /// Memory in bytes, without its own size and that of its coordinate vectors.

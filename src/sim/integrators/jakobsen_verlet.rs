@@ -1,10 +1,6 @@
 //! Jakobsen's Verlet: the next position from the last two, with the drag that hides in a factor of 0.99.
 
-use super::card::{AS_PRINTED, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
-use crate::sim::state::{Elementwise, State};
-use crate::sim::system::{StateOf, System};
+use super::prelude::*;
 
 pub(super) const CARD: Method = Method {
     id: "jakobsen-verlet",

@@ -1,7 +1,6 @@
 //! Lerp by the frame's duration: explicit Euler of the law of first order.
 
-use super::card::{FIRST_ORDER_FOLLOWER, FollowerSetting, Method};
-use super::follower::{FollowerRule, lerp};
+use super::prelude::*;
 
 pub(super) const CARD: Method = Method {
     id: "lerp-dt",

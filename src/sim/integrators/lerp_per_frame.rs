@@ -1,7 +1,6 @@
 //! Lerp per frame: a tenth of the way in every step, however long the step is.
 
-use super::card::{FIRST_ORDER_FOLLOWER, FollowerQuantity, FollowerSetting, Method};
-use super::follower::{FollowerRule, lerp};
+use super::prelude::*;
 
 pub(super) const CARD: Method = Method {
     id: "lerp-per-frame",

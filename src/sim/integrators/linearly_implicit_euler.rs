@@ -1,11 +1,7 @@
 //! Linearly implicit Euler: implicit Euler with one iteration of Newton's, from the start of the step.
 
-use super::card::{LINEARISED, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
+use super::prelude::*;
 use super::shared::linearisation::Linearisation;
-use crate::sim::state::{Elementwise, Vector};
-use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "linearly-implicit-euler",

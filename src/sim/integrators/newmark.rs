@@ -1,12 +1,8 @@
 //! Newmark's method with β = 1/4 and γ = 1/2: the mean of the accelerations at both ends of the step.
 
-use super::card::{IMPLICIT, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
+use super::prelude::*;
 use super::shared::newton::Newton;
 use super::shared::stages::Stages;
-use crate::sim::state::{Elementwise, Vector};
-use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "newmark",

@@ -1,10 +1,7 @@
 //! PEFRL, position-extended Forest-Ruth-like: one kick more than Yoshida 4, for a far smaller error.
 
-use super::card::{Method, SYMPLECTIC};
-use super::failure::Stepped;
-use super::integrator::Integrator;
+use super::prelude::*;
 use super::shared::composition::compose;
-use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "pefrl",

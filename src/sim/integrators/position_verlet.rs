@@ -1,10 +1,6 @@
 //! Position Verlet: half a drift, a kick, half a drift.
 
-use super::card::{Method, SYMPLECTIC};
-use super::failure::Stepped;
-use super::integrator::Integrator;
-use crate::sim::state::{Elementwise, State};
-use crate::sim::system::{StateOf, System};
+use super::prelude::*;
 
 pub(super) const CARD: Method = Method {
     id: "position-verlet",

@@ -1,10 +1,6 @@
 //! The classical Runge-Kutta method: four slopes, weighted 1 2 2 1.
 
-use super::card::{EXPLICIT, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
-use crate::sim::state::{Elementwise, State};
-use crate::sim::system::{StateOf, System};
+use super::prelude::*;
 
 pub(super) const CARD: Method = Method {
     id: "rk4",

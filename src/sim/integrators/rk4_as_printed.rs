@@ -1,10 +1,6 @@
 //! Runge-Kutta 4 as the chapter prints it: four slopes of the velocity alone, which moves the position.
 
-use super::card::{AS_PRINTED, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
-use crate::sim::state::{Elementwise, State};
-use crate::sim::system::{StateOf, System};
+use super::prelude::*;
 
 pub(super) const CARD: Method = Method {
     id: "rk4-as-printed",

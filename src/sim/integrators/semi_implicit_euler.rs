@@ -1,10 +1,6 @@
 //! Semi-implicit Euler: kick the velocity, then drift with the new velocity.
 
-use super::card::{Method, SYMPLECTIC};
-use super::failure::Stepped;
-use super::integrator::Integrator;
-use crate::sim::state::{Elementwise, State};
-use crate::sim::system::{StateOf, System};
+use super::prelude::*;
 
 pub(super) const CARD: Method = Method {
     id: "semi-implicit-euler",

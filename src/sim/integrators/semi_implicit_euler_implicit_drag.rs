@@ -1,11 +1,7 @@
 //! Semi-implicit Euler with implicit drag: the kick divides by what the drag takes, and cannot overshoot.
 
-use super::card::{LINEARISED, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
+use super::prelude::*;
 use super::shared::linearisation::Linearisation;
-use crate::sim::state::{Elementwise, Vector};
-use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "semi-implicit-euler-implicit-drag",

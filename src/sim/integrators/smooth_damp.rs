@@ -1,8 +1,7 @@
 //! Smooth damp, as Unity has it: the closed form of the critically damped spring with a rational function for
 //! the exponential, and a clamp of overshoot.
 
-use super::card::{FollowerQuantity, FollowerSetting, Method, SECOND_ORDER_FOLLOWER};
-use super::follower::FollowerRule;
+use super::prelude::*;
 
 pub(super) const CARD: Method = Method {
     id: "smooth-damp",

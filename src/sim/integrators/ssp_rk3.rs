@@ -1,10 +1,6 @@
 //! Strong-stability-preserving Runge-Kutta 3: three Euler steps, averaged.
 
-use super::card::{EXPLICIT, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
-use crate::sim::state::State;
-use crate::sim::system::{StateOf, System};
+use super::prelude::*;
 
 pub(super) const CARD: Method = Method {
     id: "ssp-rk3",

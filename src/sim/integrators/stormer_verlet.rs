@@ -1,11 +1,7 @@
 //! Störmer-Verlet: the next position from the last two and the force; the velocity is read off them.
 
-use super::card::{Method, SYMPLECTIC};
-use super::failure::Stepped;
-use super::integrator::Integrator;
+use super::prelude::*;
 use super::shared::last_step::LastStep;
-use crate::sim::state::{Elementwise, State};
-use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "stormer-verlet",

@@ -1,11 +1,7 @@
 //! TR-BDF2: the trapezoidal rule over a part of the step, and BDF2 over the whole of it.
 
-use super::card::{IMPLICIT, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
+use super::prelude::*;
 use super::shared::newton::Newton;
-use crate::sim::state::{State, Vector};
-use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "tr-bdf2",

@@ -1,11 +1,7 @@
 //! Velocity Verlet: half a kick, a drift, half a kick by the force at the end.
 
-use super::card::{Method, SYMPLECTIC};
-use super::failure::Stepped;
-use super::integrator::Integrator;
+use super::prelude::*;
 use super::shared::last_step::LastStep;
-use crate::sim::state::{Elementwise, State};
-use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "velocity-verlet",

@@ -1,12 +1,8 @@
 //! Verlet with exact drag: half a step of exact decay, a step of velocity Verlet, half a step of exact decay.
 
-use super::card::{LINEARISED, Method};
-use super::failure::Stepped;
-use super::integrator::Integrator;
+use super::prelude::*;
 use super::shared::jacobian::Jacobian;
 use super::shared::linear_flow::LinearFlow;
-use crate::sim::state::{Elementwise, State, Vector};
-use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "verlet-exact-drag",
@@ -113,6 +109,6 @@ impl<S: System<Vector: Vector>> Integrator<S> for VerletExactDrag<S::Vector> {
     }
 
     fn heap_bytes(&self) -> usize {
-        self.drag.heap_bytes() + self.decay.heap_bytes() + size_of_val(&self.zeros[..])
+        self.drag.heap_bytes() + self.decay.heap_bytes()
     }
 }

@@ -1,11 +1,8 @@
 //! Yoshida 4: three position Verlet steps, the middle one backwards, chosen so that their third-order
 //! errors cancel.
 
-use super::card::{Method, SYMPLECTIC};
-use super::failure::Stepped;
-use super::integrator::Integrator;
+use super::prelude::*;
 use super::shared::composition::compose;
-use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "yoshida4",

@@ -64,7 +64,7 @@ pub(super) struct TooLong {
     pub(super) are_switches: bool,
 }
 
-/// What an operation does, by which equal ones are found.
+/// The key of common subexpressions: operation and arguments.
 type Key = (Op, [u16; 3], u64, Vec<[u64; 2]>);
 
 impl Tape {

@@ -34,7 +34,7 @@ impl<B: Body> System for SmoothPiece<'_, B> {
 #[derive(Clone, Debug)]
 pub(super) struct Extrapolation<V> {
     /// The increment of the state by each column, the finest first.
-    table: Vec<State<V>>,
+    table: [State<V>; COLUMNS],
     /// The derivative at the start of the step.
     pub(super) begin: State<V>,
     /// The derivative at an intermediate state.
@@ -58,7 +58,7 @@ impl<V: Vector> Extrapolation<V> {
     pub(super) fn new(like: &State<V>) -> Self {
         let state = || like.clone();
         Self {
-            table: vec![state(); COLUMNS],
+            table: std::array::from_fn(|_| state()),
             begin: state(),
             d: state(),
             before: state(),
@@ -68,12 +68,6 @@ impl<V: Vector> Extrapolation<V> {
             evaluations: 0,
             largest: [[0.0; 2]; 2],
         }
-    }
-
-    /// Memory in bytes, without its own size and that of its coordinate vectors.
-    pub(super) fn heap_bytes(&self) -> usize {
-        let column = size_of::<State<V>>() + 2 * self.begin.q.heap_bytes();
-        self.table.len() * column
     }
 
     /// The increment of the last attempt.

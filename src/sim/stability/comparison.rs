@@ -41,13 +41,6 @@ impl Stability {
     pub fn doubling_s(&self) -> Option<f64> {
         (!self.is_bounded()).then(|| std::f64::consts::LN_2 / self.growth_per_s)
     }
-
-    /// The time in seconds in which the amplitude of a conserved mode halves; `None` if that takes
-    /// longer than [`FOREVER_S`].
-    pub fn halving_s(&self) -> Option<f64> {
-        let halving = std::f64::consts::LN_2 / self.loss_per_s;
-        (halving > 0.0 && halving < FOREVER_S).then_some(halving)
-    }
 }
 
 /// The growth rate and the frequency of a mode.

@@ -90,8 +90,8 @@ impl NormalMode {
         Ok(stability)
     }
 
-    /// The same from the map of a small motion alone, which is quick and takes a growth per step of less than 1e-9 for none
-    /// where the method has memory.
+    /// As [`NormalMode::stability`], from the map of a small motion alone: quick, but with memory a growth of less than 1e-9
+    /// per step counts as zero.
     ///
     /// # Errors
     /// As [`NormalMode::stability`].

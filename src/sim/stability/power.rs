@@ -147,7 +147,7 @@ fn radius(logs: &[f64]) -> Option<f64> {
     let peak = |window: std::ops::Range<usize>| {
         logs[window].iter().fold(f64::NEG_INFINITY, |most, log| most.max(*log))
     };
-    // Windows of one length, so that a trend moves the peaks within them alike.
+    // Windows of equal length, so that a trend moves their peaks equally.
     let [first, middle, last] = [count / 4, count / 2, count].map(|end| peak(end - count / 8..end));
     // A length of ρⁿ nᵖ: each of the differences has the same part from nᵖ.
     let rate = ((last - middle) - (middle - first)) / (count / 4) as f64;

@@ -9,7 +9,8 @@ const MASS: f64 = 0.5;
 const STIFFNESS: f64 = 200.0;
 
 fn chain(masses: usize, damping: f64) -> Chain {
-    Chain::new(masses, MASS, STIFFNESS, damping, masses.div_ceil(3), 0.7, 2.0)
+    let [masses, plucked] = [masses, masses.div_ceil(3)].map(|count| count as f64);
+    Chain::default().with_parameters(&[masses, MASS, STIFFNESS, damping, plucked, 0.7, 2.0])
 }
 
 /// The damping at which mode `n` is critical: c ω² / k = 2 ω.

@@ -22,7 +22,7 @@ fn order_of(method: &Method) -> usize {
 /// A body at rest 2 m before a still target, by the law that `method` is for.
 fn still(method: &Method, rate: f64) -> Follow {
     let order = order_of(method);
-    Follow { order, rate, step: 1.0, x0: -1.0, kick: 0.5, ..Follow::BLANK }
+    Follow { order, rate, step: 1.0, x0: -1.0, kick: 0.5, ..Follow::default() }
 }
 
 /// The states after each of `steps` steps of `h`.

@@ -81,7 +81,7 @@ fn chain_as_net(chain: &Chain) -> NetPlan {
 #[test]
 fn a_chain_written_as_a_net_moves_as_the_chains_exact_solution() {
     for damping in [0.0, 0.4] {
-        let chain = Chain::new(6, 0.5, 90.0, damping, 3, 0.4, 1.0);
+        let chain = Chain::default().with_parameters(&[6.0, 0.5, 90.0, damping, 3.0, 0.4, 1.0]);
         let values = Values { mass: 0.5, stiffness: 90.0, damping, ..PLAIN };
         let mut net = build(&chain_as_net(&chain), values, Solver::Truth);
         let start = chain.start();
@@ -103,7 +103,7 @@ fn a_chain_written_as_a_net_moves_as_the_chains_exact_solution() {
 #[test]
 fn every_method_moves_a_chain_and_its_net_alike() {
     let values = Values { mass: 0.5, stiffness: 90.0, damping: 0.4, ..PLAIN };
-    let chain = Chain::new(6, 0.5, 90.0, 0.4, 3, 0.1, 1.0);
+    let chain = Chain::default().with_parameters(&[6.0, 0.5, 90.0, 0.4, 3.0, 0.1, 1.0]);
     for method in GENERAL_METHODS.iter().filter(|method| method.tolerance.is_none()) {
         let mut net = build(&chain_as_net(&chain), values, Solver::Method(method));
         let kind = regatta::sim::bodies::kind("chain").unwrap();

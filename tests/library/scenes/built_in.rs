@@ -161,7 +161,7 @@ fn the_chapters_ship_settles_swings_and_diverges_under_explicit_euler_as_its_sce
 fn the_chain_is_lost_as_its_scene_says() {
     let scene = built_in("chain");
     let body = &scene.bodies[0];
-    let chain = Chain::BLANK.with_parameters(&body.values);
+    let chain = Chain::default().with_parameters(&body.values);
     let hz = |n| chain.angular_frequency(n) / (2.0 * PI);
     assert!((hz(1) - 0.83).abs() < 0.01 && (hz(16) - 8.97).abs() < 0.01, "{} {}", hz(1), hz(16));
     let largest = |id, hz: u32, seconds: u32| run(body, with(id), hz, seconds * hz).1;

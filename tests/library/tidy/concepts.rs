@@ -24,12 +24,12 @@ const CONCEPTS: [Concept; 16] = [
     },
     Concept {
         name: "tick of an engine",
-        file: "src/sim/integrators/engine/mod.rs",
+        file: "src/sim/integrators/engine.rs",
         marks: &["R::tick("],
     },
     Concept {
         name: "speed limit",
-        file: "src/sim/integrators/engine/mod.rs",
+        file: "src/sim/integrators/engine.rs",
         marks: &["max_speed * max_speed"],
     },
     Concept {

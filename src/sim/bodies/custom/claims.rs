@@ -22,16 +22,19 @@ pub struct CustomFault {
     pub remedy: &'static str,
 }
 
-/// Tolerance of a claim, relative to the size of what is compared: the error of differences.
+/// The relative tolerance of a claim: the error of differences.
 const TOLERANCE: f64 = 1e-6;
 
 /// The steps of differences in seconds. A motion of any pace is smooth and well above rounding over one of
 /// them.
 const STEPS: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
-/// The derivative at 0 by differences of fourth order.
-fn derivative(of: impl Fn(f64) -> f64, h: f64) -> f64 {
-    (8.0 * (of(h) - of(-h)) - (of(2.0 * h) - of(-2.0 * h))) / (12.0 * h)
+/// The distances of the values of a difference, in steps.
+const OFFSETS: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
+
+/// The derivative by a difference of fourth order, from the values at [`OFFSETS`] of a step `h`.
+fn difference([behind, back, on, ahead]: [f64; 4], h: f64) -> f64 {
+    (8.0 * (on - back) - (ahead - behind)) / (12.0 * h)
 }
 
 impl Claimant for Custom {
@@ -50,9 +53,9 @@ impl Claimant for Custom {
         let wanted = [&wanted.q[..], &wanted.v[..]].concat();
         let mut nearest = vec![f64::NAN; wanted.len()];
         for h in STEPS {
-            let [behind, back, on, ahead] = [-2.0, -1.0, 1.0, 2.0].map(|times| at(t + times * h));
+            let states = OFFSETS.map(|times| at(t + times * h));
             for (i, nearest) in nearest.iter_mut().enumerate() {
-                let slope = (8.0 * (on[i] - back[i]) - (ahead[i] - behind[i])) / (12.0 * h);
+                let slope = difference(states.each_ref().map(|state| state[i]), h);
                 let is_nearer = (slope - wanted[i]).abs() < (*nearest - wanted[i]).abs();
                 if is_nearer || nearest.is_nan() {
                     *nearest = slope;
@@ -76,15 +79,17 @@ impl Claimant for Custom {
             let v: Vec<f64> = v.iter().zip(&a).map(|(v, a)| v + turned * a).collect();
             self.motion.energy(&q, Some(&v)).unwrap_or(f64::NAN)
         };
-        // A state beside the motion need not have an energy, or a force.
+        // A state off the motion need not have an energy or a force.
         let here = energy(0.0, 0.0);
         if !here.is_finite() || a.iter().any(|a| !a.is_finite()) {
             return None;
         }
         let power = |h: f64| {
-            let exchanged =
-                derivative(|s| energy(s, 0.0), h).abs() + derivative(|s| energy(0.0, s), h).abs();
-            [derivative(|s| energy(s, s), h).abs(), exchanged]
+            let rate = |moved: f64, turned: f64| {
+                difference(OFFSETS.map(|times| energy(moved * times * h, turned * times * h)), h)
+                    .abs()
+            };
+            [rate(1.0, 1.0), rate(1.0, 0.0) + rate(0.0, 1.0)]
         };
         let is_kept = |h: f64| {
             let [leaks, exchanged] = power(h);

@@ -20,10 +20,6 @@ pub(super) trait Motion: System<Vector = Vec<f64>> + Send {
     fn set(&mut self, index: usize, value: f64);
     fn system(&self) -> &dyn Any;
     fn boxed_clone(&self) -> Box<dyn Motion>;
-    /// Its size, without coordinates on the heap.
-    fn bytes(&self) -> usize;
-    /// The number of coordinate vectors that it holds.
-    fn vectors(&self) -> usize;
 }
 
 impl Clone for Box<dyn Motion> {
@@ -126,13 +122,5 @@ impl<S: System<Vector: Vector> + Clone + Send + 'static> Motion for Typed<S> {
 
     fn boxed_clone(&self) -> Box<dyn Motion> {
         Box::new(self.clone())
-    }
-
-    fn bytes(&self) -> usize {
-        size_of::<Self>() + size_of_val(&self.parameters[..])
-    }
-
-    fn vectors(&self) -> usize {
-        Scratch::<S::Vector>::VECTORS
     }
 }

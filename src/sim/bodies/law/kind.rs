@@ -5,8 +5,9 @@ use std::sync::Arc;
 use super::Law;
 use super::claims::{check_start, first_key};
 use crate::sim::bodies::kind::{Coordinate, Kind, Origin};
-use crate::sim::law::{At, CoordinateText, Equations, LawText, Refusal, Registers};
+use crate::sim::law::{CoordinateText, Equations, LawText, Refusal};
 use crate::sim::parameter::{Acts, Fault, Parameter, Range, Text};
+use crate::sim::system::System;
 
 /// The kind of bodies that move by this law. Its parameters are the constants, then for each coordinate its start
 /// `x.start`, its start velocity `x.start_velocity` and its kick `x.kick`.
@@ -18,12 +19,6 @@ pub fn law_kind(text: LawText) -> Result<Arc<Kind>, Vec<Refusal>> {
     let text = equations.text();
     let coordinate =
         |of: &CoordinateText| Coordinate::new(of.name.clone(), format!("v{}", of.name), of.unit);
-    let inputs: &[&str] = match equations.is_steered() {
-        [false, false] => &["kick"],
-        [true, false] => &["throttle", "kick"],
-        [false, true] => &["rudder", "kick"],
-        [true, true] => &["throttle", "rudder", "kick"],
-    };
     let about: Vec<_> =
         text.coordinates.iter().map(|of| format!("{}″ = {}", of.name, of.acceleration)).collect();
     let first_key: Text = first_key(&text.coordinates, &text.constants).into();
@@ -36,7 +31,6 @@ pub fn law_kind(text: LawText) -> Result<Arc<Kind>, Vec<Refusal>> {
         about: about.join("; ").into(),
         all_coordinates: text.coordinates.iter().map(coordinate).collect::<Vec<_>>().into(),
         parameters,
-        inputs,
         leading: leading.unwrap_or_else(|| first_key.clone()),
         check: Box::new({
             let equations = equations.clone();
@@ -85,40 +79,33 @@ fn parameters(text: &LawText) -> Vec<Parameter> {
     parameters
 }
 
-/// The index of the constant that makes the motion stiffest: by which the derivatives of the accelerations
-/// by the coordinates grow most, with all constants about 1. `None` if none does.
-fn leading(equations: &Equations) -> Option<usize> {
+/// The index of the constant with which ∂a/∂q grows most, with all constants about 1; `None` if it grows with none.
+fn leading(equations: &Arc<Equations>) -> Option<usize> {
     let text = equations.text();
     let (n, constants) = (text.coordinates.len(), text.constants.len());
     let q: Vec<f64> = (0..n).map(|i| 0.5 + 0.125 * i as f64).collect();
     let v: Vec<f64> = q.iter().map(|q| 0.5 * q).collect();
     let stiffness = |raised: Option<usize>| {
-        let mut values = vec![1.0; constants + 2 * n];
+        let mut values = vec![1.0; constants + 3 * n];
         if let Some(index) = raised {
             values[index] = 1.25;
         }
-        let mut registers = Registers::new(equations, &values);
-        let mut acceleration = |q: &[f64]| {
-            let mut a = vec![0.0; n];
-            equations.accelerate(
-                &mut registers,
-                At { t: 0.0, steering: [1.0; 2], q, v: &v },
-                &mut a,
-            );
+        let law = Law { steering: [1.0; 2], ..Law::new(equations.clone(), &values) };
+        let acceleration = |i: usize, by: f64| {
+            let (mut q, mut a) = (q.clone(), q.clone());
+            q[i] += by;
+            law.acceleration(0.0, &q, &v, &mut a);
             a
         };
-        let mut sum = 0.0;
-        for i in 0..n {
-            let [mut lower, mut upper] = [q.clone(), q.clone()];
-            (lower[i], upper[i]) = (q[i] - 0.25, q[i] + 0.25);
-            let rows = acceleration(&lower).into_iter().zip(acceleration(&upper));
-            sum += rows.map(|(a, b)| (b - a) * (b - a)).sum::<f64>();
-        }
-        sum
+        let change = |i: usize| {
+            let rows = acceleration(i, -0.25).into_iter().zip(acceleration(i, 0.25));
+            rows.map(|(a, b)| (b - a) * (b - a)).sum::<f64>()
+        };
+        (0..n).map(change).sum::<f64>()
     };
     let plain = stiffness(None);
     let growths = (0..constants).map(|index| (index, stiffness(Some(index)) - plain));
     let growing = growths.filter(|(_, growth)| *growth > 1e-9 * plain && growth.is_finite());
-    // The first of those that grow alike.
+    // The first of equal ones.
     growing.reduce(|most, next| if next.1 > most.1 { next } else { most }).map(|(index, _)| index)
 }

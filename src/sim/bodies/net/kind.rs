@@ -40,7 +40,7 @@ pub fn net_kind(plan: NetPlan) -> Result<Arc<Kind>, Vec<NetFault>> {
     }))
 }
 
-/// The names of the coordinates: of a large grid by a rule, and of others in a list, so that no halt allocates.
+/// The names of the coordinates: by a rule for a large grid, else in a list, so that halting allocates nothing.
 fn coordinates(frame: &Arc<Frame>) -> Coordinates {
     let (of, count) = (frame.clone(), 2 * frame.free);
     let names = move |index: usize| {

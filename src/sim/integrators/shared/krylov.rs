@@ -7,7 +7,7 @@
 //! nalgebra-sparse has no solver for such a matrix, and faer is many times the size of this layer and chooses
 //! its sums by the processor: ours have the same bits everywhere.
 
-use crate::sim::state::largest;
+use crate::sim::state::{bytes_with_vectors, largest};
 
 /// The most products of matrix and vector in one step of a method. A soft net needs tens and a stiff one
 /// hundreds; without a limit, equations that have no solution would never end.
@@ -45,8 +45,8 @@ impl Krylov {
     }
 
     /// Memory in bytes.
-    pub(super) fn heap_bytes(&self) -> usize {
-        size_of::<Self>() + 8 * size_of_val(&self.x[..])
+    pub(super) fn bytes(&self) -> usize {
+        bytes_with_vectors(size_of::<Self>(), &self.x)
     }
 
     pub(super) fn begin_step(&mut self) {

@@ -84,11 +84,12 @@ impl LinearFlow {
         Self { term: vec![0.0; size], next: vec![0.0; size], squaring }
     }
 
-    /// Memory on the heap, in bytes.
+    /// Memory on the heap, in bytes, without vectors.
     pub(in crate::sim::integrators) fn heap_bytes(&self) -> usize {
-        let squaring = |squaring: &Squaring| size_of::<Squaring>() + squaring.heap_bytes();
-        let vectors = size_of_val(&self.term[..]) + size_of_val(&self.next[..]);
-        vectors + self.squaring.as_deref().map_or(0, squaring)
+        self.squaring.as_deref().map_or(0, |squaring| {
+            let matrices = squaring.matrices.iter().map(|matrix| size_of_val(&matrix[..]));
+            size_of_val(squaring) + matrices.sum::<usize>()
+        })
     }
 
     /// Advances `x` by `x' = A x + b + t c` from `t = 0` to 1, where `product` overwrites its second argument with
@@ -155,10 +156,6 @@ struct Squaring {
 impl Squaring {
     fn new(size: usize) -> Self {
         Self { size, matrices: [(); 3].map(|()| vec![0.0; size * size]) }
-    }
-
-    fn heap_bytes(&self) -> usize {
-        self.matrices.iter().map(|matrix| size_of_val(&matrix[..])).sum()
     }
 
     fn advance(

@@ -50,7 +50,7 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
     /// Memory in bytes, without its own size and that of its coordinate vectors.
     pub(in crate::sim::integrators) fn heap_bytes(&self) -> usize {
         let matrix = self.matrix.as_ref().map_or(0, StageLu::heap_bytes);
-        matrix + self.krylov.as_ref().map_or(0, |krylov| krylov.heap_bytes())
+        matrix + self.krylov.as_ref().map_or(0, |krylov| krylov.bytes())
     }
 
     /// Whether equations are solved without a matrix.
@@ -223,7 +223,7 @@ impl<V: Vector> Linearisation<V, 1> {
         self.solve_together(system, &stages, x)
     }
 
-    /// The same for several coordinates, compiled once for all systems of them.
+    /// [`Self::solve_at`] for several coordinates, compiled once for all systems.
     fn solve_together(
         &mut self,
         system: &dyn System<Vector = V>,

@@ -26,11 +26,6 @@ impl Lu {
         Self { size, band, height, entries: vec![0.0; size * height], swaps: vec![0; size] }
     }
 
-    /// Memory on the heap, in bytes.
-    pub(super) fn heap_bytes(&self) -> usize {
-        size_of_val(&self.entries[..]) + size_of_val(&self.swaps[..])
-    }
-
     /// What is stored of column `j` from this row on.
     #[inline]
     fn column_from(&mut self, j: usize, row: usize) -> &mut [f64] {
@@ -159,9 +154,9 @@ impl StageLu {
         }
     }
 
-    /// Memory on the heap, in bytes.
+    /// Memory on the heap, in bytes, without vectors.
     pub(super) fn heap_bytes(&self) -> usize {
-        self.lu.heap_bytes() + size_of_val(&self.ordered[..])
+        size_of_val(&self.lu.entries[..])
     }
 
     /// Coordinates this far apart, and farther, act on different ones.

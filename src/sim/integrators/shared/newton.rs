@@ -139,9 +139,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
 
     /// Memory in bytes, without its own size and that of its coordinate vectors.
     pub(in crate::sim::integrators) fn heap_bytes(&self) -> usize {
-        let vectors = [&self.residual, &self.correction, &self.kept, &self.rounding_scale];
-        let vectors = vectors.into_iter().map(|vector| size_of_val(&vector[..])).sum::<usize>();
-        self.linearisation.heap_bytes() + self.curve.heap_bytes() + vectors
+        self.linearisation.heap_bytes()
     }
 
     /// Solves for the accelerations at the stages.

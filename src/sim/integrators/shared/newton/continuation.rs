@@ -17,7 +17,7 @@ use crate::sim::system::System;
 const MAX_STEP_LENGTHS: [f64; 3] = [0.25, 0.05, 0.01];
 /// The shortest arc length of a step: a force that is not smooth at this scale is given up.
 const MIN_STEP_LENGTH: f64 = 1e-7;
-/// The factors by which a step grows if it converged, and shrinks if it did not.
+/// Growth factor of a converged step, and shrink factor of a failed one.
 const STEP_FACTORS: (f64, f64) = (1.5, 0.3);
 /// The largest number of steps of an attempt.
 const MAX_STEPS: u32 = 1000;
@@ -54,11 +54,6 @@ impl<V: Vector, const S: usize> Curve<V, S> {
             tangent: vec![0.0; size],
             tangent_lambda: 1.0,
         }
-    }
-
-    /// Memory on the heap, in bytes, without that of its coordinate vectors.
-    pub(super) fn heap_bytes(&self) -> usize {
-        size_of_val(&self.slope_by_lambda[..]) + size_of_val(&self.tangent[..])
     }
 }
 

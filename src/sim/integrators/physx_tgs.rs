@@ -1,12 +1,9 @@
 //! PhysX with its temporal Gauss-Seidel solver.
 
 use super::physx::DRIVES;
-use super::{Rule, Tick, each};
-use crate::sim::integrators::card::{ENGINE, Engine, Method};
-use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
-use crate::sim::state::Vector;
+use super::prelude::*;
 
-pub(in crate::sim::integrators) const CARD: Method = Method {
+pub(super) const CARD: Method = Method {
     id: "engine-physx-tgs",
     name: "PhysX, TGS",
     about: "implicit Euler of a position iteration on a spring, and one iteration more that only slows it; explicit drag",
@@ -33,7 +30,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         "then x′ = x + d, v′ = v / D",
         "D = 1 + h c + h² K, E = 1 / (1 + h² (c + K))",
     ],
-    code: include_str!("../../../../assets/methods/engine-physx-tgs.step"),
+    code: include_str!("../../../assets/methods/engine-physx-tgs.step"),
     ..ENGINE
 };
 

@@ -1,13 +1,7 @@
 //! Rapier: implicit springs in every substep, and the drag once a tick.
 
-use super::{Rule, Tick, cap, each};
-use crate::sim::integrators::card::{ENGINE, Engine, Method};
-use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
-use crate::sim::integrators::joint_mode::JointQuantity::{
-    Damping, DampingPerMass, Stiffness, StiffnessPerMass,
-};
-use crate::sim::integrators::joint_mode::{JointMode, mode};
-use crate::sim::state::Vector;
+use super::joint_mode::JointQuantity::{Damping, DampingPerMass, Stiffness, StiffnessPerMass};
+use super::prelude::*;
 
 const MODES: [JointMode; 2] = [
     mode(
@@ -24,7 +18,7 @@ const MODES: [JointMode; 2] = [
     ),
 ];
 
-pub(in crate::sim::integrators) const CARD: Method = Method {
+pub(super) const CARD: Method = Method {
     id: "engine-rapier",
     name: "Rapier",
     about: "implicit Euler of its substep on a spring; the drag comes after the drift, so that a body moves faster than it \
@@ -50,7 +44,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         "x = x + h v",
         "then v = v / (1 + H C)",
     ],
-    code: include_str!("../../../../assets/methods/engine-rapier.step"),
+    code: include_str!("../../../assets/methods/engine-rapier.step"),
     ..ENGINE
 };
 

@@ -1,13 +1,7 @@
 //! PhysX with its default solver, projected Gauss-Seidel.
 
-use super::{Rule, Tick, each};
-use crate::sim::integrators::card::{ENGINE, Engine, Method};
-use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
-use crate::sim::integrators::joint_mode::JointQuantity::{
-    Damping, DampingPerMass, Stiffness, StiffnessPerMass,
-};
-use crate::sim::integrators::joint_mode::{JointMode, mode};
-use crate::sim::state::Vector;
+use super::joint_mode::JointQuantity::{Damping, DampingPerMass, Stiffness, StiffnessPerMass};
+use super::prelude::*;
 
 /// The drives of PhysX itself, whatever its solver.
 pub(super) const DRIVES: [JointMode; 2] = [
@@ -36,7 +30,7 @@ const MODES: [JointMode; 3] = [
     ),
 ];
 
-pub(in crate::sim::integrators) const CARD: Method = Method {
+pub(super) const CARD: Method = Method {
     id: "engine-physx",
     name: "PhysX, PGS",
     about: "implicit Euler of the whole tick on a spring: its position iterations do not change a single joint; explicit drag",
@@ -60,7 +54,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         "v′ = (v − H K x) / D, x′ = x + H v′",
         "D = 1 + H c + H² K",
     ],
-    code: include_str!("../../../../assets/methods/engine-physx.step"),
+    code: include_str!("../../../assets/methods/engine-physx.step"),
     ..ENGINE
 };
 

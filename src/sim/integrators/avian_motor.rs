@@ -1,11 +1,8 @@
 //! Avian's motor as a spring: implicit, with the corrections of a tick added to the velocity of the next.
 
 use super::avian::substep;
-use super::{Rule, Tick, each_with};
-use crate::sim::integrators::card::{ENGINE, Engine, Method};
-use crate::sim::integrators::joint_mode::JointQuantity::{DampingRatio, Frequency};
-use crate::sim::integrators::joint_mode::{JointMode, mode};
-use crate::sim::state::Vector;
+use super::joint_mode::JointQuantity::{DampingRatio, Frequency};
+use super::prelude::*;
 
 const MODES: [JointMode; 1] = [mode(
     "spring-damper",
@@ -14,7 +11,7 @@ const MODES: [JointMode; 1] = [mode(
     "LinearMotor::new(MotorModel::SpringDamper {\n    frequency: {frequency},\n    damping_ratio: {damping_ratio},\n})",
 )];
 
-pub(in crate::sim::integrators) const CARD: Method = Method {
+pub(super) const CARD: Method = Method {
     id: "engine-avian-motor",
     name: "Avian, motor",
     about: "Avian's spring-damper motor: its damping is implicit, but a tick's corrections in metres are added to the next \
@@ -39,7 +36,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         "x = x + h v, d = −h² (K x + c v) / D",
         "x = x + d, v = v + d / h, S = S + d",
     ],
-    code: include_str!("../../../../assets/methods/engine-avian-motor.step"),
+    code: include_str!("../../../assets/methods/engine-avian-motor.step"),
     ..ENGINE
 };
 

@@ -1,10 +1,8 @@
 //! The multibody that pybullet loads a model as by default.
 
-use super::{Rule, Tick, each};
-use crate::sim::integrators::card::{ENGINE, Engine, Method, Needs, Only};
-use crate::sim::state::Vector;
+use super::prelude::*;
 
-pub(in crate::sim::integrators) const CARD: Method = Method {
+pub(super) const CARD: Method = Method {
     id: "engine-pybullet",
     name: "pybullet, multibody",
     about: "explicit drag that also grows with the square of the speed, so that a driven body stops gaining early",
@@ -25,7 +23,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     }),
     source: "pybullet 3.2.7: btMultiBody.cpp, its default linear damping",
     formula: &["d = 1 − e^(−C)", "v′ = v + H (f − d v (1 + |v|))", "x′ = x + H v′"],
-    code: include_str!("../../../../assets/methods/engine-pybullet.step"),
+    code: include_str!("../../../assets/methods/engine-pybullet.step"),
     ..ENGINE
 };
 

@@ -1,10 +1,7 @@
 //! Chipmunk: the drift before the kick.
 
-use super::{Rule, Tick, each};
-use crate::sim::integrators::card::{ENGINE, Engine, Method};
-use crate::sim::integrators::joint_mode::JointQuantity::{Damping, Stiffness};
-use crate::sim::integrators::joint_mode::{JointMode, mode};
-use crate::sim::state::Vector;
+use super::joint_mode::JointQuantity::{Damping, Stiffness};
+use super::prelude::*;
 
 const MODES: [JointMode; 1] = [mode(
     "damped-spring",
@@ -13,7 +10,7 @@ const MODES: [JointMode; 1] = [mode(
     "cpDampedSpringNew(anchor, body, cpvzero, cpvzero, restLength, {stiffness}, {damping});",
 )];
 
-pub(in crate::sim::integrators) const CARD: Method = Method {
+pub(super) const CARD: Method = Method {
     id: "engine-chipmunk",
     name: "Chipmunk",
     about: "semi-implicit Euler on a spring, the drift first; a custom force is explicit Euler",
@@ -30,7 +27,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     }),
     source: "Chipmunk 2.0.1 in pymunk 7.3.1: cpBodyUpdatePosition, cpBodyUpdateVelocity, cpDampedSpring.c",
     formula: &["x′ = x + H v", "v′ = ((v − H K x′) e^(−C H) + H f) e^(−c H)"],
-    code: include_str!("../../../../assets/methods/engine-chipmunk.step"),
+    code: include_str!("../../../assets/methods/engine-chipmunk.step"),
     ..ENGINE
 };
 

@@ -1,12 +1,9 @@
 //! Box3D: the soft step of Box2D, in space.
 
 use super::box2d::{self, Box2d};
-use super::{Rule, Tick};
-use crate::sim::integrators::card::{Engine, Method};
-use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
-use crate::sim::state::Vector;
+use super::prelude::*;
 
-pub(in crate::sim::integrators) const CARD: Method = Method {
+pub(super) const CARD: Method = Method {
     id: "engine-box3d",
     name: "Box3D",
     about: "the spring of Box2D to the bit: it is solved twice a substep and loses energy as fast",
@@ -18,7 +15,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     }),
     source: "Box3D 0.1.0 in box3d-sys 0.1.16: solver.c b3IntegrateVelocitiesTask, b3IntegratePositionsTask; \
              distance_joint.c",
-    code: include_str!("../../../../assets/methods/engine-box3d.step"),
+    code: include_str!("../../../assets/methods/engine-box3d.step"),
     ..box2d::CARD
 };
 

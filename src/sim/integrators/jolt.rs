@@ -1,13 +1,7 @@
 //! Jolt: one implicit solve a substep, with drag and speed limit before it.
 
-use super::{Rule, Tick, cap, each};
-use crate::sim::integrators::card::{ENGINE, Engine, Method};
-use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
-use crate::sim::integrators::joint_mode::JointQuantity::{
-    Damping, DampingRatio, Frequency, Stiffness,
-};
-use crate::sim::integrators::joint_mode::{JointMode, mode};
-use crate::sim::state::Vector;
+use super::joint_mode::JointQuantity::{Damping, DampingRatio, Frequency, Stiffness};
+use super::prelude::*;
 
 const MODES: [JointMode; 2] = [
     mode(
@@ -24,7 +18,7 @@ const MODES: [JointMode; 2] = [
     ),
 ];
 
-pub(in crate::sim::integrators) const CARD: Method = Method {
+pub(super) const CARD: Method = Method {
     id: "engine-jolt",
     name: "Jolt",
     about: "implicit Euler on a spring; explicit drag; a body has a drag of 0.05 unless it is set to another",
@@ -47,7 +41,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         "n times: v = (v + h f) max(0, 1 − h C), |v| ≤ 500",
         "v = (v − h K x) / D, x = x + h v",
     ],
-    code: include_str!("../../../../assets/methods/engine-jolt.step"),
+    code: include_str!("../../../assets/methods/engine-jolt.step"),
     ..ENGINE
 };
 

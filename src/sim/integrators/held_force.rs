@@ -1,10 +1,7 @@
 //! A custom force, applied once a tick over an engine's substeps.
 
-use super::{Rule, Tick};
-use crate::sim::integrators::card::{ENGINE, Engine, Method, Needs, Only};
-use crate::sim::integrators::joint_mode::JointQuantity::{Damping, Stiffness};
-use crate::sim::integrators::joint_mode::{JointMode, mode};
-use crate::sim::state::Vector;
+use super::joint_mode::JointQuantity::{Damping, Stiffness};
+use super::prelude::*;
 
 const MODES: [JointMode; 1] = [mode(
     "force",
@@ -13,7 +10,7 @@ const MODES: [JointMode; 1] = [mode(
     "force = -{stiffness} * x - {damping} * v;",
 )];
 
-pub(in crate::sim::integrators) const CARD: Method = Method {
+pub(super) const CARD: Method = Method {
     id: "held-force",
     name: "Held force",
     about: "a custom force, applied once a tick over an engine's substeps: with more than one a spring gains energy, and \
@@ -33,7 +30,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     source: "what Box2D, Rapier and Avian do with a force that is applied before the step; Jolt, Bullet and MuJoCo too where \
              they substep",
     formula: &["f = a(t, x, v)", "n times: v = v + h f, x = x + h v"],
-    code: include_str!("../../../../assets/methods/held-force.step"),
+    code: include_str!("../../../assets/methods/held-force.step"),
     ..ENGINE
 };
 

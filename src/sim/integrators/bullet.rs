@@ -1,11 +1,7 @@
 //! Bullet: an explicit spring whose stiffness and damping are limited for the step.
 
-use super::{Rule, Tick, each};
-use crate::sim::integrators::card::{ENGINE, Engine, Method};
-use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
-use crate::sim::integrators::joint_mode::JointQuantity::{Damping, Stiffness};
-use crate::sim::integrators::joint_mode::{JointMode, mode};
-use crate::sim::state::Vector;
+use super::joint_mode::JointQuantity::{Damping, Stiffness};
+use super::prelude::*;
 
 const MODES: [JointMode; 1] = [mode(
     "6dof-spring",
@@ -14,7 +10,7 @@ const MODES: [JointMode; 1] = [mode(
     "spring->enableSpring(axis, true);\nspring->setStiffness(axis, {stiffness});\nspring->setDamping(axis, {damping});",
 )];
 
-pub(in crate::sim::integrators) const CARD: Method = Method {
+pub(super) const CARD: Method = Method {
     id: "engine-bullet",
     name: "Bullet",
     about: "semi-implicit Euler on a spring, which is softened to turn a quarter radian a substep; a force that pulls with it counts \
@@ -37,7 +33,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         "if f ≠ 0: g = min(max(g − h f, min(g, b, 0)), max(g, b, 0))",
         "v = v + g + h f, x = x + h v",
     ],
-    code: include_str!("../../../../assets/methods/engine-bullet.step"),
+    code: include_str!("../../../assets/methods/engine-bullet.step"),
     ..ENGINE
 };
 

@@ -1,12 +1,8 @@
 //! MuJoCo with its Runge-Kutta integrator, which holds what user code applies.
 
+use super::joint_mode::JointQuantity::{Damping, Stiffness};
 use super::mujoco::puts_back;
-use super::{Rule, Tick, each};
-use crate::sim::integrators::card::{ENGINE, Engine, Method};
-use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
-use crate::sim::integrators::joint_mode::JointQuantity::{Damping, Stiffness};
-use crate::sim::integrators::joint_mode::{JointMode, mode};
-use crate::sim::state::Vector;
+use super::prelude::*;
 
 const MODES: [JointMode; 1] = [mode(
     "joint",
@@ -15,7 +11,7 @@ const MODES: [JointMode; 1] = [mode(
     "<option integrator=\"RK4\"/>\n<joint type=\"slide\" stiffness=\"{stiffness}\" damping=\"{damping}\"/>",
 )];
 
-pub(in crate::sim::integrators) const CARD: Method = Method {
+pub(super) const CARD: Method = Method {
     id: "engine-mujoco-rk4",
     name: "MuJoCo, RK4",
     about: "the classical fourth order on the engine's springs and damping; a custom force is held through its stages",
@@ -42,7 +38,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         "x = x + h (v + 2 v₂ + 2 v₃ + v₄) / 6",
         "v = v + h (a₁ + 2 a₂ + 2 a₃ + a₄) / 6",
     ],
-    code: include_str!("../../../../assets/methods/engine-mujoco-rk4.step"),
+    code: include_str!("../../../assets/methods/engine-mujoco-rk4.step"),
     ..ENGINE
 };
 

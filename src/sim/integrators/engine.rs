@@ -17,40 +17,24 @@ use super::integrator::Integrator;
 use crate::sim::state::{State, Vector};
 use crate::sim::system::{EngineSettings, StateOf, System};
 
-pub(super) mod avian;
-pub(super) mod avian_motor;
-pub(super) mod box2d;
-pub(super) mod box3d;
-pub(super) mod bullet;
-pub(super) mod chipmunk;
-pub(super) mod godot;
-pub(super) mod held_force;
-pub(super) mod jolt;
-pub(super) mod mujoco;
-pub(super) mod mujoco_rk4;
-pub(super) mod physx;
-pub(super) mod physx_tgs;
-pub(super) mod pybullet;
-pub(super) mod rapier;
-
 /// A tick of an engine: its settings, and its substeps.
 #[derive(Debug)]
 pub struct Tick<'a, V> {
     /// H, in seconds.
-    length: f64,
+    pub(super) length: f64,
     /// n.
-    substeps: u32,
+    pub(super) substeps: u32,
     /// K, c and C.
-    settings: EngineSettings,
+    pub(super) settings: EngineSettings,
     /// f, held through the tick.
-    force: &'a V,
+    pub(super) force: &'a V,
     /// What the engine carries from tick to tick; 0 at the start.
-    carried: &'a mut V,
+    pub(super) carried: &'a mut V,
 }
 
 impl<V> Tick<'_, V> {
     /// h, in seconds.
-    fn substep(&self) -> f64 {
+    pub(super) fn substep(&self) -> f64 {
         self.length / f64::from(self.substeps)
     }
 }
@@ -69,7 +53,7 @@ pub trait Rule: Clone + Send + 'static {
 pub struct EngineMethod<V, R> {
     force: V,
     carried: V,
-    /// K and c that it is told in place of the body's.
+    /// K and c of the joint, if they are not the body's.
     joint: Option<[f64; 2]>,
     rule: PhantomData<R>,
 }
@@ -135,7 +119,12 @@ impl<V: Vector, R: Rule> EngineMethod<V, R> {
 
 /// Calls `change` with each component's coordinate, velocity and force.
 #[inline]
-fn each<V: Vector>(force: &V, q: &mut V, v: &mut V, change: impl Fn(&mut f64, &mut f64, f64)) {
+pub(super) fn each<V: Vector>(
+    force: &V,
+    q: &mut V,
+    v: &mut V,
+    change: impl Fn(&mut f64, &mut f64, f64),
+) {
     let moved = q.components_mut().iter_mut().zip(v.components_mut());
     for ((x, v), f) in moved.zip(force.components()) {
         change(x, v, *f);
@@ -144,7 +133,7 @@ fn each<V: Vector>(force: &V, q: &mut V, v: &mut V, change: impl Fn(&mut f64, &m
 
 /// As [`each`], with the carried component first.
 #[inline]
-fn each_with<V: Vector>(
+pub(super) fn each_with<V: Vector>(
     force: &V,
     carried: &mut V,
     q: &mut V,
@@ -160,7 +149,7 @@ fn each_with<V: Vector>(
 
 /// Shortens a velocity longer than `max_speed`, in metres per second.
 #[inline]
-fn cap<V: Vector>(v: &mut V, max_speed: f64) {
+pub(super) fn cap<V: Vector>(v: &mut V, max_speed: f64) {
     let square: f64 = v.components().iter().map(|v| v * v).sum();
     if square > max_speed * max_speed {
         let part = max_speed / square.sqrt();

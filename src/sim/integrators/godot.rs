@@ -1,11 +1,7 @@
 //! Godot's own 2D physics.
 
-use super::{Rule, Tick, each};
-use crate::sim::integrators::card::{ENGINE, Engine, Method};
-use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
-use crate::sim::integrators::joint_mode::JointQuantity::{Damping, Stiffness};
-use crate::sim::integrators::joint_mode::{JointMode, mode};
-use crate::sim::state::Vector;
+use super::joint_mode::JointQuantity::{Damping, Stiffness};
+use super::prelude::*;
 
 const MODES: [JointMode; 1] = [mode(
     "damped-spring-joint-2d",
@@ -14,7 +10,7 @@ const MODES: [JointMode; 1] = [mode(
     "joint.stiffness = {stiffness}\njoint.damping = {damping}\nbody.linear_damp_mode = RigidBody2D.DAMP_MODE_REPLACE\nbody.linear_damp = 0.0",
 )];
 
-pub(in crate::sim::integrators) const CARD: Method = Method {
+pub(super) const CARD: Method = Method {
     id: "engine-godot",
     name: "Godot",
     about: "semi-implicit Euler on a spring, whose damping acts eight times; explicit drag, 0.1 unless it is set; read from \
@@ -34,7 +30,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     }),
     source: "Godot 4.x: godot_body_2d.cpp, godot_joints_2d.cpp GodotDampedSpringJoint2D",
     formula: &["v = v max(0, 1 − H C) + H f − H K x", "v′ = v e^(−8 c H), x′ = x + H v′"],
-    code: include_str!("../../../../assets/methods/engine-godot.step"),
+    code: include_str!("../../../assets/methods/engine-godot.step"),
     ..ENGINE
 };
 

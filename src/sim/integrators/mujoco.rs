@@ -1,11 +1,7 @@
 //! MuJoCo with its Euler integrator: implicit in the damping, explicit in the stiffness.
 
-use super::{Rule, Tick, each};
-use crate::sim::integrators::card::{ENGINE, Engine, Method};
-use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
-use crate::sim::integrators::joint_mode::JointQuantity::{Damping, Stiffness};
-use crate::sim::integrators::joint_mode::{JointMode, mode};
-use crate::sim::state::Vector;
+use super::joint_mode::JointQuantity::{Damping, Stiffness};
+use super::prelude::*;
 use crate::sim::system::EngineSettings;
 
 const MODES: [JointMode; 3] = [
@@ -32,7 +28,7 @@ const MODES: [JointMode; 3] = [
     },
 ];
 
-pub(in crate::sim::integrators) const CARD: Method = Method {
+pub(super) const CARD: Method = Method {
     id: "engine-mujoco",
     name: "MuJoCo",
     about: "semi-implicit Euler with implicit damping, which drag is too; the same under its implicit integrators",
@@ -57,7 +53,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         "if max(|x|, |v|, |a|) > 10¹⁰: x = 0, v = 0, f = 0",
         "v = (v + h (f − K x)) / (1 + h (c + C)), x = x + h v",
     ],
-    code: include_str!("../../../../assets/methods/engine-mujoco.step"),
+    code: include_str!("../../../assets/methods/engine-mujoco.step"),
     ..ENGINE
 };
 

@@ -1,10 +1,8 @@
 //! Box2D: every substep solves the soft joint twice.
 
-use super::{Rule, Tick, cap, each, each_with};
-use crate::sim::integrators::card::{self, Engine, Method};
-use crate::sim::integrators::joint_mode::JointQuantity::{DampingRatio, Frequency};
-use crate::sim::integrators::joint_mode::{JointMode, mode};
-use crate::sim::state::Vector;
+use super::card;
+use super::joint_mode::JointQuantity::{DampingRatio, Frequency};
+use super::prelude::*;
 
 const MODES: [JointMode; 1] = [mode(
     "spring",
@@ -23,7 +21,7 @@ pub(super) const ENGINE: Engine = Engine {
     modes: &MODES,
 };
 
-pub(in crate::sim::integrators) const CARD: Method = Method {
+pub(super) const CARD: Method = Method {
     id: "engine-box2d",
     name: "Box2D",
     about: "its spring is solved twice a substep and loses energy twice as fast as implicit Euler at that step",
@@ -37,7 +35,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         "v = (p − h K x) / D, |v| ≤ 400, x = x + h v",
         "v = (p − h K x) / D",
     ],
-    code: include_str!("../../../../assets/methods/engine-box2d.step"),
+    code: include_str!("../../../assets/methods/engine-box2d.step"),
     ..card::ENGINE
 };
 

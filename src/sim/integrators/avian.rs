@@ -1,10 +1,7 @@
 //! Avian's distance joint: XPBD, with a damping that is explicit.
 
-use super::{Rule, Tick, each};
-use crate::sim::integrators::card::{ENGINE, Engine, Method};
-use crate::sim::integrators::joint_mode::JointQuantity::{Compliance, DampingPerMass};
-use crate::sim::integrators::joint_mode::{JointMode, mode};
-use crate::sim::state::Vector;
+use super::joint_mode::JointQuantity::{Compliance, DampingPerMass};
+use super::prelude::*;
 
 const MODES: [JointMode; 1] = [mode(
     "distance-joint",
@@ -13,7 +10,7 @@ const MODES: [JointMode; 1] = [mode(
     "DistanceJoint::new(anchor, body).with_compliance({compliance}),\nJointDamping { linear: {linear}, angular: 0.0 },",
 )];
 
-pub(in crate::sim::integrators) const CARD: Method = Method {
+pub(super) const CARD: Method = Method {
     id: "engine-avian",
     name: "Avian",
     about: "implicit Euler of its substep on a spring without damping; the joint's damping is explicit; ticks of whole \
@@ -35,7 +32,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         "d = −x h² K / (1 + h² K), x = x + d",
         "v = (v + d / h) max(0, 1 − h c)",
     ],
-    code: include_str!("../../../../assets/methods/engine-avian.step"),
+    code: include_str!("../../../assets/methods/engine-avian.step"),
     ..ENGINE
 };
 

@@ -1,0 +1,10 @@
+//! What the file of a body names: its card, its parameters, and what it implements.
+
+pub(super) use glam::DVec2;
+
+pub(super) use super::kind::{Coordinate, Kind};
+pub(super) use crate::sim::batch::Batch;
+pub(super) use crate::sim::body::{Body, Input, MakeBatch};
+pub(super) use crate::sim::parameter::{Fault, ParameterOf, Range};
+pub(super) use crate::sim::state::State;
+pub(super) use crate::sim::system::{BodyClass, Coupling, Pursuit, Question, System};

@@ -1,0 +1,14 @@
+//! What the file of a method names: its card, what it implements, and the vectors that it steps.
+
+pub(super) use super::card::{
+    ADAPTIVE, AS_PRINTED, ENGINE, EXPLICIT, Engine, FIRST_ORDER_FOLLOWER, FollowerQuantity,
+    FollowerSetting, IMPLICIT, LINEARISED, Method, Needs, Only, SECOND_ORDER_FOLLOWER, SYMPLECTIC,
+};
+pub(super) use super::engine::{Rule, Tick, cap, each, each_with};
+pub(super) use super::failure::Stepped;
+pub(super) use super::follower::{FollowerRule, lerp};
+pub(super) use super::free_spin::{FreeSpin, SpinMap};
+pub(super) use super::integrator::Integrator;
+pub(super) use super::joint_mode::{JointMode, mode};
+pub(super) use crate::sim::state::{Elementwise, State, Vector};
+pub(super) use crate::sim::system::{StateOf, System};
