@@ -76,7 +76,7 @@
 //!   [family](sim::integrators::Family::Engine) of such methods: a rule like `sim/integrators/bullet.rs`, which reads the
 //!   [settings](sim::EngineSettings) of a body.
 //!   Its formula is on its card, and its [source code](lab::MethodSource) for other games in `assets/methods`: both are
-//!   evaluated beside it.
+//!   evaluated beside it. `BLESS=1 cargo test --test library tables` writes its row in the [manual](mod@manual::methods).
 //! - **A body**: copy `sim/bodies/spring.rs`, declare the file, add its card to
 //!   [`BODIES`](sim::bodies::BODIES); say how it looks, and where a person can grab it, in a file beside
 //!   `lab/picture/look/spring.rs`, and add that to `LOOKS`. `tests/library/exact_flows.rs` and `tests/library/bodies` hold its exact flow, or what stands in for one,

@@ -22,6 +22,9 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// Its class for the methods that step [some](super::integrators::Only) bodies only.
     const CLASS: BodyClass = BodyClass::Forced;
 
+    /// The inputs that it accepts: `throttle`, `rudder`, `kick`.
+    const INPUTS: &'static [&'static str] = &["kick"];
+
     /// Whether it has a closed form: [`Body::exact`] and the like.
     const HAS_EXACT: bool = false;
 

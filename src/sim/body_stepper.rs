@@ -10,7 +10,6 @@ use super::body::Body;
 #[cfg(feature = "lab")]
 use super::cores;
 use super::exact_flow::ExactFlow;
-use super::exact_since_start::{ExactSinceStart, is_start};
 use super::integrators::{Construct, Integrator, Method, Stepped, Tolerance, construct};
 use super::propagator::{MethodPropagator, Propagator};
 use super::reference::{Reference, is_beyond_reference};
@@ -33,19 +32,10 @@ pub(super) fn with_solver<B: Body>(placed: Placed<B>, solver: Solver, t: f64) ->
     } else if B::HAS_EXACT {
         let propagator = ExactFlow::new(&placed.state, t);
         Box::new(BodyStepper { placed, propagator })
-    } else if is_solved(&placed, t) {
-        let propagator = ExactSinceStart::new(&placed.body.system, &placed.state);
-        Box::new(BodyStepper { placed, propagator })
     } else {
-        let propagator = Reference::new(&placed.body.system, &placed.state);
+        let propagator = Reference::new(&placed.body.system, &placed.state, t);
         Box::new(BodyStepper { placed, propagator })
     }
-}
-
-/// Whether the body stands at its start, and knows its exact motion from there.
-fn is_solved<B: Body>(placed: &Placed<B>, t: f64) -> bool {
-    let body = &placed.body.system;
-    is_start(body, t, &placed.state) && body.exact_since_start(t, &mut placed.state.clone())
 }
 
 /// A body that is put under a method, with what the solver sets of it.
@@ -229,9 +219,8 @@ impl<B: Body> PlacedBody for Placed<B> {
 /// The propagator of a truth; `None` for a method.
 fn truth<B: Body>(propagator: &dyn Any) -> Option<&dyn Propagator<B>> {
     let exact = propagator.downcast_ref::<ExactFlow<B::Vector>>().map(|truth| truth as _);
-    let since_start = || propagator.downcast_ref::<ExactSinceStart<B::Vector>>().map(|t| t as _);
     let reference = || propagator.downcast_ref::<Reference<B::Vector>>().map(|truth| truth as _);
-    exact.or_else(since_start).or_else(reference)
+    exact.or_else(reference)
 }
 
 /// A tick to record, with the method's memory in `propagator`.

@@ -1,87 +1,74 @@
-//! The truth of a body that knows its exact motion from the start, but not from any state: after an
-//! input, an edit or a placing it is a reference solution.
+//! The exact motion of a body that knows it from its start, but not from any other state: after an input, an edit or a
+//! placing elsewhere its truth is a reference solution.
 
 use std::cell::RefCell;
 
 use super::body::Body;
-use super::integrators::Stepped;
-use super::propagator::Propagator;
-use super::reference::Reference;
-use super::state::{State, Vector, largest};
-use super::stepper::Change;
-use super::system::{Counted, StateOf};
+use super::state::{State, Vector, bytes_with_vectors, largest};
 
 /// The rounding of a closed form whose operations are not known, relative to its value.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// The exact motion since the start, or the reference solution since somebody intervened.
+/// The exact motion since the start.
 #[derive(Clone, Debug)]
 pub(super) struct ExactSinceStart<V> {
-    is_untouched: bool,
+    /// Whether nobody has intervened since the start.
+    pub(super) is_untouched: bool,
     /// The time of the current state, in seconds.
     t: f64,
     /// Where the exact motion starts. Kept, for a change must not allocate.
     start: State<V>,
-    reference: Reference<V>,
     /// Scratch of the error, which is asked for at every tick.
     a: RefCell<V>,
 }
 
 impl<V: Vector> ExactSinceStart<V> {
-    /// The motion of `body`, which stands at its start at time 0.
-    pub(super) fn new<B: Body<Vector = V>>(body: &B, start: &State<V>) -> Self {
-        let a = RefCell::new(start.v.clone());
-        let (start, reference) = (start.clone(), Reference::new(body, start));
-        Self { is_untouched: true, t: 0.0, start, reference, a }
-    }
-}
-
-/// Whether `state` at time `t` (s) is the start of `body`.
-pub(super) fn is_start<B: Body>(body: &B, t: f64, state: &StateOf<B>) -> bool {
-    t == 0.0 && are_equal(&body.start(), state)
-}
-
-fn are_equal<V: Vector>(a: &State<V>, b: &State<V>) -> bool {
-    a.q.components() == b.q.components() && a.v.components() == b.v.components()
-}
-
-impl<B: Body> Propagator<B> for ExactSinceStart<B::Vector> {
-    fn step(&mut self, body: &Counted<B>, t: f64, h: f64, n: u32, y: &mut StateOf<B>) -> Stepped {
-        self.t = t + h;
-        if self.is_untouched && body.system.exact_since_start(self.t, y) {
-            return Ok(());
-        }
-        self.reference.step(body, t, h, n, y)
+    /// The motion of `body` in `state` at time `t` (s); `None` if that is not its start, or if it does not know its motion.
+    pub(super) fn new<B: Body<Vector = V>>(
+        body: &B,
+        t: f64,
+        state: &State<V>,
+    ) -> Option<Box<Self>> {
+        let start = body.start();
+        let is_known = is_start(&start, t, state) && body.exact_since_start(t, &mut state.clone());
+        is_known.then(|| {
+            let a = RefCell::new(start.v.clone());
+            Box::new(Self { is_untouched: true, t, start, a })
+        })
     }
 
-    fn jump(&mut self, t: f64, change: Change<'_>, body: &mut B, state: &mut StateOf<B>) -> bool {
-        let is_changed = self.reference.jump(t, change, body, state);
-        if is_changed {
-            self.is_untouched = change.is_placing() && t == 0.0 && are_equal(&self.start, state);
-            self.t = t;
-        }
-        is_changed
+    /// Overwrites `y` with the state at time `t` (s), if nobody has intervened. Returns whether it did.
+    pub(super) fn step<B: Body<Vector = V>>(&mut self, body: &B, t: f64, y: &mut State<V>) -> bool {
+        self.t = t;
+        self.is_untouched && body.exact_since_start(t, y)
     }
 
-    fn is_closed_form(&self) -> bool {
-        self.is_untouched
+    /// Takes note that the body was changed, or only placed, into `state` at time `t` (s).
+    pub(super) fn jump(&mut self, t: f64, is_placing: bool, state: &State<V>) {
+        self.is_untouched = is_placing && is_start(&self.start, t, state);
+        self.t = t;
     }
 
-    fn truth_error(&self, body: &Counted<B>, state: &StateOf<B>) -> Option<[f64; 2]> {
-        if !self.is_untouched {
-            return self.reference.truth_error(body, state);
-        }
+    /// A bound on the error of the current `state`: of a coordinate and of a velocity.
+    pub(super) fn error<B: Body<Vector = V>>(&self, body: &B, state: &State<V>) -> [f64; 2] {
         let a = &mut *self.a.borrow_mut();
-        body.system.acceleration(self.t, &state.q, &state.v, a);
+        body.acceleration(self.t, &state.q, &state.v, a);
         let late = f64::EPSILON * self.t;
-        let of = |size: &B::Vector, rate: &B::Vector| {
+        let of = |size: &V, rate: &V| {
             ROUNDING * largest(size.components()) + late * largest(rate.components())
         };
         let error = [of(&state.q, &state.v), of(&state.v, a)];
-        Some(error.map(|error| if error.is_nan() { f64::INFINITY } else { error }))
+        error.map(|error| if error.is_nan() { f64::INFINITY } else { error })
     }
 
-    fn heap_bytes(&self) -> usize {
-        Propagator::<B>::heap_bytes(&self.reference)
+    /// An upper bound on its memory, in bytes.
+    pub(super) fn bytes(&self) -> usize {
+        bytes_with_vectors(size_of::<Self>(), self.start.q.components())
     }
+}
+
+/// Whether `state` at time `t` (s) is `start`.
+fn is_start<V: Vector>(start: &State<V>, t: f64, state: &State<V>) -> bool {
+    let are_equal = |a: &V, b: &V| a.components() == b.components();
+    t == 0.0 && are_equal(&start.q, &state.q) && are_equal(&start.v, &state.v)
 }

@@ -20,7 +20,6 @@ mod form;
 mod function;
 mod jet;
 mod lanes;
-mod layout;
 mod op;
 mod power;
 mod refusal;
@@ -32,11 +31,10 @@ mod token;
 
 pub use expression::{MAX_BYTES, MAX_DEPTH};
 pub(in crate::sim) use lanes::LawLanes;
-pub use layout::Layout;
 pub use refusal::{Part, Refusal, Remedy};
 pub use registers::Registers;
 pub use tape::MAX_OPERATIONS;
-pub use text::{CoordinateText, LawText};
+pub use text::{CoordinateText, LawText, Layout};
 
 /// The most coordinates of a law: as many as are distinguishable on a stage.
 pub const MAX_COORDINATES: usize = 16;

@@ -131,28 +131,22 @@ impl NetPlan {
     }
 
     /// The springs, in the order in which they act.
-    pub fn springs(&self) -> impl Iterator<Item = PlannedSpring> + '_ {
-        let (grid, lists) = match &self.form {
-            Form::Grid(grid) => (Some(*grid), None),
-            Form::Lists(lists) => (None, Some(lists)),
-        };
-        let of_grid = grid.into_iter().flat_map(|grid| grid.planned_springs());
-        of_grid.chain(lists.into_iter().flat_map(|lists| lists.springs.iter().copied()))
+    pub fn springs(&self) -> Box<dyn Iterator<Item = PlannedSpring> + '_> {
+        match &self.form {
+            Form::Grid(grid) => Box::new(grid.planned_springs()),
+            Form::Lists(lists) => Box::new(lists.springs.iter().copied()),
+        }
     }
 
     /// Where the fixed nodes stand, in metres.
-    pub fn fixed_places(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
-        let (grid, lists) = match &self.form {
-            Form::Grid(grid) => (Some(*grid), None),
-            Form::Lists(lists) => (None, Some(lists)),
-        };
-        let of_grid = grid.into_iter().flat_map(|grid| {
-            let fixed = (0..grid.columns).filter(move |&node| grid.is_fixed(node));
-            fixed.map(move |node| grid.place(node))
-        });
-        let of_lists =
-            lists.into_iter().flat_map(|lists| lists.fixed.iter().map(|&node| lists.nodes[node]));
-        of_grid.chain(of_lists)
+    pub fn fixed_places(&self) -> Box<dyn Iterator<Item = [f64; 2]> + '_> {
+        match &self.form {
+            Form::Grid(grid) => {
+                let fixed = (0..grid.columns).filter(|&node| grid.is_fixed(node));
+                Box::new(fixed.map(|node| grid.place(node)))
+            }
+            Form::Lists(lists) => Box::new(lists.fixed.iter().map(|&node| lists.nodes[node])),
+        }
     }
 
     /// One fault of the net as a whole, else all of its entries; empty if a net can be built.

@@ -5,6 +5,7 @@
 //! It is not a method of the table: it chooses its own substeps, and its evaluations are not counted.
 
 use super::body::Body;
+use super::exact_since_start::ExactSinceStart;
 use super::integrators::{StepFailure, Stepped};
 use super::propagator::Propagator;
 use super::state::{State, Vector, bytes_with_vectors, largest};
@@ -59,9 +60,11 @@ impl Allowance {
     }
 }
 
-/// A reference solution.
+/// A reference solution, or the exact motion as long as the body knows it.
 #[derive(Clone, Debug)]
 pub(super) struct Reference<V> {
+    /// `None` if the body does not know its motion from the start, or did not begin there.
+    exact: Option<Box<ExactSinceStart<V>>>,
     /// `None` of a body whose solutions would take too much work.
     solutions: Option<Box<Solutions<V>>>,
     /// Whether both solutions have started from the state of the body.
@@ -103,16 +106,18 @@ pub(super) fn is_beyond_reference<B: Body>(body: &B) -> bool {
 }
 
 impl<V: Vector> Reference<V> {
-    /// A reference of `body`, which is as large as `like`.
-    pub(super) fn new<B: Body<Vector = V>>(body: &B, like: &State<V>) -> Self {
+    /// The truth of `body` from `state` at time `t` (s).
+    pub(super) fn new<B: Body<Vector = V>>(body: &B, state: &State<V>, t: f64) -> Self {
         // Made here where they are needed, so that no tick allocates.
-        let solutions = (!is_beyond_reference(body)).then(|| Solutions::new(like));
+        let solutions = (!is_beyond_reference(body)).then(|| Solutions::new(state));
         let allowance = Allowance::new(EVALUATIONS_PER_CALL, MAX_SAVED_EVALUATIONS);
-        Self::with_allowance(solutions, allowance)
+        let exact = ExactSinceStart::new(body, t, state);
+        Self { exact, ..Self::with_allowance(solutions, allowance) }
     }
 
     fn with_allowance(solutions: Option<Box<Solutions<V>>>, allowance: Allowance) -> Self {
         Self {
+            exact: None,
             solutions,
             has_begun: false,
             allowance,
@@ -228,7 +233,11 @@ impl<V: Vector> Reference<V> {
 impl<B: Body> Propagator<B> for Reference<B::Vector> {
     fn step(&mut self, body: &Counted<B>, t: f64, h: f64, _n: u32, y: &mut StateOf<B>) -> Stepped {
         // Bypasses the counters of `body`: the truth does not compete.
-        self.solve(&body.system, t, h, y)
+        let body = &body.system;
+        if self.exact.as_mut().is_some_and(|exact| exact.step(body, t + h, y)) {
+            return Ok(());
+        }
+        self.solve(body, t, h, y)
     }
 
     fn jump(&mut self, t: f64, change: Change<'_>, body: &mut B, state: &mut StateOf<B>) -> bool {
@@ -238,17 +247,26 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
         } else if is_changed {
             self.push(body, t, state);
         }
+        if let Some(exact) = self.exact.as_mut().filter(|_| is_changed) {
+            exact.jump(t, change.is_placing(), state);
+        }
         is_changed
     }
 
-    fn truth_error(&self, _body: &Counted<B>, state: &StateOf<B>) -> Option<[f64; 2]> {
-        Some(self.error(state))
+    fn is_closed_form(&self) -> bool {
+        self.exact.as_ref().is_some_and(|exact| exact.is_untouched)
+    }
+
+    fn truth_error(&self, body: &Counted<B>, state: &StateOf<B>) -> Option<[f64; 2]> {
+        let exact = self.exact.as_ref().filter(|exact| exact.is_untouched);
+        Some(exact.map_or_else(|| self.error(state), |exact| exact.error(&body.system, state)))
     }
 
     fn heap_bytes(&self) -> usize {
-        self.solutions.as_deref().map_or(0, |solutions| {
+        let solutions = self.solutions.as_deref().map_or(0, |solutions| {
             bytes_with_vectors(size_of_val(solutions), solutions.difference.q.components())
-        })
+        });
+        solutions + self.exact.as_ref().map_or(0, |exact| exact.bytes())
     }
 }
 

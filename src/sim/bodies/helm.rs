@@ -134,6 +134,7 @@ impl System for Helm {
 }
 
 impl Body for Helm {
+    const INPUTS: &'static [&'static str] = &["throttle", "rudder", "kick"];
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn heap_bytes(&self) -> usize {

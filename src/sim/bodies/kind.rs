@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::sim::body::{Body, Input};
+use crate::sim::body::Body;
 use crate::sim::body_stepper::stepper;
 use crate::sim::law::{Equations, shown_unit};
 use crate::sim::net_plan::NetPlan;
@@ -71,7 +71,7 @@ pub struct Kind {
     /// The keys of its table, in the order of the values that [`Kind::build`] expects.
     pub parameters: Vec<Parameter>,
     /// The inputs that it accepts: `throttle`, `rudder`, `kick`.
-    pub inputs: Vec<&'static str>,
+    pub inputs: &'static [&'static str],
     /// The key of the parameter that makes it stiffer: larger values make the motion faster in relation
     /// to the tick.
     pub leading: Text,
@@ -140,10 +140,6 @@ impl Kind {
     /// The kind of bodies like `blank`, without a name, coordinates and a leading parameter: what most kinds have in
     /// common.
     pub(super) fn of<B: Body>(blank: B) -> Self {
-        let (mut body, mut state) = (blank.clone(), blank.start());
-        let steering = [("throttle", Input::Throttle(0.0)), ("rudder", Input::Rudder(0.0))];
-        let steered = steering.into_iter().filter(|(_, input)| body.input(*input, &mut state));
-        let inputs = steered.map(|(name, _)| name).chain(["kick"]).collect();
         // A body need not be shared between threads: each gets a copy.
         let template = Mutex::new(blank);
         Self {
@@ -152,7 +148,7 @@ impl Kind {
             all_coordinates: Vec::new().into(),
             is_counted: false,
             parameters: B::PARAMETERS.iter().map(ParameterOf::parameter).collect(),
-            inputs,
+            inputs: B::INPUTS,
             leading: "".into(),
             truth: if B::HAS_EXACT { Truth::Exact } else { Truth::Reference },
             check: Box::new(|_| Ok(())),

@@ -82,6 +82,7 @@ impl System for Ship {
 }
 
 impl Body for Ship {
+    const INPUTS: &'static [&'static str] = &["throttle", "kick"];
     const HAS_EXACT: bool = true;
     const BATCH: MakeBatch<Self> = Batch::of_body;
     const PARAMETERS: &'static [Of] = &PARAMETERS;

@@ -86,6 +86,30 @@ const IGNORED_EXCESS: f64 = 0.1;
 
 /// Pairs the eigenvalues of a map over `h` (s) with the true modes and compares them.
 pub(super) fn compare(truth: &[Mode], values: &[Eigenvalue], h: f64) -> Stability {
+    let (pairs, frequency_error) = pairs(truth, values, h);
+    let excess = pairs.iter().map(|&(truth, found)| match truth {
+        Some(Mode { growth_per_s: own, .. }) if own * h > NO_GROWTH => {
+            let excess = found.growth_per_s - own;
+            if excess.abs() < IGNORED_EXCESS * own { 0.0 } else { excess }
+        }
+        _ => found.growth_per_s,
+    });
+    let conserved = |mode: Mode| (mode.growth_per_s * h).abs() < NO_GROWTH;
+    let losses = pairs.iter().filter(|(truth, _)| truth.is_some_and(conserved));
+    Stability {
+        spectral_radius: values.iter().map(|value| value.modulus).fold(0.0, f64::max),
+        growth_per_s: excess.fold(f64::NEG_INFINITY, f64::max),
+        loss_per_s: losses.map(|(_, found)| -found.growth_per_s).fold(0.0, f64::max),
+        frequency_error,
+    }
+}
+
+/// A mode of the method, with its true mode if it has one.
+type Pair = (Option<Mode>, Mode);
+
+/// The eigenvalues of a map over `h` (s), each with its true mode; those without are of the method alone. And the
+/// [error](Stability::frequency_error) of the frequencies.
+fn pairs(truth: &[Mode], values: &[Eigenvalue], h: f64) -> (Vec<Pair>, Option<f64>) {
     let (swinging, creeping): (Vec<Mode>, Vec<Mode>) =
         truth.iter().partition(|m| m.frequency > 0.0);
     // The smallest eigenvalues beyond the number of true modes belong to the memory of the method.
@@ -95,7 +119,7 @@ pub(super) fn compare(truth: &[Mode], values: &[Eigenvalue], h: f64) -> Stabilit
     let (mut turning, mut rest): (Vec<Eigenvalue>, Vec<Eigenvalue>) =
         by_modulus.into_iter().partition(|value| value.is_complex());
 
-    let mut pairs: Vec<(Option<Mode>, Mode)> = Vec::new();
+    let mut pairs: Vec<Pair> = Vec::new();
     let mut frequency_error = None;
     if turning.len() == swinging.len() {
         turning.sort_by(|a, b| a.angle.total_cmp(&b.angle));
@@ -115,35 +139,15 @@ pub(super) fn compare(truth: &[Mode], values: &[Eigenvalue], h: f64) -> Stabilit
     }
     for mode in creeping {
         let expected = libm::exp(mode.growth_per_s * h);
-        let distance = |value: &Eigenvalue| {
-            let re = value.modulus * libm::cos(value.angle);
-            let im = value.modulus * libm::sin(value.angle);
-            libm::hypot(re - expected, im)
-        };
-        let nearest =
-            (0..rest.len()).min_by(|&a, &b| distance(&rest[a]).total_cmp(&distance(&rest[b])));
+        let distance = |index: &usize| rest[*index].distance_from(expected);
+        let nearest = (0..rest.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
         if let Some(nearest) = nearest {
             pairs.push((Some(mode), Mode::new(rest.swap_remove(nearest), h)));
         }
     }
     let unpaired = rest.iter().chain(&memory).map(|&value| (None, Mode::new(value, h)));
     pairs.extend(unpaired);
-
-    let excess = pairs.iter().map(|&(truth, found)| match truth {
-        Some(Mode { growth_per_s: own, .. }) if own * h > NO_GROWTH => {
-            let excess = found.growth_per_s - own;
-            if excess.abs() < IGNORED_EXCESS * own { 0.0 } else { excess }
-        }
-        _ => found.growth_per_s,
-    });
-    let conserved = |mode: Mode| (mode.growth_per_s * h).abs() < NO_GROWTH;
-    let losses = pairs.iter().filter(|(truth, _)| truth.is_some_and(conserved));
-    Stability {
-        spectral_radius: values.iter().map(|value| value.modulus).fold(0.0, f64::max),
-        growth_per_s: excess.fold(f64::NEG_INFINITY, f64::max),
-        loss_per_s: losses.map(|(_, found)| -found.growth_per_s).fold(0.0, f64::max),
-        frequency_error,
-    }
+    (pairs, frequency_error)
 }
 
 #[cfg(test)]

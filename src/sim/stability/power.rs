@@ -39,23 +39,36 @@ pub fn spectral_radius(
         return Ok(None);
     };
     let logs = match (method.restart, method.evaluations_per_tick(tick.substeps)) {
-        (None, _) => logs_of_displaced_ticks(body, solver, tick, max_evaluations)?,
+        (None, _) => iterate(displaced_ticks(body, solver, tick, max_evaluations)?)?,
         (Some(_), Some(evaluations)) => {
-            logs_of_continued_run(body, method, tick, max_evaluations / u64::from(evaluations))
+            iterate(continued_run(body, method, tick, max_evaluations / u64::from(evaluations)))?
         }
-        (Some(_), None) => None,
+        (Some(_), None) => return Ok(None),
     };
-    Ok(logs.as_deref().and_then(settled_radius))
+    Ok(settled_radius(&logs))
 }
 
-/// The logarithms of the lengths of a deviation after each tick, where the method restarts at each tick.
-/// `None` if the deviation vanishes or overflows.
-fn logs_of_displaced_ticks(
+/// The logarithms of the lengths of a deviation after each tick, of which `tick` returns the next, while they are finite.
+fn iterate(
+    mut tick: impl FnMut() -> Result<Option<f64>, StepFailure>,
+) -> Result<Vec<f64>, StepFailure> {
+    let mut logs = Vec::with_capacity(MAX_ITERATIONS);
+    while logs.len() < MAX_ITERATIONS
+        && let Some(log) = tick()?.filter(|log| log.is_finite())
+    {
+        logs.push(log);
+    }
+    Ok(logs)
+}
+
+/// Ticks of a method that restarts at each, from the state of `body` and displaced by the deviation. They end if it vanishes
+/// or overflows.
+fn displaced_ticks(
     body: &dyn Stepper,
     solver: Solver,
     tick: Tick,
     max_evaluations: u64,
-) -> Result<Option<Vec<f64>>, StepFailure> {
+) -> Result<impl FnMut() -> Result<Option<f64>, StepFailure>, StepFailure> {
     let Tick { t, h, substeps } = tick;
     let mut stepper = body.with_solver(solver, t);
     let [q, v] = [body.q().to_vec(), body.v().to_vec()];
@@ -69,12 +82,13 @@ fn logs_of_displaced_ticks(
 
     // Coordinates, then velocities times the tick, so that both have one unit.
     let mut direction = start_vector(2 * n);
-    let (mut sum, mut logs) = (0.0, Vec::with_capacity(MAX_ITERATIONS));
-    while logs.len() < MAX_ITERATIONS && stepper.evaluations() - before <= max_evaluations {
+    let mut log = 0.0;
+    Ok(move || -> Result<Option<f64>, StepFailure> {
+        let is_affordable = stepper.evaluations() - before <= max_evaluations;
         let length = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
         // Displaced by this much in the largest component.
         let longest = largest(&direction);
-        if longest == 0.0 || !length.is_finite() {
+        if longest == 0.0 || !length.is_finite() || !is_affordable {
             return Ok(None);
         }
         let part = distance / longest;
@@ -89,22 +103,21 @@ fn logs_of_displaced_ticks(
         });
         direction = pushed.collect();
         let pushed = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
-        sum += libm::log(pushed / length);
-        logs.push(sum);
+        log += libm::log(pushed / length);
         // A long product would overflow.
         direction.iter_mut().for_each(|x| *x /= pushed);
-    }
-    Ok(Some(logs))
+        Ok(Some(log))
+    })
 }
 
-/// The logarithms of the lengths of a deviation after each of at most `max_ticks` ticks of one run under the linearised
-/// forces, in which the method keeps its memory. They end where the deviation overflows or underflows.
-fn logs_of_continued_run(
+/// At most `max_ticks` ticks of one run of the deviation under the linearised forces, in which the method keeps its memory.
+/// They end where the method fails.
+fn continued_run(
     body: &dyn Stepper,
     method: &Method,
     tick: Tick,
     max_ticks: u64,
-) -> Option<Vec<f64>> {
+) -> impl FnMut() -> Result<Option<f64>, StepFailure> {
     let Tick { t, h, substeps } = tick;
     let n = body.q().len();
     let mut deviation = Deviation::along(body, t, h, DISPLACEMENT, method);
@@ -112,23 +125,18 @@ fn logs_of_continued_run(
     start.iter_mut().for_each(|x| *x *= START);
     start[n..].iter_mut().for_each(|v| *v /= h);
     deviation.set(&start);
-    let mut logs = Vec::with_capacity(MAX_ITERATIONS);
-    while logs.len() < MAX_ITERATIONS && (logs.len() as u64) < max_ticks {
-        if deviation.advance(t, h, substeps).is_err() {
-            break;
+    let mut ticks = 0..max_ticks;
+    move || {
+        if ticks.next().is_none() || deviation.advance(t, h, substeps).is_err() {
+            return Ok(None);
         }
         let mut state = deviation.state();
         state[n..].iter_mut().for_each(|v| *v *= h);
         let longest = largest(&state);
         // Relative to the longest, whose square may overflow.
         let square: f64 = state.iter().map(|x| (x / longest) * (x / longest)).sum();
-        let log = libm::log(longest) + libm::log(square) / 2.0;
-        if !log.is_finite() {
-            break;
-        }
-        logs.push(log);
+        Ok(Some(libm::log(longest) + libm::log(square) / 2.0))
     }
-    (!logs.is_empty()).then_some(logs)
 }
 
 /// The radius, if more iterations would not change it.

@@ -140,10 +140,7 @@ impl CoupledMotion {
     /// Sets to 1 as many of the eigenvalues nearest 1 as there are force-free modes: methods preserve uniform drift,
     /// but rounding splits a double eigenvalue by √ε.
     fn keep_what_drifts(&self, values: &mut [Eigenvalue]) {
-        let distance = |value: &Eigenvalue| {
-            let re = value.modulus * libm::cos(value.angle);
-            libm::hypot(re - 1.0, value.modulus * libm::sin(value.angle))
-        };
+        let distance = |value: &Eigenvalue| value.distance_from(1.0);
         values.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
         let still = self.truth.iter().filter(|mode| mode.is_still()).count();
         for value in values.iter_mut().take(still).filter(|value| distance(value) < SPLIT) {

@@ -17,6 +17,12 @@ impl Eigenvalue {
         Self { modulus: libm::hypot(re, im), angle: libm::atan2(im.abs(), re) }
     }
 
+    /// Its distance from a real number.
+    pub(super) fn distance_from(self, real: f64) -> f64 {
+        let re = self.modulus * libm::cos(self.angle);
+        libm::hypot(re - real, self.modulus * libm::sin(self.angle))
+    }
+
     /// Whether it is not real.
     pub(super) fn is_complex(self) -> bool {
         self.angle > 0.0 && self.angle < std::f64::consts::PI

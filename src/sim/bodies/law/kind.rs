@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::Law;
 use super::claims::{check_start, first_key};
 use crate::sim::bodies::kind::{Coordinate, Kind, Origin};
+use crate::sim::body::Body;
 use crate::sim::law::{CoordinateText, Equations, LawText, Refusal};
 use crate::sim::parameter::{Acts, Fault, Parameter, Range, Text};
 use crate::sim::system::System;
@@ -19,6 +20,12 @@ pub fn law_kind(text: LawText) -> Result<Arc<Kind>, Vec<Refusal>> {
     let text = equations.text();
     let coordinate =
         |of: &CoordinateText| Coordinate::new(of.name.clone(), format!("v{}", of.name), of.unit);
+    let inputs: &[&str] = match equations.is_steered() {
+        [false, false] => Law::INPUTS,
+        [true, false] => &["throttle", "kick"],
+        [false, true] => &["rudder", "kick"],
+        [true, true] => &["throttle", "rudder", "kick"],
+    };
     let about: Vec<_> =
         text.coordinates.iter().map(|of| format!("{}″ = {}", of.name, of.acceleration)).collect();
     let first_key: Text = first_key(&text.coordinates, &text.constants).into();
@@ -31,6 +38,7 @@ pub fn law_kind(text: LawText) -> Result<Arc<Kind>, Vec<Refusal>> {
         about: about.join("; ").into(),
         all_coordinates: text.coordinates.iter().map(coordinate).collect::<Vec<_>>().into(),
         parameters,
+        inputs,
         leading: leading.unwrap_or_else(|| first_key.clone()),
         check: Box::new({
             let equations = equations.clone();

@@ -137,9 +137,9 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         }
     }
 
-    /// Memory in bytes, without its own size and that of its coordinate vectors.
+    /// Memory in bytes, without its own size and that of vectors of one stage.
     pub(in crate::sim::integrators) fn heap_bytes(&self) -> usize {
-        self.linearisation.heap_bytes()
+        self.linearisation.heap_bytes() + 6 * (S - 1) * size_of_val(&self.residual[..]) / S
     }
 
     /// Solves for the accelerations at the stages.
