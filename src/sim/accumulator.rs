@@ -37,7 +37,7 @@ impl Accumulator {
         Due { ticks: ticks as u32, dropped: whole - ticks }
     }
 
-    /// Owes a tick of length `tick` but for the least time.
+    /// Sets the owed time to one unit below a tick of length `tick`.
     pub fn fill(&mut self, tick: i128) {
         self.owed = tick - 1;
     }

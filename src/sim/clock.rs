@@ -76,7 +76,7 @@ impl Clock {
         (self.accumulator.owed() as u64, TICK as u64)
     }
 
-    /// Sets the owed time to a tick but for the least time: the next frame makes one.
+    /// Sets the owed time to just below a tick, so that the next frame makes one.
     pub fn fill(&mut self) {
         self.accumulator.fill(TICK);
     }

@@ -30,10 +30,10 @@ pub fn round(value: f64, digits: usize) -> String {
     }
 }
 
-/// How many times a distance is to be enlarged to fill `room`: 1, 2 or 5 times a power of ten; `None` if it fills half
+/// The factor that enlarges a distance to fill `room`: 1, 2 or 5 times a power of ten; `None` if it fills half
 /// of it already, or is nothing but rounding.
 pub fn enlargement(distance: f64, room: f64) -> Option<f64> {
-    /// A distance that is not seen at this many times its size is rounding.
+    /// A distance that is invisible at this magnification is rounding.
     const MAX: f64 = 1e10;
     let most = room / distance;
     let decade = libm::pow(10.0, libm::floor(libm::log10(most)));

@@ -50,7 +50,7 @@ struct Allowance {
     saved: u64,
     /// Granted per call.
     per_call: u64,
-    /// The most that are saved, and those at the start.
+    /// The most that are saved; all of them at the start.
     most: u64,
 }
 
@@ -65,7 +65,7 @@ impl Allowance {
 pub(super) struct Reference<V> {
     /// `None` if the body does not know its motion from the start, or did not begin there.
     exact: Option<Box<ExactSinceStart<V>>>,
-    /// `None` of a body whose solutions would take too much work.
+    /// `None` if the solutions would take too much work.
     solutions: Option<Box<Solutions<V>>>,
     /// Whether both solutions have started from the state of the body.
     has_begun: bool,
@@ -216,7 +216,7 @@ impl<V: Vector> Reference<V> {
     }
 }
 
-/// For claims of custom bodies, which are held against it within a budget.
+/// For claims of custom bodies, which are checked within a budget.
 #[cfg(feature = "lab")]
 impl<V: Vector> Reference<V> {
     /// A reference that fails after about this many evaluations in all.

@@ -120,7 +120,7 @@ impl Clone for Box<dyn Stepper> {
 /// What can happen to a body between ticks.
 #[derive(Clone, Copy, Debug)]
 pub enum Change<'a> {
-    /// It is put into a state that is known exactly, unrelated to the one before.
+    /// Puts it into a state that is known exactly, unrelated to the one before.
     State {
         /// The coordinates.
         q: &'a [f64],
@@ -152,13 +152,13 @@ impl Change<'_> {
         }
     }
 
-    /// Whether the error before the change is gone with it.
+    /// Whether the change removes the error so far.
     pub(super) fn is_placing(self) -> bool {
         matches!(self, Change::State { .. })
     }
 }
 
-/// What a [`Stepper`] knows of its body, whatever the solver.
+/// The body of a [`Stepper`] at its state, independent of the solver.
 pub trait PlacedBody {
     /// The coordinates, in the order of the body kind's
     /// [`coordinates`](super::bodies::Kind::coordinates).
@@ -170,7 +170,7 @@ pub trait PlacedBody {
     /// is not counted.
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]);
 
-    /// What all methods have done with the body since the start. The truth is not counted.
+    /// Evaluations and skipped time of all methods since the start. The truth is not counted.
     fn counts(&self) -> Counts;
     /// Evaluations of the acceleration since the start.
     fn evaluations(&self) -> u64 {
@@ -199,8 +199,8 @@ pub trait PlacedBody {
     /// The joint and damping settings of the body in a physics engine. It is not counted as an evaluation.
     fn engine_settings(&self, t: f64) -> EngineSettings;
 
-    /// Copies of the body with its present parameters and inputs, from these starts, on an instruction set; `None` if it has several coordinates,
-    /// or is a custom body.
+    /// Copies of the body with its present parameters and inputs, from these starts, on an instruction set; `None` if it has
+    /// several coordinates or is a custom body.
     #[cfg(feature = "batch")]
     fn batch(
         &self,
@@ -217,7 +217,7 @@ pub trait PlacedBody {
     /// A copy of the body under another solver, with the same input and the same state to the bit.
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper>;
 
-    /// A tick under `method` with a copy of this memory of it; see `recorded` of a [`Stepper`].
+    /// A tick under `method` from a copy of its memory; see `recorded` of a [`Stepper`].
     fn record(
         &self,
         memory: Memory<'_>,
@@ -226,7 +226,7 @@ pub trait PlacedBody {
         h: f64,
         substeps: u32,
     ) -> Option<RecordedTick>;
-    /// Whether a solver with this memory has the body in a state of a closed form.
+    /// Whether the state is that of a closed form, for a solver with this memory.
     fn is_closed_form_of(&self, memory: Memory<'_>) -> bool;
     /// The error of the truth with this memory; `None` for that of a method.
     fn truth_error_of(&self, memory: Memory<'_>) -> Option<[f64; 2]>;

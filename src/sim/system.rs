@@ -1,6 +1,7 @@
 //! The equation of motion `q″ = a(t, q, v)`.
 
 use std::cell::{Cell, RefCell};
+use std::ops::Deref;
 
 use super::state::{Elementwise, State, Vector};
 
@@ -54,7 +55,7 @@ pub enum Question<'a, V> {
         /// Where to write the derivative.
         slope: &'a mut V,
     },
-    /// What the body follows: see [`Pursuit::of`].
+    /// The target that the body follows: see [`Pursuit::of`].
     Target(&'a mut Option<Pursuit<V>>),
     /// The body as a physics engine sees it: see [`EngineSettings::of`].
     Engine {
@@ -94,20 +95,20 @@ impl Coupling {
     }
 }
 
-/// A system behind a pointer: what methods do with it is compiled once for each type of vector.
-impl<V: Elementwise> System for Box<dyn System<Vector = V>> {
-    type Vector = V;
+/// A system behind a pointer: what methods do with one of any type is compiled once for each type of vector.
+impl<S: System + ?Sized, P: Deref<Target = S>> System for P {
+    type Vector = S::Vector;
 
-    fn acceleration(&self, t: f64, q: &V, v: &V, a: &mut V) {
+    fn acceleration(&self, t: f64, q: &S::Vector, v: &S::Vector, a: &mut S::Vector) {
         (**self).acceleration(t, q, v, a);
     }
 
-    fn answer(&self, t: f64, question: Question<'_, V>) -> bool {
+    fn answer(&self, t: f64, question: Question<'_, S::Vector>) -> bool {
         (**self).answer(t, question)
     }
 }
 
-/// What a body follows at one moment, and how fast.
+/// The target of a body at one moment, and the law by which it follows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pursuit<V> {
     /// The target, in the units of the coordinates.
@@ -208,7 +209,7 @@ pub struct Counted<S> {
     lost_time: Cell<f64>,
 }
 
-/// What methods did with a system.
+/// Evaluations and skipped time of methods on a system.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Counts {
     /// Evaluations of the acceleration.

@@ -7,24 +7,11 @@ use super::integrator::Integrator;
 use super::tolerance::Tolerance;
 use super::unfit::Unfit;
 use crate::sim::state::{State, Vector, bytes_with_vectors};
-use crate::sim::system::{Question, StateOf, System};
+use crate::sim::system::{StateOf, System};
 use crate::sim::vec_system::{Scratch, VecSystem};
 
 /// A system of any type with its coordinates in a `Vec`: what a custom method steps.
-#[derive(Clone, Copy)]
-pub struct AnySystem<'a>(&'a dyn System<Vector = Vec<f64>>);
-
-impl System for AnySystem<'_> {
-    type Vector = Vec<f64>;
-
-    fn acceleration(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
-        self.0.acceleration(t, q, v, a);
-    }
-
-    fn answer(&self, t: f64, question: Question<'_, Vec<f64>>) -> bool {
-        self.0.answer(t, question)
-    }
-}
+pub type AnySystem<'a> = &'a (dyn System<Vector = Vec<f64>> + 'a);
 
 /// A custom method behind a pointer. Every `Clone` [`Integrator`] of systems with a `Vec` is one.
 pub trait CustomIntegrator: for<'a> Integrator<AnySystem<'a>> {
@@ -122,7 +109,8 @@ impl<S: System<Vector: Vector>> Integrator<S> for CustomMethod<S::Vector> {
         let Self { integrator, state: many, scratch } = self;
         many.q.copy_from_slice(state.q.components());
         many.v.copy_from_slice(state.v.components());
-        let stepped = integrator.step(&AnySystem(&VecSystem { system, scratch }), t, h, many);
+        let system: AnySystem<'_> = &VecSystem { system, scratch };
+        let stepped = integrator.step(&system, t, h, many);
         state.q.components_mut().copy_from_slice(&many.q);
         state.v.components_mut().copy_from_slice(&many.v);
         stepped

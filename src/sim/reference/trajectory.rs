@@ -20,7 +20,7 @@ const MAX_ANGLE: f64 = 3.3;
 /// error of the state is of second order in this.
 const BOUNDARY_TOLERANCE: f64 = 1e-9;
 
-/// The same where the force jumps: the error of the state is of first order in this.
+/// [`BOUNDARY_TOLERANCE`] where the force jumps: the error of the state is of first order in this.
 const JUMP_TOLERANCE: f64 = 2e-15;
 
 /// A boundary crossed by less than this part of the switch's extent is rounding, where the force can jump: a
@@ -234,7 +234,7 @@ impl<V: Vector> Trajectory<V> {
         Err(Ended::Budget)
     }
 
-    /// Tries one step of `h` from `t`, after this many halvings for leaving the piece. Moves the state if it is taken,
+    /// Tries one step of `h` from `t`, after this many halvings for leaving the piece. Moves the state if it is accepted,
     /// and changes the piece at a boundary.
     fn try_step<B: Body<Vector = V>>(
         &mut self,
