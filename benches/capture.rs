@@ -80,7 +80,8 @@ fn round(panels: Panels) -> Result<Round, String> {
 
 /// Processor time, in seconds, that it takes to draw a frame of the run and have it read back, and to encode one.
 fn stages(panels: Panels) -> Result<(f64, f64), String> {
-    let gpu = Gpu::headless(AdapterPreference::Any).map_err(|error| error.to_string())?;
+    let gpu = pollster::block_on(Gpu::headless(AdapterPreference::Any))
+        .map_err(|error| error.to_string())?;
     let renderer = OffscreenRenderer::new(gpu, SIZE_PX, 1.0).map_err(|error| error.to_string())?;
     let mut renderer = renderer.with_panels(panels);
     let mut lab = Lab::new(Scene::built_in("harbour").expect("a built-in scene"));

@@ -22,7 +22,7 @@ const MAX_FIRST_FRAME: Duration = Duration::from_secs(1);
 
 fn main() {
     let start = Instant::now();
-    let gpu = match Gpu::headless(AdapterPreference::CpuOnly) {
+    let gpu = match pollster::block_on(Gpu::headless(AdapterPreference::CpuOnly)) {
         Ok(gpu) => gpu,
         Err(error) => return println!("SKIPPED frame: {error}"),
     };

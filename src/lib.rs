@@ -138,6 +138,15 @@
 //! (`commands/sweep/round_off.rs`); and constraints, because a closed body with natural coordinates needs
 //! none.
 
+#[cfg(any(feature = "cli", feature = "window"))]
+#[cfg_attr(
+    not(all(feature = "cli", feature = "window")),
+    allow(
+        dead_code,
+        reason = "the commands and the window share it, and each has parts of its own"
+    )
+)]
+mod atomic_file;
 #[cfg(feature = "cli")]
 pub mod commands;
 #[cfg(feature = "lab")]

@@ -22,7 +22,6 @@ mod export;
 mod growing_recording;
 mod interrupt;
 mod keys;
-mod new_file;
 mod opening;
 mod pace;
 mod recording;

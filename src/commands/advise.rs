@@ -7,13 +7,12 @@ use clap::Args;
 use rayon::ThreadPoolBuilder;
 
 use super::error::Error;
-use super::experiment::{ExperimentArgs, Lineup};
-use super::interrupt::{Interrupted, watch_for_interrupt};
+use super::experiment::{ExperimentArgs, Lineup, one_of};
+use super::interrupt::watch_for_interrupt;
 use super::jobs;
 use super::output::print;
 use super::output::table::TableFormat;
 use super::scene_file;
-use super::show::language;
 use crate::lab::{Adviser, LaneSpec, Language, Scene, nearest};
 use crate::sim::integrators::{Family, METHODS};
 
@@ -82,7 +81,7 @@ pub(super) struct AdviseArgs {
 
     /// Print the recommended method too, as a function in this language, in text [default: rust for a
     /// spring of --k or --frequency]
-    #[arg(long = "as", value_name = "LANGUAGE", value_parser = language())]
+    #[arg(long = "as", value_name = "LANGUAGE", value_parser = one_of(&Language::ALL, Language::id))]
     language: Option<Language>,
 
     /// The format: text or json
@@ -127,10 +126,8 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     let interrupted = watch_for_interrupt();
     let advised = scene.clone();
     let adviser = jobs::result(&interrupted, move || Adviser::new(&advised, 1.0, advised.tick_hz));
-    let stopped = |judged: usize| {
-        let done = format!("{judged} of {wanted} methods");
-        Err(Interrupted::After { done }.into())
-    };
+    let stopped =
+        |judged: usize| Err(Error::interrupted_after(format!("{judged} of {wanted} methods")));
     let Some(adviser) = adviser.map(Arc::new) else { return stopped(0) };
     let pool = ThreadPoolBuilder::new().build().expect("the system starts a thread for each core");
     let mut rows = judge_all(&pool, &adviser, specs, args.rates, &interrupted);
@@ -145,7 +142,7 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
         }
         TableFormat::Json => format!("{:#}\n", report::object(scene, &adviser, &rows, wanted)),
     };
-    print(&text)?;
+    print(text)?;
     warn_of_load(&rows);
     if interrupted.load(Ordering::Relaxed) { stopped(rows.len()) } else { Ok(()) }
 }

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::error::{Cause, Error};
+use super::capture_settings::CaptureSettings;
+use super::error::Error;
 use super::experiment::{
     self, Experiment, ExperimentArgs, Lineup, ThemeName, known_cloud, known_instrument, known_trace,
 };
@@ -13,10 +14,10 @@ use super::frame_folder::{Existing, FrameFolder};
 use super::frame_names::MAX_FRAMES;
 use super::movie::{self, MovieFormat};
 use super::output::picture_format::PictureFormat;
-use super::output::{AtomicOutput, Older, OutputError, Place};
-use super::recording::Recording;
+use super::output::{Destination, Output};
 use super::schedule::{FPS, MAX_FPS, Schedule, frames_in};
 use super::{clip, sheet, state_log};
+use crate::atomic_file::IfExists;
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
 use crate::lab::{CloudKind, Instrument};
@@ -121,54 +122,25 @@ const SHEET_COLUMNS: u32 = 6;
 /// The longest side of a frame in pixels: what nearly every adapter can draw on.
 const LONGEST_SIDE_PX: u32 = 8192;
 
-/// A sheet has a row for each method, and the loop lab has one method.
-#[derive(Debug, thiserror::Error)]
-#[error("a sheet shows methods and not loops; give --loop another format")]
-struct LoopSheet;
-
-impl Cause for LoopSheet {
-    fn exit_code(&self) -> u8 {
-        2
-    }
-}
-
-/// The loop lab does not take the scene's body.
-#[derive(Debug, thiserror::Error)]
-#[error("--loop: {0}")]
-struct NoLoop(String);
-
-impl Cause for NoLoop {
-    fn exit_code(&self) -> u8 {
-        2
-    }
-}
-
-/// No other instrument has a shape.
-#[derive(Debug, thiserror::Error)]
-#[error("--shape is that of the instrument cloud; give --instrument cloud, or no --shape")]
-struct NoShape;
-
-impl Cause for NoShape {
-    fn exit_code(&self) -> u8 {
-        2
-    }
-}
-
 pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
     if args.shape.is_some() && args.instrument != Some(Instrument::Cloud) {
-        return Err(NoShape.into());
+        return Err(Error::mistake(
+            "--shape is that of the instrument cloud; give --instrument cloud, or no --shape",
+        ));
     }
     let format = PictureFormat::of(&args.out, args.format)?;
     let everyone = args.race || format == PictureFormat::Sheet && args.experiment.names_no_method();
     let lineup = if everyone { Lineup::Everyone } else { Lineup::Solo };
     if args.loop_trace.is_some() && format == PictureFormat::Sheet {
-        return Err(LoopSheet.into());
+        return Err(Error::mistake(
+            "a sheet shows methods and not loops; give --loop another format",
+        ));
     }
     let experiment = args.experiment.load(lineup)?;
     if args.loop_trace.is_some()
         && let Some(refusal) = experiment.lab().loop_lab_refusal()
     {
-        return Err(NoLoop(refusal).into());
+        return Err(Error::mistake(format!("--loop: {refusal}")));
     }
     let experiment = Experiment { loop_trace: args.loop_trace, ..experiment };
     let fps = args.fps.unwrap_or(format.or_sheet(FPS, SHEET_FPS));
@@ -180,7 +152,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
         (None, None) => frames_in(experiment.scene.seconds, fps)?,
     };
     let schedule = Schedule { frames, fps };
-    let recording = Recording {
+    let capture = CaptureSettings {
         schedule,
         size_px: args.size.unwrap_or(format.or_sheet([1280, 720], [320, 180])),
         scale: args.scale,
@@ -197,24 +169,22 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
         PictureFormat::Png => {
             let existing = if args.force { Existing::Replace } else { Existing::Refuse };
             let folder = FrameFolder::inspect(&args.out, existing, "--out")?;
-            return Ok(clip::record(&experiment, recording, folder)?);
+            return clip::record(&experiment, capture, folder).map(drop);
         }
         PictureFormat::Sheet => {
-            let output = open(args)?;
-            return Ok(sheet::draw(&experiment, recording, output)?);
+            return sheet::draw(&experiment, capture, open(args)?);
         }
         PictureFormat::Gif => MovieFormat::Gif,
         PictureFormat::Apng => MovieFormat::Apng,
         PictureFormat::Y4m => MovieFormat::Y4m,
         PictureFormat::Rgba => MovieFormat::Rgba,
     };
-    let output = open(args)?;
-    Ok(movie::record(&experiment, recording, movie, output)?)
+    movie::record(&experiment, capture, movie, open(args)?)
 }
 
-fn open(args: &CaptureArgs) -> Result<AtomicOutput, OutputError> {
-    let older = if args.force { Older::Replace } else { Older::Keep };
-    AtomicOutput::open(Place { path: &args.out, option: "--out", older })
+fn open(args: &CaptureArgs) -> Result<Output, Error> {
+    let if_exists = if args.force { IfExists::Replace } else { IfExists::Keep };
+    Destination { path: &args.out, option: "--out", if_exists }.open()
 }
 
 fn size(written: &str) -> Result<[u32; 2], String> {

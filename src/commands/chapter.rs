@@ -7,10 +7,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::drawing::gpu;
 use super::error::Error;
 use super::output::print;
-use super::terminal::tell;
-use crate::view::{AdapterPreference, Gpu, OffscreenRenderer, png};
+use super::terminal::{tell, tell_left_alone};
+use crate::view::{OffscreenRenderer, png};
 
 mod adaptive;
 mod figures;
@@ -20,7 +21,7 @@ mod run;
 mod speeds;
 
 use figures::Diagram;
-use folder::{FigureFolder, FigureFolderError};
+use folder::FigureFolder;
 
 const EXAMPLES: &str = "\
 A tick stands beside each number that equals the printed one to the last digit. Figures 7-5 and
@@ -47,12 +48,15 @@ pub(super) fn run(args: &ChapterArgs) -> Result<(), Error> {
     if let Some(out) = &args.out {
         let folder = FigureFolder::inspect(out)?;
         if !folder.is_empty() && !args.force {
-            return Err(FigureFolderError::NotEmpty { path: out.clone() }.into());
+            return Err(Error::mistake(format!(
+                "{} is not empty; give another --out, or --force to replace the figures in it",
+                out.display()
+            )));
         }
         draw(folder)?;
     }
     let text = [speeds::table_7_1(), speeds::displacements(), adaptive::listings()].join("\n");
-    Ok(print(&text)?)
+    print(text)
 }
 
 /// Pixels of a figure, and pixels to a point: legible in a page's width.
@@ -60,23 +64,18 @@ const SIZE_PX: [u32; 2] = [1600, 1000];
 const SCALE: f32 = 1.6;
 
 fn draw(mut folder: FigureFolder) -> Result<(), Error> {
-    let gpu = Gpu::headless(AdapterPreference::Any)?;
-    let mut renderer = OffscreenRenderer::new(gpu, SIZE_PX, SCALE)?;
+    let mut renderer = OffscreenRenderer::new(gpu()?, SIZE_PX, SCALE)?;
     folder.clear()?;
     let mut rgba = Vec::new();
     let diagrams = figures::all();
     for Diagram { number, figure } in &diagrams {
         renderer.draw_figure(figure, &mut rgba)?;
         let name = format!("figure-{number}");
-        folder.write(&format!("{name}.csv"), figures::csv(figure).as_bytes())?;
+        folder.write(&format!("{name}.csv"), &figures::csv(figure)?)?;
         folder.write(&format!("{name}.png"), &png::encode(SIZE_PX, &rgba))?;
     }
     let path = folder.path().display();
     tell(&format!("wrote {} figures and their data: {path}/figure-7-2.png …", diagrams.len()));
-    if !folder.others().is_empty() {
-        let others: Vec<_> =
-            folder.others().iter().map(|name| name.display().to_string()).collect();
-        tell(&format!("left alone in {path}: {}", others.join(", ")));
-    }
+    tell_left_alone(folder.path(), folder.others());
     Ok(())
 }

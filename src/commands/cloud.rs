@@ -1,23 +1,23 @@
 //! `regatta cloud`: a shape of many starts under some methods, as a picture, and what becomes of its area, as a table.
 
-use std::io;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use clap::{Args, ValueEnum};
-use image::codecs::gif::{GifEncoder, Repeat};
-use image::{Delay, Frame, RgbaImage};
+use clap::Args;
 use rayon::ThreadPoolBuilder;
 use serde_json::json;
 
-use super::error::{Cause, Error};
-use super::experiment::{ExperimentArgs, Lineup, some_seconds};
-use super::interrupt::{Interrupted, watch_for_interrupt};
-use super::output::picture_format::ending;
-use super::output::table::{self, Column, RowFormat};
-use super::output::{AtomicOutput, Older, Place, STDOUT, finish, print};
+use super::error::Error;
+use super::experiment::{ExperimentArgs, Lineup, number_that, one_of, some_seconds};
+use super::interrupt::watch_for_interrupt;
+use super::movie::Gif;
+use super::output::picture_format::{ending, mislabelled};
+use super::output::table::{Column, RowFormat, write_rows};
+use super::output::{Destination, Output, STDOUT};
 use super::terminal::tell;
+use crate::atomic_file::IfExists;
 use crate::lab::number::{round, significant};
 use crate::lab::palette::{Rgba, Theme};
 use crate::lab::{
@@ -63,7 +63,8 @@ pub(super) struct CloudArgs {
 
     /// The shape of the starts: disc, ring or cat
     #[arg(long, value_name = "SHAPE", default_value = "disc", hide_possible_values = true)]
-    shape: ShapeArg,
+    #[arg(value_parser = one_of(&CloudShape::ALL, CloudShape::id))]
+    shape: CloudShape,
 
     /// How far the shape reaches, in the unit of the coordinate [default: a quarter of the swing]
     #[arg(long, value_name = "R", value_parser = size)]
@@ -93,71 +94,25 @@ pub(super) struct CloudArgs {
     force: bool,
 }
 
-/// A shape on the command line.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum ShapeArg {
-    Disc,
-    Ring,
-    Cat,
-}
-
-impl From<ShapeArg> for CloudShape {
-    fn from(shape: ShapeArg) -> Self {
-        match shape {
-            ShapeArg::Disc => Self::Disc,
-            ShapeArg::Ring => Self::Ring,
-            ShapeArg::Cat => Self::Cat,
-        }
-    }
-}
-
 fn reach(written: &str) -> Result<f64, String> {
-    match written.parse() {
-        Ok(number) if number > 0.0 && number <= 1e9 => Ok(number),
-        _ => Err("give a number above 0, up to 1e9".into()),
-    }
+    number_that(written, |it| it > 0.0 && it <= 1e9, "a number above 0, up to 1e9")
 }
 
 /// A cloud that is smaller is lost in the rounding of its states.
 const MIN_SIZE: f64 = 1e-6;
 
 fn size(written: &str) -> Result<f64, String> {
-    let size = reach(written).ok().filter(|size| *size >= MIN_SIZE);
-    size.ok_or_else(|| format!("give a number from {MIN_SIZE:e} to 1e9"))
+    number_that(written, |it| (MIN_SIZE..=1e9).contains(&it), "a number from 1e-6 to 1e9")
 }
 
-/// Why there is no such cloud.
-#[derive(Debug, thiserror::Error)]
-enum CloudError {
-    /// No body has one coordinate.
-    #[error("{0}; give a scene with a body of one coordinate, such as pendulum, spring or duffing")]
-    NoBody(NoCloud),
-    /// The memory does not suffice.
-    #[error("{0} --points")]
-    TooMany(NoCloud),
-    /// The name of the file promises something else.
-    #[error("{} would not hold what its name says; give --out a name that ends in .png, .gif or .csv", .0.display())]
-    Ending(PathBuf),
-    /// The drive is faster than the ticks, or its period is no whole number of them.
-    #[error(
-        "a section of {hz} Hz falls between the ticks of {tick_hz} Hz; give --section a part of it, or --tick-hz a multiple"
-    )]
-    Section { hz: f64, tick_hz: u32 },
-}
-
-impl Cause for CloudError {
-    fn exit_code(&self) -> u8 {
-        2
-    }
-}
-
-impl From<NoCloud> for CloudError {
-    fn from(why: NoCloud) -> Self {
-        match why {
-            NoCloud::TooMany { .. } => Self::TooMany(why),
-            why => Self::NoBody(why),
-        }
-    }
+/// The error of a cloud that cannot be.
+fn no_cloud(why: NoCloud) -> Error {
+    Error::mistake(match why {
+        NoCloud::TooMany { .. } => format!("{why} --points"),
+        why => format!(
+            "{why}; give a scene with a body of one coordinate, such as pendulum, spring or duffing"
+        ),
+    })
 }
 
 /// What is written.
@@ -168,7 +123,7 @@ enum Form {
     Gif,
 }
 
-fn form(out: &Path) -> Result<Form, CloudError> {
+fn form(out: &Path) -> Result<Form, Error> {
     if out == Path::new(STDOUT) {
         return Ok(Form::Rows);
     }
@@ -176,7 +131,7 @@ fn form(out: &Path) -> Result<Form, CloudError> {
         Some("csv") => Ok(Form::Rows),
         Some("png") => Ok(Form::Png),
         Some("gif") => Ok(Form::Gif),
-        _ => Err(CloudError::Ending(out.into())),
+        _ => Err(mislabelled(out, "give --out a name that ends in .png, .gif or .csv")),
     }
 }
 
@@ -191,16 +146,16 @@ const FOOT_PX: usize = 2 * Lettering::LINE_PX + 6;
 const MAX_FRAMES: u64 = 100;
 const SHOWN_CS: u32 = 8;
 
-/// The longest run that nobody asked for, in seconds.
+/// The longest default run, in seconds.
 const USUAL_SECONDS: f64 = 60.0;
 
 /// How far other clouds stretch the axes, in widths of what the exact one covers.
 const BESIDE: f64 = 1.0;
 
-/// The longest run that finds what is to be shown, in seconds.
+/// The longest run that sets the axes, in seconds.
 const LONGEST_SCOUTED_S: u64 = 30;
 
-/// A method's cloud on its way.
+/// A method's cloud while it is stepped.
 struct Run {
     spec: LaneSpec,
     cloud: Cloud,
@@ -217,41 +172,51 @@ pub(super) fn run(args: &CloudArgs) -> Result<(), Error> {
         false => args.experiment.lanes_named(&scene),
     };
     let strobe = args.section.map(|hz| strobe(hz, scene.tick_hz)).transpose()?;
-    let older = if args.force { Older::Replace } else { Older::Keep };
-    let place = Place { path: &args.out, option: "--out", older };
-    let output = match form {
-        Form::Rows => AtomicOutput::open_for_text(place)?,
-        Form::Png | Form::Gif => AtomicOutput::open(place)?,
+    let if_exists = if args.force { IfExists::Replace } else { IfExists::Keep };
+    let to = Destination { path: &args.out, option: "--out", if_exists };
+    let mut output = match form {
+        Form::Rows => to.open_for_text()?,
+        Form::Png | Form::Gif => to.open()?,
     };
     let interrupted = watch_for_interrupt();
     let threads = args.threads.map_or(0, usize::from);
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.expect("the system starts a thread for each core");
-    let made = pool.install(|| make(args, &scene, &specs, form, strobe, &interrupted))?;
-    let rows = table::rows(RowFormat::Csv, COLUMNS, &made.rows);
-    if form == Form::Rows {
-        let what =
-            format!("{} row{}", made.rows.len(), if made.rows.len() == 1 { "" } else { "s" });
-        return Ok(finish(output, rows.as_bytes(), &what)?);
+    let Made { rows, size_px, mut frames } =
+        pool.install(|| make(args, &scene, &specs, form, strobe, &interrupted))?;
+    let write_rows = |output| write_rows(output, RowFormat::Csv, COLUMNS, &rows);
+    match form {
+        Form::Rows => return write_rows(output),
+        Form::Png => {
+            let last = frames.pop().expect("a run ends with a picture");
+            output.write_all(&png::encode(size_px, &last))?;
+        }
+        Form::Gif => {
+            let mut gif = Gif::begin(&mut output, size_px)?;
+            frames.into_iter().try_for_each(|rgba| gif.push(rgba, SHOWN_CS))?;
+        }
     }
-    let [width, height] = made.size_px;
-    finish(output, &made.bytes, &format!("a picture of {width}x{height}"))?;
-    Ok(print(&rows)?)
+    output.finish(&format!("a picture of {}x{}", size_px[0], size_px[1]))?;
+    write_rows(Output::stdout())
 }
 
 /// The ticks of a period.
-fn strobe(hz: f64, tick_hz: u32) -> Result<u64, CloudError> {
+fn strobe(hz: f64, tick_hz: u32) -> Result<u64, Error> {
     let ticks = f64::from(tick_hz) / hz;
     let is_whole = ticks >= 0.5 && (ticks - ticks.round()).abs() < 1e-6 * ticks;
-    is_whole.then_some(ticks.round() as u64).ok_or(CloudError::Section { hz, tick_hz })
+    is_whole.then_some(ticks.round() as u64).ok_or_else(|| {
+        Error::mistake(format!(
+            "a section of {hz} Hz falls between the ticks of {tick_hz} Hz; give --section a part of it, or --tick-hz a multiple"
+        ))
+    })
 }
 
 /// The results of all methods.
 struct Made {
     rows: Vec<Row>,
-    size_px: [usize; 2],
-    /// The picture's file.
-    bytes: Vec<u8>,
+    size_px: [u32; 2],
+    /// The pictures on the way, of which the last is of the end; none where none are asked for.
+    frames: Vec<Vec<u8>>,
 }
 
 /// A row of the table.
@@ -262,16 +227,12 @@ struct Row {
 }
 
 const COLUMNS: &[Column<Row>] = &[
-    Column { key: "method", heading: None, value: |row| json!(row.method) },
-    Column { key: "points", heading: None, value: |row| json!(row.measure.points) },
-    Column { key: "area_ratio", heading: None, value: |row| json!(row.measure.area_ratio) },
-    Column { key: "spread", heading: None, value: |row| json!(row.measure.spread) },
-    Column {
-        key: "body_steps_per_s",
-        heading: None,
-        value: |row| json!(row.body_steps_per_s.round()),
-    },
-    Column { key: "hash", heading: None, value: |row| json!(format!("{:016x}", row.measure.hash)) },
+    Column::new("method", |row| json!(row.method)),
+    Column::new("points", |row| json!(row.measure.points)),
+    Column::new("area_ratio", |row| json!(row.measure.area_ratio)),
+    Column::new("spread", |row| json!(row.measure.spread)),
+    Column::new("body_steps_per_s", |row| json!(row.body_steps_per_s.round())),
+    Column::new("hash", |row| json!(format!("{:016x}", row.measure.hash))),
 ];
 
 fn make(
@@ -284,15 +245,14 @@ fn make(
 ) -> Result<Made, Error> {
     let of_scene = scene_body(scene);
     let (name, body) = (&of_scene.name, (of_scene.kind.build)(&of_scene.values, specs[0].solver()));
-    let start = CloudStart::about(name, &*body, args.shape.into(), args.size);
-    let start = start.map_err(CloudError::from)?;
+    let start = CloudStart::about(name, &*body, args.shape, args.size);
+    let start = start.map_err(no_cloud)?;
     let points = args.points as usize;
     let cloud = |spec: &LaneSpec| {
         let cloud = Cloud::new(name, &*body, spec, start, points, scene.tick_hz);
         cloud.map(|cloud| Run { spec: *spec, cloud, stepping: Duration::ZERO, section: None })
     };
-    let mut runs =
-        specs.iter().map(cloud).collect::<Result<Vec<_>, _>>().map_err(CloudError::from)?;
+    let mut runs = specs.iter().map(cloud).collect::<Result<Vec<_>, _>>().map_err(no_cloud)?;
     let seconds = args.seconds.unwrap_or(scene.seconds.min(USUAL_SECONDS));
     let ticks = ((seconds * f64::from(scene.tick_hz)).round() as u64).max(1);
     // The first part of a long run is as wide as the rest.
@@ -305,7 +265,7 @@ fn make(
         Form::Rows => None,
         Form::Png | Form::Gif => {
             let axes = CloudAxes::of_run(name, &*body, start, specs, scene.tick_hz, shown);
-            Some(axes.map_err(CloudError::from)?.whole)
+            Some(axes.map_err(no_cloud)?.whole)
         }
     };
     let paper = view.map(|view| Paper {
@@ -319,8 +279,7 @@ fn make(
         ),
     });
     let mut frames = Vec::new();
-    let mut border =
-        ExactBorder::new(name, &*body, start, scene.tick_hz).map_err(CloudError::from)?;
+    let mut border = ExactBorder::new(name, &*body, start, scene.tick_hz).map_err(no_cloud)?;
     let every = match (strobe, form) {
         (Some(strobe), _) => strobe,
         (None, Form::Gif) => ticks.div_ceil(MAX_FRAMES),
@@ -343,8 +302,7 @@ fn make(
         }
         done += part;
         if interrupted.load(Ordering::Relaxed) {
-            let done = format!("{done} of {ticks} ticks");
-            return Err(Interrupted::After { done }.into());
+            return Err(Error::interrupted_after(format!("{done} of {ticks} ticks")));
         }
         let Some(paper) = &paper else { continue };
         let is_last = done == ticks;
@@ -358,28 +316,9 @@ fn make(
             frames.push(paper.picture(&runs, t, &lines));
         }
     }
-    let size_px = paper.map_or([0; 2], |paper| paper.size_px);
-    let bytes = match form {
-        Form::Rows => Vec::new(),
-        Form::Png => {
-            let last = frames.pop().expect("a run ends with a picture");
-            png::encode(size_px.map(|pixels| pixels as u32), &last)
-        }
-        Form::Gif => gif(size_px, frames).map_err(|error| NoGif(error.to_string()))?,
-    };
+    let size_px = paper.map_or([0; 2], |paper| paper.size_px.map(|pixels| pixels as u32));
     let rows = runs.iter().map(|run| row(run, points, ticks, form)).collect();
-    Ok(Made { rows, size_px, bytes })
-}
-
-/// The encoder of GIF failed.
-#[derive(Debug, thiserror::Error)]
-#[error("the GIF cannot be encoded: {0}")]
-struct NoGif(String);
-
-impl Cause for NoGif {
-    fn exit_code(&self) -> u8 {
-        1
-    }
+    Ok(Made { rows, size_px, frames })
 }
 
 /// The first body of one coordinate, else the first.
@@ -450,20 +389,6 @@ impl Paper {
         }
         pixels.concat()
     }
-}
-
-fn gif(size_px: [usize; 2], frames: Vec<Vec<u8>>) -> Result<Vec<u8>, image::ImageError> {
-    let [width, height] = size_px.map(|pixels| pixels as u32);
-    let mut bytes = io::Cursor::new(Vec::new());
-    let mut encoder = GifEncoder::new_with_speed(&mut bytes, super::movie::GIF_SPEED);
-    encoder.set_repeat(Repeat::Infinite)?;
-    for rgba in frames {
-        let picture = RgbaImage::from_raw(width, height, rgba).expect("a frame has all its pixels");
-        let shown = Delay::from_numer_denom_ms(SHOWN_CS * 10, 1);
-        encoder.encode_frame(Frame::from_parts(picture, 0, 0, shown))?;
-    }
-    drop(encoder);
-    Ok(bytes.into_inner())
 }
 
 /// A method's row; tells what has become of its area in words.

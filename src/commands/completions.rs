@@ -1,11 +1,10 @@
 //! `regatta completions`: a script for a shell, so that Tab completes options, scenes and methods.
 
-use std::io::{self, Write};
-
 use clap::{Args, Command};
 use clap_complete::Shell;
 
 use super::error::Error;
+use super::output::print;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -26,8 +25,5 @@ pub(super) fn run(args: &CompletionsArgs, cli: &mut Command) -> Result<(), Error
     // By way of memory: on a closed pipe the generator itself would panic.
     let mut script = Vec::new();
     clap_complete::generate(args.shell, cli, "regatta", &mut script);
-    let mut out = io::stdout().lock();
-    out.write_all(&script)?;
-    out.flush()?;
-    Ok(())
+    print(script)
 }

@@ -1,110 +1,59 @@
-//! Draws recordings: the renderer for one, what it writes at the end, and the errors on the way.
+//! Draws recordings: the renderer for one, and what is told at the end or of an interrupt.
 
-use super::error::Cause;
-use super::frame_folder::FrameFolderError;
-use super::interrupt::Interrupted;
+use super::capture_settings::CaptureSettings;
+use super::error::Error;
 use super::manifest::Adapter;
-use super::output::OutputError;
-use super::recording::Recording;
 use super::schedule::Schedule;
-use crate::view::{AdapterPreference, Gpu, GpuError, OffscreenRenderer, Panels, ReadbackError};
+use super::terminal::counted;
+use crate::view::{AdapterPreference, Gpu, OffscreenRenderer, Panels};
 
 /// The most pixels of a whole capture: hours of drawing and about a hundred gigabytes of files. More is
 /// probably a typing mistake.
 const MAX_PIXELS: u64 = 1_000_000_000_000;
 
-impl Recording {
+impl CaptureSettings {
     /// A renderer for frames of this size.
-    pub(super) fn renderer(&self) -> Result<OffscreenRenderer, DrawingError> {
-        let (frames, size_px) = (self.schedule.frames, self.size_px);
-        let pixels = u64::from(frames) * u64::from(size_px[0]) * u64::from(size_px[1]);
-        if pixels > MAX_PIXELS {
-            return Err(DrawingError::TooManyPixels { frames, size_px, pixels, most: MAX_PIXELS });
-        }
+    pub(super) fn renderer(&self) -> Result<OffscreenRenderer, Error> {
+        let size_px = self.size_px;
+        check_pixels(self.schedule.frames, size_px, MAX_PIXELS)?;
         let panels = if self.panels { Panels::Shown } else { Panels::Off };
-        let gpu = Gpu::headless(AdapterPreference::Any)?;
-        log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
-        Ok(OffscreenRenderer::new(gpu, size_px, self.scale)?.with_panels(panels))
+        Ok(OffscreenRenderer::new(gpu()?, size_px, self.scale)?.with_panels(panels))
     }
 }
 
-/// Why a run was not drawn or written whole.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum DrawingError {
-    /// The frames have more pixels in all than a capture may have.
-    #[error(
-        "{frames} frames of {}x{} are {} gigapixels, and a capture has at most {}; \
-         give fewer --frames or a smaller --size",
-        size_px[0], size_px[1], pixels / GIGA, most / GIGA
-    )]
-    TooManyPixels {
-        /// Asked for.
-        frames: u32,
-        /// Asked for.
-        size_px: [u32; 2],
-        /// Of all frames together.
-        pixels: u64,
-        /// The most there may be.
-        most: u64,
-    },
-    /// The folder cannot be used.
-    #[error(transparent)]
-    Folder(#[from] FrameFolderError),
-    /// A frame could not be written.
-    #[error("{source}; whole before that: {whole}; the same command with --force draws all frames")]
-    Write {
-        /// The error.
-        source: FrameFolderError,
-        /// The names of the frames written before.
-        whole: String,
-    },
-    /// No graphics device can draw the frames.
-    #[error(transparent)]
-    Gpu(#[from] GpuError),
-    /// A frame was drawn, but not read back from the device.
-    #[error(transparent)]
-    Readback(#[from] ReadbackError),
-    /// One file, or standard output, could not be written.
-    #[error(transparent)]
-    Output(#[from] OutputError),
-    /// Ctrl-C was pressed.
-    #[error(transparent)]
-    Interrupted(Interrupted),
+/// The best graphics device that needs no display.
+pub(super) fn gpu() -> Result<Gpu, Error> {
+    let gpu = pollster::block_on(Gpu::headless(AdapterPreference::Any))?;
+    log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
+    Ok(gpu)
 }
 
 const GIGA: u64 = 1_000_000_000;
 
-impl DrawingError {
-    /// An interrupt after `done` of `frames` frames; `whole` names those that are written whole.
-    pub(super) fn interrupted(done: u32, frames: u32, whole: &str) -> Self {
-        let done = format!("{done} of {frames} frames; whole: {whole}");
-        Self::Interrupted(Interrupted::After { done })
+/// Fails if so many frames of this size have more pixels in all than `most`.
+pub(super) fn check_pixels(frames: u32, [width, height]: [u32; 2], most: u64) -> Result<(), Error> {
+    let pixels = u64::from(frames) * u64::from(width) * u64::from(height);
+    if pixels <= most {
+        return Ok(());
     }
+    Err(Error::mistake(format!(
+        "{frames} frames of {width}x{height} are {} gigapixels, and a capture has at most {}; \
+         give fewer --frames or a smaller --size",
+        pixels / GIGA,
+        most / GIGA
+    )))
 }
 
-impl Cause for DrawingError {
-    fn exit_code(&self) -> u8 {
-        match self {
-            DrawingError::TooManyPixels { .. } => 2,
-            DrawingError::Folder(error) => error.exit_code(),
-            DrawingError::Gpu(error) => error.exit_code(),
-            DrawingError::Output(error) => error.exit_code(),
-            DrawingError::Interrupted(error) => error.exit_code(),
-            DrawingError::Write { .. } | DrawingError::Readback(_) => 1,
-        }
-    }
-
-    fn is_closed_pipe(&self) -> bool {
-        matches!(self, DrawingError::Output(error) if error.is_closed_pipe())
-    }
+/// An interrupt after `done` of `frames` frames; `whole` names those that are written whole.
+pub(super) fn interrupted_after(done: u32, frames: u32, whole: &str) -> Error {
+    Error::interrupted_after(format!("{done} of {frames} frames; whole: {whole}"))
 }
 
-/// The message at the end of a recording: what was written, and where.
-pub(super) fn closing_line(recording: &Recording, place: &str) -> String {
-    let Schedule { frames, fps } = recording.schedule;
-    let [width, height] = recording.size_px;
-    let plural = if frames == 1 { "" } else { "s" };
-    format!("wrote {frames} frame{plural}, {width}x{height}, {fps} fps: {place}")
+/// The message at the end of a capture: what was written, and where.
+pub(super) fn closing_line(capture: &CaptureSettings, place: &str) -> String {
+    let Schedule { frames, fps } = capture.schedule;
+    let [width, height] = capture.size_px;
+    format!("wrote {}, {width}x{height}, {fps} fps: {place}", counted(frames, "frame"))
 }
 
 /// The adapter as the manifest describes it.

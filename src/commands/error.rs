@@ -1,83 +1,183 @@
 //! The error that ends a command, whatever its cause.
 
-use annotate_snippets::{Group, Level, Renderer};
+use std::fmt::Display;
+use std::io;
+use std::path::Path;
 
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+
+use crate::lab::{Mistake, SceneErrors};
 #[cfg(feature = "view")]
 use crate::view::{GpuError, ReadbackError};
-#[cfg(feature = "window")]
-use crate::window::WindowError;
 
-/// An error that can end a command. Each is declared beside the code that raises it.
-pub trait Cause: std::error::Error + Send + Sync + 'static {
-    /// The exit code of the process: 1 for a run that failed, 2 for a mistake in the request, 130 for an
-    /// interrupt.
-    fn exit_code(&self) -> u8;
-
-    /// Whether the reader of the command's output closed the pipe.
-    fn is_closed_pipe(&self) -> bool {
-        false
-    }
-
-    /// The message as it is shown.
-    fn report(&self, renderer: &Renderer) -> String {
-        message(self, renderer)
-    }
+/// What the exit code tells of an error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// The run failed.
+    Failed,
+    /// The request cannot be met as it was made.
+    Mistake,
+    /// Ctrl-C was pressed, or the system asked the process to end.
+    Interrupted,
+    /// The reader of the command's output closed the pipe.
+    ClosedPipe,
 }
 
-/// An error's message alone.
-pub(super) fn message(error: &(impl std::error::Error + ?Sized), renderer: &Renderer) -> String {
-    renderer.render(&[Group::with_title(Level::ERROR.primary_title(error.to_string()))])
-}
-
-/// The error that ends a command.
+/// The error that ends a command: its exit code and its message.
 #[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct Error(Box<dyn Cause>);
+#[error("{message}")]
+pub struct Error {
+    kind: Kind,
+    message: String,
+    /// The mistakes of a scene file, which are reported with its lines.
+    scene: Option<SceneErrors>,
+}
 
 impl Error {
-    /// The exit code of the process: 1 for a run that failed, 2 for a mistake in the request, 130 for an
-    /// interrupt.
-    pub fn exit_code(&self) -> u8 {
-        self.0.exit_code()
+    fn new(kind: Kind, message: impl Display) -> Self {
+        Self { kind, message: message.to_string(), scene: None }
+    }
+
+    /// A run that failed.
+    pub(super) fn failed(message: impl Display) -> Self {
+        Self::new(Kind::Failed, message)
+    }
+
+    /// A mistake in the request. The message ends with a remedy.
+    pub(super) fn mistake(message: impl Display) -> Self {
+        Self::new(Kind::Mistake, message)
+    }
+
+    /// An interrupt after part of the work, such as `3 of 10 frames`.
+    pub(super) fn interrupted_after(done: impl Display) -> Self {
+        Self::new(Kind::Interrupted, format!("interrupted after {done}"))
+    }
+
+    /// An interrupt of work whose result is written whole or not at all.
+    pub(super) fn nothing_written() -> Self {
+        Self::new(Kind::Interrupted, "interrupted; nothing was written")
+    }
+
+    /// A failed write, with this message.
+    pub(super) fn unwritten(error: &io::Error, message: impl Display) -> Self {
+        let is_closed = error.kind() == io::ErrorKind::BrokenPipe;
+        Self::new(if is_closed { Kind::ClosedPipe } else { Kind::Failed }, message)
+    }
+
+    /// A conversion of the system's errors while `doing`, such as `write`, the file or the directory at `path`, which
+    /// `option` names on the command line.
+    pub(super) fn of_file(
+        doing: &'static str,
+        path: &Path,
+        option: &'static str,
+    ) -> impl Fn(io::Error) -> Self + use<> {
+        let path = path.display().to_string();
+        move |error| {
+            let remedy = remedy(&error, option);
+            Self::unwritten(&error, format!("cannot {doing} {path}: {error}; {remedy}"))
+        }
+    }
+
+    /// The same error with words before its message.
+    pub(super) fn within(self, words: &str) -> Self {
+        Self { message: format!("{words}: {}", self.message), ..self }
+    }
+
+    /// The same error with words after its message.
+    pub(super) fn and(self, words: impl Display) -> Self {
+        Self { message: format!("{}; {words}", self.message), ..self }
+    }
+
+    /// The same error as a mistake, unless it is an interrupt.
+    pub(super) fn or_mistake(self) -> Self {
+        let kind = if self.kind == Kind::Interrupted { self.kind } else { Kind::Mistake };
+        Self { kind, ..self }
+    }
+
+    pub(super) fn is_mistake(&self) -> bool {
+        self.kind == Kind::Mistake
     }
 
     /// Whether the reader of the command's output closed the pipe.
     pub(super) fn is_closed_pipe(&self) -> bool {
-        self.0.is_closed_pipe()
+        self.kind == Kind::ClosedPipe
+    }
+
+    /// The exit code of the process: 1 for a run that failed, 2 for a mistake in the request, 130 for an
+    /// interrupt.
+    pub fn exit_code(&self) -> u8 {
+        match self.kind {
+            Kind::Failed | Kind::ClosedPipe => 1,
+            Kind::Mistake => 2,
+            Kind::Interrupted => 130,
+        }
     }
 
     /// The message, with the lines of the scene file that it refers to.
     pub fn report(&self, renderer: &Renderer) -> String {
-        self.0.report(renderer)
+        let mistakes = self.mistakes(renderer).into_iter();
+        let parts = mistakes.flat_map(|Mistake { message, quoted }| [message, quoted]);
+        parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join("\n")
+    }
+
+    /// The messages, each with the lines of the scene file that it is about.
+    pub(super) fn mistakes(&self, renderer: &Renderer) -> Vec<Mistake> {
+        let Some(errors) = &self.scene else {
+            let title = Level::ERROR.primary_title(&self.message);
+            return vec![renderer.render(&[Group::with_title(title)]).into()];
+        };
+        let mut spans = errors.errors.iter().map(|error| error.span.clone());
+        let mistake = |message| {
+            let span = spans.next().filter(|_| !errors.text.is_empty());
+            let quoted = span.map(|span| {
+                let annotation = AnnotationKind::Primary.span(span);
+                let snippet = Snippet::source(&errors.text).annotation(annotation);
+                renderer.render(&[Group::with_level(Level::ERROR).element(snippet)])
+            });
+            Mistake { message, quoted: quoted.unwrap_or_default() }
+        };
+        errors.messages().map(mistake).collect()
     }
 }
 
-impl<C: Cause> From<C> for Error {
-    fn from(cause: C) -> Self {
-        Self(Box::new(cause))
+fn remedy(error: &io::Error, option: &str) -> String {
+    match error.kind() {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+            format!("free some space, or give another {option}")
+        }
+        io::ErrorKind::NotFound => format!("give another {option}, in a directory that is there"),
+        _ => format!("give another {option} that you may write to"),
+    }
+}
+
+impl From<SceneErrors> for Error {
+    fn from(errors: SceneErrors) -> Self {
+        Self { kind: Kind::Mistake, message: errors.to_string(), scene: Some(errors) }
+    }
+}
+
+/// An error of a command's output. One that an [`Output`](super::output::Output) has not explained is of standard output.
+impl From<io::Error> for Error {
+    fn from(error: io::Error) -> Self {
+        error.downcast().unwrap_or_else(|error| {
+            Self::unwritten(&error, format!("cannot write to standard output: {error}"))
+        })
     }
 }
 
 #[cfg(feature = "view")]
-impl Cause for GpuError {
-    fn exit_code(&self) -> u8 {
-        match self {
-            GpuError::TooLarge { .. } | GpuError::Empty { .. } => 2,
-            _ => 1,
+impl From<GpuError> for Error {
+    fn from(error: GpuError) -> Self {
+        match error {
+            GpuError::TooLarge { .. } | GpuError::Empty { .. } => Self::mistake(error),
+            _ => Self::failed(error),
         }
     }
 }
 
 #[cfg(feature = "view")]
-impl Cause for ReadbackError {
-    fn exit_code(&self) -> u8 {
-        1
-    }
-}
-
-#[cfg(feature = "window")]
-impl Cause for WindowError {
-    fn exit_code(&self) -> u8 {
-        1
+impl From<ReadbackError> for Error {
+    fn from(error: ReadbackError) -> Self {
+        Self::failed(error)
     }
 }

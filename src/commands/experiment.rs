@@ -3,10 +3,11 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use clap::builder::{PossibleValue, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
-use super::scene_file::{self, SceneFileError};
+use super::error::Error;
+use super::scene_file;
 use super::spring::SpringArgs;
 use crate::lab::pacing::{POLICIES, PolicyCard, TRACES, TraceCard, policy, trace_card};
 use crate::lab::palette::Theme;
@@ -30,7 +31,7 @@ pub(super) struct ExperimentArgs {
     spring: SpringArgs,
 
     /// An integrator (`regatta list methods`); give several to race them
-    #[arg(long = "method", value_name = "ID", value_parser = MethodParser)]
+    #[arg(long = "method", value_name = "ID", value_parser = METHOD)]
     #[arg(hide_possible_values = true)]
     methods: Vec<&'static Method>,
 
@@ -65,7 +66,7 @@ pub(super) struct Experiment {
 
 impl ExperimentArgs {
     /// Reads the scene and applies the other options to it.
-    pub(super) fn load(&self, lineup: Lineup) -> Result<Experiment, SceneFileError> {
+    pub(super) fn load(&self, lineup: Lineup) -> Result<Experiment, Error> {
         let (scene, text) = match self.spring.load()? {
             Some((scene, text)) => (self.applied_to(scene)?, text),
             None => self.read(self.scene())?,
@@ -75,13 +76,13 @@ impl ExperimentArgs {
             0 | 1 => lineup,
             _ => Lineup::Everyone,
         };
-        // Who names many methods has chosen none of them.
+        // With many methods named, none of them is selected.
         let selected = self.methods.first().filter(|_| self.methods.len() < MANY_LANES).copied();
         Ok(Experiment { scene, text, selected, lineup, loop_trace: None })
     }
 
     /// Reads a scene, and applies the other options to it if it is the one that was given.
-    pub(super) fn read(&self, path: &Path) -> Result<(Scene, String), SceneFileError> {
+    pub(super) fn read(&self, path: &Path) -> Result<(Scene, String), Error> {
         let (mut scene, text) = scene_file::load(path)?;
         if path == self.scene() && !self.spring.is_given() {
             scene = self.applied_to(scene)?;
@@ -92,7 +93,7 @@ impl ExperimentArgs {
     }
 
     /// A scene with the other options.
-    fn applied_to(&self, mut scene: Scene) -> Result<Scene, SceneFileError> {
+    fn applied_to(&self, mut scene: Scene) -> Result<Scene, Error> {
         scene.tick_hz = self.tick_hz.unwrap_or(scene.tick_hz);
         self.methods.iter().try_for_each(|method| scene_file::check_method(&scene, method))?;
         if self.methods.len() > 1 {
@@ -169,7 +170,7 @@ impl Experiment {
         self.selected.unwrap_or_else(|| opening_lane(&self.scene).method)
     }
 
-    /// Whether many lanes race of which nobody has named one: then their verdicts select.
+    /// Whether many lanes race and none was named, so that their verdicts select one.
     pub(super) fn leaves_selection(&self) -> bool {
         let is_race = self.lineup == Lineup::Everyone;
         is_race && self.selected.is_none() && self.scene.lanes.len() >= MANY_LANES
@@ -235,7 +236,7 @@ fn is_path(id: &str) -> bool {
         || id.contains(['/', '\\'])
 }
 
-/// What is said of an id that is not on a list; another one that is may have been meant.
+/// The message for an id that is not on a list, with the one that was probably meant.
 fn no_such(thing: &str, list: &str, meant: Option<&'static str>) -> String {
     let see = format!("`regatta list {list}` names all");
     match meant {
@@ -260,6 +261,16 @@ impl From<ThemeName> for Theme {
     }
 }
 
+/// A finite number on the command line that fits, or else what is wanted.
+pub(super) fn number_that(
+    written: &str,
+    fits: fn(f64) -> bool,
+    wanted: &str,
+) -> Result<f64, String> {
+    let number = written.parse::<f64>().ok().filter(|number| number.is_finite() && fits(*number));
+    number.ok_or_else(|| format!("give {wanted}"))
+}
+
 /// A duration on the command line, in seconds.
 pub(super) fn seconds(written: &str) -> Result<f64, String> {
     match written.parse::<f64>() {
@@ -280,6 +291,16 @@ pub(super) fn some_seconds(written: &str) -> Result<f64, String> {
 /// A range of whole numbers, for the command line's parser.
 pub(super) fn range_of(range: std::ops::RangeInclusive<u32>) -> std::ops::RangeInclusive<i64> {
     i64::from(*range.start())..=i64::from(*range.end())
+}
+
+/// Takes the id of one of these; offers all of them to the shell's completion.
+pub(super) fn one_of<T: Copy + Send + Sync>(
+    all: &'static [T],
+    id: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    let known = PossibleValuesParser::new(all.iter().map(|one| id(*one)));
+    let named = move |given: String| all.iter().copied().find(|one| id(*one) == given);
+    known.map(move |given| named(given).expect("no other is taken"))
 }
 
 /// Takes any path; offers these names to the shell's completion.
@@ -313,28 +334,35 @@ pub(super) fn trace_names() -> Vec<&'static str> {
     TRACES.iter().map(|card| card.id).collect()
 }
 
-/// Takes a method's id; offers all of them to the shell's completion.
+/// Takes what `parse` does; offers these names to the shell's completion.
 #[derive(Clone)]
-pub(super) struct MethodParser;
+pub(super) struct Offered<T> {
+    pub(super) parse: fn(&str) -> Result<T, String>,
+    pub(super) names: fn() -> Vec<&'static str>,
+}
 
-impl TypedValueParser for MethodParser {
-    type Value = &'static Method;
+impl<T: Clone + Send + Sync + 'static> TypedValueParser for Offered<T> {
+    type Value = T;
 
     fn parse_ref(
         &self,
         command: &clap::Command,
         arg: Option<&clap::Arg>,
         value: &OsStr,
-    ) -> Result<&'static Method, clap::Error> {
-        known_method.parse_ref(command, arg, value)
+    ) -> Result<T, clap::Error> {
+        self.parse.parse_ref(command, arg, value)
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new(METHODS.iter().map(|method| PossibleValue::new(method.id))))
+        Some(Box::new((self.names)().into_iter().map(PossibleValue::new)))
     }
 }
 
-fn known_method(id: &str) -> Result<&'static Method, String> {
+/// Takes a method's id.
+pub(super) const METHOD: Offered<&'static Method> =
+    Offered { parse: known_method, names: || METHODS.iter().map(|method| method.id).collect() };
+
+pub(super) fn known_method(id: &str) -> Result<&'static Method, String> {
     let spellings = METHODS.iter().flat_map(Method::spellings);
     method(id).ok_or_else(|| no_such("method", "methods", nearest(id, spellings)))
 }

@@ -2,41 +2,13 @@
 
 use std::path::{self, Path, PathBuf};
 
-use crate::commands::error::Cause;
-use crate::commands::output::picture_format::{ending, is_of_pictures};
+use crate::commands::error::Error;
+use crate::commands::output::picture_format::{ending, is_of_pictures, mislabelled};
 use crate::commands::output::table::RowFormat;
 
-/// Why files cannot have these names.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum FileNameError {
-    /// The rows and the picture cannot go to one file.
-    #[error("rows and picture would go to the same place; give another --out or --plot")]
-    SamePlace,
-    /// The name of the rows' file says that it holds something else.
-    #[error("{} would not hold what its name says; {remedy}", .path.display())]
-    Mislabelled {
-        /// The name.
-        path: PathBuf,
-        /// What to do.
-        remedy: &'static str,
-    },
-    /// The name of the picture's file says that it holds something else than PNG.
-    #[error("{} would hold PNG; give --plot a name that ends in .png", .path.display())]
-    PictureMislabelled {
-        /// The name.
-        path: PathBuf,
-    },
-}
-
-impl Cause for FileNameError {
-    fn exit_code(&self) -> u8 {
-        2
-    }
-}
-
 /// The format asked for, else the one that the name of `out` asks for, else CSV.
-pub(super) fn row_format(out: &Path, asked: Option<RowFormat>) -> Result<RowFormat, FileNameError> {
-    let mislabelled = |remedy| Err(FileNameError::Mislabelled { path: out.to_owned(), remedy });
+pub(super) fn row_format(out: &Path, asked: Option<RowFormat>) -> Result<RowFormat, Error> {
+    let mislabelled = |remedy| Err(mislabelled(out, remedy));
     let ending = ending(out);
     let named = match ending.as_deref() {
         Some("csv") => Some(RowFormat::Csv),
@@ -58,12 +30,16 @@ pub(super) fn row_format(out: &Path, asked: Option<RowFormat>) -> Result<RowForm
 }
 
 /// Whether a PNG may have this name: one that ends in .png, or in nothing, and is not that of the rows.
-pub(super) fn check_picture_name(plot: &Path, out: &Path) -> Result<(), FileNameError> {
+pub(super) fn check_picture_name(plot: &Path, out: &Path) -> Result<(), Error> {
     match plot.extension() {
         Some(ending) if !ending.eq_ignore_ascii_case("png") => {
-            Err(FileNameError::PictureMislabelled { path: plot.to_owned() })
+            let plot = plot.display();
+            let remedy = "give --plot a name that ends in .png";
+            Err(Error::mistake(format!("{plot} would hold PNG; {remedy}")))
         }
-        _ if same_file_path(plot) == same_file_path(out) => Err(FileNameError::SamePlace),
+        _ if same_file_path(plot) == same_file_path(out) => Err(Error::mistake(
+            "rows and picture would go to the same place; give another --out or --plot",
+        )),
         _ => Ok(()),
     }
 }

@@ -6,21 +6,19 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use super::error::Error;
 use super::manifest;
-use super::output::{AtomicFile, DirectoryLock, FileError, sync_directory, write_whole};
+use super::output::DirectoryLock;
+use crate::atomic_file::{AtomicFile, IfExists, sync_directory, write_file};
 
 pub(super) mod blessing;
 mod entries;
-mod errors;
-mod queue;
 #[cfg(test)]
 mod tests;
 
 use super::frame_names::{frame_name, is_pending};
 use blessing::Blessing;
 use entries::{Entries, is_a_captures};
-pub(super) use errors::FrameFolderError;
-use queue::{FrameQueue, Settled};
 
 /// What may become of the frames that a folder holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,8 +41,6 @@ pub(super) struct FrameFolder {
     entries: Entries,
     /// How many frames were added.
     frames: u32,
-    // What follows is dropped in this order: no frame comes after its directory or its lock is gone.
-    queue: FrameQueue,
     /// The directory of new frames that will be swapped in.
     blessing: Option<Blessing>,
     /// `None` while the folder does not exist.
@@ -59,40 +55,33 @@ impl FrameFolder {
         path: &Path,
         existing: Existing,
         option: &'static str,
-    ) -> Result<Self, FrameFolderError> {
+    ) -> Result<Self, Error> {
         let mut folder = Self {
             path: path.to_owned(),
             existing,
             option,
             entries: Entries::default(),
             frames: 0,
-            queue: FrameQueue::default(),
             blessing: None,
             lock: None,
         };
+        let no_directory =
+            || Error::mistake(format!("{} is not a directory; give another --out", path.display()));
         match fs::metadata(path) {
-            Ok(entry) if !entry.is_dir() => {
-                Err(FrameFolderError::NotADirectory { path: path.to_owned() })
-            }
+            Ok(entry) if !entry.is_dir() => Err(no_directory()),
             Ok(_) => folder.look().map(|()| folder),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(folder),
-            Err(error) if error.kind() == io::ErrorKind::NotADirectory => {
-                Err(FrameFolderError::NotADirectory { path: path.to_owned() })
-            }
-            Err(error) => Err(FileError::of("read", path, option)(error).into()),
+            Err(error) if error.kind() == io::ErrorKind::NotADirectory => Err(no_directory()),
+            Err(error) => Err(Error::of_file("read", path, option)(error)),
         }
     }
 
     /// The first of `name`, `name-2`, `name-3` … that is new or an empty directory.
-    pub(super) fn beside(name: &str) -> Result<Self, FrameFolderError> {
+    pub(super) fn beside(name: &str) -> Result<Self, Error> {
         let siblings = (2..).map(|n: u32| format!("{name}-{n}"));
         for sibling in std::iter::once(name.to_owned()).chain(siblings) {
             match Self::inspect(Path::new(&sibling), Existing::Refuse, "working directory") {
-                Err(
-                    FrameFolderError::NotEmpty { .. }
-                    | FrameFolderError::NotADirectory { .. }
-                    | FrameFolderError::Busy { .. },
-                ) => {}
+                Err(taken) if taken.is_mistake() => {}
                 found => return found,
             }
         }
@@ -100,34 +89,40 @@ impl FrameFolder {
     }
 
     /// Locks the folder and reads its entries.
-    fn look(&mut self) -> Result<(), FrameFolderError> {
+    fn look(&mut self) -> Result<(), Error> {
         let (path, option) = (&self.path, self.option);
-        let lock = DirectoryLock::exclusive(path).map_err(FileError::of("lock", path, option))?;
+        let lock = DirectoryLock::exclusive(path).map_err(Error::of_file("lock", path, option))?;
         if lock.is_none() {
-            return Err(FrameFolderError::Busy { path: path.clone(), option });
+            let path = path.display();
+            return Err(Error::mistake(format!(
+                "another regatta is writing to {path}; wait until it has finished, or give another {option}"
+            )));
         }
         self.lock = lock;
-        let read = || Entries::read(path).map_err(FileError::of("read", path, option));
+        let read = || Entries::read(path).map_err(Error::of_file("read", path, option));
         let mut entries = read()?;
         if self.existing == Existing::Refuse && !entries.is_empty() {
-            return Err(FrameFolderError::NotEmpty { path: path.clone() });
+            let path = path.display();
+            return Err(Error::mistake(format!(
+                "{path} is not empty; give another --out, or --force to replace the frames in it"
+            )));
         }
         if self.existing == Existing::Bless {
             // A capture may stop before the frame that a directory blocks; a swap replaces all frames.
             entries.foreign = entries.foreign.or(entries.in_the_way.take());
         }
         if let Some(path) = entries.foreign {
-            return Err(FrameFolderError::NotOurs { path, option });
+            return Err(not_ours(&path, option));
         }
         if self.existing != Existing::Refuse && is_pending(path) {
-            let fail = FileError::of("finish the --bless in", path, option);
+            let fail = Error::of_file("finish the --bless in", path, option);
             blessing::complete(path).map_err(fail)?;
             entries = read()?;
         }
         if self.existing == Existing::Bless
             && let Some(path) = blessing::in_the_way(path)
         {
-            return Err(FrameFolderError::NotOurs { path, option });
+            return Err(not_ours(&path, option));
         }
         self.entries = entries;
         Ok(())
@@ -150,16 +145,16 @@ impl FrameFolder {
 
     /// Creates the folder if necessary and removes the files of an earlier capture. The folder never holds frames of two
     /// captures.
-    pub(super) fn clear(&mut self) -> Result<(), FrameFolderError> {
+    pub(super) fn clear(&mut self) -> Result<(), Error> {
         if self.lock.is_none() {
-            fs::create_dir_all(&self.path).map_err(FileError::of(
+            fs::create_dir_all(&self.path).map_err(Error::of_file(
                 "make the directory",
                 &self.path,
                 self.option,
             ))?;
             self.look()?;
         }
-        let fail = |path: &Path| FileError::of("replace", path, self.option);
+        let fail = |path: &Path| Error::of_file("replace", path, self.option);
         for name in self.entries.our_directories.drain(..) {
             let path = self.path.join(name);
             fs::remove_dir_all(&path).map_err(fail(&path))?;
@@ -175,50 +170,44 @@ impl FrameFolder {
         }
         if self.existing == Existing::Bless {
             let blessing = Blessing::begin(&self.path);
-            let failed = FileError::of("make a directory in", &self.path, self.option);
+            let failed = Error::of_file("make a directory in", &self.path, self.option);
             self.blessing = Some(blessing.map_err(failed)?);
         }
-        self.queue = FrameQueue::open();
         Ok(())
     }
 
-    /// Adds the next frame. The error may be that of an earlier frame.
-    pub(super) fn push(&mut self, picture: &[u8]) -> Result<(), FrameFolderError> {
+    /// Adds the next frame.
+    pub(super) fn push(&mut self, picture: &[u8]) -> Result<(), Error> {
         let name = frame_name(self.frames);
-        let shown = self.path.join(&name);
-        let written = AtomicFile::create(&self.place().join(name)).and_then(|mut file| {
+        let written = AtomicFile::create(&self.place().join(&name)).and_then(|mut file| {
             file.write_all(picture)?;
-            Ok(file)
+            file.rename(IfExists::Replace)
         });
-        let file = written.map_err(FileError::of("write", &shown, self.option))?;
-        if !self.queue.push(file, shown) {
-            return self.settle();
-        }
+        written.map_err(|error| self.unwritten(&name, error))?;
         self.frames += 1;
         Ok(())
     }
 
-    /// Waits until every frame is written under its name. At the first failure only the frames before it
-    /// remain.
-    pub(super) fn settle(&mut self) -> Result<(), FrameFolderError> {
-        let Some(Settled { frames, failed }) = self.queue.close() else { return Ok(()) };
-        self.frames = frames;
-        match failed {
-            Some((error, path)) => Err(FileError::of("write", &path, self.option)(error).into()),
-            None => Ok(()),
-        }
+    /// Writes the manifest after all frames, and completes a blessing.
+    pub(super) fn finish(mut self, manifest: &str) -> Result<(), Error> {
+        let path = self.place().join(manifest::FILE_NAME);
+        sync_directory(self.place())
+            .and_then(|()| write_file(&path, manifest.as_bytes(), IfExists::Replace))
+            .map_err(|error| self.unwritten(manifest::FILE_NAME, error))?;
+        let swapped = self.blessing.take().map_or(Ok(()), Blessing::swap);
+        swapped.map_err(Error::of_file("put the new frames into", &self.path, self.option))
     }
 
-    /// Writes the manifest after all frames, and completes a blessing.
-    pub(super) fn finish(mut self, manifest: &str) -> Result<(), FrameFolderError> {
-        self.settle()?;
-        let path = self.place().join(manifest::FILE_NAME);
-        let shown = self.path.join(manifest::FILE_NAME);
-        sync_directory(self.place())
-            .and_then(|()| write_whole(&path, manifest.as_bytes()))
-            .map_err(FileError::of("write", &shown, self.option))?;
-        let swapped = self.blessing.take().map_or(Ok(()), Blessing::swap);
-        Ok(swapped.map_err(FileError::of("put the new frames into", &self.path, self.option))?)
+    /// The error of a file of this name that could not be written.
+    fn unwritten(&self, name: &str, error: io::Error) -> Error {
+        let error = Error::of_file("write", &self.path.join(name), self.option)(error);
+        if !self.takes_a_part() {
+            return error;
+        }
+        let whole = self.range();
+        error.and(format!(
+            "whole before that: {whole}; the same command with --force draws all frames"
+        ))
     }
 
     /// The names of the first and the last frame written.
@@ -235,4 +224,12 @@ impl FrameFolder {
     pub(super) fn others(&self) -> &[OsString] {
         &self.entries.others
     }
+}
+
+/// The error of a file that has the name of a frame or of the manifest, and that no capture made.
+pub(super) fn not_ours(path: &Path, option: &str) -> Error {
+    let path = path.display();
+    Error::mistake(format!(
+        "{path} was not made by regatta and is not replaced; move it away, or give another {option}"
+    ))
 }

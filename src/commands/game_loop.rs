@@ -1,24 +1,24 @@
 //! `regatta loop`: what a game loop does to motion, over the frames of a display.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
 use clap::Args;
 use serde_json::json;
 
-use super::error::{Cause, Error};
+use super::error::Error;
 use super::experiment::{
-    MethodParser, PathOrName, known_policy, range_of, scene_names, some_seconds, trace_names,
+    METHOD, PathOrName, known_policy, number_that, range_of, scene_names, some_seconds, trace_names,
 };
 use super::file_names::{check_picture_name, row_format, same_file_path};
-use super::interrupt::{Interrupted, watch_for_interrupt};
-use super::output::table::{self, Column, RowFormat};
-use super::output::{AtomicOutput, Older, Place, STDOUT, finish, print};
+use super::interrupt::watch_for_interrupt;
+use super::output::table::{Column, RowFormat, RowWriter, write_rows};
+use super::output::{Destination, STDOUT, print};
 #[cfg(feature = "view")]
 use super::plot::Plot;
 use super::scene_file;
 use super::trace_source::traces;
+use crate::atomic_file::IfExists;
 use crate::lab::pacing::{FrameTrace, MIN_RUN_S, POLICIES, PolicyCard, RefreshRate, trace_card};
 use crate::lab::{Clock, LaneSpec, Scene};
 use crate::sim::integrators::Method;
@@ -92,7 +92,7 @@ pub(super) struct LoopArgs {
     scene: PathBuf,
 
     /// The integrator of the bodies (`regatta list methods`)
-    #[arg(long, value_name = "ID", default_value = "rk4", value_parser = MethodParser)]
+    #[arg(long, value_name = "ID", default_value = "rk4", value_parser = METHOD)]
     #[arg(hide_possible_values = true)]
     method: &'static Method,
 
@@ -140,28 +140,9 @@ pub(super) struct LoopArgs {
     language: String,
 }
 
-/// A mistake in the request.
-#[derive(Debug, thiserror::Error)]
-enum LoopError {
-    #[error("{policy} is not written out in {asked}; give --language {}", .known.join(" or "))]
-    NoSnippet { policy: &'static str, asked: String, known: Vec<&'static str> },
-    #[error(
-        "two outputs would go to the same place; give each of --out, --frames and --plot its own"
-    )]
-    SamePlace,
-    #[error("{} is read as a trace; give the output another name", .path.display())]
-    OwnInput { path: PathBuf },
-}
-
-impl Cause for LoopError {
-    fn exit_code(&self) -> u8 {
-        2
-    }
-}
-
 pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     if let Some(card) = args.show {
-        return Ok(print(snippet(card, &args.language)?)?);
+        return print(snippet(card, &args.language)?);
     }
     let (scene, _) = scene_file::load(&args.scene)?;
     scene_file::check_method(&scene, args.method)?;
@@ -174,30 +155,35 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     let places = [Some(&*args.out), args.frames.as_deref(), args.plot()];
     let places: Vec<PathBuf> = places.into_iter().flatten().map(same_file_path).collect();
     if (1..places.len()).any(|n| places[..n].contains(&places[n])) {
-        return Err(LoopError::SamePlace.into());
+        return Err(Error::mistake(
+            "two outputs would go to the same place; give each of --out, --frames and --plot its own",
+        ));
     }
     let files = args.traces.iter().filter(|path| path.to_str().and_then(trace_card).is_none());
     let read: Vec<PathBuf> = files.map(|path| same_file_path(path)).collect();
     if let Some(path) = places.iter().find(|place| read.contains(place)) {
-        return Err(LoopError::OwnInput { path: path.clone() }.into());
+        let path = path.display();
+        return Err(Error::mistake(format!(
+            "{path} is read as a trace; give the output another name"
+        )));
     }
     let interrupted = watch_for_interrupt();
     let stop = || interrupted.load(Ordering::Relaxed);
     // Before the first run: a refusal should not come late.
-    let older = if args.force { Older::Replace } else { Older::Keep };
-    let place = |path, option| Place { path, option, older };
-    let out = AtomicOutput::open_for_text(place(&args.out, "--out"))?;
-    let frames = args.frames.as_deref().map(|path| place(path, "--frames"));
-    let mut frames = frames.map(AtomicOutput::open_for_text).transpose()?;
+    let if_exists = if args.force { IfExists::Replace } else { IfExists::Keep };
+    let to = |path, option| Destination { path, option, if_exists };
+    let out = to(&args.out, "--out").open_for_text()?;
+    let frames = args.frames.as_deref().map(|path| to(path, "--frames").open_for_text());
+    let mut frames = match frames.transpose()? {
+        Some(out) => Some(RowWriter::begin(out, RowFormat::Csv, FRAME_COLUMNS)?),
+        None => None,
+    };
     #[cfg(feature = "view")]
     let plot =
-        args.plot().map(|path| Plot::open(place(path, "--plot"), diagram::charts(traces.len())));
+        args.plot().map(|path| Plot::open(to(path, "--plot"), diagram::charts(traces.len())));
     #[cfg(feature = "view")]
     let plot = plot.transpose()?;
 
-    if let Some(frames) = &mut frames {
-        frames.write_all(FRAME_COLUMNS.as_bytes()).map_err(|error| frames.failed(error))?;
-    }
     let mut rows = Vec::new();
     for trace in &traces {
         let from = rows.len();
@@ -206,27 +192,20 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
         let stretch = Stretch { until_ns, drawn_from_ns };
         for card in args.policies() {
             let spec = LaneSpec::plain(args.method);
-            let mut lines = String::new();
-            let each = frames.is_some().then_some(&mut lines);
-            rows.push(measure(&scene, spec, card, trace, stretch, &stop, each));
+            rows.push(measure(&scene, spec, card, trace, stretch, &stop, frames.as_mut())?);
             if stop() {
-                return Err(Interrupted::NothingWritten.into());
-            }
-            if let Some(frames) = &mut frames {
-                frames.write_all(lines.as_bytes()).map_err(|error| frames.failed(error))?;
+                return Err(Error::nothing_written());
             }
         }
         advice::tell_of(&rows[from..], args.latency_ms);
     }
-    let what = format!("{} row{}", rows.len(), if rows.len() == 1 { "" } else { "s" });
-    finish(out, table::rows(format, COLUMNS, &rows).as_bytes(), &what)?;
+    write_rows(out, format, COLUMNS, &rows)?;
     if let Some(frames) = frames {
-        finish(frames, &[], "the frames")?;
+        frames.end()?.finish("the frames")?;
     }
     #[cfg(feature = "view")]
     if let Some(plot) = plot {
-        let (output, [width, height], png) = plot.draw(&diagram::figure(&scene, &rows))?;
-        finish(output, &png, &format!("a picture of {width}x{height}"))?;
+        plot.draw(&diagram::figure(&scene, &rows))?;
     }
     Ok(())
 }
@@ -262,61 +241,52 @@ impl LoopArgs {
 }
 
 /// The source of a policy in a language.
-fn snippet(card: &'static PolicyCard, language: &str) -> Result<&'static str, LoopError> {
+fn snippet(card: &'static PolicyCard, language: &str) -> Result<&'static str, Error> {
     let found = card.snippets.iter().find(|snippet| snippet.language == language);
-    found.map(|snippet| snippet.source).ok_or_else(|| LoopError::NoSnippet {
-        policy: card.id,
-        asked: language.into(),
-        known: card.snippets.iter().map(|snippet| snippet.language).collect(),
+    found.map(|snippet| snippet.source).ok_or_else(|| {
+        let known: Vec<&str> = card.snippets.iter().map(|snippet| snippet.language).collect();
+        Error::mistake(format!(
+            "{} is not written out in {language}; give --language {}",
+            card.id,
+            known.join(" or ")
+        ))
     })
 }
 
 /// The columns of the rows; the measured ones are those of the table of metrics.
 const COLUMNS: &[Column<Measured>] = &[
-    Column { key: "policy", heading: None, value: |row| json!(row.card.id) },
-    Column { key: "trace", heading: None, value: |row| json!(row.trace) },
-    Column { key: "tick_hz", heading: None, value: |row| json!(row.tick_hz) },
-    Column { key: "frames", heading: None, value: |row| json!(row.report.frames) },
-    Column {
-        key: "animation_error_rms_ms",
-        heading: None,
-        value: |row| json!(row.report.animation_error_rms_ms),
-    },
-    Column {
-        key: "animation_error_max_ms",
-        heading: None,
-        value: |row| json!(row.report.animation_error_max_ms),
-    },
-    Column {
-        key: "repeated_percent",
-        heading: None,
-        value: |row| json!(row.report.repeated_percent),
-    },
-    Column { key: "double_percent", heading: None, value: |row| json!(row.report.double_percent) },
-    Column {
-        key: "latency_mean_ms",
-        heading: None,
-        value: |row| json!(row.report.latency_mean_ms),
-    },
-    Column { key: "latency_max_ms", heading: None, value: |row| json!(row.report.latency_max_ms) },
-    Column { key: "dropped_ms", heading: None, value: |row| json!(row.report.dropped_ms) },
-    Column { key: "owed_max_ms", heading: None, value: |row| json!(row.report.owed_max_ms) },
-    Column {
-        key: "position_error_rms",
-        heading: None,
-        value: |row| json!(row.report.position_error_rms),
-    },
-    Column { key: "ticks", heading: None, value: |row| json!(row.report.ticks) },
-    Column { key: "evaluations", heading: None, value: |row| json!(row.report.evaluations) },
+    Column::new("policy", |row| json!(row.card.id)),
+    Column::new("trace", |row| json!(row.trace)),
+    Column::new("tick_hz", |row| json!(row.tick_hz)),
+    Column::new("frames", |row| json!(row.report.frames)),
+    Column::new("animation_error_rms_ms", |row| json!(row.report.animation_error_rms_ms)),
+    Column::new("animation_error_max_ms", |row| json!(row.report.animation_error_max_ms)),
+    Column::new("repeated_percent", |row| json!(row.report.repeated_percent)),
+    Column::new("double_percent", |row| json!(row.report.double_percent)),
+    Column::new("latency_mean_ms", |row| json!(row.report.latency_mean_ms)),
+    Column::new("latency_max_ms", |row| json!(row.report.latency_max_ms)),
+    Column::new("dropped_ms", |row| json!(row.report.dropped_ms)),
+    Column::new("owed_max_ms", |row| json!(row.report.owed_max_ms)),
+    Column::new("position_error_rms", |row| json!(row.report.position_error_rms)),
+    Column::new("ticks", |row| json!(row.report.ticks)),
+    Column::new("evaluations", |row| json!(row.report.evaluations)),
 ];
 
 /// The columns of `--frames`.
-const FRAME_COLUMNS: &str =
-    "trace,policy,frame,began_ms,displayed_ms,shown_ms,ticks,dropped_ms,q\n";
+const FRAME_COLUMNS: [&str; 9] = [
+    "trace",
+    "policy",
+    "frame",
+    "began_ms",
+    "displayed_ms",
+    "shown_ms",
+    "ticks",
+    "dropped_ms",
+    "q",
+];
 
 fn latency(written: &str) -> Result<f64, String> {
-    let latency = written.parse::<f64>().ok().filter(|ms| (0.0..=10_000.0).contains(ms));
-    latency.ok_or_else(|| "give 0 to 10000 ms".into())
+    number_that(written, |ms| (0.0..=10_000.0).contains(&ms), "0 to 10000 ms")
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use clap::{Args, Command};
 
-use super::error::{Cause, Error};
+use super::error::Error;
 use super::output::print;
 use crate::lab::nearest;
 use crate::manual::{CHAPTERS, chapter};
@@ -26,37 +26,22 @@ fn after_help() -> String {
     format!("{EXAMPLES}\n\nChapters:{}", lines.collect::<String>())
 }
 
-/// There is no such command or chapter.
-#[derive(Debug, thiserror::Error)]
-#[error("no command and no chapter is called `{topic}`{}\n`regatta help help` lists the chapters", meant(.nearest))]
-struct NoSuchTopic {
-    topic: String,
-    nearest: Option<String>,
-}
-
-fn meant(nearest: &Option<String>) -> String {
-    nearest.as_ref().map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
-}
-
-impl Cause for NoSuchTopic {
-    fn exit_code(&self) -> u8 {
-        2
-    }
-}
-
 /// Prints what `cli` says of itself or of one of its commands, or a chapter.
 pub(super) fn run(args: &HelpArgs, cli: Command) -> Result<(), Error> {
     let topic = args.topic.as_deref();
     if let Some(chapter) = topic.and_then(chapter) {
-        return Ok(print(chapter.text)?);
+        return print(chapter.text);
     }
     if let Some(topic) = topic
         && cli.find_subcommand(topic).is_none()
     {
         let commands = cli.get_subcommands().map(Command::get_name);
         let known = commands.chain(CHAPTERS.iter().map(|chapter| chapter.id));
-        let nearest = nearest(topic, known.map(|name| (name, name))).map(str::to_owned);
-        return Err(NoSuchTopic { topic: topic.to_owned(), nearest }.into());
+        let meant = nearest(topic, known.map(|name| (name, name)));
+        let meant = meant.map_or(String::new(), |name| format!("; did you mean `{name}`?"));
+        return Err(Error::mistake(format!(
+            "no command and no chapter is called `{topic}`{meant}\n`regatta help help` lists the chapters"
+        )));
     }
     match cli.try_get_matches_from(["regatta"].into_iter().chain(topic).chain(["--help"])) {
         Err(help) => Ok(help.print()?),

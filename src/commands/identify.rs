@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::error::{Cause, Error};
+use super::error::Error;
+use super::experiment::number_that;
 use super::output::print;
 use super::output::table::TableFormat;
-use crate::lab::{Columns, Log, LogError, LoggedBody, identify};
-use crate::regular_file::{self, MAX_TABLE_BYTES, Unreadable};
+use crate::lab::{Columns, Log, LoggedBody, identify};
+use crate::regular_file::{self, MAX_TABLE_BYTES};
 
 mod findings;
 
@@ -109,54 +110,32 @@ pub(super) struct LogArgs {
     v_column: String,
 }
 
-/// Why nothing can be said of a log.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum IdentifyError {
-    /// The file is not read.
-    #[error("cannot read the log {}: {source}", .path.display())]
-    Unreadable {
-        /// As it was given.
-        path: PathBuf,
-        /// Why.
-        source: Unreadable,
-    },
-    /// The file is no log.
-    #[error("{0}")]
-    Invalid(LogError),
-}
-
-impl Cause for IdentifyError {
-    fn exit_code(&self) -> u8 {
-        2
-    }
-}
-
-fn parsed(written: &str, fits: fn(f64) -> bool, wanted: &str) -> Result<f64, String> {
-    let number = written.parse::<f64>().ok().filter(|number| number.is_finite() && fits(*number));
-    number.ok_or_else(|| format!("give {wanted}"))
-}
-
 pub(super) fn rate(written: &str) -> Result<f64, String> {
-    parsed(written, |hz| hz > 0.0 && hz <= 1e6, "a rate above 0 and up to 1000000 Hz, such as 60")
+    number_that(
+        written,
+        |hz| hz > 0.0 && hz <= 1e6,
+        "a rate above 0 and up to 1000000 Hz, such as 60",
+    )
 }
 
 pub(super) fn number(written: &str) -> Result<f64, String> {
-    parsed(written, |x| x >= 0.0, "a number from 0 up")
+    number_that(written, |x| x >= 0.0, "a number from 0 up")
 }
 
 pub(super) fn positive(written: &str) -> Result<f64, String> {
-    parsed(written, |x| x > 0.0, "a number above 0")
+    number_that(written, |x| x > 0.0, "a number above 0")
 }
 
 fn signed(written: &str) -> Result<f64, String> {
-    parsed(written, |_| true, "a number")
+    number_that(written, |_| true, "a number")
 }
 
 impl LogArgs {
     /// Reads the log at `path`, of a game with this tick rate in hertz.
-    pub(super) fn read(&self, path: &Path, tick_hz: f64) -> Result<Log, IdentifyError> {
-        let unreadable = |source| IdentifyError::Unreadable { path: path.to_owned(), source };
-        let bytes = regular_file::read(path, MAX_TABLE_BYTES).map_err(unreadable)?;
+    pub(super) fn read(&self, path: &Path, tick_hz: f64) -> Result<Log, Error> {
+        let bytes = regular_file::read(path, MAX_TABLE_BYTES).map_err(|error| {
+            Error::mistake(format!("cannot read the log {}: {error}", path.display()))
+        })?;
         let text = String::from_utf8_lossy(&bytes);
         let columns = Columns {
             tick: self.tick_column.clone(),
@@ -165,7 +144,7 @@ impl LogArgs {
             v: self.v_column.clone(),
         };
         let name = path.display().to_string();
-        Log::parse(&name, &text, &columns, tick_hz).map_err(IdentifyError::Invalid)
+        Log::parse(&name, &text, &columns, tick_hz).map_err(Error::mistake)
     }
 
     /// The body of the log, which has this mass in kg.
@@ -188,6 +167,5 @@ pub(super) fn run(args: &IdentifyArgs) -> Result<(), Error> {
         (TableFormat::Text, None) => NOTHING_RUNS.to_owned(),
         (TableFormat::Json, found) => format!("{:#}\n", object(found.as_ref(), args.mass)),
     };
-    print(&text)?;
-    Ok(())
+    print(text)
 }

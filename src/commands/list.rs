@@ -67,7 +67,7 @@ pub(super) fn run(args: &ListArgs) -> Result<(), Error> {
         Listing::Traces => write(TRACE, TRACES, args.format),
         Listing::Keys => write(KEY, KEYS, args.format),
     };
-    Ok(print(&listing)?)
+    print(&listing)
 }
 
 fn write<T>(columns: &[Column<T>], items: &[T], format: TableFormat) -> String {
@@ -135,21 +135,15 @@ fn refused_by_engines(class: BodyClass) -> Option<String> {
 }
 
 const SCENE: &[Column<Scene>] = &[
-    Column { key: "name", heading: Some("NAME"), value: |scene| json!(scene.name) },
-    Column { key: "tick_hz", heading: Some("HZ"), value: |scene| json!(scene.tick_hz) },
-    Column { key: "seconds", heading: Some("SECONDS"), value: |scene| json!(scene.seconds) },
-    Column {
-        key: "bodies",
-        heading: Some("BODIES"),
-        value: |scene| scene.bodies.iter().map(|body| json!(body.kind.id)).collect(),
-    },
-    Column {
-        key: "methods",
-        heading: None,
-        value: |scene| scene.lanes.iter().map(|lane| json!(lane.method.id)).collect(),
-    },
-    Column { key: "title", heading: Some("TITLE"), value: |scene| json!(scene.title) },
-    Column { key: "about", heading: None, value: |scene| json!(scene.about) },
+    Column::shown("name", "NAME", |scene| json!(scene.name)),
+    Column::shown("tick_hz", "HZ", |scene| json!(scene.tick_hz)),
+    Column::shown("seconds", "SECONDS", |scene| json!(scene.seconds)),
+    Column::shown("bodies", "BODIES", |scene| {
+        scene.bodies.iter().map(|body| json!(body.kind.id)).collect()
+    }),
+    Column::new("methods", |scene| scene.lanes.iter().map(|lane| json!(lane.method.id)).collect()),
+    Column::shown("title", "TITLE", |scene| json!(scene.title)),
+    Column::new("about", |scene| json!(scene.about)),
 ];
 
 fn free_spin(method: &Method) -> Option<FreeSpin> {
@@ -157,185 +151,123 @@ fn free_spin(method: &Method) -> Option<FreeSpin> {
 }
 
 const METHOD: &[Column<Method>] = &[
-    Column { key: "id", heading: Some("ID"), value: |method| json!(method.id) },
-    Column { key: "name", heading: None, value: |method| json!(method.name) },
-    Column {
-        key: "also",
-        heading: Some("ALSO"),
-        value: |method| match method.also {
-            [] => Value::Null,
-            also => json!(also.join(", ")),
-        },
-    },
-    Column { key: "family", heading: Some("FAMILY"), value: |method| json!(method.family.id()) },
-    Column { key: "order", heading: Some("ORDER"), value: |method| json!(method.order) },
-    Column {
-        key: "order_with_drag",
-        heading: Some("WITH DRAG"),
-        value: |method| json!(method.order_with_drag),
-    },
-    Column { key: "evaluations", heading: Some("EVALS"), value: |m| json!(m.evaluations) },
-    Column { key: "exact_if_linear", heading: None, value: |m| json!(m.exact_if_linear) },
-    Column { key: "symplectic", heading: Some("SYMPLECTIC"), value: |m| json!(m.symplectic) },
-    Column { key: "reversible", heading: Some("REVERSIBLE"), value: |m| json!(m.reversible) },
-    Column {
-        key: "stability_limit",
-        heading: Some("STABLE TO h ω"),
-        value: |method| json!(method.stability_limit),
-    },
-    Column {
-        key: "tolerance",
-        heading: None,
-        value: |method| {
-            method.tolerance.map_or(Value::Null, |tolerance| {
-                json!({
-                    "absolute_q": tolerance.absolute_q,
-                    "absolute_v": tolerance.absolute_v,
-                    "relative": tolerance.relative,
-                })
+    Column::shown("id", "ID", |method| json!(method.id)),
+    Column::new("name", |method| json!(method.name)),
+    Column::shown("also", "ALSO", |method| match method.also {
+        [] => Value::Null,
+        also => json!(also.join(", ")),
+    }),
+    Column::shown("family", "FAMILY", |method| json!(method.family.id())),
+    Column::shown("order", "ORDER", |method| json!(method.order)),
+    Column::shown("order_with_drag", "WITH DRAG", |method| json!(method.order_with_drag)),
+    Column::shown("evaluations", "EVALS", |m| json!(m.evaluations)),
+    Column::new("exact_if_linear", |m| json!(m.exact_if_linear)),
+    Column::shown("symplectic", "SYMPLECTIC", |m| json!(m.symplectic)),
+    Column::shown("reversible", "REVERSIBLE", |m| json!(m.reversible)),
+    Column::shown("stability_limit", "STABLE TO h ω", |method| json!(method.stability_limit)),
+    Column::new("tolerance", |method| {
+        method.tolerance.map_or(Value::Null, |tolerance| {
+            json!({
+                "absolute_q": tolerance.absolute_q,
+                "absolute_v": tolerance.absolute_v,
+                "relative": tolerance.relative,
             })
-        },
-    },
-    Column { key: "restart", heading: None, value: |method| json!(method.restart) },
-    Column { key: "keeps_time", heading: None, value: |method| json!(method.keeps_time) },
-    Column { key: "as_printed", heading: Some("AS PRINTED"), value: |m| json!(m.is_as_printed()) },
-    Column { key: "only", heading: Some("ONLY FOR"), value: |method| json!(stepped_kinds(method)) },
-    Column {
-        key: "only_because",
-        heading: None,
-        value: |method| json!(method.only.map(|only| only.reason)),
-    },
-    Column { key: "default_substeps", heading: None, value: |m| json!(m.default_substeps) },
-    Column {
-        key: "engine_tick_hz",
-        heading: None,
-        value: |method| json!(method.engine.map(|engine| engine.tick_hz)),
-    },
-    Column {
-        key: "engine_version",
-        heading: None,
-        value: |method| json!(method.engine.map(|e| e.version).filter(|v| !v.is_empty())),
-    },
-    Column {
-        key: "engine_logged",
-        heading: None,
-        value: |method| json!(method.engine.and_then(|engine| engine.logged)),
-    },
-    Column {
-        key: "engine_damping_ratio_at_1_hz",
-        heading: None,
-        value: |method| json!(method.engine.and_then(|engine| engine.damping_ratio)),
-    },
-    Column {
-        key: "engine_free_spin",
-        heading: None,
-        value: |method| json!(free_spin(method).map(|spin| spin.default.id())),
-    },
-    Column {
-        key: "engine_free_spin_opt_in",
-        heading: None,
-        value: |method| json!(free_spin(method).and_then(|spin| spin.opt_in).map(SpinMap::id)),
-    },
-    Column { key: "about", heading: Some("ABOUT"), value: |method| json!(method.about) },
-    Column { key: "source", heading: None, value: |method| json!(method.source) },
+        })
+    }),
+    Column::new("restart", |method| json!(method.restart)),
+    Column::new("keeps_time", |method| json!(method.keeps_time)),
+    Column::shown("as_printed", "AS PRINTED", |m| json!(m.is_as_printed())),
+    Column::shown("only", "ONLY FOR", |method| json!(stepped_kinds(method))),
+    Column::new("only_because", |method| json!(method.only.map(|only| only.reason))),
+    Column::new("default_substeps", |m| json!(m.default_substeps)),
+    Column::new("engine_tick_hz", |method| json!(method.engine.map(|engine| engine.tick_hz))),
+    Column::new("engine_version", |method| {
+        json!(method.engine.map(|e| e.version).filter(|v| !v.is_empty()))
+    }),
+    Column::new("engine_logged", |method| json!(method.engine.and_then(|engine| engine.logged))),
+    Column::new("engine_damping_ratio_at_1_hz", |method| {
+        json!(method.engine.and_then(|engine| engine.damping_ratio))
+    }),
+    Column::new("engine_free_spin", |method| {
+        json!(free_spin(method).map(|spin| spin.default.id()))
+    }),
+    Column::new("engine_free_spin_opt_in", |method| {
+        json!(free_spin(method).and_then(|spin| spin.opt_in).map(SpinMap::id))
+    }),
+    Column::shown("about", "ABOUT", |method| json!(method.about)),
+    Column::new("source", |method| json!(method.source)),
 ];
 
 const BODY: &[Column<Arc<Kind>>] = &[
-    Column { key: "id", heading: Some("ID"), value: |body| json!(body.id) },
-    Column { key: "about", heading: Some("EQUATION"), value: |body| json!(body.about) },
-    Column {
-        key: "coordinates",
-        heading: None,
-        value: |body| {
-            let coordinates = body.coordinates(&body.plain_values());
-            table::json(COORDINATE, &coordinates.iter().collect::<Vec<_>>())
-        },
-    },
-    Column { key: "truth", heading: Some("TRUTH"), value: |body| json!(body.truth.id()) },
-    Column {
-        key: "aimed_accuracy",
-        heading: None,
-        value: |body| json!(body.truth.aimed_accuracy()),
-    },
-    Column {
-        key: "engine_refusal",
-        heading: None,
-        value: |body| json!(body.class.engine_refusal()),
-    },
-    Column { key: "inputs", heading: Some("INPUTS"), value: |body| json!(body.inputs) },
-    Column {
-        key: "parameters",
-        heading: None,
-        value: |body| table::json(PARAMETER, &body.parameters),
-    },
+    Column::shown("id", "ID", |body| json!(body.id)),
+    Column::shown("about", "EQUATION", |body| json!(body.about)),
+    Column::new("coordinates", |body| {
+        let coordinates = body.coordinates(&body.plain_values());
+        table::json(COORDINATE, &coordinates.iter().collect::<Vec<_>>())
+    }),
+    Column::shown("truth", "TRUTH", |body| json!(body.truth.id())),
+    Column::new("aimed_accuracy", |body| json!(body.truth.aimed_accuracy())),
+    Column::new("engine_refusal", |body| json!(body.class.engine_refusal())),
+    Column::shown("inputs", "INPUTS", |body| json!(body.inputs)),
+    Column::new("parameters", |body| table::json(PARAMETER, &body.parameters)),
 ];
 
 const COORDINATE: &[Column<Coordinate>] = &[
-    Column { key: "name", heading: None, value: |coordinate| json!(&*coordinate.name) },
-    Column { key: "velocity", heading: None, value: |coordinate| json!(&*coordinate.velocity) },
-    Column { key: "unit", heading: None, value: |coordinate| json!(coordinate.unit) },
+    Column::new("name", |coordinate| json!(&*coordinate.name)),
+    Column::new("velocity", |coordinate| json!(&*coordinate.velocity)),
+    Column::new("unit", |coordinate| json!(coordinate.unit)),
 ];
 
 const PARAMETER: &[Column<Parameter>] = &[
-    Column { key: "key", heading: Some("KEY"), value: |parameter| json!(parameter.key) },
-    Column { key: "unit", heading: None, value: |parameter| json!(parameter.unit) },
-    Column { key: "default", heading: Some("DEFAULT"), value: |p| json!(p.default) },
-    Column { key: "range", heading: Some("RANGE"), value: |p| json!(p.range.to_string()) },
-    Column { key: "acts", heading: None, value: |parameter| json!(parameter.acts.id()) },
-    Column { key: "about", heading: Some("ABOUT"), value: |p| json!(p.described()) },
+    Column::shown("key", "KEY", |parameter| json!(parameter.key)),
+    Column::new("unit", |parameter| json!(parameter.unit)),
+    Column::shown("default", "DEFAULT", |p| json!(p.default)),
+    Column::shown("range", "RANGE", |p| json!(p.range.to_string())),
+    Column::new("acts", |parameter| json!(parameter.acts.id())),
+    Column::shown("about", "ABOUT", |p| json!(p.described())),
 ];
 
 const SCENE_KEY: &[Column<SceneKey>] = &[
-    Column { key: "key", heading: Some("KEY"), value: |key| json!(key.key) },
-    Column { key: "required", heading: None, value: |key| json!(key.is_required) },
-    Column { key: "value", heading: None, value: |key| json!(key.value) },
-    Column { key: "about", heading: Some("ABOUT"), value: |key| json!(key.about) },
+    Column::shown("key", "KEY", |key| json!(key.key)),
+    Column::new("required", |key| json!(key.is_required)),
+    Column::new("value", |key| json!(key.value)),
+    Column::shown("about", "ABOUT", |key| json!(key.about)),
 ];
 
 const METRIC: &[Column<Metric>] = &[
-    Column { key: "id", heading: Some("ID"), value: |metric| json!(metric.id) },
-    Column { key: "name", heading: Some("NAME"), value: |metric| json!(metric.name) },
-    Column { key: "unit", heading: Some("UNIT"), value: |metric| json!(metric.unit.to_string()) },
-    Column {
-        key: "scale",
-        heading: Some("SCALE"),
-        value: |metric| match metric.scale {
-            Scale::Log => json!("log"),
-            Scale::Linear => json!("linear"),
-        },
-    },
-    Column { key: "about", heading: Some("ABOUT"), value: |metric| json!(metric.about) },
+    Column::shown("id", "ID", |metric| json!(metric.id)),
+    Column::shown("name", "NAME", |metric| json!(metric.name)),
+    Column::shown("unit", "UNIT", |metric| json!(metric.unit.to_string())),
+    Column::shown("scale", "SCALE", |metric| match metric.scale {
+        Scale::Log => json!("log"),
+        Scale::Linear => json!("linear"),
+    }),
+    Column::shown("about", "ABOUT", |metric| json!(metric.about)),
 ];
 
 const POLICY: &[Column<PolicyCard>] = &[
-    Column { key: "id", heading: Some("ID"), value: |policy| json!(policy.id) },
-    Column { key: "name", heading: None, value: |policy| json!(policy.name) },
-    Column { key: "formula", heading: Some("RULE"), value: |policy| json!(policy.formula) },
-    Column { key: "constants", heading: None, value: |policy| json!(policy.constants) },
-    Column { key: "odd_frames", heading: None, value: |policy| json!(policy.odd_frames) },
-    Column { key: "drawing", heading: Some("DRAWING"), value: |p| json!(p.drawing.name()) },
-    Column { key: "has_fixed_tick", heading: Some("FIXED"), value: |p| json!(p.has_fixed_tick) },
-    Column { key: "users", heading: None, value: |policy| json!(policy.users) },
-    Column { key: "source", heading: None, value: |policy| json!(policy.source) },
-    Column {
-        key: "languages",
-        heading: None,
-        value: |policy| policy.snippets.iter().map(|snippet| snippet.language).collect(),
-    },
+    Column::shown("id", "ID", |policy| json!(policy.id)),
+    Column::new("name", |policy| json!(policy.name)),
+    Column::shown("formula", "RULE", |policy| json!(policy.formula)),
+    Column::new("constants", |policy| json!(policy.constants)),
+    Column::new("odd_frames", |policy| json!(policy.odd_frames)),
+    Column::shown("drawing", "DRAWING", |p| json!(p.drawing.name())),
+    Column::shown("has_fixed_tick", "FIXED", |p| json!(p.has_fixed_tick)),
+    Column::new("users", |policy| json!(policy.users)),
+    Column::new("source", |policy| json!(policy.source)),
+    Column::new("languages", |policy| {
+        policy.snippets.iter().map(|snippet| snippet.language).collect()
+    }),
 ];
 
 const TRACE: &[Column<TraceCard>] = &[
-    Column { key: "id", heading: Some("ID"), value: |trace| json!(trace.id) },
-    Column {
-        key: "display_hz",
-        heading: Some("DISPLAY"),
-        value: |trace| json!(trace.refresh.map(RefreshRate::hz)),
-    },
-    Column { key: "about", heading: Some("ABOUT"), value: |trace| json!(trace.about) },
+    Column::shown("id", "ID", |trace| json!(trace.id)),
+    Column::shown("display_hz", "DISPLAY", |trace| json!(trace.refresh.map(RefreshRate::hz))),
+    Column::shown("about", "ABOUT", |trace| json!(trace.about)),
 ];
 
 const KEY: &[Column<Binding>] = &[
-    Column { key: "keys", heading: Some("KEYS"), value: |binding| json!(binding.shown) },
-    Column { key: "does", heading: Some("DOES"), value: |binding| json!(binding.about) },
-    Column { key: "repeats", heading: None, value: |binding| json!(binding.repeats) },
+    Column::shown("keys", "KEYS", |binding| json!(binding.shown)),
+    Column::shown("does", "DOES", |binding| json!(binding.about)),
+    Column::new("repeats", |binding| json!(binding.repeats)),
 ];

@@ -5,8 +5,7 @@
 //! interface that scripts rely on.
 //!
 //! The modules below come in four groups: the subcommands; what is run; how a run is drawn, frame by frame,
-//! into a folder, a stream or a sheet; and what all of them share. Each error type is declared beside the
-//! code that raises it, and gives the exit code as a [`Cause`].
+//! into a folder, a stream or a sheet; and what all of them share.
 
 #![cfg_attr(
     not(feature = "window"),
@@ -49,6 +48,7 @@ mod trace_source;
 #[cfg(feature = "window")]
 mod unfinished;
 
+mod capture_settings;
 #[cfg(feature = "view")]
 mod clip;
 #[cfg(feature = "view")]
@@ -64,7 +64,6 @@ mod movie;
 mod pipeline;
 #[cfg(feature = "window")]
 mod preferences;
-mod recording;
 mod schedule;
 mod settings;
 #[cfg(feature = "view")]
@@ -89,7 +88,7 @@ use chapter::ChapterArgs;
 #[cfg(feature = "view")]
 use cloud::CloudArgs;
 use completions::CompletionsArgs;
-pub use error::{Cause, Error};
+pub use error::Error;
 use game_loop::LoopArgs;
 use help::HelpArgs;
 use identify::IdentifyArgs;

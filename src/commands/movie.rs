@@ -1,19 +1,20 @@
 //! Writes a run as one stream: an animated picture, or frames for a video encoder.
 
-use std::io::{self, Write};
+use std::io::Write;
 
 use image::codecs::gif::{GifEncoder, Repeat};
 use image::{Delay, Frame, ImageError, RgbaImage};
 
-use super::drawing::{DrawingError, closing_line};
+use super::capture_settings::CaptureSettings;
+use super::drawing::{closing_line, interrupted_after};
+use super::error::Error;
 use super::experiment::Experiment;
 use super::interrupt::watch_for_interrupt;
-use super::output::AtomicOutput;
-use super::pipeline::{Drawn, Run, Stop};
-use super::recording::Recording;
+use super::output::Output;
+use super::pipeline::{Drawn, Run};
 use super::schedule::Schedule;
 use super::state_log::StateLog;
-use super::terminal::{progress, tell};
+use super::terminal::tell;
 
 /// A format of one stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,81 +31,57 @@ pub(super) enum MovieFormat {
 
 /// One pixel in this many is sampled for a GIF's palette. The coarsest sampling: twice as fast as a
 /// medium one, and on flat colours no worse.
-pub(super) const GIF_SPEED: i32 = 30;
+const GIF_SPEED: i32 = 30;
 
 /// Draws a run into `output` and reports on standard error what it wrote.
 pub(super) fn record(
     experiment: &Experiment,
-    recording: Recording,
+    capture: CaptureSettings,
     format: MovieFormat,
-    mut output: AtomicOutput,
-) -> Result<(), DrawingError> {
-    let mut renderer = recording.renderer()?;
+    mut output: Output,
+) -> Result<(), Error> {
+    let mut renderer = capture.renderer()?;
+    let Schedule { frames, .. } = capture.schedule;
+    let mut movie = Movie::begin(format, &mut output, &capture)?;
     let interrupted = watch_for_interrupt();
-    let Schedule { frames, .. } = recording.schedule;
-    let progress = progress(frames, "frames");
-    let mut lab = recording.lab(experiment);
+    let mut lab = capture.lab(experiment);
     let mut state_log = StateLog::new(u64::MAX, lab.race());
     let run = Run {
         renderer: &mut renderer,
         lab: &mut lab,
         state_log: &mut state_log,
-        schedule: recording.schedule,
-        interrupted: &interrupted,
+        schedule: capture.schedule,
     };
-    let written =
-        Movie::begin(format, &mut output, &recording).map_err(Stop::Taken).and_then(|mut movie| {
-            let done = run.draw_all(
-                |_| (),
-                |drawn, ()| {
-                    movie.push(drawn)?;
-                    progress.inc(1);
-                    Ok(())
-                },
-            )?;
-            if done == frames {
-                movie.end().map_err(Stop::Taken)?;
-            }
-            Ok(done)
-        });
-    progress.finish_and_clear();
-    match written {
-        Err(Stop::Readback(error)) => Err(error.into()),
-        Err(Stop::Taken(error)) => Err(output.failed(error).into()),
-        Ok(done) if done < frames => {
-            let whole = match output {
-                AtomicOutput::Stdout(_) | AtomicOutput::Device { .. } => {
-                    format!("those on {}", output.name())
-                }
-                AtomicOutput::File { .. } => "none, a stream is whole at its end".into(),
-            };
-            Err(DrawingError::interrupted(done, frames, &whole))
-        }
-        Ok(_) => {
-            let name = output.name();
-            output.close()?;
-            tell(&closing_line(&recording, &name));
-            Ok(())
-        }
+    let done = run.draw_all(&interrupted, |_| (), |drawn, ()| movie.push(drawn))?;
+    if done < frames {
+        drop(movie);
+        let whole = match output.file() {
+            None => format!("those on {}", output.name()),
+            Some(_) => "none, a stream is whole at its end".into(),
+        };
+        return Err(interrupted_after(done, frames, &whole));
     }
+    movie.end()?;
+    tell(&closing_line(&capture, &output.close()?));
+    Ok(())
 }
 
 /// A stream of frames being encoded.
 enum Movie<'a> {
-    Apng(Box<png::Writer<&'a mut AtomicOutput>>),
-    Gif { encoder: GifEncoder<&'a mut AtomicOutput>, size_px: [u32; 2], fps: u32 },
-    Y4m { out: &'a mut AtomicOutput, planes: Vec<u8> },
-    Rgba(&'a mut AtomicOutput),
+    Apng(Box<png::Writer<&'a mut Output>>),
+    Gif { gif: Gif<&'a mut Output>, fps: u32 },
+    Y4m { out: &'a mut Output, planes: Vec<u8> },
+    Rgba(&'a mut Output),
 }
 
 impl<'a> Movie<'a> {
     fn begin(
         format: MovieFormat,
-        out: &'a mut AtomicOutput,
-        recording: &Recording,
-    ) -> Result<Self, io::Error> {
-        let [width, height] = recording.size_px;
-        let Schedule { frames, fps } = recording.schedule;
+        out: &'a mut Output,
+        capture: &CaptureSettings,
+    ) -> Result<Self, Error> {
+        let [width, height] = capture.size_px;
+        let Schedule { frames, fps } = capture.schedule;
         Ok(match format {
             MovieFormat::Apng => {
                 let mut encoder = png::Encoder::new(out, width, height);
@@ -116,11 +93,7 @@ impl<'a> Movie<'a> {
                 encoder.set_frame_delay(1, small(fps)).map_err(of_png)?;
                 Movie::Apng(Box::new(encoder.write_header().map_err(of_png)?))
             }
-            MovieFormat::Gif => {
-                let mut encoder = GifEncoder::new_with_speed(out, GIF_SPEED);
-                encoder.set_repeat(Repeat::Infinite).map_err(of_gif)?;
-                Movie::Gif { encoder, size_px: [width, height], fps }
-            }
+            MovieFormat::Gif => Movie::Gif { gif: Gif::begin(out, capture.size_px)?, fps },
             MovieFormat::Y4m => {
                 writeln!(
                     out,
@@ -132,25 +105,21 @@ impl<'a> Movie<'a> {
         })
     }
 
-    fn push(&mut self, Drawn { frame, rgba, .. }: &Drawn) -> Result<(), io::Error> {
+    fn push(&mut self, Drawn { frame, rgba, .. }: &Drawn) -> Result<(), Error> {
         match self {
-            Movie::Apng(writer) => writer.write_image_data(rgba).map_err(of_png),
-            Movie::Gif { encoder, size_px: [width, height], fps } => {
-                let picture = RgbaImage::from_raw(*width, *height, rgba.clone());
-                let picture = picture.expect("a frame has as many pixels as it says");
-                let frame = Frame::from_parts(picture, 0, 0, shown(*frame, *fps));
-                encoder.encode_frame(frame).map_err(of_gif)
-            }
+            Movie::Apng(writer) => writer.write_image_data(rgba).map_err(of_png)?,
+            Movie::Gif { gif, fps } => gif.push(rgba.clone(), shown_cs(*frame, *fps))?,
             Movie::Y4m { out, planes } => {
                 to_yuv(rgba, planes);
                 out.write_all(b"FRAME\n")?;
-                out.write_all(planes)
+                out.write_all(planes)?;
             }
-            Movie::Rgba(out) => out.write_all(rgba),
+            Movie::Rgba(out) => out.write_all(rgba)?,
         }
+        Ok(())
     }
 
-    fn end(self) -> Result<(), io::Error> {
+    fn end(self) -> Result<(), Error> {
         match self {
             Movie::Apng(writer) => writer.finish().map_err(of_png),
             // A GIF's encoder writes the last byte when it is dropped; the output tells when it is closed whether it could.
@@ -159,27 +128,50 @@ impl<'a> Movie<'a> {
     }
 }
 
-/// How long a GIF shows this frame. A GIF counts hundredths of a second; the remainder is carried to the next frame.
-fn shown(frame: u32, fps: u32) -> Delay {
+/// A GIF that repeats, being encoded.
+pub(super) struct Gif<W: Write> {
+    encoder: GifEncoder<W>,
+    size_px: [u32; 2],
+}
+
+impl<W: Write> Gif<W> {
+    pub(super) fn begin(out: W, size_px: [u32; 2]) -> Result<Self, Error> {
+        let mut encoder = GifEncoder::new_with_speed(out, GIF_SPEED);
+        encoder.set_repeat(Repeat::Infinite).map_err(of_gif)?;
+        Ok(Self { encoder, size_px })
+    }
+
+    /// Adds a picture that is shown for this many hundredths of a second.
+    pub(super) fn push(&mut self, rgba: Vec<u8>, shown_cs: u32) -> Result<(), Error> {
+        let [width, height] = self.size_px;
+        let picture = RgbaImage::from_raw(width, height, rgba);
+        let picture = picture.expect("a frame has as many pixels as it says");
+        let shown = Delay::from_numer_denom_ms(10 * shown_cs, 1);
+        self.encoder.encode_frame(Frame::from_parts(picture, 0, 0, shown)).map_err(of_gif)
+    }
+}
+
+/// How long a GIF shows this frame, in hundredths of a second; the remainder is carried to the next frame.
+fn shown_cs(frame: u32, fps: u32) -> u32 {
     let ends = |frame: u32| u64::from(frame) * 100 / u64::from(fps);
-    Delay::from_numer_denom_ms((ends(frame + 1) - ends(frame)) as u32 * 10, 1)
+    (ends(frame + 1) - ends(frame)) as u32
 }
 
 fn small(value: u32) -> u16 {
     u16::try_from(value).expect("the command line's limits fit")
 }
 
-fn of_png(error: png::EncodingError) -> io::Error {
+fn of_png(error: png::EncodingError) -> Error {
     match error {
-        png::EncodingError::IoError(error) => error,
-        error => io::Error::other(error),
+        png::EncodingError::IoError(error) => error.into(),
+        error => Error::failed(format!("the PNG cannot be encoded: {error}")),
     }
 }
 
-fn of_gif(error: ImageError) -> io::Error {
+fn of_gif(error: ImageError) -> Error {
     match error {
-        ImageError::IoError(error) => error,
-        error => io::Error::other(error),
+        ImageError::IoError(error) => error.into(),
+        error => Error::failed(format!("the GIF cannot be encoded: {error}")),
     }
 }
 

@@ -13,13 +13,15 @@ use std::thread;
 
 use rayon::ThreadPoolBuilder;
 
+use super::error::Error;
 use super::jobs;
 use super::schedule::Schedule;
 use super::state_log::StateLog;
+use super::terminal::progress;
 use crate::lab::{CloudWorker, Lab};
 use crate::view::{OffscreenRenderer, Panels, ReadbackError};
 
-/// Frames that the device draws at a time. More gain nothing on a software adapter, and cost memory.
+/// Frames that the device draws at a time. More gain nothing on a software adapter and cost memory.
 const MAX_IN_FLIGHT: usize = 2;
 
 /// Threads that encode: no device draws fast enough to keep more of them busy, and each holds a frame.
@@ -43,14 +45,6 @@ pub(super) struct Drawn {
 /// A frame with what its encoder returned, or the panic of its encoder.
 type Encoded<T> = (Drawn, thread::Result<T>);
 
-/// Why a run ended before its last frame.
-pub(super) enum Stop<E> {
-    /// The device did not return a frame.
-    Readback(ReadbackError),
-    /// `take` failed on a frame.
-    Taken(E),
-}
-
 /// A run to be drawn.
 pub(super) struct Run<'a> {
     pub(super) renderer: &'a mut OffscreenRenderer,
@@ -58,30 +52,39 @@ pub(super) struct Run<'a> {
     pub(super) lab: &'a mut Lab,
     pub(super) state_log: &'a mut StateLog,
     pub(super) schedule: Schedule,
-    /// Once it is set, no further frame is drawn; those drawn already are still passed on.
-    pub(super) interrupted: &'a AtomicBool,
 }
 
 impl Run<'_> {
     /// Draws the frames in order and passes each to `take` with what `encode` returned for it. Several
-    /// frames are encoded at once if there are processors for it. Returns how many frames were drawn.
-    pub(super) fn draw_all<T: Send, E: Send>(
+    /// frames are encoded at once if there are processors for it. Returns how many frames were drawn. Once
+    /// `interrupted` is set, no further frame is drawn; those drawn already are still passed on.
+    pub(super) fn draw_all<T: Send>(
         self,
+        interrupted: &AtomicBool,
         encode: impl Fn(&Drawn) -> T + Sync,
-        take: impl FnMut(&Drawn, T) -> Result<(), E> + Send,
-    ) -> Result<u32, Stop<E>> {
+        mut take: impl FnMut(&Drawn, T) -> Result<(), Error> + Send,
+    ) -> Result<u32, Error> {
+        let progress = progress(self.schedule.frames, "frames");
+        let take = |drawn: &Drawn, encoded| {
+            progress.inc(1);
+            take(drawn, encoded)
+        };
         let processors = thread::available_parallelism().map_or(1, NonZero::get);
         // One is left to drawing.
-        self.draw_beside((processors - 1).clamp(1, MAX_ENCODERS), encode, take)
+        let encoders = (processors - 1).clamp(1, MAX_ENCODERS);
+        let drawn = self.draw_beside(encoders, interrupted, encode, take);
+        progress.finish_and_clear();
+        drawn
     }
 
     /// [`draw_all`](Self::draw_all) with this number of encoder threads.
-    fn draw_beside<T: Send, E: Send>(
+    fn draw_beside<T: Send>(
         self,
         encoders: usize,
+        interrupted: &AtomicBool,
         encode: impl Fn(&Drawn) -> T + Sync,
-        take: impl FnMut(&Drawn, T) -> Result<(), E> + Send,
-    ) -> Result<u32, Stop<E>> {
+        take: impl FnMut(&Drawn, T) -> Result<(), Error> + Send,
+    ) -> Result<u32, Error> {
         let pool = ThreadPoolBuilder::new().num_threads(encoders).build();
         let pool = pool.expect("the system starts a few threads");
         let (results, encoded) = mpsc::channel();
@@ -92,7 +95,7 @@ impl Run<'_> {
         thread::scope(|threads| {
             let taker = threads.spawn(move || take_in_order(&encoded, &emptied, take));
             let drawn = pool.in_place_scope_fifo(|jobs| {
-                self.draw(&buffers, |drawn| {
+                self.draw(&buffers, interrupted, |drawn| {
                     let (results, encode) = (results.clone(), &encode);
                     jobs.spawn_fifo(move |_| {
                         let made = panic::catch_unwind(AssertUnwindSafe(|| encode(&drawn)));
@@ -103,10 +106,10 @@ impl Run<'_> {
             });
             drop(results);
             match taker.join() {
-                Ok(taken) => taken.map_err(Stop::Taken)?,
+                Ok(taken) => taken?,
                 Err(bug) => panic::resume_unwind(bug),
             }
-            drawn.map_err(Stop::Readback)
+            Ok(drawn?)
         })
     }
 
@@ -114,9 +117,10 @@ impl Run<'_> {
     fn draw(
         self,
         buffers: &Receiver<Vec<u8>>,
+        interrupted: &AtomicBool,
         mut hand_on: impl FnMut(Drawn),
     ) -> Result<u32, ReadbackError> {
-        let Self { renderer, lab, state_log, schedule, interrupted } = self;
+        let Self { renderer, lab, state_log, schedule } = self;
         let (mut moments, mut clouds) = (VecDeque::new(), CloudWorker::default());
         let mut drawn = 0;
         let mut next = 0;
@@ -143,11 +147,11 @@ impl Run<'_> {
 
 /// Passes encoded frames to `take` in order, from frame 0, and returns their buffers. Stops at the first
 /// error of `take`. Resumes the panic of an encoder.
-fn take_in_order<T, E>(
+fn take_in_order<T>(
     encoded: &Receiver<Encoded<T>>,
     emptied: &Sender<Vec<u8>>,
-    mut take: impl FnMut(&Drawn, T) -> Result<(), E>,
-) -> Result<(), E> {
+    mut take: impl FnMut(&Drawn, T) -> Result<(), Error>,
+) -> Result<(), Error> {
     let mut window = ReorderingWindow::default();
     for (drawn, made) in encoded {
         window.insert(drawn.frame, (drawn, made));
@@ -216,7 +220,7 @@ mod tests {
     const SCHEDULE: Schedule = Schedule { frames: 30, fps: 10 };
 
     fn renderer_or_skip(test: &str) -> Option<OffscreenRenderer> {
-        let gpu = Gpu::headless(AdapterPreference::CpuOnly)
+        let gpu = pollster::block_on(Gpu::headless(AdapterPreference::CpuOnly))
             .inspect_err(|error| drop(writeln!(io::stderr(), "SKIPPED {test}: {error}")))
             .ok()?;
         Some(OffscreenRenderer::new(gpu, [160, 90], 0.3).unwrap())
@@ -230,21 +234,21 @@ mod tests {
     }
 
     /// Runs the pipeline from frame 0.
-    fn piped<E: Send>(
+    fn piped(
         renderer: &mut OffscreenRenderer,
         interrupted: &AtomicBool,
-        mut take: impl FnMut(&Drawn) -> Result<(), E> + Send,
-    ) -> Result<u32, Stop<E>> {
+        mut take: impl FnMut(&Drawn) -> Result<(), Error> + Send,
+    ) -> Result<u32, Error> {
         let mut lab = race();
         let mut state_log = StateLog::new(1, lab.race());
         let (lab, state_log) = (&mut lab, &mut state_log);
-        let run = Run { renderer, lab, state_log, schedule: SCHEDULE, interrupted };
+        let run = Run { renderer, lab, state_log, schedule: SCHEDULE };
         // The first of every two takes longer than the second.
         let encode = |drawn: &Drawn| {
             thread::sleep(Duration::from_millis(if drawn.frame.is_multiple_of(2) { 5 } else { 0 }));
             drawn.frame
         };
-        run.draw_beside(3, encode, |drawn, encoded| {
+        run.draw_beside(3, interrupted, encode, |drawn, encoded| {
             assert_eq!(encoded, drawn.frame);
             take(drawn)
         })
@@ -273,10 +277,9 @@ mod tests {
             lab: &mut lab,
             state_log: &mut state_log,
             schedule: SCHEDULE,
-            interrupted: &AtomicBool::new(false),
         };
         let encode = |drawn: &Drawn| assert_ne!(drawn.frame, 4, "a bug");
-        let run = || run.draw_beside(3, encode, |_, ()| Ok::<_, ()>(()));
+        let run = || run.draw_beside(3, &AtomicBool::new(false), encode, |_, ()| Ok(()));
         assert!(panic::catch_unwind(AssertUnwindSafe(run)).is_err());
     }
 
@@ -291,7 +294,6 @@ mod tests {
             lab: &mut lab,
             state_log: &mut state_log,
             schedule: SCHEDULE,
-            interrupted: &AtomicBool::new(false),
         };
         let [on_their_way, most] = [0, 0].map(AtomicUsize::new);
         let encode = |drawn: &Drawn| {
@@ -302,9 +304,9 @@ mod tests {
             }
             thread::sleep(Duration::from_millis(if drawn.frame == 0 { 100 } else { 0 }));
         };
-        let done = run.draw_beside(3, encode, |_, ()| {
+        let done = run.draw_beside(3, &AtomicBool::new(false), encode, |_, ()| {
             on_their_way.fetch_sub(1, Ordering::SeqCst);
-            Ok::<_, ()>(())
+            Ok(())
         });
         assert!(matches!(done, Ok(30)));
         assert_eq!(most.into_inner(), 3 + SPARE_BUFFERS);
@@ -323,7 +325,7 @@ mod tests {
         let mut frames = Vec::new();
         let drawn = piped(&mut renderer, &AtomicBool::new(false), |drawn| {
             frames.push((drawn.tick, drawn.alpha, drawn.rgba.clone()));
-            Ok::<_, ()>(())
+            Ok(())
         });
         assert!(matches!(drawn, Ok(30)));
         assert!(frames == one_by_one);
@@ -337,9 +339,9 @@ mod tests {
         let mut taken = 0;
         let stopped = piped(&mut renderer, &AtomicBool::new(false), |_| {
             taken += 1;
-            if taken == 3 { Err("full") } else { Ok(()) }
+            if taken == 3 { Err(Error::failed("full")) } else { Ok(()) }
         });
-        assert!(matches!(stopped, Err(Stop::Taken("full"))));
+        assert_eq!(stopped.unwrap_err().to_string(), "full");
         assert_eq!(taken, 3);
     }
 
@@ -352,7 +354,7 @@ mod tests {
         let drawn = piped(&mut renderer, &interrupted, |_| {
             taken += 1;
             interrupted.store(true, Ordering::Relaxed);
-            Ok::<_, ()>(())
+            Ok(())
         });
         let Ok(drawn) = drawn else { panic!("nothing failed") };
         assert_eq!(drawn, taken);

@@ -7,20 +7,20 @@ use std::sync::Arc;
 use annotate_snippets::Renderer;
 use clap::Args;
 
-use super::error::{Cause, Error};
+use super::capture_settings::CaptureSettings;
+use super::error::Error;
 use super::experiment::{self, Experiment, ExperimentArgs, Lineup, ThemeName, known_trace};
 use super::frame_folder::FrameFolder;
-use super::interrupt::Interrupted;
-use super::output::{AtomicOutput, Older, Place};
+use super::output::{Destination, Output};
 use super::preferences::{self, Preferences};
-use super::recording::Recording;
 use super::schedule::{FPS, Schedule, frames_in};
-use super::terminal::tell;
+use super::terminal::{counted, tell};
 use super::unfinished::{self, UnfinishedRecording};
 use super::{clip, scene_file, state_log};
+use crate::atomic_file::IfExists;
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
-use crate::lab::{Lab, Motion, RecordingError};
+use crate::lab::{Lab, Motion};
 use crate::window::{self, Closed, SceneFiles, WindowError, WindowSettings};
 
 const EXAMPLES: &str = "\
@@ -76,26 +76,6 @@ pub(super) struct PlayArgs {
     reduced_motion: bool,
 }
 
-/// The recording would replace the scene file that is played.
-#[derive(Debug, thiserror::Error)]
-#[error("{} is the scene that is played; give another --record", .path.display())]
-struct RecordOverScene {
-    /// The file, as given to `--record`.
-    path: PathBuf,
-}
-
-impl Cause for RecordOverScene {
-    fn exit_code(&self) -> u8 {
-        2
-    }
-}
-
-impl Cause for RecordingError {
-    fn exit_code(&self) -> u8 {
-        1
-    }
-}
-
 /// The directory for pictures if there is no display.
 const FRAMES_DIR: &str = "regatta-frames";
 /// How many pictures are drawn if there is no display: enough to see what each method does, and drawn in seconds even
@@ -129,14 +109,14 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         lab.choose_scale(percent);
     }
     let record = args.record.as_deref().map(|path| {
-        let older = if args.force { Older::Replace } else { Older::Keep };
-        Place { path, option: "--record", older }
+        let if_exists = if args.force { IfExists::Replace } else { IfExists::Beside };
+        Destination { path, option: "--record", if_exists }
     });
     refuse_to_record_over(&options, record.as_ref())?;
     // Opened before the run, which could otherwise turn out impossible to save. A file is begun again when the run is over,
     // so that a killed program leaves only what grows beside it.
-    let opened = record.map(AtomicOutput::open_for_text).transpose()?;
-    let unfinished = opened.as_ref().and_then(AtomicOutput::file).map(UnfinishedRecording::beside);
+    let opened = record.map(Destination::open_for_text).transpose()?;
+    let unfinished = opened.as_ref().and_then(Output::file).map(UnfinishedRecording::beside);
     let stream = opened.filter(|output| output.file().is_none());
     for told in unfinished::left_behind() {
         tell(&told);
@@ -155,7 +135,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
             (without_display(args, &experiment, &reason)?, false)
         }
         done => {
-            let Closed { lab, interrupted, size } = done?;
+            let Closed { lab, interrupted, size } = done.map_err(Error::failed)?;
             let is_own = args.seconds.is_some() || args.experiment.names_a_scene();
             let theme = lab.chosen_theme().filter(|_| args.theme.is_none());
             let scene = if is_own { preferences.scene } else { preferences::scene_of(&lab) };
@@ -165,12 +145,11 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
             (lab, interrupted)
         }
     };
-    if let Some(place) = record {
-        let mut record = stream.map_or_else(|| AtomicOutput::begin(place), Ok)?;
+    if let Some(to) = record {
+        let mut record = stream.map_or_else(|| to.begin(), Ok)?;
         let wanted = record.name();
-        let text = lab.recording()?;
-        record.write_all(text.as_bytes()).map_err(|error| record.failed(error))?;
-        let name = record.close_beside()?;
+        record.write_all(lab.recording().map_err(Error::failed)?.as_bytes())?;
+        let name = record.close()?;
         if let Some(unfinished) = unfinished {
             unfinished.finish();
         }
@@ -184,7 +163,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         tell(&format!("recorded {} in {name}", ticks(&lab)));
     }
     match interrupted {
-        true => Err(Interrupted::After { done: ticks(&lab) }.into()),
+        true => Err(Error::interrupted_after(ticks(&lab))),
         false => Ok(()),
     }
 }
@@ -192,21 +171,24 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
 /// Fails if the recording would replace the scene file that is played.
 fn refuse_to_record_over(
     options: &ExperimentArgs,
-    record: Option<&Place<'_>>,
-) -> Result<(), RecordOverScene> {
-    let Some(Place { path, .. }) = record else { return Ok(()) };
+    record: Option<&Destination<'_>>,
+) -> Result<(), Error> {
+    let Some(Destination { path, .. }) = record else { return Ok(()) };
     let is_played = !scene_file::is_built_in(options.scene())
         && options
             .scene()
             .canonicalize()
             .is_ok_and(|scene| path.canonicalize().ok() == Some(scene));
-    if is_played { Err(RecordOverScene { path: path.to_path_buf() }) } else { Ok(()) }
+    if !is_played {
+        return Ok(());
+    }
+    let path = path.display();
+    Err(Error::mistake(format!("{path} is the scene that is played; give another --record")))
 }
 
 /// The length of a run in words.
 fn ticks(lab: &Lab) -> String {
-    let ticks = lab.timeline().end();
-    format!("{ticks} tick{}", if ticks == 1 { "" } else { "s" })
+    counted(lab.timeline().end(), "tick")
 }
 
 /// Draws the first seconds into a folder, and returns the lab as it then is.
@@ -222,7 +204,7 @@ fn without_display(args: &PlayArgs, experiment: &Experiment, reason: &str) -> Re
         folder.path().display(),
     ));
     let schedule = Schedule { frames, fps: FPS };
-    let recording = Recording {
+    let capture = CaptureSettings {
         schedule,
         size_px: SIZE_PX,
         scale: 1.0,
@@ -233,10 +215,8 @@ fn without_display(args: &PlayArgs, experiment: &Experiment, reason: &str) -> Re
         theme: args.theme.map(Theme::from).unwrap_or_default(),
         mark_every: state_log::usual_stride(schedule.ticks(&experiment.lab())),
     };
-    clip::record(experiment, recording, folder)?;
-    let mut lab = experiment.lab();
-    let last = args.seconds.map(|seconds| lab.nearest_tick(seconds));
-    (0..frames).for_each(|frame| schedule.advance(&mut lab, frame, &mut ()));
+    let last = args.seconds.map(|seconds| experiment.lab().nearest_tick(seconds));
+    let mut lab = clip::record(experiment, capture, folder)?;
     // The last frame is before the end.
     while last.is_some_and(|last| lab.race().tick() < last) {
         lab.tick();

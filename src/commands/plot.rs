@@ -1,10 +1,11 @@
 //! Draws a figure of charts into a PNG file, which is opened first.
 
-use crate::commands::error::{Cause, Error};
-use crate::commands::output::{AtomicOutput, Place};
-use crate::view::{
-    AdapterPreference, Figure, Gpu, GpuError, OffscreenRenderer, ReadbackError, png,
-};
+use std::io::Write;
+
+use crate::commands::drawing::gpu;
+use crate::commands::error::Error;
+use crate::commands::output::{Destination, Output};
+use crate::view::{Figure, GpuError, OffscreenRenderer, png};
 
 /// Pixels of a chart, and pixels per point: legible when a few charts fill a screen.
 const CHART_PX: [u32; 2] = [920, 660];
@@ -13,55 +14,36 @@ const SCALE: f32 = 1.6;
 /// Pixels that title, legend and note take.
 const MARGIN_PX: u32 = 240;
 
-/// The charts do not fit on the largest picture of the adapter.
-#[derive(Debug, thiserror::Error)]
-#[error(
-    "a picture of {charts} charts is larger than {limit}x{limit}, what this adapter can make; \
-     give fewer scenes, or no --plot"
-)]
-struct TooManyCharts {
-    /// One for each scene, and one more.
-    charts: usize,
-    /// The longest side in pixels.
-    limit: u32,
-}
-
-impl Cause for TooManyCharts {
-    fn exit_code(&self) -> u8 {
-        2
-    }
-}
-
 /// A picture to be made.
 pub(super) struct Plot {
     renderer: OffscreenRenderer,
-    output: AtomicOutput,
+    output: Output,
 }
 
 impl Plot {
     /// Opens the output and a device that can draw this many charts.
-    pub(super) fn open(place: Place<'_>, charts: usize) -> Result<Self, Error> {
-        let output = AtomicOutput::open(place)?;
+    pub(super) fn open(to: Destination<'_>, charts: usize) -> Result<Self, Error> {
+        let output = to.open()?;
         let columns = columns(charts);
         let [across, down] = [columns, charts.div_ceil(columns)].map(|number| number as u32);
         let size_px = [across * CHART_PX[0], down * CHART_PX[1] + MARGIN_PX];
-        let gpu = Gpu::headless(AdapterPreference::Any)?;
         let renderer =
-            OffscreenRenderer::new(gpu, size_px, SCALE).map_err(|error| match error {
-                GpuError::TooLarge { limit, .. } => Error::from(TooManyCharts { charts, limit }),
+            OffscreenRenderer::new(gpu()?, size_px, SCALE).map_err(|error| match error {
+                GpuError::TooLarge { limit, .. } => Error::mistake(format!(
+                    "a picture of {charts} charts is larger than {limit}x{limit}, what this adapter can make; \
+                     give fewer scenes, or no --plot"
+                )),
                 error => error.into(),
             })?;
         Ok(Self { renderer, output })
     }
 
-    /// Draws the figure. Returns the output, the size in pixels, and the PNG file.
-    pub(super) fn draw(
-        mut self,
-        figure: &Figure,
-    ) -> Result<(AtomicOutput, [u32; 2], Vec<u8>), ReadbackError> {
+    /// Draws the figure into its output.
+    pub(super) fn draw(mut self, figure: &Figure) -> Result<(), Error> {
         let (size_px, mut rgba) = (self.renderer.size_px(), Vec::new());
         self.renderer.draw_figure(figure, &mut rgba)?;
-        Ok((self.output, size_px, png::encode(size_px, &rgba)))
+        self.output.write_all(&png::encode(size_px, &rgba))?;
+        self.output.finish(&format!("a picture of {}x{}", size_px[0], size_px[1]))
     }
 }
 

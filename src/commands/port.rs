@@ -3,13 +3,13 @@
 use clap::builder::RangedU64ValueParser;
 use clap::{ArgGroup, Args};
 
-use super::error::{Cause, Error};
+use super::error::Error;
 use super::identify::{LogArgs, number, positive, rate};
 use super::output::print;
 use super::output::table::TableFormat;
 use crate::lab::{
-    DriveLimits, MAX_SUBSTEPS, Ported, Setup, Wish, WishError, drive_limits, followers, identify,
-    nearest, port, setups,
+    DriveLimits, MAX_SUBSTEPS, Ported, Setup, Wish, drive_limits, followers, identify, nearest,
+    port, setups,
 };
 use crate::sim::integrators::{METHODS, Method};
 
@@ -121,7 +121,7 @@ enum Asked {
     One(&'static Method),
 }
 
-/// Whether a method is told a spring.
+/// Whether the method is of an engine whose spring has settings.
 fn has_modes(method: &Method) -> bool {
     method.engine.is_some_and(|engine| !engine.modes.is_empty())
 }
@@ -145,30 +145,7 @@ fn engines(id: &str) -> Result<Asked, String> {
     if id == "all" { Ok(Asked::All) } else { engine(id).map(Asked::One) }
 }
 
-/// Why nothing can be ported.
-#[derive(Debug, thiserror::Error)]
-enum PortError {
-    /// What is asked cannot be read.
-    #[error("--from {from}: {fault}")]
-    From { from: String, fault: String },
-    /// The log shows no spring.
-    #[error("{log}: no spring can be seen in it; give --k, log v too, or log for longer")]
-    NoSpring { log: String },
-    /// A wish that no engine can show.
-    #[error("{0}")]
-    Wish(#[from] WishError),
-    /// What has no meaning of a chase.
-    #[error("--drive is for a spring; give --want, or settings of an engine in --from")]
-    DriveOfChase,
-}
-
-impl Cause for PortError {
-    fn exit_code(&self) -> u8 {
-        2
-    }
-}
-
-/// A setup that shows nothing near a wish has no settings.
+/// An engine's setup with its settings; `None` if it shows nothing near the wish.
 struct PortedEngine {
     setup: Setup,
     ported: Option<Ported>,
@@ -183,20 +160,29 @@ struct Drive {
 pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
     let from = args.from.as_deref().map(|written| {
         From::parse(written, args.tick_hz, args.mass)
-            .map_err(|fault| PortError::From { from: written.to_owned(), fault })
+            .map_err(|fault| Error::mistake(format!("--from {written}: {fault}")))
     });
     let wish = match from.transpose()? {
-        Some(From::Approach(_, _)) if args.drive => return Err(PortError::DriveOfChase.into()),
+        Some(From::Approach(_, _)) if args.drive => {
+            return Err(Error::mistake(
+                "--drive is for a spring; give --want, or settings of an engine in --from",
+            ));
+        }
         Some(From::Approach(approach, fps)) => {
             let ports = followers(approach, fps);
-            return Ok(print(&report::followers(approach, &ports, args.format))?);
+            return print(report::followers(approach, &ports, args.format));
         }
         Some(From::Engine(wish)) => wish,
         Some(From::Log(path)) => {
             let log = args.read.read(&path, args.tick_hz)?;
             let found = identify(&log, &args.read.body(args.mass), args.tick_hz);
             let seen = found.and_then(|found| found.effective).filter(|seen| seen.omega > 0.0);
-            let none = || PortError::NoSpring { log: path.display().to_string() };
+            let none = || {
+                Error::mistake(format!(
+                    "{}: no spring can be seen in it; give --k, log v too, or log for longer",
+                    path.display()
+                ))
+            };
             Wish::of(seen.ok_or_else(none)?, args.mass)
         }
         None => Wish {
@@ -205,7 +191,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             mass_kg: args.mass,
         },
     };
-    wish.check(args.tick_hz).map_err(PortError::Wish)?;
+    wish.check(args.tick_hz).map_err(Error::mistake)?;
     let named: Option<Vec<&Method>> = args
         .to
         .iter()
@@ -230,5 +216,5 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         let all: Vec<PortedEngine> = setups.into_iter().map(of).collect();
         report::engines(&wish, args.tick_hz, &all, args.format)
     };
-    Ok(print(&text)?)
+    print(text)
 }

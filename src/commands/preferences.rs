@@ -9,6 +9,7 @@ use directories::ProjectDirs;
 use toml::de::{DeTable, DeValue};
 
 use super::terminal::tell;
+use crate::atomic_file::{IfExists, write_file};
 use crate::lab::palette::Theme;
 use crate::lab::{Lab, MAX_FILE_BYTES, SCALE_LADDER};
 use crate::regular_file;
@@ -54,9 +55,7 @@ impl Preferences {
             let folder = path.parent().unwrap_or(path);
             std::fs::create_dir_all(folder)?;
             // Whole or not at all, as another window may close at the same time.
-            let mut file = tempfile::NamedTempFile::new_in(folder)?;
-            std::io::Write::write_all(&mut file, self.to_text().as_bytes())?;
-            file.persist(path).map_err(|error| error.error)
+            write_file(path, self.to_text().as_bytes(), IfExists::Replace)
         };
         if let Err(error) = write(&path) {
             log::info!("cannot write {}: {error}", path.display());

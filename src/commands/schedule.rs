@@ -1,7 +1,7 @@
 //! The times of a recording's frames, and how a lab is advanced from one to the next. Time is computed, never
 //! read from a clock.
 
-use super::error::Cause;
+use super::error::Error;
 use super::frame_names::MAX_FRAMES;
 use crate::lab::pacing::LONGEST_FRAME_MS;
 use crate::lab::{Lab, Observer};
@@ -21,27 +21,14 @@ pub(super) struct Schedule {
 
 const SECOND_NS: u64 = 1_000_000_000;
 
-/// A recording would have more frames than six digits can number.
-#[derive(Debug, thiserror::Error)]
-#[error(
-    "{frames} frames are asked for, and a capture has at most {MAX_FRAMES}; \
-     give a lower --fps or fewer --seconds"
-)]
-pub(super) struct TooManyFrames {
-    frames: f64,
-}
-
-impl Cause for TooManyFrames {
-    fn exit_code(&self) -> u8 {
-        2
-    }
-}
-
 /// The number of frames in this many seconds, at least one.
-pub(super) fn frames_in(seconds: f64, fps: u32) -> Result<u32, TooManyFrames> {
+pub(super) fn frames_in(seconds: f64, fps: u32) -> Result<u32, Error> {
     let frames = (seconds * f64::from(fps)).round().max(1.0);
     if frames > f64::from(MAX_FRAMES) {
-        return Err(TooManyFrames { frames });
+        return Err(Error::mistake(format!(
+            "{frames} frames are asked for, and a capture has at most {MAX_FRAMES}; \
+             give a lower --fps or fewer --seconds"
+        )));
     }
     Ok(frames as u32)
 }

@@ -1,10 +1,10 @@
-//! Converts an experiment and a recording to the settings of a manifest, and back.
+//! Converts an experiment and the settings of a capture to those of a manifest, and back.
 
+use super::capture_settings::CaptureSettings;
 use super::experiment::{Experiment, Lineup, known_cloud, known_instrument, known_trace};
 use super::fingerprint::fingerprint;
 use super::frame_names::{MAX_FRAMES, frame_name};
 use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings};
-use super::recording::Recording;
 use super::schedule::{MAX_FPS, Schedule};
 use crate::lab::palette::Theme;
 use crate::lab::{Clock, Instrument, LaneSpec, MAX_LANES, MAX_SUBSTEPS, Scene, TOLERANCES};
@@ -14,7 +14,7 @@ use crate::sim::integrators::method;
 const LIGHT: &str = "light";
 
 /// The settings of a run, for its manifest.
-pub(super) fn written(experiment: &Experiment, recording: &Recording) -> Settings {
+pub(super) fn written(experiment: &Experiment, capture: &CaptureSettings) -> Settings {
     let scene = &experiment.scene;
     let lane = |lane: &LaneSpec| LaneEntry {
         method: lane.method.id.to_owned(),
@@ -34,17 +34,17 @@ pub(super) fn written(experiment: &Experiment, recording: &Recording) -> Setting
         selected: (!experiment.leaves_selection())
             .then(|| experiment.opening_method().id.to_owned()),
         tick_hz: scene.tick_hz,
-        frames: recording.schedule.frames,
-        fps: recording.schedule.fps,
-        size: recording.size_px,
+        frames: capture.schedule.frames,
+        fps: capture.schedule.fps,
+        size: capture.size_px,
         // The shortest decimal of an f32 is the same number as an f64 for people, and reads back.
-        scale: recording.scale.to_string().parse().expect("a number's own text"),
-        panels: recording.panels,
-        instrument: recording.instrument.map(Instrument::id),
-        cloud: recording.cloud.map(|kind| kind.name().to_owned()),
-        motion: recording.motion,
-        theme: (recording.theme == Theme::Light).then(|| LIGHT.to_owned()),
-        mark_every: recording.mark_every,
+        scale: capture.scale.to_string().parse().expect("a number's own text"),
+        panels: capture.panels,
+        instrument: capture.instrument.map(Instrument::id),
+        cloud: capture.cloud.map(|kind| kind.name().to_owned()),
+        motion: capture.motion,
+        theme: (capture.theme == Theme::Light).then(|| LIGHT.to_owned()),
+        mark_every: capture.mark_every,
     }
 }
 
@@ -52,7 +52,7 @@ pub(super) fn written(experiment: &Experiment, recording: &Recording) -> Setting
 ///
 /// # Errors
 /// Why this program cannot run it.
-pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), String> {
+pub(super) fn read(settings: &Settings) -> Result<(Experiment, CaptureSettings), String> {
     let SceneText { name, text, .. } = &settings.scene;
     let known = |id: &str| method(id).ok_or_else(|| format!("this program has no method {id:?}"));
     let mut scene = Scene::parse(&format!("{name}.toml"), text)
@@ -103,7 +103,7 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
         lineup: if settings.race { Lineup::Everyone } else { Lineup::Solo },
         loop_trace: settings.loop_trace.as_deref().map(known_trace).transpose()?,
     };
-    let recording = Recording {
+    let capture = CaptureSettings {
         schedule: Schedule { frames: settings.frames, fps: settings.fps },
         size_px: settings.size,
         scale: settings.scale as f32,
@@ -118,7 +118,7 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
         },
         mark_every: settings.mark_every,
     };
-    Ok((experiment, recording))
+    Ok((experiment, capture))
 }
 
 /// Checks that a manifest is as its capture wrote it.

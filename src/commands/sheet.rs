@@ -2,12 +2,13 @@
 
 use std::io::Write;
 
-use super::drawing::DrawingError;
+use super::capture_settings::CaptureSettings;
+use super::drawing::{check_pixels, interrupted_after};
+use super::error::Error;
 use super::experiment::{Experiment, Lineup};
 use super::interrupt::watch_for_interrupt;
-use super::output::AtomicOutput;
+use super::output::Output;
 use super::pipeline::complete_analysis;
-use super::recording::Recording;
 use super::terminal::{progress, tell};
 use crate::lab::{CloudWorker, LaneSpec};
 use crate::view::png;
@@ -15,31 +16,22 @@ use crate::view::png;
 /// The most pixels of a sheet, a gigabyte of memory.
 const MAX_SHEET_PIXELS: u64 = 1 << 28;
 
-/// Draws every lane of the experiment alone, at the moments of the recording, into one picture.
+/// Draws every lane of the experiment alone, at the moments of the capture, into one picture.
 pub(super) fn draw(
     experiment: &Experiment,
-    recording: Recording,
-    mut output: AtomicOutput,
-) -> Result<(), DrawingError> {
-    let [width, height] = recording.size_px;
-    let columns = recording.schedule.frames;
+    capture: CaptureSettings,
+    mut output: Output,
+) -> Result<(), Error> {
+    let [width, height] = capture.size_px;
+    let columns = capture.schedule.frames;
     let lab = experiment.lab();
-    let lanes = lab.race().entrants().iter().map(|entrant| entrant.spec);
+    let lanes = lab.race().entrants().iter().map(|entrant| lab.race().spec(entrant));
     let lanes: Vec<LaneSpec> = lanes.collect();
     let methods: Vec<&str> = lanes.iter().map(|lane| lane.method.id).collect();
     let rows = lanes.len() as u32;
     let cells = rows * columns;
-    let pixels = u64::from(cells) * u64::from(width) * u64::from(height);
-    if pixels > MAX_SHEET_PIXELS {
-        let (frames, size_px) = (cells, recording.size_px);
-        return Err(DrawingError::TooManyPixels {
-            frames,
-            size_px,
-            pixels,
-            most: MAX_SHEET_PIXELS,
-        });
-    }
-    let mut renderer = recording.renderer()?;
+    check_pixels(cells, capture.size_px, MAX_SHEET_PIXELS)?;
+    let mut renderer = capture.renderer()?;
     let interrupted = watch_for_interrupt();
     let progress = progress(cells, "frames");
     let row_bytes = 4 * width as usize;
@@ -57,13 +49,13 @@ pub(super) fn draw(
             lineup: Lineup::Solo,
             loop_trace: None,
         };
-        let (mut lab, mut clouds) = (recording.lab(&alone), CloudWorker::default());
+        let (mut lab, mut clouds) = (capture.lab(&alone), CloudWorker::default());
         for column in 0..columns {
-            recording.schedule.advance(&mut lab, column, &mut ());
+            capture.schedule.advance(&mut lab, column, &mut ());
             if !complete_analysis(&mut lab, &renderer, &mut clouds, &interrupted) {
                 progress.finish_and_clear();
                 let done = row as u32 * columns + column;
-                return Err(DrawingError::interrupted(done, cells, "none, a sheet is one"));
+                return Err(interrupted_after(done, cells, "none, a sheet is one"));
             }
             renderer.draw(&lab, &mut cell)?;
             let top = row * height as usize;
@@ -76,9 +68,8 @@ pub(super) fn draw(
     }
     progress.finish_and_clear();
     let size_px = [columns * width, rows * height];
-    output.write_all(&png::encode(size_px, &sheet)).map_err(|error| output.failed(error))?;
-    let name = output.name();
-    output.close()?;
+    output.write_all(&png::encode(size_px, &sheet))?;
+    let name = output.close()?;
     tell(&format!(
         "wrote a sheet of {}x{}: {name}; {columns} moments across; down: {}",
         size_px[0],

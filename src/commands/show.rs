@@ -1,15 +1,12 @@
 //! `regatta show`: a method as a function, to be taken into a game.
 
-use std::ffi::OsStr;
-
 use clap::Args;
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use super::error::{Cause, Error};
-use super::experiment::MethodParser;
+use super::error::Error;
+use super::experiment::{Offered, known_method, one_of};
 use super::output::print;
 use super::terminal::tell;
-use crate::lab::{Language, NoSourceCode, Precision, source_code};
+use crate::lab::{Language, Precision, source_code};
 use crate::sim::integrators::{METHODS, Method};
 
 const ABOUT: &str = "\
@@ -30,12 +27,12 @@ Examples:
 #[command(after_help = ABOUT)]
 pub(super) struct ShowArgs {
     /// The method (`regatta list methods`), by its id or by another name of it there
-    #[arg(value_name = "METHOD", value_parser = AskedParser, hide_possible_values = true)]
+    #[arg(value_name = "METHOD", value_parser = ASKED, hide_possible_values = true)]
     asked: Asked,
 
     /// The language
     #[arg(long = "as", value_name = "LANGUAGE", default_value = Language::Rust.id())]
-    #[arg(value_parser = language())]
+    #[arg(value_parser = one_of(&Language::ALL, Language::id))]
     language: Language,
 
     /// Numbers of single precision, as Unity and Godot have them
@@ -51,10 +48,6 @@ struct Asked {
     alias: Option<&'static str>,
 }
 
-/// Takes the id of a method or one of its other ids; offers all of them to the shell's completion.
-#[derive(Clone)]
-struct AskedParser;
-
 /// Every other id, with the method that it stands for.
 fn aliases() -> impl Iterator<Item = Asked> {
     let of_each = |method: &'static Method| {
@@ -63,48 +56,27 @@ fn aliases() -> impl Iterator<Item = Asked> {
     METHODS.iter().flat_map(of_each)
 }
 
-impl TypedValueParser for AskedParser {
-    type Value = Asked;
+/// Takes the id of a method or one of its other ids.
+const ASKED: Offered<Asked> = Offered { parse: asked, names };
 
-    fn parse_ref(
-        &self,
-        command: &clap::Command,
-        arg: Option<&clap::Arg>,
-        value: &OsStr,
-    ) -> Result<Asked, clap::Error> {
-        match aliases().find(|asked| asked.alias.is_some_and(|alias| value == alias)) {
-            Some(asked) => Ok(asked),
-            None => {
-                let method = MethodParser.parse_ref(command, arg, value)?;
-                Ok(Asked { method, alias: None })
-            }
-        }
-    }
-
-    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        let others = aliases().filter_map(|asked| asked.alias.map(PossibleValue::new));
-        Some(Box::new(MethodParser.possible_values()?.chain(others)))
+fn asked(id: &str) -> Result<Asked, String> {
+    match aliases().find(|asked| asked.alias == Some(id)) {
+        Some(asked) => Ok(asked),
+        None => Ok(Asked { method: known_method(id)?, alias: None }),
     }
 }
 
-impl Cause for NoSourceCode {
-    fn exit_code(&self) -> u8 {
-        2
-    }
-}
-
-/// Takes the id of a language; offers all of them to the shell's completion.
-pub(super) fn language() -> impl TypedValueParser<Value = Language> {
-    let known = PossibleValuesParser::new(Language::ALL.map(Language::id));
-    known.map(|id| Language::ALL.into_iter().find(|known| known.id() == id).unwrap_or_default())
+fn names() -> Vec<&'static str> {
+    let own = METHODS.iter().map(|method| method.id);
+    own.chain(aliases().filter_map(|asked| asked.alias)).collect()
 }
 
 pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
     let Asked { method, alias } = args.asked;
     let precision = if args.float { Precision::Single } else { Precision::Double };
-    let code = source_code(method, args.language, precision)?;
+    let code = source_code(method, args.language, precision).map_err(Error::mistake)?;
     if let Some(alias) = alias {
         tell(&format!("note: {alias} is another name of {}, which is shown", method.id));
     }
-    Ok(print(&code)?)
+    print(&code)
 }

@@ -2,8 +2,8 @@
 
 use clap::Args;
 
+use super::error::Error;
 use super::identify::{number, positive};
-use super::scene_file::SceneFileError;
 use crate::lab::{MySpring, Scene};
 
 /// The options that describe a spring.
@@ -48,7 +48,7 @@ impl SpringArgs {
     ///
     /// # Errors
     /// If a scene may not have its numbers.
-    pub(super) fn load(&self) -> Result<Option<(Scene, String)>, SceneFileError> {
+    pub(super) fn load(&self) -> Result<Option<(Scene, String)>, Error> {
         let mass_kg = self.mass.unwrap_or(1.0);
         let by_stiffness = self.k.map(|stiffness_n_per_m| MySpring {
             mass_kg,

@@ -6,15 +6,16 @@ use clap::Args;
 use serde_json::json;
 
 use super::error::Error;
-use super::experiment::{MethodParser, PathOrName, range_of, scene_names, some_seconds};
+use super::experiment::{METHOD, PathOrName, range_of, scene_names, some_seconds};
 use super::file_names::{check_picture_name, row_format};
 use super::interrupt::watch_for_interrupt;
-use super::output::table::{self, Column, RowFormat};
-use super::output::{AtomicOutput, Older, Place, STDOUT, finish};
+use super::output::table::{Column, RowFormat, write_rows};
+use super::output::{Destination, STDOUT};
 #[cfg(feature = "view")]
 use super::plot::Plot;
 use super::scene_file;
 use super::spring::SpringArgs;
+use crate::atomic_file::IfExists;
 use crate::lab::{Clock, SCENES, Scene, SceneBody};
 use crate::sim::bodies::refusal;
 use crate::sim::integrators::{METHODS, Method};
@@ -73,7 +74,7 @@ pub(super) struct SweepArgs {
     spring: SpringArgs,
 
     /// An integrator (`regatta list methods`); give several to sweep them [default: all]
-    #[arg(long = "method", value_name = "ID", value_parser = MethodParser)]
+    #[arg(long = "method", value_name = "ID", value_parser = METHOD)]
     #[arg(hide_possible_values = true)]
     methods: Vec<&'static Method>,
 
@@ -125,23 +126,20 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
     }
     let interrupted = watch_for_interrupt();
     // Before the first run: a refusal should not come minutes late.
-    let older = if args.force { Older::Replace } else { Older::Keep };
-    let out = Place { path: &args.out, option: "--out", older };
-    let out = AtomicOutput::open_for_text(out)?;
+    let if_exists = if args.force { IfExists::Replace } else { IfExists::Keep };
+    let out = Destination { path: &args.out, option: "--out", if_exists }.open_for_text()?;
     #[cfg(feature = "view")]
-    let plot = args.plot().map(|path| Place { path, option: "--plot", older });
+    let plot = args.plot().map(|path| Destination { path, option: "--plot", if_exists });
     #[cfg(feature = "view")]
-    let plot = plot.map(|place| Plot::open(place, swept.scenes.len() + 1)).transpose()?;
+    let plot = plot.map(|to| Plot::open(to, swept.scenes.len() + 1)).transpose()?;
     let rows = Grid::new(&swept).run(args.threads.map(usize::from), &interrupted)?;
-    let what = format!("{} row{}", rows.len(), if rows.len() == 1 { "" } else { "s" });
-    let written = finish(out, table::rows(format, COLUMNS, &rows).as_bytes(), &what);
+    let written = write_rows(out, format, COLUMNS, &rows);
     // Even if the rows could not be written: their reader may have closed the pipe after the first few.
     #[cfg(feature = "view")]
     if let Some(plot) = plot {
-        let (output, [width, height], png) = plot.draw(&diagrams::figure(&swept, &rows))?;
-        finish(output, &png, &format!("a picture of {width}x{height}"))?;
+        plot.draw(&diagrams::figure(&swept, &rows))?;
     }
-    Ok(written?)
+    written
 }
 
 impl SweepArgs {
@@ -192,43 +190,25 @@ impl SweepArgs {
 }
 
 const COLUMNS: &[Column<Row>] = &[
-    Column { key: "scene", heading: None, value: |row| json!(row.scene) },
-    Column { key: "body", heading: None, value: |row| json!(row.body) },
-    Column { key: "method", heading: None, value: |row| json!(row.method.id) },
-    Column { key: "tick_hz", heading: None, value: |row| json!(row.tick_hz) },
-    Column { key: "seconds", heading: None, value: |row| json!(row.seconds()) },
-    Column { key: "error", heading: None, value: |row| json!(row.verdict.error()) },
-    Column {
-        key: "energy_drift_percent",
-        heading: None,
-        value: |row| json!(row.verdict.energy_drift_percent()),
-    },
-    Column { key: "evaluations_per_s", heading: None, value: |row| json!(row.evaluations_per_s()) },
-    Column { key: "ns_per_s", heading: None, value: |row| json!(row.ns_per_s.map(f64::round)) },
-    Column { key: "verdict", heading: None, value: |row| json!(row.verdict) },
-    Column {
-        key: "halted",
-        heading: None,
-        value: |row| json!(row.verdict.failure().map(|failure| failure.cause.to_string())),
-    },
-    Column {
-        key: "half_life_ms",
-        heading: None,
-        value: |row| json!(row.verdict.chase.and_then(|it| it.half_life_s).map(|s| 1e3 * s)),
-    },
-    Column {
-        key: "overshoot_percent",
-        heading: None,
-        value: |row| json!(row.verdict.chase.map(|chase| chase.overshoot_percent)),
-    },
-    Column {
-        key: "parameter",
-        heading: None,
-        value: |row| json!(row.varied.as_ref().map(|(key, _)| key)),
-    },
-    Column {
-        key: "value",
-        heading: None,
-        value: |row| json!(row.varied.as_ref().map(|(_, value)| value)),
-    },
+    Column::new("scene", |row| json!(row.scene)),
+    Column::new("body", |row| json!(row.body)),
+    Column::new("method", |row| json!(row.method.id)),
+    Column::new("tick_hz", |row| json!(row.tick_hz)),
+    Column::new("seconds", |row| json!(row.seconds())),
+    Column::new("error", |row| json!(row.verdict.error())),
+    Column::new("energy_drift_percent", |row| json!(row.verdict.energy_drift_percent())),
+    Column::new("evaluations_per_s", |row| json!(row.evaluations_per_s())),
+    Column::new("ns_per_s", |row| json!(row.ns_per_s.map(f64::round))),
+    Column::new("verdict", |row| json!(row.verdict)),
+    Column::new("halted", |row| {
+        json!(row.verdict.failure().map(|failure| failure.cause.to_string()))
+    }),
+    Column::new("half_life_ms", |row| {
+        json!(row.verdict.chase.and_then(|it| it.half_life_s).map(|s| 1e3 * s))
+    }),
+    Column::new("overshoot_percent", |row| {
+        json!(row.verdict.chase.map(|chase| chase.overshoot_percent))
+    }),
+    Column::new("parameter", |row| json!(row.varied.as_ref().map(|(key, _)| key))),
+    Column::new("value", |row| json!(row.varied.as_ref().map(|(_, value)| value))),
 ];

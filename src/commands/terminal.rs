@@ -1,6 +1,10 @@
 //! Messages and progress on standard error.
 
+#[cfg(feature = "view")]
+use std::ffi::OsString;
 use std::io::{self, IsTerminal, Write};
+#[cfg(feature = "view")]
+use std::path::Path;
 
 use annotate_snippets::Renderer;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -8,6 +12,21 @@ use indicatif::{ProgressBar, ProgressStyle};
 /// Writes a line to standard error. A closed standard error is ignored.
 pub fn tell(line: &str) {
     let _ = writeln!(io::stderr(), "{line}");
+}
+
+/// A number of things, such as `1 row` and `2 rows`.
+pub(super) fn counted(number: impl TryInto<u64>, thing: &str) -> String {
+    let number = number.try_into().unwrap_or(u64::MAX);
+    format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
+}
+
+/// Tells which entries of a folder no command made.
+#[cfg(feature = "view")]
+pub(super) fn tell_left_alone(folder: &Path, others: &[OsString]) {
+    if !others.is_empty() {
+        let others: Vec<_> = others.iter().map(|name| name.display().to_string()).collect();
+        tell(&format!("left alone in {}: {}", folder.display(), others.join(", ")));
+    }
 }
 
 /// Renders messages for standard error: in colour on a terminal, unless `NO_COLOR` is set.

@@ -1,12 +1,14 @@
 //! `regatta trace`: every lane's numbers, tick by tick, as a tidy table on standard output.
 
-use std::io::{self, BufWriter, Write};
+use std::io;
 
 use clap::Args;
+use serde_json::Value;
 
 use super::error::Error;
 use super::experiment::{self, ExperimentArgs, Lineup};
-use super::output::table::{RowFormat, csv_cell};
+use super::output::Output;
+use super::output::table::{RowFormat, RowWriter};
 use super::terminal::tell;
 use crate::lab::{Lab, Lane, LaneBody, METRICS, SceneBody};
 use crate::sim::Solver;
@@ -59,11 +61,10 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
     let experiment = args.experiment.load(lineup)?;
     let seconds = args.seconds.unwrap_or(experiment.scene.seconds);
     let mut lab = experiment.lab();
-    let mut trace = Trace::new(args, &experiment.scene.bodies);
     let mut halts = Halts::default();
 
     let at_start: Vec<Truth> = lab.race().truth().bodies().iter().map(LaneBody::truth).collect();
-    trace.begin()?;
+    let mut trace = Trace::begin(args)?;
     trace.tick(&lab)?;
     let last = lab.nearest_tick(seconds);
     let mut reached = vec![Reached::default(); experiment.scene.bodies.len()];
@@ -73,127 +74,73 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
         trace.tick(&lab)?;
         halts.note(&lab);
     }
-    trace.finish()?;
+    trace.rows.end()?.close()?;
     tell_accuracy(&experiment.scene.bodies, &at_start, &reached, lab.race().truth());
     halts.lines.iter().for_each(|line| tell(line));
     Ok(())
 }
 
+/// The columns of the table.
+const COLUMNS: [&str; 8] = ["tick", "t", "lane", "method", "body", "coordinate", "q", "v"];
+
 /// The table being written.
-struct Trace {
-    out: BufWriter<io::StdoutLock<'static>>,
-    format: RowFormat,
-    every: u64,
-    metrics: bool,
-    /// The bodies' names as a quoted cell, in scene order.
-    bodies: Vec<String>,
-    /// The present tick and time as cells.
-    moment: String,
-    is_first: bool,
+struct Trace<'a> {
+    rows: RowWriter<Output>,
+    args: &'a TraceArgs,
+    /// The present row, of which most cells stay for the next.
+    cells: [Value; COLUMNS.len()],
 }
 
-impl Trace {
-    fn new(args: &TraceArgs, bodies: &[SceneBody]) -> Self {
-        let name = |body: &SceneBody| match args.format {
-            RowFormat::Csv => csv_cell(&body.name),
-            RowFormat::Json => serde_json::Value::from(body.name.as_str()).to_string(),
-        };
-        Self {
-            out: BufWriter::with_capacity(1 << 16, io::stdout().lock()),
-            format: args.format,
-            every: args.every,
-            metrics: args.metrics,
-            bodies: bodies.iter().map(name).collect(),
-            moment: String::new(),
-            is_first: true,
-        }
-    }
-
-    fn begin(&mut self) -> io::Result<()> {
-        match self.format {
-            RowFormat::Csv => writeln!(self.out, "tick,t,lane,method,body,coordinate,q,v"),
-            RowFormat::Json => write!(self.out, "["),
-        }
-    }
-
-    fn finish(&mut self) -> io::Result<()> {
-        if self.format == RowFormat::Json {
-            writeln!(self.out, "\n]")?;
-        }
-        self.out.flush()
+impl<'a> Trace<'a> {
+    fn begin(args: &'a TraceArgs) -> io::Result<Self> {
+        let rows = RowWriter::begin(Output::stdout(), args.format, COLUMNS)?;
+        Ok(Self { rows, args, cells: Default::default() })
     }
 
     /// Writes the present of the truth and of every lane, but of bodies that have halted.
     fn tick(&mut self, lab: &Lab) -> io::Result<()> {
         let race = lab.race();
-        if !race.tick().is_multiple_of(self.every) {
+        if !race.tick().is_multiple_of(self.args.every) {
             return Ok(());
         }
-        let (tick, t) = (race.tick(), serde_json::to_string(&race.t())?);
-        self.moment = match self.format {
-            RowFormat::Csv => format!("{tick},{t}"),
-            RowFormat::Json => format!("\"tick\":{tick},\"t\":{t}"),
-        };
-        self.lane(0, race.truth(), None)?;
+        (self.cells[0], self.cells[1]) = (race.tick().into(), race.t().into());
+        self.lane(0, race.truth(), None, lab)?;
         for (n, entrant) in race.entrants().iter().enumerate() {
-            self.lane(n + 1, &entrant.lane, Some(race.truth()))?;
+            self.lane(n + 1, &entrant.lane, Some(race.truth()), lab)?;
         }
         Ok(())
     }
 
-    fn lane(&mut self, number: usize, lane: &Lane, truth: Option<&Lane>) -> io::Result<()> {
-        let bodies = lane.bodies().iter().enumerate();
-        for (n, body) in bodies.filter(|(_, body)| body.halted().is_none()) {
-            let method = method_id(lane.solver(), body);
+    fn lane(
+        &mut self,
+        number: usize,
+        lane: &Lane,
+        truth: Option<&Lane>,
+        lab: &Lab,
+    ) -> io::Result<()> {
+        self.cells[2] = number.into();
+        let bodies = lane.bodies().iter().zip(&lab.scene().bodies).enumerate();
+        for (n, (body, named)) in bodies.filter(|(_, (body, _))| body.halted().is_none()) {
+            self.cells[3] = method_id(lane.solver(), body).into();
+            self.cells[4] = named.name.as_str().into();
             let values = body.stepper.q().iter().zip(body.stepper.v());
             for (coordinate, (&q, &v)) in body.coordinates().iter().zip(values) {
-                self.row(number, method, n, &coordinate.name, q, Some(v))?;
+                self.row(&coordinate.name, q, v.into())?;
             }
-            let Some(truth) = truth.filter(|_| self.metrics) else { continue };
+            let Some(truth) = truth.filter(|_| self.args.metrics) else { continue };
             for metric in METRICS {
                 let value = (metric.measure)(body, &truth.bodies()[n]);
                 if let Some(value) = value.filter(|value| value.is_finite()) {
-                    self.row(number, method, n, metric.id, value, None)?;
+                    self.row(metric.id, value, Value::Null)?;
                 }
             }
         }
         Ok(())
     }
 
-    fn row(
-        &mut self,
-        lane: usize,
-        method: &str,
-        body: usize,
-        coordinate: &str,
-        q: f64,
-        v: Option<f64>,
-    ) -> io::Result<()> {
-        let Self { out, bodies, moment, .. } = self;
-        let body = &bodies[body];
-        match self.format {
-            RowFormat::Csv => {
-                write!(out, "{moment},{lane},{method},{body},{coordinate},")?;
-                serde_json::to_writer(&mut *out, &q)?;
-                out.write_all(b",")?;
-                if let Some(v) = v {
-                    serde_json::to_writer(&mut *out, &v)?;
-                }
-                out.write_all(b"\n")
-            }
-            RowFormat::Json => {
-                let comma = if std::mem::take(&mut self.is_first) { "" } else { "," };
-                write!(
-                    out,
-                    "{comma}\n{{{moment},\"lane\":{lane},\"method\":\"{method}\",\"body\":{body},\
-                     \"coordinate\":\"{coordinate}\",\"q\":"
-                )?;
-                serde_json::to_writer(&mut *out, &q)?;
-                out.write_all(b",\"v\":")?;
-                serde_json::to_writer(&mut *out, &v)?;
-                out.write_all(b"}")
-            }
-        }
+    fn row(&mut self, coordinate: &str, q: f64, v: Value) -> io::Result<()> {
+        (self.cells[5], self.cells[6], self.cells[7]) = (coordinate.into(), q.into(), v);
+        self.rows.row(&self.cells)
     }
 }
 

@@ -9,8 +9,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::output::{AtomicFile, write_whole};
 use super::preferences;
+use crate::atomic_file::{IfExists, write_file};
 use crate::lab::MAX_FILE_BYTES;
 use crate::regular_file;
 use crate::window::KeepRecording;
@@ -70,15 +70,15 @@ impl State {
     fn keep(&mut self, text: &str) -> io::Result<()> {
         match self {
             State::Wanted(path) => {
-                let mut file = AtomicFile::create(path)?;
-                file.write_all(text.as_bytes())?;
-                let path = file.commit_beside()?;
+                let path = write_file(path, text.as_bytes(), IfExists::Beside)?;
                 let note = notes().and_then(|folder| Note::new(&folder, &path));
                 let note = note.inspect_err(|error| log::info!("no note of it: {error}")).ok();
                 *self = State::Growing { path, note };
                 Ok(())
             }
-            State::Growing { path, .. } => write_whole(path, text.as_bytes()),
+            State::Growing { path, .. } => {
+                write_file(path, text.as_bytes(), IfExists::Replace).map(drop)
+            }
             State::Finished => Ok(()),
         }
     }

@@ -1,5 +1,7 @@
 //! A graphics device, with or without a window, and what to say when there is none.
 //!
+//! Choosing one is asynchronous, as a browser wants it; the drivers of a desktop block on it.
+//!
 //! Adapters are enumerated and ranked here rather than requested from wgpu, because the best one may
 //! refuse to make a device while the next one would.
 
@@ -91,20 +93,20 @@ impl Gpu {
     ///
     /// # Errors
     /// [`GpuError::NoAdapter`] or [`GpuError::DeviceRefused`].
-    pub fn headless(preference: AdapterPreference) -> Result<Self, GpuError> {
+    pub async fn headless(preference: AdapterPreference) -> Result<Self, GpuError> {
         let descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
-        Self::choose(&instance(descriptor), None, preference)
+        Self::choose(&instance(descriptor), None, preference).await
     }
 
     /// A device of the best ranked adapter that can present to `surface`, where there is one.
-    pub(super) fn choose(
+    pub(super) async fn choose(
         instance: &wgpu::Instance,
         surface: Option<&wgpu::Surface<'_>>,
         preference: AdapterPreference,
     ) -> Result<Self, GpuError> {
         let mut unfit = Vec::new();
         let mut candidates = Vec::new();
-        for adapter in pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all())) {
+        for adapter in instance.enumerate_adapters(wgpu::Backends::all()).await {
             let info = adapter.get_info();
             let is_cpu = info.device_type == wgpu::DeviceType::Cpu;
             if preference == AdapterPreference::CpuOnly && !is_cpu {
@@ -116,14 +118,14 @@ impl Gpu {
             }
         }
         if candidates.is_empty() {
-            unfit.extend(absent_backends(instance));
+            unfit.extend(absent_backends(instance).await);
             return Err(GpuError::NoAdapter { reasons: unfit.join(", ") });
         }
         candidates.sort_by_key(|(_, info)| rank(info));
 
         let mut refusals = Vec::new();
         for (adapter, info) in candidates {
-            match Self::open(adapter, info.clone()) {
+            match Self::open(adapter, info.clone()).await {
                 Ok(gpu) => return Ok(gpu),
                 Err(refusal) => refusals.push(format!("{}: {refusal}", title(&info))),
             }
@@ -131,7 +133,7 @@ impl Gpu {
         Err(GpuError::DeviceRefused { refusals: refusals.join(", ") })
     }
 
-    fn open(
+    async fn open(
         adapter: wgpu::Adapter,
         info: wgpu::AdapterInfo,
     ) -> Result<Self, wgpu::RequestDeviceError> {
@@ -150,7 +152,7 @@ impl Gpu {
             required_limits: limits,
             ..Default::default()
         });
-        let (device, queue) = pollster::block_on(request)?;
+        let (device, queue) = request.await?;
 
         let lost = Arc::new(AtomicBool::new(false));
         device.set_device_lost_callback({
@@ -222,13 +224,13 @@ fn rank(info: &wgpu::AdapterInfo) -> (u8, u8) {
 }
 
 /// What wgpu says of each backend that was looked for and offered nothing.
-fn absent_backends(instance: &wgpu::Instance) -> Vec<String> {
+async fn absent_backends(instance: &wgpu::Instance) -> Vec<String> {
     let request = instance.request_adapter(&wgpu::RequestAdapterOptions {
         // So that hardware which was passed over above does not end the search here.
         force_fallback_adapter: true,
         ..Default::default()
     });
-    let Err(error) = pollster::block_on(request) else {
+    let Err(error) = request.await else {
         return Vec::new();
     };
     let text = error.to_string();
@@ -278,7 +280,8 @@ mod tests {
         let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
         descriptor.backends = wgpu::Backends::empty();
         let instance = wgpu::Instance::new(descriptor);
-        let error = Gpu::choose(&instance, None, AdapterPreference::Any).unwrap_err().to_string();
+        let chosen = pollster::block_on(Gpu::choose(&instance, None, AdapterPreference::Any));
+        let error = chosen.unwrap_err().to_string();
         assert!(error.starts_with("no usable graphics adapter: "), "{error}");
         assert!(error.contains("gl not requested"), "{error}");
         assert!(error.ends_with("apt install mesa-vulkan-drivers)"), "{error}");

@@ -14,28 +14,28 @@ impl Screen {
     ///
     /// # Errors
     /// [`GpuError::NoSurface`], or what keeps any device from being made.
-    pub fn new(
+    pub async fn new(
         display: Box<dyn wgpu::wgt::WgpuHasDisplayHandle>,
         window: impl Into<wgpu::SurfaceTarget<'static>>,
     ) -> Result<Self, GpuError> {
         let descriptor = wgpu::InstanceDescriptor::new_with_display_handle_from_env(display);
         let instance = instance(descriptor);
-        let surface = instance.create_surface(window).map_err(|refusal| {
+        match instance.create_surface(window) {
+            Ok(surface) => Ok(Self { instance, surface }),
             // Where there is no driver there is no surface either, but the driver is what is missing.
-            match Gpu::choose(&instance, None, AdapterPreference::Any) {
-                Ok(_) => refusal.into(),
-                Err(error) => error,
-            }
-        })?;
-        Ok(Self { instance, surface })
+            Err(refusal) => match Gpu::choose(&instance, None, AdapterPreference::Any).await {
+                Ok(_) => Err(refusal.into()),
+                Err(error) => Err(error),
+            },
+        }
     }
 
     /// The best device that can present here. Asked again after the first was lost.
     ///
     /// # Errors
     /// [`GpuError::NoAdapter`] or [`GpuError::DeviceRefused`].
-    pub fn gpu(&self) -> Result<Gpu, GpuError> {
-        Gpu::choose(&self.instance, Some(&self.surface), AdapterPreference::Any)
+    pub async fn gpu(&self) -> Result<Gpu, GpuError> {
+        Gpu::choose(&self.instance, Some(&self.surface), AdapterPreference::Any).await
     }
 
     /// The same with a new surface: for [`wgpu::CurrentSurfaceTexture::Lost`].

@@ -4,6 +4,7 @@ use std::mem;
 use std::sync::Arc;
 use std::time::Duration;
 
+use pollster::block_on;
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 use winit::window::Window;
 
@@ -45,8 +46,8 @@ impl Canvas {
         proxy: EventLoopProxy<Event>,
     ) -> Result<Self, WindowError> {
         let display = Box::new(event_loop.owned_display_handle());
-        let screen = Screen::new(display, Arc::clone(&window))?;
-        let gpu = screen.gpu()?;
+        let screen = block_on(Screen::new(display, Arc::clone(&window)))?;
+        let gpu = block_on(screen.gpu())?;
         log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
         let renderer = FrameRenderer::new(&gpu, screen.format(&gpu));
         let egui = translator(&renderer, &window, &gpu);
@@ -151,7 +152,7 @@ impl Canvas {
         if let Some(screen) = self.screen.take() {
             let screen = screen.renewed(Arc::clone(&self.window))?;
             if self.gpu.is_lost() || !self.gpu.adapter.is_surface_supported(screen.surface()) {
-                self.gpu = screen.gpu()?;
+                self.gpu = block_on(screen.gpu())?;
                 // With a new context: the old one assumes that its fonts are on the device.
                 self.renderer = FrameRenderer::new(&self.gpu, screen.format(&self.gpu));
                 let egui = translator(&self.renderer, &self.window, &self.gpu);

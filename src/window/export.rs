@@ -1,9 +1,9 @@
 //! Copies the instrument's values, and saves the instrument as a picture, a drawing and a table.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::App;
-use super::new_file::write_new;
+use crate::atomic_file::{IfExists, write_file};
 use crate::lab::{Lab, Language, Precision, source_code};
 use crate::sim::integrators::Method;
 use crate::view::{Gpu, OffscreenRenderer, Panels, instrument_csv, instrument_svg, png};
@@ -97,8 +97,9 @@ fn try_save(gpu: &Gpu, lab: &Lab) -> Result<Vec<PathBuf>, String> {
     let name = name(lab);
     let files = files.into_iter().filter_map(|(ending, bytes)| Some((ending, bytes?)));
     let written = files.map(|(ending, bytes)| {
-        write_new(Path::new(""), &name, ending, &bytes)
-            .map_err(|error| format!("cannot write {name}.{ending} here: {error}"))
+        let path = format!("{name}.{ending}");
+        write_file(path.as_ref(), &bytes, IfExists::Beside)
+            .map_err(|error| format!("cannot write {path} here: {error}"))
     });
     written.collect()
 }

@@ -1,8 +1,8 @@
 //! Saves the run as a scene file, for `regatta play`, `capture`, `advise` and `verify`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use super::new_file::write_new;
+use crate::atomic_file::{IfExists, write_file};
 use crate::lab::Lab;
 
 /// Saves the run so far under a new name, and returns a notice with the name or the error.
@@ -14,8 +14,8 @@ pub(super) fn save(lab: &Lab) -> String {
 }
 
 fn try_save(lab: &Lab) -> Result<PathBuf, String> {
-    let name = format!("regatta-{}-recording", lab.scene().name);
+    let name = format!("regatta-{}-recording.toml", lab.scene().name);
     let text = lab.recording().map_err(|error| error.to_string())?;
-    write_new(Path::new(""), &name, "toml", text.as_bytes())
-        .map_err(|error| format!("cannot write {name}.toml here: {error}"))
+    write_file(name.as_ref(), text.as_bytes(), IfExists::Beside)
+        .map_err(|error| format!("cannot write {name} here: {error}"))
 }

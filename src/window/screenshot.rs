@@ -1,9 +1,9 @@
 //! Saves a picture of the lab in the size of the window. It is drawn to a texture of its own, because a surface may
 //! not be readable.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use super::new_file::write_new;
+use crate::atomic_file::{IfExists, write_file};
 use crate::lab::{Lab, Mode};
 use crate::view::{Gpu, OffscreenRenderer, png};
 
@@ -21,8 +21,9 @@ fn try_save(gpu: &Gpu, size_px: [u32; 2], scale: f32, lab: &Lab) -> Result<PathB
         .map_err(|error| error.to_string())?
         .draw(lab, &mut rgba)
         .map_err(|error| error.to_string())?;
-    write_new(Path::new(""), &name(lab), "png", &png::encode(size_px, &rgba))
-        .map_err(|error| format!("cannot write {}.png here: {error}", name(lab)))
+    let path = format!("{}.png", name(lab));
+    write_file(path.as_ref(), &png::encode(size_px, &rgba), IfExists::Beside)
+        .map_err(|error| format!("cannot write {path} here: {error}"))
 }
 
 /// A file name, without its ending, that says what the picture shows.

@@ -25,7 +25,7 @@ const LARGEST_FILE: usize = 64 * 1024;
 const FRAMES: u64 = 130;
 
 fn gpu_or_skip(test: &str) -> Option<Gpu> {
-    Gpu::headless(AdapterPreference::CpuOnly)
+    pollster::block_on(Gpu::headless(AdapterPreference::CpuOnly))
         // Not `eprintln!`, which the test runner hides when a test passes.
         .inspect_err(|error| drop(writeln!(io::stderr(), "SKIPPED {test}: {error}")))
         .ok()
@@ -42,7 +42,7 @@ fn sailed(scene: &str, race: bool, mut each_frame: impl FnMut(&Lab)) -> Lab {
     lab.forget_changes();
     for frame in 0..FRAMES {
         if frame == FRAMES / 2 && !race {
-            lab.apply(Command::Act(Action::Kick(1.0)));
+            lab.apply(Command::Kick(1.0));
             lab.apply(Command::Pick(3));
         }
         lab.advance(16_666_667);

@@ -130,7 +130,7 @@ impl Program {
 #[test]
 fn thousands_of_random_events_leave_no_more_memory_held_than_a_few_megabytes() {
     let test = "thousands_of_random_events_leave_no_more_memory_held_than_a_few_megabytes";
-    let gpu = match Gpu::headless(AdapterPreference::CpuOnly) {
+    let gpu = match pollster::block_on(Gpu::headless(AdapterPreference::CpuOnly)) {
         Ok(gpu) => gpu,
         // Not `eprintln!`, which the test runner hides when a test passes.
         Err(error) => return drop(writeln!(io::stderr(), "SKIPPED {test}: {error}")),

@@ -27,7 +27,8 @@ impl Twin {
     pub(crate) fn new(mut lab: Lab) -> Self {
         // As in a window: it tells of the memory for rewinding.
         lab.set_pace(Pace::Unknown);
-        let gpu = Gpu::headless(AdapterPreference::CpuOnly).expect("the window has an adapter too");
+        let gpu = pollster::block_on(Gpu::headless(AdapterPreference::CpuOnly))
+            .expect("the window has an adapter too");
         let target = Offscreen::new(&gpu, SIZE_PX).unwrap();
         let renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
         renderer.context().enable_accesskit();

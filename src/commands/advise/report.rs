@@ -152,27 +152,15 @@ fn method(row: &Row) -> Value {
 }
 
 const VERDICTS: &[Column<Row>] = &[
-    Column {
-        key: "method",
-        heading: Some("METHOD"),
-        value: |row| json!(row.advised.spec.method.id),
-    },
-    Column {
-        key: "verdict",
-        heading: Some("VERDICT"),
-        value: |row| json!(row.advised.verdict.to_string()),
-    },
+    Column::shown("method", "METHOD", |row| json!(row.advised.spec.method.id)),
+    Column::shown("verdict", "VERDICT", |row| json!(row.advised.verdict.to_string())),
 ];
 
 const RATES: &[Column<Row>] = &[
-    Column {
-        key: "method",
-        heading: Some("METHOD"),
-        value: |row| json!(row.advised.spec.method.id),
-    },
-    Column { key: "bounded", heading: Some("BOUNDED"), value: |row| rate(row, 0) },
-    Column { key: "looks-right", heading: Some("LOOKS-RIGHT"), value: |row| rate(row, 1) },
-    Column { key: "accurate", heading: Some("ACCURATE"), value: |row| rate(row, 2) },
+    Column::shown("method", "METHOD", |row| json!(row.advised.spec.method.id)),
+    Column::shown("bounded", "BOUNDED", |row| rate(row, 0)),
+    Column::shown("looks-right", "LOOKS-RIGHT", |row| rate(row, 1)),
+    Column::shown("accurate", "ACCURATE", |row| rate(row, 2)),
 ];
 
 fn rate(row: &Row, criterion: usize) -> Value {
@@ -199,39 +187,21 @@ fn unknown(met: &CriterionMet) -> &'static str {
 }
 
 const METS: &[Column<MetRow>] = &[
-    Column { key: "method", heading: Some("METHOD"), value: |row| json!(row.id) },
-    Column {
-        key: "substeps",
-        heading: Some("SUBSTEPS"),
-        value: |row| json!(format!("×{}", row.met.substeps)),
-    },
-    Column {
-        key: "evaluations_per_s",
-        heading: Some("EVALS/S"),
-        value: |row| json!(row.met.evaluations_per_s.round() as u64),
-    },
-    Column {
-        key: "ns_per_s",
-        heading: Some("NS/S"),
-        value: |row| json!(row.ns_per_s.map(|ns| ns.round() as u64)),
-    },
-    Column {
-        key: "slowest_hz",
-        heading: Some("HOLDS DOWN TO"),
-        value: |row| {
-            let hz = row.met.slowest_hz.map(|hz| format!("{hz} Hz"));
-            json!(hz.unwrap_or_else(|| unknown(&row.met).into()))
-        },
-    },
-    Column {
-        key: "stiffness_factor",
-        heading: Some("HOLDS UP TO"),
-        value: |row| {
-            let CriterionMet { stiffness_factor, limited_by, .. } = &row.met;
-            json!(match (stiffness_factor, limited_by) {
-                (Some(factor), Some(parameter)) => format!("{} × {parameter}", round(*factor, 3)),
-                _ => unknown(&row.met).into(),
-            })
-        },
-    },
+    Column::shown("method", "METHOD", |row| json!(row.id)),
+    Column::shown("substeps", "SUBSTEPS", |row| json!(format!("×{}", row.met.substeps))),
+    Column::shown("evaluations_per_s", "EVALS/S", |row| {
+        json!(row.met.evaluations_per_s.round() as u64)
+    }),
+    Column::shown("ns_per_s", "NS/S", |row| json!(row.ns_per_s.map(|ns| ns.round() as u64))),
+    Column::shown("slowest_hz", "HOLDS DOWN TO", |row| {
+        let hz = row.met.slowest_hz.map(|hz| format!("{hz} Hz"));
+        json!(hz.unwrap_or_else(|| unknown(&row.met).into()))
+    }),
+    Column::shown("stiffness_factor", "HOLDS UP TO", |row| {
+        let CriterionMet { stiffness_factor, limited_by, .. } = &row.met;
+        json!(match (stiffness_factor, limited_by) {
+            (Some(factor), Some(parameter)) => format!("{} × {parameter}", round(*factor, 3)),
+            _ => unknown(&row.met).into(),
+        })
+    }),
 ];

@@ -1,6 +1,9 @@
 //! Figures 7-2 to 7-8, as curves, and their data as a table.
 
+use std::io;
+
 use super::run::{Moment, by_method, exactly, method_of, scene};
+use crate::commands::output::table::{RowFormat, RowWriter};
 use crate::lab::Scene;
 use crate::lab::palette::Theme;
 use crate::view::{Axis, Chart, Figure, FigureCurve, Legend, Marks};
@@ -108,17 +111,17 @@ fn figure(
 }
 
 /// The points of all curves in one tidy table: `curve`, then the axes.
-pub(super) fn csv(figure: &Figure) -> String {
+pub(super) fn csv(figure: &Figure) -> io::Result<Vec<u8>> {
     let chart = &figure.charts[0];
     let name = |axis: &Axis| axis.name.replace(['(', ')'], "").replace('/', " per ");
     let [x, y] = [0, 1].map(|n| name(&chart.axes[n]).replace(' ', "_"));
-    let mut csv = format!("curve,{x},{y}\n");
+    let mut rows = RowWriter::begin(Vec::new(), RowFormat::Csv, ["curve".to_owned(), x, y])?;
     for curve in &chart.curves {
-        for [x, y] in &curve.points {
-            csv += &format!("{},{x},{y}\n", curve.name);
+        for &[x, y] in &curve.points {
+            rows.row(&[curve.name.as_str().into(), x.into(), y.into()])?;
         }
     }
-    csv
+    rows.end()
 }
 
 /// Points per second of an exact curve: closer than can be seen.

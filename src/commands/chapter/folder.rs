@@ -5,40 +5,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::commands::error::Cause;
-use crate::commands::output::{FileError, final_name, write_whole};
-
-/// Why figures could not be kept in a folder.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum FigureFolderError {
-    /// The path is taken by something else.
-    #[error("{} is not a directory; give another --out", .path.display())]
-    NotADirectory {
-        /// The path.
-        path: PathBuf,
-    },
-    /// The folder is in use.
-    #[error(
-        "{} is not empty; give another --out, or --force to replace the figures in it",
-        .path.display()
-    )]
-    NotEmpty {
-        /// The folder.
-        path: PathBuf,
-    },
-    /// The system refused.
-    #[error(transparent)]
-    File(#[from] FileError),
-}
-
-impl Cause for FigureFolderError {
-    fn exit_code(&self) -> u8 {
-        match self {
-            FigureFolderError::NotADirectory { .. } | FigureFolderError::NotEmpty { .. } => 2,
-            FigureFolderError::File(error) => error.exit_code(),
-        }
-    }
-}
+use crate::atomic_file::{IfExists, final_name, write_file};
+use crate::commands::error::Error;
 
 /// A folder for figures.
 pub(super) struct FigureFolder {
@@ -51,16 +19,19 @@ pub(super) struct FigureFolder {
 
 impl FigureFolder {
     /// Looks at the folder at `path`, which need not exist yet, and changes nothing.
-    pub(super) fn inspect(path: &Path) -> Result<Self, FigureFolderError> {
-        let fail = FileError::of("read", path, "--out");
+    pub(super) fn inspect(path: &Path) -> Result<Self, Error> {
+        let fail = Error::of_file("read", path, "--out");
         let mut folder = Self { path: path.to_owned(), old: Vec::new(), others: Vec::new() };
         let entries = match fs::read_dir(path) {
             Ok(entries) => entries,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(folder),
             Err(error) if error.kind() == io::ErrorKind::NotADirectory => {
-                return Err(FigureFolderError::NotADirectory { path: path.to_owned() });
+                return Err(Error::mistake(format!(
+                    "{} is not a directory; give another --out",
+                    path.display()
+                )));
             }
-            Err(error) => return Err(fail(error).into()),
+            Err(error) => return Err(fail(error)),
         };
         for entry in entries {
             let entry = entry.map_err(&fail)?;
@@ -80,23 +51,24 @@ impl FigureFolder {
     }
 
     /// Makes the folder where there is none, and removes the figures of an earlier run.
-    pub(super) fn clear(&mut self) -> Result<(), FigureFolderError> {
-        fs::create_dir_all(&self.path).map_err(FileError::of(
+    pub(super) fn clear(&mut self) -> Result<(), Error> {
+        fs::create_dir_all(&self.path).map_err(Error::of_file(
             "make the directory",
             &self.path,
             "--out",
         ))?;
         for name in self.old.drain(..) {
             let path = self.path.join(name);
-            fs::remove_file(&path).map_err(FileError::of("replace", &path, "--out"))?;
+            fs::remove_file(&path).map_err(Error::of_file("replace", &path, "--out"))?;
         }
         Ok(())
     }
 
     /// Writes a file: under a name of its own until it is whole.
-    pub(super) fn write(&self, name: &str, bytes: &[u8]) -> Result<(), FigureFolderError> {
+    pub(super) fn write(&self, name: &str, bytes: &[u8]) -> Result<(), Error> {
         let path = self.path.join(name);
-        Ok(write_whole(&path, bytes).map_err(FileError::of("write", &path, "--out"))?)
+        let written = write_file(&path, bytes, IfExists::Replace);
+        written.map(drop).map_err(Error::of_file("write", &path, "--out"))
     }
 
     /// Where it is.

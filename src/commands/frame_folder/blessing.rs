@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
+use crate::atomic_file::sync_directory;
 use crate::commands::frame_names::{READY, frame_number, frames_claimed, is_marked};
 use crate::commands::manifest;
-use crate::commands::output::sync_directory;
 
 /// The prefix of directories in which frames are drawn.
 const UNDER_WAY: &str = ".regatta-bless-";

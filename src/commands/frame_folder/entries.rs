@@ -7,9 +7,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::blessing;
+use crate::atomic_file::final_name;
 use crate::commands::frame_names::{frame_number, frames_claimed, is_marked};
 use crate::commands::manifest;
-use crate::commands::output::{final_name, is_lock};
+use crate::commands::output::is_lock;
 
 /// The entries of a folder, by name.
 #[derive(Debug, Default)]

@@ -1,9 +1,11 @@
 //! A loop measured over a trace.
 
-use std::fmt::Write;
-use std::iter;
+use std::{io, iter};
 
-use crate::commands::output::table::csv_cell;
+use serde_json::{Value, json};
+
+use crate::commands::output::Output;
+use crate::commands::output::table::RowWriter;
 use crate::lab::pacing::{FrameRecord, FrameTrace, LoopRun, PacingReport, PolicyCard, RefreshRate};
 use crate::lab::{LaneSpec, Scene};
 
@@ -37,7 +39,7 @@ pub(super) struct Stretch {
     pub(super) drawn_from_ns: Option<i64>,
 }
 
-/// Measures a policy on a trace until `stop` says so, and writes a line for each frame to `lines`.
+/// Measures a policy on a trace until `stop` says so, and writes a row for each frame to `frames`.
 pub(super) fn measure(
     scene: &Scene,
     spec: LaneSpec,
@@ -45,10 +47,10 @@ pub(super) fn measure(
     trace: &FrameTrace,
     Stretch { until_ns, drawn_from_ns }: Stretch,
     stop: &dyn Fn() -> bool,
-    mut lines: Option<&mut String>,
-) -> Measured {
-    let mut drawn = Vec::new();
-    let name = csv_cell(trace.name());
+    mut frames: Option<&mut RowWriter<Output>>,
+) -> io::Result<Measured> {
+    let (mut drawn, mut written) = (Vec::new(), Ok(()));
+    let name = trace.name();
     let report = LoopRun::new(scene, spec, card, trace).measure(until_ns, stop, |run, record| {
         if let Some(displayed_ns) = record.frame.displayed_ns
             && drawn_from_ns.is_some_and(|from_ns| displayed_ns >= from_ns)
@@ -56,12 +58,31 @@ pub(super) fn measure(
         {
             drawn.push([displayed_ns as f64 / 1e6, record.shown_ms]);
         }
-        if let Some(lines) = &mut lines {
-            write_frame(lines, &format!("{name},{}", card.id), run, record);
+        if let (Some(frames), Ok(())) = (&mut frames, &written) {
+            written = frames.row(&row(name, card, run, record));
         }
     });
-    let (name, refresh, tick_hz) = (trace.name().to_owned(), trace.refresh(), scene.tick_hz);
-    Measured { card, trace: name, refresh, tick_hz, has_one_clock: !trace.ends(), report, drawn }
+    written?;
+    let (trace_name, refresh, tick_hz) = (name.to_owned(), trace.refresh(), scene.tick_hz);
+    let has_one_clock = !trace.ends();
+    Ok(Measured { card, trace: trace_name, refresh, tick_hz, has_one_clock, report, drawn })
+}
+
+/// The row of a frame.
+fn row(trace: &str, card: &PolicyCard, run: &LoopRun, record: &FrameRecord) -> [Value; 9] {
+    let ms = |ns: i64| ns as f64 / 1e6;
+    let FrameRecord { number, frame, shown_ms, steps, dropped_ms, .. } = record;
+    [
+        json!(trace),
+        json!(card.id),
+        json!(number),
+        json!(ms(frame.began_ns)),
+        json!(frame.displayed_ns.map(ms)),
+        json!(shown_ms),
+        json!(steps.count),
+        json!(dropped_ms),
+        json!(run.lane().drawn(0)[0]),
+    ]
 }
 
 /// When the frames that are drawn begin to be displayed: at the start, or shortly before the longest frame if one is long.
@@ -78,15 +99,4 @@ pub(super) fn drawn_from_ns(trace: &FrameTrace, until_ns: i64) -> i64 {
     // The first of those that are as long.
     let longest = long.min_by_key(|(_, gap)| -gap);
     longest.map_or(0, |(place, _)| displayed[place.saturating_sub(BEFORE)])
-}
-
-fn write_frame(lines: &mut String, of: &str, run: &LoopRun, record: &FrameRecord) {
-    let ms = |ns: i64| ns as f64 / 1e6;
-    let FrameRecord { number, frame, shown_ms, steps, dropped_ms, .. } = record;
-    let displayed = frame.displayed_ns.map(|ns| ms(ns).to_string()).unwrap_or_default();
-    let q = run.lane().drawn(0)[0];
-    let (began, ticks) = (ms(frame.began_ns), steps.count);
-    let written =
-        writeln!(lines, "{of},{number},{began},{displayed},{shown_ms},{ticks},{dropped_ms},{q}");
-    written.expect("a string takes any text");
 }

@@ -1,11 +1,11 @@
 //! The formats that a capture writes, and the one that a file's name asks for.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::ValueEnum;
 
-use super::atomic_output::STDOUT;
-use crate::commands::error::Cause;
+use super::STDOUT;
+use crate::commands::error::Error;
 
 /// How pictures are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -66,81 +66,29 @@ pub(crate) fn is_of_pictures(ending: &str) -> bool {
     ENDINGS.iter().any(|(known, _)| *known == ending)
 }
 
-/// Why a capture is not written in a format, or not under this name.
-#[derive(Debug, thiserror::Error)]
-pub(crate) enum FormatError {
-    /// A single picture's name, where there will be a directory of them.
-    #[error(
-        "{} is the name of one picture; give --format sheet or --format apng for one, or the name of \
-         a directory for numbered ones",
-        .path.display()
-    )]
-    OnePicture {
-        /// The name.
-        path: PathBuf,
-    },
-    /// The ending promises another format than the one asked for.
-    #[error("{} would not hold what its name says; {remedy}", .path.display())]
-    Mislabelled {
-        /// The name.
-        path: PathBuf,
-        /// What to do.
-        remedy: String,
-    },
-    /// The ending is that of a format that is not written.
-    #[error(
-        "regatta writes no .{ending} files; give --format y4m --out -, and let a video encoder such as \
-         ffmpeg write {}",
-        .path.display()
-    )]
-    NotWritten {
-        /// The name.
-        path: PathBuf,
-        /// What it ends in.
-        ending: &'static str,
-    },
-    /// The ending is that of a file that holds no pictures.
-    #[error(
-        "regatta capture writes no .{ending} files; give {} without its ending for a directory, or a \
-         name that ends in .gif, .apng or .y4m, or in .png with --format sheet",
-        .path.display()
-    )]
-    NoPictures {
-        /// The name.
-        path: PathBuf,
-        /// What it ends in.
-        ending: &'static str,
-    },
-    /// Numbered pictures are no stream.
-    #[error(
-        "numbered pictures need a directory; give --format y4m, rgba, apng, gif or sheet with --out -"
-    )]
-    NoStream,
-    /// A GIF would be played slower.
-    #[error("a GIF has at most {MAX_GIF_FPS} frames a second, not {fps}; give a lower --fps")]
-    TooFastForGif {
-        /// Asked for.
-        fps: u32,
-    },
-}
-
-impl Cause for FormatError {
-    fn exit_code(&self) -> u8 {
-        2
-    }
+/// The error of a name that promises another format than the one asked for.
+pub(crate) fn mislabelled(path: &Path, remedy: &str) -> Error {
+    Error::mistake(format!("{} would not hold what its name says; {remedy}", path.display()))
 }
 
 impl PictureFormat {
     /// The format asked for, else the one that the name of `out` asks for, else numbered pictures.
-    pub(crate) fn of(out: &Path, asked: Option<Self>) -> Result<Self, FormatError> {
-        let path = out.to_owned();
+    pub(crate) fn of(out: &Path, asked: Option<Self>) -> Result<Self, Error> {
+        let path = out.display();
         if out == Path::new(STDOUT) {
-            return asked.filter(|format| *format != Self::Png).ok_or(FormatError::NoStream);
+            return asked.filter(|format| *format != Self::Png).ok_or_else(|| {
+                Error::mistake(
+                    "numbered pictures need a directory; give --format y4m, rgba, apng, gif or sheet with --out -",
+                )
+            });
         }
         let ending = ending(out);
         let strange = |known: &&&str| ending.as_deref() == Some(**known);
         if let Some(ending) = NO_PICTURES.iter().find(strange) {
-            return Err(FormatError::NoPictures { path, ending });
+            return Err(Error::mistake(format!(
+                "regatta capture writes no .{ending} files; give {path} without its ending for a directory, or a \
+                 name that ends in .gif, .apng or .y4m, or in .png with --format sheet"
+            )));
         }
         let known = ending.and_then(|ending| ENDINGS.iter().find(|(known, _)| *known == ending));
         match (asked, known) {
@@ -159,18 +107,26 @@ impl PictureFormat {
                     Self::Sheet => format!("give a name that ends in .png, or {of_name}"),
                     _ => format!("give a name that ends in .{}, or {of_name}", name(&asked)),
                 };
-                Err(FormatError::Mislabelled { path, remedy })
+                Err(mislabelled(out, &remedy))
             }
             (None, Some((_, [held]))) => Ok(*held),
-            (None, Some((ending, []))) => Err(FormatError::NotWritten { path, ending }),
-            (None, Some(_)) => Err(FormatError::OnePicture { path }),
+            (None, Some((ending, []))) => Err(Error::mistake(format!(
+                "regatta writes no .{ending} files; give --format y4m --out -, and let a video encoder such as \
+                 ffmpeg write {path}"
+            ))),
+            (None, Some(_)) => Err(Error::mistake(format!(
+                "{path} is the name of one picture; give --format sheet or --format apng for one, or the name of \
+                 a directory for numbered ones"
+            ))),
         }
     }
 
-    /// Whether a run can be written at this many frames per second.
-    pub(crate) fn check(self, fps: u32) -> Result<(), FormatError> {
+    /// Fails if a run cannot be written at this many frames per second.
+    pub(crate) fn check(self, fps: u32) -> Result<(), Error> {
         match self {
-            PictureFormat::Gif if fps > MAX_GIF_FPS => Err(FormatError::TooFastForGif { fps }),
+            PictureFormat::Gif if fps > MAX_GIF_FPS => Err(Error::mistake(format!(
+                "a GIF has at most {MAX_GIF_FPS} frames a second, not {fps}; give a lower --fps"
+            ))),
             _ => Ok(()),
         }
     }

@@ -1,7 +1,15 @@
-//! One description of a list's columns, written as aligned text, as CSV or as JSON.
+//! One description of a table's columns, written as aligned text, as CSV or as JSON.
+
+use std::borrow::Cow;
+use std::io::{self, Write};
+use std::mem;
 
 use clap::ValueEnum;
 use serde_json::{Map, Value};
+
+use super::Output;
+use crate::commands::error::Error;
+use crate::commands::terminal::counted;
 
 /// How data is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -26,45 +34,114 @@ pub(crate) struct Column<T> {
     /// Its name in JSON.
     pub(crate) key: &'static str,
     /// Its heading in text; `None` where the text leaves it out, because it is long.
-    pub(crate) heading: Option<&'static str>,
+    heading: Option<&'static str>,
     /// The property. `Null` where it has no meaning.
-    pub(crate) value: fn(&T) -> Value,
+    value: fn(&T) -> Value,
+}
+
+impl<T> Column<T> {
+    /// A column that text leaves out.
+    pub(crate) const fn new(key: &'static str, value: fn(&T) -> Value) -> Self {
+        Self { key, heading: None, value }
+    }
+
+    /// A column with this heading in text.
+    pub(crate) const fn shown(
+        key: &'static str,
+        heading: &'static str,
+        value: fn(&T) -> Value,
+    ) -> Self {
+        Self { key, heading: Some(heading), value }
+    }
 }
 
 /// An array with one object for each of `items`.
 pub(crate) fn json<T>(columns: &[Column<T>], items: &[T]) -> Value {
-    items.iter().map(|item| object(columns, item)).collect()
+    let object = |item: &T| -> Value {
+        let fields = columns.iter().map(|column| (column.key.to_owned(), (column.value)(item)));
+        Value::Object(fields.collect::<Map<_, _>>())
+    };
+    items.iter().map(object).collect()
 }
 
-fn object<T>(columns: &[Column<T>], item: &T) -> Value {
-    let fields = columns.iter().map(|column| (column.key.to_owned(), (column.value)(item)));
-    Value::Object(fields.collect::<Map<_, _>>())
+/// Writes a tidy table row by row: CSV below a header, or an array with a JSON object on each line.
+pub(crate) struct RowWriter<W> {
+    out: W,
+    format: RowFormat,
+    keys: Vec<String>,
+    is_first: bool,
 }
 
-/// A tidy table with a line for each of `items`: CSV below a header, or JSON objects.
-pub(crate) fn rows<T>(format: RowFormat, columns: &[Column<T>], items: &[T]) -> String {
-    match format {
-        RowFormat::Csv => {
-            let line = |cells: Vec<String>| cells.join(",") + "\n";
-            let head = columns.iter().map(|column| column.key.to_owned()).collect();
-            let cells = |item| columns.iter().map(|column| bare(&(column.value)(item))).collect();
-            std::iter::once(head).chain(items.iter().map(cells)).map(line).collect()
+impl<W: Write> RowWriter<W> {
+    /// Begins a table of these columns.
+    pub(crate) fn begin<K: Into<String>>(
+        mut out: W,
+        format: RowFormat,
+        keys: impl IntoIterator<Item = K>,
+    ) -> io::Result<Self> {
+        let keys: Vec<String> = keys.into_iter().map(Into::into).collect();
+        match format {
+            RowFormat::Csv => writeln!(out, "{}", keys.join(","))?,
+            RowFormat::Json => write!(out, "[")?,
         }
-        RowFormat::Json => {
-            let objects = items.iter().map(|item| object(columns, item).to_string());
-            format!("[\n{}\n]\n", objects.collect::<Vec<_>>().join(",\n"))
+        Ok(Self { out, format, keys, is_first: true })
+    }
+
+    /// Writes a row, a cell for each column.
+    pub(crate) fn row(&mut self, cells: &[Value]) -> io::Result<()> {
+        let Self { out, format, keys, is_first } = self;
+        if *format == RowFormat::Csv {
+            for (place, cell) in cells.iter().enumerate() {
+                out.write_all(if place == 0 { b"" } else { b"," })?;
+                match in_a_cell(cell) {
+                    Value::Null => {}
+                    Value::String(text) => out.write_all(csv_cell(text).as_bytes())?,
+                    // Numbers as in JSON, so that they read back the same.
+                    cell => serde_json::to_writer(&mut *out, cell)?,
+                }
+            }
+            return out.write_all(b"\n");
         }
+        out.write_all(if mem::take(is_first) { b"\n{" } else { b",\n{" })?;
+        for (place, (key, cell)) in keys.iter().zip(cells).enumerate() {
+            write!(out, "{}\"{key}\":", if place == 0 { "" } else { "," })?;
+            serde_json::to_writer(&mut *out, cell)?;
+        }
+        out.write_all(b"}")
+    }
+
+    /// Ends the table.
+    pub(crate) fn end(mut self) -> io::Result<W> {
+        if self.format == RowFormat::Json {
+            self.out.write_all(b"\n]\n")?;
+        }
+        Ok(self.out)
     }
 }
 
-/// A cell of CSV: text quoted only if it must be, numbers as in JSON, so that they read back the same, and
-/// nothing for `Null`.
-fn bare(value: &Value) -> String {
-    match in_a_cell(value) {
-        Value::Null => String::new(),
-        Value::String(text) => csv_cell(text),
-        value => value.to_string(),
+/// Writes a whole table to `out`, and reports on standard error what a file now holds.
+pub(crate) fn write_rows<T>(
+    out: Output,
+    format: RowFormat,
+    columns: &[Column<T>],
+    items: &[T],
+) -> Result<(), Error> {
+    let out = written(out, format, columns, items)?;
+    out.finish(&counted(items.len(), "row"))
+}
+
+fn written<W: Write, T>(
+    out: W,
+    format: RowFormat,
+    columns: &[Column<T>],
+    items: &[T],
+) -> io::Result<W> {
+    let mut writer = RowWriter::begin(out, format, columns.iter().map(|column| column.key))?;
+    for item in items {
+        let cells: Vec<Value> = columns.iter().map(|column| (column.value)(item)).collect();
+        writer.row(&cells)?;
     }
+    writer.end()
 }
 
 /// What stands in a cell for a value: for an object, such as a verdict, its word.
@@ -72,12 +149,11 @@ fn in_a_cell(value: &Value) -> &Value {
     value.get("word").unwrap_or(value)
 }
 
-/// Text as a cell of CSV, quoted if it must be.
-pub(crate) fn csv_cell(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.into()
+/// Text as a cell of CSV, quoted only if it must be.
+fn csv_cell(text: &str) -> Cow<'_, str> {
+    match text.contains([',', '"', '\n', '\r']) {
+        true => format!("\"{}\"", text.replace('"', "\"\"")).into(),
+        false => text.into(),
     }
 }
 
@@ -120,9 +196,9 @@ mod tests {
     use super::*;
 
     const COLUMNS: &[Column<(&str, Option<f64>)>] = &[
-        Column { key: "name", heading: Some("NAME"), value: |row| row.0.into() },
-        Column { key: "limit", heading: Some("h ω"), value: |row| row.1.into() },
-        Column { key: "half", heading: None, value: |row| row.1.map(|limit| limit / 2.0).into() },
+        Column::shown("name", "NAME", |row| row.0.into()),
+        Column::shown("limit", "h ω", |row| row.1.into()),
+        Column::new("half", |row| row.1.map(|limit| limit / 2.0).into()),
     ];
     const ROWS: &[(&str, Option<f64>)] = &[("α", Some(2.0)), ("beta", None), ("c", Some(0.12345))];
 
@@ -139,9 +215,10 @@ mod tests {
 
     #[test]
     fn rows_hold_the_same_in_csv_and_json() {
+        let rows = |format| String::from_utf8(written(vec![], format, COLUMNS, ROWS).unwrap());
         let csv = "name,limit,half\nα,2.0,1.0\nbeta,,\nc,0.12345,0.061725\n";
-        assert_eq!(rows(RowFormat::Csv, COLUMNS, ROWS), csv);
-        let json = rows(RowFormat::Json, COLUMNS, ROWS);
+        assert_eq!(rows(RowFormat::Csv).unwrap(), csv);
+        let json = rows(RowFormat::Json).unwrap();
         assert_eq!(json.lines().count(), ROWS.len() + 2);
         let parsed: Value = serde_json::from_str(&json).unwrap();
         assert_eq!(parsed, super::json(COLUMNS, ROWS));

@@ -4,28 +4,16 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
-use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
+use rayon::ThreadPoolBuilder;
 
 use super::varied::Varied;
-use crate::commands::error::{Cause, Error};
-use crate::commands::interrupt::Interrupted;
+use crate::commands::error::Error;
 use crate::commands::jobs;
 use crate::commands::stopwatch;
 use crate::commands::terminal::progress;
 use crate::lab::{Clock, Judge, LaneSpec, MAX_HORIZON_S, Scene, SceneBody, Verdict};
 use crate::sim::bodies::Text;
 use crate::sim::integrators::Method;
-
-/// The system cannot start the threads.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot start the threads: {0}; give fewer --threads")]
-struct TooManyThreads(ThreadPoolBuildError);
-
-impl Cause for TooManyThreads {
-    fn exit_code(&self) -> u8 {
-        1
-    }
-}
 
 /// The scenes, methods and rates to run.
 pub(super) struct Swept {
@@ -143,7 +131,7 @@ impl Grid {
         let effort = effort(grid.cells.len());
         let rows = grid.cells.iter().zip(verdicts).map(|(cell, verdict)| {
             if interrupted.load(Ordering::Relaxed) {
-                return Err(Interrupted::NothingWritten.into());
+                return Err(Error::nothing_written());
             }
             progress.inc(1);
             Ok(grid.row(cell, verdict, effort))
@@ -204,7 +192,9 @@ fn judge_all(
     interrupted: &AtomicBool,
 ) -> Result<Vec<Verdict>, Error> {
     let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or_default()).build();
-    let pool = pool.map_err(TooManyThreads)?;
+    let pool = pool.map_err(|error| {
+        Error::failed(format!("cannot start the threads: {error}; give fewer --threads"))
+    })?;
     let runs = grid.cells.len();
     let worked_on = Arc::clone(grid);
     let judge = move |cell: usize| {
@@ -213,7 +203,7 @@ fn judge_all(
     };
     let verdicts = jobs::results(&pool, runs, &progress(runs as u32, "runs"), interrupted, judge);
     let whole: Option<Vec<Verdict>> = verdicts.into_iter().collect();
-    Ok(whole.ok_or(Interrupted::NothingWritten)?)
+    whole.ok_or_else(Error::nothing_written)
 }
 
 /// Whole rates from a quarter of this rate to eight times, each double the one before, within the clock's

@@ -1,6 +1,6 @@
 //! A parameter that takes several values in a sweep.
 
-use crate::commands::error::Cause;
+use crate::commands::error::Error;
 use crate::lab::{Scene, edited_values, nearest};
 
 /// A parameter by its key, and its values.
@@ -8,28 +8,6 @@ use crate::lab::{Scene, edited_values, nearest};
 pub(super) struct Varied {
     pub(super) key: String,
     pub(super) values: Vec<f64>,
-}
-
-/// The sweep cannot vary a parameter as it is asked to.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum CannotVary {
-    #[error("no body has a parameter {key:?}; {}", remedy(.nearest.as_deref()))]
-    Unknown { key: String, nearest: Option<String> },
-    #[error("--vary {key}={value} on {body:?}: {why}")]
-    Refused { key: String, value: f64, body: String, why: String },
-}
-
-impl Cause for CannotVary {
-    fn exit_code(&self) -> u8 {
-        2
-    }
-}
-
-fn remedy(nearest: Option<&str>) -> String {
-    match nearest {
-        Some(key) => format!("did you mean {key}?"),
-        None => "give one of `regatta list bodies`, or a constant of a law".into(),
-    }
 }
 
 /// Reads `KEY=V,V,...`.
@@ -48,15 +26,15 @@ pub(super) fn varied(text: &str) -> Result<Varied, String> {
 
 impl Varied {
     /// Checks that a body has the parameter, and that each that has it can have each value.
-    pub(super) fn check(&self, scenes: &[(String, Scene)]) -> Result<(), CannotVary> {
+    pub(super) fn check(&self, scenes: &[(String, Scene)]) -> Result<(), Error> {
         let mut is_known = false;
         for body in scenes.iter().flat_map(|(_, scene)| &scene.bodies) {
             let Some((place, _)) = body.kind.parameter(&self.key) else { continue };
             is_known = true;
             for &value in &self.values {
                 edited_values(&body.kind, &body.values, place, value).map_err(|error| {
-                    let (key, body, why) = (self.key.clone(), body.name.clone(), error.to_string());
-                    CannotVary::Refused { key, value, body, why }
+                    let (key, body) = (&self.key, &body.name);
+                    Error::mistake(format!("--vary {key}={value} on {body:?}: {error}"))
                 })?;
             }
         }
@@ -66,7 +44,10 @@ impl Varied {
         let bodies = scenes.iter().flat_map(|(_, scene)| &scene.bodies);
         let keys =
             bodies.flat_map(|body| body.kind.parameters.iter().map(|it| (&*it.key, &*it.key)));
-        let nearest = nearest(&self.key, keys).map(str::to_owned);
-        Err(CannotVary::Unknown { key: self.key.clone(), nearest })
+        let remedy = match nearest(&self.key, keys) {
+            Some(key) => format!("did you mean {key}?"),
+            None => "give one of `regatta list bodies`, or a constant of a law".into(),
+        };
+        Err(Error::mistake(format!("no body has a parameter {:?}; {remedy}", self.key)))
     }
 }

@@ -1,36 +1,30 @@
-//! Repeats the run of a capture and compares its states with the marks in the manifest.
+//! Compares the states of a run with the marks in a manifest.
 
-use super::super::experiment::Experiment;
 use super::super::manifest::{LaneEnd, LaneMark, Manifest, Mark, is_same_value};
-use super::super::recording::Recording;
 use super::super::state_log::{self, StateLog};
-use super::report::{PhysicsChange, Report};
 use crate::lab::Lab;
 
-/// Repeats the run of the manifest to its end, and reports the first mark that differs, or else the first lane that
-/// ended differently.
-pub(super) fn judge(
+/// The first mark that differs.
+pub(super) struct PhysicsChange {
+    pub(super) tick: u64,
+    /// Its number, from 1, and its method.
+    pub(super) lane: Option<(usize, &'static str)>,
+    pub(super) what: String,
+}
+
+/// The first mark in which the run, whose lab is at its end, differs from the manifest, or else the first lane that ended
+/// differently.
+pub(super) fn first_change(
     manifest: &Manifest,
-    experiment: &Experiment,
-    recording: &Recording,
-    report: &mut Report,
-) {
-    let mut lab = recording.lab(experiment);
-    let mut state_log = StateLog::new(recording.mark_every, lab.race());
-    for frame in 0..manifest.frames.len() as u32 {
-        recording.schedule.advance(&mut lab, frame, &mut state_log);
-    }
+    lab: &Lab,
+    state_log: StateLog,
+) -> Option<PhysicsChange> {
     let now = state_log.close(lab.race());
-    report.lanes = lab.race().entrants().len();
-    report.last_tick = lab.race().tick();
-    report.mark_every = recording.mark_every;
-    report.physics = manifest
-        .marks
-        .iter()
-        .zip(&now)
-        .find_map(|(then, now)| change(then, now, &lab))
+    let mut marks = manifest.marks.iter().zip(&now);
+    marks
+        .find_map(|(then, now)| change(then, now, lab))
         .or_else(|| other_length(&manifest.marks, &now))
-        .or_else(|| other_end(&manifest.lanes, &lab));
+        .or_else(|| other_end(&manifest.lanes, lab))
 }
 
 /// The first difference in how the lanes ended, if there is one. Metrics are not compared.
@@ -54,7 +48,7 @@ fn other_end(then: &[LaneEnd], lab: &Lab) -> Option<PhysicsChange> {
             .into_iter()
             .find(|(_, was, is)| was != is)?;
             let what = format!("its {key} at the end is {was} in the manifest and {is} now");
-            let method = entrant.spec.method.id;
+            let method = lab.race().spec(entrant).method.id;
             Some(PhysicsChange { tick, lane: Some((n + 1, method)), what })
         },
     )
@@ -77,7 +71,7 @@ fn change(then: &Mark, now: &Mark, lab: &Lab) -> Option<PhysicsChange> {
         .filter(|(_, (then, now))| !then.is_same(now))
         .map(|(n, (was, is))| {
             let entrant = &lab.race().entrants()[n];
-            let method = entrant.spec.method.id;
+            let method = lab.race().spec(entrant).method.id;
             PhysicsChange {
                 tick: then.tick,
                 lane: Some((n + 1, method)),

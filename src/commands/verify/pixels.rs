@@ -1,25 +1,24 @@
-//! Draws the frames of a capture again and compares them with the files.
+//! Draws the frames of a capture again and compares them with its files.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 
-use super::super::drawing::DrawingError;
-use super::super::error::Cause;
-use super::super::experiment::Experiment;
-use super::super::fingerprint::fingerprint;
-use super::super::frame_folder::FrameFolderError;
-use super::super::frame_names::{frames_claimed, is_marked};
-use super::super::interrupt::watch_for_interrupt;
-use super::super::manifest::{FILE_NAME, FrameEntry, Manifest};
-use super::super::output::{FileError, write_whole};
-use super::super::pipeline::{Drawn, Run, Stop};
-use super::super::recording::Recording;
-use super::super::schedule::Schedule;
-use super::super::state_log::StateLog;
-use super::super::terminal::progress;
-use super::report::{FrameChange, Report};
+use super::VerifyArgs;
+use super::clip::{Frames, Rerun};
+use crate::atomic_file::{IfExists, write_file};
+use crate::commands::drawing::{adapter, interrupted_after};
+use crate::commands::error::Error;
+use crate::commands::fingerprint::fingerprint;
+use crate::commands::frame_folder::not_ours;
+use crate::commands::frame_names::{frames_claimed, is_marked};
+use crate::commands::interrupt::watch_for_interrupt;
+use crate::commands::manifest::{Adapter, FILE_NAME, FrameEntry, Manifest};
+use crate::commands::pipeline::{Drawn, Run};
+use crate::commands::schedule::Schedule;
+use crate::commands::state_log::StateLog;
+use crate::commands::terminal::tell;
+use crate::lab::Lab;
 use crate::regular_file;
-use crate::view::{OffscreenRenderer, png};
+use crate::view::png;
 
 /// The limits on another driver: a little more than the differences that were seen.
 const OTHER_DRIVER: (u8, f64) = (2, 0.01);
@@ -29,49 +28,6 @@ const BYTES_PER_PIXEL: usize = 8;
 
 /// The most bytes of a picture beside its pixels.
 const MAX_NOTES_BYTES: usize = 1 << 20;
-
-/// Why frames were not judged, or not drawn again.
-#[derive(Debug, thiserror::Error)]
-pub(in crate::commands) enum PixelError {
-    /// Pictures of differences would replace the frames.
-    #[error("{} holds the frames that are judged; give another --diff", .path.display())]
-    DifferencesAmongFrames {
-        /// The folder.
-        path: PathBuf,
-    },
-    /// Pictures of differences would replace the frames of another capture.
-    #[error("{} holds another capture; give another --diff", .path.display())]
-    DifferencesInCapture {
-        /// The folder.
-        path: PathBuf,
-    },
-    /// A difference could not be written.
-    #[error(transparent)]
-    File(#[from] FileError),
-    /// A folder cannot take what would be written there.
-    #[error(transparent)]
-    Folder(#[from] FrameFolderError),
-    /// The frames could not be drawn.
-    #[error("the pixels cannot be judged: {0}")]
-    Capture(#[from] DrawingError),
-    /// The frames could not be drawn again.
-    #[error("not blessed: {0}")]
-    Bless(DrawingError),
-}
-
-impl Cause for PixelError {
-    fn exit_code(&self) -> u8 {
-        match self {
-            PixelError::File(_) => 1,
-            PixelError::Folder(error) => error.exit_code(),
-            PixelError::Bless(error) => error.exit_code(),
-            PixelError::Capture(DrawingError::Interrupted(_)) => 130,
-            PixelError::DifferencesAmongFrames { .. }
-            | PixelError::DifferencesInCapture { .. }
-            | PixelError::Capture(_) => 2,
-        }
-    }
-}
 
 /// How much a frame may differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,13 +54,6 @@ impl Limits {
     }
 }
 
-/// The folder of the frames, and the folder for pictures of their differences.
-#[derive(Clone, Copy)]
-pub(super) struct Folder<'a> {
-    pub(super) frames: &'a Path,
-    pub(super) differences: Option<&'a Path>,
-}
-
 /// The difference of two pictures of the same size.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Difference {
@@ -127,62 +76,73 @@ fn difference(a: &[u8], b: &[u8]) -> Difference {
     difference
 }
 
-/// Draws every frame of the manifest and reports those that differ.
-pub(super) fn judge(
-    manifest: &Manifest,
-    experiment: &Experiment,
-    recording: &Recording,
-    renderer: &mut OffscreenRenderer,
-    limits: Limits,
-    folder: Folder<'_>,
-    report: &mut Report,
-) -> Result<(), PixelError> {
+/// Draws every frame of the capture again and compares it with its file. Returns the lab at the end and the log of its
+/// states too.
+pub(super) fn judge(args: &VerifyArgs, rerun: &Rerun) -> Result<(Frames, (Lab, StateLog)), Error> {
+    let Rerun { manifest, capture, .. } = rerun;
+    check_differences(args, manifest)?;
+    let cannot = |error: Error| error.or_mistake().within("the pixels cannot be judged");
+    let mut renderer = capture.renderer().map_err(cannot)?;
+    let limits = limits(args, &manifest.adapter, &adapter(&renderer));
     let frames = manifest.frames.len() as u32;
-    let schedule = Schedule { frames, ..recording.schedule };
-    if let Some(path) = folder.differences {
-        fs::create_dir_all(path).map_err(FileError::of("make the directory", path, "--diff"))?;
-        if fs::canonicalize(path).ok() == fs::canonicalize(folder.frames).ok() {
-            return Err(PixelError::DifferencesAmongFrames { path: path.to_owned() });
-        }
-        if frames_claimed(&path.join(FILE_NAME)).is_some() {
-            return Err(PixelError::DifferencesInCapture { path: path.to_owned() });
-        }
-    }
     let interrupted = watch_for_interrupt();
-    let progress = progress(frames, "frames");
-    let mut lab = recording.lab(experiment);
-    let mut state_log = StateLog::new(u64::MAX, lab.race());
+    let (mut lab, mut state_log) = rerun.begin();
     let run = Run {
-        renderer,
+        renderer: &mut renderer,
         lab: &mut lab,
         state_log: &mut state_log,
-        schedule,
-        interrupted: &interrupted,
+        schedule: Schedule { frames, ..capture.schedule },
     };
-    let mut changes = Vec::new();
-    let size_px = recording.size_px;
-    let make = |drawn: &Drawn| {
+    let mut differences = Vec::new();
+    let compare = |drawn: &Drawn| {
         let entry = &manifest.frames[drawn.frame as usize];
-        (entry, compare(entry, size_px, &drawn.rgba, limits, folder))
+        compare(entry, capture.size_px, &drawn.rgba, limits, args)
     };
-    let drawn = run.draw_all(make, |_, (entry, change)| {
-        changes.extend(change?.map(|what| FrameChange { file: entry.file.clone(), what }));
-        progress.inc(1);
+    let drawn = run.draw_all(&interrupted, compare, |_, difference| {
+        differences.push(difference);
         Ok(())
     });
-    progress.finish_and_clear();
-    let done = match drawn {
-        Ok(done) => done,
-        Err(Stop::Readback(error)) => return Err(DrawingError::from(error).into()),
-        Err(Stop::Taken(error)) => return Err(error),
-    };
+    let done = drawn.map_err(cannot)?;
     if done < frames {
-        return Err(DrawingError::interrupted(done, frames, "nothing is written").into());
+        return Err(cannot(interrupted_after(done, frames, "nothing is written")));
     }
-    report.frames = Some(manifest.frames.iter().map(|entry| entry.file.clone()).collect());
-    report.is_exact = limits.max_channel == 0;
-    report.pixels = changes;
-    Ok(())
+    let are_exact = limits.max_channel == 0;
+    Ok((Frames { are_exact, differences }, (lab, state_log)))
+}
+
+/// The limits of what the options allow. Tells of another driver than the one that drew the frames.
+fn limits(args: &VerifyArgs, was: &Adapter, is: &Adapter) -> Limits {
+    let limits = Limits::of(was == is, args.max_channel, args.max_pixels);
+    if was != is {
+        let name = |a: &Adapter| format!("{} ({}, {})", a.name, a.backend, a.driver_info);
+        tell(&format!(
+            "drawn then with {}, now with {}: a channel may differ by {}, and {} % of a frame's \
+             pixels by more than 1",
+            name(was),
+            name(is),
+            limits.max_channel,
+            limits.max_pixels_percent,
+        ));
+    }
+    limits
+}
+
+/// Makes the directory for pictures of differences, if one is asked for, unless some would replace what is not theirs.
+fn check_differences(args: &VerifyArgs, manifest: &Manifest) -> Result<(), Error> {
+    let Some(path) = &args.diff else { return Ok(()) };
+    let refused =
+        |what| Err(Error::mistake(format!("{} {what}; give another --diff", path.display())));
+    if path.canonicalize().is_ok_and(|it| args.dir.canonicalize().is_ok_and(|dir| dir == it)) {
+        return refused("holds the frames that are judged");
+    }
+    if frames_claimed(&path.join(FILE_NAME)).is_some() {
+        return refused("holds another capture");
+    }
+    let mut pictures = manifest.frames.iter().map(|entry| path.join(&entry.file));
+    if let Some(other) = pictures.find(|picture| picture.exists() && !is_marked(picture)) {
+        return Err(not_ours(&other, "--diff"));
+    }
+    fs::create_dir_all(path).map_err(Error::of_file("make the directory", path, "--diff"))
 }
 
 /// The difference of a frame from its file, if there is one beyond the limits.
@@ -191,42 +151,40 @@ fn compare(
     size_px: [u32; 2],
     now: &[u8],
     limits: Limits,
-    folder: Folder<'_>,
-) -> Result<Option<String>, PixelError> {
-    let path = folder.frames.join(&entry.file);
+    args: &VerifyArgs,
+) -> Option<String> {
+    let path = args.dir.join(&entry.file);
     let [width, height] = size_px.map(|px| px as usize);
     let max_bytes = BYTES_PER_PIXEL * width * height + MAX_NOTES_BYTES;
     let then = match regular_file::read(&path, max_bytes) {
         Ok(file) => match image::load_from_memory(&file) {
             Ok(picture) => picture.into_rgba8(),
-            Err(error) => return Ok(Some(format!("cannot be decoded: {error}"))),
+            Err(error) => return Some(format!("cannot be decoded: {error}")),
         },
-        Err(error) => return Ok(Some(format!("cannot be read: {error}"))),
+        Err(error) => return Some(format!("cannot be read: {error}")),
     };
     if then.dimensions() != size_px.into() {
         let (width, height) = then.dimensions();
-        return Ok(Some(format!("is {width}x{height}, not {}x{}", size_px[0], size_px[1])));
+        return Some(format!("is {width}x{height}, not {}x{}", size_px[0], size_px[1]));
     }
     let difference = difference(&then, now);
     let was_altered = fingerprint(&then) != entry.pixels;
     if limits.allow(&difference) && !was_altered {
-        return Ok(None);
+        return None;
     }
     let mut what = format!("{} pixels off, the worst by {}", difference.off, difference.worst);
     if was_altered {
-        what.push_str("; the file no longer matches its hash in the manifest");
+        what += "; the file no longer matches its hash in the manifest";
     }
-    if let Some(directory) = folder.differences.filter(|_| difference.off > 0) {
+    if let Some(directory) = args.diff.as_ref().filter(|_| difference.off > 0) {
         let path = directory.join(&entry.file);
-        let picture = picture_of(&then, now, difference.worst);
-        if path.exists() && !is_marked(&path) {
-            return Err(FrameFolderError::NotOurs { path, option: "--diff" }.into());
-        }
-        write_whole(&path, &png::encode(size_px, &picture))
-            .map_err(FileError::of("write", &path, "--diff"))?;
-        what.push_str(&format!("; see {}", path.display()));
+        let picture = png::encode(size_px, &picture_of(&then, now, difference.worst));
+        what += &match write_file(&path, &picture, IfExists::Replace) {
+            Ok(written) => format!("; see {}", written.display()),
+            Err(error) => format!("; {}", Error::of_file("write", &path, "--diff")(error)),
+        };
     }
-    Ok(Some(what))
+    Some(what)
 }
 
 /// A picture of each channel's difference, scaled so that the largest is 255.

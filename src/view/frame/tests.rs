@@ -141,7 +141,7 @@ fn a_lost_device_does_not_panic_and_a_new_one_draws() {
     assert!(gpu.is_lost());
     assert!(output.drawing.is_none());
 
-    let gpu = Gpu::headless(AdapterPreference::CpuOnly).unwrap();
+    let gpu = pollster::block_on(Gpu::headless(AdapterPreference::CpuOnly)).unwrap();
     assert_eq!(draw(&gpu, [64, 64], 1.0, &picture).at(60, 60), [255, 0, 0, 255]);
 }
 

@@ -83,10 +83,10 @@ struct Row {
 
 impl Row {
     fn new(lab: &Lab, place: usize, lane: &Entrant) -> Self {
-        let spec = lane.spec;
+        let spec = lab.race().spec(lane);
         let times = lab.viewer().tick_times.iter();
         Self {
-            entry: lab.entry(lane),
+            entry: lane.entry,
             spec,
             evaluations: lab.evaluations_of_next_tick(place),
             is_halted: lane.lane.halted().is_some(),

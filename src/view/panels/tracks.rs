@@ -113,7 +113,7 @@ impl Track {
         let front = lab.selected().id;
         let track = |lane: &Entrant| Self {
             points: points(&lab.past().histories(lane.id)[body]),
-            entry: lab.entry(lane),
+            entry: lane.entry,
             is_front: lane.id == front,
             part: "",
             dash: None,

@@ -11,7 +11,7 @@ struct Concept {
     marks: &'static [&'static str],
 }
 
-const CONCEPTS: [Concept; 16] = [
+const CONCEPTS: [Concept; 20] = [
     Concept {
         name: "dispatch by the type of a method",
         file: "src/sim/integrators/mod.rs",
@@ -91,6 +91,26 @@ const CONCEPTS: [Concept; 16] = [
         name: "hash of a state",
         file: "src/lab/race/hash.rs",
         marks: &["0x0000_0100_0000_01b3"],
+    },
+    Concept {
+        name: "file that appears whole",
+        file: "src/atomic_file.rs",
+        marks: &[".persist(", ".persist_noclobber("],
+    },
+    Concept {
+        name: "exit code of an error",
+        file: "src/commands/error.rs",
+        marks: &["fn exit_code"],
+    },
+    Concept {
+        name: "table for programs",
+        file: "src/commands/output/table.rs",
+        marks: &["fn csv_cell"],
+    },
+    Concept {
+        name: "report of a verification",
+        file: "src/commands/verify/report.rs",
+        marks: &["fn to_junit"],
     },
 ];
 

@@ -100,7 +100,7 @@ fn every_frame_has_a_line_with_what_it_showed() {
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines[0], "trace,policy,frame,began_ms,displayed_ms,shown_ms,ticks,dropped_ms,q");
     assert_eq!(lines.len(), 1 + 145);
-    assert_eq!(lines[1], "steady-144,fixed,0,0,0,0,0,0,1");
+    assert_eq!(lines[1], "steady-144,fixed,0,0.0,0.0,0.0,0,0.0,1.0");
     let shown = |line: &str| line.split(',').nth(5).unwrap().parse::<f64>().unwrap();
     let repeated = lines[1..].windows(2).filter(|pair| shown(pair[0]) == shown(pair[1])).count();
     // Seven in twelve of 144.

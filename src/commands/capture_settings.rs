@@ -7,7 +7,7 @@ use crate::lab::{CloudChoice, CloudKind, Command, Instrument, Lab, Motion};
 
 /// How a run is drawn: its frames, their size and what they show.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Recording {
+pub(super) struct CaptureSettings {
     pub(super) schedule: Schedule,
     pub(super) size_px: [u32; 2],
     /// Pixels per point.
@@ -25,7 +25,7 @@ pub(super) struct Recording {
     pub(super) mark_every: u64,
 }
 
-impl Recording {
+impl CaptureSettings {
     /// The lab at the start of the run.
     pub(super) fn lab(&self, experiment: &Experiment) -> Lab {
         let mut lab = experiment.lab();

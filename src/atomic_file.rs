@@ -25,11 +25,13 @@ pub(crate) struct AtomicFile {
 
 /// What happens to an existing file of the same name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Older {
+pub(crate) enum IfExists {
     /// It is replaced.
     Replace,
     /// It stays, and the new file is discarded.
     Keep,
+    /// It stays, and the new file gets the first of `name-2`, `name-3` … that is free.
+    Beside,
 }
 
 impl AtomicFile {
@@ -46,49 +48,45 @@ impl AtomicFile {
         Ok(Self { part, path: path.to_owned() })
     }
 
+    /// The final name that it is to have.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Copies the permissions of the file that will be replaced.
     pub(crate) fn set_permissions_of(&self, older: &Metadata) -> io::Result<()> {
         self.part.as_file().set_permissions(older.permissions())
     }
 
-    /// Syncs the content to disk, so that only the rename is left to a commit.
-    pub(crate) fn sync(&self) -> io::Result<()> {
-        self.part.as_file().sync_all()
-    }
-
-    /// Gives the file its final name. Only [`sync_directory`] makes the name survive a loss of power.
-    pub(crate) fn rename(self, older: Older) -> io::Result<()> {
-        let renamed = match older {
-            Older::Replace => self.part.persist(&self.path),
-            Older::Keep => self.part.persist_noclobber(&self.path),
-        };
-        renamed.map(drop).map_err(|failed| failed.error)
-    }
-
-    /// Syncs the file, renames it, and syncs the directory.
-    pub(crate) fn commit(self, older: Older) -> io::Result<()> {
-        self.sync()?;
-        let directory = directory_of(&self.path).to_owned();
-        self.rename(older)?;
-        sync_directory(&directory)
-    }
-
-    /// Like [`AtomicFile::commit`] beside an existing file: under its name, or else under the first of `name-2`, `name-3` …
-    /// that does not exist. Returns its path.
-    pub(crate) fn commit_beside(self) -> io::Result<PathBuf> {
-        self.sync()?;
+    /// Syncs the file and gives it its final name, which it returns. Only [`sync_directory`] makes the name survive a loss
+    /// of power.
+    pub(crate) fn rename(self, if_exists: IfExists) -> io::Result<PathBuf> {
         let Self { mut part, path } = self;
+        part.as_file().sync_all()?;
+        if if_exists == IfExists::Replace {
+            part.persist(&path).map_err(|failed| failed.error)?;
+            return Ok(path);
+        }
         for number in 1.. {
             let free = numbered(&path, number);
             match part.persist_noclobber(&free) {
-                Ok(_) => return sync_directory(directory_of(&path)).map(|()| free),
-                Err(failed) if failed.error.kind() == io::ErrorKind::AlreadyExists => {
-                    part = failed.file;
+                Ok(_) => return Ok(free),
+                Err(taken)
+                    if if_exists == IfExists::Beside
+                        && taken.error.kind() == io::ErrorKind::AlreadyExists =>
+                {
+                    part = taken.file;
                 }
                 Err(failed) => return Err(failed.error),
             }
         }
         unreachable!("no folder holds as many files")
+    }
+
+    /// Syncs the file, renames it, and syncs the directory. Returns its final name.
+    pub(crate) fn commit(self, if_exists: IfExists) -> io::Result<PathBuf> {
+        let path = self.rename(if_exists)?;
+        sync_directory(directory_of(&path)).map(|()| path)
     }
 }
 
@@ -102,11 +100,11 @@ impl Write for AtomicFile {
     }
 }
 
-/// Writes a file whole, replacing an older one.
-pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+/// Writes a file whole, and returns its final name.
+pub(crate) fn write_file(path: &Path, bytes: &[u8], if_exists: IfExists) -> io::Result<PathBuf> {
     let mut file = AtomicFile::create(path)?;
     file.write_all(bytes)?;
-    file.commit(Older::Replace)
+    file.commit(if_exists)
 }
 
 /// The final name of the file with the temporary name `name`; `None` if that is not a temporary name.
@@ -176,7 +174,7 @@ mod tests {
         file.write_all(b"new").unwrap();
         let [under_way] = &names(folder.path())[..] else { panic!("one file") };
         assert_eq!(final_name(under_way), Some("run.gif"));
-        file.commit(Older::Replace).unwrap();
+        file.commit(IfExists::Replace).unwrap();
         assert_eq!(names(folder.path()), ["run.gif"]);
         assert_eq!(fs::read(path).unwrap(), b"new");
     }
@@ -197,9 +195,9 @@ mod tests {
         let [mut a, mut b] = [0, 1].map(|_| AtomicFile::create(&path).unwrap());
         a.write_all(b"a whole").unwrap();
         b.write_all(b"b whole").unwrap();
-        a.commit(Older::Keep).unwrap();
+        a.commit(IfExists::Keep).unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"a whole");
-        let error = b.commit(Older::Keep).unwrap_err();
+        let error = b.commit(IfExists::Keep).unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::AlreadyExists);
         assert_eq!(names(folder.path()), ["x"]);
         assert_eq!(fs::read(&path).unwrap(), b"a whole");
@@ -213,7 +211,7 @@ mod tests {
             let mut file = AtomicFile::create(&path).unwrap();
             file.write_all(b"ours").unwrap();
             fs::write(&path, "theirs").unwrap();
-            let written = file.commit_beside().unwrap();
+            let written = file.commit(IfExists::Beside).unwrap();
             assert_eq!(written, folder.path().join(taken));
             assert_eq!(fs::read(written).unwrap(), b"ours");
             assert_eq!(fs::read(path).unwrap(), b"theirs");
@@ -227,7 +225,7 @@ mod tests {
         use std::os::unix::fs::PermissionsExt;
         let folder = tempfile::tempdir().unwrap();
         let [ours, plain] = ["ours", "plain"].map(|name| folder.path().join(name));
-        write_whole(&ours, b"").unwrap();
+        write_file(&ours, b"", IfExists::Replace).unwrap();
         fs::write(&plain, b"").unwrap();
         let [ours, plain] = [ours, plain].map(|p| fs::metadata(p).unwrap().permissions().mode());
         assert_eq!(ours, plain);
@@ -254,7 +252,7 @@ mod tests {
     fn the_longest_name_that_a_file_system_takes_can_be_written() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("x".repeat(255));
-        write_whole(&path, b"new").unwrap();
+        write_file(&path, b"new", IfExists::Replace).unwrap();
         assert_eq!(fs::read(path).unwrap(), b"new");
     }
 }

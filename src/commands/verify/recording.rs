@@ -1,88 +1,19 @@
 //! Judges a scene file by its own checks: runs its race again, without graphics, and compares hashes.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use serde_json::json;
+use serde_json::{Value, json};
 
-use super::report::{JunitCase, junit, say};
-use crate::commands::error::{Cause, Error};
-use crate::commands::output::{Older, Place, write_text};
+use super::report::{Report, say};
+use crate::atomic_file::IfExists;
+use crate::commands::error::Error;
+use crate::commands::output::Destination;
 use crate::commands::scene_file;
-use crate::commands::terminal::tell;
-use crate::lab::{Action, Check, Lab, LaneId, Observer, Race, Resumed, Scene, Session};
+use crate::commands::terminal::{counted, tell};
+use crate::lab::{Action, Check, Lab, Observer, Race, Resumed, Scene, Session};
 
 /// The most ticks that a race is run for its checks: a day at 1000 Hz and more, which takes a body minutes.
 const MAX_TICKS: u64 = 100_000_000;
-
-/// Why a scene file does not pass.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum CheckError {
-    /// Some lanes do not reproduce their hashes.
-    #[error(
-        "{lanes} lane{} of {} differ{}; if that is meant, --bless", if *lanes == 1 { "" } else { "s" },
-        .path.display(), if *lanes == 1 { "s" } else { "" }
-    )]
-    Different {
-        /// How many lanes.
-        lanes: usize,
-        /// The file.
-        path: PathBuf,
-    },
-    /// An option that only applies to frames.
-    #[error("{option} is for the frames of a capture, and a recording has none; leave it out")]
-    OfCaptures {
-        /// The option.
-        option: &'static str,
-    },
-    /// A report would replace the scene file.
-    #[error("{} is the recording that is judged; give another --report", .path.display())]
-    ReportOverScene {
-        /// The file.
-        path: PathBuf,
-    },
-    /// A check names a lane that is not in the race any more, which no hash can mend.
-    #[error(
-        "not blessed: lane {lane} of {} has left the race at tick {tick}, where a [[check]] names it; take that check out, \
-         or the `solo` that removes the lane", .path.display()
-    )]
-    LaneLeft {
-        /// The lane.
-        lane: LaneId,
-        /// The tick of the check.
-        tick: u64,
-        /// The file.
-        path: PathBuf,
-    },
-    /// A check is too late to be reached.
-    #[error(
-        "{} has a [[check]] at tick {tick}, and verify runs {MAX_TICKS} ticks at most; take it out", .path.display()
-    )]
-    TooLate {
-        /// The tick of the check.
-        tick: u64,
-        /// The file.
-        path: PathBuf,
-    },
-    /// The file has no checks.
-    #[error("{} has no [[check]] to be judged by; --bless writes one for each second and the end, or fewer if the scene is long", .path.display())]
-    NoChecks {
-        /// The file.
-        path: PathBuf,
-    },
-}
-
-impl Cause for CheckError {
-    fn exit_code(&self) -> u8 {
-        match self {
-            CheckError::Different { .. } => 1,
-            CheckError::OfCaptures { .. }
-            | CheckError::ReportOverScene { .. }
-            | CheckError::LaneLeft { .. }
-            | CheckError::TooLate { .. }
-            | CheckError::NoChecks { .. } => 2,
-        }
-    }
-}
 
 /// The verdict on a lane.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,12 +56,32 @@ impl JudgedLane {
         let Self { checks, last_tick, difference, .. } = self;
         let outcome = match difference {
             None => {
-                let plural = if *checks == 1 { "" } else { "s" };
-                format!("same to the bit: {checks} check{plural} to tick {last_tick}")
+                format!("same to the bit: {} to tick {last_tick}", counted(*checks, "check"))
             }
             Some(difference) => difference.line(),
         };
         format!("{}: {outcome}", self.name())
+    }
+
+    /// As JSON.
+    fn object(&self) -> Value {
+        let difference = self.difference.as_ref().map(|difference| {
+            json!({
+                "tick": difference.tick,
+                "t": difference.t,
+                "was": format!("{:016x}", difference.was),
+                "is": difference.is.map(|is| format!("{is:016x}")),
+                "same_at": difference.same_at,
+            })
+        });
+        json!({
+            "lane": self.number,
+            "methods": self.methods,
+            "same": difference.is_none(),
+            "checks": self.checks,
+            "last_tick": self.last_tick,
+            "first_difference": difference,
+        })
     }
 }
 
@@ -148,33 +99,40 @@ impl Difference {
     }
 }
 
-/// Judges the scene file at `path`, and passes the verdicts to `write`.
-pub(super) fn judge(
-    path: &Path,
-    write: impl FnOnce(&Checked) -> Result<(), Error>,
-) -> Result<(), Error> {
+/// Judges the scene file at `path`.
+pub(super) fn judge(path: &Path) -> Result<Report, Error> {
     let (scene, _) = scene_file::load(path)?;
     if scene.checks.is_empty() {
-        return Err(CheckError::NoChecks { path: path.to_owned() }.into());
+        return Err(Error::mistake(format!(
+            "{} has no [[check]] to be judged by; --bless writes one for each second and the end, or fewer if the scene is long",
+            path.display()
+        )));
     }
     check_ticks(path, &scene)?;
-    let checked = Checked { path: path.to_owned(), lanes: compare(&scene) };
-    for lane in &checked.lanes {
+    let lanes = compare(&scene);
+    let mut report = Report::new("file", path);
+    for lane in &lanes {
         say(&lane.line())?;
+        report.judged(lane.name(), lane.difference.as_ref().map(Difference::line));
     }
-    write(&checked)?;
-    match checked.differing() {
-        0 => Ok(()),
-        lanes => Err(CheckError::Different { lanes, path: path.to_owned() }.into()),
-    }
+    report.field("lanes", lanes.iter().map(JudgedLane::object).collect());
+    let (path, count) = (path.display(), report.differing());
+    report.if_different(match count {
+        1 => format!("1 lane of {path} differs"),
+        _ => format!("{count} lanes of {path} differ"),
+    });
+    Ok(report)
 }
 
 /// Says that checks lie beyond the scene's end, if some do: they are judged all the same, which can take longer than
 /// the scene. Fails where it would take too long.
-fn check_ticks(path: &Path, scene: &Scene) -> Result<(), CheckError> {
+fn check_ticks(path: &Path, scene: &Scene) -> Result<(), Error> {
     let last = scene.checks.iter().map(|check| check.tick).max();
     if let Some(tick) = last.filter(|tick| *tick > MAX_TICKS) {
-        return Err(CheckError::TooLate { tick, path: path.to_owned() });
+        return Err(Error::mistake(format!(
+            "{} has a [[check]] at tick {tick}, and verify runs {MAX_TICKS} ticks at most; take it out",
+            path.display()
+        )));
     }
     let end = Lab::new(scene.clone()).nearest_tick(scene.seconds);
     let late = scene.checks.iter().map(|check| check.tick).filter(|tick| *tick > end);
@@ -205,12 +163,17 @@ pub(super) fn bless(path: &Path) -> Result<(), Error> {
         check_ticks(path, &scene)?;
         for Reached { row, hash, .. } in replay(&scene, &mut ()) {
             let Check { tick, lane, .. } = scene.checks[row];
-            let path = path.to_owned();
-            hashes[row] = hash.ok_or(CheckError::LaneLeft { lane, tick, path })?;
+            hashes[row] = hash.ok_or_else(|| {
+                Error::mistake(format!(
+                    "not blessed: lane {lane} of {} has left the race at tick {tick}, where a [[check]] names it; \
+                     take that check out, or the `solo` that removes the lane",
+                    path.display()
+                ))
+            })?;
         }
         Scene::with_hashes(&text, &hashes)
     };
-    write_text(Place { path, option: "FILE", older: Older::Replace }, &text)?;
+    Destination { path, option: "FILE", if_exists: IfExists::Replace }.write(&text)?;
     tell(&format!("blessed: {}", path.display()));
     Ok(())
 }
@@ -290,55 +253,4 @@ fn compare(scene: &Scene) -> Vec<JudgedLane> {
     }
     lanes.retain(|lane| lane.checks > 0);
     lanes
-}
-
-/// The verdicts on all lanes of a scene file.
-pub(super) struct Checked {
-    path: PathBuf,
-    lanes: Vec<JudgedLane>,
-}
-
-impl Checked {
-    fn differing(&self) -> usize {
-        self.lanes.iter().filter(|lane| lane.difference.is_some()).count()
-    }
-
-    /// As JSON, for programs.
-    pub(super) fn to_json(&self) -> String {
-        let lanes = self.lanes.iter().map(|lane| {
-            let difference = lane.difference.as_ref().map(|difference| {
-                json!({
-                    "tick": difference.tick,
-                    "t": difference.t,
-                    "was": format!("{:016x}", difference.was),
-                    "is": difference.is.map(|is| format!("{is:016x}")),
-                    "same_at": difference.same_at,
-                })
-            });
-            json!({
-                "lane": lane.number,
-                "methods": lane.methods,
-                "same": difference.is_none(),
-                "checks": lane.checks,
-                "last_tick": lane.last_tick,
-                "first_difference": difference,
-            })
-        });
-        let report = json!({
-            "file": self.path.display().to_string(),
-            "same": self.differing() == 0,
-            "lanes": lanes.collect::<Vec<_>>(),
-        });
-        format!("{report:#}\n")
-    }
-
-    /// As JUnit's XML, a test for each lane.
-    pub(super) fn to_junit(&self) -> String {
-        let case = |lane: &JudgedLane| JunitCase {
-            name: lane.name(),
-            failure: lane.difference.as_ref().map(Difference::line),
-        };
-        let cases: Vec<_> = self.lanes.iter().map(case).collect();
-        junit(&format!("regatta verify {}", self.path.display()), &cases)
-    }
 }

@@ -1,0 +1,243 @@
+//! Where one stream of bytes goes: standard output, a device or a pipe, or a file that appears whole or
+//! not at all.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+
+use crate::atomic_file::{AtomicFile, IfExists};
+use crate::commands::error::Error;
+use crate::commands::terminal::tell;
+
+/// The path that means standard output.
+pub(crate) const STDOUT: &str = "-";
+
+/// Links to what the process has open, such as standard error. Their targets are in use and not replaced.
+const OPEN_ALREADY: [&str; 4] = ["/dev/fd", "/dev/stdout", "/dev/stderr", "/proc/self/fd"];
+
+/// A longer chain of links is a ring, on every system.
+const MAX_LINKS: usize = 40;
+
+/// Where an output goes, and the option to name in its errors.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Destination<'a> {
+    /// A file, a link to one, a device, or [`STDOUT`].
+    pub(crate) path: &'a Path,
+    /// The option that names the path, such as `--out`.
+    pub(crate) option: &'static str,
+    /// What happens to an existing file.
+    pub(crate) if_exists: IfExists,
+}
+
+impl Destination<'_> {
+    /// Opens it for binary data, which may not go to a terminal.
+    pub(crate) fn open(self) -> Result<Output, Error> {
+        if self.path == Path::new(STDOUT) && io::stdout().is_terminal() {
+            return Err(Error::mistake(format!(
+                "pictures do not go to a terminal; give {} FILE, or send standard output elsewhere",
+                self.option
+            )));
+        }
+        self.open_for_text()
+    }
+
+    /// Opens it for text, which may go to a terminal.
+    pub(crate) fn open_for_text(self) -> Result<Output, Error> {
+        let Self { path, option, if_exists } = self;
+        if path == Path::new(STDOUT) {
+            return Ok(self.output(Target::Stdout(io::stdout())));
+        }
+        match fs::metadata(path) {
+            Ok(entry) if entry.is_dir() => {
+                let path = path.display();
+                Err(Error::mistake(format!("{path} is a directory; give {option} a file")))
+            }
+            Ok(entry) if !entry.is_file() || OPEN_ALREADY.iter().any(|o| path.starts_with(o)) => {
+                let device = File::options().append(true).open(path);
+                Ok(self
+                    .output(Target::Device(device.map_err(Error::of_file("write", path, option))?)))
+            }
+            // A link that leads nowhere yet is taken too.
+            _ if if_exists != IfExists::Replace && fs::symlink_metadata(path).is_ok() => {
+                Err(taken(path, option))
+            }
+            _ => self.begin(),
+        }
+    }
+
+    /// Begins a file, whether or not there is one of its name. If that is a link, the file it leads to is written and the
+    /// link stays.
+    pub(crate) fn begin(self) -> Result<Output, Error> {
+        let begin = || {
+            let file = AtomicFile::create(&end_of_links(self.path)?)?;
+            if let Ok(older) = fs::metadata(self.path) {
+                file.set_permissions_of(&older)?;
+            }
+            Ok(file)
+        };
+        let file = begin().map_err(Error::of_file("write", self.path, self.option))?;
+        Ok(self.output(Target::File(file, self.if_exists)))
+    }
+
+    /// Writes text to it.
+    pub(crate) fn write(self, text: &str) -> Result<(), Error> {
+        let mut output = self.open_for_text()?;
+        output.write_all(text.as_bytes())?;
+        output.close().map(drop)
+    }
+
+    fn output(self, target: Target) -> Output {
+        let sink = Sink { target, path: self.path.to_owned(), option: self.option };
+        Output(BufWriter::new(sink))
+    }
+}
+
+/// A stream being written. Its errors have the message of the command in them.
+pub(crate) struct Output(BufWriter<Sink>);
+
+struct Sink {
+    target: Target,
+    path: PathBuf,
+    option: &'static str,
+}
+
+enum Target {
+    Stdout(io::Stdout),
+    /// A device or a pipe, which is written to and not replaced.
+    Device(File),
+    File(AtomicFile, IfExists),
+}
+
+impl Output {
+    /// Standard output.
+    pub(crate) fn stdout() -> Self {
+        let place =
+            Destination { path: Path::new(STDOUT), option: "--out", if_exists: IfExists::Keep };
+        place.output(Target::Stdout(io::stdout()))
+    }
+
+    /// Its name in messages.
+    pub(crate) fn name(&self) -> String {
+        let Sink { target, path, .. } = self.0.get_ref();
+        match target {
+            Target::Stdout(_) => "standard output".into(),
+            Target::Device(_) | Target::File(..) => path.display().to_string(),
+        }
+    }
+
+    /// The path of the file, if it is one.
+    pub(crate) fn file(&self) -> Option<&Path> {
+        let Sink { target, path, .. } = self.0.get_ref();
+        matches!(target, Target::File(..)).then_some(path)
+    }
+
+    /// Flushes the stream, and gives a file its name. Returns the name in messages.
+    pub(crate) fn close(mut self) -> Result<String, Error> {
+        self.flush()?;
+        let name = self.name();
+        let sink = self.0.into_inner().map_err(io::IntoInnerError::into_error)?;
+        let Sink { target: Target::File(file, if_exists), path, option } = sink else {
+            return Ok(name);
+        };
+        let asked = file.path().to_owned();
+        match file.commit(if_exists) {
+            // A link's own name stays the one to tell, unless the file is another.
+            Ok(written) if written == asked => Ok(name),
+            Ok(written) => Ok(written.display().to_string()),
+            // Somebody else made a file of that name in the meantime.
+            Err(error)
+                if if_exists == IfExists::Keep && error.kind() == io::ErrorKind::AlreadyExists =>
+            {
+                Err(taken(&path, option))
+            }
+            Err(error) => Err(unfinished(&path, option, error)),
+        }
+    }
+
+    /// Closes the stream and reports on standard error what a file now holds.
+    pub(crate) fn finish(self, what: &str) -> Result<(), Error> {
+        let is_file = self.file().is_some();
+        let name = self.close()?;
+        if is_file {
+            tell(&format!("wrote {what}: {name}"));
+        }
+        Ok(())
+    }
+}
+
+impl Write for Output {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.flush()
+    }
+}
+
+impl Sink {
+    fn stream(&mut self) -> &mut dyn Write {
+        match &mut self.target {
+            Target::Stdout(out) => out,
+            Target::Device(device) => device,
+            Target::File(file, _) => file,
+        }
+    }
+
+    /// The result with the message of the command in its error. The kind stays, by which writers know what to try again.
+    fn explained<T>(&self, result: io::Result<T>) -> io::Result<T> {
+        result.map_err(|error| {
+            let kind = error.kind();
+            let explained = match self.target {
+                Target::Stdout(_) => error.into(),
+                Target::Device(_) => Error::of_file("write", &self.path, self.option)(error),
+                Target::File(..) => unfinished(&self.path, self.option, error),
+            };
+            io::Error::new(kind, explained)
+        })
+    }
+}
+
+impl Write for Sink {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.stream().write(bytes);
+        self.explained(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        let flushed = self.stream().flush();
+        self.explained(flushed)
+    }
+}
+
+/// Writes to standard output.
+pub(crate) fn print(text: impl AsRef<[u8]>) -> Result<(), Error> {
+    let mut out = Output::stdout();
+    out.write_all(text.as_ref())?;
+    out.close().map(drop)
+}
+
+/// The error of a file that could not be written to its end.
+fn unfinished(path: &Path, option: &'static str, error: io::Error) -> Error {
+    let error = Error::of_file("write", path, option)(error);
+    error.and("nothing is left of it, and the same command writes all of it")
+}
+
+fn taken(path: &Path, option: &str) -> Error {
+    let path = path.display();
+    Error::mistake(format!(
+        "{path} already exists; give another {option}, or --force to replace it"
+    ))
+}
+
+/// The end of the chain of links at `path`, whether a file exists there or not.
+fn end_of_links(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_owned();
+    for _ in 0..MAX_LINKS {
+        match fs::read_link(&path) {
+            Ok(target) => path = path.parent().unwrap_or(Path::new("")).join(target),
+            Err(_) => return Ok(path),
+        }
+    }
+    Err(io::Error::other("its links lead in a ring"))
+}

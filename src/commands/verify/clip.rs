@@ -1,0 +1,232 @@
+//! Judges a capture: repeats the run of its manifest once, and compares its states and its frames.
+
+use std::io::ErrorKind;
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use super::VerifyArgs;
+use super::physics::{PhysicsChange, first_change};
+#[cfg(feature = "view")]
+use super::pixels;
+use super::report::{Report, say};
+use crate::commands::capture_settings::CaptureSettings;
+#[cfg(feature = "view")]
+use crate::commands::clip::record;
+use crate::commands::error::Error;
+use crate::commands::experiment::Experiment;
+#[cfg(feature = "view")]
+use crate::commands::frame_folder::{Existing, FrameFolder};
+use crate::commands::frame_names::is_pending;
+use crate::commands::manifest::{self, FILE_NAME, Manifest, SCHEMA};
+use crate::commands::output::DirectoryLock;
+use crate::commands::state_log::StateLog;
+use crate::commands::terminal::{counted, tell};
+use crate::commands::{scene_file, settings};
+use crate::lab::Lab;
+use crate::regular_file::{self, Unreadable};
+
+/// The run of a manifest, to be repeated.
+pub(super) struct Rerun {
+    pub(super) manifest: Manifest,
+    pub(super) capture: CaptureSettings,
+    experiment: Experiment,
+}
+
+/// The frames of a repeated run.
+pub(super) struct Frames {
+    /// Whether they have to be the same to the byte.
+    pub(super) are_exact: bool,
+    /// How each differs from its file, if it does.
+    pub(super) differences: Vec<Option<String>>,
+}
+
+impl Rerun {
+    fn read(dir: &Path) -> Result<Self, Error> {
+        let read = || {
+            let manifest = read(&dir.join(FILE_NAME))?;
+            let (experiment, capture) = settings::read(&manifest.settings)?;
+            Ok(Self { manifest, capture, experiment })
+        };
+        read().map_err(unjudged(dir))
+    }
+
+    /// The lab at the start of the run, and the log of its states.
+    pub(super) fn begin(&self) -> (Lab, StateLog) {
+        let lab = self.capture.lab(&self.experiment);
+        let state_log = StateLog::new(self.capture.mark_every, lab.race());
+        (lab, state_log)
+    }
+
+    /// The lab at the end of the run and its log, where nothing is drawn.
+    fn run(&self) -> (Lab, StateLog) {
+        let (mut lab, mut state_log) = self.begin();
+        for frame in 0..self.manifest.frames.len() as u32 {
+            self.capture.schedule.advance(&mut lab, frame, &mut state_log);
+        }
+        (lab, state_log)
+    }
+}
+
+/// The error of a capture in `dir` that cannot be judged, for this reason.
+fn unjudged(dir: &Path) -> impl Fn(String) -> Error {
+    let manifest = dir.join(FILE_NAME);
+    move |reason| Error::mistake(format!("cannot judge {}: {reason}", manifest.display()))
+}
+
+/// Judges the capture that `args` names.
+pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
+    let dir = &args.dir;
+    let _lock = lock(dir).map_err(unjudged(dir))?;
+    let rerun = Rerun::read(dir)?;
+    let Manifest { settings, complete, frames, .. } = &rerun.manifest;
+    if !complete {
+        let (drawn, asked) = (frames.len(), settings.frames);
+        let how_far = format!("its capture was stopped after {drawn} of {asked} frames");
+        return Err(unjudged(dir)(format!("{how_far}; draw all frames with --bless")));
+    }
+    let scene = &settings.scene;
+    if scene_file::text_now(Path::new(&scene.name)).is_some_and(|now| now != scene.text) {
+        let name = &scene.name;
+        tell(&format!("{name} has changed since the capture; the scene as captured is run"));
+    }
+    #[cfg(feature = "view")]
+    let redrawn = match args.physics_only {
+        true => Ok(None),
+        false => pixels::judge(args, &rerun).map(Some),
+    };
+    #[cfg(not(feature = "view"))]
+    let redrawn = Ok(None);
+    let (frames, (lab, state_log), failed) = match redrawn {
+        Ok(Some((frames, run))) => (Some(frames), run, None),
+        Ok(None) => (None, rerun.run(), None),
+        // The physics is judged even where the pixels cannot be.
+        Err(error) if error.is_mistake() => (None, rerun.run(), Some(error)),
+        Err(error) => return Err(error),
+    };
+    let mut report = Report::new("dir", dir);
+    add_physics(&mut report, &rerun, &lab, state_log)?;
+    let physics_differs = report.differing() > 0;
+    match failed {
+        Some(error) if !physics_differs => return Err(error),
+        // Different physics is a result.
+        Some(error) => tell(&error.to_string()),
+        None => {}
+    }
+    add_pixels(&mut report, &rerun, frames)?;
+    let what = match (physics_differs, report.differing()) {
+        (true, 1) => "physics",
+        (true, _) => "physics and pixels",
+        (false, _) => "pixels",
+    };
+    report.if_different(format!("{what} differ from {}", dir.join(FILE_NAME).display()));
+    Ok(report)
+}
+
+fn add_physics(
+    report: &mut Report,
+    rerun: &Rerun,
+    lab: &Lab,
+    state_log: StateLog,
+) -> Result<(), Error> {
+    let Some(change) = first_change(&rerun.manifest, lab, state_log) else {
+        let lanes = counted(lab.race().entrants().len(), "lane");
+        say(&format!("physics: same to the bit: {lanes} to tick {}", lab.race().tick()))?;
+        report.judged("physics", None);
+        report.field("physics", json!({ "same": true, "first_difference": null }));
+        return Ok(());
+    };
+    let PhysicsChange { tick, lane, what } = change;
+    let marks = match rerun.capture.mark_every {
+        1 => String::new(),
+        every => format!(" (looked at every {every} ticks)"),
+    };
+    let of_lane = lane.map_or(String::new(), |(n, method)| format!("lane {n}, {method}, "));
+    let line = format!("differs first at tick {tick}{marks}: {of_lane}{what}");
+    say(&format!("physics: {line}"))?;
+    report.judged("physics", Some(line));
+    let (lane, method) = lane.unzip();
+    let change = json!({ "tick": tick, "lane": lane, "method": method, "what": what });
+    report.field("physics", json!({ "same": false, "first_difference": change }));
+    Ok(())
+}
+
+fn add_pixels(report: &mut Report, rerun: &Rerun, frames: Option<Frames>) -> Result<(), Error> {
+    let Some(Frames { are_exact, differences }) = frames else {
+        report.field("pixels", Value::Null);
+        return Ok(());
+    };
+    let (frames, mut changes) = (differences.len(), Vec::new());
+    for (entry, difference) in rerun.manifest.frames.iter().zip(differences) {
+        if let Some(what) = &difference {
+            say(&format!("pixels: {}: {what}", entry.file))?;
+            changes.push(json!({ "file": entry.file, "what": what }));
+        }
+        report.judged(&entry.file, difference);
+    }
+    let all = counted(frames, "frame");
+    say(&match (changes.len(), are_exact) {
+        (0, true) => format!("pixels: same: {all}, every pixel"),
+        (0, false) => format!("pixels: same within the limits: {all}"),
+        (changed, _) => format!("pixels: {changed} of {all} differ"),
+    })?;
+    let same = changes.is_empty();
+    report.field("pixels", json!({ "same": same, "frames": frames, "differences": changes }));
+    Ok(())
+}
+
+/// Draws the capture in `dir` again and replaces the old one once the new one is complete.
+#[cfg(feature = "view")]
+pub(super) fn bless(dir: &Path) -> Result<(), Error> {
+    // Checked first, so that a missing clip is not reported as a problem with the folder.
+    if !dir.join(FILE_NAME).exists() && !is_pending(dir) {
+        Rerun::read(dir)?;
+    }
+    let folder = FrameFolder::inspect(dir, Existing::Bless, "DIR")?;
+    let Rerun { experiment, capture, .. } = Rerun::read(dir)?;
+    let drawn = record(&experiment, capture, folder);
+    drawn.map(drop).map_err(|error| error.within("not blessed"))
+}
+
+/// Locks `dir` against writers while it is judged. `None` if there is no such directory.
+fn lock(dir: &Path) -> Result<Option<DirectoryLock>, String> {
+    let busy = || "another regatta is writing to it; wait until it has finished".to_owned();
+    let lock = match DirectoryLock::shared(dir) {
+        Ok(lock) => lock.ok_or_else(busy)?,
+        Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
+            return Ok(None);
+        }
+        Err(error) => return Err(format!("it cannot be locked: {error}")),
+    };
+    if is_pending(dir) {
+        let reason = "a --bless was interrupted while it replaced the frames; --bless completes it";
+        return Err(reason.into());
+    }
+    Ok(Some(lock))
+}
+
+/// Reads the manifest at `path`.
+///
+/// # Errors
+/// Why it cannot be used: it is missing, incomplete, altered or of another schema.
+fn read(path: &Path) -> Result<Manifest, String> {
+    let bytes = regular_file::read(path, manifest::MAX_BYTES).map_err(|error| match error {
+        Unreadable::System(error) => format!("{error}; `regatta capture` writes it"),
+        error => error.to_string(),
+    })?;
+    let value: Value = serde_json::from_slice(&bytes)
+        .map_err(|error| format!("it is not JSON: {error}; capture again"))?;
+    match value["schema"].as_u64() {
+        Some(schema) if schema == u64::from(SCHEMA) => {}
+        Some(schema) => {
+            return Err(format!(
+                "it is of schema {schema}, and this program reads {SCHEMA}; capture again"
+            ));
+        }
+        None => return Err("it does not name its schema; capture again".into()),
+    }
+    let manifest: Manifest = serde_json::from_slice(&bytes)
+        .map_err(|error| format!("it is not as schema {SCHEMA} has it: {error}; capture again"))?;
+    settings::check(&manifest)?;
+    Ok(manifest)
+}
