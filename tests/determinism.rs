@@ -11,7 +11,6 @@ use std::path::PathBuf;
 use regatta::lab::{
     Action, BuiltIn, Command, Lab, LaneSpec, Race, SCENES, Scene, SceneBody, Scripted,
 };
-use regatta::sim::bodies::Input;
 use regatta::sim::integrators::{GENERAL_METHODS, Method, method};
 
 /// Ticks after which the hash is taken: 28 minutes at 60 Hz. For a scene of many coordinates fewer, so
@@ -325,7 +324,7 @@ fn the_hash_sees_which_body_halted_and_when() {
         );
         let mut race = Race::of_scene(&Scene::parse("twins.toml", &text).unwrap());
         race.run(when);
-        race.input(Input::Kick(1e300));
+        race.perform(&Action::Kick(1e300), &mut ());
         race.run(10 - when);
         race.state_hash()
     };

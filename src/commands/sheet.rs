@@ -25,7 +25,7 @@ pub(super) fn draw(
     let [width, height] = capture.size_px;
     let columns = capture.schedule.frames;
     let lab = experiment.lab();
-    let lanes = lab.race().entrants().iter().map(|entrant| lab.race().spec(entrant));
+    let lanes = lab.race().entrants().iter().map(|entrant| entrant.spec);
     let lanes: Vec<LaneSpec> = lanes.collect();
     let methods: Vec<&str> = lanes.iter().map(|lane| lane.method.id).collect();
     let rows = lanes.len() as u32;

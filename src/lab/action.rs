@@ -10,8 +10,8 @@ use crate::sim::integrators::Method;
 /// has the same effect as once.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
-    /// Solo: puts the bodies under this method, with its substeps and tolerance from the list of methods. Race: does
-    /// nothing, as each lane keeps its method.
+    /// Solo: puts the bodies under this method, with its substeps and tolerance [at the start](super::Race::methods). Race:
+    /// does nothing, as each lane keeps its method.
     Method(&'static Method),
     /// Puts a lane under this method, with these substeps and this tolerance.
     Lane {

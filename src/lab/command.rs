@@ -69,20 +69,14 @@ pub enum Command {
     SpeedUp,
     /// The next lower speed of [`SPEED_LADDER`].
     SpeedDown,
-    /// Sets the throttle of every body that has one, -1 to 1.
-    Throttle(f64),
     /// A tenth more throttle.
     ThrottleUp,
     /// A tenth less throttle.
     ThrottleDown,
-    /// Sets the rudder of every body that has one, from -1, hard right, to 1, hard left.
-    Rudder(f64),
     /// A tenth more rudder to the left.
     RudderLeft,
     /// A tenth more rudder to the right.
     RudderRight,
-    /// Gives every body an impulse of this many times its own kick.
-    Kick(f64),
     /// Opens the scene at this index of the [list](super::SceneList), from 0.
     Scene(usize),
     /// The next scene of the list, cyclically.
@@ -228,13 +222,10 @@ impl Command {
             | Command::Undo
             | Command::Redo
             | Command::SpeedPercent(_)
-            | Command::Throttle(_)
             | Command::ThrottleUp
             | Command::ThrottleDown
-            | Command::Rudder(_)
             | Command::RudderLeft
             | Command::RudderRight
-            | Command::Kick(_)
             | Command::Hold(_)
             | Command::Seconds(_)
             | Command::MapParameter(_)

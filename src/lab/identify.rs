@@ -61,7 +61,7 @@ impl Conclusion {
 #[derive(Clone, Debug)]
 pub struct Identification {
     /// What is said.
-    pub word: Conclusion,
+    pub conclusion: Conclusion,
     /// The candidate that fits best.
     pub best: Fitted,
     /// Others that do the same on this body.
@@ -92,7 +92,7 @@ const MAX_RECOMMENDED: usize = 3;
 /// Returns `None` if no method can be run on the body.
 pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identification> {
     let fits = search(log, body, tick_hz);
-    let Decision { word, same, unusual, rival } = decide(&fits, body, log.is_double())?;
+    let Decision { conclusion, same, unusual, rival } = decide(&fits, body, log.is_double())?;
     let (best, best_fit) = same.first()?;
     let fitted = |(candidate, fit): &(Candidate, Fit)| Fitted {
         candidate: *candidate,
@@ -102,7 +102,7 @@ pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identifica
     let is_spring_fitted = body.spring.is_none();
     let body = best_fit.body.clone();
     let tick_s = 1.0 / tick_hz;
-    let effective = match word {
+    let effective = match conclusion {
         Conclusion::Unknown => nearest(log, &body, tick_hz),
         Conclusion::CannotTell if best_fit.is_short() => None,
         _ => Effective::of(*best, &body, tick_s),
@@ -110,7 +110,7 @@ pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identifica
     let exact = Effective::exact(&body);
     let recommended = recommended(&body, tick_s, exact);
     Some(Identification {
-        word,
+        conclusion,
         best: Fitted { candidate: *best, residual: best_fit.residual() },
         also: of(&same[1..]),
         unusual: of(&unusual),

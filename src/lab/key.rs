@@ -3,6 +3,7 @@
 
 use std::fmt;
 
+use super::action::Action;
 use super::command::Command;
 use super::loop_lab::LoopCommand;
 
@@ -183,7 +184,7 @@ pub static KEYS: &[Binding] = &[
     Binding {
         shown: "K",
         about: "kick: an impulse at the next tick",
-        keys: &[(Key::Sign('k'), Command::Kick(1.0))],
+        keys: &[(Key::Sign('k'), Command::Act(Action::Kick(1.0)))],
         repeats: false,
     },
     Binding {

@@ -96,11 +96,11 @@ impl Lab {
     pub fn past(&self) -> &Past {
         self.timeline.past()
     }
-    /// The methods that digits and lanes refer to: the scene's lanes, which race, then all others.
+    /// The methods that digits and rows refer to: those of the [menu](super::Menu).
     pub fn entries(&self) -> &[LaneSpec] {
-        self.race().list()
+        self.past().menu().specs()
     }
-    /// The name of the method on this index of the list, told apart from others of the same method.
+    /// The name of the method with this index on the menu, told apart from others of the same method.
     pub fn lane_name(&self, entry: usize) -> String {
         let spec = &self.entries()[entry];
         spec.distinct_name(spec.method.name, self.entries())
@@ -109,9 +109,17 @@ impl Lab {
     pub fn mode(&self) -> Mode {
         self.race().mode()
     }
-    /// The method in solo mode, or of the selected lane in a race, by its index on the list.
+    /// The method in solo mode, or of the selected lane in a race, by its index on the menu.
     pub fn active(&self) -> usize {
-        self.selected().entry
+        self.entry(self.selected())
+    }
+    /// The method of a lane, by its index on the menu.
+    pub fn entry(&self, entrant: &Entrant) -> usize {
+        self.past().menu().entry(entrant.id)
+    }
+    /// The lane under the method with this index on the menu, if one flies it.
+    pub fn flown(&self, entry: usize) -> Option<&Entrant> {
+        self.race().entrant(self.past().menu().lane(entry)?)
     }
     /// The lane in solo mode, or the selected lane in a race.
     pub fn selected(&self) -> &Entrant {
@@ -197,8 +205,8 @@ impl Lab {
         self.viewer.tick_times = times;
     }
     /// Shows a message for some seconds.
-    pub fn set_notice(&mut self, notice: impl Into<String>) {
-        self.viewer.notice = Some(notice.into().into());
+    pub fn set_notice(&mut self, notice: impl Into<Notice>) {
+        self.viewer.notice = Some(notice.into());
     }
 
     /// Lets nanoseconds of real time go by while time in the lab stands still.

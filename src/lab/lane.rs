@@ -192,9 +192,9 @@ impl LaneBody {
         }
     }
 
-    /// Steps from `t` by `h` (s), from tick `tick` to the next, or halts in its present state. `place` is the body's
-    /// index in the scene.
-    fn tick(&mut self, place: usize, tick: u64, (t, h): (f64, f64), substeps: u32) {
+    /// Steps from `t` by `h` (s), from tick `tick` to the next, or halts in its present state. `index` is the body's in
+    /// the scene.
+    fn tick(&mut self, index: usize, tick: u64, (t, h): (f64, f64), substeps: u32) {
         if self.halted.is_some() {
             return;
         }
@@ -209,14 +209,14 @@ impl LaneBody {
             }
             Err(failure) => {
                 self.stepper.set(t, &self.previous_q, &self.previous_v);
-                self.halted = Some(Halt { tick, t, body: place, failure });
+                self.halted = Some(Halt { tick, t, body: index, failure });
             }
         }
     }
 
     /// Applies an input at time `t` (s), before tick `tick`. A body that fails under it halts in the state before. A
     /// halted body ignores a kick, and keeps the throttle and the rudder for when it resumes.
-    fn input(&mut self, place: usize, tick: u64, t: f64, input: Input) {
+    fn input(&mut self, index: usize, tick: u64, t: f64, input: Input) {
         if self.halted.is_some() {
             if !matches!(input, Input::Kick(_)) {
                 self.stepper.input(t, input);
@@ -238,7 +238,7 @@ impl LaneBody {
                 let [q, v] = &self.before_input;
                 self.stepper.set(t, q, v);
                 self.remember();
-                self.halted = Some(Halt { tick, t, body: place, failure });
+                self.halted = Some(Halt { tick, t, body: index, failure });
             }
         }
     }
@@ -257,7 +257,7 @@ impl LaneBody {
     }
 
     /// Puts the body into a state at time `t` (s), before tick `tick`. A halted body resumes.
-    fn place(&mut self, place: usize, tick: u64, t: f64, [q, v]: [&[f64]; 2]) {
+    fn place(&mut self, index: usize, tick: u64, t: f64, [q, v]: [&[f64]; 2]) {
         self.halted = None;
         let [q0, v0] = &mut self.before_input;
         q0.copy_from_slice(self.stepper.q());
@@ -266,7 +266,7 @@ impl LaneBody {
         if let Err(failure) = check(&*self.stepper, &self.kind.all_coordinates) {
             let [q, v] = &self.before_input;
             self.stepper.set(t, q, v);
-            self.halted = Some(Halt { tick, t, body: place, failure });
+            self.halted = Some(Halt { tick, t, body: index, failure });
         }
         self.remember();
         self.cover();

@@ -208,7 +208,7 @@ fn largest_difference(a: impl Iterator<Item = f64>, b: impl Iterator<Item = f64>
 mod tests {
     use super::*;
     use crate::lab::scene::SceneBody;
-    use crate::lab::{Lane, Race, Scene};
+    use crate::lab::{Action, Lane, Race, Scene};
     use crate::sim::Solver;
     use crate::sim::bodies::{Input, kind};
     use crate::sim::integrators::method;
@@ -262,7 +262,7 @@ mod tests {
     #[test]
     fn a_body_that_is_kicked_from_rest_is_held_against_the_speed_it_then_has() {
         let mut race = race("rk4", [0.0, 0.0]);
-        race.input(Input::Kick(1.0));
+        race.perform(&Action::Kick(1.0), &mut ());
         assert_eq!(measured("relative_speed_error", &race), Some(0.0));
     }
 
@@ -323,7 +323,7 @@ mod tests {
         lost.run(400);
         assert!(comparing.iter().all(|id| measured(id, &lost).is_some()));
         while lost.entrants()[0].lane.halted().is_none() {
-            lost.set_tick_hz(1);
+            lost.perform(&Action::TickHz(1), &mut ());
             lost.step();
         }
         assert!(comparing.iter().all(|id| measured(id, &lost).is_none()), "the lane halted");

@@ -32,6 +32,7 @@ mod lane_id;
 mod lane_spec;
 mod live_loop;
 mod loop_lab;
+mod menu;
 mod metrics;
 mod my_spring;
 mod notice;
@@ -100,12 +101,13 @@ pub use loop_lab::{
     FRAME_METRICS, FoundLoop, FrameMetric, LoopCommand, LoopFrame, LoopLab, LoopLane, LoopRequest,
     LoopState, LoopVerdict, LoopWorker, MAX_ON_STAGE, SLOWNESS,
 };
+pub use menu::Menu;
 pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use my_spring::MySpring;
 pub use notice::Notice;
 pub use one_step::{OneStep, Slope};
 pub use past::{
-    CAPACITY, Energies, History, Past, Run, Sample, Samples, Summary, SweptRange, TruthCurve,
+    CAPACITY, Energies, History, Past, Sample, Samples, Summary, SweptRange, TruthCurve,
     TruthSample,
 };
 pub use port::{

@@ -10,10 +10,16 @@ const LETTER_NS: i64 = 60_000_000;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
     text: String,
+    parts: Vec<String>,
     left_ns: i64,
 }
 
 impl Notice {
+    /// What it tells, the most important first. Its text has all of it.
+    pub fn parts(&self) -> &[String] {
+        &self.parts
+    }
+
     /// How long it is still shown, in nanoseconds.
     pub(super) fn left_ns(&self) -> i64 {
         self.left_ns
@@ -25,10 +31,23 @@ impl Notice {
     }
 }
 
+impl From<Vec<String>> for Notice {
+    fn from(parts: Vec<String>) -> Self {
+        let text = parts.join("; ");
+        let left_ns = MIN_NS + LETTER_NS * text.chars().count() as i64;
+        Self { text, parts, left_ns }
+    }
+}
+
 impl From<String> for Notice {
     fn from(text: String) -> Self {
-        let left_ns = MIN_NS + LETTER_NS * text.chars().count() as i64;
-        Self { text, left_ns }
+        vec![text].into()
+    }
+}
+
+impl From<&str> for Notice {
+    fn from(text: &str) -> Self {
+        text.to_owned().into()
     }
 }
 

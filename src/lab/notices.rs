@@ -3,6 +3,7 @@
 use super::action::Action;
 use super::analysis::duration;
 use super::lane::{Halt, LaneBody, Resumed, ResumedFrom};
+use super::lane_spec::LaneSpec;
 use super::race::{Observer, Race};
 use super::scene::Scene;
 use crate::sim::bodies::FalseClaims;
@@ -12,17 +13,17 @@ use crate::sim::number::superscript;
 /// Collects notices from a race.
 pub(super) struct Notices<'s> {
     scene: &'s Scene,
-    /// The latest notice.
-    pub(super) told: Option<String>,
+    /// The parts of the latest notice; empty without one.
+    pub(super) told: Vec<String>,
 }
 
 impl<'s> Notices<'s> {
     pub(super) fn new(scene: &'s Scene) -> Self {
-        Self { scene, told: None }
+        Self { scene, told: Vec::new() }
     }
 
-    fn tell(&mut self, told: Option<String>) {
-        if told.is_some() {
+    fn tell(&mut self, told: Vec<String>) {
+        if !told.is_empty() {
             self.told = told;
         }
     }
@@ -31,7 +32,7 @@ impl<'s> Notices<'s> {
 impl Observer for Notices<'_> {
     fn after(&mut self, race: &Race, action: &Action, resumed: &[Resumed]) {
         self.tell(resumed_notice(self.scene, resumed));
-        self.tell(of_claims(self.scene, race, action));
+        self.tell(of_claims(self.scene, race, action).into_iter().collect());
     }
 
     fn ticked(&mut self, race: &Race) {
@@ -86,18 +87,17 @@ impl LaneBody {
     }
 }
 
-/// A notice about the bodies that halted in the last tick, if any did. Allocates nothing if none did. A reference that
-/// was not tried is told of on the stage.
-fn of_halts(scene: &Scene, race: &Race) -> Option<String> {
-    let halts = || race.just_halted().filter(|(_, halt)| !halt.failure.is_foreseen());
-    halts().next()?;
-    let told = halts().map(|(entrant, Halt { tick, body: index, failure, .. })| {
+/// What became of the bodies that halted in the last tick. Allocates nothing if none did. A reference that was not tried is
+/// told of on the stage.
+fn of_halts(scene: &Scene, race: &Race) -> Vec<String> {
+    let halts = race.just_halted().filter(|(_, halt)| !halt.failure.is_foreseen());
+    let told = halts.map(|(entrant, Halt { tick, body: index, failure, .. })| {
         let truth = race.truth().bodies()[*index].truth().id();
         let body = &scene.bodies[*index];
         match entrant {
             Some(entrant) => {
-                let spec = race.spec(entrant);
-                let name = spec.distinct_name(spec.method.name, race.list());
+                let lanes: Vec<LaneSpec> = race.entrants().iter().map(|lane| lane.spec).collect();
+                let name = entrant.spec.distinct_name(entrant.spec.method.name, &lanes);
                 let fate = entrant.lane.bodies()[*index].fate().unwrap_or_default();
                 format!("{name}: {} {fate}", body.name)
             }
@@ -109,11 +109,11 @@ fn of_halts(scene: &Scene, race: &Race) -> Option<String> {
             }
         }
     });
-    Some(told.collect::<Vec<_>>().join("; "))
+    told.collect()
 }
 
-/// A notice about the halted bodies that a switch has resumed, if there are any.
-fn resumed_notice(scene: &Scene, resumed: &[Resumed]) -> Option<String> {
+/// What became of the halted bodies that a switch has resumed.
+fn resumed_notice(scene: &Scene, resumed: &[Resumed]) -> Vec<String> {
     let told = resumed.iter().map(|Resumed { halt, from }| {
         let body = &scene.bodies[halt.body];
         let fate = if halt.is_blow_up() { "had blown up" } else { "had halted" };
@@ -123,7 +123,7 @@ fn resumed_notice(scene: &Scene, resumed: &[Resumed]) -> Option<String> {
         };
         format!("{} {fate}: resumed from {origin}", body.name)
     });
-    (!resumed.is_empty()).then(|| told.collect::<Vec<_>>().join("; "))
+    told.collect()
 }
 
 /// A notice about the claims of a law that do not hold with the constants that an action has set.
@@ -156,14 +156,14 @@ mod tests {
         let told =
             |halt: &Halt, from| resumed_notice(&scene, &[Resumed { halt: halt.clone(), from }]);
         assert_eq!(
-            told(&gave_up, ResumedFrom::Truth).unwrap(),
-            "helm had halted: resumed from the reference solution"
+            told(&gave_up, ResumedFrom::Truth),
+            ["helm had halted: resumed from the reference solution"]
         );
         assert_eq!(
-            told(&blew_up, ResumedFrom::LastGood).unwrap(),
-            "helm had blown up: resumed from its last good state"
+            told(&blew_up, ResumedFrom::LastGood),
+            ["helm had blown up: resumed from its last good state"]
         );
-        assert_eq!(resumed_notice(&scene, &[]), None);
+        assert!(resumed_notice(&scene, &[]).is_empty());
     }
 
     #[test]

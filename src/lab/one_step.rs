@@ -61,7 +61,7 @@ impl Lab {
     /// What the selected lane is about to do with the displayed body. `None` if the body has halted.
     pub fn one_step(&self) -> Option<OneStep> {
         let (entrant, race) = (self.selected(), self.race());
-        let spec = self.race().spec(entrant);
+        let spec = entrant.spec;
         let h = 1.0 / f64::from(race.tick_hz());
         let tick = Tick { t: race.t(), h, substeps: spec.substeps };
         one_step(&entrant.lane.bodies()[self.view().body], spec, race.tick(), tick)

@@ -11,6 +11,9 @@ use crate::sim::integrators::{METHODS, Method};
 /// A colour: red, green, blue and alpha, sRGB, alpha not multiplied in.
 pub type Rgba = [u8; 4];
 
+pub(super) const WHITE: Rgba = [255; 4];
+pub(super) const BLACK: Rgba = [0, 0, 0, 255];
+
 /// A dark or a light chart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Theme {

@@ -6,6 +6,7 @@
 use super::action::Action;
 use super::lane::{Resumed, ResumedFrom};
 use super::lane_id::LaneId;
+use super::menu::Menu;
 use super::race::{Entrant, Observer, Race};
 use crate::sim::bodies::Coordinate;
 use history::HistoryMark;
@@ -19,7 +20,7 @@ mod truth_curve;
 mod windowed_log;
 
 pub use energies::Energies;
-pub use history::{History, Run, Samples};
+pub use history::{History, Samples};
 pub use sample::{CAPACITY, Sample};
 pub use summary::Summary;
 pub use swept_range::SweptRange;
@@ -51,6 +52,7 @@ pub struct Past {
     capacity: usize,
     /// When a body was last placed or a parameter last set, in seconds; before the start if neither was done.
     changed_s: f64,
+    menu: Menu,
 }
 
 /// The end of the recorded past at some tick, to which it can be [rewound](Past::rewind).
@@ -60,6 +62,7 @@ pub(super) struct PastMark {
     histories: Box<[(LaneId, Box<[HistoryMark]>)]>,
     truth_curves: Box<[TruthMark]>,
     changed_s: f64,
+    menu: Menu,
 }
 
 impl PastMark {
@@ -69,6 +72,7 @@ impl PastMark {
         size_of_val(&self.histories[..])
             + self.histories.iter().map(row).sum::<usize>()
             + size_of_val(&self.truth_curves[..])
+            + self.menu.heap_bytes()
     }
 }
 
@@ -96,9 +100,15 @@ impl Past {
             span_s,
             capacity,
             changed_s: f64::NEG_INFINITY,
+            menu: Menu::new(race),
         };
         past.sample(race);
         past
+    }
+
+    /// The methods that the entries of samples refer to.
+    pub fn menu(&self) -> &Menu {
+        &self.menu
     }
 
     /// The histories of the bodies of a lane that is in the race.
@@ -174,15 +184,16 @@ impl Past {
 
     fn each(&mut self, race: &Race, add: fn(&mut History, Sample)) {
         let t = race.t();
-        for (Entrant { entry, lane, .. }, (_, histories)) in
+        for (Entrant { id, lane, .. }, (_, histories)) in
             race.entrants().iter().zip(&mut self.histories)
         {
+            let entry = self.menu.entry(*id);
             let curves = histories.iter_mut().zip(&self.truth_curves);
             let bodies = lane.bodies().iter().zip(race.truth().bodies()).zip(curves);
             for ((body, truth), (history, curve)) in
                 bodies.filter(|((b, _), _)| b.halted().is_none())
             {
-                add(history, Sample::new(t, *entry, curve.coordinate(), [body, truth]));
+                add(history, Sample::new(t, entry, curve.coordinate(), [body, truth]));
             }
         }
     }
@@ -196,6 +207,7 @@ impl Past {
     /// Drops the histories of lanes that have left the race.
     fn leave_with(&mut self, race: &Race) {
         self.histories.retain(|(lane, _)| race.entrant(*lane).is_some());
+        self.menu.leave_with(race);
     }
 
     /// The present end of the recorded past.
@@ -207,6 +219,7 @@ impl Past {
             histories: self.histories.iter().map(marks).collect(),
             truth_curves: self.truth_curves.iter().map(TruthCurve::mark).collect(),
             changed_s: self.changed_s,
+            menu: self.menu.clone(),
         }
     }
 
@@ -226,6 +239,7 @@ impl Past {
     /// Goes back to a mark, or forward to one in the recorded future: that of the present of `race`.
     pub(super) fn rewind(&mut self, mark: &PastMark, race: &Race) {
         self.changed_s = mark.changed_s;
+        self.menu = mark.menu.clone();
         self.leave_with(race);
         for (lane, marks) in &mark.histories {
             let index = self.index(*lane).unwrap_or_else(|| {
@@ -274,18 +288,20 @@ impl Observer for Past {
             for (entrant, (_, histories)) in race.entrants().iter().zip(&mut self.histories) {
                 let placed = &entrant.lane.bodies()[*body];
                 if placed.halted().is_none() {
-                    let sample = Sample::new(t, entrant.entry, coordinate, [placed, truth]);
+                    let sample =
+                        Sample::new(t, self.menu.entry(entrant.id), coordinate, [placed, truth]);
                     histories[*body].end_run(sample);
                 }
             }
         }
         if let Some(place) = race.switched_by(action) {
-            let Entrant { entry, lane, .. } = &race.entrants()[place];
+            let Entrant { id, lane, .. } = &race.entrants()[place];
+            let entry = self.menu.entry(*id);
             let bodies = lane.bodies().iter().zip(race.truth().bodies());
             let curves = self.histories[place].1.iter_mut().zip(&self.truth_curves);
             for ((body, truth), (history, curve)) in bodies.zip(curves) {
                 if body.halted().is_none() {
-                    let sample = Sample::new(race.t(), *entry, curve.coordinate(), [body, truth]);
+                    let sample = Sample::new(race.t(), entry, curve.coordinate(), [body, truth]);
                     history.end_run(sample);
                 }
             }
@@ -311,7 +327,8 @@ impl Observer for Past {
                 let coordinate = self.truth_curves[*body].coordinate();
                 for (entrant, (_, histories)) in race.entrants().iter().zip(&mut self.histories) {
                     let placed = &entrant.lane.bodies()[*body];
-                    let sample = Sample::new(t, entrant.entry, coordinate, [placed, truth]);
+                    let sample =
+                        Sample::new(t, self.menu.entry(entrant.id), coordinate, [placed, truth]);
                     histories[*body].jump(sample);
                 }
             }
@@ -319,13 +336,15 @@ impl Observer for Past {
             _ => {}
         }
         let Some(place) = race.switched_by(action) else { return };
-        let Entrant { entry, lane, .. } = &race.entrants()[place];
+        let Entrant { id, spec, lane } = &race.entrants()[place];
+        self.menu.switch(*id, *spec);
+        let entry = self.menu.entry(*id);
         let bodies = lane.bodies().iter().zip(race.truth().bodies()).enumerate();
         let curves = self.histories[place].1.iter_mut().zip(&self.truth_curves);
         for ((index, (body, truth)), (history, curve)) in bodies.zip(curves) {
             let from_truth = |it: &&Resumed| it.halt.body == index && it.from == ResumedFrom::Truth;
             let jumped = resumed.iter().any(|it| from_truth(&it));
-            let sample = Sample::new(race.t(), *entry, curve.coordinate(), [body, truth]);
+            let sample = Sample::new(race.t(), entry, curve.coordinate(), [body, truth]);
             history.begin_run(Sample { jumped, ..sample });
         }
     }
@@ -350,7 +369,7 @@ mod tests {
 
     fn race(seconds: f64, tick_hz: u32) -> (Race, Past) {
         let scene = Scene { seconds, tick_hz, ..Scene::built_in("spring").unwrap() };
-        let race = Race::new(&scene, [(0, LaneSpec::plain(method("rk4").unwrap()))]);
+        let race = Race::new(&scene, [LaneSpec::plain(method("rk4").unwrap())]);
         let past = Past::new(&race, seconds);
         (race, past)
     }
@@ -403,7 +422,7 @@ mod tests {
         let text = (0..64).fold(head, |text, n| text + &spring(n));
         let scene = Scene::parse("t", &text).unwrap();
         let rk4 = LaneSpec::plain(method("rk4").unwrap());
-        let race = Race::new(&scene, (0..32).map(|_| (0, rk4)));
+        let race = Race::new(&scene, [rk4; 32]);
         let past = Past::new(&race, scene.seconds);
         assert_eq!(past.capacity, capacity_of(2048));
         assert_eq!(past.stride(&race), (1200.0 / past.capacity as f64).ceil() as u64);

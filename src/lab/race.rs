@@ -44,8 +44,8 @@ pub(super) struct LastTick {
 pub struct Entrant {
     /// Which lane it is, from the race's start on.
     pub id: LaneId,
-    /// The place of its method on the list.
-    pub entry: usize,
+    /// Its method, substeps and tolerance.
+    pub spec: LaneSpec,
     /// The lane.
     pub lane: Lane,
 }
@@ -56,8 +56,8 @@ pub struct Race {
     mode: Mode,
     truth: Lane,
     entrants: Vec<Entrant>,
-    /// The methods that lanes can be under, with their substeps and tolerances.
-    list: Vec<LaneSpec>,
+    /// What an action can name by its method alone.
+    methods: Arc<[LaneSpec]>,
     /// The present parameters of each body.
     values: Vec<Vec<f64>>,
     throttle: f64,
@@ -92,35 +92,35 @@ impl Race {
     /// ```
     pub fn of_scene(scene: &Scene) -> Self {
         let lanes = equal_cost::lanes_that_race(scene);
-        Self::new(scene, lanes.into_iter().enumerate()).with_script(&scene.script)
+        Self::new(scene, lanes).with_script(&scene.script)
     }
 
     /// The same race at its start, with this script.
-    fn with_script(self, script: &[Scripted]) -> Self {
+    pub(super) fn with_script(self, script: &[Scripted]) -> Self {
         Self { journal: Journal::of_script(script), ..self }
     }
 
-    /// The scene at its start without its script, with a lane for each `(entry, spec)`: the place of the lane's method on
-    /// the [list](Scene::method_list), and the lane's method, substeps and tolerance.
-    pub fn new(scene: &Scene, lanes: impl IntoIterator<Item = (usize, LaneSpec)>) -> Self {
-        Self::with_list(scene, scene.method_list(), lanes)
+    /// The scene at its start without its script, with these lanes.
+    pub fn new(scene: &Scene, lanes: impl IntoIterator<Item = LaneSpec>) -> Self {
+        Self::with_methods(scene, scene.method_list(), lanes)
     }
 
-    fn with_list(
+    /// Like [`Race::new`], with substeps and tolerances of its own for what an action names by its method alone.
+    pub(super) fn with_methods(
         scene: &Scene,
-        list: Vec<LaneSpec>,
-        lanes: impl IntoIterator<Item = (usize, LaneSpec)>,
+        methods: Vec<LaneSpec>,
+        lanes: impl IntoIterator<Item = LaneSpec>,
     ) -> Self {
-        let entrants = lanes.into_iter().enumerate().map(|(index, (entry, spec))| Entrant {
+        let entrants = lanes.into_iter().enumerate().map(|(index, spec)| Entrant {
             id: LaneId::of_index(index),
-            entry,
+            spec,
             lane: Lane::new(scene, spec.solver(), spec.substeps),
         });
         Self {
             mode: Mode::Race,
             truth: Lane::new(scene, Solver::Truth, 1),
             entrants: entrants.collect(),
-            list,
+            methods: methods.into(),
             values: scene.bodies.iter().map(|body| body.values.clone()).collect(),
             throttle: 1.0,
             rudder: 0.0,
@@ -134,26 +134,17 @@ impl Race {
         }
     }
 
-    /// The scene at its start with one lane, that of the method on place `entry` of this list, which the scene's script
-    /// may put under other methods.
-    pub(super) fn solo(scene: &Scene, list: Vec<LaneSpec>, entry: usize) -> Self {
-        let mut race = Self::among(scene, list, [entry]);
+    /// The scene at its start with one lane, which its script may put under other methods: that with this index among
+    /// `methods`, which begin with the scene's lanes.
+    pub(super) fn solo(scene: &Scene, methods: Vec<LaneSpec>, index: usize) -> Self {
+        let spec = methods[index];
+        let mut race = Self::with_methods(scene, methods, [spec]).with_script(&scene.script);
         race.mode = Mode::Solo;
         // The number that the lane has in a race, if it is in one.
-        if entry < scene.lanes.len() {
-            race.entrants[0].id = LaneId::of_index(entry);
+        if index < scene.lanes.len() {
+            race.entrants[0].id = LaneId::of_index(index);
         }
         race
-    }
-
-    /// The race of the methods on these indices of a list, at its start, with the scene's script.
-    pub(super) fn among(
-        scene: &Scene,
-        list: Vec<LaneSpec>,
-        entries: impl IntoIterator<Item = usize>,
-    ) -> Self {
-        let lanes: Vec<_> = entries.into_iter().map(|entry| (entry, list[entry])).collect();
-        Self::with_list(scene, list, lanes).with_script(&scene.script)
     }
 
     /// The same race at its start, at this tick rate.
@@ -197,9 +188,10 @@ impl Race {
     pub fn entrants(&self) -> &[Entrant] {
         &self.entrants
     }
-    /// All methods with their present substeps and tolerances: the scene's lanes, then all other methods.
-    pub fn list(&self) -> &[LaneSpec] {
-        &self.list
+    /// The scene's lanes, then all other methods that fit its bodies, as they are at the start: what
+    /// [`Action::Method`](super::Action::Method) puts a lane under.
+    pub fn methods(&self) -> &[LaneSpec] {
+        &self.methods
     }
     /// The present parameters of the body at this index of the scene, in the order of
     /// [`Kind::build`](crate::sim::bodies::Kind::build).
@@ -217,10 +209,6 @@ impl Race {
     /// The entrant that is this lane; `None` where it has left the race.
     pub fn entrant(&self, lane: LaneId) -> Option<&Entrant> {
         self.entrants.iter().find(|entrant| entrant.id == lane)
-    }
-    /// What the lane of an entrant flies.
-    pub fn spec(&self, entrant: &Entrant) -> LaneSpec {
-        self.list[entrant.entry]
     }
     /// The [hash](Self::lane_hashes) of this lane; `None` where it has left the race.
     pub fn lane_hash(&self, lane: LaneId) -> Option<u64> {
@@ -246,13 +234,12 @@ impl Race {
         LastTick { from_s: to_s - self.last_step_s, to_s }
     }
 
-    /// An upper bound of its memory in bytes, without the journal, which copies share.
+    /// An upper bound of its memory in bytes, without the journal and the methods, which copies share.
     pub(super) fn bytes(&self) -> usize {
         let lanes = self.entrants.iter().map(|entrant| &entrant.lane).chain([&self.truth]);
         let values =
             self.values.iter().map(|values| size_of_val(values) + size_of_val(&values[..]));
         size_of::<Self>()
-            + size_of_val(&self.list[..])
             + self.entrants.len() * size_of::<Entrant>()
             + values.sum::<usize>()
             + lanes.map(Lane::heap_bytes).sum::<usize>()
@@ -314,31 +301,12 @@ impl Race {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::action::Action;
     use crate::sim::integrators::method;
 
     fn race(seconds: f64, tick_hz: u32) -> Race {
         let scene = Scene { seconds, tick_hz, ..Scene::built_in("spring").unwrap() };
-        Race::new(&scene, [(0, LaneSpec::plain(method("rk4").unwrap()))])
-    }
-
-    #[test]
-    fn the_list_says_of_every_lane_what_it_flies_though_several_fly_one_method() {
-        use crate::lab::action::Action;
-        let scene = Scene::built_in("spring").unwrap();
-        let specs = ["rk4", "explicit-euler"].map(|id| LaneSpec::plain(method(id).unwrap()));
-        let mut race = Race::among(&scene, specs.to_vec(), [0, 1]);
-        let (a, b) = (LaneId(1), LaneId(2));
-        let lane = |lane| Action::Lane { lane, spec: specs[0] };
-        let substeps = |lane, substeps| Action::Substeps { lane, substeps };
-        for action in [lane(b), substeps(b, 3), substeps(a, 3), substeps(a, 2), substeps(b, 4)] {
-            race.perform(&action, &mut ());
-            for Entrant { entry, lane, .. } in race.entrants() {
-                let listed = race.list()[*entry];
-                let flown = (lane.solver(), lane.substeps());
-                assert_eq!((listed.solver(), listed.substeps), flown, "{action:?}");
-            }
-        }
-        assert_eq!(race.list()[1], specs[1], "a method stays on the list though no lane flies it");
+        Race::new(&scene, [LaneSpec::plain(method("rk4").unwrap())])
     }
 
     #[test]
@@ -346,7 +314,7 @@ mod tests {
         let mut race = race(20.0, 60);
         let mut t = 0.0;
         for (tick_hz, ticks) in [(60, 11), (49, 7), (120, 5), (1, 3), (1000, 1)] {
-            race.set_tick_hz(tick_hz);
+            race.perform(&Action::TickHz(tick_hz), &mut ());
             for tick in 1..=ticks {
                 race.step();
                 let now = t + f64::from(tick) / f64::from(tick_hz);

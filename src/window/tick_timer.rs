@@ -55,7 +55,7 @@ impl TickTimer {
         self.last = Some(now);
         let race = lab.race();
         let entrants = race.entrants().iter();
-        let lanes = entrants.map(|lane| (lab.race().spec(lane), lane.lane.clone())).collect();
+        let lanes = entrants.map(|lane| (lane.spec, lane.lane.clone())).collect();
         // If the thread has ended, nothing more is measured; the window stays open.
         _ = self.lanes.send(Lanes { lanes, t: race.t(), tick_hz: race.tick_hz() });
     }
@@ -123,7 +123,7 @@ mod tests {
         let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
         lab.apply(Command::ToggleRace);
         let lanes = lab.race().entrants().iter();
-        let lanes = lanes.map(|lane| (lab.race().spec(lane), lane.lane.clone())).collect();
+        let lanes = lanes.map(|lane| (lane.spec, lane.lane.clone())).collect();
         let timed = timed(&Lanes { lanes, t: 0.0, tick_hz: 60 });
         assert_eq!(timed.len(), 5);
         for (spec, ns) in timed {

@@ -165,7 +165,7 @@ fn scenes() -> impl Iterator<Item = Scene> {
 #[test]
 fn a_cloth_does_not_allocate_under_its_methods() {
     let scene = Scene::built_in("cloth").expect("a built-in scene");
-    let mut race = Race::new(&scene, scene.lanes.iter().copied().enumerate());
+    let mut race = Race::new(&scene, scene.lanes.iter().copied());
     let mut past = Past::new(&race, scene.seconds);
     let count = allocations_in(|| {
         for tick in 0..200 {
@@ -181,7 +181,7 @@ fn a_cloth_does_not_allocate_under_its_methods() {
 #[test]
 fn a_race_does_not_allocate_while_its_histories_fill_and_turn_over() {
     for scene in scenes() {
-        let mut race = Race::new(&scene, scene.lanes.iter().copied().enumerate());
+        let mut race = Race::new(&scene, scene.lanes.iter().copied());
         let mut past = Past::new(&race, scene.seconds);
         let count = allocations_in(|| {
             for tick in 0..5000 {

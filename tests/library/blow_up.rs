@@ -1,7 +1,7 @@
 //! A method that blows up hurts nobody else: it halts, once, and says when and why.
 
 use regatta::lab::{
-    Clock, Command, ESCAPE, Lab, LaneBody, LaneId, LaneSpec, Mode, Past, Race, Scene,
+    Action, Clock, Command, ESCAPE, Lab, LaneBody, LaneId, LaneSpec, Mode, Past, Race, Scene,
 };
 use regatta::sim::integrators::{GENERAL_METHODS, StepFailure, method};
 
@@ -14,22 +14,20 @@ fn stiff() -> Scene {
     Scene::built_in("stiff").expect("a built-in scene")
 }
 
-fn entries(without: &str) -> impl Iterator<Item = (usize, LaneSpec)> {
-    let lanes = GENERAL_METHODS.iter().map(LaneSpec::plain).enumerate();
-    lanes.filter(move |(_, spec)| spec.method.id != without)
+fn lanes(without: &str) -> impl Iterator<Item = LaneSpec> {
+    GENERAL_METHODS.iter().map(LaneSpec::plain).filter(move |spec| spec.method.id != without)
 }
 
-/// The bits of each lane but the named method's, with the lane's index on the list.
-fn states(race: &Race, without: &str) -> Vec<(usize, Vec<u64>)> {
-    let others =
-        race.entrants().iter().filter(|entrant| GENERAL_METHODS[entrant.entry].id != without);
+/// The bits of each lane but the named method's, with the id of the lane's method.
+fn states(race: &Race, without: &str) -> Vec<(&'static str, Vec<u64>)> {
+    let others = race.entrants().iter().filter(|entrant| entrant.spec.method.id != without);
     let bits = others.map(|entrant| {
         let values = entrant.lane.bodies().iter().flat_map(|body| {
             let values = body.stepper.q().iter().chain(body.stepper.v());
             values.copied().collect::<Vec<_>>()
         });
         let bits = values.inspect(|value| assert!(value.is_finite())).map(f64::to_bits);
-        (entrant.entry, bits.collect())
+        (entrant.spec.method.id, bits.collect())
     });
     bits.collect()
 }
@@ -37,8 +35,8 @@ fn states(race: &Race, without: &str) -> Vec<(usize, Vec<u64>)> {
 #[test]
 fn explicit_euler_on_the_stiff_spring_halts_once_and_the_others_go_on() {
     let blown = "explicit-euler";
-    let mut with = Race::new(&stiff(), entries(""));
-    let mut without = Race::new(&stiff(), entries(blown));
+    let mut with = Race::new(&stiff(), lanes(""));
+    let mut without = Race::new(&stiff(), lanes(blown));
     let mut past = Past::new(&with, stiff().seconds);
     let mut halt = None;
     for tick in 0..TICKS {
@@ -58,7 +56,7 @@ fn explicit_euler_on_the_stiff_spring_halts_once_and_the_others_go_on() {
             }
         }
     }
-    assert_eq!(GENERAL_METHODS[with.entrants()[0].entry].id, blown);
+    assert_eq!(with.entrants()[0].spec.method.id, blown);
 
     let halt = halt.expect("explicit Euler multiplies the amplitude by 1.94 a tick");
     // 1.94ⁿ passes 1e38 at n = 132; the velocity, 100 times the stretch, at 125.
@@ -81,7 +79,7 @@ fn explicit_euler_on_the_stiff_spring_halts_once_and_the_others_go_on() {
 
 #[test]
 fn a_halted_lane_keeps_its_last_good_state() {
-    let mut race = Race::new(&stiff(), entries("").take(1));
+    let mut race = Race::new(&stiff(), lanes("").take(1));
     let mut past = Past::new(&race, stiff().seconds);
     let mut last = states(&race, "");
     while race.entrants()[0].lane.halted().is_none() {
@@ -105,7 +103,7 @@ fn harbour_and(body: usize) -> [Race; 2] {
     let harbour = Scene::built_in("harbour").expect("a built-in scene");
     let alone = Scene { bodies: vec![harbour.bodies[body].clone()], ..harbour.clone() };
     let euler = LaneSpec::plain(method("explicit-euler").expect("a method"));
-    [harbour, alone].map(|scene| Race::new(&scene, [(0, euler)]))
+    [harbour, alone].map(|scene| Race::new(&scene, [euler]))
 }
 
 #[test]
@@ -171,7 +169,7 @@ fn each_halt_is_announced_once_with_method_body_tick_and_reason() {
         let halts = lab.race().entrants().iter().flat_map(|e| e.lane.halts().map(move |h| (e, h)));
         let mut expected: Vec<String> = halts
             .map(|(entrant, halt)| {
-                let method = lab.entries()[entrant.entry].method.name;
+                let method = entrant.spec.method.name;
                 let body = &lab.scene().bodies[halt.body].name;
                 assert!(scene == "stiff" || names.contains(&body.as_str()));
                 let fate = entrant.lane.bodies()[halt.body].fate().expect("it halted");
@@ -211,7 +209,7 @@ fn a_kick_past_all_bounds_is_no_state_but_a_halt_with_its_reason() {
         let mut lab = Lab::new(Scene::parse("light.toml", &text).expect("a good scene"));
         (0..5).for_each(|_| lab.tick());
         let before = states(lab.race(), "");
-        lab.apply(Command::Kick(times));
+        lab.apply(Command::Act(Action::Kick(times)));
         assert_eq!(states(lab.race(), ""), before, "the state stays the last good one");
         for lane in [lab.race().truth(), &lab.race().entrants()[0].lane] {
             let [spring, ship] = lane.bodies() else { panic!("two bodies") };

@@ -55,7 +55,7 @@ fn a_race_restarts_with_the_methods_that_a_person_gave_its_lanes() {
     lab.apply(Command::ToggleRace);
     let methods = |lab: &Lab| -> Vec<&str> {
         let lanes = lab.race().entrants().iter();
-        lanes.map(|lane| lab.entries()[lane.entry].method.id).collect()
+        lanes.map(|lane| lane.spec.method.id).collect()
     };
     let opened = methods(&lab);
     for (lane, id) in [(LaneId(2), "bdf2"), (LaneId(1), "pefrl")] {

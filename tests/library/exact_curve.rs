@@ -78,7 +78,7 @@ fn a_kick_is_a_jump_of_the_velocity_at_its_tick() {
     let mut lab = open("spring", 10);
     (0..7).for_each(|_| lab.tick());
     let before = lab.race().truth().bodies()[0].stepper.v()[0];
-    lab.apply(Command::Kick(1.0));
+    lab.apply(Command::Act(Action::Kick(1.0)));
     let after = lab.race().truth().bodies()[0].stepper.v()[0];
     (0..5).for_each(|_| lab.tick());
     let samples = samples(&lab);
@@ -93,7 +93,7 @@ fn an_input_bends_the_curve_from_its_tick_on_and_not_the_tick_before_it() {
     let mut lab = open("ship", 1);
     (0..10).for_each(|_| lab.tick());
     let shown = lab.past().truth_between(lab.race(), 0, 0.5);
-    lab.apply(Command::Throttle(-1.0));
+    lab.apply(Command::Act(Action::Throttle(-1.0)));
     assert_eq!(lab.past().truth_between(lab.race(), 0, 0.5), shown);
     lab.tick();
     let (_, v) = lab.past().truth_between(lab.race(), 0, 0.0);

@@ -158,7 +158,7 @@ fn ship(id: &str, tick_hz: u32) -> (f64, f64, u64) {
     let mut scene = Scene::built_in("ship").unwrap();
     scene.tick_hz = tick_hz;
     let lane = LaneSpec::plain(method(id).unwrap());
-    let mut race = Race::new(&scene, [(0, lane)]);
+    let mut race = Race::new(&scene, [lane]);
     race.run(u64::from(tick_hz) * 17 / 2);
     let body = &race.entrants()[0].lane.bodies()[0];
     let exact = race.truth().bodies()[0].stepper.v()[0];
@@ -193,7 +193,7 @@ fn the_errors_on_the_ship_are_those_that_the_guide_names() {
     assert!((50.0..70.0).contains(&(euler / improved)), "{}", euler / improved);
     let mut scene = Scene::built_in("ship").unwrap();
     scene.tick_hz = 2;
-    let mut race = Race::new(&scene, [(0, LaneSpec::plain(method("explicit-euler").unwrap()))]);
+    let mut race = Race::new(&scene, [LaneSpec::plain(method("explicit-euler").unwrap())]);
     race.run(17);
     let position = |lane: &regatta::lab::Lane| lane.bodies()[0].stepper.q()[0];
     assert!(position(&race.entrants()[0].lane) < position(race.truth()), "it is behind");
@@ -293,7 +293,7 @@ fn each_step_of_explicit_euler_makes_the_swing_18_percent_wider_at_10_hz() {
 fn semi_implicit_euler_keeps_the_energy_to_5_percent_and_explicit_euler_does_not() {
     let drifts = |id: &str, seconds: u64| {
         let scene = Scene::built_in("spring").unwrap();
-        let mut race = Race::new(&scene, [(0, LaneSpec::plain(method(id).unwrap()))]);
+        let mut race = Race::new(&scene, [LaneSpec::plain(method(id).unwrap())]);
         let energy = |race: &Race| race.entrants()[0].lane.bodies()[0].stepper.energy().unwrap();
         let start = energy(&race);
         (0..60 * seconds).fold(0.0_f64, |most, _| {
@@ -380,7 +380,7 @@ fn engines_do_to_a_spring_what_the_guide_says() {
         let mut scene = Scene::built_in(scene).unwrap();
         scene.bodies.truncate(1);
         let spec = LaneSpec { substeps, ..LaneSpec::plain(method(id).unwrap()) };
-        let mut race = Race::new(&scene, [(0, spec)]);
+        let mut race = Race::new(&scene, [spec]);
         race.run(60 * seconds);
         let stepper = &race.entrants()[0].lane.bodies()[0].stepper;
         let omega = std::f64::consts::TAU;

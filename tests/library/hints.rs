@@ -1,7 +1,7 @@
 //! The built-in scenes open on the method that makes their point, and what their hints promise comes about
 //! when the keys are pressed as they say.
 
-use regatta::lab::{Command, Key, Lab, Mode, SCENES, Scene, command_for};
+use regatta::lab::{Action, Command, Key, Lab, Mode, SCENES, Scene, command_for};
 use regatta::sim::integrators::GENERAL_METHODS;
 
 const C: Key = Key::Sign('c');
@@ -150,7 +150,7 @@ fn ship_and_ellipses_are_truer_at_a_higher_tick_rate() {
         let fine = largest_errors(&mut lab, seconds);
         for (entrant, (coarse, fine)) in lab.race().entrants().iter().zip(coarse.iter().zip(&fine))
         {
-            let method = lab.entries()[entrant.entry].method;
+            let method = entrant.spec.method;
             // An adaptive method chooses its own steps.
             assert!(fine < coarse || method.tolerance.is_some(), "{scene} {}", method.id);
         }
@@ -166,7 +166,7 @@ fn explicit_euler_is_calm_on_all_three_ships_one_press_higher() {
     assert_eq!(lab.clock().tick_hz(), 2);
     largest(&mut lab, 0, 10.0);
     let entrant = &lab.race().entrants()[0];
-    assert_eq!(lab.entries()[entrant.entry].method.id, "explicit-euler");
+    assert_eq!(entrant.spec.method.id, "explicit-euler");
     for body in entrant.lane.bodies() {
         assert!((body.stepper.v()[0] - 20.0).abs() < 1e-3, "{}", body.stepper.v()[0]);
     }
@@ -242,7 +242,7 @@ fn controls(lab: &Lab) -> (&'static str, u32, f64, f64) {
 #[test]
 fn what_a_person_takes_in_hand_the_script_leaves_alone_until_a_restart_and_says_so_once() {
     for (command, name, expected) in [
-        (Command::Rudder(0.3), "rudder", ("rk4", 10, 0.5, 0.3)),
+        (Command::Act(Action::Rudder(0.3)), "rudder", ("rk4", 10, 0.5, 0.3)),
         (Command::RudderLeft, "rudder", ("rk4", 10, 0.5, 0.1)),
         (Command::ThrottleDown, "throttle", ("rk4", 10, 0.9, 1.0)),
         (Command::Pick(2), "method", ("improved-euler", 10, 0.5, 1.0)),
@@ -250,7 +250,7 @@ fn what_a_person_takes_in_hand_the_script_leaves_alone_until_a_restart_and_says_
         (Command::TickHz(7), "tick rate", ("rk4", 7, 0.5, 1.0)),
         (Command::TickRateUp, "tick rate", ("rk4", 10, 0.5, 1.0)),
         // A hand on the wheel is one, though it turns nothing.
-        (Command::Rudder(0.0), "rudder", ("rk4", 10, 0.5, 0.0)),
+        (Command::Act(Action::Rudder(0.0)), "rudder", ("rk4", 10, 0.5, 0.0)),
     ] {
         let mut lab = scripted();
         assert_eq!(lab.viewer().notice.as_deref(), None);
@@ -269,11 +269,11 @@ fn what_a_person_takes_in_hand_the_script_leaves_alone_until_a_restart_and_says_
 #[test]
 fn taking_the_same_control_again_is_not_told_again() {
     let mut lab = scripted();
-    lab.apply(Command::Rudder(0.3));
+    lab.apply(Command::Act(Action::Rudder(0.3)));
     lab.set_notice("something else");
     lab.apply(Command::RudderRight);
     assert_eq!(lab.viewer().notice.as_deref(), Some("something else"));
-    lab.apply(Command::Throttle(0.1));
+    lab.apply(Command::Act(Action::Throttle(0.1)));
     assert_eq!(
         lab.viewer().notice.as_deref(),
         Some("you have the throttle now: the script leaves it alone until a restart")
@@ -283,13 +283,13 @@ fn taking_the_same_control_again_is_not_told_again() {
 #[test]
 fn where_no_script_is_to_come_there_is_nothing_to_tell() {
     let mut lab = open("spring");
-    for command in [Command::Pick(3), Command::TickRateUp, Command::Throttle(0.3)] {
+    for command in [Command::Pick(3), Command::TickRateUp, Command::Act(Action::Throttle(0.3))] {
         lab.apply(command.clone());
         assert_eq!(lab.viewer().notice.as_deref(), None, "{command:?}");
     }
     let mut lab = open("helm");
     (0..200).for_each(|_| lab.tick());
-    lab.apply(Command::Rudder(0.5));
+    lab.apply(Command::Act(Action::Rudder(0.5)));
     assert_eq!(lab.viewer().notice.as_deref(), None, "the script is over");
 }
 
@@ -302,7 +302,7 @@ fn a_throttle_by_hand_changes_the_analysis_request_and_one_of_the_script_does_no
     (0..10).for_each(|_| lab.tick());
     assert_eq!(lab.race().throttle(), 0.5);
     assert!(lab.analysis_request() == asked, "nothing is asked that was not asked at the start");
-    lab.apply(Command::Throttle(0.2));
+    lab.apply(Command::Act(Action::Throttle(0.2)));
     let by_hand = lab.analysis_request();
     assert!(by_hand != asked);
     (0..10).for_each(|_| lab.tick());

@@ -60,12 +60,10 @@ fn a_switch_in_flight_keeps_the_method_of_the_past_and_marks_its_moment() {
             lab.apply(Command::Pick(pick));
         }
         lab.advance(FRAME_NS);
-        let runs: Vec<(usize, f64, f64)> = history(&lab)
-            .runs()
-            .map(|mut run| {
-                let first = run.samples.next().unwrap().t;
-                (run.entry, first, run.samples.last().map_or(first, |sample| sample.t))
-            })
+        let flown: Vec<(usize, f64)> = history(&lab).samples().map(|s| (s.entry, s.t)).collect();
+        let runs: Vec<(usize, f64, f64)> = flown
+            .chunk_by(|one, next| one.0 == next.0)
+            .map(|run| (run[0].0, run[0].1, run[run.len() - 1].1))
             .collect();
         let [a, b, c] = switched_at[..] else { panic!() };
         assert_eq!(runs, [(0, 0.0, a), (1, a, b), (3, b, c), (0, c, lab.race().t())]);

@@ -153,7 +153,7 @@ fn a_kicked_body_is_judged_from_its_true_state_after_the_kick() {
     (0..130).for_each(|_| lab.tick());
     assert_eq!(starts_at_s(&mut lab), 0.0);
     let (_, before) = truth(&lab);
-    lab.apply(Command::Kick(3.0));
+    lab.apply(Command::Act(Action::Kick(3.0)));
     let (x, v) = truth(&lab);
     assert_ne!(v, before);
     let kicked = Scene::built_in("spring").unwrap();
@@ -177,7 +177,7 @@ fn a_run_judged_from_a_placement_keeps_its_throttle_and_the_rest_of_the_script()
     let rest = with(rest, &[("s0_m", 10.0), ("v0_m_per_s", 3.0)]);
     assert_eq!(verdicts(&mut lab), verdicts_on(&rest));
     // A throttle by hand holds from there on, and what the script had to come for it is gone.
-    lab.apply(Command::Throttle(0.8));
+    lab.apply(Command::Act(Action::Throttle(0.8)));
     let by_hand = with(scripted(&[(0, 0.8)]), &[("s0_m", 10.0), ("v0_m_per_s", 3.0)]);
     assert_eq!(verdicts(&mut lab), verdicts_on(&by_hand));
 }

@@ -1,6 +1,6 @@
 //! Solo and race: which lanes there are, what they are under, and what a restart keeps of it.
 
-use regatta::lab::{Command, Lab, Lane, LaneSpec, Mode, Scene};
+use regatta::lab::{Action, Command, Lab, Lane, LaneSpec, Mode, Scene};
 use regatta::sim::Solver;
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 
@@ -28,7 +28,7 @@ fn solo_to_race_and_back_flies_the_method_that_was_selected() {
         }
         let active = lab.active();
         let mut entrants = lab.race().entrants().iter();
-        let selected = &entrants.find(|entrant| entrant.entry == active).unwrap().lane;
+        let selected = &entrants.find(|entrant| lab.entry(entrant) == active).unwrap().lane;
         assert_eq!(selected.solver(), Solver::Method(method));
         let before = bits(selected);
         lab.apply(Command::ToggleRace);
@@ -42,7 +42,7 @@ fn solo_to_race_and_back_flies_the_method_that_was_selected() {
 fn a_race_is_of_the_scenes_lanes_and_of_the_method_last_flown_and_takes_no_others() {
     let text = "title = \"pair\"\ntick_hz = 60\nseconds = 5\nmethods = [\"rk4\", \"improved-euler\"]\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
-    let racing = |lab: &Lab| lab.race().entrants().iter().map(|e| e.entry).collect::<Vec<_>>();
+    let racing = |lab: &Lab| lab.race().entrants().iter().map(|e| lab.entry(e)).collect::<Vec<_>>();
     let mut lab = Lab::new(Scene::parse("pair.toml", text).unwrap());
     assert_eq!(lab.entries().len(), GENERAL_METHODS.len(), "every method can be flown");
     lab.apply(Command::ToggleRace);
@@ -77,7 +77,7 @@ fn throttle_and_rudder_go_in_tenths_stop_at_their_ends_and_are_back_amidships_af
         (Command::RudderRight, 3, 0.0),
         (Command::RudderRight, 14, -1.0),
         (Command::RudderLeft, 10, 0.0),
-        (Command::Rudder(7.0), 1, 1.0),
+        (Command::Act(Action::Rudder(7.0)), 1, 1.0),
     ] {
         for _ in 0..times {
             lab.apply(command.clone());

@@ -2,7 +2,7 @@
 
 use regatta::lab::palette::Theme;
 use regatta::lab::picture::{FAR, Picture, Shape, Whose, compose};
-use regatta::lab::{Command, ESCAPE, Lab, LoopCommand, Mode, SCENES, Scene};
+use regatta::lab::{Action, Command, ESCAPE, Lab, LoopCommand, Mode, SCENES, Scene};
 
 fn assert_drawable(picture: &Picture, what: &str) {
     let finite = |values: &[f32]| values.iter().all(|x| x.is_finite() && x.abs() <= 2.0 * FAR);
@@ -75,7 +75,7 @@ fn bodies_at_the_edge_of_what_is_followed_are_drawn() {
         for _ in 0..20 {
             lab.advance(16_666_667);
             assert_drawable(&compose(&lab, [780.0, 500.0]), &what);
-            lab.apply(Command::Kick(1e12));
+            lab.apply(Command::Act(Action::Kick(1e12)));
             assert!(lab.race().truth().bodies()[0].stepper.v()[0].abs() < ESCAPE);
         }
     }
@@ -100,7 +100,7 @@ fn a_body_of_two_coordinates_alone_has_a_cell_for_each_lane_that_fits_its_shape(
             let others = &picture.cells[..i];
             assert!(others.iter().all(|other| other.rect.min != cell.rect.min), "{name}");
         }
-        let names = lanes.map(|lane| lab.entries()[lane.entry].method.name);
+        let names = lanes.map(|lane| lane.spec.method.name);
         for name in names {
             assert!(picture.labels.iter().any(|label| label.text.ends_with(name)), "{name}");
         }
@@ -191,10 +191,10 @@ fn over_each_other_every_lane_has_a_number_and_the_selected_one_its_own_body() {
         let picture = compose(&lab, [780.0, 500.0]);
         assert_eq!((picture.cells.len(), picture.cells[0].entry), (1, entry));
         for lane in lab.race().entrants() {
-            let number = (lane.entry + 1).to_string();
+            let (lane, number) = (lane.id, (lab.entry(lane) + 1).to_string());
             let is_told = picture.labels.iter().any(|label| label.text == number);
-            assert!(is_told || lane.entry == entry, "{number} with {entry} in front");
-            let is_own = |whose| matches!(whose, Whose::Lane { entry, .. } if entry == lane.entry);
+            assert!(is_told || lane == picture.cells[0].lane, "{number} with {entry} in front");
+            let is_own = |whose| matches!(whose, Whose::Lane { lane: of, .. } if of == lane);
             assert!(picture.cells[0].grips(&lab).any(|grip| is_own(grip.whose)), "{number}");
         }
     }
@@ -325,7 +325,7 @@ fn the_stage_says_which_body_halted_and_where_there_is_no_truth() {
         grips.filter(|grip| grip.whose == Whose::Truth).count()
     };
     assert_eq!(ghosts(&lab), 2);
-    lab.apply(Command::Kick(1e30));
+    lab.apply(Command::Act(Action::Kick(1e30)));
     let ship = ["1 blew up at 30 s · 2 blew up at 30 s", "no exact solution from tick 300 on"];
     assert_eq!(said(&lab), [&*spring, ship[0], ship[1]]);
     assert_eq!(ghosts(&lab), 1);

@@ -217,7 +217,7 @@ fn a_recording_of_a_scripted_race_that_goes_solo_repeats_it_to_the_bit() {
     let mut lab = Lab::new(built_in("helm"));
     lab.apply(Command::ToggleRace);
     (0..200).for_each(|_| lab.tick());
-    lab.apply(Command::Rudder(0.4));
+    lab.apply(Command::Act(Action::Rudder(0.4)));
     (0..200).for_each(|_| lab.tick());
     let recorded = parsed(&lab.recording().unwrap());
     assert!(recorded.checks.iter().any(|check| check.lane.0 == recorded.lanes.len()));
@@ -392,7 +392,7 @@ fn an_action_at_the_last_tick_is_in_the_recording() {
     let at_start = parsed(&lab.recording().unwrap());
     assert_eq!(at_start.script.len(), 1);
     (0..10).for_each(|_| lab.tick());
-    lab.apply(Command::Kick(1.0));
+    lab.apply(Command::Act(Action::Kick(1.0)));
     let recorded = parsed(&lab.recording().unwrap());
     assert_eq!(recorded.script.iter().map(|row| row.tick).collect::<Vec<_>>(), [0, 10]);
     assert!(wrong_lanes(&recorded).is_empty());

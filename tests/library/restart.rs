@@ -70,7 +70,7 @@ fn a_frame_goes_no_further_than_it_may() {
 fn a_run_with_actions_by_hand_comes_back_after_a_restart_and_goes_again() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
     (0..40).for_each(|_| lab.tick());
-    lab.apply(Command::Kick(1.0));
+    lab.apply(Command::Act(Action::Kick(1.0)));
     (0..40).for_each(|_| lab.tick());
     let (hash, journal) = (lab.race().state_hash(), lab.race().journal().clone());
     lab.apply(Command::Restart);

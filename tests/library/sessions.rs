@@ -269,7 +269,7 @@ fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
         assert_eq!((lab.timeline().end(), lab.timeline().is_in_past()), (1000, true));
         // What changes nothing leaves the future as it is.
         let throttle = lab.race().throttle();
-        lab.apply(Command::Throttle(throttle));
+        lab.apply(Command::Act(Action::Throttle(throttle)));
         assert_eq!(
             (lab.timeline().end(), lab.timeline().undoes()),
             (1000, Some("the kick at tick 700"))

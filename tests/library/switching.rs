@@ -5,7 +5,7 @@ use regatta::lab::{
     Action, Command, Lab, Lane, LaneBody, LaneId, LaneSpec, Observer, Past, Race, Resumed,
     ResumedFrom, Scene, SceneBody,
 };
-use regatta::sim::bodies::{Body, Input, Ship, Spring};
+use regatta::sim::bodies::{Body, Ship, Spring};
 use regatta::sim::integrators::{GENERAL_METHODS, Method, method};
 use regatta::sim::{Solver, State};
 
@@ -14,7 +14,17 @@ fn scene(name: &str) -> Scene {
 }
 
 fn solo(scene: &Scene, id: &str) -> Race {
-    Race::new(scene, [(0, LaneSpec::plain(method(id).unwrap()))])
+    Race::new(scene, [LaneSpec::plain(method(id).unwrap())])
+}
+
+fn act(race: &mut Race, action: Action) {
+    race.perform(&action, &mut ());
+}
+
+/// Switches the first lane.
+fn switch(race: &mut Race, spec: LaneSpec) -> Vec<Resumed> {
+    let lane = race.entrants()[0].id;
+    race.perform(&Action::Lane { lane, spec }, &mut ())
 }
 
 fn bits(lane: &Lane) -> Vec<u64> {
@@ -36,12 +46,12 @@ fn a_switch_carries_the_state_to_the_bit() {
             let mut race = solo(&scene("harbour"), from.id);
             run(&mut race, 100);
             let (before, hash) = (bits(&race.entrants()[0].lane), race.state_hash());
-            race.switch(0, LaneSpec::plain(to));
+            switch(&mut race, LaneSpec::plain(to));
             let lane = &race.entrants()[0].lane;
             assert_eq!(bits(lane), before, "{} to {}", from.id, to.id);
             assert_eq!(lane.solver(), Solver::Method(to));
             assert_eq!(race.state_hash(), hash);
-            race.switch(0, LaneSpec::plain(from));
+            switch(&mut race, LaneSpec::plain(from));
             assert_eq!(race.state_hash(), hash, "{} to {} and back", from.id, to.id);
         }
     }
@@ -55,11 +65,9 @@ fn there_and_back_in_one_tick_changes_nothing_that_follows() {
         let mut detour = solo(&scene("harbour"), method.id);
         run(&mut straight, 500);
         run(&mut detour, 100);
-        detour.switch(
-            0,
-            LaneSpec { substeps: 3, ..LaneSpec::plain(GENERAL_METHODS.last().unwrap()) },
-        );
-        detour.switch(0, LaneSpec::plain(method));
+        let other = LaneSpec::plain(GENERAL_METHODS.last().unwrap());
+        switch(&mut detour, LaneSpec { substeps: 3, ..other });
+        switch(&mut detour, LaneSpec::plain(method));
         run(&mut detour, 400);
         assert_eq!(detour.state_hash(), straight.state_hash(), "{}", method.id);
     }
@@ -80,7 +88,7 @@ fn goes_on_as_if_started_there(from: &'static Method, to: &'static Method, chang
     run(&mut race, 77);
     change(&mut race);
     if from != to {
-        race.switch(0, LaneSpec::plain(to));
+        switch(&mut race, LaneSpec::plain(to));
     }
     let State { q, v } = state(&race.entrants()[0].lane);
     let mut there = scene.clone();
@@ -106,15 +114,15 @@ fn after_a_switch_the_new_method_goes_on_as_if_started_there() {
 #[test]
 fn after_a_kick_every_method_goes_on_as_if_started_there() {
     for method in GENERAL_METHODS {
-        goes_on_as_if_started_there(method, method, |race| race.input(Input::Kick(1.0)));
+        goes_on_as_if_started_there(method, method, |race| act(race, Action::Kick(1.0)));
     }
 }
 
 #[test]
 fn after_a_change_of_tick_rate_every_method_goes_on_as_if_started_there() {
     for method in GENERAL_METHODS {
-        goes_on_as_if_started_there(method, method, |race| race.set_tick_hz(100));
-        goes_on_as_if_started_there(method, method, |race| race.set_tick_hz(49));
+        goes_on_as_if_started_there(method, method, |race| act(race, Action::TickHz(100)));
+        goes_on_as_if_started_there(method, method, |race| act(race, Action::TickHz(49)));
     }
 }
 
@@ -130,21 +138,21 @@ fn mixed() -> Scene {
 #[test]
 fn what_is_set_to_what_it_is_changes_no_bit_of_lanes_or_truth() {
     let set_again: [fn(&mut Race); 5] = [
-        |race| race.input(Input::Throttle(0.5)),
-        |race| race.input(Input::Rudder(-0.25)),
-        |race| race.input(Input::Kick(0.0)),
-        |race| race.set_tick_hz(7),
+        |race| act(race, Action::Throttle(0.5)),
+        |race| act(race, Action::Rudder(-0.25)),
+        |race| act(race, Action::Kick(0.0)),
+        |race| act(race, Action::TickHz(7)),
         |race| {
             let spec = LaneSpec::plain(race.entrants()[0].lane.solver().method().unwrap());
-            assert!(race.switch(0, spec).is_empty());
+            assert!(switch(race, spec).is_empty());
         },
     ];
     for method in GENERAL_METHODS {
         let begun = || {
             let mut race = solo(&mixed(), method.id);
-            race.input(Input::Throttle(0.5));
-            race.input(Input::Rudder(-0.25));
-            race.set_tick_hz(7);
+            act(&mut race, Action::Throttle(0.5));
+            act(&mut race, Action::Rudder(-0.25));
+            act(&mut race, Action::TickHz(7));
             run(&mut race, 40);
             race
         };
@@ -181,9 +189,9 @@ fn a_persons_action_that_changes_nothing_changes_no_bit() {
             Command::Method(method),
             Command::Pick(pick),
             Command::TickHz(hz),
-            Command::Throttle(1.0),
+            Command::Act(Action::Throttle(1.0)),
             Command::ThrottleUp,
-            Command::Rudder(0.0),
+            Command::Act(Action::Rudder(0.0)),
         ] {
             let mut told = begun();
             told.apply(command.clone());
@@ -196,7 +204,7 @@ fn a_persons_action_that_changes_nothing_changes_no_bit() {
 fn evaluations_go_on_counting_across_a_switch() {
     let mut race = solo(&scene("spring"), "rk4");
     run(&mut race, 10);
-    race.switch(0, LaneSpec::plain(method("explicit-euler").unwrap()));
+    switch(&mut race, LaneSpec::plain(method("explicit-euler").unwrap()));
     run(&mut race, 5);
     assert_eq!(race.entrants()[0].lane.evaluations(), 4 * 10 + 5);
 }
@@ -216,7 +224,7 @@ fn a_throttle_reaches_truth_and_lanes_and_the_flow_goes_on_from_there() {
     let scene = scene("ship");
     let mut race = solo(&scene, "rk4");
     run(&mut race, 10);
-    race.input(Input::Throttle(-0.5));
+    act(&mut race, Action::Throttle(-0.5));
     run(&mut race, 20);
 
     let ahead = Ship::BLANK.with_parameters(&scene.bodies[0].values);
@@ -238,7 +246,7 @@ fn a_kick_reaches_truth_and_lanes_and_the_flow_goes_on_from_there() {
     let mut race = solo(&scene, "rk4");
     run(&mut race, 31);
     let before = state(&race.entrants()[0].lane);
-    race.input(Input::Kick(-2.0));
+    act(&mut race, Action::Kick(-2.0));
     let kicked = state(&race.entrants()[0].lane);
     run(&mut race, 40);
 
@@ -261,7 +269,7 @@ fn a_change_of_tick_rate_keeps_the_time_and_the_truth() {
     let mut race = solo(&scene, "rk4");
     run(&mut race, 60);
     let t = race.t();
-    race.set_tick_hz(100);
+    act(&mut race, Action::TickHz(100));
     assert_eq!(race.t(), t);
     run(&mut race, 50);
     let wanted = t + 0.5;
@@ -333,9 +341,10 @@ fn a_body_that_blew_up_resumes_from_the_truth_and_the_others_continue() {
     let history = &past.histories(LaneId(1))[1];
     let jump = history.samples().rev().find(|sample| sample.jumped);
     assert_eq!(jump.map(|sample| sample.t), Some(race.t()));
-    let runs: Vec<usize> = history.runs().map(|run| run.entry).collect();
-    let listed = race.list().iter().position(|spec| *spec == rk4());
-    assert_eq!(runs, [0, listed.unwrap()]);
+    let mut flown: Vec<usize> = history.samples().map(|sample| sample.entry).collect();
+    flown.dedup();
+    let listed = past.menu().specs().iter().position(|spec| *spec == rk4());
+    assert_eq!(flown, [0, listed.unwrap()]);
     run(&mut race, 1000);
     assert_eq!(race.entrants()[0].lane.halted(), None);
 }
@@ -345,10 +354,10 @@ fn where_the_truth_has_failed_too_a_body_is_taken_up_from_its_last_good_state() 
     let mut race = solo(&scene("spring"), "semi-implicit-euler");
     run(&mut race, 100);
     let last = bits(&race.entrants()[0].lane);
-    race.input(Input::Kick(1e300));
+    act(&mut race, Action::Kick(1e300));
     run(&mut race, 10);
     assert!(race.truth().halted().is_some());
-    let resumed = race.switch(0, rk4());
+    let resumed = switch(&mut race, rk4());
     let from: Vec<_> = resumed.iter().map(|resumed| resumed.from).collect();
     assert_eq!(from, [ResumedFrom::LastGood]);
     assert_eq!(bits(&race.entrants()[0].lane), last);
@@ -362,11 +371,11 @@ fn a_throttle_set_while_a_ship_had_halted_holds_when_it_goes_on() {
     let mut scene = scene("surge");
     scene.bodies = vec![scene.bodies[2].clone()];
     let mut race = halted(&scene);
-    race.input(Input::Throttle(-0.5));
+    act(&mut race, Action::Throttle(-0.5));
     let last = bits(&race.entrants()[0].lane);
-    race.input(Input::Kick(1.0));
+    act(&mut race, Action::Kick(1.0));
     assert_eq!(bits(&race.entrants()[0].lane), last, "a halted body feels no kick");
-    assert_eq!(race.switch(0, rk4()).len(), 1);
+    assert_eq!(switch(&mut race, rk4()).len(), 1);
     run(&mut race, 3000);
     // After 6000 time constants both ships have the speed that the throttle asks for.
     let (lane, truth) = (state(&race.entrants()[0].lane), state(race.truth()));

@@ -65,13 +65,13 @@ fn a_switch_a_slider_a_placement_and_a_kick_are_undone_and_done_again_one_by_one
         Command::Act(Action::Set { body: 0, parameter: 1, value: 80.0 }),
         Command::Act(Action::Set { body: 0, parameter: 3, value: 0.25 }),
         Command::Act(place),
-        Command::Kick(1.0),
+        Command::Act(Action::Kick(1.0)),
         Command::TickHz(30),
         Command::ToggleRace,
         Command::ToggleEqualCost,
         Command::Seconds(12.0),
         Command::Restart,
-        Command::Throttle(0.5),
+        Command::Act(Action::Throttle(0.5)),
     ] {
         (0..50).for_each(|_| lab.tick());
         let before = whole(&mut lab);
@@ -97,7 +97,7 @@ fn a_switch_a_slider_a_placement_and_a_kick_are_undone_and_done_again_one_by_one
     }
     assert_eq!(lab.timeline().redoes(), None);
     lab.apply(Command::Undo);
-    lab.apply(Command::Kick(1.0));
+    lab.apply(Command::Act(Action::Kick(1.0)));
     assert_eq!(lab.timeline().redoes(), None, "another change was made");
 }
 
@@ -147,7 +147,7 @@ fn random_changes_are_undone_and_done_again_to_the_bit() {
             }
             let (tick, before) = (lab.race().tick(), whole(&mut lab));
             let command = match below(6) {
-                0 => Command::Kick(0.5),
+                0 => Command::Act(Action::Kick(0.5)),
                 1 => Command::Pick(below(5) as usize),
                 2 => Command::TickHz(20 + below(60) as u32),
                 3 => Command::ToggleRace,
@@ -185,7 +185,7 @@ fn the_changes_that_can_be_undone_stay_within_the_memory_for_rewinding() {
     lab.set_rewind_bytes(1 << 20);
     for n in 0..60_u32 {
         (0..120).for_each(|_| lab.tick());
-        lab.apply(Command::Kick(1.0));
+        lab.apply(Command::Act(Action::Kick(1.0)));
         if n % 7 == 0 {
             lab.apply(Command::Restart);
         }

@@ -220,7 +220,7 @@ fn the_recommended_lanes_meet_their_criterion_in_a_race() {
         let taken = recommended(&advised, accurate, 1.0, |_, met| met.evaluations_per_s).unwrap();
         let substeps = advised[taken].met[accurate].met().unwrap().substeps;
         let lane = LaneSpec { substeps, ..advised[taken].spec };
-        let mut race = Race::new(&scene, [(0, lane)]);
+        let mut race = Race::new(&scene, [lane]);
         let mut errors = vec![0.0_f64; scene.bodies.len()];
         let mut sizes = vec![0.0_f64; scene.bodies.len()];
         for _ in 0..(scene.seconds * f64::from(scene.tick_hz)) as u64 {

@@ -42,7 +42,7 @@ fn sailed(scene: &str, race: bool, mut each_frame: impl FnMut(&Lab)) -> Lab {
     lab.forget_changes();
     for frame in 0..FRAMES {
         if frame == FRAMES / 2 && !race {
-            lab.apply(Command::Kick(1.0));
+            lab.apply(Command::Act(Action::Kick(1.0)));
             lab.apply(Command::Pick(3));
         }
         lab.advance(16_666_667);

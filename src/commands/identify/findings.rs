@@ -32,7 +32,7 @@ pub(super) fn object(found: Option<&Identification>, mass: f64) -> Value {
     };
     let recommended = found.map(|found| &found.recommended[..]).unwrap_or_default();
     json!({
-        "word": found.map_or(Conclusion::Unknown, |found| found.word).id(),
+        "word": found.map_or(Conclusion::Unknown, |found| found.conclusion).id(),
         "best": best.map(|best| best.candidate.method.id),
         "substeps": best.map(|best| best.candidate.substeps),
         "held": best.map(|best| best.candidate.is_held),
@@ -136,10 +136,10 @@ fn makers(best: &Candidate, also: &[Candidate]) -> String {
 }
 
 pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
-    let Identification { word, best, runner_up, effective, exact, recommended, .. } = found;
+    let Identification { conclusion, best, runner_up, effective, exact, recommended, .. } = found;
     let residual = |fitted: &Fitted| format!("residual {:.1e}", fitted.residual);
     let rival = runner_up.as_ref();
-    let mut lines = vec![match (word, rival) {
+    let mut lines = vec![match (conclusion, rival) {
         (Conclusion::Identified, _) => {
             format!("made by {}, {}", makers(&best.candidate, &found.also), residual(best))
         }
@@ -158,17 +158,17 @@ pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
         _ if best.residual > FAR => "unknown: no method comes near".to_owned(),
         _ => format!("unknown: the nearest is {}, {}", best.candidate, residual(best)),
     }];
-    if *word == Conclusion::Unknown {
+    if *conclusion == Conclusion::Unknown {
         lines.push(HINT.to_owned());
     }
-    let told = *word != Conclusion::Unknown;
+    let told = *conclusion != Conclusion::Unknown;
     if told && !found.also.is_empty() {
         lines.push(format!("the same on this body: {}", names(&found.also)));
     }
-    if *word == Conclusion::Identified && !found.unusual.is_empty() {
+    if *conclusion == Conclusion::Identified && !found.unusual.is_empty() {
         lines.push(format!("would fit too, but few set them: {}", names(&found.unusual)));
     }
-    if let (Conclusion::Identified, Some(rival)) = (word, rival) {
+    if let (Conclusion::Identified, Some(rival)) = (conclusion, rival) {
         lines.push(format!("runner-up: {}, {}", rival.candidate, residual(rival)));
     }
     if let Some(effective) = effective {

@@ -48,7 +48,7 @@ fn other_end(then: &[LaneEnd], lab: &Lab) -> Option<PhysicsChange> {
             .into_iter()
             .find(|(_, was, is)| was != is)?;
             let what = format!("its {key} at the end is {was} in the manifest and {is} now");
-            let method = lab.race().spec(entrant).method.id;
+            let method = entrant.spec.method.id;
             Some(PhysicsChange { tick, lane: Some((n + 1, method)), what })
         },
     )
@@ -71,7 +71,7 @@ fn change(then: &Mark, now: &Mark, lab: &Lab) -> Option<PhysicsChange> {
         .filter(|(_, (then, now))| !then.is_same(now))
         .map(|(n, (was, is))| {
             let entrant = &lab.race().entrants()[n];
-            let method = lab.race().spec(entrant).method.id;
+            let method = entrant.spec.method.id;
             PhysicsChange {
                 tick: then.tick,
                 lane: Some((n + 1, method)),

@@ -12,11 +12,11 @@ use seen::seen_lines;
 
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::SceneBody;
-use crate::sim::bodies::{Kind, kind};
+use crate::sim::bodies::{Follow, Kind, Ship, Spring};
 use crate::sim::stability::{
     CoupledMotion, NoSmallMotion, NormalMode, SmallMotion, Stability, Tick,
 };
-use crate::sim::{BodyClass, EngineSettings, Solver, Stepper};
+use crate::sim::{BodyClass, EngineSettings, Solver, Stepper, stepper};
 
 mod contour;
 mod seen;
@@ -166,13 +166,13 @@ pub struct StabilityMap {
 /// What a method is tried on.
 enum Motion {
     /// The normal modes, the fastest first.
-    Modes(Modes),
+    Uncoupled(Uncoupled),
     /// All coordinates together: damping couples the modes, or one grows.
     Coupled(CoupledMotion),
 }
 
 /// The normal modes of a body.
-struct Modes {
+struct Uncoupled {
     modes: Vec<NormalMode>,
     /// What an engine integrates itself.
     settings: EngineSettings,
@@ -188,7 +188,7 @@ impl Motion {
             let settings = body.engine_settings(0.0);
             let is_held = settings == EngineSettings::NONE;
             let held = if is_held { small.coupled().ok() } else { None };
-            return Ok(Self::Modes(Modes { modes, settings, held }));
+            return Ok(Self::Uncoupled(Uncoupled { modes, settings, held }));
         }
         small.coupled().map(Self::Coupled)
     }
@@ -200,14 +200,14 @@ impl Motion {
         hz: f64,
     ) -> impl Iterator<Item = Option<Stability>> + 'a {
         let (modes, coupled): (&[NormalMode], _) = match self {
-            Self::Modes(Modes { held: Some(held), .. }) if spec.method.is_engine() => {
+            Self::Uncoupled(Uncoupled { held: Some(held), .. }) if spec.method.is_engine() => {
                 (&[], Some(held))
             }
-            Self::Modes(Modes { modes, .. }) => (modes, None),
+            Self::Uncoupled(Uncoupled { modes, .. }) => (modes, None),
             Self::Coupled(coupled) => (&[], Some(coupled)),
         };
         let has_joint = match self {
-            Self::Modes(Modes { settings, .. }) => settings.has_spring(),
+            Self::Uncoupled(Uncoupled { settings, .. }) => settings.has_spring(),
             Self::Coupled(_) => false,
         };
         let together = coupled
@@ -221,7 +221,7 @@ impl Motion {
     }
 
     fn is_undamped(&self) -> bool {
-        matches!(self, Self::Modes(Modes { modes, .. }) if modes.iter().all(NormalMode::is_conserved))
+        matches!(self, Self::Uncoupled(Uncoupled { modes, .. }) if modes.iter().all(NormalMode::is_conserved))
     }
 
     /// Whether the true motion grows.
@@ -359,18 +359,20 @@ fn chooses_steps(spec: &LaneSpec) -> bool {
 /// an engine on a body without a joint a ship. `None` if the method fails.
 fn stability(spec: &LaneSpec, has_joint: bool, mode: &NormalMode, hz: f64) -> Option<Stability> {
     let NormalMode { omega_squared, damping_per_s, .. } = *mode;
-    let order = spec.method.law_order();
-    let (id, values) = match order {
+    let body = match spec.method.law_order() {
         Some(order) => {
-            let order = f64::from(order);
-            ("follow", vec![order, omega_squared.sqrt(), 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+            let (order, rate) = (order as usize, omega_squared.sqrt());
+            stepper(Follow { order, rate, step: 1.0, ..Follow::default() }, Solver::Truth)
         }
         None if spec.method.is_engine() && !has_joint => {
-            ("ship", vec![0.0, damping_per_s, 1.0, 0.0, 0.0, 1.0])
+            stepper(Ship { drag: damping_per_s, mass: 1.0, ..Ship::BLANK }, Solver::Truth)
         }
-        None => ("spring", vec![1.0, omega_squared, damping_per_s, 1.0, 0.0, 1.0]),
+        None => {
+            let (stiffness, damping) = (omega_squared, damping_per_s);
+            let spring = Spring { mass: 1.0, stiffness, damping, x0: 1.0, ..Spring::default() };
+            stepper(spring, Solver::Truth)
+        }
     };
-    let body = (kind(id).expect("a kind of body").build)(&values, Solver::Truth);
     let tick = Tick { t: 0.0, h: 1.0 / hz, substeps: spec.substeps };
     NormalMode { shape: vec![1.0], ..*mode }.stability_of_small(&*body, spec.solver(), tick).ok()
 }

@@ -57,34 +57,33 @@ const USUAL: usize = 256;
 /// How many times denser than on average a place is that has the brightest tone, if one is.
 const DENSE: f32 = 8.0;
 
-/// Counts as colours: brighter by the logarithm of the count.
-fn shaded(counts: &[f32], theme: Theme, colour: Rgba) -> Vec<Rgba> {
-    let most = counts.iter().copied().fold(0.0, f32::max);
-    let present = counts.iter().filter(|count| **count > 0.0);
-    let (sum, covered) = present.fold((0.0, 0.0), |(sum, n), count| (sum + count, n + 1.0_f32));
-    let (tone, usual) = tones(most, sum / covered.max(1.0), theme, colour);
-    let shown = |&count: &f32| {
-        let parts = (count * PARTS + 0.5) as usize;
-        usual.get(parts).copied().unwrap_or_else(|| tone(count))
-    };
-    counts.iter().map(shown).collect()
-}
-
-/// The colours of counts of which these are the largest and the mean of those above 0, and a table of the small ones, which
-/// most are.
-fn tones(most: f32, mean: f32, theme: Theme, colour: Rgba) -> (impl Fn(f32) -> Rgba, Vec<Rgba>) {
-    let palette = theme.palette();
+/// Counts, which have this sum, as colours: brighter by the logarithm of the count.
+fn shaded(
+    counts: impl Iterator<Item = f32> + Clone,
+    sum: f32,
+    theme: Theme,
+    colour: Rgba,
+) -> Vec<Rgba> {
+    let (most, covered) = counts
+        .clone()
+        .fold((0.0_f32, 0_u32), |(most, n), count| (most.max(count), n + u32::from(count > 0.0)));
+    let (mean, palette) = (sum / covered.max(1) as f32, theme.palette());
     // An even cover has the plain colour.
     let whole = libm::log1pf(most.max(2.0).max(DENSE * mean));
-    let tone = move |count: f32| {
+    let tone = |count: f32| {
         let part = libm::log1pf(count) / whole;
         match part < 0.7 {
             true => mixed(palette.plot, colour, 0.25 * count.min(1.0) + 0.75 * part / 0.7),
             false => mixed(colour, palette.text, (part - 0.7) / 0.5),
         }
     };
-    let usual = (0..USUAL * PARTS as usize).map(|parts| tone(parts as f32 / PARTS)).collect();
-    (tone, usual)
+    let usual: Vec<Rgba> =
+        (0..USUAL * PARTS as usize).map(|parts| tone(parts as f32 / PARTS)).collect();
+    let shown = |count: f32| {
+        let parts = (count * PARTS + 0.5) as i32 as usize;
+        usual.get(parts).copied().unwrap_or_else(|| tone(count))
+    };
+    counts.map(shown).collect()
 }
 
 /// Every `stride`th of these counts, spread evenly over so many places.
@@ -157,15 +156,9 @@ impl Density {
 
     /// The picture in a method's colour, brighter by the logarithm of the count, and these lines over it.
     pub fn picture(&self, theme: Theme, colour: Rgba, lines: &[Vec<[f64; 2]>]) -> Vec<Rgba> {
-        let counts = &self.counts;
-        let covered = counts.iter().filter(|count| **count > 0).count();
-        let sum: u64 = counts.iter().map(|&count| u64::from(count)).sum();
-        let most = counts.iter().copied().max().unwrap_or(0);
-        let mean = sum as f32 / covered.max(1) as f32;
-        let (tone, usual) = tones(most as f32, mean, theme, colour);
-        let whole: Vec<Rgba> = usual.into_iter().step_by(PARTS as usize).collect();
-        let shown = |&n: &u32| whole.get(n as usize).copied().unwrap_or_else(|| tone(n as f32));
-        let mut pixels: Vec<Rgba> = counts.iter().map(shown).collect();
+        let sum: u64 = self.counts.iter().map(|&count| u64::from(count)).sum();
+        let counts = self.counts.iter().map(|&count| count as f32);
+        let mut pixels = shaded(counts, sum as f32, theme, colour);
         for line in lines {
             for ends in line.windows(2) {
                 self.draw_line(&mut pixels, [ends[0], ends[1]], theme.palette().exact);
@@ -184,7 +177,8 @@ impl Density {
         debug_assert_eq!(narrowed.len(), size_px[0] * height);
         let columns: Vec<Vec<f32>> = (0..size_px[0]).map(column).collect();
         let all = (0..size_px[1]).flat_map(|y| columns.iter().map(move |column| column[y]));
-        shaded(&all.collect::<Vec<_>>(), theme, colour)
+        let all: Vec<f32> = all.collect();
+        shaded(all.iter().copied(), all.iter().sum(), theme, colour)
     }
 
     /// A pixel for each step along a line.

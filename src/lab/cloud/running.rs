@@ -85,7 +85,7 @@ impl Running {
         let &CloudRequest { ref scene, ref by_hand, body, ref lanes, tick_hz, choice, .. } =
             request;
         let scene = by_hand.applied_to(scene).of_one_body(body);
-        let mut race = Race::among(&scene, Vec::new(), []);
+        let mut race = Race::new(&scene, []).with_script(&scene.script);
         race.catch_up(&mut ());
         let request = Request {
             name: &scene.bodies[0].name,

@@ -9,9 +9,11 @@ use super::logged_body::LoggedBody;
 
 /// The least residual of rounding in a run, in units of the largest values: in double precision.
 const MIN_ROUNDING: f64 = 1e-9;
-/// The largest residual of rounding in a log of single precision, and in one of double precision.
-const MAX_ROUNDING: [f64; 2] = [3e-5, 3e-6];
-/// Residuals below this multiple of the smallest count as rounding, up to `MAX_ROUNDING`.
+/// The largest residual of rounding in a log of single precision.
+const MAX_ROUNDING_IN_SINGLE: f64 = 3e-5;
+/// The largest residual of rounding in a log of double precision.
+const MAX_ROUNDING_IN_DOUBLE: f64 = 3e-6;
+/// Residuals below this multiple of the smallest count as rounding, up to the largest.
 const TIMES_CLOSEST: f64 = 10.0;
 /// An equivalent candidate is not reported if its residual exceeds the smallest by this factor.
 const TIMES_NEAREST: f64 = 3.0;
@@ -30,12 +32,13 @@ const NEARLY_ALL: f64 = 0.8;
 
 /// The residual that counts as rounding in a log of this precision if the smallest is `closest`.
 pub(super) fn rounding(closest: f64, is_double: bool) -> f64 {
-    (TIMES_CLOSEST * closest).clamp(MIN_ROUNDING, MAX_ROUNDING[usize::from(is_double)])
+    let largest = if is_double { MAX_ROUNDING_IN_DOUBLE } else { MAX_ROUNDING_IN_SINGLE };
+    (TIMES_CLOSEST * closest).clamp(MIN_ROUNDING, largest)
 }
 
 /// What the fits say.
 pub(super) struct Decision<'a> {
-    pub(super) word: Conclusion,
+    pub(super) conclusion: Conclusion,
     /// The best, and those that do the same.
     pub(super) same: Vec<&'a (Candidate, Fit)>,
     /// Others that explain the log as well and are set aside, as they are rare.
@@ -89,14 +92,14 @@ pub(super) fn decide<'a>(
     };
     let unusual = others.iter().copied().filter(is_set_aside).collect();
     let is_doubtful = best.1.is_doubtful() && !is_clear;
-    let word = if !explains(best) {
+    let conclusion = if !explains(best) {
         Conclusion::Unknown
     } else if says_nothing || is_doubtful || rival.is_some_and(is_plausible) {
         Conclusion::CannotTell
     } else {
         Conclusion::Identified
     };
-    Some(Decision { word, same, unusual, rival })
+    Some(Decision { conclusion, same, unusual, rival })
 }
 
 /// Whether the log says nothing, because too many methods do the same.

@@ -7,9 +7,12 @@ use super::logged_body::LoggedBody;
 use super::motion::run;
 use crate::sim::least_squares;
 
-/// The iterations of Gauss and Newton where the velocity at the start was logged, where it was not, and where the
-/// spring is fitted too. A linear motion needs one; another is for the last digits.
-const ITERATIONS: [usize; 3] = [1, 2, 12];
+/// The iterations of Gauss and Newton where the velocity at the start was logged: a linear motion needs one.
+const ITERATIONS: usize = 1;
+/// Where it was not, another is for the last digits.
+const ITERATIONS_WITHOUT_VELOCITY: usize = 2;
+/// Those where the spring is fitted too.
+const ITERATIONS_WITH_SPRING: usize = 12;
 /// A displacement for the derivatives, in units of the scale.
 const DISPLACEMENT: f64 = 1e-4;
 /// Residuals up to this may be rounding in a log of single precision.
@@ -71,9 +74,9 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
     }
     // Coordinate and velocity at the start; then stiffness and damping.
     let (fitted, iterations) = match (is_spring_known, log.has_velocities()) {
-        (true, true) => (2, ITERATIONS[0]),
-        (true, false) => (2, ITERATIONS[1]),
-        (false, _) => (4, ITERATIONS[2]),
+        (true, true) => (2, ITERATIONS),
+        (true, false) => (2, ITERATIONS_WITHOUT_VELOCITY),
+        (false, _) => (4, ITERATIONS_WITH_SPRING),
     };
     let go = |body: &LoggedBody, start: [f64; 2]| {
         let ticks = log.rows().iter().map(|row| row.tick);

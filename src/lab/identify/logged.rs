@@ -59,8 +59,10 @@ const LOST_IN_SINGLE: f64 = 8e-9;
 const OFF_TICK: f64 = 0.05;
 
 impl Log {
-    /// The fewest rows, with velocities and without: two numbers more than a start has.
-    pub const MIN_ROWS: [usize; 2] = [2, 4];
+    /// The fewest rows with velocities: two numbers more than a start has.
+    const MIN_ROWS: usize = 2;
+    /// The fewest rows without velocities.
+    const MIN_ROWS_WITHOUT_VELOCITY: usize = 4;
     /// Rows after this many ticks are not used.
     pub const MAX_TICKS: u64 = 3000;
 
@@ -159,7 +161,7 @@ impl Log {
             }
             rows.push(LogRow { tick, x: number(x)?, v: v.map(number).transpose()? });
         }
-        let least = Self::MIN_ROWS[usize::from(v.is_none())];
+        let least = if v.is_some() { Self::MIN_ROWS } else { Self::MIN_ROWS_WITHOUT_VELOCITY };
         if rows.len() < least {
             let fault =
                 format!("a log of {} rows says too little; log at least {least}", rows.len());
@@ -180,7 +182,7 @@ impl Log {
 
     /// The part up to this tick, and as many rows as a log has at least. Its scale is that of the whole.
     pub(super) fn head(&self, last_tick: u64) -> Log {
-        let least = Self::MIN_ROWS[1].min(self.rows.len());
+        let least = Self::MIN_ROWS_WITHOUT_VELOCITY.min(self.rows.len());
         let count = self.rows.partition_point(|row| row.tick <= last_tick).max(least);
         Log { rows: self.rows[..count].to_vec(), scale: self.scale }
     }

@@ -52,7 +52,7 @@ impl Lab {
         match command {
             Command::Act(action) => self.act(action),
             Command::Method(method) => {
-                let listed = race.list().iter().position(|spec| spec.method == method);
+                let listed = self.entries().iter().position(|spec| spec.method == method);
                 match (listed, self.scene().refusal(method)) {
                     (Some(entry), _) => self.pick(entry),
                     (None, Some(refusal)) => self.set_notice(refusal.to_string()),
@@ -81,13 +81,10 @@ impl Lab {
                 let slower = rung_below(&SPEED_LADDER, self.clock.speed_percent());
                 slower.into_iter().for_each(|percent| self.clock.set_speed_percent(percent));
             }
-            Command::Throttle(part) => self.act(Action::Throttle(part)),
             Command::ThrottleUp => self.act(Action::Throttle(tenths(race.throttle(), 1.0))),
             Command::ThrottleDown => self.act(Action::Throttle(tenths(race.throttle(), -1.0))),
-            Command::Rudder(part) => self.act(Action::Rudder(part)),
             Command::RudderLeft => self.act(Action::Rudder(tenths(race.rudder(), 1.0))),
             Command::RudderRight => self.act(Action::Rudder(tenths(race.rudder(), -1.0))),
-            Command::Kick(times) => self.act(Action::Kick(times)),
             Command::ToggleRace => match race.mode() {
                 Mode::Solo => {
                     self.keep_run("the race");
@@ -251,10 +248,10 @@ impl Lab {
         }
         let was_past = self.timeline.is_in_past();
         let before = self.start.clone();
-        let (acted, told) =
+        let (acted, mut told) =
             self.watched(|timeline, notices| timeline.act_seen(action.clone(), &before, notices));
         let ActionResult::Done { released } = acted else { return self.tell(told) };
-        self.start.keep(&action, self.timeline.session().race());
+        self.start.keep(&action, self.timeline.session().race(), self.timeline.past().menu());
         if let Action::Lane { .. } = action {
             self.start.entry = self.active();
         }
@@ -268,8 +265,8 @@ impl Lab {
                 control.name()
             )
         });
-        let told: Vec<String> = told.into_iter().chain(released).chain(discarded).collect();
-        self.tell((!told.is_empty()).then(|| told.join("; ")));
+        told.extend(released.into_iter().chain(discarded));
+        self.tell(told);
     }
 
     /// Changes a setting of the next start by hand. `set` returns whether it changed anything.
@@ -280,12 +277,11 @@ impl Lab {
         }
     }
 
-    /// The lane that a pick of this index of the list selects: in solo mode the only one.
+    /// The lane that a pick of this index of the menu selects: in solo mode the only one.
     pub(super) fn picked(&self, entry: usize) -> Option<LaneId> {
-        let lanes = self.race().entrants();
         let picked = match self.mode() {
-            Mode::Solo => lanes.first().filter(|_| entry < self.entries().len()),
-            Mode::Race => lanes.iter().find(|lane| lane.entry == entry),
+            Mode::Solo => self.race().entrants().first().filter(|_| entry < self.entries().len()),
+            Mode::Race => self.flown(entry),
         };
         picked.map(|lane| lane.id)
     }
@@ -306,8 +302,7 @@ impl Lab {
     fn set_lane(&mut self, spec: LaneSpec) {
         let listed = self.entries().iter().position(|known| known.method == spec.method);
         let entry = listed.expect("every method is on the list");
-        let flown = self.race().entrants().iter().find(|entrant| entrant.entry == entry);
-        match (self.mode(), flown) {
+        match (self.mode(), self.flown(entry)) {
             (Mode::Race, None) => {
                 self.keep_run("the new race");
                 self.start.list[entry] = spec;
@@ -341,12 +336,8 @@ impl Lab {
         if self.mode() == Mode::Solo {
             return self.set_notice("equal cost needs a race: press C");
         }
-        let lanes: Vec<(LaneId, LaneSpec)> = self
-            .race()
-            .entrants()
-            .iter()
-            .map(|entrant| (entrant.id, self.race().spec(entrant)))
-            .collect();
+        let lanes: Vec<(LaneId, LaneSpec)> =
+            self.race().entrants().iter().map(|entrant| (entrant.id, entrant.spec)).collect();
         let specs: Vec<LaneSpec> = lanes.iter().map(|(_, spec)| *spec).collect();
         let (wanted, before, notice) = match &self.start.before_equal_cost {
             Some(before) => {

@@ -36,10 +36,10 @@ impl Lab {
     /// The places on the list of the lanes that have a cloud: all, or the first and the selected one of very many.
     fn clouded_lanes(&self) -> impl Iterator<Item = usize> {
         let lanes = self.race().entrants();
-        let selected = lanes.iter().position(|lane| lane.entry == self.active()).unwrap_or(0);
+        let selected = lanes.iter().position(|lane| self.entry(lane) == self.active()).unwrap_or(0);
         let last = selected.max(MAX_CLOUDS - 1);
         let is_shown = move |place: &usize| *place + 1 < MAX_CLOUDS || *place == last;
-        (0..lanes.len()).filter(is_shown).map(|place| lanes[place].entry)
+        (0..lanes.len()).filter(is_shown).map(|place| self.entry(&lanes[place]))
     }
 
     /// Why the displayed body has no cloud, if it has several coordinates.

@@ -118,17 +118,17 @@ impl Lab {
         self.tell(told);
     }
 
-    pub(super) fn tell(&mut self, told: Option<String>) {
-        if let Some(told) = told {
+    pub(super) fn tell(&mut self, told: Vec<String>) {
+        if !told.is_empty() {
             self.set_notice(told);
         }
     }
 
-    /// Applies `change` to the run, and returns its result with a notice about it, if there is one.
+    /// Applies `change` to the run, and returns its result with the parts of a notice about it, if there is one.
     pub(super) fn watched<T>(
         &mut self,
         change: impl FnOnce(&mut Timeline, &mut Notices<'_>) -> T,
-    ) -> (T, Option<String>) {
+    ) -> (T, Vec<String>) {
         let mut notices = Notices::new(&self.start.scene);
         let done = self.timeline.session().race().done();
         let changed = change(&mut self.timeline, &mut notices);
@@ -146,7 +146,7 @@ impl Lab {
         }
         for row in &race.journal().rows()[done..race.done()] {
             let Action::Method(method) = row.action else { continue };
-            let lane = race.entrants().iter().find(|e| race.spec(e).method == method);
+            let lane = race.entrants().iter().find(|e| e.spec.method == method);
             if let Some(lane) = lane {
                 self.viewer.selected = lane.id;
                 self.viewer.is_selected = true;

@@ -107,8 +107,8 @@ impl Lab {
             return;
         }
         let judged = |lane: &Entrant| {
-            let verdict = self.viewer.verdict(lane.entry)?;
-            Some((verdict.badness(), (lane.id, lane.entry)))
+            let entry = self.entry(lane);
+            Some((self.viewer.verdict(entry)?.badness(), (lane.id, entry)))
         };
         let Some(judged) = lanes.iter().map(judged).collect::<Option<Vec<_>>>() else { return };
         let best =

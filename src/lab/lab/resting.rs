@@ -159,7 +159,7 @@ mod tests {
         };
         assert!(ends(Lab::new(Scene::built_in("spring").unwrap())), "nobody watches");
         let mut steered = watched("spring");
-        steered.apply(Command::Kick(1.0));
+        steered.apply(Command::Act(Action::Kick(1.0)));
         assert!(ends(steered), "a person is at it");
         let mut told = watched("spring");
         for _ in 0..60 * 21 {

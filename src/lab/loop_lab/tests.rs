@@ -1,6 +1,6 @@
 use super::*;
 use crate::lab::pacing::policy;
-use crate::lab::{Command, Lab};
+use crate::lab::{Action, Command, Lab};
 use crate::sim::integrators::method;
 
 fn lab() -> LoopLab {
@@ -191,7 +191,7 @@ fn the_loop_lab_keeps_every_command_on_the_run_from_the_run_behind_it() {
     lab.apply(Command::Loop(LoopCommand::ToggleLab));
     let before = (lab.race().state_hash(), lab.clock().speed_percent(), lab.scene().seconds);
     for command in [
-        Command::Kick(1.0),
+        Command::Act(Action::Kick(1.0)),
         Command::Seek(3),
         Command::Undo,
         Command::SpeedPercent(400),

@@ -34,15 +34,6 @@ pub(super) struct HistoryMark {
 /// Samples of a [`History`], oldest first.
 pub type Samples<'h> = iter::Chain<vec_deque::Iter<'h, Sample>, option::Iter<'h, Sample>>;
 
-/// Consecutive samples under one method.
-#[derive(Clone, Debug)]
-pub struct Run<'h> {
-    /// The method's index on the list, which gives the run its colour.
-    pub entry: usize,
-    /// The samples, oldest first; at least one.
-    pub samples: iter::Take<Samples<'h>>,
-}
-
 impl History {
     /// An empty history that shows `capacity` samples, and keeps half as many more for going back without a repetition:
     /// of [`CAPACITY`](super::CAPACITY) 17 s at 60 Hz.
@@ -95,19 +86,6 @@ impl History {
             is_later
         });
         self.after(self.samples().count() - later.count())
-    }
-
-    /// The samples split at switches of method, oldest run first. A run ends at the switch and the next one begins there; if
-    /// it begins later, the body had halted and then resumed.
-    pub fn runs(&self) -> impl Iterator<Item = Run<'_>> {
-        let mut from = 0;
-        iter::from_fn(move || {
-            let rest = self.after(from);
-            let entry = rest.clone().next()?.entry;
-            let count = rest.clone().take_while(|sample| sample.entry == entry).count();
-            from += count;
-            Some(Run { entry, samples: rest.take(count) })
-        })
     }
 
     /// Adds a tick at which no sample is due.
@@ -222,7 +200,9 @@ mod tests {
 
     /// The entry and the times of each run.
     fn runs(history: &History) -> Vec<(usize, Vec<f64>)> {
-        history.runs().map(|run| (run.entry, run.samples.map(|s| s.t).collect())).collect()
+        let samples: Vec<&Sample> = history.samples().collect();
+        let runs = samples.chunk_by(|one, next| one.entry == next.entry);
+        runs.map(|run| (run[0].entry, run.iter().map(|s| s.t).collect())).collect()
     }
 
     /// A history of `entry` at 0, 1 and 2 s.

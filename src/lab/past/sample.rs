@@ -25,7 +25,7 @@ pub struct Sample {
     pub at: DVec2,
     /// Its energies, if it conserves energy.
     pub energies: Option<Energies>,
-    /// The lane's index on the list of methods at that moment: a trail changes colour at a switch.
+    /// The index of the lane's method on the [menu](super::super::Menu) at that moment: a trail changes colour at a switch.
     pub entry: usize,
     /// One value for each of [`METRICS`]; NaN where it has no meaning.
     pub metrics: [f64; METRICS.len()],
@@ -47,7 +47,7 @@ impl PartialEq for Sample {
 }
 
 impl Sample {
-    /// The present of `body`, of its coordinate with this index, in a lane whose method has place `entry`.
+    /// The present of `body`, of its coordinate with this index, in a lane whose method has the index `entry`.
     pub(in crate::lab) fn new(
         t: f64,
         entry: usize,

@@ -54,7 +54,8 @@ fn text(
 }
 
 fn lane_name(lab: &Lab, entrant: &Entrant) -> String {
-    format!("{} {}", entrant.entry + 1, lab.lane_name(entrant.entry))
+    let entry = lab.entry(entrant);
+    format!("{} {}", entry + 1, lab.lane_name(entry))
 }
 
 /// The width of the column at the left of a stage this wide in which [`lane`] names each of these, in points.
@@ -67,7 +68,8 @@ pub(super) fn lanes_width(lab: &Lab, entrants: &[&Entrant], stage: f32) -> f32 {
 /// Names a lane at the left of its row, with a bar where it is selected.
 pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, entrant: &Entrant) {
     let lab = moment.lab;
-    let (colour, _) = moment.style(entrant.entry);
+    let entry = lab.entry(entrant);
+    let (colour, _) = moment.style(entry);
     let (left, right) = (rect.min[0] + LANE_INSET, rect.max[0]);
     let middle = (rect.min[1] + rect.max[1]) / 2.0;
     if entrant.id == lab.selected().id {
@@ -84,7 +86,7 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, 
     };
     let mut name = lane_name(lab, entrant);
     if right - left < ROOM_FOR_CAPTION[0] {
-        write(middle, colour, format!("{}", entrant.entry + 1));
+        write(middle, colour, format!("{}", entry + 1));
         return;
     }
     // Half a point, for a column of just the width of its widest name.
@@ -270,7 +272,8 @@ struct Chip {
 impl Chip {
     /// The chip of a body whose method does not do what it should.
     fn of(moment: &DrawContext<'_>, index: usize, entrant: &Entrant) -> Option<Self> {
-        let verdict = moment.lab.viewer().verdict(entrant.entry)?;
+        let entry = moment.lab.entry(entrant);
+        let verdict = moment.lab.viewer().verdict(entry)?;
         let palette = moment.palette;
         let (sign, tone) = match verdict.outcome().severity() {
             Severity::Bad => ("▲", palette.bad),
@@ -297,7 +300,7 @@ impl Chip {
         let halt = entrant.lane.bodies()[index].halted();
         Some(Self {
             sign,
-            colours: [tone, moment.style(entrant.entry).0],
+            colours: [tone, moment.style(entry).0],
             verdict: match halt {
                 Some(halt) => halt.fate(),
                 None => verdict.wordings(false)[usize::from(!is_other)].clone(),

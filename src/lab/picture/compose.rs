@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::body::OutlineView;
 use super::flags::{Flag, Lost, badges, flags, row_width};
-use super::framed::{View, on_one_stage, quay_width};
+use super::framed::{BodyView, on_one_stage, quay_width};
 use super::ghost::Ghost;
 use super::layout::{bands, grid, mosaic};
 use super::loupe::LoupeLane;
@@ -29,12 +29,16 @@ const BADGES: f32 = 30.0;
 const ROOM_FOR_RULER: f32 = 260.0;
 /// How much is seen of a body where it was taken from, while it is held.
 const LEFT_BEHIND: f32 = 0.35;
-/// Widths of trails in points: of the lane in front, of others, and of the truth.
-const TRAILS: (f32, f32, f32) = (2.4, 1.3, 1.5);
+/// Widths of trails in points.
+const TRAIL_IN_FRONT: f32 = 2.4;
+const TRAIL_BEHIND: f32 = 1.3;
+const TRAIL_OF_TRUTH: f32 = 1.5;
 /// How much of its colour fills a lane behind, of few.
 const FILL: f32 = 0.2;
-/// How much of its colour has a lane behind: its body, and its trail.
-const BEHIND: (f32, f32) = (0.9, 0.45);
+/// How much of its colour has the body of a lane behind.
+const BODY_BEHIND: f32 = 0.9;
+/// How much of its colour has the trail of a lane behind.
+const FAINT: f32 = 0.45;
 /// How far a trail may be drawn from the true one, in points: less than anybody sees.
 const TOLERANCE: f64 = 0.15;
 
@@ -176,7 +180,7 @@ struct Band<'a> {
     index: usize,
     ghost: &'a Ghost,
     /// What the camera shows, of the ghost's world and of others that are seen with it.
-    view: &'a View,
+    view: &'a BodyView,
     camera: Camera,
     lanes: &'a [&'a Entrant],
     front: &'a Entrant,
@@ -197,7 +201,7 @@ impl Band<'_> {
         let mut cell = Cell {
             rect: camera.rect,
             lane: self.front.id,
-            entry: self.front.entry,
+            entry: lab.entry(self.front),
             body: index,
             zoomed_as: view.zoomed_as,
             seen: Vec::new(),
@@ -207,14 +211,15 @@ impl Band<'_> {
             let body = &lane.lane.bodies()[index];
             let (look, coordinates) = (Look::of(body), lab.shown_state(body).0);
             let outline = look.outline(moment.t, &coordinates);
-            let (colour, dash) = moment.style(lane.entry);
+            let entry = lab.entry(lane);
+            let (colour, dash) = moment.style(entry);
             let at = camera.points(outline.at);
-            let flag = Flag { at, number: lane.entry + 1, colour };
+            let flag = Flag { at, number: entry + 1, colour };
             let is_front = self.is_front(lane);
-            let colour_of_body = faded(colour, if is_front { 1.0 } else { BEHIND.0 });
+            let colour_of_body = faded(colour, if is_front { 1.0 } else { BODY_BEHIND });
             let coat = LaneStyle { colour: colour_of_body, dash, fill: self.fill() };
             let seen = OutlineView { outline: &outline, camera, palette };
-            let whose = Whose::Lane { lane: lane.id, entry: lane.entry };
+            let whose = Whose::Lane { lane: lane.id, entry };
             cell.seen.push((whose, coordinates));
             let held = lab.viewer().held().filter(|held| held.body == index);
             let away = self.trail(picture, lane, outline.at, flag).filter(|_| held.is_none());
@@ -248,7 +253,7 @@ impl Band<'_> {
             }
             // Flags of many lanes reach over the bodies.
             if (2..=MAX_NUMBERED).contains(&self.lanes.len()) {
-                shown.number(picture, lane.entry + 1, colour);
+                shown.number(picture, entry + 1, colour);
             }
         }
         if shows_ghost {
@@ -287,7 +292,7 @@ impl Band<'_> {
             is_alone && (lab.mode() == Mode::Solo || self.front.lane.bodies().len() == 1);
         let halted = self.lanes.iter().filter(|_| !says_beside).filter_map(|lane| {
             let halt = lane.lane.bodies()[index].halted()?;
-            Some(((!is_alone).then_some(lane.entry + 1), halt))
+            Some(((!is_alone).then(|| lab.entry(lane) + 1), halt))
         });
         captions::halts(picture, camera.rect, halted, truth, palette);
         picture.cells.push(cell);
@@ -330,7 +335,7 @@ impl Band<'_> {
         if let Some(trail_s) = trail_s(framing, moment).filter(|_| shows_ghost) {
             let tolerance_m = TOLERANCE / camera.points_per_metre;
             let past = ghost.past(moment, index, trail_s, tolerance_m);
-            moment.trail(picture, camera, framing, &past, TRAILS.2);
+            moment.trail(picture, camera, framing, &past, TRAIL_OF_TRUTH);
         }
     }
 
@@ -372,9 +377,15 @@ impl Band<'_> {
         }
         for leg in &mut legs {
             if !is_front {
-                leg.iter_mut().for_each(|place| place.colour = faded(place.colour, BEHIND.1));
+                leg.iter_mut().for_each(|place| place.colour = faded(place.colour, FAINT));
             }
-            moment.trail(picture, camera, framing, leg, if is_front { TRAILS.0 } else { TRAILS.1 });
+            moment.trail(
+                picture,
+                camera,
+                framing,
+                leg,
+                if is_front { TRAIL_IN_FRONT } else { TRAIL_BEHIND },
+            );
             if is_front {
                 moment.dots(picture, camera, framing, leg);
             }

@@ -31,7 +31,7 @@ const ALIKE: f64 = 5.0;
 
 /// What a camera fits into its cell.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct View {
+pub(super) struct BodyView {
     pub(super) framing: Framing,
     /// Where the camera looks that follows its body, in metres.
     pub(super) followed: DVec2,
@@ -48,15 +48,15 @@ pub(super) struct View {
 /// recorders are moored to one quay, and are zoomed as one; those of about one scale have one scale.
 pub(super) fn on_one_stage(
     moment: &DrawContext<'_>,
-    mut views: Vec<View>,
+    mut views: Vec<BodyView>,
     alone: Option<&Entrant>,
-) -> Vec<View> {
+) -> Vec<BodyView> {
     let first = views.iter().position(|view| view.recorded_m().is_some());
-    let recorded = |view: &View| view.recorded_m().unwrap_or_default();
+    let recorded = |view: &BodyView| view.recorded_m().unwrap_or_default();
     let widest_m = views.iter().map(recorded).fold(0.0, f64::max);
     let is_alike: Vec<bool> = views.iter().map(|view| recorded(view) * ALIKE > widest_m).collect();
     share(&mut views, &is_alike);
-    let before: Vec<f64> = views.iter().map(View::half_m).collect();
+    let before: Vec<f64> = views.iter().map(BodyView::half_m).collect();
     for (index, view) in views.iter_mut().enumerate() {
         if let Some(lane) = alone {
             *view = view.widened(moment, lane, index);
@@ -75,7 +75,7 @@ pub(super) fn on_one_stage(
 }
 
 /// Gives the chart recorders that are alike the scale of the widest of them.
-fn share(views: &mut [View], is_alike: &[bool]) {
+fn share(views: &mut [BodyView], is_alike: &[bool]) {
     let alike = views.iter().zip(is_alike).filter(|(_, is_alike)| **is_alike);
     let widest_m = alike.filter_map(|(view, _)| view.recorded_m()).fold(0.0, f64::max);
     for (view, _) in views.iter_mut().zip(is_alike).filter(|(_, is_alike)| **is_alike) {
@@ -85,7 +85,7 @@ fn share(views: &mut [View], is_alike: &[bool]) {
     }
 }
 
-impl View {
+impl BodyView {
     /// Half the width that a chart recorder shows, in metres.
     pub(super) fn recorded_m(&self) -> Option<f64> {
         match self.framing {
@@ -159,13 +159,13 @@ pub(super) fn quay_width(cell: Rect) -> f32 {
 
 impl DrawContext<'_> {
     /// The camera of a cell that shows the body at this index of the scene, zoomed and panned as a person has it.
-    pub(super) fn camera(&self, rect: Rect, index: usize, view: &View) -> Camera {
+    pub(super) fn camera(&self, rect: Rect, index: usize, view: &BodyView) -> Camera {
         let unit = drawn_unit(&self.lab.race().truth().bodies()[index].kind);
         let camera = Camera { unit, ..self.fitted(rect, view) }.grown(view.grown);
         camera.through(self.lab.view().zoom_pan(view.zoomed_as))
     }
 
-    fn fitted(&self, rect: Rect, view: &View) -> Camera {
+    fn fitted(&self, rect: Rect, view: &BodyView) -> Camera {
         let [width, height] = rect.size();
         let middle = [0, 1].map(|i| (rect.min[i] + rect.max[i]) / 2.0);
         let plain = Camera {
@@ -218,7 +218,7 @@ impl DrawContext<'_> {
 
     /// The width and height, in metres, of what is to be seen of a body that is alone in its scene and
     /// moves both across and up. Other bodies move along rows.
-    pub(super) fn shape(&self, view: &View) -> Option<DVec2> {
+    pub(super) fn shape(&self, view: &BodyView) -> Option<DVec2> {
         let [body] = self.lab.race().truth().bodies() else { return None };
         match view.framing {
             Framing::Fixed { half_m, .. } => Some(half_m),

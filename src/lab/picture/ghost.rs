@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::framed::View;
+use super::framed::BodyView;
 use super::moment::{DrawContext, turns};
 use super::trails::Place;
 use super::{Framing, Look, Outline, Rgba};
@@ -12,7 +12,7 @@ use crate::lab::{TruthCurve, TruthSample};
 /// The true motion of one body at the moment drawn.
 pub(super) struct Ghost {
     /// What part of the body's world is shown.
-    pub(super) view: View,
+    pub(super) view: BodyView,
     /// Its coordinates there.
     pub(super) q: Vec<f64>,
     /// What it looks like there.
@@ -44,7 +44,7 @@ impl Ghost {
         let reach_m = curve.since(since_s).map(|s| (s.at - centre_m).abs());
         let reach_m = reach_m.fold(DVec2::ZERO, DVec2::max);
         let (followed, turns) = (outline.at, turns(body));
-        let view = View { framing, followed, reach_m, turns, zoomed_as: index, grown: 1.0 };
+        let view = BodyView { framing, followed, reach_m, turns, zoomed_as: index, grown: 1.0 };
         Self { view, q, outline }
     }
 

@@ -5,10 +5,8 @@ use std::f32::consts::FRAC_PI_2;
 use super::mass::LaneStyle;
 use super::sketch::{SOLID, disc, fill, line, path, ring, rounded, shaded};
 use super::{Rect, Rgba, Shape};
-use crate::lab::palette::{Palette, faded, mixed};
+use crate::lab::palette::{BLACK, Palette, WHITE, faded, mixed};
 
-const WHITE: Rgba = [255, 255, 255, 255];
-const BLACK: Rgba = [0, 0, 0, 255];
 /// Planks of the deck, in the light and in the shade.
 const DECK: [Rgba; 2] = [[236, 220, 184, 255], [206, 186, 146, 255]];
 const HATCH: Rgba = [138, 160, 112, 255];

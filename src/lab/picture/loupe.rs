@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::moment::DrawContext;
-use super::sketch::{Camera, SOLID, demote, disc, fill, line, ring};
+use super::sketch::{Camera, SOLID, circle, demote, disc, fill, line, ring};
 use super::{Align, Label, Picture, Rect, Rgba};
 use crate::lab::METRICS;
 use crate::lab::palette::faded;
@@ -26,6 +26,8 @@ const LATELY_S: f64 = 1.0;
 const ROUNDING: f64 = 1e-9;
 /// The radius of a lane in it, in points.
 const LANE: f32 = 4.0;
+/// The corners with which a circle looks round.
+const ROUND: u8 = 48;
 
 /// A lane under the loupe.
 #[derive(Clone, Copy, Debug)]
@@ -74,7 +76,7 @@ pub(super) fn draw(
         return;
     }
     let [x, y] = at;
-    let rim = around(at, RADIUS);
+    let rim = circle(at, RADIUS, ROUND);
     picture.shapes.push(fill(&rim, faded(palette.panel, 0.94), clip));
     // The number stands below.
     let middle = y - 5.0;
@@ -82,12 +84,12 @@ pub(super) fn draw(
     let reach = RADIUS - 12.0;
     picture.shapes.push(line([x - reach, middle], [x + reach, middle], 1.0, hair, clip));
     picture.shapes.push(line([x, middle - reach], [x, middle + reach], 1.0, hair, clip));
-    picture.shapes.push(ring(&around([x, middle], 3.0), 1.2, palette.exact, SOLID, clip));
+    picture.shapes.push(ring(&circle([x, middle], 3.0, ROUND), 1.2, palette.exact, SOLID, clip));
     for lane in lanes {
         let off = lane.off_m * (camera.points_per_metre * times);
         let place = [x + demote(off.x), middle - demote(off.y)];
         picture.shapes.push(disc(place, LANE, lane.colour, clip));
-        picture.shapes.push(ring(&around(place, LANE), 1.0, palette.panel, SOLID, clip));
+        picture.shapes.push(ring(&circle(place, LANE, ROUND), 1.0, palette.panel, SOLID, clip));
     }
     picture.shapes.push(ring(&rim, 1.6, palette.dim, SOLID, clip));
     picture.labels.push(Label {
@@ -99,16 +101,6 @@ pub(super) fn draw(
         halo: [0; 4],
         text: format!("×{}", round(times, 1)),
     });
-}
-
-/// The outline of a circle.
-fn around([x, y]: [f32; 2], radius: f32) -> Vec<[f32; 2]> {
-    const CORNERS: u8 = 48;
-    let corner = |i: u8| {
-        let angle = std::f32::consts::TAU * f32::from(i) / f32::from(CORNERS);
-        [x + radius * libm::cosf(angle), y + radius * libm::sinf(angle)]
-    };
-    (0..CORNERS).map(corner).collect()
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! A block with an edge and a weight, a bead, and how the lanes behind are drawn: hollow, in dashes.
 
-use super::sketch::{SOLID, disc, fill, ring, rounded, shaded};
+use super::sketch::{SOLID, circle, disc, fill, ring, rounded, shaded};
 use super::{Rect, Rgba, Shape};
-use crate::lab::palette::{Palette, faded, mixed};
+use crate::lab::palette::{BLACK, Palette, WHITE, faded, mixed};
 
 /// How a lane looks.
 #[derive(Clone, Copy, Debug)]
@@ -14,8 +14,6 @@ pub(super) struct LaneStyle {
     pub(super) fill: f32,
 }
 
-const WHITE: Rgba = [255, 255, 255, 255];
-const BLACK: Rgba = [0, 0, 0, 255];
 /// A planet: its air, its water by day and by night, its land.
 const AIR: Rgba = [150, 200, 240, 255];
 const OCEAN: [Rgba; 2] = [[84, 156, 214, 255], [12, 34, 66, 255]];
@@ -140,14 +138,9 @@ pub(super) fn planet(shapes: &mut Vec<Shape>, at: [f32; 2], radius: f32, clip: R
     shapes.push(ring(&face, (0.04 * radius).max(0.8), faded(AIR, 0.8), SOLID, clip));
 }
 
-/// The corners of a disc, as many as show it round.
-pub(super) fn round([x, y]: [f32; 2], radius: f32) -> Vec<[f32; 2]> {
-    const CORNERS: u8 = 28;
-    let corner = |i| {
-        let angle = std::f32::consts::TAU * f32::from(i) / f32::from(CORNERS);
-        [x + radius * libm::cosf(angle), y + radius * libm::sinf(angle)]
-    };
-    (0..CORNERS).map(corner).collect()
+/// The corners of a disc, as many as show a body round.
+fn round(at: [f32; 2], radius: f32) -> Vec<[f32; 2]> {
+    circle(at, radius, 28)
 }
 
 /// A bead of a lane behind.

@@ -156,6 +156,15 @@ pub(super) fn shaded(corners: &[[f32; 2]], colour: impl Fn([f32; 2]) -> Rgba, cl
     Shape::Fill(Fill { corners: corners.iter().map(|&at| (at, colour(at))).collect(), clip })
 }
 
+/// So many places on a circle.
+pub(super) fn circle([x, y]: [f32; 2], radius: f32, corners: u8) -> Vec<[f32; 2]> {
+    let corner = |i: u8| {
+        let angle = std::f32::consts::TAU * f32::from(i) / f32::from(corners);
+        [x + radius * libm::cosf(angle), y + radius * libm::sinf(angle)]
+    };
+    (0..corners).map(corner).collect()
+}
+
 /// The outline of an upright rectangle with round corners.
 pub(super) fn rounded(min: [f32; 2], max: [f32; 2], radius: f32) -> Vec<[f32; 2]> {
     /// Pieces of a quarter of a turn.

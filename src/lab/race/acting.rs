@@ -8,7 +8,7 @@ use crate::lab::lane::Resumed;
 use crate::lab::lane_id::LaneId;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::edited_values;
-use crate::sim::bodies::{Acts, Input};
+use crate::sim::bodies::Acts;
 
 /// The effect of an action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,10 +98,9 @@ impl Race {
             Action::Method(_)
             | Action::Lane { .. }
             | Action::Substeps { .. }
-            | Action::Tolerance { .. } => self.switch_asked(action).is_some_and(|(place, spec)| {
-                let lane = &self.entrants[place].lane;
-                (lane.solver(), lane.substeps()) != (spec.solver(), spec.substeps)
-            }),
+            | Action::Tolerance { .. } => self
+                .switch_asked(action)
+                .is_some_and(|(place, spec)| self.entrants[place].spec != spec),
         }
     }
 
@@ -118,11 +117,11 @@ impl Race {
     /// The place of the lane that an action switches, and its new method, substeps and tolerance.
     pub(in crate::lab) fn switch_asked(&self, action: &Action) -> Option<(usize, LaneSpec)> {
         let of_id = |lane: LaneId| self.entrants.iter().position(|e| e.id == lane);
-        let present = |place: usize| self.spec(&self.entrants[place]);
+        let present = |place: usize| self.entrants[place].spec;
         match *action {
             Action::Method(method) => {
-                let listed = self.list.iter().find(|spec| spec.method == method)?;
-                (self.mode == Mode::Solo).then_some((0, *listed))
+                let spec = self.methods.iter().find(|spec| spec.method == method)?;
+                (self.mode == Mode::Solo).then_some((0, *spec))
             }
             Action::Lane { lane, spec } => Some((of_id(lane)?, spec)),
             Action::Substeps { lane, substeps } => {
@@ -139,7 +138,8 @@ impl Race {
         }
     }
 
-    /// Performs an action at the present tick, without adding it to the journal. Returns the halted bodies that resume.
+    /// Performs an action at the present tick, without adding it to the journal. Throttle and rudder are clamped to -1 to 1.
+    /// Returns the halted bodies that resume. An action that [changes](Self::changes) nothing does nothing.
     pub fn perform(&mut self, action: &Action, observer: &mut impl Observer) -> Vec<Resumed> {
         if !self.changes(action) {
             return Vec::new();
@@ -163,7 +163,9 @@ impl Race {
             | Action::Substeps { .. }
             | Action::Tolerance { .. } => {
                 let (place, spec) = self.switch_asked(action).expect("it changes something");
-                resumed = self.switch(place, spec);
+                let entrant = &mut self.entrants[place];
+                entrant.spec = spec;
+                resumed = entrant.lane.switch(spec.solver(), spec.substeps, t, &self.truth);
             }
             Action::Place { .. } | Action::Kick(_) => {}
         }
@@ -176,53 +178,5 @@ impl Race {
     fn set_rate(&mut self, tick_hz: u32) {
         self.origin = (self.tick, self.t());
         self.tick_hz = tick_hz;
-    }
-
-    /// Puts the lane at this place under another method with its state unchanged. Halted bodies resume from the truth and
-    /// are returned. A switch to the lane's present method, substeps and tolerance does nothing.
-    pub fn switch(&mut self, place: usize, spec: LaneSpec) -> Vec<Resumed> {
-        let entry = self.entry_for(place, spec);
-        let (t, truth) = (self.t(), &self.truth);
-        let entrant = &mut self.entrants[place];
-        entrant.entry = entry;
-        entrant.lane.switch(spec.solver(), spec.substeps, t, truth)
-    }
-
-    /// The index on the list for the lane at this place, which switches to `spec`: that of `spec`, or else one of its method
-    /// that no other lane flies, or else a new one. So the list says of every lane what it flies.
-    fn entry_for(&mut self, place: usize, spec: LaneSpec) -> usize {
-        if let Some(listed) = self.list.iter().position(|known| *known == spec) {
-            return listed;
-        }
-        let present = self.entrants[place].entry;
-        let is_flown = |entry: usize| {
-            let mut lanes = self.entrants.iter().enumerate();
-            lanes.any(|(other, entrant)| other != place && entrant.entry == entry)
-        };
-        let is_free = |&entry: &usize| self.list[entry].method == spec.method && !is_flown(entry);
-        let free = std::iter::once(present).chain(0..self.list.len()).find(is_free);
-        let entry = free.unwrap_or(self.list.len());
-        match self.list.get_mut(entry) {
-            Some(known) => *known = spec,
-            None => self.list.push(spec),
-        }
-        entry
-    }
-
-    /// Changes the tick rate from the present tick on. Methods restart from the present states. Setting the present rate
-    /// does nothing.
-    pub fn set_tick_hz(&mut self, tick_hz: u32) {
-        self.perform(&Action::TickHz(tick_hz), &mut ());
-    }
-
-    /// Applies an input to every lane and the truth at the present tick. Throttle and rudder are clamped to -1 to 1. Setting
-    /// the present value, and a kick of 0, do nothing.
-    pub fn input(&mut self, input: Input) {
-        let action = match input {
-            Input::Throttle(part) => Action::Throttle(part),
-            Input::Rudder(part) => Action::Rudder(part),
-            Input::Kick(times) => Action::Kick(times),
-        };
-        self.perform(&action, &mut ());
     }
 }

@@ -166,7 +166,7 @@ impl Repeated {
         let start = &run.start;
         let at_start = start.entrants().iter();
         let mut scene = Scene {
-            lanes: at_start.map(|entrant| start.spec(entrant)).collect(),
+            lanes: at_start.map(|entrant| entrant.spec).collect(),
             tick_hz: start.tick_hz(),
             opening_method: None,
             equal_cost: false,

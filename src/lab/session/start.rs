@@ -6,6 +6,7 @@ use super::Session;
 use crate::lab::action::Action;
 use crate::lab::equal_cost;
 use crate::lab::lane_spec::LaneSpec;
+use crate::lab::menu::Menu;
 use crate::lab::race::{Mode, Race};
 use crate::lab::scene::{MAX_SECONDS, MIN_SECONDS, Scene, SceneBody, edited_values};
 
@@ -50,12 +51,13 @@ impl StartSettings {
 
     /// The settings with which this run began.
     pub(in crate::lab) fn of_session(session: &Session) -> Self {
-        let entrants = session.race().entrants();
+        let menu = Menu::new(session.race());
+        let lanes = entries(session.race(), &menu);
         Self {
             mode: session.mode(),
-            lanes: entrants.iter().map(|entrant| entrant.entry).collect(),
-            entry: entrants[0].entry,
-            list: session.race().list().to_vec(),
+            entry: lanes[0],
+            lanes,
+            list: menu.specs().to_vec(),
             tick_hz: session.race().tick_hz(),
             ..Self::of((**session.scene()).clone())
         }
@@ -68,7 +70,9 @@ impl StartSettings {
             Mode::Race => {
                 let other = (!self.lanes.contains(&self.entry)).then_some(self.entry);
                 let lanes = self.lanes.iter().copied().chain(other);
-                Race::among(&self.scene, self.list.clone(), lanes)
+                let lanes = lanes.map(|entry| self.list[entry]);
+                let race = Race::with_methods(&self.scene, self.list.clone(), lanes);
+                race.with_script(&self.scene.script)
             }
         };
         Session::new(Arc::clone(&self.scene), race.at_rate(self.tick_hz))
@@ -97,7 +101,7 @@ impl StartSettings {
     }
 
     /// Keeps the choice of a person's action in `race` for the next restart.
-    pub(in crate::lab) fn keep(&mut self, action: &Action, race: &Race) {
+    pub(in crate::lab) fn keep(&mut self, action: &Action, race: &Race, menu: &Menu) {
         match *action {
             Action::TickHz(_) => self.tick_hz = race.tick_hz(),
             Action::Set { body, parameter, value } => {
@@ -107,13 +111,18 @@ impl StartSettings {
             | Action::Lane { .. }
             | Action::Substeps { .. }
             | Action::Tolerance { .. } => {
-                self.list = race.list().to_vec();
+                self.list = menu.specs().to_vec();
                 if race.mode() == Mode::Race {
-                    let entries = race.entrants().iter().map(|entrant| entrant.entry);
+                    let entries = entries(race, menu);
                     self.lanes.iter_mut().zip(entries).for_each(|(lane, entry)| *lane = entry);
                 }
             }
             _ => {}
         }
     }
+}
+
+/// What each lane flies, by its index on the menu.
+fn entries(race: &Race, menu: &Menu) -> Vec<usize> {
+    race.entrants().iter().map(|entrant| menu.entry(entrant.id)).collect()
 }

@@ -83,10 +83,10 @@ struct Row {
 
 impl Row {
     fn new(lab: &Lab, place: usize, lane: &Entrant) -> Self {
-        let spec = lab.race().spec(lane);
+        let spec = lane.spec;
         let times = lab.viewer().tick_times.iter();
         Self {
-            entry: lane.entry,
+            entry: lab.entry(lane),
             spec,
             evaluations: lab.evaluations_of_next_tick(place),
             is_halted: lane.lane.halted().is_some(),

@@ -21,9 +21,9 @@ type KeyHint = (&'static str, String, Option<Command>);
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let width = ui.available_width();
-    let (sentence, is_hint) = sentence(lab);
-    let sentence = fitting(ui, &sentence, width);
-    let room_for_hint = keycap::line_width(ui, sentence) + GAP;
+    let (parts, is_hint) = told(lab);
+    let sentence = fitting(ui, &parts, width);
+    let room_for_hint = keycap::line_width(ui, &sentence) + GAP;
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         if lab.dropped() > 0 && lab.loop_lab().is_none() {
@@ -46,33 +46,32 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         let room = ui.available_width();
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let colour = if is_hint { ink(ui).text } else { ink(ui).dim };
-            keycap::line(ui, sentence, room, colour);
+            keycap::line(ui, &sentence, room, colour);
         });
     });
 }
 
-/// The notice, or else the hint, or else what the scene is about; and whether it is one of the first two.
-fn sentence(lab: &Lab) -> (String, bool) {
+/// The parts of the notice, or else of the hint, or else what the scene is about; and whether it is one of the first two.
+fn told(lab: &Lab) -> (Vec<String>, bool) {
     if let Some(notice) = &lab.viewer().notice {
-        return (notice.to_string(), true);
+        return (notice.parts().to_vec(), true);
     }
     if let Some(loops) = lab.loop_lab()
         && lab.viewer().tour().is_none()
     {
-        return (loops::hints::sentence(loops), true);
+        return (loops::hints::parts(loops).into(), true);
     }
     match lab.hint() {
-        Some(hint) => (hint, true),
-        None => (lab.scene().about.clone(), false),
+        Some(hint) => (vec![hint], true),
+        None => (vec![lab.scene().about.clone()], false),
     }
 }
 
-/// As much of a sentence as this width takes: all of it, or what comes before a semicolon, or before a colon.
-fn fitting<'s>(ui: &Ui, sentence: &'s str, width: f32) -> &'s str {
-    let before = |sign: char| sentence.split(sign).next().unwrap_or_default();
-    let shorter = [sentence, before(';'), before(':')];
-    let fits = |words: &&str| keycap::line_width(ui, words) <= width;
-    shorter.into_iter().find(fits).unwrap_or(shorter[2])
+/// As many of the parts as this width takes, and the first in any case.
+fn fitting(ui: &Ui, parts: &[String], width: f32) -> String {
+    let mut sentences = (1..=parts.len()).rev().map(|count| parts[..count].join("; "));
+    let fits = |sentence: &String| keycap::line_width(ui, sentence) <= width;
+    sentences.find(fits).unwrap_or_else(|| parts[0].clone())
 }
 
 /// The hints from right to left.

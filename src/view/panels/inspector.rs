@@ -260,7 +260,7 @@ mod tests {
                 assert!(count(&quantity) >= alike, "{}: {quantity}: {texts:?}", scene.name);
             }
             for entrant in lab.race().entrants() {
-                let name = lab.race().spec(entrant).method.name;
+                let name = entrant.spec.method.name;
                 // In the list of lanes too.
                 assert!(named(name) >= 2, "{}: {name}", scene.name);
             }
@@ -300,6 +300,6 @@ mod tests {
         assert_eq!(lab.scene().bodies[0].values, lab.scene_as_opened().bodies[0].values);
         assert_eq!(lab.scene().seconds, lab.scene_as_opened().seconds);
         assert_eq!(lab.race().tick_hz(), lab.scene_as_opened().tick_hz);
-        assert_eq!(lab.race().list()[0], lab.scene_as_opened().lanes[0]);
+        assert_eq!(lab.entries()[0], lab.scene_as_opened().lanes[0]);
     }
 }

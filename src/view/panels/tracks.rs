@@ -113,7 +113,7 @@ impl Track {
         let front = lab.selected().id;
         let track = |lane: &Entrant| Self {
             points: points(&lab.past().histories(lane.id)[body]),
-            entry: lane.entry,
+            entry: lab.entry(lane),
             is_front: lane.id == front,
             part: "",
             dash: None,

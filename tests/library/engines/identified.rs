@@ -40,12 +40,12 @@ fn every_log_of_a_spring_and_of_a_coasting_body_is_identified() {
     let mut wrong = Vec::new();
     for log in springs_and_coasting() {
         let found = identified(&log, &log.rows, true);
-        if found.word != Conclusion::Identified || !names(&found, &log) {
+        if found.conclusion != Conclusion::Identified || !names(&found, &log) {
             let rival = found.runner_up.map(|other| (other.candidate.to_string(), other.residual));
             wrong.push(format!(
                 "{}: {}: {} {:.1e}, {rival:?}",
                 log.file,
-                found.word.id(),
+                found.conclusion.id(),
                 found.best.candidate,
                 found.best.residual,
             ));
@@ -75,7 +75,7 @@ fn noise_of_a_ten_thousandth_leaves_nearly_all_logs_identified_and_none_wrong() 
             let rows = with_noise(&log, 1e-4, &mut dice);
             let found = identified(&log, &rows, true);
             all += 1;
-            match (found.word, names(&found, &log)) {
+            match (found.conclusion, names(&found, &log)) {
                 (Conclusion::Identified, true) => right += 1,
                 (Conclusion::Identified, false) => {
                     wrong.push(format!("{}, run {again}: {}", log.file, found.best.candidate));
@@ -108,7 +108,7 @@ fn a_spring_that_is_not_known_is_fitted_and_the_engine_cannot_be_told() {
     let text = Text::parse("log", &text, &Columns::default(), 60.0).unwrap();
     let body = LoggedBody { spring: None, drag: 0.0, push: 0.0 };
     let found = identify(&text, &body, 60.0).unwrap();
-    assert_eq!(found.word, Conclusion::CannotTell, "{}", found.best.candidate);
+    assert_eq!(found.conclusion, Conclusion::CannotTell, "{}", found.best.candidate);
     let seen = found.effective.unwrap();
     assert!((seen.frequency_hz().unwrap() - 0.9565).abs() < 1e-3, "{seen:?}");
     assert!((seen.damping_ratio().unwrap() - 0.249).abs() < 1e-3, "{seen:?}");
@@ -125,7 +125,7 @@ fn a_motion_that_no_method_makes_is_unknown() {
         let turned = std::f64::consts::TAU * row.tick as f64 / 60.0;
         (row.x, row.v) = (left * turned.cos(), -left * std::f64::consts::TAU * turned.sin());
     }
-    assert_eq!(identified(&log, &log.rows, true).word, Conclusion::Unknown);
+    assert_eq!(identified(&log, &log.rows, true).conclusion, Conclusion::Unknown);
 }
 
 #[test]
@@ -149,9 +149,9 @@ fn a_log_in_double_precision_is_not_explained_by_a_method_that_is_off_by_more_th
     for c in [0.5, 1.0, 2.0] {
         let quarter = c / 60.0 / 4.0;
         let implicit = motion(c, (1.0 - quarter) / (1.0 + quarter));
-        assert_eq!(implicit.word, Conclusion::Unknown, "{c}: {}", implicit.best.candidate);
+        assert_eq!(implicit.conclusion, Conclusion::Unknown, "{c}: {}", implicit.best.candidate);
         let exact = motion(c, libm::exp(-2.0 * quarter));
-        assert_eq!(exact.word, Conclusion::Identified, "{c}: {}", exact.best.candidate);
+        assert_eq!(exact.conclusion, Conclusion::Identified, "{c}: {}", exact.best.candidate);
         assert_eq!(exact.best.candidate.method.id, "verlet-exact-drag", "{c}");
     }
 }
@@ -161,7 +161,7 @@ fn positions_alone_do_not_tell_a_kick_before_the_drift_from_one_after_it() {
     let logs = springs_and_coasting();
     let log = logs.iter().find(|log| log.file == "chipmunk__spring_1hz_z0_60hz.csv").unwrap();
     let with_velocities = identified(log, &log.rows, true);
-    assert_eq!(with_velocities.word, Conclusion::Identified);
+    assert_eq!(with_velocities.conclusion, Conclusion::Identified);
     assert_eq!(with_velocities.best.candidate.method.id, "engine-chipmunk");
     let found = identified(log, &log.rows, false);
     let ids: Vec<&str> = [found.best.candidate]
@@ -184,7 +184,7 @@ fn an_unusual_count_of_substeps_is_found_in_a_log_without_noise() {
         (log.substeps, log.tick_s) = (substeps, 1.0 / 60.0);
         log.rows = log.run().unwrap();
         let found = identified(&log, &log.rows, true);
-        assert_eq!(found.word, Conclusion::Identified, "{file}: {}", found.best.candidate);
+        assert_eq!(found.conclusion, Conclusion::Identified, "{file}: {}", found.best.candidate);
         assert!(names(&found, &log), "{file}: {}", found.best.candidate);
     }
 }
@@ -210,7 +210,7 @@ fn noise_above_the_start_of_a_runaway_does_not_name_another_engine() {
     let mut dice = Dice::new(3);
     for _ in 0..30 {
         let found = identified(&log, &with_noise(&log, 1e-4, &mut dice), true);
-        let is_right = found.word != Conclusion::Identified || names(&found, &log);
+        let is_right = found.conclusion != Conclusion::Identified || names(&found, &log);
         assert!(is_right, "{}", found.best.candidate);
     }
 }
@@ -225,7 +225,7 @@ fn a_leftover_that_follows_from_row_to_row_is_no_fit_however_small() {
     }
     log.rows = log.run().unwrap();
     let found = identified(&log, &log.rows, true);
-    assert_ne!(found.word, Conclusion::Identified, "{}", found.best.candidate);
+    assert_ne!(found.conclusion, Conclusion::Identified, "{}", found.best.candidate);
 }
 
 #[test]
@@ -236,7 +236,7 @@ fn what_a_player_sees_is_read_where_no_limit_of_speed_is_reached() {
     log.tick_s = 1.0 / 60.0;
     log.rows = log.run().unwrap();
     let found = identified(&log, &log.rows, true);
-    assert_eq!(found.word, Conclusion::Identified);
+    assert_eq!(found.conclusion, Conclusion::Identified);
     assert!(names(&found, &log) && found.best.candidate.is_held, "{}", found.best.candidate);
     let doubles = -found.effective.unwrap().energy_halves_s().unwrap();
     assert!((doubles - 0.118).abs() < 1e-3, "{doubles}");
@@ -248,5 +248,5 @@ fn a_coasting_too_short_to_tell_methods_apart_says_nothing() {
     log.rows.truncate(8);
     let rows = with_noise(&log, 1e-4, &mut Dice::new(2));
     let found = identified(&log, &rows, true);
-    assert_ne!(found.word, Conclusion::Identified, "{}", found.best.candidate);
+    assert_ne!(found.conclusion, Conclusion::Identified, "{}", found.best.candidate);
 }

@@ -1,8 +1,8 @@
 //! What a scene file may say, and what it then means.
 
 use regatta::lab::{
-    Action, Command, LAST_TICK, Lab, LaneSpec, MAX_BODIES, MAX_LANES, MAX_SECONDS, MAX_TICK_HZ,
-    Race, Scene, SceneBody, SceneKey, scene_tables,
+    Action, Command, LAST_TICK, Lab, LaneId, LaneSpec, MAX_BODIES, MAX_LANES, MAX_SECONDS,
+    MAX_TICK_HZ, Race, Scene, SceneBody, SceneKey, scene_tables,
 };
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 
@@ -67,9 +67,10 @@ fn a_lane_sails_within_the_tolerance_that_it_is_given() {
     assert_eq!(given, [None, Some(1.0), Some(1e-12), None]);
     scene.tick_hz = 2;
 
-    let mut race = Race::new(&scene, scene.lanes.iter().copied().enumerate());
+    let mut race = Race::new(&scene, scene.lanes.iter().copied());
     // The last one comes into its tolerance on the way.
-    race.switch(3, scene.lanes[2]);
+    let switch = Action::Lane { lane: LaneId(4), spec: scene.lanes[2] };
+    race.perform(&switch, &mut ());
     for _ in 0..20 {
         race.step();
     }

@@ -1,5 +1,6 @@
 use super::*;
 use crate::lab::scene::Scene;
+use crate::sim::bodies::kind;
 use crate::sim::integrators::{GENERAL_METHODS, Method, method};
 
 /// The map of a spring of 1 kg over its stiffness, with this damping.

@@ -14,7 +14,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Comma
     header.id_salt(("engine", body)).show_unindented(ui, |ui| {
         let setups = lab.joint_setups();
         let id = ui.scope_id().with("mode");
-        let selected = lab.race().spec(lab.selected()).method;
+        let selected = lab.selected().spec.method;
         let of_lane = setups.iter().position(|setup| setup.method == selected).unwrap_or(0);
         let chosen = ui.data(|data| data.get_temp::<usize>(id)).unwrap_or(of_lane);
         let name = |setup: &Setup| format!("{}, {}", setup.method.name, setup.mode.id);

@@ -25,7 +25,7 @@ pub(super) fn show_lanes(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 /// A lane's line. Returns its fields.
 fn show_lane(ui: &mut Ui, lab: &Lab, entrant: &Entrant, commands: &mut Vec<Command>) -> [Id; 2] {
     let lane = entrant.id;
-    let spec = lab.race().spec(entrant);
+    let spec = entrant.spec;
     let ids = ["substeps", "tolerance"].map(|field| ui.scope_id().with((lane, field)));
     let number = number(lab, entrant);
     let digits = RichText::new(number.to_string()).color(ink(ui).style(lab.entries(), &spec).0);
@@ -73,7 +73,7 @@ fn show_lane(ui: &mut Ui, lab: &Lab, entrant: &Entrant, commands: &mut Vec<Comma
 /// The number that a lane goes by: in solo that of the method's key, which follows every switch.
 fn number(lab: &Lab, entrant: &Entrant) -> usize {
     match lab.mode() {
-        Mode::Solo => entrant.entry + 1,
+        Mode::Solo => lab.entry(entrant) + 1,
         Mode::Race => entrant.id.0,
     }
 }
@@ -85,13 +85,13 @@ fn show_methods(
     width: f32,
     commands: &mut Vec<Command>,
 ) {
-    let present = lab.race().spec(entrant);
+    let present = entrant.spec;
     let menu = ComboBox::from_id_salt(("method", entrant.id)).width(width).truncate();
     let name = |spec: &LaneSpec| spec.distinct_name(spec.method.name, lab.entries());
     let menu = menu.selected_text(RichText::new(name(&present)).color(ink(ui).text));
     menu.show_ui(ui, |ui| {
         for (entry, spec) in lab.entries().iter().enumerate() {
-            let is_present = entry == entrant.entry;
+            let is_present = entry == lab.entry(entrant);
             let label = ui.selectable_label(is_present, name(spec));
             if label.on_hover_text(spec.method.about).clicked() && !is_present {
                 commands.push(match lab.mode() {
@@ -105,7 +105,7 @@ fn show_methods(
 
 /// What a lane is under in the scene as it was opened; in solo, the method that it is under now as the scene has it.
 fn opened(lab: &Lab, entrant: &Entrant) -> LaneSpec {
-    let present = lab.race().spec(entrant);
+    let present = entrant.spec;
     let list = lab.scene_as_opened().method_list();
     let lane = list
         .get(entrant.id.index())
@@ -168,7 +168,7 @@ pub(super) fn show_time(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 pub(super) fn restoring(lab: &Lab) -> impl Iterator<Item = Command> {
     let lanes = lab.race().entrants().iter().filter_map(|entrant| {
         let (lane, spec) = (entrant.id, opened(lab, entrant));
-        let is_changed = lab.race().spec(entrant) != spec;
+        let is_changed = entrant.spec != spec;
         is_changed.then_some(Command::Act(Action::Lane { lane, spec }))
     });
     let opened = lab.scene_as_opened();

@@ -151,7 +151,7 @@ fn a_truth_that_halted_is_not_said_to_be_shown() {
         texts(lab, vec2(1280.0, 720.0)).iter().any(|(_, text)| text.contains(words))
     };
     assert!(!says(&lab, "no exact solution"));
-    lab.apply(Command::Kick(1e30));
+    lab.apply(Command::Act(Action::Kick(1e30)));
     assert!(says(&lab, "no exact solution"));
 }
 
@@ -279,7 +279,7 @@ fn a_click_on_a_curve_selects_its_lane() {
     let room = Rect::from_min_size(Pos2::ZERO, FRAME);
     let cell = &layout::cells(&sheet, room, 40.0, 0)[0];
     // Explicit Euler swings wider than all others.
-    let widest = lab.race().entrants().iter().find(|lane| lane.entry == 0).unwrap().entry;
+    let widest = 0;
     let track = sheet.plots[0].tracks.iter().find(|track| track.entry == widest).unwrap();
     let (_, _, at) = track.places().find(|(t, _, [_, y])| *t > 0.9 && *y > 1.2).unwrap();
     let at = plot::on_screen(cell.frame, &cell.plot.fit, at);

@@ -30,7 +30,7 @@ impl<'a> Row<'a> {
         (entry, spec): (usize, &'a LaneSpec),
         exact: &[Option<f64>],
     ) -> Vec<Self> {
-        let flown = lab.race().entrants().iter().find(|entrant| entrant.entry == entry);
+        let flown = lab.flown(entry);
         let shown = lab.view().body;
         let count = lab.scene().bodies.len();
         let is_active = entry == lab.active();
@@ -161,7 +161,7 @@ pub(super) fn judged_body(lab: &Lab) -> Option<usize> {
         return None;
     }
     let lanes = lab.race().entrants().iter();
-    let mut bodies = lanes.map(|lane| Some(lab.viewer().verdict(lane.entry)?.body));
+    let mut bodies = lanes.map(|lane| Some(lab.viewer().verdict(lab.entry(lane))?.body));
     let first = bodies.next()??;
     bodies.all(|body| body == Some(first)).then_some(first)
 }

@@ -86,7 +86,7 @@ fn a_verdict_tells_what_will_be_and_a_halt_what_was() {
         .race()
         .entrants()
         .iter()
-        .any(|lane| lane.entry == euler && lane.lane.halted().is_some())
+        .any(|lane| lab.entry(lane) == euler && lane.lane.halted().is_some())
     {
         lab.tick();
     }
@@ -96,7 +96,7 @@ fn a_verdict_tells_what_will_be_and_a_halt_what_was() {
 #[test]
 fn the_body_that_every_verdict_is_about_is_named_once() {
     let mut lab = race();
-    let flown: Vec<usize> = lab.race().entrants().iter().map(|lane| lane.entry).collect();
+    let flown: Vec<usize> = lab.race().entrants().iter().map(|lane| lab.entry(lane)).collect();
     let names = |lab: &Lab| {
         let said = said(lab);
         flown.iter().filter(|&&entry| said[entry].contains("free spring")).count()
@@ -117,7 +117,7 @@ fn the_body_that_every_verdict_is_about_is_named_once() {
 fn the_cost_is_that_of_a_tick_now() {
     let mut lab = race();
     let costs = |lab: &Lab| -> Vec<Option<f64>> {
-        let flown = lab.race().entrants().iter().map(|lane| lane.entry);
+        let flown = lab.race().entrants().iter().map(|lane| lab.entry(lane));
         let exact = vec![None; lab.scene().bodies.len()];
         let rows = |entry: usize| Row::of_method(lab, (entry, &lab.entries()[entry]), &exact);
         flown.map(|entry| rows(entry)[0].cost()).collect()

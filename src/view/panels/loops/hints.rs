@@ -12,8 +12,8 @@ const EDGE: &str = "edge";
 /// A share of repeated frames that is worth a word, in percent.
 const MANY_PERCENT: f64 = 1.0;
 
-/// A sentence with keys between backticks.
-pub(in crate::view::panels) fn sentence(loops: &LoopLab) -> String {
+/// What is to be seen, and what to do next. Keys stand between backticks.
+pub(in crate::view::panels) fn parts(loops: &LoopLab) -> [String; 2] {
     let place = |id: &str| POLICIES.iter().position(|card| card.id == id).unwrap_or_default();
     let hz = |trace: usize| round(loops.traces()[trace].refresh().hz(), 4);
     let next = (loops.trace() + 1) % loops.traces().len();
@@ -21,19 +21,23 @@ pub(in crate::view::panels) fn sentence(loops: &LoopLab) -> String {
     let is_new = loops.selected() == raw;
     if is_new && loops.traces()[loops.trace()].name() == EDGE {
         let next = hz(next);
-        return format!(
-            "Raw ticks flip between none and two a frame; press `T` for a {next} Hz display."
-        );
+        return [
+            "Raw ticks flip between none and two a frame".into(),
+            format!("press `T` for a {next} Hz display."),
+        ];
     }
     let repeated = loops.lanes()[raw].report().and_then(|report| report.repeated_percent);
     let repeated = repeated.unwrap_or_default();
     if is_new && repeated > MANY_PERCENT {
         let (hz, percent) = (hz(loops.trace()), round(repeated, 2));
         let key = (smooth + 1) % 10;
-        return format!(
-            "At {hz} Hz, {percent} % of raw frames repeat the one before; press `{key}` to draw between ticks."
-        );
+        return [
+            format!("At {hz} Hz, {percent} % of raw frames repeat the one before"),
+            format!("press `{key}` to draw between ticks."),
+        ];
     }
-    "The same motion in different loops; `T`: the next display, `1` … `9`: a loop, `L`: leave."
-        .into()
+    [
+        "The same motion in different loops".into(),
+        "`T`: the next display, `1` … `9`: a loop, `L`: leave.".into(),
+    ]
 }

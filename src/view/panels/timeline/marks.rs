@@ -99,7 +99,7 @@ impl Context<'_> {
     }
 
     fn of_action(&self, action: &Action, mode: Mode) -> (Sign, Color32, String) {
-        let of = |spec: &LaneSpec| self.ink.style(self.start.list(), spec).0;
+        let of = |spec: &LaneSpec| self.ink.style(self.start.methods(), spec).0;
         let percent = |part: f64| format!("{} %", round(100.0 * part, 3));
         match *action {
             Action::Method(method) => {
@@ -193,8 +193,8 @@ pub(super) fn colours(
     start: &Race,
     ink: &Ink,
 ) -> Vec<(u64, Color32)> {
-    let of = |spec: &LaneSpec| ink.style(start.list(), spec).0;
-    let first = start.entrant(lane).map_or(ink.dim, |entrant| of(&start.spec(entrant)));
+    let of = |spec: &LaneSpec| ink.style(start.methods(), spec).0;
+    let first = start.entrant(lane).map_or(ink.dim, |entrant| of(&entrant.spec));
     let mut mode = start.mode();
     let mut colours = vec![(0, first)];
     for event in events {
@@ -240,12 +240,12 @@ mod tests {
                     [[command]]\ntick = 12\nmethod = 'rk4'\n";
         let mut lab = Lab::new(Scene::parse("marked.toml", text).unwrap());
         run(&mut lab, 30);
-        lab.apply(Command::Kick(1.0));
+        lab.apply(Command::Act(Action::Kick(1.0)));
         lab.apply(Command::Act(Action::Set { body: 0, parameter: 1, value: 90.0 }));
         lab.apply(Command::TickHz(20));
         run(&mut lab, 10);
         lab.apply(Command::Act(Action::Substeps { lane: LaneId(1), substeps: 4 }));
-        lab.apply(Command::Kick(-2.5));
+        lab.apply(Command::Act(Action::Kick(-2.5)));
         run(&mut lab, 1);
         assert_eq!(
             texts(&lab),

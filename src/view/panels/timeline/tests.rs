@@ -1,7 +1,7 @@
 use egui::{Context, Event as Input, Modifiers, PointerButton, RawInput};
 
 use super::*;
-use crate::lab::Scene;
+use crate::lab::{Action, Scene};
 use crate::view::panels;
 use crate::view::theme;
 
@@ -68,13 +68,13 @@ fn an_undo_is_offered_once_something_was_changed() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
     assert_eq!((lab.timeline().undoes(), margins(&lab, 400.0)[1]), (None, MARGIN));
     (0..60).for_each(|_| lab.tick());
-    lab.apply(Command::Kick(1.0));
+    lab.apply(Command::Act(Action::Kick(1.0)));
     lab.apply(Command::Restart);
     assert_eq!(lab.timeline().undoes(), Some("the restart"));
     assert_eq!(margins(&lab, 400.0)[1], UNDO + MARGIN);
     (0..60).for_each(|_| lab.tick());
     lab.apply(Command::Seek(30));
-    lab.apply(Command::Kick(1.0));
+    lab.apply(Command::Act(Action::Kick(1.0)));
     assert_eq!(lab.timeline().undoes(), Some("the kick at tick 30"));
 }
 
