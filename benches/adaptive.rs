@@ -52,7 +52,7 @@ fn ours(tolerance: f64) -> Run {
     let mut method = DormandPrince54::with_tolerance(&0.0, Tolerance::uniform(tolerance));
     let mut end = SPRING.start();
     method.step(&spring, 0.0, SECONDS, &mut end).expect("a gentle motion");
-    let (accepted, rejected) = (method.accepted(), method.rejected());
+    let (accepted, rejected) = method.attempts();
     Run { end, accepted, rejected, evaluations: spring.evaluations() }
 }
 

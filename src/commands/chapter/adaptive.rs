@@ -50,7 +50,7 @@ pub(super) fn listings() -> String {
             percent(slow.v),
             right.v,
             percent(right.v),
-            corrected.accepted(),
+            corrected.attempts().0,
         );
     }
     let lines = text.lines().map(|line| format!("{}\n", line.trim_end()));

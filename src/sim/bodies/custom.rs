@@ -3,13 +3,10 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use glam::DVec2;
-
 use super::claims::{Checked, FalseClaims};
 use super::kind::CustomInfo;
-use crate::sim::body::{Body, Input};
-use crate::sim::state::{State, bytes_with_vectors};
-use crate::sim::system::{Question, System};
+use super::prelude::*;
+use crate::sim::state::bytes_with_vectors;
 
 mod claims;
 mod extras;

@@ -3,15 +3,11 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use glam::DVec2;
-
 use super::claims::{Checked, Claimant, FalseClaims};
-use crate::sim::batch::{Batch, LawCopies};
-use crate::sim::body::{Body, Input, MakeBatch};
+use super::prelude::*;
+use crate::sim::batch::LawCopies;
 use crate::sim::law::{At, Equations, Layout, Registers};
 use crate::sim::piece::{Distances, NO_BOUNDARIES, Piece};
-use crate::sim::state::State;
-use crate::sim::system::System;
 
 mod claims;
 mod kind;

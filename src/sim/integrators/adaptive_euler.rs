@@ -50,14 +50,9 @@ impl<V: Vector> AdaptiveEuler<V> {
         }
     }
 
-    /// Substeps accepted since construction or reset.
-    pub fn accepted(&self) -> u64 {
-        self.step_size.accepted()
-    }
-
-    /// Substeps rejected since construction or reset.
-    pub fn rejected(&self) -> u64 {
-        self.step_size.rejected()
+    /// Substeps accepted and rejected since construction or reset.
+    pub fn attempts(&self) -> (u64, u64) {
+        self.step_size.attempts
     }
 }
 

@@ -55,12 +55,12 @@ fn cost<I: Integrator<Counted<regatta::sim::bodies::Spring>>>(
 fn pairs_reuse_their_last_slope_from_substep_to_substep_and_from_tick_to_tick() {
     let tight = Tolerance::uniform(1e-7);
     let pair = BogackiShampine32::with_tolerance(&0.0, tight);
-    let (evaluations, accepted, rejected) = cost(pair, |pair| (pair.accepted(), pair.rejected()));
+    let (evaluations, accepted, rejected) = cost(pair, |pair| pair.attempts());
     assert!(accepted > 400 && rejected > 0, "too easy: {accepted} accepted, {rejected} rejected");
     assert_eq!(evaluations, 1 + 3 * (accepted + rejected));
 
     let pair = DormandPrince54::with_tolerance(&0.0, tight);
-    let (evaluations, accepted, rejected) = cost(pair, |pair| (pair.accepted(), pair.rejected()));
+    let (evaluations, accepted, rejected) = cost(pair, |pair| pair.attempts());
     assert!(accepted > 100 && rejected > 0, "too easy: {accepted} accepted, {rejected} rejected");
     assert_eq!(evaluations, 1 + 6 * (accepted + rejected));
 }

@@ -17,7 +17,7 @@ fn adaptive_euler_costs_two_evaluations_a_substep_and_one_a_rejection() {
     for tick in 0..40 {
         adaptive.step(&counted, f64::from(tick) * 0.1, 0.1, &mut state).unwrap();
     }
-    let (accepted, rejected) = (adaptive.accepted(), adaptive.rejected());
+    let (accepted, rejected) = adaptive.attempts();
     assert!(accepted > 400 && rejected > 2, "too easy: {accepted} accepted, {rejected} rejected");
     assert_eq!(counted.evaluations(), 2 * accepted + rejected);
 }

@@ -54,14 +54,9 @@ impl<V: Vector, P: Pair<N>, const N: usize> EmbeddedPair<V, P, N> {
         }
     }
 
-    /// Substeps accepted since construction or reset.
-    pub fn accepted(&self) -> u64 {
-        self.step_size.accepted()
-    }
-
-    /// Substeps rejected since construction or reset.
-    pub fn rejected(&self) -> u64 {
-        self.step_size.rejected()
+    /// Substeps accepted and rejected since construction or reset.
+    pub fn attempts(&self) -> (u64, u64) {
+        self.step_size.attempts
     }
 }
 

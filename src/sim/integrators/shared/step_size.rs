@@ -50,23 +50,13 @@ pub(in crate::sim::integrators) struct StepSize {
     last_step: LastStep,
     /// The first substep to try in a tick of the same length.
     next: f64,
-    accepted: u64,
-    rejected: u64,
+    /// Substeps accepted and rejected since construction or reset.
+    pub(in crate::sim::integrators) attempts: (u64, u64),
 }
 
 impl StepSize {
     pub(in crate::sim::integrators) fn new(tolerance: Tolerance) -> Self {
-        Self { tolerance, last_step: LastStep::NONE, next: 0.0, accepted: 0, rejected: 0 }
-    }
-
-    /// Substeps accepted since construction or reset.
-    pub(in crate::sim::integrators) fn accepted(&self) -> u64 {
-        self.accepted
-    }
-
-    /// Substeps rejected since construction or reset.
-    pub(in crate::sim::integrators) fn rejected(&self) -> u64 {
-        self.rejected
+        Self { tolerance, last_step: LastStep::NONE, next: 0.0, attempts: (0, 0) }
     }
 
     pub(in crate::sim::integrators) fn reset(&mut self) {
@@ -145,7 +135,7 @@ impl TickProgress<'_> {
     ) -> bool {
         let is_good = error <= 1.0;
         if is_good {
-            self.size.accepted += 1;
+            self.size.attempts.0 += 1;
             if self.trial == self.carried {
                 self.carried *= factor(error);
             }
@@ -155,7 +145,7 @@ impl TickProgress<'_> {
                 self.size.last_step.end(self.h);
             }
         } else {
-            self.size.rejected += 1;
+            self.size.attempts.1 += 1;
             self.carried = self.trial * factor(error);
         }
         is_good
