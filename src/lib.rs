@@ -15,7 +15,7 @@
 //!   [`Session`](lab::Session): it changes by [`Action`](lab::Action)s and ticks only. Its [`Journal`](lab::Journal) holds
 //!   all of them, those of a script, a person, a recording or a test. A
 //!   [`Timeline`](lab::Timeline) keeps snapshots of it and goes to any tick. What is drawn of earlier ticks is in a
-//!   [`Past`](lab::Past), which watches the race as an [`Observer`](lab::Observer), and what a person looks at in a
+//!   [`Past`](lab::past::Past), which watches the race as an [`Observer`](lab::Observer), and what a person looks at in a
 //!   [`Viewer`](lab::Viewer): neither is part of a run. A lane is one method on its own copy of the
 //!   scene's bodies, known by its [`LaneId`](lab::LaneId), and a [`Follow`](lab::Follow) ticks one outside a run; a [`Judge`](lab::Judge) measures how far one strays, an
 //!   [`Adviser`](lab::Adviser) searches for the substeps that meet a [`Criterion`](lab::Criterion), and an
@@ -23,7 +23,7 @@
 //!   [`CloudWorker`](lab::CloudWorker) steps a [`Cloud`](lab::Cloud) of starts under each lane. The truth is a lane
 //!   whose solver is the exact flow, or a [reference](sim::REFERENCE_ACCURACY) for a body that has none. The layer knows no GPU and no wall clock: time comes in as
 //!   integers, text as `&str`.
-//!   [`identify`](lab::identify) finds the method that made a log, and [`port`](lab::port) the settings with which engines
+//!   [`identify`](fn@lab::identify) finds the method that made a log, and [`port`](fn@lab::port) the settings with which engines
 //!   move a spring alike.
 //!   Game loops are in [`lab::pacing`]: a [`Policy`](lab::pacing::Policy) decides each frame which steps are made, a
 //!   [`FrameTrace`](lab::pacing::FrameTrace) says when frames begin and are displayed, and a
@@ -63,7 +63,7 @@
 //! - **A body that blows up is data.** It halts, keeps its last good state and says why; other bodies
 //!   and lanes go on, unchanged to the bit. Under another method it resumes from the truth.
 //! - **One table each** for [methods](sim::integrators::METHODS), [bodies](sim::bodies::BODIES),
-//!   [metrics](lab::METRICS), [scenes](lab::SCENES), [keys](lab::KEYS), the [stops](lab::STOPS) of the guide,
+//!   [metrics](lab::METRICS), [scenes](lab::SCENES), [keys](lab::KEYS), the [stops](lab::guide::STOPS) of the guide,
 //!   [game loops](lab::pacing::POLICIES) with their [metrics](lab::pacing::PACING_METRICS), and [traces](lab::pacing::TRACES):
 //!   menus, help, command line and tests loop over them.
 //! - Who may import whom is enforced by `tests/library/tidy`.
@@ -75,7 +75,7 @@
 //!   [only](sim::integrators::Only) comes after all others, and is refused elsewhere with the reason on its card. A physics engine is a
 //!   [family](sim::integrators::Family::Engine) of such methods: a rule like `sim/integrators/bullet.rs`, which reads the
 //!   [settings](sim::EngineSettings) of a body.
-//!   Its formula is on its card, and its [source code](lab::MethodSource) for other games in `assets/methods`: both are
+//!   Its formula is on its card, and its [source code](lab::source_code::MethodSource) for other games in `assets/methods`: both are
 //!   evaluated beside it. `BLESS=1 cargo test --test library tables` writes its row in the [manual](mod@manual::methods).
 //! - **A body**: copy `sim/bodies/spring.rs`, declare the file, add its card to
 //!   [`BODIES`](sim::bodies::BODIES); say how it looks, and where a person can grab it, in a file beside

@@ -266,7 +266,7 @@ impl Cloud {
         };
         let seconds = self.course.t() - self.start.t;
         let change = libm::log(ratio);
-        let time = || super::duration(seconds * std::f64::consts::LN_2 / change.abs());
+        let time = || super::analysis::duration(seconds * std::f64::consts::LN_2 / change.abs());
         match change {
             _ if change.abs() <= self.little => "keeps area".into(),
             _ if change > 0.0 => format!("grows ×2 in {}", time()),

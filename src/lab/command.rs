@@ -176,7 +176,7 @@ pub enum Command {
     /// Opens or closes the inspector.
     ToggleInspector,
     /// Sets how long the scene is, in seconds, within
-    /// [`MIN_SECONDS`](super::MIN_SECONDS) and [`MAX_SECONDS`](super::MAX_SECONDS): plots and verdicts cover it.
+    /// [`MIN_SECONDS`](super::scene::MIN_SECONDS) and [`MAX_SECONDS`](super::MAX_SECONDS): plots and verdicts cover it.
     Seconds(f64),
     /// Saves what the window shows to a file.
     Screenshot,

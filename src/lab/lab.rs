@@ -242,7 +242,7 @@ impl Lab {
         self.timeline.session().recording_text(self.timeline.end())
     }
 
-    /// The whole run, for a [`Recorder`](super::Recorder).
+    /// The whole run, for a [`Recorder`](super::session::Recorder).
     pub fn to_record(&self) -> RunToRecord {
         self.timeline.session().to_record(self.timeline.end())
     }

@@ -5,11 +5,11 @@
 //! integers, and what comes out is plain data. [`Lab`] holds it all together.
 
 mod action;
-mod analysis;
+pub mod analysis;
 mod appearance;
 mod bisection;
 mod chase;
-mod cloud;
+pub mod cloud;
 mod command;
 mod custom;
 mod display;
@@ -17,9 +17,9 @@ mod equal_cost;
 mod extent;
 mod follow;
 mod gesture;
-mod guide;
+pub mod guide;
 mod held;
-mod identify;
+pub mod identify;
 mod instrument;
 mod interpolation;
 mod intervention;
@@ -31,7 +31,7 @@ mod lane;
 mod lane_id;
 mod lane_spec;
 mod live_loop;
-mod loop_lab;
+pub mod loop_lab;
 mod menu;
 mod metrics;
 mod my_spring;
@@ -41,16 +41,16 @@ mod one_step;
 mod outline;
 pub mod pacing;
 pub mod palette;
-mod past;
+pub mod past;
 pub mod picture;
-mod port;
+pub mod port;
 mod quantity;
 mod race;
 mod report;
-mod scene;
+pub mod scene;
 mod scene_list;
-mod session;
-mod source_code;
+pub mod session;
+pub mod source_code;
 mod time_scale;
 mod viewer;
 mod zoom_pan;
@@ -62,19 +62,17 @@ pub use crate::sim::number;
 pub use crate::sim::stability::NoSmallMotion;
 pub use action::Action;
 pub use analysis::{
-    Advice, AdvisedBodies, Adviser, AnalysisRequest, AnalysisWorker, CRITERIA, Change,
-    ChaseFinding, Comparison, Coverage, Criterion, CriterionMet, CriterionResult, EnergyFinding,
-    FREQUENCY_TOLERANCE, Finding, Findings, Here, Judge, LONG_RUN, LongTerm, MAX_ADVISED_SUBSTEPS,
-    MAX_HORIZON_S, MAX_WORK, MapRequest, MethodAdvice, NoTruth, NotJudged, Outcome, Region,
-    RunFailure, SeenLine, Severity, StabilityMap, TOLERANCE, VISIBLE, Verdict, duration,
+    Advice, AdvisedBodies, Adviser, AnalysisWorker, CRITERIA, ChaseFinding, Coverage, Criterion,
+    CriterionMet, CriterionResult, Judge, MAX_ADVISED_SUBSTEPS, MAX_HORIZON_S, MapRequest,
+    MethodAdvice, NoTruth, NotJudged, Outcome, SeenLine, Severity, StabilityMap, Verdict,
     recommended,
 };
 pub use appearance::Appearance;
 pub use chase::Chase;
 pub use cloud::{
-    Cloud, CloudAxes, CloudChoice, CloudKind, CloudMeasure, CloudPicture, CloudRequest, CloudShape,
-    CloudStart, CloudWorker, Density, ExactBorder, FoundCloud, LaneCloud, NoCloud, POINTS,
-    PlaneView, ShownTicks, USUAL_POINTS,
+    Cloud, CloudAxes, CloudChoice, CloudKind, CloudMeasure, CloudPicture, CloudShape, CloudStart,
+    CloudWorker, Density, ExactBorder, LaneCloud, NoCloud, POINTS, PlaneView, ShownTicks,
+    USUAL_POINTS,
 };
 pub use command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT};
 pub use custom::{Draw, Options, OptionsError};
@@ -82,12 +80,9 @@ pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, View};
 pub use equal_cost::{equal_cost, lanes_that_race};
 pub use follow::{Follow, StopReason, Ticked};
 pub use gesture::{GESTURES, Gesture};
-pub use guide::{Goal, STOPS, Stop, Tour};
+pub use guide::Stop;
 pub use held::HeldBody;
-pub use identify::{
-    Candidate, Columns, Conclusion, Effective, Fitted, Identification, Log, LogError, LogRow,
-    LoggedBody, identify,
-};
+pub use identify::{Columns, Log, LogError, LoggedBody, identify};
 pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow};
 pub use interpolation::Interpolation;
 pub use journal::{Journal, JournalRow, Source};
@@ -98,21 +93,16 @@ pub use lane_id::LaneId;
 pub use lane_spec::LaneSpec;
 pub use live_loop::{LiveFrame, LiveLoop};
 pub use loop_lab::{
-    FRAME_METRICS, FoundLoop, FrameMetric, LoopCommand, LoopFrame, LoopLab, LoopLane, LoopRequest,
-    LoopState, LoopVerdict, LoopWorker, MAX_ON_STAGE, SLOWNESS,
+    FRAME_METRICS, LoopCommand, LoopFrame, LoopLab, LoopLane, LoopVerdict, LoopWorker,
 };
 pub use menu::Menu;
 pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use my_spring::MySpring;
 pub use notice::Notice;
 pub use one_step::{OneStep, Slope};
-pub use past::{
-    CAPACITY, Energies, History, Past, Sample, Samples, Summary, SweptRange, TruthCurve,
-    TruthSample,
-};
+pub use past::{Energies, History, Sample, Samples, Summary, TruthCurve, TruthSample};
 pub use port::{
-    Approach, DriveLimits, FollowerPort, Ported, Reach, Relief, Setup, Wish, WishError,
-    drive_limits, followers, port, setups,
+    Approach, DriveLimits, Ported, Setup, Wish, WishError, drive_limits, followers, port, setups,
 };
 pub use quantity::Quantity;
 pub use race::{Entrant, Mode, Observer, Race};
@@ -120,16 +110,13 @@ pub use report::{Criteria, MethodReport, Recommendation, Report, advise};
 #[cfg(feature = "cli")]
 pub(crate) use scene::clip::clip;
 pub use scene::{
-    BuiltIn, Check, EditError, LAST_TICK, MAX_BODIES, MAX_FILE_BYTES, MAX_LANES, MAX_NAME_CHARS,
-    MAX_SECONDS, MAX_SHOWN, MAX_SUBSTEPS, MAX_TICK_HZ, MIN_SECONDS, Mistake, Refusal, SCENES,
+    BuiltIn, Check, MAX_FILE_BYTES, MAX_LANES, MAX_SECONDS, MAX_SUBSTEPS, Mistake, Refusal, SCENES,
     Scene, SceneBody, SceneError, SceneErrors, SceneKey, Scripted, TOLERANCES, USUAL_SECONDS,
-    edited_values, nearest, parameter_named, scene_tables,
+    edited_values, nearest, scene_tables,
 };
 pub use scene_list::SceneList;
-pub use session::{
-    Event, EventKind, Recorder, RecordingError, RunToRecord, SNAPSHOT_BYTES, Session, Timeline,
-};
-pub use source_code::{Language, MethodInput, MethodSource, NoSourceCode, Precision, source_code};
+pub use session::{Event, RecordingError, Session, Timeline};
+pub use source_code::{Language, NoSourceCode, Precision, source_code};
 pub use time_scale::TimeScale;
 pub use viewer::{Dialog, Preferences, Viewer};
 pub use zoom_pan::{ZOOMS, ZoomPan};

@@ -4,7 +4,7 @@
 //! a spring, the stiffness and damping are sought under which the engine shows it. The body is on a line, has no drag, and
 //! what holds the spring rests.
 
-use super::Effective;
+use super::identify::Effective;
 use super::lane_spec::joint_per_mass;
 use crate::sim::integrators::{METHODS, Method};
 

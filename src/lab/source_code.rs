@@ -2,7 +2,7 @@
 //! each of four languages.
 //!
 //! A method is written once, in `assets/methods`, in a small language of its own: one statement a line, numbers only.
-//! The [printer](printer) translates it line by line by the table of [dialects](dialect), and its [header](header) is
+//! The printer translates it line by line by the table of dialects, and its header is
 //! made from the method's card. `tests/library/source_code` compiles what is printed and compares its steps with the method's.
 //!
 //! | statement | meaning |

@@ -5,11 +5,12 @@ use rayon::prelude::*;
 
 use super::frame::write;
 use super::{panels, theme};
+use crate::lab::guide::STOPS;
 use crate::lab::palette::Theme;
 use crate::lab::picture::compose;
 use crate::lab::{
     Arrangement, CloudChoice, CloudKind, CloudWorker, Command, Instrument, Lab, LoopCommand,
-    SCALE_LADDER, SCENES, STOPS, Scene,
+    SCALE_LADDER, SCENES, Scene,
 };
 
 /// Sizes of windows in points: the first is the least, the last has four times the usual pixels.

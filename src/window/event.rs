@@ -7,7 +7,10 @@ use winit::event_loop::ActiveEventLoop;
 use super::App;
 #[cfg(feature = "accessibility")]
 use super::screen_reader::{self, Request};
-use crate::lab::{Findings, FoundCloud, FoundLoop, LaneSpec, Mistake, Scene};
+use crate::lab::analysis::Findings;
+use crate::lab::cloud::FoundCloud;
+use crate::lab::loop_lab::FoundLoop;
+use crate::lab::{LaneSpec, Mistake, Scene};
 
 /// An event from the program's own threads or from a screen reader.
 pub(super) enum Event {

@@ -7,7 +7,8 @@ use winit::event_loop::EventLoopProxy;
 use super::Event;
 use super::opening::KeepRecording;
 use super::work_thread::{Work, WorkThread};
-use crate::lab::{Lab, Recorder, RunToRecord};
+use crate::lab::Lab;
+use crate::lab::session::{Recorder, RunToRecord};
 
 /// The time between two recordings: what is lost at most.
 const EVERY: Duration = Duration::from_secs(2);

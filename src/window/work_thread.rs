@@ -9,9 +9,10 @@ use std::thread;
 use winit::event_loop::EventLoopProxy;
 
 use super::Event;
-use crate::lab::{
-    AnalysisRequest, AnalysisWorker, CloudRequest, CloudWorker, LoopRequest, LoopWorker,
-};
+use crate::lab::analysis::AnalysisRequest;
+use crate::lab::cloud::CloudRequest;
+use crate::lab::loop_lab::LoopRequest;
+use crate::lab::{AnalysisWorker, CloudWorker, LoopWorker};
 
 /// Something that is worked on step by step.
 pub(super) trait Work: Send + 'static {

@@ -4,7 +4,8 @@
 use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
 use std::cell::Cell;
 
-use regatta::lab::{Action, Command, Lab, Options, Past, Race, SCENES, Scene};
+use regatta::lab::past::Past;
+use regatta::lab::{Action, Command, Lab, Options, Race, SCENES, Scene};
 use regatta::sim::bodies::{Follow, Form, Grid, NetPlan, Pin, Ship, Spring, net_kind};
 use regatta::sim::integrators::{
     GENERAL_METHODS, ImplicitMidpoint, METHODS, Method, Rk4, StepFailure, custom_integrator,

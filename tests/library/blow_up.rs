@@ -1,7 +1,8 @@
 //! A method that blows up hurts nobody else: it halts, once, and says when and why.
 
+use regatta::lab::past::Past;
 use regatta::lab::{
-    Action, Clock, Command, ESCAPE, Lab, LaneBody, LaneId, LaneSpec, Mode, Past, Race, Scene,
+    Action, Clock, Command, ESCAPE, Lab, LaneBody, LaneId, LaneSpec, Mode, Race, Scene,
 };
 use regatta::sim::integrators::{GENERAL_METHODS, StepFailure, method};
 

@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use regatta::lab::past::Past;
 use regatta::lab::picture::{Grip, Picture, Whose, compose};
-use regatta::lab::{Action, Command, Interpolation, Lab, Past, Race, Scene, TruthSample};
+use regatta::lab::{Action, Command, Interpolation, Lab, Race, Scene, TruthSample};
 
 fn open(scene: &str, tick_hz: u32) -> Lab {
     let mut lab = Lab::new(Scene::built_in(scene).unwrap());

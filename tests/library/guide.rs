@@ -1,9 +1,10 @@
 //! The guide: every stop is done by its keys and by nothing less, and what it claims is so.
 
+use regatta::lab::guide::{Goal, STOPS};
 use regatta::lab::{
-    CloudChoice, CloudKind, CloudWorker, Command, Goal, Instrument, Judge, Lab, LaneSpec,
-    LoopCommand, LoopLab, METRICS, OneStep, Outcome, Quantity, Race, SCENES, STOPS, Scene, Verdict,
-    Wish, command_for, port, setups,
+    CloudChoice, CloudKind, CloudWorker, Command, Instrument, Judge, Lab, LaneSpec, LoopCommand,
+    LoopLab, METRICS, OneStep, Outcome, Quantity, Race, SCENES, Scene, Verdict, Wish, command_for,
+    port, setups,
 };
 use regatta::sim::integrators::method;
 

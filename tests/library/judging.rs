@@ -1,8 +1,9 @@
 //! Verdicts and advice against plain runs: energies, amplitudes and errors counted out here once more.
 
+use regatta::lab::analysis::{Finding, TOLERANCE};
 use regatta::lab::{
-    Adviser, CRITERIA, CriterionResult, Finding, Judge, LaneSpec, MAX_HORIZON_S, NoTruth,
-    NotJudged, Outcome, Scene, TOLERANCE, Verdict,
+    Adviser, CRITERIA, CriterionResult, Judge, LaneSpec, MAX_HORIZON_S, NoTruth, NotJudged,
+    Outcome, Scene, Verdict,
 };
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, Stepper};

@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use regatta::lab::port::Reach;
 use regatta::lab::{
-    Approach, Ported, Reach, Setup, Wish, WishError, drive_limits, followers, port, setups,
+    Approach, Ported, Setup, Wish, WishError, drive_limits, followers, port, setups,
 };
 use regatta::sim::bodies::Follow;
 use regatta::sim::integrators::{Family, METHODS, integrator, method};

@@ -4,9 +4,10 @@
 use std::sync::Arc;
 
 use crate::dice::Dice;
+use regatta::lab::past::Past;
+use regatta::lab::session::{EventKind, SNAPSHOT_BYTES};
 use regatta::lab::{
-    Action, Command, Event, EventKind, Lab, LaneId, LaneSpec, Past, SNAPSHOT_BYTES, Scene, Session,
-    Timeline, TruthSample,
+    Action, Command, Event, Lab, LaneId, LaneSpec, Scene, Session, Timeline, TruthSample,
 };
 use regatta::sim::bodies::BODIES;
 use regatta::sim::integrators::GENERAL_METHODS;

@@ -1,9 +1,10 @@
 //! Switching in flight: the state is carried to the bit, and the truth goes on from where an input
 //! left it.
 
+use regatta::lab::past::Past;
 use regatta::lab::{
-    Action, Command, Lab, Lane, LaneBody, LaneId, LaneSpec, Observer, Past, Race, Resumed,
-    ResumedFrom, Scene, SceneBody,
+    Action, Command, Lab, Lane, LaneBody, LaneId, LaneSpec, Observer, Race, Resumed, ResumedFrom,
+    Scene, SceneBody,
 };
 use regatta::sim::bodies::{Body, Ship, Spring};
 use regatta::sim::integrators::{GENERAL_METHODS, Method, method};

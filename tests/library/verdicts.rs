@@ -205,7 +205,8 @@ fn what_takes_too_much_work_is_not_judged() {
 
 #[test]
 fn the_recommended_lanes_meet_their_criterion_in_a_race() {
-    use regatta::lab::{Race, TOLERANCE, recommended};
+    use regatta::lab::analysis::TOLERANCE;
+    use regatta::lab::{Race, recommended};
     for name in ["spring", "stiff", "ship", "harbour", "orbit"] {
         let scene = built_in(name);
         let adviser = Adviser::new(&scene, 1.0, scene.tick_hz);

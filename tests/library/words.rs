@@ -1,9 +1,7 @@
 //! What verdicts say, word by word.
 
-use regatta::lab::{
-    Change, Comparison, Finding, KEYS, LongTerm, NoTruth, NotJudged, Outcome, RunFailure, Severity,
-    TOLERANCE, Verdict,
-};
+use regatta::lab::analysis::{Change, Comparison, Finding, LongTerm, RunFailure, TOLERANCE};
+use regatta::lab::{KEYS, NoTruth, NotJudged, Outcome, Severity, Verdict};
 use regatta::manual::chapter;
 use regatta::sim::integrators::StepFailure;
 

@@ -2,8 +2,9 @@
 
 use serde_json::{Value, json};
 
+use crate::lab::Log;
+use crate::lab::identify::{Candidate, Conclusion, Effective, Fitted, Identification};
 use crate::lab::number::significant;
-use crate::lab::{Candidate, Conclusion, Effective, Fitted, Identification, Log};
 use crate::sim::integrators::Method;
 
 /// A residual beyond which no method is named as the nearest.

@@ -1,8 +1,8 @@
 //! How stiff and how damped a drive may be.
 
 use super::{MAX_SUBSTEPS, Setup};
-use crate::lab::Effective;
 use crate::lab::bisection::bisect;
+use crate::lab::identify::Effective;
 
 /// The limits of a drive: of an engine's own, or of a force of user code that is held through some ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! The stiffness and damping under which a map shows a spring.
 
-use crate::lab::Effective;
 use crate::lab::bisection::bisect;
+use crate::lab::identify::Effective;
 
 /// What is seen of a joint, by its stiffness in 1/s² and damping in 1/s.
 pub(super) type Sees<'a> = &'a dyn Fn([f64; 2]) -> Option<Effective>;

@@ -3,7 +3,8 @@
 use egui::{Align, Button, Layout, RichText, ScrollArea, Ui, vec2};
 
 use super::{ink, keycap};
-use crate::lab::{Command, STOPS, Tour};
+use crate::lab::Command;
+use crate::lab::guide::{STOPS, Tour};
 use crate::view::theme::strong_font;
 
 pub(super) const HEIGHT: f32 = 172.0;

@@ -1,6 +1,7 @@
 //! The engine that made a log is found by its motion alone.
 
-use regatta::lab::{Columns, Conclusion, Identification, Log as Text, LoggedBody, identify};
+use regatta::lab::identify::{Conclusion, Identification};
+use regatta::lab::{Columns, Log as Text, LoggedBody, identify};
 
 use super::log::{Log, Row};
 use crate::dice::Dice;

@@ -1,8 +1,9 @@
 //! What a scene file may say, and what it then means.
 
+use regatta::lab::scene::{LAST_TICK, MAX_BODIES, MAX_TICK_HZ};
 use regatta::lab::{
-    Action, Command, LAST_TICK, Lab, LaneId, LaneSpec, MAX_BODIES, MAX_LANES, MAX_SECONDS,
-    MAX_TICK_HZ, Race, Scene, SceneBody, SceneKey, scene_tables,
+    Action, Command, Lab, LaneId, LaneSpec, MAX_LANES, MAX_SECONDS, Race, Scene, SceneBody,
+    SceneKey, scene_tables,
 };
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 

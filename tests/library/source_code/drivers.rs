@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use regatta::lab::{Language, MethodSource, Precision, source_code};
+use regatta::lab::source_code::{MethodInput, MethodSource};
+use regatta::lab::{Language, Precision, source_code};
 use regatta::sim::integrators::Method;
 
 use super::known::{CASES, FORCE, FORCES, RATE, SETTINGS, STEPS, SUBSTEPS, TARGET, sources};
@@ -13,7 +14,7 @@ fn arguments(source: &MethodSource, function: &str, suffix: &str) -> String {
         "f" => format!(", (float)({number})"),
         _ => format!(", ({number}){suffix}"),
     };
-    let each = |input: &regatta::lab::MethodInput<'_>| match input.name {
+    let each = |input: &MethodInput<'_>| match input.name {
         "a" => format!(", {function}"),
         "target" => cast(TARGET.to_owned()),
         "rate" => cast(format!("{RATE:?}")),

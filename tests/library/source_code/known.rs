@@ -1,7 +1,7 @@
 //! The runs that are compared: their forces and targets, and the steps of the methods of the table.
 
 use crate::any_system::any;
-use regatta::lab::MethodSource;
+use regatta::lab::source_code::MethodSource;
 use regatta::sim::integrators::{METHODS, Method, integrator};
 use regatta::sim::{Pursuit, Question, State, System};
 

@@ -4,9 +4,9 @@ use egui::{ComboBox, Id, RichText, Ui, vec2};
 
 use super::number::Field;
 use super::{LINE, RESTORE, line, restore};
+use crate::lab::scene::{MAX_TICK_HZ, MIN_SECONDS};
 use crate::lab::{
-    Action, Command, Entrant, Lab, LaneSpec, MAX_SECONDS, MAX_SUBSTEPS, MAX_TICK_HZ, MIN_SECONDS,
-    Mode, TOLERANCES,
+    Action, Command, Entrant, Lab, LaneSpec, MAX_SECONDS, MAX_SUBSTEPS, Mode, TOLERANCES,
 };
 use crate::view::panels::ink;
 

@@ -2,9 +2,10 @@
 
 use egui::{ComboBox, RichText, TextWrapMode, Ui};
 
+use crate::lab::loop_lab::SLOWNESS;
 use crate::lab::number::round;
 use crate::lab::pacing::TRACES;
-use crate::lab::{Command, LoopCommand, LoopLab, SLOWNESS};
+use crate::lab::{Command, LoopCommand, LoopLab};
 use crate::view::panels::ink;
 
 /// From this width of the window on, in points, the top bar has the menu of traces; else the instrument has it.

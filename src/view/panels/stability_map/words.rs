@@ -5,10 +5,9 @@ use std::sync::Arc;
 use egui::text::LayoutJob;
 use egui::{Color32, FontId, Galley, TextFormat, Ui};
 
+use crate::lab::analysis::{Here, duration};
 use crate::lab::number::round;
-use crate::lab::{
-    Coverage, Here, Lab, LaneSpec, MapRequest, NoSmallMotion, Parameter, StabilityMap, duration,
-};
+use crate::lab::{Coverage, Lab, LaneSpec, MapRequest, NoSmallMotion, Parameter, StabilityMap};
 use crate::view::panels::{ink, strong_font};
 
 /// The letter of a parameter in the equation of motion, or else its name.

@@ -4,9 +4,8 @@ use egui::Color32;
 
 use super::super::Ink;
 use crate::lab::number::round;
-use crate::lab::{
-    Action, Event, EventKind, LaneId, LaneSpec, Mode, Race, Scene, Source, TimeScale,
-};
+use crate::lab::session::EventKind;
+use crate::lab::{Action, Event, LaneId, LaneSpec, Mode, Race, Scene, Source, TimeScale};
 
 /// The sign of a mark. Of several in one place the last of this list is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
