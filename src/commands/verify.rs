@@ -1,6 +1,6 @@
 //! `regatta verify`: checks that this program still reproduces a capture or a recording.
 //!
-//! The physics is judged first, bit by bit and without a GPU; then the pixels, which may move when the
+//! A run is repeated once. Its physics is judged bit by bit, also where there is no GPU; its pixels may move when the
 //! physics has not.
 
 use std::path::{Path, PathBuf};

@@ -214,6 +214,7 @@ fn a_full_disk_leaves_nothing_of_a_single_file_and_the_way_on_is_told() {
         let way_on = "free some space, or give another --out; nothing is left of it, and the same \
                       command writes all of it";
         assert!(said.contains(way_on), "{said}");
+        assert!(!said.contains(".part"), "{said}");
         assert!(left.is_empty(), "{left:?}");
     }
 }
