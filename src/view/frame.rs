@@ -4,7 +4,7 @@
 
 use std::time::Duration;
 
-use super::figure::{self, Figure};
+use super::chart::figure::{self, Figure};
 use super::gpu::Gpu;
 use super::meshes::MeshRenderer;
 use super::panels::{self, Panels};
@@ -163,17 +163,12 @@ impl FrameRenderer {
         figure: &Figure,
     ) -> Option<wgpu::CommandBuffer> {
         theme::set_zoom(&self.context, growth(size_px.map(|side| side as f32 / scale)));
-        let mut draw = || {
-            let input = egui::RawInput::default();
-            let layout = self.lay_out_with(gpu, size_px, scale, input, |ui| {
-                figure::show(ui, figure);
-                None
-            });
-            self.paint(gpu, target, size_px, layout)
-        };
-        // Once for the axes to learn how much room their labels take.
-        let _ = draw();
-        draw().drawing
+        let input = egui::RawInput::default();
+        let layout = self.lay_out_with(gpu, size_px, scale, input, |ui| {
+            figure::show(ui, figure);
+            None
+        });
+        self.paint(gpu, target, size_px, layout).drawing
     }
 
     /// Lays out panels and a stage.

@@ -5,11 +5,8 @@
 //! differs between them is where that view comes from and where its pixels go. Colours are blended
 //! as they are stored, in gamma space, so all targets have a format without `Srgb` in its name.
 
-mod axis_scale;
 mod backdrop;
-mod bands;
-mod curves;
-mod figure;
+mod chart;
 mod frame;
 mod gpu;
 #[cfg(test)]
@@ -22,7 +19,6 @@ mod offscreen;
 mod offscreen_renderer;
 mod panels;
 mod place;
-mod plot;
 pub mod png;
 mod quads;
 mod readback;
@@ -36,11 +32,11 @@ mod strokes;
 mod testing;
 mod textures;
 mod theme;
-mod ticks;
 mod touch;
 mod triangles;
 
-pub use figure::{Axis, Chart, Figure, FigureCurve, Legend, Marks};
+pub use chart::AxisScale;
+pub use chart::figure::{Axis, Chart, Figure, FigureCurve, Legend};
 pub use frame::{FrameOutput, FrameRenderer, Layout};
 pub use gpu::{AdapterPreference, Gpu, GpuError};
 pub use lettering::Lettering;

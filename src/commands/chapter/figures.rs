@@ -6,7 +6,7 @@ use super::run::{Moment, by_method, exactly, method_of, scene};
 use crate::commands::output::table::{RowFormat, RowWriter};
 use crate::lab::Scene;
 use crate::lab::palette::Theme;
-use crate::view::{Axis, Chart, Figure, FigureCurve, Legend, Marks};
+use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
 
 /// A figure of the chapter.
 pub(super) struct Diagram {
@@ -25,11 +25,11 @@ pub(super) fn all() -> Vec<Diagram> {
         curves.extend(ids.map(|id| speed(&ship, id, seconds)));
         curves
     };
-    let of_ship = |title: &str, view, steps, curves| {
-        figure(title, ship_note(&ship), ["time (s)", "speed (m/s)"], view, steps, curves)
+    let of_ship = |title: &str, view, curves| {
+        figure(title, ship_note(&ship), ["time (s)", "speed (m/s)"], view, curves)
     };
-    let of_spring = |title: &str, view, steps, curves| {
-        figure(title, spring_note(&spring), ["time (s)", "displacement (m)"], view, steps, curves)
+    let of_spring = |title: &str, view, curves| {
+        figure(title, spring_note(&spring), ["time (s)", "displacement (m)"], view, curves)
     };
     let swings = |seconds, ids: &[&str]| {
         let mut curves = vec![swing_exactly(&spring, seconds)];
@@ -41,70 +41,46 @@ pub(super) fn all() -> Vec<Diagram> {
     vec![
         diagram(
             "7-2",
-            of_ship(
-                "Figure 7-2: speed by Euler's method",
-                [[0.0, 10.2], [0.0, 14.4]],
-                [1.0, 2.0],
-                euler(10.0),
-            ),
+            of_ship("Figure 7-2: speed by Euler's method", [[0.0, 10.2], [0.0, 14.4]], euler(10.0)),
         ),
-        diagram(
-            "7-3",
-            of_ship("Figure 7-3: the same, from 6.5 to 8.5 s", zoom, [0.5, 0.5], euler(8.5)),
-        ),
+        diagram("7-3", of_ship("Figure 7-3: the same, from 6.5 to 8.5 s", zoom, euler(8.5))),
         diagram(
             "7-4",
-            of_ship(
-                "Figure 7-4: in time it converges",
-                [[0.0, 61.0], [0.0, 22.0]],
-                [10.0, 5.0],
-                euler(60.0),
-            ),
+            of_ship("Figure 7-4: in time it converges", [[0.0, 61.0], [0.0, 22.0]], euler(60.0)),
         ),
         diagram(
             "7-5",
             of_spring(
                 "Figure 7-5: a spring grows without end under explicit Euler",
                 [[0.0, 6.1], [-8.4, 8.4]],
-                [1.0, 2.0],
                 swings(6.0, &["explicit-euler"]),
             ),
         ),
-        diagram(
-            "7-6",
-            of_ship("Figure 7-6: three methods", [[0.0, 10.2], [0.0, 14.4]], [1.0, 2.0], all(10.0)),
-        ),
+        diagram("7-6", of_ship("Figure 7-6: three methods", [[0.0, 10.2], [0.0, 14.4]], all(10.0))),
         diagram(
             "7-7",
-            of_ship(
-                "Figure 7-7: only Euler's can be told from the exact curve",
-                zoom,
-                [0.5, 0.5],
-                all(8.5),
-            ),
+            of_ship("Figure 7-7: only Euler's can be told from the exact curve", zoom, all(8.5)),
         ),
         diagram(
             "7-8",
             of_spring(
                 "Figure 7-8: the same spring under improved Euler and Runge-Kutta",
                 [[0.0, 6.1], [-1.6, 1.6]],
-                [1.0, 0.5],
                 swings(6.0, &["improved-euler", "rk4"]),
             ),
         ),
     ]
 }
 
-/// A figure of one chart, with marks at the multiples of `steps`.
+/// A figure of one chart.
 fn figure(
     title: &str,
     note: String,
     names: [&'static str; 2],
     view: [[f64; 2]; 2],
-    steps: [f64; 2],
     curves: Vec<FigureCurve>,
 ) -> Figure {
-    let axis = |n: usize| Axis { name: names[n], view: view[n], marks: Marks::Every(steps[n]) };
+    let axis = |n: usize| Axis { name: names[n], view: view[n], scale: AxisScale::Linear };
     let axes = [axis(0), axis(1)];
     let chart = Chart { title: String::new(), legend: Legend::Shared, axes, curves };
     Figure { title: title.into(), note, columns: 1, charts: vec![chart] }

@@ -4,7 +4,7 @@ use super::measured::Measured;
 use crate::lab::Scene;
 use crate::lab::number::round;
 use crate::lab::palette::Theme;
-use crate::view::{Axis, Chart, Figure, FigureCurve, Legend, Marks};
+use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
 
 /// The most traces of which a picture has charts.
 const MAX_TRACES: usize = 4;
@@ -69,16 +69,12 @@ fn shown(rows: &[Measured], before: &str) -> Chart {
     let near = start - (end - start);
     let shown = rows.iter().flat_map(|row| &row.drawn).map(|point| point[1]);
     let least = shown.filter(|shown| *shown >= near).fold(start, f64::min);
-    let apart = (end - start) / 4.0;
-    let decade = 10.0_f64.powf(apart.log10().floor());
-    let marks = [5.0, 2.0, 1.0].map(|times| times * decade);
-    let mark = marks.into_iter().find(|mark| *mark <= apart).unwrap_or(apart);
     Chart {
         title: sentence(before, "moment shown against moment of display"),
         legend: Legend::Shared,
         axes: [
-            Axis { name: "moment of display (ms)", view: [start, end], marks: Marks::Every(mark) },
-            Axis { name: "moment shown (ms)", view: [least, end], marks: Marks::Every(mark) },
+            Axis { name: "moment of display (ms)", view: [start, end], scale: AxisScale::Linear },
+            Axis { name: "moment shown (ms)", view: [least, end], scale: AxisScale::Linear },
         ],
         curves: [ideal].into_iter().chain(curves).collect(),
     }
@@ -104,12 +100,12 @@ fn costs(rows: &[Measured], before: &str) -> Chart {
             Axis {
                 name: "mean latency (ms)",
                 view: [1.1 * least - 1.0, 1.1 * most],
-                marks: Marks::Every(if most - least > 50.0 { 50.0 } else { 10.0 }),
+                scale: AxisScale::Linear,
             },
             Axis {
                 name: "animation error, RMS (ms)",
                 view: [MIN_MS / 2.0, 10.0 * worst],
-                marks: Marks::Decades,
+                scale: AxisScale::Log,
             },
         ],
         curves: points.collect(),

@@ -9,7 +9,7 @@ use crate::commands::plot::columns;
 use crate::lab::number::round;
 use crate::lab::palette::Theme;
 use crate::sim::integrators::Method;
-use crate::view::{Axis, Chart, Figure, FigureCurve, Legend, Marks};
+use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
 
 /// Errors beyond this many amplitudes are cut off: the method has failed.
 const LOST: f64 = 10.0;
@@ -50,11 +50,11 @@ fn work_precision(title: &str, curves: Vec<FigureCurve>) -> Chart {
         title: title.into(),
         legend: Legend::Shared,
         axes: [
-            Axis { name: "evaluations per simulated second", view: work, marks: Marks::Decades },
+            Axis { name: "evaluations per simulated second", view: work, scale: AxisScale::Log },
             Axis {
                 name: "error (amplitudes)",
                 view: [error[0].min(LOST / 100.0), error[1].min(LOST)],
-                marks: Marks::Decades,
+                scale: AxisScale::Log,
             },
         ],
         curves,
@@ -80,8 +80,8 @@ fn v_curves(rounded: Vec<ErrorCurve>) -> Chart {
             .into(),
         legend: Legend::Own,
         axes: [
-            Axis { name: "step h (s)", view: step, marks: Marks::Decades },
-            Axis { name: "error of the speed (m/s)", view: error, marks: Marks::Decades },
+            Axis { name: "step h (s)", view: step, scale: AxisScale::Log },
+            Axis { name: "error of the speed (m/s)", view: error, scale: AxisScale::Log },
         ],
         curves,
     }

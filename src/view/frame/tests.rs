@@ -2,8 +2,7 @@ use super::*;
 use crate::lab::Scene;
 use crate::lab::picture::Picture;
 use crate::lab::picture::{Cap, Shape, Stroke};
-use crate::view::curves;
-use crate::view::curves::{Curve, Dots};
+use crate::view::chart::{LineStyle, curves};
 use crate::view::testing::{EVERYWHERE, Pixels, gpu_or_skip, read};
 use crate::view::{AdapterPreference, Offscreen};
 
@@ -87,21 +86,14 @@ fn a_curve_is_drawn_in_its_dashes_and_no_further_than_the_clip() {
     let Some(gpu) = gpu_or_skip(test) else { return };
     let target = Offscreen::new(&gpu, [128, 64]).unwrap();
     let mut renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
-    let curve = |dash| Curve {
-        colour: egui::Color32::RED,
-        width: 4.0,
-        dash,
-        dots: Dots::None,
-        points: Vec::new(),
-        swept: Vec::new(),
-    };
+    let style = |dash| LineStyle { dash, ..LineStyle::solid(egui::Color32::RED, 4.0) };
     let input = egui::RawInput::default();
     let layout = renderer.lay_out_with(&gpu, [128, 64], 1.0, input, |ui| {
         let clip = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(100.0, 64.0));
         let painter = ui.painter().with_clip_rect(clip);
         for (y, dash) in [(20.0, [8.0, 6.0]), (40.0, [8.0, 0.0])] {
             let ends = [egui::pos2(10.0, y), egui::pos2(120.0, y)];
-            assert!(curves::paint(&painter, &ends, &[], &curve(dash)));
+            assert!(curves::paint(&painter, &ends, &[], style(dash)));
         }
         None
     });

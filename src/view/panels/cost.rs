@@ -6,7 +6,7 @@ use egui::{FontId, Grid, Label, RichText, ScrollArea, Sense, Ui, Vec2, vec2};
 use super::{ink, strong_font};
 use crate::lab::number::significant;
 use crate::lab::{Entrant, Lab, LaneSpec};
-use crate::view::plot;
+use crate::view::chart::legend::swatch;
 
 /// The width of the longest bar, in points.
 const BAR: f32 = 70.0;
@@ -96,8 +96,8 @@ impl Row {
 
     fn show(&self, ui: &mut Ui, lab: &Lab, columns: &Columns) {
         let (colour, dash) = ink(ui).style(lab.entries(), &self.spec);
-        let (swatch, _) = ui.allocate_exact_size(vec2(30.0, ROW), Sense::hover());
-        plot::swatch(ui.painter(), swatch.left_center(), 28.0, dash, colour);
+        let (line, _) = ui.allocate_exact_size(vec2(30.0, ROW), Sense::hover());
+        swatch(ui.painter(), line.left_center(), 28.0, dash, colour);
         let name = RichText::new(self.spec.name_with_substeps(lab.entries())).color(ink(ui).text);
         let name = if self.entry == lab.active() { name.font(strong_font(13.0)) } else { name };
         ui.label(name);

@@ -3,20 +3,16 @@
 //! Axes follow the truth and the lanes near it. A lane beyond them is cut off at the edge, where an
 //! arrow in its colour says so.
 
-use std::sync::Arc;
+use egui::{Button, Color32, ComboBox, Label, Rect, RichText, Sense, Stroke, Ui, vec2};
 
-use egui::{
-    Button, Color32, ComboBox, FontId, Galley, Label, Rect, RichText, Sense, Stroke, Ui, vec2,
-};
-
-use super::roster::Roster;
+use super::roster::{Roster, Runner};
 use super::tracks::Detail;
 use super::{advice, cost, focus_ring, ink, loops, one_step, stability_map};
 use crate::lab::{
     Command, FRAME_METRICS, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow, Lab, METRICS,
     Quantity,
 };
-use crate::view::plot;
+use crate::view::chart::legend;
 use crate::view::theme::{TYPE, strong_font};
 pub(in crate::view) use export::{csv, svg};
 use sheet::Sheet;
@@ -46,11 +42,8 @@ const ROOM_FOR_LEGEND: f32 = 170.0;
 const MAX_IN_LEGEND: usize = 12;
 /// The most lines of a legend beside the title.
 const BESIDE_TITLE: usize = 2;
-/// The room before a legend that is beside the title, in points, and between its lines.
+/// The room before a legend that is beside the title, in points.
 const BEFORE_LEGEND: f32 = 8.0;
-const BETWEEN_LINES: f32 = 13.0;
-/// The length of a line in the legend, in points.
-const SWATCH: f32 = 26.0;
 
 /// The least height of an instrument with its tabs, in points: below it the plot is a smudge, or words lie over words.
 pub(super) fn min_height(instrument: Instrument) -> f32 {
@@ -192,30 +185,30 @@ fn tab(ui: &mut Ui, card: &InstrumentCard, is_chosen: bool, is_open: bool) -> bo
 
 /// An instrument of plots, below its title, its choices and its legend.
 fn plots(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Command>) {
-    let lines = legend_lines(sheet);
-    let has_legend = ui.available_height() >= ROOM_FOR_LEGEND && lines.len() <= MAX_IN_LEGEND;
-    let may_be_beside =
-        has_legend && lines.len() <= BESIDE_TITLE && lab.display().instrument == Instrument::Motion;
+    let entries = legend_entries(sheet);
+    let has_legend = ui.available_height() >= ROOM_FOR_LEGEND && entries.len() <= MAX_IN_LEGEND;
+    let may_be_beside = has_legend
+        && entries.len() <= BESIDE_TITLE
+        && lab.display().instrument == Instrument::Motion;
     let is_beside = ui.horizontal_wrapped(|ui| {
         let is_error = lab.display().instrument == Instrument::Error;
         // The metric is said by its menu.
         let title = if is_error { Instrument::Error.name() } else { &sheet.title };
         ui.label(RichText::new(title).font(strong_font(15.0)).color(ink(ui).text));
         choices(ui, lab, commands);
-        let width = |line: &LegendLine| line.words(ui, &sheet.roster).size().x + SWATCH + 6.0;
-        let room = BEFORE_LEGEND + BETWEEN_LINES * lines.len() as f32;
-        let is_beside =
-            may_be_beside && room + lines.iter().map(width).sum::<f32>() <= ui.available_width();
+        let widths = entries.iter().map(|(_, entry)| entry.width(ui));
+        let room = BEFORE_LEGEND + legend::BETWEEN * entries.len() as f32 + widths.sum::<f32>();
+        let is_beside = may_be_beside && room <= ui.available_width();
         if is_beside {
             ui.add_space(BEFORE_LEGEND);
-            legend(ui, &lines, &sheet.roster, commands);
+            show_legend(ui, &entries, &sheet.roster, commands);
         }
         is_beside
     });
     if has_legend && !is_beside.inner {
         ui.scope(|ui| {
-            ui.spacing_mut().interact_size.y = 15.0;
-            ui.horizontal_wrapped(|ui| legend(ui, &lines, &sheet.roster, commands));
+            ui.spacing_mut().interact_size.y = legend::ROW;
+            ui.horizontal_wrapped(|ui| show_legend(ui, &entries, &sheet.roster, commands));
         });
     }
     chart::show(ui, lab, sheet, commands);
@@ -305,56 +298,36 @@ fn choice<N: AsRef<str>>(
     menu.response.on_hover_text(id);
 }
 
-/// A line of the legend.
-struct LegendLine {
-    /// Its place on the roster; `None` for the exact solution.
-    entry: Option<usize>,
-    text: String,
-    colour: Color32,
-    dash: [f32; 2],
-}
-
-impl LegendLine {
-    /// Its words as they are painted: those of the selected lane stand out.
-    fn words(&self, ui: &Ui, roster: &Roster) -> Arc<Galley> {
-        let is_front = self.entry == Some(roster.front);
-        let font = if is_front { strong_font(12.0) } else { FontId::proportional(12.0) };
-        let inked = if is_front { ink(ui).text } else { ink(ui).dim };
-        ui.painter().layout_no_wrap(self.text.clone(), font, inked)
-    }
-}
-
-/// All whose curves are shown, and the exact solution.
-fn legend_lines(sheet: &Sheet) -> Vec<LegendLine> {
-    let runners = sheet.shown().map(|(entry, runner)| LegendLine {
-        entry: Some(entry),
-        text: format!("{} {}", entry + 1, runner.name),
-        colour: runner.colour,
-        dash: runner.dash,
+/// All whose curves are shown, by their places on the roster, and the exact solution, which has none.
+fn legend_entries(sheet: &Sheet) -> Vec<(Option<usize>, legend::Entry)> {
+    let runners = sheet.shown().map(|(place, Runner { name, colour, dash, .. })| {
+        let name = format!("{} {name}", place + 1);
+        let is_front = place == sheet.roster.front;
+        (Some(place), legend::Entry { name, colour: *colour, dash: *dash, is_front })
     });
+    let Roster { exact, exact_colour: colour, .. } = &sheet.roster;
     let has_exact = sheet.plots.iter().any(|plot| !plot.exact.is_empty());
-    let exact = has_exact.then(|| LegendLine {
-        entry: None,
-        text: sheet.roster.exact.clone(),
-        colour: sheet.roster.exact_colour,
-        dash: [1.0, 0.0],
+    let exact = has_exact.then(|| {
+        let (name, dash) = (exact.clone(), [1.0, 0.0]);
+        (None, legend::Entry { name, colour: *colour, dash, is_front: false })
     });
     runners.chain(exact).collect()
 }
 
-fn legend(ui: &mut Ui, lines: &[LegendLine], roster: &Roster, commands: &mut Vec<Command>) {
-    ui.spacing_mut().item_spacing.x = BETWEEN_LINES;
-    for line in lines {
-        let (words, LegendLine { entry, text, colour, dash }) = (line.words(ui, roster), line);
-        let size = words.size() + vec2(SWATCH + 6.0, 0.0);
-        let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-        plot::swatch(ui.painter(), rect.left_center(), SWATCH, *dash, *colour);
-        let at = rect.left_center() + vec2(SWATCH + 6.0, -words.size().y / 2.0);
-        ui.painter().galley(at, words, ink(ui).text);
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, text));
+/// A legend, of which a click picks a lane of a race.
+fn show_legend(
+    ui: &mut Ui,
+    entries: &[(Option<usize>, legend::Entry)],
+    roster: &Roster,
+    commands: &mut Vec<Command>,
+) {
+    ui.spacing_mut().item_spacing.x = legend::BETWEEN;
+    for (place, entry) in entries {
+        let response = entry.show(ui, 0.0);
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &entry.name));
         focus_ring(ui, &response);
         if response.clicked() && roster.is_race {
-            commands.extend(entry.map(Command::Pick));
+            commands.extend(place.map(Command::Pick));
         }
     }
 }

@@ -6,7 +6,7 @@ use egui::{Align2, FontId, Id, Pos2, Rect, Response, ScrollArea, Sense, Ui, Vec2
 use super::sorting::{self, Order};
 use super::{focus_ring, formula, ink, keycap, short};
 use crate::lab::{Command, Lab, LaneBody, Language, Mode};
-use crate::view::plot;
+use crate::view::chart::legend::swatch;
 use crate::view::theme::{TYPE, strong_font};
 
 use columns::{COLUMNS, Cell, Column, Rank, fitting};
@@ -236,7 +236,7 @@ fn cell(ui: &Ui, row: &Row<'_>, column: &Column, from: Pos2, width: f32, said: &
         Cell::Swatch if row.is_first => {
             let (strong, dash) = ink(ui).style(row.lab.entries(), row.spec);
             let colour = if row.flown.is_some() { strong } else { strong.gamma_multiply(0.7) };
-            plot::swatch(ui.painter(), from, width - 4.0, dash, colour);
+            swatch(ui.painter(), from, width - 4.0, dash, colour);
         }
         Cell::Method if row.is_first => {
             let is_strong = row.entry == row.lab.active();

@@ -1,10 +1,10 @@
 //! The panels of the loop lab, and the instrument *Loop*: what each loop shows when, or what this window's own loop does.
 
-use egui::{Color32, FontId, RichText, Sense, Ui, Vec2, vec2};
+use egui::{Color32, RichText, Sense, Ui, Vec2, vec2};
 
 use super::{ink, strong_font};
 use crate::lab::{Command, Lab, LoopLab, LoopLane};
-use crate::view::plot;
+use crate::view::chart::legend::{self, Entry};
 use crate::view::theme::{Ink, colour};
 
 mod columns;
@@ -20,8 +20,6 @@ pub(super) mod table;
 
 pub(super) use export::csv;
 
-/// The length of a line in the legend, in points.
-const SWATCH: f32 = 24.0;
 /// From this width on, in points, the title is whole.
 const ROOM_FOR_TITLE: f32 = 340.0;
 /// From this height on, in points, there are two small plots below, and the part of the height that they take.
@@ -51,7 +49,7 @@ fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command
             controls::trace_menu(ui, loops, commands);
         }
     });
-    legend(ui, loops, &lanes);
+    show_legend(ui, loops, &lanes);
     if let Some(waiting) = loops.waiting() {
         ui.label(RichText::new(waiting).color(ink(ui).dim));
         return;
@@ -95,29 +93,22 @@ fn on_stage<'a>(loops: &'a LoopLab, ink: &Ink) -> Vec<ShownLane<'a>> {
 }
 
 /// The lines of the plots.
-fn legend(ui: &mut Ui, loops: &LoopLab, lanes: &[ShownLane<'_>]) {
-    let ink = ink(ui);
-    let line = |ui: &mut Ui, text: String, colour: Color32, dash, is_strong| {
-        let font = if is_strong { strong_font(12.0) } else { FontId::proportional(12.0) };
-        let inked = if is_strong { ink.text } else { ink.dim };
-        let words = ui.painter().layout_no_wrap(text, font, inked);
-        let size = words.size() + vec2(SWATCH + 6.0, 0.0);
-        let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
-        plot::swatch(ui.painter(), rect.left_center(), SWATCH, dash, colour);
-        let at = rect.left_center() + vec2(SWATCH + 6.0, -words.size().y / 2.0);
-        ui.painter().galley(at, words, inked);
+fn show_legend(ui: &mut Ui, loops: &LoopLab, lanes: &[ShownLane<'_>]) {
+    let entry = |lane: &ShownLane<'_>| {
+        let name = format!("{} {}", lane.place + 1, lane.lane.card().name);
+        let off = moments::off_the_plot(loops, lane.lane);
+        let name = name + &off.map(|words| format!(" ({words})")).unwrap_or_default();
+        Entry { name, colour: lane.colour, dash: lane.dash, is_front: lane.is_selected }
     };
+    let (name, colour, dash) = ("ideal".into(), ink(ui).exact, [1.0, 0.0]);
+    let ideal = Entry { name, colour, dash, is_front: false };
     ui.scope(|ui| {
-        ui.spacing_mut().interact_size.y = 15.0;
+        ui.spacing_mut().interact_size.y = legend::ROW;
         ui.horizontal_wrapped(|ui| {
-            ui.spacing_mut().item_spacing.x = 13.0;
-            for lane in lanes {
-                let name = format!("{} {}", lane.place + 1, lane.lane.card().name);
-                let off = moments::off_the_plot(loops, lane.lane);
-                let off = off.map(|words| format!(" ({words})")).unwrap_or_default();
-                line(ui, name + &off, lane.colour, lane.dash, lane.is_selected);
+            ui.spacing_mut().item_spacing.x = legend::BETWEEN;
+            for entry in lanes.iter().map(entry).chain([ideal]) {
+                entry.show(ui, 0.0);
             }
-            line(ui, "ideal".into(), ink.exact, [1.0, 0.0], false);
         });
     });
 }

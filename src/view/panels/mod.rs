@@ -9,6 +9,7 @@ use super::theme::{Ink, colour, ink, ink_of, strong_font};
 use crate::lab::{Command, Dialog, Lab, Outcome, Severity};
 
 mod advice;
+mod annotations;
 mod cost;
 mod dialog;
 mod footer;
@@ -23,7 +24,6 @@ mod loops;
 mod my_spring;
 mod one_step;
 mod opening;
-mod plot_area;
 mod ranges;
 mod roster;
 mod sorting;

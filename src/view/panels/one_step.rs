@@ -7,10 +7,11 @@ use egui::{
     Vec2, pos2, vec2,
 };
 
-use super::plot_area::{PlotArea, arrow, label};
+use super::annotations::{arrow, label};
 use super::{colour, formula, ink, strong_font};
 use crate::lab::number::{round, significant};
 use crate::lab::{Coordinate, Lab, OneStep, Slope, Unit};
+use crate::view::chart::{self, AxisScale, PlotArea};
 use crate::view::theme::TYPE;
 
 mod loupe;
@@ -123,7 +124,8 @@ fn plot(ui: &mut Ui, lab: &Lab, step: &OneStep, size: Vec2) {
     let area = PlotArea { rect, bounds: [0, 1].map(|axis| range(step, axis)) };
     let painter = ui.painter_at(whole);
     painter.rect_filled(rect, 0.0, ink.plot);
-    area.axes(&painter, ink, [&area.marks(0, 64.0), &area.marks(1, 26.0)]);
+    let marks = [0, 1].map(|axis| area.marks(axis, AxisScale::Linear, [64.0, 26.0][axis]));
+    chart::paint(&painter, &chart::axes(&area, marks, ink, whole.right()));
     let coordinate = &shown_coordinate(lab);
     let small = FontId::proportional(11.5);
     let up = format!("velocity {}, {}", coordinate.velocity, Unit::Velocity.on(coordinate));

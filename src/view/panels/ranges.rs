@@ -2,7 +2,7 @@
 //! and does not change an axis.
 
 use super::tracks::Track;
-use crate::view::axis_scale::AxisScale;
+use crate::view::chart::AxisScale;
 
 /// Errors below this are round-off: the plot's floor, as a power of ten.
 const FLOOR: f64 = -17.0;

@@ -4,17 +4,17 @@
 use std::sync::Arc;
 
 use egui::{
-    Align2, Color32, ComboBox, EventFilter, FontId, Galley, Id, Key, Label, Pos2, Rect, RichText,
-    Sense, Stroke, Ui, Vec2, pos2, vec2,
+    Align2, ComboBox, EventFilter, FontId, Galley, Id, Key, Label, Pos2, Rect, RichText, Sense,
+    Stroke, Ui, Vec2, pos2, vec2,
 };
 
-use super::plot_area::{PlotArea, decades, label, mixed, polygon};
+use super::annotations::{label, mixed, polygon};
 use super::{colour, ink, strong_font};
 use crate::lab::number::round;
 use crate::lab::{
     Action, Command, Coverage, Lab, MapRequest, Parameter, SeenLine, StabilityMap, edited_values,
 };
-use crate::view::curves::{self, Curve, Dots};
+use crate::view::chart::{self, AxisScale, LineStyle, PlotArea, curves};
 use words::{each_method, full_name, no_map, point_in_words, sentence, short_sentence};
 
 mod words;
@@ -111,9 +111,8 @@ fn plot(ui: &mut Ui, lab: &Lab, map: &StabilityMap, size: Vec2, commands: &mut V
 
     painter.rect_filled(rect, 0.0, mixed(ink.plot, ink.accent, 0.14));
     water(ui, map, &area);
-    let across = decades(area.bounds[0], rect.width(), 28.0);
-    let up = decades(area.bounds[1], rect.height(), 22.0);
-    area.axes(&painter, ink, [&across, &up]);
+    let marks = [0, 1].map(|axis| area.marks(axis, AxisScale::Log, [28.0, 22.0][axis]));
+    chart::paint(&painter, &chart::axes(&area, marks, ink, whole.right()));
     if has_names {
         let parameter = parameter(lab, map.request.parameter);
         let unit =
@@ -168,27 +167,19 @@ fn boundaries(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) {
     let style = |entry: usize| ink(ui).style(lab.entries(), &lab.entries()[entry]);
     let mut order: Vec<&(usize, Vec<Pos2>)> = lines.iter().collect();
     order.sort_by_key(|(entry, _)| is_selected(*entry));
-    let curve = |colour: Color32, width: f32, dash: [f32; 2]| Curve {
-        colour,
-        width,
-        dash,
-        dots: Dots::None,
-        points: Vec::new(),
-        swept: Vec::new(),
-    };
     let seen = seen_lines(lab, map, area);
     let seen_colour = mixed(ink(ui).dim, style(lab.active()).0, 0.6);
     for (_, points) in &seen {
-        curves::paint(&painter, points, &[], &curve(seen_colour, 1.2, [1.0, 0.0]));
+        curves::paint(&painter, points, &[], LineStyle::solid(seen_colour, 1.2));
     }
     for (entry, points) in &order {
         let (colour, dash) = style(*entry);
         if is_selected(*entry) {
-            let glow = curve(colour.gamma_multiply(0.25), 7.0, [1.0, 0.0]);
-            curves::paint(&painter, points, &[], &glow);
+            let glow = LineStyle::solid(colour.gamma_multiply(0.25), 7.0);
+            curves::paint(&painter, points, &[], glow);
         }
         let width = if is_selected(*entry) { 3.4 } else { 2.2 };
-        curves::paint(&painter, points, &[], &curve(colour, width, dash));
+        curves::paint(&painter, points, &[], LineStyle { dash, ..LineStyle::solid(colour, width) });
     }
     let mut taken: Vec<Pos2> = Vec::new();
     if let Some(at) = cross_at(lab, map, area) {

@@ -7,13 +7,12 @@ use egui::{
     Align2, Color32, EventFilter, FontId, Key, Painter, Pos2, Rangef, Rect, Response, Sense, Shape,
     Stroke, Ui, Vec2, pos2, vec2,
 };
-use egui_plot::GridInput;
 
 use self::marks::{Context, Group, Sign, grouped};
 pub(super) use self::span::Span;
 use super::{Ink, ink};
 use crate::lab::{Command, Event, Lab, Mode, TimeScale};
-use crate::view::ticks;
+use crate::view::chart::AxisScale;
 
 mod marks;
 mod span;
@@ -196,15 +195,12 @@ pub(super) fn numbers(
     ink: &Ink,
 ) {
     let Span { from_s, to_s } = span;
-    let base_step_size = ticks::FINEST * span.length_s() / f64::from(along.span());
-    let marks = ticks::linear(GridInput { bounds: (from_s, to_s), base_step_size }, NUMBERS_APART);
-    let last = marks.iter().map(|mark| mark.value).fold(f64::NEG_INFINITY, f64::max);
-    for mark in marks {
-        let x = span.x(mark.value, along);
+    let mut marks = AxisScale::Linear.marks([from_s, to_s], along.span(), NUMBERS_APART);
+    marks.last_mut().into_iter().for_each(|(_, text)| text.push_str(" s"));
+    for (t, text) in marks {
+        let x = span.x(t, along);
         let top = y + 0.5 * THICKNESS;
         painter.vline(x, Rangef::new(top + 1.0, top + 4.0), Stroke::new(1.0, ink.dim));
-        let unit = if mark.value == last { "s" } else { "" };
-        let text = ticks::linear_label(mark, &(from_s..=to_s), unit);
         let at = pos2(x, bottom);
         painter.text(at, Align2::CENTER_BOTTOM, text, FontId::proportional(10.5), ink.dim);
     }

@@ -4,12 +4,9 @@
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
-use egui_plot::PlotBounds;
-
 use super::roster::Roster;
 use crate::lab::{Entrant, History, Lab, Quantity, Sample, Summary};
-use crate::view::curves::{Curve, Dots};
-use crate::view::plot::{Arrow, Drawing, Switch};
+use crate::view::chart::{Arrow, Bounds, Curve, Dots, Drawing, LineStyle, Switch};
 
 /// A sample of a lane in a plot.
 #[derive(Clone, Copy, Debug)]
@@ -226,12 +223,7 @@ pub(super) struct Look {
 }
 
 /// The lanes within `bounds`, with an arrow where one leaves them and a mark where one was switched.
-pub(super) fn drawing(
-    roster: &Roster,
-    tracks: &[Track],
-    bounds: &PlotBounds,
-    look: Look,
-) -> Drawing {
+pub(super) fn drawing(roster: &Roster, tracks: &[Track], bounds: &Bounds, look: Look) -> Drawing {
     let mut drawing = Drawing::default();
     for track in tracks {
         add(&mut drawing, roster, track, bounds, look);
@@ -239,7 +231,7 @@ pub(super) fn drawing(
     drawing
 }
 
-fn add(drawing: &mut Drawing, roster: &Roster, track: &Track, bounds: &PlotBounds, look: Look) {
+fn add(drawing: &mut Drawing, roster: &Roster, track: &Track, bounds: &Bounds, look: Look) {
     let points = &track.points[..];
     let is_dim = roster.is_race && !track.is_front;
     let is_thin = is_dim || track.strength < 1.0;
@@ -252,12 +244,14 @@ fn add(drawing: &mut Drawing, roster: &Roster, track: &Track, bounds: &PlotBound
         drawing.switches.push(Switch { at: pair[1].at, colour: rgba(&pair[1]) });
     }
     let within = |point: &Point| {
-        let [low, high] = [bounds.min(), bounds.max()];
         let values = [[point.at[0]; 2], point.swept];
-        let is_within = |i: usize| values[i].iter().all(|value| (low[i]..=high[i]).contains(value));
+        let is_within = |i: usize| {
+            let [low, high] = bounds[i];
+            values[i].iter().all(|value| (low..=high).contains(value))
+        };
         (0..2).all(|i| !look.bounded[i] || is_within(i))
     };
-    let is_in_view = |point: &Point| look.bounded[0] || point.at[0] >= bounds.min()[0];
+    let is_in_view = |point: &Point| look.bounded[0] || point.at[0] >= bounds[0][0];
     let mut is_drawn = vec![false; points.len()];
     for stay in stays(points, within, RETURNED * roster.length_s) {
         let (first, last) = stay.into_inner();
@@ -268,11 +262,9 @@ fn add(drawing: &mut Drawing, roster: &Roster, track: &Track, bounds: &PlotBound
         is_drawn[piece.clone()].fill(true);
         drawing.curves.extend(runs(&points[piece]).map(|run| {
             let newest = &run[run.len() - 1];
+            let dash = track.dash.unwrap_or(runner(newest).dash);
             Curve {
-                colour: rgba(newest),
-                width,
-                dash: track.dash.unwrap_or(runner(newest).dash),
-                dots: look.dots,
+                style: LineStyle { colour: rgba(newest), width, dash, dots: look.dots },
                 points: if track.is_held { staircase(run) } else { places(run) },
                 swept: if track.is_held { Vec::new() } else { swept(run) },
             }

@@ -88,6 +88,22 @@ const CONCEPTS: [Concept; 20] = [
         marks: &["b * b * (1.0 + 2.0 * a)"],
     },
     Concept {
+        name: "round marks along an axis",
+        file: "src/view/chart/axis.rs",
+        marks: &["digit * libm::pow(10.0, f64::from(decade))"],
+    },
+    Concept {
+        name: "plane on the screen",
+        file: "src/view/chart/area.rs",
+        marks: &["clamp(-FAR_OUTSIDE"],
+    },
+    Concept { name: "legend", file: "src/view/chart/legend.rs", marks: &["SWATCH"] },
+    Concept {
+        name: "file of a chart",
+        file: "src/view/chart/svg.rs",
+        marks: &["stroke-dasharray"],
+    },
+    Concept {
         name: "hash of a state",
         file: "src/lab/race/hash.rs",
         marks: &["0x0000_0100_0000_01b3"],

@@ -1,7 +1,5 @@
 //! The plots of the loop lab: what each loop on the stage shows and holds, up to the moment of display.
 
-use egui_plot::PlotBounds;
-
 use super::super::ranges;
 use super::super::roster::Roster;
 use super::super::tracks::{Look, Track};
@@ -11,9 +9,7 @@ use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet, time_in_view};
 use crate::lab::{
     Energies, FRAME_METRICS, Instrument, Lab, LoopFrame, LoopLab, LoopLane, METRICS, Scale,
 };
-use crate::view::axis_scale::AxisScale;
-use crate::view::curves::Dots;
-use crate::view::plot::SwitchMark;
+use crate::view::chart::{AxisScale, Dots, SwitchMark};
 
 /// The seconds in view where every frame shows.
 const FRAMES_S: f64 = 1.0;
@@ -129,7 +125,7 @@ impl Plots<'_> {
             title: self.title(STEPPED),
             body: self.lab.view().body,
             axes: [PlotAxis::of(coordinate), PlotAxis::of_velocity(coordinate)],
-            fit: PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]),
+            fit: [x.into(), y.into()],
             tracks,
             look: Look { width: FRONT, dots: Dots::Sparse, bounded: [true; 2] },
             exact: vec![exact],
@@ -151,7 +147,7 @@ impl Plots<'_> {
             title: self.title(SHOWN),
             body: self.lab.view().body,
             axes: [PlotAxis::new("moment of display", "s", AxisScale::Linear), up],
-            fit: PlotBounds::from_min_max([from, low], [to, high]),
+            fit: [[from, to], [low, high]],
             tracks,
             look: Look { width: FRONT, dots: Dots::None, bounded: [false, true] },
             exact: exact.into_iter().collect(),
@@ -276,7 +272,7 @@ mod tests {
         let true_value = libm::cos(2.0 * std::f64::consts::PI * between);
         assert!((exact - true_value).abs() < 3e-3, "{exact} and {true_value}");
         assert!(motion.exact[0].at(0.9).is_some(), "the present is known");
-        assert!(motion.fit.max()[0] - motion.fit.min()[0] == FRAMES_S);
+        assert!(motion.fit[0][1] - motion.fit[0][0] == FRAMES_S);
     }
 
     #[test]

@@ -2,17 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use egui::{Align2, FontId, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2, pos2, vec2};
-use egui_plot::PlotBounds;
+use egui::{Align2, FontId, Pos2, Rect, Response, Sense, Ui, Vec2, pos2, vec2};
 
 use super::super::roster::Roster;
 use super::super::{focus_ring, ink, ring, short};
 use super::hover;
-use super::layout::{Cell, MARKS_APART, NUMBER, NUMBERS, TITLE, WORDS, cells};
+use super::layout::{Cell, cells};
 use super::sheet::Sheet;
 use crate::lab::{Command, Lab};
-use crate::view::plot::{on_screen, paint};
-use crate::view::theme::strong_font;
+use crate::view::chart::{self, ABOVE, NAME, NUMBER, PlotArea, Primitive, Text};
+use crate::view::theme::{Ink, strong_font};
 
 /// The least room for the numbers of an upright axis, in points.
 const LEFT: f32 = 40.0;
@@ -25,8 +24,8 @@ const NEAR: f32 = 9.0;
 struct Views(BTreeMap<String, [f64; 2]>);
 
 impl Views {
-    fn bounds(&self, cell: &Cell<'_>) -> PlotBounds {
-        cell.plot.in_view(&self.0)
+    fn area(&self, cell: &Cell<'_>) -> PlotArea {
+        cell.area(&self.0)
     }
 
     fn fit(&mut self, cell: &Cell<'_>) {
@@ -36,11 +35,10 @@ impl Views {
 
     /// Shows what lies in `part` of the frame, in parts of its width and its height from the lower left corner.
     fn show(&mut self, cell: &Cell<'_>, part: [[f64; 2]; 2]) {
-        let bounds = self.bounds(cell);
-        let (low, high) = (bounds.min(), bounds.max());
+        let bounds = self.area(cell).bounds;
         for (axis, name) in cell.plot.axis_names().into_iter().enumerate() {
-            let wide = high[axis] - low[axis];
-            let range = part[axis].map(|part| low[axis] + part * wide);
+            let [low, high] = bounds[axis];
+            let range = part[axis].map(|part| low + part * (high - low));
             let far = range[0].abs().max(range[1].abs());
             // Not so near that the numbers have no digits left to differ in, nor beyond all numbers.
             if range[1] - range[0] > 1e-9 * far && far < 1e30 {
@@ -85,7 +83,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Com
         if response.double_clicked() {
             views.fit(cell);
         } else if response.clicked() {
-            commands.extend(picked(&sheet.roster, cell, &views.bounds(cell), &response));
+            commands.extend(picked(&sheet.roster, cell, &views.area(cell), &response));
         } else if response.dragged() {
             views.pan(cell, response.drag_delta());
         }
@@ -93,13 +91,14 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Com
         response.context_menu(|ui| menu(ui, cell, &mut views, commands));
     }
     for (place, cell) in cells.iter().enumerate() {
-        show_plot(ui, lab, &sheet.roster, cell, &views.bounds(cell), commands);
+        let area = views.area(cell);
+        show_plot(ui, lab, &sheet.roster, (cell, &area), commands);
         if cell.plot.nothing.is_none() {
             let at = pointer.filter(|(over, _)| *over == place || cell.plot.is_over_time());
-            let bounds = |cell: &Cell<'_>| views.bounds(cell);
-            let t =
-                at.and_then(|(over, at)| hover::time_at(&cells[over], &bounds(&cells[over]), at));
-            hover::show(ui, &sheet.roster, cell, &bounds(cell), t, place == 0);
+            let t = at.and_then(|(over, at)| {
+                hover::time_at(cells[over].plot, &views.area(&cells[over]), at)
+            });
+            hover::show(ui, &sheet.roster, (cell, &area), t, place == 0);
         }
     }
     focused.into_iter().for_each(|rect| ring(ui, rect));
@@ -115,22 +114,12 @@ pub(super) fn is_zoomed(lab: &Lab) -> bool {
 
 /// The room that the numbers of all plots take, in points.
 fn room_for_numbers(ui: &Ui, cells: &[Cell<'_>], views: &Views) -> f32 {
-    let marks = cells.iter().flat_map(|cell| {
-        let bounds = views.bounds(cell);
-        marks_up(cell, &bounds)
-    });
+    let marks = cells.iter().flat_map(|cell| cell.marks(&views.area(cell), 1));
     let widths = marks.map(|(_, text)| {
         let font = FontId::proportional(NUMBER);
         ui.painter().layout_no_wrap(text, font, ink(ui).dim).size().x
     });
     widths.fold(LEFT, |room, width| room.max(width + 10.0))
-}
-
-/// The marks of the upright axis.
-fn marks_up(cell: &Cell<'_>, bounds: &PlotBounds) -> Vec<(f64, String)> {
-    let ([_, low], [_, high]) = (bounds.min(), bounds.max());
-    let room = f64::from(cell.frame.height());
-    cell.plot.axes[1].scale.marks((low, high), room, MARKS_APART[1])
 }
 
 fn turn_wheel(ui: &Ui, views: &mut Views, cell: &Cell<'_>, at: Pos2) {
@@ -165,7 +154,7 @@ fn menu(ui: &mut Ui, cell: &Cell<'_>, views: &mut Views, commands: &mut Vec<Comm
 fn picked(
     roster: &Roster,
     cell: &Cell<'_>,
-    bounds: &PlotBounds,
+    area: &PlotArea,
     response: &Response,
 ) -> Option<Command> {
     let at = response.interact_pointer_pos()?;
@@ -173,8 +162,7 @@ fn picked(
         return None;
     }
     let distance = |track: &super::super::tracks::Track| {
-        let points: Vec<Pos2> =
-            track.places().map(|(_, _, point)| on_screen(cell.frame, bounds, point)).collect();
+        let points: Vec<Pos2> = track.places().map(|(_, _, point)| area.at(point)).collect();
         let pieces = points.windows(2).map(|ends| distance_to(at, [ends[0], ends[1]]));
         pieces.fold(f32::INFINITY, f32::min)
     };
@@ -190,26 +178,27 @@ fn distance_to(at: Pos2, [from, to]: [Pos2; 2]) -> f32 {
     at.distance(from + part * along)
 }
 
-/// Draws a plot with its axes and its title.
+/// Shows a plot with its axes and its title.
 fn show_plot(
     ui: &mut Ui,
     lab: &Lab,
     roster: &Roster,
-    cell: &Cell<'_>,
-    bounds: &PlotBounds,
+    (cell, area): (&Cell<'_>, &PlotArea),
     commands: &mut Vec<Command>,
 ) {
-    let (frame, plot, ink) = (cell.frame, cell.plot, ink(ui));
+    let (plot, ink) = (cell.plot, ink(ui));
     let painter = ui.painter().clone();
-    painter.rect_filled(frame, 0.0, ink.plot);
-    let edge = pos2(cell.left, frame.top() - TITLE / 2.0);
-    let name = FontId::proportional(WORDS);
-    let name = painter.text(edge, Align2::LEFT_CENTER, plot.axes[1].name(), name, ink.dim);
-    let title = pos2(frame.left().max(name.right() + 12.0), edge.y);
+    let columns = area.rect.width() * painter.pixels_per_point();
+    let right = ui.max_rect().right();
+    chart::paint(&painter, &layout(lab, roster, (cell, area), ink, (columns, right)));
+    let name = FontId::proportional(NAME);
+    let name = painter.layout_no_wrap(plot.axes[1].name(), name, ink.dim).size().x;
+    let edge = pos2(cell.left, area.rect.top() - ABOVE / 2.0);
+    let title = pos2(area.rect.left().max(edge.x + name + 12.0), edge.y);
     let is_chosen = lab.view().body == plot.body;
-    let font = if is_chosen { strong_font(WORDS) } else { FontId::proportional(WORDS) };
+    let font = if is_chosen { strong_font(NAME) } else { FontId::proportional(NAME) };
     // Up to the values beside the plot.
-    let (words, is_whole) = short(ui, &plot.title, font, frame.right() - title.x, ink.text);
+    let (words, is_whole) = short(ui, &plot.title, font, area.rect.right() - title.x, ink.text);
     let at = Align2::LEFT_CENTER.anchor_size(title, words.size()).min;
     let response = ui.interact(
         Rect::from_min_size(at, words.size()),
@@ -224,54 +213,32 @@ fn show_plot(
     if response.on_hover_text(about).clicked() {
         commands.push(Command::Body(plot.body));
     }
-    if let Some(why) = &plot.nothing {
-        let words =
-            painter.layout(why.clone(), FontId::proportional(WORDS), ink.dim, 0.9 * frame.width());
-        let at = Align2::CENTER_CENTER.anchor_size(frame.center(), words.size()).min;
-        painter.galley(at, words, ink.dim);
-        return;
-    }
-    axes(ui, cell, bounds);
-    let columns = frame.width() * painter.pixels_per_point();
-    paint(&painter, frame, bounds, &plot.drawing(lab, roster, bounds, columns));
-    let rim = Stroke::new(1.0, ink.line);
-    painter.rect_stroke(frame, 0.0, rim, egui::StrokeKind::Outside);
 }
 
-/// Draws the grid with its numbers, and the names of the axes.
-fn axes(ui: &Ui, cell: &Cell<'_>, bounds: &PlotBounds) {
-    let (frame, plot, ink) = (cell.frame, cell.plot, ink(ui));
-    let painter = ui.painter();
-    let number = FontId::proportional(NUMBER);
-    let grid = Stroke::new(1.0, ink.grid);
-    let along = &plot.axes[0];
-    let (low, high) = (bounds.min(), bounds.max());
-    let room = f64::from(frame.width());
-    for (place, text) in along.scale.marks((low[0], high[0]), room, MARKS_APART[0]) {
-        let x = on_screen(frame, bounds, [place, low[1]]).x;
-        painter.vline(x, frame.y_range(), grid);
-        if cell.is_lowest {
-            let text = painter.layout_no_wrap(text, number.clone(), ink.dim);
-            // The number of a mark at the edge ends with the panel.
-            let left = (x - text.size().x / 2.0).min(ui.max_rect().right() - text.size().x);
-            painter.galley(pos2(left, frame.bottom() + 3.0), text, ink.dim);
-        }
+/// A plot with its axes and without its title, on so many columns of pixels. No number along goes on beyond `right`.
+pub(super) fn layout(
+    lab: &Lab,
+    roster: &Roster,
+    (cell, area): (&Cell<'_>, &PlotArea),
+    ink: &Ink,
+    (columns, right): (f32, f32),
+) -> Vec<Primitive> {
+    let (plot, frame) = (cell.plot, area.rect);
+    let [along, up] =
+        chart::names(area, cell.left, plot.axes.each_ref().map(|axis| axis.name()), ink);
+    let mut all = vec![Primitive::Area(frame, ink.plot), up.into()];
+    if let Some(why) = &plot.nothing {
+        let why = Text::new(frame.center(), Align2::CENTER_CENTER, why.as_str(), NAME, ink.dim);
+        all.push(Text { wrap: 0.9 * frame.width(), ..why }.into());
+        return all;
     }
-    let mut last = f32::NEG_INFINITY;
-    for (place, text) in marks_up(cell, bounds) {
-        let y = on_screen(frame, bounds, [low[0], place]).y;
-        painter.hline(frame.x_range(), y, grid);
-        // Not in the title above.
-        let at = pos2(frame.left() - 6.0, y.max(frame.top() + 5.0));
-        // A low plot has no room for all of them.
-        if (at.y - last).abs() >= NUMBER {
-            painter.text(at, Align2::RIGHT_CENTER, text, number.clone(), ink.dim);
-            last = at.y;
-        }
-    }
-    let name = FontId::proportional(WORDS);
+    let [mut across, upwards] = [0, 1].map(|axis| cell.marks(area, axis));
     if cell.is_lowest {
-        let at = pos2(frame.center().x, frame.bottom() + NUMBERS);
-        painter.text(at, Align2::CENTER_TOP, along.name(), name, ink.dim);
+        all.push(along.into());
+    } else {
+        across.iter_mut().for_each(|(_, text)| text.clear());
     }
+    all.extend(chart::axes(area, [across, upwards], ink, right));
+    all.push(chart::contents(area, &plot.drawing(lab, roster, &area.bounds, columns)));
+    all
 }

@@ -9,7 +9,6 @@ use egui::{
     TextFormat, TextureHandle, TextureOptions, Ui, UiBuilder, Vec2, pos2, vec2,
 };
 
-use super::super::plot_area::PlotArea;
 use super::super::roster::Roster;
 use super::super::tracks::{Look, Track};
 use super::super::{focus_ring, ink, strong_font};
@@ -21,9 +20,9 @@ use crate::lab::palette::{Rgba, Theme};
 use crate::lab::{
     CloudChoice, CloudKind, CloudPicture, Command, Density, Lab, LaneCloud, Mode, POINTS,
 };
-use crate::view::axis_scale::AxisScale;
-use crate::view::curves::{self, Curve, Dots};
-use crate::view::plot::SwitchMark;
+use crate::view::chart::{
+    self as charts, AxisScale, Dots, LineStyle, PlotArea, SwitchMark, curves,
+};
 
 /// Room for the numbers of the axes, at the left and below, and for the axes' names, in points.
 const LEFT: f32 = 32.0;
@@ -259,22 +258,16 @@ fn cloud(
     let view = picture.view;
     let area = PlotArea { rect, bounds: [view.q, view.v] };
     let marks = |axis: usize, apart: f64| {
-        let marks = area.marks(axis, apart).into_iter();
+        let marks = area.marks(axis, AxisScale::Linear, apart).into_iter();
         let is_named = has[1 - axis];
         marks
             .map(|(at, text)| (at, if is_named { text } else { String::new() }))
             .collect::<Vec<_>>()
     };
-    area.axes(ui.painter(), ink, [&marks(0, 56.0), &marks(1, 24.0)]);
+    let axes = charts::axes(&area, [marks(0, 56.0), marks(1, 24.0)], ink, f32::INFINITY);
+    charts::paint(ui.painter(), &axes);
     let painter = ui.painter().with_clip_rect(rect);
-    let outline = Curve {
-        colour: ink.exact,
-        width: OUTLINE,
-        dash: [1.0, 0.0],
-        dots: Dots::None,
-        points: Vec::new(),
-        swept: Vec::new(),
-    };
+    let outline = LineStyle::solid(ink.exact, OUTLINE);
     for line in &picture.border {
         let at = |&[q, v]: &[f64; 2]| {
             let [x, y] = view.place(q, v).map(|part| part.clamp(-10.0, 11.0) as f32);
@@ -284,7 +277,7 @@ fn cloud(
         // An angle goes on at the other side.
         let goes_on = |a: &Pos2, b: &Pos2| (a.x - b.x).abs() < rect.width() / 2.0 || !view.wraps;
         for piece in points.chunk_by(goes_on) {
-            curves::paint(&painter, piece, &[], &outline);
+            curves::paint(&painter, piece, &[], outline);
         }
     }
     let response = ui.interact(rect, ui.scope_id().with(("cloud", place)), Sense::click());

@@ -7,9 +7,7 @@ use super::error;
 use super::motion::healthy;
 use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet, over_time};
 use crate::lab::{Energies, Lab, METRICS};
-use crate::view::axis_scale::AxisScale;
-use crate::view::curves::Dots;
-use crate::view::plot::SwitchMark;
+use crate::view::chart::{AxisScale, Dots, SwitchMark};
 
 /// An energy: its name, its dash, how much of its colour it has, and how it is found.
 type Part = (&'static str, [f32; 2], f32, fn(Energies) -> f64);

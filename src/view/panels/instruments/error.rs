@@ -5,9 +5,7 @@ use super::super::roster::Roster;
 use super::super::tracks::{Look, Track};
 use super::sheet::{FRONT, PlotAxis, PlotModel, Sheet, over_time};
 use crate::lab::{Lab, METRICS, Metric, Scale};
-use crate::view::axis_scale::AxisScale;
-use crate::view::curves::Dots;
-use crate::view::plot::SwitchMark;
+use crate::view::chart::{AxisScale, Dots, SwitchMark};
 
 /// Said where every error is zero, which has no logarithm.
 pub(super) const NO_ERROR: &str =

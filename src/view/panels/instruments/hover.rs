@@ -1,13 +1,12 @@
 //! The crosshair of a plot, and the values of all curves beside it: where the pointer is, else now.
 
 use egui::{Align2, FontId, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
-use egui_plot::PlotBounds;
 
 use super::super::ink;
 use super::super::roster::Roster;
-use super::layout::{Cell, WORDS};
-use super::sheet::Readout;
-use crate::view::plot::on_screen;
+use super::layout::Cell;
+use super::sheet::{PlotModel, Readout};
+use crate::view::chart::{NAME, PlotArea};
 use crate::view::theme::strong_font;
 
 /// The width of the crosshair and the radius of the dots on the curves, in points.
@@ -17,16 +16,15 @@ const DOT: f32 = 3.6;
 const LINE: f32 = 15.5;
 
 /// The moment (s) that a pointer is at: along the axis of time, else that of the nearest point of a curve.
-pub(super) fn time_at(cell: &Cell<'_>, bounds: &PlotBounds, at: Pos2) -> Option<f64> {
-    if cell.plot.is_over_time() {
-        let part = f64::from((at.x - cell.frame.left()) / cell.frame.width());
-        return Some(bounds.min()[0] + part * (bounds.max()[0] - bounds.min()[0]));
+pub(super) fn time_at(plot: &PlotModel, area: &PlotArea, at: Pos2) -> Option<f64> {
+    if plot.is_over_time() {
+        return Some(area.point(at)[0]);
     }
-    let exact = cell.plot.exact.iter();
+    let exact = plot.exact.iter();
     let exact = exact.flat_map(|line| line.times.iter().copied().zip(line.curve.points.clone()));
-    let lanes = cell.plot.tracks.iter().flat_map(|track| track.places());
+    let lanes = plot.tracks.iter().flat_map(|track| track.places());
     let lanes = lanes.map(|(t, _, point)| (t, point));
-    let away = |point: [f64; 2]| on_screen(cell.frame, bounds, point).distance_sq(at);
+    let away = |point: [f64; 2]| area.at(point).distance_sq(at);
     let near = lanes.chain(exact).map(|(t, point)| (away(point), t));
     near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, t)| t)
 }
@@ -36,17 +34,17 @@ pub(super) fn time_at(cell: &Cell<'_>, bounds: &PlotBounds, at: Pos2) -> Option<
 pub(super) fn show(
     ui: &Ui,
     roster: &Roster,
-    cell: &Cell<'_>,
-    bounds: &PlotBounds,
+    (cell, area): (&Cell<'_>, &PlotArea),
     t: Option<f64>,
     has_tag: bool,
 ) {
-    let (frame, now) = (cell.frame, roster.now_s);
+    let (frame, now) = (area.rect, roster.now_s);
+    let [from, to] = area.bounds[0];
     let is_over_time = cell.plot.is_over_time();
     let readouts = cell.plot.readouts(roster, t.unwrap_or(now));
     let painter = ui.painter();
-    if is_over_time && (bounds.min()[0]..bounds.max()[0]).contains(&now) {
-        let x = on_screen(frame, bounds, [now, 0.0]).x;
+    if is_over_time && (from..to).contains(&now) {
+        let x = area.at([now, 0.0]).x;
         let ends = [pos2(x, frame.top()), pos2(x, frame.bottom())];
         let dim = Stroke::new(1.0, ink(ui).dim);
         painter.extend(Shape::dashed_line(&ends, dim, 2.0, 3.0));
@@ -55,10 +53,10 @@ pub(super) fn show(
         let inside = painter.with_clip_rect(frame.expand(DOT));
         let line = Stroke::new(CROSSHAIR, ink(ui).accent);
         if is_over_time {
-            inside.vline(on_screen(frame, bounds, [t, 0.0]).x, frame.y_range(), line);
+            inside.vline(area.at([t, 0.0]).x, frame.y_range(), line);
         }
         for readout in &readouts {
-            let at = on_screen(frame, bounds, readout.at);
+            let at = area.at(readout.at);
             if frame.contains(at) {
                 inside.circle_filled(at, DOT, readout.colour);
                 inside.circle_stroke(at, DOT, Stroke::new(1.0, ink(ui).plot));
@@ -66,10 +64,15 @@ pub(super) fn show(
         }
         if has_tag {
             let x = match is_over_time {
-                true => on_screen(frame, bounds, [t, 0.0]).x,
+                true => area.at([t, 0.0]).x,
                 false => frame.center().x,
             };
-            time_tag(ui, frame, x, &format!("t = {} s", decimals(t, bounds, is_over_time)));
+            time_tag(
+                ui,
+                frame,
+                x,
+                &format!("t = {} s", decimals(t, if is_over_time { to - from } else { 10.0 })),
+            );
         }
     }
     if cell.right > frame.right() {
@@ -78,8 +81,7 @@ pub(super) fn show(
 }
 
 /// A time in as many decimals as the zoom tells apart.
-fn decimals(t: f64, bounds: &PlotBounds, is_over_time: bool) -> String {
-    let wide = if is_over_time { bounds.max()[0] - bounds.min()[0] } else { 10.0 };
+fn decimals(t: f64, wide: f64) -> String {
     let decimals = (2.5 - libm::log10(wide)).ceil().clamp(2.0, 9.0) as usize;
     format!("{t:.decimals$}")
 }
@@ -87,7 +89,7 @@ fn decimals(t: f64, bounds: &PlotBounds, is_over_time: bool) -> String {
 /// The time at `x`, above the plot.
 fn time_tag(ui: &Ui, frame: Rect, x: f32, text: &str) {
     let (painter, ink) = (ui.painter(), ink(ui));
-    let words = painter.layout_no_wrap(text.to_owned(), strong_font(WORDS), ink.on_accent);
+    let words = painter.layout_no_wrap(text.to_owned(), strong_font(NAME), ink.on_accent);
     let size = words.size() + vec2(14.0, 5.0);
     let least = frame.left() + size.x / 2.0;
     let middle = x.clamp(least, (frame.right() - size.x / 2.0).max(least));
@@ -114,8 +116,8 @@ fn values(ui: &Ui, cell: &Cell<'_>, mut readouts: Vec<Readout>) {
     for (place, readout) in (0..).zip(&readouts) {
         let y = frame.top() + LINE * ((place * each) as f32 + 0.5);
         let font = match readout.is_front {
-            true => strong_font(WORDS),
-            false => FontId::proportional(WORDS),
+            true => strong_font(NAME),
+            false => FontId::proportional(NAME),
         };
         let name = pos2(frame.right() + 8.0, y);
         let write = |at: Pos2, align: Align2, text: &str| {

@@ -1,23 +1,19 @@
 //! Where the plots of an instrument and what is written round them go.
 
+use std::collections::BTreeMap;
+
 use egui::{Rect, pos2};
 
 use super::sheet::{PlotModel, Sheet};
+use crate::view::chart::{ABOVE, Mark, NAMES, NUMBERS, PlotArea};
 
 /// The least distance between marks along and up, in points, as long as three fit.
-pub(super) const MARKS_APART: [f64; 2] = [56.0, 24.0];
-/// The size of a number and of a title, in points.
-pub(super) const NUMBER: f32 = 11.5;
-pub(super) const WORDS: f32 = 12.5;
+const MARKS_APART: [f64; 2] = [56.0, 24.0];
 /// Room at the right for values, in points, and for those that have names.
 const RIGHT: f32 = 92.0;
 const RIGHT_OF_PARTS: f32 = 156.0;
 /// The least width of a plot that has values beside it, in points.
 const ROOM_FOR_VALUES: f32 = 170.0;
-/// The height of a plot's title, of the numbers below the lowest plot, and of the axis's name, in points.
-pub(super) const TITLE: f32 = 19.0;
-pub(super) const NUMBERS: f32 = 17.0;
-pub(super) const NAME: f32 = 16.0;
 /// Between plots, in points.
 const GAP: f32 = 5.0;
 /// The least height of a plot, in points: with less there are fewer plots.
@@ -37,18 +33,30 @@ pub(super) struct Cell<'s> {
     pub(super) is_lowest: bool,
 }
 
+impl Cell<'_> {
+    /// The plot's area, where these ranges are chosen.
+    pub(super) fn area(&self, ranges: &BTreeMap<String, [f64; 2]>) -> PlotArea {
+        PlotArea { rect: self.frame, bounds: self.plot.in_view(ranges) }
+    }
+
+    /// The marks along an axis.
+    pub(super) fn marks(&self, area: &PlotArea, axis: usize) -> Vec<Mark> {
+        area.marks(axis, self.plot.axes[axis].scale, MARKS_APART[axis])
+    }
+}
+
 /// The plots that fit into `room`, that of `body` among them, with `left` points for the numbers of their axes.
 pub(super) fn cells(sheet: &Sheet, room: Rect, left: f32, body: usize) -> Vec<Cell<'_>> {
-    let below = NUMBERS + NAME;
+    let below = NUMBERS + NAMES;
     let height = (room.height() - below).max(1.0);
-    let fit = ((height + GAP) / (TITLE + MIN_HEIGHT + GAP)).floor().max(1.0) as usize;
+    let fit = ((height + GAP) / (ABOVE + MIN_HEIGHT + GAP)).floor().max(1.0) as usize;
     let count = sheet.plots.len().min(fit);
     let chosen = sheet.plots.iter().position(|plot| plot.body == body).unwrap_or(0);
     let first = chosen.min(sheet.plots.len() - count);
     let shown = &sheet.plots[first..first + count];
     let weight = |plot: &PlotModel| if plot.body == body { CHOSEN } else { 1.0 };
     let weights: f32 = shown.iter().map(weight).sum();
-    let spare = height - count as f32 * (TITLE + MIN_HEIGHT) - (count - 1) as f32 * GAP;
+    let spare = height - count as f32 * (ABOVE + MIN_HEIGHT) - (count - 1) as f32 * GAP;
     let has_parts = shown.iter().any(|plot| plot.tracks.iter().any(|track| !track.part.is_empty()));
     let for_values = if has_parts { RIGHT_OF_PARTS } else { RIGHT };
     let has_values = room.width() - left - for_values >= ROOM_FOR_VALUES;
@@ -57,8 +65,8 @@ pub(super) fn cells(sheet: &Sheet, room: Rect, left: f32, body: usize) -> Vec<Ce
     let cell = |(i, plot): (usize, &'_ PlotModel)| {
         let tall = (MIN_HEIGHT + spare * weight(plot) / weights).max(1.0);
         let frame = Rect::from_min_max(
-            pos2(room.left() + left, top + TITLE),
-            pos2((room.right() - beside).max(room.left() + left + 1.0), top + TITLE + tall),
+            pos2(room.left() + left, top + ABOVE),
+            pos2((room.right() - beside).max(room.left() + left + 1.0), top + ABOVE + tall),
         );
         top = frame.bottom() + GAP;
         let right = if has_values { room.right() } else { frame.right() };

@@ -6,8 +6,7 @@ use super::super::tracks::{Detail, Look, Track};
 use super::error::capitalised;
 use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet, over_time};
 use crate::lab::{Lab, Mode};
-use crate::view::curves::Dots;
-use crate::view::plot::SwitchMark;
+use crate::view::chart::{Dots, SwitchMark};
 
 /// A lane this many times further out than the truth no longer stretches the axes; and where it is alone,
 /// squeezes nothing but the truth, and is looked at for how it grows.

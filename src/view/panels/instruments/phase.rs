@@ -1,7 +1,5 @@
 //! Velocity over coordinate, for the last turns of every lane and of the exact solution.
 
-use egui_plot::PlotBounds;
-
 use super::super::ranges;
 use super::super::roster::Roster;
 use super::super::tracks::{Look, Track};
@@ -9,8 +7,7 @@ use super::error::capitalised;
 use super::motion::healthy;
 use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet};
 use crate::lab::Lab;
-use crate::view::curves::Dots;
-use crate::view::plot::SwitchMark;
+use crate::view::chart::{Dots, SwitchMark};
 
 /// Samples in a phase portrait: a few turns, and each still to be told from the next.
 pub(super) const SAMPLES: usize = 360;
@@ -32,7 +29,7 @@ pub(super) fn sheet(lab: &Lab) -> Sheet {
         title: capitalised(&lab.scene().bodies[body].name),
         body,
         axes: [PlotAxis::of(&coordinate), PlotAxis::of_velocity(&coordinate)],
-        fit: PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]),
+        fit: [x.into(), y.into()],
         tracks,
         look: Look { width: FRONT, dots: Dots::Sparse, bounded: [true; 2] },
         exact: vec![exact],

@@ -4,17 +4,13 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use egui::Color32;
-use egui_plot::PlotBounds;
-
 use super::super::ink_of;
 use super::super::roster::{Roster, Runner};
 use super::super::tracks::{self, Look, Track};
 use crate::lab::number::significant;
 use crate::lab::{Coordinate, Lab, LaneBody, Quantity, TruthCurve, TruthSample, Unit};
-use crate::view::axis_scale::AxisScale;
-use crate::view::curves::{Curve, Dots};
-use crate::view::plot::{Arrow, Drawing, SwitchMark};
+use crate::view::chart::{Arrow, AxisScale, Bounds, Curve, Drawing, LineStyle, SwitchMark};
+use egui::Color32;
 
 /// The width in points of the curve in front, and of the exact curve drawn over it: a lane that keeps to the truth is
 /// seen on both sides of it.
@@ -38,7 +34,7 @@ pub(super) struct PlotModel {
     /// Along, and up.
     pub(super) axes: [PlotAxis; 2],
     /// What is in view unless a person has zoomed.
-    pub(super) fit: PlotBounds,
+    pub(super) fit: Bounds,
     /// The one in front last.
     pub(super) tracks: Vec<Track>,
     pub(super) look: Look,
@@ -166,10 +162,8 @@ impl ExactLine {
     }
 
     fn through(lab: &Lab, times: Vec<f64>, points: Vec<[f64; 2]>, jumps: Vec<usize>) -> Self {
-        let colour = ink_of(lab.display().theme).exact;
-        let dash = [1.0, 0.0];
-        let swept = Vec::new();
-        let curve = Curve { colour, width: EXACT, dash, dots: Dots::None, points, swept };
+        let style = LineStyle::solid(ink_of(lab.display().theme).exact, EXACT);
+        let curve = Curve { style, points, swept: Vec::new() };
         Self { curve, times, part: "", jumps, known: None, samples: Vec::new() }
     }
 
@@ -188,8 +182,9 @@ impl ExactLine {
 
     /// The same line as a part of the solution, with a dash of its own, and so much of its colour.
     pub(super) fn into_part(self, part: &'static str, dash: [f32; 2], strength: f32) -> Self {
-        let colour = self.curve.colour.gamma_multiply(strength);
-        Self { part, curve: Curve { dash, colour, ..self.curve }, ..self }
+        let colour = self.curve.style.colour.gamma_multiply(strength);
+        let style = LineStyle { dash, colour, ..self.curve.style };
+        Self { part, curve: Curve { style, ..self.curve }, ..self }
     }
 
     /// The curve from jump to jump, for a plot with these times in view on this number of pixel columns.
@@ -275,12 +270,9 @@ impl PlotModel {
     }
 
     /// What is in view where these ranges are chosen.
-    pub(super) fn in_view(&self, ranges: &BTreeMap<String, [f64; 2]>) -> PlotBounds {
+    pub(super) fn in_view(&self, ranges: &BTreeMap<String, [f64; 2]>) -> Bounds {
         let names = self.axis_names();
-        let (low, high) = (self.fit.min(), self.fit.max());
-        let [x, y] =
-            [0, 1].map(|axis| ranges.get(&names[axis]).copied().unwrap_or([low[axis], high[axis]]));
-        PlotBounds::from_min_max([x[0], y[0]], [x[1], y[1]])
+        [0, 1].map(|axis| ranges.get(&names[axis]).copied().unwrap_or(self.fit[axis]))
     }
 
     /// Everything in the plot with `bounds` in view on this number of pixel columns.
@@ -288,16 +280,17 @@ impl PlotModel {
         &self,
         lab: &Lab,
         roster: &Roster,
-        bounds: &PlotBounds,
+        bounds: &Bounds,
         columns: f32,
     ) -> Drawing {
-        let mut healthy = *bounds;
-        healthy.merge(&self.fit);
+        let healthy = [0, 1].map(|axis| {
+            let ([low, high], [least, most]) = (bounds[axis], self.fit[axis]);
+            [low.min(least), high.max(most)]
+        });
         let mut drawing = tracks::drawing(roster, &self.tracks, &healthy, self.look);
         drawing.switch_mark = self.switch_mark;
         let truth = &lab.race().truth().bodies()[self.body];
-        let view = [bounds.min()[0], bounds.max()[0]];
-        let curves = self.exact.iter().flat_map(|line| line.curves(truth, view, columns));
+        let curves = self.exact.iter().flat_map(|line| line.curves(truth, bounds[0], columns));
         drawing.truth = curves.collect();
         if self.is_over_time() {
             let left = drawing.truth.iter().filter_map(|curve| departure(curve, bounds));
@@ -323,18 +316,21 @@ impl PlotModel {
 }
 
 /// Where a curve first leaves what is in view upwards or downwards, or where it ends if it is nowhere in view.
-fn departure(curve: &Curve, bounds: &PlotBounds) -> Option<Arrow> {
-    let (low, high) = (bounds.min(), bounds.max());
-    let is_at_hand = |at: &&[f64; 2]| (low[0]..=high[0]).contains(&at[0]);
+fn departure(curve: &Curve, bounds: &Bounds) -> Option<Arrow> {
+    let is_in_view = |axis: usize, at: &[f64; 2]| {
+        let [low, high] = bounds[axis];
+        (low..=high).contains(&at[axis])
+    };
+    let is_at_hand = |at: &&[f64; 2]| is_in_view(0, at);
     let points: Vec<[f64; 2]> = curve.points.iter().filter(is_at_hand).copied().collect();
-    let is_seen = |at: &[f64; 2]| (low[1]..=high[1]).contains(&at[1]);
+    let is_seen = |at: &[f64; 2]| is_in_view(1, at);
     let leaves = points.windows(2).find(|ends| is_seen(&ends[0]) && !is_seen(&ends[1]));
     let [from, to] = match leaves {
         Some(ends) => [ends[0], ends[1]],
         None if points.iter().any(is_seen) => return None,
         None => [*points.last()?; 2],
     };
-    Some(Arrow { from, to, colour: curve.colour })
+    Some(Arrow { from, to, colour: curve.style.colour })
 }
 
 fn joined(key: &str, part: &str) -> String {
@@ -354,9 +350,9 @@ impl Sheet {
 }
 
 /// The time in view and the given range of values.
-pub(super) fn over_time(lab: &Lab, (low, high): (f64, f64)) -> PlotBounds {
+pub(super) fn over_time(lab: &Lab, (low, high): (f64, f64)) -> Bounds {
     let [from, to] = time_in_view(lab.scene().seconds, lab.race().t());
-    PlotBounds::from_min_max([from, low], [to, high])
+    [[from, to], [low, high]]
 }
 
 /// The time in view of a run of this length, in seconds: at first a quarter of it, then half of it, then all that has

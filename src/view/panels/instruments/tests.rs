@@ -8,6 +8,7 @@ use super::super::tracks::Detail;
 use super::error::NO_ERROR;
 use super::*;
 use crate::lab::{Action, CloudChoice, CloudWorker, SCENES, Scene};
+use crate::view::chart::PlotArea;
 use crate::view::panels;
 use crate::view::theme;
 
@@ -282,7 +283,7 @@ fn a_click_on_a_curve_selects_its_lane() {
     let widest = 0;
     let track = sheet.plots[0].tracks.iter().find(|track| track.entry == widest).unwrap();
     let (_, _, at) = track.places().find(|(t, _, [_, y])| *t > 0.9 && *y > 1.2).unwrap();
-    let at = plot::on_screen(cell.frame, &cell.plot.fit, at);
+    let at = PlotArea { rect: cell.frame, bounds: cell.plot.fit }.at(at);
     let is_pick = |command: &Command| *command == Command::Pick(widest);
     assert!(person.click(&lab, at).iter().any(is_pick));
     assert!(person.click(&lab, cell.frame.right_bottom() - vec2(9.0, 9.0)).is_empty());
@@ -296,7 +297,7 @@ fn after_a_placement_the_axis_fits_the_new_swing_and_the_exact_line_is_broken() 
     let place = |q: f64| Command::Act(Action::Place { body: 0, q: [q].into(), v: [0.0].into() });
     lab.apply(place(8.0));
     (0..300).for_each(|_| lab.tick());
-    let top = |lab: &Lab| sheet_of(lab, Detail::Samples).unwrap().plots[0].fit.max()[1];
+    let top = |lab: &Lab| sheet_of(lab, Detail::Samples).unwrap().plots[0].fit[1][1];
     assert!((8.0..12.0).contains(&top(&lab)), "{}", top(&lab));
     lab.apply(place(0.5));
     (0..10).for_each(|_| lab.tick());

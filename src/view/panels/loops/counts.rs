@@ -4,7 +4,7 @@ use egui::{Align2, Color32, FontId, Rect, Ui, pos2, vec2};
 
 use super::ShownLane;
 use crate::lab::number::round;
-use crate::view::panels::plot_area::PlotArea;
+use crate::view::chart::{self, AxisScale, PlotArea};
 use crate::view::panels::{ink, strong_font};
 
 /// What a frame can have: the last is that or more.
@@ -84,8 +84,9 @@ pub(super) fn show(ui: &Ui, room: Rect, series: &[Series]) {
     let top = highest.max(10.0) * f64::from(rect.height() / (rect.height() - ABOVE));
     let area = PlotArea { rect, bounds: [[-0.5, 3.5], [0.0, top]] };
     painter.rect_filled(rect, 0.0, ink.plot);
-    let marks = area.marks(1, 24.0).into_iter().map(|(value, text)| (value, format!("{text} %")));
-    area.axes(&painter, ink, [&[], &marks.collect::<Vec<_>>()]);
+    let marks = area.marks(1, AxisScale::Linear, 24.0).into_iter();
+    let marks: Vec<_> = marks.map(|(value, text)| (value, format!("{text} %"))).collect();
+    chart::paint(&painter, &chart::axes(&area, [Vec::new(), marks], ink, room.right()));
     let group = rect.width() / NAMES.len() as f32;
     let width = group * BARS / series.len().max(1) as f32;
     for (count, name) in NAMES.iter().enumerate() {
@@ -118,14 +119,8 @@ pub(super) fn show(ui: &Ui, room: Rect, series: &[Series]) {
             number(x, top_of(share), share, series[i].colour);
         }
     }
-    let at = pos2(rect.center().x, room.bottom());
-    painter.text(
-        at,
-        Align2::CENTER_BOTTOM,
-        "ticks in a frame",
-        FontId::proportional(11.5),
-        ink.dim,
-    );
+    let [name, _] = chart::names(&area, room.left(), ["ticks in a frame", ""], ink);
+    chart::paint(&painter, &[name.into()]);
 }
 
 #[cfg(test)]

@@ -1,12 +1,12 @@
 //! The animation error of the last frames.
 
-use egui::{Align2, FontId, Rect, Ui, pos2, vec2};
+use egui::{Align2, Rect, Ui, vec2};
 
 use super::ShownLane;
 use super::counts::{BELOW, LEFT, NAME, TITLE};
 use crate::lab::LoopLab;
 use crate::lab::number::round;
-use crate::view::panels::plot_area::PlotArea;
+use crate::view::chart::{self, AxisScale, PlotArea};
 use crate::view::panels::{ink, strong_font};
 
 /// The number of frames shown.
@@ -51,8 +51,9 @@ pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]
     let reach = round_up((1.1 * largest).max(MIN_MS));
     let area = PlotArea { rect, bounds: [[-(FRAMES as f64), 0.0], [-reach, reach]] };
     painter.rect_filled(rect, 0.0, ink.plot);
-    let along = [0.0, 8.0, 16.0].map(|back| (-back - 0.5, round(-back, 3)));
-    area.axes(&painter, ink, [&along, &area.marks(1, 24.0)]);
+    let along = [0.0, 8.0, 16.0].map(|back| (-back - 0.5, round(-back, 3))).into();
+    let up = area.marks(1, AxisScale::Linear, 24.0);
+    chart::paint(&painter, &chart::axes(&area, [along, up], ink, room.right()));
     let frame = rect.width() / FRAMES as f32;
     let width = frame * BARS / lanes.len().max(1) as f32;
     let zero = area.at([0.0; 2]).y;
@@ -68,9 +69,9 @@ pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]
             painter.rect_filled(bar, 0.0, lane.colour);
         }
     }
-    let at = pos2(rect.center().x, room.bottom());
     let name = if room.width() > 165.0 { "ms, by frame from now" } else { "ms, by frame" };
-    painter.text(at, Align2::CENTER_BOTTOM, name, FontId::proportional(11.5), ink.dim);
+    let [name, _] = chart::names(&area, room.left(), [name, ""], ink);
+    chart::paint(&painter, &[name.into()]);
 }
 
 #[cfg(test)]

@@ -1,13 +1,13 @@
 //! The window's own loop: how long its last frames took, and what it made of them.
 
-use egui::{Align2, Color32, FontId, Label, Pos2, Rect, RichText, Sense, Shape, Stroke, Ui, Vec2};
+use egui::{Color32, Label, Pos2, Rect, RichText, Sense, Shape, Stroke, Ui, Vec2};
 use egui::{pos2, vec2};
 
 use super::columns::shown;
-use super::counts::{self, BELOW, LEFT, Series};
+use super::counts::{self, LEFT, Series};
 use super::errors::round_up;
 use crate::lab::{Lab, LiveFrame};
-use crate::view::panels::plot_area::PlotArea;
+use crate::view::chart::{self, AxisScale, PlotArea};
 use crate::view::panels::{ink, strong_font};
 use crate::view::theme::colour;
 
@@ -18,8 +18,6 @@ const REACH: f64 = 1.6;
 /// From this height on, in points, there is a histogram, and the part of the height that it takes.
 const ROOM_FOR_COUNTS: f32 = 210.0;
 const COUNTS: f32 = 0.4;
-/// The height of the name of an axis, in points.
-const NAMES: f32 = 16.0;
 
 /// What is said of the frames, in milliseconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,8 +104,7 @@ fn plot<'a>(
     summary: &Summary,
 ) {
     let ink = ink(ui);
-    let rect =
-        Rect::from_min_max(room.min + vec2(LEFT, NAMES), room.max - vec2(6.0, BELOW + NAMES));
+    let rect = chart::inside(room, LEFT, 6.0);
     if !rect.is_positive() {
         return;
     }
@@ -115,12 +112,11 @@ fn plot<'a>(
     let area = PlotArea { rect, bounds: [[-LENGTH_S, 0.0], [0.0, reach]] };
     let painter = ui.painter_at(room);
     painter.rect_filled(rect, 0.0, ink.plot);
-    area.axes(&painter, ink, [&area.marks(0, 56.0), &area.marks(1, 24.0)]);
-    let small = || FontId::proportional(11.5);
-    let at = pos2(rect.left(), room.top());
-    painter.text(at, Align2::LEFT_TOP, "frame time, ms", small(), ink.dim);
-    let at = pos2(rect.center().x, room.bottom());
-    painter.text(at, Align2::CENTER_BOTTOM, "real time, s from the last frame", small(), ink.dim);
+    let marks = [0, 1].map(|axis| area.marks(axis, AxisScale::Linear, [56.0, 24.0][axis]));
+    let mut axes = chart::axes(&area, marks, ink, room.right());
+    let names = ["real time, s from the last frame", "frame time, ms"];
+    axes.extend(chart::names(&area, rect.left(), names, ink).map(Into::into));
+    chart::paint(&painter, &axes);
 
     let times: Vec<f64> = frames.map(time_ms).collect();
     let mut ago_s = 0.0;

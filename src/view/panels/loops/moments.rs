@@ -11,8 +11,7 @@ use super::ShownLane;
 use super::counts::BELOW;
 use crate::lab::number::round;
 use crate::lab::{LoopFrame, LoopLab, LoopLane};
-use crate::view::curves::{self, Curve, Dots};
-use crate::view::panels::plot_area::PlotArea;
+use crate::view::chart::{self, AxisScale, LineStyle, PlotArea, curves};
 use crate::view::panels::{ink, strong_font};
 use crate::view::theme::Ink;
 
@@ -77,7 +76,8 @@ pub(super) fn show(ui: &mut Ui, loops: &LoopLab, lanes: &[ShownLane<'_>], size: 
     let area = PlotArea { rect, bounds };
     let painter = ui.painter_at(room.expand(1.0));
     painter.rect_filled(rect, 0.0, ink.plot);
-    area.axes(&painter, ink, [&area.marks(0, 56.0), &area.marks(1, 26.0)]);
+    let numbers = [0, 1].map(|axis| area.marks(axis, AxisScale::Linear, [56.0, 26.0][axis]));
+    chart::paint(&painter, &chart::axes(&area, numbers, ink, room.right()));
     let ticks = format!("{} Hz ticks", loops.scene().tick_hz);
     let words = named(&painter, ink, "moment shown, ms from now", (ticks, ink.accent));
     painter.galley(pos2(rect.left(), room.top()), words, ink.dim);
@@ -119,15 +119,9 @@ fn staircase(
         let until_ns = frames.get(i + 1).map_or(loops.now_ns(), |next| next.displayed_ns);
         points.extend([at(frame.displayed_ns, frame), at(until_ns, frame)]);
     }
-    let curve = Curve {
-        colour: lane.colour,
-        width: if lane.is_selected { 2.4 } else { 1.8 },
-        dash: lane.dash,
-        dots: Dots::None,
-        points: Vec::new(),
-        swept: Vec::new(),
-    };
-    curves::paint(painter, &points, &[], &curve);
+    let width = if lane.is_selected { 2.4 } else { 1.8 };
+    let style = LineStyle { dash: lane.dash, ..LineStyle::solid(lane.colour, width) };
+    curves::paint(painter, &points, &[], style);
     for frame in frames {
         let at = at(frame.displayed_ns, frame);
         if radius > DOTS[0] {

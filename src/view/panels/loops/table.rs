@@ -8,11 +8,11 @@ use egui::{
 
 use super::columns::{COLUMNS, Cell, Column, fitting};
 use crate::lab::{Command, LoopCommand, LoopLab, LoopVerdict, Severity};
+use crate::view::chart::legend::swatch;
+use crate::view::panels::annotations::polygon;
 use crate::view::panels::lanes::{self, BAR, HEAD, MARGIN, ROW};
-use crate::view::panels::plot_area::polygon;
 use crate::view::panels::sorting::{self, Order};
 use crate::view::panels::{focus_ring, ink, keycap, severity_tone, short, strong_font};
-use crate::view::plot;
 use crate::view::theme::{TYPE, colour};
 
 /// Rows in sight: the stage and the instrument need the room. The rest is scrolled to.
@@ -197,7 +197,7 @@ fn paint(ui: &Ui, loops: &LoopLab, place: usize, cell: Cell, rect: Rect, verdict
             let (rgba, dash) = ink(ui).theme.loop_style(place);
             let strong = colour(rgba);
             let inked = if is_on { strong } else { strong.gamma_multiply(0.7) };
-            plot::swatch(ui.painter(), left, rect.width() - 4.0, dash, inked);
+            swatch(ui.painter(), left, rect.width() - 4.0, dash, inked);
         }
         Cell::Name => {
             let font = if is_selected { strong_font(TYPE) } else { FontId::proportional(TYPE) };

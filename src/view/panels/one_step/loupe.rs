@@ -2,9 +2,9 @@
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, Vec2, vec2};
 
-use super::PlotArea;
 use crate::lab::OneStep;
 use crate::lab::number::{enlargement, round};
+use crate::view::chart::PlotArea;
 use crate::view::theme::Ink;
 
 /// Its radius, its least radius, and how far it keeps from the plot's edges and from all else in the plot, in points.

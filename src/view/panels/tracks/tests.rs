@@ -9,7 +9,7 @@ fn colour_of(lab: &Lab, entry: usize) -> egui::Color32 {
 }
 
 fn drawn(lab: &Lab, low: f64, high: f64) -> Drawing {
-    let bounds = PlotBounds::from_min_max([0.0, low], [20.0, high]);
+    let bounds = [[0.0, 20.0], [low, high]];
     drawing(&Roster::of(lab), &Track::of(lab, 0, |s| [s.t, s.q]), &bounds, LOOK)
 }
 
@@ -26,12 +26,12 @@ fn the_past_keeps_the_colour_of_the_method_that_flew_it_and_a_switch_has_a_mark(
         tick(&mut lab, ticks);
     }
     let Drawing { curves, arrows, switches, .. } = drawn(&lab, -2.0, 2.0);
-    let colours: Vec<_> = curves.iter().map(|curve| curve.colour).collect();
+    let colours: Vec<_> = curves.iter().map(|curve| curve.style.colour).collect();
     assert_eq!(colours, flown.map(|(entry, _)| colour_of(&lab, entry)));
     let dashes = flown.map(|(entry, _)| {
         ink_of(lab.display().theme).style(lab.entries(), &lab.entries()[entry]).1
     });
-    assert!(curves.iter().map(|curve| curve.dash).eq(dashes));
+    assert!(curves.iter().map(|curve| curve.style.dash).eq(dashes));
     for (before, after) in curves.iter().zip(&curves[1..]) {
         assert_eq!(before.points.last(), after.points.first(), "one line");
     }

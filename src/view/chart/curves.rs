@@ -1,34 +1,59 @@
 //! The curves of a plot.
 //!
-//! `egui_plot` makes a shape of every piece of a dash between two samples, seen or not: a hundred
-//! thousand triangles for a race, most of them smaller than a pixel. Here a straight piece is two.
+//! A shape for every piece of a dash between two samples, seen or not, would be a hundred thousand triangles for a race,
+//! most of them smaller than a pixel. Here a straight piece is two.
 
 use std::sync::Arc;
 
-use egui::epaint::{PaintCallback, PathStroke};
-use egui::{Color32, Painter, Pos2, Rect, Shape, Vec2, vec2};
+use egui::epaint::PaintCallback;
+use egui::{Color32, Painter, Pos2, Rect, Vec2, vec2};
 
-use super::bands;
-use super::lines::{Joint, LineMesh, shown};
+use super::primitive::ScreenCurve;
+use super::{PlotArea, bands};
+use crate::view::lines::{Joint, LineMesh, shown};
 
-/// A curve to be drawn.
-#[derive(Clone)]
-pub(super) struct Curve {
-    pub(super) colour: Color32,
+/// How a curve is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::view) struct LineStyle {
+    pub(in crate::view) colour: Color32,
     /// In points.
-    pub(super) width: f32,
+    pub(in crate::view) width: f32,
     /// Drawn length and gap in points; a gap of 0 is solid.
-    pub(super) dash: [f32; 2],
-    pub(super) dots: Dots,
-    pub(super) points: Vec<[f64; 2]>,
+    pub(in crate::view) dash: [f32; 2],
+    pub(in crate::view) dots: Dots,
+}
+
+impl LineStyle {
+    /// A line without gaps and dots.
+    pub(in crate::view) fn solid(colour: Color32, width: f32) -> Self {
+        Self { colour, width, dash: [1.0, 0.0], dots: Dots::None }
+    }
+}
+
+/// A curve of a plane.
+#[derive(Clone)]
+pub(in crate::view) struct Curve {
+    pub(in crate::view) style: LineStyle,
+    pub(in crate::view) points: Vec<[f64; 2]>,
     /// For each point the least and the greatest height since the point before; empty where the points are all that is
     /// known.
-    pub(super) swept: Vec<[f64; 2]>,
+    pub(in crate::view) swept: Vec<[f64; 2]>,
+}
+
+impl Curve {
+    /// The same curve as it lies on the screen.
+    pub(super) fn on_screen(&self, area: &PlotArea) -> ScreenCurve {
+        ScreenCurve {
+            style: self.style,
+            points: self.points.iter().map(|at| area.at(*at)).collect(),
+            swept: self.swept.iter().map(|ends| ends.map(|y| area.height(y))).collect(),
+        }
+    }
 }
 
 /// Which points of a curve have a dot.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Dots {
+pub(in crate::view) enum Dots {
     None,
     /// Each, of this radius in points.
     Each(f32),
@@ -43,8 +68,6 @@ pub(super) enum Dots {
 const SPARSE: f32 = 3.0;
 /// The radius of their dots, in points of the screen.
 const SAMPLE: f32 = 1.5;
-/// And where the dots are all that is drawn.
-pub(super) const SCATTERED: f32 = 1.0;
 
 /// Above this coverage of its bounding box a curve is drawn solid, because dashes would not be visible.
 const CROWDED: f32 = 0.5;
@@ -67,10 +90,15 @@ const MAX_HIDDEN: f32 = 1.0 / 16.0;
 /// Draws a curve through `points` on the screen, as far as the painter's clip shows it: its line, or where swings are
 /// too narrow to be told apart, their [band](bands). `swept` has the heights that the curve comes to on the way to each
 /// point, where they are known. What the painter gets for a line is a
-/// [`LineMesh`] for [`MeshRenderer`](super::meshes::MeshRenderer). Returns whether something is drawn: a crowded curve
+/// [`LineMesh`] for [`MeshRenderer`](crate::view::meshes::MeshRenderer). Returns whether something is drawn: a crowded curve
 /// that goes back and forth has no band.
-pub(super) fn paint(painter: &Painter, points: &[Pos2], swept: &[[f32; 2]], curve: &Curve) -> bool {
-    let &Curve { colour, width, dash: [drawn, gap], .. } = curve;
+pub(in crate::view) fn paint(
+    painter: &Painter,
+    points: &[Pos2],
+    swept: &[[f32; 2]],
+    style: LineStyle,
+) -> bool {
+    let LineStyle { colour, width, dash: [drawn, gap], .. } = style;
     let joints = points.iter().map(|&at| Joint { at, radius: width / 2.0, colour });
     let runs = shown(joints, painter.clip_rect().expand(width));
     let is_crowded = is_crowded(&runs, width);
@@ -137,38 +165,29 @@ pub(super) fn dots(points: &[Pos2], dots: Dots) -> impl Iterator<Item = (Pos2, f
     })
 }
 
-/// Arrows where curves leave the plot, none on another.
-pub(super) struct Arrows<'p> {
-    painter: &'p Painter,
+/// Arrows where curves leave a plot, none on another.
+pub(super) struct Arrows {
+    frame: Rect,
     placed: Vec<Pos2>,
 }
 
-impl<'p> Arrows<'p> {
-    pub(super) fn new(painter: &'p Painter) -> Self {
-        Self { painter, placed: Vec::new() }
+impl Arrows {
+    pub(super) fn new(frame: Rect) -> Self {
+        Self { frame, placed: Vec::new() }
     }
 
-    /// An arrow for a curve that leaves the plot on its way between two points of the screen.
-    pub(super) fn paint(&mut self, ends: [Pos2; 2], colour: Color32) {
-        let Some((mut at, towards)) = exit(self.painter.clip_rect(), ends) else { return };
+    /// The corners of an arrow for a curve that leaves the plot on its way between two points of the screen; `None` if it
+    /// does not.
+    pub(super) fn place(&mut self, ends: [Pos2; 2]) -> Option<[Pos2; 3]> {
+        let (mut at, towards) = exit(self.frame, ends)?;
         while self.placed.iter().any(|other| other.distance(at) < 2.0 * ARROW) {
             at += 2.0 * ARROW * towards.abs().yx();
         }
         self.placed.push(at);
-        let corners = corners(at, towards).into();
-        self.painter.add(Shape::convex_polygon(corners, colour, PathStroke::NONE));
+        let across = towards.rot90();
+        let corner = |ahead: f32, aside: f32| at + ARROW * (ahead * towards + aside * across);
+        Some([corner(1.0, 0.0), corner(-0.5, 0.866), corner(-0.5, -0.866)])
     }
-}
-
-fn corners(at: Pos2, towards: Vec2) -> [Pos2; 3] {
-    let across = towards.rot90();
-    let corner = |ahead: f32, aside: f32| at + ARROW * (ahead * towards + aside * across);
-    [corner(1.0, 0.0), corner(-0.5, 0.866), corner(-0.5, -0.866)]
-}
-
-/// The corners of the arrow of a curve that leaves `frame` on its way between two points; `None` if it does not.
-pub(super) fn arrow_corners(frame: Rect, ends: [Pos2; 2]) -> Option<[Pos2; 3]> {
-    exit(frame, ends).map(|(at, towards)| corners(at, towards))
 }
 
 /// Where the arrow of a curve goes that leaves `frame` between two points, and which way it shows.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use egui::epaint::{Mesh, PaintCallback};
 use egui::{Color32, Painter, Pos2, Shape, pos2};
 
-use super::lines::{Joint, LineMesh, shown};
+use crate::view::lines::{Joint, LineMesh, shown};
 
 /// How much of its colour a band has between its edges.
 const FILL: f32 = 0.35;

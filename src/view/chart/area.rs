@@ -1,0 +1,80 @@
+//! How a plane lies on the screen.
+
+use egui::{Pos2, Rect, pos2};
+
+use super::axis::{AxisScale, Mark};
+
+/// The least and the greatest value along each axis of a plane.
+pub(in crate::view) type Bounds = [[f64; 2]; 2];
+
+/// The furthest that a point outside is drawn, in widths or heights of the plot.
+const FAR_OUTSIDE: f64 = 10.0;
+
+/// A rectangle of the screen that shows a rectangle of a plane.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::view) struct PlotArea {
+    pub(in crate::view) rect: Rect,
+    pub(in crate::view) bounds: Bounds,
+}
+
+impl PlotArea {
+    /// The place on the screen of a point of the plane. A point far outside is drawn nearer, but far enough out for a line
+    /// to leave at its own slope, and near enough for the f32 of the painter.
+    pub(in crate::view) fn at(&self, [x, y]: [f64; 2]) -> Pos2 {
+        pos2(self.rect.left() + self.part(0, x) * self.rect.width(), self.height(y))
+    }
+
+    /// How far down on the screen a value of the upright axis lies.
+    pub(in crate::view) fn height(&self, y: f64) -> f32 {
+        self.rect.bottom() - self.part(1, y) * self.rect.height()
+    }
+
+    fn part(&self, axis: usize, value: f64) -> f32 {
+        let [low, high] = self.bounds[axis];
+        ((value - low) / (high - low)).clamp(-FAR_OUTSIDE, 1.0 + FAR_OUTSIDE) as f32
+    }
+
+    /// The lengths on the screen of a difference between two points: to the right and up.
+    pub(in crate::view) fn lengths(&self, difference: [f64; 2]) -> [f64; 2] {
+        let size = [self.rect.width(), self.rect.height()].map(f64::from);
+        std::array::from_fn(|axis| {
+            let [low, high] = self.bounds[axis];
+            difference[axis] / (high - low) * size[axis]
+        })
+    }
+
+    /// The point of the plane at a place on the screen, which is moved into the rectangle.
+    pub(in crate::view) fn point(&self, at: Pos2) -> [f64; 2] {
+        let at = self.rect.clamp(at);
+        let parts = [
+            (at.x - self.rect.left()) / self.rect.width(),
+            (self.rect.bottom() - at.y) / self.rect.height(),
+        ];
+        std::array::from_fn(|axis| {
+            let [low, high] = self.bounds[axis];
+            low + (high - low) * f64::from(parts[axis])
+        })
+    }
+
+    /// Round marks along an axis of this scale, at least `apart` points from each other as long as there are three.
+    pub(in crate::view) fn marks(&self, axis: usize, scale: AxisScale, apart: f64) -> Vec<Mark> {
+        let room = [self.rect.width(), self.rect.height()][axis];
+        scale.marks(self.bounds[axis], room, apart)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_of_the_plane_is_found_again_from_its_place_on_the_screen() {
+        let rect = Rect::from_min_max(pos2(100.0, 50.0), pos2(300.0, 250.0));
+        let area = PlotArea { rect, bounds: [[-1.0, 3.0], [0.0, 5.0]] };
+        assert_eq!(area.at([-1.0, 0.0]), rect.left_bottom());
+        assert_eq!(area.at([3.0, 5.0]), rect.right_top());
+        let [x, y] = area.point(area.at([0.5, 4.0]));
+        assert!((x - 0.5).abs() < 1e-6 && (y - 4.0).abs() < 1e-6, "{x}, {y}");
+        assert_eq!(area.point(pos2(0.0, 999.0)), [-1.0, 0.0]);
+    }
+}

@@ -1,0 +1,244 @@
+//! Charts that fill a picture: a title, a legend, axes with units, curves, and a note below.
+
+use egui::{
+    Frame, Margin, Rect, RichText, TextStyle, TextWrapMode, Ui, UiBuilder, WidgetText, pos2, vec2,
+};
+
+use super::{
+    Arrow, AxisScale, Curve, Dots, Drawing, LineStyle, PlotArea, axes, contents, legend, names,
+    paint,
+};
+use crate::lab::picture::Rgba;
+use crate::view::theme::{colour, ink};
+
+/// A picture of one chart or several.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// What it shows.
+    pub title: String,
+    /// What has to be known to make it again.
+    pub note: String,
+    /// How many charts stand side by side; the last takes what its row has left.
+    pub columns: usize,
+    /// Row by row.
+    pub charts: Vec<Chart>,
+}
+
+/// Curves over a pair of axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chart {
+    /// What tells it from the figure's other charts; empty for one alone.
+    pub title: String,
+    /// Where its curves are named.
+    pub legend: Legend,
+    /// Along, and up.
+    pub axes: [Axis; 2],
+    /// The first is drawn at the bottom.
+    pub curves: Vec<FigureCurve>,
+}
+
+/// Where a chart's curves are named.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Legend {
+    /// Below the figure's title, once for all charts that have them.
+    Shared,
+    /// Below the chart's own title.
+    Own,
+}
+
+/// What a chart measures in one direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// The quantity, with its unit.
+    pub name: &'static str,
+    /// The least and the greatest value in view.
+    pub view: [f64; 2],
+    /// How values are laid out along it. Everything in view of a logarithmic one is above 0.
+    pub scale: AxisScale,
+}
+
+/// A curve of a diagram.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FigureCurve {
+    /// Its name in the legend.
+    pub name: String,
+    /// Its colour.
+    pub colour: Rgba,
+    /// Drawn length and gap in points; a gap of 0 is solid.
+    pub dash: [f32; 2],
+    /// Radius in points of a dot on each point; 0 for none.
+    pub dots: f32,
+    /// Its points.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// Room around the note, in points.
+const NOTE: f32 = 19.6;
+
+/// Room between the charts of a figure, in points.
+const GAP: f32 = 22.0;
+
+/// The least distance between marks along and up, in points, as long as three fit.
+const MARKS_APART: [f64; 2] = [44.0, 26.0];
+
+/// The width of a curve, in points.
+const CURVE: f32 = 1.6;
+
+/// From an edge to where the axes of a chart begin, in points.
+const INDENT: f32 = 58.0;
+
+/// Shows the figure in all of `ui`.
+pub(in crate::view) fn show(ui: &mut Ui, figure: &Figure) {
+    let frame = Frame::new().fill(ink(ui).background).inner_margin(Margin {
+        left: 12,
+        right: 26,
+        top: 18,
+        bottom: 8,
+    });
+    egui::CentralPanel::default_margins().frame(frame).show(ui, |ui| {
+        ui.horizontal(|ui| {
+            ui.add_space(INDENT);
+            ui.label(RichText::new(&figure.title).size(17.0).color(ink(ui).text));
+        });
+        ui.add_space(4.0);
+        let mut named: Vec<&FigureCurve> = Vec::new();
+        for chart in figure.charts.iter().filter(|chart| chart.legend == Legend::Shared) {
+            for curve in &chart.curves {
+                if !named.iter().any(|other| other.name == curve.name) {
+                    named.push(curve);
+                }
+            }
+        }
+        show_legend(ui, &named);
+        ui.add_space(8.0);
+        let note = WidgetText::from(RichText::new(&figure.note).color(ink(ui).dim));
+        let width = ui.available_width() - INDENT;
+        let note = note.into_galley(ui, Some(TextWrapMode::Wrap), width, TextStyle::Body);
+        let mut room = ui.available_rect_before_wrap();
+        room.max.y = (room.max.y - NOTE - note.size().y).max(room.min.y + 10.0);
+        for (n, (chart, place)) in figure.charts.iter().zip(places(figure, room)).enumerate() {
+            ui.scope_builder(UiBuilder::new().id_salt(n).max_rect(place), |ui| {
+                show_chart(ui, chart)
+            });
+        }
+        ui.advance_cursor_after_rect(room);
+        ui.add_space(4.0);
+        ui.horizontal(|ui| {
+            ui.add_space(INDENT);
+            ui.label(note);
+        });
+    });
+}
+
+/// Where each chart goes.
+fn places(figure: &Figure, room: Rect) -> impl Iterator<Item = Rect> {
+    let (columns, charts) = (figure.columns.max(1), figure.charts.len());
+    let rows = charts.div_ceil(columns);
+    let cell = (room.size() + vec2(GAP, GAP)) / vec2(columns as f32, rows as f32);
+    (0..charts).map(move |n| {
+        let corner = room.min + cell * vec2((n % columns) as f32, (n / columns) as f32);
+        let right = if n + 1 == charts { room.max.x } else { corner.x + cell.x - GAP };
+        Rect::from_min_max(corner, pos2(right, corner.y + cell.y - GAP))
+    })
+}
+
+fn show_chart(ui: &mut Ui, chart: &Chart) {
+    if !chart.title.is_empty() {
+        ui.horizontal(|ui| {
+            ui.add_space(INDENT);
+            ui.label(RichText::new(&chart.title).size(14.0).color(ink(ui).text));
+        });
+    }
+    if chart.legend == Legend::Own {
+        show_legend(ui, &chart.curves.iter().collect::<Vec<_>>());
+        ui.add_space(5.0);
+    }
+    let bounds = [0, 1].map(|axis| {
+        let Axis { view, scale, .. } = &chart.axes[axis];
+        view.map(|value| scale.place(value))
+    });
+    let room = ui.available_rect_before_wrap();
+    let area = PlotArea { rect: super::inside(room, INDENT, 0.0), bounds };
+    let marks = [0, 1].map(|axis| area.marks(axis, chart.axes[axis].scale, MARKS_APART[axis]));
+    let curves: Vec<Curve> = chart.curves.iter().map(|curve| laid_out(curve, chart)).collect();
+    let [low, high] = bounds[1];
+    let arrows = curves.iter().filter_map(|curve| {
+        let newest = curve.points.last().filter(|point| !(low..=high).contains(&point[1]))?;
+        Some(Arrow { from: *newest, to: *newest, colour: curve.style.colour })
+    });
+    let arrows = arrows.collect();
+    let mut all = axes(&area, marks, ink(ui), f32::INFINITY);
+    let names =
+        names(&area, area.rect.left(), chart.axes.each_ref().map(|axis| axis.name), ink(ui));
+    all.extend(names.map(Into::into));
+    all.push(contents(&area, &Drawing { curves, arrows, ..Drawing::default() }));
+    paint(ui.painter(), &all);
+}
+
+/// A curve as it lies in the chart; what is not finite there is left out.
+fn laid_out(curve: &FigureCurve, chart: &Chart) -> Curve {
+    let [along, up] = [0, 1].map(|axis| chart.axes[axis].scale);
+    let points = curve.points.iter().map(|&[x, y]| [along.place(x), up.place(y)]);
+    let dots = if curve.dots > 0.0 { Dots::Each(curve.dots) } else { Dots::None };
+    Curve {
+        style: LineStyle { colour: colour(curve.colour), width: CURVE, dash: curve.dash, dots },
+        points: points.filter(|[x, y]| x.is_finite() && y.is_finite()).collect(),
+        swept: Vec::new(),
+    }
+}
+
+/// The names of these curves: in one row, or where that is too long in columns.
+fn show_legend(ui: &mut Ui, curves: &[&FigureCurve]) {
+    let entry = |curve: &&FigureCurve| legend::Entry {
+        name: curve.name.clone(),
+        colour: colour(curve.colour),
+        dash: curve.dash,
+        is_front: false,
+    };
+    let entries: Vec<legend::Entry> = curves.iter().map(entry).collect();
+    let widths: Vec<f32> = entries.iter().map(|entry| entry.width(ui) + legend::BETWEEN).collect();
+    let room = ui.available_width() - INDENT;
+    let (mut columns, mut width) = (entries.len().max(1), 0.0);
+    if widths.iter().sum::<f32>() > room {
+        let widest = widths.iter().copied().fold(0.0, f32::max);
+        let fit = ((room / widest) as usize).max(1);
+        (columns, width) = (columns.div_ceil(columns.div_ceil(fit)), widest - legend::BETWEEN);
+    }
+    ui.spacing_mut().item_spacing.x = legend::BETWEEN;
+    ui.spacing_mut().interact_size.y = legend::ROW;
+    for row in entries.chunks(columns) {
+        ui.horizontal(|ui| {
+            ui.add_space(INDENT);
+            row.iter().for_each(|entry| drop(entry.show(ui, width)));
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn charts_fill_their_rows_and_the_last_one_what_is_left() {
+        let chart = Chart {
+            title: String::new(),
+            legend: Legend::Own,
+            axes: ["x", "y"].map(|name| Axis { name, view: [1.0, 2.0], scale: AxisScale::Log }),
+            curves: Vec::new(),
+        };
+        let room = Rect::from_min_max(pos2(10.0, 20.0), pos2(310.0, 220.0));
+        for (columns, charts, rows) in [(1, 1, 1), (2, 2, 1), (2, 3, 2), (3, 10, 4)] {
+            let charts = vec![chart.clone(); charts];
+            let figure = Figure { title: String::new(), note: String::new(), columns, charts };
+            let places: Vec<Rect> = places(&figure, room).collect();
+            let (first, last) = (places[0], places[places.len() - 1]);
+            assert_eq!((first.min, last.max), (room.min, room.max));
+            let height = (room.height() + GAP) / rows as f32 - GAP;
+            assert!(places.iter().all(|place| (place.height() - height).abs() < 1e-3));
+            for (n, place) in places.iter().enumerate() {
+                let apart = |other: &Rect| !other.intersects(place.expand(GAP / 2.0 - 0.1));
+                assert!(places[..n].iter().all(apart), "{places:?}");
+            }
+        }
+    }
+}

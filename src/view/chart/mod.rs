@@ -1,0 +1,154 @@
+//! Charts: curves over a pair of axes, laid out to [primitives](Primitive) that a panel paints and a file keeps.
+
+use egui::{Align2, Color32, Pos2, Rect, Stroke, pos2, vec2};
+
+use super::theme::Ink;
+pub(super) use area::{Bounds, PlotArea};
+pub use axis::AxisScale;
+pub(super) use axis::Mark;
+pub(super) use curves::{Curve, Dots, LineStyle};
+pub(super) use primitive::{Primitive, Text, paint};
+
+mod area;
+mod axis;
+mod bands;
+pub(super) mod curves;
+pub(super) mod figure;
+pub(super) mod legend;
+mod primitive;
+pub(super) mod svg;
+
+/// The radius of the ring round a switch, in points of the screen.
+const RING: f32 = 4.0;
+/// The radius of the dots of a curve that is drawn by its dots alone.
+const SCATTERED: f32 = 1.0;
+/// The size of a number and of a name at an axis, in points.
+pub(super) const NUMBER: f32 = 11.5;
+pub(super) const NAME: f32 = 12.5;
+/// The height of the line above a plot, of the numbers below it, and of the name of its axis along, in points.
+pub(super) const ABOVE: f32 = 19.0;
+pub(super) const NUMBERS: f32 = 17.0;
+pub(super) const NAMES: f32 = 16.0;
+/// Between the numbers of the upright axis and the plot, in points.
+const BESIDE: f32 = 6.0;
+
+/// A lane leaving the plot: its last point inside and its first outside. Equal if it was never inside.
+pub(super) struct Arrow {
+    pub(super) from: [f64; 2],
+    pub(super) to: [f64; 2],
+    pub(super) colour: Color32,
+}
+
+/// A point at which another method took over, in that method's colour.
+pub(super) struct Switch {
+    pub(super) at: [f64; 2],
+    pub(super) colour: Color32,
+}
+
+/// Everything in a plot.
+#[derive(Default)]
+pub(super) struct Drawing {
+    /// The first at the bottom, and over all of them their dots.
+    pub(super) curves: Vec<Curve>,
+    /// Over the others and their dots.
+    pub(super) truth: Vec<Curve>,
+    pub(super) arrows: Vec<Arrow>,
+    pub(super) switches: Vec<Switch>,
+    pub(super) switch_mark: SwitchMark,
+}
+
+/// What marks a switch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum SwitchMark {
+    /// A line across the plot, at its time.
+    #[default]
+    Line,
+    /// A ring at its point.
+    Ring,
+}
+
+/// A grid line at each mark along and up with its number, if it has one, none of which goes on beyond `right`, and the edge
+/// of the plot.
+pub(super) fn axes(
+    area: &PlotArea,
+    marks: [Vec<Mark>; 2],
+    ink: &Ink,
+    right: f32,
+) -> Vec<Primitive> {
+    let (rect, grid) = (area.rect, Stroke::new(1.0, ink.grid));
+    let number = |at: Pos2, anchor: Align2, text: String| {
+        let is_named = !text.is_empty();
+        let text = Text { right, ..Text::new(at, anchor, text, NUMBER, ink.dim) };
+        is_named.then_some(Primitive::Text(text))
+    };
+    let [across, upwards] = marks;
+    let mut all = Vec::new();
+    for (place, text) in across {
+        let x = area.at([place, area.bounds[1][0]]).x;
+        all.push(Primitive::Line([pos2(x, rect.top()), pos2(x, rect.bottom())], grid));
+        all.extend(number(pos2(x, rect.bottom() + 3.0), Align2::CENTER_TOP, text));
+    }
+    let mut last = f32::NEG_INFINITY;
+    for (place, text) in upwards {
+        let y = area.height(place);
+        all.push(Primitive::Line([pos2(rect.left(), y), pos2(rect.right(), y)], grid));
+        // Not in the line above.
+        let at = pos2(rect.left() - BESIDE, y.max(rect.top() + 5.0));
+        // A low plot has no room for all of them.
+        if (at.y - last).abs() >= NUMBER {
+            all.extend(number(at, Align2::RIGHT_CENTER, text));
+            last = at.y;
+        }
+    }
+    all.push(Primitive::Edge(rect, Stroke::new(1.0, ink.line)));
+    all
+}
+
+/// The name of the axis along, below its numbers, and that of the upright axis above the plot, from `left` on.
+pub(super) fn names<S: Into<String>>(
+    area: &PlotArea,
+    left: f32,
+    [along, up]: [S; 2],
+    ink: &Ink,
+) -> [Text; 2] {
+    let rect = area.rect;
+    let below = pos2(rect.center().x, rect.bottom() + NUMBERS);
+    let above = pos2(left, rect.top() - ABOVE / 2.0);
+    [
+        Text::new(below, Align2::CENTER_TOP, along, NAME, ink.dim),
+        Text::new(above, Align2::LEFT_CENTER, up, NAME, ink.dim),
+    ]
+}
+
+/// Everything in a plot, cut off at its edges.
+pub(super) fn contents(area: &PlotArea, drawing: &Drawing) -> Primitive {
+    let rect = area.rect;
+    let switch = |Switch { at, colour }: &Switch| {
+        let at = area.at(*at);
+        match drawing.switch_mark {
+            SwitchMark::Line => {
+                let ends = [pos2(at.x, rect.top()), pos2(at.x, rect.bottom())];
+                Primitive::Line(ends, Stroke::new(1.0, colour.gamma_multiply(0.6)))
+            }
+            SwitchMark::Ring => Primitive::Ring(at, RING, Stroke::new(1.0, *colour)),
+        }
+    };
+    let on_screen = |curves: &[Curve]| {
+        Primitive::Curves(curves.iter().map(|curve| curve.on_screen(area)).collect())
+    };
+    let curves = [on_screen(&drawing.curves), on_screen(&drawing.truth)];
+    let mut arrows = curves::Arrows::new(rect);
+    let arrow = |Arrow { from, to, colour }: &Arrow| {
+        let corners = arrows.place([from, to].map(|at| area.at(*at)))?;
+        Some(Primitive::Polygon(corners.into(), *colour))
+    };
+    let arrows: Vec<_> = drawing.arrows.iter().filter_map(arrow).collect();
+    let all = drawing.switches.iter().map(switch).chain(curves).chain(arrows);
+    Primitive::Clip(rect, all.collect())
+}
+
+/// The rectangle of a plot in a room, with these lines above and below it and `left` points for the numbers of its
+/// upright axis.
+pub(super) fn inside(room: Rect, left: f32, right: f32) -> Rect {
+    Rect::from_min_max(room.min + vec2(left, ABOVE), room.max - vec2(right, NUMBERS + NAMES))
+}

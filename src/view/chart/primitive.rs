@@ -1,0 +1,121 @@
+//! What a laid-out chart is made of, in points, and how a panel paints it.
+
+use egui::epaint::PathStroke;
+use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, pos2};
+
+use super::SCATTERED;
+use super::curves::{self, Dots, LineStyle, dots};
+
+/// A part of a laid-out chart. Later ones lie over earlier ones.
+#[derive(Clone, Debug)]
+pub(in crate::view) enum Primitive {
+    /// A filled rectangle.
+    Area(Rect, Color32),
+    /// The edge of a rectangle, on its outside.
+    Edge(Rect, Stroke),
+    Line([Pos2; 2], Stroke),
+    /// A circle of this radius.
+    Ring(Pos2, f32, Stroke),
+    /// A filled convex polygon.
+    Polygon(Vec<Pos2>, Color32),
+    Text(Text),
+    /// Curves, and over all of them their dots.
+    Curves(Vec<ScreenCurve>),
+    /// What shows within a rectangle only.
+    Clip(Rect, Vec<Primitive>),
+}
+
+/// A curve on the screen.
+#[derive(Clone, Debug)]
+pub(in crate::view) struct ScreenCurve {
+    pub(in crate::view) style: LineStyle,
+    pub(in crate::view) points: Vec<Pos2>,
+    /// For each point the least and the greatest height since the point before; empty where the points are all that is
+    /// known.
+    pub(in crate::view) swept: Vec<[f32; 2]>,
+}
+
+/// Words in a chart.
+#[derive(Clone, Debug)]
+pub(in crate::view) struct Text {
+    pub(in crate::view) at: Pos2,
+    /// Where `at` is on the words.
+    pub(in crate::view) anchor: Align2,
+    pub(in crate::view) words: String,
+    pub(in crate::view) size: f32,
+    pub(in crate::view) colour: Color32,
+    /// The words end here at the latest.
+    pub(in crate::view) right: f32,
+    /// The width of a line.
+    pub(in crate::view) wrap: f32,
+}
+
+impl Text {
+    /// Words in one line, however long.
+    pub(in crate::view) fn new(
+        at: Pos2,
+        anchor: Align2,
+        words: impl Into<String>,
+        size: f32,
+        colour: Color32,
+    ) -> Self {
+        let words = words.into();
+        let [right, wrap] = [f32::INFINITY; 2];
+        Self { at, anchor, words, size, colour, right, wrap }
+    }
+
+    fn paint(&self, painter: &Painter) {
+        let font = FontId::proportional(self.size);
+        let galley = painter.layout(self.words.clone(), font, self.colour, self.wrap);
+        let corner = self.anchor.anchor_size(self.at, galley.size()).min;
+        let left = corner.x.min(self.right - galley.size().x);
+        painter.galley(pos2(left, corner.y), galley, self.colour);
+    }
+}
+
+impl From<Text> for Primitive {
+    fn from(text: Text) -> Self {
+        Self::Text(text)
+    }
+}
+
+/// Paints a chart, as far as the painter's clip shows it.
+pub(in crate::view) fn paint(painter: &Painter, primitives: &[Primitive]) {
+    for primitive in primitives {
+        match primitive {
+            Primitive::Area(rect, fill) => drop(painter.rect_filled(*rect, 0.0, *fill)),
+            Primitive::Edge(rect, stroke) => {
+                painter.rect_stroke(*rect, 0.0, *stroke, StrokeKind::Outside);
+            }
+            Primitive::Line(ends, stroke) => drop(painter.line_segment(*ends, *stroke)),
+            Primitive::Ring(at, radius, stroke) => {
+                painter.circle_stroke(*at, *radius, *stroke);
+            }
+            Primitive::Polygon(corners, fill) => {
+                let corners = corners.clone();
+                painter.add(Shape::convex_polygon(corners, *fill, PathStroke::NONE));
+            }
+            Primitive::Text(text) => text.paint(painter),
+            Primitive::Curves(curves) => paint_curves(painter, curves),
+            Primitive::Clip(rect, inside) => {
+                let seen = rect.intersect(painter.clip_rect());
+                if seen.is_positive() {
+                    paint(&painter.with_clip_rect(seen), inside);
+                }
+            }
+        }
+    }
+}
+
+fn paint_curves(painter: &Painter, curves: &[ScreenCurve]) {
+    let is_line =
+        |curve: &ScreenCurve| curves::paint(painter, &curve.points, &curve.swept, curve.style);
+    let are_lines: Vec<bool> = curves.iter().map(is_line).collect();
+    let seen = painter.clip_rect();
+    for (ScreenCurve { style, points, .. }, is_line) in curves.iter().zip(are_lines) {
+        let kind = if is_line { style.dots } else { Dots::Each(SCATTERED) };
+        for (at, radius) in dots(points, kind).filter(|(at, _)| seen.contains(*at)) {
+            painter.circle_filled(at, radius, style.colour);
+        }
+    }
+}
