@@ -1,15 +1,16 @@
 //! Which method to take for the scene at its tick rate: the answer as far as it is known, then what is known of every
 //! method, as a table.
 
-use egui::{Align, FontId, Label, Layout, Response, RichText, ScrollArea, Ui, vec2};
+use egui::{Align, Color32, FontId, Label, Layout, Rect, Response, RichText, Ui, UiBuilder, vec2};
 
+use super::table::{Column, GAP, MARGIN, SortKey, Table, TableRow, show_words};
 use super::{ink, strong_font, tone};
 use crate::lab::number::significant;
 use crate::lab::{
-    Advice, AdvisedBodies, CRITERIA, Command, CriterionMet, CriterionResult, Lab, LaneSpec,
-    MAX_ADVISED_SUBSTEPS, MethodAdvice, recommended,
+    Advice, AdvisedBodies, CRITERIA, Command, Criterion, CriterionMet, CriterionResult, Lab,
+    LaneSpec, MAX_ADVISED_SUBSTEPS, MethodAdvice, recommended,
 };
-use crate::view::theme::TYPE;
+use crate::view::theme::{Ink, TYPE};
 
 /// What is written in a cell, where there is room for it and where there is not.
 const CELLS: [&str; 2] = [
@@ -20,14 +21,12 @@ const CELLS: [&str; 2] = [
 const SMALL: f32 = 11.5;
 /// The height of a line, the room between two columns and the least width of a method's name, in points.
 const LINE: f32 = 20.0;
-const GAP: f32 = 6.0;
+const APART: f32 = 6.0;
 const MIN_NAME: f32 = 120.0;
 /// The width of a criterion's name before its answer, in points.
 const CRITERION: f32 = 76.0;
 /// From this width of an answer on, in points, the whole name of its button fits.
 const ROOM_FOR_COPY_CODE: f32 = 240.0;
-/// What a scroll bar may cover at the right, in points.
-const BAR: f32 = 8.0;
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.y = 2.0;
@@ -107,7 +106,7 @@ fn answer(
             Some((advised.spec, advised.met[i].met()?))
         });
         ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = GAP;
+            ui.spacing_mut().item_spacing.x = APART;
             let name = RichText::new(criterion.name()).color(ink(ui).dim);
             slot(ui, CRITERION, |ui| line(ui, name)).on_hover_text(criterion.about());
             let Some((spec, met)) = taken else {
@@ -160,37 +159,24 @@ fn copy_button(ui: &mut Ui, lab: &Lab, spec: LaneSpec, commands: &mut Vec<Comman
     response.context_menu(|ui| super::lanes::menu(ui, lab, entry, commands));
 }
 
-/// How wide the columns of the table are, in points.
-struct Widths {
-    name: f32,
-    cell: f32,
-    /// Whether a cell has room for the evaluations too.
-    has_rates: bool,
-}
-
-impl Widths {
-    /// The widths at which all columns fit into `room`: cells are as wide as the widest, and the names of the methods
-    /// take the rest.
-    fn within(ui: &Ui, advice: &Advice, room: f32) -> Self {
-        let width = |words: &str, size: f32| {
-            let font = FontId::proportional(size);
-            ui.painter().layout_no_wrap(words.to_owned(), font, ink(ui).text).size().x
-        };
-        let padding = 2.0 * ui.spacing().button_padding.x + 2.0;
-        let heads = CRITERIA.iter().map(|criterion| width(criterion.name(), SMALL));
-        let head = heads.fold(0.0, f32::max);
-        let met =
-            || advice.advised.iter().flat_map(|row| &row.met).filter_map(CriterionResult::met);
-        let widest = |has_rates: bool| {
-            let cells = met().map(|met| width(&cell_text(met, has_rates), SMALL) + padding);
-            cells.fold(head, f32::max)
-        };
-        let beside = |cell: f32| room - CRITERIA.len() as f32 * (cell + GAP);
-        let with_rates = widest(true);
-        let has_rates = beside(with_rates) >= MIN_NAME;
-        let cell = if has_rates { with_rates } else { widest(false) };
-        Self { name: beside(cell).max(0.0), cell, has_rates }
-    }
+/// The width of the column of a criterion, in points, as wide as its widest cell, and whether that has room for the
+/// evaluations too, beside the names of the methods.
+fn cell_width(ui: &Ui, advice: &Advice, room: f32) -> (f32, bool) {
+    let width = |words: &str| {
+        let font = FontId::proportional(SMALL);
+        ui.painter().layout_no_wrap(words.to_owned(), font, ink(ui).text).size().x
+    };
+    let padding = 2.0 * ui.spacing().button_padding.x + 2.0;
+    let head = CRITERIA.iter().map(|criterion| width(criterion.name())).fold(0.0, f32::max);
+    let met = || advice.advised.iter().flat_map(|row| &row.met).filter_map(CriterionResult::met);
+    let widest = |has_rates: bool| {
+        let cells = met().map(|met| width(&cell_text(met, has_rates)) + padding);
+        cells.fold(head, f32::max)
+    };
+    let with_rates = widest(true);
+    let beside = room - 2.0 * MARGIN - GAP - CRITERIA.len() as f32 * (with_rates + GAP);
+    let has_rates = beside >= MIN_NAME;
+    (if has_rates { with_rates } else { widest(false) }, has_rates)
 }
 
 /// What is known of each method; `whose` says of what bodies the evaluations are.
@@ -201,70 +187,100 @@ fn table(
     best: &[Option<usize>],
     commands: &mut Vec<Command>,
 ) {
-    let widths = Widths::within(ui, advice, ui.available_width() - BAR);
-    let cells = if widths.has_rates { CELLS[0] } else { CELLS[1] };
-    let whose = if widths.has_rates { whose } else { "" };
+    let (width, has_rates) = cell_width(ui, advice, ui.available_width());
+    let (cells, whose) = if has_rates { (CELLS[0], whose) } else { (CELLS[1], "") };
     line(ui, RichText::new(format!("{cells}{whose}")).size(SMALL).color(ink(ui).dim));
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = GAP;
-        let head = |text: &str| RichText::new(text).size(SMALL).color(ink(ui).dim);
-        let heads: Vec<RichText> = CRITERIA.iter().map(|of| head(of.name())).collect();
-        let method = head("method");
-        slot(ui, widths.name, |ui| line(ui, method))
-            .on_hover_text("the row's verdict is in its tooltip");
-        for (criterion, name) in CRITERIA.iter().zip(heads) {
-            slot(ui, widths.cell, |ui| ui.label(name)).on_hover_text(criterion.about());
-        }
-    });
-    // The inspector may leave it no row: what has no room is scrolled to.
-    let list = ScrollArea::vertical().auto_shrink(false).min_scrolled_height(0.0);
-    list.show(ui, |ui| {
-        ui.spacing_mut().button_padding.y = 1.0;
-        ui.spacing_mut().interact_size.y = LINE;
-        for (i, advised) in advice.advised.iter().enumerate() {
-            ui.horizontal(|ui| {
-                ui.spacing_mut().item_spacing.x = GAP;
-                row(ui, advised, &widths, best, i, commands);
-            });
-        }
-    });
+    let name = Column::shown(
+        "method",
+        0.0,
+        "the row's verdict is in its tooltip",
+        |ui, row: &Row<'_>, rect, _| {
+            let MethodAdvice { spec, verdict, .. } = row.advised;
+            show_words(ui, rect, spec.method.name, false, tone(ui, verdict.outcome()));
+        },
+        |row| SortKey::Words(row.advised.spec.method.name.into()),
+    );
+    let criterion = |(i, criterion): (usize, &Criterion)| {
+        Column::shown(
+            criterion.name(),
+            width,
+            criterion.about(),
+            move |ui, row: &Row<'_>, rect, commands| row.cell(ui, i, rect, commands),
+            move |row| row.advised.met[i].met().map(|met| met.evaluations_per_s).into(),
+        )
+    };
+    let criteria = CRITERIA.iter().enumerate().map(criterion);
+    let columns = [name].into_iter().chain(criteria).collect();
+    let row = |(index, advised)| vec![Row { advised, index, best, has_rates }];
+    let rows = advice.advised.iter().enumerate().map(row).collect();
+    let min_rest = |_| 0.0;
+    let table = Table { id: "advice", columns, min_rest, row_height: LINE, head_type: SMALL };
+    ui.spacing_mut().button_padding.y = 1.0;
+    ui.spacing_mut().interact_size.y = LINE;
+    table.show(ui, rows, commands, |_, _, _| {});
 }
 
-fn row(
-    ui: &mut Ui,
-    advised: &MethodAdvice,
-    widths: &Widths,
-    best: &[Option<usize>],
+/// What is known of a method.
+struct Row<'a> {
+    advised: &'a MethodAdvice,
     index: usize,
-    commands: &mut Vec<Command>,
-) {
-    let MethodAdvice { spec, verdict, met } = advised;
-    let name = RichText::new(spec.method.name).color(tone(ui, verdict.outcome()));
-    slot(ui, widths.name, |ui| line(ui, name)).on_hover_text(verdict.to_string());
-    for ((met, best), criterion) in met.iter().zip(best).zip(&CRITERIA) {
-        slot(ui, widths.cell, |ui| {
-            let met = match met {
-                CriterionResult::With(met) => met,
-                CriterionResult::No => {
-                    let missed = format!("not with {MAX_ADVISED_SUBSTEPS} substeps");
-                    ui.label(RichText::new("-").color(ink(ui).dim)).on_hover_text(missed);
-                    return;
-                }
-                CriterionResult::Unknown => {
-                    ui.label(RichText::new("?").color(ink(ui).dim))
-                        .on_hover_text("unknown: there is no exact motion to compare with, or it takes too much work");
-                    return;
-                }
-            };
-            let colour = if *best == Some(index) { ink(ui).good } else { ink(ui).text };
-            let text = cell_text(met, widths.has_rates);
-            let used = ui.button(RichText::new(text).color(colour).size(SMALL));
-            let name = format!("{}: {}", criterion.name(), spec.method.name);
-            used.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
-            if used.on_hover_text(format!("use this: {}", told_of(met))).clicked() {
-                commands.push(Command::SetLane(LaneSpec { substeps: met.substeps, ..*spec }));
+    best: &'a [Option<usize>],
+    has_rates: bool,
+}
+
+impl Row<'_> {
+    /// Shows what the method needs to meet a criterion. A click uses it.
+    fn cell(&self, ui: &mut Ui, criterion: usize, rect: Rect, commands: &mut Vec<Command>) {
+        let MethodAdvice { spec, met, .. } = self.advised;
+        let mut ui = ui.new_child(
+            UiBuilder::new().max_rect(rect).layout(Layout::left_to_right(Align::Center)),
+        );
+        let dim = |words: &str| RichText::new(words).color(ink(&ui).dim);
+        let met = match &met[criterion] {
+            CriterionResult::With(met) => met,
+            CriterionResult::No => {
+                let missed = format!("not with {MAX_ADVISED_SUBSTEPS} substeps");
+                ui.label(dim("-")).on_hover_text(missed);
+                return;
             }
-        });
+            CriterionResult::Unknown => {
+                ui.label(dim("?")).on_hover_text(
+                    "unknown: there is no exact motion to compare with, or it takes too much work",
+                );
+                return;
+            }
+        };
+        let is_best = self.best[criterion] == Some(self.index);
+        let colour = if is_best { ink(&ui).good } else { ink(&ui).text };
+        let text = cell_text(met, self.has_rates);
+        let used = ui.button(RichText::new(text).color(colour).size(SMALL));
+        let name = format!("{}: {}", CRITERIA[criterion].name(), spec.method.name);
+        used.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+        if used.on_hover_text(format!("use this: {}", told_of(met))).clicked() {
+            commands.push(Command::SetLane(LaneSpec { substeps: met.substeps, ..*spec }));
+        }
+    }
+}
+
+impl TableRow for Row<'_> {
+    fn spoken(&self) -> String {
+        format!("{}, {}", self.advised.spec.method.name, self.advised.verdict)
+    }
+
+    fn is_selected(&self) -> bool {
+        false
+    }
+
+    fn colours(&self, ink: &Ink) -> [Color32; 2] {
+        [ink.accent, ink.text]
+    }
+
+    fn command(&self) -> Option<Command> {
+        None
+    }
+
+    fn tooltip(&self, ui: &mut Ui) {
+        ui.label(self.advised.verdict.to_string());
     }
 }
 

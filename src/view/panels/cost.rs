@@ -1,59 +1,43 @@
 //! The cost of a tick by lane: evaluations of the force, which are the same on every machine, and the time that the
 //! window measures.
 
-use egui::{FontId, Grid, Label, RichText, ScrollArea, Sense, Ui, Vec2, vec2};
+use egui::{Color32, Label, Rect, RichText, Ui, Vec2, vec2};
 
+use super::table::{Column, SortKey, Table, TableRow, show_words};
 use super::{ink, strong_font};
 use crate::lab::number::significant;
-use crate::lab::{Entrant, Lab, LaneSpec};
+use crate::lab::{Command, Entrant, Lab, LaneSpec};
 use crate::view::chart::legend::swatch;
+use crate::view::theme::Ink;
 
-/// The width of the longest bar, in points.
-const BAR: f32 = 70.0;
-/// From these widths on, in points, there is room for bars, and for the share of a frame.
-const ROOM_FOR_BARS: f32 = 440.0;
-const ROOM_FOR_SHARES: f32 = 380.0;
-const ROW: f32 = 20.0;
+/// The height of a row and the size of type in the heads, in points.
+const ROW: f32 = 22.0;
+const HEAD_TYPE: f32 = 11.0;
+/// The least width of a method's name, in points.
+const MIN_NAME: f32 = 104.0;
 /// A frame at 60 Hz, in nanoseconds.
 const FRAME_NS: f64 = 1e9 / 60.0;
 /// Said below the table.
 const MEASURED: &str = "Fastest of several timed runs, repeated once per second.";
 const NOT_MEASURED: &str = "Time is measured in the window.";
 
-pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
-    let lanes: Vec<Row> =
-        (0..).zip(lab.race().entrants()).map(|(i, lane)| Row::new(lab, i, lane)).collect();
-    let most = lanes.iter().map(|row| row.evaluations).max().unwrap_or(0).max(1);
-    let has_times = lanes.iter().any(|row| row.ns.is_some());
+pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Command>) {
+    let lanes = lab.race().entrants().iter().enumerate();
+    let rows: Vec<Row<'_>> = lanes.map(|(place, lane)| Row::new(lab, place, lane)).collect();
+    let most = rows.iter().map(|row| row.evaluations).max().unwrap_or(0).max(1);
+    let has_times = rows.iter().any(|row| row.ns.is_some());
     ui.label(RichText::new("Cost of the next tick, all bodies").font(strong_font(13.0)));
-    let height = room.y - 66.0;
-    let columns = Columns {
-        most: (room.x >= ROOM_FOR_BARS).then_some(most),
-        has_times,
-        has_shares: has_times && room.x >= ROOM_FOR_SHARES,
+    let columns = columns(most, has_times);
+    let table = Table {
+        id: "cost",
+        columns,
+        min_rest: |_| MIN_NAME,
+        row_height: ROW,
+        head_type: HEAD_TYPE,
     };
-    let gap = if room.x >= ROOM_FOR_SHARES { 12.0 } else { 8.0 };
-    ScrollArea::both().id_salt("cost").max_height(height.max(40.0)).show(ui, |ui| {
-        let grid = Grid::new("cost").spacing([gap, 2.0]).min_row_height(ROW);
-        grid.show(ui, |ui| {
-            let heads = [
-                ("", true),
-                ("method", true),
-                ("evaluations", true),
-                ("", columns.most.is_some()),
-                ("time", columns.has_times),
-                ("60 Hz frame", columns.has_shares),
-            ];
-            for (head, _) in heads.into_iter().filter(|(_, is_shown)| *is_shown) {
-                ui.label(RichText::new(head).size(11.0).color(ink(ui).dim));
-            }
-            ui.end_row();
-            for row in &lanes {
-                row.show(ui, lab, &columns);
-                ui.end_row();
-            }
-        });
-    });
+    let height = (ROW * (rows.len() + 1) as f32).min(room.y - 66.0).max(60.0);
+    let groups = rows.into_iter().map(|row| vec![row]).collect();
+    ui.allocate_ui(vec2(room.x, height), |ui| table.show(ui, groups, commands, |_, _, _| {}));
     let is_window = lab.viewer().pace.is_some();
     let note = match (has_times, is_window) {
         (true, _) => MEASURED,
@@ -63,16 +47,74 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
     ui.add(Label::new(RichText::new(note).size(12.0).color(ink(ui).dim)).wrap());
 }
 
-/// What is shown of each lane beside its name and its evaluations.
-struct Columns {
-    /// The evaluations of the longest bar, if there are bars.
-    most: Option<u64>,
-    has_times: bool,
-    has_shares: bool,
+/// The columns; the longest bar is of `most` evaluations.
+fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
+    let line = Column::shown(
+        "line",
+        30.0,
+        "the line of this method in the plots and on the stage",
+        |ui, row: &Row<'a>, rect, _| {
+            let (colour, dash) = ink(ui).style(row.lab.entries(), &row.spec);
+            swatch(ui.painter(), rect.left_center(), 28.0, dash, colour);
+        },
+        |row| SortKey::Number(row.entry as f64),
+    );
+    let method = Column::shown(
+        "method",
+        0.0,
+        "the integrator of this lane; × is its substeps",
+        |ui, row: &Row<'a>, rect, _| {
+            let name = row.spec.name_with_substeps(row.lab.entries());
+            show_words(ui, rect, &name, row.is_selected(), ink(ui).text);
+        },
+        |row| SortKey::Words(row.spec.method.name.into()),
+    );
+    let evaluations = Column::number(
+        "evaluations",
+        (68.0, 0),
+        "evaluations of the force in the next tick, the same on every machine",
+        |row: &Row<'a>| {
+            Some(if row.is_halted { "halted".into() } else { row.evaluations.to_string() })
+        },
+        |row| Some(row.evaluations as f64),
+    );
+    let bar = Column::shown(
+        "bar",
+        50.0,
+        "the same as a bar",
+        move |ui, row: &Row<'a>, rect, _| {
+            let part = row.evaluations as f32 / most as f32;
+            let size = vec2(part * rect.width(), rect.height() - 12.0);
+            let bar = Rect::from_min_size(rect.min + vec2(0.0, 6.0), size);
+            ui.painter().rect_filled(bar, 2.0, row.colours(ink(ui))[0]);
+        },
+        |row| SortKey::Number(row.evaluations as f64),
+    );
+    let bar = Column { priority: 3, ..bar.headed("") };
+    let mut all = vec![line.headed(""), method, evaluations, bar];
+    if has_times {
+        let dash = || "-".to_owned();
+        let time_of = move |row: &Row<'a>| Some(row.ns.map_or_else(dash, time));
+        let share_of = move |row: &Row<'a>| {
+            Some(row.ns.map_or_else(dash, |ns| share(ns, row.lab.race().tick_hz())))
+        };
+        let ns = |row: &Row<'a>| row.ns;
+        all.push(Column::number(
+            "time",
+            (58.0, 1),
+            "time of the next tick on this machine",
+            time_of,
+            ns,
+        ));
+        let about = "the part of a frame at 60 Hz that its ticks take";
+        all.push(Column::number("60 Hz frame", (70.0, 2), about, share_of, ns));
+    }
+    all
 }
 
 /// A lane.
-struct Row {
+struct Row<'a> {
+    lab: &'a Lab,
     entry: usize,
     spec: LaneSpec,
     evaluations: u64,
@@ -81,46 +123,40 @@ struct Row {
     ns: Option<f64>,
 }
 
-impl Row {
-    fn new(lab: &Lab, place: usize, lane: &Entrant) -> Self {
+impl<'a> Row<'a> {
+    fn new(lab: &'a Lab, place: usize, lane: &Entrant) -> Self {
         let spec = lane.spec;
-        let times = lab.viewer().tick_times.iter();
+        let mut times = lab.viewer().tick_times.iter();
         Self {
+            lab,
             entry: lab.entry(lane),
             spec,
             evaluations: lab.evaluations_of_next_tick(place),
             is_halted: lane.lane.halted().is_some(),
-            ns: times.clone().find(|(of, _)| *of == spec).and_then(|(_, ns)| *ns),
+            ns: times.find(|(of, _)| *of == spec).and_then(|(_, ns)| *ns),
         }
     }
+}
 
-    fn show(&self, ui: &mut Ui, lab: &Lab, columns: &Columns) {
-        let (colour, dash) = ink(ui).style(lab.entries(), &self.spec);
-        let (line, _) = ui.allocate_exact_size(vec2(30.0, ROW), Sense::hover());
-        swatch(ui.painter(), line.left_center(), 28.0, dash, colour);
-        let name = RichText::new(self.spec.name_with_substeps(lab.entries())).color(ink(ui).text);
-        let name = if self.entry == lab.active() { name.font(strong_font(13.0)) } else { name };
-        ui.label(name);
-        let evaluations = self.evaluations;
-        let text = if self.is_halted { "halted".into() } else { evaluations.to_string() };
-        ui.label(RichText::new(text));
-        if let Some(most) = columns.most {
-            let (bar, response) = ui.allocate_exact_size(vec2(BAR, ROW), Sense::hover());
-            let width = BAR * evaluations as f32 / most as f32;
-            let size = vec2(width, ROW - 10.0);
-            let filled = egui::Rect::from_min_size(bar.min + vec2(0.0, 5.0), size);
-            ui.painter().rect_filled(filled, 2.0, colour);
-            let about =
-                format!("{}: {evaluations} evaluations in the next tick", self.spec.method.name);
-            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Meter, true, &about));
-        }
-        if columns.has_times {
-            let time = self.ns.map_or_else(|| "-".into(), time);
-            ui.label(RichText::new(time).font(FontId::proportional(13.0)));
-        }
-        if columns.has_shares {
-            ui.label(self.ns.map_or_else(|| "-".into(), |ns| share(ns, lab.race().tick_hz())));
-        }
+impl TableRow for Row<'_> {
+    fn spoken(&self) -> String {
+        format!("{} {}", self.entry + 1, self.spec.name_with_substeps(self.lab.entries()))
+    }
+
+    fn is_selected(&self) -> bool {
+        self.entry == self.lab.active()
+    }
+
+    fn colours(&self, ink: &Ink) -> [Color32; 2] {
+        [ink.style(self.lab.entries(), &self.spec).0, ink.text]
+    }
+
+    fn command(&self) -> Option<Command> {
+        Some(Command::Pick(self.entry))
+    }
+
+    fn tooltip(&self, ui: &mut Ui) {
+        ui.label(self.spec.method.about);
     }
 }
 

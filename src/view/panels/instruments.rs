@@ -70,7 +70,7 @@ pub(super) fn show_alone(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             let sheet = sheet_of(lab, detail(ui, lab));
             sheet.iter().for_each(|sheet| plots(ui, lab, sheet, commands));
         }
-        Instrument::Cost => cost::show(ui, lab, room),
+        Instrument::Cost => cost::show(ui, lab, room, commands),
         Instrument::StabilityMap => stability_map::show(ui, lab, room, commands),
         Instrument::OneStep => one_step::show(ui, lab, room),
         Instrument::Cloud => cloud::show(ui, lab, room, commands),

@@ -26,11 +26,12 @@ mod one_step;
 mod opening;
 mod ranges;
 mod roster;
-mod sorting;
 mod stability_map;
+mod table;
 mod timeline;
 mod top_bar;
 mod tracks;
+mod verdict;
 
 pub(super) use instruments::{csv, svg};
 

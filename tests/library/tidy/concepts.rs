@@ -11,7 +11,7 @@ struct Concept {
     marks: &'static [&'static str],
 }
 
-const CONCEPTS: [Concept; 20] = [
+const CONCEPTS: [Concept; 22] = [
     Concept {
         name: "dispatch by the type of a method",
         file: "src/sim/integrators/mod.rs",
@@ -102,6 +102,12 @@ const CONCEPTS: [Concept; 20] = [
         name: "file of a chart",
         file: "src/view/chart/svg.rs",
         marks: &["stroke-dasharray"],
+    },
+    Concept { name: "table", file: "src/view/panels/table.rs", marks: &["sort by {}"] },
+    Concept {
+        name: "sign of a verdict",
+        file: "src/view/panels/verdict.rs",
+        marks: &["(1.15, 0.0)"],
     },
     Concept {
         name: "hash of a state",

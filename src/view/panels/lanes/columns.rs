@@ -1,244 +1,209 @@
-//! The columns of the table: what each shows, what it is sorted by, and which of them fit a width.
+//! The columns of the table of lanes.
 
-use super::row::Row;
-use crate::lab::number::significant;
+use super::row::{self, Row};
+use crate::lab::number::{round, significant};
 use crate::lab::{Lab, Mode};
+use crate::view::chart::legend::swatch;
+use crate::view::panels::ink;
+use crate::view::panels::table::{Column, SortKey, show_key, show_words};
 
-/// What a column is sorted by. Rows without a value come last.
-#[derive(Debug, PartialEq, PartialOrd)]
-pub(super) enum Rank {
-    Number(f64),
-    Words(String),
-    Nothing,
-}
-
-/// What a cell shows.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Cell {
-    Key,
-    Swatch,
-    Method,
-    Body,
-    Verdict,
-    /// A number, at the right.
-    Number(fn(&Row<'_>) -> Option<String>),
-}
-
-/// One column.
-#[derive(Debug)]
-pub(super) struct Column {
-    pub(super) head: &'static str,
-    /// Its tooltip.
-    pub(super) about: &'static str,
-    /// Its width in points; the verdict takes the rest.
-    pub(super) width: f32,
-    /// The order in which columns are taken in while there is room, from 0; those with 0 are always there.
-    turn: u8,
-    is_wanted: fn(&Lab) -> bool,
-    pub(super) cell: Cell,
-    pub(super) rank: fn(&Row<'_>) -> Rank,
-}
-
-/// The room between two columns, and the least width of the verdict, in points.
-pub(super) const GAP: f32 = 8.0;
+/// The least width of the verdict, in points, and the one that it keeps beside columns of what the stage or an instrument
+/// shows too, which are those from this priority on.
 const MIN_VERDICT: f32 = 320.0;
-/// The least width that the verdict keeps beside columns of what the stage or an instrument shows too, in points.
 const ROOMY_VERDICT: f32 = 700.0;
-/// The first turn of such columns.
-const TURN_OF_EXTRAS: u8 = 5;
+const EXTRAS: u8 = 5;
 
-fn always(_: &Lab) -> bool {
-    true
+/// The least width of the verdict beside columns of a priority.
+pub(super) fn min_verdict(priority: u8) -> f32 {
+    if priority < EXTRAS { MIN_VERDICT } else { ROOMY_VERDICT }
 }
 
-fn has_bodies(lab: &Lab) -> bool {
-    lab.mode() == Mode::Solo && lab.scene().bodies.len() > 1
-}
-
-fn follows(lab: &Lab) -> bool {
-    lab.race().truth().bodies().iter().any(|body| body.chase().is_some())
-}
-
-/// Whether a body may have an energy.
-fn has_energies(lab: &Lab) -> bool {
-    lab.race().truth().bodies().iter().any(|body| body.chase().is_none())
-}
-
-pub(super) static COLUMNS: &[Column] = &[
-    Column {
-        head: "Key",
-        about: "the key that switches to this method, or selects its lane in a race",
-        width: 26.0,
-        turn: 0,
-        is_wanted: always,
-        cell: Cell::Key,
-        rank: |row| Rank::Number(row.entry as f64),
-    },
-    Column {
-        head: "",
-        about: "the line of this method in the plots and on the stage",
-        width: 36.0,
-        turn: 0,
-        is_wanted: always,
-        cell: Cell::Swatch,
-        rank: |row| Rank::Number(row.entry as f64),
-    },
-    Column {
-        head: "Method",
-        about: "the integrator of this lane; × is its substeps, a small number its tolerance",
-        width: 158.0,
-        turn: 0,
-        is_wanted: always,
-        cell: Cell::Method,
-        rank: |row| Rank::Words(row.spec.method.name.into()),
-    },
-    Column {
-        head: "Body",
-        about: "the body of this row; of a method that does not run, the body that its verdict is about",
-        width: 106.0,
-        turn: 1,
-        is_wanted: has_bodies,
-        cell: Cell::Body,
-        rank: |row| Rank::Words(row.body_name().unwrap_or_default().into()),
-    },
-    Column {
-        head: "Verdict",
-        about: "what this method does to the scene at this tick rate: its worst body, judged in a run of its own; a click sorts from best to worst",
-        width: 0.0,
-        turn: 0,
-        is_wanted: always,
-        cell: Cell::Verdict,
-        rank: |row| number(row.said().rank()),
-    },
-    Column {
-        head: "position",
-        about: "first coordinate of the body in this lane",
-        width: 88.0,
-        turn: 5,
-        is_wanted: always,
-        cell: Cell::Number(|row| row.in_unit(row.position()?)),
-        rank: |row| number(row.position()),
-    },
-    Column {
-        head: "exact",
-        about: "the same coordinate of the exact solution",
-        width: 88.0,
-        turn: 7,
-        is_wanted: |lab| lab.mode() == Mode::Solo,
-        cell: Cell::Number(|row| row.in_unit(row.exact()?)),
-        rank: |row| number(row.exact()),
-    },
-    Column {
-        head: "error",
-        about: "largest difference from the exact solution in a coordinate",
-        width: 88.0,
-        turn: 2,
-        is_wanted: always,
-        cell: Cell::Number(|row| match row.measure("position_error") {
-            Some(error) => row.in_unit(error),
-            None => row.no_truth(),
-        }),
-        rank: |row| number(row.measure("position_error")),
-    },
-    Column {
-        head: "half-life",
-        about: "time in which the body covered half of the way to its target; of a method that does not run, the verdict's",
-        width: 88.0,
-        turn: 1,
-        is_wanted: follows,
-        cell: Cell::Number(|row| Some(format!("{} ms", significant(row.half_life_ms()?, 3)))),
-        rank: |row| number(row.half_life_ms()),
-    },
-    Column {
-        head: "overshoot",
-        about: "how far the body went beyond its target, in percent of the way",
-        width: 88.0,
-        turn: 1,
-        is_wanted: follows,
-        cell: Cell::Number(|row| Some(format!("{} %", significant(row.overshoot_percent()?, 3)))),
-        rank: |row| number(row.overshoot_percent()),
-    },
-    Column {
-        head: "energy",
-        about: "energy gained or lost, in percent of the energy that the exact swing exchanges",
-        width: 98.0,
-        turn: 3,
-        is_wanted: has_energies,
-        cell: Cell::Number(|row| {
-            let Some(drift) = row.measure("energy_drift") else {
-                return row.no_truth().filter(|_| row.conserves_energy());
-            };
-            let sign = if drift > 0.0 { "+" } else { "" };
-            Some(format!("{sign}{} %", significant(drift, 3)))
-        }),
-        rank: |row| number(row.measure("energy_drift")),
-    },
-    Column {
-        head: "evaluations",
-        about: "evaluations of this body's acceleration since the start",
-        width: 84.0,
-        turn: 6,
-        is_wanted: always,
-        cell: Cell::Number(|row| row.evaluations().map(|count| format!("{count}"))),
-        rank: |row| number(row.evaluations().map(|count| count as f64)),
-    },
-    Column {
-        head: "cost",
-        about: "evaluations per tick; explicit Euler with one substep costs 1 ×",
-        width: 48.0,
-        turn: 4,
-        is_wanted: always,
-        cell: Cell::Number(|row| Some(format!("{} ×", crate::lab::number::round(row.cost()?, 3)))),
-        rank: |row| number(row.cost()),
-    },
-];
-
-fn number(value: Option<f64>) -> Rank {
-    value.filter(|value| !value.is_nan()).map_or(Rank::Nothing, Rank::Number)
-}
-
-/// The columns that fit this width, each with its left edge and its own width.
-pub(super) fn fitting(lab: &Lab, width: f32) -> Vec<(&'static Column, f32, f32)> {
-    let wanted = |column: &&Column| (column.is_wanted)(lab);
-    let mut taken: Vec<u8> = vec![0];
-    let room_for_verdict = |taken: &[u8]| {
-        let columns = COLUMNS.iter().filter(wanted).filter(|column| taken.contains(&column.turn));
-        width - columns.map(|column| column.width + GAP).sum::<f32>()
-    };
-    for turn in 1..=7 {
-        let more = [&taken[..], &[turn]].concat();
-        let least = if turn < TURN_OF_EXTRAS { MIN_VERDICT } else { ROOMY_VERDICT };
-        if room_for_verdict(&more) >= least {
-            taken = more;
-        }
+/// The columns of a run.
+pub(super) fn of<'a>(lab: &Lab) -> Vec<Column<Row<'a>>> {
+    let is_solo = lab.mode() == Mode::Solo;
+    let mut truths = lab.race().truth().bodies().iter();
+    let mut columns = marks();
+    if is_solo && lab.scene().bodies.len() > 1 {
+        columns.push(Column { priority: 1, ..body() });
     }
-    let verdict = room_for_verdict(&taken).max(0.0);
-    let mut left = 0.0;
-    let columns = COLUMNS.iter().filter(wanted).filter(|column| taken.contains(&column.turn));
-    let placed = columns.map(|column| {
-        let own = if matches!(column.cell, Cell::Verdict) { verdict } else { column.width };
-        let here = left;
-        left += own + GAP;
-        (column, here, own)
-    });
-    placed.collect()
+    columns.push(verdict(lab));
+    columns.push(position());
+    if is_solo {
+        columns.push(exact());
+    }
+    columns.push(error());
+    if truths.clone().any(|body| body.chase().is_some()) {
+        columns.extend(chase());
+    }
+    if truths.any(|body| body.chase().is_none()) {
+        columns.push(energy());
+    }
+    columns.extend(work());
+    columns
+}
+
+/// Key, line and method.
+fn marks<'a>() -> Vec<Column<Row<'a>>> {
+    let place = |row: &Row<'a>| SortKey::Number(row.entry as f64);
+    let about = "the key that switches to this method, or selects its lane in a race";
+    let key = Column::shown(
+        "Key",
+        26.0,
+        about,
+        |ui, row: &Row<'a>, rect, _| {
+            let colour = if row.is_selected { ink(ui).accent } else { row.text(ui) };
+            if row.is_first {
+                show_key(ui, rect, row.entry, colour);
+            }
+        },
+        place,
+    );
+    let line = Column::shown(
+        "line",
+        36.0,
+        "the line of this method in the plots and on the stage",
+        |ui, row: &Row<'a>, rect, _| {
+            let (strong, dash) = ink(ui).style(row.lab.entries(), row.spec);
+            let colour = if row.flown.is_some() { strong } else { strong.gamma_multiply(0.7) };
+            if row.is_first {
+                swatch(ui.painter(), rect.left_center(), rect.width() - 4.0, dash, colour);
+            }
+        },
+        place,
+    );
+    let about = "the integrator of this lane; × is its substeps, a small number its tolerance";
+    let method = Column::shown(
+        "Method",
+        158.0,
+        about,
+        |ui, row: &Row<'a>, rect, _| {
+            if row.is_first {
+                let is_strong = row.entry == row.lab.active();
+                show_words(ui, rect, &row.method_name(), is_strong, row.text(ui));
+            }
+        },
+        |row| SortKey::Words(row.spec.method.name.into()),
+    );
+    vec![key, line.headed(""), method]
+}
+
+fn body<'a>() -> Column<Row<'a>> {
+    let about =
+        "the body of this row; of a method that does not run, the body that its verdict is about";
+    Column::shown(
+        "Body",
+        106.0,
+        about,
+        |ui, row: &Row<'a>, rect, _| {
+            show_words(ui, rect, row.body_name().unwrap_or_default(), false, row.text(ui));
+        },
+        |row| SortKey::Words(row.body_name().unwrap_or_default().into()),
+    )
+}
+
+/// The verdicts, with the body in their head that all of them are about, and in a race the body of the numbers.
+fn verdict<'a>(lab: &Lab) -> Column<Row<'a>> {
+    let about = "what this method does to the scene at this tick rate: its worst body, judged in a run of its own; a click sorts from best to worst";
+    let bodies = &lab.scene().bodies;
+    let whose = row::judged_body(lab).map(|body| format!(" ({})", bodies[body].name));
+    let head = format!("Verdict at {} Hz{}", lab.clock().tick_hz(), whose.unwrap_or_default());
+    let has_numbers_of_one = lab.mode() == Mode::Race && bodies.len() > 1;
+    let column = Column::shown(
+        "Verdict",
+        0.0,
+        about,
+        |ui, row: &Row<'a>, rect, _| row.said.show(ui, rect, row.text(ui)),
+        |row| row.said.rank.into(),
+    );
+    let beside_head = has_numbers_of_one.then(|| format!("{}:", bodies[lab.view().body].name));
+    Column { beside_head, ..column.headed(head) }
+}
+
+fn position<'a>() -> Column<Row<'a>> {
+    let about = "first coordinate of the body in this lane";
+    let text = |row: &Row<'a>| row.in_unit(row.position()?);
+    Column::number("position", (88.0, 5), about, text, Row::position)
+}
+
+fn exact<'a>() -> Column<Row<'a>> {
+    let about = "the same coordinate of the exact solution";
+    let text = |row: &Row<'a>| row.in_unit(row.exact()?);
+    Column::number("exact", (88.0, 7), about, text, Row::exact)
+}
+
+fn error<'a>() -> Column<Row<'a>> {
+    let error = |row: &Row<'a>| row.measure("position_error");
+    let text = move |row: &Row<'a>| error(row).map_or_else(|| row.no_truth(), |it| row.in_unit(it));
+    let about = "largest difference from the exact solution in a coordinate";
+    Column::number("error", (88.0, 2), about, text, error)
+}
+
+/// What becomes of a body that follows a target.
+fn chase<'a>() -> [Column<Row<'a>>; 2] {
+    let half_life = Column::number(
+        "half-life",
+        (88.0, 1),
+        "time in which the body covered half of the way to its target; of a method that does not run, the verdict's",
+        |row: &Row<'a>| Some(format!("{} ms", significant(row.half_life_ms()?, 3))),
+        Row::half_life_ms,
+    );
+    let overshoot = Column::number(
+        "overshoot",
+        (88.0, 1),
+        "how far the body went beyond its target, in percent of the way",
+        |row: &Row<'a>| Some(format!("{} %", significant(row.overshoot_percent()?, 3))),
+        Row::overshoot_percent,
+    );
+    [half_life, overshoot]
+}
+
+fn energy<'a>() -> Column<Row<'a>> {
+    let drift = |row: &Row<'a>| row.measure("energy_drift");
+    let text = move |row: &Row<'a>| {
+        let Some(drift) = drift(row) else {
+            return row.no_truth().filter(|_| row.conserves_energy());
+        };
+        let sign = if drift > 0.0 { "+" } else { "" };
+        Some(format!("{sign}{} %", significant(drift, 3)))
+    };
+    let about = "energy gained or lost, in percent of the energy that the exact swing exchanges";
+    Column::number("energy", (98.0, 3), about, text, drift)
+}
+
+fn work<'a>() -> [Column<Row<'a>>; 2] {
+    let evaluations = Column::number(
+        "evaluations",
+        (84.0, 6),
+        "evaluations of this body's acceleration since the start",
+        |row: &Row<'a>| row.evaluations().map(|count| format!("{count}")),
+        |row| row.evaluations().map(|count| count as f64),
+    );
+    let cost = Column::number(
+        "cost",
+        (48.0, 4),
+        "evaluations per tick; explicit Euler with one substep costs 1 ×",
+        |row: &Row<'a>| Some(format!("{} ×", round(row.cost()?, 3))),
+        Row::cost,
+    );
+    [evaluations, cost]
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::lab::{Command, Scene};
+    use crate::lab::{Command, Lab, Scene};
+    use crate::view::panels::lanes;
 
     #[test]
     fn what_the_stage_shows_too_has_a_column_only_where_there_is_room_for_it() {
         let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
         lab.apply(Command::ToggleRace);
-        let heads = |width: f32| -> Vec<&str> {
-            fitting(&lab, width).iter().map(|(column, ..)| column.head).collect()
+        let table = lanes::table(&lab);
+        let names = |width: f32| -> Vec<&str> {
+            table.fitting(width).iter().map(|(column, ..)| column.name).collect()
         };
-        let narrow = ["Key", "", "Method", "Verdict", "error", "energy", "cost"];
-        assert_eq!(heads(1264.0), narrow);
+        let narrow = ["Key", "line", "Method", "Verdict", "error", "energy", "cost"];
+        assert_eq!(names(1264.0), narrow);
         let wide = ["position", "error", "energy", "evaluations", "cost"];
-        assert_eq!(heads(1904.0)[4..], wide);
+        assert_eq!(names(1904.0)[4..], wide);
     }
 }

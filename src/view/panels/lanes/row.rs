@@ -1,8 +1,12 @@
 //! A row of the table, and its numbers.
 
-use super::verdict::Said;
+use egui::{Color32, Ui};
+
+use super::verdict;
 use crate::lab::number::significant;
 use crate::lab::{ChaseFinding, Entrant, Lab, LaneBody, LaneSpec, METRICS, Mode};
+use crate::view::panels::ink;
+use crate::view::panels::verdict::VerdictText;
 
 /// A method, or a body of the lane that is flown solo.
 pub(super) struct Row<'a> {
@@ -21,6 +25,8 @@ pub(super) struct Row<'a> {
     pub(super) is_selected: bool,
     /// The first coordinate of the exact body at the moment shown, while there is one.
     exact: Option<f64>,
+    /// What is said of it.
+    pub(super) said: VerdictText,
 }
 
 impl<'a> Row<'a> {
@@ -35,6 +41,15 @@ impl<'a> Row<'a> {
         let count = lab.scene().bodies.len();
         let is_active = entry == lab.active();
         let is_of_body = lab.mode() == Mode::Solo && flown.is_some() && count > 1;
+        // A method that is not flown names the judged body in the column of bodies.
+        let is_named_beside = lab.mode() == Mode::Solo && count > 1;
+        let judged = lab.viewer().verdict(entry);
+        let named_body = |body: usize| match (is_of_body, is_named_beside) {
+            (true, _) => Some(body),
+            (false, true) => judged.map(|verdict| verdict.body),
+            (false, false) => None,
+        };
+        let named_above = judged_body(lab);
         let row = |body: usize| Row {
             lab,
             entry,
@@ -45,6 +60,7 @@ impl<'a> Row<'a> {
             is_first: !is_of_body || body == 0,
             is_selected: is_active && (!is_of_body || body == shown),
             exact: exact[body],
+            said: verdict::text_of(lab, entry, flown, named_body(body), named_above),
         };
         match is_of_body {
             true => (0..count).map(row).collect(),
@@ -52,17 +68,9 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// What is said of it.
-    pub(super) fn said(&self) -> Said {
-        // A method that is not flown names the judged body in the column of bodies.
-        let is_named_beside = self.lab.mode() == Mode::Solo && self.lab.scene().bodies.len() > 1;
-        let verdict = self.lab.viewer().verdict(self.entry);
-        let body = match (self.is_of_body, is_named_beside) {
-            (true, _) => Some(self.body),
-            (false, true) => verdict.map(|verdict| verdict.body),
-            (false, false) => None,
-        };
-        Said::of(self.lab, self.entry, self.flown, body, judged_body(self.lab))
+    /// The colour of its words.
+    pub(super) fn text(&self, ui: &Ui) -> Color32 {
+        if self.flown.is_some() { ink(ui).text } else { ink(ui).dim }
     }
 
     /// The body of the row, or else the one that the verdict is about.

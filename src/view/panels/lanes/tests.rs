@@ -1,7 +1,10 @@
 //! The table of lanes: its rows, their order, and what is said in them.
 
+use egui::{Pos2, Rect, vec2};
+
 use super::*;
 use crate::lab::Scene;
+use crate::view::panels::table::{Order, SortKey};
 
 fn race() -> Lab {
     let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
@@ -9,6 +12,10 @@ fn race() -> Lab {
     (0..60).for_each(|_| lab.tick());
     lab.analyse();
     lab
+}
+
+fn sorted(lab: &Lab, order: Order) -> Vec<Row<'_>> {
+    table(lab).sorted(groups(lab), order).into_iter().flatten().collect()
 }
 
 fn entries(lab: &Lab, order: Order) -> Vec<usize> {
@@ -25,25 +32,24 @@ fn without_an_order_rows_are_in_that_of_the_keys() {
 fn every_column_sorts_all_rows_both_ways_and_those_without_a_value_last() {
     let lab = race();
     let all: Vec<usize> = (0..lab.entries().len()).collect();
-    for (by, column) in COLUMNS.iter().enumerate() {
+    for column in &table(&lab).columns {
         for is_reversed in [false, true] {
-            let rows = sorted(&lab, Some((by, is_reversed)));
+            let rows = sorted(&lab, Some((column.name, is_reversed)));
             let mut found: Vec<usize> = rows.iter().map(|row| row.entry).collect();
             found.sort_unstable();
-            assert_eq!(found, all, "{}", column.head);
-            let ranks: Vec<Rank> = rows.iter().map(column.rank).collect();
-            let nothing = ranks.iter().position(|rank| *rank == Rank::Nothing);
+            assert_eq!(found, all, "{}", column.name);
+            let ranks: Vec<SortKey> = rows.iter().map(&column.sort_key).collect();
+            let nothing = ranks.iter().position(|rank| *rank == SortKey::Nothing);
             let (ranked, rest) = ranks.split_at(nothing.unwrap_or(ranks.len()));
-            assert!(rest.iter().all(|rank| *rank == Rank::Nothing), "{}", column.head);
-            let is_in_order = |pair: &[Rank]| match is_reversed {
+            assert!(rest.iter().all(|rank| *rank == SortKey::Nothing), "{}", column.name);
+            let is_in_order = |pair: &[SortKey]| match is_reversed {
                 true => pair[0] >= pair[1],
                 false => pair[0] <= pair[1],
             };
-            assert!(ranked.windows(2).all(is_in_order), "{}: {ranked:?}", column.head);
+            assert!(ranked.windows(2).all(is_in_order), "{}: {ranked:?}", column.name);
         }
     }
-    let error = COLUMNS.iter().position(|column| column.head == "error").unwrap();
-    let by_error = entries(&lab, Some((error, false)));
+    let by_error = entries(&lab, Some(("error", false)));
     assert_ne!(by_error, entries(&lab, None), "some lane is worse than the next");
 }
 
@@ -53,16 +59,16 @@ fn in_solo_the_rows_of_the_bodies_stay_together_under_every_order() {
     lab.apply(Command::Pick(1));
     lab.tick();
     let bodies = lab.scene().bodies.len();
-    for (by, column) in COLUMNS.iter().enumerate() {
-        let rows = sorted(&lab, Some((by, true)));
+    for column in &table(&lab).columns {
+        let rows = sorted(&lab, Some((column.name, true)));
         let first = rows.iter().position(|row| row.is_of_body).expect("the flown lane");
         let of_lane = rows[first..first + bodies].iter();
-        assert!(of_lane.map(|row| row.body).eq(0..bodies), "{}", column.head);
+        assert!(of_lane.map(|row| row.body).eq(0..bodies), "{}", column.name);
     }
 }
 
 fn said(lab: &Lab) -> Vec<String> {
-    sorted(lab, None).iter().map(|row| row.said().whole().to_owned()).collect()
+    sorted(lab, None).iter().map(|row| row.said.whole().to_owned()).collect()
 }
 
 #[test]

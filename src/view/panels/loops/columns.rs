@@ -1,128 +1,100 @@
-//! The columns of the table of loops, and which of them fit a width.
+//! The columns of the table of loops, and how values are written in them.
 
+use super::table::Row;
+use crate::lab::LoopLab;
 use crate::lab::number::round;
-use crate::lab::pacing::{PACING_METRICS, PacingMetric};
-use crate::lab::{LoopLab, Severity};
+use crate::lab::pacing::PACING_METRICS;
+use crate::view::chart::legend::swatch;
+use crate::view::panels::ink;
+use crate::view::panels::table::{Column, SortKey, TableRow, show_key, show_words};
 
-/// What a cell shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Cell {
-    Key,
-    Swatch,
-    OnStage,
-    Name,
-    Verdict,
-    /// The metric of this id, at the right.
-    Metric(&'static str),
-    /// How far the display is behind the moment shown, in the mean, at the right.
-    Latency,
-}
+/// The least width of the verdict, in points.
+pub(super) const MIN_VERDICT: f32 = 264.0;
 
-/// One column.
-#[derive(Debug)]
-pub(super) struct Column {
-    pub(super) head: &'static str,
-    /// Its width in points; the verdict takes the rest.
-    width: f32,
-    /// The order in which columns are taken in while there is room, from 0; those with 0 are always there.
-    turn: u8,
-    pub(super) cell: Cell,
-}
+/// The id of the metric that has words of its own.
+const LATENCY: &str = "latency_mean_ms";
 
-/// The room between two columns, and the least width of the verdict, in points.
-const GAP: f32 = 8.0;
-const MIN_VERDICT: f32 = 264.0;
-
-const fn fixed(head: &'static str, width: f32, cell: Cell) -> Column {
-    Column { head, width, turn: 0, cell }
-}
-
-const fn number(head: &'static str, width: f32, turn: u8, cell: Cell) -> Column {
-    Column { head, width, turn, cell }
-}
-
-const fn metric(head: &'static str, width: f32, turn: u8, id: &'static str) -> Column {
-    number(head, width, turn, Cell::Metric(id))
-}
-
-/// Every column, from left to right.
-pub(super) static COLUMNS: &[Column] = &[
-    fixed("Key", 26.0, Cell::Key),
-    fixed("", 22.0, Cell::OnStage),
-    fixed("", 36.0, Cell::Swatch),
-    fixed("Loop", 136.0, Cell::Name),
-    fixed("Verdict", 0.0, Cell::Verdict),
-    metric("repeated", 66.0, 2, "repeated_percent"),
-    metric("double", 56.0, 4, "double_percent"),
-    metric("error RMS", 76.0, 1, "animation_error_rms_ms"),
-    metric("largest", 70.0, 5, "animation_error_max_ms"),
-    number("latency", 70.0, 3, Cell::Latency),
-    metric("dropped", 70.0, 7, "dropped_ms"),
-    metric("position", 72.0, 8, "position_error_rms"),
-    metric("at ½ rate", 72.0, 6, "state_difference"),
+/// The columns of numbers: name, width in points, priority, and the id of the metric.
+const METRICS: [(&str, f32, u8, &str); 8] = [
+    ("repeated", 66.0, 2, "repeated_percent"),
+    ("double", 56.0, 4, "double_percent"),
+    ("error RMS", 76.0, 1, "animation_error_rms_ms"),
+    ("largest", 70.0, 5, "animation_error_max_ms"),
+    ("latency", 70.0, 3, LATENCY),
+    ("dropped", 70.0, 7, "dropped_ms"),
+    ("position", 72.0, 8, "position_error_rms"),
+    ("at ½ rate", 72.0, 6, "state_difference"),
 ];
 
-impl Cell {
-    /// The metric, if it shows one.
-    pub(super) fn metric(self) -> Option<&'static PacingMetric> {
-        let id = match self {
-            Cell::Metric(id) => id,
-            Cell::Latency => "latency_mean_ms",
-            _ => return None,
-        };
-        PACING_METRICS.iter().find(|metric| metric.id == id)
-    }
+/// Every column, from left to right.
+pub(super) fn of<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
+    let place = |row: &Row<'a>| SortKey::Number(row.place as f64);
+    let about = "the key that selects this loop and brings it on the stage";
+    let key = Column::shown(
+        "Key",
+        26.0,
+        about,
+        |ui, row: &Row<'a>, rect, _| {
+            let colour = if row.is_selected() { ink(ui).accent } else { row.text(ui) };
+            show_key(ui, rect, row.place, colour);
+        },
+        place,
+    );
+    let on_stage = Column::shown(
+        "on the stage",
+        22.0,
+        "the loops on the stage; click an eye to bring one on or take it off",
+        |ui, row: &Row<'a>, rect, commands| row.eye(ui, rect, commands),
+        |row| SortKey::Number(if row.is_on_stage { 0.0 } else { 1.0 }),
+    );
+    let line = Column::shown(
+        "line",
+        36.0,
+        "the line of this loop in the plots and on the stage",
+        |ui, row: &Row<'a>, rect, _| {
+            let (strong, dash) = row.style(ink(ui));
+            let inked = if row.is_on_stage { strong } else { strong.gamma_multiply(0.7) };
+            swatch(ui.painter(), rect.left_center(), rect.width() - 4.0, dash, inked);
+        },
+        place,
+    );
+    let name = Column::shown(
+        "Loop",
+        136.0,
+        "the rule of the loop, from the simplest on",
+        |ui, row: &Row<'a>, rect, _| {
+            show_words(ui, rect, row.lane.card().name, row.is_selected(), row.text(ui));
+        },
+        place,
+    );
+    let about = "what this loop does to motion at this tick rate on this display; sorted from best to worst";
+    let display = loops.traces()[loops.trace()].name();
+    let verdict = Column::shown(
+        "Verdict",
+        0.0,
+        about,
+        |ui, row: &Row<'a>, rect, _| row.verdict.show(ui, rect, row.text(ui)),
+        |row| row.verdict.rank.into(),
+    );
+    let head = format!("Verdict at {} Hz, trace {display}", loops.scene().tick_hz);
+    let marks = [key, on_stage.headed(""), line.headed(""), name, verdict.headed(head)];
+    marks.into_iter().chain(METRICS.into_iter().filter_map(metric)).collect()
+}
 
-    /// The tooltip of its head.
-    pub(super) fn about(self) -> String {
-        let words = match self {
-            Cell::Key => "the key that selects this loop and brings it on the stage",
-            Cell::OnStage => "the loops on the stage; click an eye to bring one on or take it off",
-            Cell::Swatch => "the line of this loop in the plots and on the stage",
-            Cell::Name => "the rule of the loop, from the simplest on",
-            Cell::Verdict => {
-                "what this loop does to motion at this tick rate on this display; sorted from best to worst"
-            }
-            Cell::Metric(_) | Cell::Latency => {
-                let metric = self.metric();
-                let unit = match metric.map(|metric| metric.unit) {
-                    Some(AMPLITUDES) => ", in percent of the amplitude",
-                    _ => "",
-                };
-                let [name, about] = metric.map_or([""; 2], |metric| [metric.name, metric.about]);
-                return format!("{name}: {about}{unit}");
-            }
-        };
-        words.into()
-    }
-
-    /// The metric of the loop at this place in words.
-    pub(super) fn written(self, loops: &LoopLab, place: usize) -> Option<String> {
-        let metric = self.metric()?;
-        let value = loops.lanes()[place].report().and_then(metric.measure)?;
-        Some(match self {
-            Cell::Latency => latency(value),
-            _ => shown(value, metric.unit),
-        })
-    }
-
-    /// What the loop at this place is sorted by; `None` comes last.
-    pub(super) fn rank(self, loops: &LoopLab, place: usize) -> Option<f64> {
-        let lane = &loops.lanes()[place];
-        match self {
-            Cell::Metric(_) | Cell::Latency => {
-                (self.metric()?.measure)(lane.report()?).map(f64::abs)
-            }
-            Cell::Verdict => Some(match lane.verdict(loops.scene().tick_hz).severity {
-                Severity::Fine => 0.0,
-                Severity::Doubtful => 1.0,
-                Severity::Bad => 2.0,
-                Severity::Unknown => return None,
-            }),
-            Cell::OnStage => Some(if loops.on_stage().contains(&place) { 0.0 } else { 1.0 }),
-            Cell::Key | Cell::Swatch | Cell::Name => Some(place as f64),
-        }
-    }
+/// The column of a metric.
+fn metric<'a>(
+    (name, width, priority, id): (&'static str, f32, u8, &str),
+) -> Option<Column<Row<'a>>> {
+    let metric = PACING_METRICS.iter().find(|metric| metric.id == id)?;
+    let value = |row: &Row<'a>| row.lane.report().and_then(metric.measure);
+    let text = move |row: &Row<'a>| {
+        let value = value(row)?;
+        Some(if metric.id == LATENCY { latency(value) } else { shown(value, metric.unit) })
+    };
+    let unit = if metric.unit == AMPLITUDES { ", in percent of the amplitude" } else { "" };
+    let about = format!("{}: {}{unit}", metric.name, metric.about);
+    let size = move |row: &Row<'a>| value(row).map(f64::abs);
+    Some(Column::number(name, (width, priority), &about, text, size))
 }
 
 /// The unit that is shown in percent.
@@ -165,54 +137,15 @@ pub(super) fn shown(value: f64, unit: &str) -> String {
     format!("{number} {unit}")
 }
 
-/// The columns that fit this width, each with its left edge and its own width.
-pub(super) fn fitting(width: f32) -> Vec<(&'static Column, f32, f32)> {
-    let room_for_verdict = |most: u8| {
-        let columns = COLUMNS.iter().filter(|column| column.turn <= most);
-        width - columns.map(|column| column.width + GAP).sum::<f32>() + GAP
-    };
-    let last = COLUMNS.iter().map(|column| column.turn).max().unwrap_or_default();
-    let fits = |most: &u8| room_for_verdict(*most) >= MIN_VERDICT;
-    let most = (1..=last).rev().find(fits).unwrap_or(0);
-    let verdict = room_for_verdict(most).max(0.0);
-    let mut left = 0.0;
-    let columns = COLUMNS.iter().filter(|column| column.turn <= most);
-    let placed = columns.map(|column| {
-        let own = if column.cell == Cell::Verdict { verdict } else { column.width };
-        let here = left;
-        left += own + GAP;
-        (column, here, own)
-    });
-    placed.collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn every_number_is_a_metric_of_the_table() {
-        for column in COLUMNS {
-            let is_number = column.turn > 0;
-            assert_eq!(column.cell.metric().is_some(), is_number, "{}", column.head);
-            assert!(column.cell.about().len() > 20, "{}", column.head);
+        for column in METRICS {
+            assert!(metric(column).is_some_and(|made| made.about.len() > 20), "{}", column.0);
         }
-    }
-
-    #[test]
-    fn columns_fill_the_width_and_the_verdict_is_never_squeezed_out_by_a_number() {
-        let mut before = 0;
-        for width in (300..1400).map(|width| width as f32) {
-            let columns = fitting(width);
-            assert!(columns.len() >= before, "{width}");
-            before = columns.len();
-            let verdict = columns.iter().find(|(column, ..)| column.cell == Cell::Verdict).unwrap();
-            let has_numbers = columns.iter().any(|(column, ..)| column.turn > 0);
-            assert!(verdict.2 >= MIN_VERDICT || !has_numbers, "{width}");
-            let (_, left, own) = columns[columns.len() - 1];
-            assert!(!has_numbers || (left + own - width).abs() < 0.01, "{width}");
-        }
-        assert_eq!(before, COLUMNS.len());
     }
 
     #[test]

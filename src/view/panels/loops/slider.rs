@@ -124,7 +124,7 @@ mod tests {
             _ => false,
         };
         assert!(!sought.is_empty() && sought.iter().all(is_half), "{sought:?}, not {half_ns}");
-        let third = table + panels::lanes::HEAD + 2.5 * panels::lanes::ROW;
+        let third = table + 3.5 * panels::lanes::ROW;
         let commands = click(&context, &lab, pos2(300.0, third));
         assert_eq!(commands, [Command::Loop(LoopCommand::Select(2))]);
         let commands = click(&context, &lab, pos2(50.0, third));

@@ -1,0 +1,435 @@
+//! Tables: columns in which rows are shown, as many as fit, sorted by a click on a head. A row can be selected by mouse and
+//! keyboard, and who hears it hears its numbers.
+
+use egui::{Align2, Color32, FontId, Id, Rect, Response, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
+
+use super::{focus_ring, ink, keycap, short};
+use crate::lab::Command;
+use crate::view::theme::{Ink, TYPE, strong_font};
+
+/// The width of the bar at the left of the selected row, and of the margin that it stands in, in points.
+const BAR: f32 = 4.0;
+pub(super) const MARGIN: f32 = 8.0;
+/// The room between two columns, in points.
+pub(super) const GAP: f32 = 8.0;
+/// The smallest type of a cell, in points.
+const MIN_TYPE: f32 = 9.0;
+/// The room between the words of a head and those at its right end, in points.
+const BESIDE_HEAD: f32 = 30.0;
+
+/// A row of a table.
+pub(super) trait TableRow {
+    /// What is heard of it before its numbers.
+    fn spoken(&self) -> String;
+
+    /// Whether it is the one that keys and the stage are about.
+    fn is_selected(&self) -> bool;
+
+    /// The colour of the bar at its left where it is selected, and that of its numbers.
+    fn colours(&self, ink: &Ink) -> [Color32; 2];
+
+    /// What a click asks for; `None` if it cannot be clicked.
+    fn command(&self) -> Option<Command>;
+
+    /// Shows more about it.
+    fn tooltip(&self, ui: &mut Ui);
+}
+
+/// What a column is sorted by. Rows without a value come last.
+#[derive(Debug, PartialEq, PartialOrd)]
+pub(super) enum SortKey {
+    Number(f64),
+    Words(String),
+    Nothing,
+}
+
+impl From<Option<f64>> for SortKey {
+    fn from(value: Option<f64>) -> Self {
+        value.filter(|value| !value.is_nan()).map_or(Self::Nothing, Self::Number)
+    }
+}
+
+/// What a cell shows.
+pub(super) enum Cell<R> {
+    /// A number, at the right.
+    Number(Box<dyn Fn(&R) -> Option<String>>),
+    /// What is shown in its rectangle, and may ask for something.
+    Shown(Box<dyn Fn(&mut Ui, &R, Rect, &mut Vec<Command>)>),
+}
+
+/// A column of a table of rows `R`.
+pub(super) struct Column<R> {
+    /// Its name among the table's columns, and for who hears it.
+    pub(super) name: &'static str,
+    pub(super) head: String,
+    /// What is written at the right end of its head where there is room.
+    pub(super) beside_head: Option<String>,
+    /// The tooltip of its head.
+    pub(super) about: String,
+    /// Its width in points. The one without a width takes the rest.
+    pub(super) width: f32,
+    /// The order in which columns are taken in while there is room, from 0; those with 0 are always there.
+    pub(super) priority: u8,
+    pub(super) cell: Cell<R>,
+    pub(super) sort_key: Box<dyn Fn(&R) -> SortKey>,
+}
+
+impl<R> Column<R> {
+    /// A column that is always there.
+    pub(super) fn shown(
+        name: &'static str,
+        width: f32,
+        about: &str,
+        show: impl Fn(&mut Ui, &R, Rect, &mut Vec<Command>) + 'static,
+        sort_key: impl Fn(&R) -> SortKey + 'static,
+    ) -> Self {
+        Self {
+            name,
+            head: name.into(),
+            beside_head: None,
+            about: about.into(),
+            width,
+            priority: 0,
+            cell: Cell::Shown(Box::new(show)),
+            sort_key: Box::new(sort_key),
+        }
+    }
+
+    /// A column of numbers: the text of each, and what it is sorted by.
+    pub(super) fn number(
+        name: &'static str,
+        (width, priority): (f32, u8),
+        about: &str,
+        text: impl Fn(&R) -> Option<String> + 'static,
+        value: impl Fn(&R) -> Option<f64> + 'static,
+    ) -> Self {
+        let cell = Cell::Number(Box::new(text));
+        let sort_key = move |row: &R| value(row).into();
+        let column = Self::shown(name, width, about, |_, _, _, _| {}, sort_key);
+        Self { priority, cell, ..column }
+    }
+
+    /// The same column under this head.
+    pub(super) fn headed(self, head: impl Into<String>) -> Self {
+        Self { head: head.into(), ..self }
+    }
+
+    fn is_number(&self) -> bool {
+        matches!(self.cell, Cell::Number(_))
+    }
+}
+
+/// A table.
+pub(super) struct Table<R> {
+    /// Its name among all tables.
+    pub(super) id: &'static str,
+    /// From left to right.
+    pub(super) columns: Vec<Column<R>>,
+    /// The least width in points that the column without a width keeps beside those of a priority.
+    pub(super) min_rest: fn(u8) -> f32,
+    /// The height of a row, and the size of type in the heads, in points.
+    pub(super) row_height: f32,
+    pub(super) head_type: f32,
+}
+
+/// The column by which rows are sorted, and whether in reverse; `None` in the order in which they are given.
+pub(super) type Order = Option<(&'static str, bool)>;
+
+/// The order after a click on the head of a column: by it, in reverse, and no more.
+fn clicked(order: Order, name: &'static str) -> Order {
+    match order {
+        Some((by, false)) if by == name => Some((name, true)),
+        Some((by, true)) if by == name => None,
+        _ => Some((name, false)),
+    }
+}
+
+/// What stands after the head of a column: an arrow up where values rise from row to row.
+fn arrow(order: Order, name: &str) -> &'static str {
+    match order {
+        Some((by, false)) if by == name => " ↑",
+        Some((by, true)) if by == name => " ↓",
+        _ => "",
+    }
+}
+
+impl<R: TableRow> Table<R> {
+    /// The height of the heads, in points.
+    fn head_height(&self) -> f32 {
+        self.row_height - 2.0
+    }
+
+    /// Shows the rows, of which those of a group stay together. `each` gets every row with its response.
+    pub(super) fn show(
+        &self,
+        ui: &mut Ui,
+        groups: Vec<Vec<R>>,
+        commands: &mut Vec<Command>,
+        mut each: impl FnMut(&R, &Response, &mut Vec<Command>),
+    ) {
+        ui.spacing_mut().item_spacing = Vec2::ZERO;
+        let width = ui.available_width();
+        let columns = self.fitting(width - 2.0 * MARGIN);
+        let order = self.heads(ui, &columns, width);
+        let rows: Vec<R> = self.sorted(groups, order).into_iter().flatten().collect();
+        // The last row in sight is as clear as the others.
+        ui.spacing_mut().scroll.fade.strength = 0.0;
+        let mut list = ScrollArea::vertical().id_salt(self.id).auto_shrink(false);
+        // A panel beside may leave it no row.
+        list = list.min_scrolled_height(0.0);
+        let selected = rows.iter().position(R::is_selected).unwrap_or_default();
+        if let Some(offset) = self.offset_to_follow(ui, selected, rows.len()) {
+            list = list.vertical_scroll_offset(offset);
+        }
+        list.show(ui, |ui| {
+            for row in &rows {
+                let response = self.show_row(ui, row, &columns, width, commands);
+                each(row, &response, commands);
+            }
+        });
+    }
+
+    /// The columns that fit this width, each with its left edge and its own width.
+    pub(super) fn fitting(&self, width: f32) -> Vec<(&Column<R>, f32, f32)> {
+        let taken = |most: u8| self.columns.iter().filter(move |column| column.priority <= most);
+        let rest = |most: u8| width - taken(most).map(|column| column.width + GAP).sum::<f32>();
+        let last = self.columns.iter().map(|column| column.priority).max().unwrap_or_default();
+        let fits = |most: &u8| rest(*most) >= (self.min_rest)(*most);
+        let most = (1..=last).take_while(fits).last().unwrap_or(0);
+        let mut left = 0.0;
+        let placed = taken(most).map(|column| {
+            let own = if column.width > 0.0 { column.width } else { rest(most).max(0.0) };
+            let here = left;
+            left += own + GAP;
+            (column, here, own)
+        });
+        placed.collect()
+    }
+
+    /// Shows the heads, and returns the order that a person has chosen with them.
+    fn heads(&self, ui: &mut Ui, columns: &[(&Column<R>, f32, f32)], width: f32) -> Order {
+        let id = Id::unique(("order of a table", self.id));
+        let mut order = ui.data(|data| data.get_temp::<Order>(id)).flatten();
+        let (line, _) = ui.allocate_exact_size(vec2(width, self.head_height()), Sense::hover());
+        for &(column, left, own) in columns {
+            let at = pos2(line.left() + MARGIN + left, line.top());
+            let rect = Rect::from_min_size(at, vec2(own, line.height()));
+            let head = Id::unique(("head of a table", self.id, column.name));
+            let response = ui.interact(rect, head, Sense::click());
+            let name = format!("sort by {}", column.name);
+            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+            let is_lit = response.hovered() || response.has_focus();
+            let inked = if is_lit { ink(ui).accent } else { ink(ui).dim };
+            let side = if column.is_number() { Align2::RIGHT_CENTER } else { Align2::LEFT_CENTER };
+            let words = format!("{}{}", column.head, arrow(order, column.name));
+            let font = || FontId::proportional(self.head_type);
+            let (text, _) = short(ui, &words, font(), own, inked);
+            let room = own - text.size().x;
+            let corner = side.align_size_within_rect(text.size(), rect).min;
+            ui.painter().galley(corner, text, inked);
+            if let Some(words) = &column.beside_head {
+                let dim = ink(ui).dim;
+                let beside = ui.painter().layout_no_wrap(words.clone(), font(), dim);
+                if beside.size().x + BESIDE_HEAD < room {
+                    let at = Align2::RIGHT_CENTER.align_size_within_rect(beside.size(), rect).min;
+                    ui.painter().galley(at, beside, dim);
+                }
+            }
+            if response.on_hover_text(&column.about).clicked() {
+                order = clicked(order, column.name);
+                ui.data_mut(|data| data.insert_temp(id, order));
+            }
+        }
+        order
+    }
+
+    /// The groups in this order: each goes by its first row.
+    pub(super) fn sorted(&self, mut groups: Vec<Vec<R>>, order: Order) -> Vec<Vec<R>> {
+        let by = order.and_then(|(name, is_reversed)| {
+            Some((self.columns.iter().find(|column| column.name == name)?, is_reversed))
+        });
+        if let Some((column, is_reversed)) = by {
+            let key = |rows: &Vec<R>| rows.first().map_or(SortKey::Nothing, &column.sort_key);
+            groups.sort_by(|a, b| {
+                let (a, b) = (key(a), key(b));
+                let by_key = a.partial_cmp(&b).unwrap_or(std::cmp::Ordering::Equal);
+                // Those without a value stay last.
+                let is_last = [&a, &b].contains(&&SortKey::Nothing);
+                if is_reversed && !is_last { by_key.reverse() } else { by_key }
+            });
+        }
+        groups
+    }
+
+    fn show_row(
+        &self,
+        ui: &mut Ui,
+        row: &R,
+        columns: &[(&Column<R>, f32, f32)],
+        width: f32,
+        commands: &mut Vec<Command>,
+    ) -> Response {
+        let command = row.command();
+        let sense = if command.is_some() { Sense::click() } else { Sense::hover() };
+        let (rect, response) = ui.allocate_exact_size(vec2(width, self.row_height), sense);
+        let numbers: Vec<Option<String>> = columns
+            .iter()
+            .map(|(column, ..)| match &column.cell {
+                Cell::Number(text) => text(row),
+                Cell::Shown(_) => None,
+            })
+            .collect();
+        let is_selected = row.is_selected();
+        response.widget_info(|| {
+            let heard = columns.iter().zip(&numbers).filter_map(|((column, ..), number)| {
+                Some(format!(", {} {}", column.name, number.as_ref()?))
+            });
+            let name = row.spoken() + &heard.collect::<String>();
+            egui::WidgetInfo::selected(egui::Role::Button, true, is_selected, name)
+        });
+        let [own, text] = row.colours(ink(ui));
+        if is_selected || command.is_some() && response.hovered() {
+            let fill = ink(ui).raised.gamma_multiply(if is_selected { 1.0 } else { 0.6 });
+            ui.painter().rect_filled(rect, 3.0, fill);
+        }
+        focus_ring(ui, &response);
+        if is_selected {
+            let bar = vec2(BAR, self.row_height - 2.0);
+            let bar = Rect::from_min_size(rect.min + vec2(0.0, 1.0), bar);
+            ui.painter().rect_filled(bar, 2.0, own);
+        }
+        let response = response.on_hover_ui(|ui| row.tooltip(ui));
+        if response.clicked() {
+            commands.extend(command);
+        }
+        // Over the row: what can be clicked in a cell takes the click.
+        for (&(column, left, own), number) in columns.iter().zip(numbers) {
+            let from = pos2(rect.left() + MARGIN + left, rect.top());
+            let cell = Rect::from_min_size(from, vec2(own, self.row_height));
+            match &column.cell {
+                Cell::Shown(show) => show(ui, row, cell, commands),
+                Cell::Number(_) => {
+                    let (at, font) = (cell.right_center(), FontId::proportional(TYPE));
+                    let words = number.unwrap_or_default();
+                    ui.painter().text(at, Align2::RIGHT_CENTER, words, font, text);
+                }
+            }
+        }
+        response
+    }
+
+    /// How far to scroll for the selected of so many rows to be seen when it becomes so, in this very frame; `None` at all
+    /// other times: a person may scroll away.
+    fn offset_to_follow(&self, ui: &Ui, selected: usize, rows: usize) -> Option<f32> {
+        let id = Id::unique(("selected row of a table", self.id));
+        let known = ui.data_mut(|data| {
+            let known = data.get_temp::<usize>(id);
+            data.insert_temp(id, selected);
+            known
+        });
+        let room = ui.available_height();
+        let bottom = self.row_height * (selected + 1) as f32;
+        let hidden = (self.row_height * rows as f32 - room).max(0.0);
+        // From the top, as long as the row is in sight there: a race shows its lanes.
+        let offset = if bottom <= room { 0.0 } else { bottom - (self.row_height + room) / 2.0 };
+        (known != Some(selected)).then(|| offset.clamp(0.0, hidden))
+    }
+}
+
+/// Shows the key that selects the row at this place, if it is one of ten.
+pub(super) fn show_key(ui: &Ui, rect: Rect, place: usize, colour: Color32) {
+    if place < 10 {
+        let (at, key) = (rect.left_center(), format!("{}", (place + 1) % 10));
+        keycap::paint(ui, at.x, at.y, &key, colour);
+    }
+}
+
+/// Writes words into a cell, rather smaller than cut.
+pub(super) fn show_words(ui: &Ui, rect: Rect, words: &str, is_strong: bool, colour: Color32) {
+    let mut size = TYPE;
+    let galley = loop {
+        let font = if is_strong { strong_font(size) } else { FontId::proportional(size) };
+        let (galley, is_whole) = short(ui, words, font, rect.width(), colour);
+        if is_whole || size <= MIN_TYPE {
+            break galley;
+        }
+        size -= 0.5;
+    };
+    let at = rect.left_center() - vec2(0.0, galley.size().y / 2.0);
+    ui.painter().galley(at, galley, colour);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Number(f64);
+
+    impl TableRow for Number {
+        fn spoken(&self) -> String {
+            "number".into()
+        }
+
+        fn is_selected(&self) -> bool {
+            false
+        }
+
+        fn colours(&self, ink: &Ink) -> [Color32; 2] {
+            [ink.text; 2]
+        }
+
+        fn command(&self) -> Option<Command> {
+            None
+        }
+
+        fn tooltip(&self, _: &mut Ui) {}
+    }
+
+    fn table() -> Table<Number> {
+        let key = |row: &Number| Some(row.0).into();
+        let number = |name, priority| {
+            Column::number(name, (60.0, priority), "", |_| None, |row: &Number| Some(row.0))
+        };
+        let rest = Column::shown("rest", 0.0, "", |_, _, _, _| {}, key);
+        let columns = vec![rest, number("first", 1), number("third", 3), number("second", 2)];
+        Table { id: "numbers", columns, min_rest: |_| 100.0, row_height: 26.0, head_type: TYPE }
+    }
+
+    #[test]
+    fn a_second_click_reverses_and_a_third_ends_the_order() {
+        let by = clicked(None, "a");
+        assert_eq!((by, arrow(by, "a"), arrow(by, "b")), (Some(("a", false)), " ↑", ""));
+        let reversed = clicked(by, "a");
+        assert_eq!((reversed, arrow(reversed, "a")), (Some(("a", true)), " ↓"));
+        assert_eq!(clicked(reversed, "a"), None);
+    }
+
+    #[test]
+    fn columns_fill_the_width_and_the_rest_is_never_squeezed_out_by_a_number() {
+        let table = table();
+        let mut before = 0;
+        for width in (50..400).map(|width| width as f32) {
+            let columns = table.fitting(width);
+            assert!(columns.len() >= before, "{width}");
+            before = columns.len();
+            let (rest, _, own) = columns[0];
+            assert!(rest.name == "rest" && (own >= 100.0 || columns.len() == 1), "{width}");
+            let (_, left, own) = columns[columns.len() - 1];
+            assert!((left + own + GAP - width).abs() < 0.01, "{width}");
+        }
+        assert_eq!(before, table.columns.len());
+        let names: Vec<_> = table.fitting(250.0).iter().map(|(column, ..)| column.name).collect();
+        assert_eq!(names, ["rest", "first", "second"]);
+    }
+
+    #[test]
+    fn rows_without_a_value_stay_last_both_ways() {
+        let values = |is_reversed| -> Vec<f64> {
+            let groups = [2.0, f64::NAN, 1.0, 3.0].map(|value| vec![Number(value)]).into();
+            let rows = table().sorted(groups, Some(("first", is_reversed)));
+            rows.into_iter().flatten().map(|row| row.0).take(3).collect()
+        };
+        assert_eq!(values(false), [1.0, 2.0, 3.0]);
+        assert_eq!(values(true), [3.0, 2.0, 1.0]);
+    }
+}

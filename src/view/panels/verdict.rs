@@ -1,0 +1,105 @@
+//! The verdict in a row of a table: a sign in the verdict's colour, and as many of its words as fit.
+
+use egui::epaint::PathShape;
+use egui::{Color32, FontId, Pos2, Rect, Stroke, Ui, pos2, vec2};
+
+use super::{ink, severity_tone, short};
+use crate::lab::{Outcome, Severity};
+use crate::view::theme::TYPE;
+
+/// Half the size of a sign, and the room that it takes, in points.
+const HALF: f32 = 4.5;
+const ROOM: f32 = 17.0;
+
+/// What is said in a row.
+pub(super) struct VerdictText {
+    /// The sign and its colour; `None` while it is being judged.
+    pub(super) sign: Option<(Sign, Severity)>,
+    /// From the longest to the shortest.
+    pub(super) wordings: Vec<String>,
+    /// How bad it is, once that is known.
+    pub(super) rank: Option<f64>,
+}
+
+/// A shape that tells verdicts apart without their colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sign {
+    /// It is right.
+    Disc,
+    /// It drifts, or is doubtful.
+    Diamond,
+    /// It gains, or is bad.
+    Rising,
+    /// It loses.
+    Falling,
+    /// It is lost.
+    Cross,
+    /// It is not known.
+    Ring,
+}
+
+impl Sign {
+    pub(super) fn of(outcome: Outcome) -> Self {
+        match outcome {
+            Outcome::Rounding | Outcome::Accurate => Self::Disc,
+            Outcome::NotJudged | Outcome::NoTruth => Self::Ring,
+            Outcome::OutOfPhase => Self::Diamond,
+            Outcome::GainsEnergy => Self::Rising,
+            Outcome::LosesEnergy => Self::Falling,
+            Outcome::GaveUp | Outcome::BlewUp => Self::Cross,
+        }
+    }
+
+    pub(super) fn of_severity(severity: Severity) -> Self {
+        match severity {
+            Severity::Fine => Self::Disc,
+            Severity::Doubtful => Self::Diamond,
+            Severity::Bad => Self::Rising,
+            Severity::Unknown => Self::Ring,
+        }
+    }
+
+    fn paint(self, ui: &Ui, at: Pos2, colour: Color32) {
+        let polygon = |corners: &[(f32, f32)]| {
+            let corners = corners.iter().map(|(x, y)| at + HALF * vec2(*x, *y)).collect();
+            ui.painter().add(PathShape::convex_polygon(corners, colour, Stroke::NONE));
+        };
+        match self {
+            Self::Disc => drop(ui.painter().circle_filled(at, HALF, colour)),
+            Self::Ring => {
+                ui.painter().circle_stroke(at, HALF - 1.0, Stroke::new(1.5, colour));
+            }
+            Self::Diamond => polygon(&[(0.0, -1.15), (1.15, 0.0), (0.0, 1.15), (-1.15, 0.0)]),
+            Self::Rising => polygon(&[(0.0, -1.0), (1.1, 0.9), (-1.1, 0.9)]),
+            Self::Falling => polygon(&[(-1.1, -0.9), (1.1, -0.9), (0.0, 1.0)]),
+            Self::Cross => {
+                for side in [-1.0, 1.0] {
+                    let ends = [-1.0, 1.0].map(|end| at + 0.9 * HALF * vec2(side * end, end));
+                    ui.painter().line_segment(ends, Stroke::new(2.2, colour));
+                }
+            }
+        }
+    }
+}
+
+impl VerdictText {
+    /// Everything.
+    pub(super) fn whole(&self) -> &str {
+        &self.wordings[0]
+    }
+
+    /// Shows the sign and the longest wording that fits.
+    pub(super) fn show(&self, ui: &Ui, cell: Rect, colour: Color32) {
+        let left = cell.left_center();
+        if let Some((sign, severity)) = self.sign {
+            sign.paint(ui, pos2(left.x + HALF, left.y), severity_tone(ui, severity));
+        }
+        let colour = if self.sign.is_some() { colour } else { ink(ui).dim };
+        let room = cell.width() - ROOM;
+        let fitted = |words: &String| short(ui, words, FontId::proportional(TYPE), room, colour);
+        let fits = self.wordings.iter().map(fitted).find(|(_, is_whole)| *is_whole);
+        let shortest = || fitted(self.wordings.last().expect("there is a wording"));
+        let (text, _) = fits.unwrap_or_else(shortest);
+        ui.painter().galley(left + vec2(ROOM, -text.size().y / 2.0), text, colour);
+    }
+}
