@@ -1,13 +1,11 @@
 //! Charts that fill a picture: a title, a legend, axes with units, curves, and a note below.
 
 use egui::{
-    Frame, Margin, Rect, RichText, TextStyle, TextWrapMode, Ui, UiBuilder, WidgetText, pos2, vec2,
+    Frame, Label, Margin, Rect, RichText, TextStyle, TextWrapMode, Ui, UiBuilder, WidgetText, pos2,
+    vec2,
 };
 
-use super::{
-    Arrow, AxisScale, Curve, Dots, Drawing, LineStyle, PlotArea, axes, contents, legend, names,
-    paint,
-};
+use super::{Arrow, AxisScale, Curve, Dots, Drawing, LineStyle, PlotArea, legend, paint, plot};
 use crate::lab::picture::Rgba;
 use crate::view::theme::{colour, ink};
 
@@ -118,7 +116,7 @@ pub(in crate::view) fn show(ui: &mut Ui, figure: &Figure) {
         room.max.y = (room.max.y - NOTE - note.size().y).max(room.min.y + 10.0);
         for (n, (chart, place)) in figure.charts.iter().zip(places(figure, room)).enumerate() {
             ui.scope_builder(UiBuilder::new().id_salt(n).max_rect(place), |ui| {
-                show_chart(ui, chart)
+                show_chart(ui, chart, place);
             });
         }
         ui.advance_cursor_after_rect(room);
@@ -142,11 +140,12 @@ fn places(figure: &Figure, room: Rect) -> impl Iterator<Item = Rect> {
     })
 }
 
-fn show_chart(ui: &mut Ui, chart: &Chart) {
+fn show_chart(ui: &mut Ui, chart: &Chart, place: Rect) {
     if !chart.title.is_empty() {
         ui.horizontal(|ui| {
             ui.add_space(INDENT);
-            ui.label(RichText::new(&chart.title).size(14.0).color(ink(ui).text));
+            let title = RichText::new(&chart.title).size(14.0).color(ink(ui).text);
+            ui.add(Label::new(title).wrap());
         });
     }
     if chart.legend == Legend::Own {
@@ -157,7 +156,7 @@ fn show_chart(ui: &mut Ui, chart: &Chart) {
         let Axis { view, scale, .. } = &chart.axes[axis];
         view.map(|value| scale.place(value))
     });
-    let room = ui.available_rect_before_wrap();
+    let room = place.with_min_y(ui.cursor().top());
     let area = PlotArea { rect: super::inside(room, INDENT, 0.0), bounds };
     let marks = [0, 1].map(|axis| area.marks(axis, chart.axes[axis].scale, MARKS_APART[axis]));
     let curves: Vec<Curve> = chart.curves.iter().map(|curve| laid_out(curve, chart)).collect();
@@ -167,11 +166,10 @@ fn show_chart(ui: &mut Ui, chart: &Chart) {
         Some(Arrow { from: *newest, to: *newest, colour: curve.style.colour })
     });
     let arrows = arrows.collect();
-    let mut all = axes(&area, marks, ink(ui), f32::INFINITY);
-    let names =
-        names(&area, area.rect.left(), chart.axes.each_ref().map(|axis| axis.name), ink(ui));
-    all.extend(names.map(Into::into));
-    all.push(contents(&area, &Drawing { curves, arrows, ..Drawing::default() }));
+    let drawing = Drawing { curves, arrows, ..Drawing::default() };
+    let mut all = plot(&area, marks, &drawing, ink(ui), f32::INFINITY);
+    let names = chart.axes.each_ref().map(|axis| axis.name);
+    all.extend(super::names(&area, area.rect.left(), names, ink(ui)).map(Into::into));
     paint(ui.painter(), &all);
 }
 

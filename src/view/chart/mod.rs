@@ -67,11 +67,22 @@ pub(super) enum SwitchMark {
     Ring,
 }
 
-/// A grid line at each mark along and up with its number, if it has one, none of which goes on beyond `right`, and the edge
-/// of the plot.
+/// A plot in which nothing is drawn yet: a grid line at each mark along and up with its number, if it has one, none of which
+/// goes on beyond `right`, and the edge.
 pub(super) fn axes(
     area: &PlotArea,
     marks: [Vec<Mark>; 2],
+    ink: &Ink,
+    right: f32,
+) -> Vec<Primitive> {
+    plot(area, marks, &Drawing::default(), ink, right)
+}
+
+/// A plot with [its axes](axes) and all that is in it.
+pub(super) fn plot(
+    area: &PlotArea,
+    marks: [Vec<Mark>; 2],
+    drawing: &Drawing,
     ink: &Ink,
     right: f32,
 ) -> Vec<Primitive> {
@@ -100,6 +111,7 @@ pub(super) fn axes(
             last = at.y;
         }
     }
+    all.push(contents(area, drawing));
     all.push(Primitive::Edge(rect, Stroke::new(1.0, ink.line)));
     all
 }
@@ -121,7 +133,7 @@ pub(super) fn names<S: Into<String>>(
 }
 
 /// Everything in a plot, cut off at its edges.
-pub(super) fn contents(area: &PlotArea, drawing: &Drawing) -> Primitive {
+fn contents(area: &PlotArea, drawing: &Drawing) -> Primitive {
     let rect = area.rect;
     let switch = |Switch { at, colour }: &Switch| {
         let at = area.at(*at);

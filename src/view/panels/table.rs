@@ -49,12 +49,16 @@ impl From<Option<f64>> for SortKey {
     }
 }
 
+/// The text of a number of a row.
+type NumberText<R> = Box<dyn Fn(&R) -> Option<String>>;
+/// Shows something of a row in a rectangle, which may ask for something.
+type ShowCell<R> = Box<dyn Fn(&mut Ui, &R, Rect, &mut Vec<Command>)>;
+
 /// What a cell shows.
 pub(super) enum Cell<R> {
     /// A number, at the right.
-    Number(Box<dyn Fn(&R) -> Option<String>>),
-    /// What is shown in its rectangle, and may ask for something.
-    Shown(Box<dyn Fn(&mut Ui, &R, Rect, &mut Vec<Command>)>),
+    Number(NumberText<R>),
+    Shown(ShowCell<R>),
 }
 
 /// A column of a table of rows `R`.

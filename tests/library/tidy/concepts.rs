@@ -11,7 +11,7 @@ struct Concept {
     marks: &'static [&'static str],
 }
 
-const CONCEPTS: [Concept; 22] = [
+const CONCEPTS: [Concept; 26] = [
     Concept {
         name: "dispatch by the type of a method",
         file: "src/sim/integrators/mod.rs",

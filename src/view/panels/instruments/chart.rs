@@ -238,7 +238,7 @@ pub(super) fn layout(
     } else {
         across.iter_mut().for_each(|(_, text)| text.clear());
     }
-    all.extend(chart::axes(area, [across, upwards], ink, right));
-    all.push(chart::contents(area, &plot.drawing(lab, roster, &area.bounds, columns)));
+    let drawing = plot.drawing(lab, roster, &area.bounds, columns);
+    all.extend(chart::plot(area, [across, upwards], &drawing, ink, right));
     all
 }
