@@ -96,7 +96,7 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
         false => pixels::judge(args, &rerun).map(Some),
     };
     #[cfg(not(feature = "view"))]
-    let redrawn = Ok(None);
+    let redrawn = Ok::<Option<(Frames, (Lab, StateLog))>, Error>(None);
     let (frames, (lab, state_log), failed) = match redrawn {
         Ok(Some((frames, run))) => (Some(frames), run, None),
         Ok(None) => (None, rerun.run(), None),
