@@ -31,7 +31,7 @@ impl PlotArea {
 
     fn part(&self, axis: usize, value: f64) -> f32 {
         let [low, high] = self.bounds[axis];
-        ((value - low) / (high - low)).clamp(-FAR_OUTSIDE, 1.0 + FAR_OUTSIDE) as f32
+        ((value - low) * (1.0 / (high - low))).clamp(-FAR_OUTSIDE, 1.0 + FAR_OUTSIDE) as f32
     }
 
     /// The lengths on the screen of a difference between two points: to the right and up.

@@ -190,7 +190,6 @@ fn show_plot(
     let painter = ui.painter().clone();
     let columns = area.rect.width() * painter.pixels_per_point();
     let right = ui.max_rect().right();
-    chart::paint(&painter, &layout(lab, roster, (cell, area), ink, (columns, right)));
     let name = FontId::proportional(NAME);
     let name = painter.layout_no_wrap(plot.axes[1].name(), name, ink.dim).size().x;
     let edge = pos2(cell.left, area.rect.top() - ABOVE / 2.0);
@@ -206,6 +205,7 @@ fn show_plot(
         Sense::click(),
     );
     painter.galley(at, words, ink.text);
+    chart::paint(&painter, &layout(lab, roster, (cell, area), ink, (columns, right)));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &plot.title));
     focus_ring(ui, &response);
     let about = "show this body large, and in the other instruments";
