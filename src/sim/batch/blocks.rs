@@ -2,6 +2,7 @@
 
 use std::marker::PhantomData;
 use std::ops::Range;
+use std::sync::atomic::{Ordering, compiler_fence};
 
 use super::copies::{BlockSystem, Copies};
 use super::instruction_set::{InstructionSet, Kernel, NARROW, WIDE};
@@ -123,6 +124,8 @@ impl<S: BlockSystem<W>, I: Integrator<S> + Clone, const W: usize> Kernel for Gra
                 for substep in 0..ticks.substeps {
                     let t = ticks.t(tick) + part * f64::from(substep);
                     for (n, (q, v)) in q.iter_mut().zip(v.iter_mut()).enumerate() {
+                        // A block is a vector as it is: across several the compiler would gather and scatter.
+                        compiler_fence(Ordering::AcqRel);
                         system.turn_to(first + (tile + n) * W);
                         let mut own = memory.get(tile + n).unwrap_or(&integrator).clone();
                         let mut state = State { q: *q, v: *v };
