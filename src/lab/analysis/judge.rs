@@ -144,8 +144,10 @@ impl Judge {
 
     /// The verdict on a body that has no reference solution.
     fn by_energy(&self, body: usize, spec: LaneSpec, tick_hz: u32, max_work: u64) -> Verdict {
-        // Growth would be sought beyond the horizon for a verdict that nobody gets.
-        let max_work = if self.has_ticks(tick_hz) { max_work } else { 0 };
+        // A tick of a large body may take seconds, and growth beyond the horizon tells nobody anything.
+        if let Some(why) = self.not_judged(tick_hz, max_work == 0) {
+            return self.verdict_on(body, Finding::NotJudged(why), LongTerm::default());
+        }
         let run = follow_energy(&self.truths[body], spec, tick_hz, max_work);
         let found = run.finding;
         let finding = match (run.failure, self.not_judged(tick_hz, run.is_too_much)) {

@@ -38,7 +38,12 @@ pub fn spectral_radius(
     let Some(method) = solver.method().filter(|it| it.keeps_time && it.tolerance.is_none()) else {
         return Ok(None);
     };
-    let logs = match (method.restart, method.evaluations_per_tick(tick.substeps)) {
+    let evaluations = method.evaluations_per_tick(tick.substeps);
+    // Fewer ticks tell nothing, and one of them may take an implicit method seconds on a large body.
+    if max_evaluations / u64::from(evaluations.unwrap_or(1)) < MIN_ITERATIONS as u64 {
+        return Ok(None);
+    }
+    let logs = match (method.restart, evaluations) {
         (None, _) => iterate(displaced_ticks(body, solver, tick, max_evaluations)?)?,
         (Some(_), Some(evaluations)) => {
             iterate(continued_run(body, method, tick, max_evaluations / u64::from(evaluations)))?

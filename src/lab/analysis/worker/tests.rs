@@ -154,3 +154,15 @@ fn a_bounded_worker_counts_its_work_and_leaves_the_rest_unjudged() {
     assert!((1..none.len()).contains(&unjudged(&some)), "{some:?}");
     assert_eq!(some, judged(5_000_000));
 }
+
+#[test]
+fn a_lane_without_a_truth_makes_no_tick_when_no_work_is_left() {
+    let cloth = request("cloth");
+    let ticked = |max_work: u64| {
+        let worker = AnalysisWorker { max_work, ..AnalysisWorker::new(cloth.clone()) };
+        let verdicts = worker.finish().verdicts;
+        verdicts.iter().flatten().map(|verdict| verdict.evaluations).sum::<u64>()
+    };
+    assert_eq!(ticked(0), 0);
+    assert!(ticked(1_000_000) > 0);
+}
