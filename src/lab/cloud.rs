@@ -10,6 +10,7 @@ use crate::sim::{Solver, State, Stepper};
 mod axes;
 mod course;
 mod density;
+mod lozenges;
 mod request;
 mod running;
 mod section;
@@ -18,6 +19,7 @@ mod shape;
 pub use axes::{CloudAxes, ShownTicks};
 use course::{Course, Memory};
 pub use density::{Density, PlaneView};
+use lozenges::Lozenges;
 pub(super) use request::MAX_CLOUDS;
 pub use request::{
     CloudChoice, CloudKind, CloudPicture, CloudRequest, FoundCloud, LaneCloud, POINTS,
@@ -129,34 +131,22 @@ pub struct CloudMeasure {
 /// Many starts of a body under one method.
 pub struct Cloud {
     course: Course,
+    /// The corners of the lozenges about some points.
+    corners: Course,
     start: CloudStart,
-    points: usize,
-    /// The points about which the area is followed, and how far the corners about each are away, in units of the reach.
-    samples: usize,
-    beside: f64,
     /// A change of the area, as a logarithm, that may be of its measure.
     little: f64,
     spread: f64,
 }
 
-/// How far from a sampled point its corners are, so near that the map is linear between them, and under an adaptive method,
-/// whose tolerance is to be nearer.
-const BESIDE: f64 = 1e-4;
-const BESIDE_ADAPTIVE: f64 = 1e-3;
 /// The most sampled points, and the points of a cloud for each.
-const MAX_SAMPLES: usize = 64;
+const MAX_SAMPLES: usize = 256;
 const POINTS_TO_A_SAMPLE: usize = 16;
-/// Corners that have come further apart than this, in units of the reach, say nothing of an area.
-const LONGEST_SIDE: f64 = 0.05;
-
 /// Points of the exact border.
 const BORDER_POINTS: usize = 1200;
 
 /// The tolerance of the exact border: far below a pixel.
 const BORDER_TOLERANCE: f64 = 1e-9;
-
-/// The corners about a point of which a lozenge is.
-const CORNERS: [[f64; 2]; 4] = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
 
 impl Cloud {
     /// A cloud of `points` starts of `body`, named `name`, under a lane of a race at this tick rate.
@@ -172,30 +162,35 @@ impl Cloud {
         tick_hz: u32,
     ) -> Result<Self, NoCloud> {
         let is_linear = body.is_linear() && spec.method.family != Family::Adaptive;
-        let (samples, beside, little) = match spec.method.family {
-            _ if is_linear => (1, 1.0, 1e-6),
-            Family::Adaptive => (samples(points), BESIDE_ADAPTIVE, 0.02),
-            _ => (samples(points), BESIDE, 2e-3),
+        let (samples, little) = match spec.method.family {
+            _ if is_linear => (1, 1e-6),
+            Family::Adaptive => (samples(points), 0.02),
+            _ => (samples(points), 2e-3),
         };
-        let corners =
-            move |[x, y]: [f64; 2]| CORNERS.map(|[dx, dy]| [x + beside * dx, y + beside * dy]);
-        let sampled = start.shape.points(samples).flat_map(corners);
-        let shape = start.shape.points(points).chain(sampled).map(|point| start.state(point));
         let memory = match spec.method.restart {
             None => Memory::Absent,
             Some(_) => Memory::Carried,
         };
         let (solver, ticks) = (spec.solver(), start.ticks(tick_hz, spec.substeps));
-        let starts = || shape.collect();
-        let course = Course::new((name, body), (solver, memory), ticks, points, starts)?;
-        let mut cloud = Self { course, start, points, samples, beside, little, spread: 0.0 };
+        let shape = || start.shape.points(points).map(|point| start.state(point)).collect();
+        let course = Course::new((name, body), (solver, memory), ticks, points, shape)?;
+        let lozenges = Lozenges::new(samples, spec.method, is_linear, start.reach);
+        let corners = || {
+            let middles = start.shape.points(samples).map(|point| start.state(point));
+            let corners = middles.flat_map(|State { q, v }| lozenges.corners([q, v]));
+            corners.map(|[q, v]| State { q, v }).collect()
+        };
+        let memory = if lozenges.is_renewed() { Memory::Dropped } else { memory };
+        let corners = Course::new((name, body), (solver, memory), ticks, points, corners)?;
+        let corners = corners.around(lozenges);
+        let mut cloud = Self { course, corners, start, little, spread: 0.0 };
         cloud.spread = cloud.distance().unwrap_or(0.0);
         Ok(cloud)
     }
 
     /// The same cloud, which keeps states of earlier ticks to go back to.
     pub fn rewindable(self) -> Self {
-        Self { course: self.course.rewindable(), ..self }
+        Self { course: self.course.rewindable(), corners: self.corners.rewindable(), ..self }
     }
 
     /// Steps all points.
@@ -207,6 +202,7 @@ impl Cloud {
     /// goes there.
     pub fn go_to(&mut self, tick: u64) {
         self.course.go_to(tick);
+        self.corners.go_to(tick);
     }
 
     /// The tick reached.
@@ -216,17 +212,17 @@ impl Cloud {
 
     /// The coordinates of the points.
     pub fn q(&self) -> &[f64] {
-        &self.course.q()[..self.points]
+        self.course.q()
     }
 
     /// Their velocities.
     pub fn v(&self) -> &[f64] {
-        &self.course.v()[..self.points]
+        self.course.v()
     }
 
     /// How the area is measured.
     pub fn measured_in_words(&self) -> String {
-        match self.samples {
+        match self.corners.areas().len() {
             1 => "by the determinant".into(),
             samples => format!("by the determinants about {samples} points"),
         }
@@ -252,9 +248,9 @@ impl Cloud {
     /// The area over that at the start; `None` if no point is left, or the cloud is drawn out too
     /// finely.
     pub fn area_ratio(&self) -> Option<f64> {
-        let lozenges = (0..self.samples).map(|sample| self.lozenge(sample));
-        let areas: Vec<f64> = lozenges.flatten().collect();
-        let is_known = 2 * areas.len() >= self.samples && self.present().next().is_some();
+        let all = self.corners.areas();
+        let areas: Vec<f64> = all.iter().copied().flatten().collect();
+        let is_known = 2 * areas.len() >= all.len() && self.present().next().is_some();
         is_known.then(|| areas.iter().sum::<f64>() / areas.len() as f64)
     }
 
@@ -279,26 +275,6 @@ impl Cloud {
     fn present(&self) -> impl Iterator<Item = [f64; 2]> {
         let is_there = |state: &[f64; 2]| state.iter().all(|number| number.abs() <= ESCAPE);
         self.q().iter().zip(self.v()).map(|(&q, &v)| [q, v]).filter(is_there)
-    }
-
-    /// The area between the corners about a sampled point over that at the start; `None` where they are lost, or too far
-    /// apart.
-    fn lozenge(&self, sample: usize) -> Option<f64> {
-        let corner = |n: usize| {
-            let at = self.points + CORNERS.len() * sample + n;
-            let [q, v] = [self.course.q()[at], self.course.v()[at]];
-            [q / self.start.reach[0], v / self.start.reach[1]]
-        };
-        let side = |from: usize| {
-            let [from, to] = [corner(from), corner(from + 1)];
-            [to[0] - from[0], to[1] - from[1]]
-        };
-        let [a, b] = [side(0), side(2)];
-        let longest =
-            a.into_iter().chain(b).fold(0.0, |longest: f64, side| longest.max(side.abs()));
-        let area = (a[0] * b[1] - a[1] * b[0]).abs() / (4.0 * self.beside * self.beside);
-        let is_near = self.samples == 1 || longest <= LONGEST_SIDE;
-        (is_near && area.is_finite()).then_some(area)
     }
 
     /// The root mean square distance of the points from their middle, in units of the reach; `None` without points.

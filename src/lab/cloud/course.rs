@@ -1,6 +1,7 @@
 //! A batch on its way through the ticks of a run. It goes back too, from states that it keeps.
 
 use super::NoCloud;
+use super::lozenges::Lozenges;
 use crate::sim::batch::{Batch, InstructionSet, Ticks};
 use crate::sim::{Solver, State, Stepper};
 
@@ -26,6 +27,8 @@ struct Kept {
     tick: u64,
     q: Vec<f64>,
     v: Vec<f64>,
+    /// Of a course with lozenges.
+    factors: Vec<f64>,
 }
 
 /// A batch at a tick of a run.
@@ -37,6 +40,8 @@ pub(super) struct Course {
     /// By tick, the start first; none of a course that never goes back.
     kept: Vec<Kept>,
     spacing: u64,
+    /// The small areas whose corners its copies are.
+    lozenges: Option<Lozenges>,
 }
 
 impl Course {
@@ -54,13 +59,24 @@ impl Course {
         let batch = body.batch(InstructionSet::widest(), solver, starts());
         let batch = batch.ok_or_else(|| NoCloud::Custom { body: name.into() })?;
         let batch = batch.map_err(too_many)?;
-        Ok(Self { batch, ticks, memory, kept: Vec::new(), spacing: SPACING })
+        Ok(Self { batch, ticks, memory, kept: Vec::new(), spacing: SPACING, lozenges: None })
     }
 
     /// The same course, which keeps states to go back to.
     pub(super) fn rewindable(mut self) -> Self {
         self.keep();
         self
+    }
+
+    /// The same course, whose copies are the corners of lozenges.
+    pub(super) fn around(self, lozenges: Lozenges) -> Self {
+        Self { lozenges: Some(lozenges), ..self }
+    }
+
+    /// The area of each lozenge over that at the start; `None` where it is lost.
+    pub(super) fn areas(&self) -> Vec<Option<f64>> {
+        let areas = |lozenges: &Lozenges| lozenges.areas(self.tick(), self.q(), self.v());
+        self.lozenges.as_ref().map_or(Vec::new(), areas)
     }
 
     pub(super) fn q(&self) -> &[f64] {
@@ -88,8 +104,15 @@ impl Course {
         }
         while self.tick() < tick {
             let mark = (self.tick() / SPACING + 1) * SPACING;
-            self.ticks = self.ticks.next(mark.min(tick) - self.tick());
+            let renewal = self.lozenges.as_ref().map_or(mark, |it| it.renewal_after(self.tick()));
+            self.ticks = self.ticks.next(mark.min(renewal).min(tick) - self.tick());
             self.batch.run(self.ticks);
+            if self.tick() == renewal
+                && let Some(lozenges) = &mut self.lozenges
+            {
+                let [q, v] = lozenges.renew(self.batch.q(), self.batch.v());
+                place(&mut self.batch, &q, &v);
+            }
             if self.tick() == mark {
                 self.mark();
             }
@@ -99,13 +122,12 @@ impl Course {
     /// Goes to the last state that is kept no later than a tick.
     fn go_back(&mut self, tick: u64) {
         let nearest = self.kept.iter().rfind(|kept| kept.tick <= tick);
-        let Kept { tick, q, v } = nearest.expect("a course that goes back has kept its start");
-        let mut states = q.iter().zip(v);
-        let mut last = (f64::NAN, f64::NAN);
-        self.batch.change(|q, v| {
-            last = states.next().map_or(last, |(q, v)| (*q, *v));
-            (*q, *v) = last;
-        });
+        let Kept { tick, q, v, factors } =
+            nearest.expect("a course that goes back has kept its start");
+        place(&mut self.batch, q, v);
+        if let Some(lozenges) = &mut self.lozenges {
+            lozenges.factors.clone_from(factors);
+        }
         self.ticks = Ticks { first: *tick, count: 0, ..self.ticks };
     }
 
@@ -127,6 +149,17 @@ impl Course {
 
     fn keep(&mut self) {
         let [q, v] = [self.q(), self.v()].map(<[f64]>::to_vec);
-        self.kept.push(Kept { tick: self.tick(), q, v });
+        let factors = self.lozenges.as_ref().map_or(Vec::new(), |it| it.factors.clone());
+        self.kept.push(Kept { tick: self.tick(), q, v, factors });
     }
+}
+
+/// Sets the states of all copies. Those that fill the last block are like the last.
+fn place(batch: &mut Batch, q: &[f64], v: &[f64]) {
+    let mut states = q.iter().zip(v);
+    let mut last = (f64::NAN, f64::NAN);
+    batch.change(|q, v| {
+        last = states.next().map_or(last, |(q, v)| (*q, *v));
+        (*q, *v) = last;
+    });
 }

@@ -23,7 +23,11 @@ impl PlaneView {
     /// exact ones beside these. An angle that turns over there is shown all around.
     pub fn around(exact: &[[f64; 2]], others: &[[f64; 2]], beside: f64, is_angle: bool) -> Self {
         let [q, v] = [0, 1].map(|i| {
-            let ([least, most], [low, high]) = (Self::range(exact, i), Self::range(others, i));
+            let (exact, others) = (Self::range(exact, i), Self::range(others, i));
+            // Where all of one kind are lost the others are shown, or the middle.
+            let is_some = |range: &[f64; 2]| range[0] <= range[1];
+            let [least, most] = [exact, others].into_iter().find(is_some).unwrap_or([-1.0, 1.0]);
+            let [low, high] = Some(others).filter(is_some).unwrap_or([least, most]);
             let width = (most - least).max(1e-9 * (1.0 + most.abs()));
             let wide = beside * width;
             let shown = [low.clamp(least - wide, least), high.clamp(most, most + wide)];

@@ -1,0 +1,106 @@
+//! What a method does to small areas: lozenges, whose corners are stepped as every point is.
+//!
+//! The product of what each tick does to a lozenge is the determinant of the map of all ticks at its middle, however far
+//! that map draws points apart; so the corners are set anew wherever the method does not notice.
+
+use crate::sim::integrators::{Family, Method};
+
+/// The corners about a middle.
+const CORNERS: [[f64; 2]; 4] = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
+
+/// How far the corners are from the middle, in units of the cloud's reach: so near that the map is linear between them; or
+/// further, beyond what the tolerance of an adaptive method leaves undone.
+const BESIDE: f64 = 1e-4;
+const BESIDE_ADAPTIVE: f64 = 1e-3;
+/// Under a map that is linear they are anywhere.
+const BESIDE_LINEAR: f64 = 1.0;
+
+/// Ticks after which a method with memory restarts about new corners: seldom, since its first step is another method's.
+const TICKS_WITH_MEMORY: u64 = 32;
+
+/// The diagonals of a lozenge halve each other. One whose middles are further apart than this part of its width is folded,
+/// and says nothing of an area.
+const FOLDED: f64 = 0.1;
+
+/// Small areas, of four copies each.
+pub(super) struct Lozenges {
+    /// How far the corners are from the middle when they are set, in coordinate and velocity.
+    beside: [f64; 2],
+    is_linear: bool,
+    /// Ticks until the corners are set anew; `None` if they never are.
+    renewed_every: Option<u64>,
+    /// What each area had become when its corners were last set.
+    pub(super) factors: Vec<f64>,
+}
+
+impl Lozenges {
+    /// So many under this method. `reach` is that of the cloud, and `is_linear` whether a tick is a linear map.
+    pub(super) fn new(count: usize, method: &Method, is_linear: bool, reach: [f64; 2]) -> Self {
+        let beside = match method.family {
+            _ if is_linear => BESIDE_LINEAR,
+            Family::Adaptive => BESIDE_ADAPTIVE,
+            _ => BESIDE,
+        };
+        let renewed_every = match (method.family, method.restart) {
+            // These restart with what they had in memory.
+            (Family::Symplectic, _) | (_, None) => Some(1),
+            (Family::Adaptive, _) => None,
+            (_, Some(_)) => (!is_linear).then_some(TICKS_WITH_MEMORY),
+        };
+        let beside = reach.map(|reach| beside * reach);
+        Self { beside, is_linear, renewed_every, factors: vec![1.0; count] }
+    }
+
+    /// The coordinates and velocities of the corners about a middle.
+    pub(super) fn corners(&self, [q, v]: [f64; 2]) -> [[f64; 2]; 4] {
+        CORNERS.map(|[x, y]| [q + x * self.beside[0], v + y * self.beside[1]])
+    }
+
+    /// Whether the corners are ever set anew.
+    pub(super) fn is_renewed(&self) -> bool {
+        self.renewed_every.is_some()
+    }
+
+    /// The next tick after this at which the corners are set anew.
+    pub(super) fn renewal_after(&self, tick: u64) -> u64 {
+        self.renewed_every.map_or(u64::MAX, |every| (tick / every + 1) * every)
+    }
+
+    /// The areas over those at the start at a tick of these corners; `None` where one is lost.
+    pub(super) fn areas(&self, tick: u64, q: &[f64], v: &[f64]) -> Vec<Option<f64>> {
+        let is_new = self.renewed_every.is_some_and(|every| tick.is_multiple_of(every));
+        let now = |q: &[f64], v: &[f64]| if is_new { 1.0 } else { self.area(q, v) };
+        let lozenges = q.chunks_exact(CORNERS.len()).zip(v.chunks_exact(CORNERS.len()));
+        let areas = lozenges.zip(&self.factors).map(|((q, v), factor)| factor * now(q, v));
+        areas.map(|area| Some(area).filter(|area| area.is_finite())).collect()
+    }
+
+    /// Takes in what has become of the areas, and returns new corners about their middles.
+    pub(super) fn renew(&mut self, q: &[f64], v: &[f64]) -> [Vec<f64>; 2] {
+        let lozenges = q.chunks_exact(CORNERS.len()).zip(v.chunks_exact(CORNERS.len()));
+        let areas: Vec<f64> = lozenges.clone().map(|(q, v)| self.area(q, v)).collect();
+        self.factors.iter_mut().zip(areas).for_each(|(factor, area)| *factor *= area);
+        let middle = |numbers: &[f64]| numbers.iter().sum::<f64>() / CORNERS.len() as f64;
+        lozenges
+            .flat_map(|(q, v)| self.corners([middle(q), middle(v)]))
+            .map(|[q, v]| (q, v))
+            .unzip::<f64, f64, Vec<f64>, Vec<f64>>()
+            .into()
+    }
+
+    /// The area between four corners over that when they were set; not a number where the lozenge is lost or folded.
+    fn area(&self, q: &[f64], v: &[f64]) -> f64 {
+        let corner = |n: usize| [q[n] / self.beside[0], v[n] / self.beside[1]];
+        let [a, b, c, d] = [0, 1, 2, 3].map(corner);
+        let across = |[from, to]: [[f64; 2]; 2]| [to[0] - from[0], to[1] - from[1]];
+        let between = |[from, to]: [[f64; 2]; 2]| [0, 1].map(|i| (from[i] + to[i]) / 2.0);
+        let [first, second] = [across([a, b]), across([c, d])];
+        let area = (first[0] * second[1] - first[1] * second[0]).abs() / 4.0;
+        let off = across([between([a, b]), between([c, d])]);
+        let length = |[x, y]: [f64; 2]| (x * x + y * y).sqrt();
+        let longest = length(first).max(length(second));
+        // Written so that what is not a number is folded.
+        let is_whole = self.is_linear || length(off) * longest <= FOLDED * area;
+        if is_whole { area } else { f64::NAN }
+    }
+}
