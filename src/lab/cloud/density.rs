@@ -31,7 +31,7 @@ impl PlaneView {
             let width = (most - least).max(1e-9 * (1.0 + most.abs()));
             let wide = beside * width;
             let shown = [low.clamp(least - wide, least), high.clamp(most, most + wide)];
-            let margin = 0.06 * (shown[1] - shown[0]);
+            let margin = 0.06 * (shown[1] - shown[0]).max(width);
             [shown[0] - margin, shown[1] + margin]
         });
         let wraps = is_angle && (q[0] < -PI || q[1] > PI);
