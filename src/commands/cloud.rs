@@ -10,9 +10,10 @@ use rayon::ThreadPoolBuilder;
 use serde_json::json;
 
 use super::error::Error;
-use super::experiment::{ExperimentArgs, Lineup, number_that, one_of, some_seconds};
+use super::experiment::{ExperimentArgs, Lineup, one_of, some_seconds};
 use super::interrupt::watch_for_interrupt;
 use super::movie::Gif;
+use super::numbers::number_that;
 use super::output::picture_format::{ending, mislabelled};
 use super::output::table::{Column, RowFormat, write_rows};
 use super::output::{Destination, Output, STDOUT};

@@ -261,16 +261,6 @@ impl From<ThemeName> for Theme {
     }
 }
 
-/// A finite number on the command line that fits, or else what is wanted.
-pub(super) fn number_that(
-    written: &str,
-    fits: fn(f64) -> bool,
-    wanted: &str,
-) -> Result<f64, String> {
-    let number = written.parse::<f64>().ok().filter(|number| number.is_finite() && fits(*number));
-    number.ok_or_else(|| format!("give {wanted}"))
-}
-
 /// A duration on the command line, in seconds.
 pub(super) fn seconds(written: &str) -> Result<f64, String> {
     match written.parse::<f64>() {

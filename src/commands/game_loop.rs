@@ -8,10 +8,11 @@ use serde_json::json;
 
 use super::error::Error;
 use super::experiment::{
-    METHOD, PathOrName, known_policy, number_that, range_of, scene_names, some_seconds, trace_names,
+    METHOD, PathOrName, known_policy, range_of, scene_names, some_seconds, trace_names,
 };
 use super::file_names::{check_picture_name, row_format, same_file_path};
 use super::interrupt::watch_for_interrupt;
+use super::numbers::number_that;
 use super::output::table::{Column, RowFormat, RowWriter, write_rows};
 use super::output::{Destination, STDOUT, print};
 #[cfg(feature = "view")]

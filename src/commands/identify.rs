@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::error::Error;
-use super::experiment::number_that;
+use super::numbers::{number, number_that, positive};
 use super::output::print;
 use super::output::table::TableFormat;
 use crate::lab::{Columns, Log, LoggedBody, identify};
@@ -116,14 +116,6 @@ pub(super) fn rate(written: &str) -> Result<f64, String> {
         |hz| hz > 0.0 && hz <= 1e6,
         "a rate above 0 and up to 1000000 Hz, such as 60",
     )
-}
-
-pub(super) fn number(written: &str) -> Result<f64, String> {
-    number_that(written, |x| x >= 0.0, "a number from 0 up")
-}
-
-pub(super) fn positive(written: &str) -> Result<f64, String> {
-    number_that(written, |x| x > 0.0, "a number above 0")
 }
 
 fn signed(written: &str) -> Result<f64, String> {

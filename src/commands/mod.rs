@@ -74,6 +74,7 @@ mod error;
 mod file_names;
 mod interrupt;
 mod jobs;
+mod numbers;
 mod output;
 #[cfg(feature = "view")]
 mod plot;

@@ -4,7 +4,8 @@ use clap::builder::RangedU64ValueParser;
 use clap::{ArgGroup, Args};
 
 use super::error::Error;
-use super::identify::{LogArgs, number, positive, rate};
+use super::identify::{LogArgs, rate};
+use super::numbers::{number, positive};
 use super::output::print;
 use super::output::table::TableFormat;
 use crate::lab::{

@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::error::Error;
-use super::identify::{number, positive};
+use super::numbers::{number, positive};
 use crate::lab::{MySpring, Scene};
 
 /// The options that describe a spring.

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::error::Error;
-use super::experiment::number_that;
 use super::frame_names::is_of_a_capture;
+use super::numbers::number_that;
 
 mod clip;
 mod physics;
@@ -17,6 +17,7 @@ mod physics;
 mod pixels;
 mod recording;
 mod report;
+mod rerun;
 
 use report::{ReportFile, ReportFormat};
 

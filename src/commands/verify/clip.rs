@@ -10,11 +10,10 @@ use super::physics::{PhysicsChange, first_change};
 #[cfg(feature = "view")]
 use super::pixels;
 use super::report::{Report, say};
-use crate::commands::capture_settings::CaptureSettings;
+use super::rerun::{Frames, Rerun};
 #[cfg(feature = "view")]
 use crate::commands::clip::record;
 use crate::commands::error::Error;
-use crate::commands::experiment::Experiment;
 #[cfg(feature = "view")]
 use crate::commands::frame_folder::{Existing, FrameFolder};
 use crate::commands::frame_names::is_pending;
@@ -26,59 +25,27 @@ use crate::commands::{scene_file, settings};
 use crate::lab::Lab;
 use crate::regular_file::{self, Unreadable};
 
-/// The run of a manifest, to be repeated.
-pub(super) struct Rerun {
-    pub(super) manifest: Manifest,
-    pub(super) capture: CaptureSettings,
-    experiment: Experiment,
-}
-
-/// The frames of a repeated run.
-pub(super) struct Frames {
-    /// Whether they have to be the same to the byte.
-    pub(super) are_exact: bool,
-    /// How each differs from its file, if it does.
-    pub(super) differences: Vec<Option<String>>,
-}
-
-impl Rerun {
-    fn read(dir: &Path) -> Result<Self, Error> {
-        let read = || {
-            let manifest = read(&dir.join(FILE_NAME))?;
-            let (experiment, capture) = settings::read(&manifest.settings)?;
-            Ok(Self { manifest, capture, experiment })
-        };
-        read().map_err(unjudged(dir))
-    }
-
-    /// The lab at the start of the run, and the log of its states.
-    pub(super) fn begin(&self) -> (Lab, StateLog) {
-        let lab = self.capture.lab(&self.experiment);
-        let state_log = StateLog::new(self.capture.mark_every, lab.race());
-        (lab, state_log)
-    }
-
-    /// The lab at the end of the run and its log, where nothing is drawn.
-    fn run(&self) -> (Lab, StateLog) {
-        let (mut lab, mut state_log) = self.begin();
-        for frame in 0..self.manifest.frames.len() as u32 {
-            self.capture.schedule.advance(&mut lab, frame, &mut state_log);
-        }
-        (lab, state_log)
-    }
-}
-
 /// The error of a capture in `dir` that cannot be judged, for this reason.
 fn unjudged(dir: &Path) -> impl Fn(String) -> Error {
     let manifest = dir.join(FILE_NAME);
     move |reason| Error::mistake(format!("cannot judge {}: {reason}", manifest.display()))
 }
 
+/// The run of the capture in `dir`, as its manifest says.
+fn read_run(dir: &Path) -> Result<Rerun, Error> {
+    let read = || {
+        let manifest = read(&dir.join(FILE_NAME))?;
+        let (experiment, capture) = settings::read(&manifest.settings)?;
+        Ok(Rerun { manifest, capture, experiment })
+    };
+    read().map_err(unjudged(dir))
+}
+
 /// Judges the capture that `args` names.
 pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
     let dir = &args.dir;
     let _lock = lock(dir).map_err(unjudged(dir))?;
-    let rerun = Rerun::read(dir)?;
+    let rerun = read_run(dir)?;
     let Manifest { settings, complete, frames, .. } = &rerun.manifest;
     if !complete {
         let (drawn, asked) = (frames.len(), settings.frames);
@@ -180,10 +147,10 @@ fn add_pixels(report: &mut Report, rerun: &Rerun, frames: Option<Frames>) -> Res
 pub(super) fn bless(dir: &Path) -> Result<(), Error> {
     // Checked first, so that a missing clip is not reported as a problem with the folder.
     if !dir.join(FILE_NAME).exists() && !is_pending(dir) {
-        Rerun::read(dir)?;
+        read_run(dir)?;
     }
     let folder = FrameFolder::inspect(dir, Existing::Bless, "DIR")?;
-    let Rerun { experiment, capture, .. } = Rerun::read(dir)?;
+    let Rerun { experiment, capture, .. } = read_run(dir)?;
     let drawn = record(&experiment, capture, folder);
     drawn.map(drop).map_err(|error| error.within("not blessed"))
 }

@@ -3,7 +3,7 @@
 use std::fs;
 
 use super::VerifyArgs;
-use super::clip::{Frames, Rerun};
+use super::rerun::{Frames, Rerun};
 use crate::atomic_file::{IfExists, write_file};
 use crate::commands::drawing::{adapter, interrupted_after};
 use crate::commands::error::Error;

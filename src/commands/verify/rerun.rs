@@ -1,0 +1,40 @@
+//! The run of a capture, repeated.
+
+use crate::commands::capture_settings::CaptureSettings;
+use crate::commands::experiment::Experiment;
+use crate::commands::manifest::Manifest;
+use crate::commands::state_log::StateLog;
+use crate::lab::Lab;
+
+/// The run of a manifest, to be repeated.
+pub(super) struct Rerun {
+    pub(super) manifest: Manifest,
+    pub(super) capture: CaptureSettings,
+    pub(super) experiment: Experiment,
+}
+
+/// The frames of a repeated run.
+pub(super) struct Frames {
+    /// Whether they have to be the same to the byte.
+    pub(super) are_exact: bool,
+    /// How each differs from its file, if it does.
+    pub(super) differences: Vec<Option<String>>,
+}
+
+impl Rerun {
+    /// The lab at the start of the run, and the log of its states.
+    pub(super) fn begin(&self) -> (Lab, StateLog) {
+        let lab = self.capture.lab(&self.experiment);
+        let state_log = StateLog::new(self.capture.mark_every, lab.race());
+        (lab, state_log)
+    }
+
+    /// The lab at the end of the run and its log, where nothing is drawn.
+    pub(super) fn run(&self) -> (Lab, StateLog) {
+        let (mut lab, mut state_log) = self.begin();
+        for frame in 0..self.manifest.frames.len() as u32 {
+            self.capture.schedule.advance(&mut lab, frame, &mut state_log);
+        }
+        (lab, state_log)
+    }
+}
