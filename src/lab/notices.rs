@@ -91,22 +91,24 @@ impl LaneBody {
 /// told of on the stage.
 fn of_halts(scene: &Scene, race: &Race) -> Vec<String> {
     let halts = race.just_halted().filter(|(_, halt)| !halt.failure.is_foreseen());
-    let told = halts.map(|(entrant, Halt { tick, body: index, failure, .. })| {
+    let told = halts.flat_map(|(entrant, halt)| {
+        let Halt { tick, body: index, failure, .. } = halt;
         let truth = race.truth().bodies()[*index].truth().id();
         let body = &scene.bodies[*index];
-        match entrant {
-            Some(entrant) => {
-                let lanes: Vec<LaneSpec> = race.entrants().iter().map(|lane| lane.spec).collect();
-                let name = entrant.spec.distinct_name(entrant.spec.method.name, &lanes);
+        let Some(entrant) = entrant else {
+            let halted =
+                format!("the {truth} solution halted at tick {tick}: {} {failure}", body.name);
+            return vec![halted, "nothing is compared with it any more".into()];
+        };
+        let lanes: Vec<LaneSpec> = race.entrants().iter().map(|lane| lane.spec).collect();
+        let name = entrant.spec.distinct_name(entrant.spec.method.name, &lanes);
+        match halt.is_blow_up() {
+            true => {
                 let fate = entrant.lane.bodies()[*index].fate().unwrap_or_default();
-                format!("{name}: {} {fate}", body.name)
+                vec![format!("{name}: {} {fate}", body.name)]
             }
-            None => {
-                let name = &body.name;
-                format!(
-                    "the {truth} solution halted at tick {tick}: {name} {failure}; nothing is compared with it any more"
-                )
-            }
+            // Why a solver gives up takes a line of its own.
+            false => vec![format!("{name}: {} {}", body.name, halt.fate()), failure.to_string()],
         }
     });
     told.collect()

@@ -240,7 +240,7 @@ mod tests {
         let expected = [
             "memory.last_h == h && f64::is_nan(MIN_H) || x < f64::NAN",
             "memory->last_h == h && isnan(MIN_H) || x < NAN",
-            "memory.lastH == h && double.IsNaN(LeastH) || x < double.NaN",
+            "memory.lastH == h && double.IsNaN(MinH) || x < double.NaN",
             "memory.last_h == h and is_nan(MIN_H) or x < NAN",
         ];
         assert_eq!(Language::ALL.map(|language| written(language, text)), expected);

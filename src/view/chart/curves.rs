@@ -8,7 +8,6 @@ use std::sync::Arc;
 use egui::epaint::PaintCallback;
 use egui::{Color32, Painter, Pos2, Rect, Vec2, vec2};
 
-use super::primitive::ScreenCurve;
 use super::{PlotArea, bands};
 use crate::view::lines::{Joint, LineMesh, shown};
 
@@ -38,6 +37,16 @@ pub(in crate::view) struct Curve {
     /// For each point the least and the greatest height since the point before; empty where the points are all that is
     /// known.
     pub(in crate::view) swept: Vec<[f64; 2]>,
+}
+
+/// A curve on the screen.
+#[derive(Clone, Debug)]
+pub(in crate::view) struct ScreenCurve {
+    pub(in crate::view) style: LineStyle,
+    pub(in crate::view) points: Vec<Pos2>,
+    /// For each point the least and the greatest height since the point before; empty where the points are all that is
+    /// known.
+    pub(in crate::view) swept: Vec<[f32; 2]>,
 }
 
 impl Curve {

@@ -6,7 +6,7 @@ use egui::{
     Align2, Color32, FontId, Galley, Painter, Pos2, Response, Sense, Stroke, Ui, pos2, vec2,
 };
 
-use super::primitive::ScreenCurve;
+use super::curves::ScreenCurve;
 use super::{LineStyle, NAME, Primitive, Text};
 use crate::view::theme::{Ink, ink, strong_font};
 

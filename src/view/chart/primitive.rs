@@ -4,7 +4,7 @@ use egui::epaint::PathStroke;
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, pos2};
 
 use super::SCATTERED;
-use super::curves::{self, Dots, LineStyle, dots};
+use super::curves::{self, Dots, ScreenCurve, dots};
 
 /// A part of a laid-out chart. Later ones lie over earlier ones.
 #[derive(Clone, Debug)]
@@ -23,16 +23,6 @@ pub(in crate::view) enum Primitive {
     Curves(Vec<ScreenCurve>),
     /// What shows within a rectangle only.
     Clip(Rect, Vec<Primitive>),
-}
-
-/// A curve on the screen.
-#[derive(Clone, Debug)]
-pub(in crate::view) struct ScreenCurve {
-    pub(in crate::view) style: LineStyle,
-    pub(in crate::view) points: Vec<Pos2>,
-    /// For each point the least and the greatest height since the point before; empty where the points are all that is
-    /// known.
-    pub(in crate::view) swept: Vec<[f32; 2]>,
 }
 
 /// Words in a chart.

@@ -5,8 +5,8 @@ use std::fmt::Write;
 use egui::{Align, Color32, Pos2, Rect, Stroke};
 
 use super::Primitive;
-use super::curves::{LineStyle, dots};
-use super::primitive::{ScreenCurve, Text};
+use super::curves::{LineStyle, ScreenCurve, dots};
+use super::primitive::Text;
 
 /// Points of a curve closer than this, in pixels, are one.
 const SAME: f32 = 0.2;

@@ -15,6 +15,7 @@ mod export;
 pub(super) mod hints;
 mod live;
 mod moments;
+mod row;
 pub(super) mod slider;
 pub(super) mod table;
 

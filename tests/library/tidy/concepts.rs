@@ -98,12 +98,8 @@ const CONCEPTS: [Concept; 26] = [
         marks: &["clamp(-FAR_OUTSIDE"],
     },
     Concept { name: "legend", file: "src/view/chart/legend.rs", marks: &["SWATCH"] },
-    Concept {
-        name: "file of a chart",
-        file: "src/view/chart/svg.rs",
-        marks: &["stroke-dasharray"],
-    },
-    Concept { name: "table", file: "src/view/panels/table.rs", marks: &["sort by {}"] },
+    Concept { name: "file of a chart", file: "src/view/chart/svg.rs", marks: &["struct Svg"] },
+    Concept { name: "table", file: "src/view/panels/table.rs", marks: &["enum SortKey"] },
     Concept {
         name: "sign of a verdict",
         file: "src/view/panels/verdict.rs",

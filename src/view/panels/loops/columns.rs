@@ -1,6 +1,6 @@
 //! The columns of the table of loops, and how values are written in them.
 
-use super::table::Row;
+use super::row::Row;
 use crate::lab::LoopLab;
 use crate::lab::number::round;
 use crate::lab::pacing::PACING_METRICS;

@@ -11,7 +11,7 @@ use crate::view::panels::{ink, strong_font};
 const NAMES: [&str; 4] = ["0", "1", "2", "3+"];
 /// Room for the title, the numbers at the left, those below, and the name of the axis, in points.
 pub(super) const TITLE: f32 = 24.0;
-pub(super) const LEFT: f32 = 38.0;
+pub(super) const LEFT: f32 = 41.0;
 pub(super) const BELOW: f32 = 17.0;
 pub(super) const NAME: f32 = 15.0;
 /// Room for numbers over bars, in points.

@@ -1,15 +1,14 @@
 //! The table of loops: key, line, name and verdict, then numbers. A click selects a loop, and one on the eye takes it off
 //! the stage or brings it on.
 
-use egui::{Color32, Rect, RichText, Sense, Shape, Stroke, Ui, vec2};
+use egui::Ui;
 
 use super::columns;
-use crate::lab::{Command, LoopCommand, LoopLab, LoopLane, Severity};
+use super::row::Row;
+use crate::lab::{Command, LoopLab};
 use crate::view::panels::lanes::{ROW, height_of};
-use crate::view::panels::table::{Table, TableRow};
-use crate::view::panels::verdict::{Sign, VerdictText};
-use crate::view::panels::{ink, strong_font};
-use crate::view::theme::{Ink, TYPE, colour};
+use crate::view::panels::table::Table;
+use crate::view::theme::TYPE;
 
 /// Rows in sight: the stage and the instrument need the room. The rest is scrolled to.
 const MAX_ROWS: usize = 6;
@@ -31,128 +30,10 @@ fn groups(loops: &LoopLab) -> Vec<Vec<Row<'_>>> {
     (0..loops.lanes().len()).map(|place| vec![Row::of(loops, place)]).collect()
 }
 
-/// A loop.
-pub(super) struct Row<'a> {
-    loops: &'a LoopLab,
-    pub(super) place: usize,
-    pub(super) lane: &'a LoopLane,
-    pub(super) is_on_stage: bool,
-    pub(super) verdict: VerdictText,
-}
-
-impl<'a> Row<'a> {
-    fn of(loops: &'a LoopLab, place: usize) -> Self {
-        let lane = &loops.lanes()[place];
-        let verdict = lane.verdict(loops.scene().tick_hz);
-        let rank = match verdict.severity {
-            Severity::Fine => Some(0.0),
-            Severity::Doubtful => Some(1.0),
-            Severity::Bad => Some(2.0),
-            Severity::Unknown => None,
-        };
-        let sign = Some((Sign::of_severity(verdict.severity), verdict.severity));
-        let wordings = wordings(&verdict.text).into_iter().map(str::to_owned).collect();
-        let verdict = VerdictText { sign, wordings, rank };
-        let is_on_stage = loops.on_stage().contains(&place);
-        Self { loops, place, lane, is_on_stage, verdict }
-    }
-
-    /// The colour of its words.
-    pub(super) fn text(&self, ui: &Ui) -> Color32 {
-        self.colours(ink(ui))[1]
-    }
-
-    /// Its colour and dash in the plots.
-    pub(super) fn style(&self, ink: &Ink) -> (Color32, [f32; 2]) {
-        let (rgba, dash) = ink.theme.loop_style(self.place);
-        (colour(rgba), dash)
-    }
-
-    /// Shows whether the loop is on the stage. A click changes it.
-    pub(super) fn eye(&self, ui: &Ui, rect: Rect, commands: &mut Vec<Command>) {
-        let id = egui::Id::unique(("loop on the stage", self.place));
-        let response = ui.interact(rect, id, Sense::click());
-        let name = format!("{} on the stage", self.lane.card().name);
-        let is_on = self.is_on_stage;
-        response
-            .widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, is_on, &name));
-        let is_lit = response.hovered() || response.has_focus();
-        let inked = match (is_lit, is_on) {
-            (true, _) => ink(ui).accent,
-            (false, true) => self.style(ink(ui)).0,
-            (false, false) => ink(ui).dim.gamma_multiply(0.55),
-        };
-        let centre = rect.left_center() + vec2(9.0, 0.0);
-        let lid = |side: f32| {
-            let part = |i: i32| i as f32 / 8.0;
-            let at = move |x: f32| centre + vec2(8.0 * x, side * 4.6 * (1.0 - x * x));
-            Shape::line((-8..=8).map(part).map(at).collect(), Stroke::new(1.4, inked))
-        };
-        ui.painter().extend([lid(1.0), lid(-1.0)]);
-        if is_on {
-            ui.painter().circle_filled(centre, 2.6, inked);
-        }
-        let about = if is_on { "take it off the stage" } else { "bring it on the stage" };
-        if response.on_hover_text(about).clicked() {
-            commands.push(Command::Loop(LoopCommand::ToggleOnStage(self.place)));
-        }
-    }
-}
-
-/// A verdict, and what is left of it without its last parts.
-fn wordings(verdict: &str) -> Vec<&str> {
-    let shorter = verdict.rmatch_indices(", ").map(|(end, _)| &verdict[..end]);
-    std::iter::once(verdict).chain(shorter).collect()
-}
-
-impl TableRow for Row<'_> {
-    fn spoken(&self) -> String {
-        format!("{} {}, {}", self.place + 1, self.lane.card().name, self.verdict.whole())
-    }
-
-    fn is_selected(&self) -> bool {
-        self.place == self.loops.selected()
-    }
-
-    fn colours(&self, ink: &Ink) -> [Color32; 2] {
-        [self.style(ink).0, if self.is_on_stage { ink.text } else { ink.dim }]
-    }
-
-    fn command(&self) -> Option<Command> {
-        Some(Command::Loop(LoopCommand::Select(self.place)))
-    }
-
-    /// The loop's card and its verdict.
-    fn tooltip(&self, ui: &mut Ui) {
-        ui.set_max_width(440.0);
-        let card = self.lane.card();
-        ui.label(RichText::new(card.name).font(strong_font(TYPE)));
-        ui.label(card.formula);
-        if !card.constants.is_empty() {
-            ui.label(format!("Constants: {}.", card.constants));
-        }
-        ui.label(format!("Odd frames: {}.", card.odd_frames));
-        let display = self.loops.traces()[self.loops.trace()].name();
-        let tick_hz = self.loops.scene().tick_hz;
-        ui.label(format!("At {tick_hz} Hz, trace {display}: {}.", self.verdict.whole()));
-        ui.label(format!("Used by {}.", card.users));
-        ui.label(RichText::new(card.source).color(ink(ui).dim));
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Lab, Scene};
-
-    #[test]
-    fn a_verdict_is_shortened_from_its_end() {
-        assert_eq!(
-            wordings("smooth, loses 3 ms, late"),
-            ["smooth, loses 3 ms, late", "smooth, loses 3 ms", "smooth"]
-        );
-        assert_eq!(wordings("smooth"), ["smooth"]);
-    }
+    use crate::lab::{Lab, LoopCommand, Scene};
 
     #[test]
     fn rows_are_sorted_by_their_verdicts_and_back() {
