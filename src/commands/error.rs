@@ -156,7 +156,7 @@ impl From<SceneErrors> for Error {
     }
 }
 
-/// An error of a command's output. One that an [`Output`](super::output::Output) has not explained is of standard output.
+/// An error of a command's output. One that an `Output` has not explained is of standard output.
 impl From<io::Error> for Error {
     fn from(error: io::Error) -> Self {
         error.downcast().unwrap_or_else(|error| {
