@@ -16,7 +16,7 @@ mod motion;
 pub use claims::CustomFault;
 pub use extras::{Energy, Exact, Extras};
 pub use kind::custom_kind;
-use motion::Motion;
+use motion::{Motion, Typed};
 
 /// A custom body. The type of its system is forgotten, so that it needs no code of its own here.
 #[derive(Clone, Debug)]
@@ -34,6 +34,23 @@ pub struct Custom {
 }
 
 impl Custom {
+    /// A body of `n` coordinates without names, parameters and claims, which moves as `system` does. It starts at rest at 0.
+    pub(in crate::sim) fn bare<S>(system: S, n: usize) -> Self
+    where
+        S: System<Vector = Vec<f64>> + Clone + Send + 'static,
+    {
+        let zeros = vec![0.0; n];
+        Self {
+            motion: Box::new(Typed::new(system, &zeros, &Extras::default())),
+            info: Arc::new(CustomInfo { coordinates: Vec::new(), plane: None }),
+            values: Vec::new(),
+            start: State { q: zeros.clone(), v: zeros.clone() },
+            kick: zeros,
+            is_linear: false,
+            checked: Checked::without_claims(),
+        }
+    }
+
     /// Its coordinates, and how it is drawn.
     pub fn info(&self) -> &CustomInfo {
         &self.info

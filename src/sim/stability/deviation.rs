@@ -1,10 +1,11 @@
-//! A small deviation of a body from a state, under linearised forces and one method.
+//! A small deviation of a body from a state, under linearised forces: a body that any method steps.
 
 use nalgebra::DMatrix;
 
-use crate::sim::integrators::{Integrator, Method, Stepped, integrator};
+use crate::sim::bodies::Custom;
+use crate::sim::integrators::Method;
 use crate::sim::state::largest;
-use crate::sim::{Solver, State, Stepper, System};
+use crate::sim::{Solver, Stepper, System, stepper};
 
 /// The acceleration of a body in a state, coordinates first.
 pub(super) fn acceleration_at(body: &dyn Stepper, t: f64, state: &[f64]) -> Vec<f64> {
@@ -30,85 +31,74 @@ pub(super) fn slope(
     slope
 }
 
-/// An acceleration function on slices: coordinates, velocities, output.
-type Acceleration = Box<dyn Fn(&[f64], &[f64], &mut [f64])>;
+/// An acceleration that is a matrix times coordinates and velocities, one row per coordinate.
+#[derive(Clone)]
+struct Linear(DMatrix<f64>);
 
-struct Linearised(Acceleration);
+impl System for Linear {
+    type Vector = Vec<f64>;
+
+    fn acceleration(&self, _t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
+        let n = q.len();
+        for (i, a) in a.iter_mut().enumerate() {
+            let row = |j: usize| self.0[(i, j)] * q[j] + self.0[(i, n + j)] * v[j];
+            *a = (0..n).map(row).sum();
+        }
+    }
+}
+
+/// The forces of a body linearised about its state, as differences along the deviation.
+#[derive(Clone)]
+struct Linearised {
+    body: Box<dyn Stepper>,
+    t: f64,
+    /// Coordinates, then velocities.
+    at: Vec<f64>,
+    /// The acceleration there.
+    here: Vec<f64>,
+    /// The displacement of a difference, for coordinates and for velocities times `unit_s`.
+    distance: f64,
+    unit_s: f64,
+}
+
+/// The size of a state whose velocities count times `unit_s`.
+fn size(q: &[f64], v: &[f64], unit_s: f64) -> f64 {
+    largest(q).max(unit_s * largest(v))
+}
 
 impl System for Linearised {
     type Vector = Vec<f64>;
 
     fn acceleration(&self, _t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
-        (self.0)(q, v, a);
+        let Self { body, t, at, here, distance, unit_s } = self;
+        let part = distance / size(q, v, *unit_s);
+        a.copy_from_slice(&slope(&**body, *t, at, here, part, &[&q[..], v].concat()));
     }
 }
 
-/// A deviation that a method steps.
-pub(super) struct Deviation {
-    system: Linearised,
-    integrator: Box<dyn Integrator<Linearised>>,
-    state: State<Vec<f64>>,
+/// A deviation with an acceleration that is `jacobian` times coordinates and velocities, one row per coordinate.
+pub(super) fn linear(jacobian: DMatrix<f64>, method: &'static Method) -> Box<dyn Stepper> {
+    let n = jacobian.nrows();
+    stepper(Custom::bare(Linear(jacobian), n), Solver::Method(method))
 }
 
-impl Deviation {
-    /// With an acceleration that is `jacobian` times coordinates and velocities, one row per coordinate.
-    pub(super) fn linear(jacobian: DMatrix<f64>, method: &Method) -> Self {
-        let n = jacobian.nrows();
-        let acceleration: Acceleration = Box::new(move |q, v, a| {
-            for (i, a) in a.iter_mut().enumerate() {
-                let row = |j: usize| jacobian[(i, j)] * q[j] + jacobian[(i, n + j)] * v[j];
-                *a = (0..n).map(row).sum();
-            }
-        });
-        Self::of(acceleration, n, method)
-    }
-
-    /// From the state of `body` at time `t`, under the forces linearised there. They are differences along the deviation,
-    /// over `displacement` times the size of the state. Velocities count times `h`.
-    pub(super) fn along(
-        body: &dyn Stepper,
-        t: f64,
-        h: f64,
-        displacement: f64,
-        method: &Method,
-    ) -> Self {
-        let body = body.with_solver(Solver::Truth, t);
-        let at = [body.q(), body.v()].concat();
-        let size_of = move |q: &[f64], v: &[f64]| largest(q).max(h * largest(v));
-        let size = size_of(body.q(), body.v());
-        let distance = displacement * if size > 0.0 { size } else { 1.0 };
-        let here = acceleration_at(&*body, t, &at);
-        let n = here.len();
-        let acceleration: Acceleration = Box::new(move |q, v, a| {
-            let part = distance / size_of(q, v);
-            a.copy_from_slice(&slope(&*body, t, &at, &here, part, &[q, v].concat()));
-        });
-        Self::of(acceleration, n, method)
-    }
-
-    fn of(acceleration: Acceleration, n: usize, method: &Method) -> Self {
-        let state = State { q: vec![0.0; n], v: vec![0.0; n] };
-        let integrator = integrator(method, &state.q);
-        Self { system: Linearised(acceleration), integrator, state }
-    }
-
-    /// Puts it into a state, coordinates first, and resets the method.
-    pub(super) fn set(&mut self, state: &[f64]) {
-        let (q, v) = state.split_at(state.len() / 2);
-        self.state.q.copy_from_slice(q);
-        self.state.v.copy_from_slice(v);
-        self.integrator.reset();
-    }
-
-    /// Advances it from `t` to `t + h` (s).
-    pub(super) fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Stepped {
-        self.integrator.steps(&self.system, t, h, substeps, &mut self.state)
-    }
-
-    /// The state, coordinates first.
-    pub(super) fn state(&self) -> Vec<f64> {
-        [&self.state.q[..], &self.state.v].concat()
-    }
+/// A deviation from the state of `body` at time `t` (s), under the forces linearised there. They are differences over
+/// `displacement` times the size of the state, in which velocities count times `h`.
+pub(super) fn along(
+    body: &dyn Stepper,
+    t: f64,
+    h: f64,
+    displacement: f64,
+    method: &'static Method,
+) -> Box<dyn Stepper> {
+    let body = body.with_solver(Solver::Truth, t);
+    let at = [body.q(), body.v()].concat();
+    let size = size(body.q(), body.v(), h);
+    let distance = displacement * if size > 0.0 { size } else { 1.0 };
+    let here = acceleration_at(&*body, t, &at);
+    let n = here.len();
+    let system = Linearised { body, t, at, here, distance, unit_s: h };
+    stepper(Custom::bare(system, n), Solver::Method(method))
 }
 
 #[cfg(test)]
@@ -123,6 +113,13 @@ mod tests {
         apart.fold(0.0, f64::max)
     }
 
+    /// The state that three steps in 0.05 s lead to.
+    fn reached(stepper: &mut dyn Stepper, q: f64, v: f64) -> Vec<f64> {
+        stepper.set(0.0, &[q], &[v]);
+        stepper.advance(0.0, 0.05, 3).unwrap();
+        [stepper.q(), stepper.v()].concat()
+    }
+
     #[test]
     fn a_deviation_from_rest_moves_as_a_linear_body_does() {
         let spring = kind("spring").unwrap();
@@ -130,14 +127,10 @@ mod tests {
         for method in GENERAL_METHODS.iter().filter(|method| method.tolerance.is_none()) {
             let mut stepper = (spring.build)(&values, Solver::Method(method));
             let jacobian = DMatrix::from_row_slice(1, 2, &[-90.0, -1.5]);
-            let mut deviation = Deviation::linear(jacobian, method);
-            for from in [[1.0, 0.0], [-0.3, 4.0]] {
-                deviation.set(&from);
-                deviation.advance(0.0, 0.05, 3).unwrap();
-                stepper.set(0.0, &from[..1], &from[1..]);
-                stepper.advance(0.0, 0.05, 3).unwrap();
-                let wanted = [stepper.q(), stepper.v()].concat();
-                assert!(apart(&deviation.state(), &wanted) < 1e-12, "{}", method.id);
+            let mut deviation = linear(jacobian, method);
+            for [q, v] in [[1.0, 0.0], [-0.3, 4.0]] {
+                let [found, wanted] = [&mut deviation, &mut stepper].map(|it| reached(&mut **it, q, v));
+                assert!(apart(&found, &wanted) < 1e-12, "{}", method.id);
             }
         }
     }
@@ -148,17 +141,10 @@ mod tests {
         // From a state in which coordinate, velocity and force are all nonzero.
         let values = [2.0, 180.0, 3.0, 0.7, 1.5, 1.0];
         let body = (kind("spring").unwrap().build)(&values, Solver::Truth);
-        let mut deviation = Deviation::along(&*body, 0.0, 0.05, 1e-3, rk4);
+        let found = reached(&mut *along(&*body, 0.0, 0.05, 1e-3, rk4), 0.2, -4.0);
         let mut stepper = body.with_solver(Solver::Method(rk4), 0.0);
-        let mut reached = |q: f64, v: f64| {
-            stepper.set(0.0, &[q], &[v]);
-            stepper.advance(0.0, 0.05, 3).unwrap();
-            [stepper.q(), stepper.v()].concat()
-        };
-        deviation.set(&[0.2, -4.0]);
-        deviation.advance(0.0, 0.05, 3).unwrap();
-        let [near, far] = [reached(0.7, 1.5), reached(0.9, -2.5)];
+        let [near, far] = [[0.7, 1.5], [0.9, -2.5]].map(|[q, v]| reached(&mut *stepper, q, v));
         let wanted: Vec<f64> = far.iter().zip(&near).map(|(far, near)| far - near).collect();
-        assert!(apart(&deviation.state(), &wanted) < 1e-9, "{:?}", deviation.state());
+        assert!(apart(&found, &wanted) < 1e-9, "{found:?}");
     }
 }

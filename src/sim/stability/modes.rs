@@ -4,6 +4,8 @@
 //! separately, so that its map is found mode by mode from the stepper: of size 2 without memory,
 //! instead of twice the number of coordinates.
 
+use std::slice;
+
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::comparison::{Mode, Stability, compare_step};
@@ -45,7 +47,7 @@ impl NormalMode {
 
     /// The projection of `values`, one per coordinate, onto this mode.
     pub fn part(&self, values: &[f64]) -> f64 {
-        self.shape.iter().zip(values).map(|(shape, value)| shape * value).sum()
+        spectrum::part(&self.shape, values)
     }
 
     fn true_modes(&self) -> [Mode; 2] {
@@ -115,33 +117,9 @@ impl NormalMode {
     ) -> Result<(Stability, bool), StepFailure> {
         // The map of a tick is a power of that of a step, in which the mode turns less.
         let (tick, times) = tick.repeated(solver.method());
-        let n = self.shape.len();
         // The unit of velocity: the orbit of the mode is a circle, or the distance in a step is 1.
         let rate = if self.omega_squared > 0.0 { self.omega_squared.sqrt() } else { 1.0 / tick.h };
-        // What a target does to the body at rest is no part of the map.
-        let mut driven = [[0.0; 2]; 3];
-        if !stays_at_rest(stepper, tick.t) {
-            let rest = vec![0.0; n];
-            stepper.set(tick.t, &rest, &rest);
-            for (k, driven) in driven.iter_mut().enumerate() {
-                stepper.advance(tick.t + tick.h * k as f64, tick.h, tick.substeps)?;
-                *driven = [self.part(stepper.q()), self.part(stepper.v())];
-            }
-        }
-        let run = |column: usize, k: usize| {
-            if k == 0 {
-                let mut state = vec![0.0; 2 * n];
-                let unit = amplitude * if column == 0 { 1.0 } else { rate };
-                for (x, shape) in state[column * n..(column + 1) * n].iter_mut().zip(&self.shape) {
-                    *x = unit * shape;
-                }
-                stepper.set(tick.t, &state[..n], &state[n..]);
-            }
-            stepper.advance(tick.t + tick.h * k as f64, tick.h, tick.substeps)?;
-            let [q, v] = [stepper.q(), stepper.v()].map(|half| self.part(half));
-            Ok(vec![(q - driven[k][0]) / amplitude, (v - driven[k][1]) / amplitude / rate])
-        };
-        let maps = linear_maps(2, run)?;
+        let maps = linear_maps(stepper, slice::from_ref(&self.shape), tick, [amplitude, rate])?;
         let values = spectrum::eigenvalues(&maps);
         let stability = compare_step(&self.true_modes(), values, tick.h, times);
         Ok((stability, spectrum::has_memory(&maps)))
@@ -169,10 +147,7 @@ pub fn normal_modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
     if !body.is_linear() {
         return None;
     }
-    let jacobian = linear_jacobian(&*unforced(body));
-    let n = jacobian.nrows();
-    let half = |first: usize| -jacobian.columns(first, n).into_owned();
-    modes_of(half(0), &half(n))
+    modes_of(&linear_jacobian(&*unforced(body)))
 }
 
 /// The Jacobian of the acceleration of a linear body with respect to coordinates and velocities.
@@ -192,15 +167,10 @@ pub(super) fn force_slopes(body: &dyn Stepper, at: &[f64], by: f64, t: f64) -> D
     DMatrix::from_vec(here.len(), at.len(), (0..at.len()).flat_map(column).collect())
 }
 
-/// Whether no target moves `body` from rest at the origin.
-fn stays_at_rest(body: &dyn Stepper, t: f64) -> bool {
-    let rest = vec![0.0; 2 * body.q().len()];
-    body.pursuit(t).is_none() && acceleration_at(body, t, &rest).iter().all(|&push| push == 0.0)
-}
-
-/// The modes of `x″ = -stiffness x - damping x′`; `None` if damping couples them or one grows.
-pub(super) fn modes_of(stiffness: DMatrix<f64>, damping: &DMatrix<f64>) -> Option<Vec<NormalMode>> {
-    let n = stiffness.nrows();
+/// The modes of `x″ = A x + B x′` with `jacobian` A, and B to its right; `None` if damping couples them or one grows.
+pub(super) fn modes_of(jacobian: &DMatrix<f64>) -> Option<Vec<NormalMode>> {
+    let n = jacobian.nrows();
+    let [stiffness, damping] = [0, n].map(|first| -jacobian.columns(first, n).into_owned());
     let is_near_nought =
         |rest: DMatrix<f64>, whole: &DMatrix<f64>| rest.amax() <= COUPLING * whole.amax();
     if !is_near_nought(&stiffness - stiffness.transpose(), &stiffness) {
@@ -208,9 +178,9 @@ pub(super) fn modes_of(stiffness: DMatrix<f64>, damping: &DMatrix<f64>) -> Optio
     }
     let eigen = SymmetricEigen::new(stiffness);
     let shapes = eigen.eigenvectors;
-    let by_mode = shapes.transpose() * damping * &shapes;
+    let by_mode = shapes.transpose() * &damping * &shapes;
     let own = DMatrix::from_diagonal(&by_mode.diagonal());
-    if !is_near_nought(&by_mode - own, damping) {
+    if !is_near_nought(&by_mode - own, &damping) {
         return None;
     }
     let grows = |i: usize| {

@@ -1,7 +1,7 @@
 //! The spectral radius of the one-tick map of a body of many coordinates, by power iteration: without the
 //! map, from differences of the stepper itself.
 
-use super::deviation::Deviation;
+use super::deviation;
 use super::tick::Tick;
 use crate::sim::integrators::{Method, StepFailure};
 use crate::sim::state::largest;
@@ -119,23 +119,23 @@ fn displaced_ticks(
 /// They end where the method fails.
 fn continued_run(
     body: &dyn Stepper,
-    method: &Method,
+    method: &'static Method,
     tick: Tick,
     max_ticks: u64,
 ) -> impl FnMut() -> Result<Option<f64>, StepFailure> {
     let Tick { t, h, substeps } = tick;
     let n = body.q().len();
-    let mut deviation = Deviation::along(body, t, h, DISPLACEMENT, method);
+    let mut deviation = deviation::along(body, t, h, DISPLACEMENT, method);
     let mut start = start_vector(2 * n);
     start.iter_mut().for_each(|x| *x *= START);
     start[n..].iter_mut().for_each(|v| *v /= h);
-    deviation.set(&start);
+    deviation.set(t, &start[..n], &start[n..]);
     let mut ticks = 0..max_ticks;
     move || {
         if ticks.next().is_none() || deviation.advance(t, h, substeps).is_err() {
             return Ok(None);
         }
-        let mut state = deviation.state();
+        let mut state = [deviation.q(), deviation.v()].concat();
         state[n..].iter_mut().for_each(|v| *v *= h);
         let longest = largest(&state);
         // Relative to the longest, whose square may overflow.

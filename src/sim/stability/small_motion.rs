@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::comparison::{Mode, Stability, compare_step};
-use super::deviation::{Deviation, acceleration_at};
+use super::deviation::{self, acceleration_at};
 use super::modes::{NormalMode, force_slopes, linear_jacobian, modes_of, unforced};
 use super::spectrum::{self, Eigenvalue, linear_maps};
 use super::tick::Tick;
@@ -80,9 +80,7 @@ impl SmallMotion {
 
     /// Its normal modes; `None` if damping couples them, or if a mode grows.
     pub fn normal_modes(&self) -> Option<Vec<NormalMode>> {
-        let n = self.jacobian.nrows();
-        let half = |first: usize| -self.jacobian.columns(first, n).into_owned();
-        modes_of(half(0), &half(n))
+        modes_of(&self.jacobian)
     }
 
     /// The motion of all coordinates together.
@@ -118,19 +116,11 @@ impl CoupledMotion {
         // The map of a tick is a power of that of a step, in which the modes turn less.
         let (tick, times) = Tick { t: 0.0, h, substeps }.repeated(Some(method));
         let n = self.jacobian.nrows();
-        let mut deviation = Deviation::linear(self.jacobian.clone(), method);
-        let run = |column: usize, k: usize| {
-            if k == 0 {
-                let mut state = vec![0.0; 2 * n];
-                state[column] = if column < n { 1.0 } else { self.rate };
-                deviation.set(&state);
-            }
-            deviation.advance(tick.h * k as f64, tick.h, tick.substeps)?;
-            let mut reached = deviation.state();
-            reached[n..].iter_mut().for_each(|v| *v /= self.rate);
-            Ok(reached)
-        };
-        let mut values = spectrum::eigenvalues(&linear_maps(2 * n, run)?);
+        let axis = |i| (0..n).map(|j| f64::from(u8::from(i == j))).collect();
+        let axes: Vec<Vec<f64>> = (0..n).map(axis).collect();
+        let mut deviation = deviation::linear(self.jacobian.clone(), method);
+        let maps = linear_maps(&mut *deviation, &axes, tick, [1.0, self.rate])?;
+        let mut values = spectrum::eigenvalues(&maps);
         if let Some(values) = &mut values {
             self.keep_what_drifts(values);
         }

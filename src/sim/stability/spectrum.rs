@@ -1,7 +1,10 @@
 //! Eigenvalues of the one-tick map from its Jacobians, also for methods with memory.
 
-use nalgebra::{ColPivQR, DMatrix, DVector, Schur};
+use nalgebra::{ColPivQR, DMatrix, Schur};
 
+use super::deviation::acceleration_at;
+use super::tick::Tick;
+use crate::sim::Stepper;
 use crate::sim::integrators::StepFailure;
 
 /// An eigenvalue; a conjugate pair is given by its upper half.
@@ -32,19 +35,59 @@ impl Eigenvalue {
 /// The maps of the state over 1, 2 and 3 ticks after a fresh start.
 pub(super) type Maps = [DMatrix<f64>; 3];
 
-/// The maps of a linear motion over 1, 2 and 3 ticks. `run` returns the state after tick number `k` of a run that begins
-/// in a unit of component `column`, in such units; it begins the run if `k` is 0.
+/// The maps of a linear body over 1, 2 and 3 ticks, in the span of `shapes`, which are of length 1 and at right angles:
+/// first the displacements along each, then the velocities in units of `rate` per second. The runs begin at `amplitude`
+/// in one of them.
+///
+/// # Errors
+/// The failure of the method in one of the ticks.
 pub(super) fn linear_maps(
-    size: usize,
-    mut run: impl FnMut(usize, usize) -> Result<Vec<f64>, StepFailure>,
+    body: &mut dyn Stepper,
+    shapes: &[Vec<f64>],
+    tick: Tick,
+    [amplitude, rate]: [f64; 2],
 ) -> Result<Maps, StepFailure> {
-    let mut maps: Maps = std::array::from_fn(|_| DMatrix::zeros(size, size));
-    for column in 0..size {
-        for (k, map) in maps.iter_mut().enumerate() {
-            map.set_column(column, &DVector::from_vec(run(column, k)?));
+    let (n, count) = (body.q().len(), shapes.len());
+    let rest = [vec![0.0; n], vec![0.0; n]];
+    let stays_at_rest = stays_at_rest(body, tick.t);
+    // The parts along the shapes of coordinates and velocities after each tick.
+    let mut run = |[q, v]: &[Vec<f64>; 2]| {
+        body.set(tick.t, q, v);
+        let mut ticks = [(); 3].map(|()| Vec::new());
+        for (k, parts) in ticks.iter_mut().enumerate() {
+            body.advance(tick.t + tick.h * k as f64, tick.h, tick.substeps)?;
+            for half in [body.q(), body.v()] {
+                parts.extend(shapes.iter().map(|shape| part(shape, half)));
+            }
+        }
+        Ok(ticks)
+    };
+    // What a target does to the body at rest is no part of the map.
+    let driven = if stays_at_rest { [(); 3].map(|()| vec![0.0; 2 * count]) } else { run(&rest)? };
+    let mut maps: Maps = std::array::from_fn(|_| DMatrix::zeros(2 * count, 2 * count));
+    for column in 0..2 * count {
+        let (half, unit) = if column < count { (0, 1.0) } else { (1, rate) };
+        let mut start = rest.clone();
+        start[half] = shapes[column % count].iter().map(|x| amplitude * unit * x).collect();
+        for ((map, moved), driven) in maps.iter_mut().zip(run(&start)?).zip(&driven) {
+            for (row, (moved, driven)) in moved.iter().zip(driven).enumerate() {
+                let moved = (moved - driven) / amplitude;
+                map[(row, column)] = if row < count { moved } else { moved / rate };
+            }
         }
     }
     Ok(maps)
+}
+
+/// The part of `values` along a shape of length 1.
+pub(super) fn part(shape: &[f64], values: &[f64]) -> f64 {
+    shape.iter().zip(values).map(|(shape, value)| shape * value).sum()
+}
+
+/// Whether no target moves `body` from rest at the origin.
+fn stays_at_rest(body: &dyn Stepper, t: f64) -> bool {
+    let rest = vec![0.0; 2 * body.q().len()];
+    body.pursuit(t).is_none() && acceleration_at(body, t, &rest).iter().all(|&push| push == 0.0)
 }
 
 /// Whether the map over two ticks differs from the product of two one-tick maps.
