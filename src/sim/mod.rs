@@ -17,6 +17,7 @@ pub mod conformance;
 mod cores;
 #[cfg(feature = "lab")]
 mod curve;
+mod difference;
 mod double_double;
 mod exact_flow;
 mod exact_since_start;

@@ -2,6 +2,7 @@
 
 use super::problems::{Pendulum, Problem, fixed_step, problem, spring};
 use super::{Claim, yes_or_no};
+use crate::sim::difference::{OFFSETS, fourth_order};
 use crate::sim::integrators::{Method, StepFailure};
 use crate::sim::state::State;
 
@@ -29,13 +30,12 @@ fn map(
 fn area(method: &Method, system: Problem<f64>) -> Result<f64, StepFailure> {
     let d = 1e-3;
     let column = |dq: f64, dv: f64| {
-        let at = |n: f64| map(method, &system, State { q: FROM.q + n * dq, v: FROM.v + n * dv });
-        let [far_behind, behind, ahead, far_ahead] = [at(-2.0)?, at(-1.0)?, at(1.0)?, at(2.0)?];
-        let slope = |part: fn(&State<f64>) -> f64| {
-            let near = 8.0 * (part(&ahead) - part(&behind));
-            (near - part(&far_ahead) + part(&far_behind)) / (12.0 * d)
-        };
-        Ok([slope(|state| state.q), slope(|state| state.v)])
+        let [mut q, mut v] = [[0.0; 4]; 2];
+        for (i, n) in OFFSETS.into_iter().enumerate() {
+            let start = State { q: FROM.q + n * dq, v: FROM.v + n * dv };
+            State { q: q[i], v: v[i] } = map(method, &system, start)?;
+        }
+        Ok([q, v].map(|values| fourth_order(values, d)))
     };
     let (by_q, by_v) = (column(d, 0.0)?, column(0.0, d)?);
     Ok(by_q[0] * by_v[1] - by_q[1] * by_v[0])

@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 
 use crate::sim::bodies::Custom;
+use crate::sim::difference::quotient;
 use crate::sim::integrators::Method;
 use crate::sim::state::largest;
 use crate::sim::{Solver, Stepper, System, stepper};
@@ -27,7 +28,7 @@ pub(super) fn slope(
 ) -> Vec<f64> {
     let moved: Vec<f64> = at.iter().zip(along).map(|(x, along)| x + part * along).collect();
     let mut slope = acceleration_at(body, t, &moved);
-    slope.iter_mut().zip(here).for_each(|(slope, here)| *slope = (*slope - here) / part);
+    quotient(&mut slope, here, part);
     slope
 }
 

@@ -43,9 +43,9 @@ const CONCEPTS: [Concept; 26] = [
         marks: &["Question::Slope { state: y,"],
     },
     Concept {
-        name: "difference of forces about a state, for stability",
-        file: "src/sim/stability/deviation.rs",
-        marks: &["(*slope - here) / part"],
+        name: "difference quotient",
+        file: "src/sim/difference.rs",
+        marks: &["(*ahead - behind) / distance", "8.0 * (ahead - behind)"],
     },
     Concept {
         name: "copies of a body of the table, stepped at once",

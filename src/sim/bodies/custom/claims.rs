@@ -7,6 +7,7 @@ use crate::sim::bodies::claims::{
     find_leak, find_unsolved,
 };
 use crate::sim::body::Body;
+use crate::sim::difference::{OFFSETS, fourth_order};
 use crate::sim::state::State;
 use crate::sim::system::System;
 use crate::sim::xor_shift::XorShift;
@@ -29,14 +30,6 @@ const TOLERANCE: f64 = 1e-6;
 /// them.
 const STEPS: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
-/// The distances of the values of a difference, in steps.
-const OFFSETS: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
-
-/// The derivative by a difference of fourth order, from the values at [`OFFSETS`] of a step `h`.
-fn difference([behind, back, on, ahead]: [f64; 4], h: f64) -> f64 {
-    (8.0 * (on - back) - (ahead - behind)) / (12.0 * h)
-}
-
 impl Claimant for Custom {
     const TOLERANCE: f64 = TOLERANCE;
 
@@ -55,7 +48,7 @@ impl Claimant for Custom {
         for h in STEPS {
             let states = OFFSETS.map(|times| at(t + times * h));
             for (i, nearest) in nearest.iter_mut().enumerate() {
-                let slope = difference(states.each_ref().map(|state| state[i]), h);
+                let slope = fourth_order(states.each_ref().map(|state| state[i]), h);
                 let is_nearer = (slope - wanted[i]).abs() < (*nearest - wanted[i]).abs();
                 if is_nearer || nearest.is_nan() {
                     *nearest = slope;
@@ -86,8 +79,8 @@ impl Claimant for Custom {
         }
         let power = |h: f64| {
             let rate = |moved: f64, turned: f64| {
-                difference(OFFSETS.map(|times| energy(moved * times * h, turned * times * h)), h)
-                    .abs()
+                let energies = OFFSETS.map(|times| energy(moved * times * h, turned * times * h));
+                fourth_order(energies, h).abs()
             };
             [rate(1.0, 1.0), rate(1.0, 0.0) + rate(0.0, 1.0)]
         };

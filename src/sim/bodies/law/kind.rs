@@ -6,6 +6,7 @@ use super::Law;
 use super::claims::{check_start, first_key};
 use crate::sim::bodies::kind::{Coordinate, Kind, Origin};
 use crate::sim::body::Body;
+use crate::sim::difference::quotient;
 use crate::sim::law::{CoordinateText, Equations, LawText, Refusal};
 use crate::sim::parameter::{Acts, Fault, Parameter, Range, Text};
 use crate::sim::system::System;
@@ -105,11 +106,12 @@ fn leading(equations: &Arc<Equations>) -> Option<usize> {
             law.acceleration(0.0, &q, &v, &mut a);
             a
         };
-        let change = |i: usize| {
-            let rows = acceleration(i, -0.25).into_iter().zip(acceleration(i, 0.25));
-            rows.map(|(a, b)| (b - a) * (b - a)).sum::<f64>()
+        let slope = |i: usize| {
+            let mut slope = acceleration(i, 0.25);
+            quotient(&mut slope, &acceleration(i, -0.25), 0.5);
+            slope.iter().map(|by| by * by).sum::<f64>()
         };
-        (0..n).map(change).sum::<f64>()
+        (0..n).map(slope).sum::<f64>()
     };
     let plain = stiffness(None);
     let growths = (0..constants).map(|index| (index, stiffness(Some(index)) - plain));

@@ -6,6 +6,7 @@
 //! order. Where it only steers an iteration it is a forward one, from the force that is known, and so short that a
 //! corner of the force is seldom within its reach.
 
+use crate::sim::difference::quotient;
 use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::{Question, System};
 
@@ -83,10 +84,7 @@ impl<V: Vector> Slopes<V> {
         if let Some(Forward { from, part }) = forward {
             moved.assign_sum(y, part, along);
             system.acceleration(t, &moved.q, &moved.v, slope);
-            for (slope, from) in slope.components_mut().iter_mut().zip(from.components()) {
-                *slope = (*slope - from) / part;
-            }
-            return;
+            return quotient(slope.components_mut(), from.components(), part);
         }
         let [q, v] = [&along.q, &along.v].map(|part| largest(part.components()));
         let part = (reach[0] / q).min(reach[1] / v);
@@ -98,8 +96,6 @@ impl<V: Vector> Slopes<V> {
         system.acceleration(t, &moved.q, &moved.v, slope);
         moved.assign_sum(y, -part, along);
         system.acceleration(t, &moved.q, &moved.v, behind);
-        for (slope, behind) in slope.components_mut().iter_mut().zip(behind.components()) {
-            *slope = (*slope - behind) / (2.0 * part);
-        }
+        quotient(slope.components_mut(), behind.components(), 2.0 * part);
     }
 }

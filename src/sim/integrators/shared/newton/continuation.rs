@@ -8,6 +8,7 @@
 //! and smooth, the curve cannot end before λ = 1.
 
 use super::Newton;
+use crate::sim::difference::quotient;
 use crate::sim::integrators::shared::stages::{Stages, largest_of};
 use crate::sim::state::Vector;
 use crate::sim::system::System;
@@ -198,12 +199,11 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         *scale = scale.max(largest_of(evaluated));
         let there = stages.scaled(lambda + LAMBDA_DIFFERENCE);
         there.evaluate(system, base, a, &mut linearisation.at, further);
-        let rows = further
-            .iter()
-            .zip(evaluated.iter())
-            .flat_map(|(further, here)| further.components().iter().zip(here.components()));
-        for (slope_by_lambda, (further, here)) in slope_by_lambda.iter_mut().zip(rows) {
-            *slope_by_lambda = (further - here) / LAMBDA_DIFFERENCE;
+        let n = slope_by_lambda.len() / S;
+        let stages = further.iter().zip(evaluated.iter());
+        for (slope_by_lambda, (further, here)) in slope_by_lambda.chunks_exact_mut(n).zip(stages) {
+            slope_by_lambda.copy_from_slice(further.components());
+            quotient(slope_by_lambda, here.components(), LAMBDA_DIFFERENCE);
         }
         linearisation.solve(slope_by_lambda);
     }
