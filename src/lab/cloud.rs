@@ -4,7 +4,7 @@
 //! tears it.
 
 use crate::sim::batch::Ticks;
-use crate::sim::integrators::{Family, method};
+use crate::sim::integrators::{Family, Override, method};
 use crate::sim::{Solver, State, Stepper};
 
 mod axes;
@@ -335,7 +335,7 @@ impl ExactBorder {
         let borders = start.shape.borders(points);
         let lengths = borders.iter().map(Vec::len).collect();
         let method = method("dormand-prince-54").expect("a method of the table");
-        let solver = (Solver::WithTolerance(method, BORDER_TOLERANCE), Memory::Dropped);
+        let solver = (Solver::With(method, Override::tolerance(BORDER_TOLERANCE)), Memory::Dropped);
         let starts = || borders.concat().into_iter().map(|point| start.state(point)).collect();
         let course = Course::new((name, body), solver, start.ticks(tick_hz, 1), points, starts)?;
         let mut border = Self { course, lengths, start, area: 1.0, piece: 0.0 };

@@ -1,6 +1,6 @@
 //! The method of a lane, with its substeps and its tolerance.
 
-use crate::sim::integrators::Method;
+use crate::sim::integrators::{Method, Override};
 use crate::sim::number::round;
 use crate::sim::{Range, Solver};
 
@@ -61,8 +61,8 @@ impl LaneSpec {
     /// The solver of the lane's bodies.
     pub fn solver(&self) -> Solver {
         match (self.joint.map(joint_per_mass), self.tolerance) {
-            (Some(joint), _) => Solver::WithJoint(self.method, joint),
-            (None, Some(tolerance)) => Solver::WithTolerance(self.method, tolerance),
+            (Some(joint), _) => Solver::With(self.method, Override::Joint(joint)),
+            (None, Some(bound)) => Solver::With(self.method, Override::tolerance(bound)),
             (None, None) => Solver::Method(self.method),
         }
     }

@@ -10,7 +10,7 @@ use super::body::Body;
 #[cfg(feature = "lab")]
 use super::cores;
 use super::exact_flow::ExactFlow;
-use super::integrators::{Construct, Integrator, Method, Stepped, Tolerance, construct};
+use super::integrators::{Construct, Integrator, Method, Stepped, construct};
 use super::propagator::{MethodPropagator, Propagator};
 use super::reference::{Reference, is_beyond_reference};
 use super::solver::Solver;
@@ -56,10 +56,8 @@ impl<B: Body> Construct<Counted<B>> for UnderMethod<B> {
     ) -> Self::Output {
         let Self { placed, solver } = self;
         let mut integrator = new(&placed.state.q);
-        match solver {
-            Solver::Method(_) | Solver::Truth => {}
-            Solver::WithTolerance(_, bound) => integrator.set_tolerance(Tolerance::uniform(bound)),
-            Solver::WithJoint(_, joint) => integrator.set_joint(joint),
+        if let Solver::With(_, other) = solver {
+            integrator.set(other);
         }
         Box::new(BodyStepper { placed, propagator: MethodPropagator(integrator) })
     }

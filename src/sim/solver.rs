@@ -1,18 +1,15 @@
 //! What a body is advanced by.
 
-use super::integrators::Method;
+use super::integrators::{Method, Override};
 
 /// A method, or the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Solver {
     /// A method from the table.
     Method(&'static Method),
-    /// An adaptive method from the table; the number replaces its card's tolerance, absolute and
-    /// relative.
-    WithTolerance(&'static Method, f64),
-    /// An engine from the table whose joint has this stiffness in 1/s² and this damping in 1/s, each per unit of
-    /// mass, in place of the body's. Other methods, and engines on a body without a joint, ignore it.
-    WithJoint(&'static Method, [f64; 2]),
+    /// A method from the table, with its card's tolerance or the body's joint replaced. A method without a tolerance,
+    /// and an engine on a body without a joint, ignore it.
+    With(&'static Method, Override),
     /// The exact flow from the last jump; for a body without a closed form, a reference solution.
     Truth,
 }
@@ -21,9 +18,7 @@ impl Solver {
     /// The method, unless this is the truth.
     pub fn method(self) -> Option<&'static Method> {
         match self {
-            Solver::Method(method)
-            | Solver::WithTolerance(method, _)
-            | Solver::WithJoint(method, _) => Some(method),
+            Solver::Method(method) | Solver::With(method, _) => Some(method),
             Solver::Truth => None,
         }
     }

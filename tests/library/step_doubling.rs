@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use regatta::sim::integrators::{AdaptiveEuler, Integrator, Tolerance};
+use regatta::sim::integrators::{AdaptiveEuler, Integrator, Override, Tolerance};
 use regatta::sim::{State, System};
 
 /// A body at rest far from where its force would have it; remembers the times it is asked for.
@@ -45,7 +45,7 @@ fn step_doubling_changes_its_step_by_a_fifth_to_fivefold() {
     let mut adaptive = AdaptiveEuler::with_tolerance(&1.0, allowed(1e-6));
     let mut state = State { q: 1.0, v: 0.0 };
     adaptive.step(&system, 0.0, 1.0, &mut state).unwrap();
-    Integrator::<Asked>::set_tolerance(&mut adaptive, allowed(f64::INFINITY));
+    Integrator::<Asked>::set(&mut adaptive, Override::Tolerance(allowed(f64::INFINITY)));
     system.0.borrow_mut().clear();
     adaptive.step(&system, 0.0, 1.0, &mut state).unwrap();
     let asked = system.0.into_inner();

@@ -1,7 +1,7 @@
 //! What a stepper says of its body besides its state: energies, inputs taken and refused, errors, lost time.
 
 use regatta::sim::bodies::{BODIES, Input, Ship, Spring, kind};
-use regatta::sim::integrators::{GENERAL_METHODS, method};
+use regatta::sim::integrators::{GENERAL_METHODS, Override, method};
 use regatta::sim::{Solver, Stepper, stepper};
 
 fn by(id: &str) -> Solver {
@@ -255,7 +255,7 @@ fn a_copy_of_a_stepper_goes_on_alike_to_the_bit() {
     };
     let methods = GENERAL_METHODS.iter().map(Solver::Method);
     let adaptive = GENERAL_METHODS.iter().filter(|method| method.tolerance.is_some());
-    let tolerant = adaptive.map(|method| Solver::WithTolerance(method, 1e-7));
+    let tolerant = adaptive.map(|method| Solver::With(method, Override::tolerance(1e-7)));
     for solver in methods.chain(tolerant).chain([Solver::Truth]) {
         for (id, mut body) in bodies(solver, 0.4) {
             // Not at a kick, so that methods with a memory have one.

@@ -7,7 +7,7 @@ use crate::lab::action::Action;
 use crate::lab::extent::Extent;
 use crate::lab::scene::SceneBody;
 use crate::sim::bodies::{Coordinates, Input, Truth};
-use crate::sim::integrators::{GENERAL_METHODS, StepFailure};
+use crate::sim::integrators::{GENERAL_METHODS, Override, StepFailure};
 use crate::sim::stability::{NormalMode, normal_modes};
 use crate::sim::{Solver, Stepper};
 
@@ -283,7 +283,7 @@ struct LongRun {
 fn close_solver() -> Solver {
     let adaptive = GENERAL_METHODS.iter().filter(|method| method.tolerance.is_some());
     let method = adaptive.max_by_key(|method| method.order).expect("a method is adaptive");
-    Solver::WithTolerance(method, LONG_RUN_TOLERANCE)
+    Solver::With(method, Override::tolerance(LONG_RUN_TOLERANCE))
 }
 
 /// The second of two moments, and 15 between them if a velocity has an extreme there.

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::copies::Copies;
 use super::parts::Parts;
 use super::{Advance, Ticks};
-use crate::sim::integrators::{Integrator, Tolerance, integrator};
+use crate::sim::integrators::{Integrator, integrator};
 use crate::sim::solver::Solver;
 use crate::sim::state::State;
 use crate::sim::system::System;
@@ -33,10 +33,8 @@ pub(super) fn each_alone<C: Copies>(
     let method = solver.method()?;
     let own = |_| {
         let mut own: Box<dyn Integrator<AnySystem>> = integrator(method, &0.0);
-        match solver {
-            Solver::WithTolerance(_, tolerance) => own.set_tolerance(Tolerance::uniform(tolerance)),
-            Solver::WithJoint(_, joint) => own.set_joint(joint),
-            Solver::Method(_) | Solver::Truth => {}
+        if let Solver::With(_, other) = solver {
+            own.set(other);
         }
         own
     };

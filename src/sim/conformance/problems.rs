@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::sim::bodies::{Ship, Spring};
-use crate::sim::integrators::{Integrator, Method, Tolerance, integrator};
+use crate::sim::integrators::{Integrator, Method, Override, integrator};
 use crate::sim::state::{State, Vector};
 use crate::sim::system::{Counted, System};
 
@@ -24,7 +24,7 @@ pub fn fresh(method: &Method) -> Box<dyn Integrator<Problem<f64>>> {
 /// A fresh integrator that takes the steps it is given: an adaptive one gets a tolerance that does not bind.
 pub fn fixed_step<V: Vector>(method: &Method, like: &V) -> Box<dyn Integrator<Problem<V>>> {
     let mut integrator = integrator(method, like);
-    integrator.set_tolerance(Tolerance::uniform(1e100));
+    integrator.set(Override::tolerance(1e100));
     integrator
 }
 

@@ -3,7 +3,7 @@
 use super::problems::{Kepler, Problem, fresh, kepler_orbit, problem, spring};
 use super::{Claim, yes_or_no};
 use crate::sim::body::Body;
-use crate::sim::integrators::{Method, StepFailure, Tolerance, integrator};
+use crate::sim::integrators::{Method, Override, StepFailure, integrator};
 use crate::sim::state::{State, Vector};
 
 /// What the error may be, in units of the tolerance: less is wasted work.
@@ -23,7 +23,7 @@ fn error_an_arc<V: Vector>(
         let t = f64::from(arc) * std::f64::consts::TAU / f64::from(ARCS);
         let mut state = truth(t);
         let mut integrator = integrator(method, &state.q);
-        integrator.set_tolerance(Tolerance::uniform(tolerance));
+        integrator.set(Override::tolerance(tolerance));
         integrator.step(system, t, 1.0, &mut state)?;
         let end = truth(t + 1.0);
         let found = state.q.components().iter().chain(state.v.components());
@@ -42,7 +42,7 @@ fn heeds(method: &Method) -> Result<bool, StepFailure> {
     let run = |tolerance: f64| {
         let mut state = State { q: 1.0, v: 0.0 };
         let mut integrator = fresh(method);
-        integrator.set_tolerance(Tolerance::uniform(tolerance));
+        integrator.set(Override::tolerance(tolerance));
         integrator.step(&problem(spring(20.0, 0.1)), 0.0, 0.1, &mut state)?;
         Ok(state)
     };

@@ -3,7 +3,6 @@
 
 use super::prelude::*;
 use super::shared::step_size::{StepSize, factor};
-use super::tolerance::Tolerance;
 
 pub(super) const CARD: Method = Method {
     id: "adaptive-euler",
@@ -87,7 +86,9 @@ impl<S: System<Vector: Vector>> Integrator<S> for AdaptiveEuler<S::Vector> {
         self.step_size.reset();
     }
 
-    fn set_tolerance(&mut self, tolerance: Tolerance) {
-        self.step_size.tolerance = tolerance;
+    fn set(&mut self, with: Override) {
+        if let Override::Tolerance(tolerance) = with {
+            self.step_size.tolerance = tolerance;
+        }
     }
 }

@@ -1,7 +1,6 @@
 //! Adaptive Euler as the chapter prints it: a shortened step still ends the tick.
 
 use super::prelude::*;
-use super::tolerance::Tolerance;
 use crate::sim::system::Question;
 
 pub(super) const CARD: Method = Method {
@@ -76,8 +75,10 @@ impl<S: System<Vector: Vector>> Integrator<S> for AdaptiveEulerAsPrinted<S::Vect
         Ok(())
     }
 
-    fn set_tolerance(&mut self, tolerance: Tolerance) {
-        self.tolerance = tolerance;
+    fn set(&mut self, with: Override) {
+        if let Override::Tolerance(tolerance) = with {
+            self.tolerance = tolerance;
+        }
     }
 }
 

@@ -2,7 +2,6 @@
 
 use super::prelude::*;
 use super::shared::embedded_pair::{EmbeddedPair, Pair};
-use super::tolerance::Tolerance;
 
 pub(super) const CARD: Method = Method {
     id: "bogacki-shampine-32",

@@ -3,8 +3,7 @@
 use std::cell::RefCell;
 
 use super::failure::Stepped;
-use super::integrator::Integrator;
-use super::tolerance::Tolerance;
+use super::integrator::{Integrator, Override};
 use super::unfit::Unfit;
 use crate::sim::state::{State, Vector, bytes_with_vectors};
 use crate::sim::system::{StateOf, System};
@@ -120,8 +119,8 @@ impl<S: System<Vector: Vector>> Integrator<S> for CustomMethod<S::Vector> {
         self.integrator.reset();
     }
 
-    fn set_tolerance(&mut self, tolerance: Tolerance) {
-        self.integrator.set_tolerance(tolerance);
+    fn set(&mut self, with: Override) {
+        self.integrator.set(with);
     }
 
     fn heap_bytes(&self) -> usize {

@@ -13,7 +13,7 @@ use std::marker::PhantomData;
 
 use super::card::{Method, Needs};
 use super::failure::{StepFailure, Stepped};
-use super::integrator::Integrator;
+use super::integrator::{Integrator, Override};
 use crate::sim::state::{State, Vector};
 use crate::sim::system::{EngineSettings, StateOf, System};
 
@@ -79,8 +79,10 @@ impl<S: System<Vector: Vector>, R: Rule> Integrator<S> for EngineMethod<S::Vecto
         (0..n).try_for_each(|i| self.tick(system, t + part * f64::from(i), part, 1, state))
     }
 
-    fn set_joint(&mut self, joint: [f64; 2]) {
-        self.joint = Some(joint);
+    fn set(&mut self, with: Override) {
+        if let Override::Joint(joint) = with {
+            self.joint = Some(joint);
+        }
     }
 
     fn reset(&mut self) {

@@ -40,15 +40,27 @@ pub trait Integrator<S: System>: Send {
     /// change of the step length itself.
     fn reset(&mut self) {}
 
-    /// Sets the tolerance of an adaptive method; other methods ignore it.
-    fn set_tolerance(&mut self, _tolerance: Tolerance) {}
-
-    /// Overrides the stiffness in 1/s² and the damping in 1/s, each per unit of mass, of a joint in an engine; other
-    /// methods ignore it.
-    fn set_joint(&mut self, _joint: [f64; 2]) {}
+    /// Replaces what its card or the body says; a method that has no such number ignores it.
+    fn set(&mut self, _override: Override) {}
 
     /// Memory in bytes, without its own size and that of its coordinate vectors.
     fn heap_bytes(&self) -> usize {
         0
+    }
+}
+
+/// What a method may be given in place of what its card or the body says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Override {
+    /// The tolerance of an adaptive method.
+    Tolerance(Tolerance),
+    /// The stiffness in 1/s² and the damping in 1/s, each per unit of mass, of a joint in an engine.
+    Joint([f64; 2]),
+}
+
+impl Override {
+    /// One number for all parts of the tolerance.
+    pub const fn tolerance(bound: f64) -> Self {
+        Self::Tolerance(Tolerance::uniform(bound))
     }
 }

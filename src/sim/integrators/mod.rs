@@ -84,7 +84,7 @@ pub use engine::{EngineMethod, Rule, Tick};
 pub use failure::{StepFailure, Stepped};
 pub use follower::{Follower, FollowerRule};
 pub use free_spin::{FreeSpin, SpinMap};
-pub use integrator::Integrator;
+pub use integrator::{Integrator, Override};
 pub use joint_mode::{JointMode, JointQuantity, Setting, in_code};
 pub use shared::embedded_pair::{EmbeddedPair, Pair};
 pub use tolerance::Tolerance;

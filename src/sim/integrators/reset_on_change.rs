@@ -1,8 +1,7 @@
 //! A method that detects changes of its state by the caller.
 
 use super::failure::Stepped;
-use super::integrator::Integrator;
-use super::tolerance::Tolerance;
+use super::integrator::{Integrator, Override};
 use crate::sim::state::{State, Vector};
 use crate::sim::system::{StateOf, System};
 
@@ -54,12 +53,8 @@ impl<S: System<Vector: Vector>, I: Integrator<S>> Integrator<S> for ResetOnChang
         self.method.reset();
     }
 
-    fn set_tolerance(&mut self, tolerance: Tolerance) {
-        self.method.set_tolerance(tolerance);
-    }
-
-    fn set_joint(&mut self, joint: [f64; 2]) {
-        self.method.set_joint(joint);
+    fn set(&mut self, with: Override) {
+        self.method.set(with);
     }
 
     fn heap_bytes(&self) -> usize {

@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 use regatta::sim::integrators::{
-    BogackiShampine32, DormandPrince54, Family, GENERAL_METHODS, Integrator, Method, StepFailure,
-    Tolerance, integrator,
+    BogackiShampine32, DormandPrince54, Family, GENERAL_METHODS, Integrator, Method, Override,
+    StepFailure, Tolerance, integrator,
 };
 use regatta::sim::{Counted, State, System};
 
@@ -20,7 +20,7 @@ fn work_depends_on_the_tolerance_by_the_order() {
         let system = Counted::new(any(spring(1.0, 0.0)));
         let mut state = State { q: 1.0, v: 0.7 };
         let mut integrator = integrator(method, &state.q);
-        integrator.set_tolerance(Tolerance::uniform(tolerance));
+        integrator.set(Override::tolerance(tolerance));
         for tick in 0..8 {
             integrator.step(&system, 2.5 * f64::from(tick), 2.5, &mut state).unwrap();
         }
@@ -72,7 +72,7 @@ fn a_tolerance_survives_a_reset() {
             let mut state = State { q: 1.0, v: 0.0 };
             let mut integrator = integrator(method, &state.q);
             if let Some(tolerance) = tolerance {
-                integrator.set_tolerance(Tolerance::uniform(tolerance));
+                integrator.set(Override::tolerance(tolerance));
             }
             if reset {
                 integrator.reset();

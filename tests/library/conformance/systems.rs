@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use glam::DVec2;
-use regatta::sim::integrators::{Integrator, Method, Tolerance, integrator};
+use regatta::sim::integrators::{Integrator, Method, Override, integrator};
 use regatta::sim::{Coupling, State, System, Vector};
 
 pub(crate) use regatta::conformance::problems::{Kepler, Pendulum, kepler_orbit, spring};
@@ -19,7 +19,7 @@ pub(crate) fn unbound<S: System<Vector: Vector> + 'static>(
     like: &S::Vector,
 ) -> Box<dyn Integrator<S>> {
     let mut integrator = integrator(method, like);
-    integrator.set_tolerance(Tolerance::uniform(1e100));
+    integrator.set(Override::tolerance(1e100));
     integrator
 }
 

@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 
 use super::step_size::{StepSize, steady_factor};
 use crate::sim::integrators::failure::Stepped;
-use crate::sim::integrators::integrator::Integrator;
+use crate::sim::integrators::integrator::{Integrator, Override};
 use crate::sim::integrators::tolerance::Tolerance;
 use crate::sim::state::{State, Vector};
 use crate::sim::system::{StateOf, System};
@@ -94,8 +94,10 @@ impl<S: System<Vector: Vector>, P: Pair<N>, const N: usize> Integrator<S>
         self.step_size.reset();
     }
 
-    fn set_tolerance(&mut self, tolerance: Tolerance) {
-        self.step_size.tolerance = tolerance;
+    fn set(&mut self, with: Override) {
+        if let Override::Tolerance(tolerance) = with {
+            self.step_size.tolerance = tolerance;
+        }
     }
 }
 
