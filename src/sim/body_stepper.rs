@@ -209,8 +209,8 @@ impl<B: Body> PlacedBody for Placed<B> {
 
     fn bytes_with(&self, memory: Memory<'_>) -> usize {
         let Memory { propagator, heap_bytes } = memory;
-        let size = size_of_val(self) + size_of_val(propagator);
-        bytes_with_vectors(size, self.q()) + self.body.system.heap_bytes() + heap_bytes
+        let own = bytes_with_vectors(self, self.q()) + self.body.system.heap_bytes();
+        own + bytes_with_vectors(propagator, self.q()) + heap_bytes
     }
 }
 

@@ -4,7 +4,7 @@
 use std::cell::RefCell;
 
 use super::body::Body;
-use super::state::{State, Vector, bytes_with_vectors, largest};
+use super::state::{State, Vector, largest};
 
 /// The rounding of a closed form whose operations are not known, relative to its value.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -17,7 +17,7 @@ pub(super) struct ExactSinceStart<V> {
     /// The time of the current state, in seconds.
     t: f64,
     /// Where the exact motion starts. Kept, for a change must not allocate.
-    start: State<V>,
+    pub(super) start: State<V>,
     /// Scratch of the error, which is asked for at every tick.
     a: RefCell<V>,
 }
@@ -59,11 +59,6 @@ impl<V: Vector> ExactSinceStart<V> {
         };
         let error = [of(&state.q, &state.v), of(&state.v, a)];
         error.map(|error| if error.is_nan() { f64::INFINITY } else { error })
-    }
-
-    /// An upper bound on its memory, in bytes.
-    pub(super) fn bytes(&self) -> usize {
-        bytes_with_vectors(size_of::<Self>(), self.start.q.components())
     }
 }
 

@@ -263,10 +263,11 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
     }
 
     fn heap_bytes(&self) -> usize {
-        let solutions = self.solutions.as_deref().map_or(0, |solutions| {
-            bytes_with_vectors(size_of_val(solutions), solutions.difference.q.components())
-        });
-        solutions + self.exact.as_ref().map_or(0, |exact| exact.bytes())
+        let Self { exact, solutions, .. } = self;
+        let exact = exact.as_deref().map(|it| bytes_with_vectors(it, it.start.q.components()));
+        let solutions = solutions.as_deref();
+        let solutions = solutions.map(|it| bytes_with_vectors(it, it.difference.q.components()));
+        exact.unwrap_or(0) + solutions.unwrap_or(0)
     }
 }
 

@@ -198,8 +198,9 @@ impl Vector for Vec<f64> {
     }
 }
 
-/// An upper bound on the memory in bytes of a value of this `size`, as if every field were a vector as long as `like`.
-pub(in crate::sim) fn bytes_with_vectors(size: usize, like: &[f64]) -> usize {
+/// An upper bound on the memory of `value` in bytes, as if every field were a vector as long as `like`.
+pub(in crate::sim) fn bytes_with_vectors(value: &impl ?Sized, like: &[f64]) -> usize {
+    let size = size_of_val(value);
     size + size / size_of::<Vec<f64>>() * size_of_val(like)
 }
 

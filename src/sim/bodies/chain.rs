@@ -85,10 +85,10 @@ pub struct Chain {
     sines: Vec<f64>,
 }
 
-impl Chain {
-    /// Half the distance between the walls, in units of the amplitude.
-    pub const HALF_LENGTH: f64 = 2.4;
+/// Half the distance between the walls, in units of the amplitude.
+const HALF_LENGTH: f64 = 2.4;
 
+impl Chain {
     /// The undamped angular frequency of mode `n`, from 1, in radians per second.
     pub fn angular_frequency(&self, n: usize) -> f64 {
         let half = PI * n as f64 / (2 * (self.masses + 1)) as f64;
@@ -112,11 +112,11 @@ impl Chain {
         if self.x0 == 0.0 { 1.0 } else { self.x0.abs() }
     }
 
-    /// The position on the stage, in metres, of mass `j`, from 1, displaced by `x`. Displacements are
-    /// along the chain, but are drawn across it so that masses do not hide each other.
+    /// The position in metres of mass `j`, from 1, displaced by `x`: the chain lies along x, and displacements are across
+    /// it. The walls are at 0 and at one more than the last mass.
     pub fn place_of(&self, j: usize, x: f64) -> DVec2 {
         let part = j as f64 / (self.masses + 1) as f64;
-        DVec2::new((2.0 * part - 1.0) * Self::HALF_LENGTH * self.amplitude(), x)
+        DVec2::new((2.0 * part - 1.0) * HALF_LENGTH * self.amplitude(), x)
     }
 }
 

@@ -125,6 +125,6 @@ impl<S: System<Vector: Vector>> Integrator<S> for CustomMethod<S::Vector> {
 
     fn heap_bytes(&self) -> usize {
         let integrator = &*self.integrator;
-        bytes_with_vectors(size_of_val(integrator), &self.state.q) + integrator.heap_bytes()
+        bytes_with_vectors(integrator, &self.state.q) + integrator.heap_bytes()
     }
 }

@@ -130,7 +130,8 @@ mod tests {
             let jacobian = DMatrix::from_row_slice(1, 2, &[-90.0, -1.5]);
             let mut deviation = linear(jacobian, method);
             for [q, v] in [[1.0, 0.0], [-0.3, 4.0]] {
-                let [found, wanted] = [&mut deviation, &mut stepper].map(|it| reached(&mut **it, q, v));
+                let [found, wanted] =
+                    [&mut deviation, &mut stepper].map(|it| reached(&mut **it, q, v));
                 assert!(apart(&found, &wanted) < 1e-12, "{}", method.id);
             }
         }

@@ -8,9 +8,8 @@ use crate::sim::bodies::Chain;
 
 /// The radius of each bead of a chain, in metres.
 fn bead(chain: &Chain, beads: usize) -> f64 {
-    let unit = chain.amplitude();
-    let room = 2.0 * Chain::HALF_LENGTH * unit / (beads + 1) as f64;
-    (0.28 * room).min(0.11 * unit)
+    let room = -2.0 * chain.place_of(0, 0.0).x / (beads + 1) as f64;
+    (0.28 * room).min(0.11 * chain.amplitude())
 }
 
 impl Drawn for Chain {
@@ -36,7 +35,7 @@ impl Drawn for Chain {
     fn framing(&self) -> Framing {
         Framing::Fixed {
             centre_m: DVec2::ZERO,
-            half_m: DVec2::new(1.08 * Chain::HALF_LENGTH, 1.15) * self.amplitude(),
+            half_m: DVec2::new(-1.08 * self.place_of(0, 0.0).x, 1.15 * self.amplitude()),
             trail_s: 0.0,
         }
     }

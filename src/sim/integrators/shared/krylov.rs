@@ -7,7 +7,7 @@
 //! nalgebra-sparse has no solver for such a matrix, and faer is many times the size of this layer and chooses
 //! its sums by the processor: ours have the same bits everywhere.
 
-use crate::sim::state::{bytes_with_vectors, largest};
+use crate::sim::state::largest;
 
 /// The most products of matrix and vector in one step of a method. A soft net needs tens and a stiff one
 /// hundreds; without a limit, equations that have no solution would never end.
@@ -28,7 +28,7 @@ pub(super) type Matrix<'a> = dyn FnMut(&[f64], &mut [f64]) + 'a;
 pub(super) struct Krylov {
     /// Products left in this step.
     left: u32,
-    x: Vec<f64>,
+    pub(super) x: Vec<f64>,
     r: Vec<f64>,
     shadow: Vec<f64>,
     u: Vec<f64>,
@@ -42,11 +42,6 @@ impl Krylov {
     pub(super) fn new(size: usize) -> Self {
         let [x, r, shadow, u, v, s, w, t] = [(); 8].map(|()| vec![0.0; size]);
         Self { left: 0, x, r, shadow, u, v, s, w, t }
-    }
-
-    /// Memory in bytes.
-    pub(super) fn bytes(&self) -> usize {
-        bytes_with_vectors(size_of::<Self>(), &self.x)
     }
 
     pub(super) fn begin_step(&mut self) {
