@@ -6,7 +6,8 @@ use std::sync::Arc;
 use super::claims::{Checked, FalseClaims};
 use super::kind::CustomInfo;
 use super::prelude::*;
-use crate::sim::state::bytes_with_vectors;
+use crate::sim::state::{Vector, bytes_with_vectors};
+use crate::sim::system::StateOf;
 
 mod claims;
 mod extras;
@@ -34,20 +35,20 @@ pub struct Custom {
 }
 
 impl Custom {
-    /// A body of `n` coordinates without names, parameters and claims, which moves as `system` does. It starts at rest at 0.
-    pub(in crate::sim) fn bare<S>(system: S, n: usize) -> Self
+    /// A body that moves as `system` does, without names, parameters and kicks. What `extras` claims is not checked.
+    pub(in crate::sim) fn unnamed<S>(system: S, start: &StateOf<S>, extras: &Extras<S>) -> Self
     where
-        S: System<Vector = Vec<f64>> + Clone + Send + 'static,
+        S: System<Vector: Vector> + Clone + Send + 'static,
     {
-        let zeros = vec![0.0; n];
+        let [q, v] = [&start.q, &start.v].map(|half| half.components().to_vec());
         Self {
-            motion: Box::new(Typed::new(system, &zeros, &Extras::default())),
+            motion: Box::new(Typed::new(system, &start.q, extras)),
             info: Arc::new(CustomInfo { coordinates: Vec::new(), plane: None }),
             values: Vec::new(),
-            start: State { q: zeros.clone(), v: zeros.clone() },
-            kick: zeros,
-            is_linear: false,
-            checked: Checked::without_claims(),
+            kick: vec![0.0; q.len()],
+            start: State { q, v },
+            is_linear: extras.is_linear,
+            checked: Checked::default(),
         }
     }
 

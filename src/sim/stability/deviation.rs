@@ -2,11 +2,11 @@
 
 use nalgebra::DMatrix;
 
-use crate::sim::bodies::Custom;
+use crate::sim::bodies::{Custom, Extras};
 use crate::sim::difference::quotient;
 use crate::sim::integrators::Method;
 use crate::sim::state::largest;
-use crate::sim::{Solver, Stepper, System, stepper};
+use crate::sim::{Solver, State, Stepper, System, stepper};
 
 /// The acceleration of a body in a state, coordinates first.
 pub(super) fn acceleration_at(body: &dyn Stepper, t: f64, state: &[f64]) -> Vec<f64> {
@@ -32,59 +32,43 @@ pub(super) fn slope(
     slope
 }
 
-/// An acceleration that is a matrix times coordinates and velocities, one row per coordinate.
+/// A system by its acceleration on slices: coordinates, velocities, output.
 #[derive(Clone)]
-struct Linear(DMatrix<f64>);
+struct Forces<F>(F);
 
-impl System for Linear {
+impl<F: Fn(&[f64], &[f64], &mut [f64])> System for Forces<F> {
     type Vector = Vec<f64>;
 
     fn acceleration(&self, _t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
-        let n = q.len();
-        for (i, a) in a.iter_mut().enumerate() {
-            let row = |j: usize| self.0[(i, j)] * q[j] + self.0[(i, n + j)] * v[j];
-            *a = (0..n).map(row).sum();
-        }
+        (self.0)(q, v, a);
     }
 }
 
-/// The forces of a body linearised about its state, as differences along the deviation.
-#[derive(Clone)]
-struct Linearised {
-    body: Box<dyn Stepper>,
-    t: f64,
-    /// Coordinates, then velocities.
-    at: Vec<f64>,
-    /// The acceleration there.
-    here: Vec<f64>,
-    /// The displacement of a difference, for coordinates and for velocities times `unit_s`.
-    distance: f64,
-    unit_s: f64,
-}
-
-/// The size of a state whose velocities count times `unit_s`.
-fn size(q: &[f64], v: &[f64], unit_s: f64) -> f64 {
-    largest(q).max(unit_s * largest(v))
-}
-
-impl System for Linearised {
-    type Vector = Vec<f64>;
-
-    fn acceleration(&self, _t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
-        let Self { body, t, at, here, distance, unit_s } = self;
-        let part = distance / size(q, v, *unit_s);
-        a.copy_from_slice(&slope(&**body, *t, at, here, part, &[&q[..], v].concat()));
-    }
+/// A body of `n` coordinates at 0 with this acceleration.
+fn under(
+    acceleration: impl Fn(&[f64], &[f64], &mut [f64]) + Clone + Send + 'static,
+    n: usize,
+    method: &'static Method,
+) -> Box<dyn Stepper> {
+    let start = State { q: vec![0.0; n], v: vec![0.0; n] };
+    let body = Custom::unnamed(Forces(acceleration), &start, &Extras::default());
+    stepper(body, Solver::Method(method))
 }
 
 /// A deviation with an acceleration that is `jacobian` times coordinates and velocities, one row per coordinate.
 pub(super) fn linear(jacobian: DMatrix<f64>, method: &'static Method) -> Box<dyn Stepper> {
     let n = jacobian.nrows();
-    stepper(Custom::bare(Linear(jacobian), n), Solver::Method(method))
+    let acceleration = move |q: &[f64], v: &[f64], a: &mut [f64]| {
+        for (i, a) in a.iter_mut().enumerate() {
+            let row = |j: usize| jacobian[(i, j)] * q[j] + jacobian[(i, n + j)] * v[j];
+            *a = (0..n).map(row).sum();
+        }
+    };
+    under(acceleration, n, method)
 }
 
-/// A deviation from the state of `body` at time `t` (s), under the forces linearised there. They are differences over
-/// `displacement` times the size of the state, in which velocities count times `h`.
+/// A deviation from the state of `body` at time `t` (s), under the forces linearised there. They are differences along the
+/// deviation, over `displacement` times the size of the state. Velocities count times `h`.
 pub(super) fn along(
     body: &dyn Stepper,
     t: f64,
@@ -94,12 +78,16 @@ pub(super) fn along(
 ) -> Box<dyn Stepper> {
     let body = body.with_solver(Solver::Truth, t);
     let at = [body.q(), body.v()].concat();
-    let size = size(body.q(), body.v(), h);
+    let size_of = move |q: &[f64], v: &[f64]| largest(q).max(h * largest(v));
+    let size = size_of(body.q(), body.v());
     let distance = displacement * if size > 0.0 { size } else { 1.0 };
     let here = acceleration_at(&*body, t, &at);
     let n = here.len();
-    let system = Linearised { body, t, at, here, distance, unit_s: h };
-    stepper(Custom::bare(system, n), Solver::Method(method))
+    let acceleration = move |q: &[f64], v: &[f64], a: &mut [f64]| {
+        let part = distance / size_of(q, v);
+        a.copy_from_slice(&slope(&*body, t, &at, &here, part, &[q, v].concat()));
+    };
+    under(acceleration, n, method)
 }
 
 #[cfg(test)]

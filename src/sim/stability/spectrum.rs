@@ -48,35 +48,35 @@ pub(super) fn linear_maps(
     [amplitude, rate]: [f64; 2],
 ) -> Result<Maps, StepFailure> {
     let (n, count) = (body.q().len(), shapes.len());
-    let rest = [vec![0.0; n], vec![0.0; n]];
+    let rest = vec![0.0; 2 * n];
     let stays_at_rest = stays_at_rest(body, tick.t);
-    // The parts along the shapes of coordinates and velocities after each tick.
-    let mut run = |[q, v]: &[Vec<f64>; 2]| {
-        body.set(tick.t, q, v);
-        let mut ticks = [(); 3].map(|()| Vec::new());
-        for (k, parts) in ticks.iter_mut().enumerate() {
-            body.advance(tick.t + tick.h * k as f64, tick.h, tick.substeps)?;
-            for half in [body.q(), body.v()] {
-                parts.extend(shapes.iter().map(|shape| part(shape, half)));
-            }
-        }
-        Ok(ticks)
+    // The parts along the shapes after each tick from a state.
+    let mut run = |state: &[f64]| {
+        body.set(tick.t, &state[..n], &state[n..]);
+        let mut after = |k: u32| {
+            body.advance(tick.t + tick.h * f64::from(k), tick.h, tick.substeps)?;
+            let halves = [body.q(), body.v()].into_iter();
+            let parts = halves.flat_map(|half| shapes.iter().map(|shape| part(shape, half)));
+            Ok(parts.collect::<Vec<_>>())
+        };
+        Ok([after(0)?, after(1)?, after(2)?])
     };
     // What a target does to the body at rest is no part of the map.
     let driven = if stays_at_rest { [(); 3].map(|()| vec![0.0; 2 * count]) } else { run(&rest)? };
-    let mut maps: Maps = std::array::from_fn(|_| DMatrix::zeros(2 * count, 2 * count));
-    for column in 0..2 * count {
-        let (half, unit) = if column < count { (0, 1.0) } else { (1, rate) };
-        let mut start = rest.clone();
-        start[half] = shapes[column % count].iter().map(|x| amplitude * unit * x).collect();
-        for ((map, moved), driven) in maps.iter_mut().zip(run(&start)?).zip(&driven) {
-            for (row, (moved, driven)) in moved.iter().zip(driven).enumerate() {
-                let moved = (moved - driven) / amplitude;
-                map[(row, column)] = if row < count { moved } else { moved / rate };
-            }
-        }
-    }
-    Ok(maps)
+    let unit = |index: usize| if index < count { 1.0 } else { rate };
+    let from = |column: usize| {
+        let mut state = rest.clone();
+        let half = state[column / count * n..].iter_mut();
+        let scale = amplitude * unit(column);
+        half.zip(&shapes[column % count]).for_each(|(x, shape)| *x = scale * shape);
+        run(&state)
+    };
+    let runs = (0..2 * count).map(from).collect::<Result<Vec<_>, _>>()?;
+    Ok([0, 1, 2].map(|k| {
+        DMatrix::from_fn(2 * count, 2 * count, |row, column| {
+            (runs[column][k][row] - driven[k][row]) / amplitude / unit(row)
+        })
+    }))
 }
 
 /// The part of `values` along a shape of length 1.

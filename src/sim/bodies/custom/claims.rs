@@ -176,8 +176,8 @@ fn find_nonlinearity(body: &Custom) -> Option<CustomFault> {
     None
 }
 
-/// Checks a custom body at its start, and its claims, at the ticks of the horizon too.
-pub(super) fn check(body: &Custom, horizon: ClaimHorizon) -> Result<(), CustomFault> {
+/// Checks that a custom body begins with finite numbers.
+pub(super) fn check_start(body: &Custom) -> Result<(), CustomFault> {
     let State { q, v } = body.start();
     let mut a = v.clone();
     body.acceleration(0.0, &q, &v, &mut a);
@@ -188,6 +188,12 @@ pub(super) fn check(body: &Custom, horizon: ClaimHorizon) -> Result<(), CustomFa
             return Err(CustomFault { field: "start", what, remedy: "begin with finite numbers" });
         }
     }
+    Ok(())
+}
+
+/// Checks a custom body at its start, and its claims, at the ticks of the horizon too.
+pub(super) fn check(body: &Custom, horizon: ClaimHorizon) -> Result<(), CustomFault> {
+    check_start(body)?;
     if let Some(fault) = find_unsolved(body).or_else(|| find_departure(body, horizon)) {
         return Err(unsolved(body, fault));
     }

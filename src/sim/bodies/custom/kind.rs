@@ -2,13 +2,11 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::motion::Typed;
 use super::{Custom, CustomFault, Extras, claims};
-use crate::sim::bodies::claims::{Checked, ClaimHorizon};
+use crate::sim::bodies::claims::ClaimHorizon;
 use crate::sim::bodies::kind::{Coordinate, CustomInfo, Kind, Origin};
-use crate::sim::body::Body;
 use crate::sim::parameter::{Acts, Fault, Parameter, ParameterOf, Range, Text};
-use crate::sim::state::{State, Vector};
+use crate::sim::state::Vector;
 use crate::sim::system::{StateOf, System};
 
 /// The key of the parameter of a body that is given none.
@@ -31,11 +29,10 @@ pub fn custom_kind<S>(
 where
     S: System<Vector: Vector> + Clone + Send + 'static,
 {
-    let many = State { q: start.q.components().to_vec(), v: start.v.components().to_vec() };
-    let n = many.q.len();
+    let [n, velocities] = [&start.q, &start.v].map(|half| half.components().len());
     let fault = |field, what: String, remedy| Err(CustomFault { field, what, remedy });
-    if n == 0 || n > MAX_COORDINATES || many.v.len() != n {
-        let what = format!("it has {n} coordinates and {} velocities", many.v.len());
+    if n == 0 || n > MAX_COORDINATES || velocities != n {
+        let what = format!("it has {n} coordinates and {velocities} velocities");
         return fault("start", what, "give it as many of both, 1 to 256");
     }
     let coordinates = coordinates(&extras.coordinates, n)?;
@@ -54,13 +51,10 @@ where
         None => kick[0] = 1.0,
     }
     let body = Custom {
-        motion: Box::new(Typed::new(system.clone(), &start.q, extras)),
         info: Arc::new(CustomInfo { coordinates, plane }),
         values: parameters.iter().filter_map(|parameter| parameter.default).collect(),
-        start: many,
         kick,
-        is_linear: extras.is_linear,
-        checked: Checked::default(),
+        ..Custom::unnamed(system.clone(), start, extras)
     };
     claims::check(&body, horizon)?;
     Ok(Arc::new(kind(body, parameters)))
@@ -92,19 +86,14 @@ fn kind(body: Custom, parameters: Vec<Parameter>) -> Kind {
     let leading = parameters[0].key.clone();
     let checked = Mutex::new(body.clone());
     let check = {
-        let (info, leading) = (info.clone(), leading.clone());
+        let leading = leading.clone();
         move |values: &[f64]| {
             let mut body = checked.lock().unwrap_or_else(PoisonError::into_inner).clone();
             body.write(values);
-            let State { q, v } = body.start();
-            let mut a = v.clone();
-            body.acceleration(0.0, &q, &v, &mut a);
-            let unfit = a.iter().position(|a| !a.is_finite());
-            unfit.map_or(Ok(()), |i| {
-                let name = &info.coordinates[i].name;
-                let what = format!("the acceleration of {name} is {} at the start", a[i]);
-                let remedy = "take values with a finite one".into();
-                Err(Fault { key: leading.clone(), what, remedy })
+            claims::check_start(&body).map_err(|fault| Fault {
+                key: leading.clone(),
+                what: fault.what,
+                remedy: "take values with a finite one".into(),
             })
         }
     };
