@@ -11,6 +11,7 @@ mod bisection;
 mod chase;
 pub mod cloud;
 mod command;
+mod csv_row;
 mod custom;
 mod display;
 mod equal_cost;
@@ -75,6 +76,7 @@ pub use cloud::{
     USUAL_POINTS,
 };
 pub use command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT};
+pub use csv_row::csv_row;
 pub use custom::{Draw, Options, OptionsError};
 pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, View};
 pub use equal_cost::{equal_cost, lanes_that_race};

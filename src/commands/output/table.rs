@@ -1,6 +1,6 @@
 //! One description of a table's columns, written as aligned text, as CSV or as JSON.
 
-use std::borrow::Cow;
+use std::fmt::Display;
 use std::io::{self, Write};
 use std::mem;
 
@@ -10,6 +10,7 @@ use serde_json::{Map, Value};
 use super::Output;
 use crate::commands::error::Error;
 use crate::commands::terminal::counted;
+use crate::lab::csv_row;
 
 /// How data is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -91,16 +92,15 @@ impl<W: Write> RowWriter<W> {
     pub(crate) fn row(&mut self, cells: &[Value]) -> io::Result<()> {
         let Self { out, format, keys, is_first } = self;
         if *format == RowFormat::Csv {
-            for (place, cell) in cells.iter().enumerate() {
-                out.write_all(if place == 0 { b"" } else { b"," })?;
+            let cells = cells.iter().map(|cell| -> &dyn Display {
                 match in_a_cell(cell) {
-                    Value::Null => {}
-                    Value::String(text) => out.write_all(csv_cell(text).as_bytes())?,
+                    Value::Null => &"",
+                    Value::String(text) => text,
                     // Numbers as in JSON, so that they read back the same.
-                    cell => serde_json::to_writer(&mut *out, cell)?,
+                    cell => cell,
                 }
-            }
-            return out.write_all(b"\n");
+            });
+            return out.write_all(csv_row(&cells.collect::<Vec<_>>()).as_bytes());
         }
         out.write_all(if mem::take(is_first) { b"\n{" } else { b",\n{" })?;
         for (place, (key, cell)) in keys.iter().zip(cells).enumerate() {
@@ -147,14 +147,6 @@ fn written<W: Write, T>(
 /// What stands in a cell for a value: for an object, such as a verdict, its word.
 fn in_a_cell(value: &Value) -> &Value {
     value.get("word").unwrap_or(value)
-}
-
-/// Text as a cell of CSV, quoted only if it must be.
-fn csv_cell(text: &str) -> Cow<'_, str> {
-    match text.contains([',', '"', '\n', '\r']) {
-        true => format!("\"{}\"", text.replace('"', "\"\"")).into(),
-        false => text.into(),
-    }
 }
 
 /// A line of headings and a line for each of `items`, aligned; `indent` stands before each.
@@ -222,12 +214,5 @@ mod tests {
         assert_eq!(json.lines().count(), ROWS.len() + 2);
         let parsed: Value = serde_json::from_str(&json).unwrap();
         assert_eq!(parsed, super::json(COLUMNS, ROWS));
-    }
-
-    #[test]
-    fn cells_with_commas_quotes_or_newlines_are_quoted() {
-        assert_eq!(csv_cell("free spring"), "free spring");
-        assert_eq!(csv_cell("a, b"), "\"a, b\"");
-        assert_eq!(csv_cell("the \"Pride\""), "\"the \"\"Pride\"\"\"");
     }
 }

@@ -1,5 +1,7 @@
 //! What is said of a loop in a line.
 
+use std::fmt;
+
 use super::LoopLab;
 use super::lane::LoopLane;
 use crate::lab::analysis::Severity;
@@ -19,8 +21,25 @@ const OTHER_SPEED_MS: f64 = 100.0;
 pub struct LoopVerdict {
     /// How bad it is.
     pub severity: Severity,
-    /// The words.
-    pub text: String,
+    /// What is said, the most important first.
+    pub parts: Vec<String>,
+}
+
+impl LoopVerdict {
+    fn new<const N: usize>(severity: Severity, parts: [Option<String>; N]) -> Self {
+        Self { severity, parts: parts.into_iter().flatten().collect() }
+    }
+
+    /// The words, from all of them to those of the first part alone.
+    pub fn wordings(&self) -> Vec<String> {
+        (1..=self.parts.len()).rev().map(|count| self.parts[..count].join(", ")).collect()
+    }
+}
+
+impl fmt::Display for LoopVerdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.parts.join(", "))
+    }
 }
 
 impl LoopLab {
@@ -33,47 +52,56 @@ impl LoopLab {
 impl LoopLane {
     /// What is said of it, at this tick rate in Hz.
     pub fn verdict(&self, tick_hz: u32) -> LoopVerdict {
-        let said = |severity, text: String| LoopVerdict { severity, text };
+        let said = |severity, words: &str| LoopVerdict::new(severity, [Some(words.into())]);
         let Some(report) = self.report() else {
-            return said(Severity::Unknown, "running…".into());
+            return said(Severity::Unknown, "running…");
         };
         let (Some(error), Some(latency)) = (report.animation_error_rms_ms, report.latency_mean_ms)
         else {
-            return said(Severity::Unknown, "nothing displayed".into());
+            return said(Severity::Unknown, "nothing displayed");
         };
         if report.time_difference_ms.is_some_and(|ms| ms.abs() > OTHER_SPEED_MS) {
-            let text = "speed depends on the frame rate";
-            return said(Severity::Bad, text.into());
+            return said(Severity::Bad, "speed depends on the frame rate");
         }
-        let late = latency * f64::from(tick_hz) / 1000.0;
-        let late = match late {
-            late if late < LATE_TICKS => String::new(),
-            late if (late - 1.0).abs() < 0.1 => ", one tick late".into(),
-            _ => format!(", shows the past of {} ms ago", round(latency, 2)),
+        let late = match latency * f64::from(tick_hz) / 1000.0 {
+            late if late < LATE_TICKS => None,
+            late if (late - 1.0).abs() < 0.1 => Some("one tick late".into()),
+            _ => Some(format!("shows the past of {} ms ago", round(latency, 2))),
         };
-        let [repeated, doubled] = [report.repeated_percent, report.double_percent]
-            .map(|percent| round(percent.unwrap_or_default(), 3));
-        match error {
-            error if error < SMOOTH_MS && report.dropped_ms > 0.0 => {
-                let text = format!("smooth, but drops {} ms{late}", round(report.dropped_ms, 3));
-                said(Severity::Doubtful, text)
-            }
-            error if error < SMOOTH_MS => said(Severity::Fine, format!("smooth{late}")),
-            error if report.repeated_percent > Some(1.0) => {
-                let severity = if error < JUDDER_MS { Severity::Doubtful } else { Severity::Bad };
-                let doubled = match report.double_percent > Some(1.0) {
-                    true => format!(", {doubled} % jump"),
-                    false => String::new(),
-                };
-                said(severity, format!("judders: {repeated} % of frames repeat{doubled}"))
-            }
-            error => {
-                let (severity, how) = match error < JUDDER_MS {
-                    true => (Severity::Doubtful, "uneven"),
-                    false => (Severity::Bad, "judders"),
-                };
-                said(severity, format!("{how} by {} ms{late}", round(error, 2)))
-            }
+        if error < SMOOTH_MS {
+            let (severity, how) = match report.dropped_ms {
+                dropped if dropped > 0.0 => {
+                    (Severity::Doubtful, format!("smooth, but drops {} ms", round(dropped, 3)))
+                }
+                _ => (Severity::Fine, "smooth".into()),
+            };
+            return LoopVerdict::new(severity, [Some(how), late]);
         }
+        let severity = if error < JUDDER_MS { Severity::Doubtful } else { Severity::Bad };
+        let many = |percent: Option<f64>| {
+            percent.filter(|percent| *percent > 1.0).map(|percent| round(percent, 3))
+        };
+        if let Some(repeated) = many(report.repeated_percent) {
+            let repeated = format!("judders: {repeated} % of frames repeat");
+            let doubled = many(report.double_percent).map(|percent| format!("{percent} % jump"));
+            return LoopVerdict::new(severity, [Some(repeated), doubled]);
+        }
+        let how = if error < JUDDER_MS { "uneven" } else { "judders" };
+        let how = format!("{how} by {} ms", round(error, 2));
+        LoopVerdict::new(severity, [Some(how), late])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_verdict_is_shortened_from_its_end() {
+        let parts = ["smooth", "loses 3 ms", "late"].map(|part| Some(part.to_owned()));
+        let verdict = LoopVerdict::new(Severity::Fine, parts);
+        let expected = ["smooth, loses 3 ms, late", "smooth, loses 3 ms", "smooth"];
+        assert_eq!(verdict.wordings(), expected);
+        assert_eq!(verdict.to_string(), expected[0]);
     }
 }

@@ -324,7 +324,7 @@ impl<'a> Band<'a> {
             Severity::Bad => self.palette.bad,
             Severity::Unknown => self.palette.dim,
         };
-        let verdict = self.label([right, y], Align::Right, 12.5, verdict.text);
+        let verdict = self.label([right, y], Align::Right, 12.5, verdict.to_string());
         picture.labels.push(Label { colour, ..verdict });
     }
 

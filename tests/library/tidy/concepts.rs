@@ -11,7 +11,7 @@ struct Concept {
     marks: &'static [&'static str],
 }
 
-const CONCEPTS: [Concept; 26] = [
+const CONCEPTS: [Concept; 27] = [
     Concept {
         name: "dispatch by the type of a method",
         file: "src/sim/integrators/mod.rs",
@@ -121,9 +121,14 @@ const CONCEPTS: [Concept; 26] = [
         marks: &["fn exit_code"],
     },
     Concept {
+        name: "row of comma-separated values",
+        file: "src/lab/csv_row.rs",
+        marks: &["fn csv_row"],
+    },
+    Concept {
         name: "table for programs",
         file: "src/commands/output/table.rs",
-        marks: &["fn csv_cell"],
+        marks: &["struct RowWriter"],
     },
     Concept {
         name: "report of a verification",

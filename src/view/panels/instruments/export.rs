@@ -5,8 +5,9 @@ use egui::{Align2, Pos2, Rect, pos2, vec2};
 use super::super::tracks::Detail;
 use super::super::{ink_of, loops};
 use super::layout::cells;
+use super::sheet::PlotAxis;
 use super::{by_loop, chart, sheet_of};
-use crate::lab::{Instrument, Lab};
+use crate::lab::{Instrument, Lab, csv_row};
 use crate::view::chart::{ABOVE, NAME, Primitive, Text, legend, svg};
 
 /// The size of a drawing, in its own pixels, and the room round its plots.
@@ -26,10 +27,9 @@ pub(in crate::view) fn csv(lab: &Lab) -> Option<Vec<String>> {
         let mut add = |curve: &str, t: f64, at: [f64; 2]| {
             let values = plot.axes.iter().zip(at).skip(usize::from(plot.is_over_time()));
             for (axis, place) in values {
-                let [title, quantity] = [&plot.title, &axis.quantity].map(|text| quoted(text));
                 let value = axis.scale.value(place);
-                let unit = &axis.unit;
-                lines.push(format!("{title},{quantity},{unit},{curve},{t},{value}\n"));
+                let PlotAxis { quantity, unit, .. } = axis;
+                lines.push(csv_row(&[&plot.title, quantity, unit, &curve, &t, &value]));
             }
         };
         for track in &plot.tracks {
@@ -45,14 +45,6 @@ pub(in crate::view) fn csv(lab: &Lab) -> Option<Vec<String>> {
         }
     }
     Some(lines)
-}
-
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.into()
-    }
 }
 
 /// The plots of the chosen instrument as an SVG file; `None` if it has none.
@@ -124,11 +116,5 @@ mod tests {
                 assert_eq!(count(&format!("<{tag} ")), count(&format!("</{tag}>")), "{tag}");
             }
         }
-    }
-
-    #[test]
-    fn names_are_quoted_where_they_have_to_be() {
-        assert_eq!(quoted("free spring"), "free spring");
-        assert_eq!(quoted("a, \"b\""), "\"a, \"\"b\"\"\"");
     }
 }

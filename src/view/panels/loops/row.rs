@@ -28,8 +28,7 @@ impl<'a> Row<'a> {
             Severity::Unknown => None,
         };
         let sign = Some((Sign::of_severity(verdict.severity), verdict.severity));
-        let wordings = wordings(&verdict.text).into_iter().map(str::to_owned).collect();
-        let verdict = VerdictText { sign, wordings, rank };
+        let verdict = VerdictText { sign, wordings: verdict.wordings(), rank };
         let is_on_stage = loops.on_stage().contains(&place);
         Self { loops, place, lane, is_on_stage, verdict }
     }
@@ -76,12 +75,6 @@ impl<'a> Row<'a> {
     }
 }
 
-/// A verdict, and what is left of it without its last parts.
-fn wordings(verdict: &str) -> Vec<&str> {
-    let shorter = verdict.rmatch_indices(", ").map(|(end, _)| &verdict[..end]);
-    std::iter::once(verdict).chain(shorter).collect()
-}
-
 impl TableRow for Row<'_> {
     fn spoken(&self) -> String {
         format!("{} {}, {}", self.place + 1, self.lane.card().name, self.verdict.whole())
@@ -114,19 +107,5 @@ impl TableRow for Row<'_> {
         ui.label(format!("At {tick_hz} Hz, trace {display}: {}.", self.verdict.whole()));
         ui.label(format!("Used by {}.", card.users));
         ui.label(RichText::new(card.source).color(ink(ui).dim));
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_verdict_is_shortened_from_its_end() {
-        assert_eq!(
-            wordings("smooth, loses 3 ms, late"),
-            ["smooth, loses 3 ms, late", "smooth, loses 3 ms", "smooth"]
-        );
-        assert_eq!(wordings("smooth"), ["smooth"]);
     }
 }
