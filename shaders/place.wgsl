@@ -16,8 +16,3 @@ fn clip_from_px(px: vec2<f32>) -> vec4<f32> {
     let part = px / place.target_px;
     return vec4(2.0 * part.x - 1.0, 1.0 - 2.0 * part.y, 0.0, 1.0);
 }
-
-// The corner of a quad that a vertex is, each coordinate 0 or 1.
-fn corner_of(vertex: u32) -> vec2<f32> {
-    return vec2(f32(vertex & 1u), f32((vertex >> 1u) & 1u));
-}

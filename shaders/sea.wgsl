@@ -25,7 +25,8 @@ struct Varying {
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32, part: Part) -> Varying {
-    let corner = corner_of(index);
+    // Each coordinate 0 or 1.
+    let corner = vec2(f32(index & 1u), f32((index >> 1u) & 1u));
     let size_px = part.rect_px.zw - part.rect_px.xy;
     let at_px = part.rect_px.xy + corner * size_px;
     let middle_px = part.rect_px.xy + size_px * vec2(0.62, 0.22);

@@ -81,7 +81,7 @@ impl Picture {
     pub fn paths(&self) -> impl Iterator<Item = &Path> {
         self.shapes.iter().filter_map(|shape| match shape {
             Shape::Path(path) => Some(path),
-            Shape::Stroke(_) | Shape::Fill(_) => None,
+            Shape::Fill(_) => None,
         })
     }
 }
@@ -98,18 +98,17 @@ pub struct Sea {
 /// Something drawn on the sea.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// A disc, a taper, or a short line.
-    Stroke(Stroke),
-    /// A line through points.
+    /// A line, or a dot.
     Path(Path),
     /// A filled outline.
     Fill(Fill),
 }
 
-/// A line through points, with a width and a colour at each.
+/// A line through points, with a width and a colour at each, and round ends; one that goes nowhere is a disc. One that
+/// comes back to its first point has no ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
-    /// The points, of which many may lie in one pixel.
+    /// The points, at least two, of which many may lie in one pixel.
     pub points: Vec<PathPoint>,
     /// Drawn length and gap in points; a gap of 0 is solid.
     pub dash: [f32; 2],
@@ -133,32 +132,6 @@ pub struct PathPoint {
 pub struct Fill {
     /// The corners, each with the colour there, in either direction.
     pub corners: Vec<([f32; 2], Rgba)>,
-    /// Nothing is drawn outside this.
-    pub clip: Rect,
-}
-
-/// The shape of a stroke's ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cap {
-    /// A disc at either end: lines, dots, hulls.
-    Round,
-    /// Cut straight through the end point, for equal radii: with a length equal to its width, a square.
-    Butt,
-}
-
-/// A line from disc to disc: with equal radii a stroke, with different ones a hull, of no length a dot.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stroke {
-    /// One end.
-    pub from: [f32; 2],
-    /// The other end.
-    pub to: [f32; 2],
-    /// Half the width at either end.
-    pub radii: [f32; 2],
-    /// Its colour.
-    pub colour: Rgba,
-    /// The shape of the ends.
-    pub cap: Cap,
     /// Nothing is drawn outside this.
     pub clip: Rect,
 }

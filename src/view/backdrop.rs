@@ -131,7 +131,7 @@ impl Scenery {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::picture::{Cap, Rect, Rgba, Stroke};
+    use crate::lab::picture::{Path, PathPoint, Rect, Rgba};
     use crate::view::Offscreen;
     use crate::view::stage::{Stage, StageRenderer};
     use crate::view::testing::{EVERYWHERE, draw_next, draw_picture, gpu_or_skip};
@@ -140,9 +140,9 @@ mod tests {
     fn picture(top: Rgba, lines: usize, own: f32) -> Picture {
         let rect = Rect { min: [0.0; 2], max: [64.0; 2] };
         let line = |y: f32, colour| {
-            let (from, to) = ([3.0, y], [60.0, y + 2.3]);
-            let radii = [1.3; 2];
-            Shape::Stroke(Stroke { from, to, radii, colour, cap: Cap::Round, clip: EVERYWHERE })
+            let points =
+                [[3.0, y], [60.0, y + 2.3]].map(|at| PathPoint { at, radius: 1.3, colour });
+            Shape::Path(Path { points: points.into(), dash: [1.0, 0.0], clip: EVERYWHERE })
         };
         let pale = (0..lines).map(|place| line(2.0 * place as f32, [120, 200, 255, 90]));
         Picture {

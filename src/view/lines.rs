@@ -1,17 +1,11 @@
-//! Lines through points, as few quads as show the same picture.
-//!
-//! A vertex says how wide its line is there, and how far across and along the line it lies, in pixels, so that
-//! a shader can tell how much of a pixel is covered.
+//! Lines through points: what shows of them, with as few points as show the same picture.
 
-use bytemuck::{Pod, Zeroable};
-use egui::{Color32, Pos2, Rect, Vec2, vec2};
+use egui::{Color32, Pos2, Rect, Vec2};
 
 /// How far a line may be drawn from its points, in points of the screen: less than anybody sees.
 const TOLERANCE: f32 = 0.2;
 /// How far a channel of its colour may be from theirs, of 255.
 const TINT: f32 = 3.0;
-/// Corners sharper than this, the cosine of the turn, are not mitred: the tip would stick out.
-const SHARPEST_MITRE: f32 = 0.0;
 
 /// A point of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -159,109 +153,6 @@ impl Piece {
     }
 }
 
-/// A vertex in `shaders/lines.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub(super) struct LineVertex {
-    /// In points.
-    pub(super) at: [f32; 2],
-    /// Half the line's width here, and how far from its middle.
-    pub(super) across_px: [f32; 2],
-    /// How far along the line, and the drawn length and the gap of its dashes.
-    pub(super) along_px: [f32; 3],
-    pub(super) colour: Color32,
-}
-
-/// Lines of one dash pattern, as triangles.
-#[derive(Clone, Debug)]
-pub(super) struct LineMesh {
-    /// Drawn length and gap in points; a gap of 0 is solid.
-    pub(super) dash: [f32; 2],
-    pub(super) vertices: Vec<LineVertex>,
-    pub(super) indices: Vec<u32>,
-}
-
-impl LineMesh {
-    pub(super) fn new(dash: [f32; 2]) -> Self {
-        Self { dash, vertices: Vec::new(), indices: Vec::new() }
-    }
-
-    /// Adds a filled outline that can be seen whole from the mean of its corners, its edge blurred over a pixel.
-    pub(super) fn fill(&mut self, corners: &[(Pos2, Color32)], px_per_point: f32) {
-        /// Wider than a pixel on both sides: it is all covered.
-        const WHOLE_PX: [f32; 2] = [1.0, 0.0];
-        let count = corners.len();
-        if count < 3 {
-            return;
-        }
-        let first = self.vertices.len() as u32;
-        let mut add = |at: Pos2, colour: Color32| {
-            let (at, along_px) = (at.into(), [0.0, 1.0, 0.0]);
-            self.vertices.push(LineVertex { at, across_px: WHOLE_PX, along_px, colour });
-        };
-        let mean = |channel: usize| {
-            let sum: u32 = corners.iter().map(|(_, colour)| u32::from(colour[channel])).sum();
-            (sum / count as u32) as u8
-        };
-        let middle =
-            corners.iter().fold(Vec2::ZERO, |sum, (at, _)| sum + at.to_vec2()) / count as f32;
-        let middle = middle.to_pos2();
-        add(middle, Color32::from_rgba_premultiplied(mean(0), mean(1), mean(2), mean(3)));
-        for (i, &(at, colour)) in corners.iter().enumerate() {
-            let [before, after] = [i + count - 1, i + 1].map(|place| corners[place % count].0);
-            let along = (after - before).normalized();
-            let normal = vec2(along.y, -along.x);
-            let out = if normal.dot(at - middle) < 0.0 { -normal } else { normal };
-            let half = out * (0.5 / px_per_point);
-            add(at - half, colour);
-            add(at + half, Color32::TRANSPARENT);
-        }
-        for i in 0..count as u32 {
-            let next = (i + 1) % count as u32;
-            let [inner, outer] = [1, 2].map(|side| first + 2 * i + side);
-            let [next_inner, next_outer] = [1, 2].map(|side| first + 2 * next + side);
-            self.indices.extend([first, inner, next_inner]);
-            self.indices.extend([inner, outer, next_inner, next_inner, outer, next_outer]);
-        }
-    }
-
-    /// Adds a line as quads from joint to joint, mitred where they meet.
-    pub(super) fn add(&mut self, line: &[Joint], px_per_point: f32) {
-        let [drawn_px, gap_px] = self.dash.map(|points| points * px_per_point);
-        self.vertices.reserve(2 * line.len());
-        self.indices.reserve(6 * line.len());
-        let vertices = &mut self.vertices;
-        let mut add = |joint: Joint, normal: Vec2, along: f32| {
-            let half_px = joint.radius * px_per_point;
-            // Half a pixel of blur, and a little for the corners of pixels.
-            let reach_px = half_px + 1.0;
-            for across_px in [reach_px, -reach_px] {
-                vertices.push(LineVertex {
-                    at: (joint.at + normal * (across_px / px_per_point)).into(),
-                    across_px: [half_px, across_px],
-                    along_px: [along * px_per_point, drawn_px, gap_px],
-                    colour: joint.colour,
-                });
-            }
-            vertices.len() as u32 - 2
-        };
-        // The pair of vertices that the next quad shares with this one.
-        let mut shared = None;
-        let mut done = 0.0;
-        for (index, ends) in line.windows(2).enumerate() {
-            let along = (ends[1].at - ends[0].at).normalized();
-            let from = shared.unwrap_or_else(|| add(ends[0], along.rot90(), done));
-            done += ends[0].at.distance(ends[1].at);
-            let next = line.get(index + 2).map(|next| (next.at - ends[1].at).normalized());
-            let mitre = next.filter(|&next| along.dot(next) > SHARPEST_MITRE);
-            let normal = mitre.map_or(along, |next| (along + next) / (1.0 + along.dot(next)));
-            let to = add(ends[1], normal.rot90(), done);
-            shared = mitre.map(|_| to);
-            self.indices.extend([from, from + 1, to, to, from + 1, to + 1]);
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -352,25 +243,5 @@ mod tests {
         let mut red = straight;
         red[10..].iter_mut().for_each(|joint| joint.colour = Color32::RED);
         assert_eq!(simple(&red), [red[0], red[9], red[10], red[29]]);
-    }
-
-    #[test]
-    fn quads_are_joined_at_the_corners_of_a_line_and_not_at_its_spikes() {
-        let strip_of = |line: &[Joint]| {
-            let mut mesh = LineMesh::new([6.0, 4.0]);
-            mesh.add(line, 1.0);
-            mesh
-        };
-        let bend = strip_of(&line([[0.0, 0.0], [10.0, 0.0], [20.0, 5.0]]));
-        assert_eq!((bend.vertices.len(), bend.indices.len()), (6, 12));
-        let spike = strip_of(&line([[0.0, 0.0], [10.0, 0.0], [0.0, 1.0]]));
-        assert_eq!((spike.vertices.len(), spike.indices.len()), (8, 12));
-        for vertex in &bend.vertices {
-            assert_eq!((vertex.across_px[0], vertex.across_px[1].abs()), (1.0, 2.0));
-            assert_eq!(vertex.along_px[1..], [6.0, 4.0]);
-        }
-        let length = 10.0 + 125.0_f32.sqrt();
-        assert_eq!([0, 2, 4].map(|i| bend.vertices[i].along_px[0]), [0.0, 10.0, length]);
-        assert_eq!(bend.vertices[0].at, [0.0, -2.0]);
     }
 }

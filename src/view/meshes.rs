@@ -4,14 +4,14 @@
 //! a software adapter more than everything else in a frame. Here a texel is looked up.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use egui::epaint::{self, Mesh, Primitive, Vertex, WHITE_UV};
 use egui::{ClippedPrimitive, ImageData, TextureId};
 
 use super::gpu::Gpu;
-use super::lines::LineMesh;
 use super::place::{Place, PlaceGroup, pipeline};
-use super::strips::{Strip, Strips};
+use super::strokes::{StrokeMesh, StrokePipeline};
 use super::textures::texture;
 use super::triangles::Triangles;
 
@@ -42,8 +42,8 @@ struct Draw {
 
 #[derive(Debug)]
 enum Drawn {
-    Triangles { kind: Kind, texture: TextureId, indices: std::ops::Range<u32> },
-    Lines(Strip),
+    Triangles { kind: Kind, texture: TextureId, indices: Range<u32> },
+    Strokes(Range<u32>),
 }
 
 /// Draws egui's meshes on targets of one format.
@@ -55,7 +55,7 @@ pub(super) struct MeshRenderer {
     atlases: HashMap<TextureId, (wgpu::Texture, wgpu::BindGroup)>,
     place: PlaceGroup,
     triangles: Triangles<Vertex>,
-    strips: Strips,
+    strokes: StrokePipeline,
     draws: Vec<Draw>,
 }
 
@@ -93,7 +93,7 @@ impl MeshRenderer {
             pipelines,
             atlas_layout,
             atlases: HashMap::new(),
-            strips: Strips::new(gpu, &layout(&[Some(&place.layout)]), format),
+            strokes: StrokePipeline::new(gpu, &layout(&[Some(&place.layout)]), format),
             place,
             triangles: Triangles::new(gpu, "panels"),
             draws: Vec::new(),
@@ -150,7 +150,7 @@ impl MeshRenderer {
     ) {
         self.draws.clear();
         self.triangles.clear();
-        self.strips.clear();
+        self.strokes.clear();
         for ClippedPrimitive { clip_rect, primitive } in primitives {
             let scissor_px = scissor(*clip_rect, size_px, px_per_point);
             if scissor_px[2] == 0 || scissor_px[3] == 0 {
@@ -171,8 +171,8 @@ impl MeshRenderer {
                 }
                 // Of callbacks, only the curves of plots are ours.
                 Primitive::Callback(callback) => {
-                    if let Some(mesh) = callback.callback.downcast_ref::<LineMesh>() {
-                        let what = Drawn::Lines(self.strips.add(mesh));
+                    if let Some(mesh) = callback.callback.downcast_ref::<StrokeMesh>() {
+                        let what = Drawn::Strokes(self.strokes.add(mesh));
                         self.draws.push(Draw { scissor_px, what });
                     }
                 }
@@ -182,7 +182,7 @@ impl MeshRenderer {
         let edges_px = [0.0, 0.0, width, height];
         self.place.write(gpu, &Place { size_px, origin_px: [0.0; 2], px_per_point, edges_px });
         self.triangles.upload(gpu);
-        self.strips.upload(gpu);
+        self.strokes.upload(gpu);
     }
 
     /// Draws what was prepared.
@@ -195,10 +195,9 @@ impl MeshRenderer {
                     let Some((_, bind_group)) = self.atlases.get(texture) else { continue };
                     pass.set_pipeline(&self.pipelines[*kind as usize]);
                     pass.set_bind_group(1, bind_group, &[]);
-                    self.triangles.bind(pass);
-                    pass.draw_indexed(indices.clone(), 0, 0..1);
+                    self.triangles.draw(pass, indices.clone());
                 }
-                Drawn::Lines(strip) => self.strips.draw(pass, strip),
+                Drawn::Strokes(indices) => self.strokes.draw(pass, indices.clone()),
             }
         }
     }

@@ -20,13 +20,11 @@ mod offscreen_renderer;
 mod panels;
 mod place;
 pub mod png;
-mod quads;
 mod readback;
 mod screen;
 mod sea;
 mod shapes;
 mod stage;
-mod strips;
 mod strokes;
 #[cfg(test)]
 mod testing;

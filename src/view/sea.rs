@@ -1,10 +1,12 @@
 //! The background of the stage: water, lighter towards the top and under a light.
 
+use std::ops::Range;
+
 use bytemuck::{Pod, Zeroable};
 
 use super::gpu::Gpu;
 use super::place::{Place, pipeline};
-use super::quads::Quads;
+use super::triangles::Triangles;
 use crate::lab::picture::Sea;
 
 const SHADER: &str =
@@ -26,7 +28,8 @@ const ATTRIBUTES: [wgpu::VertexAttribute; 3] =
 #[derive(Debug)]
 pub(super) struct SeaPipeline {
     pipeline: wgpu::RenderPipeline,
-    quads: Quads<Part>,
+    triangles: Triangles<Part>,
+    indices: Range<u32>,
 }
 
 impl SeaPipeline {
@@ -37,7 +40,7 @@ impl SeaPipeline {
     ) -> Self {
         let names = ["sea", SHADER, "water"];
         let pipeline = pipeline::<Part>(gpu, layout, format, names, &ATTRIBUTES, None);
-        Self { pipeline, quads: Quads::new(gpu, "sea") }
+        Self { pipeline, triangles: Triangles::new(gpu, "sea"), indices: 0..0 }
     }
 
     pub(super) fn upload(&mut self, gpu: &Gpu, sea: Option<&Sea>, place: &Place) {
@@ -47,12 +50,17 @@ impl SeaPipeline {
             let rect_px = [left, top, right, bottom].map(f32::round);
             Part { rect_px, top: sea.colours[0], bottom: sea.colours[1] }
         };
-        self.quads.upload(gpu, sea.map(part).into_iter());
+        self.triangles.clear();
+        self.indices = sea.map_or(0..0, |sea| {
+            // Which corner a vertex is, its index says.
+            self.triangles.add(&[part(sea); 4], &[0, 1, 2, 2, 1, 3])
+        });
+        self.triangles.upload(gpu);
     }
 
     pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
         pass.set_pipeline(&self.pipeline);
-        self.quads.draw_all(pass);
+        self.triangles.draw(pass, self.indices.clone());
     }
 }
 

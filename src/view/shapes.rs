@@ -1,62 +1,33 @@
-//! The shapes of a picture, in painting order: strokes, lines through points, and filled outlines.
+//! The shapes of a picture, in painting order: lines through points, and filled outlines.
 
 use std::ops::Range;
 
 use egui::Rect;
 
 use super::gpu::Gpu;
-use super::lines::{Joint, LineMesh, shown};
+use super::lines::{Joint, shown};
 use super::place::Place;
-use super::strips::{Strip, Strips};
-use super::strokes::{StrokeKind, StrokePipeline};
+use super::strokes::{StrokeMesh, StrokePipeline};
 use super::theme::colour;
 use crate::lab::picture::{self, PathPoint, Shape};
-
-/// The dash pattern of what has no dashes.
-const SOLID: [f32; 2] = [1.0, 0.0];
 
 /// Draws a picture's shapes.
 #[derive(Debug)]
 pub(super) struct ShapeRenderer {
     strokes: StrokePipeline,
-    strips: Strips,
     draws: Vec<Draw>,
 }
 
-/// Shapes that follow each other and are drawn in the same way within one clip.
+/// Shapes that follow each other within one clip.
 #[derive(Debug)]
 struct Draw {
     /// Left, top, width and height of what shows on the target.
     scissor_px: [u32; 4],
-    what: Drawn,
-}
-
-#[derive(Debug)]
-enum Drawn {
-    Strokes(StrokeKind, Range<u32>),
-    Strip(Strip),
-}
-
-/// What can be drawn together.
-#[derive(Clone, Copy, PartialEq)]
-enum Way {
-    Strokes(StrokeKind),
-    Lines { dash: [f32; 2] },
-}
-
-impl Way {
-    fn of(shape: &Shape) -> Self {
-        match shape {
-            Shape::Stroke(stroke) => Way::Strokes(StrokeKind::of(stroke)),
-            Shape::Path(path) if path.dash[1] > 0.0 => Way::Lines { dash: path.dash },
-            Shape::Path(_) | Shape::Fill(_) => Way::Lines { dash: SOLID },
-        }
-    }
+    indices: Range<u32>,
 }
 
 fn clip(shape: &Shape) -> picture::Rect {
     match shape {
-        Shape::Stroke(stroke) => stroke.clip,
         Shape::Path(path) => path.clip,
         Shape::Fill(fill) => fill.clip,
     }
@@ -68,77 +39,54 @@ impl ShapeRenderer {
         layout: &wgpu::PipelineLayout,
         format: wgpu::TextureFormat,
     ) -> Self {
-        Self {
-            strokes: StrokePipeline::new(gpu, layout, format),
-            strips: Strips::new(gpu, layout, format),
-            draws: Vec::new(),
-        }
+        Self { strokes: StrokePipeline::new(gpu, layout, format), draws: Vec::new() }
     }
 
     /// Forgets all shapes.
     pub(super) fn clear(&mut self) {
         self.draws.clear();
-        self.strips.clear();
         self.strokes.clear();
     }
 
     /// Adds shapes over the others, and says which draws they got.
     pub(super) fn add(&mut self, shapes: &[Shape], place: &Place) -> Range<usize> {
         let first = self.draws.len();
-        let alike = |a: &Shape, b: &Shape| clip(a) == clip(b) && Way::of(a) == Way::of(b);
-        for run in shapes.chunk_by(alike) {
+        for run in shapes.chunk_by(|a, b| clip(a) == clip(b)) {
             let scissor_px = place.scissor_px(clip(&run[0]));
             if scissor_px[2] == 0 || scissor_px[3] == 0 {
                 continue;
             }
-            let what = match Way::of(&run[0]) {
-                Way::Strokes(kind) => {
-                    let strokes = run.iter().filter_map(|shape| match shape {
-                        Shape::Stroke(stroke) => Some(stroke),
-                        Shape::Path(_) | Shape::Fill(_) => None,
-                    });
-                    Drawn::Strokes(kind, self.strokes.add(strokes))
-                }
-                Way::Lines { dash } => {
-                    let mut mesh = LineMesh::new(dash);
-                    run.iter().for_each(|shape| add(&mut mesh, shape, place));
-                    Drawn::Strip(self.strips.add(&mesh))
-                }
-            };
-            self.draws.push(Draw { scissor_px, what });
+            let mut mesh = StrokeMesh::default();
+            run.iter().for_each(|shape| add(&mut mesh, shape, place));
+            self.draws.push(Draw { scissor_px, indices: self.strokes.add(&mesh) });
         }
         first..self.draws.len()
     }
 
     /// Uploads all that was added.
     pub(super) fn upload(&mut self, gpu: &Gpu) {
-        self.strips.upload(gpu);
         self.strokes.upload(gpu);
     }
 
     /// Draws some of them.
     pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>, draws: Range<usize>) {
-        for Draw { scissor_px: [left, top, width, height], what } in &self.draws[draws] {
+        for Draw { scissor_px: [left, top, width, height], indices } in &self.draws[draws] {
             pass.set_scissor_rect(*left, *top, *width, *height);
-            match what {
-                Drawn::Strokes(kind, quads) => self.strokes.draw(pass, *kind, quads.clone()),
-                Drawn::Strip(strip) => self.strips.draw(pass, strip),
-            }
+            self.strokes.draw(pass, indices.clone());
         }
     }
 }
 
-fn add(mesh: &mut LineMesh, shape: &Shape, place: &Place) {
+fn add(mesh: &mut StrokeMesh, shape: &Shape, place: &Place) {
     let window = clip(shape);
     let window = Rect::from_min_max(window.min.into(), window.max.into());
     match shape {
-        Shape::Stroke(_) => {}
         Shape::Path(path) => {
             let widest = path.points.iter().map(|point| point.radius).fold(0.0, f32::max);
             // Half a pixel more for its blur.
             let window = window.expand(widest + 0.5 / place.px_per_point);
             for run in shown(path.points.iter().map(joint), window) {
-                mesh.add(&run, place.px_per_point);
+                mesh.add(run, path.dash, place.px_per_point);
             }
         }
         Shape::Fill(fill) => {
@@ -155,8 +103,10 @@ fn joint(point: &PathPoint) -> Joint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::picture::{self, Cap, Fill, Path, Picture, Stroke};
+    use crate::lab::picture::{self, Fill, Path, Picture};
     use crate::view::testing::{EVERYWHERE, Pixels, draw_picture, gpu_or_skip};
+
+    const SOLID: [f32; 2] = [1.0, 0.0];
 
     fn point(at: [f32; 2], radius: f32) -> PathPoint {
         PathPoint { at, radius, colour: [255; 4] }
@@ -266,25 +216,16 @@ mod tests {
     fn later_shapes_lie_over_earlier_ones_of_every_kind() {
         let test = "later_shapes_lie_over_earlier_ones_of_every_kind";
         let Some(gpu) = gpu_or_skip(test) else { return };
-        let [red, green, blue] = [[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255]];
-        let stroke = Shape::Stroke(Stroke {
-            from: [10.0, 32.0],
-            to: [50.0, 32.0],
-            radii: [6.0; 2],
-            colour: red,
-            cap: Cap::Round,
-            clip: EVERYWHERE,
-        });
+        let [green, blue] = [[0, 255, 0, 255], [0, 0, 255, 255]];
         let points =
             [[10.0, 32.0], [50.0, 32.0]].map(|at| PathPoint { at, radius: 6.0, colour: green });
         let path = Shape::Path(Path { points: points.into(), dash: SOLID, clip: EVERYWHERE });
         let corners = [[10.0, 26.0], [50.0, 26.0], [50.0, 38.0], [10.0, 38.0]];
         let fill =
             Shape::Fill(Fill { corners: corners.map(|at| (at, blue)).into(), clip: EVERYWHERE });
-        for last in 0..3 {
-            let mut shapes = vec![stroke.clone(), path.clone(), fill.clone()];
-            shapes.rotate_left(last);
-            let expected = [blue, red, green][last];
+        for (shapes, expected) in
+            [(vec![path.clone(), fill.clone()], blue), (vec![fill, path], green)]
+        {
             let picture = Picture { shapes, ..Picture::default() };
             assert_eq!(draw_picture(&gpu, [64, 64], 1.0, &picture).at(30, 32), expected);
         }

@@ -47,10 +47,11 @@ impl<V: bytemuck::Pod> Triangles<V> {
         write(gpu, self.label, &mut self.index_buffer, bytemuck::cast_slice(&self.indices));
     }
 
-    /// Makes the pass draw of what was uploaded.
-    pub(super) fn bind(&self, pass: &mut wgpu::RenderPass<'_>) {
+    /// Draws some of what was uploaded, with the pipeline that is set.
+    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, indices: Range<u32>) {
         pass.set_vertex_buffer(0, self.vertex_buffer.slice(..));
         pass.set_index_buffer(self.index_buffer.slice(..), wgpu::IndexFormat::Uint32);
+        pass.draw_indexed(indices, 0, 0..1);
     }
 }
 

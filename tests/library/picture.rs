@@ -8,11 +8,6 @@ fn assert_drawable(picture: &Picture, what: &str) {
     let finite = |values: &[f32]| values.iter().all(|x| x.is_finite() && x.abs() <= 2.0 * FAR);
     for shape in &picture.shapes {
         let clip = match shape {
-            Shape::Stroke(stroke) => {
-                let all = [stroke.from, stroke.to, stroke.radii];
-                assert!(all.iter().all(|pair| finite(pair)), "{what}: {stroke:?}");
-                stroke.clip
-            }
             Shape::Path(path) => {
                 for point in &path.points {
                     assert!(finite(&point.at) && finite(&[point.radius]), "{what}: {point:?}");

@@ -1,8 +1,8 @@
-//! From metres to points: the camera of one cell, and the marks of a body as strokes.
+//! From metres to points: the camera of one cell, and the marks of a body as lines and fills.
 
 use glam::DVec2;
 
-use super::{Cap, FAR, Fill, Path, PathPoint, Rect, Rgba, Shape, Stroke};
+use super::{FAR, Fill, Path, PathPoint, Rect, Rgba, Shape};
 use crate::lab::ZoomPan;
 
 /// Looks at one body's world through one cell of the stage.
@@ -99,25 +99,24 @@ pub(super) fn demote(x: f64) -> f32 {
     if x.is_nan() { FAR } else { x.clamp(-far, far) as f32 }
 }
 
-/// A line with round ends, `width` points wide.
+/// A straight line, `width` points wide.
 pub(super) fn line(from: [f32; 2], to: [f32; 2], width: f32, colour: Rgba, clip: Rect) -> Shape {
-    taper(from, to, [width / 2.0; 2], colour, clip)
+    path([from, to], width, colour, SOLID, clip)
 }
 
 /// A disc.
 pub(super) fn disc(at: [f32; 2], radius: f32, colour: Rgba, clip: Rect) -> Shape {
-    taper(at, at, [radius; 2], colour, clip)
+    line(at, at, 2.0 * radius, colour, clip)
 }
 
-/// A line from a disc of one radius to a disc of another.
+/// A line of one colour through points, with half its width at each.
 pub(super) fn taper(
-    from: [f32; 2],
-    to: [f32; 2],
-    radii: [f32; 2],
+    points: impl IntoIterator<Item = ([f32; 2], f32)>,
     colour: Rgba,
     clip: Rect,
 ) -> Shape {
-    Shape::Stroke(Stroke { from, to, radii, colour, cap: Cap::Round, clip })
+    let point = |(at, radius)| PathPoint { at, radius, colour };
+    Shape::Path(Path { points: points.into_iter().map(point).collect(), dash: SOLID, clip })
 }
 
 /// The dash pattern of an unbroken line.

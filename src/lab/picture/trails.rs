@@ -158,21 +158,21 @@ impl DrawContext<'_> {
     ) {
         let unit = width_m / 60.0;
         let foam = self.palette.chart;
-        let legs = self.legs(from, history, wake_s);
-        let half_width = |age: f64| unit * (0.8 + 0.9 * age / wake_s);
-        for leg in &legs {
-            for (spread, part) in [(1.0, 0.24), (0.7, 0.16), (0.4, 0.22)] {
-                picture.shapes.push(trail(leg, camera.rect, |place| {
-                    let colour = mixed(foam, place.colour, 0.35);
-                    PathPoint {
-                        at: camera.points(place.at),
-                        radius: camera.size(spread * half_width(place.age)),
-                        colour: faded(colour, part * self.fade(place.age, wake_s)),
-                    }
-                }));
-            }
+        let course = self.legs(from, history, wake_s).concat();
+        if course.is_empty() {
+            return;
         }
-        let course: Vec<Place> = legs.into_iter().flatten().collect();
+        let half_width = |age: f64| unit * (0.8 + 0.9 * age / wake_s);
+        for (spread, part) in [(1.0, 0.24), (0.7, 0.16), (0.4, 0.22)] {
+            picture.shapes.push(trail(&course, camera.rect, |place| {
+                let colour = mixed(foam, place.colour, 0.35);
+                PathPoint {
+                    at: camera.points(place.at),
+                    radius: camera.size(spread * half_width(place.age)),
+                    colour: faded(colour, part * self.fade(place.age, wake_s)),
+                }
+            }));
+        }
         for ends in course.windows(2) {
             let [newer, older] = [ends[0], ends[1]];
             let Some(ahead) = (newer.at - older.at).try_normalize() else { continue };
@@ -191,7 +191,7 @@ impl DrawContext<'_> {
                 let ends = [at, at - unit * (0.5 + dice(11.137)) * ahead];
                 let colour = faded(self.palette.text, 0.42 * self.fade(older.age, wake_s));
                 let [tip, tail] = ends.map(|end| camera.points(end));
-                picture.shapes.push(taper(tip, tail, [1.1, 0.3], colour, camera.rect));
+                picture.shapes.push(taper([(tip, 1.1), (tail, 0.3)], colour, camera.rect));
             }
         }
         for side in [-1.0, 1.0] {
@@ -229,14 +229,10 @@ impl DrawContext<'_> {
                 let foot = at + 0.9 * unit.abs() * ahead - 0.25 * out;
                 let bend = at + 0.1 * out;
                 let tip = at - 0.8 * unit.abs() * ahead + 0.6 * out;
-                let strokes =
-                    [(foot, 0.4), (bend, 1.2), (tip, 0.2)].map(|(at, radius)| PathPoint {
-                        at: camera.points(at),
-                        radius,
-                        colour: faded(self.palette.chart, 0.85 * fade),
-                    });
-                let (points, clip) = (strokes.to_vec(), camera.rect);
-                picture.shapes.push(Shape::Path(Path { points, dash: SOLID, clip }));
+                let colour = faded(self.palette.chart, 0.85 * fade);
+                let points = [(foot, 0.4), (bend, 1.2), (tip, 0.2)];
+                let points = points.map(|(at, radius)| (camera.points(at), radius));
+                picture.shapes.push(taper(points, colour, camera.rect));
                 due += FEATHER * unit.abs();
             }
         }

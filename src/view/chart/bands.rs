@@ -7,7 +7,8 @@ use std::sync::Arc;
 use egui::epaint::{Mesh, PaintCallback};
 use egui::{Color32, Painter, Pos2, Shape, pos2};
 
-use crate::view::lines::{Joint, LineMesh, shown};
+use crate::view::lines::{Joint, shown};
+use crate::view::strokes::StrokeMesh;
 
 /// How much of its colour a band has between its edges.
 const FILL: f32 = 0.35;
@@ -54,9 +55,9 @@ pub(super) fn paint(
             }
         }
         painter.add(Shape::mesh(fill));
-        let mut lines = LineMesh::new([1.0, 0.0]);
+        let mut lines = StrokeMesh::default();
         for run in edges.iter().flat_map(|edge| shown(edge.iter().copied(), frame.expand(EDGE))) {
-            lines.add(&run, painter.pixels_per_point());
+            lines.add(run, [1.0, 0.0], painter.pixels_per_point());
         }
         painter.add(PaintCallback { rect: frame, callback: Arc::new(lines) });
     }

@@ -9,7 +9,8 @@ use egui::epaint::PaintCallback;
 use egui::{Color32, Painter, Pos2, Rect, Vec2, vec2};
 
 use super::{PlotArea, bands};
-use crate::view::lines::{Joint, LineMesh, shown};
+use crate::view::lines::{Joint, shown};
+use crate::view::strokes::StrokeMesh;
 
 /// How a curve is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,7 +100,7 @@ const MAX_HIDDEN: f32 = 1.0 / 16.0;
 /// Draws a curve through `points` on the screen, as far as the painter's clip shows it: its line, or where swings are
 /// too narrow to be told apart, their [band](bands). `swept` has the heights that the curve comes to on the way to each
 /// point, where they are known. What the painter gets for a line is a
-/// [`LineMesh`] for [`MeshRenderer`](crate::view::meshes::MeshRenderer). Returns whether something is drawn: a crowded curve
+/// [`StrokeMesh`] for [`MeshRenderer`](crate::view::meshes::MeshRenderer). Returns whether something is drawn: a crowded curve
 /// that goes back and forth has no band.
 pub(in crate::view) fn paint(
     painter: &Painter,
@@ -118,8 +119,9 @@ pub(in crate::view) fn paint(
         }
         return goes_on;
     }
-    let mut mesh = LineMesh::new([drawn, if is_crowded { 0.0 } else { gap }]);
-    runs.iter().for_each(|run| mesh.add(run, painter.pixels_per_point()));
+    let dash = [drawn, if is_crowded { 0.0 } else { gap }];
+    let mut mesh = StrokeMesh::default();
+    runs.into_iter().for_each(|run| mesh.add(run, dash, painter.pixels_per_point()));
     painter.add(PaintCallback { rect: painter.clip_rect(), callback: Arc::new(mesh) });
     true
 }

@@ -1,21 +1,15 @@
 use super::*;
 use crate::lab::Scene;
-use crate::lab::picture::Picture;
-use crate::lab::picture::{Cap, Shape, Stroke};
+use crate::lab::picture::{Fill, Picture, Shape};
 use crate::view::chart::{LineStyle, curves};
 use crate::view::testing::{EVERYWHERE, Pixels, gpu_or_skip, read};
 use crate::view::{AdapterPreference, Offscreen};
 
 fn red_everywhere() -> Picture {
-    let stroke = Stroke {
-        from: [-1000.0; 2],
-        to: [1000.0; 2],
-        radii: [2000.0; 2],
-        colour: [255, 0, 0, 255],
-        cap: Cap::Round,
-        clip: EVERYWHERE,
-    };
-    Picture { shapes: vec![Shape::Stroke(stroke)], ..Picture::default() }
+    let corners = [[-1e3, -1e3], [1e3, -1e3], [1e3, 1e3], [-1e3, 1e3]];
+    let corners = corners.map(|at| (at, [255, 0, 0, 255])).into();
+    let shapes = vec![Shape::Fill(Fill { corners, clip: EVERYWHERE })];
+    Picture { shapes, ..Picture::default() }
 }
 
 /// A panel 40 points wide at the left; the stage is the rest.
@@ -102,9 +96,9 @@ fn a_curve_is_drawn_in_its_dashes_and_no_further_than_the_clip() {
     for x in 10..128 {
         let [dashed, solid] = [20, 40].map(|y| pixels.at(x, y)[0]);
         assert_eq!(solid > 250, x < 100, "{x}");
-        // Half a pixel from the ends of a dash lies its blur.
+        // At the ends of a dash lie its blur and its roundness.
         let into_pattern = (x as f32 + 0.5 - 10.0) % 14.0;
-        if x < 100 && (0.5..7.0).contains(&into_pattern) {
+        if x < 100 && (1.0..7.0).contains(&into_pattern) {
             assert!(dashed > 250, "{x} is in a dash");
         } else if x >= 100 || (9.0..13.0).contains(&into_pattern) {
             assert!(dashed < 10, "{x} is in a gap");

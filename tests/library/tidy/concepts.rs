@@ -11,7 +11,7 @@ struct Concept {
     marks: &'static [&'static str],
 }
 
-const CONCEPTS: [Concept; 27] = [
+const CONCEPTS: [Concept; 28] = [
     Concept {
         name: "dispatch by the type of a method",
         file: "src/sim/integrators/mod.rs",
@@ -125,6 +125,7 @@ const CONCEPTS: [Concept; 27] = [
         file: "src/lab/csv_row.rs",
         marks: &["fn csv_row"],
     },
+    Concept { name: "stroke", file: "src/view/strokes.rs", marks: &["fn mitre", "fn round_end"] },
     Concept {
         name: "table for programs",
         file: "src/commands/output/table.rs",
