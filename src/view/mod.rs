@@ -32,6 +32,7 @@ mod textures;
 mod theme;
 mod touch;
 mod triangles;
+mod wheel;
 
 pub use chart::AxisScale;
 pub use chart::figure::{Axis, Chart, Figure, FigureCurve, Legend};

@@ -6,6 +6,7 @@ use std::collections::VecDeque;
 use egui::{CursorIcon, Event, PointerButton, Pos2, Rect, Stroke, Ui, Vec2, vec2};
 
 use super::theme::ink;
+use super::wheel;
 use crate::lab::picture::{Cell, Grasp, Picture, Whose};
 use crate::lab::{Action, Command, Lab, Mode, ZoomPan};
 
@@ -14,8 +15,6 @@ const DRAG: f32 = 3.0;
 /// The time over which a drag's velocity is measured, in seconds: long enough for several frames, short enough for a
 /// hand that stopped to be at rest.
 const MEMORY_S: f64 = 0.1;
-/// How far a wheel turns for the picture to grow by the factor e, in points; a notch is some 40.
-const WHEEL: f32 = 200.0;
 /// From a body's edge to the ring that says that it can be grabbed, in points.
 const RING: f32 = 3.0;
 /// Its largest radius: round a ship as long as it is, it would leave the stage.
@@ -226,17 +225,13 @@ impl Touch {
 /// Zooms about the pointer by the wheel, or a pinch, and fits after a double click.
 fn zoom(ui: &Ui, stage: &Stage<'_>, at: Pos2, commands: &mut Vec<Command>) {
     let Some(cell) = stage.cell(at) else { return };
-    let (scrolled, pinched, fits) = ui.input(|input| {
-        let fits = input.pointer.button_double_clicked(PointerButton::Primary);
-        (input.smooth_scroll_delta().y, input.zoom_delta(), fits)
-    });
+    let (times, _) = wheel::turned(ui);
     let body = cell.zoomed_as;
-    let times = (scrolled / WHEEL).exp() * pinched;
-    if fits {
+    if ui.input(|input| input.pointer.button_double_clicked(PointerButton::Primary)) {
         commands.push(Command::ZoomPan { body, zoom_pan: ZoomPan::default() });
     } else if times != 1.0 {
         let about = cell.part(stage.point(at));
-        let zoom_pan = stage.lab.view().zoom_pan(body).zoomed(f64::from(times), about);
+        let zoom_pan = stage.lab.view().zoom_pan(body).zoomed(times, about);
         commands.push(Command::ZoomPan { body, zoom_pan });
     }
 }

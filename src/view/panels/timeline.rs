@@ -13,6 +13,7 @@ pub(super) use self::span::Span;
 use super::{Ink, ink};
 use crate::lab::{Command, Event, Lab, Mode, TimeScale};
 use crate::view::chart::AxisScale;
+use crate::view::wheel;
 
 mod marks;
 mod span;
@@ -39,8 +40,6 @@ const NUMBERS_APART: f64 = 64.0;
 const MARKS_APART: f32 = 15.0;
 /// The ticks in the closest view.
 const MIN_TICKS: f64 = 12.0;
-/// The points by which the wheel turns to zoom by *e*.
-const WHEEL: f64 = 240.0;
 /// The most marks that a tooltip tells of.
 const MAX_TOLD: usize = 8;
 
@@ -142,13 +141,12 @@ fn viewed(ui: &Ui, lab: &Lab, times: &TimeScale, response: &Response, along: Ran
         span = span.following(lab.race().t(), whole);
     }
     if let Some(pointer) = response.hover_pos() {
-        let (scroll, pinch) = ui.input(|i| (i.smooth_scroll_delta(), i.zoom_delta()));
-        let factor = f64::from(pinch) * libm::exp(f64::from(scroll.y) / WHEEL);
+        let (times, right) = wheel::turned(ui);
         let min_s = MIN_TICKS / f64::from(lab.race().tick_hz());
-        if factor != 1.0 {
-            span = span.zoomed(span.t(pointer.x, along), factor, min_s, whole);
+        if times != 1.0 {
+            span = span.zoomed(span.t(pointer.x, along), times, min_s, whole);
         }
-        let by_s = -f64::from(scroll.x / along.span()) * span.length_s();
+        let by_s = -f64::from(right / along.span()) * span.length_s();
         span = span.moved(by_s, whole);
     }
     if span.length_s() < whole.length_s() {
@@ -164,19 +162,28 @@ fn seek(ui: &Ui, lab: &Lab, response: &Response, track: &Track<'_>, commands: &m
     let present = lab.race().tick();
     let name = format!("timeline, at tick {present}");
     response.widget_info(|| egui::WidgetInfo::slider(true, lab.race().t(), &name));
-    let is_pressed = response.is_pointer_button_down_on();
-    // A press that is over before the next frame is only seen by its end. An end without anything new goes nowhere: a key
-    // of the same frame has gone on from there.
-    let is_new = ui.input(|i| i.pointer.any_pressed() || i.pointer.delta() != Vec2::ZERO);
-    let has_ended = response.clicked() || response.drag_stopped();
-    if (is_pressed || has_ended && is_new)
-        && let Some(pointer) = response.interact_pointer_pos()
-    {
-        let tick = track.tick(track.along.clamp(pointer.x)).min(lab.timeline().end());
+    if let Some(x) = pressed(ui, response, track.along) {
+        let tick = track.tick(x).min(lab.timeline().end());
         if lab.running() || tick != present {
             commands.push(Command::Seek(tick));
         }
     }
+    step(ui, response, commands);
+}
+
+/// Where a track is pressed.
+pub(super) fn pressed(ui: &Ui, response: &Response, along: Rangef) -> Option<f32> {
+    // A press that is over before the next frame is only seen by its end. An end without anything new goes nowhere: a key
+    // of the same frame has gone on from there.
+    let is_new = ui.input(|i| i.pointer.any_pressed() || i.pointer.delta() != Vec2::ZERO);
+    let has_ended = response.clicked() || response.drag_stopped();
+    let is_pressed = response.is_pointer_button_down_on() || has_ended && is_new;
+    let pointer = response.interact_pointer_pos().filter(|_| is_pressed)?;
+    Some(along.clamp(pointer.x))
+}
+
+/// Goes back and forth by the arrow keys while a track has the focus.
+pub(super) fn step(ui: &Ui, response: &Response, commands: &mut Vec<Command>) {
     if response.has_focus() {
         let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
         ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));

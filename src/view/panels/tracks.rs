@@ -208,6 +208,8 @@ impl Track {
     }
 }
 
+/// The width of the curve in front, in points.
+const FRONT: f32 = 2.8;
 /// How much of its colour a lane of a race has that is not selected, and by how much its curve is thinner, in points.
 const DIM: f32 = 0.62;
 const THINNER: f32 = 1.0;
@@ -215,11 +217,9 @@ const THINNER: f32 = 1.0;
 /// How tracks are drawn.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Look {
-    /// The width of the curve in front, in points.
-    pub(super) width: f32,
     pub(super) dots: Dots,
-    /// Which axes a lane can leave the plot by: not by that of time, along which the plot follows.
-    pub(super) bounded: [bool; 2],
+    /// Whether the axis along is time: no lane leaves the plot by it, for the plot follows.
+    pub(super) is_over_time: bool,
 }
 
 /// The lanes within `bounds`, with an arrow where one leaves them and a mark where one was switched.
@@ -235,7 +235,7 @@ fn add(drawing: &mut Drawing, roster: &Roster, track: &Track, bounds: &Bounds, l
     let points = &track.points[..];
     let is_dim = roster.is_race && !track.is_front;
     let is_thin = is_dim || track.strength < 1.0;
-    let width = if is_thin { look.width - THINNER } else { look.width };
+    let width = if is_thin { FRONT - THINNER } else { FRONT };
     let runner = |point: &Point| &roster.runners[point.entry];
     let strength = if is_dim { DIM } else { track.strength };
     let rgba = |point: &Point| runner(point).colour.gamma_multiply(strength);
@@ -249,9 +249,9 @@ fn add(drawing: &mut Drawing, roster: &Roster, track: &Track, bounds: &Bounds, l
             let [low, high] = bounds[i];
             values[i].iter().all(|value| (low..=high).contains(value))
         };
-        (0..2).all(|i| !look.bounded[i] || is_within(i))
+        (look.is_over_time || is_within(0)) && is_within(1)
     };
-    let is_in_view = |point: &Point| look.bounded[0] || point.at[0] >= bounds[0][0];
+    let is_in_view = |point: &Point| !look.is_over_time || point.at[0] >= bounds[0][0];
     let mut is_drawn = vec![false; points.len()];
     for stay in stays(points, within, RETURNED * roster.length_s) {
         let (first, last) = stay.into_inner();

@@ -2,14 +2,14 @@
 
 use super::super::ranges;
 use super::super::roster::Roster;
-use super::super::tracks::{Look, Track};
+use super::super::tracks::Track;
 use super::error::capitalised;
 use super::phase::SAMPLES;
-use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet, time_in_view};
+use super::sheet::{ExactLine, PlotAxis, PlotModel, Sheet, time_in_view};
 use crate::lab::{
     Energies, FRAME_METRICS, Instrument, Lab, LoopFrame, LoopLab, LoopLane, METRICS, Scale,
 };
-use crate::view::chart::{AxisScale, Dots, SwitchMark};
+use crate::view::chart::{AxisScale, Bounds, Dots};
 
 /// The seconds in view where every frame shows.
 const FRAMES_S: f64 = 1.0;
@@ -119,19 +119,9 @@ impl Plots<'_> {
         });
         let [x, y] =
             [0, 1].map(|axis| ranges::around_orbit(exact.values(axis), &tracks, axis, HEALTHY));
-        let coordinate = &self.loops.body().coordinates().at(0);
-        PlotModel {
-            id: "phase portrait by loop".into(),
-            title: self.title(STEPPED),
-            body: self.lab.view().body,
-            axes: [PlotAxis::of(coordinate), PlotAxis::of_velocity(coordinate)],
-            fit: [x.into(), y.into()],
-            tracks,
-            look: Look { width: FRONT, dots: Dots::Sparse, bounded: [true; 2] },
-            exact: vec![exact],
-            switch_mark: SwitchMark::Ring,
-            nothing: None,
-        }
+        let axes = PlotAxis::of_phase(&self.loops.body().coordinates().at(0));
+        let plot = self.plot("phase portrait by loop", STEPPED, axes, [x.into(), y.into()]);
+        PlotModel { tracks, dots: Dots::Sparse, exact: vec![exact], ..plot }
     }
 
     fn over_time(
@@ -142,18 +132,14 @@ impl Plots<'_> {
         exact: Option<ExactLine>,
         ([from, to], (low, high)): ([f64; 2], (f64, f64)),
     ) -> PlotModel {
-        PlotModel {
-            id: id.into(),
-            title: self.title(SHOWN),
-            body: self.lab.view().body,
-            axes: [PlotAxis::new("moment of display", "s", AxisScale::Linear), up],
-            fit: [[from, to], [low, high]],
-            tracks,
-            look: Look { width: FRONT, dots: Dots::None, bounded: [false, true] },
-            exact: exact.into_iter().collect(),
-            switch_mark: SwitchMark::Line,
-            nothing: None,
-        }
+        let axes = [PlotAxis::new("moment of display", "s", AxisScale::Linear), up];
+        let plot = self.plot(id, SHOWN, axes, [[from, to], [low, high]]);
+        PlotModel { tracks, exact: exact.into_iter().collect(), ..plot }
+    }
+
+    /// A plot of the body as `shown` in which nothing is drawn yet.
+    fn plot(self, id: &str, shown: &str, axes: [PlotAxis; 2], fit: Bounds) -> PlotModel {
+        PlotModel::new(self.lab.view().body, id.into(), self.title(shown), axes, fit)
     }
 
     fn title(self, what: &str) -> String {

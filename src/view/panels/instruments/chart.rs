@@ -12,11 +12,10 @@ use super::sheet::Sheet;
 use crate::lab::{Command, Lab};
 use crate::view::chart::{self, ABOVE, NAME, NUMBER, PlotArea, Primitive, Text};
 use crate::view::theme::{Ink, strong_font};
+use crate::view::wheel;
 
 /// The least room for the numbers of an upright axis, in points.
 const LEFT: f32 = 40.0;
-/// How far a wheel turns for the plot to grow by the factor e, in points; a notch is some 40.
-const WHEEL: f32 = 200.0;
 /// How far from a curve a click still picks it, in points.
 const NEAR: f32 = 9.0;
 
@@ -48,10 +47,10 @@ impl Views {
     }
 
     /// Zooms about a point of the frame by this factor.
-    fn zoom(&mut self, cell: &Cell<'_>, at: Pos2, factor: f32) {
+    fn zoom(&mut self, cell: &Cell<'_>, at: Pos2, factor: f64) {
         let part = (at - cell.frame.min) / cell.frame.size();
         let around = [part.x, 1.0 - part.y].map(f64::from);
-        let shrink = 1.0 / f64::from(factor);
+        let shrink = 1.0 / factor;
         self.show(cell, around.map(|at| [at - at * shrink, at + (1.0 - at) * shrink]));
     }
 
@@ -123,13 +122,12 @@ fn room_for_numbers(ui: &Ui, cells: &[Cell<'_>], views: &Views) -> f32 {
 }
 
 fn turn_wheel(ui: &Ui, views: &mut Views, cell: &Cell<'_>, at: Pos2) {
-    let (turned, pinched) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
-    let factor = (turned.y / WHEEL).exp() * pinched;
-    if factor != 1.0 {
-        views.zoom(cell, at, factor);
+    let (times, right) = wheel::turned(ui);
+    if times != 1.0 {
+        views.zoom(cell, at, times);
     }
-    if turned.x != 0.0 {
-        views.pan(cell, vec2(turned.x, 0.0));
+    if right != 0.0 {
+        views.pan(cell, vec2(right, 0.0));
     }
 }
 

@@ -10,19 +10,17 @@ use egui::{
 };
 
 use super::super::roster::Roster;
-use super::super::tracks::{Look, Track};
+use super::super::tracks::Track;
 use super::super::{focus_ring, ink, strong_font};
 use super::error::capitalised;
-use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet, over_time};
+use super::sheet::{ExactLine, PlotAxis, PlotModel, Sheet, over_time};
 use super::{body_choice, chart, choice};
 use crate::lab::number::significant;
 use crate::lab::palette::{Rgba, Theme};
 use crate::lab::{
     CloudChoice, CloudKind, CloudPicture, Command, Density, Lab, LaneCloud, Mode, POINTS,
 };
-use crate::view::chart::{
-    self as charts, AxisScale, Dots, LineStyle, PlotArea, SwitchMark, curves,
-};
+use crate::view::chart::{self as charts, AxisScale, LineStyle, PlotArea, curves};
 
 /// Room for the numbers of the axes, at the left and below, and for the axes' names, in points.
 const LEFT: f32 = 32.0;
@@ -73,18 +71,11 @@ pub(super) fn sheet(lab: &Lab) -> Option<Sheet> {
         (f64::min(low, place), f64::max(high, place))
     });
     let pad = 0.08 * (high - low);
-    let plot = PlotModel {
-        id: format!("area of the cloud of {body}"),
-        title: capitalised(&lab.scene().bodies[body].name),
-        body,
-        axes: [PlotAxis::time(), PlotAxis::new("area / start", "", scale)],
-        fit: over_time(lab, (low - pad, high + pad)),
-        tracks,
-        look: Look { width: FRONT, dots: Dots::None, bounded: [false, true] },
-        exact: vec![exact],
-        switch_mark: SwitchMark::Line,
-        nothing: None,
-    };
+    let id = format!("area of the cloud of {body}");
+    let title = capitalised(&lab.scene().bodies[body].name);
+    let axes = [PlotAxis::time(), PlotAxis::new("area / start", "", scale)];
+    let plot = PlotModel::new(body, id, title, axes, over_time(lab, (low - pad, high + pad)));
+    let plot = PlotModel { tracks, exact: vec![exact], ..plot };
     Some(Sheet { roster: Roster::of(lab), title: "Area of the cloud".into(), plots: vec![plot] })
 }
 
@@ -220,8 +211,7 @@ fn side_by_side(
         cloud(ui, lab, picture, lane, (rect, place), [column == 0, is_lowest], commands);
     }
     let coordinate = &lab.race().truth().bodies()[lab.view().body].coordinates().at(0);
-    let names =
-        [PlotAxis::of(coordinate), PlotAxis::of_velocity(coordinate)].map(|axis| axis.name());
+    let names = PlotAxis::of_phase(coordinate).map(|axis| axis.name());
     let at = pos2(room.left(), room.bottom());
     let names = format!("across: {}; up: {}", names[0], names[1]);
     let small = FontId::proportional(11.5);

@@ -2,12 +2,12 @@
 
 use super::super::ranges;
 use super::super::roster::Roster;
-use super::super::tracks::{Look, Track};
+use super::super::tracks::Track;
 use super::error;
 use super::motion::healthy;
-use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet, over_time};
+use super::sheet::{ExactLine, PlotAxis, PlotModel, Sheet, over_time};
 use crate::lab::{Energies, Lab, METRICS};
-use crate::view::chart::{AxisScale, Dots, SwitchMark};
+use crate::view::chart::AxisScale;
 
 /// An energy: its name, its dash, how much of its colour it has, and how it is found.
 type Part = (&'static str, [f32; 2], f32, fn(Energies) -> f64);
@@ -46,16 +46,8 @@ fn energies(lab: &Lab, body: usize) -> PlotModel {
     let tracks: Vec<Track> = PARTS.into_iter().flat_map(energy).collect();
     let range = exact.iter().flat_map(|line| line.fitted(lab, 1));
     let y = ranges::around_truth(range, &Track::fitted(lab, &tracks), 1, healthy(lab));
-    PlotModel {
-        id: format!("energies of {body}"),
-        title: "kinetic dashed, potential dotted".into(),
-        body,
-        axes: [PlotAxis::time(), PlotAxis::new("energy", "J", AxisScale::Linear)],
-        fit: over_time(lab, y),
-        tracks,
-        look: Look { width: FRONT, dots: Dots::None, bounded: [false, true] },
-        exact: exact.into(),
-        switch_mark: SwitchMark::Line,
-        nothing: None,
-    }
+    let (id, title) = (format!("energies of {body}"), "kinetic dashed, potential dotted".into());
+    let axes = [PlotAxis::time(), PlotAxis::new("energy", "J", AxisScale::Linear)];
+    let plot = PlotModel::new(body, id, title, axes, over_time(lab, y));
+    PlotModel { tracks, exact: exact.into(), ..plot }
 }

@@ -2,10 +2,10 @@
 
 use super::super::ranges;
 use super::super::roster::Roster;
-use super::super::tracks::{Look, Track};
-use super::sheet::{FRONT, PlotAxis, PlotModel, Sheet, over_time};
+use super::super::tracks::Track;
+use super::sheet::{PlotAxis, PlotModel, Sheet, over_time};
 use crate::lab::{Lab, METRICS, Metric, Scale};
-use crate::view::chart::{AxisScale, Dots, SwitchMark};
+use crate::view::chart::{AxisScale, Dots};
 
 /// Said where every error is zero, which has no logarithm.
 pub(super) const NO_ERROR: &str =
@@ -51,18 +51,11 @@ pub(super) fn plot(lab: &Lab, body: usize, place: usize, title: String) -> PlotM
     let is_empty = tracks.iter().all(Track::is_empty);
     let has_values = values.iter().any(|track| !track.is_empty());
     let nothing = if has_values { NO_ERROR } else { metric.absent_on(truth) };
-    PlotModel {
-        id: format!("{} of {body}", metric.id),
-        title,
-        body,
-        axes: [PlotAxis::time(), PlotAxis::new(metric.name, &unit, scale)],
-        fit: over_time(lab, y),
-        tracks,
-        look: Look { width: FRONT, dots: Dots::SparseAlongX, bounded: [false, true] },
-        exact: Vec::new(),
-        switch_mark: SwitchMark::Line,
-        nothing: is_empty.then(|| nothing.to_owned()),
-    }
+    let nothing = is_empty.then(|| nothing.to_owned());
+    let axes = [PlotAxis::time(), PlotAxis::new(metric.name, &unit, scale)];
+    let id = format!("{} of {body}", metric.id);
+    let plot = PlotModel::new(body, id, title, axes, over_time(lab, y));
+    PlotModel { tracks, dots: Dots::SparseAlongX, nothing, ..plot }
 }
 
 fn scale(metric: &Metric, values: &[Track]) -> AxisScale {

@@ -2,11 +2,11 @@
 
 use super::super::ranges;
 use super::super::roster::Roster;
-use super::super::tracks::{Detail, Look, Track};
+use super::super::tracks::{Detail, Track};
 use super::error::capitalised;
-use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet, over_time};
+use super::sheet::{ExactLine, PlotAxis, PlotModel, Sheet, over_time};
 use crate::lab::{Lab, Mode};
-use crate::view::chart::{Dots, SwitchMark};
+use crate::view::chart::Dots;
 
 /// A lane this many times further out than the truth no longer stretches the axes; and where it is alone,
 /// squeezes nothing but the truth, and is looked at for how it grows.
@@ -37,21 +37,14 @@ fn plot(lab: &Lab, body: usize, detail: Detail) -> PlotModel {
         .flat_map(|lane| lane.along(1));
     let y = ranges::around_truth(exact.fitted(lab, 1).chain(selected), &lanes, 1, healthy(lab));
     let name = capitalised(&lab.scene().bodies[body].name);
-    PlotModel {
-        id: format!("{} of {body}", quantity.symbol(&coordinate)),
-        title: match truth.halted() {
-            Some(_) => format!("{name}, {}", truth.truth().missing()),
-            None => name,
-        },
-        body,
-        axes: [PlotAxis::time(), PlotAxis::of_quantity(quantity, &coordinate)],
-        fit: over_time(lab, y),
-        tracks,
-        look: Look { width: FRONT, dots: Dots::SparseAlongX, bounded: [false, true] },
-        exact: vec![exact],
-        switch_mark: SwitchMark::Line,
-        nothing: None,
-    }
+    let title = match truth.halted() {
+        Some(_) => format!("{name}, {}", truth.truth().missing()),
+        None => name,
+    };
+    let id = format!("{} of {body}", quantity.symbol(&coordinate));
+    let axes = [PlotAxis::time(), PlotAxis::of_quantity(quantity, &coordinate)];
+    let plot = PlotModel::new(body, id, title, axes, over_time(lab, y));
+    PlotModel { tracks, dots: Dots::SparseAlongX, exact: vec![exact], ..plot }
 }
 
 /// How many times further out than the truth a lane still stretches the axes.

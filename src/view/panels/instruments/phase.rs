@@ -2,12 +2,12 @@
 
 use super::super::ranges;
 use super::super::roster::Roster;
-use super::super::tracks::{Look, Track};
+use super::super::tracks::Track;
 use super::error::capitalised;
 use super::motion::healthy;
-use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet};
+use super::sheet::{ExactLine, PlotAxis, PlotModel, Sheet};
 use crate::lab::Lab;
-use crate::view::chart::{Dots, SwitchMark};
+use crate::view::chart::Dots;
 
 /// Samples in a phase portrait: a few turns, and each still to be told from the next.
 pub(super) const SAMPLES: usize = 360;
@@ -24,17 +24,10 @@ pub(super) fn sheet(lab: &Lab) -> Sheet {
     let [x, y] = [0, 1]
         .map(|axis| ranges::around_orbit(exact.fitted(lab, axis), &fitted, axis, healthy(lab)));
     let (coordinate, _) = lab.past().coordinate(lab.race(), body);
-    let plot = PlotModel {
-        id: format!("phase portrait of {} of {body}", coordinate.name),
-        title: capitalised(&lab.scene().bodies[body].name),
-        body,
-        axes: [PlotAxis::of(&coordinate), PlotAxis::of_velocity(&coordinate)],
-        fit: [x.into(), y.into()],
-        tracks,
-        look: Look { width: FRONT, dots: Dots::Sparse, bounded: [true; 2] },
-        exact: vec![exact],
-        switch_mark: SwitchMark::Ring,
-        nothing: None,
-    };
+    let id = format!("phase portrait of {} of {body}", coordinate.name);
+    let title = capitalised(&lab.scene().bodies[body].name);
+    let axes = PlotAxis::of_phase(&coordinate);
+    let plot = PlotModel::new(body, id, title, axes, [x.into(), y.into()]);
+    let plot = PlotModel { tracks, dots: Dots::Sparse, exact: vec![exact], ..plot };
     Sheet { roster: Roster::of(lab), title: "Phase portrait".into(), plots: vec![plot] }
 }

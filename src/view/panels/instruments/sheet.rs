@@ -9,12 +9,10 @@ use super::super::roster::{Roster, Runner};
 use super::super::tracks::{self, Look, Track};
 use crate::lab::number::significant;
 use crate::lab::{Coordinate, Lab, LaneBody, Quantity, TruthCurve, TruthSample, Unit};
-use crate::view::chart::{Arrow, AxisScale, Bounds, Curve, Drawing, LineStyle, SwitchMark};
+use crate::view::chart::{Arrow, AxisScale, Bounds, Curve, Dots, Drawing, LineStyle, SwitchMark};
 use egui::Color32;
 
-/// The width in points of the curve in front, and of the exact curve drawn over it: a lane that keeps to the truth is
-/// seen on both sides of it.
-pub(super) const FRONT: f32 = 2.8;
+/// The width of the exact curve, in points: a lane that keeps to the truth is seen on both sides of it.
 pub(super) const EXACT: f32 = 1.3;
 
 /// An instrument of plots.
@@ -37,9 +35,8 @@ pub(super) struct PlotModel {
     pub(super) fit: Bounds,
     /// The one in front last.
     pub(super) tracks: Vec<Track>,
-    pub(super) look: Look,
+    pub(super) dots: Dots,
     pub(super) exact: Vec<ExactLine>,
-    pub(super) switch_mark: SwitchMark,
     /// Why there is nothing to show, in place of the plot.
     pub(super) nothing: Option<String>,
 }
@@ -91,6 +88,11 @@ impl PlotAxis {
     /// The velocity of a coordinate.
     pub(super) fn of_velocity(coordinate: &Coordinate) -> Self {
         Self::new(&coordinate.velocity, &Unit::Velocity.on(coordinate), AxisScale::Linear)
+    }
+
+    /// A coordinate, and its velocity.
+    pub(super) fn of_phase(coordinate: &Coordinate) -> [Self; 2] {
+        [Self::of(coordinate), Self::of_velocity(coordinate)]
     }
 
     /// A quantity of a coordinate.
@@ -258,6 +260,18 @@ fn samples(lab: &Lab, body: usize) -> impl Iterator<Item = TruthSample> {
 }
 
 impl PlotModel {
+    /// A plot of a body in which nothing is drawn yet.
+    pub(super) fn new(
+        body: usize,
+        id: String,
+        title: String,
+        axes: [PlotAxis; 2],
+        fit: Bounds,
+    ) -> Self {
+        let (tracks, exact) = (Vec::new(), Vec::new());
+        Self { id, title, body, axes, fit, tracks, dots: Dots::None, exact, nothing: None }
+    }
+
     /// Whether the axis along is time.
     pub(super) fn is_over_time(&self) -> bool {
         self.axes[0].unit == "s"
@@ -287,8 +301,11 @@ impl PlotModel {
             let ([low, high], [least, most]) = (bounds[axis], self.fit[axis]);
             [low.min(least), high.max(most)]
         });
-        let mut drawing = tracks::drawing(roster, &self.tracks, &healthy, self.look);
-        drawing.switch_mark = self.switch_mark;
+        let look = Look { dots: self.dots, is_over_time: self.is_over_time() };
+        let mut drawing = tracks::drawing(roster, &self.tracks, &healthy, look);
+        if !look.is_over_time {
+            drawing.switch_mark = SwitchMark::Ring;
+        }
         let truth = &lab.race().truth().bodies()[self.body];
         let curves = self.exact.iter().flat_map(|line| line.curves(truth, bounds[0], columns));
         drawing.truth = curves.collect();

@@ -1,12 +1,12 @@
 //! The timeline of the loop lab: from the first frame to the last. Click or drag to go to a moment.
 
-use egui::{Align2, EventFilter, FontId, Key, Rangef, Rect, Response, Sense, Ui, pos2};
+use egui::{Align2, FontId, Rangef, Rect, Response, Sense, Ui, pos2};
 
 use crate::lab::{Command, LoopCommand, LoopLab};
 use crate::view::panels::ink;
 use crate::view::panels::timeline::{
     HEIGHT, HEIGHT_OF_TRACK, MARGIN, MEMORY, NAME, ROOM_FOR_WORDS, Span, THICKNESS, TRACK_Y,
-    TRACK_Y_ALONE, handle, numbers,
+    TRACK_Y_ALONE, handle, numbers, pressed, step,
 };
 
 /// Shows it.
@@ -59,21 +59,11 @@ fn seek(
     let now_s = loops.now_ns() as f64 / 1e9;
     let name = format!("timeline, at {now_s:.3} s");
     response.widget_info(|| egui::WidgetInfo::slider(true, now_s, &name));
-    // A press that is over before the next frame is only seen by its end.
-    let is_held = response.is_pointer_button_down_on();
-    if (is_held || response.clicked() || response.drag_stopped())
-        && let Some(pointer) = response.interact_pointer_pos()
-    {
-        let moment_ns = (span.t(along.clamp(pointer.x), along) * 1e9).round() as i64;
+    if let Some(x) = pressed(ui, response, along) {
+        let moment_ns = (span.t(x, along) * 1e9).round() as i64;
         commands.push(Command::Loop(LoopCommand::Seek(moment_ns)));
     }
-    if response.has_focus() {
-        let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
-        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
-        let pressed = |key| ui.input(|input| input.num_presses(key));
-        commands.extend((0..pressed(Key::ArrowLeft)).map(|_| Command::TickBack));
-        commands.extend((0..pressed(Key::ArrowRight)).map(|_| Command::TickForward));
-    }
+    step(ui, response, commands);
 }
 
 #[cfg(test)]

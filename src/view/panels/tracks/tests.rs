@@ -2,7 +2,7 @@ use super::*;
 use crate::lab::{Action, Command, Scene};
 use crate::view::panels::ink_of;
 
-const LOOK: Look = Look { width: 1.0, dots: Dots::None, bounded: [false, true] };
+const LOOK: Look = Look { dots: Dots::None, is_over_time: true };
 
 fn colour_of(lab: &Lab, entry: usize) -> egui::Color32 {
     ink_of(lab.display().theme).style(lab.entries(), &lab.entries()[entry]).0
