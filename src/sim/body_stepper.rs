@@ -15,7 +15,7 @@ use super::propagator::{MethodPropagator, Propagator};
 use super::reference::{Reference, is_beyond_reference};
 use super::solver::Solver;
 use super::state::{State, Vector, bytes_with_vectors};
-use super::stepper::{Change, Memory, PlacedBody, RecordedTick, Stepper};
+use super::stepper::{Change, PlacedBody, RecordedTick, Stepper};
 use super::system::{BodyClass, Counted, Counts, Coupling, EngineSettings, Pursuit, Recorded};
 use crate::sim::system::StateOf;
 
@@ -99,8 +99,12 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
         &self.placed
     }
 
-    fn memory(&self) -> Memory<'_> {
-        Memory { propagator: &self.propagator, heap_bytes: self.propagator.heap_bytes() }
+    fn memory(&self) -> &dyn Any {
+        &self.propagator
+    }
+
+    fn heap_bytes(&self) -> usize {
+        self.propagator.heap_bytes()
     }
 
     fn boxed_clone(&self) -> Box<dyn Stepper> {
@@ -133,15 +137,14 @@ impl<B: Body> PlacedBody for Placed<B> {
 
     fn record(
         &self,
-        memory: Memory<'_>,
+        memory: &dyn Any,
         method: &Method,
         t: f64,
         h: f64,
         substeps: u32,
     ) -> Option<RecordedTick> {
         let system = Recorded::new(&self.body.system);
-        let (propagator, state) = (memory.propagator, self.state.clone());
-        construct(method, Recording { system, propagator, state, t, h, substeps })
+        construct(method, Recording { system, memory, state: self.state.clone(), t, h, substeps })
     }
 
     fn counts(&self) -> Counts {
@@ -160,12 +163,12 @@ impl<B: Body> PlacedBody for Placed<B> {
         B::coupling() == Coupling::Few
     }
 
-    fn is_closed_form_of(&self, memory: Memory<'_>) -> bool {
-        truth::<B>(memory.propagator).is_some_and(Propagator::is_closed_form)
+    fn is_closed_form_of(&self, memory: &dyn Any) -> bool {
+        truth::<B>(memory).is_some_and(Propagator::is_closed_form)
     }
 
-    fn truth_error_of(&self, memory: Memory<'_>) -> Option<[f64; 2]> {
-        truth::<B>(memory.propagator)?.truth_error(&self.body, &self.state)
+    fn truth_error_of(&self, memory: &dyn Any) -> Option<[f64; 2]> {
+        truth::<B>(memory)?.truth_error(&self.body, &self.state)
     }
 
     fn energy(&self) -> Option<f64> {
@@ -207,24 +210,23 @@ impl<B: Body> PlacedBody for Placed<B> {
         with_solver(self.clone(), solver, t)
     }
 
-    fn bytes_with(&self, memory: Memory<'_>) -> usize {
-        let Memory { propagator, heap_bytes } = memory;
+    fn bytes_with(&self, memory: &dyn Any) -> usize {
         let own = bytes_with_vectors(self, self.q()) + self.body.system.heap_bytes();
-        own + bytes_with_vectors(propagator, self.q()) + heap_bytes
+        own + bytes_with_vectors(memory, self.q())
     }
 }
 
 /// The propagator of a truth; `None` for a method.
-fn truth<B: Body>(propagator: &dyn Any) -> Option<&dyn Propagator<B>> {
-    let exact = propagator.downcast_ref::<ExactFlow<B::Vector>>().map(|truth| truth as _);
-    let reference = || propagator.downcast_ref::<Reference<B::Vector>>().map(|truth| truth as _);
+fn truth<B: Body>(memory: &dyn Any) -> Option<&dyn Propagator<B>> {
+    let exact = memory.downcast_ref::<ExactFlow<B::Vector>>().map(|truth| truth as _);
+    let reference = || memory.downcast_ref::<Reference<B::Vector>>().map(|truth| truth as _);
     exact.or_else(reference)
 }
 
-/// A tick to record, with the method's memory in `propagator`.
+/// A tick to record, with the method's memory.
 struct Recording<'a, V: Vector> {
     system: Recorded<'a, V>,
-    propagator: &'a dyn Any,
+    memory: &'a dyn Any,
     state: State<V>,
     t: f64,
     h: f64,
@@ -240,7 +242,7 @@ impl<'a, V: Vector> Construct<Recorded<'a, V>> for Recording<'a, V> {
     ) -> Self::Output {
         // An integrator's type depends on the vector and not on the system, so that the one that steps
         // the body can step the recorded system too.
-        let MethodPropagator(integrator) = self.propagator.downcast_ref::<MethodPropagator<I>>()?;
+        let MethodPropagator(integrator) = self.memory.downcast_ref::<MethodPropagator<I>>()?;
         let mut integrator = integrator.clone();
         let Self { system, mut state, t, h, substeps, .. } = self;
         let stepped = integrator.steps(&system, t, h, substeps, &mut state);

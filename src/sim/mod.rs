@@ -58,7 +58,7 @@ pub use piece::{Distances, MAX_SWITCHES, NO_BOUNDARIES, Piece};
 pub use reference::{MAX_REFERENCE_WORK, REFERENCE_ACCURACY};
 pub use solver::Solver;
 pub use state::{Elementwise, State, Vector};
-pub use stepper::{Change, Memory, PlacedBody, RecordedTick, Stepper};
+pub use stepper::{Change, PlacedBody, RecordedTick, Stepper};
 pub use system::{
     BodyClass, Counted, Counts, Coupling, EngineSettings, Evaluation, Pursuit, Question, Recorded,
     StateOf, System,

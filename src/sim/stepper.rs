@@ -43,19 +43,14 @@ pub trait Stepper: Send {
     /// The body at its state.
     fn placed(&self) -> &(dyn PlacedBody + 'static);
 
-    /// The solver's memory.
-    fn memory(&self) -> Memory<'_>;
+    /// What the solver keeps from tick to tick.
+    fn memory(&self) -> &dyn Any;
+
+    /// The memory that this takes on the heap without its coordinate vectors, in bytes.
+    fn heap_bytes(&self) -> usize;
 
     /// A copy with all memory of the solver: original and copy continue with the same bits.
     fn boxed_clone(&self) -> Box<dyn Stepper>;
-}
-
-/// What a solver keeps from tick to tick.
-pub struct Memory<'a> {
-    /// The propagator.
-    pub(super) propagator: &'a dyn Any,
-    /// The propagator's memory on the heap without its coordinate vectors, in bytes.
-    pub(super) heap_bytes: usize,
 }
 
 impl Deref for dyn Stepper + '_ {
@@ -107,7 +102,7 @@ impl dyn Stepper + '_ {
 
     /// An upper bound on its memory, in bytes.
     pub fn bytes(&self) -> usize {
-        self.bytes_with(self.memory())
+        self.bytes_with(self.memory()) + self.heap_bytes()
     }
 }
 
@@ -220,16 +215,17 @@ pub trait PlacedBody {
     /// A tick under `method` from a copy of its memory; see `recorded` of a [`Stepper`].
     fn record(
         &self,
-        memory: Memory<'_>,
+        memory: &dyn Any,
         method: &Method,
         t: f64,
         h: f64,
         substeps: u32,
     ) -> Option<RecordedTick>;
     /// Whether the state is that of a closed form, for a solver with this memory.
-    fn is_closed_form_of(&self, memory: Memory<'_>) -> bool;
+    fn is_closed_form_of(&self, memory: &dyn Any) -> bool;
     /// The error of the truth with this memory; `None` for that of a method.
-    fn truth_error_of(&self, memory: Memory<'_>) -> Option<[f64; 2]>;
-    /// An upper bound on the memory of the stepper with this solver, in bytes.
-    fn bytes_with(&self, memory: Memory<'_>) -> usize;
+    fn truth_error_of(&self, memory: &dyn Any) -> Option<[f64; 2]>;
+    /// An upper bound on the memory of the body and of what the solver keeps, without that which only the solver knows, in
+    /// bytes.
+    fn bytes_with(&self, memory: &dyn Any) -> usize;
 }

@@ -10,15 +10,15 @@ use crate::sim::solver::Solver;
 use crate::sim::state::State;
 use crate::sim::system::System;
 
-/// A system of one coordinate whose type is forgotten, so that all methods are compiled for it once.
-type AnySystem = Box<dyn System<Vector = f64>>;
+/// A copy whose type is forgotten, so that all methods are compiled for it once.
+type AnyCopy = Box<dyn System<Vector = f64>>;
 
 /// Neighbouring copies with an integrator each.
 struct Alone<C> {
     copies: C,
     /// The index of the first copy.
     first: usize,
-    integrators: Vec<Box<dyn Integrator<AnySystem>>>,
+    integrators: Vec<Box<dyn Integrator<AnyCopy>>>,
 }
 
 /// The copies that a thread takes at a time: a step of an implicit method takes a microsecond.
@@ -32,7 +32,7 @@ pub(super) fn each_alone<C: Copies>(
 ) -> Option<Box<dyn Advance>> {
     let method = solver.method()?;
     let own = |_| {
-        let mut own: Box<dyn Integrator<AnySystem>> = integrator(method, &0.0);
+        let mut own: Box<dyn Integrator<AnyCopy>> = integrator(method, &0.0);
         if let Solver::With(_, other) = solver {
             own.set(other);
         }

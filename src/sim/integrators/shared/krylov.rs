@@ -191,6 +191,6 @@ fn unit(x: &[f64]) -> f64 {
 }
 
 /// The inner product, summed in order.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |sum, (a, b)| sum + a * b)
 }

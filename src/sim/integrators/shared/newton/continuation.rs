@@ -9,6 +9,7 @@
 
 use super::Newton;
 use crate::sim::difference::quotient;
+use crate::sim::integrators::shared::krylov::dot;
 use crate::sim::integrators::shared::stages::{Stages, largest_of};
 use crate::sim::state::Vector;
 use crate::sim::system::System;
@@ -207,8 +208,4 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         }
         linearisation.solve(slope_by_lambda);
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
