@@ -20,8 +20,8 @@ mod tick;
 mod trend;
 
 pub use comparison::{FOREVER_S, Stability};
-pub use modes::{NormalMode, normal_modes, unforced};
+pub use modes::{NormalMode, unforced};
 pub use power::spectral_radius;
 pub use search::{RATES_HZ, RateSearch};
-pub use small_motion::{CoupledMotion, NoSmallMotion, SmallMotion};
+pub use small_motion::{CoupledMotion, NoSmallMotion, SmallMotion, normal_modes};
 pub use tick::Tick;

@@ -18,7 +18,7 @@ pub(super) fn acceleration_at(body: &dyn Stepper, t: f64, state: &[f64]) -> Vec<
 
 /// The derivative of the acceleration of a body in a direction, by a difference to one side over `part` of it, from the
 /// acceleration `here` in the state `at`.
-pub(super) fn slope(
+fn slope(
     body: &dyn Stepper,
     t: f64,
     at: &[f64],
@@ -30,6 +30,18 @@ pub(super) fn slope(
     let mut slope = acceleration_at(body, t, &moved);
     quotient(&mut slope, here, part);
     slope
+}
+
+/// The Jacobian of the acceleration of a body with respect to coordinates and velocities, by differences over `by` to one
+/// side.
+pub(super) fn force_slopes(body: &dyn Stepper, at: &[f64], by: f64, t: f64) -> DMatrix<f64> {
+    let here = acceleration_at(body, t, at);
+    let column = |j: usize| {
+        let mut along = vec![0.0; at.len()];
+        along[j] = 1.0;
+        slope(body, t, at, &here, by, &along)
+    };
+    DMatrix::from_vec(here.len(), at.len(), (0..at.len()).flat_map(column).collect())
 }
 
 /// A system by its acceleration on slices: coordinates, velocities, output.

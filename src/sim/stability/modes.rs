@@ -9,7 +9,6 @@ use std::slice;
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::comparison::{Mode, Stability, compare_step};
-use super::deviation::{acceleration_at, slope};
 use super::spectrum::{self, NEUTRAL_WITH_MEMORY, linear_maps};
 use super::tick::Tick;
 use super::trend::growth_of_energy;
@@ -141,32 +140,6 @@ pub fn unforced(body: &dyn Stepper) -> Box<dyn Stepper> {
     free
 }
 
-/// The normal modes of `body`; `None` if it is not [linear](crate::sim::PlacedBody::is_linear), if damping couples the modes,
-/// or if a mode grows.
-pub fn normal_modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
-    if !body.is_linear() {
-        return None;
-    }
-    modes_of(&linear_jacobian(&*unforced(body)))
-}
-
-/// The Jacobian of the acceleration of a linear body with respect to coordinates and velocities.
-pub(super) fn linear_jacobian(body: &dyn Stepper) -> DMatrix<f64> {
-    force_slopes(body, &vec![0.0; 2 * body.q().len()], 1.0, 0.0)
-}
-
-/// The Jacobian of the acceleration of a body with respect to coordinates and velocities, by differences over `by` to one
-/// side.
-pub(super) fn force_slopes(body: &dyn Stepper, at: &[f64], by: f64, t: f64) -> DMatrix<f64> {
-    let here = acceleration_at(body, t, at);
-    let column = |j: usize| {
-        let mut along = vec![0.0; at.len()];
-        along[j] = 1.0;
-        slope(body, t, at, &here, by, &along)
-    };
-    DMatrix::from_vec(here.len(), at.len(), (0..at.len()).flat_map(column).collect())
-}
-
 /// The modes of `x″ = A x + B x′` with `jacobian` A, and B to its right; `None` if damping couples them or one grows.
 pub(super) fn modes_of(jacobian: &DMatrix<f64>) -> Option<Vec<NormalMode>> {
     let n = jacobian.nrows();
@@ -206,6 +179,7 @@ mod tests {
     use super::*;
     use crate::sim::bodies::kind;
     use crate::sim::integrators::{GENERAL_METHODS, method};
+    use crate::sim::stability::normal_modes;
 
     fn body(id: &str, values: &[f64]) -> Box<dyn Stepper> {
         (kind(id).unwrap().build)(values, Solver::Truth)

@@ -4,8 +4,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::comparison::{Mode, Stability, compare_step};
-use super::deviation::{self, acceleration_at};
-use super::modes::{NormalMode, force_slopes, linear_jacobian, modes_of, unforced};
+use super::deviation::{self, acceleration_at, force_slopes};
+use super::modes::{NormalMode, modes_of, unforced};
 use super::spectrum::{self, Eigenvalue, linear_maps};
 use super::tick::Tick;
 use crate::sim::Stepper;
@@ -58,7 +58,7 @@ impl SmallMotion {
         }
         let free = unforced(body);
         let jacobian = if body.is_linear() {
-            linear_jacobian(&*free)
+            force_slopes(&*free, &vec![0.0; 2 * free.q().len()], 1.0, 0.0)
         } else {
             let rest = place_of_rest(&*free)?;
             let jacobian = smooth_jacobian(&*free, &rest, 0.0)?;
@@ -94,6 +94,12 @@ impl SmallMotion {
         let (truth, rate) = true_modes(&self.jacobian).ok_or(NoSmallMotion::NotFinite)?;
         Ok(CoupledMotion { jacobian: self.jacobian, truth, rate })
     }
+}
+
+/// The normal modes of `body`; `None` if it is not [linear](crate::sim::PlacedBody::is_linear), if damping couples the modes,
+/// or if a mode grows.
+pub fn normal_modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
+    if body.is_linear() { SmallMotion::of(body).ok()?.normal_modes() } else { None }
 }
 
 impl CoupledMotion {
