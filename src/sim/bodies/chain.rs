@@ -248,10 +248,8 @@ impl Body for Chain {
     }
 
     fn input(&mut self, input: Input, state: &mut State<Vec<f64>>) -> bool {
-        match input {
-            Input::Kick(times) => state.v[self.plucked - 1] += times * self.kick / self.mass,
-            Input::Throttle(_) | Input::Rudder(_) => return false,
-        }
+        let Input::Kick(times) = input else { return false };
+        state.v[self.plucked - 1] += times * self.kick / self.mass;
         true
     }
 

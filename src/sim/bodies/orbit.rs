@@ -124,10 +124,8 @@ impl Body for Orbit {
     }
 
     fn input(&mut self, input: Input, state: &mut State<DVec2>) -> bool {
-        match input {
-            Input::Kick(times) => state.v += times * self.kick * state.v.normalize_or_zero(),
-            Input::Throttle(_) | Input::Rudder(_) => return false,
-        }
+        let Input::Kick(times) = input else { return false };
+        state.v += times * self.kick * state.v.normalize_or_zero();
         true
     }
 

@@ -109,10 +109,8 @@ impl Body for Pendulum {
     }
 
     fn input(&mut self, input: Input, state: &mut State<f64>) -> bool {
-        match input {
-            Input::Kick(times) => state.v += times * self.kick / self.inertia(),
-            Input::Throttle(_) | Input::Rudder(_) => return false,
-        }
+        let Input::Kick(times) = input else { return false };
+        state.v += times * self.kick / self.inertia();
         true
     }
 

@@ -116,10 +116,8 @@ impl Body for Spring {
     }
 
     fn input(&mut self, input: Input, state: &mut State<f64>) -> bool {
-        match input {
-            Input::Kick(times) => state.v += times * self.kick / self.mass,
-            Input::Throttle(_) | Input::Rudder(_) => return false,
-        }
+        let Input::Kick(times) = input else { return false };
+        state.v += times * self.kick / self.mass;
         true
     }
 
