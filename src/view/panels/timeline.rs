@@ -25,9 +25,11 @@ pub(super) const HEIGHT_OF_TRACK: f32 = 19.0;
 /// The track's thickness and how far its middle is from the panel's top, in points.
 pub(super) const THICKNESS: f32 = 6.0;
 pub(super) const TRACK_Y: f32 = 16.0;
-pub(super) const TRACK_Y_ALONE: f32 = 12.0;
+const TRACK_Y_ALONE: f32 = 12.0;
+/// Its least length, in points.
+const MIN_LENGTH: f32 = 40.0;
 /// From this width on, in points, there is room for a name at the left and for the memory at the right.
-pub(super) const ROOM_FOR_WORDS: f32 = 700.0;
+const ROOM_FOR_WORDS: f32 = 700.0;
 pub(super) const NAME: f32 = 72.0;
 pub(super) const MEMORY: f32 = 104.0;
 /// What the ends of the track keep free for half a number, and for the *undo* button where nothing else is there.
@@ -45,20 +47,13 @@ const MAX_TOLD: usize = 8;
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let room = ui.available_rect_before_wrap();
-    let is_tall = room.height() > 0.5 * (HEIGHT + HEIGHT_OF_TRACK);
-    let y = room.top() + if is_tall { TRACK_Y } else { TRACK_Y_ALONE };
-    let [left, right] = margins(lab, room.width());
-    let along = Rangef::new(room.left() + left, room.right() - right);
-    if along.span() < 40.0 {
-        return;
-    }
+    let Some(groove) = groove(lab, room) else { return };
+    let along = groove.along;
     let events = lab.timeline().events();
     let times = lab.timeline().times();
-    let id = ui.scope_id().with("track");
-    let grab = Rect::from_x_y_ranges(along.expand(MARGIN / 2.0), room.y_range());
-    let response = ui.interact(grab, id, Sense::click_and_drag());
+    let response = groove.interact(ui);
     let span = viewed(ui, lab, &times, &response, along);
-    let track = Track { y, along, span, times: &times, ink: ink(ui) };
+    let track = Track { groove, span, times: &times, ink: ink(ui) };
 
     seek(ui, lab, &response, &track, commands);
     let context = Context {
@@ -75,37 +70,86 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     groups.retain(|group| in_view(group.x));
 
     let painter = ui.painter().clone();
-    if is_tall {
-        numbers(&painter, (span, along), y, room.bottom(), track.ink);
-    }
+    groove.write(&painter, span, track.ink);
     fill(&painter, lab, &events, &track);
     groups.iter().for_each(|group| draw_group(&painter, &track, group));
     let present = track.x(lab.race().tick());
     if along.expand(1.0).contains(present) {
-        handle(&painter, pos2(present, y), response.has_focus(), track.ink);
-    }
-    if room.width() >= ROOM_FOR_WORDS {
-        let at = pos2(room.left(), y);
-        painter.text(at, Align2::LEFT_CENTER, "Timeline", FontId::proportional(11.5), ink(ui).dim);
+        groove.handle(&painter, present, response.has_focus(), track.ink);
     }
     beside(ui, lab, Rect::from_min_max(pos2(along.max + MARGIN, room.top()), room.max), commands);
     tooltip(ui, response, &track, &groups);
 }
 
-/// What the track leaves free at its left and its right.
-fn margins(lab: &Lab, width: f32) -> [f32; 2] {
-    match width >= ROOM_FOR_WORDS {
-        true => [NAME, MEMORY + MARGIN],
-        false if lab.timeline().undoes().is_some() => [MARGIN, UNDO + MARGIN],
-        false => [MARGIN; 2],
+fn groove(lab: &Lab, room: Rect) -> Option<Groove> {
+    Groove::new(room, if lab.timeline().undoes().is_some() { UNDO } else { 0.0 })
+}
+
+/// Where a track lies on its panel.
+#[derive(Clone, Copy)]
+pub(super) struct Groove {
+    room: Rect,
+    /// The height of its middle.
+    pub(super) y: f32,
+    pub(super) along: Rangef,
+}
+
+impl Groove {
+    /// With so much room at the right, in points, where there is none for words; `None` if the track would be too short.
+    pub(super) fn new(room: Rect, beside: f32) -> Option<Self> {
+        let has_words = room.width() >= ROOM_FOR_WORDS;
+        let [left, right] = if has_words { [NAME, MEMORY] } else { [MARGIN, beside] };
+        let along = Rangef::new(room.left() + left, room.right() - right - MARGIN);
+        let y = room.top() + if is_tall(room) { TRACK_Y } else { TRACK_Y_ALONE };
+        (along.span() >= MIN_LENGTH).then_some(Self { room, y, along })
     }
+
+    pub(super) fn interact(&self, ui: &Ui) -> Response {
+        let grab = Rect::from_x_y_ranges(self.along.expand(MARGIN / 2.0), self.room.y_range());
+        ui.interact(grab, ui.scope_id().with("track"), Sense::click_and_drag())
+    }
+
+    /// The part of the track between two places, as far as it is in view.
+    pub(super) fn piece(&self, from: f32, to: f32) -> Rect {
+        let [from, to] = [from, to].map(|x| self.along.clamp(x));
+        let half = 0.5 * THICKNESS;
+        Rect::from_min_max(pos2(from, self.y - half), pos2(to, self.y + half))
+    }
+
+    /// Writes the name at its left and times at round steps below, each where there is room.
+    pub(super) fn write(&self, painter: &Painter, span: Span, ink: &Ink) {
+        if is_tall(self.room) {
+            numbers(painter, (span, self.along), self.y, self.room.bottom(), ink);
+        }
+        self.write_at(painter, Align2::LEFT_CENTER, "Timeline", ink);
+    }
+
+    /// Writes words at an end of the panel, where there is room.
+    pub(super) fn write_at(&self, painter: &Painter, end: Align2, words: &str, ink: &Ink) {
+        if self.room.width() >= ROOM_FOR_WORDS {
+            let at = pos2(end.pos_in_rect(&self.room).x, self.y);
+            painter.text(at, end, words, FontId::proportional(11.5), ink.dim);
+        }
+    }
+
+    /// The present.
+    pub(super) fn handle(&self, painter: &Painter, x: f32, has_focus: bool, ink: &Ink) {
+        let rim = match has_focus {
+            true => Stroke::new(2.5, ink.accent),
+            false => Stroke::new(2.0, ink.background),
+        };
+        painter.circle(pos2(x, self.y), 6.0, ink.exact, rim);
+    }
+}
+
+/// Whether a panel has room for the times below the track.
+fn is_tall(room: Rect) -> bool {
+    room.height() > 0.5 * (HEIGHT + HEIGHT_OF_TRACK)
 }
 
 /// The track as it lies on the panel.
 struct Track<'a> {
-    /// The height of its middle.
-    y: f32,
-    along: Rangef,
+    groove: Groove,
     span: Span,
     times: &'a TimeScale,
     ink: &'static Ink,
@@ -113,18 +157,11 @@ struct Track<'a> {
 
 impl Track<'_> {
     fn x(&self, tick: u64) -> f32 {
-        self.span.x(self.times.t(tick), self.along)
+        self.span.x(self.times.t(tick), self.groove.along)
     }
 
     fn tick(&self, x: f32) -> u64 {
-        self.times.nearest_tick(self.span.t(x, self.along))
-    }
-
-    /// The part of the track between two places, as far as it is in view.
-    fn piece(&self, from: f32, to: f32) -> Rect {
-        let [from, to] = [from, to].map(|x| self.along.clamp(x));
-        let half = 0.5 * THICKNESS;
-        Rect::from_min_max(pos2(from, self.y - half), pos2(to, self.y + half))
+        self.times.nearest_tick(self.span.t(x, self.groove.along))
     }
 }
 
@@ -162,7 +199,7 @@ fn seek(ui: &Ui, lab: &Lab, response: &Response, track: &Track<'_>, commands: &m
     let present = lab.race().tick();
     let name = format!("timeline, at tick {present}");
     response.widget_info(|| egui::WidgetInfo::slider(true, lab.race().t(), &name));
-    if let Some(x) = pressed(ui, response, track.along) {
+    if let Some(x) = pressed(ui, response, track.groove.along) {
         let tick = track.tick(x).min(lab.timeline().end());
         if lab.running() || tick != present {
             commands.push(Command::Seek(tick));
@@ -194,13 +231,7 @@ pub(super) fn step(ui: &Ui, response: &Response, commands: &mut Vec<Command>) {
 }
 
 /// Times at round steps under a track whose middle is at `y`.
-pub(super) fn numbers(
-    painter: &Painter,
-    (span, along): (Span, Rangef),
-    y: f32,
-    bottom: f32,
-    ink: &Ink,
-) {
+fn numbers(painter: &Painter, (span, along): (Span, Rangef), y: f32, bottom: f32, ink: &Ink) {
     let Span { from_s, to_s } = span;
     let mut marks = AxisScale::Linear.marks([from_s, to_s], along.span(), NUMBERS_APART);
     marks.last_mut().into_iter().for_each(|(_, text)| text.push_str(" s"));
@@ -216,18 +247,15 @@ pub(super) fn numbers(
 /// The track: what was run up to the present in the colours of the methods, what was run beyond it in grey.
 fn fill(painter: &Painter, lab: &Lab, events: &[Event], track: &Track<'_>) {
     let round = 0.5 * THICKNESS;
-    painter.rect_filled(track.piece(track.along.min, track.along.max), round, track.ink.raised);
+    let (groove, along) = (track.groove, track.groove.along);
+    painter.rect_filled(groove.piece(along.min, along.max), round, track.ink.raised);
     let [present, end] = [lab.race().tick(), lab.timeline().end()].map(|tick| track.x(tick));
-    painter.rect_filled(
-        track.piece(track.along.min, end),
-        round,
-        track.ink.dim.gamma_multiply(0.45),
-    );
+    painter.rect_filled(groove.piece(along.min, end), round, track.ink.dim.gamma_multiply(0.45));
     let lane = lab.selected().id;
     let colours = marks::colours(lane, events, lab.timeline().start(), track.ink);
     for (i, (from, colour)) in colours.iter().enumerate() {
         let to = colours.get(i + 1).map_or(present, |(tick, _)| track.x(*tick)).min(present);
-        let piece = track.piece(track.x(*from), to);
+        let piece = groove.piece(track.x(*from), to);
         if piece.width() > 0.0 {
             let corners = if i == 0 { round } else { 0.0 };
             painter.rect_filled(piece, corners, strength(*colour, lab.mode(), track.ink));
@@ -245,7 +273,7 @@ fn strength(colour: Color32, mode: Mode, ink: &Ink) -> Color32 {
 
 /// A sign above the track, with the number of marks that it stands for.
 fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
-    let (x, foot) = (group.x, track.y - 0.5 * THICKNESS);
+    let (x, foot) = (group.x, track.groove.y - 0.5 * THICKNESS);
     let mark = group.shown();
     let colour = mark.colour;
     let centre = pos2(x, foot - 6.0);
@@ -255,10 +283,10 @@ fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
         painter.add(Shape::convex_polygon(points, colour, rim));
     };
     let top = if mark.sign == Sign::Halt { foot - 12.0 } else { foot - 4.0 };
-    painter.vline(x, Rangef::new(top, track.y + 0.5 * THICKNESS), Stroke::new(1.5, colour));
+    painter.vline(x, Rangef::new(top, track.groove.y + 0.5 * THICKNESS), Stroke::new(1.5, colour));
     match mark.sign {
         Sign::End => {
-            let reach = Rangef::point(track.y).expand(0.5 * THICKNESS + 3.0);
+            let reach = Rangef::point(track.groove.y).expand(0.5 * THICKNESS + 3.0);
             painter.vline(x, reach, Stroke::new(1.5, colour));
         }
         Sign::Input => {
@@ -283,15 +311,6 @@ fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
         let count = group.marks.len().to_string();
         painter.text(at, Align2::LEFT_CENTER, count, FontId::proportional(9.0), track.ink.text);
     }
-}
-
-/// The present.
-pub(super) fn handle(painter: &Painter, centre: Pos2, has_focus: bool, ink: &Ink) {
-    let rim = match has_focus {
-        true => Stroke::new(2.5, ink.accent),
-        false => Stroke::new(2.0, ink.background),
-    };
-    painter.circle(centre, 6.0, ink.exact, rim);
 }
 
 /// The *undo* button, and the memory that the past takes.
@@ -327,9 +346,9 @@ fn memory(bytes: usize, limit: usize) -> String {
 /// What happened under the pointer; where nothing did, the moment.
 fn tooltip(ui: &Ui, response: Response, track: &Track<'_>, groups: &[Group]) {
     let Some(Pos2 { x, .. }) = response.hover_pos() else { return };
-    let x = track.along.clamp(x);
+    let x = track.groove.along.clamp(x);
     let line = Stroke::new(1.0, ink(ui).text.gamma_multiply(0.5));
-    ui.painter().vline(x, Rangef::new(track.y - 12.0, track.y + 4.0), line);
+    ui.painter().vline(x, Rangef::new(track.groove.y - 12.0, track.groove.y + 4.0), line);
     response.on_hover_ui_at_pointer(|ui| {
         let near = |group: &&Group| (-6.0..=MARKS_APART - 6.0).contains(&(x - group.x));
         let Some(group) = groups.iter().rfind(near) else {

@@ -1,51 +1,29 @@
 //! The timeline of the loop lab: from the first frame to the last. Click or drag to go to a moment.
 
-use egui::{Align2, FontId, Rangef, Rect, Response, Sense, Ui, pos2};
+use egui::{Align2, Rangef, Response, Ui};
 
 use crate::lab::{Command, LoopCommand, LoopLab};
 use crate::view::panels::ink;
-use crate::view::panels::timeline::{
-    HEIGHT, HEIGHT_OF_TRACK, MARGIN, MEMORY, NAME, ROOM_FOR_WORDS, Span, THICKNESS, TRACK_Y,
-    TRACK_Y_ALONE, handle, numbers, pressed, step,
-};
+use crate::view::panels::timeline::{Groove, Span, THICKNESS, pressed, step};
 
 /// Shows it.
 pub(in crate::view::panels) fn show(ui: &mut Ui, loops: &LoopLab, commands: &mut Vec<Command>) {
-    let room = ui.available_rect_before_wrap();
-    let is_tall = room.height() > 0.5 * (HEIGHT + HEIGHT_OF_TRACK);
-    let y = room.top() + if is_tall { TRACK_Y } else { TRACK_Y_ALONE };
-    let has_words = room.width() >= ROOM_FOR_WORDS;
-    let [left, right] = if has_words { [NAME, MEMORY + MARGIN] } else { [MARGIN; 2] };
-    let along = Rangef::new(room.left() + left, room.right() - right);
     let span = Span { from_s: 0.0, to_s: loops.end_ns() as f64 / 1e9 };
-    if along.span() < 40.0 || span.to_s <= 0.0 {
-        return;
-    }
-    let grab = Rect::from_x_y_ranges(along.expand(MARGIN / 2.0), room.y_range());
-    let response = ui.interact(grab, ui.scope_id().with("slider"), Sense::click_and_drag());
-    seek(ui, loops, &response, (span, along), commands);
+    let groove = Groove::new(ui.available_rect_before_wrap(), 0.0);
+    let Some(groove) = groove.filter(|_| span.to_s > 0.0) else { return };
+    let response = groove.interact(ui);
+    seek(ui, loops, &response, (span, groove.along), commands);
 
-    let ink = ink(ui);
-    let painter = ui.painter();
+    let (ink, painter, along) = (ink(ui), ui.painter(), groove.along);
     let now_s = loops.now_ns() as f64 / 1e9;
-    if is_tall {
-        numbers(painter, (span, along), y, room.bottom(), ink);
-    }
+    groove.write(painter, span, ink);
+    let text = format!("{now_s:.2} of {:.0} s", span.to_s);
+    groove.write_at(painter, Align2::RIGHT_CENTER, &text, ink);
     let x = span.x(now_s, along);
-    let piece = |to: f32| {
-        let half = 0.5 * THICKNESS;
-        Rect::from_min_max(pos2(along.min, y - half), pos2(to, y + half))
-    };
-    painter.rect_filled(piece(along.max), 0.5 * THICKNESS, ink.raised);
-    painter.rect_filled(piece(x), 0.5 * THICKNESS, ink.dim.gamma_multiply(0.8));
-    handle(painter, pos2(x, y), response.has_focus(), ink);
-    if has_words {
-        let font = || FontId::proportional(11.5);
-        painter.text(pos2(room.left(), y), Align2::LEFT_CENTER, "Timeline", font(), ink.dim);
-        let end = pos2(room.right(), y);
-        let text = format!("{now_s:.2} of {:.0} s", span.to_s);
-        painter.text(end, Align2::RIGHT_CENTER, text, font(), ink.dim);
+    for (to, colour) in [(along.max, ink.raised), (x, ink.dim.gamma_multiply(0.8))] {
+        painter.rect_filled(groove.piece(along.min, to), 0.5 * THICKNESS, colour);
     }
+    groove.handle(painter, x, response.has_focus(), ink);
 }
 
 /// Goes to where the mouse is pressed; with the focus, the arrows go by frames.
@@ -68,10 +46,11 @@ fn seek(
 
 #[cfg(test)]
 mod tests {
-    use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Vec2, vec2};
+    use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2, pos2, vec2};
 
     use super::*;
     use crate::lab::{Lab, Scene};
+    use crate::view::panels::timeline::{HEIGHT, MARGIN, MEMORY, NAME, TRACK_Y};
     use crate::view::{panels, theme};
 
     const SIZE: Vec2 = vec2(1280.0, 720.0);

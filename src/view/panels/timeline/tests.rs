@@ -66,12 +66,14 @@ fn letting_go_of_the_track_does_not_undo_the_step_of_a_key() {
 #[test]
 fn an_undo_is_offered_once_something_was_changed() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-    assert_eq!((lab.timeline().undoes(), margins(&lab, 400.0)[1]), (None, MARGIN));
+    let room = Rect::from_min_size(Pos2::ZERO, vec2(400.0, HEIGHT));
+    let beside = |lab: &Lab| room.right() - groove(lab, room).unwrap().along.max;
+    assert_eq!((lab.timeline().undoes(), beside(&lab)), (None, MARGIN));
     (0..60).for_each(|_| lab.tick());
     lab.apply(Command::Act(Action::Kick(1.0)));
     lab.apply(Command::Restart);
     assert_eq!(lab.timeline().undoes(), Some("the restart"));
-    assert_eq!(margins(&lab, 400.0)[1], UNDO + MARGIN);
+    assert_eq!(beside(&lab), UNDO + MARGIN);
     (0..60).for_each(|_| lab.tick());
     lab.apply(Command::Seek(30));
     lab.apply(Command::Act(Action::Kick(1.0)));
