@@ -4,7 +4,7 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use regatta::lab::{Command, Lab, LaneSpec, Scene, picture};
+use regatta::lab::{Lab, LaneSpec, RunCommand, Scene, StageCommand, picture};
 use regatta::sim::integrators::GENERAL_METHODS;
 use regatta::view::{
     AdapterPreference, FrameRenderer, Gpu, Offscreen, OffscreenRenderer, Panels, Readback, png,
@@ -42,7 +42,7 @@ fn main() {
 
 fn racing(scene: Scene) -> Lab {
     let mut lab = Lab::new(scene);
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     lab
 }
 
@@ -100,8 +100,8 @@ fn frames(gpu: &Gpu, panels: Panels, lab: &mut Lab) -> impl Iterator<Item = [Dur
     (0..FRAMES).map(move |_| {
         let mut ends = vec![Instant::now()];
         let mut lap = || ends.push(Instant::now());
-        lab.apply(Command::ThrottleDown);
-        lab.apply(Command::ThrottleUp);
+        lab.apply(RunCommand::ThrottleDown);
+        lab.apply(RunCommand::ThrottleUp);
         lab.advance(FRAME_NS);
         lap();
         black_box(picture::compose(lab, STAGE_POINTS));

@@ -12,7 +12,9 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Fullscreen, WindowId};
 
-use crate::lab::{AnalysisWorker, CloudWorker, Command, DriverRequest, Lab, LoopWorker};
+use crate::lab::{
+    AnalysisWorker, CloudWorker, Command, DriverRequest, Lab, LoopWorker, ViewCommand,
+};
 
 mod canvas;
 mod clipboard;
@@ -234,7 +236,7 @@ impl App {
                 }
                 Some(DriverRequest::CompletePath) => {
                     let path = opening::completed(self.lab.viewer().typed_path());
-                    self.lab.apply(Command::TypePath(path));
+                    self.lab.apply(ViewCommand::TypePath(path));
                 }
                 None => {}
             }

@@ -9,7 +9,8 @@
 use std::path::PathBuf;
 
 use regatta::lab::{
-    Action, BuiltIn, Command, Lab, LaneSpec, Race, SCENES, Scene, SceneBody, Scripted,
+    Action, BuiltIn, Lab, LaneSpec, Race, RunCommand, SCENES, Scene, SceneBody, Scripted,
+    StageCommand,
 };
 use regatta::sim::integrators::{GENERAL_METHODS, Method, method};
 
@@ -56,16 +57,16 @@ impl Field {
         match self {
             Field::Solo(method) => {
                 let mut lab = Lab::new(scene.clone());
-                lab.apply(Command::Method(method));
+                lab.apply(StageCommand::Method(method));
                 // From the start again, so that the script has the method in hand.
-                lab.apply(Command::Restart);
+                lab.apply(StageCommand::Restart);
                 lab
             }
             Field::Everyone => {
                 let spec = |method| LaneSpec { method, ..scene.lanes[0] };
                 let lanes = scene.fitting_methods().map(spec).collect();
                 let mut lab = Lab::new(Scene { lanes, ..scene.clone() });
-                lab.apply(Command::ToggleRace);
+                lab.apply(StageCommand::ToggleRace);
                 lab
             }
         }
@@ -251,7 +252,7 @@ fn a_persons_commands_act_as_the_same_script_does() {
         let mut commands = script().into_iter().peekable();
         for tick in 0..SCRIPTED_TICKS {
             while let Some(due) = commands.next_if(|scripted| scripted.tick == tick) {
-                by_hand.apply(Command::Act(due.action));
+                by_hand.apply(RunCommand::Act(due.action));
             }
             by_hand.tick();
             by_script.tick();
@@ -347,7 +348,7 @@ fn a_race_of_a_scene_is_the_race_that_the_program_runs() {
     for scene in plain.chain(scripted) {
         let mut race = Race::of_scene(&scene);
         let mut lab = Lab::new(scene);
-        lab.apply(Command::ToggleRace);
+        lab.apply(StageCommand::ToggleRace);
         for _ in 0..20 {
             race.run(100);
             (0..100).for_each(|_| lab.tick());

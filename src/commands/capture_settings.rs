@@ -3,7 +3,7 @@
 use super::experiment::Experiment;
 use super::schedule::Schedule;
 use crate::lab::palette::Theme;
-use crate::lab::{CloudChoice, CloudKind, Command, Instrument, Lab, Motion};
+use crate::lab::{CloudChoice, CloudKind, Instrument, Lab, Motion, RunCommand};
 
 /// How a run is drawn: its frames, their size and what they show.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +33,7 @@ impl CaptureSettings {
         lab.choose_theme(self.theme);
         self.instrument.into_iter().for_each(|instrument| lab.choose_instrument(instrument));
         if let Some(kind) = self.cloud {
-            lab.apply(Command::Cloud(CloudChoice { kind, ..lab.display().cloud }));
+            lab.apply(RunCommand::Cloud(CloudChoice { kind, ..lab.display().cloud }));
         }
         lab
     }

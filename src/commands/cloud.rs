@@ -34,15 +34,17 @@ for each method:
   method            the methods named, else those of the scene
   points            the starts that have not blown up
   area_ratio        the area over that at the start: on a linear body by the determinant of the
-                    method's map, elsewhere by those about up to 64 points; empty where no point is
-                    left, or the cloud is drawn out too finely
+                    method's map, elsewhere by those about up to 256 points, and under an adaptive
+                    method by the border; empty where no point is left, or the cloud is drawn out
+                    too finely
   spread            the root mean square distance from the middle, over that at the start
   body_steps_per_s  measured here and now
   hash              of all states, to the bit: the same for any number of threads
 
 A picture has the methods side by side on the same axes, brighter where more points are, the exact
 cloud in white outline; the rows then go to standard output. --section draws the points at each
-period of a drive only, one over the other: a section after Poincaré.
+period of a drive only, one over the other: a section after Poincaré. A crossing between two ticks
+is on the line through their states.
 
 Examples:
   regatta cloud --scene pendulum --out pendulum.png
@@ -156,13 +158,58 @@ const BESIDE: f64 = 1.0;
 /// The longest run that sets the axes, in seconds.
 const LONGEST_SCOUTED_S: u64 = 30;
 
+/// The time after which an interrupt is looked for, if a tick takes no longer.
+const LOOKED_EVERY: Duration = Duration::from_millis(50);
+
 /// A method's cloud while it is stepped.
 struct Run {
     spec: LaneSpec,
     cloud: Cloud,
     stepping: Duration,
-    /// All points of a section so far.
-    section: Option<Density>,
+    /// The ticks that are stepped at once.
+    part: u64,
+    section: Option<Section>,
+}
+
+/// All points of a section so far.
+#[derive(Clone)]
+struct Section {
+    /// Of the drive, in ticks.
+    period: f64,
+    crossings: u64,
+    density: Density,
+}
+
+impl Run {
+    /// Steps to a tick, and draws the points of a section at each crossing on the way; returns whether it came there before an
+    /// interrupt.
+    fn go_to(&mut self, tick: u64, interrupted: &AtomicBool) -> bool {
+        let next = |section: &Section| (section.crossings + 1) as f64 * section.period;
+        while let Some(at) = self.section.as_ref().map(next).filter(|at| at.ceil() <= tick as f64) {
+            if !self.step_to(at as u64, interrupted) {
+                return false;
+            }
+            let begun = Instant::now();
+            let [q, v] = self.cloud.states_at(at);
+            self.stepping += begun.elapsed();
+            if let Some(section) = &mut self.section {
+                section.density.add(&q, &v);
+                section.crossings += 1;
+            }
+        }
+        self.step_to(tick, interrupted)
+    }
+
+    fn step_to(&mut self, tick: u64, interrupted: &AtomicBool) -> bool {
+        while self.cloud.tick() < tick && !interrupted.load(Ordering::Relaxed) {
+            let begun = Instant::now();
+            self.cloud.advance(self.part.min(tick - self.cloud.tick()));
+            let took = begun.elapsed();
+            self.stepping += took;
+            self.part = if took < LOOKED_EVERY { self.part * 2 } else { self.part.div_ceil(2) };
+        }
+        self.cloud.tick() >= tick
+    }
 }
 
 pub(super) fn run(args: &CloudArgs) -> Result<(), Error> {
@@ -201,13 +248,15 @@ pub(super) fn run(args: &CloudArgs) -> Result<(), Error> {
     write_rows(Output::stdout())
 }
 
-/// The ticks of a period.
-fn strobe(hz: f64, tick_hz: u32) -> Result<u64, Error> {
+/// The ticks of a period, which may end between two.
+fn strobe(hz: f64, tick_hz: u32) -> Result<f64, Error> {
     let ticks = f64::from(tick_hz) / hz;
-    let is_whole = ticks >= 0.5 && (ticks - ticks.round()).abs() < 1e-6 * ticks;
-    is_whole.then_some(ticks.round() as u64).ok_or_else(|| {
+    // A period that is written with a few digits is meant to end at a tick if it nearly does.
+    let is_whole = (ticks - ticks.round()).abs() < 1e-6 * ticks;
+    let period = if is_whole { ticks.round() } else { ticks };
+    (period >= 1.0).then_some(period).ok_or_else(|| {
         Error::mistake(format!(
-            "a section of {hz} Hz falls between the ticks of {tick_hz} Hz; give --section a part of it, or --tick-hz a multiple"
+            "a section of {hz} Hz asks for more pictures than there are ticks, {tick_hz} a second; give a lower --section, or a higher --tick-hz"
         ))
     })
 }
@@ -241,7 +290,7 @@ fn make(
     scene: &Scene,
     specs: &[LaneSpec],
     form: Form,
-    strobe: Option<u64>,
+    strobe: Option<f64>,
     interrupted: &AtomicBool,
 ) -> Result<Made, Error> {
     let of_scene = scene_body(scene);
@@ -251,7 +300,8 @@ fn make(
     let points = args.points as usize;
     let cloud = |spec: &LaneSpec| {
         let cloud = Cloud::new(name, &*body, spec, start, points, scene.tick_hz);
-        cloud.map(|cloud| Run { spec: *spec, cloud, stepping: Duration::ZERO, section: None })
+        let part = 1;
+        cloud.map(|cloud| Run { spec: *spec, cloud, stepping: Duration::ZERO, part, section: None })
     };
     let mut runs = specs.iter().map(cloud).collect::<Result<Vec<_>, _>>().map_err(no_cloud)?;
     let seconds = args.seconds.unwrap_or(scene.seconds.min(USUAL_SECONDS));
@@ -269,6 +319,17 @@ fn make(
             Some(axes.map_err(no_cloud)?.whole)
         }
     };
+    if let (Some(view), Some(period)) = (view, strobe) {
+        if period > ticks as f64 {
+            return Err(Error::mistake(format!(
+                "no crossing within {seconds} s; give --seconds more than a period of --section, {} s",
+                significant(period / f64::from(scene.tick_hz), 4)
+            )));
+        }
+        let density = Density::new([SIDE_PX; 2], view);
+        let section = Section { period, crossings: 0, density };
+        runs.iter_mut().for_each(|run| run.section = Some(section.clone()));
+    }
     let paper = view.map(|view| Paper {
         lettering: Lettering::default(),
         view,
@@ -281,41 +342,30 @@ fn make(
     });
     let mut frames = Vec::new();
     let mut border = ExactBorder::new(name, &*body, start, scene.tick_hz).map_err(no_cloud)?;
-    let every = match (strobe, form) {
-        (Some(strobe), _) => strobe,
-        (None, Form::Gif) => ticks.div_ceil(MAX_FRAMES),
-        (None, Form::Rows | Form::Png) => ticks.div_ceil(16),
+    let every = match (form, strobe) {
+        (Form::Rows | Form::Png, _) => ticks,
+        (Form::Gif, None) => ticks.div_ceil(MAX_FRAMES),
+        (Form::Gif, Some(period)) => ticks.div_ceil(MAX_FRAMES).max(period.ceil() as u64),
     };
     let mut done = 0;
-    let frames_every = ticks.div_ceil(every).div_ceil(MAX_FRAMES);
     while done < ticks {
-        let part = every.min(ticks - done);
+        done = (done + every).min(ticks);
         for run in &mut runs {
-            let begun = Instant::now();
-            run.cloud.advance(part);
-            run.stepping += begun.elapsed();
-            if let (Some(view), Some(strobe)) = (view, strobe) {
-                let empty = || Density::new([SIDE_PX; 2], view);
-                if part == strobe {
-                    run.section.get_or_insert_with(empty).add(run.cloud.q(), run.cloud.v());
-                }
+            if !run.go_to(done, interrupted) {
+                let tick = run.cloud.tick();
+                return Err(Error::interrupted_after(format!("{tick} of {ticks} ticks")));
             }
         }
-        done += part;
-        if interrupted.load(Ordering::Relaxed) {
-            return Err(Error::interrupted_after(format!("{done} of {ticks} ticks")));
-        }
         let Some(paper) = &paper else { continue };
-        let is_last = done == ticks;
-        if strobe.is_none() {
-            border.advance(part);
-        }
-        let is_frame = form == Form::Gif && (done / every).is_multiple_of(frames_every);
-        if is_frame || is_last {
-            let lines = if strobe.is_none() { border.lines() } else { Vec::new() };
-            let t = done as f64 / f64::from(scene.tick_hz);
-            frames.push(paper.picture(&runs, t, &lines));
-        }
+        let lines = match strobe {
+            Some(_) => Vec::new(),
+            None => {
+                border.go_to(done);
+                border.lines()
+            }
+        };
+        let t = done as f64 / f64::from(scene.tick_hz);
+        frames.push(paper.picture(&runs, t, &lines));
     }
     let size_px = paper.map_or([0; 2], |paper| paper.size_px.map(|pixels| pixels as u32));
     let rows = runs.iter().map(|run| row(run, points, ticks, form)).collect();
@@ -356,12 +406,14 @@ impl Paper {
         let mut pixels: Vec<Rgba> = vec![palette.background; width * height];
         let specs: Vec<LaneSpec> = runs.iter().map(|run| run.spec).collect();
         for (place, Run { spec, cloud, section, .. }) in runs.iter().enumerate() {
-            let now = || {
-                let mut density = Density::new([SIDE_PX; 2], *view);
-                density.add(cloud.q(), cloud.v());
-                density
+            let density = match section {
+                Some(section) => section.density.clone(),
+                None => {
+                    let mut density = Density::new([SIDE_PX; 2], *view);
+                    density.add(cloud.q(), cloud.v());
+                    density
+                }
             };
-            let density = section.clone().unwrap_or_else(now);
             let (colour, _) = theme.style(spec.method);
             let picture = density.picture(theme, colour, lines);
             let left = place * (SIDE_PX + GAP_PX);
@@ -372,7 +424,7 @@ impl Paper {
             let area = cloud.area_ratio();
             let ratio = area.map(|ratio| format!("area ×{}: ", significant(ratio, 3)));
             let words = match section {
-                Some(_) => String::new(),
+                Some(section) => format!("{} crossings", section.crossings),
                 None => format!("{}{}", ratio.unwrap_or_default(), cloud.in_words(area)),
             };
             let name = spec.distinct_name(spec.method.name, &specs);

@@ -12,8 +12,8 @@ use super::spring::SpringArgs;
 use crate::lab::pacing::{POLICIES, PolicyCard, TRACES, TraceCard, policy, trace_card};
 use crate::lab::palette::Theme;
 use crate::lab::{
-    Clock, CloudKind, Command, Instrument, Lab, LaneSpec, MANY_LANES, MAX_SECONDS, SCENES, Scene,
-    lanes_that_race, nearest,
+    Clock, CloudKind, Instrument, Lab, LaneSpec, MANY_LANES, MAX_SECONDS, SCENES, Scene,
+    StageCommand, lanes_that_race, nearest,
 };
 use crate::sim::integrators::{METHODS, Method, method};
 
@@ -179,11 +179,11 @@ impl Experiment {
     /// The lab at tick 0. A single lane is shown solo.
     pub(super) fn lab(&self) -> Lab {
         let mut lab = Lab::new(self.scene.clone());
-        lab.apply(Command::Method(self.opening_method()));
+        lab.apply(StageCommand::Method(self.opening_method()));
         if self.lineup == Lineup::Everyone && lab.scene().lanes.len() > 1 {
-            lab.apply(Command::ToggleRace);
+            lab.apply(StageCommand::ToggleRace);
         } else {
-            lab.apply(Command::Restart);
+            lab.apply(StageCommand::Restart);
         }
         if self.leaves_selection() {
             lab.leave_selection();

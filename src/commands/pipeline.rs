@@ -213,7 +213,7 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use crate::lab::{Command, Scene};
+    use crate::lab::{Scene, StageCommand};
     use crate::view::{AdapterPreference, Gpu};
 
     /// More frames than there are buffers.
@@ -228,7 +228,7 @@ mod tests {
 
     fn race() -> Lab {
         let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
-        lab.apply(Command::ToggleRace);
+        lab.apply(StageCommand::ToggleRace);
         lab.analyse();
         lab
     }

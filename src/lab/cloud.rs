@@ -4,10 +4,11 @@
 //! tears it.
 
 use crate::sim::batch::Ticks;
-use crate::sim::integrators::{Family, Override, method};
-use crate::sim::{Solver, State, Stepper};
+use crate::sim::integrators::Family;
+use crate::sim::{State, Stepper};
 
 mod axes;
+mod border;
 mod course;
 mod density;
 mod lozenges;
@@ -17,6 +18,8 @@ mod section;
 mod shape;
 
 pub use axes::{CloudAxes, ShownTicks};
+use border::Border;
+pub use border::ExactBorder;
 use course::{Course, Memory};
 pub use density::{Density, PlaneView};
 use lozenges::Lozenges;
@@ -131,23 +134,24 @@ pub struct CloudMeasure {
 /// Many starts of a body under one method.
 pub struct Cloud {
     course: Course,
-    /// The corners of the lozenges about some points.
-    corners: Course,
+    area: Area,
     start: CloudStart,
     /// A change of the area, as a logarithm, that may be of its measure.
     little: f64,
     spread: f64,
 }
 
+/// What an area is measured by.
+enum Area {
+    /// The corners of the lozenges about some points.
+    Lozenges(Course),
+    /// All of it, where near points take steps of their own: the map is too rough for small areas.
+    Border(Border),
+}
+
 /// The most sampled points, and the points of a cloud for each.
 const MAX_SAMPLES: usize = 256;
 const POINTS_TO_A_SAMPLE: usize = 16;
-/// Points of the exact border.
-const BORDER_POINTS: usize = 1200;
-
-/// The tolerance of the exact border: far below a pixel.
-const BORDER_TOLERANCE: f64 = 1e-9;
-
 impl Cloud {
     /// A cloud of `points` starts of `body`, named `name`, under a lane of a race at this tick rate.
     ///
@@ -161,11 +165,11 @@ impl Cloud {
         points: usize,
         tick_hz: u32,
     ) -> Result<Self, NoCloud> {
-        let is_linear = body.is_linear() && spec.method.family != Family::Adaptive;
-        let (samples, little) = match spec.method.family {
-            _ if is_linear => (1, 1e-6),
-            Family::Adaptive => (samples(points), 0.02),
-            _ => (samples(points), 2e-3),
+        let is_adaptive = spec.method.family == Family::Adaptive;
+        let is_linear = body.is_linear() && !is_adaptive;
+        let (samples, little) = match is_linear {
+            true => (1, 1e-6),
+            false => (samples(points), 2e-3),
         };
         let memory = match spec.method.restart {
             None => Memory::Absent,
@@ -174,23 +178,32 @@ impl Cloud {
         let (solver, ticks) = (spec.solver(), start.ticks(tick_hz, spec.substeps));
         let shape = || start.shape.points(points).map(|point| start.state(point)).collect();
         let course = Course::new((name, body), (solver, memory), ticks, points, shape)?;
-        let lozenges = Lozenges::new(samples, spec.method, is_linear, start.reach);
-        let corners = || {
-            let middles = start.shape.points(samples).map(|point| start.state(point));
-            let corners = middles.flat_map(|State { q, v }| lozenges.corners([q, v]));
-            corners.map(|[q, v]| State { q, v }).collect()
+        let area = if is_adaptive {
+            let course = Border::new((name, body), (solver, memory), ticks, start, points)?;
+            Area::Border(course)
+        } else {
+            let lozenges = Lozenges::new(samples, spec.method, is_linear, start.reach);
+            let corners = || {
+                let middles = start.shape.points(samples).map(|point| start.state(point));
+                let corners = middles.flat_map(|State { q, v }| lozenges.corners([q, v]));
+                corners.map(|[q, v]| State { q, v }).collect()
+            };
+            let memory = if lozenges.is_renewed() { Memory::Dropped } else { memory };
+            let corners = Course::new((name, body), (solver, memory), ticks, points, corners)?;
+            Area::Lozenges(corners.around(lozenges))
         };
-        let memory = if lozenges.is_renewed() { Memory::Dropped } else { memory };
-        let corners = Course::new((name, body), (solver, memory), ticks, points, corners)?;
-        let corners = corners.around(lozenges);
-        let mut cloud = Self { course, corners, start, little, spread: 0.0 };
+        let mut cloud = Self { course, area, start, little, spread: 0.0 };
         cloud.spread = cloud.distance().unwrap_or(0.0);
         Ok(cloud)
     }
 
     /// The same cloud, which keeps states of earlier ticks to go back to.
     pub fn rewindable(self) -> Self {
-        Self { course: self.course.rewindable(), corners: self.corners.rewindable(), ..self }
+        let area = match self.area {
+            Area::Lozenges(corners) => Area::Lozenges(corners.rewindable()),
+            Area::Border(border) => Area::Border(border.rewindable()),
+        };
+        Self { course: self.course.rewindable(), area, ..self }
     }
 
     /// Steps all points.
@@ -202,7 +215,25 @@ impl Cloud {
     /// goes there.
     pub fn go_to(&mut self, tick: u64) {
         self.course.go_to(tick);
-        self.corners.go_to(tick);
+        match &mut self.area {
+            Area::Lozenges(corners) => corners.go_to(tick),
+            Area::Border(border) => border.go_to(tick),
+        }
+    }
+
+    /// The coordinates and velocities of all points so many ticks after the start, which may fall between two: on the line
+    /// through their states then. The cloud is at the tick before that, or at the one after.
+    pub fn states_at(&mut self, ticks: f64) -> [Vec<f64>; 2] {
+        let part = ticks.fract();
+        self.go_to(ticks as u64);
+        let mut states = [self.q(), self.v()].map(<[f64]>::to_vec);
+        if part > 0.0 {
+            self.advance(1);
+            for (from, to) in states.iter_mut().zip([self.q(), self.v()]) {
+                from.iter_mut().zip(to).for_each(|(from, to)| *from += part * (to - *from));
+            }
+        }
+        states
     }
 
     /// The tick reached.
@@ -222,9 +253,12 @@ impl Cloud {
 
     /// How the area is measured.
     pub fn measured_in_words(&self) -> String {
-        match self.corners.areas().len() {
-            1 => "by the determinant".into(),
-            samples => format!("by the determinants about {samples} points"),
+        match &self.area {
+            Area::Border(_) => "by the border".into(),
+            Area::Lozenges(corners) => match corners.areas().len() {
+                1 => "by the determinant".into(),
+                samples => format!("by the determinants about {samples} points"),
+            },
         }
     }
 
@@ -248,10 +282,16 @@ impl Cloud {
     /// The area over that at the start; `None` if no point is left, or the cloud is drawn out too
     /// finely.
     pub fn area_ratio(&self) -> Option<f64> {
-        let all = self.corners.areas();
-        let areas: Vec<f64> = all.iter().copied().flatten().collect();
-        let is_known = 2 * areas.len() >= all.len() && self.present().next().is_some();
-        is_known.then(|| areas.iter().sum::<f64>() / areas.len() as f64)
+        self.present().next()?;
+        match &self.area {
+            Area::Border(border) => border.area_ratio(),
+            Area::Lozenges(corners) => {
+                let all = corners.areas();
+                let areas: Vec<f64> = all.iter().copied().flatten().collect();
+                let is_known = 2 * areas.len() >= all.len();
+                is_known.then(|| areas.iter().sum::<f64>() / areas.len() as f64)
+            }
+        }
     }
 
     /// What the area has become, in words.
@@ -295,97 +335,4 @@ impl Cloud {
 /// The sampled points of a cloud of so many.
 fn samples(points: usize) -> usize {
     (points / POINTS_TO_A_SAMPLE).clamp(POINTS_TO_A_SAMPLE / 2, MAX_SAMPLES)
-}
-
-/// The border of a cloud that moves exactly: by a method of high order to a tolerance that no picture shows.
-pub struct ExactBorder {
-    course: Course,
-    /// The points of each line.
-    lengths: Vec<usize>,
-    /// The area at the start, and the length of its longest piece there, in units of the reach.
-    start: CloudStart,
-    area: f64,
-    piece: f64,
-}
-
-/// A border whose pieces have become this many times longer than at the start says nothing of its area.
-const LONGEST_PIECE: f64 = 30.0;
-
-impl ExactBorder {
-    /// The border at the start.
-    ///
-    /// # Errors
-    /// As [`Cloud::new`].
-    pub fn new(
-        name: &str,
-        body: &dyn Stepper,
-        start: CloudStart,
-        tick_hz: u32,
-    ) -> Result<Self, NoCloud> {
-        Self::of_points(BORDER_POINTS, name, body, start, tick_hz)
-    }
-
-    fn of_points(
-        points: usize,
-        name: &str,
-        body: &dyn Stepper,
-        start: CloudStart,
-        tick_hz: u32,
-    ) -> Result<Self, NoCloud> {
-        let borders = start.shape.borders(points);
-        let lengths = borders.iter().map(Vec::len).collect();
-        let method = method("dormand-prince-54").expect("a method of the table");
-        let solver = (Solver::With(method, Override::tolerance(BORDER_TOLERANCE)), Memory::Dropped);
-        let starts = || borders.concat().into_iter().map(|point| start.state(point)).collect();
-        let course = Course::new((name, body), solver, start.ticks(tick_hz, 1), points, starts)?;
-        let mut border = Self { course, lengths, start, area: 1.0, piece: 0.0 };
-        (border.area, border.piece) = border.area_and_piece();
-        Ok(border)
-    }
-
-    /// The same border, which keeps states of earlier ticks to go back to.
-    pub fn rewindable(self) -> Self {
-        Self { course: self.course.rewindable(), ..self }
-    }
-
-    /// Moves it on.
-    pub fn advance(&mut self, ticks: u64) {
-        self.go_to(self.course.tick() + ticks);
-    }
-
-    /// Moves it to a tick, as [`Cloud::go_to`].
-    pub fn go_to(&mut self, tick: u64) {
-        self.course.go_to(tick);
-    }
-
-    /// The lines, of coordinates and velocities. The first is around all, and the others are around its holes.
-    pub fn lines(&self) -> Vec<Vec<[f64; 2]>> {
-        let mut states = self.course.q().iter().zip(self.course.v()).map(|(&q, &v)| [q, v]);
-        self.lengths.iter().map(|&length| states.by_ref().take(length).collect()).collect()
-    }
-
-    /// The area over that at the start; `None` where the border has become too long for its points.
-    pub fn area_ratio(&self) -> Option<f64> {
-        let (area, piece) = self.area_and_piece();
-        (piece <= LONGEST_PIECE * self.piece && area > 0.0).then_some(area / self.area)
-    }
-
-    /// The area, and the length of the longest piece between two points, in units of the reach.
-    fn area_and_piece(&self) -> (f64, f64) {
-        let CloudStart { middle, reach, .. } = self.start;
-        let unit = |at: [f64; 2]| [0, 1].map(|i| (at[i] - middle[i]) / reach[i]);
-        let mut longest = 0.0_f64;
-        let mut around = |line: Vec<[f64; 2]>| {
-            let pieces = line.windows(2).map(|ends| {
-                let [a, b] = [unit(ends[0]), unit(ends[1])];
-                longest = longest.max((b[0] - a[0]).abs()).max((b[1] - a[1]).abs());
-                a[0] * b[1] - b[0] * a[1]
-            });
-            pieces.sum::<f64>().abs() / 2.0
-        };
-        let mut areas = self.lines().into_iter().map(&mut around);
-        let whole = areas.next().unwrap_or(0.0);
-        let area = areas.fold(whole, |area, hole| area - hole);
-        (area, longest)
-    }
 }

@@ -47,6 +47,7 @@ pub struct InstrumentCard {
     pub about: &'static str,
 }
 
+use super::step::Step;
 use InstrumentRow::{Explain, Watch};
 
 /// Every instrument, in the order of the tabs.
@@ -170,11 +171,10 @@ impl Instrument {
         }
     }
 
-    /// The instrument `step` tabs further on, cyclically.
-    pub(super) fn beside(self, step: isize) -> Self {
-        let count = INSTRUMENTS.len() as isize;
-        let place = Self::all().position(|instrument| instrument == self).unwrap_or(0) as isize;
-        INSTRUMENTS[(place + step).rem_euclid(count) as usize].instrument
+    /// The instrument of the tab beside, cyclically.
+    pub(super) fn beside(self, step: Step) -> Self {
+        let place = Self::all().position(|instrument| instrument == self).unwrap_or(0);
+        INSTRUMENTS[step.around(place, INSTRUMENTS.len())].instrument
     }
 }
 
@@ -197,10 +197,10 @@ mod tests {
     fn next_and_previous_go_round() {
         let mut instrument = Instrument::Motion;
         for _ in INSTRUMENTS {
-            assert_eq!(instrument.beside(1).beside(-1), instrument);
-            instrument = instrument.beside(1);
+            assert_eq!(instrument.beside(Step::Next).beside(Step::Previous), instrument);
+            instrument = instrument.beside(Step::Next);
         }
         assert_eq!(instrument, Instrument::Motion);
-        assert_eq!(Instrument::Motion.beside(-1), Instrument::Advice);
+        assert_eq!(Instrument::Motion.beside(Step::Previous), Instrument::Advice);
     }
 }

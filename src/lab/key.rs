@@ -4,8 +4,9 @@
 use std::fmt;
 
 use super::action::Action;
-use super::command::Command;
+use super::command::{Command, RunCommand, StageCommand, ViewCommand};
 use super::loop_lab::LoopCommand;
+use super::step::Step;
 
 /// A key as this layer knows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,16 +88,16 @@ pub static KEYS: &[Binding] = &[
         shown: "1 … 9, 0",
         about: "solo: switch the bodies to that method, in flight; race, loop lab: select that lane",
         keys: &[
-            (Key::Digit(1), Command::Pick(0)),
-            (Key::Digit(2), Command::Pick(1)),
-            (Key::Digit(3), Command::Pick(2)),
-            (Key::Digit(4), Command::Pick(3)),
-            (Key::Digit(5), Command::Pick(4)),
-            (Key::Digit(6), Command::Pick(5)),
-            (Key::Digit(7), Command::Pick(6)),
-            (Key::Digit(8), Command::Pick(7)),
-            (Key::Digit(9), Command::Pick(8)),
-            (Key::Digit(0), Command::Pick(9)),
+            (Key::Digit(1), Command::Stage(StageCommand::Pick(0))),
+            (Key::Digit(2), Command::Stage(StageCommand::Pick(1))),
+            (Key::Digit(3), Command::Stage(StageCommand::Pick(2))),
+            (Key::Digit(4), Command::Stage(StageCommand::Pick(3))),
+            (Key::Digit(5), Command::Stage(StageCommand::Pick(4))),
+            (Key::Digit(6), Command::Stage(StageCommand::Pick(5))),
+            (Key::Digit(7), Command::Stage(StageCommand::Pick(6))),
+            (Key::Digit(8), Command::Stage(StageCommand::Pick(7))),
+            (Key::Digit(9), Command::Stage(StageCommand::Pick(8))),
+            (Key::Digit(0), Command::Stage(StageCommand::Pick(9))),
         ],
         repeats: false,
     },
@@ -104,117 +105,135 @@ pub static KEYS: &[Binding] = &[
         shown: "M, Shift M",
         about: "next, previous method",
         keys: &[
-            (Key::Sign('m'), Command::NextMethod),
-            (Key::ShiftSign('m'), Command::PreviousMethod),
+            (Key::Sign('m'), Command::Stage(StageCommand::MethodBeside(Step::Next))),
+            (Key::ShiftSign('m'), Command::Stage(StageCommand::MethodBeside(Step::Previous))),
         ],
         repeats: false,
     },
     Binding {
         shown: "C",
         about: "solo / race of all methods",
-        keys: &[(Key::Sign('c'), Command::ToggleRace)],
+        keys: &[(Key::Sign('c'), Command::Stage(StageCommand::ToggleRace))],
         repeats: false,
     },
     Binding {
         shown: "Space",
         about: "run / pause",
-        keys: &[(Key::Space, Command::TogglePause)],
+        keys: &[(Key::Space, Command::View(ViewCommand::TogglePause))],
         repeats: false,
     },
     Binding {
         shown: ", .",
         about: "one tick back, forward",
-        keys: &[(Key::Sign(','), Command::TickBack), (Key::Sign('.'), Command::TickForward)],
+        keys: &[
+            (Key::Sign(','), Command::Stage(StageCommand::Tick(Step::Previous))),
+            (Key::Sign('.'), Command::Stage(StageCommand::Tick(Step::Next))),
+        ],
         repeats: true,
     },
     Binding {
         shown: "Shift , .",
         about: "one second back, forward",
         keys: &[
-            (Key::ShiftSign(','), Command::SecondBack),
-            (Key::ShiftSign('.'), Command::SecondForward),
+            (Key::ShiftSign(','), Command::Stage(StageCommand::Second(Step::Previous))),
+            (Key::ShiftSign('.'), Command::Stage(StageCommand::Second(Step::Next))),
         ],
         repeats: true,
     },
     Binding {
         shown: "W",
         about: "watch the selected lane blow up again",
-        keys: &[(Key::Sign('w'), Command::WatchAgain)],
+        keys: &[(Key::Sign('w'), Command::Run(RunCommand::WatchAgain))],
         repeats: false,
     },
     Binding {
         shown: "Ctrl Z, Ctrl Shift Z",
         about: "undo, redo the last change",
         keys: &[
-            (Key::ControlSign('z'), Command::Undo),
-            (Key::ControlShiftSign('z'), Command::Redo),
+            (Key::ControlSign('z'), Command::Run(RunCommand::Undo)),
+            (Key::ControlShiftSign('z'), Command::Run(RunCommand::Redo)),
         ],
         repeats: false,
     },
     Binding {
         shown: "Home",
         about: "restart",
-        keys: &[(Key::Home, Command::Restart)],
+        keys: &[(Key::Home, Command::Stage(StageCommand::Restart))],
         repeats: false,
     },
     Binding {
         shown: "[ ]",
         about: "tick rate down, up",
-        keys: &[(Key::Sign('['), Command::TickRateDown), (Key::Sign(']'), Command::TickRateUp)],
+        keys: &[
+            (Key::Sign('['), Command::Stage(StageCommand::TickRate(Step::Previous))),
+            (Key::Sign(']'), Command::Stage(StageCommand::TickRate(Step::Next))),
+        ],
         repeats: true,
     },
     Binding {
         shown: "- =",
         about: "speed down, up: ¼× to 16×",
-        keys: &[(Key::Sign('-'), Command::SpeedDown), (Key::Sign('='), Command::SpeedUp)],
+        keys: &[
+            (Key::Sign('-'), Command::Stage(StageCommand::Speed(Step::Previous))),
+            (Key::Sign('='), Command::Stage(StageCommand::Speed(Step::Next))),
+        ],
         repeats: true,
     },
     Binding {
         shown: "↑ ↓",
         about: "throttle (ship, helm, a law that uses it)",
-        keys: &[(Key::Up, Command::ThrottleUp), (Key::Down, Command::ThrottleDown)],
+        keys: &[
+            (Key::Up, Command::Run(RunCommand::ThrottleUp)),
+            (Key::Down, Command::Run(RunCommand::ThrottleDown)),
+        ],
         repeats: true,
     },
     Binding {
         shown: "← →",
         about: "rudder (helm, a law that uses it)",
-        keys: &[(Key::Left, Command::RudderLeft), (Key::Right, Command::RudderRight)],
+        keys: &[
+            (Key::Left, Command::Run(RunCommand::RudderLeft)),
+            (Key::Right, Command::Run(RunCommand::RudderRight)),
+        ],
         repeats: true,
     },
     Binding {
         shown: "K",
         about: "kick: an impulse at the next tick",
-        keys: &[(Key::Sign('k'), Command::Act(Action::Kick(1.0)))],
+        keys: &[(Key::Sign('k'), Command::Run(RunCommand::Act(Action::Kick(1.0))))],
         repeats: false,
     },
     Binding {
         shown: "N, B",
         about: "next, previous scene",
-        keys: &[(Key::Sign('n'), Command::NextScene), (Key::Sign('b'), Command::PreviousScene)],
+        keys: &[
+            (Key::Sign('n'), Command::Stage(StageCommand::SceneBeside(Step::Next))),
+            (Key::Sign('b'), Command::Stage(StageCommand::SceneBeside(Step::Previous))),
+        ],
         repeats: false,
     },
     Binding {
         shown: "O",
         about: "open a scene file; or drop one onto the window",
-        keys: &[(Key::Sign('o'), Command::AskForPath)],
+        keys: &[(Key::Sign('o'), Command::View(ViewCommand::AskForPath))],
         repeats: false,
     },
     Binding {
         shown: "S",
         about: "a spring of your own: its numbers, the recommended method, and its code",
-        keys: &[(Key::Sign('s'), Command::AskForSpring)],
+        keys: &[(Key::Sign('s'), Command::View(ViewCommand::AskForSpring))],
         repeats: false,
     },
     Binding {
         shown: "G",
         about: "exact ghost on / off",
-        keys: &[(Key::Sign('g'), Command::ToggleGhost)],
+        keys: &[(Key::Sign('g'), Command::View(ViewCommand::ToggleGhost))],
         repeats: false,
     },
     Binding {
         shown: "I",
         about: "drawing between ticks: raw / extrapolated / linear / Hermite / monotone Hermite",
-        keys: &[(Key::Sign('i'), Command::NextInterpolation)],
+        keys: &[(Key::Sign('i'), Command::Run(RunCommand::NextInterpolation))],
         repeats: false,
     },
     Binding {
@@ -226,24 +245,24 @@ pub static KEYS: &[Binding] = &[
     Binding {
         shown: "V",
         about: "race, loop lab: lanes over each other / side by side",
-        keys: &[(Key::Sign('v'), Command::ToggleArrangement)],
+        keys: &[(Key::Sign('v'), Command::Stage(StageCommand::ToggleArrangement))],
         repeats: false,
     },
     Binding {
         shown: "F3",
         about: "light / dark theme",
-        keys: &[(Key::Function(3), Command::ToggleTheme)],
+        keys: &[(Key::Function(3), Command::View(ViewCommand::ToggleTheme))],
         repeats: false,
     },
     Binding {
         shown: "Ctrl + − 0",
         about: "text and panels larger, smaller, back to normal",
         keys: &[
-            (Key::ControlSign('+'), Command::ScaleUp),
+            (Key::ControlSign('+'), Command::View(ViewCommand::Scale(Step::Next))),
             // The same key unshifted.
-            (Key::ControlSign('='), Command::ScaleUp),
-            (Key::ControlSign('-'), Command::ScaleDown),
-            (Key::ControlSign('0'), Command::UsualScale),
+            (Key::ControlSign('='), Command::View(ViewCommand::Scale(Step::Next))),
+            (Key::ControlSign('-'), Command::View(ViewCommand::Scale(Step::Previous))),
+            (Key::ControlSign('0'), Command::View(ViewCommand::UsualScale)),
         ],
         repeats: true,
     },
@@ -251,82 +270,91 @@ pub static KEYS: &[Binding] = &[
         shown: "T, Shift T",
         about: "next, previous instrument; loop lab: display",
         keys: &[
-            (Key::Sign('t'), Command::NextInstrument),
-            (Key::ShiftSign('t'), Command::PreviousInstrument),
+            (Key::Sign('t'), Command::Stage(StageCommand::InstrumentBeside(Step::Next))),
+            (Key::ShiftSign('t'), Command::Stage(StageCommand::InstrumentBeside(Step::Previous))),
         ],
         repeats: false,
     },
     Binding {
         shown: "Enter",
         about: "enlarge the instrument over the stage",
-        keys: &[(Key::Enter, Command::ToggleEnlarged)],
+        keys: &[(Key::Enter, Command::View(ViewCommand::ToggleEnlarged))],
         repeats: false,
     },
     Binding {
         shown: "Ctrl C, Ctrl E",
         about: "copy the instrument's values, or on a lane its method, or an engine's settings, as code; save as PNG, SVG and CSV",
         keys: &[
-            (Key::ControlSign('c'), Command::Copy),
-            (Key::ControlSign('e'), Command::ExportInstrument),
+            (Key::ControlSign('c'), Command::View(ViewCommand::Copy)),
+            (Key::ControlSign('e'), Command::View(ViewCommand::ExportInstrument)),
         ],
         repeats: false,
     },
     Binding {
         shown: "E",
         about: "inspector: parameters, methods and rates, edited while it runs",
-        keys: &[(Key::Sign('e'), Command::ToggleInspector)],
+        keys: &[(Key::Sign('e'), Command::Run(RunCommand::ToggleInspector))],
         repeats: false,
     },
     Binding {
         shown: "P, F12",
         about: "screenshot; the file's name is shown",
-        keys: &[(Key::Sign('p'), Command::Screenshot), (Key::Function(12), Command::Screenshot)],
+        keys: &[
+            (Key::Sign('p'), Command::View(ViewCommand::Screenshot)),
+            (Key::Function(12), Command::View(ViewCommand::Screenshot)),
+        ],
         repeats: false,
     },
     Binding {
         shown: "F5, Ctrl S",
         about: "save the run as a scene file; its name is shown",
-        keys: &[(Key::Function(5), Command::Record), (Key::ControlSign('s'), Command::Record)],
+        keys: &[
+            (Key::Function(5), Command::Run(RunCommand::Record)),
+            (Key::ControlSign('s'), Command::Run(RunCommand::Record)),
+        ],
         repeats: false,
     },
     Binding {
         shown: "X",
         about: "equal cost of all lanes on / off: cheap lanes get more substeps",
-        keys: &[(Key::Sign('x'), Command::ToggleEqualCost)],
+        keys: &[(Key::Sign('x'), Command::Run(RunCommand::ToggleEqualCost))],
         repeats: false,
     },
     Binding {
         shown: "F11",
         about: "full screen",
-        keys: &[(Key::Function(11), Command::ToggleFullScreen)],
+        keys: &[(Key::Function(11), Command::View(ViewCommand::ToggleFullScreen))],
         repeats: false,
     },
     Binding {
         shown: "F2",
         about: "guide: the chapter in stops, each with a prediction and a key to press",
-        keys: &[(Key::Function(2), Command::ToggleGuide)],
+        keys: &[(Key::Function(2), Command::View(ViewCommand::ToggleGuide))],
         repeats: false,
     },
     Binding {
         shown: "Page Up, Down",
         about: "previous, next stop of the guide, while it is open",
-        keys: &[(Key::PageUp, Command::PreviousStop), (Key::PageDown, Command::NextStop)],
+        keys: &[
+            (Key::PageUp, Command::View(ViewCommand::StopBeside(Step::Previous))),
+            (Key::PageDown, Command::View(ViewCommand::StopBeside(Step::Next))),
+        ],
         repeats: false,
     },
     Binding {
         shown: "H, F1, ?",
         about: "help",
         keys: &[
-            (Key::Sign('h'), Command::ToggleHelp),
-            (Key::Function(1), Command::ToggleHelp),
-            (Key::Sign('?'), Command::ToggleHelp),
+            (Key::Sign('h'), Command::View(ViewCommand::ToggleHelp)),
+            (Key::Function(1), Command::View(ViewCommand::ToggleHelp)),
+            (Key::Sign('?'), Command::View(ViewCommand::ToggleHelp)),
         ],
         repeats: false,
     },
     Binding {
         shown: "Esc",
         about: "let go of a body, close the overlay, the guide, the instrument, the inspector, or quit",
-        keys: &[(Key::Escape, Command::Escape)],
+        keys: &[(Key::Escape, Command::View(ViewCommand::Escape))],
         repeats: false,
     },
 ];

@@ -52,6 +52,7 @@ pub mod scene;
 mod scene_list;
 pub mod session;
 pub mod source_code;
+mod step;
 mod time_scale;
 mod viewer;
 mod zoom_pan;
@@ -75,7 +76,10 @@ pub use cloud::{
     CloudWorker, Density, ExactBorder, LaneCloud, NoCloud, POINTS, PlaneView, ShownTicks,
     USUAL_POINTS,
 };
-pub use command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT};
+pub use command::{
+    Command, RunCommand, SCALE_LADDER, SPEED_LADDER, StageCommand, TICK_LADDER,
+    USUAL_SCALE_PERCENT, ViewCommand,
+};
 pub use csv_row::csv_row;
 pub use custom::{Draw, Options, OptionsError};
 pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, View};
@@ -119,6 +123,7 @@ pub use scene::{
 pub use scene_list::SceneList;
 pub use session::{Event, RecordingError, Session, Timeline};
 pub use source_code::{Language, NoSourceCode, Precision, source_code};
+pub use step::Step;
 pub use time_scale::TimeScale;
 pub use viewer::{Dialog, Preferences, Viewer};
 pub use zoom_pan::{ZOOMS, ZoomPan};

@@ -144,7 +144,7 @@ fn of_claims(scene: &Scene, race: &Race, action: &Action) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Command, Lab, METRICS};
+    use crate::lab::{Lab, METRICS, RunCommand, StageCommand};
 
     #[test]
     fn what_goes_on_is_told_with_what_became_of_it_and_where_it_begins() {
@@ -171,8 +171,8 @@ mod tests {
     #[test]
     fn a_body_that_blew_up_says_when_and_with_what_value_in_its_unit() {
         let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
-        lab.apply(Command::Method(crate::sim::integrators::method("explicit-euler").unwrap()));
-        lab.apply(Command::TickHz(10));
+        lab.apply(StageCommand::Method(crate::sim::integrators::method("explicit-euler").unwrap()));
+        lab.apply(StageCommand::TickHz(10));
         while lab.selected().lane.halted().is_none() {
             lab.tick();
         }
@@ -193,7 +193,7 @@ mod tests {
             acceleration = '-k*x - c*vx'\nexact = 'a*x0*cos(sqrt(k)*t)'";
         let mut lab = Lab::new(Scene::parse("x.toml", text).unwrap());
         let mut set = |parameter: usize, value: f64| {
-            lab.apply(Command::Act(Action::Set { body: 0, parameter, value }));
+            lab.apply(RunCommand::Act(Action::Set { body: 0, parameter, value }));
             let drift = METRICS.iter().find(|metric| metric.id == "energy_drift").unwrap();
             let absent = drift.absent_on(&lab.race().truth().bodies()[0]);
             let told = lab.viewer.notice.take().map(|notice| notice.to_string());

@@ -142,7 +142,7 @@ impl Viewer {
         self.pointed
     }
 
-    /// Whether the pointer's button is down, as [`Command::PointerDown`](super::Command::PointerDown) told last.
+    /// Whether the pointer's button is down, as [`ViewCommand::PointerDown`](super::ViewCommand::PointerDown) told last.
     pub fn pointer_is_down(&self) -> bool {
         self.pointer_is_down
     }
@@ -220,10 +220,5 @@ impl Viewer {
         };
         self.preferences.display.arrangement = arrangement;
         self.notice = Some(told.to_owned().into());
-    }
-
-    /// Switches to the instrument this many tabs further on, cyclically.
-    pub(super) fn instrument_beside(&mut self, step: isize) {
-        self.preferences.display.instrument = self.preferences.display.instrument.beside(step);
     }
 }

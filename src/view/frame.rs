@@ -13,7 +13,7 @@ use super::textures::{Start, pass};
 use super::theme::{self, colour, growth};
 use super::touch::Touch;
 use crate::lab::picture::{self, Align, Label};
-use crate::lab::{Command, Lab};
+use crate::lab::{Command, Lab, ViewCommand};
 
 /// Where the copies of a label lie that make its halo, in points.
 const HALO: [[f32; 2]; 4] = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
@@ -109,7 +109,7 @@ impl FrameRenderer {
             let (is_down, was_down) =
                 (ui.input(|input| input.pointer.any_down()), lab.viewer().pointer_is_down());
             if is_down && !was_down {
-                commands.push(Command::PointerDown(true));
+                commands.push(Command::View(ViewCommand::PointerDown(true)));
             }
             let rect = match shown {
                 Panels::Shown => {
@@ -127,7 +127,7 @@ impl FrameRenderer {
             let picture = picture::compose(lab, size.into());
             touch.show(ui, rect, &picture, lab, &mut commands);
             if was_down && !is_down {
-                commands.push(Command::PointerDown(false));
+                commands.push(Command::View(ViewCommand::PointerDown(false)));
             }
             Some(Stage { rect, picture })
         });

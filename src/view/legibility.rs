@@ -10,7 +10,7 @@ use crate::lab::palette::Theme;
 use crate::lab::picture::compose;
 use crate::lab::{
     Arrangement, CloudChoice, CloudKind, CloudWorker, Command, Instrument, Lab, LoopCommand,
-    SCALE_LADDER, SCENES, Scene,
+    RunCommand, SCALE_LADDER, SCENES, Scene, StageCommand, Step, ViewCommand,
 };
 
 /// Sizes of windows in points: the first is the least, the last has four times the usual pixels.
@@ -118,7 +118,7 @@ fn started(scene: Scene, race: bool) -> Lab {
 fn moved(scene: Scene, race: bool) -> Lab {
     let mut lab = Lab::new(scene);
     if race {
-        lab.apply(Command::ToggleRace);
+        lab.apply(StageCommand::ToggleRace);
     }
     let ticks = 4 * lab.race().tick_hz();
     (0..ticks).for_each(|_| lab.tick());
@@ -153,9 +153,9 @@ fn every_text_can_be_read_under_every_instrument_beside_the_inspector_on_every_s
         for (i, instrument) in Instrument::all().enumerate() {
             let [inspector, race, size] = [s + i, s / 2 + i, s + i / 2].map(|n| n % 2);
             let lab = &mut labs[race];
-            lab.apply(Command::Instrument(instrument));
+            lab.apply(StageCommand::Instrument(instrument));
             if lab.display().inspector != (inspector == 1) {
-                lab.apply(Command::ToggleInspector);
+                lab.apply(RunCommand::ToggleInspector);
             }
             let faults = faults(lab, SIZES[size]);
             let name = instrument.name();
@@ -177,14 +177,14 @@ fn every_text_can_be_read_beside_clouds_and_sections() {
     for (name, race, kind) in scenes {
         let mut lab = Lab::new(Scene::built_in(name).expect("a built-in scene"));
         if race {
-            lab.apply(Command::ToggleRace);
+            lab.apply(StageCommand::ToggleRace);
         }
         (0..lab.race().tick_hz()).for_each(|_| lab.tick());
-        lab.apply(Command::Instrument(Instrument::Cloud));
-        lab.apply(Command::Cloud(CloudChoice { kind, points: 1000 }));
+        lab.apply(StageCommand::Instrument(Instrument::Cloud));
+        lab.apply(RunCommand::Cloud(CloudChoice { kind, points: 1000 }));
         lab.complete_clouds(&mut CloudWorker::default(), || false);
         assert_legible(&lab, &format!("clouds of {name}, race {race}"));
-        lab.apply(Command::ToggleEnlarged);
+        lab.apply(ViewCommand::ToggleEnlarged);
         assert_legible(&lab, &format!("large clouds of {name}, race {race}"));
     }
 }
@@ -193,18 +193,18 @@ fn every_text_can_be_read_beside_clouds_and_sections() {
 fn every_text_can_be_read_at_every_stop_of_the_guide_beside_the_inspector() {
     let mut all = Vec::new();
     let mut lab = run("spring", false);
-    lab.apply(Command::ToggleGuide);
+    lab.apply(ViewCommand::ToggleGuide);
     for stop in 0..STOPS.len() {
         (0..60).for_each(|_| lab.tick());
         for (i, size) in SIZES[..2].iter().enumerate() {
             if lab.display().inspector != (i == stop % 2) {
-                lab.apply(Command::ToggleInspector);
+                lab.apply(RunCommand::ToggleInspector);
             }
             let faults = faults(&lab, *size);
             let at = format!("stop {stop}, inspector {}, {size}", lab.display().inspector);
             all.extend(faults.into_iter().map(|fault| format!("{at}: {fault}")));
         }
-        lab.apply(Command::NextStop);
+        lab.apply(ViewCommand::StopBeside(Step::Next));
     }
     assert!(all.is_empty(), "\n{}", all.join("\n"));
 }
@@ -215,7 +215,7 @@ fn every_text_can_be_read_with_all_methods_racing_in_both_arrangements() {
         let mut lab = race_of_all(name);
         assert_eq!(lab.display().arrangement, Arrangement::Overlay);
         assert_legible(&lab, &format!("all methods on {name}"));
-        lab.apply(Command::ToggleArrangement);
+        lab.apply(StageCommand::ToggleArrangement);
         for size in &SIZES[1..] {
             let faults = faults(&lab, *size);
             assert!(faults.is_empty(), "{name} side by side, {size}:\n{}", faults.join("\n"));
@@ -226,10 +226,10 @@ fn every_text_can_be_read_with_all_methods_racing_in_both_arrangements() {
 #[test]
 fn every_text_can_be_read_under_every_method_from_the_start() {
     let mut lab = race_of_all("harbour");
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     for entry in 0..lab.entries().len() {
-        lab.apply(Command::Pick(entry));
-        lab.apply(Command::Restart);
+        lab.apply(StageCommand::Pick(entry));
+        lab.apply(StageCommand::Restart);
         assert_legible(&lab, lab.entries()[entry].method.name);
     }
 }
@@ -247,11 +247,18 @@ fn every_text_can_be_read_at_every_size_of_type() {
 
 #[test]
 fn every_text_can_be_read_in_the_light_theme_and_with_the_help_and_the_inspector_open() {
-    for command in [Command::ToggleTheme, Command::ToggleHelp, Command::ToggleInspector] {
+    for command in [
+        Command::View(ViewCommand::ToggleTheme),
+        Command::View(ViewCommand::ToggleHelp),
+        Command::Run(RunCommand::ToggleInspector),
+    ] {
         let mut lab = run("harbour", false);
         lab.apply(command.clone());
-        assert_eq!(lab.display().theme == Theme::Light, command == Command::ToggleTheme);
-        if command == Command::ToggleHelp {
+        assert_eq!(
+            lab.display().theme == Theme::Light,
+            command == Command::View(ViewCommand::ToggleTheme)
+        );
+        if command == Command::View(ViewCommand::ToggleHelp) {
             // The overlay lies over what is below it on purpose: only what is elided or cut is a fault.
             for size in SIZES {
                 let faults = faults(&lab, size);
@@ -275,7 +282,7 @@ fn every_text_of_the_loop_lab_can_be_read_on_any_stage_display_and_theme() {
             lab.run_loops();
             lab.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
             assert_legible(&lab, &format!("loop lab on {name}, {theme:?}"));
-            lab.apply(Command::ToggleArrangement);
+            lab.apply(StageCommand::ToggleArrangement);
             assert_legible(&lab, &format!("loops over each other on {name}, {theme:?}"));
         }
     }
@@ -308,7 +315,7 @@ fn every_text_of_every_instrument_of_the_loop_lab_can_be_read() {
         lab.run_loops();
         lab.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
         for instrument in Instrument::all().filter(|one| one.is_in_loop_lab()) {
-            lab.apply(Command::Instrument(instrument));
+            lab.apply(StageCommand::Instrument(instrument));
             assert_legible(&lab, &format!("{} by loop on {name}", instrument.name()));
         }
     }
@@ -346,9 +353,9 @@ fn instruments_are_chosen_in_two_rows_of_tabs_and_in_a_small_window_from_a_menu(
 #[test]
 fn what_one_step_does_to_the_swing_is_seen_whole_under_any_method() {
     let mut lab = race_of_all("spring");
-    lab.apply(Command::Instrument(Instrument::OneStep));
+    lab.apply(StageCommand::Instrument(Instrument::OneStep));
     for entry in [0, 3, 11] {
-        lab.apply(Command::Pick(entry));
+        lab.apply(StageCommand::Pick(entry));
         for size in [vec2(960.0, 540.0)].into_iter().chain(SIZES) {
             let texts = beside_the_stage(&lab, size);
             let said = texts.iter().position(|text| text.words.starts_with("This tick"));
@@ -365,14 +372,14 @@ fn what_one_step_does_to_the_swing_is_seen_whole_under_any_method() {
 #[test]
 fn one_step_far_out_the_stability_map_and_the_times_of_ticks_can_be_read() {
     let mut lab = run("spring", true);
-    lab.apply(Command::Instrument(Instrument::StabilityMap));
+    lab.apply(StageCommand::Instrument(Instrument::StabilityMap));
     lab.analyse();
     assert_legible(&lab, "the map");
     let times = lab.entries().iter().map(|spec| (*spec, Some(987.6))).collect();
     lab.set_tick_times(times);
-    lab.apply(Command::Instrument(Instrument::Cost));
+    lab.apply(StageCommand::Instrument(Instrument::Cost));
     assert_legible(&lab, "the times");
-    lab.apply(Command::Instrument(Instrument::OneStep));
+    lab.apply(StageCommand::Instrument(Instrument::OneStep));
     (0..1800).for_each(|_| lab.tick());
     assert_legible(&lab, "a step far out");
 }
@@ -380,9 +387,9 @@ fn one_step_far_out_the_stability_map_and_the_times_of_ticks_can_be_read() {
 #[test]
 fn large_energies_can_be_read_beside_their_names() {
     let mut lab = run("stiff", true);
-    lab.apply(Command::ToggleEqualCost);
-    lab.apply(Command::Pick(1));
-    lab.apply(Command::Instrument(Instrument::Energy));
+    lab.apply(RunCommand::ToggleEqualCost);
+    lab.apply(StageCommand::Pick(1));
+    lab.apply(StageCommand::Instrument(Instrument::Energy));
     (0..8 * 60).for_each(|_| lab.tick());
     assert_legible(&lab, "the energies");
     let mut longest = 0;
@@ -405,7 +412,7 @@ fn large_energies_can_be_read_beside_their_names() {
 #[test]
 fn every_text_of_this_windows_own_loop_can_be_read() {
     let mut lab = run("spring", false);
-    lab.apply(Command::Instrument(Instrument::Loop));
+    lab.apply(StageCommand::Instrument(Instrument::Loop));
     assert_legible(&lab, "no frame yet");
     for frame in 0..600 {
         lab.advance(if frame % 50 == 7 { 41_000_000 } else { 16_600_000 });

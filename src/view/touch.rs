@@ -8,7 +8,7 @@ use egui::{CursorIcon, Event, PointerButton, Pos2, Rect, Stroke, Ui, Vec2, vec2}
 use super::theme::ink;
 use super::wheel;
 use crate::lab::picture::{Cell, Grasp, Picture, Whose};
-use crate::lab::{Action, Command, Lab, Mode, ZoomPan};
+use crate::lab::{Action, Command, Lab, Mode, RunCommand, StageCommand, ViewCommand, ZoomPan};
 
 /// From this distance on, in points, a press is a drag: less is a hand that trembles.
 const DRAG: f32 = 3.0;
@@ -118,7 +118,7 @@ impl Touch {
         let holds = matches!(self.press, Some(Press { on: Pressed::Body { .. }, .. }));
         match lab.viewer().held() {
             None if holds => self.press = None,
-            Some(_) if !holds => commands.push(Command::LetGo),
+            Some(_) if !holds => commands.push(Command::View(ViewCommand::LetGo)),
             _ => {}
         }
     }
@@ -129,7 +129,7 @@ impl Touch {
         let grip = cell.grip_at(stage.lab, point);
         let on = match grip.and_then(|grip| Grasp::new(stage.lab, cell, &grip, point)) {
             Some(grasp) => {
-                commands.push(Command::Hold(grasp.held().clone()));
+                commands.push(Command::Run(RunCommand::Hold(grasp.held().clone())));
                 let entry = match grip.map(|grip| grip.whose) {
                     Some(Whose::Lane { entry, .. }) => entry,
                     Some(Whose::Truth) | None => cell.entry,
@@ -156,12 +156,13 @@ impl Touch {
         match &mut press.on {
             Pressed::Body { grasp, .. } => {
                 grasp.pull(stage.lab, stage.point(at), [0.0; 2]);
-                commands.push(Command::Hold(grasp.held().clone()));
+                commands.push(Command::Run(RunCommand::Hold(grasp.held().clone())));
             }
             Pressed::Sea { cell, zoom_pan } => {
                 let [from, to] = [press.from, at].map(|at| cell.part(stage.point(at)));
                 let zoom_pan = zoom_pan.panned([to[0] - from[0], to[1] - from[1]]);
-                commands.push(Command::ZoomPan { body: cell.zoomed_as, zoom_pan });
+                commands
+                    .push(Command::View(ViewCommand::ZoomPan { body: cell.zoomed_as, zoom_pan }));
             }
         }
     }
@@ -187,15 +188,15 @@ impl Touch {
                     grasp.pull(stage.lab, stage.point(at), velocity);
                     let held = grasp.held();
                     let (body, q, v) = (held.body, held.q.clone(), held.v.clone());
-                    commands.push(Command::Act(Action::Place { body, q, v }));
+                    commands.push(Command::Run(RunCommand::Act(Action::Place { body, q, v })));
                 }
-                commands.push(Command::LetGo);
+                commands.push(Command::View(ViewCommand::LetGo));
                 entry
             }
             Pressed::Sea { cell, .. } => cell.entry,
         };
         if !is_drag && stage.lab.mode() == Mode::Race {
-            commands.push(Command::Pick(entry));
+            commands.push(Command::Stage(StageCommand::Pick(entry)));
         }
     }
 
@@ -228,11 +229,11 @@ fn zoom(ui: &Ui, stage: &Stage<'_>, at: Pos2, commands: &mut Vec<Command>) {
     let (times, _) = wheel::turned(ui);
     let body = cell.zoomed_as;
     if ui.input(|input| input.pointer.button_double_clicked(PointerButton::Primary)) {
-        commands.push(Command::ZoomPan { body, zoom_pan: ZoomPan::default() });
+        commands.push(Command::View(ViewCommand::ZoomPan { body, zoom_pan: ZoomPan::default() }));
     } else if times != 1.0 {
         let about = cell.part(stage.point(at));
         let zoom_pan = stage.lab.view().zoom_pan(body).zoomed(times, about);
-        commands.push(Command::ZoomPan { body, zoom_pan });
+        commands.push(Command::View(ViewCommand::ZoomPan { body, zoom_pan }));
     }
 }
 

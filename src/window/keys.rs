@@ -4,7 +4,7 @@ use winit::event::{ElementState, KeyEvent};
 use winit::keyboard::{Key as Logical, KeyCode, ModifiersState, NamedKey, PhysicalKey};
 
 use super::App;
-use crate::lab::{Command, Dialog, Key, command_for};
+use crate::lab::{Command, Dialog, Key, ViewCommand, command_for};
 
 /// The modifier keys that are held down.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -42,7 +42,7 @@ impl App {
             // At once: the next key is not text any more.
             let closes = key == Key::Escape;
             if closes {
-                self.asked.push(Command::CloseDialog);
+                self.asked.push(Command::View(ViewCommand::CloseDialog));
                 let field = panels.memory(|memory| memory.focused());
                 field.into_iter().for_each(|id| panels.memory_mut(|m| m.surrender_focus(id)));
             }
@@ -72,9 +72,9 @@ impl App {
     fn asks_for_path(&self) -> bool {
         let is_open = matches!(self.lab.viewer().dialog(), Some(Dialog::Path { .. }));
         self.asked.iter().fold(is_open, |is_open, command| match command {
-            Command::AskForPath => true,
+            Command::View(ViewCommand::AskForPath) => true,
             // `OpenTypedPath` closes the field only if the scene can be opened.
-            Command::CloseDialog => false,
+            Command::View(ViewCommand::CloseDialog) => false,
             _ => is_open,
         })
     }
@@ -212,7 +212,7 @@ fn digit(code: KeyCode) -> Option<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::KEYS;
+    use crate::lab::{KEYS, StageCommand};
 
     fn pressed(code: KeyCode, text: &str, shift: bool) -> Option<Key> {
         held(code, text, Modifiers { shift, ..Modifiers::default() })
@@ -258,6 +258,6 @@ mod tests {
             assert!(!bound[..i].contains(key), "{key:?} is bound twice");
         }
         let (command, _) = command_for(Key::Digit(1)).unwrap();
-        assert_eq!(command, Command::Pick(0));
+        assert_eq!(command, Command::Stage(StageCommand::Pick(0)));
     }
 }

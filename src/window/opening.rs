@@ -4,7 +4,7 @@ use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use std::sync::Arc;
 
 use crate::lab::pacing::trace_file;
-use crate::lab::{Command, Lab, Mistake, SCENES, Scene};
+use crate::lab::{Lab, Mistake, SCENES, Scene, StageCommand, ViewCommand};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
 
 /// Reads a scene file and returns its scene and its text, or what the command line would print of its mistakes.
@@ -67,14 +67,14 @@ pub(super) fn open_typed(lab: &mut Lab, read: &ReadScene) -> Option<(PathBuf, St
     let typed = lab.viewer().typed_path().trim().to_owned();
     match SCENES.iter().position(|scene| scene.name == typed) {
         Some(place) => {
-            lab.apply(Command::Scene(place));
+            lab.apply(StageCommand::Scene(place));
             None
         }
         None => {
             let path = known(lab, &from_home(&typed));
             if is_trace(&path) {
                 match open_trace(lab, &path) {
-                    Ok(()) => _ = lab.apply(Command::CloseDialog),
+                    Ok(()) => _ = lab.apply(ViewCommand::CloseDialog),
                     Err(report) => lab.refuse_typed_path(&path, report),
                 }
                 return None;
@@ -165,14 +165,14 @@ mod tests {
         let Some(Dialog::Mistakes { report, .. }) = lab.viewer().dialog() else { panic!() };
         let message = &report[0].message;
         assert!(message.starts_with(&format!("{}:1:", bad.display())), "{message}");
-        lab.apply(Command::AskForPath);
-        lab.apply(Command::TypePath(bad.display().to_string()));
+        lab.apply(ViewCommand::AskForPath);
+        lab.apply(ViewCommand::TypePath(bad.display().to_string()));
         assert_eq!(open_typed(&mut lab, &read()), None);
         let Some(Dialog::Path { refused: Some(report) }) = lab.viewer().dialog() else { panic!() };
         let message = &report[0].message;
         assert!(message.starts_with(&format!("{}:1:", bad.display())), "{message}");
         // The name of a built-in scene opens that, as on the command line.
-        lab.apply(Command::TypePath(" ship ".into()));
+        lab.apply(ViewCommand::TypePath(" ship ".into()));
         assert_eq!(open_typed(&mut lab, &read()), None);
         assert_eq!((lab.scene_name().as_str(), lab.viewer().dialog()), ("ship", None));
     }

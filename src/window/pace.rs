@@ -65,7 +65,7 @@ impl Meter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Command, Scene};
+    use crate::lab::{Command, RunCommand, Scene, StageCommand, Step, ViewCommand};
 
     /// A lab at this tick rate, its meter, and when the last frame began.
     struct Run(Lab, Meter, Instant);
@@ -73,7 +73,7 @@ mod tests {
     impl Run {
         fn at(tick_hz: u32) -> Self {
             let mut lab = Lab::new(Scene::built_in("ship").unwrap());
-            lab.apply(Command::TickHz(tick_hz));
+            lab.apply(StageCommand::TickHz(tick_hz));
             Self(lab, Meter::default(), Instant::now())
         }
 
@@ -114,17 +114,20 @@ mod tests {
     #[test]
     fn a_pause_another_speed_and_a_restart_begin_the_measure_again() {
         let mut run = Run::at(60);
-        for command in
-            [Command::TogglePause, Command::SpeedUp, Command::TickHz(2), Command::Restart]
-        {
+        for command in [
+            Command::View(ViewCommand::TogglePause),
+            Command::Stage(StageCommand::Speed(Step::Next)),
+            Command::Stage(StageCommand::TickHz(2)),
+            Command::Stage(StageCommand::Restart),
+        ] {
             assert!(is_real_time(run.frames(60).last().unwrap()));
             run.0.apply(command.clone());
             assert_eq!(run.frames(1), [Pace::Unknown], "{command:?}");
-            if command == Command::TogglePause {
+            if command == Command::View(ViewCommand::TogglePause) {
                 assert_eq!(run.frames(100), [Pace::Unknown; 100]);
                 run.0.apply(command.clone());
             }
-            run.0.apply(Command::SpeedPercent(100));
+            run.0.apply(RunCommand::SpeedPercent(100));
         }
     }
 

@@ -96,7 +96,7 @@ mod tests {
     use super::*;
     use std::cell::Cell;
 
-    use crate::lab::{Command, Scene};
+    use crate::lab::{Scene, StageCommand};
     use crate::sim::Solver;
     use crate::sim::integrators::method;
 
@@ -121,7 +121,7 @@ mod tests {
     #[test]
     fn every_lane_of_a_race_takes_some_time() {
         let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
-        lab.apply(Command::ToggleRace);
+        lab.apply(StageCommand::ToggleRace);
         let lanes = lab.race().entrants().iter();
         let lanes = lanes.map(|lane| (lane.spec, lane.lane.clone())).collect();
         let timed = timed(&Lanes { lanes, t: 0.0, tick_hz: 60 });

@@ -2,7 +2,8 @@
 
 use regatta::lab::past::Past;
 use regatta::lab::{
-    Action, Clock, Command, ESCAPE, Lab, LaneBody, LaneId, LaneSpec, Mode, Race, Scene,
+    Action, Clock, ESCAPE, Lab, LaneBody, LaneId, LaneSpec, Mode, Race, RunCommand, Scene,
+    StageCommand,
 };
 use regatta::sim::integrators::{GENERAL_METHODS, StepFailure, method};
 
@@ -158,7 +159,7 @@ fn each_halt_is_announced_once_with_method_body_tick_and_reason() {
     let names = ["free spring", "damped spring", "ship"];
     for (scene, ticks) in [("stiff", 20_000), ("harbour", 80_000)] {
         let mut lab = Lab::new(Scene::built_in(scene).expect("a built-in scene"));
-        lab.apply(Command::ToggleRace);
+        lab.apply(StageCommand::ToggleRace);
         assert_eq!(lab.mode(), Mode::Race);
         let mut notices = Vec::new();
         for _ in 0..ticks {
@@ -188,12 +189,12 @@ fn each_halt_is_announced_once_with_method_body_tick_and_reason() {
 #[test]
 fn the_halt_of_a_lane_is_not_told_once_that_lane_is_gone() {
     let mut lab = Lab::new(Scene::built_in("stiff").expect("a built-in scene"));
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     while lab.viewer().notice.as_deref().is_none() {
         lab.tick();
         assert!(lab.race().tick() < 1000);
     }
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     assert_eq!(lab.viewer().notice.as_deref(), None);
 }
 
@@ -210,7 +211,7 @@ fn a_kick_past_all_bounds_is_no_state_but_a_halt_with_its_reason() {
         let mut lab = Lab::new(Scene::parse("light.toml", &text).expect("a good scene"));
         (0..5).for_each(|_| lab.tick());
         let before = states(lab.race(), "");
-        lab.apply(Command::Act(Action::Kick(times)));
+        lab.apply(RunCommand::Act(Action::Kick(times)));
         assert_eq!(states(lab.race(), ""), before, "the state stays the last good one");
         for lane in [lab.race().truth(), &lab.race().entrants()[0].lane] {
             let [spring, ship] = lane.bodies() else { panic!("two bodies") };

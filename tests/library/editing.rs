@@ -1,6 +1,8 @@
 //! Edits during a run: they are in the journal, and a restart keeps them.
 
-use regatta::lab::{Action, Command, Lab, LaneId, LaneSpec, Mode, Scene, Session};
+use regatta::lab::{
+    Action, Lab, LaneId, LaneSpec, Mode, RunCommand, Scene, Session, StageCommand, ViewCommand,
+};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 
 fn stiffness(value: f64) -> Action {
@@ -34,25 +36,25 @@ fn dragging_a_parameter_at_one_tick_adds_few_rows_and_repeats_to_the_bit() {
 #[test]
 fn a_selected_lane_stays_selected_when_its_method_changes() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-    lab.apply(Command::ToggleRace);
-    lab.apply(Command::Pick(0));
+    lab.apply(StageCommand::ToggleRace);
+    lab.apply(StageCommand::Pick(0));
     lab.tick();
     let spec = LaneSpec::plain(method("pefrl").unwrap());
-    lab.apply(Command::Act(Action::Lane { lane: LaneId(1), spec }));
+    lab.apply(RunCommand::Act(Action::Lane { lane: LaneId(1), spec }));
     assert_eq!((lab.selected().id, lab.entries()[lab.active()]), (LaneId(1), spec));
     assert!(lab.title().contains("race: PEFRL"), "{}", lab.title());
-    lab.apply(Command::Seek(0));
-    lab.apply(Command::Seek(1));
-    lab.apply(Command::ToggleRace);
+    lab.apply(RunCommand::Seek(0));
+    lab.apply(RunCommand::Seek(1));
+    lab.apply(StageCommand::ToggleRace);
     assert_eq!((lab.mode(), lab.selected().id), (Mode::Solo, LaneId(1)));
-    lab.apply(Command::Restart);
+    lab.apply(StageCommand::Restart);
     lab.tick();
 }
 
 #[test]
 fn a_race_restarts_with_the_methods_that_a_person_gave_its_lanes() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     let methods = |lab: &Lab| -> Vec<&str> {
         let lanes = lab.race().entrants().iter();
         lanes.map(|lane| lane.spec.method.id).collect()
@@ -60,17 +62,17 @@ fn a_race_restarts_with_the_methods_that_a_person_gave_its_lanes() {
     let opened = methods(&lab);
     for (lane, id) in [(LaneId(2), "bdf2"), (LaneId(1), "pefrl")] {
         let spec = LaneSpec { substeps: 3, ..LaneSpec::plain(method(id).unwrap()) };
-        lab.apply(Command::Act(Action::Lane { lane, spec }));
+        lab.apply(RunCommand::Act(Action::Lane { lane, spec }));
     }
     let given = methods(&lab);
     assert_eq!((given[0], given[1], &given[2..]), ("pefrl", "bdf2", &opened[2..]));
-    lab.apply(Command::Restart);
+    lab.apply(StageCommand::Restart);
     assert_eq!(methods(&lab), given);
     assert_eq!((lab.selected().id, lab.selected().lane.substeps()), (LaneId(1), 3));
     for (lane, spec) in (1..).map(LaneId).zip(lab.scene_as_opened().lanes.clone()) {
-        lab.apply(Command::Act(Action::Lane { lane, spec }));
+        lab.apply(RunCommand::Act(Action::Lane { lane, spec }));
     }
-    lab.apply(Command::Restart);
+    lab.apply(StageCommand::Restart);
     assert_eq!(methods(&lab), opened);
 }
 
@@ -79,11 +81,11 @@ fn a_new_scene_length_applies_to_plots_and_verdicts_and_stays_after_a_restart() 
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
     let seconds = lab.scene().seconds;
     for nonsense in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e12] {
-        lab.apply(Command::Seconds(nonsense));
+        lab.apply(RunCommand::Seconds(nonsense));
         assert_eq!(lab.scene().seconds, seconds);
     }
-    lab.apply(Command::Seconds(2.0 * seconds));
-    lab.apply(Command::Restart);
+    lab.apply(RunCommand::Seconds(2.0 * seconds));
+    lab.apply(StageCommand::Restart);
     assert_eq!(lab.scene().seconds, 2.0 * seconds);
     assert_eq!(lab.scene_as_opened().seconds, seconds);
 }
@@ -91,9 +93,9 @@ fn a_new_scene_length_applies_to_plots_and_verdicts_and_stays_after_a_restart() 
 #[test]
 fn escape_closes_the_inspector_before_it_quits() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-    lab.apply(Command::ToggleInspector);
+    lab.apply(RunCommand::ToggleInspector);
     assert!(lab.display().inspector);
-    assert_eq!(lab.apply(Command::Escape), None);
+    assert_eq!(lab.apply(ViewCommand::Escape), None);
     assert!(!lab.display().inspector);
-    assert!(lab.apply(Command::Escape).is_some());
+    assert!(lab.apply(ViewCommand::Escape).is_some());
 }

@@ -4,12 +4,14 @@ use std::f64::consts::TAU;
 
 use regatta::lab::past::Past;
 use regatta::lab::picture::{Grip, Picture, Whose, compose};
-use regatta::lab::{Action, Command, Interpolation, Lab, Race, Scene, TruthSample};
+use regatta::lab::{
+    Action, Interpolation, Lab, Race, RunCommand, Scene, StageCommand, TruthSample,
+};
 
 fn open(scene: &str, tick_hz: u32) -> Lab {
     let mut lab = Lab::new(Scene::built_in(scene).unwrap());
-    lab.apply(Command::TickHz(tick_hz));
-    lab.apply(Command::Restart);
+    lab.apply(StageCommand::TickHz(tick_hz));
+    lab.apply(StageCommand::Restart);
     lab
 }
 
@@ -79,7 +81,7 @@ fn a_kick_is_a_jump_of_the_velocity_at_its_tick() {
     let mut lab = open("spring", 10);
     (0..7).for_each(|_| lab.tick());
     let before = lab.race().truth().bodies()[0].stepper.v()[0];
-    lab.apply(Command::Act(Action::Kick(1.0)));
+    lab.apply(RunCommand::Act(Action::Kick(1.0)));
     let after = lab.race().truth().bodies()[0].stepper.v()[0];
     (0..5).for_each(|_| lab.tick());
     let samples = samples(&lab);
@@ -94,7 +96,7 @@ fn an_input_bends_the_curve_from_its_tick_on_and_not_the_tick_before_it() {
     let mut lab = open("ship", 1);
     (0..10).for_each(|_| lab.tick());
     let shown = lab.past().truth_between(lab.race(), 0, 0.5);
-    lab.apply(Command::Act(Action::Throttle(-1.0)));
+    lab.apply(RunCommand::Act(Action::Throttle(-1.0)));
     assert_eq!(lab.past().truth_between(lab.race(), 0, 0.5), shown);
     lab.tick();
     let (_, v) = lab.past().truth_between(lab.race(), 0, 0.0);
@@ -122,7 +124,7 @@ fn the_ghost_is_the_exact_motion_at_the_moment_of_the_lanes_however_they_are_dra
         assert!((q[0] - exact).abs() < 1e-12, "frame {frame}");
         assert!((v[0] + TAU * libm::sin(TAU * moment_s)).abs() < 1e-11, "frame {frame}");
         for _ in Interpolation::ALL {
-            lab.apply(Command::NextInterpolation);
+            lab.apply(RunCommand::NextInterpolation);
             let picture = compose(&lab, size);
             let x = picture.cells[0].metres(ghost(&lab, &picture)[0].at).x;
             let exact = libm::cos(TAU * lab.shown_s());

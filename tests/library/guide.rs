@@ -3,14 +3,14 @@
 use regatta::lab::guide::{Goal, STOPS};
 use regatta::lab::{
     CloudChoice, CloudKind, CloudWorker, Command, Instrument, Judge, Lab, LaneSpec, LoopCommand,
-    LoopLab, METRICS, OneStep, Outcome, Quantity, Race, SCENES, Scene, Verdict, Wish, command_for,
-    port, setups,
+    LoopLab, METRICS, OneStep, Outcome, Quantity, Race, RunCommand, SCENES, Scene, StageCommand,
+    Step, Verdict, ViewCommand, Wish, command_for, port, setups,
 };
 use regatta::sim::integrators::method;
 
 fn lab_at(stop: usize) -> Lab {
     let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
-    lab.apply(Command::GoToStop(stop));
+    lab.apply(ViewCommand::GoToStop(stop));
     lab
 }
 
@@ -39,7 +39,7 @@ fn every_stop_opens_as_it_says_and_is_done_by_its_last_key_at_the_latest() {
         if !is_stepped {
             (0..5).for_each(|_| lab.tick());
         }
-        lab.apply(Command::Predict(stop.right));
+        lab.apply(ViewCommand::Predict(stop.right));
         assert!(!is_done(&lab), "{} is done before it begins", stop.title);
         assert!(!stop.keys.is_empty());
         for key in stop.keys {
@@ -49,7 +49,7 @@ fn every_stop_opens_as_it_says_and_is_done_by_its_last_key_at_the_latest() {
         assert!(is_done(&lab), "{} is not done by its keys", stop.title);
         assert_eq!(lab.viewer().tour().unwrap().guess(), Some(stop.right));
         // The prediction was one.
-        lab.apply(Command::Predict(0));
+        lab.apply(ViewCommand::Predict(0));
         assert_eq!(lab.viewer().tour().unwrap().guess(), Some(stop.right));
     }
 }
@@ -73,12 +73,12 @@ fn stops_name_scenes_and_methods_that_there_are_and_keys_between_pairs_of_backti
 #[test]
 fn the_guide_closes_with_escape_and_opens_where_it_was_left() {
     let mut lab = lab_at(3);
-    assert_eq!(lab.apply(Command::Escape), None);
+    assert_eq!(lab.apply(ViewCommand::Escape), None);
     assert!(lab.viewer().tour().is_none());
-    lab.apply(Command::ToggleGuide);
+    lab.apply(ViewCommand::ToggleGuide);
     assert_eq!(lab.viewer().tour().unwrap().place(), 3);
     assert_eq!(lab.scene().name, STOPS[3].scene);
-    lab.apply(Command::GoToStop(usize::MAX));
+    lab.apply(ViewCommand::GoToStop(usize::MAX));
     assert_eq!(lab.viewer().tour().unwrap().place(), STOPS.len() - 1);
 }
 
@@ -90,9 +90,9 @@ fn place_of(goal: Goal) -> usize {
 fn what_a_stop_says_never_stays_over_another_scene_or_mode() {
     let place = place_of(Goal::Race);
     for elsewhere in [
-        Command::NextScene,
-        Command::PreviousScene,
-        Command::Scene(0),
+        Command::Stage(StageCommand::SceneBeside(Step::Next)),
+        Command::Stage(StageCommand::SceneBeside(Step::Previous)),
+        Command::Stage(StageCommand::Scene(0)),
         Command::Loop(LoopCommand::ToggleLab),
     ] {
         let mut lab = lab_at(place);
@@ -100,7 +100,7 @@ fn what_a_stop_says_never_stays_over_another_scene_or_mode() {
         assert!(lab.viewer().tour().is_none(), "{elsewhere:?}");
         let notice = lab.viewer().notice.as_deref().expect("the way back");
         assert!(notice.contains("F2"), "{notice}");
-        lab.apply(Command::ToggleGuide);
+        lab.apply(ViewCommand::ToggleGuide);
         assert_eq!(lab.viewer().tour().map(|tour| tour.place()), Some(place));
         assert_eq!(lab.scene().name, STOPS[place].scene);
         assert!(lab.loop_lab().is_none());
@@ -109,7 +109,7 @@ fn what_a_stop_says_never_stays_over_another_scene_or_mode() {
     let mut lab = lab_at(place_of(Goal::LoopLab));
     lab.apply(Command::Loop(LoopCommand::ToggleLab));
     assert!(is_done(&lab));
-    lab.apply(Command::NextScene);
+    lab.apply(StageCommand::SceneBeside(Step::Next));
     assert!(lab.loop_lab().is_some() && lab.viewer().tour().is_none());
 }
 
@@ -136,9 +136,9 @@ fn the_guide_visits_the_instruments_that_explain_and_the_loop_lab() {
 #[test]
 fn the_area_of_a_cloud_of_pendulums_becomes_what_the_guide_says() {
     let mut lab = lab_at(STOPS.iter().position(|s| s.instrument == Instrument::Cloud).unwrap());
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     let kind = CloudKind::default();
-    lab.apply(Command::Cloud(CloudChoice { kind, points: 10_000 }));
+    lab.apply(RunCommand::Cloud(CloudChoice { kind, points: 10_000 }));
     // 1.25 s.
     (0..15).for_each(|_| lab.tick());
     lab.complete_clouds(&mut CloudWorker::default(), || false);
@@ -286,7 +286,7 @@ fn each_step_of_explicit_euler_makes_the_swing_18_percent_wider_at_10_hz() {
         let OneStep { from, landing, .. } = lab.one_step().expect("a next step");
         let wider = swing(landing.expect("it lands")) / swing(from);
         assert!((1.175..1.185).contains(&wider), "{wider}");
-        lab.apply(Command::TickForward);
+        lab.apply(StageCommand::Tick(Step::Next));
     }
 }
 

@@ -1,7 +1,10 @@
 //! The built-in scenes open on the method that makes their point, and what their hints promise comes about
 //! when the keys are pressed as they say.
 
-use regatta::lab::{Action, Command, Key, Lab, Mode, SCENES, Scene, command_for};
+use regatta::lab::{
+    Action, Command, Key, Lab, Mode, RunCommand, SCENES, Scene, StageCommand, Step, ViewCommand,
+    command_for,
+};
 use regatta::sim::integrators::GENERAL_METHODS;
 
 const C: Key = Key::Sign('c');
@@ -195,15 +198,15 @@ fn after_home_the_next_step_of_the_tour_is_shown_and_what_brings_back_the_run_af
     let (hint, notice) = restart_later(&mut lab);
     assert_eq!((hint.unwrap().contains("`C`"), notice), (true, None));
     for command in [
-        Command::ToggleRace,
-        Command::TickBack,
-        Command::NextInstrument,
-        Command::TickRateUp,
-        Command::ToggleGuide,
-        Command::Escape,
+        Command::Stage(StageCommand::ToggleRace),
+        Command::Stage(StageCommand::Tick(Step::Previous)),
+        Command::Stage(StageCommand::InstrumentBeside(Step::Next)),
+        Command::Stage(StageCommand::TickRate(Step::Next)),
+        Command::View(ViewCommand::ToggleGuide),
+        Command::View(ViewCommand::Escape),
         // The hint of the scene that the guide opened.
-        Command::ToggleRace,
-        Command::ToggleRace,
+        Command::Stage(StageCommand::ToggleRace),
+        Command::Stage(StageCommand::ToggleRace),
     ] {
         lab.apply(command);
     }
@@ -242,15 +245,19 @@ fn controls(lab: &Lab) -> (&'static str, u32, f64, f64) {
 #[test]
 fn what_a_person_takes_in_hand_the_script_leaves_alone_until_a_restart_and_says_so_once() {
     for (command, name, expected) in [
-        (Command::Act(Action::Rudder(0.3)), "rudder", ("rk4", 10, 0.5, 0.3)),
-        (Command::RudderLeft, "rudder", ("rk4", 10, 0.5, 0.1)),
-        (Command::ThrottleDown, "throttle", ("rk4", 10, 0.9, 1.0)),
-        (Command::Pick(2), "method", ("improved-euler", 10, 0.5, 1.0)),
-        (Command::NextMethod, "method", ("semi-implicit-euler", 10, 0.5, 1.0)),
-        (Command::TickHz(7), "tick rate", ("rk4", 7, 0.5, 1.0)),
-        (Command::TickRateUp, "tick rate", ("rk4", 10, 0.5, 1.0)),
+        (Command::Run(RunCommand::Act(Action::Rudder(0.3))), "rudder", ("rk4", 10, 0.5, 0.3)),
+        (Command::Run(RunCommand::RudderLeft), "rudder", ("rk4", 10, 0.5, 0.1)),
+        (Command::Run(RunCommand::ThrottleDown), "throttle", ("rk4", 10, 0.9, 1.0)),
+        (Command::Stage(StageCommand::Pick(2)), "method", ("improved-euler", 10, 0.5, 1.0)),
+        (
+            Command::Stage(StageCommand::MethodBeside(Step::Next)),
+            "method",
+            ("semi-implicit-euler", 10, 0.5, 1.0),
+        ),
+        (Command::Stage(StageCommand::TickHz(7)), "tick rate", ("rk4", 7, 0.5, 1.0)),
+        (Command::Stage(StageCommand::TickRate(Step::Next)), "tick rate", ("rk4", 10, 0.5, 1.0)),
         // A hand on the wheel is one, though it turns nothing.
-        (Command::Act(Action::Rudder(0.0)), "rudder", ("rk4", 10, 0.5, 0.0)),
+        (Command::Run(RunCommand::Act(Action::Rudder(0.0))), "rudder", ("rk4", 10, 0.5, 0.0)),
     ] {
         let mut lab = scripted();
         assert_eq!(lab.viewer().notice.as_deref(), None);
@@ -260,7 +267,7 @@ fn what_a_person_takes_in_hand_the_script_leaves_alone_until_a_restart_and_says_
         (0..60).for_each(|_| lab.tick());
         assert_eq!(controls(&lab), expected, "{command:?}");
 
-        lab.apply(Command::Restart);
+        lab.apply(StageCommand::Restart);
         (0..60).for_each(|_| lab.tick());
         assert_eq!(controls(&lab), ("rk4", 10, 0.5, 1.0), "the script has all in hand again");
     }
@@ -269,11 +276,11 @@ fn what_a_person_takes_in_hand_the_script_leaves_alone_until_a_restart_and_says_
 #[test]
 fn taking_the_same_control_again_is_not_told_again() {
     let mut lab = scripted();
-    lab.apply(Command::Act(Action::Rudder(0.3)));
+    lab.apply(RunCommand::Act(Action::Rudder(0.3)));
     lab.set_notice("something else");
-    lab.apply(Command::RudderRight);
+    lab.apply(RunCommand::RudderRight);
     assert_eq!(lab.viewer().notice.as_deref(), Some("something else"));
-    lab.apply(Command::Act(Action::Throttle(0.1)));
+    lab.apply(RunCommand::Act(Action::Throttle(0.1)));
     assert_eq!(
         lab.viewer().notice.as_deref(),
         Some("you have the throttle now: the script leaves it alone until a restart")
@@ -283,13 +290,17 @@ fn taking_the_same_control_again_is_not_told_again() {
 #[test]
 fn where_no_script_is_to_come_there_is_nothing_to_tell() {
     let mut lab = open("spring");
-    for command in [Command::Pick(3), Command::TickRateUp, Command::Act(Action::Throttle(0.3))] {
+    for command in [
+        Command::Stage(StageCommand::Pick(3)),
+        Command::Stage(StageCommand::TickRate(Step::Next)),
+        Command::Run(RunCommand::Act(Action::Throttle(0.3))),
+    ] {
         lab.apply(command.clone());
         assert_eq!(lab.viewer().notice.as_deref(), None, "{command:?}");
     }
     let mut lab = open("helm");
     (0..200).for_each(|_| lab.tick());
-    lab.apply(Command::Act(Action::Rudder(0.5)));
+    lab.apply(RunCommand::Act(Action::Rudder(0.5)));
     assert_eq!(lab.viewer().notice.as_deref(), None, "the script is over");
 }
 
@@ -302,12 +313,12 @@ fn a_throttle_by_hand_changes_the_analysis_request_and_one_of_the_script_does_no
     (0..10).for_each(|_| lab.tick());
     assert_eq!(lab.race().throttle(), 0.5);
     assert!(lab.analysis_request() == asked, "nothing is asked that was not asked at the start");
-    lab.apply(Command::Act(Action::Throttle(0.2)));
+    lab.apply(RunCommand::Act(Action::Throttle(0.2)));
     let by_hand = lab.analysis_request();
     assert!(by_hand != asked);
     (0..10).for_each(|_| lab.tick());
     assert!(lab.analysis_request() == by_hand);
-    lab.apply(Command::Restart);
+    lab.apply(StageCommand::Restart);
     assert!(lab.analysis_request() == asked);
 }
 

@@ -1,7 +1,7 @@
 //! What trails and plots are drawn from: every sample knows the method that it was flown under, a switch leaves a
 //! mark, and the newest sample is the present.
 
-use regatta::lab::{Command, History, Lab, LaneId, Scene};
+use regatta::lab::{History, Lab, LaneId, Scene, StageCommand, Step};
 
 fn lab(seconds: f64, tick_hz: u32) -> Lab {
     let scene = Scene { seconds, tick_hz, ..Scene::built_in("spring").unwrap() };
@@ -27,7 +27,7 @@ fn the_newest_sample_is_the_present_after_every_frame_however_rare_samples_are()
     }
     let count = history(&lab).samples().count();
     assert!((100..=104).contains(&count), "{count} samples of 5 s");
-    lab.apply(Command::TickForward);
+    lab.apply(StageCommand::Tick(Step::Next));
     assert_eq!(history(&lab).samples().last().unwrap().t, lab.race().t());
 }
 
@@ -57,7 +57,7 @@ fn a_switch_in_flight_keeps_the_method_of_the_past_and_marks_its_moment() {
                 lab.advance(FRAME_NS);
             }
             switched_at.push(lab.race().t());
-            lab.apply(Command::Pick(pick));
+            lab.apply(StageCommand::Pick(pick));
         }
         lab.advance(FRAME_NS);
         let flown: Vec<(usize, f64)> = history(&lab).samples().map(|s| (s.entry, s.t)).collect();
@@ -80,7 +80,7 @@ fn a_method_switched_to_itself_leaves_no_mark() {
         for _ in 0..100 {
             lab.advance(FRAME_NS);
             if picks {
-                lab.apply(Command::Pick(lab.active()));
+                lab.apply(StageCommand::Pick(lab.active()));
             }
         }
         history(&lab).samples().map(|sample| sample.t).collect::<Vec<_>>()

@@ -1,6 +1,6 @@
 //! Verdicts are of the run on the stage: of the scene as it is edited, and from where a person last moved a body.
 
-use regatta::lab::{Action, Command, Judge, Lab, Scene, Scripted, Verdict};
+use regatta::lab::{Action, Judge, Lab, RunCommand, Scene, Scripted, StageCommand, Step, Verdict};
 
 fn opened(name: &str) -> Lab {
     Lab::new(Scene::built_in(name).unwrap())
@@ -55,7 +55,7 @@ fn an_edited_parameter_gives_the_verdicts_of_the_edited_body() {
     let before = verdicts(&mut lab);
     (0..100).for_each(|_| lab.tick());
     let stiffness = parameter(lab.scene(), "stiffness_n_per_m");
-    lab.apply(Command::Act(Action::Set { body: 0, parameter: stiffness, value: 10_000.0 }));
+    lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: stiffness, value: 10_000.0 }));
     let stiff = with(Scene::built_in("spring").unwrap(), &[("stiffness_n_per_m", 10_000.0)]);
     let after = verdicts(&mut lab);
     assert_eq!(after, verdicts_on(&stiff));
@@ -69,7 +69,7 @@ fn a_parameter_set_by_hand_is_judged_without_the_scripts_changes_to_it() {
     let set = |value| Action::Set { body: 0, parameter, value };
     scene.script.push(Scripted { tick: 300, action: set(4.0) });
     let mut lab = Lab::new(scene.clone());
-    lab.apply(Command::Act(set(90.0)));
+    lab.apply(RunCommand::Act(set(90.0)));
     scene.script.clear();
     let edited = with(scene, &[("stiffness_n_per_m", 90.0)]);
     assert_eq!(verdicts(&mut lab), verdicts_on(&edited));
@@ -93,11 +93,11 @@ fn a_parameter_set_by_the_script_is_judged_like_one_set_by_hand() {
     assert_ne!(before, verdicts(&mut by_hand), "the script is part of what is judged");
     (0..61).for_each(|_| scripted.tick());
     (0..60).for_each(|_| by_hand.tick());
-    by_hand.apply(Command::Act(scene.script[0].action.clone()));
+    by_hand.apply(RunCommand::Act(scene.script[0].action.clone()));
     let after = verdicts(&mut scripted);
     assert_eq!(after, verdicts(&mut by_hand));
     assert_ne!(after, before);
-    scripted.apply(Command::Seek(59));
+    scripted.apply(RunCommand::Seek(59));
     assert_eq!(verdicts(&mut scripted), before);
 }
 
@@ -119,7 +119,7 @@ fn a_body_placed_by_hand_is_judged_from_where_it_was_placed() {
     let mut lab = opened("pendulum");
     let before = verdicts(&mut lab);
     (0..77).for_each(|_| lab.tick());
-    lab.apply(Command::Act(Action::Place { body: 0, q: [0.1].into(), v: [0.5].into() }));
+    lab.apply(RunCommand::Act(Action::Place { body: 0, q: [0.1].into(), v: [0.5].into() }));
     let (theta, omega) = ("theta0_rad", "omega0_rad_per_s");
     let placed = with(Scene::built_in("pendulum").unwrap(), &[(theta, 0.1), (omega, 0.5)]);
     let after = verdicts(&mut lab);
@@ -127,13 +127,13 @@ fn a_body_placed_by_hand_is_judged_from_where_it_was_placed() {
     assert_ne!(after, before);
     // Time that passes changes nothing; going back before the placement does, and forward again.
     let question = lab.analysis_request();
-    lab.apply(Command::TickForward);
+    lab.apply(StageCommand::Tick(Step::Next));
     assert!(lab.analysis_request() == question);
-    lab.apply(Command::Seek(50));
+    lab.apply(RunCommand::Seek(50));
     assert_eq!(verdicts(&mut lab), before);
-    lab.apply(Command::Seek(78));
+    lab.apply(RunCommand::Seek(78));
     assert!(lab.analysis_request() == question);
-    lab.apply(Command::Restart);
+    lab.apply(StageCommand::Restart);
     assert_eq!(verdicts(&mut lab), before);
 }
 
@@ -141,7 +141,7 @@ fn a_body_placed_by_hand_is_judged_from_where_it_was_placed() {
 fn a_body_placed_at_rest_is_judged_at_rest() {
     let mut lab = opened("spring");
     lab.tick();
-    lab.apply(Command::Act(Action::Place { body: 0, q: [0.0].into(), v: [0.0].into() }));
+    lab.apply(RunCommand::Act(Action::Place { body: 0, q: [0.0].into(), v: [0.0].into() }));
     for verdict in verdicts(&mut lab) {
         assert!(verdict.starts_with("within rounding"), "{verdict}");
     }
@@ -153,7 +153,7 @@ fn a_kicked_body_is_judged_from_its_true_state_after_the_kick() {
     (0..130).for_each(|_| lab.tick());
     assert_eq!(starts_at_s(&mut lab), 0.0);
     let (_, before) = truth(&lab);
-    lab.apply(Command::Act(Action::Kick(3.0)));
+    lab.apply(RunCommand::Act(Action::Kick(3.0)));
     let (x, v) = truth(&lab);
     assert_ne!(v, before);
     let kicked = Scene::built_in("spring").unwrap();
@@ -172,12 +172,12 @@ fn a_run_judged_from_a_placement_keeps_its_throttle_and_the_rest_of_the_script()
     let hz = u64::from(scripted(&[]).tick_hz);
     let mut lab = Lab::new(scripted(&[(hz, 0.5), (9 * hz, -0.25)]));
     (0..2 * hz).for_each(|_| lab.tick());
-    lab.apply(Command::Act(Action::Place { body: 0, q: [10.0].into(), v: [3.0].into() }));
+    lab.apply(RunCommand::Act(Action::Place { body: 0, q: [10.0].into(), v: [3.0].into() }));
     let rest = scripted(&[(0, 0.5), (7 * hz, -0.25)]);
     let rest = with(rest, &[("s0_m", 10.0), ("v0_m_per_s", 3.0)]);
     assert_eq!(verdicts(&mut lab), verdicts_on(&rest));
     // A throttle by hand holds from there on, and what the script had to come for it is gone.
-    lab.apply(Command::Act(Action::Throttle(0.8)));
+    lab.apply(RunCommand::Act(Action::Throttle(0.8)));
     let by_hand = with(scripted(&[(0, 0.8)]), &[("s0_m", 10.0), ("v0_m_per_s", 3.0)]);
     assert_eq!(verdicts(&mut lab), verdicts_on(&by_hand));
 }

@@ -2,7 +2,10 @@
 
 use regatta::lab::palette::Theme;
 use regatta::lab::picture::{FAR, Picture, Shape, Whose, compose};
-use regatta::lab::{Action, Command, ESCAPE, Lab, LoopCommand, Mode, SCENES, Scene};
+use regatta::lab::{
+    Action, Command, ESCAPE, Lab, LoopCommand, Mode, RunCommand, SCENES, Scene, StageCommand,
+    ViewCommand,
+};
 
 fn assert_drawable(picture: &Picture, what: &str) {
     let finite = |values: &[f32]| values.iter().all(|x| x.is_finite() && x.abs() <= 2.0 * FAR);
@@ -32,11 +35,11 @@ fn assert_drawable(picture: &Picture, what: &str) {
 fn nothing_that_blows_up_reaches_a_vertex() {
     for scene in SCENES {
         let mut lab = Lab::new(Scene::built_in(scene.name).unwrap());
-        lab.apply(Command::ToggleRace);
+        lab.apply(StageCommand::ToggleRace);
         for frame in 0..400 {
             lab.advance(16_666_667);
             if frame % 3 == 0 {
-                lab.apply(Command::NextInterpolation);
+                lab.apply(RunCommand::NextInterpolation);
             }
             let what = format!("{} at frame {frame}", scene.name);
             assert_drawable(&compose(&lab, [780.0, 500.0]), &what);
@@ -66,11 +69,11 @@ fn bodies_at_the_edge_of_what_is_followed_are_drawn() {
     for scene in alone.chain([scene.clone()]) {
         let what = format!("far {}", scene.bodies.last().expect("a body").name);
         let mut lab = Lab::new(scene);
-        lab.apply(Command::ToggleRace);
+        lab.apply(StageCommand::ToggleRace);
         for _ in 0..20 {
             lab.advance(16_666_667);
             assert_drawable(&compose(&lab, [780.0, 500.0]), &what);
-            lab.apply(Command::Act(Action::Kick(1e12)));
+            lab.apply(RunCommand::Act(Action::Kick(1e12)));
             assert!(lab.race().truth().bodies()[0].stepper.v()[0].abs() < ESCAPE);
         }
     }
@@ -80,8 +83,8 @@ fn bodies_at_the_edge_of_what_is_followed_are_drawn() {
 fn a_body_of_two_coordinates_alone_has_a_cell_for_each_lane_that_fits_its_shape() {
     for name in ["chain", "pendulum", "orbit", "helm"] {
         let mut lab = Lab::new(Scene::built_in(name).unwrap());
-        lab.apply(Command::ToggleRace);
-        lab.apply(Command::ToggleArrangement);
+        lab.apply(StageCommand::ToggleRace);
+        lab.apply(StageCommand::ToggleArrangement);
         lab.advance(100_000_000);
         let size = [780.0, 500.0];
         let picture = compose(&lab, size);
@@ -143,7 +146,7 @@ fn stages_of_no_size_are_composed() {
         for size in [[0.0, 0.0], [1.0, 1.0], [2000.0, 0.0], [0.0, 2000.0], [30.0, 20.0]] {
             assert_drawable(&compose(&lab, size), &format!("{size:?}"));
         }
-        lab.apply(Command::ToggleRace);
+        lab.apply(StageCommand::ToggleRace);
     }
 }
 
@@ -169,20 +172,20 @@ fn every_body_has_a_cell_inside_the_stage_and_side_by_side_every_body_of_every_l
     };
     lab.advance(100_000_000);
     assert_apart(&lab, 3);
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     lab.advance(100_000_000);
     assert_apart(&lab, 3);
-    lab.apply(Command::ToggleArrangement);
+    lab.apply(StageCommand::ToggleArrangement);
     assert_apart(&lab, 3 * lab.race().entrants().len());
 }
 
 #[test]
 fn over_each_other_every_lane_has_a_number_and_the_selected_one_its_own_body() {
     let mut lab = Lab::new(Scene::built_in("orbit").unwrap());
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     (0..60).for_each(|_| lab.tick());
     for entry in 0..lab.race().entrants().len() {
-        lab.apply(Command::Pick(entry));
+        lab.apply(StageCommand::Pick(entry));
         let picture = compose(&lab, [780.0, 500.0]);
         assert_eq!((picture.cells.len(), picture.cells[0].entry), (1, entry));
         for lane in lab.race().entrants() {
@@ -200,8 +203,8 @@ fn side_by_side_bodies_and_words_stay_in_their_cells_however_low_those_are() {
     let mut scene = Scene::built_in("harbour").unwrap();
     scene.lanes = Lab::new(scene.clone()).entries().to_vec();
     let mut lab = Lab::new(scene);
-    lab.apply(Command::ToggleRace);
-    lab.apply(Command::ToggleArrangement);
+    lab.apply(StageCommand::ToggleRace);
+    lab.apply(StageCommand::ToggleArrangement);
     (0..240).for_each(|_| lab.tick());
     let picture = compose(&lab, [780.0, 376.0]);
     let (lanes, height) = (lab.race().entrants().len(), 376.0_f32);
@@ -228,7 +231,7 @@ fn badges(picture: &Picture) -> Vec<&str> {
 fn a_body_that_comes_and_goes_is_drawn_while_it_is_inside_and_told_of_by_how_far_it_swings() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
     let euler = lab.entries().iter().position(|spec| spec.method.id == "explicit-euler");
-    lab.apply(Command::Pick(euler.unwrap()));
+    lab.apply(StageCommand::Pick(euler.unwrap()));
     (0..540).for_each(|_| lab.tick());
     let (mut drawn, mut furthest) = (0, 0.0_f64);
     for frame in 0..60 {
@@ -257,7 +260,7 @@ fn a_body_that_comes_and_goes_is_drawn_while_it_is_inside_and_told_of_by_how_far
 #[test]
 fn a_lane_that_left_the_stage_has_a_badge_with_its_place_and_is_drawn_across_nothing() {
     let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     (0..600).for_each(|_| lab.tick());
     let picture = compose(&lab, [780.0, 500.0]);
     let x = lab.race().entrants()[0].lane.bodies()[0].stepper.q()[0];
@@ -289,7 +292,7 @@ fn the_ghost_shows_only_when_it_is_asked_for() {
         (picture.shapes.len(), ghosts)
     };
     let with = drawn(&lab);
-    lab.apply(Command::ToggleGhost);
+    lab.apply(ViewCommand::ToggleGhost);
     let without = drawn(&lab);
     assert!(without.0 < with.0, "{without:?} shapes without a ghost, {with:?} with");
     assert_eq!((without.1, with.1), (0, 3));
@@ -301,7 +304,7 @@ fn the_stage_says_which_body_halted_and_where_there_is_no_truth() {
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 400\nkick_n_s = 0\n\
                 [[ship]]\nthrust_n = 20000\ndrag_n_s_per_m = 1000\nmass_kg = 10000\nkick_n_s = 1e15\n";
     let mut lab = Lab::new(Scene::parse("two.toml", text).unwrap());
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     let said = |lab: &Lab| {
         let labels = compose(lab, [780.0, 500.0]).labels.into_iter().map(|label| label.text);
         let is_told = |text: &String| text.contains("blew up") || text.contains("from tick");
@@ -320,11 +323,11 @@ fn the_stage_says_which_body_halted_and_where_there_is_no_truth() {
         grips.filter(|grip| grip.whose == Whose::Truth).count()
     };
     assert_eq!(ghosts(&lab), 2);
-    lab.apply(Command::Act(Action::Kick(1e30)));
+    lab.apply(RunCommand::Act(Action::Kick(1e30)));
     let ship = ["1 blew up at 30 s · 2 blew up at 30 s", "no exact solution from tick 300 on"];
     assert_eq!(said(&lab), [&*spring, ship[0], ship[1]]);
     assert_eq!(ghosts(&lab), 1);
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     let alone = said(&lab);
     assert!(alone.contains(&ship[1].to_owned()), "{alone:?}");
 }
@@ -336,7 +339,7 @@ fn loops_over_each_other_are_named_below_and_numbered_above_their_bodies() {
     lab.run_loops();
     lab.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
     let below = compose(&lab, [780.0, 500.0]);
-    lab.apply(Command::ToggleArrangement);
+    lab.apply(StageCommand::ToggleArrangement);
     let over = compose(&lab, [780.0, 500.0]);
     let exact = |picture: &Picture| {
         let colour = lab.display().theme.palette().exact;

@@ -1,8 +1,8 @@
 //! A run as a scene file: it is read back unchanged, repeats the run to the bit, and contains its actions.
 
 use regatta::lab::{
-    Action, Command, Lab, LaneId, LaneSpec, Mode, RecordingError, SCENES, Scene, Scripted, Session,
-    equal_cost, lanes_that_race,
+    Action, Lab, LaneId, LaneSpec, Mode, RecordingError, RunCommand, SCENES, Scene, Scripted,
+    Session, StageCommand, equal_cost, lanes_that_race,
 };
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 
@@ -121,11 +121,11 @@ fn a_saved_scene_has_the_comments_and_the_order_of_its_author() {
 #[test]
 fn a_recording_of_a_scene_with_comments_keeps_them_and_repeats_its_run() {
     let mut lab = Lab::new(parsed(BY_HAND));
-    lab.apply(Command::ToggleRace);
-    lab.apply(Command::Act(Action::Set { body: 0, parameter: 1, value: 55.5 }));
-    lab.apply(Command::Restart);
+    lab.apply(StageCommand::ToggleRace);
+    lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value: 55.5 }));
+    lab.apply(StageCommand::Restart);
     (0..45).for_each(|_| lab.tick());
-    lab.apply(Command::Act(Action::Kick(2.0)));
+    lab.apply(RunCommand::Act(Action::Kick(2.0)));
     (0..45).for_each(|_| lab.tick());
     let text = lab.recording().unwrap();
     assert_eq!(
@@ -175,7 +175,7 @@ fn flown() -> Lab {
     ];
     for action in actions {
         (0..25).for_each(|_| lab.tick());
-        lab.apply(Command::Act(action));
+        lab.apply(RunCommand::Act(action));
     }
     (0..25).for_each(|_| lab.tick());
     lab
@@ -215,16 +215,16 @@ fn a_recording_repeats_its_run_in_a_lab() {
 #[test]
 fn a_recording_of_a_scripted_race_that_goes_solo_repeats_it_to_the_bit() {
     let mut lab = Lab::new(built_in("helm"));
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     (0..200).for_each(|_| lab.tick());
-    lab.apply(Command::Act(Action::Rudder(0.4)));
+    lab.apply(RunCommand::Act(Action::Rudder(0.4)));
     (0..200).for_each(|_| lab.tick());
     let recorded = parsed(&lab.recording().unwrap());
     assert!(recorded.checks.iter().any(|check| check.lane.0 == recorded.lanes.len()));
     assert!(wrong_lanes(&recorded).is_empty());
 
-    lab.apply(Command::Pick(2));
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::Pick(2));
+    lab.apply(StageCommand::ToggleRace);
     (0..50).for_each(|_| lab.tick());
     let recorded = parsed(&lab.recording().unwrap());
     let last = recorded.checks.last().unwrap();
@@ -238,7 +238,7 @@ fn a_recorded_race_opens_as_a_race_and_a_recorded_solo_run_does_not() {
     let mut lab = flown();
     let solo = parsed(&lab.recording().unwrap());
     assert!(!solo.opens_as_race);
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     (0..90).for_each(|_| lab.tick());
     let text = lab.recording().unwrap();
     assert!(text.contains("\n[race]\nopen = true\n"), "{text}");
@@ -265,12 +265,12 @@ fn a_restart_keeps_the_settings_of_a_person_and_not_those_of_a_script() {
     let mass = lab.race().values(0)[2];
     (0..10).for_each(|_| lab.tick());
     assert_eq!(lab.race().values(0)[2], 5.0);
-    lab.apply(Command::Act(Action::Set { body: 0, parameter: 0, value: 123.0 }));
-    lab.apply(Command::Restart);
+    lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 0, value: 123.0 }));
+    lab.apply(StageCommand::Restart);
     assert_eq!((lab.race().values(0)[2], lab.race().values(0)[0]), (mass, 123.0));
     assert_eq!(lab.scene().bodies[0].values[0], 123.0);
     // A person who has set what the script sets keeps it.
-    lab.apply(Command::Act(Action::Set { body: 0, parameter: 2, value: 7.0 }));
+    lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 2, value: 7.0 }));
     (0..10).for_each(|_| lab.tick());
     assert_eq!(lab.race().values(0)[2], 7.0);
 }
@@ -333,17 +333,17 @@ fn equal_cost_includes_the_effect_of_the_script_on_the_cost() {
 #[test]
 fn equal_cost_is_switched_on_and_off_by_a_key_and_on_by_a_scene() {
     let mut lab = Lab::new(built_in("spring"));
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     let substeps = |lab: &Lab| -> Vec<u32> {
         lab.race().entrants().iter().map(|entrant| entrant.lane.substeps()).collect()
     };
     let before = substeps(&lab);
     (0..10).for_each(|_| lab.tick());
-    lab.apply(Command::ToggleEqualCost);
+    lab.apply(RunCommand::ToggleEqualCost);
     let equal = substeps(&lab);
     assert!(equal.iter().any(|n| *n > 1), "{equal:?}");
     assert_eq!(lab.race().tick(), 10, "the race goes on");
-    lab.apply(Command::ToggleEqualCost);
+    lab.apply(RunCommand::ToggleEqualCost);
     assert_eq!(substeps(&lab), before);
 
     let text = built_in("spring").to_toml();
@@ -388,11 +388,11 @@ fn new_hashes_are_written_into_a_file_without_other_changes() {
 #[test]
 fn an_action_at_the_last_tick_is_in_the_recording() {
     let mut lab = Lab::new(built_in("spring"));
-    lab.apply(Command::Act(Action::Place { body: 0, q: [2.5].into(), v: [0.0].into() }));
+    lab.apply(RunCommand::Act(Action::Place { body: 0, q: [2.5].into(), v: [0.0].into() }));
     let at_start = parsed(&lab.recording().unwrap());
     assert_eq!(at_start.script.len(), 1);
     (0..10).for_each(|_| lab.tick());
-    lab.apply(Command::Act(Action::Kick(1.0)));
+    lab.apply(RunCommand::Act(Action::Kick(1.0)));
     let recorded = parsed(&lab.recording().unwrap());
     assert_eq!(recorded.script.iter().map(|row| row.tick).collect::<Vec<_>>(), [0, 10]);
     assert!(wrong_lanes(&recorded).is_empty());

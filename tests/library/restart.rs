@@ -1,6 +1,6 @@
 //! A restart goes back to the start line, and keeps what a person chose and nothing of what the script did.
 
-use regatta::lab::{Action, Command, Lab, SCENES, Scene};
+use regatta::lab::{Action, Lab, RunCommand, SCENES, Scene, StageCommand};
 
 /// The ship, whose script changes method and tick rate.
 fn scripted() -> Lab {
@@ -19,7 +19,7 @@ fn a_restart_takes_back_what_the_script_did() {
     let mut lab = scripted();
     (0..10).for_each(|_| lab.tick());
     assert_eq!(settings(&lab), (100, 100, "rk4"));
-    lab.apply(Command::Restart);
+    lab.apply(StageCommand::Restart);
     assert_eq!(settings(&lab), (2, 2, "explicit-euler"));
     assert_eq!((lab.race().tick(), lab.race().t()), (0, 0.0));
     (0..10).for_each(|_| lab.tick());
@@ -30,20 +30,20 @@ fn a_restart_takes_back_what_the_script_did() {
 fn a_restart_keeps_the_rate_and_the_method_that_a_person_chose() {
     let mut lab = scripted();
     (0..10).for_each(|_| lab.tick());
-    lab.apply(Command::TickHz(7));
-    lab.apply(Command::Pick(2));
-    lab.apply(Command::Restart);
+    lab.apply(StageCommand::TickHz(7));
+    lab.apply(StageCommand::Pick(2));
+    lab.apply(StageCommand::Restart);
     assert_eq!(settings(&lab), (7, 7, "improved-euler"));
 }
 
 #[test]
 fn a_restart_owes_no_part_of_a_tick_and_keeps_the_speed() {
     let mut lab = scripted();
-    lab.apply(Command::SpeedPercent(50));
+    lab.apply(RunCommand::SpeedPercent(50));
     lab.advance(200_000_000);
     lab.advance(200_000_000);
     assert_eq!((lab.race().tick(), lab.clock().alpha()), (0, 0.4));
-    lab.apply(Command::Restart);
+    lab.apply(StageCommand::Restart);
     assert_eq!((lab.clock().alpha(), lab.clock().speed_percent()), (0.0, 50));
     lab.advance(0);
     assert_eq!(lab.race().tick(), 0);
@@ -70,25 +70,25 @@ fn a_frame_goes_no_further_than_it_may() {
 fn a_run_with_actions_by_hand_comes_back_after_a_restart_and_goes_again() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
     (0..40).for_each(|_| lab.tick());
-    lab.apply(Command::Act(Action::Kick(1.0)));
+    lab.apply(RunCommand::Act(Action::Kick(1.0)));
     (0..40).for_each(|_| lab.tick());
     let (hash, journal) = (lab.race().state_hash(), lab.race().journal().clone());
-    lab.apply(Command::Restart);
+    lab.apply(StageCommand::Restart);
     assert_eq!(lab.viewer().notice, None, "the hint leads on");
     assert!(lab.hint().is_some());
     (0..3).for_each(|_| lab.tick());
     // A second restart is not about the run of three ticks.
-    lab.apply(Command::Restart);
+    lab.apply(StageCommand::Restart);
     (0..5).for_each(|_| lab.tick());
-    lab.apply(Command::Undo);
+    lab.apply(RunCommand::Undo);
     assert_eq!((lab.race().tick(), lab.race().state_hash()), (80, hash));
     assert_eq!(lab.race().journal(), &journal);
     let notice = lab.viewer().notice.as_deref().unwrap();
     assert!(notice.starts_with("undid the restart"), "{notice}");
-    lab.apply(Command::Seek(40));
-    lab.apply(Command::Seek(80));
+    lab.apply(RunCommand::Seek(40));
+    lab.apply(RunCommand::Seek(80));
     assert_eq!(lab.race().state_hash(), hash, "with its past");
-    lab.apply(Command::Redo);
+    lab.apply(RunCommand::Redo);
     assert_eq!((lab.race().tick(), lab.race().journal().rows().len()), (5, 0));
 }
 
@@ -113,8 +113,8 @@ fn what_a_hand_still_did_to_a_body_of_the_scene_before_changes_nothing() {
     let place = Action::Place { body: 2, q: [1.0].into(), v: [0.0].into() };
     let set = |parameter| Action::Set { body: 2, parameter, value: 3.0 };
     for action in [place, set(0), set(99)] {
-        lab.apply(Command::Act(action));
+        lab.apply(RunCommand::Act(action));
     }
-    lab.apply(Command::Act(Action::Set { body: 0, parameter: 99, value: 3.0 }));
+    lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 99, value: 3.0 }));
     assert_eq!(lab.race().state_hash(), before);
 }

@@ -3,7 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use regatta::lab::pacing::trace_file;
-use regatta::lab::{Action, Columns, Command, Lab, Log, Race, SCENES, Scene};
+use regatta::lab::{Action, Columns, Lab, Log, Race, RunCommand, SCENES, Scene};
 
 use super::bad_scenes::check_places;
 use super::dice::Dice;
@@ -81,7 +81,7 @@ fn targets() -> Vec<Target> {
 fn recording(scene: &str) -> String {
     let mut lab = Lab::new(Scene::built_in(scene).expect("a built-in scene"));
     (0..70).for_each(|_| lab.tick());
-    lab.apply(Command::Act(Action::Kick(0.5)));
+    lab.apply(RunCommand::Act(Action::Kick(0.5)));
     (0..70).for_each(|_| lab.tick());
     lab.recording().expect("a run that can be written")
 }

@@ -7,7 +7,8 @@ use crate::dice::Dice;
 use regatta::lab::past::Past;
 use regatta::lab::session::{EventKind, SNAPSHOT_BYTES};
 use regatta::lab::{
-    Action, Command, Event, Lab, LaneId, LaneSpec, Scene, Session, Timeline, TruthSample,
+    Action, Command, Event, Lab, LaneId, LaneSpec, RunCommand, Scene, Session, StageCommand,
+    Timeline, TruthSample,
 };
 use regatta::sim::bodies::BODIES;
 use regatta::sim::integrators::GENERAL_METHODS;
@@ -263,21 +264,21 @@ fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
     for n in 0..8 {
         let mut lab = Lab::new(scene(&mut dice, n));
         (0..700).for_each(|_| lab.tick());
-        lab.apply(Command::Act(Action::Kick(0.3)));
+        lab.apply(RunCommand::Act(Action::Kick(0.3)));
         (0..300).for_each(|_| lab.tick());
         let end = shown(lab.timeline());
-        lab.apply(Command::Seek(400));
+        lab.apply(RunCommand::Seek(400));
         assert_eq!((lab.timeline().end(), lab.timeline().is_in_past()), (1000, true));
         // What changes nothing leaves the future as it is.
         let throttle = lab.race().throttle();
-        lab.apply(Command::Act(Action::Throttle(throttle)));
+        lab.apply(RunCommand::Act(Action::Throttle(throttle)));
         assert_eq!(
             (lab.timeline().end(), lab.timeline().undoes()),
             (1000, Some("the kick at tick 700"))
         );
 
         let rows = lab.timeline().session().journal().rows().len();
-        lab.apply(Command::Act(Action::Kick(-0.4)));
+        lab.apply(RunCommand::Act(Action::Kick(-0.4)));
         assert_eq!((lab.timeline().end(), lab.timeline().is_in_past()), (400, false));
         assert_eq!(lab.timeline().session().journal().rows().len(), rows, "one came, one went");
         let notice = lab.viewer().notice.as_deref().expect("it says so");
@@ -285,18 +286,18 @@ fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
         (0..900).for_each(|_| lab.tick());
         assert_ne!(shown(lab.timeline()).hashes, end.hashes);
 
-        lab.apply(Command::Undo);
+        lab.apply(RunCommand::Undo);
         assert_eq!((lab.race().tick(), lab.timeline().end()), (400, 1000));
-        lab.apply(Command::Seek(1000));
+        lab.apply(RunCommand::Seek(1000));
         let found = shown(lab.timeline());
         assert!(found == end, "scene {n}: {}", difference(&found, &end));
-        lab.apply(Command::Undo);
+        lab.apply(RunCommand::Undo);
         assert_eq!((lab.race().tick(), lab.timeline().end()), (700, 700), "before the first kick");
         assert_eq!(lab.timeline().undoes(), None);
-        lab.apply(Command::Undo);
+        lab.apply(RunCommand::Undo);
         assert_eq!(lab.timeline().end(), 700, "there is no more to undo");
-        lab.apply(Command::Redo);
-        lab.apply(Command::Seek(1000));
+        lab.apply(RunCommand::Redo);
+        lab.apply(RunCommand::Seek(1000));
         let found = shown(lab.timeline());
         assert!(found == end, "scene {n}: {}", difference(&found, &end));
         assert_eq!(lab.timeline().redoes(), Some("the kick at tick 400"));
@@ -372,27 +373,27 @@ fn events_are_ordered_by_tick_and_are_discarded_and_restored_with_their_future()
 #[test]
 fn undo_also_restores_the_settings_of_the_next_start() {
     let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     (0..200).for_each(|_| lab.tick());
     let substeps = |lab: &Lab| -> Vec<u32> {
         lab.race().entrants().iter().map(|entrant| entrant.lane.substeps()).collect()
     };
     let (mass, plain, asked) = (lab.race().values(0)[0], substeps(&lab), lab.analysis_request());
     for command in [
-        Command::Act(Action::Set { body: 0, parameter: 0, value: 2.5 }),
-        Command::TickHz(50),
-        Command::ToggleEqualCost,
+        Command::Run(RunCommand::Act(Action::Set { body: 0, parameter: 0, value: 2.5 })),
+        Command::Stage(StageCommand::TickHz(50)),
+        Command::Run(RunCommand::ToggleEqualCost),
     ] {
-        lab.apply(Command::Seek(100));
+        lab.apply(RunCommand::Seek(100));
         lab.apply(command);
-        lab.apply(Command::Undo);
+        lab.apply(RunCommand::Undo);
         assert_eq!((lab.race().values(0)[0], lab.scene().bodies[0].values[0]), (mass, mass));
         assert!(lab.analysis_request() == asked);
     }
-    lab.apply(Command::ToggleEqualCost);
+    lab.apply(RunCommand::ToggleEqualCost);
     assert_ne!(substeps(&lab), plain, "what was undone is not taken back, but done");
-    lab.apply(Command::Undo);
-    lab.apply(Command::Restart);
+    lab.apply(RunCommand::Undo);
+    lab.apply(StageCommand::Restart);
     assert_eq!((lab.race().tick_hz(), substeps(&lab)), (60, plain));
 }
 
@@ -400,14 +401,14 @@ fn undo_also_restores_the_settings_of_the_next_start() {
 fn a_parameter_that_acts_at_the_start_does_not_change_the_run_or_its_future() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
     (0..200).for_each(|_| lab.tick());
-    lab.apply(Command::Seek(100));
-    lab.apply(Command::Act(Action::Set { body: 0, parameter: 3, value: 0.25 }));
+    lab.apply(RunCommand::Seek(100));
+    lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 3, value: 0.25 }));
     assert_eq!((lab.timeline().end(), lab.timeline().undoes()), (200, Some("the start value")));
     assert!(lab.timeline().session().journal().rows().is_empty());
-    lab.apply(Command::Restart);
+    lab.apply(StageCommand::Restart);
     assert_eq!(lab.race().truth().bodies()[0].stepper.q(), [0.25]);
-    lab.apply(Command::Undo);
+    lab.apply(RunCommand::Undo);
     assert_eq!((lab.race().tick(), lab.timeline().end()), (100, 200));
-    lab.apply(Command::Undo);
+    lab.apply(RunCommand::Undo);
     assert_ne!(lab.scene().bodies[0].values[3], 0.25);
 }

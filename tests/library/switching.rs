@@ -4,7 +4,7 @@
 use regatta::lab::past::Past;
 use regatta::lab::{
     Action, Command, Lab, Lane, LaneBody, LaneId, LaneSpec, Observer, Race, Resumed, ResumedFrom,
-    Scene, SceneBody,
+    RunCommand, Scene, SceneBody, StageCommand, Step,
 };
 use regatta::sim::bodies::{Body, Ship, Spring};
 use regatta::sim::integrators::{GENERAL_METHODS, Method, method};
@@ -176,7 +176,7 @@ fn a_persons_action_that_changes_nothing_changes_no_bit() {
     for method in GENERAL_METHODS {
         let begun = || {
             let mut lab = Lab::new(mixed());
-            lab.apply(Command::Method(method));
+            lab.apply(StageCommand::Method(method));
             (0..40).for_each(|_| lab.tick());
             lab
         };
@@ -187,12 +187,12 @@ fn a_persons_action_that_changes_nothing_changes_no_bit() {
         let left = ended(begun());
         let (pick, hz) = (begun().active(), begun().clock().tick_hz());
         for command in [
-            Command::Method(method),
-            Command::Pick(pick),
-            Command::TickHz(hz),
-            Command::Act(Action::Throttle(1.0)),
-            Command::ThrottleUp,
-            Command::Act(Action::Rudder(0.0)),
+            Command::Stage(StageCommand::Method(method)),
+            Command::Stage(StageCommand::Pick(pick)),
+            Command::Stage(StageCommand::TickHz(hz)),
+            Command::Run(RunCommand::Act(Action::Throttle(1.0))),
+            Command::Run(RunCommand::ThrottleUp),
+            Command::Run(RunCommand::Act(Action::Rudder(0.0))),
         ] {
             let mut told = begun();
             told.apply(command.clone());
@@ -387,7 +387,11 @@ fn a_throttle_set_while_a_ship_had_halted_holds_when_it_goes_on() {
 #[test]
 fn a_method_is_not_blamed_for_a_state_that_it_inherits_and_the_notice_says_where_it_begins() {
     let mut lab = Lab::new(scene("stiff"));
-    for command in [Command::Pick(1), Command::TickRateDown, Command::TickRateDown] {
+    for command in [
+        Command::Stage(StageCommand::Pick(1)),
+        Command::Stage(StageCommand::TickRate(Step::Previous)),
+        Command::Stage(StageCommand::TickRate(Step::Previous)),
+    ] {
         lab.apply(command);
     }
     while lab.race().entrants()[0].lane.halted().is_none() {
@@ -395,7 +399,7 @@ fn a_method_is_not_blamed_for_a_state_that_it_inherits_and_the_notice_says_where
         assert!(lab.race().tick() < 1000);
     }
     (0..30).for_each(|_| lab.tick());
-    lab.apply(Command::Pick(3));
+    lab.apply(StageCommand::Pick(3));
     assert_eq!(
         lab.viewer().notice.as_deref(),
         Some("stiff spring had blown up: resumed from the exact solution")

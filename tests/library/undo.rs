@@ -1,6 +1,6 @@
 //! Whatever a person changes can be undone and done again, in one order.
 
-use regatta::lab::{Action, Command, Lab, Scene};
+use regatta::lab::{Action, Command, Lab, RunCommand, Scene, StageCommand, ViewCommand};
 
 use crate::dice::Dice;
 
@@ -26,8 +26,8 @@ struct Whole {
 fn whole(lab: &mut Lab) -> Whole {
     let tick = lab.race().tick();
     // From elsewhere, so that no action at the end itself is done yet.
-    lab.apply(Command::Seek(0));
-    lab.apply(Command::Seek(u64::MAX));
+    lab.apply(RunCommand::Seek(0));
+    lab.apply(RunCommand::Seek(u64::MAX));
     let race = lab.race();
     let lanes = race.entrants().iter();
     let whole = Whole {
@@ -38,7 +38,7 @@ fn whole(lab: &mut Lab) -> Whole {
         methods: lanes.map(|e| (e.lane.solver().method().unwrap().id, e.lane.substeps())).collect(),
         scene: lab.scene().to_toml(),
     };
-    lab.apply(Command::Seek(tick));
+    lab.apply(RunCommand::Seek(tick));
     whole
 }
 
@@ -46,12 +46,12 @@ fn whole(lab: &mut Lab) -> Whole {
 fn a_switch_in_the_past_that_was_undone_is_not_in_the_next_start() {
     let mut lab = lab("spring");
     (0..200).for_each(|_| lab.tick());
-    lab.apply(Command::Seek(100));
-    lab.apply(Command::Pick(1));
+    lab.apply(RunCommand::Seek(100));
+    lab.apply(StageCommand::Pick(1));
     assert_eq!(method(&lab), "semi-implicit-euler");
-    lab.apply(Command::Undo);
+    lab.apply(RunCommand::Undo);
     assert_eq!((method(&lab), lab.timeline().end()), ("explicit-euler", 200));
-    lab.apply(Command::Restart);
+    lab.apply(StageCommand::Restart);
     assert_eq!(method(&lab), "explicit-euler");
 }
 
@@ -61,17 +61,17 @@ fn a_switch_a_slider_a_placement_and_a_kick_are_undone_and_done_again_one_by_one
     let place = Action::Place { body: 0, q: [0.5].into(), v: [0.0].into() };
     let mut sides = Vec::new();
     for command in [
-        Command::Pick(1),
-        Command::Act(Action::Set { body: 0, parameter: 1, value: 80.0 }),
-        Command::Act(Action::Set { body: 0, parameter: 3, value: 0.25 }),
-        Command::Act(place),
-        Command::Act(Action::Kick(1.0)),
-        Command::TickHz(30),
-        Command::ToggleRace,
-        Command::ToggleEqualCost,
-        Command::Seconds(12.0),
-        Command::Restart,
-        Command::Act(Action::Throttle(0.5)),
+        Command::Stage(StageCommand::Pick(1)),
+        Command::Run(RunCommand::Act(Action::Set { body: 0, parameter: 1, value: 80.0 })),
+        Command::Run(RunCommand::Act(Action::Set { body: 0, parameter: 3, value: 0.25 })),
+        Command::Run(RunCommand::Act(place)),
+        Command::Run(RunCommand::Act(Action::Kick(1.0))),
+        Command::Stage(StageCommand::TickHz(30)),
+        Command::Stage(StageCommand::ToggleRace),
+        Command::Run(RunCommand::ToggleEqualCost),
+        Command::Run(RunCommand::Seconds(12.0)),
+        Command::Stage(StageCommand::Restart),
+        Command::Run(RunCommand::Act(Action::Throttle(0.5))),
     ] {
         (0..50).for_each(|_| lab.tick());
         let before = whole(&mut lab);
@@ -81,7 +81,7 @@ fn a_switch_a_slider_a_placement_and_a_kick_are_undone_and_done_again_one_by_one
         sides.push((before, after));
     }
     for (before, after) in sides.iter().rev() {
-        lab.apply(Command::Undo);
+        lab.apply(RunCommand::Undo);
         let now = whole(&mut lab);
         match before.state == after.state {
             // The change was one of the next start: the run goes on.
@@ -91,13 +91,13 @@ fn a_switch_a_slider_a_placement_and_a_kick_are_undone_and_done_again_one_by_one
     }
     assert_eq!((lab.timeline().undoes(), lab.race().tick()), (None, 50));
     for (_, after) in &sides {
-        lab.apply(Command::Redo);
+        lab.apply(RunCommand::Redo);
         let again = whole(&mut lab);
         assert_eq!((again.rows, &again.scene), (after.rows, &after.scene));
     }
     assert_eq!(lab.timeline().redoes(), None);
-    lab.apply(Command::Undo);
-    lab.apply(Command::Act(Action::Kick(1.0)));
+    lab.apply(RunCommand::Undo);
+    lab.apply(RunCommand::Act(Action::Kick(1.0)));
     assert_eq!(lab.timeline().redoes(), None, "another change was made");
 }
 
@@ -106,15 +106,15 @@ fn a_drag_of_a_slider_is_one_change_and_the_next_drag_another() {
     let mut lab = lab("spring");
     let stiffness = |lab: &Lab| lab.race().values(0)[1];
     let drag = |lab: &mut Lab, to: f64| {
-        lab.apply(Command::PointerDown(true));
+        lab.apply(ViewCommand::PointerDown(true));
         for part in 1..=10 {
             let value = to * (1.0 + f64::from(part) / 10.0);
-            lab.apply(Command::Act(Action::Set { body: 0, parameter: 1, value }));
+            lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value }));
             // The cross of the stability map sets the rate too.
-            lab.apply(Command::TickHz(60 + part));
+            lab.apply(StageCommand::TickHz(60 + part));
             (0..3).for_each(|_| lab.tick());
         }
-        lab.apply(Command::PointerDown(false));
+        lab.apply(ViewCommand::PointerDown(false));
     };
     (0..50).for_each(|_| lab.tick());
     let first = stiffness(&lab);
@@ -122,14 +122,14 @@ fn a_drag_of_a_slider_is_one_change_and_the_next_drag_another() {
     let second = stiffness(&lab);
     drag(&mut lab, 30.0);
     assert_ne!(stiffness(&lab), second);
-    lab.apply(Command::Undo);
+    lab.apply(RunCommand::Undo);
     assert_eq!((stiffness(&lab), lab.race().tick(), lab.race().tick_hz()), (second, 80, 70));
-    lab.apply(Command::Undo);
+    lab.apply(RunCommand::Undo);
     assert_eq!((stiffness(&lab), lab.race().tick(), lab.race().tick_hz()), (first, 50, 60));
     assert_eq!((lab.timeline().undoes(), lab.scene().bodies[0].values[1]), (None, first));
-    lab.apply(Command::Redo);
+    lab.apply(RunCommand::Redo);
     assert_eq!((lab.timeline().end(), lab.timeline().redoes().is_some()), (80, true));
-    lab.apply(Command::Seek(80));
+    lab.apply(RunCommand::Seek(80));
     assert_eq!(stiffness(&lab), second);
 }
 
@@ -143,38 +143,42 @@ fn random_changes_are_undone_and_done_again_to_the_bit() {
         for _ in 0..12 {
             (0..below(90)).for_each(|_| lab.tick());
             if below(2) == 0 {
-                lab.apply(Command::Seek(below(lab.timeline().end() + 1)));
+                lab.apply(RunCommand::Seek(below(lab.timeline().end() + 1)));
             }
             let (tick, before) = (lab.race().tick(), whole(&mut lab));
             let command = match below(6) {
-                0 => Command::Act(Action::Kick(0.5)),
-                1 => Command::Pick(below(5) as usize),
-                2 => Command::TickHz(20 + below(60) as u32),
-                3 => Command::ToggleRace,
-                4 => Command::Restart,
+                0 => Command::Run(RunCommand::Act(Action::Kick(0.5))),
+                1 => Command::Stage(StageCommand::Pick(below(5) as usize)),
+                2 => Command::Stage(StageCommand::TickHz(20 + below(60) as u32)),
+                3 => Command::Stage(StageCommand::ToggleRace),
+                4 => Command::Stage(StageCommand::Restart),
                 _ => {
                     let value = 20.0 + below(90) as f64;
-                    Command::Act(Action::Set { body: 0, parameter: 1, value })
+                    Command::Run(RunCommand::Act(Action::Set { body: 0, parameter: 1, value }))
                 }
             };
             let undoes = lab.timeline().undoes().map(str::to_owned);
             lab.apply(command.clone());
             let is_kept = lab.timeline().undoes() != undoes.as_deref();
             // A restart of a run in which nothing was done is no change.
-            if if command == Command::Restart { is_kept } else { whole(&mut lab) != before } {
+            if if command == Command::Stage(StageCommand::Restart) {
+                is_kept
+            } else {
+                whole(&mut lab) != before
+            } {
                 befores.push((tick, before));
             }
         }
         let last = whole(&mut lab);
         let mut undone = 0;
         while lab.timeline().undoes().is_some() {
-            lab.apply(Command::Undo);
+            lab.apply(RunCommand::Undo);
             let (tick, before) = befores.pop().expect("as many as were made");
             assert_eq!((lab.race().tick(), whole(&mut lab)), (tick, before));
             undone += 1;
         }
         assert!(undone >= 2, "{undone}");
-        (0..undone).for_each(|_| _ = lab.apply(Command::Redo));
+        (0..undone).for_each(|_| _ = lab.apply(RunCommand::Redo));
         assert_eq!(whole(&mut lab), last);
     }
 }
@@ -185,9 +189,9 @@ fn the_changes_that_can_be_undone_stay_within_the_memory_for_rewinding() {
     lab.set_rewind_bytes(1 << 20);
     for n in 0..60_u32 {
         (0..120).for_each(|_| lab.tick());
-        lab.apply(Command::Act(Action::Kick(1.0)));
+        lab.apply(RunCommand::Act(Action::Kick(1.0)));
         if n % 7 == 0 {
-            lab.apply(Command::Restart);
+            lab.apply(StageCommand::Restart);
         }
         assert!(lab.timeline().bytes() <= 1 << 20, "{}", lab.timeline().bytes());
     }

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{DynamicImage, RgbaImage};
-use regatta::lab::{Action, Command, Lab, SCENES, Scene};
+use regatta::lab::{Action, Lab, RunCommand, SCENES, Scene, StageCommand, Step};
 use regatta::view::{AdapterPreference, Gpu, OffscreenRenderer, Panels};
 
 const SIZE_PX: [u32; 2] = [400, 225];
@@ -35,15 +35,15 @@ fn gpu_or_skip(test: &str) -> Option<Gpu> {
 fn sailed(scene: &str, race: bool, mut each_frame: impl FnMut(&Lab)) -> Lab {
     let mut lab = Lab::new(Scene::built_in(scene).unwrap());
     if race {
-        lab.apply(Command::ToggleRace);
+        lab.apply(StageCommand::ToggleRace);
     } else {
-        lab.apply(Command::Pick(1));
+        lab.apply(StageCommand::Pick(1));
     }
     lab.forget_changes();
     for frame in 0..FRAMES {
         if frame == FRAMES / 2 && !race {
-            lab.apply(Command::Act(Action::Kick(1.0)));
-            lab.apply(Command::Pick(3));
+            lab.apply(RunCommand::Act(Action::Kick(1.0)));
+            lab.apply(StageCommand::Pick(3));
         }
         lab.advance(16_666_667);
         lab.analyse_bounded(|worker| Some(worker.finish()));
@@ -136,10 +136,10 @@ fn the_inspector_beside_a_run_that_was_gone_back_in_looks_as_it_did() {
     // 1280 × 720 points.
     let size_px = [512, 288];
     let mut lab = sailed("spring", false, |_| ());
-    lab.apply(Command::Act(Action::Set { body: 0, parameter: 1, value: 90.0 }));
-    lab.apply(Command::SecondForward);
-    lab.apply(Command::Seek(FRAMES - 20));
-    lab.apply(Command::ToggleInspector);
+    lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value: 90.0 }));
+    lab.apply(StageCommand::Second(Step::Next));
+    lab.apply(RunCommand::Seek(FRAMES - 20));
+    lab.apply(RunCommand::ToggleInspector);
     lab.analyse_bounded(|worker| Some(worker.finish()));
     let drawn = drawn(&mut OffscreenRenderer::new(gpu, size_px, 0.4).unwrap(), size_px, &lab);
     assert_eq!(wrong("spring-inspector.png", &drawn), None);

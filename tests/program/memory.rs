@@ -10,7 +10,7 @@ use egui::{
     Event, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, RawInput, TouchPhase, pos2,
     vec2,
 };
-use regatta::lab::{Command, KEYS, Lab, Scene};
+use regatta::lab::{KEYS, Lab, Scene, ViewCommand};
 use regatta::view::{AdapterPreference, FrameRenderer, Gpu, Offscreen};
 
 use crate::dice::Dice;
@@ -77,7 +77,7 @@ impl Program {
 
     /// Opens a scene of one body, so that nothing of the runs before is needed any more, and returns what is then held, in MB.
     fn at_rest(&mut self) -> f64 {
-        self.lab.apply(Command::CloseDialog);
+        self.lab.apply(ViewCommand::CloseDialog);
         let scene = Scene::built_in("spring").expect("a built-in scene");
         self.lab.open_file("rest.toml".as_ref(), scene);
         (0..30).for_each(|_| self.frame(vec![Event::PointerGone]));

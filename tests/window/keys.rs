@@ -2,7 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use regatta::lab::{Command, KEYS, Key, Lab, LoopCommand, SCENES, Scene, TICK_LADDER};
+use regatta::lab::{
+    Command, KEYS, Key, Lab, LoopCommand, RunCommand, SCENES, Scene, StageCommand, Step,
+    TICK_LADDER, ViewCommand,
+};
 
 use crate::desk::Desk;
 
@@ -53,16 +56,16 @@ fn every_key_of_the_table_does_what_the_table_says() {
     for (key, command) in KEYS.iter().flat_map(|binding| binding.keys) {
         // Where a path or a number is typed, keys are text.
         let others = [
-            Command::Screenshot,
-            Command::Record,
-            Command::Copy,
-            Command::ExportInstrument,
-            Command::ToggleFullScreen,
-            Command::AskForPath,
-            Command::AskForSpring,
+            Command::View(ViewCommand::Screenshot),
+            Command::Run(RunCommand::Record),
+            Command::View(ViewCommand::Copy),
+            Command::View(ViewCommand::ExportInstrument),
+            Command::View(ViewCommand::ToggleFullScreen),
+            Command::View(ViewCommand::AskForPath),
+            Command::View(ViewCommand::AskForSpring),
             // It opens a scene, and lets time run.
-            Command::ToggleGuide,
-            Command::Escape,
+            Command::View(ViewCommand::ToggleGuide),
+            Command::View(ViewCommand::Escape),
         ];
         if *command == Command::Loop(LoopCommand::ToggleLab) {
             // The other keys do other things in the loop lab.
@@ -84,7 +87,7 @@ fn every_key_of_the_table_does_what_the_table_says() {
     desk.press_and_see("Escape");
     desk.press_and_see("Escape");
     desk.press("space");
-    lab.apply(Command::TogglePause);
+    lab.apply(ViewCommand::TogglePause);
     desk.titled(&lab.title());
     desk.quit();
 }
@@ -97,15 +100,26 @@ fn in_the_loop_lab_keys_choose_loops_displays_rates_and_methods_and_leave_as_it_
     lab.apply(Command::Loop(LoopCommand::ToggleLab));
     desk.titled("Regatta - spring - loop lab: Fixed - edge - 60 Hz");
     for (keys, commands) in [
-        ("space", vec![Command::TogglePause]),
-        ("6", vec![Command::Pick(5)]),
-        ("t", vec![Command::NextInstrument]),
+        ("space", vec![Command::View(ViewCommand::TogglePause)]),
+        ("6", vec![Command::Stage(StageCommand::Pick(5))]),
+        ("t", vec![Command::Stage(StageCommand::InstrumentBeside(Step::Next))]),
         (
             "v shift+t t",
-            vec![Command::ToggleArrangement, Command::PreviousInstrument, Command::NextInstrument],
+            vec![
+                Command::Stage(StageCommand::ToggleArrangement),
+                Command::Stage(StageCommand::InstrumentBeside(Step::Previous)),
+                Command::Stage(StageCommand::InstrumentBeside(Step::Next)),
+            ],
         ),
-        ("bracketright", vec![Command::TickRateUp]),
-        ("m n period", vec![Command::NextMethod, Command::NextScene, Command::TickForward]),
+        ("bracketright", vec![Command::Stage(StageCommand::TickRate(Step::Next))]),
+        (
+            "m n period",
+            vec![
+                Command::Stage(StageCommand::MethodBeside(Step::Next)),
+                Command::Stage(StageCommand::SceneBeside(Step::Next)),
+                Command::Stage(StageCommand::Tick(Step::Next)),
+            ],
+        ),
         ("l", vec![Command::Loop(LoopCommand::ToggleLab)]),
     ] {
         desk.press(keys);
@@ -144,7 +158,10 @@ fn brackets_walk_the_tick_rates_and_n_and_b_the_scenes() {
     }
     let (mut lab, start) = (lab("spring"), "Regatta - spring - Explicit Euler - 2 Hz");
     desk.titled(start);
-    for (key, command) in [("n", Command::NextScene), ("b", Command::PreviousScene)] {
+    for (key, command) in [
+        ("n", Command::Stage(StageCommand::SceneBeside(Step::Next))),
+        ("b", Command::Stage(StageCommand::SceneBeside(Step::Previous))),
+    ] {
         for _ in SCENES {
             desk.press(key);
             lab.apply(command.clone());

@@ -89,7 +89,7 @@ impl Twin {
     }
 
     /// Applies a command, for which a key was pressed in the window.
-    pub(crate) fn apply(&mut self, command: Command) {
+    pub(crate) fn apply(&mut self, command: impl Into<Command>) {
         self.lab.apply(command);
     }
 

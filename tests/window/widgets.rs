@@ -1,6 +1,8 @@
 //! Every kind of widget worked by the mouse, in the window and in its twin: both come to the same run, and look alike.
 
-use regatta::lab::{Command, INSTRUMENTS, Instrument, Lab, MySpring, Scene};
+use regatta::lab::{
+    INSTRUMENTS, Instrument, Lab, MySpring, Scene, StageCommand, Step, ViewCommand,
+};
 
 use crate::desk::Desk;
 use crate::twin::Twin;
@@ -10,12 +12,12 @@ pub(crate) fn paused(test: &str, scene: &str) -> Option<(Desk, Twin)> {
     let desk = Desk::open(test, &format!("--scene {scene}"))?;
     let mut twin = Twin::new(Lab::new(Scene::built_in(scene).unwrap()));
     desk.press("space");
-    twin.apply(Command::TogglePause);
+    twin.apply(ViewCommand::TogglePause);
     desk.titled(&twin.lab.title());
     // After a tick at least, a restart leaves a run to bring back.
     desk.press("period Home");
-    twin.apply(Command::TickForward);
-    twin.apply(Command::Restart);
+    twin.apply(StageCommand::Tick(Step::Next));
+    twin.apply(StageCommand::Restart);
     desk.at_tick(0);
     Some((desk, twin))
 }
@@ -95,7 +97,7 @@ fn the_guide_and_the_timeline_are_worked_by_the_mouse() {
     let test = "the_guide_and_the_timeline_are_worked_by_the_mouse";
     let Some((desk, mut twin)) = paused(test, "spring") else { return };
     desk.press("shift+period shift+period");
-    (0..2).for_each(|_| twin.apply(Command::SecondForward));
+    (0..2).for_each(|_| twin.apply(StageCommand::Second(Step::Next)));
     desk.at_tick(120);
     let track = twin.slider("timeline");
     twin.click_at(&desk, track.lerp_inside(egui::vec2(0.05, 0.5)));

@@ -8,10 +8,8 @@ use crate::sim::integrators::{Family, Method};
 /// The corners about a middle.
 const CORNERS: [[f64; 2]; 4] = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
 
-/// How far the corners are from the middle, in units of the cloud's reach: so near that the map is linear between them; or
-/// further, beyond what the tolerance of an adaptive method leaves undone.
+/// How far the corners are from the middle, in units of the cloud's reach: so near that the map is linear between them.
 const BESIDE: f64 = 1e-4;
-const BESIDE_ADAPTIVE: f64 = 1e-3;
 /// Under a map that is linear they are anywhere.
 const BESIDE_LINEAR: f64 = 1.0;
 
@@ -27,7 +25,7 @@ pub(super) struct Lozenges {
     /// How far the corners are from the middle when they are set, in coordinate and velocity.
     beside: [f64; 2],
     is_linear: bool,
-    /// Ticks until the corners are set anew; `None` if they never are.
+    /// Ticks until the corners are set anew; `None` if they never are, as under a linear map.
     renewed_every: Option<u64>,
     /// What each area had become when its corners were last set.
     pub(super) factors: Vec<f64>,
@@ -36,15 +34,10 @@ pub(super) struct Lozenges {
 impl Lozenges {
     /// So many under this method. `reach` is that of the cloud, and `is_linear` whether a tick is a linear map.
     pub(super) fn new(count: usize, method: &Method, is_linear: bool, reach: [f64; 2]) -> Self {
-        let beside = match method.family {
-            _ if is_linear => BESIDE_LINEAR,
-            Family::Adaptive => BESIDE_ADAPTIVE,
-            _ => BESIDE,
-        };
+        let beside = if is_linear { BESIDE_LINEAR } else { BESIDE };
         let renewed_every = match (method.family, method.restart) {
             // These restart with what they had in memory.
             (Family::Symplectic, _) | (_, None) => Some(1),
-            (Family::Adaptive, _) => None,
             (_, Some(_)) => (!is_linear).then_some(TICKS_WITH_MEMORY),
         };
         let beside = reach.map(|reach| beside * reach);

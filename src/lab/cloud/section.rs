@@ -102,19 +102,10 @@ impl SectionRun {
 }
 
 impl SectionLane {
-    /// Steps to the next crossing, which may fall between two ticks: on the line through their states.
+    /// Steps to the next crossing.
     fn cross(&mut self, period: f64) {
         self.crossings += 1;
-        let at = self.crossings as f64 * period;
-        let part = at.fract();
-        self.cloud.go_to(at as u64);
-        let [mut q, mut v] = [self.cloud.q(), self.cloud.v()].map(<[f64]>::to_vec);
-        if part > 0.0 {
-            self.cloud.advance(1);
-            let between = |from: &mut f64, to: &f64| *from += part * (to - *from);
-            q.iter_mut().zip(self.cloud.q()).for_each(|(from, to)| between(from, to));
-            v.iter_mut().zip(self.cloud.v()).for_each(|(from, to)| between(from, to));
-        }
+        let [q, v] = self.cloud.states_at(self.crossings as f64 * period);
         self.density.add(&q, &v);
     }
 }

@@ -2,8 +2,9 @@
 //! what the program can do.
 
 use crate::lab::analysis::Outcome;
-use crate::lab::command::Command;
+use crate::lab::command::{Command, RunCommand, StageCommand, ViewCommand};
 use crate::lab::key::KEYS;
+use crate::lab::step::Step;
 
 /// What a hint after the scene's own asks for.
 struct Lead {
@@ -15,35 +16,50 @@ struct Lead {
 static LEADS: [Lead; 6] = [
     Lead {
         text: "Press `Home` to see it from the start.",
-        is_done_by: |command| matches!(command, Command::Restart | Command::ToggleRace),
+        is_done_by: |command| {
+            matches!(command, Command::Stage(StageCommand::Restart | StageCommand::ToggleRace))
+        },
     },
     Lead {
         text: "Press `C` to race all methods against the exact solution, in white.",
-        is_done_by: |command| matches!(command, Command::ToggleRace),
+        is_done_by: |command| matches!(command, Command::Stage(StageCommand::ToggleRace)),
     },
     Lead {
         text: "Hold `,` to go back in time, tick by tick. `Space` goes on from there.",
         is_done_by: |command| {
-            matches!(command, Command::TickBack | Command::SecondBack | Command::Seek(_))
+            matches!(
+                command,
+                Command::Stage(
+                    StageCommand::Tick(Step::Previous) | StageCommand::Second(Step::Previous)
+                ) | Command::Run(RunCommand::Seek(_))
+            )
         },
     },
     Lead {
         text: "Press `T` until the stability map is there, and drag its cross.",
         is_done_by: |command| {
-            let is_next = matches!(command, Command::NextInstrument | Command::PreviousInstrument);
-            is_next || matches!(command, Command::Instrument(_))
+            matches!(
+                command,
+                Command::Stage(StageCommand::InstrumentBeside(_) | StageCommand::Instrument(_))
+            )
         },
     },
     Lead {
         text: "Press `[` and `]` to change the tick rate: who survives a coarse one?",
         is_done_by: |command| {
-            matches!(command, Command::TickRateUp | Command::TickRateDown | Command::TickHz(_))
+            matches!(command, Command::Stage(StageCommand::TickRate(_) | StageCommand::TickHz(_)))
         },
     },
     Lead {
         text: "Press `F2` for the guide through the chapter, or `N` for the next scene.",
         is_done_by: |command| {
-            matches!(command, Command::ToggleGuide | Command::NextScene | Command::Scene(_))
+            matches!(
+                command,
+                Command::View(ViewCommand::ToggleGuide)
+                    | Command::Stage(
+                        StageCommand::SceneBeside(Step::Next) | StageCommand::Scene(_)
+                    )
+            )
         },
     },
 ];
@@ -93,9 +109,8 @@ impl Hints {
 /// Whether what a hint asks for makes sense in a race: there a digit switches nothing, and `C` has been pressed.
 pub(in crate::lab) fn suits_race(hint: &str) -> bool {
     let is_of_solo = |command: &&Command| {
-        let is_pick = matches!(command, Command::Pick(_) | Command::Method(_));
-        let is_next = matches!(command, Command::NextMethod | Command::PreviousMethod);
-        is_pick || is_next || matches!(command, Command::ToggleRace)
+        use StageCommand::{Method, MethodBeside, Pick, ToggleRace};
+        matches!(command, Command::Stage(Pick(_) | Method(_) | MethodBeside(_) | ToggleRace))
     };
     !keys(hint).flat_map(bound_to).any(|command| is_of_solo(&command))
 }
@@ -153,11 +168,11 @@ mod tests {
         for scene in SCENES {
             let mut lab = Lab::new(Scene::built_in(scene.name).unwrap());
             let solo = lab.hint().expect("a hint");
-            lab.apply(Command::ToggleRace);
+            lab.apply(StageCommand::ToggleRace);
             lab.begin_hints();
             let hint = lab.hint().expect("a lead");
             assert!(suits_race(&hint), "{}: {hint}", scene.name);
-            lab.apply(Command::ToggleRace);
+            lab.apply(StageCommand::ToggleRace);
             assert!(lab.hint().is_some(), "{}: {solo}", scene.name);
         }
         assert!(suits_race("Press `[`.") && !suits_race("Press `2`."));
@@ -172,12 +187,12 @@ mod tests {
         let mut lab = Lab::new(Scene::parse("mine.toml", text).unwrap());
         let asks_for = |lab: &Lab, key: &str| lab.hint().expect("a lead").contains(key);
         assert!(asks_for(&lab, "`C`"), "it was just opened");
-        lab.apply(Command::Pick(1));
+        lab.apply(StageCommand::Pick(1));
         assert!(asks_for(&lab, "`C`"), "it starts under the other method");
         lab.tick();
-        lab.apply(Command::Pick(0));
+        lab.apply(StageCommand::Pick(0));
         assert!(asks_for(&lab, "`Home`"), "it did not start under this one");
-        lab.apply(Command::Restart);
+        lab.apply(StageCommand::Restart);
         assert!(asks_for(&lab, "`C`"));
     }
 
@@ -188,20 +203,20 @@ mod tests {
         let flown = ("Semi-implicit Euler", Some(Outcome::OutOfPhase));
         let text = |hints: &Hints| hints.text(hint, flown, true).unwrap_or_default();
         assert_eq!(text(&hints), "It grows. Press `2`.");
-        hints.see(&Command::TickBack, hint);
+        hints.see(&Command::Stage(StageCommand::Tick(Step::Previous)), hint);
         assert_eq!(text(&hints), "It grows. Press `2`.");
-        hints.see(&Command::Pick(1), hint);
+        hints.see(&Command::Stage(StageCommand::Pick(1)), hint);
         assert!(text(&hints).starts_with("Semi-implicit Euler stays bounded"), "{}", text(&hints));
         assert!(text(&hints).contains("`Home`"));
-        hints.see(&Command::Restart, hint);
+        hints.see(&Command::Stage(StageCommand::Restart), hint);
         assert!(text(&hints).contains("`C`"));
-        hints.see(&Command::ToggleRace, hint);
+        hints.see(&Command::Stage(StageCommand::ToggleRace), hint);
         assert!(text(&hints).contains("`T`"), "going back was done before");
         let next = hints.of_next_scene();
         assert_eq!(text(&next), "It grows. Press `2`.");
-        hints.see(&Command::NextInstrument, hint);
-        hints.see(&Command::TickRateUp, hint);
-        hints.see(&Command::NextScene, hint);
+        hints.see(&Command::Stage(StageCommand::InstrumentBeside(Step::Next)), hint);
+        hints.see(&Command::Stage(StageCommand::TickRate(Step::Next)), hint);
+        hints.see(&Command::Stage(StageCommand::SceneBeside(Step::Next)), hint);
         assert_eq!(hints.text(hint, flown, true), None);
     }
 }

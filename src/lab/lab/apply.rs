@@ -5,23 +5,25 @@ use std::mem::take;
 use super::Lab;
 use crate::lab::action::Action;
 use crate::lab::command::{
-    Command, Receiver, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT, rung_above,
-    rung_below,
+    Command, RunCommand, SCALE_LADDER, SPEED_LADDER, StageCommand, TICK_LADDER,
+    USUAL_SCALE_PERCENT, ViewCommand,
 };
 use crate::lab::display::DriverRequest;
 use crate::lab::equal_cost::equal_cost;
 use crate::lab::lane_id::LaneId;
 use crate::lab::lane_spec::LaneSpec;
-use crate::lab::loop_lab::{LoopCommand, LoopLab};
+use crate::lab::loop_lab::LoopCommand;
 use crate::lab::metrics::METRICS;
 use crate::lab::race::{ActionResult, Mode};
 use crate::lab::session::StartSettings;
+use crate::lab::step::Step;
 use crate::lab::viewer::Dialog;
 use crate::sim::bodies::Acts;
 
 impl Lab {
     /// Carries out a command. Returns what the driver has to do for it, if anything.
-    pub fn apply(&mut self, command: Command) -> Option<DriverRequest> {
+    pub fn apply(&mut self, command: impl Into<Command>) -> Option<DriverRequest> {
+        let command = command.into();
         self.viewer.hints.see(&command, self.start.scene.hint.as_deref());
         if !self.viewer.pointer_is_down {
             self.timeline.close_change();
@@ -36,22 +38,64 @@ impl Lab {
     }
 
     pub(super) fn carry_out(&mut self, command: Command) -> Option<DriverRequest> {
-        if self.loop_lab.is_some() {
+        let is_in_loop_lab = self.loop_lab.is_some();
+        if is_in_loop_lab && !matches!(command, Command::View(_)) {
             self.viewer.notice = None;
-            match command.receiver() {
-                Receiver::Run => {
-                    self.set_notice("not in the loop lab: L leaves it");
-                    self.loop_lab.iter_mut().for_each(LoopLab::end_opening);
-                    return None;
-                }
-                Receiver::Stage => return self.carry_out_in_loop_lab(command),
-                Receiver::Window => {}
-            }
         }
+        match (command, is_in_loop_lab) {
+            (Command::View(command), _) => return self.carry_out_on_view(command),
+            (Command::Run(command), false) => return self.carry_out_on_run(command),
+            (Command::Run(_), true) => self.refuse_in_loop_lab(),
+            (Command::Stage(command), false) => self.carry_out_on_stage(command),
+            (Command::Stage(command), true) => self.carry_out_in_loop_lab(command),
+            (Command::Loop(LoopCommand::ToggleLab), false) => self.open_loop_lab(),
+            (Command::Loop(_), false) => {}
+            (Command::Loop(command), true) => self.change_loop_lab(command),
+        }
+        None
+    }
+
+    fn carry_out_on_run(&mut self, command: RunCommand) -> Option<DriverRequest> {
         let race = self.race();
         match command {
-            Command::Act(action) => self.act(action),
-            Command::Method(method) => {
+            RunCommand::Act(action) => self.act(action),
+            RunCommand::SetLane(spec) => self.set_lane(spec),
+            RunCommand::SpeedPercent(percent) => self.clock.set_speed_percent(percent),
+            RunCommand::ThrottleUp => self.act(Action::Throttle(tenths(race.throttle(), 1.0))),
+            RunCommand::ThrottleDown => self.act(Action::Throttle(tenths(race.throttle(), -1.0))),
+            RunCommand::RudderLeft => self.act(Action::Rudder(tenths(race.rudder(), 1.0))),
+            RunCommand::RudderRight => self.act(Action::Rudder(tenths(race.rudder(), -1.0))),
+            RunCommand::Seek(tick) => {
+                self.running = false;
+                self.seek(tick);
+            }
+            RunCommand::WatchAgain => self.watch_again(),
+            RunCommand::Undo => self.undo(),
+            RunCommand::Redo => self.redo(),
+            RunCommand::NextInterpolation => self.viewer.next_interpolation(),
+            RunCommand::MapParameter(parameter) => {
+                let view = &mut self.viewer.view;
+                view.mapped_parameter = Some((view.body, parameter));
+            }
+            RunCommand::Cloud(choice) => self.viewer.preferences.display.cloud = choice,
+            RunCommand::ToggleInspector => {
+                let display = &mut self.viewer.preferences.display;
+                display.inspector = !display.inspector;
+            }
+            RunCommand::Seconds(seconds) => {
+                self.set_start("the length", |start| start.set_seconds(seconds));
+            }
+            RunCommand::Hold(held) => self.viewer.held = Some(held),
+            RunCommand::Record => return Some(DriverRequest::Record),
+            RunCommand::ToggleEqualCost => self.toggle_equal_cost(),
+        }
+        None
+    }
+
+    pub(super) fn carry_out_on_stage(&mut self, command: StageCommand) {
+        let race = self.race();
+        match command {
+            StageCommand::Method(method) => {
                 let listed = self.entries().iter().position(|spec| spec.method == method);
                 match (listed, self.scene().refusal(method)) {
                     (Some(entry), _) => self.pick(entry),
@@ -59,33 +103,18 @@ impl Lab {
                     (None, None) => unreachable!("every method that fits is on the list"),
                 }
             }
-            Command::Pick(entry) => self.pick(entry),
-            Command::SetLane(spec) => self.set_lane(spec),
-            Command::NextMethod => self.pick_beside(1),
-            Command::PreviousMethod => self.pick_beside(-1),
-            Command::TickHz(tick_hz) => self.act(Action::TickHz(tick_hz)),
-            Command::TickRateUp => {
-                let higher = rung_above(&TICK_LADDER, race.tick_hz());
-                higher.into_iter().for_each(|hz| self.act(Action::TickHz(hz)));
+            StageCommand::Pick(entry) => self.pick(entry),
+            StageCommand::MethodBeside(step) => self.pick_beside(step),
+            StageCommand::TickHz(tick_hz) => self.act(Action::TickHz(tick_hz)),
+            StageCommand::TickRate(step) => {
+                let beside = step.along(&TICK_LADDER, race.tick_hz());
+                beside.into_iter().for_each(|hz| self.act(Action::TickHz(hz)));
             }
-            Command::TickRateDown => {
-                let lower = rung_below(&TICK_LADDER, race.tick_hz());
-                lower.into_iter().for_each(|hz| self.act(Action::TickHz(hz)));
+            StageCommand::Speed(step) => {
+                let beside = step.along(&SPEED_LADDER, self.clock.speed_percent());
+                beside.into_iter().for_each(|percent| self.clock.set_speed_percent(percent));
             }
-            Command::SpeedPercent(percent) => self.clock.set_speed_percent(percent),
-            Command::SpeedUp => {
-                let faster = rung_above(&SPEED_LADDER, self.clock.speed_percent());
-                faster.into_iter().for_each(|percent| self.clock.set_speed_percent(percent));
-            }
-            Command::SpeedDown => {
-                let slower = rung_below(&SPEED_LADDER, self.clock.speed_percent());
-                slower.into_iter().for_each(|percent| self.clock.set_speed_percent(percent));
-            }
-            Command::ThrottleUp => self.act(Action::Throttle(tenths(race.throttle(), 1.0))),
-            Command::ThrottleDown => self.act(Action::Throttle(tenths(race.throttle(), -1.0))),
-            Command::RudderLeft => self.act(Action::Rudder(tenths(race.rudder(), 1.0))),
-            Command::RudderRight => self.act(Action::Rudder(tenths(race.rudder(), -1.0))),
-            Command::ToggleRace => match race.mode() {
+            StageCommand::ToggleRace => match race.mode() {
                 Mode::Solo => {
                     self.keep_run("the race");
                     self.start.mode = Mode::Race;
@@ -99,23 +128,9 @@ impl Lab {
                     self.viewer.notice = None;
                 }
             },
-            Command::Loop(LoopCommand::ToggleLab) => self.open_loop_lab(),
-            // The loop lab is closed.
-            Command::Loop(_) => {}
-            Command::TogglePause => self.running = !self.running,
-            Command::TickForward => self.step_by(1),
-            Command::TickBack => self.step_by(-1),
-            Command::SecondForward => self.step_by(i64::from(race.tick_hz())),
-            Command::SecondBack => self.step_by(-i64::from(race.tick_hz())),
-            Command::Seek(tick) => {
-                self.running = false;
-                self.seek(tick);
-            }
-            Command::WatchAgain => self.watch_again(),
-            Command::Undo => self.undo(),
-            Command::Redo => self.redo(),
-            Command::PointerDown(is_down) => self.viewer.pointer_is_down = is_down,
-            Command::Restart => {
+            StageCommand::Tick(step) => self.step_by(step.sign()),
+            StageCommand::Second(step) => self.step_by(step.sign() * i64::from(race.tick_hz())),
+            StageCommand::Restart => {
                 // A run that has come to rest by itself was not paused by anybody.
                 self.running |= self.comes_to_rest();
                 // A hint leads on; the old run is a click away on the timeline.
@@ -123,49 +138,46 @@ impl Lab {
                     self.set_notice("restarted: Ctrl Z brings the run back");
                 }
             }
-            Command::Scene(place) => self.open(place),
-            Command::NextScene => self.open_beside(true),
-            Command::PreviousScene => self.open_beside(false),
-            Command::ToggleGhost => {
-                self.viewer.preferences.display.ghost = !self.viewer.preferences.display.ghost
-            }
-            Command::NextInterpolation => self.viewer.next_interpolation(),
-            Command::ToggleArrangement => self.viewer.toggle_arrangement(),
-            Command::ToggleTheme => {
-                self.viewer.preferences.theme_is_chosen = true;
-                self.viewer.preferences.display.theme =
-                    self.viewer.preferences.display.theme.other();
-            }
-            Command::ScaleUp => {
-                let larger = rung_above(&SCALE_LADDER, self.display().scale_percent);
-                larger.into_iter().for_each(|percent| self.viewer.show_scale(percent));
-            }
-            Command::ScaleDown => {
-                let smaller = rung_below(&SCALE_LADDER, self.display().scale_percent);
-                smaller.into_iter().for_each(|percent| self.viewer.show_scale(percent));
-            }
-            Command::UsualScale => self.viewer.show_scale(USUAL_SCALE_PERCENT),
-            Command::Instrument(instrument) => {
+            StageCommand::Scene(place) => self.open(place),
+            StageCommand::SceneBeside(step) => self.open_beside(step),
+            StageCommand::ToggleArrangement => self.viewer.toggle_arrangement(),
+            StageCommand::Instrument(instrument) => {
                 self.viewer.preferences.display.instrument = instrument
             }
-            Command::Quantity(quantity) => self.viewer.preferences.display.quantity = quantity,
-            Command::Coordinate { body, coordinate } => self.plot_coordinate(body, coordinate),
-            Command::PlotRanges(ranges) => self.viewer.view.plot_ranges = ranges,
-            Command::MapParameter(parameter) => {
-                let view = &mut self.viewer.view;
-                view.mapped_parameter = Some((view.body, parameter));
+            StageCommand::InstrumentBeside(step) => {
+                let instrument = &mut self.viewer.preferences.display.instrument;
+                *instrument = instrument.beside(step);
             }
-            Command::Cloud(choice) => self.viewer.preferences.display.cloud = choice,
-            Command::NextInstrument => self.viewer.instrument_beside(1),
-            Command::PreviousInstrument => self.viewer.instrument_beside(-1),
-            Command::Metric(place) => {
+            StageCommand::Metric(place) => {
                 self.viewer.preferences.display.metric = place.min(METRICS.len() - 1)
             }
-            Command::ToggleEnlarged => {
-                self.viewer.preferences.display.enlarged =
-                    !self.viewer.preferences.display.enlarged;
+            StageCommand::Body(body) => {
+                self.viewer.view.body = body.min(self.scene().bodies.len() - 1);
             }
-            Command::Copy => {
+            StageCommand::OpenSpring => self.open_spring(),
+        }
+    }
+
+    fn carry_out_on_view(&mut self, command: ViewCommand) -> Option<DriverRequest> {
+        let display = &mut self.viewer.preferences.display;
+        match command {
+            ViewCommand::TogglePause => self.running = !self.running,
+            ViewCommand::PointerDown(is_down) => self.viewer.pointer_is_down = is_down,
+            ViewCommand::ToggleGhost => display.ghost = !display.ghost,
+            ViewCommand::ToggleTheme => {
+                display.theme = display.theme.other();
+                self.viewer.preferences.theme_is_chosen = true;
+            }
+            ViewCommand::Scale(step) => {
+                let beside = step.along(&SCALE_LADDER, display.scale_percent);
+                beside.into_iter().for_each(|percent| self.viewer.show_scale(percent));
+            }
+            ViewCommand::UsualScale => self.viewer.show_scale(USUAL_SCALE_PERCENT),
+            ViewCommand::Quantity(quantity) => display.quantity = quantity,
+            ViewCommand::Coordinate { body, coordinate } => self.plot_coordinate(body, coordinate),
+            ViewCommand::PlotRanges(ranges) => self.viewer.view.plot_ranges = ranges,
+            ViewCommand::ToggleEnlarged => display.enlarged = !display.enlarged,
+            ViewCommand::Copy => {
                 let pointed = self.viewer.pointed.filter(|entry| *entry < self.entries().len());
                 let copy = pointed.map(|entry| match self.joint_code(entry) {
                     Some(_) => DriverRequest::CopyJoint(entry),
@@ -173,56 +185,39 @@ impl Lab {
                 });
                 return Some(copy.unwrap_or(DriverRequest::CopyInstrument));
             }
-            Command::CopyInstrument => return Some(DriverRequest::CopyInstrument),
-            Command::CopyMethod { entry, language } => {
+            ViewCommand::CopyInstrument => return Some(DriverRequest::CopyInstrument),
+            ViewCommand::CopyMethod { entry, language } => {
                 self.viewer.preferences.language = language;
                 let known = entry < self.entries().len();
                 return known.then_some(DriverRequest::CopyMethod(entry));
             }
-            Command::CopyJoint(entry) => {
+            ViewCommand::CopyJoint(entry) => {
                 return self.joint_code(entry).map(|_| DriverRequest::CopyJoint(entry));
             }
-            Command::PointAt(entry) => self.viewer.pointed = entry,
-            Command::ExportInstrument => return Some(DriverRequest::ExportInstrument),
-            Command::Body(body) => {
-                self.viewer.view.body = body.min(self.scene().bodies.len() - 1);
+            ViewCommand::PointAt(entry) => self.viewer.pointed = entry,
+            ViewCommand::ExportInstrument => return Some(DriverRequest::ExportInstrument),
+            ViewCommand::AdviseOnOneBody(is_one) => display.advises_on_one_body = is_one,
+            ViewCommand::ToggleHelp => display.help = !display.help,
+            ViewCommand::LetGo => self.viewer.held = None,
+            ViewCommand::ZoomPan { body, zoom_pan } => {
+                self.viewer.view.set_zoom_pan(body, zoom_pan)
             }
-            Command::AdviseOnOneBody(is_one) => {
-                self.viewer.preferences.display.advises_on_one_body = is_one;
-            }
-            Command::ToggleHelp => {
-                self.viewer.preferences.display.help = !self.viewer.preferences.display.help
-            }
-            Command::ToggleInspector => {
-                self.viewer.preferences.display.inspector =
-                    !self.viewer.preferences.display.inspector;
-            }
-            Command::Seconds(seconds) => {
-                self.set_start("the length", |start| start.set_seconds(seconds));
-            }
-            Command::Hold(held) => self.viewer.held = Some(held),
-            Command::LetGo => self.viewer.held = None,
-            Command::ZoomPan { body, zoom_pan } => self.viewer.view.set_zoom_pan(body, zoom_pan),
-            Command::AskForPath => self.viewer.dialog = Some(Dialog::Path { refused: None }),
-            Command::TypePath(path) => self.type_path(path),
-            Command::CompletePath => return Some(DriverRequest::CompletePath),
-            Command::OpenTypedPath => return Some(DriverRequest::OpenTypedPath),
-            Command::AskForSpring => self.viewer.dialog = Some(Dialog::Spring),
-            Command::DescribeSpring(spring) => self.viewer.preferences.my_spring = spring,
-            Command::OpenSpring => self.open_spring(),
-            Command::CloseDialog => self.viewer.dialog = None,
-            Command::ToggleGuide => self.toggle_guide(),
-            Command::GoToStop(place) => self.go_to_stop(place),
-            Command::NextStop => self.go_to_stop_beside(1),
-            Command::PreviousStop => self.go_to_stop_beside(-1),
-            Command::Predict(choice) => {
+            ViewCommand::AskForPath => self.viewer.dialog = Some(Dialog::Path { refused: None }),
+            ViewCommand::TypePath(path) => self.type_path(path),
+            ViewCommand::CompletePath => return Some(DriverRequest::CompletePath),
+            ViewCommand::OpenTypedPath => return Some(DriverRequest::OpenTypedPath),
+            ViewCommand::AskForSpring => self.viewer.dialog = Some(Dialog::Spring),
+            ViewCommand::DescribeSpring(spring) => self.viewer.preferences.my_spring = spring,
+            ViewCommand::CloseDialog => self.viewer.dialog = None,
+            ViewCommand::ToggleGuide => self.toggle_guide(),
+            ViewCommand::GoToStop(place) => self.go_to_stop(place),
+            ViewCommand::StopBeside(step) => self.go_to_stop_beside(step),
+            ViewCommand::Predict(choice) => {
                 self.viewer.tour.iter_mut().for_each(|tour| tour.predict(choice));
             }
-            Command::Escape => return (!self.escape()).then_some(DriverRequest::Quit),
-            Command::Screenshot => return Some(DriverRequest::Screenshot),
-            Command::Record => return Some(DriverRequest::Record),
-            Command::ToggleEqualCost => self.toggle_equal_cost(),
-            Command::ToggleFullScreen => return Some(DriverRequest::ToggleFullScreen),
+            ViewCommand::Escape => return (!self.escape()).then_some(DriverRequest::Quit),
+            ViewCommand::Screenshot => return Some(DriverRequest::Screenshot),
+            ViewCommand::ToggleFullScreen => return Some(DriverRequest::ToggleFullScreen),
         }
         None
     }
@@ -322,10 +317,11 @@ impl Lab {
         }
     }
 
-    /// Picks the next index on the list that can be picked, cyclically, in the direction of `step`.
-    fn pick_beside(&mut self, step: isize) {
-        let (active, count) = (self.active() as isize, self.entries().len() as isize);
-        let mut around = (1..=count).map(|i| (active + i * step).rem_euclid(count) as usize);
+    /// Picks the next index on the list that can be picked, cyclically, that way.
+    fn pick_beside(&mut self, step: Step) {
+        let count = self.entries().len();
+        let beside = |entry: &usize| Some(step.around(*entry, count));
+        let mut around = std::iter::successors(Some(self.active()), beside).skip(1).take(count);
         if let Some(entry) = around.find(|&entry| self.picked(entry).is_some()) {
             self.pick(entry);
         }

@@ -148,7 +148,7 @@ impl Lab {
 
 #[cfg(test)]
 mod tests {
-    use crate::lab::{Command, Lab, Scene};
+    use crate::lab::{Lab, Scene, StageCommand};
 
     #[test]
     fn of_many_lanes_the_best_is_selected_unless_somebody_has_selected_one() {
@@ -156,9 +156,9 @@ mod tests {
             let scene = Scene { seconds: 2.0, ..Scene::built_in("spring").unwrap() };
             let all = Lab::new(scene.clone()).entries()[..lanes].to_vec();
             let mut lab = Lab::new(Scene { lanes: all, ..scene });
-            lab.apply(Command::ToggleRace);
+            lab.apply(StageCommand::ToggleRace);
             if picks {
-                lab.apply(Command::Pick(0));
+                lab.apply(StageCommand::Pick(0));
             }
             let first = lab.active();
             lab.analyse();
@@ -168,7 +168,7 @@ mod tests {
             assert_eq!(lab.active() != first, is_best, "{lanes} lanes, picked: {picks}");
             assert_eq!(outcome(lab.active()) == best, is_best, "{lanes} lanes, picked: {picks}");
             let selected = lab.active();
-            lab.apply(Command::Restart);
+            lab.apply(StageCommand::Restart);
             assert_eq!(lab.active(), selected);
         }
     }

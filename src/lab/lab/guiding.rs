@@ -1,7 +1,7 @@
 //! The guide and the hints of a lab: how a stop is opened, and when its task is done.
 
 use super::Lab;
-use crate::lab::command::Command;
+use crate::lab::command::{Command, StageCommand};
 use crate::lab::guide::{Chosen, Goal, Hints, STOPS, Situation, Stop, Tour, suits_race};
 use crate::lab::interpolation::Interpolation;
 use crate::lab::journal::Source;
@@ -9,6 +9,7 @@ use crate::lab::metrics::METRICS;
 use crate::lab::quantity::Quantity;
 use crate::lab::race::Mode;
 use crate::lab::scene::SCENES;
+use crate::lab::step::Step;
 
 impl Lab {
     /// What to try next: the scene's own hint, then what follows on it. Keys stand between backticks.
@@ -48,7 +49,7 @@ impl Lab {
     pub fn begin_hints(&mut self) {
         self.viewer.hints = Hints::default();
         if self.mode() == Mode::Race {
-            self.viewer.hints.see(&Command::ToggleRace, None);
+            self.viewer.hints.see(&Command::Stage(StageCommand::ToggleRace), None);
         }
     }
 
@@ -76,9 +77,12 @@ impl Lab {
     }
 
     /// Opens the stop this many further on, if the guide is open and has one.
-    pub(super) fn go_to_stop_beside(&mut self, step: isize) {
+    pub(super) fn go_to_stop_beside(&mut self, step: Step) {
         let Some(tour) = &self.viewer.tour else { return };
-        let place = tour.place().checked_add_signed(step).filter(|place| *place < STOPS.len());
+        let place = tour
+            .place()
+            .checked_add_signed(step.sign() as isize)
+            .filter(|place| *place < STOPS.len());
         place.into_iter().for_each(|place| self.go_to_stop(place));
     }
 
@@ -132,6 +136,7 @@ fn error_of(quantity: Quantity) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::command::{RunCommand, ViewCommand};
     use crate::lab::{Key, Scene, command_for};
 
     #[test]
@@ -140,17 +145,19 @@ mod tests {
             let display = lab.display();
             (display.quantity, display.metric, display.interpolation)
         };
-        for (close, stops) in
-            [(Command::Escape, 1), (Command::ToggleGuide, 4), (Command::NextScene, 14)]
-        {
+        for (close, stops) in [
+            (Command::View(ViewCommand::Escape), 1),
+            (Command::View(ViewCommand::ToggleGuide), 4),
+            (Command::Stage(StageCommand::SceneBeside(Step::Next)), 14),
+        ] {
             let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-            lab.apply(Command::Metric(METRICS.len() - 1));
-            lab.apply(Command::NextInterpolation);
+            lab.apply(StageCommand::Metric(METRICS.len() - 1));
+            lab.apply(RunCommand::NextInterpolation);
             let before = chosen(&lab);
-            lab.apply(Command::ToggleGuide);
-            (0..stops).for_each(|_| _ = lab.apply(Command::NextStop));
+            lab.apply(ViewCommand::ToggleGuide);
+            (0..stops).for_each(|_| _ = lab.apply(ViewCommand::StopBeside(Step::Next)));
             assert_ne!(chosen(&lab), before);
-            lab.apply(Command::NextInterpolation);
+            lab.apply(RunCommand::NextInterpolation);
             lab.apply(close.clone());
             assert!(lab.viewer.tour.is_none() && chosen(&lab) == before, "{close:?}");
         }
@@ -163,7 +170,7 @@ mod tests {
         lab.apply(next.clone());
         lab.apply(back.clone());
         assert!(lab.viewer.tour.is_none(), "the guide is closed");
-        lab.apply(Command::ToggleGuide);
+        lab.apply(ViewCommand::ToggleGuide);
         let last = STOPS.len() - 1;
         for (command, places) in [
             (next, (1..=last).chain([last]).collect::<Vec<_>>()),

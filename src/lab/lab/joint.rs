@@ -67,7 +67,7 @@ impl Lab {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Command, DriverRequest, Scene};
+    use crate::lab::{DriverRequest, RunCommand, Scene, StageCommand, ViewCommand};
 
     #[test]
     fn a_setting_of_an_engine_sets_the_spring_and_control_c_on_the_engine_copies_it() {
@@ -76,11 +76,11 @@ mod tests {
         let setups = lab.joint_setups();
         let box2d = setups.iter().find(|setup| setup.mode.stiffness.name == "hertz").unwrap();
         for action in spring.set(*box2d, 0, 3.0) {
-            lab.apply(Command::Act(action));
+            lab.apply(RunCommand::Act(action));
         }
         let spring = lab.spring_joint(0).unwrap();
         for action in spring.set(*box2d, 1, 0.25) {
-            lab.apply(Command::Act(action));
+            lab.apply(RunCommand::Act(action));
         }
         let spring = lab.spring_joint(0).unwrap();
         let [hertz, ratio] = box2d.mode.values(spring.joint, spring.mass_kg);
@@ -89,16 +89,16 @@ mod tests {
         let entry = lab.entries().iter().position(|spec| spec.method == box2d.method).unwrap();
         let code = lab.joint_code(entry).unwrap();
         assert!(code.contains("def.hertz = 3.0;\n"), "{code}");
-        assert_eq!(lab.apply(Command::CopyJoint(entry)), Some(DriverRequest::CopyJoint(entry)));
-        lab.apply(Command::PointAt(Some(entry)));
-        assert_eq!(lab.apply(Command::Copy), Some(DriverRequest::CopyJoint(entry)));
+        assert_eq!(lab.apply(ViewCommand::CopyJoint(entry)), Some(DriverRequest::CopyJoint(entry)));
+        lab.apply(ViewCommand::PointAt(Some(entry)));
+        assert_eq!(lab.apply(ViewCommand::Copy), Some(DriverRequest::CopyJoint(entry)));
         // A custom method is copied as source code, and so is an engine's step by its menu.
         let ship = lab.scene().bodies.iter().position(|body| body.kind.id == "ship").unwrap();
         assert_eq!(lab.spring_joint(ship), None);
-        lab.apply(Command::Body(ship));
-        lab.apply(Command::PointAt(Some(entry)));
-        assert_eq!(lab.apply(Command::Copy), Some(DriverRequest::CopyMethod(entry)));
-        assert_eq!(lab.apply(Command::CopyJoint(entry)), None);
+        lab.apply(StageCommand::Body(ship));
+        lab.apply(ViewCommand::PointAt(Some(entry)));
+        assert_eq!(lab.apply(ViewCommand::Copy), Some(DriverRequest::CopyMethod(entry)));
+        assert_eq!(lab.apply(ViewCommand::CopyJoint(entry)), None);
         // An engine that is told other numbers has those.
         let alike = Lab::new(Scene::built_in("alike").unwrap());
         let told = [0, 3].map(|entry| alike.joint_code(entry).unwrap());

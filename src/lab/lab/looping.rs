@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use super::Lab;
-use crate::lab::command::{Command, TICK_LADDER, rung_above, rung_below};
-use crate::lab::display::DriverRequest;
+use crate::lab::command::{StageCommand, TICK_LADDER};
 use crate::lab::guide::Goal;
 use crate::lab::instrument::Instrument;
 use crate::lab::loop_lab::{FoundLoop, LoopCommand, LoopLab, LoopRequest, LoopWorker, SLOWNESS};
 use crate::lab::pacing::FrameTrace;
 use crate::lab::scene::SceneBody;
+use crate::lab::step::Step;
 use crate::sim::integrators::{Method, method};
 
 /// The method of the body at first: none that adds much of its own.
@@ -104,85 +104,74 @@ impl Lab {
 
     /// Carries out a command of the stage on the open loop lab. Returns what the driver has to do for
     /// it, if anything.
-    pub(super) fn carry_out_in_loop_lab(&mut self, command: Command) -> Option<DriverRequest> {
-        let loops = self.loop_lab.as_mut()?;
+    /// Carries out a command on the stage while the loop lab is on it.
+    pub(super) fn carry_out_in_loop_lab(&mut self, command: StageCommand) {
+        let Some(loops) = &mut self.loop_lab else { return };
         let tick_hz = loops.scene().tick_hz;
-        let (slowness, traces) = (loops.slowness(), loops.traces().len());
         let frames_per_second = loops.traces()[loops.trace()].refresh().hz().round() as i64;
         match command {
-            Command::Loop(command) => self.change_loop_lab(command),
-            Command::ToggleRace | Command::OpenSpring => {
+            StageCommand::ToggleRace | StageCommand::OpenSpring => {
                 self.leave_loop_lab();
-                return self.carry_out(command);
+                return self.carry_out_on_stage(command);
             }
-            Command::Pick(place) => loops.select(place),
-            Command::ToggleArrangement => loops.toggle_overlay(),
-            Command::NextInstrument => loops.choose_trace((loops.trace() + 1) % traces),
-            Command::PreviousInstrument => {
-                loops.choose_trace((loops.trace() + traces - 1) % traces)
+            StageCommand::Pick(place) => loops.select(place),
+            StageCommand::ToggleArrangement => loops.toggle_overlay(),
+            StageCommand::InstrumentBeside(step) => {
+                loops.choose_trace(step.around(loops.trace(), loops.traces().len()));
             }
-            Command::Restart => loops.seek(0),
-            Command::TickForward => self.step_loops(1),
-            Command::TickBack => self.step_loops(-1),
-            Command::SecondForward => self.step_loops(frames_per_second),
-            Command::SecondBack => self.step_loops(-frames_per_second),
-            Command::NextMethod => {
-                let next = method_beside(loops, true);
-                self.set_loop_method(next);
+            StageCommand::Restart => loops.seek(0),
+            StageCommand::Tick(step) => self.step_loops(step.sign()),
+            StageCommand::Second(step) => self.step_loops(step.sign() * frames_per_second),
+            StageCommand::MethodBeside(step) => {
+                let beside = method_beside(loops, step);
+                self.set_loop_method(beside);
             }
-            Command::PreviousMethod => {
-                let previous = method_beside(loops, false);
-                self.set_loop_method(previous);
+            StageCommand::Method(method) => self.set_loop_method(method),
+            StageCommand::TickHz(tick_hz) => loops.set_tick_hz(tick_hz),
+            StageCommand::TickRate(step) => {
+                let beside = step.along(&TICK_LADDER, tick_hz);
+                beside.into_iter().for_each(|hz| loops.set_tick_hz(hz));
             }
-            Command::Method(method) => self.set_loop_method(method),
-            Command::TickHz(tick_hz) => loops.set_tick_hz(tick_hz),
-            Command::TickRateUp => {
-                let higher = rung_above(&TICK_LADDER, tick_hz);
-                higher.into_iter().for_each(|hz| loops.set_tick_hz(hz));
+            StageCommand::Speed(step) => {
+                let beside = step.other().along(&SLOWNESS, loops.slowness());
+                beside.into_iter().for_each(|slowness| loops.set_slowness(slowness));
             }
-            Command::TickRateDown => {
-                let lower = rung_below(&TICK_LADDER, tick_hz);
-                lower.into_iter().for_each(|hz| loops.set_tick_hz(hz));
-            }
-            Command::SpeedUp => {
-                let faster = rung_below(&SLOWNESS, slowness);
-                faster.into_iter().for_each(|slowness| loops.set_slowness(slowness));
-            }
-            Command::SpeedDown => {
-                let slower = rung_above(&SLOWNESS, slowness);
-                slower.into_iter().for_each(|slowness| loops.set_slowness(slowness));
-            }
-            Command::Scene(_) | Command::NextScene | Command::PreviousScene | Command::Body(_) => {
+            StageCommand::Scene(_) | StageCommand::SceneBeside(_) | StageCommand::Body(_) => {
                 let (loops, running) = (self.loop_lab.take(), self.running);
-                self.carry_out(command);
+                self.carry_out_on_stage(command);
                 self.loop_lab = loops;
                 self.running = running;
                 if let Some(refusal) = self.loop_lab_refusal() {
                     self.leave_loop_lab();
-                    self.set_notice(refusal);
-                    return None;
+                    return self.set_notice(refusal);
                 }
                 let (scene, body) = (self.start.scene.clone(), self.view().body);
                 self.loop_lab.iter_mut().for_each(|loops| loops.show(&scene, body));
             }
-            Command::Metric(place) => loops.set_metric(place),
-            Command::Instrument(instrument) if !instrument.is_in_loop_lab() => {
-                self.set_notice(format!(
-                    "{} is not in the loop lab: L leaves it",
-                    instrument.name()
-                ));
-            }
-            Command::Instrument(instrument) => {
+            StageCommand::Metric(place) => loops.set_metric(place),
+            StageCommand::Instrument(instrument) if instrument.is_in_loop_lab() => {
                 self.viewer.preferences.display.instrument = instrument;
-                return None;
+                return;
             }
-            other => unreachable!("{other:?} is not a command of the stage"),
+            StageCommand::Instrument(instrument) => {
+                let name = instrument.name();
+                self.set_notice(format!("{name} is not in the loop lab: L leaves it"));
+            }
         }
-        self.loop_lab.iter_mut().for_each(LoopLab::end_opening);
-        None
+        self.end_opening_of_loop_lab();
     }
 
-    fn change_loop_lab(&mut self, command: LoopCommand) {
+    /// Says that the loop lab takes no command on the run.
+    pub(super) fn refuse_in_loop_lab(&mut self) {
+        self.set_notice("not in the loop lab: L leaves it");
+        self.end_opening_of_loop_lab();
+    }
+
+    fn end_opening_of_loop_lab(&mut self) {
+        self.loop_lab.iter_mut().for_each(LoopLab::end_opening);
+    }
+
+    pub(super) fn change_loop_lab(&mut self, command: LoopCommand) {
         let Some(loops) = &mut self.loop_lab else { return };
         match command {
             LoopCommand::ToggleLab => self.leave_loop_lab(),
@@ -195,6 +184,7 @@ impl Lab {
                 self.running = false;
             }
         }
+        self.end_opening_of_loop_lab();
     }
 
     fn set_loop_method(&mut self, method: &'static Method) {
@@ -228,8 +218,8 @@ impl Lab {
     }
 }
 
-fn method_beside(loops: &LoopLab, is_next: bool) -> &'static Method {
+fn method_beside(loops: &LoopLab, step: Step) -> &'static Method {
     let methods: Vec<_> = loops.scene().fitting_methods().collect();
     let place = methods.iter().position(|method| *method == loops.method()).unwrap_or(0);
-    methods[(place + if is_next { 1 } else { methods.len() - 1 }) % methods.len()]
+    methods[step.around(place, methods.len())]
 }

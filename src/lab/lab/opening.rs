@@ -8,6 +8,7 @@ use crate::lab::instrument::Instrument;
 use crate::lab::race::Mode;
 use crate::lab::scene::{Mistake, Scene};
 use crate::lab::scene_list::SceneList;
+use crate::lab::step::Step;
 use crate::lab::viewer::Dialog;
 
 /// The name of a custom spring on the list of scenes.
@@ -159,10 +160,9 @@ impl Lab {
         self.timeline.show_present();
     }
 
-    pub(super) fn open_beside(&mut self, forward: bool) {
+    pub(super) fn open_beside(&mut self, step: Step) {
         let count = self.scene_list.count();
-        let offset = if forward { 1 } else { count - 1 };
-        self.open(self.scene_list.open().map_or(0, |here| (here + offset) % count));
+        self.open(self.scene_list.open().map_or(0, |here| step.around(here, count)));
     }
 
     /// Opens the scene at this index of the list, modulo its length, under the scene's opening method, and closes the

@@ -88,7 +88,7 @@ impl Lab {
 mod tests {
     use super::*;
     use crate::lab::picture::slow_motion_percent;
-    use crate::lab::{Command, Lab, Scene};
+    use crate::lab::{Lab, RunCommand, Scene, StageCommand, ViewCommand};
 
     /// A lab that somebody watches.
     fn watched(scene: &str) -> Lab {
@@ -115,7 +115,7 @@ mod tests {
         assert_eq!(slow_motion_percent(&lab), 100, "a swing that grows by itself is fast enough");
         let hint = lab.hint().expect("what to do");
         assert!(hint.contains("`Home`") && hint.contains("`Space`"), "{hint}");
-        lab.apply(Command::TogglePause);
+        lab.apply(ViewCommand::TogglePause);
         watch(&mut lab, 2);
         assert!(lab.running() && lab.race().t() > lab.scene().seconds);
         assert!(!lab.hint().is_some_and(|hint| hint.contains("are over")));
@@ -126,15 +126,15 @@ mod tests {
         let mut lab = watched("spring");
         watch(&mut lab, 5);
         let switched = lab.race().tick();
-        lab.apply(Command::Pick(1));
+        lab.apply(StageCommand::Pick(1));
         watch(&mut lab, 20);
         assert!(!lab.running());
-        lab.apply(Command::Undo);
+        lab.apply(RunCommand::Undo);
         assert!(lab.running() && lab.race().tick() == switched, "nobody has paused it");
         watch(&mut lab, 20);
         let end = lab.race().tick();
-        lab.apply(Command::Pick(2));
-        lab.apply(Command::Undo);
+        lab.apply(StageCommand::Pick(2));
+        lab.apply(RunCommand::Undo);
         assert_eq!((lab.race().tick(), lab.running()), (end, false), "it rests there");
     }
 
@@ -143,11 +143,11 @@ mod tests {
         let mut lab = watched("spring");
         watch(&mut lab, 21);
         assert!(!lab.running());
-        lab.apply(Command::Restart);
+        lab.apply(StageCommand::Restart);
         assert_eq!((lab.race().tick(), lab.running()), (0, true));
         watch(&mut lab, 1);
-        lab.apply(Command::TogglePause);
-        lab.apply(Command::Restart);
+        lab.apply(ViewCommand::TogglePause);
+        lab.apply(StageCommand::Restart);
         assert_eq!((lab.race().tick(), lab.running()), (0, false));
     }
 
@@ -159,7 +159,7 @@ mod tests {
         };
         assert!(ends(Lab::new(Scene::built_in("spring").unwrap())), "nobody watches");
         let mut steered = watched("spring");
-        steered.apply(Command::Act(Action::Kick(1.0)));
+        steered.apply(RunCommand::Act(Action::Kick(1.0)));
         assert!(ends(steered), "a person is at it");
         let mut told = watched("spring");
         for _ in 0..60 * 21 {
@@ -189,7 +189,7 @@ mod tests {
         assert!(!lab.running() && plain.running(), "it rests");
         assert!(lab.hint().is_some_and(|hint| hint.contains("blew up") && hint.contains("`W`")));
         let (end, hash) = (lab.race().tick(), lab.race().state_hash());
-        lab.apply(Command::WatchAgain);
+        lab.apply(RunCommand::WatchAgain);
         assert!(lab.running() && lab.race().tick() < end);
         watch(lab, 20);
         assert_eq!((lab.race().tick(), lab.race().state_hash()), (end, hash));

@@ -1,6 +1,6 @@
 use super::*;
 use crate::lab::pacing::policy;
-use crate::lab::{Action, Command, Lab};
+use crate::lab::{Action, Command, Lab, RunCommand, StageCommand, Step};
 use crate::sim::integrators::method;
 
 fn lab() -> LoopLab {
@@ -144,7 +144,7 @@ fn a_net_that_is_opened_in_it_leaves_it_with_the_reason() {
     lab.apply(Command::Loop(LoopCommand::ToggleLab));
     assert!(lab.loop_lab().is_some());
     let rope = crate::lab::SCENES.iter().position(|scene| scene.name == "rope").unwrap();
-    lab.apply(Command::Scene(rope));
+    lab.apply(StageCommand::Scene(rope));
     assert!(lab.loop_lab().is_none());
     assert_eq!(lab.scene_name(), "rope");
     let notice = lab.viewer().notice.as_deref().unwrap_or_default();
@@ -166,7 +166,7 @@ fn opening_it_and_choosing_run_nothing_and_loops_are_shown_as_they_come() {
     assert!(loops.lanes()[loops.on_stage()[0]].was_run(), "what is on the stage comes first");
     assert_eq!((loops.now_ns(), loops.is_stage_complete()), (0, false), "time waits for the stage");
     let late = worker.work(&|| false).unwrap();
-    lab.apply(Command::TickRateUp);
+    lab.apply(StageCommand::TickRate(Step::Next));
     assert_eq!(shown(&lab), 0, "all of them are of the old rate");
     lab.accept_loop(late);
     assert_eq!(shown(&lab), 0, "and so is one that comes late");
@@ -191,13 +191,13 @@ fn the_loop_lab_keeps_every_command_on_the_run_from_the_run_behind_it() {
     lab.apply(Command::Loop(LoopCommand::ToggleLab));
     let before = (lab.race().state_hash(), lab.clock().speed_percent(), lab.scene().seconds);
     for command in [
-        Command::Act(Action::Kick(1.0)),
-        Command::Seek(3),
-        Command::Undo,
-        Command::SpeedPercent(400),
-        Command::Seconds(7.0),
-        Command::MapParameter(1),
-        Command::ToggleEqualCost,
+        Command::Run(RunCommand::Act(Action::Kick(1.0))),
+        Command::Run(RunCommand::Seek(3)),
+        Command::Run(RunCommand::Undo),
+        Command::Run(RunCommand::SpeedPercent(400)),
+        Command::Run(RunCommand::Seconds(7.0)),
+        Command::Run(RunCommand::MapParameter(1)),
+        Command::Run(RunCommand::ToggleEqualCost),
     ] {
         assert_eq!(lab.apply(command.clone()), None);
         let now = (lab.race().state_hash(), lab.clock().speed_percent(), lab.scene().seconds);

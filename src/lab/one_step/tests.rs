@@ -1,5 +1,5 @@
 use super::*;
-use crate::lab::command::Command;
+use crate::lab::command::StageCommand;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::Scene;
 use crate::sim::integrators::{GENERAL_METHODS, METHODS, Method};
@@ -13,7 +13,7 @@ fn lab(scene: &str, method: &str, ticks: u64) -> Lab {
     }
     let mut lab = Lab::new(scene);
     let entry = lab.entries().iter().position(|spec| spec.method == method).unwrap();
-    lab.apply(Command::Pick(entry));
+    lab.apply(StageCommand::Pick(entry));
     (0..ticks).for_each(|_| lab.tick());
     lab
 }
@@ -100,8 +100,8 @@ fn a_halted_body_has_no_next_step() {
 fn runge_kutta_4_loses_the_same_part_of_the_swing_in_every_tick_and_a_32nd_of_it_in_half_ticks() {
     for ticks in [0, 1, 5] {
         let mut lab = lab("spring", "rk4", 0);
-        lab.apply(Command::TickHz(5));
-        lab.apply(Command::Restart);
+        lab.apply(StageCommand::TickHz(5));
+        lab.apply(StageCommand::Restart);
         (0..ticks).for_each(|_| lab.tick());
         let [whole, halves] = lab.one_step().unwrap().growth.unwrap();
         // |R(iz)|² = 1 - z⁶/72 + z⁸/576 with z = 2π/5.

@@ -441,13 +441,13 @@ pub(super) fn scale_bar(picture: &mut Picture, camera: &Camera, palette: &Palett
 mod tests {
     use super::*;
     use crate::lab::picture::compose;
-    use crate::lab::{Command, Scene};
+    use crate::lab::{Scene, StageCommand, Step};
 
     #[test]
     fn the_numbers_beside_a_name_end_before_the_chip_however_far_the_body_is() {
         let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
         for _ in 0..3 {
-            lab.apply(Command::TickRateDown);
+            lab.apply(StageCommand::TickRate(Step::Previous));
         }
         lab.analyse();
         let mut said = 0;
@@ -481,7 +481,7 @@ mod tests {
         ] {
             let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
             (0..ticks).for_each(|_| lab.tick());
-            lab.apply(Command::TickHz(49));
+            lab.apply(StageCommand::TickHz(49));
             lab.analyse();
             (0..20).for_each(|_| lab.tick());
             assert_eq!(words(&lab, [960.0, 560.0]), [wide], "changed at {ticks}");

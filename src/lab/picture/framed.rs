@@ -234,15 +234,15 @@ impl DrawContext<'_> {
 mod tests {
     use super::*;
     use crate::lab::picture::compose;
-    use crate::lab::{Command, Lab, Scene};
+    use crate::lab::{Lab, Scene, StageCommand, ViewCommand};
 
     #[test]
     fn an_orbit_that_leaves_the_true_one_is_followed_in_solo() {
         for (is_race, is_seen) in [(false, true), (true, false)] {
             let mut lab = Lab::new(Scene::built_in("orbit").unwrap());
-            lab.apply(Command::Pick(0));
+            lab.apply(StageCommand::Pick(0));
             if is_race {
-                lab.apply(Command::ToggleRace);
+                lab.apply(StageCommand::ToggleRace);
             }
             (0..9 * lab.race().tick_hz()).for_each(|_| lab.tick());
             let picture = compose(&lab, [800.0, 440.0]);
@@ -262,7 +262,7 @@ mod tests {
             let before = compose(&lab, [780.0, 500.0]);
             let zoomed_as = before.cells[over].zoomed_as;
             let zoom_pan = lab.view().zoom_pan(zoomed_as).zoomed(0.5, [0.1, 0.0]);
-            lab.apply(Command::ZoomPan { body: zoomed_as, zoom_pan });
+            lab.apply(ViewCommand::ZoomPan { body: zoomed_as, zoom_pan });
             let after = compose(&lab, [780.0, 500.0]);
             let [free, damped, ship] = [0, 1, 2].map(|body| after.cells[body].camera);
             assert_eq!(free.points_per_metre, before.cells[0].camera.points_per_metre / 2.0);

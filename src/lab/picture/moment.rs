@@ -51,7 +51,7 @@ pub(super) fn turns(body: &LaneBody) -> bool {
 #[cfg(test)]
 mod tests {
     use crate::lab::picture::{Whose, compose};
-    use crate::lab::{Command, Interpolation, Lab, Scene};
+    use crate::lab::{Interpolation, Lab, RunCommand, Scene, StageCommand, Step, ViewCommand};
     use crate::sim::number::significant;
 
     /// A spring under RK4 at a rate at which a tick can be seen.
@@ -59,7 +59,7 @@ mod tests {
         let scene = Scene { tick_hz: 5, ..Scene::built_in("spring").unwrap() };
         let mut lab = Lab::new(scene);
         let rk4 = lab.entries().iter().position(|spec| spec.method.id == "rk4");
-        lab.apply(Command::Pick(rk4.unwrap()));
+        lab.apply(StageCommand::Pick(rk4.unwrap()));
         lab
     }
 
@@ -83,10 +83,10 @@ mod tests {
     fn at_rest_everything_is_of_the_tick_of_the_title_however_bodies_are_drawn_between_ticks() {
         for _ in Interpolation::ALL {
             let mut lab = lab();
-            lab.apply(Command::TogglePause);
-            lab.apply(Command::Restart);
-            lab.apply(Command::TickForward);
-            lab.apply(Command::TickForward);
+            lab.apply(ViewCommand::TogglePause);
+            lab.apply(StageCommand::Restart);
+            lab.apply(StageCommand::Tick(Step::Next));
+            lab.apply(StageCommand::Tick(Step::Next));
             for _ in Interpolation::ALL {
                 let [mass, truth] = [&lab.race().entrants()[0].lane, lab.race().truth()]
                     .map(|lane| lane.bodies()[0].stepper.q()[0]);
@@ -95,7 +95,7 @@ mod tests {
                 assert!(is_near(block, mass) && is_near(ghost, truth), "{way:?}: {block} {ghost}");
                 assert!(said.contains(&format!("x = {} m", significant(mass, 4))), "{said}");
                 assert_eq!(lab.shown_s(), lab.race().t());
-                lab.apply(Command::NextInterpolation);
+                lab.apply(RunCommand::NextInterpolation);
             }
         }
     }
@@ -104,7 +104,7 @@ mod tests {
     fn while_time_runs_bodies_ghost_and_numbers_share_the_moment_drawn() {
         let mut lab = lab();
         for part in [0.35, 0.7, 1.0, 1.3, 1.75] {
-            lab.apply(Command::Restart);
+            lab.apply(StageCommand::Restart);
             lab.advance((part * 0.2e9) as i64);
             lab.advance(100_000_000);
             for way in Interpolation::ALL {
@@ -116,7 +116,7 @@ mod tests {
                     (x.parse::<f64>().unwrap() - block).abs() < 1e-3,
                     "{way:?}: {said}, {block}"
                 );
-                lab.apply(Command::NextInterpolation);
+                lab.apply(RunCommand::NextInterpolation);
             }
         }
     }
@@ -125,11 +125,11 @@ mod tests {
     fn when_time_runs_on_the_stage_goes_on_from_what_was_shown_at_rest() {
         for ways in 0..Interpolation::ALL.len() {
             let mut lab = lab();
-            (0..ways).for_each(|_| _ = lab.apply(Command::NextInterpolation));
+            (0..ways).for_each(|_| _ = lab.apply(RunCommand::NextInterpolation));
             lab.advance(730_000_000);
-            lab.apply(Command::TogglePause);
+            lab.apply(ViewCommand::TogglePause);
             let (rest, _) = drawn(&lab);
-            lab.apply(Command::TogglePause);
+            lab.apply(ViewCommand::TogglePause);
             let (on, _) = drawn(&lab);
             let way = lab.display().interpolation;
             assert!(is_near(rest[0], on[0]) && is_near(rest[1], on[1]), "{way:?}: {rest:?} {on:?}");

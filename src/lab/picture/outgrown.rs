@@ -136,7 +136,7 @@ fn decades_per_s(history: &History, base_m: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::lab::picture::{Whose, compose};
-    use crate::lab::{Command, Scene};
+    use crate::lab::{Scene, StageCommand};
 
     const SIZE: [f32; 2] = [780.0, 500.0];
 
@@ -169,11 +169,11 @@ mod tests {
         }
         assert!(last < first / 20.0, "{first} to {last} points per metre");
         // The swing that another method keeps has the stage that it found.
-        lab.apply(Command::Pick(1));
+        lab.apply(StageCommand::Pick(1));
         (0..300).for_each(|_| _ = lab.advance(16_666_667));
         let (is_seen, held) = hero(&lab);
         assert!(is_seen && (0.7..1.4).contains(&(held / last)), "{last} to {held}");
-        lab.apply(Command::Restart);
+        lab.apply(StageCommand::Restart);
         assert_eq!(hero(&lab).1, first);
     }
 
@@ -193,7 +193,7 @@ mod tests {
     fn what_blows_up_stays_on_the_stage_to_its_last_tick() {
         for scene in ["stiff", "orbit", "chain", "rope"] {
             let mut lab = watched(scene);
-            lab.apply(Command::Pick(0));
+            lab.apply(StageCommand::Pick(0));
             for frame in 0..400 {
                 lab.advance(16_666_667);
                 let picture = compose(&lab, SIZE);

@@ -8,7 +8,7 @@ use super::{ink, strong_font, tone};
 use crate::lab::number::significant;
 use crate::lab::{
     Advice, AdvisedBodies, CRITERIA, Command, Criterion, CriterionMet, CriterionResult, Lab,
-    LaneSpec, MAX_ADVISED_SUBSTEPS, MethodAdvice, recommended,
+    LaneSpec, MAX_ADVISED_SUBSTEPS, MethodAdvice, RunCommand, ViewCommand, recommended,
 };
 use crate::view::theme::{Ink, TYPE};
 
@@ -60,7 +60,7 @@ fn which_bodies(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             let is_chosen = display.advises_on_one_body == is_one;
             let choice = ui.selectable_label(is_chosen, RichText::new(name).size(SMALL));
             if choice.on_hover_text("the bodies to advise on").clicked() {
-                commands.push(Command::AdviseOnOneBody(is_one));
+                commands.push(Command::View(ViewCommand::AdviseOnOneBody(is_one)));
             }
         }
     });
@@ -154,7 +154,7 @@ fn copy_button(ui: &mut Ui, lab: &Lab, spec: LaneSpec, commands: &mut Vec<Comman
     let response = ui.button(RichText::new(word).size(SMALL)).on_hover_text(&about);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &about));
     if response.clicked() {
-        commands.push(Command::CopyMethod { entry, language });
+        commands.push(Command::View(ViewCommand::CopyMethod { entry, language }));
     }
     response.context_menu(|ui| super::lanes::menu(ui, lab, entry, commands));
 }
@@ -257,7 +257,10 @@ impl Row<'_> {
         let name = format!("{}: {}", CRITERIA[criterion].name(), spec.method.name);
         used.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
         if used.on_hover_text(format!("use this: {}", told_of(met))).clicked() {
-            commands.push(Command::SetLane(LaneSpec { substeps: met.substeps, ..*spec }));
+            commands.push(Command::Run(RunCommand::SetLane(LaneSpec {
+                substeps: met.substeps,
+                ..*spec
+            })));
         }
     }
 }
@@ -314,7 +317,7 @@ mod tests {
     use egui::{Context, Pos2, RawInput, Rect, Shape};
 
     use super::*;
-    use crate::lab::{AnalysisWorker, Instrument, Scene};
+    use crate::lab::{AnalysisWorker, Instrument, Scene, StageCommand};
     use crate::view::panels;
     use crate::view::theme;
 
@@ -346,8 +349,8 @@ mod tests {
 
     fn asked(scene: &str, is_of_one: bool) -> (Lab, AnalysisWorker) {
         let mut lab = Lab::new(Scene::built_in(scene).unwrap());
-        lab.apply(Command::Instrument(Instrument::Advice));
-        lab.apply(Command::AdviseOnOneBody(is_of_one));
+        lab.apply(StageCommand::Instrument(Instrument::Advice));
+        lab.apply(ViewCommand::AdviseOnOneBody(is_of_one));
         let worker = AnalysisWorker::new(lab.analysis_request());
         (lab, worker)
     }
@@ -356,7 +359,7 @@ mod tests {
     fn no_row_of_the_table_lies_over_the_inspector() {
         let (mut lab, mut worker) = asked("spring", false);
         judge(&mut lab, &mut worker, 4);
-        lab.apply(Command::ToggleInspector);
+        lab.apply(RunCommand::ToggleInspector);
         for size in SIZES {
             let (stage, texts) = shown(&lab, size);
             let beside = |(at, _): &&(Pos2, String)| at.x > stage.right();

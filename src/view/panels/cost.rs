@@ -6,7 +6,7 @@ use egui::{Color32, Label, Rect, RichText, Ui, Vec2, vec2};
 use super::table::{Column, SortKey, Table, TableRow, show_words};
 use super::{ink, strong_font};
 use crate::lab::number::significant;
-use crate::lab::{Command, Entrant, Lab, LaneSpec};
+use crate::lab::{Command, Entrant, Lab, LaneSpec, StageCommand};
 use crate::view::chart::legend::swatch;
 use crate::view::theme::Ink;
 
@@ -152,7 +152,7 @@ impl TableRow for Row<'_> {
     }
 
     fn command(&self) -> Option<Command> {
-        Some(Command::Pick(self.entry))
+        Some(Command::Stage(StageCommand::Pick(self.entry)))
     }
 
     fn tooltip(&self, ui: &mut Ui) {

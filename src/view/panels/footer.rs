@@ -4,7 +4,7 @@ use egui::{Align, Layout, RichText, Sense, Ui, vec2};
 
 use super::{ink, keycap, loops, short};
 use crate::lab::number::round;
-use crate::lab::{Command, Lab, LoopCommand, Mode};
+use crate::lab::{Command, Lab, LoopCommand, Mode, RunCommand, StageCommand, Step, ViewCommand};
 use crate::view::theme::TYPE;
 
 pub(super) const HEIGHT: f32 = 32.0;
@@ -77,17 +77,21 @@ fn fitting(ui: &Ui, parts: &[String], width: f32) -> String {
 /// The hints from right to left.
 fn key_hints(lab: &Lab) -> Vec<KeyHint> {
     let hint = |key, what: &str, command| (key, what.to_owned(), Some(command));
-    let mut hints = vec![hint("H", "all keys", Command::ToggleHelp)];
+    let mut hints = vec![hint("H", "all keys", Command::View(ViewCommand::ToggleHelp))];
     let pause = if lab.running() { "pause" } else { "run" };
-    let pause = hint("Space", pause, Command::TogglePause);
+    let pause = hint("Space", pause, Command::View(ViewCommand::TogglePause));
     let toggle_loops = Command::Loop(LoopCommand::ToggleLab);
     if let Some(loops) = lab.loop_lab() {
         hints.push(hint("L", "leave the lab", toggle_loops));
         hints.push(pause);
-        hints.push(hint("T", "next display", Command::NextInstrument));
+        hints.push(hint(
+            "T",
+            "next display",
+            Command::Stage(StageCommand::InstrumentBeside(Step::Next)),
+        ));
         let arrangement = if loops.is_overlaid() { "side by side" } else { "overlay" };
-        hints.push(hint("V", arrangement, Command::ToggleArrangement));
-        hints.push(hint(".", "next frame", Command::TickForward));
+        hints.push(hint("V", arrangement, Command::Stage(StageCommand::ToggleArrangement)));
+        hints.push(hint(".", "next frame", Command::Stage(StageCommand::Tick(Step::Next))));
         return hints;
     }
     let inputs = [
@@ -103,21 +107,21 @@ fn key_hints(lab: &Lab) -> Vec<KeyHint> {
         }
     }
     if lab.lost_at().is_some() {
-        hints.push(hint("W", "watch again", Command::WatchAgain));
+        hints.push(hint("W", "watch again", Command::Run(RunCommand::WatchAgain)));
     }
     match lab.mode() {
         Mode::Race => {
-            hints.push(hint("E", "inspector", Command::ToggleInspector));
-            hints.push(hint("V", "side by side", Command::ToggleArrangement));
+            hints.push(hint("E", "inspector", Command::Run(RunCommand::ToggleInspector)));
+            hints.push(hint("V", "side by side", Command::Stage(StageCommand::ToggleArrangement)));
         }
         Mode::Solo => {
-            hints.push(hint(",", "back", Command::TickBack));
-            hints.push(hint("C", "race", Command::ToggleRace));
+            hints.push(hint(",", "back", Command::Stage(StageCommand::Tick(Step::Previous))));
+            hints.push(hint("C", "race", Command::Stage(StageCommand::ToggleRace)));
         }
     }
     hints.push(pause);
     hints.push(hint("L", "loop lab", toggle_loops));
-    hints.push(hint("F2", "guide", Command::ToggleGuide));
+    hints.push(hint("F2", "guide", Command::View(ViewCommand::ToggleGuide)));
     hints
 }
 
@@ -161,12 +165,12 @@ mod tests {
         let kinds = lab.scene().bodies.iter().map(|body| body.kind.id);
         let ship = kinds.clone().position(|id| id == "ship").unwrap();
         let spring = kinds.clone().position(|id| id == "spring").unwrap();
-        lab.apply(Command::Body(spring));
+        lab.apply(StageCommand::Body(spring));
         assert!(!is_told(&lab));
-        lab.apply(Command::Body(ship));
+        lab.apply(StageCommand::Body(ship));
         assert!(is_told(&lab));
-        lab.apply(Command::Body(spring));
-        lab.apply(Command::ThrottleDown);
+        lab.apply(StageCommand::Body(spring));
+        lab.apply(RunCommand::ThrottleDown);
         assert!(is_told(&lab));
     }
 }

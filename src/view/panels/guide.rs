@@ -3,8 +3,8 @@
 use egui::{Align, Button, Layout, RichText, ScrollArea, Ui, vec2};
 
 use super::{ink, keycap};
-use crate::lab::Command;
 use crate::lab::guide::{STOPS, Tour};
+use crate::lab::{Command, Step, ViewCommand};
 use crate::view::theme::strong_font;
 
 pub(super) const HEIGHT: f32 = 172.0;
@@ -41,7 +41,7 @@ fn head(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if ui.button("Close").on_hover_text("close the guide (Esc)").clicked() {
-                commands.push(Command::ToggleGuide);
+                commands.push(Command::View(ViewCommand::ToggleGuide));
             }
             let dim = ink(ui).dim;
             let named = |name: &'static str, key: &str| match is_wide {
@@ -55,17 +55,17 @@ fn head(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
                 egui::WidgetInfo::labeled(egui::Role::Button, place + 1 < count, "Next (Page Down)")
             });
             if next.clicked() {
-                commands.push(Command::NextStop);
+                commands.push(Command::View(ViewCommand::StopBeside(Step::Next)));
             }
             let back = ui.add_enabled(place > 0, named("Back", "Page Up"));
             back.widget_info(|| {
                 egui::WidgetInfo::labeled(egui::Role::Button, place > 0, "Back (Page Up)")
             });
             if back.clicked() {
-                commands.push(Command::PreviousStop);
+                commands.push(Command::View(ViewCommand::StopBeside(Step::Previous)));
             }
             if ui.button("⏮").on_hover_text("show this stop again").clicked() {
-                commands.push(Command::GoToStop(place));
+                commands.push(Command::View(ViewCommand::GoToStop(place)));
             }
             ui.label(RichText::new(format!("{} of {count}", place + 1)).color(ink(ui).dim));
             if is_wide {
@@ -93,7 +93,7 @@ fn choices(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
             let role = egui::Role::RadioButton;
             response.widget_info(|| egui::WidgetInfo::selected(role, true, is_guess, *choice));
             if response.clicked() {
-                commands.push(Command::Predict(place));
+                commands.push(Command::View(ViewCommand::Predict(place)));
             }
         }
     });

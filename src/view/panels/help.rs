@@ -4,7 +4,7 @@ use egui::scroll_area::ScrollBarVisibility;
 use egui::{Align2, FontId, Order, RichText, ScrollArea, Ui, Vec2, Window, pos2, vec2};
 
 use super::{ink, keycap, short};
-use crate::lab::{Command, GESTURES, KEYS};
+use crate::lab::{Command, GESTURES, KEYS, ViewCommand};
 use crate::view::theme::TYPE;
 
 /// From this width on, in points, the keys stand in two columns.
@@ -50,7 +50,7 @@ pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
         ui.add_space(4.0);
         ui.horizontal(|ui| {
             if ui.button("Close (Esc)").clicked() {
-                commands.push(Command::ToggleHelp);
+                commands.push(Command::View(ViewCommand::ToggleHelp));
             }
             let note = "The exact solution is white, black by day; each method has its own colour and dash.";
             if columns == 2 {

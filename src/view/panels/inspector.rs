@@ -8,7 +8,7 @@ use egui::{
 pub(super) use self::number::Field;
 use self::rows::{Reach, Row, Spacing, Values, rows};
 use super::ink;
-use crate::lab::{Action, Acts, Command, Lab, edited_values};
+use crate::lab::{Action, Acts, Command, Lab, RunCommand, edited_values};
 
 mod engine;
 mod number;
@@ -36,7 +36,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         ui.label(RichText::new("Inspector").size(14.0).strong());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if named(ui, Button::new("×").frame(false), "close the inspector (E)").clicked() {
-                commands.push(Command::ToggleInspector);
+                commands.push(Command::Run(RunCommand::ToggleInspector));
             }
             let restoring = restoring(lab);
             let is_edited = !restoring.is_empty() || Field::has_faults(ui);
@@ -87,7 +87,9 @@ fn show_body(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Command>) {
 fn show_row(ui: &mut Ui, lab: &Lab, row: &Row, commands: &mut Vec<Command>) {
     let Row { body, place, parameter, values } = row;
     let kind = &lab.scene().bodies[*body].kind;
-    let set = |value| Command::Act(Action::Set { body: *body, parameter: *place, value });
+    let set = |value| {
+        Command::Run(RunCommand::Act(Action::Set { body: *body, parameter: *place, value }))
+    };
     let about = format!("{}\n{}, {}", parameter.described(), parameter.key, parameter.range);
     let Some(values) = *values else {
         line(ui, &parameter.quantity(), &about, |ui, _| {
@@ -198,7 +200,11 @@ fn restoring(lab: &Lab) -> Vec<Command> {
     let changed = (0..lab.scene().bodies.len()).flat_map(|body| {
         let changed = move |row: Row| {
             let opened = row.values.filter(|values| values.differ())?.opened;
-            Some(Command::Act(Action::Set { body, parameter: row.place, value: opened }))
+            Some(Command::Run(RunCommand::Act(Action::Set {
+                body,
+                parameter: row.place,
+                value: opened,
+            })))
         };
         rows(lab, body).into_iter().filter_map(changed)
     });
@@ -213,7 +219,7 @@ mod tests {
     use egui::{Rect, Shape};
 
     use super::*;
-    use crate::lab::{LaneId, SCENES, Scene};
+    use crate::lab::{LaneId, SCENES, Scene, StageCommand};
     use crate::view::panels;
     use crate::view::theme;
 
@@ -244,8 +250,8 @@ mod tests {
     fn every_parameter_and_every_lane_of_every_scene_is_shown() {
         for scene in SCENES {
             let mut lab = Lab::new(Scene::built_in(scene.name).unwrap());
-            lab.apply(Command::ToggleRace);
-            lab.apply(Command::ToggleInspector);
+            lab.apply(StageCommand::ToggleRace);
+            lab.apply(RunCommand::ToggleInspector);
             let texts = texts(&lab);
             let count = |wanted: &str| texts.iter().filter(|text| *text == wanted).count();
             let named = |name: &str| {
@@ -277,18 +283,18 @@ mod tests {
     #[test]
     fn restoring_all_makes_a_scene_what_it_was() {
         let mut lab = Lab::new(Scene::built_in("chain").unwrap());
-        lab.apply(Command::ToggleRace);
+        lab.apply(StageCommand::ToggleRace);
         assert_eq!(restoring(&lab), []);
         let place = |key| lab.scene().bodies[0].kind.parameter(key).unwrap().0;
         let (masses, plucked) = (place("masses"), place("plucked_mass"));
         let most = lab.scene().bodies[0].values[masses];
         assert!(lab.scene().bodies[0].values[plucked] > 1.0);
         for (parameter, value) in [(plucked, 1.0), (masses, 2.0), (0, 3.0), (plucked, 2.0)] {
-            lab.apply(Command::Act(Action::Set { body: 0, parameter, value }));
+            lab.apply(RunCommand::Act(Action::Set { body: 0, parameter, value }));
         }
-        lab.apply(Command::Act(Action::Substeps { lane: LaneId(1), substeps: 7 }));
-        lab.apply(Command::TickHz(20));
-        lab.apply(Command::Seconds(3.0));
+        lab.apply(RunCommand::Act(Action::Substeps { lane: LaneId(1), substeps: 7 }));
+        lab.apply(StageCommand::TickHz(20));
+        lab.apply(RunCommand::Seconds(3.0));
         lab.tick();
         assert_ne!(lab.scene().bodies[0].values[masses], most);
         assert_eq!(lab.race().values(0)[masses], most, "until the next start");

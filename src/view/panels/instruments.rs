@@ -10,7 +10,7 @@ use super::tracks::Detail;
 use super::{advice, cost, focus_ring, ink, loops, one_step, stability_map};
 use crate::lab::{
     Command, FRAME_METRICS, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow, Lab, METRICS,
-    Quantity,
+    Quantity, StageCommand, ViewCommand,
 };
 use crate::view::chart::legend;
 use crate::view::theme::{TYPE, strong_font};
@@ -133,7 +133,7 @@ fn tabs(ui: &mut Ui, lab: &Lab, indent: f32, commands: &mut Vec<Command>) {
             for card in cards(row) {
                 let is_chosen = lab.display().instrument == card.instrument;
                 if tab(ui, card, is_chosen, is_open(lab, card)) {
-                    commands.push(Command::Instrument(card.instrument));
+                    commands.push(Command::Stage(StageCommand::Instrument(card.instrument)));
                 }
             }
         });
@@ -163,8 +163,9 @@ fn tabs_menu(ui: &mut Ui, lab: &Lab, indent: f32, commands: &mut Vec<Command>) {
         ui.add_space(indent);
         let instrument = lab.display().instrument;
         let open = INSTRUMENTS.iter().filter(|card| is_open(lab, card));
-        let offered = open.map(|card| (Command::Instrument(card.instrument), card.name));
-        let chosen = (Command::Instrument(instrument), instrument.name());
+        let offered =
+            open.map(|card| (Command::Stage(StageCommand::Instrument(card.instrument)), card.name));
+        let chosen = (Command::Stage(StageCommand::Instrument(instrument)), instrument.name());
         choice(ui, "instrument", offered, chosen, commands);
     });
 }
@@ -229,13 +230,16 @@ fn choices(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             }
         };
         let name = offered.iter().find(|(place, _)| *place == chosen).map(|(_, name)| *name);
-        let offered = offered.into_iter().map(|(place, name)| (Command::Metric(place), name));
-        let chosen = (Command::Metric(chosen), name.unwrap_or_default());
+        let offered = offered
+            .into_iter()
+            .map(|(place, name)| (Command::Stage(StageCommand::Metric(place)), name));
+        let chosen = (Command::Stage(StageCommand::Metric(chosen)), name.unwrap_or_default());
         choice(ui, "metric", offered, chosen, commands);
     }
     let has_all = instrument == Instrument::Motion && lab.loop_lab().is_none();
     if has_all {
-        let named = |quantity: Quantity| (Command::Quantity(quantity), quantity.name());
+        let named =
+            |quantity: Quantity| (Command::View(ViewCommand::Quantity(quantity)), quantity.name());
         let chosen = named(lab.display().quantity);
         choice(ui, "quantity", Quantity::ALL.into_iter().map(named), chosen, commands);
     }
@@ -252,9 +256,16 @@ fn body_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     if lab.scene().bodies.len() > 1 {
         let names = lab.scene().bodies.iter().map(|body| body.name.as_str());
         let body = lab.view().body;
-        let chosen = (Command::Body(body), lab.scene().bodies[body].name.as_str());
+        let chosen =
+            (Command::Stage(StageCommand::Body(body)), lab.scene().bodies[body].name.as_str());
         ui.label(RichText::new("of").color(ink(ui).dim));
-        choice(ui, "body", (0..).map(Command::Body).zip(names), chosen, commands);
+        choice(
+            ui,
+            "body",
+            (0..).map(|it| Command::Stage(StageCommand::Body(it))).zip(names),
+            chosen,
+            commands,
+        );
     }
 }
 
@@ -263,7 +274,7 @@ fn coordinate_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let body = lab.view().body;
     let coordinates = lab.race().truth().bodies()[body].coordinates();
     if coordinates.len() > 1 {
-        let command = |index| Command::Coordinate { body, coordinate: index };
+        let command = |index| Command::View(ViewCommand::Coordinate { body, coordinate: index });
         let (chosen, index) = lab.past().coordinate(lab.race(), body);
         ui.label(RichText::new("of").color(ink(ui).dim));
         let offered = (0..).map(command).zip(coordinates.iter().map(|of| of.name));
@@ -327,7 +338,7 @@ fn show_legend(
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &entry.name));
         focus_ring(ui, &response);
         if response.clicked() && roster.is_race {
-            commands.extend(place.map(Command::Pick));
+            commands.extend(place.map(|it| Command::Stage(StageCommand::Pick(it))));
         }
     }
 }

@@ -4,7 +4,7 @@ use egui::{Color32, RichText, Ui};
 
 use super::table::{Table, TableRow};
 use super::{formula, ink};
-use crate::lab::{Command, Lab, LaneBody, Language};
+use crate::lab::{Command, Lab, LaneBody, Language, StageCommand, ViewCommand};
 use crate::view::theme::{Ink, TYPE, strong_font};
 
 use row::Row;
@@ -60,14 +60,14 @@ fn groups(lab: &Lab) -> Vec<Vec<Row<'_>>> {
 pub(super) fn menu(ui: &mut Ui, lab: &Lab, entry: usize, commands: &mut Vec<Command>) {
     let has_joint = lab.joint_code(entry).is_some();
     if has_joint && ui.button("Copy the spring's settings (Ctrl C)").clicked() {
-        commands.push(Command::CopyJoint(entry));
+        commands.push(Command::View(ViewCommand::CopyJoint(entry)));
         ui.close();
     }
     for language in Language::ALL {
         let is_by_key = language == lab.viewer().language() && !has_joint;
         let key = if is_by_key { " (Ctrl C)" } else { "" };
         if ui.button(format!("Copy as {language}{key}")).clicked() {
-            commands.push(Command::CopyMethod { entry, language });
+            commands.push(Command::View(ViewCommand::CopyMethod { entry, language }));
             ui.close();
         }
     }
@@ -94,8 +94,8 @@ impl TableRow for Row<'_> {
 
     fn command(&self) -> Option<Command> {
         Some(match self.is_of_body {
-            true => Command::Body(self.body),
-            false => Command::Pick(self.entry),
+            true => Command::Stage(StageCommand::Body(self.body)),
+            false => Command::Stage(StageCommand::Pick(self.entry)),
         })
     }
 

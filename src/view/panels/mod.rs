@@ -6,7 +6,7 @@ use egui::text::{LayoutJob, TextWrapping};
 use egui::{Color32, FontId, Frame, Galley, Key, Margin, Rect, TextFormat, Ui};
 
 use super::theme::{Ink, colour, ink, ink_of, strong_font};
-use crate::lab::{Command, Dialog, Lab, Outcome, Severity};
+use crate::lab::{Command, Dialog, Lab, Outcome, Severity, ViewCommand};
 
 mod advice;
 mod annotations;
@@ -90,7 +90,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
         });
     }
     if pointed != lab.viewer().pointed_lane() {
-        commands.push(Command::PointAt(pointed));
+        commands.push(Command::View(ViewCommand::PointAt(pointed)));
     }
     if size.y >= HEIGHT_FOR_TIMELINE {
         let height = match size.y >= HEIGHT_FOR_TIMES {
@@ -138,7 +138,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
             Dialog::Mistakes { file, report } => opening::mistakes(ui, file, report, &mut commands),
         }
         if ui.input(|input| input.key_pressed(Key::Escape)) {
-            commands.push(Command::CloseDialog);
+            commands.push(Command::View(ViewCommand::CloseDialog));
         }
     }
     (commands, stage)

@@ -5,7 +5,7 @@ use egui::{Align2, Button, FontId, Id, RichText, Sense, Ui, vec2};
 use super::dialog::{select, window};
 use super::ink;
 use super::inspector::Field;
-use crate::lab::{Command, Lab, MySpring};
+use crate::lab::{Command, Lab, MySpring, StageCommand, ViewCommand};
 use crate::view::theme::TYPE;
 
 const TITLE: &str = "My spring";
@@ -67,10 +67,10 @@ pub(super) fn show(ui: &Ui, lab: &Lab, commands: &mut Vec<Command>) {
                 advise.request_focus();
             }
             if advise.clicked() {
-                commands.push(Command::OpenSpring);
+                commands.push(Command::Stage(StageCommand::OpenSpring));
             }
             if ui.button("Close (Esc)").clicked() {
-                commands.push(Command::CloseDialog);
+                commands.push(Command::View(ViewCommand::CloseDialog));
             }
         });
         let told = "Opens it as a scene, with the recommended method and its code to copy.";
@@ -109,7 +109,10 @@ fn line(
             response.request_focus();
             select(ui.ctx(), response.id, 0);
         }
-        commands.extend(entered.map(|entered| Command::DescribeSpring(with(spring, entered))));
+        commands.extend(
+            entered
+                .map(|entered| Command::View(ViewCommand::DescribeSpring(with(spring, entered)))),
+        );
     });
     Field::show_fault(id, ui);
 }

@@ -4,7 +4,7 @@ use egui::{Align2, Id, Key, Label, RichText, ScrollArea, TextEdit, TextStyle, Te
 
 use super::dialog::{select, window};
 use super::ink;
-use crate::lab::{Command, Lab, Mistake};
+use crate::lab::{Command, Lab, Mistake, ViewCommand};
 
 /// The width of a path that can be read without scrolling, in points.
 const WIDTH: f32 = 460.0;
@@ -34,14 +34,14 @@ pub(super) fn path(ui: &Ui, lab: &Lab, refused: Option<&[Mistake]>, commands: &m
             )
         });
         if text != typed {
-            commands.push(Command::TypePath(text));
+            commands.push(Command::View(ViewCommand::TypePath(text)));
         }
         if ui.input(|input| input.key_pressed(Key::Tab)) {
-            commands.push(Command::CompletePath);
+            commands.push(Command::View(ViewCommand::CompletePath));
             select(ctx, id, usize::MAX);
         }
         if ui.input(|input| input.key_pressed(Key::Enter)) {
-            commands.push(Command::OpenTypedPath);
+            commands.push(Command::View(ViewCommand::OpenTypedPath));
         }
         let keys = "Enter opens, Tab completes, Esc closes. Or drop a file onto the window.";
         ui.label(RichText::new(keys).color(ink(ui).dim));
@@ -69,7 +69,7 @@ pub(super) fn mistakes(ui: &Ui, file: &str, report: &[Mistake], commands: &mut V
         report_within(ui, report, room);
         ui.add_space(4.0);
         if ui.button("Close (Esc)").clicked() {
-            commands.push(Command::CloseDialog);
+            commands.push(Command::View(ViewCommand::CloseDialog));
         }
     });
 }
@@ -140,7 +140,7 @@ mod tests {
     #[test]
     fn the_field_shows_why_a_path_is_refused() {
         let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-        lab.apply(Command::AskForPath);
+        lab.apply(ViewCommand::AskForPath);
         let before = size_of_dialog(&lab, "Open a scene or a frame log");
         lab.refuse_typed_path(
             std::path::Path::new("a.toml"),

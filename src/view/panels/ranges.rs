@@ -108,7 +108,7 @@ fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Command, Lab, METRICS, Scene};
+    use crate::lab::{Lab, METRICS, Scene, StageCommand};
 
     fn lanes(lab: &Lab, metric: &str) -> Vec<Track> {
         let index = METRICS.iter().position(|listed| listed.id == metric).unwrap();
@@ -118,13 +118,13 @@ mod tests {
     #[test]
     fn energy_drift_is_scaled_to_the_healthy_lanes_and_without_one_to_what_is_not_lost() {
         let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-        lab.apply(Command::ToggleRace);
+        lab.apply(StageCommand::ToggleRace);
         (0..600).for_each(|_| lab.tick());
         // Explicit Euler is some thousand per cent off, semi-implicit Euler swings by five.
         let (low, high) = of_shares(&lanes(&lab, "energy_drift"));
         assert!((-8.0..-4.0).contains(&low) && (4.0..8.0).contains(&high), "{low} to {high} %");
-        lab.apply(Command::Pick(0));
-        lab.apply(Command::ToggleRace);
+        lab.apply(StageCommand::Pick(0));
+        lab.apply(StageCommand::ToggleRace);
         let (low, high) = of_shares(&lanes(&lab, "energy_drift"));
         assert!(low < 0.0 && (200.0..400.0).contains(&high), "{low} to {high} %");
     }
@@ -132,7 +132,7 @@ mod tests {
     #[test]
     fn an_axis_takes_in_the_truth_and_what_is_near_and_nothing_that_is_far_beyond() {
         let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-        lab.apply(Command::ToggleRace);
+        lab.apply(StageCommand::ToggleRace);
         (0..600).for_each(|_| lab.tick());
         let tracks = Track::of(&lab, 0, |s| [s.t, s.q]);
         let truth = || lab.past().truth_curves()[0].samples().map(|s| s.q);

@@ -12,7 +12,8 @@ use super::annotations::{label, mixed, polygon};
 use super::{colour, ink, strong_font};
 use crate::lab::number::round;
 use crate::lab::{
-    Action, Command, Coverage, Lab, MapRequest, Parameter, SeenLine, StabilityMap, edited_values,
+    Action, Command, Coverage, Lab, MapRequest, Parameter, RunCommand, SeenLine, StabilityMap,
+    StageCommand, Step, edited_values,
 };
 use crate::view::chart::{self, AxisScale, LineStyle, PlotArea, curves};
 use words::{each_method, full_name, no_map, point_in_words, sentence, short_sentence};
@@ -88,7 +89,7 @@ fn head(ui: &mut Ui, lab: &Lab, place: usize, commands: &mut Vec<Command>) {
         let menu = menu.show_ui(ui, |ui| {
             for other in lab.mappable_parameters() {
                 if ui.selectable_label(other == place, name(other)).clicked() {
-                    commands.push(Command::MapParameter(other));
+                    commands.push(Command::Run(RunCommand::MapParameter(other)));
                 }
             }
         });
@@ -383,8 +384,13 @@ fn you_are_here(ui: &Ui, at: Pos2, map: Rect) -> (Rect, Arc<Galley>) {
 /// Moves the cross by the arrow keys: along the ladder of tick rates, and by equal factors of the parameter.
 fn step(ui: &Ui, lab: &Lab, map: &StabilityMap, commands: &mut Vec<Command>) {
     let pressed = |key| ui.input(|input| input.num_presses(key));
-    commands.extend((0..pressed(Key::ArrowLeft)).map(|_| Command::TickRateDown));
-    commands.extend((0..pressed(Key::ArrowRight)).map(|_| Command::TickRateUp));
+    commands.extend(
+        (0..pressed(Key::ArrowLeft))
+            .map(|_| Command::Stage(StageCommand::TickRate(Step::Previous))),
+    );
+    commands.extend(
+        (0..pressed(Key::ArrowRight)).map(|_| Command::Stage(StageCommand::TickRate(Step::Next))),
+    );
     let up = pressed(Key::ArrowUp) as f64 - pressed(Key::ArrowDown) as f64;
     if up != 0.0 {
         let [low, high] = map.request.range;
@@ -398,7 +404,7 @@ fn step(ui: &Ui, lab: &Lab, map: &StabilityMap, commands: &mut Vec<Command>) {
 fn go_to(lab: &Lab, map: &StabilityMap, [x, y]: [f64; 2], commands: &mut Vec<Command>) {
     let tick_hz = libm::pow(10.0, x).round().max(1.0) as u32;
     if tick_hz != lab.clock().tick_hz() {
-        commands.push(Command::TickHz(tick_hz));
+        commands.push(Command::Stage(StageCommand::TickHz(tick_hz)));
     }
     set(lab, map, libm::pow(10.0, y), commands);
 }
@@ -410,7 +416,7 @@ fn set(lab: &Lab, map: &StabilityMap, value: f64, commands: &mut Vec<Command>) {
     let values = lab.race().values(body);
     let kind = &lab.scene().bodies[body].kind;
     if value != values[parameter] && edited_values(kind, values, parameter, value).is_ok() {
-        commands.push(Command::Act(Action::Set { body, parameter, value }));
+        commands.push(Command::Run(RunCommand::Act(Action::Set { body, parameter, value })));
     }
 }
 

@@ -11,7 +11,7 @@ use egui::{
 use self::marks::{Context, Group, Sign, grouped};
 pub(super) use self::span::Span;
 use super::{Ink, ink};
-use crate::lab::{Command, Event, Lab, Mode, TimeScale};
+use crate::lab::{Command, Event, Lab, Mode, RunCommand, StageCommand, Step, TimeScale};
 use crate::view::chart::AxisScale;
 use crate::view::wheel;
 
@@ -202,7 +202,7 @@ fn seek(ui: &Ui, lab: &Lab, response: &Response, track: &Track<'_>, commands: &m
     if let Some(x) = pressed(ui, response, track.groove.along) {
         let tick = track.tick(x).min(lab.timeline().end());
         if lab.running() || tick != present {
-            commands.push(Command::Seek(tick));
+            commands.push(Command::Run(RunCommand::Seek(tick)));
         }
     }
     step(ui, response, commands);
@@ -225,8 +225,13 @@ pub(super) fn step(ui: &Ui, response: &Response, commands: &mut Vec<Command>) {
         let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
         ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
         let pressed = |key| ui.input(|input| input.num_presses(key));
-        commands.extend((0..pressed(Key::ArrowLeft)).map(|_| Command::TickBack));
-        commands.extend((0..pressed(Key::ArrowRight)).map(|_| Command::TickForward));
+        commands.extend(
+            (0..pressed(Key::ArrowLeft))
+                .map(|_| Command::Stage(StageCommand::Tick(Step::Previous))),
+        );
+        commands.extend(
+            (0..pressed(Key::ArrowRight)).map(|_| Command::Stage(StageCommand::Tick(Step::Next))),
+        );
     }
 }
 
@@ -332,7 +337,7 @@ fn beside(ui: &mut Ui, lab: &Lab, room: Rect, commands: &mut Vec<Command>) {
         let about = format!("undo {what} (Ctrl Z)");
         button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &about));
         if button.on_hover_text(about).clicked() {
-            commands.push(Command::Undo);
+            commands.push(Command::Run(RunCommand::Undo));
         }
     }
 }

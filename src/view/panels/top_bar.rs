@@ -6,7 +6,10 @@ use egui::{
 
 use super::ink;
 use super::loops::controls;
-use crate::lab::{Command, Lab, LoopCommand, Mode, Pace, SCENES, SPEED_LADDER, Scene, TICK_LADDER};
+use crate::lab::{
+    Command, Lab, LoopCommand, Mode, Pace, RunCommand, SCENES, SPEED_LADDER, Scene, StageCommand,
+    Step, TICK_LADDER, ViewCommand,
+};
 use crate::view::theme::{TYPE, strong_font};
 
 pub(super) const HEIGHT: f32 = 40.0;
@@ -23,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         scene_menu(ui, lab, commands);
         if width >= ROOM_FOR_PACE {
             let about = "a spring of your own: the recommended method, and its code (S)";
-            button(ui, "My spring", about, Command::AskForSpring, commands);
+            button(ui, "My spring", about, Command::View(ViewCommand::AskForSpring), commands);
         }
         transport(ui, lab, width >= ROOM_FOR_BACK, commands);
         if width >= ROOM_FOR_MENUS {
@@ -37,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         }
         modes(ui, lab, width, commands);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            button(ui, "?", "help (H)", Command::ToggleHelp, commands);
+            button(ui, "?", "help (H)", Command::View(ViewCommand::ToggleHelp), commands);
             let is_wide = width >= ROOM_FOR_WORDS;
             let time = match lab.loop_lab() {
                 Some(loops) => {
@@ -86,7 +89,7 @@ fn scene_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             .selectable_label(false, RichText::new("My spring … (S)").font(strong_font(TYPE)))
             .clicked()
         {
-            commands.push(Command::AskForSpring);
+            commands.push(Command::View(ViewCommand::AskForSpring));
         }
         ui.separator();
         for (place, name) in lab.scene_list().names().enumerate() {
@@ -98,7 +101,7 @@ fn scene_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             line.append(&name, 0.0, part(strong_font(TYPE), ink(ui).text));
             line.append(&title, 12.0, part(egui::FontId::proportional(TYPE), ink(ui).dim));
             if ui.selectable_label(is_open, line).clicked() {
-                commands.push(Command::Scene(place));
+                commands.push(Command::Stage(StageCommand::Scene(place)));
             }
         }
     });
@@ -111,14 +114,26 @@ fn scene_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 
 fn transport(ui: &mut Ui, lab: &Lab, has_back: bool, commands: &mut Vec<Command>) {
     let unit = if lab.loop_lab().is_some() { "frame" } else { "tick" };
-    button(ui, "⏮", "restart (Home)", Command::Restart, commands);
+    button(ui, "⏮", "restart (Home)", Command::Stage(StageCommand::Restart), commands);
     if has_back {
-        button(ui, "◀", &format!("one {unit} back (,)"), Command::TickBack, commands);
+        button(
+            ui,
+            "◀",
+            &format!("one {unit} back (,)"),
+            Command::Stage(StageCommand::Tick(Step::Previous)),
+            commands,
+        );
     }
     let (sign, hover) =
         if lab.running() { ("⏸", "pause (Space)") } else { ("▶", "run (Space)") };
-    button(ui, sign, hover, Command::TogglePause, commands);
-    button(ui, "⏭", &format!("one {unit} forward (.)"), Command::TickForward, commands);
+    button(ui, sign, hover, Command::View(ViewCommand::TogglePause), commands);
+    button(
+        ui,
+        "⏭",
+        &format!("one {unit} forward (.)"),
+        Command::Stage(StageCommand::Tick(Step::Next)),
+        commands,
+    );
 }
 
 /// Solo, race or loop lab: three parts of one control.
@@ -129,7 +144,7 @@ fn modes(ui: &mut Ui, lab: &Lab, width: f32, commands: &mut Vec<Command>) {
     // From the loop lab, the command for a race leads to the other mode.
     let to_mode = |mode: Mode| match is_in_loops && lab.mode() == mode {
         true => toggle_loops.clone(),
-        false => Command::ToggleRace,
+        false => Command::Stage(StageCommand::ToggleRace),
     };
     let is_in = |mode: Mode| !is_in_loops && lab.mode() == mode;
     let loops = if width >= ROOM_FOR_WORDS { "Loop lab" } else { "Loops" };
@@ -187,7 +202,7 @@ fn speed_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         for rung in SPEED_LADDER {
             let text = format!("{}× real time", multiple(rung));
             if ui.selectable_label(rung == percent, text).clicked() {
-                commands.push(Command::SpeedPercent(rung));
+                commands.push(Command::Run(RunCommand::SpeedPercent(rung)));
             }
         }
     });
@@ -210,7 +225,7 @@ fn tick_rate_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let response = menu.show_ui(ui, |ui| {
         for rung in TICK_LADDER {
             if ui.selectable_label(rung == tick_hz, format!("{rung} Hz")).clicked() {
-                commands.push(Command::TickHz(rung));
+                commands.push(Command::Stage(StageCommand::TickHz(rung)));
             }
         }
     });
@@ -239,7 +254,7 @@ fn inspector_button(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let response = ui.add(Button::new("Edit").selected(is_open)).on_hover_text(about);
     response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, is_open, about));
     if response.clicked() {
-        commands.push(Command::ToggleInspector);
+        commands.push(Command::Run(RunCommand::ToggleInspector));
     }
 }
 

@@ -2,7 +2,7 @@ use egui::{Modifiers, pos2};
 
 use super::*;
 use crate::lab::picture::{Whose, compose};
-use crate::lab::{HeldBody, Scene};
+use crate::lab::{HeldBody, RunCommand, Scene, StageCommand, Step, ViewCommand};
 
 /// A lab with a stage, and the pointer over it.
 struct Table {
@@ -81,7 +81,7 @@ fn button(pos: Pos2, pressed: bool, shift: bool) -> Event {
 /// The one action among some commands.
 fn placed(commands: &[Command]) -> Option<&Action> {
     let mut actions = commands.iter().filter_map(|command| match command {
-        Command::Act(action) => Some(action),
+        Command::Run(RunCommand::Act(action)) => Some(action),
         _ => None,
     });
     let action = actions.next();
@@ -119,7 +119,7 @@ fn a_drag_places_the_body_once_and_at_rest() {
 fn with_shift_a_body_is_flung_with_the_pointers_velocity_in_simulated_time() {
     let thrown = |speed_percent| {
         let mut table = Table::new("spring");
-        table.lab.apply(Command::SpeedPercent(speed_percent));
+        table.lab.apply(RunCommand::SpeedPercent(speed_percent));
         let at = table.body();
         table.press(at);
         for step in 1..=8 {
@@ -155,7 +155,7 @@ fn escape_lets_a_body_go_on_as_if_it_had_not_been_touched() {
     let (hash, at) = (table.lab.race().state_hash(), table.body());
     table.press(at);
     table.move_to(at + vec2(50.0, 0.0));
-    assert_eq!(table.lab.apply(Command::Escape), None);
+    assert_eq!(table.lab.apply(ViewCommand::Escape), None);
     assert!(table.held().is_none());
     table.move_to(at + vec2(70.0, 0.0));
     assert_eq!(placed(&table.release(at + vec2(70.0, 0.0), false)), None);
@@ -173,8 +173,8 @@ fn a_click_changes_nothing_but_the_lane_that_is_selected() {
     table.release(at + vec2(1.0, 1.0), false);
     assert_eq!(table.lab.race().state_hash(), hash);
     assert!(table.held().is_none());
-    table.lab.apply(Command::ToggleRace);
-    table.lab.apply(Command::ToggleArrangement);
+    table.lab.apply(StageCommand::ToggleRace);
+    table.lab.apply(StageCommand::ToggleArrangement);
     let third = table.picture().cells[2].clone();
     let at = Pos2::from(third.rect.min) + STAGE.min.to_vec2() + vec2(5.0, 5.0);
     table.press(at);
@@ -185,8 +185,8 @@ fn a_click_changes_nothing_but_the_lane_that_is_selected() {
 #[test]
 fn in_a_race_any_lanes_body_can_be_thrown_and_all_go_on_from_there() {
     let mut table = Table::new("orbit");
-    table.lab.apply(Command::ToggleRace);
-    table.lab.apply(Command::ToggleArrangement);
+    table.lab.apply(StageCommand::ToggleRace);
+    table.lab.apply(StageCommand::ToggleArrangement);
     (0..40).for_each(|_| table.lab.tick());
     let last = table.picture().cells.last().unwrap().clone();
     let grip = last.grips(&table.lab).next().unwrap();
@@ -205,7 +205,7 @@ fn in_a_race_any_lanes_body_can_be_thrown_and_all_go_on_from_there() {
 #[test]
 fn over_each_other_a_click_on_a_lanes_body_brings_it_to_the_front() {
     let mut table = Table::new("orbit");
-    table.lab.apply(Command::ToggleRace);
+    table.lab.apply(StageCommand::ToggleRace);
     (0..40).for_each(|_| table.lab.tick());
     let cell = table.picture().cells[0].clone();
     assert_eq!((table.picture().cells.len(), cell.entry), (1, table.lab.active()));
@@ -232,7 +232,7 @@ fn over_each_other_a_click_on_a_lanes_body_brings_it_to_the_front() {
 #[test]
 fn the_wheel_zooms_about_the_pointer_a_drag_of_the_sea_pans_and_a_double_click_fits() {
     let mut table = Table::new("pendulum");
-    table.lab.apply(Command::TogglePause);
+    table.lab.apply(ViewCommand::TogglePause);
     let at = STAGE.min + vec2(30.0, 400.0);
     let under = |table: &Table, at: Pos2| table.picture().cells[0].metres((at - STAGE.min).into());
     let before = under(&table, at);
@@ -264,11 +264,12 @@ fn the_wheel_zooms_about_the_pointer_a_drag_of_the_sea_pans_and_a_double_click_f
         table.release(to, false);
     }
     assert_eq!(table.lab.view().zoom_pan(0), ZoomPan::default());
-    table
-        .lab
-        .apply(Command::ZoomPan { body: 0, zoom_pan: ZoomPan::default().zoomed(2.0, [0.0; 2]) });
-    table.lab.apply(Command::Restart);
+    table.lab.apply(ViewCommand::ZoomPan {
+        body: 0,
+        zoom_pan: ZoomPan::default().zoomed(2.0, [0.0; 2]),
+    });
+    table.lab.apply(StageCommand::Restart);
     assert_eq!(table.lab.view().zoom_pan(0).zoom(), 2.0);
-    table.lab.apply(Command::NextScene);
+    table.lab.apply(StageCommand::SceneBeside(Step::Next));
     assert_eq!(table.lab.view().zoom_pan(0), ZoomPan::default());
 }

@@ -4,7 +4,9 @@ use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 
-use regatta::lab::{Action, Command, Judge, Lab, LaneSpec, SCENES, Scene, SceneBody, TICK_LADDER};
+use regatta::lab::{
+    Action, Judge, Lab, LaneSpec, SCENES, Scene, SceneBody, StageCommand, TICK_LADDER,
+};
 use regatta::sim::bodies::{Body, Chain};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 use regatta::sim::{Solver, Stepper};
@@ -222,7 +224,7 @@ fn the_helm_turns_to_its_script_and_the_methods_part_there_as_its_scene_says() {
     let rudder: Vec<_> = scene.script.iter().map(|scripted| scripted.action.clone()).collect();
     assert_eq!(rudder, [Action::Rudder(1.0), Action::Rudder(-1.0), Action::Rudder(0.0)]);
     let mut lab = Lab::new(scene.clone());
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     let heading = |lab: &Lab| lab.race().truth().bodies()[0].stepper.q()[2];
     let error = |lab: &Lab| {
         let [lane, truth] = [&lab.race().entrants()[0].lane, lab.race().truth()];

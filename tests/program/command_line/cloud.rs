@@ -47,6 +47,12 @@ fn pictures_are_the_same_bytes_every_time_and_say_what_became_of_the_area() {
     assert!(foot > 500, "{foot}");
     assert!(make("c.gif", "").0.starts_with(b"GIF89a"));
     assert!(make("d.png", "--section 12").0 != first);
+    // A period that ends between two ticks.
+    let between = ["f.png --section 7", "g.png --section 7.5"].map(|of| {
+        let (name, options) = of.split_once(' ').unwrap();
+        make(name, options).0
+    });
+    assert!(between[0] != between[1]);
     assert!(make("e.csv", "").0.starts_with(b"method,points,"));
 }
 
@@ -58,7 +64,11 @@ fn what_is_no_cloud_is_said_in_one_line() {
             "satellite has 2 coordinates; give a scene with a body of one coordinate",
         ),
         ("--scene spring --points 1000000000", "1000000000 points do not fit into memory"),
-        ("--scene spring --section 7", "a section of 7 Hz falls between the ticks of 60 Hz"),
+        (
+            "--scene spring --section 70 --out a.png",
+            "more pictures than there are ticks, 60 a second",
+        ),
+        ("--scene spring --section 0.01 --out a.png", "no crossing within"),
         ("--out cloud.svg", "cloud.svg would not hold what its name says"),
         ("--shape cow", "cow"),
         ("--size 1e-300", "give a number from 1e-6 to 1e9"),

@@ -75,9 +75,9 @@ fn a_verdict_at_another_rate_stands_until_it_is_computed_again() {
 
 #[test]
 fn a_map_keeps_its_regions_while_its_cross_is_moved() {
-    use crate::lab::{Command, Instrument, Lab};
+    use crate::lab::{Instrument, Lab, RunCommand, StageCommand};
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-    lab.apply(Command::Instrument(Instrument::StabilityMap));
+    lab.apply(StageCommand::Instrument(Instrument::StabilityMap));
     let mut worker = AnalysisWorker::new(lab.analysis_request());
     while worker.work() {}
     let found = worker.findings().map.expect("a map");
@@ -87,8 +87,8 @@ fn a_map_keeps_its_regions_while_its_cross_is_moved() {
         parameters.iter().position(|parameter| parameter.key.starts_with(name)).unwrap()
     });
     let mut moved = |parameter: usize, value: f64| {
-        lab.apply(Command::TickHz(24));
-        lab.apply(Command::Act(Action::Set { body: 0, parameter, value }));
+        lab.apply(StageCommand::TickHz(24));
+        lab.apply(RunCommand::Act(Action::Set { body: 0, parameter, value }));
         worker.set_request(lab.analysis_request());
         worker.findings().map.map(|map| (map.regions, map.here.len()))
     };

@@ -1,5 +1,7 @@
 use super::*;
-use crate::lab::{Action, Command, Language, Mode, SCENES, View};
+use crate::lab::{
+    Action, Command, Language, Mode, RunCommand, SCENES, StageCommand, Step, View, ViewCommand,
+};
 
 fn text(name: &str) -> &'static str {
     SCENES.iter().find(|scene| scene.name == name).unwrap().text
@@ -23,14 +25,14 @@ fn a_file_stays_on_the_list_and_does_not_pass_for_a_built_in_scene() {
     let mut lab = lab(text("ship"));
     assert!(lab.title().starts_with("Regatta - ship.toml - "), "{}", lab.title());
     assert_eq!(lab.scene_list().open(), Some(SCENES.len()));
-    lab.apply(Command::NextScene);
+    lab.apply(StageCommand::SceneBeside(Step::Next));
     assert!(lab.title().starts_with("Regatta - harbour - "), "{}", lab.title());
-    lab.apply(Command::PreviousScene);
+    lab.apply(StageCommand::SceneBeside(Step::Previous));
     assert!(lab.title().starts_with("Regatta - ship.toml - "), "{}", lab.title());
-    lab.apply(Command::PreviousScene);
+    lab.apply(StageCommand::SceneBeside(Step::Previous));
     assert_eq!(lab.scene_list().open(), Some(SCENES.len() - 1));
     for _ in 0..=SCENES.len() {
-        lab.apply(Command::NextScene);
+        lab.apply(StageCommand::SceneBeside(Step::Next));
     }
     assert_eq!(lab.scene_list().open(), Some(SCENES.len() - 1), "round");
 }
@@ -41,14 +43,14 @@ fn a_changed_file_with_the_same_lanes_and_bodies_is_run_again_to_the_tick() {
     let after = before.replacen("mass_kg = ", "mass_kg = 1", 1);
     assert_ne!(before, after);
     let mut old = lab(before);
-    old.apply(Command::ToggleRace);
-    old.apply(Command::Pick(2));
-    old.apply(Command::ZoomPan {
+    old.apply(StageCommand::ToggleRace);
+    old.apply(StageCommand::Pick(2));
+    old.apply(ViewCommand::ZoomPan {
         body: 0,
         zoom_pan: crate::lab::ZoomPan::default().zoomed(2.0, [0.0; 2]),
     });
     (0..50).for_each(|_| old.tick());
-    old.apply(Command::Act(Action::Kick(1.0)));
+    old.apply(RunCommand::Act(Action::Kick(1.0)));
     let kicked = old.race().state_hash();
     old.reload_file(Path::new(PATH), scene(&after));
     assert_eq!(
@@ -61,10 +63,10 @@ fn a_changed_file_with_the_same_lanes_and_bodies_is_run_again_to_the_tick() {
     assert_eq!(old.view().zoom_pan(0).zoom(), 2.0);
 
     let mut new = lab(&after);
-    new.apply(Command::ToggleRace);
+    new.apply(StageCommand::ToggleRace);
     (0..50).for_each(|_| new.tick());
     assert_eq!(old.race().state_hash(), new.race().state_hash());
-    old.apply(Command::Undo);
+    old.apply(RunCommand::Undo);
     assert_eq!(old.race().state_hash(), kicked);
 }
 
@@ -72,7 +74,7 @@ fn a_changed_file_with_the_same_lanes_and_bodies_is_run_again_to_the_tick() {
 fn a_file_that_changes_in_comments_only_leaves_the_run_and_its_journal_alone() {
     let mut lab = lab(text("spring"));
     (0..50).for_each(|_| lab.tick());
-    lab.apply(Command::Act(Action::Kick(1.0)));
+    lab.apply(RunCommand::Act(Action::Kick(1.0)));
     let (hash, rows) = (lab.race().state_hash(), lab.race().journal().rows().len());
     lab.reload_file(Path::new(PATH), scene(&format!("# A remark.\n{}", text("spring"))));
     let notice = "ship.toml saved; nothing that matters changed";
@@ -104,7 +106,7 @@ fn a_rate_that_nobody_chose_follows_the_file_and_one_that_was_chosen_stays() {
     for (chosen, rate) in [(None, 50), (Some(120), 120)] {
         let mut lab = lab(before);
         if let Some(hz) = chosen {
-            lab.apply(Command::TickHz(hz));
+            lab.apply(StageCommand::TickHz(hz));
         }
         lab.reload_file(Path::new(PATH), scene(&after));
         assert_eq!(lab.race().tick_hz(), rate);
@@ -118,15 +120,18 @@ fn a_path_that_is_refused_stays_in_its_field_with_the_reason_until_it_is_edited(
         Some(Dialog::Path { refused }) => refused.clone(),
         other => panic!("{other:?}"),
     };
-    lab.apply(Command::AskForPath);
-    lab.apply(Command::TypePath("boat/none.toml".into()));
-    assert_eq!(lab.apply(Command::OpenTypedPath), Some(crate::lab::DriverRequest::OpenTypedPath));
+    lab.apply(ViewCommand::AskForPath);
+    lab.apply(ViewCommand::TypePath("boat/none.toml".into()));
+    assert_eq!(
+        lab.apply(ViewCommand::OpenTypedPath),
+        Some(crate::lab::DriverRequest::OpenTypedPath)
+    );
     lab.refuse_typed_path(Path::new("boat/none.toml"), vec!["no such file".into()]);
     assert_eq!(lab.viewer().typed_path(), "boat/none.toml");
     assert_eq!(refused(&lab), Some(vec!["no such file".into()]));
-    lab.apply(Command::TypePath("boat/none.toml".into()));
+    lab.apply(ViewCommand::TypePath("boat/none.toml".into()));
     assert!(refused(&lab).is_some());
-    lab.apply(Command::TypePath("boat/non.toml".into()));
+    lab.apply(ViewCommand::TypePath("boat/non.toml".into()));
     assert_eq!(refused(&lab), None);
     lab.open_file(Path::new(PATH), scene(text("ship")));
     assert_eq!(lab.viewer().dialog(), None);
@@ -149,17 +154,17 @@ fn a_broken_file_shows_its_mistakes_and_the_run_goes_on() {
     lab.reload_failed(Path::new(PATH), vec!["boat/ship.toml:1:1: no".into()]);
     let shown = |lab: &Lab| matches!(lab.viewer().dialog(), Some(Dialog::Mistakes { .. }));
     assert!(shown(&lab) && lab.race().state_hash() == hash);
-    assert_eq!(lab.apply(Command::Escape), None);
+    assert_eq!(lab.apply(ViewCommand::Escape), None);
     assert!(!shown(&lab));
     // Whoever comes back to it is told again.
-    lab.apply(Command::NextScene);
+    lab.apply(StageCommand::SceneBeside(Step::Next));
     assert!(!shown(&lab));
-    lab.apply(Command::PreviousScene);
+    lab.apply(StageCommand::SceneBeside(Step::Previous));
     assert!(shown(&lab));
     lab.reload_file(Path::new(PATH), scene(text("spring")));
     assert!(!shown(&lab));
     // Of a file that is not open, nothing is shown yet.
-    lab.apply(Command::NextScene);
+    lab.apply(StageCommand::SceneBeside(Step::Next));
     lab.reload_failed(Path::new(PATH), vec!["boat/ship.toml:1:1: no".into()]);
     assert!(!shown(&lab));
 }
@@ -168,7 +173,7 @@ fn a_broken_file_shows_its_mistakes_and_the_run_goes_on() {
 fn the_memory_for_rewinding_is_that_of_every_scene_that_is_opened() {
     let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
     lab.set_rewind_bytes(1 << 20);
-    lab.apply(Command::NextScene);
+    lab.apply(StageCommand::SceneBeside(Step::Next));
     assert_eq!(lab.timeline().limit(), 1 << 20);
     lab.open_file(Path::new(PATH), scene(text("stiff")));
     assert_eq!(lab.timeline().limit(), 1 << 20);
@@ -183,19 +188,19 @@ fn what_a_person_prefers_survives_a_scene_and_where_they_look_does_not() {
     let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
     let chosen = lab.viewer().preferences.clone();
     for command in [
-        Command::Body(1),
-        Command::MapParameter(0),
-        Command::CopyMethod { entry: 0, language: Language::GdScript },
-        Command::ToggleTheme,
-        Command::ToggleGhost,
-        Command::ScaleUp,
-        Command::TypePath("boat.toml".into()),
+        Command::Stage(StageCommand::Body(1)),
+        Command::Run(RunCommand::MapParameter(0)),
+        Command::View(ViewCommand::CopyMethod { entry: 0, language: Language::GdScript }),
+        Command::View(ViewCommand::ToggleTheme),
+        Command::View(ViewCommand::ToggleGhost),
+        Command::View(ViewCommand::Scale(Step::Next)),
+        Command::View(ViewCommand::TypePath("boat.toml".into())),
     ] {
         lab.apply(command);
     }
     let (preferences, view) = (format!("{:?}", lab.viewer().preferences), lab.view().clone());
     assert!(preferences != format!("{chosen:?}") && view != View::default());
-    lab.apply(Command::NextScene);
+    lab.apply(StageCommand::SceneBeside(Step::Next));
     assert_eq!(format!("{:?}", lab.viewer().preferences), preferences);
     assert_eq!(lab.viewer().language(), Language::GdScript);
     assert_eq!(*lab.view(), View::default());

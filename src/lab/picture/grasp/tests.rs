@@ -1,6 +1,6 @@
 use super::*;
 use crate::lab::picture::{Picture, compose};
-use crate::lab::{Command, Scene};
+use crate::lab::{RunCommand, Scene, ViewCommand};
 use crate::sim::bodies::BODIES;
 
 const SIZE: [f32; 2] = [800.0, 500.0];
@@ -8,7 +8,7 @@ const SIZE: [f32; 2] = [800.0, 500.0];
 /// The scene of a kind's name, some way into its course and paused.
 fn lab(kind: &str) -> Lab {
     let mut lab = Lab::new(Scene::built_in(kind).expect("a scene for each kind"));
-    lab.apply(Command::TogglePause);
+    lab.apply(ViewCommand::TogglePause);
     (0..7).for_each(|_| lab.tick());
     lab
 }
@@ -44,7 +44,7 @@ fn a_body_that_is_placed_where_it_is_held_is_seen_there() {
         let mut lab = lab(kind.id);
         // Zoomed and panned, too.
         let zoom_pan = lab.view().zoom_pan(0).zoomed(1.25, [0.1, 0.05]).panned([0.03, -0.02]);
-        lab.apply(Command::ZoomPan { body: 0, zoom_pan });
+        lab.apply(ViewCommand::ZoomPan { body: 0, zoom_pan });
         let before = picture(&lab);
         let cell = &before.cells[0];
         let grip = cell.grips(&lab).find(|grip| grip.whose != Whose::Truth).unwrap();
@@ -54,7 +54,7 @@ fn a_body_that_is_placed_where_it_is_held_is_seen_there() {
         let held = grasp.held().clone();
         assert!(held.v.iter().all(|v| *v == 0.0) || kind.id == "chain", "{}", kind.id);
         let (q, v) = (held.q.clone(), held.v.clone());
-        lab.apply(Command::Act(crate::lab::Action::Place { body: 0, q, v }));
+        lab.apply(RunCommand::Act(crate::lab::Action::Place { body: 0, q, v }));
         // A camera that follows the truth follows it there.
         let body = &lab.race().entrants()[0].lane.bodies()[0];
         assert_eq!(body.stepper.q(), &held.q[..]);
@@ -140,7 +140,7 @@ fn of_a_chain_only_the_bead_in_hand_moves() {
 #[test]
 fn a_ghost_is_grabbed_where_its_lane_is_out_of_reach() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-    lab.apply(Command::TogglePause);
+    lab.apply(ViewCommand::TogglePause);
     let own_and_ghost = |lab: &Lab| {
         [false, true].map(|is_ghost| {
             let of = |grip: &Grip| (grip.whose == Whose::Truth) == is_ghost;
@@ -165,7 +165,7 @@ fn a_point_of_the_stage_and_its_metres_are_each_others_inverse() {
     let mut lab = lab("harbour");
     for body in 0..3 {
         let zoom_pan = lab.view().zoom_pan(body).zoomed(3.0, [0.3, -0.2]);
-        lab.apply(Command::ZoomPan { body, zoom_pan });
+        lab.apply(ViewCommand::ZoomPan { body, zoom_pan });
     }
     for cell in picture(&lab).cells {
         for at in [[10.0, 20.0], [300.5, 77.25], [799.0, 499.0]] {
@@ -187,7 +187,7 @@ fn no_trail_leads_to_where_a_body_was_put() {
         let to = off(&grip, [90.0, 60.0]);
         grasp.pull(&lab, to, [0.0; 2]);
         let (q, v) = (grasp.held().q.clone(), grasp.held().v.clone());
-        lab.apply(Command::Act(crate::lab::Action::Place { body: 0, q, v }));
+        lab.apply(RunCommand::Act(crate::lab::Action::Place { body: 0, q, v }));
         for _ in 0..3 {
             lab.tick();
             // Trails are known by their widths.

@@ -5,7 +5,7 @@ use egui::{CollapsingHeader, ComboBox, RichText, Ui, vec2};
 use super::super::ink;
 use super::{Field, LINE, line};
 use crate::lab::number::significant;
-use crate::lab::{Command, Lab, Setup};
+use crate::lab::{Command, Lab, RunCommand, Setup};
 
 /// Shows the numbers of a body that is a spring as the engine has them that is chosen; nothing of any other body.
 pub(super) fn show(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Command>) {
@@ -46,7 +46,9 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Comma
             };
             line(ui, setting.name, "in the engine's own name and unit", |ui, [room, _]| {
                 let (_, entered) = field.show(ui, vec2(room, LINE), check);
-                let set = |value| spring.set(setup, index, value).map(Command::Act);
+                let set = |value| {
+                    spring.set(setup, index, value).map(|it| Command::Run(RunCommand::Act(it)))
+                };
                 commands.extend(entered.map(set).into_iter().flatten());
             });
             Field::show_fault(field.id, ui);

@@ -6,7 +6,8 @@ use super::number::Field;
 use super::{LINE, RESTORE, line, restore};
 use crate::lab::scene::{MAX_TICK_HZ, MIN_SECONDS};
 use crate::lab::{
-    Action, Command, Entrant, Lab, LaneSpec, MAX_SECONDS, MAX_SUBSTEPS, Mode, TOLERANCES,
+    Action, Command, Entrant, Lab, LaneSpec, MAX_SECONDS, MAX_SUBSTEPS, Mode, RunCommand,
+    StageCommand, TOLERANCES,
 };
 use crate::view::panels::ink;
 
@@ -43,7 +44,7 @@ fn show_lane(ui: &mut Ui, lab: &Lab, entrant: &Entrant, commands: &mut Vec<Comma
     let (response, entered) =
         substeps.show(ui, vec2(SUBSTEPS, LINE), |value| whole("substeps", value, MAX_SUBSTEPS));
     response.on_hover_text("equal steps in a tick");
-    let act = |action| Command::Act(action);
+    let act = |action| Command::Run(RunCommand::Act(action));
     commands.extend(entered.map(|value| act(Action::Substeps { lane, substeps: value as u32 })));
     match spec.method.tolerance {
         Some(card) => {
@@ -95,8 +96,11 @@ fn show_methods(
             let label = ui.selectable_label(is_present, name(spec));
             if label.on_hover_text(spec.method.about).clicked() && !is_present {
                 commands.push(match lab.mode() {
-                    Mode::Solo => Command::Pick(entry),
-                    Mode::Race => Command::Act(Action::Lane { lane: entrant.id, spec: *spec }),
+                    Mode::Solo => Command::Stage(StageCommand::Pick(entry)),
+                    Mode::Race => Command::Run(RunCommand::Act(Action::Lane {
+                        lane: entrant.id,
+                        spec: *spec,
+                    })),
                 });
             }
         }
@@ -130,10 +134,10 @@ pub(super) fn show_time(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         ui.add_space(room - number - RESTORE - ui.spacing().item_spacing.x);
         let size = vec2(number, LINE);
         let (_, entered) = rate.show(ui, size, |value| whole("tick rate", value, MAX_TICK_HZ));
-        commands.extend(entered.map(|value| Command::TickHz(value as u32)));
+        commands.extend(entered.map(|value| Command::Stage(StageCommand::TickHz(value as u32))));
         let about = format!("back to {} Hz", opened.tick_hz);
         restore(ui, tick_hz != opened.tick_hz, &about, "tick rate", || {
-            commands.push(Command::TickHz(opened.tick_hz));
+            commands.push(Command::Stage(StageCommand::TickHz(opened.tick_hz)));
         });
     });
     Field::show_fault(rate.id, ui);
@@ -154,10 +158,10 @@ pub(super) fn show_time(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             let size = vec2(number, LINE);
             let check = |value| within("length", value, (MIN_SECONDS, MAX_SECONDS), " s");
             let (_, entered) = length.show(ui, size, check);
-            commands.extend(entered.map(Command::Seconds));
+            commands.extend(entered.map(|it| Command::Run(RunCommand::Seconds(it))));
             let about = format!("back to {} s", opened.seconds);
             restore(ui, seconds != opened.seconds, &about, "length", || {
-                commands.push(Command::Seconds(opened.seconds));
+                commands.push(Command::Run(RunCommand::Seconds(opened.seconds)));
             });
         },
     );
@@ -169,12 +173,13 @@ pub(super) fn restoring(lab: &Lab) -> impl Iterator<Item = Command> {
     let lanes = lab.race().entrants().iter().filter_map(|entrant| {
         let (lane, spec) = (entrant.id, opened(lab, entrant));
         let is_changed = entrant.spec != spec;
-        is_changed.then_some(Command::Act(Action::Lane { lane, spec }))
+        is_changed.then_some(Command::Run(RunCommand::Act(Action::Lane { lane, spec })))
     });
     let opened = lab.scene_as_opened();
-    let rate = (lab.race().tick_hz() != opened.tick_hz).then_some(Command::TickHz(opened.tick_hz));
-    let length =
-        (lab.scene().seconds != opened.seconds).then_some(Command::Seconds(opened.seconds));
+    let rate = (lab.race().tick_hz() != opened.tick_hz)
+        .then_some(Command::Stage(StageCommand::TickHz(opened.tick_hz)));
+    let length = (lab.scene().seconds != opened.seconds)
+        .then_some(Command::Run(RunCommand::Seconds(opened.seconds)));
     lanes.chain(rate).chain(length)
 }
 
@@ -197,11 +202,11 @@ mod tests {
     #[test]
     fn in_solo_the_number_beside_the_method_follows_a_switch() {
         let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
-        lab.apply(Command::Pick(2));
+        lab.apply(StageCommand::Pick(2));
         assert_eq!(number(&lab, lab.selected()), 3);
-        lab.apply(Command::Method(lab.entries()[7].method));
+        lab.apply(StageCommand::Method(lab.entries()[7].method));
         assert_eq!(number(&lab, lab.selected()), 8);
-        lab.apply(Command::ToggleRace);
+        lab.apply(StageCommand::ToggleRace);
         let is_of_lane = |entrant: &Entrant| number(&lab, entrant) == entrant.id.0;
         assert!(lab.race().entrants().iter().all(is_of_lane));
     }

@@ -199,7 +199,7 @@ impl Plots<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Command, LoopCommand, Scene};
+    use crate::lab::{Command, LoopCommand, Scene, StageCommand};
     use crate::view::panels::instruments::{csv, svg};
 
     fn lab_at(scene: &str, now_ns: i64) -> Lab {
@@ -218,9 +218,9 @@ mod tests {
     fn every_instrument_of_the_loop_lab_has_a_curve_for_each_loop_on_the_stage_and_can_be_saved() {
         for scene in ["spring", "harbour", "orbit"] {
             let mut lab = lab_at(scene, 3_000_000_000);
-            lab.apply(Command::Pick(1));
+            lab.apply(StageCommand::Pick(1));
             for instrument in Instrument::all().filter(|one| one.is_in_loop_lab()) {
-                lab.apply(Command::Instrument(instrument));
+                lab.apply(StageCommand::Instrument(instrument));
                 assert_eq!(lab.display().instrument, instrument);
                 let table = csv(&lab).unwrap().concat();
                 let names = ["lockstep", "fixed", "whole-refresh"];
@@ -237,7 +237,7 @@ mod tests {
                     assert!(!drawing.unwrap().contains("NaN"), "{scene} {instrument:?}");
                 }
             }
-            lab.apply(Command::Instrument(Instrument::StabilityMap));
+            lab.apply(StageCommand::Instrument(Instrument::StabilityMap));
             assert_eq!(lab.display().instrument, Instrument::Loop, "the map is of the run");
         }
     }
@@ -264,9 +264,9 @@ mod tests {
     #[test]
     fn every_measure_of_a_frame_can_be_looked_at() {
         let mut lab = lab_at("spring", 2_000_000_000);
-        lab.apply(Command::Instrument(Instrument::Error));
+        lab.apply(StageCommand::Instrument(Instrument::Error));
         for (place, metric) in FRAME_METRICS.iter().enumerate() {
-            lab.apply(Command::Metric(place));
+            lab.apply(StageCommand::Metric(place));
             let plot = plot(&lab, Instrument::Error);
             assert!(plot.axes[1].name().starts_with(metric.name) && plot.nothing.is_none());
             let raw = plot.tracks.last().unwrap().at(1.5).unwrap().1[1];

@@ -9,7 +9,7 @@ use super::super::{focus_ring, ink, ring, short};
 use super::hover;
 use super::layout::{Cell, cells};
 use super::sheet::Sheet;
-use crate::lab::{Command, Lab};
+use crate::lab::{Command, Lab, StageCommand, ViewCommand};
 use crate::view::chart::{self, ABOVE, NAME, NUMBER, PlotArea, Primitive, Text};
 use crate::view::theme::{Ink, strong_font};
 use crate::view::wheel;
@@ -102,7 +102,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Com
     }
     focused.into_iter().for_each(|rect| ring(ui, rect));
     if views.0 != lab.view().plot_ranges {
-        commands.push(Command::PlotRanges(views.0));
+        commands.push(Command::View(ViewCommand::PlotRanges(views.0)));
     }
 }
 
@@ -137,9 +137,9 @@ fn menu(ui: &mut Ui, cell: &Cell<'_>, views: &mut Views, commands: &mut Vec<Comm
         ui.close();
     }
     for (text, command) in [
-        ("Enlarge (Enter)", Command::ToggleEnlarged),
-        ("Copy the values (Ctrl C)", Command::CopyInstrument),
-        ("Save as PNG, SVG and CSV (Ctrl E)", Command::ExportInstrument),
+        ("Enlarge (Enter)", Command::View(ViewCommand::ToggleEnlarged)),
+        ("Copy the values (Ctrl C)", Command::View(ViewCommand::CopyInstrument)),
+        ("Save as PNG, SVG and CSV (Ctrl E)", Command::View(ViewCommand::ExportInstrument)),
     ] {
         if ui.button(text).clicked() {
             commands.push(command);
@@ -166,7 +166,7 @@ fn picked(
     };
     let near = cell.plot.tracks.iter().map(|track| (distance(track), track.entry));
     let nearest = near.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(away, _)| *away <= NEAR)?;
-    Some(Command::Pick(nearest.1))
+    Some(Command::Stage(StageCommand::Pick(nearest.1)))
 }
 
 /// The distance of a point from a straight piece.
@@ -209,7 +209,7 @@ fn show_plot(
     let about = "show this body large, and in the other instruments";
     let about = if is_whole { about.into() } else { format!("{}\n{about}", plot.title) };
     if response.on_hover_text(about).clicked() {
-        commands.push(Command::Body(plot.body));
+        commands.push(Command::Stage(StageCommand::Body(plot.body)));
     }
 }
 

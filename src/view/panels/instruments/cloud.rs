@@ -19,6 +19,7 @@ use crate::lab::number::significant;
 use crate::lab::palette::{Rgba, Theme};
 use crate::lab::{
     CloudChoice, CloudKind, CloudPicture, Command, Density, Lab, LaneCloud, Mode, POINTS,
+    RunCommand, StageCommand,
 };
 use crate::view::chart::{self as charts, AxisScale, LineStyle, PlotArea, curves};
 
@@ -40,6 +41,8 @@ const MAX_TEXELS: usize = 1024;
 const MIN_SIDE: f32 = 30.0;
 /// The size of the words beside a cloud, in points.
 const WORDS: f32 = 12.0;
+/// A cloud that is narrower than this, in points, has the number alone above it; a hover tells the rest.
+const ROOM_FOR_WORDS: f32 = 110.0;
 /// The width of the exact outline, in points.
 const OUTLINE: f32 = 1.1;
 /// An area that has grown or shrunk by more than this, as a power of ten, stretches no axis; and one axis shows at least
@@ -118,12 +121,15 @@ fn head(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let picture = lab.cloud().and_then(|found| found.picture.as_ref().ok());
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("Cloud").font(strong_font(15.0)).color(ink(ui).text));
-        let kind = |kind: CloudKind| (Command::Cloud(CloudChoice { kind, ..chosen }), kind.name());
+        let kind = |kind: CloudKind| {
+            (Command::Run(RunCommand::Cloud(CloudChoice { kind, ..chosen })), kind.name())
+        };
         let offered = CloudKind::ALL.into_iter().map(kind);
         choice(ui, "shape of the cloud", offered, kind(chosen.kind), commands);
         if chosen.kind != CloudKind::Section {
             let counts = POINTS.map(|points| format!("{} points", thousands(points)));
-            let command = |points| Command::Cloud(CloudChoice { points, ..chosen });
+            let command =
+                |points| Command::Run(RunCommand::Cloud(CloudChoice { points, ..chosen }));
             let now = format!("{} points", thousands(chosen.points));
             let offered = POINTS.into_iter().map(command).zip(counts.iter().map(String::as_str));
             choice(ui, "points of the cloud", offered, (command(chosen.points), &now), commands);
@@ -159,7 +165,11 @@ fn caption(ui: &Ui, lab: &Lab, lane: &LaneCloud, width: f32) -> Arc<Galley> {
     let mut job = LayoutJob::default();
     job.wrap.max_width = width;
     job.append(&lab.lane_name(lane.entry), 0.0, TextFormat::simple(font.clone(), colour));
-    let line = format!("\n{}", words(lane));
+    let words = match (lane.area_ratio, width < ROOM_FOR_WORDS) {
+        (Some(ratio), true) => format!("×{}", significant(ratio, 3)),
+        _ => words(lane),
+    };
+    let line = format!("\n{words}");
     job.append(&line, 0.0, TextFormat::simple(font, if is_front { ink.text } else { ink.dim }));
     ui.painter().layout_job(job)
 }
@@ -281,7 +291,7 @@ fn cloud(
     focus_ring(ui, &response);
     let told = format!("{about} ({})", lane.measured);
     if response.on_hover_text(told).clicked() && lab.mode() == Mode::Race {
-        commands.push(Command::Pick(lane.entry));
+        commands.push(Command::Stage(StageCommand::Pick(lane.entry)));
     }
 }
 

@@ -76,11 +76,11 @@ pub(in crate::view) fn svg(lab: &Lab) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Command, Instrument, Scene};
+    use crate::lab::{Instrument, Scene, StageCommand};
 
     fn race() -> Lab {
         let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
-        lab.apply(Command::ToggleRace);
+        lab.apply(StageCommand::ToggleRace);
         (0..300).for_each(|_| lab.tick());
         lab
     }
@@ -89,7 +89,7 @@ mod tests {
     fn every_value_of_every_curve_is_in_the_table() {
         let mut lab = race();
         for instrument in [Instrument::Motion, Instrument::Error, Instrument::Phase] {
-            lab.apply(Command::Instrument(instrument));
+            lab.apply(StageCommand::Instrument(instrument));
             let text = csv(&lab).unwrap().concat();
             let sheet = sheet_of(&lab, Detail::Samples).unwrap();
             let rows = |plot: &super::super::sheet::PlotModel| {
@@ -100,7 +100,7 @@ mod tests {
             assert_eq!(text.lines().count(), 1 + sheet.plots.iter().map(rows).sum::<usize>());
             assert!(text.lines().all(|line| line.split(',').count() == 6), "{instrument:?}");
         }
-        lab.apply(Command::Instrument(Instrument::Advice));
+        lab.apply(StageCommand::Instrument(Instrument::Advice));
         assert!(csv(&lab).is_none() && svg(&lab).is_none());
     }
 
@@ -108,7 +108,7 @@ mod tests {
     fn a_drawing_has_every_curve_and_its_tags_are_closed() {
         let mut lab = race();
         for instrument in Instrument::all() {
-            lab.apply(Command::Instrument(instrument));
+            lab.apply(StageCommand::Instrument(instrument));
             let Some(text) = svg(&lab) else { continue };
             let count = |what: &str| text.matches(what).count();
             assert!(count("<polyline") > 10 && !text.contains("NaN"), "{instrument:?}");

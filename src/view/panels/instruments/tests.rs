@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::super::tracks::Detail;
 use super::error::NO_ERROR;
 use super::*;
-use crate::lab::{Action, CloudChoice, CloudWorker, SCENES, Scene};
+use crate::lab::{Action, CloudChoice, CloudWorker, RunCommand, SCENES, Scene, StageCommand};
 use crate::view::chart::PlotArea;
 use crate::view::panels;
 use crate::view::theme;
@@ -101,16 +101,16 @@ fn every_axis_of_every_instrument_is_named_and_has_three_marks() {
                     lab.advance(16_666_667);
                 }
                 for instrument in Instrument::all() {
-                    lab.apply(Command::Instrument(instrument));
+                    lab.apply(StageCommand::Instrument(instrument));
                     for body in 0..lab.scene().bodies.len() {
-                        lab.apply(Command::Body(body));
+                        lab.apply(StageCommand::Body(body));
                         let (scene, name) = (scene.name, instrument.name());
                         let what = format!("{scene}, {mode}, {name}, {body}, {seconds} s");
                         assert_legible(&lab, &what);
                     }
                 }
             }
-            lab.apply(Command::ToggleRace);
+            lab.apply(StageCommand::ToggleRace);
         }
     });
 }
@@ -118,7 +118,7 @@ fn every_axis_of_every_instrument_is_named_and_has_three_marks() {
 #[test]
 fn in_a_low_window_a_plot_has_the_room_of_its_legend() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     (0..240).for_each(|_| lab.tick());
     for size in [vec2(800.0, 450.0), vec2(960.0, 540.0)] {
         let texts = texts(&lab, size);
@@ -134,11 +134,11 @@ fn every_metric_can_be_looked_at() {
     let offered = error::choices().count();
     assert_eq!(offered + 1, METRICS.len(), "and the energy drift");
     let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     (0..60).for_each(|_| lab.tick());
-    lab.apply(Command::Instrument(Instrument::Error));
+    lab.apply(StageCommand::Instrument(Instrument::Error));
     for place in error::choices() {
-        lab.apply(Command::Metric(place));
+        lab.apply(StageCommand::Metric(place));
         assert_legible(&lab, METRICS[place].name);
     }
 }
@@ -152,7 +152,7 @@ fn a_truth_that_halted_is_not_said_to_be_shown() {
         texts(lab, vec2(1280.0, 720.0)).iter().any(|(_, text)| text.contains(words))
     };
     assert!(!says(&lab, "no exact solution"));
-    lab.apply(Command::Act(Action::Kick(1e30)));
+    lab.apply(RunCommand::Act(Action::Kick(1e30)));
     assert!(says(&lab, "no exact solution"));
 }
 
@@ -213,7 +213,7 @@ impl Person {
 
 fn race_of_springs() -> Lab {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     (0..240).for_each(|_| lab.tick());
     lab
 }
@@ -284,7 +284,7 @@ fn a_click_on_a_curve_selects_its_lane() {
     let track = sheet.plots[0].tracks.iter().find(|track| track.entry == widest).unwrap();
     let (_, _, at) = track.places().find(|(t, _, [_, y])| *t > 0.9 && *y > 1.2).unwrap();
     let at = PlotArea { rect: cell.frame, bounds: cell.plot.fit }.at(at);
-    let is_pick = |command: &Command| *command == Command::Pick(widest);
+    let is_pick = |command: &Command| *command == Command::Stage(StageCommand::Pick(widest));
     assert!(person.click(&lab, at).iter().any(is_pick));
     assert!(person.click(&lab, cell.frame.right_bottom() - vec2(9.0, 9.0)).is_empty());
 }
@@ -292,9 +292,11 @@ fn a_click_on_a_curve_selects_its_lane() {
 #[test]
 fn after_a_placement_the_axis_fits_the_new_swing_and_the_exact_line_is_broken() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-    lab.apply(Command::Pick(3));
+    lab.apply(StageCommand::Pick(3));
     (0..120).for_each(|_| lab.tick());
-    let place = |q: f64| Command::Act(Action::Place { body: 0, q: [q].into(), v: [0.0].into() });
+    let place = |q: f64| {
+        Command::Run(RunCommand::Act(Action::Place { body: 0, q: [q].into(), v: [0.0].into() }))
+    };
     lab.apply(place(8.0));
     (0..300).for_each(|_| lab.tick());
     let top = |lab: &Lab| sheet_of(lab, Detail::Samples).unwrap().plots[0].fit[1][1];
@@ -314,10 +316,10 @@ fn after_a_placement_the_axis_fits_the_new_swing_and_the_exact_line_is_broken() 
     let arrows = plot.drawing(&lab, &sheet.roster, &plot.fit, 400.0).arrows;
     assert!(arrows.iter().any(|arrow| arrow.colour == white && arrow.from[0] < 7.0));
     // A parameter that is changed begins a new swing too, without a jump.
-    lab.apply(Command::Act(Action::Set { body: 0, parameter: 1, value: 4.0 }));
+    lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value: 4.0 }));
     let before = lab.past().changed_s();
     assert_eq!(before, lab.race().t());
-    lab.apply(Command::Seek(60));
+    lab.apply(RunCommand::Seek(60));
     assert_eq!(lab.past().changed_s(), f64::NEG_INFINITY, "not done yet");
 }
 
@@ -340,9 +342,9 @@ fn the_cloud_tells_what_becomes_of_the_area_and_why_a_body_has_none() {
         |lab: &Lab, wanted: &str| texts(lab, SIZE).iter().any(|(_, text)| text.contains(wanted));
     let lab_of = |scene: &str| {
         let mut lab = Lab::new(Scene::built_in(scene).unwrap());
-        lab.apply(Command::ToggleRace);
-        lab.apply(Command::Instrument(Instrument::Cloud));
-        lab.apply(Command::Cloud(CloudChoice { points: 1200, ..CloudChoice::default() }));
+        lab.apply(StageCommand::ToggleRace);
+        lab.apply(StageCommand::Instrument(Instrument::Cloud));
+        lab.apply(RunCommand::Cloud(CloudChoice { points: 1200, ..CloudChoice::default() }));
         (0..12).for_each(|_| lab.tick());
         lab
     };

@@ -190,13 +190,13 @@ fn work<'a>() -> [Column<Row<'a>>; 2] {
 
 #[cfg(test)]
 mod tests {
-    use crate::lab::{Command, Lab, Scene};
+    use crate::lab::{Lab, Scene, StageCommand};
     use crate::view::panels::lanes;
 
     #[test]
     fn what_the_stage_shows_too_has_a_column_only_where_there_is_room_for_it() {
         let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
-        lab.apply(Command::ToggleRace);
+        lab.apply(StageCommand::ToggleRace);
         let table = lanes::table(&lab);
         let names = |width: f32| -> Vec<&str> {
             table.fitting(width).iter().map(|(column, ..)| column.name).collect()

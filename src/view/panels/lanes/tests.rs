@@ -3,12 +3,12 @@
 use egui::{Pos2, Rect, vec2};
 
 use super::*;
-use crate::lab::Scene;
+use crate::lab::{RunCommand, Scene, StageCommand};
 use crate::view::panels::table::{Order, SortKey};
 
 fn race() -> Lab {
     let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
-    lab.apply(Command::ToggleRace);
+    lab.apply(StageCommand::ToggleRace);
     (0..60).for_each(|_| lab.tick());
     lab.analyse();
     lab
@@ -56,7 +56,7 @@ fn every_column_sorts_all_rows_both_ways_and_those_without_a_value_last() {
 #[test]
 fn in_solo_the_rows_of_the_bodies_stay_together_under_every_order() {
     let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
-    lab.apply(Command::Pick(1));
+    lab.apply(StageCommand::Pick(1));
     lab.tick();
     let bodies = lab.scene().bodies.len();
     for column in &table(&lab).columns {
@@ -82,8 +82,8 @@ fn a_method_is_being_judged_until_it_is() {
 #[test]
 fn a_verdict_tells_what_will_be_and_a_halt_what_was() {
     let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
-    lab.apply(Command::ToggleRace);
-    lab.apply(Command::TickHz(49));
+    lab.apply(StageCommand::ToggleRace);
+    lab.apply(StageCommand::TickHz(49));
     lab.analyse();
     let euler = lab.entries().iter().position(|spec| spec.method.id == "semi-implicit-euler");
     let euler = euler.unwrap();
@@ -113,7 +113,7 @@ fn the_body_that_every_verdict_is_about_is_named_once() {
     );
     assert_eq!(names(&lab), 0, "{:?}", said(&lab));
     // At a low rate the stiffest body of some lanes is another.
-    lab.apply(Command::TickHz(2));
+    lab.apply(StageCommand::TickHz(2));
     lab.analyse();
     assert_eq!(row::judged_body(&lab), None, "{:?}", said(&lab));
     assert!(names(&lab) > 0, "{:?}", said(&lab));
@@ -130,7 +130,7 @@ fn the_cost_is_that_of_a_tick_now() {
     };
     let before = costs(&lab);
     assert_eq!(before[..4], [1.0, 1.0, 2.0, 4.0].map(Some), "{before:?}");
-    lab.apply(Command::ToggleEqualCost);
+    lab.apply(RunCommand::ToggleEqualCost);
     for _ in 0..3 {
         let now = costs(&lab);
         let dearest = now.iter().flatten().fold(0.0, |most: f64, &cost| most.max(cost));

@@ -68,15 +68,15 @@ pub(super) fn show(
 mod tests {
     use egui::{Context, RawInput, Rect, Shape};
 
-    use crate::lab::{Command, Instrument, Lab, Scene};
+    use crate::lab::{Instrument, Lab, Scene, StageCommand, ViewCommand};
     use crate::view::{panels, theme};
 
     /// What the loupes in a frame are labelled with, under the method at this place of the spring's list.
     fn labels(entry: usize) -> Vec<String> {
         let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-        lab.apply(Command::Pick(entry));
-        lab.apply(Command::Instrument(Instrument::OneStep));
-        lab.apply(Command::ToggleEnlarged);
+        lab.apply(StageCommand::Pick(entry));
+        lab.apply(StageCommand::Instrument(Instrument::OneStep));
+        lab.apply(ViewCommand::ToggleEnlarged);
         (0..20).for_each(|_| lab.tick());
         let context = Context::default();
         theme::dress(&context);

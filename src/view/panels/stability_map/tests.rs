@@ -2,13 +2,13 @@ use egui::{Context, Event, Modifiers, PointerButton, RawInput, Shape};
 
 use super::words::{counted, notes};
 use super::*;
-use crate::lab::{Instrument, Scene};
+use crate::lab::{Instrument, RunCommand, Scene, StageCommand, Step};
 use crate::view::panels;
 use crate::view::theme;
 
 fn lab(scene: &str) -> Lab {
     let mut lab = Lab::new(Scene::built_in(scene).unwrap());
-    lab.apply(Command::Instrument(Instrument::StabilityMap));
+    lab.apply(StageCommand::Instrument(Instrument::StabilityMap));
     lab.analyse();
     lab
 }
@@ -45,8 +45,10 @@ fn the_cross_sets_rate_and_parameter_where_it_is_dragged_to() {
     frame(&context, &lab, vec![Event::PointerMoved(at), button(true, at)]);
     let to = at + vec2(30.0, -35.0);
     let (commands, _) = frame(&context, &lab, vec![Event::PointerMoved(to)]);
-    let [Command::TickHz(hz), Command::Act(Action::Set { body: 0, parameter: 1, value })] =
-        &commands[..]
+    let [
+        Command::Stage(StageCommand::TickHz(hz)),
+        Command::Run(RunCommand::Act(Action::Set { body: 0, parameter: 1, value })),
+    ] = &commands[..]
     else {
         panic!("{commands:?}")
     };
@@ -91,14 +93,16 @@ fn arrow_keys_move_the_focused_cross_by_rates_and_by_factors_of_the_parameter() 
     context.memory_mut(|memory| memory.request_focus(Id::unique(CROSS_ID)));
     frame(&context, &lab, Vec::new());
     let (commands, _) = frame(&context, &lab, vec![press(Key::ArrowUp)]);
-    let [Command::Act(Action::Set { value, .. })] = &commands[..] else { panic!("{commands:?}") };
+    let [Command::Run(RunCommand::Act(Action::Set { value, .. }))] = &commands[..] else {
+        panic!("{commands:?}")
+    };
     let before = lab.race().values(0)[1];
     assert!((value / before / 1.122 - 1.0).abs() < 5e-3, "{before} to {value}");
     for command in commands {
         lab.apply(command);
     }
     let (commands, _) = frame(&context, &lab, vec![press(Key::ArrowRight)]);
-    assert_eq!(commands, [Command::TickRateUp]);
+    assert_eq!(commands, [Command::Stage(StageCommand::TickRate(Step::Next))]);
 }
 
 fn press(key: Key) -> Event {
@@ -112,8 +116,8 @@ fn a_boundary_is_labelled_with_its_limit_where_nothing_is_damped() {
     let (_, texts) = frame(&context, &lab("spring"), Vec::new());
     assert!(texts.iter().any(|(_, text)| text.ends_with(": ω h < 2")), "{texts:?}");
     let mut damped = Lab::new(Scene::built_in("harbour").unwrap());
-    damped.apply(Command::Instrument(Instrument::StabilityMap));
-    damped.apply(Command::Body(1));
+    damped.apply(StageCommand::Instrument(Instrument::StabilityMap));
+    damped.apply(StageCommand::Body(1));
     damped.analyse();
     let map = damped.viewer().stability_map().unwrap();
     assert!(map.regions.iter().all(|region| region.limit.is_none()));
@@ -133,6 +137,6 @@ fn the_lines_of_equal_damping_of_the_selected_engine_are_labelled_and_explained(
         assert!(shown.contains(part), "{part}: {shown}");
     }
     // An undamped spring of Bullet is seen undamped.
-    lab.apply(Command::Pick(6));
+    lab.apply(StageCommand::Pick(6));
     assert!(!words(&lab).contains("damping 0."));
 }

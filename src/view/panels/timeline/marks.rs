@@ -214,7 +214,7 @@ pub(super) fn colours(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Command, Lab};
+    use crate::lab::{Lab, RunCommand, StageCommand};
     use crate::view::theme::ink_of;
 
     fn marks(lab: &Lab) -> Vec<Mark> {
@@ -239,12 +239,12 @@ mod tests {
                     [[command]]\ntick = 12\nmethod = 'rk4'\n";
         let mut lab = Lab::new(Scene::parse("marked.toml", text).unwrap());
         run(&mut lab, 30);
-        lab.apply(Command::Act(Action::Kick(1.0)));
-        lab.apply(Command::Act(Action::Set { body: 0, parameter: 1, value: 90.0 }));
-        lab.apply(Command::TickHz(20));
+        lab.apply(RunCommand::Act(Action::Kick(1.0)));
+        lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value: 90.0 }));
+        lab.apply(StageCommand::TickHz(20));
         run(&mut lab, 10);
-        lab.apply(Command::Act(Action::Substeps { lane: LaneId(1), substeps: 4 }));
-        lab.apply(Command::Act(Action::Kick(-2.5)));
+        lab.apply(RunCommand::Act(Action::Substeps { lane: LaneId(1), substeps: 4 }));
+        lab.apply(RunCommand::Act(Action::Kick(-2.5)));
         run(&mut lab, 1);
         assert_eq!(
             texts(&lab),
@@ -265,7 +265,7 @@ mod tests {
     #[test]
     fn a_body_that_blows_up_is_marked_with_its_lane() {
         let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
-        lab.apply(Command::ToggleRace);
+        lab.apply(StageCommand::ToggleRace);
         run(&mut lab, 300);
         let halts: Vec<Mark> =
             marks(&lab).into_iter().filter(|mark| mark.sign == Sign::Halt).collect();
@@ -297,7 +297,7 @@ mod tests {
             ink_of(lab.display().theme).style(lab.entries(), &lab.entries()[entry]).0
         };
         run(&mut lab, 20);
-        lab.apply(Command::Pick(3));
+        lab.apply(StageCommand::Pick(3));
         run(&mut lab, 20);
         let timeline = lab.timeline();
         let found =

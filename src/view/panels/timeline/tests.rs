@@ -1,7 +1,7 @@
 use egui::{Context, Event as Input, Modifiers, PointerButton, RawInput};
 
 use super::*;
-use crate::lab::{Action, Scene};
+use crate::lab::{Action, RunCommand, Scene, StageCommand, Step};
 use crate::view::panels;
 use crate::view::theme;
 
@@ -34,13 +34,13 @@ fn a_press_on_the_track_goes_to_the_tick_there_and_a_drag_follows() {
     let at = |seconds: f64| pos2(whole.x(seconds, along), height);
     frame(&context, &lab, vec![Input::PointerMoved(at(2.5))]);
     let pressed = frame(&context, &lab, vec![press(at(2.5), true)]);
-    assert_eq!(pressed, [Command::Seek(150)]);
+    assert_eq!(pressed, [Command::Run(RunCommand::Seek(150))]);
     let dragged = frame(&context, &lab, vec![Input::PointerMoved(at(4.0))]);
-    assert_eq!(dragged, [Command::Seek(240)]);
+    assert_eq!(dragged, [Command::Run(RunCommand::Seek(240))]);
     // Nothing was run beyond its end.
     let dragged = frame(&context, &lab, vec![Input::PointerMoved(at(19.0))]);
-    assert_eq!(dragged, [Command::Seek(600)]);
-    lab.apply(Command::Seek(600));
+    assert_eq!(dragged, [Command::Run(RunCommand::Seek(600))]);
+    lab.apply(RunCommand::Seek(600));
     assert_eq!(frame(&context, &lab, vec![press(at(19.0), false)]), []);
 }
 
@@ -59,7 +59,7 @@ fn letting_go_of_the_track_does_not_undo_the_step_of_a_key() {
     for command in asked {
         lab.apply(command);
     }
-    lab.apply(Command::TickForward);
+    lab.apply(StageCommand::Tick(Step::Next));
     assert_eq!(frame(&context, &lab, vec![press(at(340.0), false)]), []);
 }
 
@@ -70,13 +70,13 @@ fn an_undo_is_offered_once_something_was_changed() {
     let beside = |lab: &Lab| room.right() - groove(lab, room).unwrap().along.max;
     assert_eq!((lab.timeline().undoes(), beside(&lab)), (None, MARGIN));
     (0..60).for_each(|_| lab.tick());
-    lab.apply(Command::Act(Action::Kick(1.0)));
-    lab.apply(Command::Restart);
+    lab.apply(RunCommand::Act(Action::Kick(1.0)));
+    lab.apply(StageCommand::Restart);
     assert_eq!(lab.timeline().undoes(), Some("the restart"));
     assert_eq!(beside(&lab), UNDO + MARGIN);
     (0..60).for_each(|_| lab.tick());
-    lab.apply(Command::Seek(30));
-    lab.apply(Command::Act(Action::Kick(1.0)));
+    lab.apply(RunCommand::Seek(30));
+    lab.apply(RunCommand::Act(Action::Kick(1.0)));
     assert_eq!(lab.timeline().undoes(), Some("the kick at tick 30"));
 }
 

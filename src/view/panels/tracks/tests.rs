@@ -1,5 +1,5 @@
 use super::*;
-use crate::lab::{Action, Command, Scene};
+use crate::lab::{Action, RunCommand, Scene, StageCommand};
 use crate::view::panels::ink_of;
 
 const LOOK: Look = Look { dots: Dots::None, is_over_time: true };
@@ -22,7 +22,7 @@ fn the_past_keeps_the_colour_of_the_method_that_flew_it_and_a_switch_has_a_mark(
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
     let flown = [(3, 60), (1, 90), (4, 30)];
     for (entry, ticks) in flown {
-        lab.apply(Command::Pick(entry));
+        lab.apply(StageCommand::Pick(entry));
         tick(&mut lab, ticks);
     }
     let Drawing { curves, arrows, switches, .. } = drawn(&lab, -2.0, 2.0);
@@ -43,14 +43,14 @@ fn the_past_keeps_the_colour_of_the_method_that_flew_it_and_a_switch_has_a_mark(
 #[test]
 fn a_switch_after_a_halt_is_marked_where_the_other_method_took_over() {
     let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
-    lab.apply(Command::Pick(0));
+    lab.apply(StageCommand::Pick(0));
     while lab.race().entrants()[0].lane.halted().is_none() {
         lab.tick();
         assert!(lab.race().tick() < 1000);
     }
     tick(&mut lab, 30);
     let taken_over = lab.race().t();
-    lab.apply(Command::Pick(3));
+    lab.apply(StageCommand::Pick(3));
     tick(&mut lab, 30);
     let marks: Vec<_> = drawn(&lab, -2.0, 2.0).switches.iter().map(|switch| switch.at[0]).collect();
     assert_eq!(marks, [taken_over]);
@@ -59,8 +59,8 @@ fn a_switch_after_a_halt_is_marked_where_the_other_method_took_over() {
 #[test]
 fn a_lane_that_grows_out_of_the_plot_ends_there_with_an_arrow() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-    lab.apply(Command::Pick(0));
-    lab.apply(Command::Restart);
+    lab.apply(StageCommand::Pick(0));
+    lab.apply(StageCommand::Restart);
     tick(&mut lab, 900);
     let Drawing { curves, arrows, .. } = drawn(&lab, -1.5, 1.5);
     assert_eq!((curves.len(), arrows.len()), (1, 1));
@@ -88,7 +88,7 @@ fn a_lane_that_comes_back_to_stay_is_drawn_again() {
 fn no_stroke_leads_to_where_a_body_was_put() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
     tick(&mut lab, 60);
-    lab.apply(Command::Act(Action::Place { body: 0, q: [0.5].into(), v: [0.0].into() }));
+    lab.apply(RunCommand::Act(Action::Place { body: 0, q: [0.5].into(), v: [0.0].into() }));
     tick(&mut lab, 60);
     let Drawing { curves, arrows, switches, .. } = drawn(&lab, -2.0, 2.0);
     assert_eq!((curves.len(), arrows.len(), switches.len()), (2, 0, 0));
@@ -101,9 +101,9 @@ fn no_stroke_leads_to_where_a_body_was_put() {
 #[test]
 fn a_method_that_flies_outside_all_along_has_an_arrow_of_its_own() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-    lab.apply(Command::Pick(0));
+    lab.apply(StageCommand::Pick(0));
     tick(&mut lab, 600);
-    lab.apply(Command::Pick(1));
+    lab.apply(StageCommand::Pick(1));
     tick(&mut lab, 100);
     let Drawing { arrows, .. } = drawn(&lab, -1.5, 1.5);
     assert!(arrows.iter().any(|arrow| arrow.colour == colour_of(&lab, 0)));

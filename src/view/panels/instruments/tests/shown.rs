@@ -1,15 +1,16 @@
 //! Which quantity an instrument shows, and what of it is seen, copied and saved.
 
 use super::*;
+use crate::lab::{RunCommand, StageCommand, ViewCommand};
 
 #[test]
 fn motion_shows_the_chosen_quantity_and_its_table_follows() {
     // The ship of the guide: Euler's speed is ahead of the exact one, and its place behind.
     let mut lab = Lab::new(Scene::built_in("ship").unwrap());
     let euler = lab.entries().iter().position(|spec| spec.method.id == "explicit-euler");
-    lab.apply(Command::Pick(euler.unwrap()));
-    lab.apply(Command::TickHz(2));
-    lab.apply(Command::Restart);
+    lab.apply(StageCommand::Pick(euler.unwrap()));
+    lab.apply(StageCommand::TickHz(2));
+    lab.apply(StageCommand::Restart);
     (0..17).for_each(|_| lab.tick());
     let at_the_end = |lab: &Lab| {
         let sheet = sheet_of(lab, Detail::Samples).unwrap();
@@ -18,7 +19,7 @@ fn motion_shows_the_chosen_quantity_and_its_table_follows() {
     };
     let [place, exact_place] = at_the_end(&lab);
     assert!(place < exact_place - 1.0, "{place} and {exact_place}");
-    lab.apply(Command::Quantity(Quantity::Velocity));
+    lab.apply(ViewCommand::Quantity(Quantity::Velocity));
     let [speed, exact_speed] = at_the_end(&lab);
     assert!((speed - 11.64).abs() < 0.01 && (exact_speed - 11.45).abs() < 0.01, "{speed}");
     let table = csv(&lab).unwrap().concat();
@@ -35,7 +36,7 @@ fn a_net_plots_what_moves_far_and_any_other_coordinate_that_is_chosen() {
     (0..90).for_each(|_| lab.tick());
     let coordinates = lab.race().truth().bodies()[0].coordinates();
     let chosen = coordinates.iter().position(|coordinate| &*coordinate.name == "x7").unwrap();
-    lab.apply(Command::Coordinate { body: 0, coordinate: chosen });
+    lab.apply(ViewCommand::Coordinate { body: 0, coordinate: chosen });
     assert_eq!(lab.race().tick(), 90);
     let table = csv(&lab).unwrap().concat();
     let rows: Vec<&str> = table.lines().filter(|line| line.contains(",x7,m,")).collect();
@@ -44,12 +45,12 @@ fn a_net_plots_what_moves_far_and_any_other_coordinate_that_is_chosen() {
     let sheet = sheet_of(&lab, Detail::Samples).unwrap();
     assert_eq!(sheet.plots[0].readouts(&sheet.roster, lab.race().t())[0].at[1], now);
     // To go back repeats the run as it was recorded.
-    lab.apply(Command::Seek(40));
-    lab.apply(Command::Seek(90));
+    lab.apply(RunCommand::Seek(40));
+    lab.apply(RunCommand::Seek(90));
     assert_eq!(csv(&lab).unwrap().concat(), table);
-    lab.apply(Command::Restart);
+    lab.apply(StageCommand::Restart);
     assert_eq!(named(&lab), "x7", "the choice stays with the scene");
-    lab.apply(Command::Instrument(Instrument::Phase));
+    lab.apply(StageCommand::Instrument(Instrument::Phase));
     assert_legible(&lab, "the phase portrait of a node");
     assert!(svg(&lab).unwrap().contains(">vx7, m/s<"));
 }
@@ -93,7 +94,7 @@ fn a_saved_picture_has_no_tabs_and_an_enlarged_instrument_has_the_room_of_the_ta
         (place("time t, s").unwrap().top(), place("Explain").unwrap().left())
     };
     let (before, tabs) = lowest(&lab);
-    lab.apply(Command::ToggleEnlarged);
+    lab.apply(ViewCommand::ToggleEnlarged);
     let (after, tabs_then) = lowest(&lab);
     assert!(after > before + 100.0, "{before} and {after}");
     assert!((tabs - tabs_then).abs() < 1.0, "the tabs stay: {tabs} and {tabs_then}");
