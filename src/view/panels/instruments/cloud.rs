@@ -42,7 +42,7 @@ const MIN_SIDE: f32 = 30.0;
 /// The size of the words beside a cloud, in points.
 const WORDS: f32 = 12.0;
 /// A cloud that is narrower than this, in points, has the number alone above it; a hover tells the rest.
-const ROOM_FOR_WORDS: f32 = 110.0;
+const ROOM_FOR_WORDS: f32 = 80.0;
 /// The width of the exact outline, in points.
 const OUTLINE: f32 = 1.1;
 /// An area that has grown or shrunk by more than this, as a power of ten, stretches no axis; and one axis shows at least
