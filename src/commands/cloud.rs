@@ -202,11 +202,12 @@ impl Run {
 
     fn step_to(&mut self, tick: u64, interrupted: &AtomicBool) -> bool {
         while self.cloud.tick() < tick && !interrupted.load(Ordering::Relaxed) {
+            let part = self.part.min(tick - self.cloud.tick());
             let begun = Instant::now();
-            self.cloud.advance(self.part.min(tick - self.cloud.tick()));
+            self.cloud.advance(part);
             let took = begun.elapsed();
             self.stepping += took;
-            self.part = if took < LOOKED_EVERY { self.part * 2 } else { self.part.div_ceil(2) };
+            self.part = if took < LOOKED_EVERY { part * 2 } else { part.div_ceil(2) };
         }
         self.cloud.tick() >= tick
     }

@@ -57,6 +57,16 @@ fn pictures_are_the_same_bytes_every_time_and_say_what_became_of_the_area() {
 }
 
 #[test]
+fn a_long_run_is_drawn_at_each_of_many_crossings_or_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    for out in ["--section 10 --out a.png", "--section 7.3 --out b.png", "--out c.gif"] {
+        let options = "cloud --scene kicked-rotor --method rk4 --points 20 --seconds 30";
+        let done = run_in(folder.path(), &format!("{options} {out}"));
+        assert!(done.status.success(), "{}", stderr(&done));
+    }
+}
+
+#[test]
 fn what_is_no_cloud_is_said_in_one_line() {
     for (options, why) in [
         (
