@@ -19,10 +19,11 @@ use super::output::table::{Column, RowFormat, write_rows};
 use super::output::{Destination, Output, STDOUT};
 use super::terminal::tell;
 use crate::atomic_file::IfExists;
+use crate::lab::cloud::Section;
 use crate::lab::number::{round, significant};
 use crate::lab::palette::{Rgba, Theme};
 use crate::lab::{
-    Cloud, CloudAxes, CloudMeasure, CloudShape, CloudStart, Coordinate, Density, ExactBorder,
+    Cloud, CloudAxes, CloudBorder, CloudMeasure, CloudShape, CloudStart, Coordinate, Density,
     LaneSpec, NoCloud, PlaneView, Scene, SceneBody, ShownTicks, USUAL_POINTS, Unit,
 };
 use crate::view::{Lettering, png};
@@ -171,31 +172,18 @@ struct Run {
     section: Option<Section>,
 }
 
-/// All points of a section so far.
-#[derive(Clone)]
-struct Section {
-    /// Of the drive, in ticks.
-    period: f64,
-    crossings: u64,
-    density: Density,
-}
-
 impl Run {
     /// Steps to a tick, and draws the points of a section at each crossing on the way; returns whether it came there before an
     /// interrupt.
     fn go_to(&mut self, tick: u64, interrupted: &AtomicBool) -> bool {
-        let next = |section: &Section| (section.crossings + 1) as f64 * section.period;
-        while let Some(at) = self.section.as_ref().map(next).filter(|at| at.ceil() <= tick as f64) {
+        let next = |run: &Self| run.section.as_ref().map(Section::next_crossing);
+        while let Some(at) = next(self).filter(|at| at.ceil() <= tick as f64) {
             if !self.step_to(at as u64, interrupted) {
                 return false;
             }
             let begun = Instant::now();
-            let [q, v] = self.cloud.states_at(at);
+            self.section.iter_mut().for_each(|section| section.cross(&mut self.cloud));
             self.stepping += begun.elapsed();
-            if let Some(section) = &mut self.section {
-                section.density.add(&q, &v);
-                section.crossings += 1;
-            }
         }
         self.step_to(tick, interrupted)
     }
@@ -327,8 +315,7 @@ fn make(
                 significant(period / f64::from(scene.tick_hz), 4)
             )));
         }
-        let density = Density::new([SIDE_PX; 2], view);
-        let section = Section { period, crossings: 0, density };
+        let section = Section::new(period, Density::new([SIDE_PX; 2], view));
         runs.iter_mut().for_each(|run| run.section = Some(section.clone()));
     }
     let paper = view.map(|view| Paper {
@@ -342,7 +329,7 @@ fn make(
         ),
     });
     let mut frames = Vec::new();
-    let mut border = ExactBorder::new(name, &*body, start, scene.tick_hz).map_err(no_cloud)?;
+    let mut border = CloudBorder::exact(name, &*body, start, scene.tick_hz).map_err(no_cloud)?;
     let every = match (form, strobe) {
         (Form::Rows | Form::Png, _) => ticks,
         (Form::Gif, None) => ticks.div_ceil(MAX_FRAMES),
@@ -408,7 +395,7 @@ impl Paper {
         let specs: Vec<LaneSpec> = runs.iter().map(|run| run.spec).collect();
         for (place, Run { spec, cloud, section, .. }) in runs.iter().enumerate() {
             let density = match section {
-                Some(section) => section.density.clone(),
+                Some(section) => section.density().clone(),
                 None => {
                     let mut density = Density::new([SIDE_PX; 2], *view);
                     density.add(cloud.q(), cloud.v());
@@ -425,7 +412,7 @@ impl Paper {
             let area = cloud.area_ratio();
             let ratio = area.map(|ratio| format!("area ×{}: ", significant(ratio, 3)));
             let words = match section {
-                Some(section) => format!("{} crossings", section.crossings),
+                Some(section) => format!("{} crossings", section.crossings()),
                 None => format!("{}{}", ratio.unwrap_or_default(), cloud.in_words(area)),
             };
             let name = spec.distinct_name(spec.method.name, &specs);

@@ -18,8 +18,7 @@ mod section;
 mod shape;
 
 pub use axes::{CloudAxes, ShownTicks};
-use border::Border;
-pub use border::ExactBorder;
+pub use border::CloudBorder;
 use course::{Course, Memory};
 pub use density::{Density, PlaneView};
 use lozenges::Lozenges;
@@ -28,6 +27,7 @@ pub use request::{
     CloudChoice, CloudKind, CloudPicture, CloudRequest, FoundCloud, LaneCloud, POINTS,
 };
 pub use running::CloudWorker;
+pub use section::Section;
 pub use shape::CloudShape;
 
 use super::lane::ESCAPE;
@@ -146,12 +146,13 @@ enum Area {
     /// The corners of the lozenges about some points.
     Lozenges(Course),
     /// All of it, where near points take steps of their own: the map is too rough for small areas.
-    Border(Border),
+    Border(CloudBorder),
 }
 
 /// The most sampled points, and the points of a cloud for each.
 const MAX_SAMPLES: usize = 256;
 const POINTS_TO_A_SAMPLE: usize = 16;
+
 impl Cloud {
     /// A cloud of `points` starts of `body`, named `name`, under a lane of a race at this tick rate.
     ///
@@ -179,8 +180,8 @@ impl Cloud {
         let shape = || start.shape.points(points).map(|point| start.state(point)).collect();
         let course = Course::new((name, body), (solver, memory), ticks, points, shape)?;
         let area = if is_adaptive {
-            let course = Border::new((name, body), (solver, memory), ticks, start, points)?;
-            Area::Border(course)
+            let border = CloudBorder::new((name, body), (solver, memory), ticks, start, points)?;
+            Area::Border(border)
         } else {
             let lozenges = Lozenges::new(samples, spec.method, is_linear, start.reach);
             let corners = || {
@@ -221,8 +222,8 @@ impl Cloud {
         }
     }
 
-    /// The coordinates and velocities of all points so many ticks after the start, which may fall between two: on the line
-    /// through their states then. The cloud is at the tick before that, or at the one after.
+    /// The coordinates and velocities of all points so many ticks after the start. Between two ticks they are on the line
+    /// through their states, and the cloud is at the later one then.
     pub fn states_at(&mut self, ticks: f64) -> [Vec<f64>; 2] {
         let part = ticks.fract();
         self.go_to(ticks as u64);

@@ -104,26 +104,26 @@ pub enum StageCommand {
     Method(&'static Method),
     /// Solo: switches to the method at this place of the lane list, from 0. Race: selects that lane.
     Pick(usize),
-    /// The method or lane beside on the list, cyclically.
+    /// The next or the previous method or lane on the list, cyclically.
     MethodBeside(Step),
     /// Solo to race, from the start line; race to solo, with the selected lane as it is.
     ToggleRace,
-    /// Pauses and goes one tick on or back.
+    /// Pauses and goes one tick forward or back.
     Tick(Step),
-    /// Pauses and goes one second on or back.
+    /// Pauses and goes one second forward or back.
     Second(Step),
     /// Back to tick 0, the bodies at their start and the script from its top. The method and the tick
     /// rate that a person chose stay; a script's do not.
     Restart,
     /// Sets the tick rate in Hz.
     TickHz(u32),
-    /// The rung above or below of [`TICK_LADDER`].
+    /// The next higher or lower rate of [`TICK_LADDER`].
     TickRate(Step),
-    /// The rung above or below of [`SPEED_LADDER`].
+    /// The next higher or lower speed of [`SPEED_LADDER`].
     Speed(Step),
     /// Opens the scene at this index of the [list](super::SceneList), from 0.
     Scene(usize),
-    /// The scene beside on the list, cyclically.
+    /// The next or the previous scene of the list, cyclically.
     SceneBeside(Step),
     /// Opens that spring as a scene, with advice on it.
     OpenSpring,
@@ -131,7 +131,7 @@ pub enum StageCommand {
     ToggleArrangement,
     /// Shows this instrument.
     Instrument(Instrument),
-    /// The instrument beside, cyclically.
+    /// The next or the previous instrument, cyclically.
     InstrumentBeside(Step),
     /// Shows the metric at this place of [`METRICS`](super::METRICS) in the error instrument.
     Metric(usize),
@@ -164,7 +164,7 @@ pub enum ViewCommand {
     ToggleGhost,
     /// The dark theme or the light one.
     ToggleTheme,
-    /// The size of type and panels above or below on [`SCALE_LADDER`].
+    /// The next larger or smaller size of type and panels of [`SCALE_LADDER`].
     Scale(Step),
     /// The usual size of type and panels.
     UsualScale,
@@ -220,7 +220,7 @@ pub enum ViewCommand {
     ToggleGuide,
     /// Opens this stop of the guide, from 0.
     GoToStop(usize),
-    /// Opens the stop of the guide beside, if the guide is open and has one.
+    /// Opens the next or the previous stop of the guide, if the guide is open and has one.
     StopBeside(Step),
     /// Predicts this choice of the guide's stop, from 0.
     Predict(usize),

@@ -72,8 +72,8 @@ pub use analysis::{
 pub use appearance::Appearance;
 pub use chase::Chase;
 pub use cloud::{
-    Cloud, CloudAxes, CloudChoice, CloudKind, CloudMeasure, CloudPicture, CloudShape, CloudStart,
-    CloudWorker, Density, ExactBorder, LaneCloud, NoCloud, POINTS, PlaneView, ShownTicks,
+    Cloud, CloudAxes, CloudBorder, CloudChoice, CloudKind, CloudMeasure, CloudPicture, CloudShape,
+    CloudStart, CloudWorker, Density, LaneCloud, NoCloud, POINTS, PlaneView, ShownTicks,
     USUAL_POINTS,
 };
 pub use command::{

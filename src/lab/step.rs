@@ -1,6 +1,6 @@
-//! A step to what is beside on a list or a ladder.
+//! A step to the next or the previous of a list, or of a ladder of numbers.
 
-/// Which of the two beside on a list, or on a ladder of numbers.
+/// A step along a list, or along a ladder of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
     /// The next, or the next higher.
@@ -10,7 +10,7 @@ pub enum Step {
 }
 
 impl Step {
-    /// 1, or -1 for the one before.
+    /// 1 to the next, -1 to the previous.
     pub(super) fn sign(self) -> i64 {
         match self {
             Self::Next => 1,
@@ -18,7 +18,7 @@ impl Step {
         }
     }
 
-    /// The index beside on a list that goes round.
+    /// The index that it leads to on a list that goes round.
     pub(super) fn around(self, index: usize, count: usize) -> usize {
         match self {
             Self::Next => (index + 1) % count,
@@ -26,7 +26,7 @@ impl Step {
         }
     }
 
-    /// The other way.
+    /// The step the other way.
     pub(super) fn other(self) -> Self {
         match self {
             Self::Next => Self::Previous,
@@ -34,7 +34,7 @@ impl Step {
         }
     }
 
-    /// The rung beside on a ladder; `None` at its end.
+    /// The rung that it leads to; `None` at the end of the ladder.
     pub(super) fn along(self, ladder: &[u32], rung: u32) -> Option<u32> {
         match self {
             Self::Next => ladder.iter().copied().find(|&other| other > rung),

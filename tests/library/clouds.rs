@@ -3,8 +3,8 @@
 use rayon::ThreadPoolBuilder;
 use regatta::lab::palette::Theme;
 use regatta::lab::{
-    Cloud, CloudChoice, CloudKind, CloudPicture, CloudShape, CloudStart, CloudWorker, Command,
-    Density, ExactBorder, Instrument, Lab, LaneSpec, NoCloud, PlaneView, RunCommand, Scene,
+    Cloud, CloudBorder, CloudChoice, CloudKind, CloudPicture, CloudShape, CloudStart, CloudWorker,
+    Command, Density, Instrument, Lab, LaneSpec, NoCloud, PlaneView, RunCommand, Scene,
     StageCommand,
 };
 use regatta::sim::integrators::method;
@@ -90,7 +90,7 @@ fn an_adaptive_method_keeps_area_also_where_the_force_has_kinks_and_near_points_
         for (scene, ticks) in [("bouncing-bungee", 300), ("duffing", 300), ("pendulum", 60)] {
             let body = body(scene);
             let start = CloudStart::about("it", &*body, CloudShape::Disc, None).unwrap();
-            let mut exact = ExactBorder::new("it", &*body, start, 60).unwrap();
+            let mut exact = CloudBorder::exact("it", &*body, start, 60).unwrap();
             let mut cloud = cloud(scene, id, CloudShape::Disc, 4000, 60);
             exact.go_to(ticks);
             cloud.advance(ticks);
@@ -148,7 +148,7 @@ fn a_body_of_two_coordinates_has_no_cloud() {
 fn an_accurate_method_fills_the_exact_border_and_a_picture_shows_every_point() {
     let body = body("pendulum");
     let start = CloudStart::about("it", &*body, CloudShape::Disc, Some(0.2)).unwrap();
-    let mut border = ExactBorder::new("it", &*body, start, 60).unwrap();
+    let mut border = CloudBorder::exact("it", &*body, start, 60).unwrap();
     let mut cloud = cloud("pendulum", "pefrl", CloudShape::Disc, 900, 60);
     border.go_to(30);
     cloud.advance(0);

@@ -1,6 +1,6 @@
 //! What part of the phase plane a run of clouds is shown on: found by a few points that run ahead.
 
-use super::{Cloud, CloudStart, ExactBorder, NoCloud, PlaneView};
+use super::{Cloud, CloudBorder, CloudStart, NoCloud, PlaneView};
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::Stepper;
 
@@ -66,7 +66,7 @@ impl CloudAxes {
         tick_hz: u32,
         shown: ShownTicks,
     ) -> Result<Self, NoCloud> {
-        let mut border = ExactBorder::of_points(BORDER_SCOUTS, name, body, start, tick_hz)?;
+        let mut border = CloudBorder::exact_of_points(BORDER_SCOUTS, name, body, start, tick_hz)?;
         let scouts = specs.iter().map(|spec| Cloud::new(name, body, spec, start, SCOUTS, tick_hz));
         let mut scouts = scouts.collect::<Result<Vec<_>, _>>()?;
         let (mut exact, mut others) = (Vec::new(), Vec::new());

@@ -13,12 +13,13 @@ const MIN_POINTS: usize = 90;
 /// The tolerance of the exact border: far below a pixel.
 const TOLERANCE: f64 = 1e-9;
 
-/// A border says nothing of its area if every other point gives another one than all, by more than this part of it: it is finer
-/// than its points, or than what the tolerance of its method leaves undone. All points are four times nearer to the truth.
+/// The area within a border is not known if that within every other of its points differs by more than this part of it: the
+/// shape is then finer than the points can show, or than the tolerance of the method resolves. The error is about a third of
+/// the difference.
 const ROUGH: f64 = 5e-3;
 
-/// A border, and the area within.
-pub(super) struct Border {
+/// The border of a cloud, and the area within.
+pub struct CloudBorder {
     course: Course,
     /// The points of each line.
     lengths: Vec<usize>,
@@ -26,8 +27,34 @@ pub(super) struct Border {
     areas_at_start: [f64; 2],
 }
 
-impl Border {
-    /// The border at the start of a cloud of so many points.
+impl CloudBorder {
+    /// The border of a cloud that moves exactly, at the start: it is stepped by a method of high order to a tolerance that no
+    /// picture shows.
+    ///
+    /// # Errors
+    /// As [`Cloud::new`](super::Cloud::new).
+    pub fn exact(
+        name: &str,
+        body: &dyn Stepper,
+        start: CloudStart,
+        tick_hz: u32,
+    ) -> Result<Self, NoCloud> {
+        Self::exact_of_points(POINTS, name, body, start, tick_hz)
+    }
+
+    pub(super) fn exact_of_points(
+        points: usize,
+        name: &str,
+        body: &dyn Stepper,
+        start: CloudStart,
+        tick_hz: u32,
+    ) -> Result<Self, NoCloud> {
+        let method = method("dormand-prince-54").expect("a method of the table");
+        let solver = (Solver::With(method, Override::tolerance(TOLERANCE)), Memory::Dropped);
+        Self::new((name, body), solver, start.ticks(tick_hz, 1), start, points)
+    }
+
+    /// The border of a cloud of so many points under a solver, at the start.
     pub(super) fn new(
         body: (&str, &dyn Stepper),
         solver: (Solver, Memory),
@@ -46,22 +73,24 @@ impl Border {
     }
 
     /// The same border, which keeps states of earlier ticks to go back to.
-    pub(super) fn rewindable(self) -> Self {
+    pub fn rewindable(self) -> Self {
         Self { course: self.course.rewindable(), ..self }
     }
 
-    pub(super) fn go_to(&mut self, tick: u64) {
+    /// Moves it to a tick, as [`Cloud::go_to`](super::Cloud::go_to).
+    pub fn go_to(&mut self, tick: u64) {
         self.course.go_to(tick);
     }
 
-    /// The area over that at the start; `None` where the border says nothing of it.
-    pub(super) fn area_ratio(&self) -> Option<f64> {
+    /// The area over that at the start; `None` where it is not known.
+    pub fn area_ratio(&self) -> Option<f64> {
         let (now, at_start) = (self.areas(), self.areas_at_start);
         let [ratio, of_half] = [0, 1].map(|i| now[i] / at_start[i]);
         ((ratio - of_half).abs() <= ROUGH * ratio).then_some(ratio)
     }
 
-    fn lines(&self) -> Vec<Vec<[f64; 2]>> {
+    /// The lines, of coordinates and velocities. The first is around all, and the others are around its holes.
+    pub fn lines(&self) -> Vec<Vec<[f64; 2]>> {
         let mut states = self.course.q().iter().zip(self.course.v()).map(|(&q, &v)| [q, v]);
         self.lengths.iter().map(|&length| states.by_ref().take(length).collect()).collect()
     }
@@ -84,55 +113,5 @@ impl Border {
         let mut areas = self.lines().into_iter().map(around);
         let whole = areas.next().unwrap_or(0.0);
         areas.fold(whole, |area, hole| area - hole)
-    }
-}
-
-/// The border of a cloud that moves exactly: by a method of high order to a tolerance that no picture shows.
-pub struct ExactBorder(Border);
-
-impl ExactBorder {
-    /// The border at the start.
-    ///
-    /// # Errors
-    /// As [`Cloud::new`](super::Cloud::new).
-    pub fn new(
-        name: &str,
-        body: &dyn Stepper,
-        start: CloudStart,
-        tick_hz: u32,
-    ) -> Result<Self, NoCloud> {
-        Self::of_points(POINTS, name, body, start, tick_hz)
-    }
-
-    pub(super) fn of_points(
-        points: usize,
-        name: &str,
-        body: &dyn Stepper,
-        start: CloudStart,
-        tick_hz: u32,
-    ) -> Result<Self, NoCloud> {
-        let method = method("dormand-prince-54").expect("a method of the table");
-        let solver = (Solver::With(method, Override::tolerance(TOLERANCE)), Memory::Dropped);
-        Border::new((name, body), solver, start.ticks(tick_hz, 1), start, points).map(Self)
-    }
-
-    /// The same border, which keeps states of earlier ticks to go back to.
-    pub fn rewindable(self) -> Self {
-        Self(self.0.rewindable())
-    }
-
-    /// Moves it to a tick, as [`Cloud::go_to`](super::Cloud::go_to).
-    pub fn go_to(&mut self, tick: u64) {
-        self.0.go_to(tick);
-    }
-
-    /// The lines, of coordinates and velocities. The first is around all, and the others are around its holes.
-    pub fn lines(&self) -> Vec<Vec<[f64; 2]>> {
-        self.0.lines()
-    }
-
-    /// The area over that at the start; `None` where the border says nothing of it.
-    pub fn area_ratio(&self) -> Option<f64> {
-        self.0.area_ratio()
     }
 }

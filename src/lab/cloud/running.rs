@@ -8,8 +8,8 @@ use std::sync::Arc;
 use super::request::{GRID, Request, cost};
 use super::section::SectionRun;
 use super::{
-    Cloud, CloudAxes, CloudKind, CloudPicture, CloudRequest, CloudShape, CloudStart, Density,
-    ExactBorder, FoundCloud, LaneCloud, NoCloud, ShownTicks,
+    Cloud, CloudAxes, CloudBorder, CloudKind, CloudPicture, CloudRequest, CloudShape, CloudStart,
+    Density, FoundCloud, LaneCloud, NoCloud, ShownTicks,
 };
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::race::Race;
@@ -113,7 +113,7 @@ struct Run<C> {
 /// The clouds of all lanes on their way.
 struct CloudRun {
     lanes: Vec<(usize, Run<Cloud>)>,
-    exact: Run<ExactBorder>,
+    exact: Run<CloudBorder>,
     axes: CloudAxes,
     start: CloudStart,
     tick_hz: u32,
@@ -134,7 +134,7 @@ impl CloudRun {
             Ok((*entry, Run { cloud, areas: Vec::new() }))
         };
         let runs = lanes.iter().map(new).collect::<Result<Vec<_>, NoCloud>>()?;
-        let border = ExactBorder::new(name, body, start, tick_hz)?.rewindable();
+        let border = CloudBorder::exact(name, body, start, tick_hz)?.rewindable();
         let ticks = |seconds: f64| ((seconds * f64::from(tick_hz)) as u64).max(1);
         let specs: Vec<LaneSpec> = lanes.iter().map(|(_, spec)| *spec).collect();
         let long = ticks(seconds.min(ShownTicks::LONGEST_S));

@@ -23,20 +23,57 @@ const MAX_TRIED: f64 = 20_000.0;
 const MOMENTS: u64 = 48;
 const ROUNDING: f64 = 1e-6;
 
+/// A section: the places of all points of a cloud at each crossing so far.
+#[derive(Clone)]
+pub struct Section {
+    /// From one crossing to the next, in ticks.
+    period: f64,
+    crossings: u64,
+    density: Density,
+}
+
+impl Section {
+    /// A section without crossings yet. They come once in each `period` (ticks, above 0) after the start, and are counted in
+    /// `density`.
+    pub fn new(period: f64, density: Density) -> Self {
+        Self { period, crossings: 0, density }
+    }
+
+    /// The number of crossings so far.
+    pub fn crossings(&self) -> u64 {
+        self.crossings
+    }
+
+    /// The points of all crossings.
+    pub fn density(&self) -> &Density {
+        &self.density
+    }
+
+    /// When the next crossing is, in ticks since the start.
+    pub fn next_crossing(&self) -> f64 {
+        (self.crossings + 1) as f64 * self.period
+    }
+
+    /// Steps a cloud to the next crossing, and counts its points.
+    pub fn cross(&mut self, cloud: &mut Cloud) {
+        let [q, v] = cloud.states_at(self.next_crossing());
+        self.crossings += 1;
+        self.density.add(&q, &v);
+    }
+}
+
 /// The sections of all lanes on their way.
 pub(super) struct SectionRun {
     lanes: Vec<SectionLane>,
     axes: CloudAxes,
-    /// The period of the drive in ticks; 1 without a drive.
-    period: f64,
     strobe: String,
 }
 
 struct SectionLane {
     entry: usize,
     cloud: Cloud,
-    density: Density,
-    crossings: u64,
+    section: Section,
+    /// How many crossings.
     wanted: u64,
 }
 
@@ -52,6 +89,7 @@ impl SectionRun {
         let specs: Vec<_> = lanes.iter().map(|(_, spec)| *spec).collect();
         let axes = CloudAxes::of_run(name, body, start, &specs, tick_hz, shown.into())?;
         let drive = period(body, start.middle, seconds, tick_hz);
+        // Without a drive, each tick.
         let period = drive.map_or(1.0, |seconds| seconds * f64::from(tick_hz));
         let strobe = match drive {
             Some(seconds) => format!("once in the drive's period of {} s", significant(seconds, 4)),
@@ -61,32 +99,33 @@ impl SectionRun {
             let cloud = Cloud::new(name, body, spec, start, STARTS, tick_hz)?;
             let work = (cost(spec) * STARTS as u64) as f64 * period;
             let wanted = ((WORK as f64 / work) as u64).clamp(1, MAX_CROSSINGS);
-            let density = Density::new([GRID; 2], axes.whole);
-            Ok(SectionLane { entry: *entry, cloud, density, crossings: 0, wanted })
+            let section = Section::new(period, Density::new([GRID; 2], axes.whole));
+            Ok(SectionLane { entry: *entry, cloud, section, wanted })
         };
         let lanes = lanes.iter().map(lane).collect::<Result<_, NoCloud>>()?;
-        Ok(Self { lanes, axes, period, strobe })
+        Ok(Self { lanes, axes, strobe })
     }
 
     pub(super) fn is_done(&self) -> bool {
-        self.lanes.iter().all(|lane| lane.crossings == lane.wanted)
+        self.lanes.iter().all(|lane| lane.section.crossings == lane.wanted)
     }
 
     /// Takes every lane through a part of its crossings.
     pub(super) fn work(&mut self) {
         for lane in &mut self.lanes {
-            let part = lane.wanted.div_ceil(PARTS);
-            (0..part.min(lane.wanted - lane.crossings)).for_each(|_| lane.cross(self.period));
+            let SectionLane { cloud, section, wanted, .. } = lane;
+            let part = wanted.div_ceil(PARTS);
+            (0..part.min(*wanted - section.crossings)).for_each(|_| section.cross(cloud));
         }
     }
 
     pub(super) fn picture(&self) -> CloudPicture {
         let lane = |lane: &SectionLane| LaneCloud {
             entry: lane.entry,
-            density: lane.density.clone().into(),
+            density: lane.section.density.clone().into(),
             lost: STARTS - lane.cloud.points_left(),
             area_ratio: None,
-            words: format!("{STARTS} starts, {} times", lane.crossings),
+            words: format!("{STARTS} starts, {} times", lane.section.crossings),
             measured: self.strobe.clone(),
             areas: Vec::new(),
         };
@@ -98,15 +137,6 @@ impl SectionRun {
             exact: Vec::new(),
             lanes: self.lanes.iter().map(lane).collect(),
         }
-    }
-}
-
-impl SectionLane {
-    /// Steps to the next crossing.
-    fn cross(&mut self, period: f64) {
-        self.crossings += 1;
-        let [q, v] = self.cloud.states_at(self.crossings as f64 * period);
-        self.density.add(&q, &v);
     }
 }
 
