@@ -310,6 +310,16 @@ fn a_frequency_error_is_told_where_it_stays_the_same() {
 }
 
 #[test]
+fn what_a_late_kick_starts_has_grown_since_the_kick_only() {
+    let at_rest = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 36\nx0_m = 0";
+    let kicked = scene(20.0, &format!("{at_rest}\n[[command]]\ntick = 900\nkick = 1.0"));
+    let found = verdict(&kicked, "improved-euler", 30).comparison().unwrap().energy_change.unwrap();
+    // Improved Euler multiplies the energy of a spring by 1 + (ω h)⁴/4 in each step.
+    let wanted = f64::powi(1.0 + f64::powi(6.0 / 30.0, 4) / 4.0, 5 * 30) - 1.0;
+    assert!((found / wanted - 1.0).abs() < 1e-6, "{found}, not {wanted}");
+}
+
+#[test]
 fn a_frequency_error_is_that_of_a_step_however_often_the_body_turns_in_a_tick() {
     // 100 rad/s: a turn and a half in a tick, a fortieth of one in a step.
     let scene = scene(20.0, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 10000");

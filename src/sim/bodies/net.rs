@@ -4,6 +4,7 @@
 //! the plan: first those to free nodes, then those to fixed ones. That order is part of the definition, so that a
 //! large grid, whose nodes are summed side by side, has the bits of the same net given as lists.
 
+use std::array::from_fn;
 use std::sync::Arc;
 
 use super::prelude::*;
@@ -212,6 +213,7 @@ impl Net {
         sums: &mut [[f64; 2]],
     ) {
         let Springs { shared, rest, constants, .. } = &*self.springs;
+        let at = |node: usize| from_fn(|n| vectors[n][node]);
         let of_anchors = match &self.frame.layout {
             Layout::Rows(rows) => {
                 rows.sum(forces, (*shared, rest), vectors, sums);
@@ -219,13 +221,12 @@ impl Net {
             }
             Layout::Arrays(arrays) => {
                 for (node, sum) in sums.iter_mut().enumerate() {
-                    *sum = forces.on_node(vectors.map(|vector| vector[node]));
+                    *sum = forces.on_node(at(node));
                 }
                 let (inner, outer) = constants.split_at(arrays.ends.len());
                 for ([i, j], constants) in arrays.ends.iter().zip(inner) {
                     let (i, j) = (*i as usize, *j as usize);
-                    let [from, to] = [i, j].map(|node| vectors.map(|vector| vector[node]));
-                    let f = forces.along(constants, from, to);
+                    let f = forces.along(constants, at(i), at(j));
                     sums[i] = [sums[i][0] + f[0], sums[i][1] + f[1]];
                     sums[j] = [sums[j][0] - f[0], sums[j][1] - f[1]];
                 }
@@ -237,7 +238,7 @@ impl Net {
         for ((i, anchor), constants) in self.frame.anchors.iter().zip(of_anchors) {
             let i = *i as usize;
             to[0] = *anchor;
-            let f = forces.along(constants, vectors.map(|vector| vector[i]), to);
+            let f = forces.along(constants, at(i), to);
             sums[i] = [sums[i][0] + f[0], sums[i][1] + f[1]];
         }
     }

@@ -4,6 +4,7 @@
 //! After FreeBSD's `e_pow.c`, Copyright (C) 2004 by Sun Microsystems, Inc. All rights reserved. Permission to use, copy,
 //! modify, and distribute this software is freely granted, provided that this notice is preserved.
 
+use std::array::from_fn;
 use std::f64::consts::LN_2;
 
 /// The numbers to the power of one exponent each.
@@ -11,10 +12,10 @@ use std::f64::consts::LN_2;
 pub(super) fn powers<const W: usize>(x: &[f64; W], y: &[f64; W]) -> [f64; W] {
     let exponent = y[0];
     if exponent == 2.0 && *y == [2.0; W] {
-        return x.map(|x| x * x);
+        return from_fn(|i| x[i] * x[i]);
     }
     let Some(usual) = Exponent::of(exponent).filter(|_| *y == [exponent; W]) else {
-        return std::array::from_fn(|i| libm::pow(x[i], y[i]));
+        return from_fn(|i| libm::pow(x[i], y[i]));
     };
     let (mut powers, mut are_usual) = ([0.0; W], [0_u64; W]);
     for i in 0..W {
@@ -227,7 +228,7 @@ mod tests {
         for round in 0..3000 {
             let y =
                 if round % 2 == 0 { 8.0 * dice.next() } else { exponents[round % exponents.len()] };
-            let x: [f64; 8] = std::array::from_fn(|i| match (round + i) % 5 {
+            let x: [f64; 8] = from_fn(|i| match (round + i) % 5 {
                 0 => bases[(round + i) % bases.len()],
                 1 => 1.0 + 1e-6 * dice.next(),
                 2 => 100.0 * dice.next().abs(),

@@ -254,14 +254,14 @@ impl Tape {
         mut switched: impl FnMut(Switch, f64, f64, Option<&Curve>) -> f64,
     ) {
         for instruction in instructions {
-            let [a, b, c] = instruction.operands.map(|slot| &slots[slot as usize]);
+            let [a, b, c] = from_fn(|n| &slots[instruction.operands[n] as usize]);
             let to = instruction.to as usize;
             let is_alike = alike.get(to).copied().unwrap_or(false);
             let called = |value: fn(f64, f64) -> f64| {
                 if is_alike { [value(a[0], b[0]); W] } else { from_fn(|i| value(a[i], b[i])) }
             };
             let value = match instruction.op {
-                Op::Negate => a.map(|a| -a),
+                Op::Negate => from_fn(|i| -a[i]),
                 Op::Add => from_fn(|i| a[i] + b[i]),
                 Op::Subtract => from_fn(|i| a[i] - b[i]),
                 Op::Multiply | Op::And => from_fn(|i| a[i] * b[i]),
@@ -269,7 +269,7 @@ impl Tape {
                 Op::Power if W > 1 && !is_alike => powers(a, b),
                 Op::Power => called(libm::pow),
                 Op::Or => from_fn(|i| f64::from(u8::from(a[i] + b[i] > 0.0))),
-                Op::Not => a.map(|a| 1.0 - a),
+                Op::Not => from_fn(|i| 1.0 - a[i]),
                 Op::If => from_fn(|i| if a[i] == 1.0 { b[i] } else { c[i] }),
                 Op::Smooth(smooth) => called(smooth.value),
                 Op::Switch(switch) => {
