@@ -36,16 +36,18 @@ for each method:
   points            the starts that have not blown up
   area_ratio        the area over that at the start: on a linear body by the determinant of the
                     method's map, elsewhere by those about up to 256 points, and under an adaptive
-                    method by the border; empty where no point is left, or the cloud is drawn out
-                    too finely
-  spread            the root mean square distance from the middle, over that at the start
+                    method by the border; empty where no point is left, or the cloud is too fine,
+                    folded or torn for its points to tell
+  spread            the root mean square distance from the middle, over that at the start; empty of
+                    a single point
   body_steps_per_s  measured here and now
   hash              of all states, to the bit: the same for any number of threads
 
 A picture has the methods side by side on the same axes, brighter where more points are, the exact
 cloud in white outline; the rows then go to standard output. --section draws the points at each
 period of a drive only, one over the other: a section after Poincaré. A crossing between two ticks
-is on the line through their states.
+is on the line through their states. The clouds of the window reach twice as far as these do
+without --size, since they are seen small.
 
 Examples:
   regatta cloud --scene pendulum --out pendulum.png
@@ -260,7 +262,8 @@ struct Made {
 
 /// A row of the table.
 struct Row {
-    method: &'static str,
+    /// Its id, with what tells it from other rows of the same method.
+    method: String,
     measure: CloudMeasure,
     body_steps_per_s: f64,
 }
@@ -287,6 +290,7 @@ fn make(
     let start = CloudStart::about(name, &*body, args.shape, args.size);
     let start = start.map_err(no_cloud)?;
     let points = args.points as usize;
+    Cloud::find_room(points, specs).map_err(no_cloud)?;
     let cloud = |spec: &LaneSpec| {
         let cloud = Cloud::new(name, &*body, spec, start, points, scene.tick_hz);
         let part = 1;
@@ -295,6 +299,12 @@ fn make(
     let mut runs = specs.iter().map(cloud).collect::<Result<Vec<_>, _>>().map_err(no_cloud)?;
     let seconds = args.seconds.unwrap_or(scene.seconds.min(USUAL_SECONDS));
     let ticks = ((seconds * f64::from(scene.tick_hz)).round() as u64).max(1);
+    if let Some(period) = strobe.filter(|&period| period > ticks as f64) {
+        return Err(Error::mistake(format!(
+            "no crossing within {seconds} s; give --seconds more than a period of --section, {} s",
+            significant(period / f64::from(scene.tick_hz), 4)
+        )));
+    }
     // The first part of a long run is as wide as the rest.
     let long = ticks.min(LONGEST_SCOUTED_S * u64::from(scene.tick_hz));
     let shown = match (form, strobe) {
@@ -309,12 +319,6 @@ fn make(
         }
     };
     if let (Some(view), Some(period)) = (view, strobe) {
-        if period > ticks as f64 {
-            return Err(Error::mistake(format!(
-                "no crossing within {seconds} s; give --seconds more than a period of --section, {} s",
-                significant(period / f64::from(scene.tick_hz), 4)
-            )));
-        }
         let section = Section::new(period, Density::new([SIDE_PX; 2], view));
         runs.iter_mut().for_each(|run| run.section = Some(section.clone()));
     }
@@ -356,7 +360,7 @@ fn make(
         frames.push(paper.picture(&runs, t, &lines));
     }
     let size_px = paper.map_or([0; 2], |paper| paper.size_px.map(|pixels| pixels as u32));
-    let rows = runs.iter().map(|run| row(run, points, ticks, form)).collect();
+    let rows = runs.iter().map(|run| row(run, specs, points, ticks, form)).collect();
     Ok(Made { rows, size_px, frames })
 }
 
@@ -433,9 +437,10 @@ impl Paper {
 }
 
 /// A method's row; tells what has become of its area in words.
-fn row(Run { spec, cloud, stepping, .. }: &Run, points: usize, ticks: u64, form: Form) -> Row {
+fn row(run: &Run, specs: &[LaneSpec], points: usize, ticks: u64, form: Form) -> Row {
+    let Run { spec, cloud, stepping, .. } = run;
     let measure = cloud.measure();
-    let method = spec.method.id;
+    let method = spec.distinct_name(spec.method.id, specs);
     let lost = points - measure.points;
     let lost = match lost {
         0 => String::new(),

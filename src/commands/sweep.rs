@@ -44,7 +44,7 @@ One row for each scene, body, method and tick rate, in that order whatever the n
   ns_per_s              nanoseconds per simulated second, measured here and now, one run at a
                         time
   verdict               rounding, accurate, out-of-phase, loses-energy, gains-energy, blew-up,
-                        gave-up, no-truth or not-judged; in JSON an object with that as its kind
+                        gave-up, no-truth or not-judged; in JSON an object with that as its word
   halted                why, if it blew up or gave up: a method that blows up is a row like others
   half_life_ms          the time in which a follower covers half of the way to a target that
                         stays; empty where it does not, and of other bodies

@@ -3,7 +3,7 @@
 //! A method is a map of the phase plane. What it does to an area is its character: it keeps it, spreads it, shrinks it or
 //! tears it.
 
-use crate::sim::batch::Ticks;
+use crate::sim::batch::{Batch, Ticks};
 use crate::sim::integrators::Family;
 use crate::sim::{State, Stepper};
 
@@ -56,7 +56,7 @@ pub enum NoCloud {
         /// Its name.
         body: String,
     },
-    /// The points do not fit into memory.
+    /// The points do not fit into memory under all methods at once.
     #[error("{points} points do not fit into memory; give fewer")]
     TooMany {
         /// How many.
@@ -154,6 +154,18 @@ const MAX_SAMPLES: usize = 256;
 const POINTS_TO_A_SAMPLE: usize = 16;
 
 impl Cloud {
+    /// Whether memory suffices for a cloud of `points` under each of these lanes at once. Allocates nothing.
+    ///
+    /// # Errors
+    /// [`NoCloud::TooMany`] if it does not.
+    pub fn find_room<'s>(
+        points: usize,
+        specs: impl IntoIterator<Item = &'s LaneSpec>,
+    ) -> Result<(), NoCloud> {
+        let solvers = specs.into_iter().map(LaneSpec::solver);
+        Batch::find_room(points, solvers).map_err(|_| NoCloud::TooMany { points })
+    }
+
     /// A cloud of `points` starts of `body`, named `name`, under a lane of a race at this tick rate.
     ///
     /// # Errors
@@ -299,7 +311,8 @@ impl Cloud {
     pub fn in_words(&self, area_ratio: Option<f64>) -> String {
         let Some(ratio) = area_ratio else {
             let is_lost = self.present().next().is_none();
-            return if is_lost { "is lost" } else { "is drawn out too finely to measure" }.into();
+            return if is_lost { "is lost" } else { "is too fine, folded or torn to measure" }
+                .into();
         };
         let seconds = self.course.t() - self.start.t;
         let change = libm::log(ratio);

@@ -38,6 +38,11 @@ impl Halt {
     pub fn is_blow_up(&self) -> bool {
         matches!(self.failure, StepFailure::Escaped { .. } | StepFailure::NotFinite { .. })
     }
+
+    /// How the body ended: `blew up` or `gave up`.
+    pub fn how(&self) -> &'static str {
+        if self.is_blow_up() { "blew up" } else { "gave up" }
+    }
 }
 
 /// A halted body that goes on because its lane was switched to another method.

@@ -43,8 +43,7 @@ impl Observer for Notices<'_> {
 impl Halt {
     /// What became of the body, and when: `blew up at 8.4 s`.
     pub fn fate(&self) -> String {
-        let fate = if self.is_blow_up() { "blew up" } else { "gave up" };
-        format!("{fate} at {}", duration(self.t))
+        format!("{} at {}", self.how(), duration(self.t))
     }
 }
 

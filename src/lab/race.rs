@@ -8,6 +8,7 @@ use super::lane::{Halt, Lane};
 use super::lane_id::LaneId;
 use super::lane_spec::LaneSpec;
 use super::scene::{Scene, Scripted};
+use super::time_scale::Piece;
 use crate::sim::Solver;
 
 pub(super) use hash::Fnv;
@@ -63,9 +64,8 @@ pub struct Race {
     throttle: f64,
     rudder: f64,
     tick: u64,
-    tick_hz: u32,
-    /// The tick and the time (s) at which the present tick rate was set. Time is counted from there, never summed.
-    origin: (u64, f64),
+    /// The ticks since the present tick rate was set. Time is counted from there, never summed.
+    piece: Piece,
     /// The length of the last tick, in seconds.
     last_step_s: f64,
     journal: Journal,
@@ -125,8 +125,7 @@ impl Race {
             throttle: 1.0,
             rudder: 0.0,
             tick: 0,
-            tick_hz: scene.tick_hz,
-            origin: (0, 0.0),
+            piece: Piece { tick: 0, t: 0.0, tick_hz: scene.tick_hz },
             last_step_s: 0.0,
             journal: Journal::default(),
             done: 0,
@@ -149,7 +148,7 @@ impl Race {
 
     /// The same race at its start, at this tick rate.
     pub(super) fn at_rate(self, tick_hz: u32) -> Self {
-        Self { tick_hz, ..self }
+        Self { piece: Piece { tick_hz, ..self.piece }, ..self }
     }
 
     /// Whether there is one lane, which is switched from method to method, or one for each method.
@@ -162,11 +161,11 @@ impl Race {
     }
     /// The tick rate in Hz.
     pub fn tick_hz(&self) -> u32 {
-        self.tick_hz
+        self.piece.tick_hz
     }
     /// The time reached, in seconds.
     pub fn t(&self) -> f64 {
-        self.origin.1 + (self.tick - self.origin.0) as f64 / f64::from(self.tick_hz)
+        self.piece.t(self.tick)
     }
     /// The length of the last tick in seconds, at whatever rate it was; 0 at the start.
     pub fn last_step_s(&self) -> f64 {
@@ -254,7 +253,7 @@ impl Race {
     /// Like [`Race::step`], with an observer.
     pub fn step_seen(&mut self, observer: &mut impl Observer) {
         self.catch_up(observer);
-        let (t, h) = (self.t(), 1.0 / f64::from(self.tick_hz));
+        let (t, h) = (self.t(), 1.0 / f64::from(self.tick_hz()));
         self.truth.tick(self.tick, t, h);
         for entrant in &mut self.entrants {
             entrant.lane.tick(self.tick, t, h);

@@ -35,7 +35,7 @@ mod table;
 mod wanted;
 mod writer;
 
-pub use edit::{EditError, edited_values, parameter_named};
+pub use edit::{EditError, edited_values};
 pub use errors::{MAX_SHOWN, Mistake, SceneError, SceneErrors};
 pub use known::{SceneKey, scene_tables};
 pub use nearest::nearest;
@@ -224,7 +224,7 @@ impl Scene {
     pub fn built_in(name: &str) -> Option<Scene> {
         let BuiltIn { name, text } = SCENES.iter().find(|scene| scene.name == name)?;
         let scene = Scene::parse(name, text);
-        Some(scene.expect("tests/scenes parses every built-in scene"))
+        Some(scene.expect("tests/library/scenes parses every built-in scene"))
     }
 }
 

@@ -15,14 +15,15 @@ pub struct TimeScale {
 
 /// Consecutive ticks of one rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Piece {
-    tick: u64,
-    t: f64,
-    tick_hz: u32,
+pub(super) struct Piece {
+    pub(super) tick: u64,
+    pub(super) t: f64,
+    pub(super) tick_hz: u32,
 }
 
 impl Piece {
-    fn t(self, tick: u64) -> f64 {
+    /// The time of a tick, in seconds.
+    pub(super) fn t(self, tick: u64) -> f64 {
         self.t + (tick - self.tick) as f64 / f64::from(self.tick_hz)
     }
 }

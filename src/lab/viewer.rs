@@ -137,6 +137,17 @@ impl Viewer {
         }
     }
 
+    /// The same person before another scene, with this lane selected: what was chosen stays, and the guide that is open.
+    pub(super) fn before_next_scene(&mut self, selected: LaneId) -> Self {
+        Self {
+            preferences: self.preferences.clone(),
+            pace: self.pace,
+            hints: self.hints.of_next_scene(),
+            tour: self.tour.take(),
+            ..Self::new(selected)
+        }
+    }
+
     /// The place in the list of the lane that the pointer or the keyboard's focus is on, if it is on one.
     pub fn pointed_lane(&self) -> Option<usize> {
         self.pointed

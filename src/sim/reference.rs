@@ -216,7 +216,7 @@ impl<V: Vector> Reference<V> {
     }
 }
 
-/// For claims of custom bodies, which are checked within a budget.
+/// For claims of laws and custom bodies, which are checked within a budget.
 #[cfg(feature = "lab")]
 impl<V: Vector> Reference<V> {
     /// A reference that fails after about this many evaluations in all.

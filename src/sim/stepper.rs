@@ -165,7 +165,7 @@ pub trait PlacedBody {
     /// is not counted.
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]);
 
-    /// Evaluations and skipped time of all methods since the start. The truth is not counted.
+    /// Evaluations and lost time of all methods since the start. The truth is not counted.
     fn counts(&self) -> Counts;
     /// Evaluations of the acceleration since the start.
     fn evaluations(&self) -> u64 {
@@ -225,7 +225,6 @@ pub trait PlacedBody {
     fn is_closed_form_of(&self, memory: &dyn Any) -> bool;
     /// The error of the truth with this memory; `None` for that of a method.
     fn truth_error_of(&self, memory: &dyn Any) -> Option<[f64; 2]>;
-    /// An upper bound on the memory of the body and of what the solver keeps, without that which only the solver knows, in
-    /// bytes.
+    /// An upper bound on the memory of the body and of what the solver keeps, in bytes, less the solver's own `heap_bytes`.
     fn bytes_with(&self, memory: &dyn Any) -> usize;
 }

@@ -95,7 +95,8 @@ impl Coupling {
     }
 }
 
-/// A system behind a pointer: what methods do with one of any type is compiled once for each type of vector.
+/// A system behind a pointer: what methods do with one of any type is compiled once for each type of vector. Its
+/// [`Coupling`] is not known, so that its Jacobian is taken whole.
 impl<S: System + ?Sized, P: Deref<Target = S>> System for P {
     type Vector = S::Vector;
 
@@ -200,7 +201,7 @@ impl BodyClass {
     }
 }
 
-/// A system that counts evaluations and skipped time. A clone continues from the same counts.
+/// A system that counts evaluations and lost time. A clone continues from the same counts.
 #[derive(Clone, Debug)]
 pub struct Counted<S> {
     /// The system counted.
@@ -209,7 +210,7 @@ pub struct Counted<S> {
     lost_time: Cell<f64>,
 }
 
-/// Evaluations and skipped time of methods on a system.
+/// Evaluations and lost time of methods on a system.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Counts {
     /// Evaluations of the acceleration.

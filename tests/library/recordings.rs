@@ -359,6 +359,26 @@ fn equal_cost_is_switched_on_and_off_by_a_key_and_on_by_a_scene() {
 }
 
 #[test]
+fn lanes_of_one_method_get_their_own_substeps_back_after_equal_cost() {
+    let lanes = [1, 4].map(|n| format!("[[lane]]\nmethod = \"rk4\"\nsubsteps = {n}\n"));
+    let dearest = "[[lane]]\nmethod = \"implicit-euler\"\n";
+    let spring = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
+    let head = "title = \"t\"\ntick_hz = 60\nseconds = 9\n";
+    let mut lab = Lab::new(parsed(&format!("{head}{}{dearest}{spring}", lanes.concat())));
+    lab.apply(StageCommand::ToggleRace);
+    let substeps = |lab: &Lab| -> Vec<u32> {
+        lab.race().entrants().iter().map(|entrant| entrant.lane.substeps()).collect()
+    };
+    let before = substeps(&lab);
+    assert_eq!(before, [1, 4, 1]);
+    lab.apply(RunCommand::ToggleEqualCost);
+    let equal = substeps(&lab);
+    assert_ne!(equal, before);
+    lab.apply(RunCommand::ToggleEqualCost);
+    assert_eq!(substeps(&lab), before);
+}
+
+#[test]
 fn a_recording_with_too_many_actions_is_refused_and_one_that_is_only_long_is_not() {
     let mut session = Session::racing(built_in("spring").into());
     (0..40_000).for_each(|n| _ = session.act(Action::Kick(1e-9 * f64::from(n + 1))));

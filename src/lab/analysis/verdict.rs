@@ -136,7 +136,7 @@ pub struct LongTerm {
 }
 
 /// The verdict on a lane over a horizon; displayed as one line. With the feature `serde` it is written as one flat object,
-/// by the commands too: its `kind` is the id of its outcome, its `text` the line, and a field without a meaning is null.
+/// by the commands too: its `word` is the id of its outcome, its `text` the line, and a field without a meaning is null.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// What is found of the worst body, which the verdict is about.

@@ -224,7 +224,7 @@ impl AnalysisWorker {
         } else if let Some(&spec) = entries.get(self.judged) {
             let judge =
                 self.judge.get_or_insert_with(|| Judge::new(&by_hand.applied_to(scene), 1.0));
-            // What earlier verdicts have left over is for the later ones.
+            // Work that earlier verdicts did not use is for the later ones.
             let left = self.max_work.saturating_sub(judge.work_done());
             let share = left / (entries.len() - self.judged) as u64;
             let verdict = judge.verdict_within(share.min(MAX_WORK), spec, *tick_hz);

@@ -55,7 +55,7 @@ impl Course {
         starts: impl FnOnce() -> Vec<State<f64>>,
     ) -> Result<Self, NoCloud> {
         let too_many = |_| NoCloud::TooMany { points };
-        Batch::find_room(points, solver).map_err(too_many)?;
+        Batch::find_room(points, [solver]).map_err(too_many)?;
         let batch = body.batch(InstructionSet::widest(), solver, starts());
         let batch = batch.ok_or_else(|| NoCloud::Custom { body: name.into() })?;
         let batch = batch.map_err(too_many)?;

@@ -129,6 +129,7 @@ impl CloudRun {
         let Request { name, body, lanes, tick_hz, seconds, t } = request;
         let about = CloudStart::about(name, body, shape, None)?;
         let start = CloudStart { t, reach: about.reach.map(|reach| REACH * reach), ..about };
+        Cloud::find_room(points, lanes.iter().map(|(_, spec)| spec))?;
         let new = |(entry, spec): &(usize, LaneSpec)| {
             let cloud = Cloud::new(name, body, spec, start, points, tick_hz)?.rewindable();
             Ok((*entry, Run { cloud, areas: Vec::new() }))

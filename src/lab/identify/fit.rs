@@ -22,7 +22,7 @@ const PRECISE_IN_SINGLE: f64 = 5e-5;
 const PRECISE_OF_ENGINE: f64 = 1e-5;
 /// Residuals up to this may be rounding in a log of double precision by any other method.
 const PRECISE_IN_DOUBLE: f64 = 1e-8;
-/// Left over up to this, rounding is all that there is.
+/// A residual up to this is rounding alone.
 const EXACT: f64 = 1e-9;
 /// The displacement, in units of the scale, in a run that starts from nothing.
 const DISPLACEMENT_FROM_NOTHING: f64 = 1e-9;
@@ -46,7 +46,7 @@ pub(super) struct Fit {
     /// A residual up to this may be rounding alone.
     precise: f64,
     /// The residuals of the coordinate, and of the velocity if it was logged.
-    left: Vec<Vec<f64>>,
+    residuals: Vec<Vec<f64>>,
 }
 
 /// The velocity at the start: the logged one, or the slope to the next row.
@@ -91,15 +91,15 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
             displace(place, displacement * unit, &mut there, &mut other);
             columns.push(go(&other, there)?);
         }
-        let left = left_over(log, &now, scale).concat();
+        let off = residuals(log, &now, scale).concat();
         let base = flat(log, &now);
         let slope = |there: &Vec<[f64; 2]>| -> Vec<f64> {
             let changes = flat(log, there).into_iter().zip(&base);
             changes.map(|(there, base)| (there - base) / displacement).collect()
         };
         let slopes: Vec<Vec<f64>> = columns.iter().map(slope).collect();
-        let Some(change) = least_squares(&slopes, &left) else { break };
-        let worth = |states: &[[f64; 2]]| squares(&left_over(log, states, scale));
+        let Some(change) = least_squares(&slopes, &off) else { break };
+        let worth = |states: &[[f64; 2]]| squares(&residuals(log, states, scale));
         let before = worth(&now);
         let halvings = if is_spring_known { 0 } else { HALVINGS };
         let nearer = (0..=halvings).find_map(|halving| {
@@ -114,14 +114,14 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
         let Some(nearer) = nearer else { break };
         (start, body, now) = nearer;
     }
-    let left = left_over(log, &now, scale);
-    let is_finite = left.iter().flatten().all(|left| left.is_finite());
+    let off = residuals(log, &now, scale);
+    let is_finite = off.iter().flatten().all(|off| off.is_finite());
     let precise = match (log.is_double(), candidate.method.is_engine()) {
         (false, _) => PRECISE_IN_SINGLE,
         (true, true) => PRECISE_OF_ENGINE,
         (true, false) => PRECISE_IN_DOUBLE,
     };
-    is_finite.then_some(Fit { body, run: now, precise, left })
+    is_finite.then_some(Fit { body, run: now, precise, residuals: off })
 }
 
 /// Adds `by` to what is fitted at this place: coordinate, velocity, stiffness and damping.
@@ -152,7 +152,7 @@ fn flat(log: &Log, states: &[[f64; 2]]) -> Vec<f64> {
     x.chain(logged.map(|(state, _)| state[1])).collect()
 }
 
-fn left_over(log: &Log, states: &[[f64; 2]], scale: [f64; 2]) -> Vec<Vec<f64>> {
+fn residuals(log: &Log, states: &[[f64; 2]], scale: [f64; 2]) -> Vec<Vec<f64>> {
     let rows = || log.rows().iter().zip(states);
     let x = rows().map(|(row, state)| row.x / scale[0] - state[0]).collect();
     let v: Vec<f64> =
@@ -160,31 +160,32 @@ fn left_over(log: &Log, states: &[[f64; 2]], scale: [f64; 2]) -> Vec<Vec<f64>> {
     if v.is_empty() { vec![x] } else { vec![x, v] }
 }
 
-fn squares(left: &[Vec<f64>]) -> f64 {
-    left.iter().flatten().map(|left| left * left).sum()
+fn squares(residuals: &[Vec<f64>]) -> f64 {
+    residuals.iter().flatten().map(|r| r * r).sum()
 }
 
-fn mean_square(left: &[f64]) -> f64 {
-    left.iter().map(|left| left * left).sum::<f64>() / left.len() as f64
+fn mean_square(residuals: &[f64]) -> f64 {
+    residuals.iter().map(|r| r * r).sum::<f64>() / residuals.len() as f64
 }
 
 impl Fit {
     /// The sum of squares of the residual.
     pub(super) fn squares(&self) -> f64 {
-        squares(&self.left)
+        squares(&self.residuals)
     }
 
     /// The root mean square of the residual.
     pub(super) fn residual(&self) -> f64 {
-        mean_square(&self.left.concat()).sqrt()
+        mean_square(&self.residuals.concat()).sqrt()
     }
 
     /// Minus twice the logarithm of the likelihood, up to a constant, where each column has a noise of its own
     /// and none has less than `rounding`.
     pub(super) fn deviance(&self, rounding: f64) -> f64 {
-        let of =
-            |left: &Vec<f64>| left.len() as f64 * (mean_square(left) + rounding * rounding).ln();
-        self.left.iter().map(of).sum()
+        let of = |residuals: &Vec<f64>| {
+            residuals.len() as f64 * (mean_square(residuals) + rounding * rounding).ln()
+        };
+        self.residuals.iter().map(of).sum()
     }
 
     /// The largest distance between two runs and between their springs, in units of the scale.
@@ -198,7 +199,7 @@ impl Fit {
 
     fn distance_of_runs(&self, other: &Fit) -> f64 {
         let apart = |(a, b): (&[f64; 2], &[f64; 2])| {
-            let velocities = if self.left.len() > 1 { (a[1] - b[1]).abs() } else { 0.0 };
+            let velocities = if self.residuals.len() > 1 { (a[1] - b[1]).abs() } else { 0.0 };
             (a[0] - b[0]).abs().max(velocities)
         };
         self.run.iter().zip(&other.run).map(apart).fold(0.0, f64::max)
@@ -223,14 +224,14 @@ impl Fit {
 
     /// Whether the residual is autocorrelated and larger than `precise`.
     fn follows(&self, precise: f64) -> bool {
-        self.left.iter().any(|left| {
-            let square = mean_square(left);
+        self.residuals.iter().any(|residuals| {
+            let square = mean_square(residuals);
             let follows = |lag: usize| {
-                let pairs = left.iter().zip(&left[lag..]);
-                let mean = pairs.map(|(a, b)| a * b).sum::<f64>() / (left.len() - lag) as f64;
-                (mean / square).abs() > 3.0 / (left.len() as f64).sqrt() + FOLLOWING
+                let pairs = residuals.iter().zip(&residuals[lag..]);
+                let mean = pairs.map(|(a, b)| a * b).sum::<f64>() / (residuals.len() - lag) as f64;
+                (mean / square).abs() > 3.0 / (residuals.len() as f64).sqrt() + FOLLOWING
             };
-            square.sqrt() > precise && (1..=LAGS.min(left.len() - 1)).any(follows)
+            square.sqrt() > precise && (1..=LAGS.min(residuals.len() - 1)).any(follows)
         })
     }
 }

@@ -8,7 +8,7 @@ use super::logged_body::LoggedBody;
 
 /// The first part of a log, to which every candidate is fitted, in ticks.
 const HEAD_TICKS: u64 = 60;
-/// Left over by this much more than by the nearest, a candidate explains a log no longer.
+/// A candidate whose sum of squares exceeds the nearest's by this factor does not explain a log.
 const APART: f64 = 4.0;
 
 /// The candidates that may explain `log`, and the nearest that does not, each fitted.

@@ -334,25 +334,23 @@ impl Lab {
         }
         let lanes: Vec<(LaneId, LaneSpec)> =
             self.race().entrants().iter().map(|entrant| (entrant.id, entrant.spec)).collect();
-        let specs: Vec<LaneSpec> = lanes.iter().map(|(_, spec)| *spec).collect();
         let (wanted, before, notice) = match &self.start.before_equal_cost {
             Some(before) => {
-                let of = |spec: &LaneSpec| {
-                    let before = before.iter().find(|known| known.method == spec.method);
-                    LaneSpec {
-                        substeps: before
-                            .map_or(spec.method.default_substeps, |known| known.substeps),
-                        ..*spec
-                    }
+                let of = |(lane, spec): &(LaneId, LaneSpec)| {
+                    let own = before.iter().find(|(known, _)| known == lane);
+                    let substeps =
+                        own.map_or(spec.method.default_substeps, |(_, own)| own.substeps);
+                    LaneSpec { substeps, ..*spec }
                 };
-                let wanted: Vec<LaneSpec> = specs.iter().map(of).collect();
+                let wanted: Vec<LaneSpec> = lanes.iter().map(of).collect();
                 (wanted, None, "equal cost is off: lanes have their own substeps again")
             }
             None => {
+                let specs: Vec<LaneSpec> = lanes.iter().map(|(_, spec)| *spec).collect();
                 let equal = equal_cost(self.scene(), &specs, self.race().tick_hz());
                 (
                     equal,
-                    Some(specs),
+                    Some(lanes.clone()),
                     "equal cost is on: each lane has as many substeps as match the dearest lane's cost",
                 )
             }

@@ -102,8 +102,6 @@ impl Lab {
         }
     }
 
-    /// Carries out a command of the stage on the open loop lab. Returns what the driver has to do for
-    /// it, if anything.
     /// Carries out a command on the stage while the loop lab is on it.
     pub(super) fn carry_out_in_loop_lab(&mut self, command: StageCommand) {
         let Some(loops) = &mut self.loop_lab else { return };

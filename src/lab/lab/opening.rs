@@ -58,8 +58,8 @@ impl Lab {
     }
 
     /// Replaces the scene of a changed file. If it is open and equal, the run goes on; if it has the same lanes and kinds of
-    /// bodies, the new scene runs to the present tick; otherwise it starts at tick 0. What a person has done in the run is
-    /// told to be discarded.
+    /// bodies, the new scene runs to the present tick; otherwise it starts at tick 0. A notice says
+    /// that what a person did in the run is left out.
     pub fn reload_file(&mut self, path: &Path, scene: Scene) {
         let is_open = self.scene_list.open_path() == Some(path);
         let tick = self.race().tick();
@@ -173,10 +173,7 @@ impl Lab {
         lab.scene_list = self.scene_list.clone();
         lab.scene_list.set_open(place);
         lab.start.mode = if lab.scene().opens_as_race { Mode::Race } else { self.mode() };
-        lab.viewer.preferences = self.viewer.preferences.clone();
-        lab.viewer.pace = self.viewer.pace;
-        lab.viewer.hints = self.viewer.hints.of_next_scene();
-        lab.viewer.tour = self.viewer.tour.take();
+        lab.viewer = self.viewer.before_next_scene(lab.viewer.selected);
         lab.clock.set_speed_percent(self.clock.speed_percent());
         lab.running = self.running;
         lab.timeline.set_limit(self.timeline.limit());

@@ -5,6 +5,7 @@ use super::Lab;
 use crate::lab::action::Action;
 use crate::lab::display::Motion;
 use crate::lab::journal::Source;
+use crate::lab::lane::Halt;
 use crate::lab::race::Mode;
 use crate::sim::number::{round, significant};
 
@@ -40,12 +41,11 @@ impl Lab {
 
     /// Whether the last body of the lane on the stage has just halted.
     fn is_just_lost(&self) -> bool {
-        let bodies = self.selected().lane.bodies();
-        let tick = self.race().tick();
+        let is_last_tick = |halt: &Halt| halt.tick + 1 == self.race().tick();
         self.display().motion == Motion::Live
             && self.mode() == Mode::Solo
-            && bodies.iter().all(|body| body.halted().is_some())
-            && bodies.iter().any(|body| body.halted().is_some_and(|halt| halt.tick + 1 == tick))
+            && self.selected().lane.bodies().iter().all(|body| body.halted().is_some())
+            && self.last_halt().is_some_and(is_last_tick)
     }
 
     /// What to do where the run rests. Keys stand between backticks.
@@ -53,11 +53,11 @@ impl Lab {
         if self.running || !self.comes_to_rest() {
             return None;
         }
-        if self.is_just_lost() {
-            let name = self.lane_name(self.active());
+        if let Some(halt) = self.last_halt().filter(|_| self.is_just_lost()) {
+            let (name, how) = (self.lane_name(self.active()), halt.how());
             let t = significant(self.race().t(), 3);
             return Some(format!(
-                "{name} blew up at {t} s. `W` shows it again, `Home` starts over, `Space` goes on."
+                "{name} {how} at {t} s. `W` shows it again, `Home` starts over, `Space` goes on."
             ));
         }
         let seconds = round(self.scene().seconds, 4);
@@ -66,16 +66,21 @@ impl Lab {
         ))
     }
 
+    /// The halt of the body of the selected lane that halted last.
+    fn last_halt(&self) -> Option<&Halt> {
+        let bodies = self.selected().lane.bodies().iter();
+        bodies.filter_map(|body| body.halted()).max_by_key(|halt| halt.tick)
+    }
+
     /// The tick at which the last body that halted in the selected lane did so.
     pub fn lost_at(&self) -> Option<u64> {
-        let bodies = self.selected().lane.bodies().iter();
-        bodies.filter_map(|body| body.halted().map(|halt| halt.tick)).max()
+        self.last_halt().map(|halt| halt.tick)
     }
 
     /// Goes back to before the selected lane was lost, and runs on from there.
     pub(super) fn watch_again(&mut self) {
         let Some(tick) = self.lost_at() else {
-            return self.set_notice("nothing has blown up in this lane");
+            return self.set_notice("nothing has halted in this lane");
         };
         let lead = ((LEAD_S * f64::from(self.race().tick_hz())) as u64).max(MIN_LEAD);
         self.seek(tick.saturating_sub(lead));

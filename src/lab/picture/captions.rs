@@ -112,7 +112,7 @@ fn fate_within(halt: &Halt, width: f32) -> String {
     if LETTER * fate.chars().count() as f32 <= width {
         return fate;
     }
-    if halt.is_blow_up() { "blew up".into() } else { "gave up".into() }
+    halt.how().into()
 }
 
 /// What the stage says of a body whose truth is not tried.

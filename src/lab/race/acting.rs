@@ -8,6 +8,7 @@ use crate::lab::lane::Resumed;
 use crate::lab::lane_id::LaneId;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::edited_values;
+use crate::lab::time_scale::Piece;
 use crate::sim::bodies::Acts;
 
 /// The effect of an action.
@@ -69,7 +70,7 @@ impl Race {
             }
             Action::Rudder(part) => self.takes("rudder") && self.rudder != part.clamp(-1.0, 1.0),
             Action::Kick(times) => self.takes("kick") && *times != 0.0,
-            Action::TickHz(tick_hz) => self.tick_hz != *tick_hz,
+            Action::TickHz(tick_hz) => self.tick_hz() != *tick_hz,
             Action::Set { body, parameter, value } => {
                 let present = &self.values[*body];
                 let kind = &self.truth.bodies()[*body].kind;
@@ -150,7 +151,9 @@ impl Race {
         match action {
             Action::Throttle(part) => self.throttle = part.clamp(-1.0, 1.0),
             Action::Rudder(part) => self.rudder = part.clamp(-1.0, 1.0),
-            Action::TickHz(tick_hz) => self.set_rate(*tick_hz),
+            &Action::TickHz(tick_hz) => {
+                self.piece = Piece { tick: self.tick, t: self.t(), tick_hz };
+            }
             Action::Set { body, parameter, value } => {
                 self.values[*body][*parameter] = *value;
             }
@@ -173,10 +176,5 @@ impl Race {
         self.entrants.iter_mut().for_each(|entrant| entrant.lane.act(tick, t, action));
         observer.after(self, action, &resumed);
         resumed
-    }
-
-    fn set_rate(&mut self, tick_hz: u32) {
-        self.origin = (self.tick, self.t());
-        self.tick_hz = tick_hz;
     }
 }

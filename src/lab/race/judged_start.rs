@@ -60,7 +60,7 @@ impl Race {
         self.judged_start = Some(Arc::new(JudgedStart {
             tick: self.tick,
             t: self.t(),
-            tick_hz: self.tick_hz,
+            tick_hz: self.tick_hz(),
             throttle: self.throttle,
             rudder: self.rudder,
             bodies: bodies.collect(),

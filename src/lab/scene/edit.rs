@@ -1,8 +1,7 @@
 //! A change of one value of a body, checked and refused as a scene file with that value would be.
 
 use super::fault::{FaultKind, SceneFault};
-use super::nearest::nearest;
-use super::wanted::{Place, Wanted};
+use super::wanted::Wanted;
 use crate::sim::bodies::{Fault, Kind, Parameter, Range};
 
 /// Why a parameter of a body cannot be set, and what to do about it, in one line.
@@ -18,18 +17,6 @@ impl EditError {
             _ => None,
         }
     }
-}
-
-/// The parameter of `kind` with this key, and its place among [`Kind::parameters`].
-///
-/// # Errors
-/// If there is none: names the nearest key, or all.
-pub fn parameter_named<'k>(kind: &'k Kind, key: &str) -> Result<(usize, &'k Parameter), EditError> {
-    kind.parameter(key).ok_or_else(|| {
-        let known: Vec<&str> = kind.parameters.iter().map(|parameter| &*parameter.key).collect();
-        let nearest = nearest(key, known.iter().map(|name| (*name, *name)));
-        SceneFault::unknown_key(key, Place::Table(kind.id), nearest, &known).into()
-    })
 }
 
 /// The `values` of a body of `kind`, as [`SceneBody::values`](super::SceneBody::values) has them, with `value` for
@@ -153,29 +140,9 @@ mod tests {
                 "`thrust_curve` is the number 3, not a list; \
                  write a list of 2 to 64 points [m/s, N] in rising order",
             ),
-            (
-                parameter_named(kind("spring").unwrap(), "mass").unwrap_err().to_string(),
-                "unknown key `mass` in `[[spring]]`; did you mean `mass_kg`?",
-            ),
-            (
-                parameter_named(kind("orbit").unwrap(), "colour").unwrap_err().to_string(),
-                "unknown key `colour` in `[[orbit]]`; write one of `mu_m3_per_s2`, `x0_m`, `y0_m`, \
-                 `vx0_m_per_s`, `vy0_m_per_s`, `kick_m_per_s`",
-            ),
         ] {
             assert_eq!(found, wanted);
         }
         assert!(refusal("spring", 0, f64::NAN).starts_with("`mass_kg` is NaN, out of range"));
-    }
-
-    #[test]
-    fn every_key_is_found_in_its_place_and_no_other_is() {
-        for kind in BODIES.iter() {
-            for (place, wanted) in kind.parameters.iter().enumerate() {
-                let (found, parameter) = parameter_named(kind, &wanted.key).unwrap();
-                assert!(found == place && parameter == wanted, "{} {}", kind.id, wanted.key);
-            }
-            assert!(parameter_named(kind, kind.id).is_err());
-        }
     }
 }

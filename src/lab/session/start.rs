@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::Session;
 use crate::lab::action::Action;
 use crate::lab::equal_cost;
+use crate::lab::lane_id::LaneId;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::menu::Menu;
 use crate::lab::race::{Mode, Race};
@@ -26,7 +27,7 @@ pub(in crate::lab) struct StartSettings {
     pub(in crate::lab) entry: usize,
     pub(in crate::lab) tick_hz: u32,
     /// The lanes before equal cost was switched on; `None` while it is off.
-    pub(in crate::lab) before_equal_cost: Option<Vec<LaneSpec>>,
+    pub(in crate::lab) before_equal_cost: Option<Vec<(LaneId, LaneSpec)>>,
 }
 
 impl StartSettings {

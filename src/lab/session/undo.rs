@@ -7,7 +7,7 @@ use crate::lab::journal::Journal;
 /// The most changes that can be undone.
 const MAX_CHANGES: usize = 200;
 
-/// The most runs before a restart that are kept: each has its drawn past, some megabytes.
+/// The most runs before a restart that are kept: each has its drawn past, of at most 64 MiB.
 const MAX_RUNS: usize = 4;
 
 /// A change that has been undone or done again.

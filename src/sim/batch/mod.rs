@@ -196,15 +196,23 @@ impl Batch {
         Ok(Self { q, v, count, advance })
     }
 
-    /// Whether memory suffices for this number of copies under a solver. Allocates nothing.
+    /// Whether memory suffices for this number of copies under each of these solvers at once. Allocates nothing.
     ///
     /// # Errors
-    /// If there is not.
-    pub fn find_room(copies: usize, solver: Solver) -> Result<(), TryReserveError> {
-        let is_in_blocks = solver.method().is_some_and(|method| {
+    /// If it does not suffice.
+    pub fn find_room(
+        copies: usize,
+        solvers: impl IntoIterator<Item = Solver>,
+    ) -> Result<(), TryReserveError> {
+        let is_in_blocks = |method: &Method| {
             matches!(method.family, Family::Explicit | Family::Symplectic | Family::AsPrinted)
-        });
-        let bytes = if is_in_blocks { BLOCK_BYTES } else { ALONE_BYTES };
+                && method.tolerance.is_none()
+        };
+        let of_a_copy = |solver: Solver| match solver.method().is_some_and(is_in_blocks) {
+            true => BLOCK_BYTES,
+            false => ALONE_BYTES,
+        };
+        let bytes: usize = solvers.into_iter().map(of_a_copy).sum();
         Vec::<u8>::new().try_reserve_exact(copies.saturating_mul(bytes).min(isize::MAX as usize))
     }
 

@@ -46,11 +46,11 @@ const PARAMETERS: [Of; 7] = [
     Of::number("mass_kg", Range::POSITIVE, |chain| &mut chain.mass).symbol("m").about("each mass"),
     Of::number("stiffness_n_per_m", Range::POSITIVE, |chain| &mut chain.stiffness)
         .symbol("k")
-        .about("the force of each spring for each metre of stretch"),
+        .about("the stiffness of each spring: force per metre of stretch"),
     Of::number("damping_n_s_per_m", Range::NON_NEGATIVE, |chain| &mut chain.damping)
         .or(0.0)
         .symbol("c")
-        .about("the force of each spring's dash-pot for each metre per second of stretching"),
+        .about("the damping coefficient of each spring: force per metre per second of stretching"),
     Of::count("plucked_mass", MAX_MASSES, |chain| &mut chain.plucked)
         .or(1.0)
         .about("the mass that is held aside at the start, and that a kick hits"),
@@ -113,7 +113,7 @@ impl Chain {
     }
 
     /// The position in metres of mass `j`, from 1, displaced by `x`: the chain lies along x, and displacements are across
-    /// it. The walls are at 0 and at one more than the last mass.
+    /// it. `j` = 0 and `j` = masses + 1 are the walls.
     pub fn place_of(&self, j: usize, x: f64) -> DVec2 {
         let part = j as f64 / (self.masses + 1) as f64;
         DVec2::new((2.0 * part - 1.0) * HALF_LENGTH * self.amplitude(), x)

@@ -95,7 +95,7 @@ impl Checked {
                 return *known;
             }
             let found = FalseClaims {
-                energy: find_leak(body).is_some(),
+                energy: find_energy_defect(body).is_some(),
                 exact: find_unsolved(body).is_some(),
             };
             let mut findings = findings();
@@ -144,7 +144,7 @@ pub(super) enum NotSolved {
 
 /// Why an energy is not one that the motion conserves.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Leak {
+pub(super) enum EnergyDefect {
     /// It is not finite at the start.
     NotFinite(f64),
     /// It is the same in every state.
@@ -239,16 +239,16 @@ pub(super) fn find_departure<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Op
 }
 
 /// The first violation of energy conservation around the start; `None` without one, or without an energy.
-pub(super) fn find_leak<B: Claimant>(body: &B) -> Option<Leak> {
+pub(super) fn find_energy_defect<B: Claimant>(body: &B) -> Option<EnergyDefect> {
     let body = body.without_claims();
     let start = body.start();
     let first = body.claimed_energy(&start)?;
     if !first.is_finite() {
-        return Some(Leak::NotFinite(first));
+        return Some(EnergyDefect::NotFinite(first));
     }
     let is_first = |state| body.claimed_energy(&state) == Some(first);
     if states_around(&start, STATES).all(is_first) {
-        return Some(Leak::Constant(first));
+        return Some(EnergyDefect::Constant(first));
     }
     TIMES.into_iter().find_map(|t| {
         let states = if t == 0.0 { STATES } else { LATER_STATES };
@@ -257,7 +257,10 @@ pub(super) fn find_leak<B: Claimant>(body: &B) -> Option<Leak> {
 }
 
 /// The first violation of energy conservation along the motion; `None` without one, or without an energy.
-pub(super) fn find_later_leak<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<Leak> {
+pub(super) fn find_later_energy_defect<B: Claimant>(
+    body: &B,
+    horizon: ClaimHorizon,
+) -> Option<EnergyDefect> {
     let body = body.without_claims();
     let mut there = body.start();
     let first = body.claimed_energy(&there)?;
@@ -277,7 +280,7 @@ pub(super) fn find_later_leak<B: Claimant>(body: &B, horizon: ClaimHorizon) -> O
             && is_near(now, first, RUN_TOLERANCE * largest);
         if !is_kept {
             let t = (tick + 1) as f64 / f64::from(horizon.tick_hz);
-            return Some(Leak::Change { t, first, now });
+            return Some(EnergyDefect::Change { t, first, now });
         }
         before = now;
     }
@@ -294,12 +297,12 @@ fn find_power<B: Claimant>(
     t: f64,
     state: &State<Vec<f64>>,
     states: usize,
-) -> Result<f64, Leak> {
+) -> Result<f64, EnergyDefect> {
     let powers = states_around(state, states).filter_map(|there| body.power(t, &there));
     let [leaks, exchanged] =
         powers.fold([0.0_f64; 2], |most, power| [0, 1].map(|i| most[i].max(power[i])));
     if leaks > B::TOLERANCE * exchanged {
-        return Err(Leak::Power { t, leaks, exchanged });
+        return Err(EnergyDefect::Power { t, leaks, exchanged });
     }
     Ok(exchanged)
 }

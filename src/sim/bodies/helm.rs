@@ -30,16 +30,16 @@ const PARAMETERS: [Of; 12] = [
         .about("the moment of inertia about the upright axis"),
     Of::number("drag_n_s_per_m", Range::NON_NEGATIVE, |helm| &mut helm.drag)
         .symbol("C")
-        .about("the drag for each metre per second ahead"),
+        .about("the drag coefficient ahead: force per metre per second"),
     Of::number("side_drag_n_s_per_m", Range::NON_NEGATIVE, |helm| &mut helm.side_drag)
         .symbol("S")
-        .about("the drag for each metre per second sideways"),
+        .about("the drag coefficient sideways: force per metre per second"),
     Of::number("yaw_drag_n_m_s", Range::NON_NEGATIVE, |helm| &mut helm.yaw_drag)
         .symbol("D")
-        .about("the moment against turning for each radian per second"),
+        .about("the damping coefficient of turning: moment per radian per second"),
     Of::number("rudder_n_s", Range::NON_NEGATIVE, |helm| &mut helm.rudder_moment)
         .symbol("L")
-        .about("the moment of the full rudder for each metre per second ahead"),
+        .about("the moment of the full rudder per metre per second ahead"),
     Of::number("x0_m", Range::ANY, |helm| &mut helm.q0.x)
         .or(0.0)
         .at_start()

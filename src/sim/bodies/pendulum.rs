@@ -29,7 +29,7 @@ const PARAMETERS: [Of; 7] = [
     Of::number("damping_n_m_s", Range::NON_NEGATIVE, |pendulum| &mut pendulum.damping)
         .or(0.0)
         .symbol("c")
-        .about("the torque for each radian per second"),
+        .about("the damping coefficient: torque per radian per second"),
     Of::number("theta0_rad", Range::ANY, |pendulum| &mut pendulum.theta0)
         .or(1.0)
         .at_start()

@@ -20,7 +20,7 @@ const PARAMETERS: [Of; 6] = [
         .about("the full thrust"),
     Of::number("drag_n_s_per_m", Range::NON_NEGATIVE, |ship| &mut ship.drag)
         .symbol("C")
-        .about("the drag for each metre per second"),
+        .about("the drag coefficient: force per metre per second"),
     Of::number("mass_kg", Range::POSITIVE, |ship| &mut ship.mass).symbol("m").about("the mass"),
     Of::number("s0_m", Range::ANY, |ship| &mut ship.s0)
         .or(0.0)

@@ -19,11 +19,11 @@ const PARAMETERS: [Of; 6] = [
     Of::number("mass_kg", Range::POSITIVE, |spring| &mut spring.mass).symbol("m").about("the mass"),
     Of::number("stiffness_n_per_m", Range::POSITIVE, |spring| &mut spring.stiffness)
         .symbol("k")
-        .about("the force for each metre of stretch"),
+        .about("the stiffness: force per metre of stretch"),
     Of::number("damping_n_s_per_m", Range::NON_NEGATIVE, |spring| &mut spring.damping)
         .or(0.0)
         .symbol("c")
-        .about("the force for each metre per second"),
+        .about("the damping coefficient: force per metre per second"),
     Of::number("x0_m", Range::ANY, |spring| &mut spring.x0)
         .or(1.0)
         .at_start()

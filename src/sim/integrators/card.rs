@@ -98,7 +98,7 @@ pub enum Needs {
 }
 
 impl Only {
-    /// Why the method does not step bodies of this class; `None` if it does, or those with the law of its order.
+    /// Why the method steps no body of this class; `None` if it may. The order of a law is checked apart.
     pub const fn refusal(&self, class: BodyClass) -> Option<&'static str> {
         match (self.needs, class) {
             (Needs::Law { .. }, BodyClass::Follower(_))

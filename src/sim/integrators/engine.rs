@@ -6,8 +6,7 @@
 //! holds for all its substeps; see [`EngineSettings::of`].
 //!
 //! Letters, as in the formulas: `H` a tick, `n` its substeps, `h = H/n`; `K` the stiffness, `c` the damping and
-//! `C` the drag, each per unit of mass; `f` the held force per unit of mass; `D = 1 + h c + h² K`. A part of a
-//! formula in brackets stands there only where there is a spring.
+//! `C` the drag, each per unit of mass; `f` the held force per unit of mass; `D = 1 + h c + h² K`.
 
 use std::marker::PhantomData;
 

@@ -50,8 +50,8 @@ impl<V: Vector> ExponentialRosenbrockEuler<V> {
         let n = a.components().len();
 
         // The time by which velocities are multiplied is the step, or less on a stiff system.
-        let [by_q, by_v] = jacobian.norms(system);
-        let stiffness = (h * h * by_q).sqrt().max(1.0);
+        let [da_dq, da_dv] = jacobian.norms(system);
+        let stiffness = (h * h * da_dq).sqrt().max(1.0);
         let time = h / stiffness;
         for i in 0..n {
             let (a, a_later) = (a.components()[i], a_later.components()[i]);
@@ -59,7 +59,7 @@ impl<V: Vector> ExponentialRosenbrockEuler<V> {
             f_t[n + i] = time * (h * (a_later - a));
         }
         x.fill(0.0);
-        let norm = stiffness.max((time * h).abs() * by_q + h.abs() * by_v);
+        let norm = stiffness.max((time * h).abs() * da_dq + h.abs() * da_dv);
         flow.advance(x, f, f_t, norm, &mut |x, slope| {
             let (x_q, x_v) = x.split_at(n);
             let (slope_q, slope_v) = slope.split_at_mut(n);
@@ -101,11 +101,11 @@ impl<S: System<Vector: Vector>> Integrator<S> for ExponentialRosenbrockEuler<S::
             return self.step_together(system, h, y);
         };
         // φ1 and φ2 of a matrix of two rows, by the response of one coordinate to pushes.
-        let [by_q, by_v] = jacobian.of_one();
-        let [s, s1, s2] = response(h * h * by_q, h * by_v);
+        let [da_dq, da_dv] = jacobian.of_one();
+        let [s, s1, s2] = response(h * h * da_dq, h * da_dv);
         let (a, more) = (a.components()[0], a_later.components()[0] - a.components()[0]);
-        *q += h * *v * (1.0 + h * h * by_q * s2) + h * h * (a * s1 + more * s2);
-        *v += h * (h * by_q * *v * s1 + a * s + more * s1);
+        *q += h * *v * (1.0 + h * h * da_dq * s2) + h * h * (a * s1 + more * s2);
+        *v += h * (h * da_dq * *v * s1 + a * s + more * s1);
         Ok(())
     }
 

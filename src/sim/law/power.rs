@@ -69,7 +69,7 @@ impl Exponent {
         is_usual.then(|| Self { y, high: high(y), odd, refused })
     }
 
-    /// The power, and 1 if it is one; else 0.
+    /// The power and 1; 0 in place of 1 if [`libm::pow`] must find it.
     #[inline(always)]
     fn of_base(self, x: f64) -> (f64, u64) {
         let all = x.to_bits();

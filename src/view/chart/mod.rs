@@ -67,6 +67,11 @@ pub(super) enum SwitchMark {
     Ring,
 }
 
+/// About how wide the number at a mark is, in points.
+pub(super) fn number_width(text: &str) -> f32 {
+    0.6 * NUMBER * text.chars().count() as f32
+}
+
 /// A plot in which nothing is drawn yet: a grid line at each mark along and up with its number, if it has one, none of which
 /// goes on beyond `right`, and the edge.
 pub(super) fn axes(
@@ -94,10 +99,16 @@ pub(super) fn plot(
     };
     let [across, upwards] = marks;
     let mut all = Vec::new();
+    let mut free_from = f32::NEG_INFINITY;
     for (place, text) in across {
         let x = area.at([place, area.bounds[1][0]]).x;
         all.push(Primitive::Line([pos2(x, rect.top()), pos2(x, rect.bottom())], grid));
-        all.extend(number(pos2(x, rect.bottom() + 3.0), Align2::CENTER_TOP, text));
+        let half = number_width(&text) / 2.0;
+        // A narrow plot has no room for all of them.
+        if x - half >= free_from {
+            all.extend(number(pos2(x, rect.bottom() + 3.0), Align2::CENTER_TOP, text));
+            free_from = x + half;
+        }
     }
     let mut last = f32::NEG_INFINITY;
     for (place, text) in upwards {

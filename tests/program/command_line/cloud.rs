@@ -67,6 +67,17 @@ fn a_long_run_is_drawn_at_each_of_many_crossings_or_frames() {
 }
 
 #[test]
+fn rows_of_one_method_are_told_apart_by_what_differs() {
+    let rows = stdout_of("cloud --scene held-force --points 10 --seconds 0.1");
+    let methods: Vec<&str> = rows.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
+    let mut different = methods.clone();
+    different.sort_unstable();
+    different.dedup();
+    assert!(methods.len() > 2 && methods.len() == different.len(), "{methods:?}");
+    assert!(methods.iter().all(|name| name.starts_with("held-force")), "{methods:?}");
+}
+
+#[test]
 fn what_is_no_cloud_is_said_in_one_line() {
     for (options, why) in [
         (
@@ -79,6 +90,7 @@ fn what_is_no_cloud_is_said_in_one_line() {
             "more pictures than there are ticks, 60 a second",
         ),
         ("--scene spring --section 0.01 --out a.png", "no crossing within"),
+        ("--scene spring --section 0.01", "no crossing within"),
         ("--out cloud.svg", "cloud.svg would not hold what its name says"),
         ("--shape cow", "cow"),
         ("--size 1e-300", "give a number from 1e-6 to 1e9"),

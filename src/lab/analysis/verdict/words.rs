@@ -241,7 +241,7 @@ impl Parts {
         Self { start: true, clauses: true, pitch: true, name: true, is_stable: true };
 }
 
-/// In the alternate form, `{:#}`, a method that fails is told with where it is run from.
+/// The alternate form, `{:#}`, also says where a failing run begins.
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.line(Parts { start: f.alternate(), ..Parts::EVERYTHING }))

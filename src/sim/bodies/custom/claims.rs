@@ -3,8 +3,8 @@
 
 use super::Custom;
 use crate::sim::bodies::claims::{
-    Checked, ClaimHorizon, Claimant, Leak, NotSolved, TIMES, find_departure, find_later_leak,
-    find_leak, find_unsolved,
+    Checked, ClaimHorizon, Claimant, EnergyDefect, NotSolved, TIMES, find_departure,
+    find_energy_defect, find_later_energy_defect, find_unsolved,
 };
 use crate::sim::body::Body;
 use crate::sim::difference::{OFFSETS, fourth_order};
@@ -120,16 +120,16 @@ fn unsolved(body: &Custom, fault: NotSolved) -> CustomFault {
     CustomFault { field: "exact", what, remedy: "correct it, or remove `exact`" }
 }
 
-fn leaking(leak: Leak) -> CustomFault {
+fn energy_defect(leak: EnergyDefect) -> CustomFault {
     let what = match leak {
-        Leak::NotFinite(energy) => format!("it is {energy} at the start"),
-        Leak::Constant(energy) => {
+        EnergyDefect::NotFinite(energy) => format!("it is {energy} at the start"),
+        EnergyDefect::Constant(energy) => {
             format!("it is {energy} in every state, which says nothing of the motion")
         }
-        Leak::Power { t, leaks, exchanged } => format!(
+        EnergyDefect::Power { t, leaks, exchanged } => format!(
             "it is not conserved: near t = {t:.2} s it changes by {leaks:.3e} J/s, where {exchanged:.3e} J/s are exchanged"
         ),
-        Leak::Change { t, first, now } => {
+        EnergyDefect::Change { t, first, now } => {
             format!("it is not conserved: it is {first} J at the start and {now} J at t = {t:.2} s")
         }
     };
@@ -197,8 +197,9 @@ pub(super) fn check(body: &Custom, horizon: ClaimHorizon) -> Result<(), CustomFa
     if let Some(fault) = find_unsolved(body).or_else(|| find_departure(body, horizon)) {
         return Err(unsolved(body, fault));
     }
-    if let Some(leak) = find_leak(body).or_else(|| find_later_leak(body, horizon)) {
-        return Err(leaking(leak));
+    if let Some(leak) = find_energy_defect(body).or_else(|| find_later_energy_defect(body, horizon))
+    {
+        return Err(energy_defect(leak));
     }
     find_nonlinearity(body).map_or(Ok(()), Err)
 }

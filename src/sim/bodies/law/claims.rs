@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::Law;
 use crate::sim::bodies::claims::{
-    Checked, ClaimHorizon, Claimant, Leak, NotSolved, find_departure, find_later_leak, find_leak,
-    find_unsolved,
+    Checked, ClaimHorizon, Claimant, EnergyDefect, NotSolved, find_departure, find_energy_defect,
+    find_later_energy_defect, find_unsolved,
 };
 use crate::sim::body::Body;
 use crate::sim::law::{CoordinateText, Equations, Part, Refusal, Remedy};
@@ -63,8 +63,8 @@ pub fn check_law(
     if let Some(fault) = find_unsolved(&law).or_else(|| find_departure(&law, horizon)) {
         return Err(unsolved(&law, fault));
     }
-    match find_leak(&law).or_else(|| find_later_leak(&law, horizon)) {
-        Some(leak) => Err(leaking(&law, leak)),
+    match find_energy_defect(&law).or_else(|| find_later_energy_defect(&law, horizon)) {
+        Some(leak) => Err(energy_defect(&law, leak)),
         None => Ok(()),
     }
 }
@@ -120,19 +120,19 @@ fn unsolved(law: &Law, fault: NotSolved) -> Refusal {
     refusal(law, Part::Exact(coordinate), what, remedy)
 }
 
-fn leaking(law: &Law, leak: Leak) -> Refusal {
+fn energy_defect(law: &Law, leak: EnergyDefect) -> Refusal {
     let what = match leak {
-        Leak::NotFinite(energy) => format!("the energy is {energy} at the start"),
-        Leak::Constant(energy) => {
+        EnergyDefect::NotFinite(energy) => format!("the energy is {energy} at the start"),
+        EnergyDefect::Constant(energy) => {
             let what =
                 format!("the energy is {energy} in every state, which says nothing of the motion");
             let remedy = "write the kinetic and the potential energy, or remove `energy`";
             return refusal(law, Part::Energy, what, remedy);
         }
-        Leak::Power { t, leaks, exchanged } => format!(
+        EnergyDefect::Power { t, leaks, exchanged } => format!(
             "the energy is not conserved: near t = {t:.2} it changes by {leaks:.3e} J/s, where {exchanged:.3e} J/s are exchanged"
         ),
-        Leak::Change { t, first, now } => format!(
+        EnergyDefect::Change { t, first, now } => format!(
             "the energy is not conserved: it is {first:.9} J at the start and {now:.9} J at t = {t:.2}"
         ),
     };

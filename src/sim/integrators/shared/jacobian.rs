@@ -20,9 +20,9 @@ pub(in crate::sim::integrators) struct Jacobian<V> {
     slope: V,
     /// How far from the diagonal the entries lie; `None` if no matrix is kept.
     reach: Option<usize>,
-    /// Column by column, of each the rows that it [reaches](Self::rows); `by_q` is empty if it is not asked for.
-    by_q: Vec<f64>,
-    by_v: Vec<f64>,
+    /// Column by column, of each the rows that it [reaches](Self::rows); `da_dq` is empty if it is not asked for.
+    da_dq: Vec<f64>,
+    da_dv: Vec<f64>,
 }
 
 /// The first and the number of the rows that are kept of column `j` of `n`.
@@ -35,8 +35,8 @@ fn rows(j: usize, reach: usize, n: usize) -> (usize, usize) {
 impl<V: Vector> Jacobian<V> {
     /// For both derivatives.
     pub(in crate::sim::integrators) fn new(like: &V, coupling: Coupling) -> Self {
-        let by_v = Self::by_velocity(like, coupling);
-        Self { by_q: by_v.by_v.clone(), ..by_v }
+        let da_dv = Self::by_velocity(like, coupling);
+        Self { da_dq: da_dv.da_dv.clone(), ..da_dv }
     }
 
     /// For `∂a/∂v` alone.
@@ -52,14 +52,14 @@ impl<V: Vector> Jacobian<V> {
             along: state,
             slope: like.clone(),
             reach,
-            by_q: Vec::new(),
-            by_v: vec![0.0; entries],
+            da_dq: Vec::new(),
+            da_dv: vec![0.0; entries],
         }
     }
 
     /// Memory in bytes, without its own size and that of its coordinate vectors.
     pub(in crate::sim::integrators) fn heap_bytes(&self) -> usize {
-        size_of_val(&self.by_q[..]) + size_of_val(&self.by_v[..])
+        size_of_val(&self.da_dq[..]) + size_of_val(&self.da_dv[..])
     }
 
     /// Takes the derivatives at `t` and `y`, where the acceleration is `a`, for a step of `h`.
@@ -72,19 +72,20 @@ impl<V: Vector> Jacobian<V> {
         y: &State<V>,
         a: &V,
     ) {
-        let Self { slopes, at, along, slope, by_q, by_v, .. } = self;
+        let Self { slopes, at, along, slope, da_dq, da_dv, .. } = self;
         self.t = t;
         at.assign(y);
         slopes.reach_for(h, y, a);
         let Some(reach) = self.reach else { return };
         let n = a.components().len();
         let apart = n.min(2 * reach + 1);
-        for (is_by_v, matrix) in [by_q, by_v].into_iter().enumerate().filter(|(_, m)| !m.is_empty())
+        for (is_by_v, matrix) in
+            [da_dq, da_dv].into_iter().enumerate().filter(|(_, m)| !m.is_empty())
         {
             for begin in 0..apart {
-                let by_v = is_by_v as u32;
-                comb(&mut along.q, begin, apart, f64::from(1 - by_v));
-                comb(&mut along.v, begin, apart, f64::from(by_v));
+                let da_dv = is_by_v as u32;
+                comb(&mut along.q, begin, apart, f64::from(1 - da_dv));
+                comb(&mut along.v, begin, apart, f64::from(da_dv));
                 slopes.take(system, t, at, along, None, slope);
                 for j in (begin..n).step_by(apart) {
                     let (first, height) = rows(j, reach, n);
@@ -101,7 +102,7 @@ impl<V: Vector> Jacobian<V> {
     /// `∂a/∂q` and `∂a/∂v` of a system of one coordinate.
     #[inline]
     pub(in crate::sim::integrators) fn of_one(&self) -> [f64; 2] {
-        [self.by_q.first().copied().unwrap_or(0.0), self.by_v[0]]
+        [self.da_dq.first().copied().unwrap_or(0.0), self.da_dv[0]]
     }
 
     /// `∂a/∂q q + ∂a/∂v v`. An empty `q` stands for 0.
@@ -112,7 +113,7 @@ impl<V: Vector> Jacobian<V> {
         q: &[f64],
         v: &[f64],
     ) -> &V {
-        let Self { slopes, t, at, along, slope, reach, by_q, by_v } = self;
+        let Self { slopes, t, at, along, slope, reach, da_dq, da_dv } = self;
         let Some(reach) = *reach else {
             let there = along.q.components_mut();
             if q.is_empty() {
@@ -127,7 +128,7 @@ impl<V: Vector> Jacobian<V> {
         let sums = slope.components_mut();
         sums.fill(0.0);
         let n = sums.len();
-        for (matrix, x) in [(by_q, q), (by_v, v)] {
+        for (matrix, x) in [(da_dq, q), (da_dv, v)] {
             for (j, x) in x.iter().enumerate() {
                 let (first, height) = rows(j, reach, n);
                 let column = &matrix[j * height..][..height];
@@ -142,7 +143,7 @@ impl<V: Vector> Jacobian<V> {
         &mut self,
         system: &dyn System<Vector = V>,
     ) -> [f64; 2] {
-        let Self { slopes, t, at, along, slope, reach, by_q, by_v } = self;
+        let Self { slopes, t, at, along, slope, reach, da_dq, da_dv } = self;
         let Some(reach) = *reach else {
             return [true, false].map(|is_by_q| {
                 along.q.components_mut().fill(0.0);
@@ -153,7 +154,7 @@ impl<V: Vector> Jacobian<V> {
                 SPARSE_NORM * largest(slope.components())
             });
         };
-        [by_q, by_v].map(|matrix| {
+        [da_dq, da_dv].map(|matrix| {
             let sums = slope.components_mut();
             sums.fill(0.0);
             let (_, height) = rows(0, reach, sums.len());

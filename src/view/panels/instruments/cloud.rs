@@ -166,7 +166,12 @@ fn caption(ui: &Ui, lab: &Lab, lane: &LaneCloud, width: f32) -> Arc<Galley> {
     job.wrap.max_width = width;
     job.append(&lab.lane_name(lane.entry), 0.0, TextFormat::simple(font.clone(), colour));
     let words = match (lane.area_ratio, width < ROOM_FOR_WORDS) {
-        (Some(ratio), true) => format!("×{}", significant(ratio, 3)),
+        (Some(ratio), true) => {
+            let part = lane.lost as f64 / lab.display().cloud.points as f64;
+            let lost = format!("\n{} % lost", significant(100.0 * part, 2));
+            let lost = if lane.lost > 0 { lost } else { String::new() };
+            format!("×{}{lost}", significant(ratio, 3))
+        }
         _ => words(lane),
     };
     let line = format!("\n{words}");
@@ -254,18 +259,26 @@ fn cloud(
     let (colour, _) = ink.theme.lane_style(lab.entries(), &lab.entries()[lane.entry]);
     let texture = image(ui, place, &lane.density, (size_px, ink.theme, colour));
     let all = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
-    ui.painter().image(texture.id(), rect, all, Color32::WHITE);
     let view = picture.view;
     let area = PlotArea { rect, bounds: [view.q, view.v] };
+    // A number that stands half beside its cloud would run into the next one's.
+    let fits = |axis: usize, at: f64, text: &str| {
+        let x = area.at([at, view.v[0]]).x;
+        axis == 1
+            || rect.expand(GAP / 2.0).x_range().contains(x + charts::number_width(text) / 2.0)
+                && rect.expand(GAP / 2.0).x_range().contains(x - charts::number_width(text) / 2.0)
+    };
     let marks = |axis: usize, apart: f64| {
         let marks = area.marks(axis, AxisScale::Linear, apart).into_iter();
-        let is_named = has[1 - axis];
-        marks
-            .map(|(at, text)| (at, if is_named { text } else { String::new() }))
-            .collect::<Vec<_>>()
+        let named = marks.map(|(at, text)| match has[1 - axis] && fits(axis, at, &text) {
+            true => (at, text),
+            false => (at, String::new()),
+        });
+        named.collect::<Vec<_>>()
     };
     let axes = charts::axes(&area, [marks(0, 56.0), marks(1, 24.0)], ink, f32::INFINITY);
     charts::paint(ui.painter(), &axes);
+    ui.painter().image(texture.id(), rect, all, Color32::WHITE);
     let painter = ui.painter().with_clip_rect(rect);
     let outline = LineStyle::solid(ink.exact, OUTLINE);
     for line in &picture.border {
@@ -315,7 +328,11 @@ fn image(ui: &Ui, place: usize, density: &Arc<Density>, style: Style) -> Texture
         made => made,
     };
     let (size, theme, colour) = style;
-    let rgba = density.picture_of_size(size, theme, colour).concat();
+    // Where no point is, the axes below are seen.
+    let empty = theme.palette().plot;
+    let mut rgba = density.picture_of_size(size, theme, colour);
+    rgba.iter_mut().filter(|pixel| **pixel == empty).for_each(|pixel| pixel[3] = 0);
+    let rgba = rgba.concat();
     let image = ColorImage::from_rgba_unmultiplied(size, &rgba);
     let texture = match old {
         Some(mut old) if old.style.0 == size => {

@@ -17,7 +17,7 @@ pub(super) fn text_of(
     // The displayed body first: of several, not all may fit.
     halts.sort_by_key(|halt| halt.body != lab.view().body);
     if let Some(first) = halts.first() {
-        let did = if first.is_blow_up() { "blew up" } else { "gave up" };
+        let did = first.how();
         let several = lab.scene().bodies.len() > 1 && body.is_none();
         let name = |body: usize| match several && named_above != Some(body) {
             true => format!(" ({})", lab.scene().bodies[body].name),
