@@ -4,7 +4,6 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use clap::Args;
-use rayon::ThreadPoolBuilder;
 
 use super::error::Error;
 use super::experiment::{ExperimentArgs, Lineup, one_of};
@@ -129,7 +128,7 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     let stopped =
         |judged: usize| Err(Error::interrupted_after(format!("{judged} of {wanted} methods")));
     let Some(adviser) = adviser.map(Arc::new) else { return stopped(0) };
-    let pool = ThreadPoolBuilder::new().build().expect("the system starts a thread for each core");
+    let pool = jobs::pool(0)?;
     let mut rows = judge_all(&pool, &adviser, specs, args.rates, &interrupted);
     for row in rows.iter_mut().take_while(|_| !interrupted.load(Ordering::Relaxed)) {
         row.time(scene);

@@ -6,12 +6,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use rayon::ThreadPoolBuilder;
 use serde_json::json;
 
 use super::error::Error;
 use super::experiment::{ExperimentArgs, Lineup, one_of, some_seconds};
 use super::interrupt::watch_for_interrupt;
+use super::jobs;
 use super::movie::Gif;
 use super::numbers::number_that;
 use super::output::picture_format::{ending, mislabelled};
@@ -219,8 +219,7 @@ pub(super) fn run(args: &CloudArgs) -> Result<(), Error> {
     };
     let interrupted = watch_for_interrupt();
     let threads = args.threads.map_or(0, usize::from);
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.expect("the system starts a thread for each core");
+    let pool = jobs::pool(threads)?;
     let Made { rows, size_px, mut frames } =
         pool.install(|| make(args, &scene, &specs, form, strobe, &interrupted))?;
     let write_rows = |output| write_rows(output, RowFormat::Csv, COLUMNS, &rows);

@@ -6,9 +6,10 @@ use std::time::{Duration, Instant};
 use std::{panic, thread};
 
 use indicatif::ProgressBar;
-use rayon::ThreadPool;
 use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
+use super::error::Error;
 use super::terminal::tell;
 
 /// The longest time until an interrupt is noticed.
@@ -16,6 +17,17 @@ const PATIENCE: Duration = Duration::from_millis(50);
 
 /// The time between two lines on how far the jobs are, where no bar shows it.
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
+
+/// So many threads to run jobs on; one for each core, or as `RAYON_NUM_THREADS` says, if it is 0.
+///
+/// # Errors
+/// If the system does not start them.
+pub(super) fn pool(threads: usize) -> Result<ThreadPool, Error> {
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map_err(|why| {
+        Error::failed(format!("cannot start threads: {why}; let the system start more of them"))
+    })
+}
 
 /// The results of `work` for the jobs 0 to `number` - 1, in order; `None` for a job that was not done when
 /// `interrupted` was set. After an interrupt the threads are not waited for: some jobs take minutes, and the
@@ -89,13 +101,11 @@ mod tests {
     use std::sync::Arc;
     use std::thread;
 
-    use rayon::ThreadPoolBuilder;
-
     use super::*;
 
     #[test]
     fn results_stand_in_the_order_of_their_jobs() {
-        let pool = ThreadPoolBuilder::new().num_threads(3).build().unwrap();
+        let pool = pool(3).unwrap();
         let square = |job| {
             thread::sleep(Duration::from_millis(if job % 2 == 0 { 2 } else { 0 }));
             job * job
@@ -123,7 +133,7 @@ mod tests {
 
     #[test]
     fn an_interrupt_leaves_the_results_that_are_there() {
-        let pool = ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let pool = pool(1).unwrap();
         let interrupted = Arc::new(AtomicBool::new(false));
         let set = Arc::clone(&interrupted);
         let work = move |job| {

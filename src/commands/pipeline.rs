@@ -11,8 +11,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
 
-use rayon::ThreadPoolBuilder;
-
 use super::error::Error;
 use super::jobs;
 use super::schedule::Schedule;
@@ -85,8 +83,7 @@ impl Run<'_> {
         encode: impl Fn(&Drawn) -> T + Sync,
         take: impl FnMut(&Drawn, T) -> Result<(), Error> + Send,
     ) -> Result<u32, Error> {
-        let pool = ThreadPoolBuilder::new().num_threads(encoders).build();
-        let pool = pool.expect("the system starts a few threads");
+        let pool = jobs::pool(encoders)?;
         let (results, encoded) = mpsc::channel();
         let (emptied, buffers) = mpsc::channel();
         for _ in 0..encoders + SPARE_BUFFERS {

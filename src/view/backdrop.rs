@@ -6,7 +6,7 @@ use super::place::Place;
 use super::textures::texture;
 use crate::lab::picture::{Picture, Sea, Shape};
 
-/// So many shapes more, for so many frames, are worth another drawing of the texture.
+/// The texture is drawn again once this many more shapes have been still for this many frames.
 const WORTH_DRAWING: (usize, u32) = (16, 8);
 
 /// Larger targets have no backdrop: it would take as much memory again.

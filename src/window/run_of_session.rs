@@ -12,8 +12,8 @@ use crate::regular_file;
 pub struct Window;
 
 impl Window {
-    /// Opens the window on a run, where it is, until it is closed. What is open in it then is returned. Scene files can be
-    /// opened in it as in the program's.
+    /// Opens the window on a run at its present tick, and blocks until it is closed. Returns the run that is open in it
+    /// then: scene files can be opened in it as in the program's.
     ///
     /// ```no_run
     /// use regatta::prelude::*;

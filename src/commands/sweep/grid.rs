@@ -4,8 +4,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
-use rayon::ThreadPoolBuilder;
-
 use super::varied::Varied;
 use crate::commands::error::Error;
 use crate::commands::jobs;
@@ -191,10 +189,7 @@ fn judge_all(
     threads: Option<usize>,
     interrupted: &AtomicBool,
 ) -> Result<Vec<Verdict>, Error> {
-    let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or_default()).build();
-    let pool = pool.map_err(|error| {
-        Error::failed(format!("cannot start the threads: {error}; give fewer --threads"))
-    })?;
+    let pool = jobs::pool(threads.unwrap_or_default())?;
     let runs = grid.cells.len();
     let worked_on = Arc::clone(grid);
     let judge = move |cell: usize| {

@@ -322,8 +322,8 @@ impl<R: TableRow> Table<R> {
         response
     }
 
-    /// How far to scroll for the selected of so many rows to be seen when it becomes so, in this very frame; `None` at all
-    /// other times: a person may scroll away.
+    /// The scroll offset that shows a newly selected row; `None` if the selection has not changed, for a person may scroll
+    /// away from it.
     fn offset_to_follow(&self, ui: &Ui, selected: usize, rows: usize) -> Option<f32> {
         let id = Id::unique(("selected row of a table", self.id));
         let known = ui.data_mut(|data| {

@@ -35,7 +35,7 @@ pub(super) const MEMORY: f32 = 104.0;
 /// What the ends of the track keep free for half a number, and for the *undo* button where nothing else is there.
 pub(super) const MARGIN: f32 = 14.0;
 const UNDO: f32 = 52.0;
-/// The memory is told from this part of its bound on: below it is nobody's concern.
+/// The memory is shown from this part of its bound on.
 const NEAR_THE_BOUND: f64 = 0.75;
 /// The least distances in points between the numbers along the track, and between two marks.
 const NUMBERS_APART: f64 = 64.0;

@@ -64,7 +64,8 @@ pub(super) struct Track {
     is_held: bool,
 }
 
-/// A lane that re-enters the plot is drawn again once it has stayed for this fraction of the visible time. A swing that grows for ever passes the plot time and again.
+/// A lane that re-enters the plot is drawn again once it has stayed for this fraction of the visible time: a diverging swing
+/// crosses the plot again and again.
 const RETURNED: f64 = 0.1;
 
 impl Track {

@@ -99,13 +99,13 @@ fn metric<'a>(
 
 /// The unit that is shown in percent.
 const AMPLITUDES: &str = "amplitudes";
-/// From here on milliseconds are told in seconds.
+/// From here on milliseconds are shown as seconds.
 const MANY_MS: f64 = 10_000.0;
 /// From here on a share of the amplitude is that of a motion that has blown up.
 const LOST_PERCENT: f64 = 1e5;
-/// Frames begin early and late by more than this: a lesser mean latency is none.
+/// A smaller mean latency is shown as 0: frames begin early and late by more than this.
 const MIN_LATENCY_MS: f64 = 0.1;
-/// Less is not told from nothing by three decimals.
+/// A smaller value is shown as <0.001.
 const MIN_SHOWN: f64 = 1e-3;
 /// From here on three digits have no more than two decimals.
 const SMALL: f64 = 0.1;
