@@ -8,8 +8,9 @@ use std::time::Instant;
 
 use multiversion::multiversion;
 use rayon::ThreadPoolBuilder;
+use regatta::lab::Scene;
+use regatta::lab::cloud::{Density, PlaneView};
 use regatta::lab::palette::Theme;
-use regatta::lab::{Density, PlaneView, Scene};
 use regatta::sim::batch::{Batch, InstructionSet, Ticks};
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, State, Stepper};

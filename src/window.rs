@@ -12,9 +12,9 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Fullscreen, WindowId};
 
-use crate::lab::{
-    AnalysisWorker, CloudWorker, Command, DriverRequest, Lab, LoopWorker, ViewCommand,
-};
+use crate::lab::cloud::CloudWorker;
+use crate::lab::loop_lab::LoopWorker;
+use crate::lab::{AnalysisWorker, Command, DriverRequest, Lab, ViewCommand};
 
 mod canvas;
 mod clipboard;

@@ -8,9 +8,9 @@
 
 use std::path::PathBuf;
 
+use regatta::lab::scene::Scripted;
 use regatta::lab::{
-    Action, BuiltIn, Lab, LaneSpec, Race, RunCommand, SCENES, Scene, SceneBody, Scripted,
-    StageCommand,
+    Action, BuiltIn, Lab, LaneSpec, Race, RunCommand, SCENES, Scene, SceneBody, StageCommand,
 };
 use regatta::sim::integrators::{GENERAL_METHODS, Method, method};
 

@@ -12,7 +12,8 @@ use super::jobs;
 use super::output::print;
 use super::output::table::TableFormat;
 use super::scene_file;
-use crate::lab::{Adviser, LaneSpec, Language, Scene, nearest};
+use crate::lab::source_code::Language;
+use crate::lab::{Adviser, LaneSpec, Scene, nearest};
 use crate::sim::integrators::{Family, METHODS};
 
 mod judged;

@@ -2,8 +2,9 @@
 
 use super::experiment::Experiment;
 use super::schedule::Schedule;
+use crate::lab::cloud::{CloudChoice, CloudKind};
 use crate::lab::palette::Theme;
-use crate::lab::{CloudChoice, CloudKind, Instrument, Lab, Motion, RunCommand};
+use crate::lab::{Instrument, Lab, Motion, RunCommand};
 
 /// How a run is drawn: its frames, their size and what they show.
 #[derive(Clone, Copy, Debug)]

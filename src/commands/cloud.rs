@@ -20,12 +20,13 @@ use super::output::{Destination, Output, STDOUT};
 use super::terminal::tell;
 use crate::atomic_file::IfExists;
 use crate::lab::cloud::Section;
+use crate::lab::cloud::{
+    Cloud, CloudAxes, CloudBorder, CloudMeasure, CloudShape, CloudStart, Density, NoCloud,
+    PlaneView, ShownTicks, USUAL_POINTS,
+};
 use crate::lab::number::{round, significant};
 use crate::lab::palette::{Rgba, Theme};
-use crate::lab::{
-    Cloud, CloudAxes, CloudBorder, CloudMeasure, CloudShape, CloudStart, Coordinate, Density,
-    LaneSpec, NoCloud, PlaneView, Scene, SceneBody, ShownTicks, USUAL_POINTS, Unit,
-};
+use crate::lab::{Coordinate, LaneSpec, Scene, SceneBody, Unit};
 use crate::view::{Lettering, png};
 
 const ABOUT: &str = "\

@@ -9,11 +9,12 @@ use clap::{Args, ValueEnum};
 use super::error::Error;
 use super::scene_file;
 use super::spring::SpringArgs;
+use crate::lab::cloud::CloudKind;
 use crate::lab::pacing::{POLICIES, PolicyCard, TRACES, TraceCard, policy, trace_card};
 use crate::lab::palette::Theme;
 use crate::lab::{
-    Clock, CloudKind, Instrument, Lab, LaneSpec, MANY_LANES, MAX_SECONDS, SCENES, Scene,
-    StageCommand, lanes_that_race, nearest,
+    Clock, Instrument, Lab, LaneSpec, MANY_LANES, MAX_SECONDS, SCENES, Scene, StageCommand,
+    lanes_that_race, nearest,
 };
 use crate::sim::integrators::{METHODS, Method, method};
 

@@ -16,7 +16,8 @@ use super::jobs;
 use super::schedule::Schedule;
 use super::state_log::StateLog;
 use super::terminal::progress;
-use crate::lab::{CloudWorker, Lab};
+use crate::lab::Lab;
+use crate::lab::cloud::CloudWorker;
 use crate::view::{OffscreenRenderer, Panels, ReadbackError};
 
 /// Frames that the device draws at a time. More gain nothing on a software adapter and cost memory.

@@ -8,10 +8,8 @@ use super::identify::{LogArgs, rate};
 use super::numbers::{number, positive};
 use super::output::print;
 use super::output::table::TableFormat;
-use crate::lab::{
-    DriveLimits, MAX_SUBSTEPS, Ported, Setup, Wish, drive_limits, followers, identify, nearest,
-    port, setups,
-};
+use crate::lab::port::{DriveLimits, Ported, Setup, Wish, drive_limits, followers, setups};
+use crate::lab::{MAX_SUBSTEPS, identify, nearest, port};
 use crate::sim::integrators::{METHODS, Method};
 
 mod from;

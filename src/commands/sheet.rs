@@ -10,7 +10,8 @@ use super::interrupt::watch_for_interrupt;
 use super::output::Output;
 use super::pipeline::complete_analysis;
 use super::terminal::{progress, tell};
-use crate::lab::{CloudWorker, LaneSpec};
+use crate::lab::LaneSpec;
+use crate::lab::cloud::CloudWorker;
 use crate::view::png;
 
 /// The most pixels of a sheet, a gigabyte of memory.

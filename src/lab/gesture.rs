@@ -41,7 +41,7 @@ pub static GESTURES: &[Gesture] = &[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::Language;
+    use crate::lab::source_code::Language;
 
     #[test]
     fn the_menu_of_a_lane_is_told_of_with_every_language() {

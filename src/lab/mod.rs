@@ -66,16 +66,10 @@ pub use action::Action;
 pub use analysis::{
     Advice, AdvisedBodies, Adviser, AnalysisWorker, CRITERIA, ChaseFinding, Coverage, Criterion,
     CriterionMet, CriterionResult, Judge, MAX_ADVISED_SUBSTEPS, MAX_HORIZON_S, MapRequest,
-    MethodAdvice, NoTruth, NotJudged, Outcome, SeenLine, Severity, StabilityMap, Verdict,
-    recommended,
+    MethodAdvice, Outcome, SeenLine, Severity, StabilityMap, Verdict, recommended,
 };
 pub use appearance::Appearance;
 pub use chase::Chase;
-pub use cloud::{
-    Cloud, CloudAxes, CloudBorder, CloudChoice, CloudKind, CloudMeasure, CloudPicture, CloudShape,
-    CloudStart, CloudWorker, Density, LaneCloud, NoCloud, POINTS, PlaneView, ShownTicks,
-    USUAL_POINTS,
-};
 pub use command::{
     Command, RunCommand, SCALE_LADDER, SPEED_LADDER, StageCommand, TICK_LADDER,
     USUAL_SCALE_PERCENT, ViewCommand,
@@ -86,9 +80,8 @@ pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, View};
 pub use equal_cost::{equal_cost, lanes_that_race};
 pub use follow::{Follow, StopReason, Ticked};
 pub use gesture::{GESTURES, Gesture};
-pub use guide::Stop;
 pub use held::HeldBody;
-pub use identify::{Columns, Log, LogError, LoggedBody, identify};
+pub use identify::identify;
 pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow};
 pub use interpolation::Interpolation;
 pub use journal::{Journal, JournalRow, Source};
@@ -98,31 +91,26 @@ pub use lane::{ESCAPE, Halt, Lane, LaneBody, Resumed, ResumedFrom};
 pub use lane_id::LaneId;
 pub use lane_spec::LaneSpec;
 pub use live_loop::{LiveFrame, LiveLoop};
-pub use loop_lab::{
-    FRAME_METRICS, LoopCommand, LoopFrame, LoopLab, LoopLane, LoopVerdict, LoopWorker,
-};
+pub use loop_lab::{LoopCommand, LoopLab};
 pub use menu::Menu;
 pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use my_spring::MySpring;
 pub use notice::Notice;
 pub use one_step::{OneStep, Slope};
-pub use past::{Energies, History, Sample, Samples, Summary, TruthCurve, TruthSample};
-pub use port::{
-    Approach, DriveLimits, Ported, Setup, Wish, WishError, drive_limits, followers, port, setups,
-};
+pub use past::{History, Sample};
+pub use port::port;
 pub use quantity::Quantity;
 pub use race::{Entrant, Mode, Observer, Race};
 pub use report::{Criteria, MethodReport, Recommendation, Report, advise};
 #[cfg(feature = "cli")]
 pub(crate) use scene::clip::clip;
 pub use scene::{
-    BuiltIn, Check, MAX_FILE_BYTES, MAX_LANES, MAX_SECONDS, MAX_SUBSTEPS, Mistake, Refusal, SCENES,
-    Scene, SceneBody, SceneError, SceneErrors, SceneKey, Scripted, TOLERANCES, USUAL_SECONDS,
-    edited_values, nearest, scene_tables,
+    BuiltIn, Check, MAX_FILE_BYTES, MAX_LANES, MAX_SECONDS, MAX_SUBSTEPS, Mistake, SCENES, Scene,
+    SceneBody, SceneErrors, SceneKey, TOLERANCES, edited_values, nearest, scene_tables,
 };
 pub use scene_list::SceneList;
-pub use session::{Event, RecordingError, Session, Timeline};
-pub use source_code::{Language, NoSourceCode, Precision, source_code};
+pub use session::{Event, Session, Timeline};
+pub use source_code::source_code;
 pub use step::Step;
 pub use time_scale::TimeScale;
 pub use viewer::{Dialog, Preferences, Viewer};

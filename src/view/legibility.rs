@@ -5,12 +5,13 @@ use rayon::prelude::*;
 
 use super::frame::write;
 use super::{panels, theme};
+use crate::lab::cloud::{CloudChoice, CloudKind, CloudWorker};
 use crate::lab::guide::STOPS;
 use crate::lab::palette::Theme;
 use crate::lab::picture::compose;
 use crate::lab::{
-    Arrangement, CloudChoice, CloudKind, CloudWorker, Command, Instrument, Lab, LoopCommand,
-    RunCommand, SCALE_LADDER, SCENES, Scene, StageCommand, Step, ViewCommand,
+    Arrangement, Command, Instrument, Lab, LoopCommand, RunCommand, SCALE_LADDER, SCENES, Scene,
+    StageCommand, Step, ViewCommand,
 };
 
 /// Sizes of windows in points: the first is the least, the last has four times the usual pixels.

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use super::App;
 use crate::atomic_file::{IfExists, write_file};
-use crate::lab::{Lab, Language, Precision, source_code};
+use crate::lab::source_code::{Language, Precision};
+use crate::lab::{Lab, source_code};
 use crate::sim::integrators::Method;
 use crate::view::{Gpu, OffscreenRenderer, Panels, instrument_csv, instrument_svg, png};
 

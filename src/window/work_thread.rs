@@ -9,10 +9,12 @@ use std::thread;
 use winit::event_loop::EventLoopProxy;
 
 use super::Event;
+use crate::lab::AnalysisWorker;
 use crate::lab::analysis::AnalysisRequest;
 use crate::lab::cloud::CloudRequest;
+use crate::lab::cloud::CloudWorker;
 use crate::lab::loop_lab::LoopRequest;
-use crate::lab::{AnalysisWorker, CloudWorker, LoopWorker};
+use crate::lab::loop_lab::LoopWorker;
 
 /// Something that is worked on step by step.
 pub(super) trait Work: Send + 'static {

@@ -1,12 +1,12 @@
 //! What a method does to an area, and what a cloud says of it.
 
 use rayon::ThreadPoolBuilder;
-use regatta::lab::palette::Theme;
-use regatta::lab::{
+use regatta::lab::cloud::{
     Cloud, CloudBorder, CloudChoice, CloudKind, CloudPicture, CloudShape, CloudStart, CloudWorker,
-    Command, Density, Instrument, Lab, LaneSpec, NoCloud, PlaneView, RunCommand, Scene,
-    StageCommand,
+    Density, NoCloud, PlaneView,
 };
+use regatta::lab::palette::Theme;
+use regatta::lab::{Command, Instrument, Lab, LaneSpec, RunCommand, Scene, StageCommand};
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, Stepper};
 

@@ -3,10 +3,9 @@
 use std::f64::consts::TAU;
 
 use regatta::lab::past::Past;
+use regatta::lab::past::TruthSample;
 use regatta::lab::picture::{Grip, Picture, Whose, compose};
-use regatta::lab::{
-    Action, Interpolation, Lab, Race, RunCommand, Scene, StageCommand, TruthSample,
-};
+use regatta::lab::{Action, Interpolation, Lab, Race, RunCommand, Scene, StageCommand};
 
 fn open(scene: &str, tick_hz: u32) -> Lab {
     let mut lab = Lab::new(Scene::built_in(scene).unwrap());

@@ -1,10 +1,12 @@
 //! The guide: every stop is done by its keys and by nothing less, and what it claims is so.
 
+use regatta::lab::cloud::{CloudChoice, CloudKind, CloudWorker};
 use regatta::lab::guide::{Goal, STOPS};
+use regatta::lab::port::{Wish, setups};
 use regatta::lab::{
-    CloudChoice, CloudKind, CloudWorker, Command, Instrument, Judge, Lab, LaneSpec, LoopCommand,
-    LoopLab, METRICS, OneStep, Outcome, Quantity, Race, RunCommand, SCENES, Scene, StageCommand,
-    Step, Verdict, ViewCommand, Wish, command_for, port, setups,
+    Command, Instrument, Judge, Lab, LaneSpec, LoopCommand, LoopLab, METRICS, OneStep, Outcome,
+    Quantity, Race, RunCommand, SCENES, Scene, StageCommand, Step, Verdict, ViewCommand,
+    command_for, port,
 };
 use regatta::sim::integrators::method;
 

@@ -1,6 +1,7 @@
 //! Verdicts are of the run on the stage: of the scene as it is edited, and from where a person last moved a body.
 
-use regatta::lab::{Action, Judge, Lab, RunCommand, Scene, Scripted, StageCommand, Step, Verdict};
+use regatta::lab::scene::Scripted;
+use regatta::lab::{Action, Judge, Lab, RunCommand, Scene, StageCommand, Step, Verdict};
 
 fn opened(name: &str) -> Lab {
     Lab::new(Scene::built_in(name).unwrap())

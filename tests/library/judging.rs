@@ -1,9 +1,9 @@
 //! Verdicts and advice against plain runs: energies, amplitudes and errors counted out here once more.
 
 use regatta::lab::analysis::{Finding, TOLERANCE};
+use regatta::lab::analysis::{NoTruth, NotJudged};
 use regatta::lab::{
-    Adviser, CRITERIA, CriterionResult, Judge, LaneSpec, MAX_HORIZON_S, NoTruth, NotJudged,
-    Outcome, Scene, Verdict,
+    Adviser, CRITERIA, CriterionResult, Judge, LaneSpec, MAX_HORIZON_S, Outcome, Scene, Verdict,
 };
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, Stepper};

@@ -1,8 +1,10 @@
 //! A run as a scene file: it is read back unchanged, repeats the run to the bit, and contains its actions.
 
+use regatta::lab::scene::Scripted;
+use regatta::lab::session::RecordingError;
 use regatta::lab::{
-    Action, Lab, LaneId, LaneSpec, Mode, RecordingError, RunCommand, SCENES, Scene, Scripted,
-    Session, StageCommand, equal_cost, lanes_that_race,
+    Action, Lab, LaneId, LaneSpec, Mode, RunCommand, SCENES, Scene, Session, StageCommand,
+    equal_cost, lanes_that_race,
 };
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 

@@ -2,8 +2,9 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use regatta::lab::identify::{Columns, Log};
 use regatta::lab::pacing::trace_file;
-use regatta::lab::{Action, Columns, Lab, Log, Race, RunCommand, SCENES, Scene};
+use regatta::lab::{Action, Lab, Race, RunCommand, SCENES, Scene};
 
 use super::bad_scenes::check_places;
 use super::dice::Dice;

@@ -1,6 +1,7 @@
 //! Copying in the window and pasting in another program, and the other way round.
 
-use regatta::lab::{Language, Precision, source_code};
+use regatta::lab::source_code;
+use regatta::lab::source_code::{Language, Precision};
 use regatta::sim::integrators::method;
 
 use crate::desk::{Desk, until};

@@ -5,9 +5,10 @@ use serde_json::{Map, Value, json};
 use super::judged::{Row, recommended_row};
 use crate::commands::output::table::{self, Column};
 use crate::lab::number::round;
+use crate::lab::source_code::{Language, Precision};
 use crate::lab::{
-    Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, Language, MAX_ADVISED_SUBSTEPS,
-    Precision, Recommendation, Scene, source_code,
+    Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS,
+    Recommendation, Scene, source_code,
 };
 
 /// The answer as text: the recommendations, the recommended method in this language if there is one, the verdicts, and

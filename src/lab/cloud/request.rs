@@ -161,7 +161,7 @@ pub struct LaneCloud {
     pub density: Arc<Density>,
     /// How many points blew up and are left out.
     pub lost: usize,
-    /// The area over that at the start, as [`crate::lab::Cloud::area_ratio`].
+    /// The area over that at the start, as [`crate::lab::cloud::Cloud::area_ratio`].
     pub area_ratio: Option<f64>,
     /// What the area has become.
     pub words: String,

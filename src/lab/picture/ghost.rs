@@ -7,7 +7,7 @@ use super::moment::{DrawContext, turns};
 use super::trails::Place;
 use super::{Framing, Look, Outline, Rgba};
 use crate::lab::palette::faded;
-use crate::lab::{TruthCurve, TruthSample};
+use crate::lab::past::{TruthCurve, TruthSample};
 
 /// The true motion of one body at the moment drawn.
 pub(super) struct Ghost {

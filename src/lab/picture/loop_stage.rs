@@ -7,8 +7,9 @@ use super::body::OutlineView;
 use super::mass::LaneStyle;
 use super::sketch::{Camera, SOLID, line, path};
 use super::{Align, Framing, Label, Look, Outline, Picture, Rect, Rgba, chart};
+use crate::lab::loop_lab::{LoopFrame, LoopLane};
 use crate::lab::palette::{Palette, faded};
-use crate::lab::{Lab, LoopFrame, LoopLab, LoopLane, Severity};
+use crate::lab::{Lab, LoopLab, Severity};
 use crate::sim::number::round;
 
 /// From this height of the stage on, in points, a ruler fits above it.

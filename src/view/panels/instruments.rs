@@ -8,9 +8,10 @@ use egui::{Button, Color32, ComboBox, Label, Rect, RichText, Sense, Stroke, Ui, 
 use super::roster::{Roster, Runner};
 use super::tracks::Detail;
 use super::{advice, cost, focus_ring, ink, loops, one_step, stability_map};
+use crate::lab::loop_lab::FRAME_METRICS;
 use crate::lab::{
-    Command, FRAME_METRICS, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow, Lab, METRICS,
-    Quantity, StageCommand, ViewCommand,
+    Command, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow, Lab, METRICS, Quantity,
+    StageCommand, ViewCommand,
 };
 use crate::view::chart::legend;
 use crate::view::theme::{TYPE, strong_font};

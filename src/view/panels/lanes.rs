@@ -4,7 +4,8 @@ use egui::{Color32, RichText, Ui};
 
 use super::table::{Table, TableRow};
 use super::{formula, ink};
-use crate::lab::{Command, Lab, LaneBody, Language, StageCommand, ViewCommand};
+use crate::lab::source_code::Language;
+use crate::lab::{Command, Lab, LaneBody, StageCommand, ViewCommand};
 use crate::view::theme::{Ink, TYPE, strong_font};
 
 use row::Row;

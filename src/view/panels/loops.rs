@@ -3,7 +3,8 @@
 use egui::{Color32, RichText, Sense, Ui, Vec2, vec2};
 
 use super::{ink, strong_font};
-use crate::lab::{Command, Lab, LoopLab, LoopLane};
+use crate::lab::loop_lab::LoopLane;
+use crate::lab::{Command, Lab, LoopLab};
 use crate::view::chart::legend::{self, Entry};
 use crate::view::theme::{Ink, colour};
 

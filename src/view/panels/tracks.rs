@@ -5,7 +5,8 @@ use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
 use super::roster::Roster;
-use crate::lab::{Entrant, History, Lab, Quantity, Sample, Summary};
+use crate::lab::past::Summary;
+use crate::lab::{Entrant, History, Lab, Quantity, Sample};
 use crate::view::chart::{Arrow, Bounds, Curve, Dots, Drawing, LineStyle, Switch};
 
 /// A sample of a lane in a plot.

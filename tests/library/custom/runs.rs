@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 use regatta::lab::picture::{Look, Mark, Outline};
-use regatta::lab::{Adviser, CRITERIA, Lab, Lane, LaneSpec, Mode, RecordingError, Report};
+use regatta::lab::session::RecordingError;
+use regatta::lab::{Adviser, CRITERIA, Lab, Lane, LaneSpec, Mode, Report};
 use regatta::prelude::{Options, Scene, Session, State};
 use regatta::sim::Solver;
 use regatta::sim::integrators::method;

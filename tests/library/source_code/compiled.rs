@@ -3,7 +3,8 @@
 use std::process::Command;
 use std::{env, fs};
 
-use regatta::lab::{Language, Precision, source_code};
+use regatta::lab::source_code;
+use regatta::lab::source_code::{Language, Precision};
 use regatta::sim::integrators::{Family, METHODS, Method};
 
 use super::drivers;

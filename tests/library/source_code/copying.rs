@@ -1,6 +1,7 @@
 //! What the lab asks of its driver when something is to be copied.
 
-use regatta::lab::{Command, DriverRequest, Lab, Language, Scene, ViewCommand};
+use regatta::lab::source_code::Language;
+use regatta::lab::{Command, DriverRequest, Lab, Scene, ViewCommand};
 
 #[test]
 fn the_method_is_copied_while_a_lane_is_pointed_at_and_else_the_instrument() {

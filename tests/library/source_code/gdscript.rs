@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::{env, fs};
 
-use regatta::lab::{Language, Precision, source_code};
+use regatta::lab::source_code;
+use regatta::lab::source_code::{Language, Precision};
 use regatta::sim::integrators::{METHODS, method};
 
 /// The functions and words of GDScript that may be used without a declaration.

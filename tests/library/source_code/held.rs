@@ -2,8 +2,9 @@
 
 use std::cell::Cell;
 
-use regatta::lab::Language;
-use regatta::lab::{Precision, source_code};
+use regatta::lab::source_code;
+use regatta::lab::source_code::Language;
+use regatta::lab::source_code::Precision;
 use regatta::sim::integrators::{Method, integrator, method};
 use regatta::sim::{State, System};
 

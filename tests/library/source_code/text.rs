@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use regatta::lab::{Language, Precision, source_code};
+use regatta::lab::source_code;
+use regatta::lab::source_code::{Language, Precision};
 use regatta::sim::integrators::METHODS;
 
 use super::known::sources;

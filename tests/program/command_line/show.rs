@@ -3,7 +3,8 @@
 use std::io::Read as _;
 use std::process::Stdio;
 
-use regatta::lab::{Language, Precision, source_code};
+use regatta::lab::source_code;
+use regatta::lab::source_code::{Language, Precision};
 use regatta::manual::chapter;
 use regatta::sim::integrators::METHODS;
 

@@ -1,6 +1,7 @@
 use super::*;
+use crate::lab::source_code::Language;
 use crate::lab::{
-    Action, Command, Language, Mode, RunCommand, SCENES, StageCommand, Step, View, ViewCommand,
+    Action, Command, Mode, RunCommand, SCENES, StageCommand, Step, View, ViewCommand,
 };
 
 fn text(name: &str) -> &'static str {

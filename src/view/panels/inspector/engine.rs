@@ -5,7 +5,8 @@ use egui::{CollapsingHeader, ComboBox, RichText, Ui, vec2};
 use super::super::ink;
 use super::{Field, LINE, line};
 use crate::lab::number::significant;
-use crate::lab::{Command, Lab, RunCommand, Setup};
+use crate::lab::port::Setup;
+use crate::lab::{Command, Lab, RunCommand};
 
 /// Shows the numbers of a body that is a spring as the engine has them that is chosen; nothing of any other body.
 pub(super) fn show(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Command>) {

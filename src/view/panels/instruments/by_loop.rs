@@ -6,9 +6,9 @@ use super::super::tracks::Track;
 use super::error::capitalised;
 use super::phase::SAMPLES;
 use super::sheet::{ExactLine, PlotAxis, PlotModel, Sheet, time_in_view};
-use crate::lab::{
-    Energies, FRAME_METRICS, Instrument, Lab, LoopFrame, LoopLab, LoopLane, METRICS, Scale,
-};
+use crate::lab::loop_lab::{FRAME_METRICS, LoopFrame, LoopLane};
+use crate::lab::past::Energies;
+use crate::lab::{Instrument, Lab, LoopLab, METRICS, Scale};
 use crate::view::chart::{AxisScale, Bounds, Dots};
 
 /// The seconds in view where every frame shows.

@@ -15,12 +15,10 @@ use super::super::{focus_ring, ink, strong_font};
 use super::error::capitalised;
 use super::sheet::{ExactLine, PlotAxis, PlotModel, Sheet, over_time};
 use super::{body_choice, chart, choice};
+use crate::lab::cloud::{CloudChoice, CloudKind, CloudPicture, Density, LaneCloud, POINTS};
 use crate::lab::number::significant;
 use crate::lab::palette::{Rgba, Theme};
-use crate::lab::{
-    CloudChoice, CloudKind, CloudPicture, Command, Density, Lab, LaneCloud, Mode, POINTS,
-    RunCommand, StageCommand,
-};
+use crate::lab::{Command, Lab, Mode, RunCommand, StageCommand};
 use crate::view::chart::{self as charts, AxisScale, LineStyle, PlotArea, curves};
 
 /// Room for the numbers of the axes, at the left and below, and for the axes' names, in points.

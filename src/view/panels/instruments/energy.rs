@@ -6,7 +6,8 @@ use super::super::tracks::Track;
 use super::error;
 use super::motion::healthy;
 use super::sheet::{ExactLine, PlotAxis, PlotModel, Sheet, over_time};
-use crate::lab::{Energies, Lab, METRICS};
+use crate::lab::past::Energies;
+use crate::lab::{Lab, METRICS};
 use crate::view::chart::AxisScale;
 
 /// An energy: its name, its dash, how much of its colour it has, and how it is found.

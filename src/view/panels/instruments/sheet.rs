@@ -8,7 +8,8 @@ use super::super::ink_of;
 use super::super::roster::{Roster, Runner};
 use super::super::tracks::{self, Look, Track};
 use crate::lab::number::significant;
-use crate::lab::{Coordinate, Lab, LaneBody, Quantity, TruthCurve, TruthSample, Unit};
+use crate::lab::past::{TruthCurve, TruthSample};
+use crate::lab::{Coordinate, Lab, LaneBody, Quantity, Unit};
 use crate::view::chart::{Arrow, AxisScale, Bounds, Curve, Dots, Drawing, LineStyle, SwitchMark};
 use egui::Color32;
 

@@ -9,8 +9,9 @@ use egui::{
 
 use super::ShownLane;
 use super::counts::BELOW;
+use crate::lab::LoopLab;
+use crate::lab::loop_lab::{LoopFrame, LoopLane};
 use crate::lab::number::round;
-use crate::lab::{LoopFrame, LoopLab, LoopLane};
 use crate::view::chart::{self, AxisScale, LineStyle, PlotArea, curves};
 use crate::view::panels::{ink, strong_font};
 use crate::view::theme::Ink;

@@ -2,7 +2,8 @@
 
 use egui::{Color32, Rect, RichText, Sense, Shape, Stroke, Ui, vec2};
 
-use crate::lab::{Command, LoopCommand, LoopLab, LoopLane, Severity};
+use crate::lab::loop_lab::LoopLane;
+use crate::lab::{Command, LoopCommand, LoopLab, Severity};
 use crate::view::panels::table::TableRow;
 use crate::view::panels::verdict::{Sign, VerdictText};
 use crate::view::panels::{ink, strong_font};
