@@ -20,8 +20,8 @@
 //!   scene's bodies, known by its [`LaneId`](lab::LaneId), and a [`Follow`](lab::Follow) ticks one outside a run; a [`Judge`](lab::Judge) measures how far one strays, an
 //!   [`Adviser`](lab::Adviser) searches for the substeps that meet a [`Criterion`](lab::Criterion), and an
 //!   [`AnalysisWorker`](lab::AnalysisWorker) runs both, and the stability map, beside the race, as a
-//!   [`CloudWorker`](lab::cloud::CloudWorker) steps a [`Cloud`](lab::cloud::Cloud) of starts under each lane. The truth is a lane
-//!   whose solver is the exact flow, or a [reference](sim::REFERENCE_ACCURACY) for a body that has none. The layer knows no GPU and no wall clock: time comes in as
+//!   [`CloudWorker`](lab::cloud::CloudWorker) steps a [`Cloud`](lab::cloud::Cloud) of starts under each lane. The truth is a
+//!   lane whose solver is the exact flow, or a [reference](sim::REFERENCE_ACCURACY) for a body that has none. The layer knows no GPU and no wall clock: time comes in as
 //!   integers, text as `&str`.
 //!   [`identify`](fn@lab::identify) finds the method that made a log, and [`port`](fn@lab::port) the settings with which engines
 //!   move a spring alike.

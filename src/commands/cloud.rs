@@ -19,10 +19,9 @@ use super::output::table::{Column, RowFormat, write_rows};
 use super::output::{Destination, Output, STDOUT};
 use super::terminal::tell;
 use crate::atomic_file::IfExists;
-use crate::lab::cloud::Section;
 use crate::lab::cloud::{
     Cloud, CloudAxes, CloudBorder, CloudMeasure, CloudShape, CloudStart, Density, NoCloud,
-    PlaneView, ShownTicks, USUAL_POINTS,
+    PlaneView, Section, ShownTicks, USUAL_POINTS,
 };
 use crate::lab::number::{round, significant};
 use crate::lab::palette::{Rgba, Theme};
@@ -185,7 +184,9 @@ impl Run {
                 return false;
             }
             let begun = Instant::now();
-            self.section.iter_mut().for_each(|section| section.cross(&mut self.cloud));
+            if let Some(section) = &mut self.section {
+                section.cross(&mut self.cloud);
+            }
             self.stepping += begun.elapsed();
         }
         self.step_to(tick, interrupted)

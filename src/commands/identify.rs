@@ -8,8 +8,7 @@ use super::error::Error;
 use super::numbers::{number, number_that, positive};
 use super::output::print;
 use super::output::table::TableFormat;
-use crate::lab::identify;
-use crate::lab::identify::{Columns, Log, LoggedBody};
+use crate::lab::identify::{Columns, Log, LoggedBody, identify};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
 
 mod findings;

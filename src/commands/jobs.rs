@@ -18,14 +18,14 @@ const PATIENCE: Duration = Duration::from_millis(50);
 /// The time between two lines on how far the jobs are, where no bar shows it.
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
 
-/// So many threads to run jobs on; one for each core, or as `RAYON_NUM_THREADS` says, if it is 0.
+/// A pool of this many threads; if it is 0, of one for each core, or of as many as `RAYON_NUM_THREADS` says.
 ///
 /// # Errors
 /// If the system does not start them.
 pub(super) fn pool(threads: usize) -> Result<ThreadPool, Error> {
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     pool.map_err(|why| {
-        Error::failed(format!("cannot start threads: {why}; let the system start more of them"))
+        Error::failed(format!("cannot start the threads: {why}; give fewer --threads, where a command takes them, or let the system start more"))
     })
 }
 

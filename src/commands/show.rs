@@ -6,8 +6,7 @@ use super::error::Error;
 use super::experiment::{Offered, known_method, one_of};
 use super::output::print;
 use super::terminal::tell;
-use crate::lab::source_code;
-use crate::lab::source_code::{Language, Precision};
+use crate::lab::source_code::{Language, Precision, source_code};
 use crate::sim::integrators::{METHODS, Method};
 
 const ABOUT: &str = "\

@@ -11,10 +11,8 @@ use winit::event_loop::EventLoopProxy;
 use super::Event;
 use crate::lab::AnalysisWorker;
 use crate::lab::analysis::AnalysisRequest;
-use crate::lab::cloud::CloudRequest;
-use crate::lab::cloud::CloudWorker;
-use crate::lab::loop_lab::LoopRequest;
-use crate::lab::loop_lab::LoopWorker;
+use crate::lab::cloud::{CloudRequest, CloudWorker};
+use crate::lab::loop_lab::{LoopRequest, LoopWorker};
 
 /// Something that is worked on step by step.
 pub(super) trait Work: Send + 'static {

@@ -2,8 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use regatta::lab::past::Past;
-use regatta::lab::past::TruthSample;
+use regatta::lab::past::{Past, TruthSample};
 use regatta::lab::picture::{Grip, Picture, Whose, compose};
 use regatta::lab::{Action, Interpolation, Lab, Race, RunCommand, Scene, StageCommand};
 

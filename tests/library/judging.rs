@@ -1,7 +1,6 @@
 //! Verdicts and advice against plain runs: energies, amplitudes and errors counted out here once more.
 
-use regatta::lab::analysis::{Finding, TOLERANCE};
-use regatta::lab::analysis::{NoTruth, NotJudged};
+use regatta::lab::analysis::{Finding, NoTruth, NotJudged, TOLERANCE};
 use regatta::lab::{
     Adviser, CRITERIA, CriterionResult, Judge, LaneSpec, MAX_HORIZON_S, Outcome, Scene, Verdict,
 };

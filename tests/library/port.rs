@@ -2,10 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use regatta::lab::port;
-use regatta::lab::port::Reach;
 use regatta::lab::port::{
-    Approach, Ported, Setup, Wish, WishError, drive_limits, followers, setups,
+    Approach, Ported, Reach, Setup, Wish, WishError, drive_limits, followers, port, setups,
 };
 use regatta::sim::bodies::Follow;
 use regatta::sim::integrators::{Family, METHODS, integrator, method};

@@ -4,8 +4,7 @@
 use std::sync::Arc;
 
 use crate::dice::Dice;
-use regatta::lab::past::Past;
-use regatta::lab::past::TruthSample;
+use regatta::lab::past::{Past, TruthSample};
 use regatta::lab::session::{EventKind, SNAPSHOT_BYTES};
 use regatta::lab::{
     Action, Command, Event, Lab, LaneId, LaneSpec, RunCommand, Scene, Session, StageCommand,

@@ -1,7 +1,8 @@
 //! What verdicts say, word by word.
 
-use regatta::lab::analysis::{Change, Comparison, Finding, LongTerm, RunFailure, TOLERANCE};
-use regatta::lab::analysis::{NoTruth, NotJudged};
+use regatta::lab::analysis::{
+    Change, Comparison, Finding, LongTerm, NoTruth, NotJudged, RunFailure, TOLERANCE,
+};
 use regatta::lab::{KEYS, Outcome, Severity, Verdict};
 use regatta::manual::chapter;
 use regatta::sim::integrators::StepFailure;

@@ -1,7 +1,6 @@
 //! Copying in the window and pasting in another program, and the other way round.
 
-use regatta::lab::source_code;
-use regatta::lab::source_code::{Language, Precision};
+use regatta::lab::source_code::{Language, Precision, source_code};
 use regatta::sim::integrators::method;
 
 use crate::desk::{Desk, until};

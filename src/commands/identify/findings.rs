@@ -2,8 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::lab::identify::Log;
-use crate::lab::identify::{Candidate, Conclusion, Effective, Fitted, Identification};
+use crate::lab::identify::{Candidate, Conclusion, Effective, Fitted, Identification, Log};
 use crate::lab::number::significant;
 use crate::sim::integrators::Method;
 

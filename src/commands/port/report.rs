@@ -6,8 +6,7 @@ use super::{Drive, PortedEngine};
 use crate::commands::output::table::TableFormat;
 use crate::lab::identify::Effective;
 use crate::lab::number::{round, significant};
-use crate::lab::port::{Approach, DriveLimits, Ported, Setup, Wish};
-use crate::lab::port::{FollowerPort, Reach};
+use crate::lab::port::{Approach, DriveLimits, FollowerPort, Ported, Reach, Setup, Wish};
 
 /// A frequency, a damping ratio and how long the energy lasts.
 fn sees(seen: &Effective) -> String {

@@ -171,7 +171,7 @@ impl Density {
         pixels
     }
 
-    /// The picture in another size: what lies between two pixels falls on both.
+    /// The picture in another size, transparent where no point is: what lies between two pixels falls on both.
     pub fn picture_of_size(&self, size_px: [usize; 2], theme: Theme, colour: Rgba) -> Vec<Rgba> {
         let [width, height] = self.size_px;
         let counts: Vec<f32> = self.counts.iter().map(|&count| count as f32).collect();
@@ -182,7 +182,10 @@ impl Density {
         let columns: Vec<Vec<f32>> = (0..size_px[0]).map(column).collect();
         let all = (0..size_px[1]).flat_map(|y| columns.iter().map(move |column| column[y]));
         let all: Vec<f32> = all.collect();
-        shaded(all.iter().copied(), all.iter().sum(), theme, colour)
+        let mut pixels = shaded(all.iter().copied(), all.iter().sum(), theme, colour);
+        let counted = pixels.iter_mut().zip(&all);
+        counted.filter(|(_, count)| **count == 0.0).for_each(|(pixel, _)| pixel[3] = 0);
+        pixels
     }
 
     /// A pixel for each step along a line.

@@ -7,7 +7,7 @@ use crate::lab::intervention::Interventions;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::Scene;
 use crate::sim::Stepper;
-use crate::sim::integrators::Family;
+use crate::sim::integrators::steps_in_blocks;
 
 /// The points of a cloud that a person can choose.
 pub const POINTS: [usize; 3] = [10_000, USUAL_POINTS, 1_000_000];
@@ -174,7 +174,6 @@ pub struct LaneCloud {
 /// What a tick of a point costs, in evaluations of a copy in a block.
 pub(super) fn cost(spec: &LaneSpec) -> u64 {
     let evaluations = u64::from(spec.method.evaluations.unwrap_or(2)).max(1);
-    let family = spec.method.family;
-    let is_in_blocks = matches!(family, Family::Explicit | Family::Symplectic | Family::AsPrinted);
-    evaluations * u64::from(spec.substeps) * if is_in_blocks { 1 } else { ALONE }
+    let alone = if steps_in_blocks(spec.method) { 1 } else { ALONE };
+    evaluations * u64::from(spec.substeps) * alone
 }

@@ -91,14 +91,14 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
             displace(place, displacement * unit, &mut there, &mut other);
             columns.push(go(&other, there)?);
         }
-        let off = residuals(log, &now, scale).concat();
+        let residual = residuals(log, &now, scale).concat();
         let base = flat(log, &now);
         let slope = |there: &Vec<[f64; 2]>| -> Vec<f64> {
             let changes = flat(log, there).into_iter().zip(&base);
             changes.map(|(there, base)| (there - base) / displacement).collect()
         };
         let slopes: Vec<Vec<f64>> = columns.iter().map(slope).collect();
-        let Some(change) = least_squares(&slopes, &off) else { break };
+        let Some(change) = least_squares(&slopes, &residual) else { break };
         let worth = |states: &[[f64; 2]]| squares(&residuals(log, states, scale));
         let before = worth(&now);
         let halvings = if is_spring_known { 0 } else { HALVINGS };
@@ -114,14 +114,14 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
         let Some(nearer) = nearer else { break };
         (start, body, now) = nearer;
     }
-    let off = residuals(log, &now, scale);
-    let is_finite = off.iter().flatten().all(|off| off.is_finite());
+    let residuals = residuals(log, &now, scale);
+    let is_finite = residuals.iter().flatten().all(|r| r.is_finite());
     let precise = match (log.is_double(), candidate.method.is_engine()) {
         (false, _) => PRECISE_IN_SINGLE,
         (true, true) => PRECISE_OF_ENGINE,
         (true, false) => PRECISE_IN_DOUBLE,
     };
-    is_finite.then_some(Fit { body, run: now, precise, residuals: off })
+    is_finite.then_some(Fit { body, run: now, precise, residuals })
 }
 
 /// Adds `by` to what is fitted at this place: coordinate, velocity, stiffness and damping.

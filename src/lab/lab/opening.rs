@@ -58,8 +58,8 @@ impl Lab {
     }
 
     /// Replaces the scene of a changed file. If it is open and equal, the run goes on; if it has the same lanes and kinds of
-    /// bodies, the new scene runs to the present tick; otherwise it starts at tick 0. A notice says
-    /// that what a person did in the run is left out.
+    /// bodies, the new scene runs to the present tick; otherwise it starts at tick 0. A notice says that
+    /// what a person did in the run is left out.
     pub fn reload_file(&mut self, path: &Path, scene: Scene) {
         let is_open = self.scene_list.open_path() == Some(path);
         let tick = self.race().tick();

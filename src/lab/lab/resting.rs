@@ -16,7 +16,7 @@ const MIN_LEAD: u64 = 24;
 impl Lab {
     /// Whether the run rests at this tick.
     pub(super) fn comes_to_rest(&self) -> bool {
-        self.is_at_its_end() || self.is_just_lost()
+        self.is_at_its_end() || self.just_lost().is_some()
     }
 
     /// Whether a person only watches: the run of one lane whose bodies nobody steers, outside the guide.
@@ -39,13 +39,12 @@ impl Lab {
         late_s > -half_s && late_s <= half_s && self.is_watched()
     }
 
-    /// Whether the last body of the lane on the stage has just halted.
-    fn is_just_lost(&self) -> bool {
-        let is_last_tick = |halt: &Halt| halt.tick + 1 == self.race().tick();
-        self.display().motion == Motion::Live
+    /// The halt of the last body of the lane on the stage, if it has just halted.
+    fn just_lost(&self) -> Option<&Halt> {
+        let are_lost = self.display().motion == Motion::Live
             && self.mode() == Mode::Solo
-            && self.selected().lane.bodies().iter().all(|body| body.halted().is_some())
-            && self.last_halt().is_some_and(is_last_tick)
+            && self.selected().lane.bodies().iter().all(|body| body.halted().is_some());
+        self.last_halt().filter(|halt| are_lost && halt.tick + 1 == self.race().tick())
     }
 
     /// What to do where the run rests. Keys stand between backticks.
@@ -53,7 +52,7 @@ impl Lab {
         if self.running || !self.comes_to_rest() {
             return None;
         }
-        if let Some(halt) = self.last_halt().filter(|_| self.is_just_lost()) {
+        if let Some(halt) = self.just_lost() {
             let (name, how) = (self.lane_name(self.active()), halt.how());
             let t = significant(self.race().t(), 3);
             return Some(format!(

@@ -25,7 +25,7 @@ pub(in crate::sim) use instruction_set::Kernel;
 #[cfg(feature = "lab")]
 pub(in crate::sim) use law::LawCopies;
 
-use super::integrators::{Family, Method};
+use super::integrators::{Method, steps_in_blocks};
 use super::solver::Solver;
 use super::state::State;
 
@@ -204,11 +204,7 @@ impl Batch {
         copies: usize,
         solvers: impl IntoIterator<Item = Solver>,
     ) -> Result<(), TryReserveError> {
-        let is_in_blocks = |method: &Method| {
-            matches!(method.family, Family::Explicit | Family::Symplectic | Family::AsPrinted)
-                && method.tolerance.is_none()
-        };
-        let of_a_copy = |solver: Solver| match solver.method().is_some_and(is_in_blocks) {
+        let of_a_copy = |solver: Solver| match solver.method().is_some_and(steps_in_blocks) {
             true => BLOCK_BYTES,
             false => ALONE_BYTES,
         };

@@ -37,8 +37,8 @@ fn area(method: &Method, system: Problem<f64>) -> Result<f64, StepFailure> {
         }
         Ok([q, v].map(|values| fourth_order(values, d)))
     };
-    let (da_dq, da_dv) = (column(d, 0.0)?, column(0.0, d)?);
-    Ok(da_dq[0] * da_dv[1] - da_dq[1] * da_dv[0])
+    let (by_q, by_v) = (column(d, 0.0)?, column(0.0, d)?);
+    Ok(by_q[0] * by_v[1] - by_q[1] * by_v[0])
 }
 
 /// Whether both defects are zero; an error if one lies between the two thresholds.

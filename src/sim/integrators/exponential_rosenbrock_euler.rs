@@ -50,8 +50,8 @@ impl<V: Vector> ExponentialRosenbrockEuler<V> {
         let n = a.components().len();
 
         // The time by which velocities are multiplied is the step, or less on a stiff system.
-        let [da_dq, da_dv] = jacobian.norms(system);
-        let stiffness = (h * h * da_dq).sqrt().max(1.0);
+        let [norm_q, norm_v] = jacobian.norms(system);
+        let stiffness = (h * h * norm_q).sqrt().max(1.0);
         let time = h / stiffness;
         for i in 0..n {
             let (a, a_later) = (a.components()[i], a_later.components()[i]);
@@ -59,7 +59,7 @@ impl<V: Vector> ExponentialRosenbrockEuler<V> {
             f_t[n + i] = time * (h * (a_later - a));
         }
         x.fill(0.0);
-        let norm = stiffness.max((time * h).abs() * da_dq + h.abs() * da_dv);
+        let norm = stiffness.max((time * h).abs() * norm_q + h.abs() * norm_v);
         flow.advance(x, f, f_t, norm, &mut |x, slope| {
             let (x_q, x_v) = x.split_at(n);
             let (slope_q, slope_v) = slope.split_at_mut(n);

@@ -128,6 +128,14 @@ macro_rules! construct_in_blocks {
     ($S:ident, $method:ident, $construct:ident, $file:ident, $Type:ident) => {};
 }
 
+/// The id of a method that steps blocks.
+#[cfg(feature = "batch")]
+macro_rules! id_in_blocks {
+    ($file:ident, blocks) => {
+        $file::CARD.id
+    };
+}
+
 macro_rules! methods {
     ($($file:ident::$Type:ident $(as $Family:ident)? $(in $blocks:ident)?),+ $(,)?) => {
         $(pub use $file::$Type;)+
@@ -170,6 +178,12 @@ macro_rules! methods {
         ) -> Option<C::Output> {
             $(construct_in_blocks!(S, method, construct, $file, $Type $(, $blocks)?);)+
             None
+        }
+
+        /// Whether `method` steps each number by itself, so that it steps copies in blocks.
+        #[cfg(feature = "batch")]
+        pub(crate) fn steps_in_blocks(method: &Method) -> bool {
+            [$($(id_in_blocks!($file, $blocks),)?)+].contains(&method.id)
         }
     };
 }

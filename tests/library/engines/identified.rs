@@ -1,8 +1,8 @@
 //! The engine that made a log is found by its motion alone.
 
-use regatta::lab::identify;
-use regatta::lab::identify::{Columns, Log as Text, LoggedBody};
-use regatta::lab::identify::{Conclusion, Identification};
+use regatta::lab::identify::{
+    Columns, Conclusion, Identification, Log as Text, LoggedBody, identify,
+};
 
 use super::log::{Log, Row};
 use crate::dice::Dice;

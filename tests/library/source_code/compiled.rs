@@ -3,8 +3,7 @@
 use std::process::Command;
 use std::{env, fs};
 
-use regatta::lab::source_code;
-use regatta::lab::source_code::{Language, Precision};
+use regatta::lab::source_code::{Language, Precision, source_code};
 use regatta::sim::integrators::{Family, METHODS, Method};
 
 use super::drivers;

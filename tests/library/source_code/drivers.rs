@@ -2,9 +2,7 @@
 
 use std::fmt::Write as _;
 
-use regatta::lab::source_code;
-use regatta::lab::source_code::{Language, Precision};
-use regatta::lab::source_code::{MethodInput, MethodSource};
+use regatta::lab::source_code::{Language, MethodInput, MethodSource, Precision, source_code};
 use regatta::sim::integrators::Method;
 
 use super::known::{CASES, FORCE, FORCES, RATE, SETTINGS, STEPS, SUBSTEPS, TARGET, sources};

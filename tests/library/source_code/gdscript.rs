@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::{env, fs};
 
-use regatta::lab::source_code;
-use regatta::lab::source_code::{Language, Precision};
+use regatta::lab::source_code::{Language, Precision, source_code};
 use regatta::sim::integrators::{METHODS, method};
 
 /// The functions and words of GDScript that may be used without a declaration.

@@ -2,9 +2,7 @@
 
 use std::cell::Cell;
 
-use regatta::lab::source_code;
-use regatta::lab::source_code::Language;
-use regatta::lab::source_code::Precision;
+use regatta::lab::source_code::{Language, Precision, source_code};
 use regatta::sim::integrators::{Method, integrator, method};
 use regatta::sim::{State, System};
 

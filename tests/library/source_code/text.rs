@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use regatta::lab::source_code;
-use regatta::lab::source_code::{Language, Precision};
+use regatta::lab::source_code::{Language, Precision, source_code};
 use regatta::sim::integrators::METHODS;
 
 use super::known::sources;

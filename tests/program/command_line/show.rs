@@ -3,8 +3,7 @@
 use std::io::Read as _;
 use std::process::Stdio;
 
-use regatta::lab::source_code;
-use regatta::lab::source_code::{Language, Precision};
+use regatta::lab::source_code::{Language, Precision, source_code};
 use regatta::manual::chapter;
 use regatta::sim::integrators::METHODS;
 

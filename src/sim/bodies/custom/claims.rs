@@ -120,8 +120,8 @@ fn unsolved(body: &Custom, fault: NotSolved) -> CustomFault {
     CustomFault { field: "exact", what, remedy: "correct it, or remove `exact`" }
 }
 
-fn energy_defect(leak: EnergyDefect) -> CustomFault {
-    let what = match leak {
+fn energy_defect(defect: EnergyDefect) -> CustomFault {
+    let what = match defect {
         EnergyDefect::NotFinite(energy) => format!("it is {energy} at the start"),
         EnergyDefect::Constant(energy) => {
             format!("it is {energy} in every state, which says nothing of the motion")
@@ -197,9 +197,10 @@ pub(super) fn check(body: &Custom, horizon: ClaimHorizon) -> Result<(), CustomFa
     if let Some(fault) = find_unsolved(body).or_else(|| find_departure(body, horizon)) {
         return Err(unsolved(body, fault));
     }
-    if let Some(leak) = find_energy_defect(body).or_else(|| find_later_energy_defect(body, horizon))
+    if let Some(defect) =
+        find_energy_defect(body).or_else(|| find_later_energy_defect(body, horizon))
     {
-        return Err(energy_defect(leak));
+        return Err(energy_defect(defect));
     }
     find_nonlinearity(body).map_or(Ok(()), Err)
 }

@@ -64,7 +64,7 @@ pub fn check_law(
         return Err(unsolved(&law, fault));
     }
     match find_energy_defect(&law).or_else(|| find_later_energy_defect(&law, horizon)) {
-        Some(leak) => Err(energy_defect(&law, leak)),
+        Some(defect) => Err(energy_defect(&law, defect)),
         None => Ok(()),
     }
 }
@@ -120,8 +120,8 @@ fn unsolved(law: &Law, fault: NotSolved) -> Refusal {
     refusal(law, Part::Exact(coordinate), what, remedy)
 }
 
-fn energy_defect(law: &Law, leak: EnergyDefect) -> Refusal {
-    let what = match leak {
+fn energy_defect(law: &Law, defect: EnergyDefect) -> Refusal {
+    let what = match defect {
         EnergyDefect::NotFinite(energy) => format!("the energy is {energy} at the start"),
         EnergyDefect::Constant(energy) => {
             let what =

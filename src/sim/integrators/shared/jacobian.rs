@@ -35,8 +35,8 @@ fn rows(j: usize, reach: usize, n: usize) -> (usize, usize) {
 impl<V: Vector> Jacobian<V> {
     /// For both derivatives.
     pub(in crate::sim::integrators) fn new(like: &V, coupling: Coupling) -> Self {
-        let da_dv = Self::by_velocity(like, coupling);
-        Self { da_dq: da_dv.da_dv.clone(), ..da_dv }
+        let by_v = Self::by_velocity(like, coupling);
+        Self { da_dq: by_v.da_dv.clone(), ..by_v }
     }
 
     /// For `∂a/∂v` alone.
@@ -83,9 +83,9 @@ impl<V: Vector> Jacobian<V> {
             [da_dq, da_dv].into_iter().enumerate().filter(|(_, m)| !m.is_empty())
         {
             for begin in 0..apart {
-                let da_dv = is_by_v as u32;
-                comb(&mut along.q, begin, apart, f64::from(1 - da_dv));
-                comb(&mut along.v, begin, apart, f64::from(da_dv));
+                let by_v = is_by_v as u32;
+                comb(&mut along.q, begin, apart, f64::from(1 - by_v));
+                comb(&mut along.v, begin, apart, f64::from(by_v));
                 slopes.take(system, t, at, along, None, slope);
                 for j in (begin..n).step_by(apart) {
                     let (first, height) = rows(j, reach, n);

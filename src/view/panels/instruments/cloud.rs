@@ -39,7 +39,7 @@ const MAX_TEXELS: usize = 1024;
 const MIN_SIDE: f32 = 30.0;
 /// The size of the words beside a cloud, in points.
 const WORDS: f32 = 12.0;
-/// A cloud that is narrower than this, in points, has the number alone above it; a hover tells the rest.
+/// A cloud that is narrower than this, in points, has numbers alone above it; a hover tells the rest.
 const ROOM_FOR_WORDS: f32 = 80.0;
 /// The width of the exact outline, in points.
 const OUTLINE: f32 = 1.1;
@@ -164,12 +164,7 @@ fn caption(ui: &Ui, lab: &Lab, lane: &LaneCloud, width: f32) -> Arc<Galley> {
     job.wrap.max_width = width;
     job.append(&lab.lane_name(lane.entry), 0.0, TextFormat::simple(font.clone(), colour));
     let words = match (lane.area_ratio, width < ROOM_FOR_WORDS) {
-        (Some(ratio), true) => {
-            let part = lane.lost as f64 / lab.display().cloud.points as f64;
-            let lost = format!("\n{} % lost", significant(100.0 * part, 2));
-            let lost = if lane.lost > 0 { lost } else { String::new() };
-            format!("×{}{lost}", significant(ratio, 3))
-        }
+        (Some(ratio), true) => format!("×{}{}", significant(ratio, 3), lost(lane)),
         _ => words(lane),
     };
     let line = format!("\n{words}");
@@ -180,11 +175,15 @@ fn caption(ui: &Ui, lab: &Lab, lane: &LaneCloud, width: f32) -> Arc<Galley> {
 /// What has become of a cloud.
 fn words(lane: &LaneCloud) -> String {
     let area = lane.area_ratio.map(|ratio| format!("×{}, ", significant(ratio, 3)));
-    let lost = match lane.lost {
+    format!("{}{}{}", area.unwrap_or_default(), lane.words, lost(lane))
+}
+
+/// How many points of a cloud blew up, if any did.
+fn lost(lane: &LaneCloud) -> String {
+    match lane.lost {
         0 => String::new(),
         lost => format!(", {} blew up", thousands(lost)),
-    };
-    format!("{}{}{lost}", area.unwrap_or_default(), lane.words)
+    }
 }
 
 /// The clouds in as many columns as make them largest.
@@ -260,19 +259,18 @@ fn cloud(
     let view = picture.view;
     let area = PlotArea { rect, bounds: [view.q, view.v] };
     // A number that stands half beside its cloud would run into the next one's.
-    let fits = |axis: usize, at: f64, text: &str| {
-        let x = area.at([at, view.v[0]]).x;
-        axis == 1
-            || rect.expand(GAP / 2.0).x_range().contains(x + charts::number_width(text) / 2.0)
-                && rect.expand(GAP / 2.0).x_range().contains(x - charts::number_width(text) / 2.0)
+    let fits = |at: f64, text: &str| {
+        let off_centre = (area.at([at, view.v[0]]).x - rect.center().x).abs();
+        off_centre + charts::number_width(text) / 2.0 <= (rect.width() + GAP) / 2.0
     };
     let marks = |axis: usize, apart: f64| {
-        let marks = area.marks(axis, AxisScale::Linear, apart).into_iter();
-        let named = marks.map(|(at, text)| match has[1 - axis] && fits(axis, at, &text) {
-            true => (at, text),
-            false => (at, String::new()),
-        });
-        named.collect::<Vec<_>>()
+        let mut marks = area.marks(axis, AxisScale::Linear, apart);
+        let is_shown = |at: f64, text: &str| has[1 - axis] && (axis == 1 || fits(at, text));
+        marks
+            .iter_mut()
+            .filter(|(at, text)| !is_shown(*at, text))
+            .for_each(|(_, text)| text.clear());
+        marks
     };
     let axes = charts::axes(&area, [marks(0, 56.0), marks(1, 24.0)], ink, f32::INFINITY);
     charts::paint(ui.painter(), &axes);
@@ -326,11 +324,7 @@ fn image(ui: &Ui, place: usize, density: &Arc<Density>, style: Style) -> Texture
         made => made,
     };
     let (size, theme, colour) = style;
-    // Where no point is, the axes below are seen.
-    let empty = theme.palette().plot;
-    let mut rgba = density.picture_of_size(size, theme, colour);
-    rgba.iter_mut().filter(|pixel| **pixel == empty).for_each(|pixel| pixel[3] = 0);
-    let rgba = rgba.concat();
+    let rgba = density.picture_of_size(size, theme, colour).concat();
     let image = ColorImage::from_rgba_unmultiplied(size, &rgba);
     let texture = match old {
         Some(mut old) if old.style.0 == size => {
