@@ -30,8 +30,8 @@ use crate::view::{Lettering, png};
 
 const ABOUT: &str = "\
 The starts fill the shape evenly about the scene's start, in the plane of the coordinate and the
-velocity of its first body of one coordinate. Inputs of the scene's script are left out. One row
-for each method:
+velocity of its first body of one coordinate. The scene's script is left out. One row for each
+method:
   method            the methods named, else those of the scene
   points            the starts that have not blown up
   area_ratio        the area over that at the start: on a linear body by the determinant of the

@@ -122,8 +122,7 @@ impl CloudStart {
 pub struct CloudMeasure {
     /// The points that are still there; the others blew up.
     pub points: usize,
-    /// The area over that at the start; `None` if no point is left, or the cloud is drawn out too
-    /// finely.
+    /// The area over that at the start; `None` if no point is left, or the cloud is too fine, folded or torn to measure.
     pub area_ratio: Option<f64>,
     /// The mean distance of the points from their middle, root mean square, over that at the start.
     pub spread: Option<f64>,
@@ -148,6 +147,9 @@ enum Area {
     /// All of it, where near points take steps of their own: the map is too rough for small areas.
     Border(CloudBorder),
 }
+
+/// The mean of areas is not known if its standard error is more than this part of it: a few that go far away rule it then.
+const UNEVEN: f64 = 0.1;
 
 /// The most sampled points, and the points of a cloud for each.
 const MAX_SAMPLES: usize = 256;
@@ -292,8 +294,7 @@ impl Cloud {
         self.present().count()
     }
 
-    /// The area over that at the start; `None` if no point is left, or the cloud is drawn out too
-    /// finely.
+    /// The area over that at the start; `None` if no point is left, or the cloud is too fine, folded or torn to measure.
     pub fn area_ratio(&self) -> Option<f64> {
         self.present().next()?;
         match &self.area {
@@ -301,8 +302,12 @@ impl Cloud {
             Area::Lozenges(corners) => {
                 let all = corners.areas();
                 let areas: Vec<f64> = all.iter().copied().flatten().collect();
-                let is_known = 2 * areas.len() >= all.len();
-                is_known.then(|| areas.iter().sum::<f64>() / areas.len() as f64)
+                let count = areas.len() as f64;
+                let mean = areas.iter().sum::<f64>() / count;
+                let squares = areas.iter().map(|area| (area - mean) * (area - mean));
+                let error = (squares.sum::<f64>() / (count * (count - 1.0).max(1.0))).sqrt();
+                let is_known = 2 * areas.len() >= all.len() && error <= UNEVEN * mean;
+                is_known.then_some(mean)
             }
         }
     }

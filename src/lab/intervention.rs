@@ -1,23 +1,23 @@
-//! The changes to a run by which it is judged, and the scene that a run so changed continues.
+//! The changes to a run by which it is told, and the scene that a run so changed continues.
 
 use std::sync::Arc;
 
 use super::action::Action;
 use super::journal::{JournalRow, Source};
-use super::race::{JudgedBody, JudgedStart, Race};
+use super::race::{BodyStart, Race, RunStart};
 use super::scene::{Scene, Scripted};
 
-/// What a person has changed in a run by its present tick, and the parameters that its script has set by then.
+/// What a person and the script have changed in a run by its present tick.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Interventions {
-    /// The state at which a body was last placed or kicked.
-    judged_start: Option<Arc<JudgedStart>>,
+    /// From where the run is told, unless it is from its start.
+    start: Option<Arc<RunStart>>,
     /// The last action on the throttle, on the rudder and on each parameter.
     settings: Vec<Action>,
 }
 
 impl Interventions {
-    /// The changes in `race`. A parameter that the script has set is in force like one that a person has set; what the
+    /// The changes in `race` by which it is judged. A parameter that the script has set is in force like one that a person has set; what the
     /// script does to throttle, rudder and state is part of the motion that is judged.
     pub(super) fn in_race(race: &Race) -> Self {
         let mut settings: Vec<Action> = Vec::new();
@@ -32,27 +32,32 @@ impl Interventions {
                 settings.push(row.action.clone());
             }
         }
-        Self { judged_start: race.judged_start().cloned(), settings }
+        Self { start: race.judged_start().cloned(), settings }
+    }
+
+    /// All changes in `race`: the run is told from right after the last one on.
+    pub(super) fn all_in_race(race: &Race) -> Self {
+        Self { start: race.cloud_start().cloned(), settings: Vec::new() }
     }
 
     /// The time of the run at which the scene begins that it is [applied to](Self::applied_to), in seconds.
     pub(super) fn starts_at_s(&self) -> f64 {
-        self.judged_start.as_ref().map_or(0.0, |start| start.t)
+        self.start.as_ref().map_or(0.0, |start| start.t)
     }
 
-    /// The run as a scene of its own, from where a body was last placed or kicked by hand, or else from the start.
+    /// The run as a scene of its own, from where it is told.
     /// Parameters that have been set, and a throttle and a rudder that were set by hand, have their last values from the
     /// beginning, and the script does not set them.
     pub(super) fn applied_to(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         let mut at_start = Vec::new();
-        if let Some(judged_start) = &self.judged_start {
-            scene.tick_hz = judged_start.tick_hz;
-            scene.script.retain(|scripted| scripted.tick > judged_start.tick);
-            scene.script.iter_mut().for_each(|scripted| scripted.tick -= judged_start.tick);
-            at_start.push(Action::Throttle(judged_start.throttle));
-            at_start.push(Action::Rudder(judged_start.rudder));
-            for (body, JudgedBody { values, q, v }) in judged_start.bodies.iter().enumerate() {
+        if let Some(start) = &self.start {
+            scene.tick_hz = start.tick_hz;
+            scene.script.retain(|scripted| scripted.tick > start.tick);
+            scene.script.iter_mut().for_each(|scripted| scripted.tick -= start.tick);
+            at_start.push(Action::Throttle(start.throttle));
+            at_start.push(Action::Rudder(start.rudder));
+            for (body, BodyStart { values, q, v }) in start.bodies.iter().enumerate() {
                 scene.bodies[body].values.clone_from(values);
                 at_start.push(Action::Place { body, q: q.clone(), v: v.clone() });
             }

@@ -15,12 +15,12 @@ pub(super) use hash::Fnv;
 
 mod acting;
 mod hash;
-mod judged_start;
 mod observer;
+mod run_start;
 
 pub(super) use acting::ActionResult;
-pub(super) use judged_start::{JudgedBody, JudgedStart};
 pub use observer::Observer;
+pub(super) use run_start::{BodyStart, RunStart};
 
 /// One method at a time, or all of them at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,7 +72,9 @@ pub struct Race {
     /// The number of rows of the journal that have been performed.
     done: usize,
     /// The state right after a person last placed or kicked a body.
-    judged_start: Option<Arc<JudgedStart>>,
+    judged_start: Option<Arc<RunStart>>,
+    /// The state right after anything last acted on the bodies.
+    cloud_start: Option<Arc<RunStart>>,
 }
 
 impl Race {
@@ -130,6 +132,7 @@ impl Race {
             journal: Journal::default(),
             done: 0,
             judged_start: None,
+            cloud_start: None,
         }
     }
 
@@ -242,7 +245,11 @@ impl Race {
             + self.entrants.len() * size_of::<Entrant>()
             + values.sum::<usize>()
             + lanes.map(Lane::heap_bytes).sum::<usize>()
-            + self.judged_start.as_ref().map_or(0, |judged_start| judged_start.bytes())
+            + [&self.judged_start, &self.cloud_start]
+                .into_iter()
+                .flatten()
+                .map(|start| start.bytes())
+                .sum::<usize>()
     }
 
     /// Performs the journal's actions at this tick, and steps every lane and the truth to the next. Never allocates.

@@ -1,12 +1,15 @@
 //! What a method does to an area, and what a cloud says of it.
 
+use std::f64::consts::TAU;
+
 use rayon::ThreadPoolBuilder;
 use regatta::lab::cloud::{
     Cloud, CloudBorder, CloudChoice, CloudKind, CloudPicture, CloudShape, CloudStart, CloudWorker,
     Density, NoCloud, PlaneView,
 };
 use regatta::lab::palette::Theme;
-use regatta::lab::{Command, Instrument, Lab, LaneSpec, RunCommand, Scene, StageCommand};
+use regatta::lab::scene::Scripted;
+use regatta::lab::{Action, Command, Instrument, Lab, LaneSpec, RunCommand, Scene, StageCommand};
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, Stepper};
 
@@ -28,7 +31,7 @@ fn explicit_euler_grows_the_area_of_a_spring_by_its_determinant_and_a_symplectic
     // (1 + h² ω²) in each tick, of a spring of 1 Hz.
     let mut grown = cloud("spring", "explicit-euler", CloudShape::Disc, 100, 60);
     grown.advance(60);
-    let z = std::f64::consts::TAU / 60.0;
+    let z = TAU / 60.0;
     let ratio = grown.measure().area_ratio.unwrap();
     assert!((ratio / libm::pow(1.0 + z * z, 60.0) - 1.0).abs() < 1e-9, "{ratio}");
     assert!(grown.in_words(grown.area_ratio()).starts_with("grows ×2 in"));
@@ -237,7 +240,7 @@ fn clouds_start_anew_under_another_rate_method_or_parameter_and_tell_until_then_
     let mut worker = CloudWorker::default();
     (0..6).for_each(|_| lab.tick());
     picture(&mut lab, &mut worker);
-    let set = regatta::lab::Action::Set { body: 0, parameter: 0, value: 2.0 };
+    let set = Action::Set { body: 0, parameter: 0, value: 2.0 };
     for command in [
         Command::Stage(StageCommand::TickHz(24)),
         Command::Stage(StageCommand::Pick(1)),
@@ -245,11 +248,44 @@ fn clouds_start_anew_under_another_rate_method_or_parameter_and_tell_until_then_
     ] {
         lab.apply(command);
         assert!(lab.cloud().is_none());
+        (0..6).for_each(|_| lab.tick());
         let now = picture(&mut lab, &mut worker);
         assert!(now.tick > 0 && now.lanes[0].areas.len() > 3);
     }
     lab.apply(StageCommand::Instrument(Instrument::Motion));
     assert!(lab.cloud_request().is_none() && lab.cloud().is_none());
+}
+
+#[test]
+fn the_exact_cloud_goes_with_the_exact_body_through_kicks_and_other_parameters() {
+    let scene = Scene::built_in("pendulum").unwrap();
+    let length =
+        scene.bodies[0].kind.parameters.iter().position(|it| it.key == "length_m").unwrap();
+    let set = |value: f64| Action::Set { body: 0, parameter: length, value };
+    let scripted = |tick: u64, action: Action| Scripted { tick, action };
+    let script = vec![scripted(10, Action::Kick(1.0)), scripted(20, set(2.0))];
+    let mut lab = Lab::new(Scene { script, ..scene });
+    lab.apply(StageCommand::Instrument(Instrument::Cloud));
+    let disc = CloudKind::Shape(CloudShape::Disc);
+    lab.apply(RunCommand::Cloud(CloudChoice { kind: disc, points: 100 }));
+    let mut worker = CloudWorker::default();
+    (0..30).for_each(|_| lab.tick());
+    for (tick, started) in [(6, 0), (16, 10), (26, 20), (36, 30), (26, 20)] {
+        lab.apply(RunCommand::Seek(tick.min(30)));
+        if tick == 36 {
+            lab.apply(RunCommand::Act(set(0.5)));
+            (0..6).for_each(|_| lab.tick());
+        }
+        let now = picture(&mut lab, &mut worker).clone();
+        assert_eq!(now.tick, tick - started, "at tick {tick}");
+        let body = &lab.race().truth().bodies()[0].stepper;
+        let [line] = &now.border[..] else { panic!("a disc has one border") };
+        // What is around the body turns once about it.
+        let angle = |[q, v]: &[f64; 2]| (v - body.v()[0]).atan2(q - body.q()[0]);
+        let ends = line.windows(2).map(|ends| angle(&ends[1]) - angle(&ends[0]));
+        let turns = ends.map(|by| by.sin().atan2(by.cos())).sum::<f64>() / TAU;
+        assert!((turns.abs() - 1.0).abs() < 0.02, "at tick {tick}: {turns}");
+    }
 }
 
 #[test]

@@ -79,7 +79,7 @@ impl Default for CloudChoice {
 pub struct CloudRequest {
     pub(in crate::lab) scene: Arc<Scene>,
     /// What has changed in the run.
-    pub(in crate::lab) by_hand: Interventions,
+    pub(in crate::lab) changes: Interventions,
     /// The body, by its index in the scene.
     pub(in crate::lab) body: usize,
     /// The lanes, by their places on the list.
@@ -108,7 +108,7 @@ impl CloudRequest {
     /// Whether both are of one run of clouds, at whatever tick.
     pub fn is_alike(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.scene, &other.scene)
-            && self.by_hand == other.by_hand
+            && self.changes == other.changes
             && self.body == other.body
             && self.lanes == other.lanes
             && self.tick_hz == other.tick_hz
@@ -161,6 +161,8 @@ pub struct LaneCloud {
     pub density: Arc<Density>,
     /// How many points blew up and are left out.
     pub lost: usize,
+    /// How many of the others are beyond the axes; 0 of a section.
+    pub hidden: usize,
     /// The area over that at the start, as [`crate::lab::cloud::Cloud::area_ratio`].
     pub area_ratio: Option<f64>,
     /// What the area has become.

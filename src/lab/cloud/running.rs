@@ -13,6 +13,7 @@ use super::{
 };
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::race::Race;
+use crate::sim::number::significant;
 
 /// The samples of an area over the length of a run.
 const SAMPLES: u64 = 200;
@@ -21,6 +22,10 @@ const REACH: f64 = 2.0;
 
 /// About how many evaluations are made before a picture is shown on the way.
 const WORK: u64 = 4_000_000;
+
+/// How much further an area was than twice of where it is, as a natural logarithm, for it to have come back.
+const COME_BACK: f64 = 0.01;
+
 /// Works on one request at a time.
 #[derive(Default)]
 pub struct CloudWorker {
@@ -82,9 +87,9 @@ enum Running {
 
 impl Running {
     fn new(request: &CloudRequest) -> Result<Self, NoCloud> {
-        let &CloudRequest { ref scene, ref by_hand, body, ref lanes, tick_hz, choice, .. } =
+        let &CloudRequest { ref scene, ref changes, body, ref lanes, tick_hz, choice, .. } =
             request;
-        let scene = by_hand.applied_to(scene).of_one_body(body);
+        let scene = changes.applied_to(scene).of_one_body(body);
         let mut race = Race::new(&scene, []).with_script(&scene.script);
         race.catch_up(&mut ());
         let request = Request {
@@ -93,7 +98,7 @@ impl Running {
             lanes,
             tick_hz,
             seconds: scene.seconds,
-            t: by_hand.starts_at_s(),
+            t: changes.starts_at_s(),
         };
         match choice.kind {
             CloudKind::Shape(shape) => {
@@ -187,15 +192,18 @@ impl CloudRun {
         let lane = |(entry, Run { cloud, areas }): &(usize, Run<Cloud>)| {
             let mut density = Density::new([GRID; 2], view);
             density.add(cloud.q(), cloud.v());
-            let (area_ratio, points) = (cloud.area_ratio(), cloud.q().len());
+            let (area_ratio, left) = (cloud.area_ratio(), cloud.points_left());
+            let shown: u32 = density.counts().iter().sum();
+            let areas = self.samples(areas, area_ratio);
             LaneCloud {
                 entry: *entry,
                 density: Arc::new(density),
-                lost: points - cloud.points_left(),
+                lost: cloud.q().len() - left,
+                hidden: left - shown as usize,
                 area_ratio,
-                words: cloud.in_words(area_ratio),
+                words: come_back(&areas, area_ratio).unwrap_or_else(|| cloud.in_words(area_ratio)),
                 measured: cloud.measured_in_words(),
-                areas: self.samples(areas, area_ratio),
+                areas,
             }
         };
         CloudPicture {
@@ -217,4 +225,13 @@ impl CloudRun {
             .filter_map(|(tick, area)| Some([self.t(tick), area?]))
             .collect()
     }
+}
+
+/// What is said of an area that was much further from what it was at the start before: what it does between start and now is
+/// then no growth.
+fn come_back(areas: &[[f64; 2]], now: Option<f64>) -> Option<String> {
+    let change = |area: f64| libm::log(area).abs();
+    let far = areas.iter().map(|[_, area]| *area).max_by(|a, b| change(*a).total_cmp(&change(*b)));
+    let is_far = |far: &f64| change(*far) > 2.0 * change(now.unwrap_or(*far)) + COME_BACK;
+    far.filter(is_far).map(|far| format!("has come back from ×{}", significant(far, 3)))
 }

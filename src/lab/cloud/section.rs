@@ -124,6 +124,7 @@ impl SectionRun {
             entry: lane.entry,
             density: lane.section.density.clone().into(),
             lost: STARTS - lane.cloud.points_left(),
+            hidden: 0,
             area_ratio: None,
             words: format!("{STARTS} starts, {} times", lane.section.crossings),
             measured: self.strobe.clone(),

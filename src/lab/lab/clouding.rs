@@ -8,17 +8,17 @@ use crate::lab::instrument::Instrument;
 use crate::lab::intervention::Interventions;
 
 impl Lab {
-    /// The clouds that the lab wants at present, for a [`CloudWorker`]: those of its lanes, about the start of the run that
-    /// verdicts are [of](Self::analysis_request). `None` while the instrument is another, or the displayed body has no
+    /// The clouds that the lab wants at present, for a [`CloudWorker`]: those of its lanes, about the start of the run or where
+    /// a person or the script last acted on the bodies. `None` while the instrument is another, or the displayed body has no
     /// cloud.
     pub fn cloud_request(&self) -> Option<CloudRequest> {
         let is_shown = self.display().instrument == Instrument::Cloud && self.loop_lab.is_none();
         if !is_shown || self.cloud_refusal().is_some() {
             return None;
         }
-        let by_hand = Interventions::in_race(self.race());
+        let changes = Interventions::all_in_race(self.race());
         let (tick_hz, choice) = (self.clock.tick_hz(), self.display().cloud);
-        let seconds = (self.race().t() - by_hand.starts_at_s()).max(0.0);
+        let seconds = (self.race().t() - changes.starts_at_s()).max(0.0);
         Some(CloudRequest {
             scene: Arc::clone(&self.start.scene),
             body: self.view().body,
@@ -29,7 +29,7 @@ impl Lab {
                 CloudKind::Shape(_) => (seconds * f64::from(tick_hz)).round() as u64,
                 CloudKind::Section => 0,
             },
-            by_hand,
+            changes,
         })
     }
 

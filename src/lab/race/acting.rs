@@ -30,9 +30,7 @@ impl Race {
         while let Some(row) = journal.rows().get(self.done).filter(|row| row.tick <= self.tick) {
             self.done += 1;
             self.perform(&row.action, observer);
-            if row.source == Source::Hand {
-                self.note_judged_start(&row.action);
-            }
+            self.note_start(&row.action, row.source);
         }
     }
 
@@ -52,7 +50,7 @@ impl Race {
         let (done, released) = self.journal.insert(self.done, self.tick, action.clone());
         self.done = done;
         self.perform(&action, observer);
-        self.note_judged_start(&action);
+        self.note_start(&action, Source::Hand);
         ActionResult::Done { released }
     }
 

@@ -37,8 +37,9 @@ const WIDEST: f32 = 1.3;
 const MAX_TEXELS: usize = 1024;
 /// The least side of a cloud, in points.
 const MIN_SIDE: f32 = 30.0;
-/// The size of the words beside a cloud, in points.
+/// The size of the words above a cloud, in points, and the least to which they shrink where a word would break.
 const WORDS: f32 = 12.0;
+const MIN_WORDS: f32 = 8.5;
 /// A cloud that is narrower than this, in points, has numbers alone above it; a hover tells the rest.
 const ROOM_FOR_WORDS: f32 = 80.0;
 /// The width of the exact outline, in points.
@@ -47,6 +48,8 @@ const OUTLINE: f32 = 1.1;
 /// this much on both sides of 1: half of it and twice.
 const MAX_DECADES: f64 = 3.0;
 const MIN_DECADES: f64 = 0.31;
+/// A cloud of which this part is beyond the axes says so.
+const HIDDEN: f64 = 0.1;
 /// A cloud that is this far behind the run says so, in seconds.
 const BEHIND_S: f64 = 0.25;
 
@@ -159,31 +162,40 @@ fn caption(ui: &Ui, lab: &Lab, lane: &LaneCloud, width: f32) -> Arc<Galley> {
     let (spec, ink) = (&lab.entries()[lane.entry], ink(ui));
     let (colour, _) = ink.style(lab.entries(), spec);
     let is_front = lane.entry == lab.active();
-    let font = if is_front { strong_font(WORDS) } else { FontId::proportional(WORDS) };
+    let name = lab.lane_name(lane.entry);
+    let told = match (lane.area_ratio, width < ROOM_FOR_WORDS) {
+        (Some(ratio), true) => format!("×{}{}", significant(ratio, 3), missing(lab, lane)),
+        _ => words(lab, lane),
+    };
+    let font = |size: f32| if is_front { strong_font(size) } else { FontId::proportional(size) };
+    let wide = |word: &str| ui.painter().layout_no_wrap(word.into(), font(WORDS), colour).size().x;
+    let longest = name.split(' ').chain(told.split(' ')).map(wide).fold(width, f32::max);
+    let font = font((WORDS * width / longest).max(MIN_WORDS));
     let mut job = LayoutJob::default();
     job.wrap.max_width = width;
-    job.append(&lab.lane_name(lane.entry), 0.0, TextFormat::simple(font.clone(), colour));
-    let words = match (lane.area_ratio, width < ROOM_FOR_WORDS) {
-        (Some(ratio), true) => format!("×{}{}", significant(ratio, 3), lost(lane)),
-        _ => words(lane),
-    };
-    let line = format!("\n{words}");
+    job.append(&name, 0.0, TextFormat::simple(font.clone(), colour));
+    let line = format!("\n{told}");
     job.append(&line, 0.0, TextFormat::simple(font, if is_front { ink.text } else { ink.dim }));
     ui.painter().layout_job(job)
 }
 
 /// What has become of a cloud.
-fn words(lane: &LaneCloud) -> String {
+fn words(lab: &Lab, lane: &LaneCloud) -> String {
     let area = lane.area_ratio.map(|ratio| format!("×{}, ", significant(ratio, 3)));
-    format!("{}{}{}", area.unwrap_or_default(), lane.words, lost(lane))
+    format!("{}{}{}", area.unwrap_or_default(), lane.words, missing(lab, lane))
 }
 
-/// How many points of a cloud blew up, if any did.
-fn lost(lane: &LaneCloud) -> String {
-    match lane.lost {
-        0 => String::new(),
-        lost => format!(", {} blew up", thousands(lost)),
+/// What part of a cloud is not seen, and why.
+fn missing(lab: &Lab, lane: &LaneCloud) -> String {
+    let mut told = String::new();
+    if lane.lost > 0 {
+        told += &format!(", {} blew up", thousands(lane.lost));
     }
+    let part = lane.hidden as f64 / lab.display().cloud.points as f64;
+    if part >= HIDDEN {
+        told += &format!(", {} % beyond the axes", significant(100.0 * part, 2));
+    }
+    told
 }
 
 /// The clouds in as many columns as make them largest.
@@ -295,7 +307,7 @@ fn cloud(
         let rim = Stroke::new(1.6, Color32::from_rgb(colour[0], colour[1], colour[2]));
         ui.painter().rect_stroke(rect, 0.0, rim, StrokeKind::Outside);
     }
-    let about = format!("cloud of {}: {}", lab.lane_name(lane.entry), words(lane));
+    let about = format!("cloud of {}: {}", lab.lane_name(lane.entry), words(lab, lane));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &about));
     focus_ring(ui, &response);
     let told = format!("{about} ({})", lane.measured);

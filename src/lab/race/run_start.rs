@@ -1,13 +1,15 @@
-//! The state at which a person last placed or kicked a body: verdicts are of the run from there.
+//! States from which a run can be told anew: verdicts are of the run from where a person last placed or kicked a body, and
+//! clouds start where anything last changed one.
 
 use std::sync::Arc;
 
 use super::Race;
 use crate::lab::action::Action;
+use crate::lab::journal::Source;
 
-/// The true state of a race right after a person placed or kicked a body.
+/// The true state of a race right after an action on its bodies.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::lab) struct JudgedStart {
+pub(in crate::lab) struct RunStart {
     pub(in crate::lab) tick: u64,
     /// The time of the tick in seconds.
     pub(in crate::lab) t: f64,
@@ -15,22 +17,22 @@ pub(in crate::lab) struct JudgedStart {
     pub(in crate::lab) throttle: f64,
     pub(in crate::lab) rudder: f64,
     /// In scene order.
-    pub(in crate::lab) bodies: Vec<JudgedBody>,
+    pub(in crate::lab) bodies: Vec<BodyStart>,
 }
 
 /// The true state of one body.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::lab) struct JudgedBody {
+pub(in crate::lab) struct BodyStart {
     /// Its parameters, as its kind [takes](crate::sim::bodies::Kind::build) them.
     pub(in crate::lab) values: Vec<f64>,
     pub(in crate::lab) q: Box<[f64]>,
     pub(in crate::lab) v: Box<[f64]>,
 }
 
-impl JudgedStart {
+impl RunStart {
     /// Its memory in bytes.
     pub(super) fn bytes(&self) -> usize {
-        let body = |body: &JudgedBody| {
+        let body = |body: &BodyStart| {
             size_of_val(body)
                 + size_of_val(&body.values[..])
                 + size_of_val(&body.q[..])
@@ -42,28 +44,38 @@ impl JudgedStart {
 
 impl Race {
     /// The state right after a person last placed or kicked a body; `None` if nobody has.
-    pub(in crate::lab) fn judged_start(&self) -> Option<&Arc<JudgedStart>> {
+    pub(in crate::lab) fn judged_start(&self) -> Option<&Arc<RunStart>> {
         self.judged_start.as_ref()
     }
 
-    /// Keeps the present state if `action`, which a person has done, placed or kicked a body.
-    pub(super) fn note_judged_start(&mut self, action: &Action) {
-        if !matches!(action, Action::Place { .. } | Action::Kick(_)) {
+    /// The state right after a person or the script last acted on the bodies; `None` if neither has.
+    pub(in crate::lab) fn cloud_start(&self) -> Option<&Arc<RunStart>> {
+        self.cloud_start.as_ref()
+    }
+
+    /// Keeps the present state after an action that begins what is told.
+    pub(super) fn note_start(&mut self, action: &Action, source: Source) {
+        let is_placed = matches!(action, Action::Place { .. } | Action::Kick(_));
+        if !is_placed && !matches!(action, Action::Set { .. }) && action.input().is_none() {
             return;
         }
         let bodies = self.truth.bodies().iter().zip(&self.values);
-        let bodies = bodies.map(|(body, values)| JudgedBody {
+        let bodies = bodies.map(|(body, values)| BodyStart {
             values: values.clone(),
             q: body.stepper.q().into(),
             v: body.stepper.v().into(),
         });
-        self.judged_start = Some(Arc::new(JudgedStart {
+        let start = Arc::new(RunStart {
             tick: self.tick,
             t: self.t(),
             tick_hz: self.tick_hz(),
             throttle: self.throttle,
             rudder: self.rudder,
             bodies: bodies.collect(),
-        }));
+        });
+        if is_placed && source == Source::Hand {
+            self.judged_start = Some(Arc::clone(&start));
+        }
+        self.cloud_start = Some(start);
     }
 }
