@@ -308,10 +308,11 @@ fn make(
     }
     // The first part of a long run is as wide as the rest.
     let long = ticks.min(LONGEST_SCOUTED_S * u64::from(scene.tick_hz));
-    let shown = match (form, strobe) {
-        (Form::Png, None) => ShownTicks { ticks, times: 1, beside: BESIDE },
-        _ => ShownTicks { ticks: long, times: long.min(MAX_FRAMES), beside: BESIDE },
+    let (ticks_shown, times) = match (form, strobe) {
+        (Form::Png, None) => (ticks, 1),
+        _ => (long, long.min(MAX_FRAMES)),
     };
+    let shown = ShownTicks { ticks: ticks_shown, times, beside: BESIDE, spread: f64::INFINITY };
     let view = match form {
         Form::Rows => None,
         Form::Png | Form::Gif => {

@@ -29,6 +29,8 @@ pub struct ShownTicks {
     pub times: u64,
     /// How far other clouds stretch the axes, in widths of what the exact one covers.
     pub beside: f64,
+    /// How many times as wide or as high as at the start the exact cloud is while it is shown.
+    pub spread: f64,
 }
 
 impl ShownTicks {
@@ -40,7 +42,7 @@ impl From<u64> for ShownTicks {
     /// What the axes of the clouds of a lab show, in a run of so many ticks.
     fn from(ticks: u64) -> Self {
         let ticks = ticks.min(MAX_TICKS);
-        Self { ticks, times: ticks.min(MOMENTS), beside: BESIDE }
+        Self { ticks, times: ticks.min(MOMENTS), beside: BESIDE, spread: f64::INFINITY }
     }
 }
 
@@ -69,22 +71,29 @@ impl CloudAxes {
         let mut border = CloudBorder::exact_of_points(BORDER_SCOUTS, name, body, start, tick_hz)?;
         let scouts = specs.iter().map(|spec| Cloud::new(name, body, spec, start, SCOUTS, tick_hz));
         let mut scouts = scouts.collect::<Result<Vec<_>, _>>()?;
+        let is_angle = body.is_angle(0);
+        let at_start = border.lines().concat();
+        let largest = [0, 1].map(|i| shown.spread * PlaneView::width(&at_start, i));
         let (mut exact, mut others) = (Vec::new(), Vec::new());
         let mut widest = [0.0_f64; 2];
         for moment in 1..=shown.times {
             let tick = shown.ticks * moment / shown.times;
             border.go_to(tick);
             let now = border.lines().concat();
-            let range = [0, 1].map(|i| PlaneView::range(&now, i));
-            widest = [0, 1].map(|i| widest[i].max(range[i][1] - range[i][0]));
+            let wide = [0, 1].map(|i| PlaneView::width(&now, i));
+            let is_spread = |i: usize| wide[i] > largest[i] && !(i == 0 && is_angle);
+            if !exact.is_empty() && (is_spread(0) || is_spread(1)) {
+                break;
+            }
+            widest = [0, 1].map(|i| widest[i].max(wide[i]));
             exact.extend(now);
             for scout in &mut scouts {
                 scout.go_to(tick);
                 others.extend(scout.q().iter().zip(scout.v()).map(|(&q, &v)| [q, v]));
             }
         }
-        let whole = PlaneView::around(&exact, &others, shown.beside, body.is_angle(0));
-        let wide = [0, 1].map(|i| PlaneView::range(&exact, i)).map(|[low, high]| high - low);
+        let whole = PlaneView::around(&exact, &others, shown.beside, is_angle);
+        let wide = [0, 1].map(|i| PlaneView::width(&exact, i));
         let is_far = |i: usize| wide[i] > FAR * widest[i] && !(i == 0 && whole.wraps);
         let follows = [0, 1].map(|i| is_far(i).then_some(ROOM * widest[i]));
         Ok(Self { whole, follows })

@@ -46,6 +46,12 @@ impl PlaneView {
         })
     }
 
+    /// How far they are apart.
+    pub(super) fn width(points: &[[f64; 2]], i: usize) -> f64 {
+        let [least, most] = Self::range(points, i);
+        most - least
+    }
+
     /// Where a point lies, from 0 to 1 to the right and up.
     pub fn place(&self, q: f64, v: f64) -> [f64; 2] {
         let q = if self.wraps { q - TAU * ((q + PI) / TAU).floor() } else { q };

@@ -20,6 +20,9 @@ const SAMPLES: u64 = 200;
 /// How many times further the clouds of a lab reach than others: they are seen small.
 const REACH: f64 = 2.0;
 
+/// How many times as wide as at the start a cloud is while the axes show it: of one that spreads on the start would be a speck.
+const SPREAD: f64 = 10.0;
+
 /// About how many evaluations are made before a picture is shown on the way.
 const WORK: u64 = 4_000_000;
 
@@ -144,7 +147,8 @@ impl CloudRun {
         let ticks = |seconds: f64| ((seconds * f64::from(tick_hz)) as u64).max(1);
         let specs: Vec<LaneSpec> = lanes.iter().map(|(_, spec)| *spec).collect();
         let long = ticks(seconds.min(ShownTicks::LONGEST_S));
-        let axes = CloudAxes::of_run(name, body, start, &specs, tick_hz, long.into())?;
+        let shown = ShownTicks { spread: SPREAD, ..long.into() };
+        let axes = CloudAxes::of_run(name, body, start, &specs, tick_hz, shown)?;
         let work: u64 = specs.iter().map(cost).sum();
         let mut run = Self {
             lanes: runs,

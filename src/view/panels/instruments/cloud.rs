@@ -21,10 +21,14 @@ use crate::lab::palette::{Rgba, Theme};
 use crate::lab::{Command, Lab, Mode, RunCommand, StageCommand};
 use crate::view::chart::{self as charts, AxisScale, LineStyle, PlotArea, curves};
 
-/// Room for the numbers of the axes, at the left and below, and for the axes' names, in points.
+/// The least room for the numbers of the axes at the left, and what these need besides their width; the room for those
+/// below, and for the axes' names, in points.
 const LEFT: f32 = 32.0;
+const BESIDE_NUMBERS: f32 = 8.0;
 const NUMBERS: f32 = 17.0;
 const NAMES: f32 = 17.0;
+/// Between two numbers of the velocity, in points, at least.
+const UP_APART: f64 = 24.0;
 /// Between two clouds, in points.
 const GAP: f32 = 10.0;
 /// From this height on, in points, the areas are drawn over time, on this part of it, of at least this height.
@@ -150,33 +154,47 @@ fn behind_s(lab: &Lab) -> Option<f64> {
     Some(lab.cloud_request()?.behind_s(picture)).filter(|behind| *behind > BEHIND_S)
 }
 
+/// In groups of digits, between which no line breaks.
 fn thousands(points: usize) -> String {
     match points {
         ..1000 => points.to_string(),
-        _ => format!("{}\u{202f}{:03}", thousands(points / 1000), points % 1000),
+        _ => format!("{}\u{a0}{:03}", thousands(points / 1000), points % 1000),
     }
 }
 
-/// The words above a cloud.
-fn caption(ui: &Ui, lab: &Lab, lane: &LaneCloud, width: f32) -> Arc<Galley> {
-    let (spec, ink) = (&lab.entries()[lane.entry], ink(ui));
-    let (colour, _) = ink.style(lab.entries(), spec);
-    let is_front = lane.entry == lab.active();
-    let name = lab.lane_name(lane.entry);
-    let told = match (lane.area_ratio, width < ROOM_FOR_WORDS) {
-        (Some(ratio), true) => format!("×{}{}", significant(ratio, 3), missing(lab, lane)),
-        _ => words(lab, lane),
+/// The name and the words above each cloud, of this width and in one size.
+fn captions(ui: &Ui, lab: &Lab, lanes: &[LaneCloud], width: f32) -> Vec<Arc<Galley>> {
+    let texts: Vec<[String; 2]> = lanes
+        .iter()
+        .map(|lane| {
+            let told = match (lane.area_ratio, width < ROOM_FOR_WORDS) {
+                (Some(ratio), true) => {
+                    format!("×{}{}", significant(ratio, 3), missing(lab, lane).replace(", ", "\n"))
+                }
+                _ => words(lab, lane),
+            };
+            [lab.lane_name(lane.entry), told]
+        })
+        .collect();
+    let ink = ink(ui);
+    let wide = |word: &str| {
+        ui.painter().layout_no_wrap(word.into(), strong_font(WORDS), ink.text).size().x
     };
-    let font = |size: f32| if is_front { strong_font(size) } else { FontId::proportional(size) };
-    let wide = |word: &str| ui.painter().layout_no_wrap(word.into(), font(WORDS), colour).size().x;
-    let longest = name.split(' ').chain(told.split(' ')).map(wide).fold(width, f32::max);
-    let font = font((WORDS * width / longest).max(MIN_WORDS));
-    let mut job = LayoutJob::default();
-    job.wrap.max_width = width;
-    job.append(&name, 0.0, TextFormat::simple(font.clone(), colour));
-    let line = format!("\n{told}");
-    job.append(&line, 0.0, TextFormat::simple(font, if is_front { ink.text } else { ink.dim }));
-    ui.painter().layout_job(job)
+    let all = texts.iter().flatten().flat_map(|text| text.split([' ', '\n']));
+    let longest = all.flat_map(|word| word.split_inclusive('-')).map(wide).fold(width, f32::max);
+    let size = (WORDS * width / longest).max(MIN_WORDS);
+    let caption = |(lane, [name, told]): (&LaneCloud, &[String; 2])| {
+        let (colour, _) = ink.style(lab.entries(), &lab.entries()[lane.entry]);
+        let is_front = lane.entry == lab.active();
+        let font = if is_front { strong_font(size) } else { FontId::proportional(size) };
+        let mut job = LayoutJob::default();
+        job.wrap.max_width = width;
+        job.append(name, 0.0, TextFormat::simple(font.clone(), colour));
+        let colour = if is_front { ink.text } else { ink.dim };
+        job.append(&format!("\n{told}"), 0.0, TextFormat::simple(font, colour));
+        ui.painter().layout_job(job)
+    };
+    lanes.iter().zip(&texts).map(caption).collect()
 }
 
 /// What has become of a cloud.
@@ -193,7 +211,7 @@ fn missing(lab: &Lab, lane: &LaneCloud) -> String {
     }
     let part = lane.hidden as f64 / lab.display().cloud.points as f64;
     if part >= HIDDEN {
-        told += &format!(", {} % beyond the axes", significant(100.0 * part, 2));
+        told += &format!(", {} % outside", significant(100.0 * part, 2));
     }
     told
 }
@@ -207,15 +225,17 @@ fn side_by_side(
     commands: &mut Vec<Command>,
 ) {
     let lanes = &picture.lanes;
+    let numbers = AxisScale::Linear.marks(picture.view.v, room.height(), UP_APART);
+    let widest = numbers.iter().map(|(_, text)| charts::number_width(text)).fold(0.0, f32::max);
     let inner = Rect::from_min_max(
-        pos2(room.left() + LEFT, room.top()),
+        pos2(room.left() + LEFT.max(widest + BESIDE_NUMBERS), room.top()),
         pos2(room.right(), room.bottom() - NUMBERS - NAMES),
     );
     let layout = |columns: usize| {
         let rows = lanes.len().div_ceil(columns);
         let gaps = GAP * (columns - 1) as f32;
         let width = ((inner.width() - gaps) / columns as f32).max(MIN_SIDE);
-        let captions: Vec<_> = lanes.iter().map(|lane| caption(ui, lab, lane, width)).collect();
+        let captions = captions(ui, lab, lanes, width);
         let above = captions.iter().map(|words| words.size().y).fold(0.0, f32::max) + 3.0;
         let height = (inner.height() / rows as f32 - above - GAP / 2.0).max(MIN_SIDE);
         (columns, vec2(width.min(WIDEST * height), height), captions, above)
@@ -284,7 +304,7 @@ fn cloud(
             .for_each(|(_, text)| text.clear());
         marks
     };
-    let axes = charts::axes(&area, [marks(0, 56.0), marks(1, 24.0)], ink, f32::INFINITY);
+    let axes = charts::axes(&area, [marks(0, 56.0), marks(1, UP_APART)], ink, f32::INFINITY);
     charts::paint(ui.painter(), &axes);
     ui.painter().image(texture.id(), rect, all, Color32::WHITE);
     let painter = ui.painter().with_clip_rect(rect);
