@@ -11,7 +11,7 @@ use super::limits::VISIBLE;
 use super::truth::{BodyTruth, ticks};
 use super::verdict::RunFailure;
 use crate::lab::action::Action;
-use crate::lab::follow::{StopReason, Ticked};
+use crate::lab::follow::{Follow, StopReason, Ticked};
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::integrators::StepFailure;
 use crate::sim::stability::{Tick, spectral_radius};
@@ -43,56 +43,96 @@ pub(super) fn follow_energy(
     tick_hz: u32,
     max_work: u64,
 ) -> EnergyRun {
-    let (hz, horizon) = (f64::from(tick_hz), ticks(truth.horizon_s, tick_hz));
-    let body = truth.body_under(spec.solver(), spec.substeps);
-    let stepper = &*body.stepper;
-    let n = stepper.q().len() as u64;
-    let is_conserved = stepper.energy().is_some();
-    let tick = Tick { t: 0.0, h: 1.0 / hz, substeps: spec.substeps };
-    let max_evaluations = max_work / n / WORK_OF_RADIUS;
-    let radius = spectral_radius(stepper, spec.solver(), tick, max_evaluations);
-    let mut follow = truth.follow(Metered::new(body), tick_hz).within(max_work);
-    let mut means = Means::over(horizon);
-    // The largest kinetic energy, the most energy that was lost, and the most that was gained.
-    let (mut fastest, mut lost, mut gained) = (0.0_f64, 0.0_f64, 0.0_f64);
-    let (mut seconds, mut evaluations) = (0.0, 0);
-    let stop = follow.run(horizon, |body, tick| {
-        (seconds, evaluations) = (tick as f64 / hz, body.body.stepper.evaluations());
-        let now = body.energy();
-        let gain = sum(now) - body.start;
-        (fastest, lost, gained) = (fastest.max(now[0]), lost.max(-gain), gained.max(gain));
-        means.take_in(tick, gain);
-        ControlFlow::Continue(())
-    });
-    truth.count_work(follow.body.body.work(follow.ticks()));
-    let mut run = EnergyRun {
-        finding: EnergyFinding {
-            change: 0.0,
-            trend: Change::None,
-            drift_percent: None,
-            is_conserved,
-            spectral_radius: radius.ok().flatten().filter(|radius| radius.is_finite()),
-        },
-        is_too_much: stop == StopReason::TooMuchWork,
-        failure: RunFailure::of(stop, follow.t()),
-        evaluations,
-        seconds,
-    };
-    let scale = fastest.max(lost);
-    if scale > 0.0 && scale.is_finite() {
-        let [first, .., last] = means.means().map(|mean| mean / scale);
-        run.finding.change = last;
-        let drift = if gained > lost { gained } else { -lost };
-        run.finding.drift_percent = is_conserved.then_some(100.0 * drift / scale);
-        run.finding.trend = if is_conserved {
-            Change::between(amplitude(first), amplitude(last))
-        } else if last > first.max(0.0) + 2.0 * VISIBLE {
-            Change::Grows
-        } else {
-            Change::None
+    let mut followed = FollowedEnergy::new(truth, spec, tick_hz, max_work);
+    while !followed.work(truth, u64::MAX) {}
+    followed.run
+}
+
+/// A run without a truth on its way. It can be stopped after any tick, and goes on from there.
+pub(super) struct FollowedEnergy {
+    follow: Follow<'static, Metered>,
+    /// The run so far. What it does to the energy is found at its end.
+    pub(super) run: EnergyRun,
+    horizon: u64,
+    hz: f64,
+    means: Means,
+    /// The largest kinetic energy, the most energy that was lost, and the most that was gained, in joules.
+    extremes: [f64; 3],
+}
+
+impl FollowedEnergy {
+    /// A run before its first tick. The spectral radius is computed.
+    pub(super) fn new(truth: &BodyTruth, spec: LaneSpec, tick_hz: u32, max_work: u64) -> Self {
+        let (hz, horizon) = (f64::from(tick_hz), ticks(truth.horizon_s, tick_hz));
+        let body = truth.body_under(spec.solver(), spec.substeps);
+        let stepper = &*body.stepper;
+        let n = stepper.q().len() as u64;
+        let tick = Tick { t: 0.0, h: 1.0 / hz, substeps: spec.substeps };
+        let max_evaluations = max_work / n / WORK_OF_RADIUS;
+        let radius = spectral_radius(stepper, spec.solver(), tick, max_evaluations);
+        let run = EnergyRun {
+            finding: EnergyFinding {
+                change: 0.0,
+                trend: Change::None,
+                drift_percent: None,
+                is_conserved: stepper.energy().is_some(),
+                spectral_radius: radius.ok().flatten().filter(|radius| radius.is_finite()),
+            },
+            is_too_much: false,
+            failure: None,
+            evaluations: 0,
+            seconds: 0.0,
         };
+        Self {
+            follow: truth.follow(Metered::new(body), tick_hz).within(max_work),
+            run,
+            horizon,
+            hz,
+            means: Means::over(horizon),
+            extremes: [0.0; 3],
+        }
     }
-    run
+
+    /// Goes on for about this much work. Returns whether the run is over.
+    pub(super) fn work(&mut self, truth: &BodyTruth, work: u64) -> bool {
+        let Self { follow, run, horizon, hz, means, extremes } = self;
+        let stop = follow.run(*horizon, |body, tick| {
+            (run.seconds, run.evaluations) = (tick as f64 / *hz, body.body.stepper.evaluations());
+            let now = body.energy();
+            let gain = sum(now) - body.start;
+            let [fastest, lost, gained] = *extremes;
+            *extremes = [fastest.max(now[0]), lost.max(-gain), gained.max(gain)];
+            means.take_in(tick, gain);
+            match body.body.has_worked(work, tick) {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        });
+        let ticks = follow.ticks();
+        follow.body.body.count_work(truth, ticks);
+        if stop == StopReason::Seen {
+            return false;
+        }
+        run.is_too_much = stop == StopReason::TooMuchWork;
+        run.failure = RunFailure::of(stop, follow.t());
+        let [fastest, lost, gained] = *extremes;
+        let scale = fastest.max(lost);
+        if scale > 0.0 && scale.is_finite() {
+            let [first, .., last] = means.means().map(|mean| mean / scale);
+            let finding = &mut run.finding;
+            finding.change = last;
+            let drift = if gained > lost { gained } else { -lost };
+            finding.drift_percent = finding.is_conserved.then_some(100.0 * drift / scale);
+            finding.trend = if finding.is_conserved {
+                Change::between(amplitude(first), amplitude(last))
+            } else if last > first.max(0.0) + 2.0 * VISIBLE {
+                Change::Grows
+            } else {
+                Change::None
+            };
+        }
+        true
+    }
 }
 
 /// A body whose energy is measured, and what the inputs add to it is known.

@@ -33,13 +33,15 @@ pub(super) struct FollowedBody {
     coordinates: Coordinates,
     solver: Solver,
     substeps: u32,
+    /// The work that its truth has counted.
+    counted: u64,
 }
 
 impl BodyTruth {
     /// The body at its start under `solver`.
     pub(super) fn body_under(&self, solver: Solver, substeps: u32) -> FollowedBody {
         let (stepper, coordinates) = (self.start(solver), self.coordinates());
-        FollowedBody { stepper, coordinates, solver, substeps }
+        FollowedBody { stepper, coordinates, solver, substeps, counted: 0 }
     }
 
     /// `body` before its first tick at this rate, with the inputs of the script.
@@ -54,13 +56,25 @@ impl BodyTruth {
 
 impl FollowedBody {
     /// The work done in this many ticks, in evaluations of one coordinate.
-    pub(super) fn work(&self, ticks: u64) -> u64 {
+    fn work(&self, ticks: u64) -> u64 {
         let (n, evaluations) = (self.stepper.q().len() as u64, self.stepper.evaluations());
         let steps = match self.stepper.is_sparse() {
             true => evaluations.saturating_mul(n),
             false => work_of(evaluations, n, self.solver),
         };
         steps.saturating_add(WORK_OF_TICK * n * ticks)
+    }
+
+    /// Whether `work` was done in its `ticks` ticks since work was last counted. It looks at some ticks only.
+    pub(super) fn has_worked(&self, work: u64, ticks: u64) -> bool {
+        self.has_worked_more(self.counted.saturating_add(work), ticks)
+    }
+
+    /// Counts the work done in its `ticks` ticks as work on `truth`, so far as it was not counted.
+    pub(super) fn count_work(&mut self, truth: &BodyTruth, ticks: u64) {
+        let work = self.work(ticks);
+        truth.count_work(work - self.counted);
+        self.counted = work;
     }
 }
 

@@ -5,12 +5,14 @@
 //! times. Any other body is followed for [`LONG_RUN`](super::LONG_RUN) times the horizon, and its verdict claims nothing
 //! beyond that.
 
-use super::by_energy::follow_energy;
+use std::mem;
+
+use super::by_energy::{EnergyRun, FollowedEnergy};
 use super::change::MotionChange;
 use super::chase_finding::ChaseFinding;
 use super::limits::TOLERANCE;
 use super::modes::Modes;
-use super::run::{MAX_WORK, Run, Until, follow};
+use super::run::{FollowedRun, MAX_WORK, Run, Until};
 use super::survey::TimedInput;
 use super::truth::{BodyTruth, ticks};
 use super::verdict::{Comparison, Finding, LongTerm, NoTruth, NotJudged, Verdict};
@@ -26,6 +28,7 @@ pub const MAX_HORIZON_S: f64 = 60.0;
 
 /// The true motion of a scene, with which lanes are compared.
 pub struct Judge {
+    scene: Scene,
     horizon_s: f64,
     throttle: f64,
     max_work: u64,
@@ -47,10 +50,24 @@ impl Judge {
     /// A judge of `scene` under this throttle over `horizon_s` simulated seconds, which is positive and may exceed the
     /// scene's length.
     pub fn over(scene: &Scene, throttle: f64, horizon_s: f64) -> Self {
-        let of =
-            |(place, body)| BodyTruth::new(body, &inputs_of(scene, place), throttle, horizon_s);
-        let truths = scene.bodies.iter().enumerate().map(of);
-        Self { horizon_s, throttle, max_work: MAX_WORK, truths: truths.collect() }
+        let mut judge = Self { horizon_s, ..Self::before_truths(scene.clone(), throttle) };
+        while judge.find_truth() {}
+        judge
+    }
+
+    /// A judge that knows the truth of no body yet. It judges once [`Self::find_truth`] has found all.
+    pub(super) fn before_truths(scene: Scene, throttle: f64) -> Self {
+        let horizon_s = scene.seconds.min(MAX_HORIZON_S);
+        Self { scene, horizon_s, throttle, max_work: MAX_WORK, truths: Vec::new() }
+    }
+
+    /// Finds the truth of the next body. Returns whether there was one.
+    pub(super) fn find_truth(&mut self) -> bool {
+        let place = self.truths.len();
+        let Some(body) = self.scene.bodies.get(place) else { return false };
+        let inputs = inputs_of(&self.scene, place);
+        self.truths.push(BodyTruth::new(body, &inputs, self.throttle, self.horizon_s));
+        true
     }
 
     /// Limits the work of each run to less than [`MAX_WORK`]; what takes more is not known.
@@ -85,9 +102,44 @@ impl Judge {
     }
 
     /// The verdict on a lane, whose run on each body takes at most this work, or is not judged.
-    pub(super) fn verdict_within(&self, max_work: u64, spec: LaneSpec, tick_hz: u32) -> Verdict {
-        let of_body = |body| self.of_body(body, spec, tick_hz, max_work);
-        let verdicts: Vec<Verdict> = (0..self.truths.len()).map(of_body).collect();
+    fn verdict_within(&self, max_work: u64, spec: LaneSpec, tick_hz: u32) -> Verdict {
+        let mut judged = JudgedLane::new(spec, tick_hz, max_work);
+        loop {
+            if let Some(verdict) = self.work(&mut judged, u64::MAX) {
+                return verdict;
+            }
+        }
+    }
+
+    /// Goes on for about this much work with the verdict on a lane, at most to the end of its run on a body. Returns the
+    /// verdict once it is found.
+    pub(super) fn work(&self, judged: &mut JudgedLane, work: u64) -> Option<Verdict> {
+        let &mut JudgedLane { spec, tick_hz, max_work, ref mut verdicts, ref mut run } = judged;
+        let body = verdicts.len();
+        let truth = &self.truths[body];
+        let followed = run.get_or_insert_with(|| self.start(truth, spec, tick_hz, max_work));
+        let is_over = match followed {
+            JudgedRun::Compared(run, _) => run.work(truth, work),
+            JudgedRun::ByEnergy(run) => run.work(truth, work),
+            JudgedRun::None(_) => true,
+        };
+        if !is_over {
+            return None;
+        }
+        verdicts.push(match run.take()? {
+            JudgedRun::Compared(run, by_modes) => {
+                self.compared(body, spec, tick_hz, &run.measured.run, by_modes)
+            }
+            JudgedRun::ByEnergy(run) => self.by_energy(body, tick_hz, run.run),
+            JudgedRun::None(why) => {
+                self.verdict_on(body, Finding::NotJudged(why), LongTerm::default())
+            }
+        });
+        (verdicts.len() == self.truths.len()).then(|| Self::of_all(mem::take(verdicts)))
+    }
+
+    /// The verdict on a lane, from those on all its bodies.
+    fn of_all(verdicts: Vec<Verdict>) -> Verdict {
         let evaluations = verdicts.iter().map(|verdict| verdict.evaluations).sum();
         let bounded = verdicts.iter().map(|verdict| verdict.long_term.is_bounded);
         let is_bounded = bounded.reduce(|a, b| match (a, b) {
@@ -101,29 +153,46 @@ impl Judge {
         Verdict { evaluations, long_term, of_bodies: verdicts, ..worst }
     }
 
-    fn of_body(&self, body: usize, spec: LaneSpec, tick_hz: u32, max_work: u64) -> Verdict {
-        let truth = &self.truths[body];
+    /// The run by which a body is judged.
+    fn start(&self, truth: &BodyTruth, spec: LaneSpec, tick_hz: u32, max_work: u64) -> JudgedRun {
         if truth.is_too_dear() {
-            return self.by_energy(body, spec, tick_hz, max_work);
+            // A tick of a large body may take seconds, and growth beyond the horizon tells nobody anything.
+            return match self.not_judged(tick_hz, max_work == 0) {
+                Some(why) => JudgedRun::None(why),
+                None => {
+                    JudgedRun::ByEnergy(FollowedEnergy::new(truth, spec, tick_hz, max_work).into())
+                }
+            };
         }
         let found = Modes::of(truth, spec, tick_hz);
         let max_work = if found.is_ok() { max_work } else { 0 };
-        let modes = found.ok().flatten();
-        let until = if modes.is_some() { Until::Horizon } else { Until::LongRun };
-        let run = follow(truth, spec, tick_hz, until, max_work);
-        let MotionChange { long_term, within, energy_change, frequency_error } = match &modes {
-            Some(modes) => {
-                modes.change(truth.swing.is_some(), self.horizon_s - truth.last_input_s())
-            }
-            None => MotionChange::of_run(truth, &run, self.horizon_s),
-        };
+        let by_modes = found.ok().flatten().map(|modes| {
+            modes.change(truth.swing.is_some(), self.horizon_s - truth.last_input_s())
+        });
+        let until = if by_modes.is_some() { Until::Horizon } else { Until::LongRun };
+        let run = FollowedRun::new(truth, spec, tick_hz, until, max_work);
+        JudgedRun::Compared(run.into(), by_modes)
+    }
+
+    /// The verdict on a body from its run beside the truth, and from its modes if they tell.
+    fn compared(
+        &self,
+        body: usize,
+        spec: LaneSpec,
+        tick_hz: u32,
+        run: &Run,
+        by_modes: Option<MotionChange>,
+    ) -> Verdict {
+        let truth = &self.truths[body];
+        let MotionChange { long_term, within, energy_change, frequency_error } =
+            by_modes.unwrap_or_else(|| MotionChange::of_run(truth, run, self.horizon_s));
         let truth_error = truth.gap(run.seconds, tick_hz);
         let not_judged = self.not_judged(tick_hz, run.is_cut_short());
         let finding = if let Some(failure) = run.failure.clone() {
             Finding::Failed { failure, by_energy: None }
         } else if let Some(why) = not_judged {
             Finding::NotJudged(why)
-        } else if let Some(why) = without_truth(truth, &run, truth_error) {
+        } else if let Some(why) = without_truth(truth, run, truth_error) {
             Finding::NoTruth(why)
         } else {
             Finding::Compared(Comparison {
@@ -143,12 +212,7 @@ impl Judge {
     }
 
     /// The verdict on a body that has no reference solution.
-    fn by_energy(&self, body: usize, spec: LaneSpec, tick_hz: u32, max_work: u64) -> Verdict {
-        // A tick of a large body may take seconds, and growth beyond the horizon tells nobody anything.
-        if let Some(why) = self.not_judged(tick_hz, max_work == 0) {
-            return self.verdict_on(body, Finding::NotJudged(why), LongTerm::default());
-        }
-        let run = follow_energy(&self.truths[body], spec, tick_hz, max_work);
+    fn by_energy(&self, body: usize, tick_hz: u32, run: EnergyRun) -> Verdict {
         let found = run.finding;
         let finding = match (run.failure, self.not_judged(tick_hz, run.is_too_much)) {
             (Some(failure), _) => Finding::Failed { failure, by_energy: Some(found) },
@@ -189,6 +253,33 @@ impl Judge {
             of_bodies: Vec::new(),
         }
     }
+}
+
+/// A lane that is being judged, body by body.
+pub(super) struct JudgedLane {
+    spec: LaneSpec,
+    tick_hz: u32,
+    /// The most work of each run.
+    max_work: u64,
+    /// The verdicts on the leading bodies.
+    verdicts: Vec<Verdict>,
+    /// The run of the next body, once it is begun.
+    run: Option<JudgedRun>,
+}
+
+impl JudgedLane {
+    pub(super) fn new(spec: LaneSpec, tick_hz: u32, max_work: u64) -> Self {
+        Self { spec, tick_hz, max_work, verdicts: Vec::new(), run: None }
+    }
+}
+
+/// The run by which a body is judged.
+enum JudgedRun {
+    /// Beside the truth, and what the modes tell of a linear body.
+    Compared(Box<FollowedRun>, Option<MotionChange>),
+    /// Of a body without a reference solution.
+    ByEnergy(Box<FollowedEnergy>),
+    None(NotJudged),
 }
 
 /// Why the truth cannot be used; `None` if it can. `gap` is its largest error in amplitudes.

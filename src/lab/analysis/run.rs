@@ -9,7 +9,7 @@ use super::peaks::Peaks;
 use super::truth::{BodyTruth, LONG_RUN, TruthSeries, ticks};
 use super::verdict::RunFailure;
 use crate::lab::chase::Chase;
-use crate::lab::follow::StopReason;
+use crate::lab::follow::{Follow, StopReason};
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::Stepper;
 use crate::sim::integrators::StepFailure;
@@ -94,66 +94,94 @@ pub(super) fn follow(
     until: Until,
     max_work: u64,
 ) -> Run {
-    let hz = f64::from(tick_hz);
-    let horizon = ticks(truth.horizon_s, tick_hz);
-    let end = match until {
-        Until::Error(_) | Until::Horizon => horizon,
-        Until::Grown | Until::LongRun => ticks(LONG_RUN * truth.horizon_s, tick_hz).max(horizon),
-    };
-    let mut run = Run::new(horizon as f64 / hz);
-    // A run that is judged without its error needs no truth.
-    let series = (until != Until::Grown).then(|| truth.series(tick_hz));
-    if series.as_ref().is_some_and(|series| series.is_too_much) {
-        run.is_too_much = true;
-        return run;
-    }
-    let body = truth.body_under(spec.solver(), spec.substeps);
-    run.chase = Chase::new(&*body.stepper, 0.0);
-    let mut measured = Measured {
-        chased_s: truth.inputs.first().map_or(truth.horizon_s, |input| input.t),
-        energy: Energy::of(&*body.stepper, truth, horizon, end),
-        peaks: Peaks::new(truth, &*body.stepper),
-        run,
-        series,
-        truth,
-        until,
-        horizon,
-        hz,
-    };
-    let mut follow = truth.follow(body, tick_hz).within(max_work);
-    let mut stop = follow.run(end, |body, tick| measured.take_in(body, tick));
-    if stop == StopReason::End && end > horizon {
-        // The truth is not needed beyond the horizon.
-        measured.run.is_losing = measured.energy.is_losing() && truth.swing.is_some();
-        if measured.run.is_losing && measured.is_undecided(&*follow.body.stepper) {
-            stop = follow.run(FOLLOWED_ON * end, |body, tick| measured.take_in(body, tick));
-        }
-    }
-    truth.count_work(follow.body.work(follow.ticks()));
-    let Measured { mut run, energy, peaks, .. } = measured;
-    run.half_turns = peaks.map_or(Vec::new(), |peaks| peaks.half_turns);
-    (run.quarters, run.long_quarters) = (energy.horizon.means(), energy.long.means());
-    run.is_too_much = stop == StopReason::TooMuchWork;
-    let failure = RunFailure::of(stop, follow.t());
-    if follow.ticks() < horizon {
-        run.failure = failure;
-    } else {
-        run.later = failure;
-    }
-    if run.failure.is_some() {
-        run.error = f64::INFINITY;
-        (run.error_at_s, run.last_error) = (run.seconds, f64::INFINITY);
-    }
-    run
+    let mut followed = FollowedRun::new(truth, spec, tick_hz, until, max_work);
+    while !followed.work(truth, u64::MAX) {}
+    followed.measured.run
 }
 
-/// A run that is being measured.
-struct Measured<'a> {
-    run: Run,
+/// A run on its way. It can be stopped after any tick, and goes on from there beside the same truth.
+pub(super) struct FollowedRun {
+    follow: Follow<'static, FollowedBody>,
+    pub(super) measured: Measured,
+    /// The tick at which it ends.
+    end: u64,
+}
+
+impl FollowedRun {
+    /// A run before its first tick. The true states are computed.
+    pub(super) fn new(
+        truth: &BodyTruth,
+        spec: LaneSpec,
+        tick_hz: u32,
+        until: Until,
+        max_work: u64,
+    ) -> Self {
+        let hz = f64::from(tick_hz);
+        let horizon = ticks(truth.horizon_s, tick_hz);
+        let end = match until {
+            Until::Error(_) | Until::Horizon => horizon,
+            Until::Grown | Until::LongRun => {
+                ticks(LONG_RUN * truth.horizon_s, tick_hz).max(horizon)
+            }
+        };
+        // A run that is judged without its error needs no truth.
+        let series = (until != Until::Grown).then(|| truth.series(tick_hz));
+        let is_too_much = series.as_ref().is_some_and(|series| series.is_too_much);
+        let body = truth.body_under(spec.solver(), spec.substeps);
+        let measured = Measured {
+            chased_s: truth.inputs.first().map_or(truth.horizon_s, |input| input.t),
+            energy: Energy::of(&*body.stepper, truth, horizon, end),
+            peaks: Peaks::new(truth, &*body.stepper),
+            run: Run {
+                is_too_much,
+                chase: Chase::new(&*body.stepper, 0.0).filter(|_| !is_too_much),
+                ..Run::new(horizon as f64 / hz)
+            },
+            series,
+            until,
+            horizon,
+            hz,
+        };
+        let follow = truth.follow(body, tick_hz).within(max_work);
+        Self { follow, measured, end }
+    }
+
+    /// Goes on for about this much work. Returns whether the run is over.
+    pub(super) fn work(&mut self, truth: &BodyTruth, work: u64) -> bool {
+        let Self { follow, measured, end } = self;
+        if measured.run.is_too_much {
+            return true;
+        }
+        let mut is_paused = false;
+        let stop = follow.run(*end, |body, tick| {
+            measured.take_in(truth, body, tick)?;
+            is_paused = body.has_worked(work, tick);
+            if is_paused { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let ticks = follow.ticks();
+        follow.body.count_work(truth, ticks);
+        let run = &mut measured.run;
+        if stop == StopReason::End && *end > measured.horizon && !run.is_losing {
+            // The truth is not needed beyond the horizon.
+            run.is_losing = measured.energy.is_losing() && truth.swing.is_some();
+            if run.is_losing && run.is_undecided(&*follow.body.stepper, truth) {
+                *end *= FOLLOWED_ON;
+                is_paused = true;
+            }
+        }
+        if !is_paused {
+            measured.end(stop, ticks, follow.t());
+        }
+        !is_paused
+    }
+}
+
+/// What is measured on a run on its way.
+pub(super) struct Measured {
+    pub(super) run: Run,
     energy: Energy,
     peaks: Option<Peaks>,
     series: Option<Arc<TruthSeries>>,
-    truth: &'a BodyTruth,
     until: Until,
     horizon: u64,
     hz: f64,
@@ -161,10 +189,10 @@ struct Measured<'a> {
     chased_s: f64,
 }
 
-impl Measured<'_> {
+impl Measured {
     /// Measures the body after `tick` ticks, and breaks off where the rest is not needed.
-    fn take_in(&mut self, body: &FollowedBody, tick: u64) -> ControlFlow<()> {
-        let (stepper, truth, horizon) = (&*body.stepper, self.truth, self.horizon);
+    fn take_in(&mut self, truth: &BodyTruth, body: &FollowedBody, tick: u64) -> ControlFlow<()> {
+        let (stepper, horizon) = (&*body.stepper, self.horizon);
         let t = tick as f64 / self.hz;
         let run = &mut self.run;
         run.followed_s = t;
@@ -199,14 +227,27 @@ impl Measured<'_> {
         run.watch_reach(stepper, truth, drift, t);
         let is_needed = match self.until {
             Until::Grown if run.has_grown() => false,
-            _ => !run.is_losing || self.is_undecided(stepper),
+            _ => !run.is_losing || run.is_undecided(stepper, truth),
         };
         if is_needed { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     }
 
-    /// Whether a swing that is losing neither grows nor has come to rest.
-    fn is_undecided(&mut self, stepper: &dyn Stepper) -> bool {
-        !self.run.has_grown() && !self.run.rests(stepper, self.truth)
+    /// Completes the run, which has stopped after so many ticks, at time `t` (s).
+    fn end(&mut self, stop: StopReason, ticks: u64, t: f64) {
+        let Self { run, energy, peaks, horizon, .. } = self;
+        run.half_turns = peaks.take().map_or(Vec::new(), |peaks| peaks.half_turns);
+        (run.quarters, run.long_quarters) = (energy.horizon.means(), energy.long.means());
+        run.is_too_much = stop == StopReason::TooMuchWork;
+        let failure = RunFailure::of(stop, t);
+        if ticks < *horizon {
+            run.failure = failure;
+        } else {
+            run.later = failure;
+        }
+        if run.failure.is_some() {
+            run.error = f64::INFINITY;
+            (run.error_at_s, run.last_error) = (run.seconds, f64::INFINITY);
+        }
     }
 }
 
@@ -299,6 +340,11 @@ impl Run {
     /// Whether a coordinate or a velocity has reached twice its true amplitude.
     fn has_grown(&self) -> bool {
         self.doubled_at.is_some() || self.velocity_doubled_at.is_some()
+    }
+
+    /// Whether a swing that is losing neither grows nor has come to rest.
+    fn is_undecided(&mut self, stepper: &dyn Stepper, truth: &BodyTruth) -> bool {
+        !self.has_grown() && !self.rests(stepper, truth)
     }
 
     /// Whether coordinates and velocities are all near their values at rest.

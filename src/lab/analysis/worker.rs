@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::advice::{Adviser, MethodAdvice};
-use super::judge::Judge;
+use super::judge::{Judge, JudgedLane};
 use super::run::MAX_WORK;
 use super::stability_map::{MapRequest, MapWork, StabilityMap};
 use super::verdict::Verdict;
@@ -104,6 +104,9 @@ pub struct Advice {
 /// The most work of a bounded worker on all verdicts together, the truth's included: a second or two.
 const MAX_WORK_OF_ALL: u64 = MAX_WORK;
 
+/// About the work of one step on a verdict: some milliseconds.
+const WORK_OF_STEP: u64 = 1_000_000;
+
 /// Works on one request at a time.
 pub struct AnalysisWorker {
     /// The most work on all verdicts.
@@ -113,6 +116,8 @@ pub struct AnalysisWorker {
     verdicts: Vec<Option<Verdict>>,
     /// The number of leading verdicts that answer the present request.
     judged: usize,
+    /// The next one, once it is begun.
+    judging: Option<JudgedLane>,
     advising: Option<AdviceInProgress>,
     /// The last map that was wanted.
     mapping: Option<MapWork>,
@@ -166,6 +171,7 @@ impl AnalysisWorker {
             judge: None,
             verdicts,
             judged: 0,
+            judging: None,
             advising: None,
             mapping: None,
         }
@@ -188,12 +194,13 @@ impl AnalysisWorker {
         if !is_same_run {
             self.judge = None;
         }
-        if !is_same_run || request.tick_hz != self.request.tick_hz {
-            self.judged = 0;
+        let is_at_same_rate = is_same_run && request.tick_hz == self.request.tick_hz;
+        if !is_at_same_rate {
             self.advising = None;
         }
-        if request.entries != self.request.entries {
+        if !is_at_same_rate || request.entries != self.request.entries {
             self.judged = 0;
+            self.judging = None;
         }
         if let Some(bodies) = request.advice {
             self.advising.take_if(|advising| advising.bodies != bodies);
@@ -211,8 +218,8 @@ impl AnalysisWorker {
         }
     }
 
-    /// Does one step: finds a region of the map, computes a missing verdict or, if none is missing, judges a method or
-    /// searches a margin for the advice. Returns whether there is more to do.
+    /// Does one step: finds a region of the map, the truth of a body or part of a missing verdict or, if none is missing,
+    /// judges a method or searches a margin for the advice. Returns whether there is more to do.
     pub fn work(&mut self) -> bool {
         let AnalysisRequest { scene, by_hand, entries, tick_hz, advice, map } = &self.request;
         if let Some(wanted) = map
@@ -222,14 +229,22 @@ impl AnalysisWorker {
             let new = || MapWork::new(scene.bodies[wanted.body].kind.clone(), wanted.clone());
             self.mapping.get_or_insert_with(new).advance();
         } else if let Some(&spec) = entries.get(self.judged) {
-            let judge =
-                self.judge.get_or_insert_with(|| Judge::new(&by_hand.applied_to(scene), 1.0));
-            // Work that earlier verdicts did not use is for the later ones.
-            let left = self.max_work.saturating_sub(judge.work_done());
-            let share = left / (entries.len() - self.judged) as u64;
-            let verdict = judge.verdict_within(share.min(MAX_WORK), spec, *tick_hz);
-            self.verdicts[self.judged] = Some(verdict.starting_at(by_hand.starts_at_s()));
-            self.judged += 1;
+            let new = || Judge::before_truths(by_hand.applied_to(scene), 1.0);
+            let judge = self.judge.get_or_insert_with(new);
+            if judge.find_truth() {
+                return true;
+            }
+            let judging = self.judging.get_or_insert_with(|| {
+                // Work that earlier verdicts did not use is for the later ones.
+                let left = self.max_work.saturating_sub(judge.work_done());
+                let share = left / (entries.len() - self.judged) as u64;
+                JudgedLane::new(spec, *tick_hz, share.min(MAX_WORK))
+            });
+            if let Some(verdict) = judge.work(judging, WORK_OF_STEP) {
+                self.judging = None;
+                self.verdicts[self.judged] = Some(verdict.starting_at(by_hand.starts_at_s()));
+                self.judged += 1;
+            }
         } else if let Some(bodies) = *advice {
             let advising = self.advising.get_or_insert_with(|| {
                 let scene = bodies.of(by_hand.applied_to(scene));
@@ -248,6 +263,11 @@ impl AnalysisWorker {
             advising.advance();
         }
         !self.is_done()
+    }
+
+    /// Whether it is within a verdict: its findings are those of some steps ago.
+    pub fn is_judging(&self) -> bool {
+        self.judging.is_some()
     }
 
     /// Does all steps.

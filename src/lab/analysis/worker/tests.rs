@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::lab::{Action, Race};
-use crate::sim::integrators::GENERAL_METHODS;
+use crate::sim::integrators::{GENERAL_METHODS, method};
 
 fn request(name: &str) -> AnalysisRequest {
     let scene = Arc::new(Scene::built_in(name).unwrap());
@@ -165,4 +165,63 @@ fn a_lane_without_a_truth_makes_no_tick_when_no_work_is_left() {
     };
     assert_eq!(ticked(0), 0);
     assert!(ticked(1_000_000) > 0);
+}
+
+#[test]
+fn no_step_within_a_verdict_does_twice_its_work_and_a_new_rate_drops_the_verdict_in_progress() {
+    let text = "title = 't'\ntick_hz = 60\nseconds = 60\n[[pendulum]]\nlength_m = 1\n\
+                [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 100\n";
+    let spec = LaneSpec { substeps: 16, ..LaneSpec::plain(method("rk4").unwrap()) };
+    let scene = Arc::new(Scene::parse("t", text).unwrap());
+    let whole = |tick_hz: u32| Judge::new(&scene, 1.0).verdict(spec, tick_hz);
+    let fine = AnalysisRequest { scene: scene.clone(), entries: vec![spec], ..request("spring") };
+    let mut worker = AnalysisWorker::new(fine.clone());
+    let mut steps = Vec::new();
+    while worker.work() {
+        let before = worker.judge.as_ref().unwrap().work_done();
+        if worker.is_judging() {
+            assert!(!worker.findings().complete);
+            worker.work();
+            steps.push(worker.judge.as_ref().unwrap().work_done() - before);
+        }
+    }
+    assert!(steps.len() > 2 && steps.iter().all(|&work| work < 2 * WORK_OF_STEP), "{steps:?}");
+    assert_eq!(worker.findings().verdicts, [Some(whole(60))]);
+    worker.set_request(AnalysisRequest { tick_hz: 30, ..fine.clone() });
+    worker.work();
+    assert!(worker.is_judging());
+    let coarse = AnalysisRequest { tick_hz: 20, ..fine };
+    worker.set_request(coarse.clone());
+    assert!(!worker.is_judging());
+    answer(&mut worker, &coarse);
+    assert_eq!(worker.findings().verdicts, [Some(whole(20))]);
+}
+
+#[test]
+fn a_verdict_in_slices_of_a_tick_or_two_is_that_of_one_go() {
+    let most = 300_000;
+    for (scene, id, tick_hz) in [
+        ("spring", "velocity-verlet", 60),
+        ("spring", "explicit-euler", 60),
+        ("orbit", "rk4", 20),
+        ("pendulum", "rk4", 5),
+        ("pendulum", "implicit-euler", 60),
+        ("cloth", "semi-implicit-euler", 60),
+    ] {
+        let judge = Judge::new(&Scene::built_in(scene).unwrap(), 1.0);
+        let judged = |work: u64| {
+            let mut lane = JudgedLane::new(LaneSpec::plain(method(id).unwrap()), tick_hz, most);
+            let mut calls = 0;
+            loop {
+                calls += 1;
+                if let Some(verdict) = judge.work(&mut lane, work) {
+                    return (calls, verdict);
+                }
+            }
+        };
+        let (sliced, whole) = (judged(1), judged(u64::MAX));
+        // As text, because NaN is found too.
+        assert_eq!(format!("{:?}", sliced.1), format!("{:?}", whole.1), "{scene}, {id}");
+        assert!(sliced.0 > 2 * whole.0, "{scene}, {id}: {} calls", sliced.0);
+    }
 }
