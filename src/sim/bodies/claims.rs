@@ -27,6 +27,9 @@ const STATES: usize = 12;
 /// Trial states around each later one.
 const LATER_STATES: usize = 3;
 
+/// What the names of a coordinate and of its velocity begin with.
+const PREFIXES: [&str; 2] = ["", "v"];
+
 /// The largest relative change of the energy, or distance from an exact solution, after one tick: far above the accuracy of
 /// the reference, and far below what is visible.
 const TICK_TOLERANCE: f64 = 1e-7;
@@ -113,6 +116,12 @@ pub(super) trait Claimant: Body<Vector = Vec<f64>> + Clone {
     /// The relative tolerance of a claim.
     const TOLERANCE: f64;
 
+    /// What the start of a coordinate and that of a velocity are called where the body is made.
+    const START_KEYS: [&'static str; 2];
+
+    /// The name of a coordinate.
+    fn name(&self, coordinate: usize) -> &str;
+
     /// Overwrites `to` with the claimed state at `t` (s). Returns whether there is one.
     fn claimed(&self, t: f64, to: &mut State<Vec<f64>>) -> bool;
 
@@ -129,30 +138,40 @@ pub(super) trait Claimant: Body<Vector = Vec<f64>> + Clone {
     fn without_claims(&self) -> Self;
 }
 
-/// Why an exact solution is false.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum NotSolved {
-    /// It does not begin at the start.
-    Start { coordinate: usize, is_velocity: bool, found: f64, start: f64 },
-    /// Its velocity is not the derivative of its position.
-    Velocity { coordinate: usize, t: f64 },
-    /// It does not satisfy the equation.
-    Equation { coordinate: usize, t: f64, found: f64, wanted: f64 },
-    /// The motion from the tick before leads elsewhere.
-    Motion { coordinate: usize, is_velocity: bool, t: f64, found: f64, wanted: f64 },
+/// A claim that does not hold. Messages are in lower case.
+#[derive(Debug)]
+pub(super) struct FalseClaim {
+    /// The coordinate whose exact solution is false; `None` for the energy.
+    pub(super) coordinate: Option<usize>,
+    /// What is wrong.
+    pub(super) what: String,
+    /// How to mend it.
+    pub(super) remedy: &'static str,
 }
 
-/// Why an energy is not one that the motion conserves.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum EnergyDefect {
-    /// It is not finite at the start.
-    NotFinite(f64),
-    /// It is the same in every state.
-    Constant(f64),
-    /// It changes by `leaks` watts near the state at `t`.
-    Power { t: f64, leaks: f64, exchanged: f64 },
-    /// It differs at `t` from the start.
-    Change { t: f64, first: f64, now: f64 },
+impl FalseClaim {
+    fn exact(coordinate: usize, what: String) -> Self {
+        let remedy = "correct one of them, or remove `exact`";
+        Self { coordinate: Some(coordinate), what, remedy }
+    }
+
+    fn energy(what: String) -> Self {
+        let remedy = "correct it, remove what drives or damps the motion, or remove `energy`";
+        Self { coordinate: None, what, remedy }
+    }
+}
+
+/// Checks that the exact solution begins at the start, satisfies the equation and agrees with the reference at every tick
+/// of the horizon, and that the energy is conserved at every tick.
+///
+/// # Errors
+/// The first of these that does not hold.
+pub(super) fn check<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Result<(), FalseClaim> {
+    let false_claim = find_unsolved(body)
+        .or_else(|| find_departure(body, horizon))
+        .or_else(|| find_energy_defect(body))
+        .or_else(|| find_later_energy_defect(body, horizon));
+    false_claim.map_or(Ok(()), Err)
 }
 
 /// Whether `a` and `b` differ by no more than `most`; a NaN does.
@@ -161,7 +180,7 @@ fn is_near(a: f64, b: f64, most: f64) -> bool {
 }
 
 /// Why the exact solution does not satisfy the equation; `None` if it does, or was not given.
-pub(super) fn find_unsolved<B: Claimant>(body: &B) -> Option<NotSolved> {
+fn find_unsolved<B: Claimant>(body: &B) -> Option<FalseClaim> {
     let body = body.without_claims();
     let start = body.start();
     let mut at = start.clone();
@@ -177,6 +196,7 @@ pub(super) fn find_unsolved<B: Claimant>(body: &B) -> Option<NotSolved> {
         body.acceleration(t, &at.q, &at.v, &mut wanted.v);
         let slope = body.claimed_slope(t, &wanted);
         for (coordinate, size) in largest.iter_mut().enumerate() {
+            let name = body.name(coordinate);
             let (q, v, a) = (at.q[coordinate], at.v[coordinate], wanted.v[coordinate]);
             let found = slope.v[coordinate];
             for (size, now) in size.iter_mut().zip([q, v, found.abs().max(a.abs())]) {
@@ -186,15 +206,21 @@ pub(super) fn find_unsolved<B: Claimant>(body: &B) -> Option<NotSolved> {
             for (d, (found, start)) in starts.into_iter().enumerate().filter(|_| t == 0.0) {
                 let scale = size[d].max(size[2]).max(start.abs());
                 if !is_near(found, start, B::TOLERANCE * scale) {
-                    let is_velocity = d == 1;
-                    return Some(NotSolved::Start { coordinate, is_velocity, found, start });
+                    let (v, key) = (PREFIXES[d], B::START_KEYS[d]);
+                    let what = format!("`{v}{name}` begins at {found}, and `{key}` is {start}");
+                    let remedy = "let the two agree; `t` is 0 at the start";
+                    return Some(FalseClaim { remedy, ..FalseClaim::exact(coordinate, what) });
                 }
             }
             if !is_near(slope.q[coordinate], v, B::TOLERANCE * size[1]) {
-                return Some(NotSolved::Velocity { coordinate, t });
+                let what = format!("at t = {t} the velocity of `{name}` is not its derivative");
+                return Some(FalseClaim::exact(coordinate, what));
             }
             if !is_near(found, a, B::TOLERANCE * size[2]) {
-                return Some(NotSolved::Equation { coordinate, t, found, wanted: a });
+                let what = format!(
+                    "at t = {t} its second derivative is {found:.9}, and the acceleration of `{name}` there is {a:.9}"
+                );
+                return Some(FalseClaim::exact(coordinate, what));
             }
         }
     }
@@ -202,7 +228,7 @@ pub(super) fn find_unsolved<B: Claimant>(body: &B) -> Option<NotSolved> {
 }
 
 /// The first tick whose motion leaves the exact solution; `None` if it does not, or was not given.
-pub(super) fn find_departure<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<NotSolved> {
+fn find_departure<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<FalseClaim> {
     let body = body.without_claims();
     let mut from = body.start();
     let mut to = from.clone();
@@ -228,8 +254,11 @@ pub(super) fn find_departure<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Op
             let scales = [size[0] + h * size[1], size[1] + size[0] / h];
             for (d, (found, wanted)) in pairs.into_iter().enumerate() {
                 if !is_near(found, wanted, TICK_TOLERANCE * scales[d]) {
-                    let is_velocity = d == 1;
-                    return Some(NotSolved::Motion { coordinate, is_velocity, t, found, wanted });
+                    let (v, name) = (PREFIXES[d], body.name(coordinate));
+                    let what = format!(
+                        "at t = {t:.4} `{v}{name}` is {found:.9}, and the motion since the tick before leads to {wanted:.9}"
+                    );
+                    return Some(FalseClaim::exact(coordinate, what));
                 }
             }
         }
@@ -239,16 +268,19 @@ pub(super) fn find_departure<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Op
 }
 
 /// The first violation of energy conservation around the start; `None` without one, or without an energy.
-pub(super) fn find_energy_defect<B: Claimant>(body: &B) -> Option<EnergyDefect> {
+fn find_energy_defect<B: Claimant>(body: &B) -> Option<FalseClaim> {
     let body = body.without_claims();
     let start = body.start();
     let first = body.claimed_energy(&start)?;
     if !first.is_finite() {
-        return Some(EnergyDefect::NotFinite(first));
+        return Some(FalseClaim::energy(format!("the energy is {first} at the start")));
     }
     let is_first = |state| body.claimed_energy(&state) == Some(first);
     if states_around(&start, STATES).all(is_first) {
-        return Some(EnergyDefect::Constant(first));
+        let what =
+            format!("the energy is {first} in every state, which says nothing of the motion");
+        let remedy = "write the kinetic and the potential energy, or remove `energy`";
+        return Some(FalseClaim { remedy, ..FalseClaim::energy(what) });
     }
     TIMES.into_iter().find_map(|t| {
         let states = if t == 0.0 { STATES } else { LATER_STATES };
@@ -257,10 +289,7 @@ pub(super) fn find_energy_defect<B: Claimant>(body: &B) -> Option<EnergyDefect> 
 }
 
 /// The first violation of energy conservation along the motion; `None` without one, or without an energy.
-pub(super) fn find_later_energy_defect<B: Claimant>(
-    body: &B,
-    horizon: ClaimHorizon,
-) -> Option<EnergyDefect> {
+fn find_later_energy_defect<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<FalseClaim> {
     let body = body.without_claims();
     let mut there = body.start();
     let first = body.claimed_energy(&there)?;
@@ -280,7 +309,10 @@ pub(super) fn find_later_energy_defect<B: Claimant>(
             && is_near(now, first, RUN_TOLERANCE * largest);
         if !is_kept {
             let t = (tick + 1) as f64 / f64::from(horizon.tick_hz);
-            return Some(EnergyDefect::Change { t, first, now });
+            let what = format!(
+                "the energy is not conserved: it is {first:.9} J at the start and {now:.9} J at t = {t:.2}"
+            );
+            return Some(FalseClaim::energy(what));
         }
         before = now;
     }
@@ -297,12 +329,14 @@ fn find_power<B: Claimant>(
     t: f64,
     state: &State<Vec<f64>>,
     states: usize,
-) -> Result<f64, EnergyDefect> {
+) -> Result<f64, FalseClaim> {
     let powers = states_around(state, states).filter_map(|there| body.power(t, &there));
     let [leaks, exchanged] =
         powers.fold([0.0_f64; 2], |most, power| [0, 1].map(|i| most[i].max(power[i])));
     if leaks > B::TOLERANCE * exchanged {
-        return Err(EnergyDefect::Power { t, leaks, exchanged });
+        return Err(FalseClaim::energy(format!(
+            "the energy is not conserved: near t = {t:.2} it changes by {leaks:.3e} J/s, where {exchanged:.3e} J/s are exchanged"
+        )));
     }
     Ok(exchanged)
 }

@@ -76,12 +76,12 @@ fn each_extra_that_is_unfit_or_untrue_is_named() {
         ("energy", "NaN", Extras { energy: Some(|_, _| f64::NAN), ..plain() }),
         (
             "exact",
-            "it begins at",
+            "`x` begins at 2, and `start.q` is 1",
             Extras { exact: Some(|_, _| State { q: 2.0, v: 0.0 }), ..plain() },
         ),
         (
             "exact",
-            "does not accelerate",
+            "its second derivative is",
             Extras { exact: Some(|_, t| State { q: 1.0 + 0.0 * t, v: 0.0 }), ..plain() },
         ),
         (
@@ -119,7 +119,7 @@ fn a_claim_is_held_against_the_motion_at_every_tick() {
     assert!(error.to_string().contains("the motion since the tick before"), "{error}");
     let energy = |_: &Pushed, s: &State<f64>| s.v * s.v / 2.0 + 2.0 * s.q * s.q;
     let error = refused(Extras { energy: Some(energy), ..Extras::default() });
-    assert!(error.to_string().contains("it is not conserved"), "{error}");
+    assert!(error.to_string().contains("the energy is not conserved"), "{error}");
 }
 
 #[test]

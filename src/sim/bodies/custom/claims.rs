@@ -1,11 +1,7 @@
-//! What is claimed of a custom body, for the [checker](crate::sim::bodies::claims), and the messages about false
-//! claims.
+//! What is claimed of a custom body, for the [checker](crate::sim::bodies::claims).
 
 use super::Custom;
-use crate::sim::bodies::claims::{
-    Checked, ClaimHorizon, Claimant, EnergyDefect, NotSolved, TIMES, find_departure,
-    find_energy_defect, find_later_energy_defect, find_unsolved,
-};
+use crate::sim::bodies::claims::{self, Checked, ClaimHorizon, Claimant, FalseClaim, TIMES};
 use crate::sim::body::Body;
 use crate::sim::difference::{OFFSETS, fourth_order};
 use crate::sim::state::State;
@@ -32,6 +28,11 @@ const STEPS: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
 impl Claimant for Custom {
     const TOLERANCE: f64 = TOLERANCE;
+    const START_KEYS: [&'static str; 2] = ["start.q", "start.v"];
+
+    fn name(&self, coordinate: usize) -> &str {
+        &self.info.coordinates[coordinate].name
+    }
 
     fn claimed(&self, t: f64, to: &mut State<Vec<f64>>) -> bool {
         self.motion.exact(t, to)
@@ -96,45 +97,10 @@ impl Claimant for Custom {
     }
 }
 
-fn unsolved(body: &Custom, fault: NotSolved) -> CustomFault {
-    let name = |i: usize| &body.info.coordinates[i].name;
-    let velocity_of = |is_velocity| if is_velocity { "the velocity of " } else { "" };
-    let what = match fault {
-        NotSolved::Start { coordinate, is_velocity, found, start } => {
-            let (of, name) = (velocity_of(is_velocity), name(coordinate));
-            format!("it begins at {found} for {of}{name}, and the start is {start}")
-        }
-        NotSolved::Velocity { coordinate, t } => {
-            format!("at t = {t} s the velocity of {} is not its derivative", name(coordinate))
-        }
-        NotSolved::Equation { coordinate, t, wanted, .. } => {
-            format!("at t = {t} s {} does not accelerate by {wanted} per s²", name(coordinate))
-        }
-        NotSolved::Motion { coordinate, is_velocity, t, found, wanted } => {
-            let (of, name) = (velocity_of(is_velocity), name(coordinate));
-            format!(
-                "at t = {t:.4} s it gives {found} for {of}{name}, and the motion since the tick before leads to {wanted}"
-            )
-        }
-    };
-    CustomFault { field: "exact", what, remedy: "correct it, or remove `exact`" }
-}
-
-fn energy_defect(defect: EnergyDefect) -> CustomFault {
-    let what = match defect {
-        EnergyDefect::NotFinite(energy) => format!("it is {energy} at the start"),
-        EnergyDefect::Constant(energy) => {
-            format!("it is {energy} in every state, which says nothing of the motion")
-        }
-        EnergyDefect::Power { t, leaks, exchanged } => format!(
-            "it is not conserved: near t = {t:.2} s it changes by {leaks:.3e} J/s, where {exchanged:.3e} J/s are exchanged"
-        ),
-        EnergyDefect::Change { t, first, now } => {
-            format!("it is not conserved: it is {first} J at the start and {now} J at t = {t:.2} s")
-        }
-    };
-    let remedy = "correct it, take out what drives or damps the motion, or remove `energy`";
-    CustomFault { field: "energy", what, remedy }
+impl From<FalseClaim> for CustomFault {
+    fn from(FalseClaim { coordinate, what, remedy }: FalseClaim) -> Self {
+        Self { field: coordinate.map_or("energy", |_| "exact"), what, remedy }
+    }
 }
 
 /// The first nonlinearity of a body that is declared linear; `None` without one, or if it is not declared so.
@@ -194,13 +160,6 @@ pub(super) fn check_start(body: &Custom) -> Result<(), CustomFault> {
 /// Checks a custom body at its start, and its claims, at the ticks of the horizon too.
 pub(super) fn check(body: &Custom, horizon: ClaimHorizon) -> Result<(), CustomFault> {
     check_start(body)?;
-    if let Some(fault) = find_unsolved(body).or_else(|| find_departure(body, horizon)) {
-        return Err(unsolved(body, fault));
-    }
-    if let Some(defect) =
-        find_energy_defect(body).or_else(|| find_later_energy_defect(body, horizon))
-    {
-        return Err(energy_defect(defect));
-    }
+    claims::check(body, horizon)?;
     find_nonlinearity(body).map_or(Ok(()), Err)
 }

@@ -1,12 +1,9 @@
-//! What a law claims, for the [checker](crate::sim::bodies::claims), and the messages about false claims.
+//! What a law claims, for the [checker](crate::sim::bodies::claims).
 
 use std::sync::Arc;
 
 use super::Law;
-use crate::sim::bodies::claims::{
-    Checked, ClaimHorizon, Claimant, EnergyDefect, NotSolved, find_departure, find_energy_defect,
-    find_later_energy_defect, find_unsolved,
-};
+use crate::sim::bodies::claims::{self, Checked, ClaimHorizon, Claimant};
 use crate::sim::body::Body;
 use crate::sim::law::{CoordinateText, Equations, Part, Refusal, Remedy};
 use crate::sim::state::State;
@@ -15,6 +12,11 @@ use crate::sim::system::System;
 impl Claimant for Law {
     // Rounding, with room for terms that cancel.
     const TOLERANCE: f64 = 1e-9;
+    const START_KEYS: [&'static str; 2] = ["start", "start_velocity"];
+
+    fn name(&self, coordinate: usize) -> &str {
+        &self.equations.text().coordinates[coordinate].name
+    }
 
     fn claimed(&self, t: f64, to: &mut State<Vec<f64>>) -> bool {
         self.equations.solve(&mut self.registers.borrow_mut(), t, |i, [q, v, _]| {
@@ -47,9 +49,8 @@ impl Claimant for Law {
     }
 }
 
-/// Checks these values of a law's parameters: the accelerations are finite at the start, an exact solution
-/// begins at the start, satisfies the equation and agrees with the reference at every tick of the horizon, and an energy
-/// is conserved at every tick.
+/// Checks these values of a law's parameters: the accelerations are finite at the start, and the text's claims hold, at
+/// every tick of the horizon too.
 ///
 /// # Errors
 /// The first of these that does not hold, with its position in the text.
@@ -59,14 +60,11 @@ pub fn check_law(
     horizon: ClaimHorizon,
 ) -> Result<(), Refusal> {
     check_start(equations, values)?;
-    let law = Law::new(equations.clone(), values);
-    if let Some(fault) = find_unsolved(&law).or_else(|| find_departure(&law, horizon)) {
-        return Err(unsolved(&law, fault));
-    }
-    match find_energy_defect(&law).or_else(|| find_later_energy_defect(&law, horizon)) {
-        Some(defect) => Err(energy_defect(&law, defect)),
-        None => Ok(()),
-    }
+    claims::check(&Law::new(equations.clone(), values), horizon).map_err(|found| {
+        let part = found.coordinate.map_or(Part::Energy, Part::Exact);
+        let span = 0..equations.part(part).len();
+        Refusal { part, span, what: found.what, remedy: Remedy::Words(found.remedy.into()) }
+    })
 }
 
 /// Checks that the accelerations are finite at the start.
@@ -79,65 +77,6 @@ pub(super) fn check_start(equations: &Arc<Equations>, values: &[f64]) -> Result<
         Some(refusal) => Err(refusal),
         None => Ok(()),
     }
-}
-
-fn refusal(law: &Law, part: Part, what: String, remedy: &str) -> Refusal {
-    let span = 0..law.equations.part(part).len();
-    Refusal { part, span, what, remedy: Remedy::Words(remedy.into()) }
-}
-
-fn unsolved(law: &Law, fault: NotSolved) -> Refusal {
-    let name = |i: usize| &law.equations.text().coordinates[i].name;
-    let prefix = |is_velocity| if is_velocity { "v" } else { "" };
-    let correct = "correct one of them, or remove `exact`";
-    let (coordinate, what, remedy) = match fault {
-        NotSolved::Start { coordinate, is_velocity, found, start } => {
-            let key = if is_velocity { "start_velocity" } else { "start" };
-            let (v, name) = (prefix(is_velocity), name(coordinate));
-            let what = format!("`{v}{name}` begins at {found}, and `{key}` is {start}");
-            (coordinate, what, "let the two agree; `t` is 0 at the start")
-        }
-        NotSolved::Velocity { coordinate, t } => {
-            let name = name(coordinate);
-            let what = format!("at t = {t} the velocity of `{name}` is not its derivative");
-            (coordinate, what, correct)
-        }
-        NotSolved::Equation { coordinate, t, found, wanted } => {
-            let name = name(coordinate);
-            let what = format!(
-                "at t = {t} its second derivative is {found:.9}, and the acceleration of `{name}` there is {wanted:.9}"
-            );
-            (coordinate, what, correct)
-        }
-        NotSolved::Motion { coordinate, is_velocity, t, found, wanted } => {
-            let (v, name) = (prefix(is_velocity), name(coordinate));
-            let what = format!(
-                "at t = {t:.4} `{v}{name}` is {found:.9}, and the motion since the tick before leads to {wanted:.9}"
-            );
-            (coordinate, what, correct)
-        }
-    };
-    refusal(law, Part::Exact(coordinate), what, remedy)
-}
-
-fn energy_defect(law: &Law, defect: EnergyDefect) -> Refusal {
-    let what = match defect {
-        EnergyDefect::NotFinite(energy) => format!("the energy is {energy} at the start"),
-        EnergyDefect::Constant(energy) => {
-            let what =
-                format!("the energy is {energy} in every state, which says nothing of the motion");
-            let remedy = "write the kinetic and the potential energy, or remove `energy`";
-            return refusal(law, Part::Energy, what, remedy);
-        }
-        EnergyDefect::Power { t, leaks, exchanged } => format!(
-            "the energy is not conserved: near t = {t:.2} it changes by {leaks:.3e} J/s, where {exchanged:.3e} J/s are exchanged"
-        ),
-        EnergyDefect::Change { t, first, now } => format!(
-            "the energy is not conserved: it is {first:.9} J at the start and {now:.9} J at t = {t:.2}"
-        ),
-    };
-    let remedy = "correct it, remove what drives or damps the motion, or remove `energy`";
-    refusal(law, Part::Energy, what, remedy)
 }
 
 /// The key of a parameter for a fault of the text as a whole: the first.
