@@ -61,8 +61,8 @@ impl<V: Vector> Anchor<V> {
             error = body.exact_error(self.t, t - self.t, &self.state, state);
             let late = f64::EPSILON * (t.abs() + self.t.abs());
             body.acceleration(t, &state.q, &state.v, &mut scratch.v);
-            error[0] += late * largest(state.v.components());
-            error[1] += late * largest(scratch.v.components());
+            let by_time = late_error(late, &state.v, &scratch.v);
+            error = [0, 1].map(|i| error[i] + by_time[i]);
         }
         if self.error != [0.0; 2] {
             body.exact_into(self.t, t - self.t, &self.displaced, scratch);
@@ -72,6 +72,11 @@ impl<V: Vector> Anchor<V> {
         }
         error.map(|error| if error.is_nan() { f64::INFINITY } else { error })
     }
+}
+
+/// The error of a state that is `late` (s), from its velocity and its acceleration.
+pub(super) fn late_error<V: Vector>(late: f64, v: &V, a: &V) -> [f64; 2] {
+    [v, a].map(|rate| late * largest(rate.components()))
 }
 
 impl<B: Body> Propagator<B> for ExactFlow<B::Vector> {

@@ -4,6 +4,7 @@
 use std::cell::RefCell;
 
 use super::body::Body;
+use super::exact_flow::late_error;
 use super::state::{State, Vector, largest};
 
 /// The rounding of a closed form whose operations are not known, relative to its value.
@@ -53,12 +54,10 @@ impl<V: Vector> ExactSinceStart<V> {
     pub(super) fn error<B: Body<Vector = V>>(&self, body: &B, state: &State<V>) -> [f64; 2] {
         let a = &mut *self.a.borrow_mut();
         body.acceleration(self.t, &state.q, &state.v, a);
-        let late = f64::EPSILON * self.t;
-        let of = |size: &V, rate: &V| {
-            ROUNDING * largest(size.components()) + late * largest(rate.components())
-        };
-        let error = [of(&state.q, &state.v), of(&state.v, a)];
-        error.map(|error| if error.is_nan() { f64::INFINITY } else { error })
+        let [q, v] = late_error(f64::EPSILON * self.t, &state.v, a);
+        let of = |size: &V, by_time: f64| ROUNDING * largest(size.components()) + by_time;
+        [of(&state.q, q), of(&state.v, v)]
+            .map(|error| if error.is_nan() { f64::INFINITY } else { error })
     }
 }
 
