@@ -3,6 +3,7 @@
 
 use super::deviation;
 use super::tick::Tick;
+use crate::sim::difference::quotient;
 use crate::sim::integrators::{Method, StepFailure};
 use crate::sim::state::largest;
 use crate::sim::xor_shift::XorShift;
@@ -102,11 +103,11 @@ fn displaced_ticks(
         };
         stepper.set(t, &moved(&q, &direction[..n], 1.0), &moved(&v, &direction[n..], h));
         stepper.advance(t, h, substeps)?;
-        let images = [(stepper.q(), &image[0], 1.0), (stepper.v(), &image[1], h)];
-        let pushed = images.into_iter().flat_map(|(moved, still, unit)| {
-            moved.iter().zip(still).map(move |(a, b)| (a - b) * unit / part)
-        });
-        direction = pushed.collect();
+        let (along_q, along_v) = direction.split_at_mut(n);
+        along_q.copy_from_slice(stepper.q());
+        along_v.copy_from_slice(stepper.v());
+        quotient(along_q, &image[0], part);
+        quotient(along_v, &image[1], part / h);
         let pushed = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
         log += libm::log(pushed / length);
         // A long product would overflow.
