@@ -29,8 +29,6 @@ const USUAL_OF_ENGINES: &[u32] = &[1, 2, 4, 8, 16];
 const USUAL: &[u32] = &[1, 2, 4];
 /// The most substeps that are tried.
 const MAX_SUBSTEPS: u32 = 16;
-/// The id of the method whose force is held whatever the body.
-const HELD: &str = "held-force";
 
 /// Twice the logarithm of the odds against a spring's force that is held in an engine.
 const HELD_RARITY: f64 = 12.0;
@@ -50,7 +48,7 @@ impl Candidate {
 
     /// Words for a force that is held where it could be a joint.
     pub fn held(&self) -> &'static str {
-        if self.is_held && self.method.id != HELD { ", force held" } else { "" }
+        if self.is_held && !self.method.holds_force() { ", force held" } else { "" }
     }
 
     /// Whether it has its method's default substeps, and is not a listing of the book.
@@ -84,12 +82,9 @@ pub(super) fn candidates(body: &LoggedBody) -> Vec<Candidate> {
     let mut all = Vec::new();
     let stepped = METHODS.iter().filter(|method| method.tolerance.is_none());
     for method in stepped.filter(|method| method.only.is_none() || method.is_engine()) {
-        let is_either = method.is_engine() && method.id != HELD && body.has_spring();
-        for is_held in [false, true] {
-            if is_held && !is_either {
-                continue;
-            }
-            let is_held = is_held || method.id == HELD;
+        let is_either = method.is_engine() && body.has_spring() && !method.holds_force();
+        let is_held = if is_either { &[false, true][..] } else { &[method.holds_force()] };
+        for &is_held in is_held {
             let of = |substeps| Candidate { method, substeps, is_held };
             all.extend((1..=MAX_SUBSTEPS).map(of));
         }

@@ -265,9 +265,14 @@ impl Method {
         self.family == Family::Engine
     }
 
+    /// Whether it holds the whole force of any body for a tick, as user code in an engine does: a spring is no joint.
+    pub fn holds_force(&self) -> bool {
+        self.only.is_some_and(|only| only.needs == Needs::Force)
+    }
+
     /// Whether it is an engine that has springs as joints: no force of user code.
     pub fn has_joint(&self) -> bool {
-        self.engine.is_some_and(|engine| !engine.version.is_empty() && !engine.modes.is_empty())
+        !self.holds_force() && self.engine.is_some_and(|engine| !engine.modes.is_empty())
     }
 }
 
