@@ -17,7 +17,7 @@ use super::scene_file;
 use super::spring::SpringArgs;
 use crate::atomic_file::IfExists;
 use crate::lab::{Clock, SCENES, Scene, SceneBody};
-use crate::sim::bodies::refusal;
+use crate::sim::bodies::incompatibility;
 use crate::sim::integrators::{METHODS, Method};
 
 #[cfg(feature = "view")]
@@ -177,7 +177,8 @@ impl SweepArgs {
         let methods = METHODS.iter().filter(asked).collect();
         for method in &self.methods {
             // A method runs on the bodies that it steps; one that steps none would leave no row.
-            let alone = |body: &SceneBody| refusal(method, &body.kind, &body.values).is_none();
+            let alone =
+                |body: &SceneBody| incompatibility(method, &body.kind, &body.values).is_none();
             if !scenes.iter().any(|(_, scene)| scene.bodies.iter().any(alone)) {
                 scene_file::check_method(&scenes[0].1, method)?;
             }

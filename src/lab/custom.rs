@@ -12,7 +12,7 @@ use super::scene::{
     MAX_LANES, MAX_NAME_CHARS, MAX_SECONDS, MAX_TICK_HZ, MIN_SECONDS, Scene, SceneBody,
     claim_horizon,
 };
-use crate::sim::bodies::{CustomFault, Extras, custom_kind, refusal};
+use crate::sim::bodies::{CustomFault, Extras, custom_kind, incompatibility};
 use crate::sim::integrators::{METHODS, Method};
 use crate::sim::{State, System, Vector};
 
@@ -110,7 +110,7 @@ impl Scene {
         let appearance = Arc::new(Appearance::drawn(drawing));
         let kind = custom_kind(system, &start, &extras, claim_horizon(seconds, tick_hz))?;
         let values = kind.plain_values();
-        let steps = |method: &&'static Method| refusal(method, &kind, &values).is_none();
+        let steps = |method: &&'static Method| incompatibility(method, &kind, &values).is_none();
         let lanes = match &methods[..] {
             [] => METHODS
                 .iter()
@@ -121,7 +121,7 @@ impl Scene {
             chosen => {
                 check_methods(chosen)?;
                 if let Some(method) = chosen.iter().find(|method| !steps(method)) {
-                    let reason = refusal(method, &kind, &values).unwrap_or_default();
+                    let reason = incompatibility(method, &kind, &values).unwrap_or_default();
                     return Err(error(
                         "methods",
                         format!("{}: {reason}", method.id),

@@ -6,7 +6,7 @@ use super::described::BodyDraft;
 use super::refusal::Refusal;
 use super::table::Table;
 use crate::lab::lane_spec::LaneSpec;
-use crate::sim::bodies::refusal;
+use crate::sim::bodies::incompatibility;
 use crate::sim::integrators::{METHODS, Method};
 
 /// Reports the method of `key` at `span` if it refuses a body.
@@ -19,7 +19,7 @@ pub(super) fn check_method(
 ) {
     let refused = bodies.iter().find_map(|BodyDraft { kind, name, values, .. }| {
         let kind = kind.as_ref()?;
-        let reason = refusal(method, kind, values.as_ref()?)?;
+        let reason = incompatibility(method, kind, values.as_ref()?)?;
         let body = name.clone().unwrap_or_else(|| kind.id.into());
         Some(Refusal { method: method.id, body, reason })
     });
@@ -34,7 +34,7 @@ pub(super) fn check_method(
 pub(super) fn every_lane(bodies: &[BodyDraft]) -> Vec<LaneSpec> {
     let steps = |method: &Method, body: &BodyDraft| {
         let known = body.kind.as_ref().zip(body.values.as_ref());
-        known.is_none_or(|(kind, values)| refusal(method, kind, values).is_none())
+        known.is_none_or(|(kind, values)| incompatibility(method, kind, values).is_none())
     };
     let own = METHODS.iter().filter(|method| !method.is_engine());
     let fitting = own.filter(|method| bodies.iter().all(|body| steps(method, body)));

@@ -2,7 +2,7 @@
 
 use super::{Scene, SceneBody};
 use crate::lab::action::Action;
-use crate::sim::bodies::refusal;
+use crate::sim::bodies::incompatibility;
 use crate::sim::integrators::{Family, METHODS, Method};
 
 /// Why a method cannot step a scene.
@@ -21,7 +21,7 @@ impl Scene {
     /// Why `method` cannot step this scene; `None` if it steps every body.
     pub fn refusal(&self, method: &Method) -> Option<Refusal> {
         self.bodies.iter().find_map(|SceneBody { name, kind, values, .. }| {
-            let reason = refusal(method, kind, values)?;
+            let reason = incompatibility(method, kind, values)?;
             Some(Refusal { method: method.id, body: name.clone(), reason })
         })
     }

@@ -10,15 +10,15 @@ use std::sync::Arc;
 use super::prelude::*;
 use crate::sim::net_plan::{PlannedSpring, distance};
 use forces::{Accelerations, Forces, Slopes};
-use frame::{Frame, Layout};
 use rows::{Nodes, RestLengths};
+use topology::{Layout, Topology};
 
 mod forces;
-mod frame;
 mod kind;
 mod rows;
 #[cfg(test)]
 mod tests;
+mod topology;
 
 pub use kind::net_kind;
 
@@ -55,7 +55,7 @@ const PARAMETERS: [Of; 8] = [
 /// A net of masses and springs. Its coordinates are the places of its free nodes, in metres.
 #[derive(Clone, Debug)]
 pub struct Net {
-    frame: Arc<Frame>,
+    topology: Arc<Topology>,
     /// m, in kilograms.
     mass: f64,
     /// k, in newtons per metre.
@@ -81,8 +81,8 @@ struct Springs {
     shared: [f64; 2],
     /// The lengths at rest of the springs between free nodes of a grid.
     rest: RestLengths,
-    /// Stiffness and damping divided by the mass of a node, and the length at rest, of the springs that the frame
-    /// [keeps](Frame::kept).
+    /// Stiffness and damping divided by the mass of a node, and the length at rest, of the springs that the topology
+    /// [keeps](Topology::kept).
     constants: Vec<[f64; 3]>,
     /// Whether none of them is damped.
     are_elastic: bool,
@@ -112,9 +112,9 @@ fn length(from: usize, to: End, q: &[f64]) -> f64 {
 }
 
 impl Net {
-    fn blank(frame: Arc<Frame>) -> Self {
+    fn blank(topology: Arc<Topology>) -> Self {
         Self {
-            frame,
+            topology,
             mass: 1.0,
             stiffness: 1.0,
             damping: 0.0,
@@ -141,7 +141,7 @@ impl Net {
     /// Calls `see` with the index of a free end, the other end and the constants of each spring, in the order of the sums.
     fn each_spring(&self, springs: &Springs, mut see: impl FnMut(usize, End, &[f64; 3])) {
         let Springs { shared: [k, c], rest, constants, .. } = springs;
-        let of_anchors = match &self.frame.layout {
+        let of_anchors = match &self.topology.layout {
             Layout::Rows(rows) => {
                 rows.each_spring(|[from, to], (row, column, way)| {
                     see(from, End::Free(to), &[*k, *c, rest.of(row, column, way)]);
@@ -156,15 +156,15 @@ impl Net {
                 outer
             }
         };
-        for ((index, anchor), constants) in self.frame.anchors.iter().zip(of_anchors) {
+        for ((index, anchor), constants) in self.topology.anchors.iter().zip(of_anchors) {
             see(*index as usize, End::Fixed(*anchor), constants);
         }
     }
 
     /// The place of a node, by its number in the plan, with the free nodes at `q`.
     pub fn place_of(&self, node: usize, q: &[f64]) -> DVec2 {
-        let index = self.frame.index_of(node);
-        DVec2::from(index.map_or_else(|| self.frame.place(node), |index| Self::nodes(q)[index]))
+        let index = self.topology.index_of(node);
+        DVec2::from(index.map_or_else(|| self.topology.place(node), |index| Self::nodes(q)[index]))
     }
 
     /// How many springs it has.
@@ -174,7 +174,7 @@ impl Net {
 
     /// The length of the shortest spring at the start, in metres.
     pub fn shortest_spring(&self) -> f64 {
-        let start = self.frame.start();
+        let start = self.topology.start();
         let mut shortest = f64::INFINITY;
         self.each_spring(&self.springs, |from, to, _| {
             shortest = shortest.min(length(from, to, &start));
@@ -190,7 +190,7 @@ impl Net {
     /// The faster of the fastest frequency and the fastest rate of damping, per node: those of a node whose neighbours all
     /// move against it.
     fn fastest(&self, springs: &Springs) -> f64 {
-        let mut sums = vec![[0.0; 2]; self.frame.free];
+        let mut sums = vec![[0.0; 2]; self.topology.free];
         let mut add = |index: usize, [k, c, _]: &[f64; 3], times: f64| {
             let [stiffness, damping] = &mut sums[index];
             *stiffness += times * k;
@@ -214,7 +214,7 @@ impl Net {
     ) {
         let Springs { shared, rest, constants, .. } = &*self.springs;
         let at = |node: usize| from_fn(|n| vectors[n][node]);
-        let of_anchors = match &self.frame.layout {
+        let of_anchors = match &self.topology.layout {
             Layout::Rows(rows) => {
                 rows.sum(forces, (*shared, rest), vectors, sums);
                 &constants[..]
@@ -235,7 +235,7 @@ impl Net {
         };
         // Less any number, -0 is its negative, of a zero too.
         let mut to = [[-0.0; 2]; N];
-        for ((i, anchor), constants) in self.frame.anchors.iter().zip(of_anchors) {
+        for ((i, anchor), constants) in self.topology.anchors.iter().zip(of_anchors) {
             let i = *i as usize;
             to[0] = *anchor;
             let f = forces.along(constants, at(i), to);
@@ -281,14 +281,14 @@ impl Body for Net {
             [stiffness / self.mass, damping / self.mass, rest]
         };
         let of = |spring: PlannedSpring| {
-            constants(&spring, distance(spring.between.map(|node| self.frame.place(node))))
+            constants(&spring, distance(spring.between.map(|node| self.topology.place(node))))
         };
-        let rest = match &self.frame.layout {
+        let rest = match &self.topology.layout {
             Layout::Rows(rows) => RestLengths::new(&rows.grid, self.rest_ratio),
             Layout::Arrays(_) => RestLengths::default(),
         };
         let [k, c, _] = constants(&PlannedSpring::default(), 0.0);
-        let constants: Vec<[f64; 3]> = self.frame.kept().map(of).collect();
+        let constants: Vec<[f64; 3]> = self.topology.kept().map(of).collect();
         let mut springs = Springs { shared: [k, c], rest, constants, ..Default::default() };
         let (mut count, mut are_elastic) = (0, true);
         self.each_spring(&springs, |_, _, [_, c, _]| {
@@ -302,7 +302,7 @@ impl Body for Net {
     }
 
     fn start(&self) -> State<Vec<f64>> {
-        State { q: self.frame.start(), v: vec![0.0; 2 * self.frame.free] }
+        State { q: self.topology.start(), v: vec![0.0; 2 * self.topology.free] }
     }
 
     fn reference_work(&self) -> f64 {
@@ -324,7 +324,7 @@ impl Body for Net {
 
     fn input(&mut self, input: Input, state: &mut State<Vec<f64>>) -> bool {
         let Input::Kick(times) = input else { return false };
-        let kicked = if self.frame.kicks_first { 1 } else { self.frame.free };
+        let kicked = if self.topology.kicks_first { 1 } else { self.topology.free };
         for [vx, vy] in &mut Self::nodes_mut(&mut state.v)[..kicked] {
             *vx += times * self.kick.x;
             *vy += times * self.kick.y;

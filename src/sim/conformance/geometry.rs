@@ -1,6 +1,6 @@
 //! Phase-space area, and reversibility.
 
-use super::problems::{Pendulum, Problem, fixed_step, problem, spring};
+use super::problems::{Problem, UnitPendulum, fixed_step, problem, spring};
 use super::{Claim, yes_or_no};
 use crate::sim::difference::{OFFSETS, fourth_order};
 use crate::sim::integrators::{Method, StepFailure};
@@ -54,7 +54,7 @@ fn both_kept(off: [Result<f64, StepFailure>; 2], what: &str) -> Result<(bool, St
 
 /// Whether a step conserves phase-space area, on a linear and on a nonlinear system.
 pub(super) fn symplectic(method: &Method) -> Claim {
-    let off = [area(method, problem(spring(1.0, 0.0))), area(method, problem(Pendulum))];
+    let off = [area(method, problem(spring(1.0, 0.0))), area(method, problem(UnitPendulum))];
     let off = off.map(|area| area.map(|area| (area - 1.0).abs()));
     yes_or_no("symplectic", method.symplectic, both_kept(off, "area changes by"))
 }
@@ -70,7 +70,7 @@ fn there_and_back(method: &Method, system: Problem<f64>) -> Result<f64, StepFail
 
 /// Whether a step back undoes a step, on a linear and on a nonlinear system.
 pub(super) fn reversible(method: &Method) -> Claim {
-    let on = [problem(spring(1.0, 0.0)), problem(Pendulum)];
+    let on = [problem(spring(1.0, 0.0)), problem(UnitPendulum)];
     let off = on.map(|system| there_and_back(method, system));
     yes_or_no("reversible", method.reversible, both_kept(off, "there and back it is off by"))
 }

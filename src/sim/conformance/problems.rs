@@ -53,9 +53,9 @@ pub const SHIP: Ship = Ship {
 
 /// `q″ = -sin q`.
 #[derive(Clone, Copy, Debug)]
-pub struct Pendulum;
+pub struct UnitPendulum;
 
-impl System for Pendulum {
+impl System for UnitPendulum {
     type Vector = f64;
     fn acceleration(&self, _t: f64, q: &f64, _v: &f64, a: &mut f64) {
         *a = -libm::sin(*q);

@@ -51,7 +51,7 @@ impl Rule for Avian {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (substep(tick.length, tick.substeps), tick.settings);
         let (drag, stiff) = (1.0 + h * set.drag, h * h * set.stiffness);
         let kept = 1.0 - (h * set.damping).min(1.0);

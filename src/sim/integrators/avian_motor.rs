@@ -48,7 +48,7 @@ impl Rule for AvianMotor {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (substep(tick.length, tick.substeps), tick.settings);
         let (drag, resistance) = (1.0 + h * set.drag, set.resistance(h));
         let has_spring = set.has_spring();

@@ -50,7 +50,7 @@ impl Rule for Box2d {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let (drag, pull, resistance) = (1.0 + h * set.drag, h * set.stiffness, set.resistance(h));
         let has_spring = set.has_spring();

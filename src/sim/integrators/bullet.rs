@@ -45,7 +45,7 @@ impl Rule for Bullet {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let softest = 1.0 / (16.0 * h * h);
         let stiffness = set.stiffness.min(softest);

@@ -99,7 +99,7 @@ pub enum Needs {
 
 impl Only {
     /// Why the method steps no body of this class; `None` if it may. The order of a law is checked apart.
-    pub const fn refusal(&self, class: BodyClass) -> Option<&'static str> {
+    pub const fn incompatibility(&self, class: BodyClass) -> Option<&'static str> {
         match (self.needs, class) {
             (Needs::Law { .. }, BodyClass::Follower(_))
             | (Needs::Force, BodyClass::Forced | BodyClass::Joint | BodyClass::NoEngine(_))

@@ -39,7 +39,7 @@ impl Rule for Chipmunk {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.length, tick.settings);
         let (kept, damped) = (libm::exp(-set.drag * h), libm::exp(-set.damping * h));
         each(tick.force, q, v, |x, v, f| {

@@ -18,7 +18,7 @@ use crate::sim::system::{EngineSettings, StateOf, System};
 
 /// A tick of an engine: its settings, and its substeps.
 #[derive(Debug)]
-pub struct Tick<'a, V> {
+pub struct EngineTick<'a, V> {
     /// H, in seconds.
     pub(super) length: f64,
     /// n.
@@ -31,7 +31,7 @@ pub struct Tick<'a, V> {
     pub(super) carried: &'a mut V,
 }
 
-impl<V> Tick<'_, V> {
+impl<V> EngineTick<'_, V> {
     /// h, in seconds.
     pub(super) fn substep(&self) -> f64 {
         self.length / f64::from(self.substeps)
@@ -44,7 +44,7 @@ pub trait Rule: Clone + Send + 'static {
     const CARD: &'static Method;
 
     /// Advances the coordinates `q` and the velocities `v` by a tick.
-    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V);
+    fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V);
 }
 
 /// An engine as a method: it reads the force at the start of a tick, and applies its rule.
@@ -112,7 +112,7 @@ impl<V: Vector, R: Rule> EngineMethod<V, R> {
         if let (Some([stiffness, damping]), true) = (*joint, settings.has_spring()) {
             settings = EngineSettings { stiffness, damping, ..settings };
         }
-        let tick = Tick { length, substeps, settings, force, carried };
+        let tick = EngineTick { length, substeps, settings, force, carried };
         R::tick(tick, &mut state.q, &mut state.v);
         Ok(())
     }

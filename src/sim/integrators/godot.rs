@@ -45,7 +45,7 @@ impl Rule for Godot {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.length, tick.settings);
         let (kept, damped) = ((1.0 - h * set.drag).max(0.0), libm::exp(-set.damping * h));
         each(tick.force, q, v, |x, v, f| {

@@ -42,7 +42,7 @@ impl Rule for HeldForce {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let h = tick.substep();
         for _ in 0..tick.substeps {
             V::kick_and_drift(h, tick.force, v, h, q);

@@ -80,7 +80,7 @@ pub use card::{
     DAMPING_RATIOS, Engine, Family, FollowerQuantity, FollowerSetting, Method, Needs, Only,
 };
 pub use custom_method::{AnySystem, CustomIntegrator, custom_integrator};
-pub use engine::{EngineMethod, Rule, Tick};
+pub use engine::{EngineMethod, EngineTick, Rule};
 pub use failure::{StepFailure, Stepped};
 pub use follower::{Follower, FollowerRule};
 pub use free_spin::{FreeSpin, SpinMap};
@@ -106,7 +106,7 @@ pub trait Construct<S: System> {
 /// Why a method steps no system of the type for which `C` constructs; `None` if it may step some.
 const fn refusal<S: System, C: Construct<S>>(card: &Method) -> Option<&'static str> {
     match (&card.only, C::CLASS) {
-        (Some(only), Some(class)) => only.refusal(class),
+        (Some(only), Some(class)) => only.incompatibility(class),
         _ => None,
     }
 }

@@ -89,7 +89,7 @@ impl Rule for Mujoco {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let resistance = 1.0 + h * (set.damping + set.drag);
         let mut applied = 1.0;

@@ -67,7 +67,7 @@ impl Rule for Physx {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.length, tick.settings);
         let (pull, resistance) = (h * set.stiffness, set.resistance(h));
         let kept = (1.0 - h * set.drag).max(0.0);

@@ -4,7 +4,7 @@ pub(super) use super::card::{
     ADAPTIVE, AS_PRINTED, ENGINE, EXPLICIT, Engine, FIRST_ORDER_FOLLOWER, FollowerQuantity,
     FollowerSetting, IMPLICIT, LINEARISED, Method, Needs, Only, SECOND_ORDER_FOLLOWER, SYMPLECTIC,
 };
-pub(super) use super::engine::{Rule, Tick, cap, each, each_with};
+pub(super) use super::engine::{EngineTick, Rule, cap, each, each_with};
 pub(super) use super::failure::Stepped;
 pub(super) use super::follower::{FollowerRule, lerp};
 pub(super) use super::free_spin::{FreeSpin, SpinMap};

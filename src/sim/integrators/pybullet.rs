@@ -35,7 +35,7 @@ impl Rule for Pybullet {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, d) = (tick.length, -libm::expm1(-tick.settings.drag));
         let square: f64 = v.components().iter().map(|v| v * v).sum();
         let drag = d * (1.0 + square.sqrt());

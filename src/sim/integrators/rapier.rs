@@ -59,7 +59,7 @@ impl Rule for Rapier {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let (pull, resistance) = (h * set.stiffness, set.resistance(h));
         let has_spring = set.has_spring();

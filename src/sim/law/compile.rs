@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::expression::{Expression, Scope, parse};
 use super::function::Function;
 use super::op::is_word;
-use super::refusal::{Fault, Part, Refusal, Remedy};
+use super::refusal::{ExpressionFault, Part, Refusal, Remedy};
 use super::tape::{MAX_OPERATIONS, MAX_SWITCHES, Tape};
 use super::token::is_name_start;
 use super::{FIRST_COORDINATE, LawText, RUDDER, T, THROTTLE, inputs};
@@ -115,7 +115,7 @@ impl Compiler<'_> {
             .map(|(i, row)| {
                 let what = format!("`{}` has no `exact`, and another coordinate has", row.name);
                 let remedy = "give it one, or remove the others";
-                Fault::new(0..row.name.len(), what, remedy).of(Part::Coordinate(i))
+                ExpressionFault::new(0..row.name.len(), what, remedy).of(Part::Coordinate(i))
             })
             .collect();
         let given = rows.filter_map(|(i, row)| Some((Part::Exact(i), row.exact.as_deref()?)));
@@ -159,7 +159,7 @@ impl Compiler<'_> {
                 ("operations", MAX_OPERATIONS)
             };
             let what = format!("the law has more than {most} {what}");
-            vec![Fault::new(0..text.len(), what, format!("keep at most {most}")).of(part)]
+            vec![ExpressionFault::new(0..text.len(), what, format!("keep at most {most}")).of(part)]
         })
     }
 }

@@ -1,7 +1,7 @@
 //! Finds the operation by which an acceleration is not finite.
 
 use super::op::Op;
-use super::refusal::{Fault, Refusal, quoted};
+use super::refusal::{ExpressionFault, Refusal, quoted};
 use super::{Equations, Registers};
 
 impl Equations {
@@ -28,7 +28,7 @@ impl Equations {
             let written = quoted(&self.part(origin.part)[origin.span.clone()]);
             let remedy = "give another start or other constants, or guard it with `if` or `max`";
             let what = format!("`{written}` {what} at the start");
-            return Some(Fault::new(origin.span.clone(), what, remedy).of(origin.part));
+            return Some(ExpressionFault::new(origin.span.clone(), what, remedy).of(origin.part));
         }
     }
 }

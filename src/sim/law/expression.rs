@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use super::function::{FUNCTIONS, Function};
 use super::op::{INFIXES, Infix, Level, Op, is_word};
-use super::refusal::{Fault, Remedy, quoted};
+use super::refusal::{ExpressionFault, Parsed, Remedy, fault, quoted};
 use super::token::{Token, tokens};
 use crate::sim::curve::Curve;
 
@@ -66,24 +66,24 @@ pub(super) trait Scope {
 }
 
 /// Reads an expression. Its last node is its value.
-pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<Expression, Fault> {
+pub(super) fn parse(text: &str, scope: &dyn Scope) -> Parsed<Expression> {
     if text.len() > MAX_BYTES {
         let what = format!("the expression has {} bytes", text.len());
         let end = text.floor_char_boundary(MAX_BYTES);
-        return Err(Fault::new(end..text.len(), what, format!("keep at most {MAX_BYTES}")));
+        return fault(end..text.len(), what, format!("keep at most {MAX_BYTES}"));
     }
     let tokens = tokens(text)?;
     let expression = Expression::default();
     let mut parser = Parser { text, tokens, next: 0, depth: 0, scope, expression };
     if parser.peek() == Token::End {
-        return Err(Fault::new(0..text.len(), "the expression is empty", "write one"));
+        return fault(0..text.len(), "the expression is empty", "write one");
     }
     let value = parser.any()?;
     match parser.peek() {
         Token::End => {}
         Token::Symbol(")" | "]") => {
             let what = format!("`{}` closes nothing", parser.written());
-            return Err(Fault::new(parser.span(), what, "remove it, or open it before"));
+            return fault(parser.span(), what, "remove it, or open it before");
         }
         _ => return Err(parser.juxtaposed()),
     }
@@ -132,7 +132,7 @@ impl Parser<'_> {
         is_it
     }
 
-    fn expect(&mut self, symbol: &'static str, after: &str) -> Result<(), Fault> {
+    fn expect(&mut self, symbol: &'static str, after: &str) -> Parsed<()> {
         if self.takes(symbol) {
             return Ok(());
         }
@@ -145,13 +145,13 @@ impl Parser<'_> {
             Token::End => format!("the text ends where `{symbol}` is missing"),
             _ => format!("`{}` stands where `{symbol}` is missing", self.written()),
         };
-        Err(Fault::new(self.here(), what, format!("write `{symbol}` after {after}")))
+        fault(self.here(), what, format!("write `{symbol}` after {after}"))
     }
 
     /// The next token follows a value without an operator.
-    fn juxtaposed(&self) -> Fault {
+    fn juxtaposed(&self) -> ExpressionFault {
         let what = format!("`{}` follows a complete expression", quoted(self.written()));
-        Fault::new(self.span(), what, "write an operator before it, such as `*`")
+        ExpressionFault::new(self.span(), what, "write an operator before it, such as `*`")
     }
 
     /// The bytes of the next token; at the end of the text, the last character.
@@ -166,10 +166,10 @@ impl Parser<'_> {
     }
 
     /// One level deeper into brackets, signs or functions.
-    fn nested<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, Fault>) -> Result<T, Fault> {
+    fn nested<T>(&mut self, read: impl FnOnce(&mut Self) -> Parsed<T>) -> Parsed<T> {
         if self.depth == MAX_DEPTH {
             let what = format!("the expression is nested more than {MAX_DEPTH} deep");
-            return Err(Fault::new(self.here(), what, "use fewer brackets"));
+            return fault(self.here(), what, "use fewer brackets");
         }
         self.depth += 1;
         let read = read(self);
@@ -177,12 +177,12 @@ impl Parser<'_> {
         read
     }
 
-    fn any(&mut self) -> Result<usize, Fault> {
+    fn any(&mut self) -> Parsed<usize> {
         self.operation(Level::Or)
     }
 
     /// Operands joined by operators that bind at least as tightly as `least`.
-    fn operation(&mut self, least: Level) -> Result<usize, Fault> {
+    fn operation(&mut self, least: Level) -> Parsed<usize> {
         let mut left = self.operand(least)?;
         while let Some(infix) = self.infix().filter(|infix| infix.level >= least) {
             if infix.op == Op::Power {
@@ -201,7 +201,7 @@ impl Parser<'_> {
                 && let Some(second) = self.infix().filter(|second| second.level == infix.level)
             {
                 let what = format!("`{}` follows another comparison", second.sign);
-                return Err(Fault::new(self.span(), what, "write `a < b and b < c`"));
+                return fault(self.span(), what, "write `a < b and b < c`");
             }
             let span = self.span_of(left).start..self.span_of(right).end;
             let operands = if infix.is_swapped { [right, left] } else { [left, right] };
@@ -217,7 +217,7 @@ impl Parser<'_> {
     }
 
     /// What stands before an operator that binds at least as tightly as `least`.
-    fn operand(&mut self, least: Level) -> Result<usize, Fault> {
+    fn operand(&mut self, least: Level) -> Parsed<usize> {
         let start = self.span().start;
         if least <= Level::Not && self.is_word("not") {
             self.next += 1;
@@ -238,7 +238,7 @@ impl Parser<'_> {
     }
 
     /// The power of `base`, before whose sign the parser stands. It groups to the right.
-    fn power(&mut self, base: usize) -> Result<usize, Fault> {
+    fn power(&mut self, base: usize) -> Parsed<usize> {
         self.next += 1;
         let base = self.want_number(base)?;
         let exponent = self.nested(|parser| parser.operation(Level::Sign))?;
@@ -272,7 +272,7 @@ impl Parser<'_> {
         (node.op == Op::Number && is_small).then_some((node.number as u32, is_negative))
     }
 
-    fn primary(&mut self) -> Result<usize, Fault> {
+    fn primary(&mut self) -> Parsed<usize> {
         let span = self.span();
         match self.peek() {
             Token::Number(number) => {
@@ -289,30 +289,30 @@ impl Parser<'_> {
             Token::Name => self.named(),
             Token::End => {
                 let remedy = "write a number, a name or a bracket at the end";
-                Err(Fault::new(self.here(), "the expression ends in its middle", remedy))
+                fault(self.here(), "the expression ends in its middle", remedy)
             }
             Token::Symbol(symbol) => {
                 let what = format!("`{symbol}` stands where a number or a name is missing");
-                Err(Fault::new(span, what, "write one before it"))
+                fault(span, what, "write one before it")
             }
         }
     }
 
     /// A name, a function or a word.
-    fn named(&mut self) -> Result<usize, Fault> {
+    fn named(&mut self) -> Parsed<usize> {
         let (span, name) = (self.span(), self.written().to_owned());
         self.next += 1;
         if let Some(function) = Function::named(&name) {
             if self.peek() != Token::Symbol("(") {
                 let what = format!("`{name}` is a function");
-                return Err(Fault::new(span, what, format!("write `{}`", function.usage())));
+                return fault(span, what, format!("write `{}`", function.usage()));
             }
             return self.call(function, span);
         }
         if let Some(input) = self.scope.input(&name) {
             if self.peek() == Token::Symbol("(") {
                 let what = format!("`{name}` is no function");
-                return Err(Fault::new(span, what, format!("write `{name}*(…)` for a product")));
+                return fault(span, what, format!("write `{name}*(…)` for a product"));
             }
             return Ok(self.node(Node { index: input, ..Node::leaf(Op::Input) }, span));
         }
@@ -320,11 +320,11 @@ impl Parser<'_> {
             return Ok(self.number(PI, span));
         }
         if let Some(why) = self.scope.why_not(&name) {
-            return Err(Fault::new(span, why, "remove it"));
+            return fault(span, why, "remove it");
         }
         if is_word(&name) {
             let what = format!("`{name}` stands where a number or a name is missing");
-            return Err(Fault::new(span, what, "write one before it"));
+            return fault(span, what, "write one before it");
         }
         let is_call = self.peek() == Token::Symbol("(");
         let functions = FUNCTIONS.iter().map(|function| function.name.to_owned());
@@ -335,6 +335,6 @@ impl Parser<'_> {
         };
         let noun = if is_call { "function" } else { "name" };
         let what = format!("unknown {noun} `{}`", quoted(&name));
-        Err(Fault { span, what, remedy: Remedy::Name { written: name, known } })
+        Err(ExpressionFault { span, what, remedy: Remedy::Name { written: name, known } })
     }
 }

@@ -48,13 +48,13 @@ pub enum Remedy {
 
 /// A fault of one expression.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Fault {
+pub(super) struct ExpressionFault {
     pub(super) span: Range<usize>,
     pub(super) what: String,
     pub(super) remedy: Remedy,
 }
 
-impl Fault {
+impl ExpressionFault {
     pub(super) fn new(
         span: Range<usize>,
         what: impl Into<String>,
@@ -68,6 +68,18 @@ impl Fault {
         let Self { span, what, remedy } = self;
         Refusal { part, span, what, remedy }
     }
+}
+
+/// What is read from an expression.
+pub(super) type Parsed<T> = Result<T, ExpressionFault>;
+
+/// The error of a [fault](ExpressionFault::new).
+pub(super) fn fault<T>(
+    span: Range<usize>,
+    what: impl Into<String>,
+    remedy: impl Into<String>,
+) -> Parsed<T> {
+    Err(ExpressionFault::new(span, what, remedy))
 }
 
 /// The most characters of an expression in one message.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::refusal::Fault;
+use super::refusal::{Parsed, fault};
 
 /// One token.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,7 +42,7 @@ const FOREIGN: [(&str, &str); 11] = [
 ];
 
 /// The tokens of `text` with their bytes; the last is [`Token::End`].
-pub(super) fn tokens(text: &str) -> Result<Vec<(Token, Range<usize>)>, Fault> {
+pub(super) fn tokens(text: &str) -> Parsed<Vec<(Token, Range<usize>)>> {
     let mut tokens = Vec::new();
     let mut at = 0;
     while let Some(first) = text[at..].chars().next() {
@@ -57,12 +57,12 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(Token, Range<usize>)>, Fault> {
             (Token::Name, span_of(rest, |c| is_name_start(c) || c.is_ascii_digit()))
         } else if let Some((sign, meant)) = foreign(rest) {
             let what = format!("`{sign}` has no meaning here");
-            return Err(Fault::new(at..at + sign.len(), what, format!("write `{meant}`")));
+            return fault(at..at + sign.len(), what, format!("write `{meant}`"));
         } else if let Some(symbol) = SYMBOLS.iter().find(|symbol| rest.starts_with(**symbol)) {
             (Token::Symbol(symbol), symbol.len())
         } else {
             let what = format!("`{}` cannot be in an expression", first.escape_debug());
-            return Err(Fault::new(at..at + first.len_utf8(), what, "remove it"));
+            return fault(at..at + first.len_utf8(), what, "remove it");
         };
         tokens.push((token, at..at + length));
         at += length;
@@ -87,7 +87,7 @@ fn span_of(text: &str, wanted: impl Fn(char) -> bool) -> usize {
 }
 
 /// A number at the beginning of `rest`, which begins at byte `at`, and its length.
-fn number(rest: &str, at: usize) -> Result<(Token, usize), Fault> {
+fn number(rest: &str, at: usize) -> Parsed<(Token, usize)> {
     let mut length = span_of(rest, |c| c.is_ascii_digit() || c == '.');
     if rest[length..].starts_with(['e', 'E']) {
         let sign = usize::from(rest[length + 1..].starts_with(['+', '-']));
@@ -98,15 +98,11 @@ fn number(rest: &str, at: usize) -> Result<(Token, usize), Fault> {
     let number = match text.parse::<f64>() {
         Ok(number) if number.is_finite() => number,
         Ok(_) => {
-            return Err(Fault::new(
-                span,
-                format!("`{text}` is too large"),
-                "write a smaller number",
-            ));
+            return fault(span, format!("`{text}` is too large"), "write a smaller number");
         }
         Err(_) => {
             let remedy = "write it with one point, such as `0.5`";
-            return Err(Fault::new(span, format!("`{text}` is no number"), remedy));
+            return fault(span, format!("`{text}` is no number"), remedy);
         }
     };
     let after = span_of(&rest[length..], |c| is_name_start(c) || c.is_ascii_digit());
@@ -114,7 +110,7 @@ fn number(rest: &str, at: usize) -> Result<(Token, usize), Fault> {
         let unit = &rest[length..length + after];
         let remedy = format!("write `{text}*{unit}`, or a `{text}` alone");
         let what = format!("`{text}{unit}` is neither a number nor a name");
-        return Err(Fault::new(at..at + length + after, what, remedy));
+        return fault(at..at + length + after, what, remedy);
     }
     Ok((Token::Number(number), length))
 }

@@ -66,7 +66,7 @@ fn linearly_implicit_euler_is_implicit_euler_on_a_linear_spring() {
     }
     // And not on a curved force.
     let [one, other] = ["linearly-implicit-euler", "implicit-euler"]
-        .map(|id| course(id, &super::systems::Pendulum, &start, 0.1, 100));
+        .map(|id| course(id, &super::systems::UnitPendulum, &start, 0.1, 100));
     assert!((one[99].q - other[99].q).abs() > 1e-6);
 }
 

@@ -3,7 +3,7 @@
 use regatta::sim::integrators::{Family, GENERAL_METHODS, Method};
 use regatta::sim::{State, System};
 
-use super::systems::{Pendulum, fresh, spring};
+use super::systems::{UnitPendulum, fresh, spring};
 
 /// Beyond this energy error no motion is left.
 const LOST: f64 = 1e6;
@@ -30,7 +30,7 @@ fn drift(method: &Method, h: f64, steps: u32) -> Option<Drift> {
     let (mut least, mut most) = (0.0_f64, 0.0_f64);
     let (middle, mut sum, mut moment, mut square) = (f64::from(steps - 1) / 2.0, 0.0, 0.0, 0.0);
     for step in 0..steps {
-        integrator.step(&Pendulum, h * f64::from(step), h, &mut state).unwrap();
+        integrator.step(&UnitPendulum, h * f64::from(step), h, &mut state).unwrap();
         let error = energy(&state) - first;
         if !error.is_finite() || error.abs() > LOST {
             return None;
@@ -87,7 +87,7 @@ fn reversible_methods_and_no_others_return_after_a_hundred_thousand_steps() {
     for method in GENERAL_METHODS {
         // What is rounded on a spring adds up; on a pendulum, whose frequency it changes, it also grows.
         let on_spring = (out_and_back(method, &spring(1.0, 0.0)), 1e-12, true);
-        let on_pendulum = (out_and_back(method, &Pendulum), 1e-9, false);
+        let on_pendulum = (out_and_back(method, &UnitPendulum), 1e-9, false);
         for (off, rounded, is_linear) in [on_spring, on_pendulum] {
             println!("{:26} {off:.1e}", method.id);
             if method.reversible || is_linear && method.exact_if_linear {

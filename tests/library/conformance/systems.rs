@@ -6,7 +6,7 @@ use glam::DVec2;
 use regatta::sim::integrators::{Integrator, Method, Override, integrator};
 use regatta::sim::{Coupling, State, System, Vector};
 
-pub(crate) use regatta::conformance::problems::{Kepler, Pendulum, kepler_orbit, spring};
+pub(crate) use regatta::conformance::problems::{Kepler, UnitPendulum, kepler_orbit, spring};
 
 /// A fresh integrator for systems of one coordinate, compiled for `S`.
 pub(crate) fn fresh<S: System<Vector = f64> + 'static>(method: &Method) -> Box<dyn Integrator<S>> {

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::f64::consts::TAU;
 
-use regatta::sim::bodies::{BODIES, Body as _, Kind, Net, Range, kind, refusal};
+use regatta::sim::bodies::{BODIES, Body as _, Kind, Net, Range, incompatibility, kind};
 use regatta::sim::integrators::{METHODS, Method, StepFailure, integrator, method};
 use regatta::sim::{Counted, Solver, State};
 
@@ -233,7 +233,8 @@ fn a_spring_force_held_over_one_substep_is_bounded_up_to_2_and_over_more_at_no_s
 #[test]
 fn a_body_that_no_engine_can_be_told_of_says_why_and_each_says_something_else() {
     let box2d = method("engine-box2d").unwrap();
-    let steps = |method: &Method, kind: &Kind| method.only.unwrap().refusal(kind.class).is_none();
+    let steps =
+        |method: &Method, kind: &Kind| method.only.unwrap().incompatibility(kind.class).is_none();
     let mut reasons = Vec::new();
     for kind in BODIES.iter() {
         assert_eq!(steps(box2d, kind), kind.class.engine_refusal().is_none(), "{}", kind.id);
@@ -242,7 +243,13 @@ fn a_body_that_no_engine_can_be_told_of_says_why_and_each_says_something_else() 
         let values: Vec<f64> = kind.parameters.iter().map(|p| p.default.unwrap_or(1.0)).collect();
         for method in engines() {
             let expected = (!steps(method, kind)).then_some(reason);
-            assert_eq!(refusal(method, kind, &values), expected, "{} {}", method.id, kind.id);
+            assert_eq!(
+                incompatibility(method, kind, &values),
+                expected,
+                "{} {}",
+                method.id,
+                kind.id
+            );
         }
     }
     reasons.extend(Net::CLASS.engine_refusal());
@@ -250,7 +257,7 @@ fn a_body_that_no_engine_can_be_told_of_says_why_and_each_says_something_else() 
     assert_eq!((reasons.len(), distinct.len()), (4, 4), "{reasons:?}");
     // A reason of the engine's own stays.
     let spring = kind("spring").unwrap();
-    let said = refusal(method("engine-pybullet").unwrap(), spring, &[1.0; 6]).unwrap();
+    let said = incompatibility(method("engine-pybullet").unwrap(), spring, &[1.0; 6]).unwrap();
     assert!(said.contains("no joint with a spring"), "{said}");
 }
 
@@ -264,7 +271,7 @@ fn a_method_steps_the_bodies_that_are_not_refused_and_no_other() {
         }
         for method in METHODS {
             let mut body = (kind.build)(&values, Solver::Method(method));
-            let refused = refusal(method, kind, &values);
+            let refused = incompatibility(method, kind, &values);
             let expected = refused.map_or(Ok(()), |reason| Err(StepFailure::Refused { reason }));
             assert_eq!(body.advance(0.0, 1e-3, 1), expected, "{} {}", method.id, kind.id);
         }

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, LazyLock};
 
-use super::frame::{Frame, Layout};
+use super::topology::{Layout, Topology};
 use super::{Net, PARAMETERS};
 use crate::sim::bodies::kind::{Coordinates, Kind, Origin};
 use crate::sim::net_plan::{NetFault, NetPlan};
@@ -27,28 +27,28 @@ pub fn net_kind(plan: NetPlan) -> Result<Arc<Kind>, Vec<NetFault>> {
         return Err(faults);
     }
     let plan = Arc::new(plan);
-    let frame = Arc::new(Frame::new(plan.clone()));
+    let topology = Arc::new(Topology::new(plan.clone()));
     Ok(Arc::new(Kind {
         id: "net",
         about:
             "m xᵢ″ = Σ (k (ℓ - ℓ₀) + c ℓ′) u - b xᵢ′ + m g: masses joined by springs in the plane"
                 .into(),
-        all_coordinates: coordinates(&frame),
+        all_coordinates: coordinates(&topology),
         leading: "stiffness_n_per_m".into(),
         origin: Origin::Net(plan),
-        ..Kind::of(Net::blank(frame))
+        ..Kind::of(Net::blank(topology))
     }))
 }
 
 /// The names of the coordinates: by a rule for a large grid, else in a list, so that halting allocates nothing.
-fn coordinates(frame: &Arc<Frame>) -> Coordinates {
-    let (of, count) = (frame.clone(), 2 * frame.free);
+fn coordinates(topology: &Arc<Topology>) -> Coordinates {
+    let (of, count) = (topology.clone(), 2 * topology.free);
     let names = move |index: usize| {
         let (axis, node) = (['x', 'y'][index % 2], of.node_at(index / 2));
         [format!("{axis}{node}"), format!("v{axis}{node}")]
     };
     let by_rule = Coordinates::by_rule(count, "m", Arc::new(names));
-    match frame.layout {
+    match topology.layout {
         Layout::Rows(_) => by_rule,
         Layout::Arrays(_) => by_rule.iter().collect::<Vec<_>>().into(),
     }

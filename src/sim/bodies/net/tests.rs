@@ -7,8 +7,8 @@ use crate::sim::net_plan::{Form, Grid, NetPlan, Pin};
 const VALUES: [f64; 8] = [0.02, 200.0, 0.03, 0.01, 9.81, 0.9, 1.5, -0.5];
 
 fn net(plan: &NetPlan, by_rows: bool) -> Net {
-    let frame = Frame::laid_out(Arc::new(plan.clone()), by_rows);
-    Net::blank(Arc::new(frame)).with_parameters(&VALUES)
+    let topology = Topology::laid_out(Arc::new(plan.clone()), by_rows);
+    Net::blank(Arc::new(topology)).with_parameters(&VALUES)
 }
 
 /// Numbers about zero, with some zeros of both signs.
@@ -69,11 +69,19 @@ fn assert_same(plan: &NetPlan) {
     assert_eq!(of_springs(&rows), of_springs(&lists), "{plan:?}");
     let Form::Grid(grid) = plan.form else { panic!("{plan:?} is no grid") };
     for node in 0..grid.nodes() {
-        assert_eq!(rows.frame.index_of(node), lists.frame.index_of(node), "{node} of {plan:?}");
-        assert_eq!(rows.frame.place(node), lists.frame.place(node), "{node} of {plan:?}");
+        assert_eq!(
+            rows.topology.index_of(node),
+            lists.topology.index_of(node),
+            "{node} of {plan:?}"
+        );
+        assert_eq!(rows.topology.place(node), lists.topology.place(node), "{node} of {plan:?}");
     }
-    for index in 0..rows.frame.free {
-        assert_eq!(rows.frame.node_at(index), lists.frame.node_at(index), "{index} of {plan:?}");
+    for index in 0..rows.topology.free {
+        assert_eq!(
+            rows.topology.node_at(index),
+            lists.topology.node_at(index),
+            "{index} of {plan:?}"
+        );
     }
 }
 
@@ -105,7 +113,7 @@ fn the_width_of_vectors_changes_no_bit_of_a_grid() {
     let grid = Grid { columns: 90, rows: 7, spacing: 0.1, shear: true, pin: Some(Pin::Corners) };
     let plan = NetPlan { form: Form::Grid(grid), kicked: Some(301) };
     let net = net(&plan, true);
-    let Layout::Rows(rows) = &net.frame.layout else { panic!("they are rows") };
+    let Layout::Rows(rows) = &net.topology.layout else { panic!("they are rows") };
     let Springs { shared, rest, .. } = &*net.springs;
     let forces = Accelerations { drag: 0.3, gravity: 9.81 };
     let [state, _] = &states(&net)[0];

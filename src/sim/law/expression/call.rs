@@ -6,7 +6,7 @@ use super::Parser;
 use crate::sim::curve::Curve;
 use crate::sim::law::function::{Function, Meaning};
 use crate::sim::law::op::Op;
-use crate::sim::law::refusal::Fault;
+use crate::sim::law::refusal::{Parsed, fault};
 use crate::sim::law::switch::{Pieces, Switch, Value};
 use crate::sim::law::token::Token;
 use crate::sim::parameter::MAX_POINTS;
@@ -17,7 +17,7 @@ impl Parser<'_> {
         &mut self,
         function: &'static Function,
         name: Range<usize>,
-    ) -> Result<usize, Fault> {
+    ) -> Parsed<usize> {
         self.next += 1;
         let mut arguments = Vec::new();
         let mut table = None;
@@ -36,7 +36,7 @@ impl Parser<'_> {
             let end = self.here().end.max(name.end);
             let what = format!("`{}` does not take these arguments", function.name);
             let remedy = format!("write `{}`", function.usage());
-            return Err(Fault::new(name.start..end, what, remedy));
+            return fault(name.start..end, what, remedy);
         }
         self.expect(")", "the arguments")?;
         let span = name.start..self.tokens[self.next - 1].1.end;
@@ -68,7 +68,7 @@ impl Parser<'_> {
     }
 
     /// The points of a table.
-    fn table(&mut self) -> Result<Curve, Fault> {
+    fn table(&mut self) -> Parsed<Curve> {
         let start = self.span().start;
         self.expect("[", "the comma, before the points `[[x0, y0], [x1, y1]]`")?;
         let mut points: Vec<[f64; 2]> = Vec::new();
@@ -82,11 +82,11 @@ impl Parser<'_> {
             let span = from..self.tokens[self.next - 1].1.end;
             if let Some([before, _]) = points.last().filter(|last| last[0] >= x) {
                 let what = format!("the points go from x = {before} to {x}");
-                return Err(Fault::new(span, what, "order them by rising x"));
+                return fault(span, what, "order them by rising x");
             }
             if points.len() == MAX_POINTS {
                 let what = format!("the table has more than {MAX_POINTS} points");
-                return Err(Fault::new(span, what, format!("keep at most {MAX_POINTS}")));
+                return fault(span, what, format!("keep at most {MAX_POINTS}"));
             }
             points.push([x, y]);
             if !self.takes(",") {
@@ -96,17 +96,17 @@ impl Parser<'_> {
         self.expect("]", "the last point")?;
         if points.len() < 2 {
             let span = start..self.tokens[self.next - 1].1.end;
-            return Err(Fault::new(span, "the table has one point", "write two or more"));
+            return fault(span, "the table has one point", "write two or more");
         }
         Ok(Curve::new(points))
     }
 
     /// A number with or without a sign.
-    fn literal(&mut self) -> Result<f64, Fault> {
+    fn literal(&mut self) -> Parsed<f64> {
         let sign = if self.takes("-") { -1.0 } else { 1.0 };
         let Token::Number(number) = self.peek() else {
             let what = "a point of a table is made of plain numbers";
-            return Err(Fault::new(self.here(), what, "write one, such as `0.5`"));
+            return fault(self.here(), what, "write one, such as `0.5`");
         };
         self.next += 1;
         Ok(sign * number)

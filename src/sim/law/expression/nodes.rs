@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::{Node, Parser};
 use crate::sim::law::op::Op;
-use crate::sim::law::refusal::{Fault, quoted};
+use crate::sim::law::refusal::{Parsed, fault, quoted};
 
 impl Parser<'_> {
     pub(super) fn push(&mut self, op: Op, arguments: &[usize], span: Range<usize>) -> usize {
@@ -31,21 +31,21 @@ impl Parser<'_> {
         self.expression.nodes[node].op.is_truth()
     }
 
-    pub(super) fn want_number(&self, node: usize) -> Result<usize, Fault> {
+    pub(super) fn want_number(&self, node: usize) -> Parsed<usize> {
         if !self.is_truth(node) {
             return Ok(node);
         }
         let span = self.span_of(node);
         let what = format!("`{}` is true or false, not a number", quoted(&self.text[span.clone()]));
-        Err(Fault::new(span, what, "write `if(condition, 1, 0)` for a number"))
+        fault(span, what, "write `if(condition, 1, 0)` for a number")
     }
 
-    pub(super) fn want_truth(&self, node: usize) -> Result<usize, Fault> {
+    pub(super) fn want_truth(&self, node: usize) -> Parsed<usize> {
         if self.is_truth(node) {
             return Ok(node);
         }
         let span = self.span_of(node);
         let what = format!("`{}` is a number, not a condition", quoted(&self.text[span.clone()]));
-        Err(Fault::new(span, what, "compare it, such as `x > 0`"))
+        fault(span, what, "compare it, such as `x > 0`")
     }
 }

@@ -13,7 +13,7 @@ const MIN_ROWS_NODES: usize = 2048;
 
 /// What the bodies of one plan share.
 #[derive(Debug)]
-pub(super) struct Frame {
+pub(super) struct Topology {
     pub(super) plan: Arc<NetPlan>,
     pub(super) layout: Layout,
     /// How many nodes are free.
@@ -45,7 +45,7 @@ pub(super) struct Arrays {
     pub(super) ends: Vec<[u32; 2]>,
 }
 
-impl Frame {
+impl Topology {
     /// Prepares a plan without [faults](NetPlan::faults).
     pub(super) fn new(plan: Arc<NetPlan>) -> Self {
         let by_rows = matches!(plan.form, Form::Grid(grid) if grid.nodes() >= MIN_ROWS_NODES);
@@ -64,16 +64,16 @@ impl Frame {
             Layout::Arrays(arrays) => arrays.free.len(),
         };
         let kicks_first = plan.kicked.is_some();
-        let mut frame = Self { plan, layout, free, anchors: Vec::new(), kicks_first };
-        let anchors = frame.anchored().map(|PlannedSpring { between: [a, b], .. }| {
-            let of = |node| frame.index_of(node).map(|index| index as u32);
+        let mut topology = Self { plan, layout, free, anchors: Vec::new(), kicks_first };
+        let anchors = topology.anchored().map(|PlannedSpring { between: [a, b], .. }| {
+            let of = |node| topology.index_of(node).map(|index| index as u32);
             match (of(a), of(b)) {
-                (Some(index), _) => (index, frame.place(b)),
-                (None, index) => (index.expect("a free end"), frame.place(a)),
+                (Some(index), _) => (index, topology.place(b)),
+                (None, index) => (index.expect("a free end"), topology.place(a)),
             }
         });
-        frame.anchors = anchors.collect();
-        frame
+        topology.anchors = anchors.collect();
+        topology
     }
 
     /// The springs whose constants are kept, in the order of the sums: of lists all, of rows those with a fixed end.
