@@ -16,7 +16,7 @@ use crate::sim::bodies::{Follow, Kind, Ship, Spring};
 use crate::sim::stability::{
     CoupledMotion, NoSmallMotion, NormalMode, SmallMotion, Stability, Tick,
 };
-use crate::sim::{BodyClass, EngineSettings, Solver, Stepper, stepper};
+use crate::sim::{EngineSettings, Solver, Stepper, stepper};
 
 mod contour;
 mod seen;
@@ -325,17 +325,8 @@ impl MapWork {
         let is_undamped = self.rows.iter().flatten().all(Motion::is_undamped);
         let of_step = spec.method.stability_limit.filter(|limit| is_undamped && *limit > 0.0);
         let limit = of_step.map(|limit| limit * f64::from(spec.substeps));
-        let seen = seen_lines(spec, &corners, |value| self.joint_at(value));
+        let seen = seen_lines(spec, &corners, |value| self.kind.joint(&*self.body_at(value)));
         Region { limit, seen, ..region }
-    }
-
-    /// The stiffness in 1/s² and the damping in 1/s, each per unit of mass, that engines are told of the body with this
-    /// value of the mapped parameter; `None` if there is more to its motion.
-    fn joint_at(&self, value: f64) -> Option<[f64; 2]> {
-        let body = self.body_at(value);
-        let EngineSettings { stiffness, damping, drag } = body.engine_settings(0.0);
-        let is_joint = self.kind.class == BodyClass::Joint && stiffness > 0.0 && drag == 0.0;
-        is_joint.then_some([stiffness, damping])
     }
 
     /// The motion of the body with this value of the mapped parameter.

@@ -2,9 +2,9 @@
 
 use super::Lab;
 use crate::lab::action::Action;
+use crate::lab::lane::LaneBody;
 use crate::lab::lane_spec::joint_per_mass;
 use crate::lab::port::{Setup, setups};
-use crate::sim::BodyClass;
 
 /// A spring, by the indices and the values of its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,13 +39,11 @@ impl SpringJoint {
 impl Lab {
     /// A body of the scene that is a spring which engines can be told, as it is now.
     pub fn spring_joint(&self, body: usize) -> Option<SpringJoint> {
-        let kind = &self.scene().bodies[body].kind;
+        let LaneBody { kind, stepper, .. } = &self.race().truth().bodies()[body];
+        let joint = kind.joint(&**stepper)?;
         let [mass, stiffness, damping] = KEYS.map(|key| Some(kind.parameter(key)?.0));
         let indices = [mass?, stiffness?, damping?];
-        let [mass_kg, stiffness, damping] = indices.map(|index| self.race().values(body)[index]);
-        let is_joint = kind.class == BodyClass::Joint && stiffness > 0.0;
-        let joint = [stiffness / mass_kg, damping / mass_kg];
-        is_joint.then_some(SpringJoint { body, indices, mass_kg, joint })
+        Some(SpringJoint { body, indices, mass_kg: self.race().values(body)[indices[0]], joint })
     }
 
     /// Every mode of every engine, at the race's tick rate.

@@ -11,7 +11,7 @@ use crate::sim::parameter::{Fault, Parameter, ParameterOf, Text};
 use crate::sim::reference::REFERENCE_ACCURACY;
 use crate::sim::solver::Solver;
 use crate::sim::stepper::Stepper;
-use crate::sim::system::BodyClass;
+use crate::sim::system::{BodyClass, EngineSettings};
 
 /// The kind of solution that methods are compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -182,6 +182,14 @@ impl Kind {
     /// The plan of a net.
     pub fn net(&self) -> Option<&Arc<NetPlan>> {
         if let Origin::Net(plan) = &self.origin { Some(plan) } else { None }
+    }
+
+    /// Stiffness in 1/s² and damping in 1/s, each per unit of mass, of the joint that a body of this kind is in an engine;
+    /// `None` if there is more to its motion, or no spring.
+    pub fn joint(&self, body: &dyn Stepper) -> Option<[f64; 2]> {
+        let EngineSettings { stiffness, damping, drag } = body.engine_settings(0.0);
+        let is_joint = self.class == BodyClass::Joint && stiffness > 0.0 && drag == 0.0;
+        is_joint.then_some([stiffness, damping])
     }
 
     /// The parameter with this key, and its index in [`Kind::parameters`].
