@@ -25,7 +25,7 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// The inputs that it accepts: `throttle`, `rudder`, `kick`.
     const INPUTS: &'static [&'static str] = &["kick"];
 
-    /// Whether it has a closed form: [`Body::exact`] and the like.
+    /// Whether it has a closed form, [`Body::exact_into`].
     const HAS_EXACT: bool = false;
 
     /// How copies of the body from other starts are stepped at once; it makes none of a body of several coordinates.
@@ -71,24 +71,18 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// The state at tick 0.
     fn start(&self) -> StateOf<Self>;
 
-    /// The exact flow over `dt` (s) under constant input, from time 0 if the forces depend on time.
-    /// `None` if the body has [no closed form](Body::HAS_EXACT); its truth is then a reference solution.
-    fn exact(&self, _dt: f64, _from: &StateOf<Self>) -> Option<StateOf<Self>> {
-        None
+    /// Overwrites `to` with the exact flow over `dt` (s) from time `t` (s) under constant input, of a body that [has a closed
+    /// form](Body::HAS_EXACT). The truth of any other is a reference solution. Never allocates.
+    fn exact_into(&self, _t: f64, _dt: f64, _from: &StateOf<Self>, _to: &mut StateOf<Self>) {
+        unreachable!("a body with `HAS_EXACT` has a closed form");
     }
 
-    /// The exact flow over `dt` (s) from time `t` (s). A body whose forces depend on time overrides this.
-    fn exact_at(&self, _t: f64, dt: f64, from: &StateOf<Self>) -> Option<StateOf<Self>> {
-        self.exact(dt, from)
-    }
-
-    /// Overwrites `to` with [`Body::exact_at`], and returns whether there is a closed form. A body with
-    /// coordinates on the heap overrides this so that it does not allocate.
-    fn exact_into(&self, t: f64, dt: f64, from: &StateOf<Self>, to: &mut StateOf<Self>) -> bool {
-        let flown = self.exact_at(t, dt, from);
-        flown.is_some_and(|state| {
-            *to = state;
-            true
+    /// The state that [`Body::exact_into`] leads to from time 0; `None` without a closed form.
+    fn exact(&self, dt: f64, from: &StateOf<Self>) -> Option<StateOf<Self>> {
+        Self::HAS_EXACT.then(|| {
+            let mut to = from.clone();
+            self.exact_into(0.0, dt, from, &mut to);
+            to
         })
     }
 
@@ -99,7 +93,7 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         false
     }
 
-    /// A bound on the rounding error of [`Body::exact_at`] over `dt` from `from` at time `_t` to `to`, for
+    /// A bound on the rounding error of [`Body::exact_into`] over `dt` from `from` at time `_t` to `to`, for
     /// exact arguments: of a coordinate and of a velocity.
     fn exact_error(
         &self,

@@ -83,8 +83,7 @@ impl<B: Body> Propagator<B> for ExactFlow<B::Vector> {
     fn step(&mut self, body: &Counted<B>, t: f64, h: f64, _n: u32, y: &mut StateOf<B>) -> Stepped {
         self.t = t + h;
         let Anchor { state: from, t: begin, .. } = &self.anchor;
-        let is_known = body.system.exact_into(*begin, self.t - begin, from, y);
-        assert!(is_known, "a body with `HAS_EXACT` has a closed form");
+        body.system.exact_into(*begin, self.t - begin, from, y);
         Ok(())
     }
 

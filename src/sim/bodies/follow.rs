@@ -175,19 +175,16 @@ impl Body for Follow {
         State { q: self.x0, v: if self.order == 1 { straight } else { self.v0 } }
     }
 
-    fn exact(&self, dt: f64, from: &State<f64>) -> Option<State<f64>> {
-        self.exact_at(0.0, dt, from)
-    }
-
-    fn exact_at(&self, t: f64, dt: f64, from: &State<f64>) -> Option<State<f64>> {
+    fn exact_into(&self, t: f64, dt: f64, from: &State<f64>, to: &mut State<f64>) {
         if dt == 0.0 {
-            return Some(from.clone());
+            return to.assign(from);
         }
         let (here, there, k) = (self.steady(t), self.steady(t + dt), self.rate);
         // What deviates from the steady motion dies away as a critically damped spring comes to rest.
         let (x, v) = (from.q - here.q, from.v - here.v);
         let (decay, b) = (libm::exp(-k * dt), v + k * x);
-        Some(State { q: there.q + decay * (x + b * dt), v: there.v + decay * (v - k * b * dt) })
+        to.q = there.q + decay * (x + b * dt);
+        to.v = there.v + decay * (v - k * b * dt);
     }
 
     fn exact_error(&self, t: f64, dt: f64, from: &State<f64>, _to: &State<f64>) -> [f64; 2] {

@@ -107,8 +107,8 @@ impl Body for Orbit {
         State { q: self.q0, v: self.v0 }
     }
 
-    fn exact(&self, dt: f64, from: &State<DVec2>) -> Option<State<DVec2>> {
-        Some(kepler::flow(self.mu, dt, from))
+    fn exact_into(&self, _t: f64, dt: f64, from: &State<DVec2>, to: &mut State<DVec2>) {
+        *to = kepler::flow(self.mu, dt, from);
     }
 
     /// Infinite so close to the centre that the rounding of the time exceeds the time of passage.

@@ -91,17 +91,15 @@ impl Body for Ship {
         State { q: self.s0, v: self.v0 }
     }
 
-    fn exact(&self, dt: f64, from: &State<f64>) -> Option<State<f64>> {
+    fn exact_into(&self, _t: f64, dt: f64, from: &State<f64>, to: &mut State<f64>) {
         let push = self.thrust * self.throttle / self.mass;
         let rate = self.drag / self.mass;
         // With z = rate dt:  phi1 = (1 - e^-z) / z,  phi2 = (1 - phi1) / z.
         let z = rate * dt;
         let (phi1, phi2) = if z.abs() < 0.1 { phi_series(z) } else { phi(z) };
         let State { q: s, v } = *from;
-        Some(State {
-            q: s + v * dt * phi1 + push * dt * dt * phi2,
-            v: v + (push - rate * v) * dt * phi1,
-        })
+        to.q = s + v * dt * phi1 + push * dt * dt * phi2;
+        to.v = v + (push - rate * v) * dt * phi1;
     }
 
     fn exact_error(&self, _t: f64, dt: f64, from: &State<f64>, _to: &State<f64>) -> [f64; 2] {
