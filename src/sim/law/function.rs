@@ -234,7 +234,7 @@ mod tests {
             for [x, y] in [[0.4, 0.7], [0.6, 0.2], [-0.3, 0.9], [-0.7, -0.5], [0.9, -0.8]] {
                 let mut slots = vec![0.0; tape.slots];
                 slots[..2].copy_from_slice(&[x, y]);
-                tape.prepare(&mut slots);
+                tape.prepare::<1>(slots.as_chunks_mut().0);
                 tape.evaluate(&mut slots);
                 let value = slots[output];
                 assert!(is_near(value, reference(x, y), 1e-15), "{call} at {x}, {y}: {value}");

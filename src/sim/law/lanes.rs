@@ -16,7 +16,7 @@ impl<const W: usize> LawLanes<W> {
         [slots[THROTTLE], slots[RUDDER]] = steering.map(|part| [part; W]);
         let from = equations.first_constant();
         slots[from..].iter_mut().zip(values).for_each(|(slot, &value)| *slot = [value; W]);
-        equations.motion.prepare_lanes(&mut slots);
+        equations.motion.prepare(&mut slots);
         let moves = FIRST_COORDINATE..FIRST_COORDINATE + 2;
         Self { slots, alike: equations.motion.alike(|slot| moves.contains(&slot)) }
     }

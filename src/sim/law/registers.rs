@@ -31,14 +31,14 @@ impl Registers {
     /// Sets the values. Never allocates.
     pub fn set(&mut self, equations: &Equations, values: &[f64]) {
         let from = equations.first_constant();
-        self.motion[from..from + values.len()].copy_from_slice(values);
-        equations.motion.prepare(&mut self.motion);
-        for (tape, slots) in
-            [(&equations.energy, &mut self.energy), (&equations.places, &mut self.places)]
-        {
+        for (tape, slots) in [
+            (Some(&equations.motion), &mut self.motion),
+            (equations.energy.as_ref(), &mut self.energy),
+            (equations.places.as_ref(), &mut self.places),
+        ] {
             if let Some(tape) = tape {
                 slots[from..from + values.len()].copy_from_slice(values);
-                tape.prepare(slots);
+                tape.prepare::<1>(slots.as_chunks_mut().0);
             }
         }
         if equations.exact.is_some() {

@@ -2,8 +2,7 @@
 //! is.
 
 use super::jet::{Jet, chain, constant};
-use crate::sim::curve::Curve;
-use crate::sim::curve::{above, below};
+use crate::sim::curve::{Curve, above, below};
 
 /// An operation on `a` and `b` that is smooth only piece by piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -15,8 +15,6 @@ use super::refusal::Part;
 use super::switch::Switch;
 use crate::sim::curve::Curve;
 
-mod lanes;
-
 /// The most operations of a tape: a step of ten microseconds.
 pub const MAX_OPERATIONS: usize = 4096;
 
@@ -153,21 +151,36 @@ impl Tape {
     }
 
     /// Writes the numbers and all that depends on constants alone, once the constants are in their slots.
-    pub(super) fn prepare(&self, slots: &mut [f64]) {
-        self.numbers.iter().for_each(|&(slot, number)| slots[slot as usize] = number);
-        self.run(&self.prelude, slots, Switch::value);
+    pub(super) fn prepare<const W: usize>(&self, slots: &mut [[f64; W]]) {
+        self.numbers.iter().for_each(|&(slot, number)| slots[slot as usize] = [number; W]);
+        self.run_lanes(&self.prelude, slots, &[], Switch::value);
     }
 
     /// Evaluates the tape.
     #[inline]
     pub(super) fn evaluate(&self, slots: &mut [f64]) {
-        self.run(&self.main, slots, Switch::value);
+        self.run(slots, Switch::value);
+    }
+
+    /// Evaluates the tape on several motions at once. `alike` is [`Tape::alike`].
+    #[inline(always)]
+    pub(super) fn evaluate_lanes<const W: usize>(&self, slots: &mut [[f64; W]], alike: &[bool]) {
+        self.run_lanes(&self.main, slots, alike, Switch::value);
+    }
+
+    /// The slots that have the same value in all motions, if all inputs but these have.
+    pub(super) fn alike(&self, differs: impl Fn(usize) -> bool) -> Vec<bool> {
+        let mut alike: Vec<bool> = (0..self.slots).map(|slot| !differs(slot)).collect();
+        for (_, operands, to, _) in self.operations() {
+            alike[to as usize] = operands.iter().all(|&slot| alike[slot as usize]);
+        }
+        alike
     }
 
     /// Evaluates the tape with every switch in its mode of `modes`.
     pub(super) fn evaluate_on(&self, modes: &[i64], slots: &mut [f64]) {
         let mut modes = modes.iter();
-        self.run(&self.main, slots, |switch, a, b, table| {
+        self.run(slots, |switch, a, b, table| {
             switch.value_on(modes.next().copied().unwrap_or(0), a, b, table)
         });
     }
@@ -236,11 +249,10 @@ impl Tape {
     #[inline]
     fn run(
         &self,
-        instructions: &[Instruction],
         slots: &mut [f64],
         switched: impl FnMut(Switch, f64, f64, Option<&Curve>) -> f64,
     ) {
-        self.run_lanes::<1>(instructions, slots.as_chunks_mut().0, &[], switched);
+        self.run_lanes::<1>(&self.main, slots.as_chunks_mut().0, &[], switched);
     }
 
     /// Evaluates instructions on `W` motions at once, each with the bits that it has alone. A slot whose place in `alike`
