@@ -128,10 +128,8 @@ impl Equations {
                 })
             }
             (motion, energy, exact, places) => {
-                refusals.extend(motion.err().into_iter().flatten());
-                refusals.extend(energy.err().into_iter().flatten());
-                refusals.extend(exact.err().into_iter().flatten());
-                refusals.extend(places.err().into_iter().flatten());
+                let found = [motion.err(), energy.err(), exact.err(), places.err()];
+                refusals.extend(found.into_iter().flatten().flatten());
                 Err(refusals)
             }
         }

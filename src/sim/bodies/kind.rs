@@ -140,8 +140,18 @@ impl Kind {
     /// The kind of bodies like `blank`, without a name, coordinates and a leading parameter: what most kinds have in
     /// common.
     pub(super) fn of<B: Body>(blank: B) -> Self {
+        Self::checked(blank, |_, _| Ok(()))
+    }
+
+    /// As [`Kind::of`], whose values in combination are checked on a copy of `blank`.
+    pub(super) fn checked<B: Body>(
+        blank: B,
+        check: impl Fn(B, &[f64]) -> Result<(), Fault> + Send + Sync + 'static,
+    ) -> Self {
         // A body need not be shared between threads: each gets a copy.
-        let template = Mutex::new(blank);
+        let template = Arc::new(Mutex::new(blank));
+        let copy = move || template.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let copy_to_check = copy.clone();
         Self {
             id: "",
             about: "".into(),
@@ -151,11 +161,8 @@ impl Kind {
             inputs: B::INPUTS,
             leading: "".into(),
             truth: if B::HAS_EXACT { Truth::Exact } else { Truth::Reference },
-            check: Box::new(|_| Ok(())),
-            build: Box::new(move |values, solver| {
-                let body = template.lock().unwrap_or_else(PoisonError::into_inner).clone();
-                stepper(body.with_parameters(values), solver)
-            }),
+            check: Box::new(move |values| check(copy_to_check(), values)),
+            build: Box::new(move |values, solver| stepper(copy().with_parameters(values), solver)),
             class: B::CLASS,
             origin: Origin::Table,
         }

@@ -69,6 +69,12 @@ impl Law {
         places
     }
 
+    /// Sets all parameters.
+    fn write(&mut self, values: &[f64]) {
+        self.values.copy_from_slice(values);
+        self.prepare();
+    }
+
     fn coordinates(&self) -> usize {
         self.equations.text().coordinates.len()
     }
@@ -109,8 +115,7 @@ impl Body for Law {
     };
 
     fn with_parameters(mut self, values: &[f64]) -> Self {
-        self.values.copy_from_slice(values);
-        self.prepare();
+        self.write(values);
         // Before the first tick, which must not allocate.
         self.false_claims();
         self

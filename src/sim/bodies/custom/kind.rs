@@ -1,6 +1,6 @@
 //! The kind of a custom body.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use super::{Custom, CustomFault, Extras, claims};
 use crate::sim::bodies::claims::ClaimHorizon;
@@ -84,18 +84,14 @@ fn force_parameter() -> Parameter {
 fn kind(body: Custom, parameters: Vec<Parameter>) -> Kind {
     let info = body.info.clone();
     let leading = parameters[0].key.clone();
-    let checked = Mutex::new(body.clone());
-    let check = {
-        let leading = leading.clone();
-        move |values: &[f64]| {
-            let mut body = checked.lock().unwrap_or_else(PoisonError::into_inner).clone();
-            body.write(values);
-            claims::check_start(&body).map_err(|fault| Fault {
-                key: leading.clone(),
-                what: fault.what,
-                remedy: "take values with a finite one".into(),
-            })
-        }
+    let key = leading.clone();
+    let check = move |mut body: Custom, values: &[f64]| {
+        body.write(values);
+        claims::check_start(&body).map_err(|fault| Fault {
+            key: key.clone(),
+            what: fault.what,
+            remedy: "take values with a finite one".into(),
+        })
     };
     Kind {
         id: "custom",
@@ -103,9 +99,8 @@ fn kind(body: Custom, parameters: Vec<Parameter>) -> Kind {
         all_coordinates: info.coordinates.clone().into(),
         parameters,
         leading,
-        check: Box::new(check),
         origin: Origin::Custom(info),
-        ..Kind::of(body)
+        ..Kind::checked(body, check)
     }
 }
 

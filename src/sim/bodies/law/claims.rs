@@ -59,8 +59,9 @@ pub fn check_law(
     values: &[f64],
     horizon: ClaimHorizon,
 ) -> Result<(), Refusal> {
-    check_start(equations, values)?;
-    claims::check(&Law::new(equations.clone(), values), horizon).map_err(|found| {
+    let law = Law::new(equations.clone(), values);
+    check_start(&law)?;
+    claims::check(&law, horizon).map_err(|found| {
         let part = found.coordinate.map_or(Part::Energy, Part::Exact);
         let span = 0..equations.part(part).len();
         Refusal { part, span, what: found.what, remedy: Remedy::Words(found.remedy.into()) }
@@ -68,15 +69,11 @@ pub fn check_law(
 }
 
 /// Checks that the accelerations are finite at the start.
-pub(super) fn check_start(equations: &Arc<Equations>, values: &[f64]) -> Result<(), Refusal> {
-    let law = Law::new(equations.clone(), values);
+pub(super) fn check_start(law: &Law) -> Result<(), Refusal> {
     let State { q, v } = law.start();
     let mut a = v.clone();
     law.acceleration(0.0, &q, &v, &mut a);
-    match equations.not_finite(&law.registers.borrow()) {
-        Some(refusal) => Err(refusal),
-        None => Ok(()),
-    }
+    law.equations.not_finite(&law.registers.borrow()).map_or(Ok(()), Err)
 }
 
 /// The key of a parameter for a fault of the text as a whole: the first.

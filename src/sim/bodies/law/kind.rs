@@ -41,18 +41,15 @@ pub fn law_kind(text: LawText) -> Result<Arc<Kind>, Vec<Refusal>> {
         parameters,
         inputs,
         leading: leading.unwrap_or_else(|| first_key.clone()),
-        check: Box::new({
-            let equations = equations.clone();
-            move |values| {
-                check_start(&equations, values).map_err(|refusal| Fault {
-                    key: first_key.clone(),
-                    what: refusal.what,
-                    remedy: "give it another start or other constants".into(),
-                })
-            }
-        }),
         origin: Origin::Law(equations.clone()),
-        ..Kind::of(template)
+        ..Kind::checked(template, move |mut law, values| {
+            law.write(values);
+            check_start(&law).map_err(|refusal| Fault {
+                key: first_key.clone(),
+                what: refusal.what,
+                remedy: "give it another start or other constants".into(),
+            })
+        })
     }))
 }
 
