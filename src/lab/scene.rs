@@ -40,6 +40,7 @@ pub use errors::{MAX_SHOWN, Mistake, SceneError, SceneErrors};
 pub use known::{SceneKey, scene_tables};
 pub use nearest::nearest;
 pub use refusal::Refusal;
+pub(in crate::lab) use saved::AuthorText;
 
 /// The largest scene file in bytes: tens of thousands of scripted commands. A file of nothing but
 /// mistakes takes the parser some hundred times its size in memory.

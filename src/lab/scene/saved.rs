@@ -13,29 +13,51 @@ impl Scene {
     /// The text of a scene file that [reads](Scene::parse) as this scene. If the scene was read from a file, comments, order
     /// and spelling are the author's, and only what has changed since differs. Lines end as on Unix.
     pub fn to_saved_toml(&self) -> String {
-        let plain = self.to_toml();
-        let saved = self.source.as_deref().and_then(|source| {
-            let saved = saved(&source.replace("\r\n", "\n"), &plain)?;
-            // An author's text may say things in a way that is not known here.
-            (Scene::parse(&self.name, &saved).ok()?.to_toml() == plain).then_some(saved)
-        });
-        saved.unwrap_or(plain)
+        AuthorText::of(self).save(self)
     }
 }
 
-/// The author's text with what is other in the `plain` text of a scene than in that of the author's own.
-fn saved(source: &str, plain: &str) -> Option<String> {
-    let read = |text: &str| text.parse::<DocumentMut>().ok();
-    let mut author = read(source)?;
-    let before = read(&Scene::parse("", source).ok()?.to_toml())?;
-    let after = read(plain)?;
-    // Lanes that are plain may be given as tables too.
-    let lanes = METHOD_LIST.key;
-    if !is_same(before.get(lanes), after.get(lanes)) {
-        author.remove(LANE);
+/// The text of the file that a scene was read from, in which the scene can be saved as often as it changes.
+pub(in crate::lab) struct AuthorText {
+    /// The author's and the plain text; `None` without a file, or if its text is not known here.
+    documents: Option<[DocumentMut; 2]>,
+}
+
+impl AuthorText {
+    pub(in crate::lab) fn of(scene: &Scene) -> Self {
+        let documents = scene.source.as_deref().and_then(|source| {
+            let source = source.replace("\r\n", "\n");
+            Some([read(&source)?, read(&Scene::parse("", &source).ok()?.to_toml())?])
+        });
+        Self { documents }
     }
-    change(author.as_table_mut(), before.as_table(), after.as_table());
-    Some(author.to_string())
+
+    /// The text of a scene that the author's has become.
+    pub(in crate::lab) fn save(&self, scene: &Scene) -> String {
+        let plain = scene.to_toml();
+        // An author's text may say things in a way that is not known here.
+        let is_read = |saved: &String| {
+            Scene::parse(&scene.name, saved).is_ok_and(|read| read.to_toml() == plain)
+        };
+        self.changed_to(&plain).filter(is_read).unwrap_or(plain)
+    }
+
+    /// The author's text with what is other in the `plain` text of a scene than in that of the author's own.
+    fn changed_to(&self, plain: &str) -> Option<String> {
+        let [author, before] = self.documents.as_ref()?;
+        let (mut author, after) = (author.clone(), read(plain)?);
+        // Lanes that are plain may be given as tables too.
+        let lanes = METHOD_LIST.key;
+        if !is_same(before.get(lanes), after.get(lanes)) {
+            author.remove(LANE);
+        }
+        change(author.as_table_mut(), before.as_table(), after.as_table());
+        Some(author.to_string())
+    }
+}
+
+fn read(text: &str) -> Option<DocumentMut> {
+    text.parse().ok()
 }
 
 /// Makes the changes between two tables in the author's.

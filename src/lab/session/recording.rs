@@ -7,7 +7,7 @@ use crate::lab::action::Action;
 use crate::lab::journal::Journal;
 use crate::lab::lane_id::LaneId;
 use crate::lab::race::{Mode, Observer, Race};
-use crate::lab::scene::{Check, MAX_FILE_BYTES, MIN_SECONDS, Scene, Scripted};
+use crate::lab::scene::{AuthorText, Check, MAX_FILE_BYTES, MIN_SECONDS, Scene, Scripted};
 
 /// The most checks of a recording, so that its file is not too large to read. A long run has fewer than one per second.
 const MAX_CHECKS: usize = 8_000;
@@ -91,7 +91,7 @@ impl PartialEq for RunToRecord {
 /// same.
 #[derive(Default)]
 pub struct Recorder {
-    last: Option<(RunToRecord, Repeated)>,
+    last: Option<(RunToRecord, Repeated, AuthorText)>,
 }
 
 impl Recorder {
@@ -108,12 +108,15 @@ impl Recorder {
             return Err(RecordingError::InRust { what: what.to_owned() });
         }
         let known = self.last.take();
-        let known = known.filter(|(last, repeated)| repeated.is_part_of(last, run));
-        let mut repeated = known.map_or_else(|| Repeated::new(run), |(_, repeated)| repeated);
+        let known = known.filter(|(last, repeated, _)| repeated.is_part_of(last, run));
+        let (mut repeated, author) = match known {
+            Some((_, repeated, author)) => (repeated, author),
+            None => (Repeated::new(run), AuthorText::of(&run.scene)),
+        };
         repeated.race.set_journal(run.journal.clone());
         repeated.advance(run.end, stop);
-        let text = repeated.scene(run).to_saved_toml();
-        self.last = Some((run.clone(), repeated));
+        let text = author.save(&repeated.scene(run));
+        self.last = Some((run.clone(), repeated, author));
         let bytes = text.len();
         if bytes > MAX_FILE_BYTES { Err(RecordingError::TooLong { bytes }) } else { Ok(text) }
     }
