@@ -8,7 +8,7 @@ use super::error::Error;
 use super::numbers::{number, number_that, positive};
 use super::output::print;
 use super::output::table::TableFormat;
-use crate::lab::identify::{Columns, Log, LoggedBody, identify};
+use crate::lab::identify::{Columns, Log, LogError, LogSetting, LoggedBody, identify};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
 
 mod findings;
@@ -122,6 +122,19 @@ fn signed(written: &str) -> Result<f64, String> {
     number_that(written, |_| true, "a number")
 }
 
+/// How to say right what was said wrong of a log.
+fn remedy(error: &LogError) -> &'static str {
+    match error.mistaken {
+        None => "",
+        Some(LogSetting::TickColumn) => "; name one of them with --tick-column",
+        Some(LogSetting::TimeColumn) => "; name one of them with --t-column",
+        Some(LogSetting::TickOrTimeColumn) => "; name one with --tick-column or --t-column",
+        Some(LogSetting::CoordinateColumn) => "; name the coordinate's with --x-column",
+        Some(LogSetting::VelocityColumn) => "; name one of them with --v-column",
+        Some(LogSetting::TickRate) => ": give the rate of the log with --tick-hz",
+    }
+}
+
 impl LogArgs {
     /// Reads the log at `path`, of a game with this tick rate in hertz.
     pub(super) fn read(&self, path: &Path, tick_hz: f64) -> Result<Log, Error> {
@@ -136,7 +149,8 @@ impl LogArgs {
             v: self.v_column.clone(),
         };
         let name = path.display().to_string();
-        Log::parse(&name, &text, &columns, tick_hz).map_err(Error::mistake)
+        let parsed = Log::parse(&name, &text, &columns, tick_hz);
+        parsed.map_err(|error| Error::mistake(format!("{error}{}", remedy(&error))))
     }
 
     /// The body of the log, which has this mass in kg.

@@ -41,7 +41,7 @@ impl Default for Columns {
     }
 }
 
-/// Why a log cannot be read, with its place and a remedy.
+/// Why a log cannot be read, with its place.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{name}:{line}: {fault}")]
 pub struct LogError {
@@ -49,7 +49,26 @@ pub struct LogError {
     pub name: String,
     /// The line of the fault, from 1.
     pub line: u64,
+    /// What the caller may have said wrong of the log, if it is that.
+    pub mistaken: Option<LogSetting>,
     fault: String,
+}
+
+/// What [`Log::parse`] is told of a log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LogSetting {
+    /// [`Columns::tick`].
+    TickColumn,
+    /// [`Columns::t`].
+    TimeColumn,
+    /// [`Columns::tick`] or [`Columns::t`].
+    TickOrTimeColumn,
+    /// [`Columns::x`].
+    CoordinateColumn,
+    /// [`Columns::v`].
+    VelocityColumn,
+    /// The tick rate.
+    TickRate,
 }
 
 /// Numbers of single precision that were written with nine digits lose less than this part when they are read as such
@@ -71,7 +90,12 @@ impl Log {
     /// # Errors
     /// The first fault of the text.
     pub fn parse(name: &str, text: &str, columns: &Columns, tick_hz: f64) -> Result<Log, LogError> {
-        let error = |line: u64, fault: String| LogError { name: name.to_owned(), line, fault };
+        let error = |line: u64, fault: String| LogError {
+            name: name.to_owned(),
+            line,
+            mistaken: None,
+            fault,
+        };
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut reader =
             csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
@@ -92,37 +116,27 @@ impl Log {
                 _ => listed,
             }
         };
+        let absent = |what: &str, setting: LogSetting| LogError {
+            mistaken: Some(setting),
+            ..error(1, format!("no column {what}; here are {}", found()))
+        };
         let Some(x) = place(&columns.x) else {
-            let fault = format!(
-                "no column {:?}; here are {}; name the coordinate's with --x-column",
-                columns.x,
-                found()
-            );
-            return Err(error(1, fault));
+            return Err(absent(&format!("{:?}", columns.x), LogSetting::CoordinateColumn));
         };
         let (tick, t, v) = (place(&columns.tick), place(&columns.t), place(&columns.v));
         let usual = Columns::default();
-        for (wanted, usual, option) in [
-            (&columns.tick, &usual.tick, "--tick-column"),
-            (&columns.t, &usual.t, "--t-column"),
-            (&columns.v, &usual.v, "--v-column"),
+        for (wanted, usual, setting) in [
+            (&columns.tick, &usual.tick, LogSetting::TickColumn),
+            (&columns.t, &usual.t, LogSetting::TimeColumn),
+            (&columns.v, &usual.v, LogSetting::VelocityColumn),
         ] {
             if wanted != usual && place(wanted).is_none() {
-                let fault = format!(
-                    "no column {wanted:?}; here are {}; name one of them with {option}",
-                    found()
-                );
-                return Err(error(1, fault));
+                return Err(absent(&format!("{wanted:?}"), setting));
             }
         }
         if tick.is_none() && t.is_none() {
-            let fault = format!(
-                "no column {:?} and none {:?}; here are {}; name one with --tick-column or --t-column",
-                columns.tick,
-                columns.t,
-                found()
-            );
-            return Err(error(1, fault));
+            let both = format!("{:?} and none {:?}", columns.tick, columns.t);
+            return Err(absent(&both, LogSetting::TickOrTimeColumn));
         }
         let (mut rows, mut first): (Vec<LogRow>, Option<f64>) = (Vec::new(), None);
         for record in reader.records() {
@@ -145,10 +159,10 @@ impl Log {
             let tick = since.round();
             if tick < 0.0 || (since - tick).abs() > OFF_TICK {
                 let fault = format!(
-                    "the row is {since:.3} ticks of {tick_hz} Hz after the first; rows are at whole ticks: give the rate of the \
-                     log with --tick-hz"
+                    "the row is {since:.3} ticks of {tick_hz} Hz after the first; rows are at whole ticks"
                 );
-                return Err(error(line, fault));
+                let mistaken = Some(LogSetting::TickRate);
+                return Err(LogError { mistaken, ..error(line, fault) });
             }
             let tick = tick as u64;
             if rows.last().is_some_and(|before| before.tick >= tick) {
