@@ -106,6 +106,13 @@ impl Past {
         past
     }
 
+    /// Its heap memory in bytes.
+    pub(super) fn heap_bytes(&self) -> usize {
+        let histories: usize = self.histories.iter().map(|(_, histories)| histories.len()).sum();
+        histories * History::heap_bytes(self.capacity)
+            + self.truth_curves.iter().map(TruthCurve::heap_bytes).sum::<usize>()
+    }
+
     /// The methods that the entries of samples refer to.
     pub fn menu(&self) -> &Menu {
         &self.menu

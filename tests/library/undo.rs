@@ -196,4 +196,13 @@ fn the_changes_that_can_be_undone_stay_within_the_memory_for_rewinding() {
         assert!(lab.timeline().bytes() <= 1 << 20, "{}", lab.timeline().bytes());
     }
     assert_eq!(lab.timeline().undoes(), Some("the kick at tick 360"));
+    for (limit, is_kept) in [(64 << 20, true), (1 << 20, false)] {
+        lab.set_rewind_bytes(limit);
+        lab.apply(RunCommand::Act(Action::Kick(2.0)));
+        let before = lab.timeline().bytes();
+        lab.apply(StageCommand::Restart);
+        assert_eq!(lab.timeline().undoes().is_some(), is_kept, "{limit}");
+        let is_counted = lab.timeline().bytes() > before + (1 << 20);
+        assert_eq!(is_counted, is_kept, "the drawn past of a run that is kept counts: {limit}");
+    }
 }

@@ -114,6 +114,11 @@ impl TruthCurve {
         curve
     }
 
+    /// Its heap memory in bytes.
+    pub(super) fn heap_bytes(&self) -> usize {
+        self.between.bytes() + self.samples.heap_bytes()
+    }
+
     /// The samples, oldest first: at every point of the grid, and on both sides of an input.
     pub fn samples(&self) -> vec_deque::Iter<'_, TruthSample> {
         self.samples.shown()

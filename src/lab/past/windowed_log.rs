@@ -26,6 +26,11 @@ impl<T: PartialEq> WindowedLog<T> {
         Self { kept: VecDeque::with_capacity(capacity), window, capacity, first: 0, end: 0 }
     }
 
+    /// Its heap memory in bytes.
+    pub(super) fn heap_bytes(&self) -> usize {
+        self.capacity * size_of::<T>()
+    }
+
     /// How many are shown.
     pub(super) fn len(&self) -> usize {
         self.window.min((self.end - self.first) as usize)

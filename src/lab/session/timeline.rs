@@ -11,7 +11,7 @@ use crate::lab::past::Past;
 use crate::lab::race::{ActionResult, Observer, Race};
 use crate::lab::time_scale::TimeScale;
 
-/// The memory that snapshots may take, in bytes.
+/// The memory that snapshots and the drawn pasts of kept runs may take unless it is set, in bytes.
 pub const SNAPSHOT_BYTES: usize = 64 << 20;
 
 /// The initial spacing of snapshots in ticks, which are repeated in less than a frame.
@@ -42,7 +42,7 @@ impl Timeline {
         Self::with_limit(session, SNAPSHOT_BYTES)
     }
 
-    /// Like [`Timeline::new`], with at most `limit` bytes for snapshots.
+    /// Like [`Timeline::new`], with at most `limit` bytes for snapshots and kept runs.
     pub fn with_limit(session: Session, limit: usize) -> Self {
         let run = RunWithPast::new(session);
         Self { run, spacing: SPACING, limit, changes: UndoStack::default() }
@@ -74,16 +74,16 @@ impl Timeline {
     pub fn is_in_past(&self) -> bool {
         self.run.session.race.tick() < self.run.end
     }
-    /// The memory that snapshots take, in bytes.
+    /// The memory that snapshots take, and the drawn pasts of the runs before a restart, in bytes.
     pub fn bytes(&self) -> usize {
         let all = self.run.snapshots.iter().chain(self.changes.snapshots());
-        all.map(|snapshot| snapshot.bytes).sum()
+        all.map(|snapshot| snapshot.bytes).sum::<usize>() + self.changes.past_bytes()
     }
-    /// The memory that snapshots may take, in bytes.
+    /// The memory that [`Timeline::bytes`] may be.
     pub fn limit(&self) -> usize {
         self.limit
     }
-    /// Sets the memory that snapshots may take, in bytes; it holds from the next snapshot on.
+    /// Sets the memory that [`Timeline::bytes`] may be; it holds from the next snapshot on.
     pub fn set_limit(&mut self, limit: usize) {
         self.limit = limit;
     }
@@ -369,10 +369,12 @@ impl Timeline {
         self.fit();
     }
 
-    /// Thins the snapshots to their memory limit, and then forgets changes.
+    /// Thins the snapshots to the memory limit, of which drawn pasts have at most half, and then forgets changes.
     fn fit(&mut self) {
         while self.bytes() > self.limit {
-            if self.spacing <= self.run.end.max(self.changes.end()) {
+            if self.changes.past_bytes() <= self.limit / 2
+                && self.spacing <= self.run.end.max(self.changes.end())
+            {
                 self.spacing *= 2;
                 let stays = |snapshot: &Snapshot| snapshot.race.tick().is_multiple_of(self.spacing);
                 self.run.snapshots.retain(stays);

@@ -7,7 +7,7 @@ use crate::lab::journal::Journal;
 /// The most changes that can be undone.
 const MAX_CHANGES: usize = 200;
 
-/// The most runs before a restart that are kept: each has its drawn past, of at most 64 MiB.
+/// The most runs before a restart that are kept.
 const MAX_RUNS: usize = 4;
 
 /// A change that has been undone or done again.
@@ -113,6 +113,15 @@ impl UndoStack {
     /// The snapshots of all that was replaced.
     pub(super) fn snapshots(&self) -> impl Iterator<Item = &Snapshot> {
         self.changes().flat_map(|change| change.other.snapshots())
+    }
+
+    /// The memory of the drawn pasts of the runs that are kept, in bytes.
+    pub(super) fn past_bytes(&self) -> usize {
+        let pasts = self.changes().filter_map(|change| match &change.other {
+            Other::Run(run) => Some(run.past.heap_bytes()),
+            Other::Settings | Other::Future(_) => None,
+        });
+        pasts.sum()
     }
 
     /// The last tick of all that was replaced.
