@@ -2,13 +2,11 @@
 //! oscilloscopes draw them. A line through few points of a fast swing would beat against pixels and samples.
 
 use std::ops::Range;
-use std::sync::Arc;
 
-use egui::epaint::{Mesh, PaintCallback};
-use egui::{Color32, Painter, Pos2, Shape, pos2};
+use egui::epaint::Mesh;
+use egui::{Color32, Pos2, Rect, pos2};
 
 use crate::view::lines::{Joint, shown};
-use crate::view::strokes::StrokeMesh;
 
 /// How much of its colour a band has between its edges.
 const FILL: f32 = 0.35;
@@ -22,44 +20,72 @@ const NEIGHBOURS: f32 = 8.0;
 /// The least and the greatest height of a curve in a column, if it passes there.
 type Span = Option<(f32, f32)>;
 
-/// Draws a curve of this colour and width through `points`, which do not go back, as a band; `swept` has the heights
-/// that it comes to on the way to each point, where they are known.
-pub(super) fn paint(
-    painter: &Painter,
+/// A band without a gap, in columns of equal width: the heights of its edges in each.
+pub(super) struct Band {
+    left: f32,
+    step: f32,
+    heights: Vec<[f32; 2]>,
+}
+
+/// The bands of a curve of this width through `points`, which do not go back, as far as they are `seen`, in columns of
+/// this width; `swept` has the heights that it comes to on the way to each point, where they are known.
+pub(super) fn of(
     points: &[Pos2],
     swept: &[[f32; 2]],
-    (colour, width): (Color32, f32),
-) {
-    let (frame, step) = (painter.clip_rect(), 1.0 / painter.pixels_per_point());
-    let columns = Columns { left: frame.left(), step, count: (frame.width() / step) as usize + 1 };
+    width: f32,
+    (seen, step): (Rect, f32),
+) -> Vec<Band> {
+    let columns = Columns { left: seen.left(), step, count: (seen.width() / step) as usize + 1 };
     let spans = widened(&columns.spans(points, swept), columns.apart(points));
     let half = width / 2.0;
-    for stretch in stretches(&spans) {
+    let band = |stretch: Range<usize>| Band {
+        left: columns.left + step * stretch.start as f32,
+        step,
+        heights: spans[stretch]
+            .iter()
+            .flatten()
+            .map(|(low, high)| [low - half, high + half])
+            .collect(),
+    };
+    stretches(&spans).into_iter().map(band).collect()
+}
+
+impl Band {
+    /// The left edge of each column, and the heights of the band in it.
+    fn columns(&self) -> impl DoubleEndedIterator<Item = (f32, [f32; 2])> {
+        (0..self.heights.len()).map(|i| (self.left + self.step * i as f32, self.heights[i]))
+    }
+
+    /// What is between its edges.
+    pub(super) fn fill(&self, colour: Color32) -> Mesh {
         let mut fill = Mesh::default();
-        let mut edges = [const { Vec::new() }; 2];
-        for column in stretch {
-            let Some((low, high)) = spans[column] else { continue };
-            let (x, heights) = (columns.left + step * column as f32, [low - half, high + half]);
+        for (x, heights) in self.columns() {
             let first = fill.vertices.len() as u32;
-            for at in [pos2(x, heights[0]), pos2(x + step, heights[0])] {
-                fill.colored_vertex(at, colour.gamma_multiply(FILL));
-            }
-            for at in [pos2(x, heights[1]), pos2(x + step, heights[1])] {
-                fill.colored_vertex(at, colour.gamma_multiply(FILL));
+            for y in heights {
+                fill.colored_vertex(pos2(x, y), colour.gamma_multiply(FILL));
+                fill.colored_vertex(pos2(x + self.step, y), colour.gamma_multiply(FILL));
             }
             fill.add_triangle(first, first + 1, first + 2);
             fill.add_triangle(first + 1, first + 2, first + 3);
-            for (edge, y) in edges.iter_mut().zip(heights) {
-                let at = pos2(x + step / 2.0, y);
-                edge.push(Joint { at, radius: EDGE / 2.0, colour });
-            }
         }
-        painter.add(Shape::mesh(fill));
-        let mut lines = StrokeMesh::default();
-        for run in edges.iter().flat_map(|edge| shown(edge.iter().copied(), frame.expand(EDGE))) {
-            lines.add(run, [1.0, 0.0], painter.pixels_per_point());
-        }
-        painter.add(PaintCallback { rect: frame, callback: Arc::new(lines) });
+        fill
+    }
+
+    /// The corners of what is between its edges, and its colour.
+    pub(super) fn outline(&self, colour: Color32) -> (Vec<Pos2>, Color32) {
+        let edge = |i: usize| self.columns().map(move |(x, y)| pos2(x + self.step / 2.0, y[i]));
+        (edge(0).chain(edge(1).rev()).collect(), colour.gamma_multiply(FILL))
+    }
+
+    /// What shows of its edges in a window.
+    pub(super) fn edges(&self, colour: Color32, window: Rect) -> Vec<Vec<Joint>> {
+        let joint = move |x: f32, y: f32| Joint {
+            at: pos2(x + self.step / 2.0, y),
+            radius: EDGE / 2.0,
+            colour,
+        };
+        let edge = |i: usize| self.columns().map(move |(x, y)| joint(x, y[i]));
+        [0, 1].into_iter().flat_map(|i| shown(edge(i), window.expand(EDGE))).collect()
     }
 }
 

@@ -6,9 +6,10 @@
 use std::sync::Arc;
 
 use egui::epaint::PaintCallback;
-use egui::{Color32, Painter, Pos2, Rect, Vec2, vec2};
+use egui::{Color32, Painter, Pos2, Rect, Shape, Vec2, vec2};
 
-use super::{PlotArea, bands};
+use super::PlotArea;
+use super::bands::{self, Band};
 use crate::view::lines::{Joint, shown};
 use crate::view::strokes::StrokeMesh;
 
@@ -97,32 +98,61 @@ const MAX_TURNS_PER_POINT: f32 = 0.5;
 const HIDDEN: f32 = 2.0;
 const MAX_HIDDEN: f32 = 1.0 / 16.0;
 
-/// Draws a curve through `points` on the screen, as far as the painter's clip shows it: its line, or where swings are
-/// too narrow to be told apart, their [band](bands). `swept` has the heights that the curve comes to on the way to each
-/// point, where they are known. What the painter gets for a line is a
-/// [`StrokeMesh`] for [`MeshRenderer`](crate::view::meshes::MeshRenderer). Returns whether something is drawn: a crowded curve
-/// that goes back and forth has no band.
+/// How a curve is drawn.
+pub(super) enum Drawn {
+    /// What shows of its line, and its dash.
+    Line(Vec<Vec<Joint>>, [f32; 2]),
+    /// The band of swings that are too narrow to be told apart.
+    Bands(Vec<Band>),
+    /// By its dots alone: a crowded curve that goes back and forth has no band.
+    Scattered,
+}
+
+/// How a curve through `points` on the screen is drawn as far as it is `seen`, a band in columns of this width. `swept` has
+/// the heights that the curve comes to on the way to each point, where they are known.
+pub(super) fn drawn(
+    points: &[Pos2],
+    swept: &[[f32; 2]],
+    LineStyle { colour, width, dash: [drawn, gap], .. }: LineStyle,
+    (seen, column): (Rect, f32),
+) -> Drawn {
+    let joints = points.iter().map(|&at| Joint { at, radius: width / 2.0, colour });
+    let runs = shown(joints, seen.expand(width));
+    let is_crowded = is_crowded(&runs, width);
+    if hides(points, swept) || is_crowded && beats(points) {
+        return match points.is_sorted_by(|a, b| a.x <= b.x) {
+            true => Drawn::Bands(bands::of(points, swept, width, (seen, column))),
+            false => Drawn::Scattered,
+        };
+    }
+    Drawn::Line(runs, [drawn, if is_crowded { 0.0 } else { gap }])
+}
+
+/// Draws a curve through `points` on the screen, as far as the painter's clip shows it, in the way of [`drawn`]. What the
+/// painter gets for a line is a [`StrokeMesh`] for [`MeshRenderer`](crate::view::meshes::MeshRenderer). Returns whether more
+/// is drawn than its dots.
 pub(in crate::view) fn paint(
     painter: &Painter,
     points: &[Pos2],
     swept: &[[f32; 2]],
     style: LineStyle,
 ) -> bool {
-    let LineStyle { colour, width, dash: [drawn, gap], .. } = style;
-    let joints = points.iter().map(|&at| Joint { at, radius: width / 2.0, colour });
-    let runs = shown(joints, painter.clip_rect().expand(width));
-    let is_crowded = is_crowded(&runs, width);
-    if hides(points, swept) || is_crowded && beats(points) {
-        let goes_on = points.is_sorted_by(|a, b| a.x <= b.x);
-        if goes_on {
-            bands::paint(painter, points, swept, (colour, width));
+    let (seen, px_per_point) = (painter.clip_rect(), painter.pixels_per_point());
+    let stroke = |runs: Vec<Vec<Joint>>, dash: [f32; 2]| {
+        let mut mesh = StrokeMesh::default();
+        runs.into_iter().for_each(|run| mesh.add(run, dash, px_per_point));
+        painter.add(PaintCallback { rect: seen, callback: Arc::new(mesh) });
+    };
+    match drawn(points, swept, style, (seen, 1.0 / px_per_point)) {
+        Drawn::Line(runs, dash) => stroke(runs, dash),
+        Drawn::Bands(all) => {
+            for band in all {
+                painter.add(Shape::mesh(band.fill(style.colour)));
+                stroke(band.edges(style.colour, seen), [1.0, 0.0]);
+            }
         }
-        return goes_on;
+        Drawn::Scattered => return false,
     }
-    let dash = [drawn, if is_crowded { 0.0 } else { gap }];
-    let mut mesh = StrokeMesh::default();
-    runs.into_iter().for_each(|run| mesh.add(run, dash, painter.pixels_per_point()));
-    painter.add(PaintCallback { rect: painter.clip_rect(), callback: Arc::new(mesh) });
     true
 }
 

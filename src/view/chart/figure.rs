@@ -207,7 +207,7 @@ fn show_legend(ui: &mut Ui, curves: &[&FigureCurve]) {
     for row in entries.chunks(columns) {
         ui.horizontal(|ui| {
             ui.add_space(INDENT);
-            row.iter().for_each(|entry| drop(entry.show(ui, width)));
+            legend::show_here(ui, row, width);
         });
     }
 }

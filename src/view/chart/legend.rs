@@ -7,7 +7,7 @@ use egui::{
 };
 
 use super::curves::ScreenCurve;
-use super::{LineStyle, NAME, Primitive, Text};
+use super::{LineStyle, NAME, Primitive, Text, text_width};
 use crate::view::theme::{Ink, ink, strong_font};
 
 /// The length of a line, the room behind it, and between two entries, in points.
@@ -18,9 +18,8 @@ pub(in crate::view) const BETWEEN: f32 = 13.0;
 pub(in crate::view) const ROW: f32 = 15.0;
 /// The size of a name, in points.
 const SIZE: f32 = 12.0;
-/// The width of a line of a legend, and of a letter of a file, whose font is not known, in points.
+/// The width of a line of a legend in a file, in points.
 const WIDTH: f32 = 2.4;
-const LETTER: f32 = 7.2;
 
 /// A curve's name and its line.
 #[derive(Clone, Debug)]
@@ -48,7 +47,7 @@ impl Entry {
     }
 
     /// Shows it, at least this wide.
-    pub(in crate::view) fn show(&self, ui: &mut Ui, min_width: f32) -> Response {
+    fn show(&self, ui: &mut Ui, min_width: f32) -> Response {
         let words = self.words(ui);
         let size = vec2(self.width(ui).max(min_width), words.size().y);
         let (rect, response) = ui.allocate_exact_size(size, Sense::click());
@@ -57,6 +56,21 @@ impl Entry {
         ui.painter().galley(at, words, ink(ui).text);
         response
     }
+}
+
+/// Shows a legend in as many rows as it needs.
+pub(in crate::view) fn show(ui: &mut Ui, entries: &[Entry]) -> Vec<Response> {
+    ui.scope(|ui| {
+        ui.spacing_mut().interact_size.y = ROW;
+        ui.horizontal_wrapped(|ui| show_here(ui, entries, 0.0)).inner
+    })
+    .inner
+}
+
+/// Shows a legend in the row that is there, each entry at least this wide.
+pub(in crate::view) fn show_here(ui: &mut Ui, entries: &[Entry], width: f32) -> Vec<Response> {
+    ui.spacing_mut().item_spacing.x = BETWEEN;
+    entries.iter().map(|entry| entry.show(ui, width)).collect()
 }
 
 /// A piece of a curve's line, from `from` to the right, as the plots draw it.
@@ -83,7 +97,7 @@ pub(in crate::view) fn layout(entries: &[Entry], from: Pos2, ink: &Ink) -> Vec<P
         let style = LineStyle { dash: *dash, ..LineStyle::solid(*colour, WIDTH) };
         let line = ScreenCurve { style, points, swept: Vec::new() };
         let at = pos2(x + SWATCH + BEFORE_NAME, from.y);
-        x = at.x + LETTER * name.chars().count() as f32 + BETWEEN;
+        x = at.x + text_width(name, NAME) + BETWEEN;
         let name = Text::new(at, Align2::LEFT_CENTER, name.as_str(), NAME, ink.text);
         [Primitive::Curves(vec![line]), name.into()]
     };

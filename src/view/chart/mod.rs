@@ -6,7 +6,7 @@ use super::theme::Ink;
 pub(super) use area::{Bounds, PlotArea};
 pub use axis::AxisScale;
 pub(super) use axis::Mark;
-pub(super) use curves::{Curve, Dots, LineStyle};
+pub(super) use curves::{Curve, Dots, LineStyle, ScreenCurve};
 pub(super) use primitive::{Primitive, Text, paint};
 
 mod area;
@@ -67,9 +67,9 @@ pub(super) enum SwitchMark {
     Ring,
 }
 
-/// About how wide the number at a mark is, in points.
-pub(super) fn number_width(text: &str) -> f32 {
-    0.6 * NUMBER * text.chars().count() as f32
+/// About how wide words of this size are, in points.
+pub(super) fn text_width(words: &str, size: f32) -> f32 {
+    0.6 * size * words.chars().count() as f32
 }
 
 /// A plot in which nothing is drawn yet: a grid line at each mark along and up with its number, if it has one, none of which
@@ -103,7 +103,7 @@ pub(super) fn plot(
     for (place, text) in across {
         let x = area.at([place, area.bounds[1][0]]).x;
         all.push(Primitive::Line([pos2(x, rect.top()), pos2(x, rect.bottom())], grid));
-        let half = number_width(&text) / 2.0;
+        let half = text_width(&text, NUMBER) / 2.0;
         // A narrow plot has no room for all of them.
         if x - half >= free_from {
             all.extend(number(pos2(x, rect.bottom() + 3.0), Align2::CENTER_TOP, text));

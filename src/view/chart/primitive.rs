@@ -1,10 +1,15 @@
 //! What a laid-out chart is made of, in points, and how a panel paints it.
 
 use egui::epaint::PathStroke;
+use egui::text::{LayoutJob, TextFormat};
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, pos2};
 
 use super::SCATTERED;
 use super::curves::{self, Dots, ScreenCurve, dots};
+use crate::view::theme::strong_font;
+
+/// Between words and their tail, in points.
+pub(super) const BEFORE_TAIL: f32 = 14.0;
 
 /// A part of a laid-out chart. Later ones lie over earlier ones.
 #[derive(Clone, Debug)]
@@ -16,6 +21,8 @@ pub(in crate::view) enum Primitive {
     Line([Pos2; 2], Stroke),
     /// A circle of this radius.
     Ring(Pos2, f32, Stroke),
+    /// A filled circle of this radius.
+    Dot(Pos2, f32, Color32),
     /// A filled convex polygon.
     Polygon(Vec<Pos2>, Color32),
     Text(Text),
@@ -33,11 +40,14 @@ pub(in crate::view) struct Text {
     pub(in crate::view) anchor: Align2,
     pub(in crate::view) words: String,
     pub(in crate::view) size: f32,
+    pub(in crate::view) is_strong: bool,
     pub(in crate::view) colour: Color32,
     /// The words end here at the latest.
     pub(in crate::view) right: f32,
     /// The width of a line.
     pub(in crate::view) wrap: f32,
+    /// More words behind them, in a colour of their own.
+    pub(in crate::view) tail: Option<(String, Color32)>,
 }
 
 impl Text {
@@ -51,12 +61,26 @@ impl Text {
     ) -> Self {
         let words = words.into();
         let [right, wrap] = [f32::INFINITY; 2];
-        Self { at, anchor, words, size, colour, right, wrap }
+        Self { at, anchor, words, size, is_strong: false, colour, right, wrap, tail: None }
+    }
+
+    /// The same words in strong type.
+    pub(in crate::view) fn strong(self) -> Self {
+        Self { is_strong: true, ..self }
     }
 
     fn paint(&self, painter: &Painter) {
-        let font = FontId::proportional(self.size);
-        let galley = painter.layout(self.words.clone(), font, self.colour, self.wrap);
+        let font = match self.is_strong {
+            true => strong_font(self.size),
+            false => FontId::proportional(self.size),
+        };
+        let format = |colour| TextFormat::simple(font.clone(), colour);
+        let mut job = LayoutJob::single_section(self.words.clone(), format(self.colour));
+        job.wrap.max_width = self.wrap;
+        if let Some((words, colour)) = &self.tail {
+            job.append(words, BEFORE_TAIL, format(*colour));
+        }
+        let galley = painter.layout_job(job);
         let corner = self.anchor.anchor_size(self.at, galley.size()).min;
         let left = corner.x.min(self.right - galley.size().x);
         painter.galley(pos2(left, corner.y), galley, self.colour);
@@ -81,6 +105,7 @@ pub(in crate::view) fn paint(painter: &Painter, primitives: &[Primitive]) {
             Primitive::Ring(at, radius, stroke) => {
                 painter.circle_stroke(*at, *radius, *stroke);
             }
+            Primitive::Dot(at, radius, fill) => drop(painter.circle_filled(*at, *radius, *fill)),
             Primitive::Polygon(corners, fill) => {
                 let corners = corners.clone();
                 painter.add(Shape::convex_polygon(corners, *fill, PathStroke::NONE));

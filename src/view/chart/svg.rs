@@ -1,15 +1,14 @@
 //! A laid-out chart as an SVG file.
 
-use std::fmt::Write;
-
 use egui::{Align, Color32, Pos2, Rect, Stroke};
 
-use super::Primitive;
-use super::curves::{LineStyle, ScreenCurve, dots};
-use super::primitive::Text;
+use super::curves::{Dots, Drawn, ScreenCurve, dots, drawn};
+use super::primitive::{BEFORE_TAIL, Text};
+use super::{Primitive, SCATTERED, text_width};
+use crate::view::lines::Joint;
 
-/// Points of a curve closer than this, in pixels, are one.
-const SAME: f32 = 0.2;
+/// The height of a line of text, in parts of its size.
+const LINE: f32 = 1.25;
 /// How far below the top and the middle of a line of text its letters stand, in parts of their size.
 const BASELINE: [f32; 3] = [0.95, 0.35, -0.25];
 
@@ -19,7 +18,7 @@ pub(in crate::view) fn file([width, height]: [f32; 2], primitives: &[Primitive])
     svg.line(&format!(
         r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="Inter, sans-serif">"#
     ));
-    svg.add(primitives);
+    svg.add(primitives, Rect::from_min_size(Pos2::ZERO, [width, height].into()));
     svg.line("</svg>");
     svg.text
 }
@@ -35,33 +34,26 @@ impl Svg {
         self.text.push('\n');
     }
 
-    fn add(&mut self, primitives: &[Primitive]) {
+    /// Adds what is `seen` of a chart.
+    fn add(&mut self, primitives: &[Primitive], seen: Rect) {
         for primitive in primitives {
             match primitive {
                 Primitive::Area(rect, fill) => self.rect(rect, &paint("fill", *fill)),
                 Primitive::Edge(rect, stroke) => {
                     self.rect(&rect.expand(stroke.width / 2.0), &outline(*stroke));
                 }
-                Primitive::Line(ends, Stroke { width, color }) => {
-                    self.curve(ends, LineStyle::solid(*color, *width));
-                }
+                Primitive::Line(ends, stroke) => self.line_through(ends, *stroke, ""),
                 Primitive::Ring(at, radius, stroke) => self.circle(*at, *radius, &outline(*stroke)),
-                Primitive::Polygon(corners, fill) => {
-                    let corners: Vec<_> =
-                        corners.iter().map(|at| format!("{:.1},{:.1}", at.x, at.y)).collect();
-                    let corners = corners.join(" ");
-                    self.line(&format!(
-                        r#"<polygon points="{corners}" {}/>"#,
-                        paint("fill", *fill)
-                    ));
+                Primitive::Dot(at, radius, fill) => {
+                    self.circle(*at, *radius, &paint("fill", *fill))
                 }
+                Primitive::Polygon(corners, fill) => self.polygon(corners, *fill),
                 Primitive::Text(text) => self.words(text),
                 Primitive::Curves(curves) => {
-                    for ScreenCurve { style, points, .. } in curves {
-                        self.curve(points, *style);
-                    }
-                    for ScreenCurve { style, points, .. } in curves {
-                        for (at, radius) in dots(points, style.dots) {
+                    let kinds: Vec<Dots> =
+                        curves.iter().map(|curve| self.curve(curve, seen)).collect();
+                    for (ScreenCurve { style, points, .. }, kind) in curves.iter().zip(kinds) {
+                        for (at, radius) in dots(points, kind) {
                             self.circle(at, radius, &paint("fill", style.colour));
                         }
                     }
@@ -75,7 +67,7 @@ impl Svg {
                     self.line(&format!(
                         r#"<g clip-path="url(#plot{clip})" stroke-linejoin="round">"#
                     ));
-                    self.add(inside);
+                    self.add(inside, *rect);
                     self.line("</g>");
                 }
             }
@@ -94,36 +86,95 @@ impl Svg {
         self.line(&format!(r#"<circle cx="{x:.2}" cy="{y:.2}" r="{radius}" {attributes}/>"#));
     }
 
-    fn words(&mut self, Text { at, anchor, words, size, colour, .. }: &Text) {
-        let words = words.replace('&', "&amp;").replace('<', "&lt;");
+    fn words(&mut self, text: &Text) {
+        let Text { at, anchor, size, colour, right, .. } = text;
         let place = |align: Align| align as usize;
-        let side = ["start", "middle", "end"][place(anchor.x())];
-        let y = at.y + size * BASELINE[place(anchor.y())];
-        self.line(&format!(
-            r#"<text x="{:.1}" y="{y:.1}" text-anchor="{side}" font-size="{size}" {}>{words}</text>"#,
-            at.x,
-            paint("fill", *colour)
-        ));
+        let (side, height) = (place(anchor.x()), place(anchor.y()));
+        let (anchor, attributes) = (["start", "middle", "end"][side], paint("fill", *colour));
+        let weight = if text.is_strong { r#" font-weight="600""# } else { "" };
+        let lines = wrapped(text);
+        let (tail, behind) = match &text.tail {
+            Some((words, colour)) => {
+                let (words, colour) = (escaped(words), paint("fill", *colour));
+                let tail = format!(r#"<tspan dx="{BEFORE_TAIL}" {colour}>{words}</tspan>"#);
+                (tail, BEFORE_TAIL + text_width(&words, *size))
+            }
+            None => Default::default(),
+        };
+        let above = height as f32 / 2.0 * (lines.len() - 1) as f32;
+        for (i, line) in lines.iter().enumerate() {
+            let end = at.x + (1.0 - side as f32 / 2.0) * (text_width(line, *size) + behind);
+            let x = at.x - (end - right).max(0.0);
+            let y = at.y + size * (BASELINE[height] + LINE * (i as f32 - above));
+            let (line, tail) = (escaped(line), if i + 1 == lines.len() { &*tail } else { "" });
+            self.line(&format!(
+                r#"<text x="{x:.1}" y="{y:.1}" text-anchor="{anchor}" font-size="{size}"{weight} {attributes}>{line}{tail}</text>"#
+            ));
+        }
     }
 
-    fn curve(&mut self, points: &[Pos2], style: LineStyle) {
-        let mut through = String::new();
-        let mut last: Option<Pos2> = None;
-        for (i, at) in points.iter().enumerate() {
-            let is_end = i + 1 == points.len();
-            if is_end || last.is_none_or(|last| last.distance(*at) >= SAME) {
-                write!(through, "{:.2},{:.2} ", at.x, at.y).expect("a text takes any line");
-                last = Some(*at);
+    /// Adds the line or the bands of a curve. Returns which of its points have a dot.
+    fn curve(&mut self, curve: &ScreenCurve, seen: Rect) -> Dots {
+        let ScreenCurve { style, points, swept } = curve;
+        match drawn(points, swept, *style, (seen, 1.0)) {
+            Drawn::Line(runs, [_, 0.0]) => self.runs(&runs, ""),
+            Drawn::Line(runs, [drawn, gap]) => {
+                self.runs(&runs, &format!(r#" stroke-dasharray="{drawn} {gap}""#));
             }
+            Drawn::Bands(bands) => {
+                for band in bands {
+                    let (corners, fill) = band.outline(style.colour);
+                    self.polygon(&corners, fill);
+                    self.runs(&band.edges(style.colour, seen), "");
+                }
+            }
+            Drawn::Scattered => return Dots::Each(SCATTERED),
         }
-        let LineStyle { colour, width, dash: [drawn, gap], .. } = style;
-        let dash = match gap > 0.0 {
-            true => format!(r#" stroke-dasharray="{drawn} {gap}""#),
-            false => String::new(),
-        };
-        let stroke = outline(Stroke::new(width, colour));
-        self.line(&format!(r#"<polyline points="{}" {stroke}{dash}/>"#, through.trim_end()));
+        style.dots
     }
+
+    fn runs(&mut self, runs: &[Vec<Joint>], dash: &str) {
+        for run in runs {
+            let points: Vec<Pos2> = run.iter().map(|joint| joint.at).collect();
+            self.line_through(&points, Stroke::new(2.0 * run[0].radius, run[0].colour), dash);
+        }
+    }
+
+    fn polygon(&mut self, corners: &[Pos2], fill: Color32) {
+        let (corners, fill) = (listed(corners), paint("fill", fill));
+        self.line(&format!(r#"<polygon points="{corners}" {fill}/>"#));
+    }
+
+    fn line_through(&mut self, points: &[Pos2], stroke: Stroke, dash: &str) {
+        let (points, stroke) = (listed(points), outline(stroke));
+        self.line(&format!(r#"<polyline points="{points}" {stroke}{dash}/>"#));
+    }
+}
+
+/// Points as an attribute has them.
+fn listed(points: &[Pos2]) -> String {
+    let points: Vec<_> = points.iter().map(|at| format!("{:.2},{:.2}", at.x, at.y)).collect();
+    points.join(" ")
+}
+
+fn escaped(words: &str) -> String {
+    words.replace('&', "&amp;").replace('<', "&lt;")
+}
+
+/// The lines of a text that are about as wide as it may be.
+fn wrapped(Text { words, size, wrap, .. }: &Text) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in words.split(' ') {
+        let line = lines.last_mut().expect("there is a line");
+        if line.is_empty() {
+            line.push_str(word);
+        } else if text_width(&format!("{line} {word}"), *size) <= *wrap {
+            line.extend([" ", word]);
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines
 }
 
 /// The attributes of a line that fills nothing.
@@ -139,4 +190,37 @@ fn paint(attribute: &str, colour: Color32) -> String {
         _ => format!(r#" {attribute}-opacity="{:.2}""#, f32::from(a) / 255.0),
     };
     format!(r##"{attribute}="#{r:02x}{g:02x}{b:02x}"{opacity}"##)
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::{Align2, pos2, vec2};
+
+    use super::*;
+    use crate::view::chart::LineStyle;
+
+    #[test]
+    fn a_crowded_curve_is_a_band_and_long_words_have_lines() {
+        let plot = Rect::from_min_size(Pos2::ZERO, vec2(200.0, 100.0));
+        let curve = |count: u16| {
+            let x = |i: u16| 200.0 * f32::from(i) / f32::from(count);
+            let at = |i: u16| pos2(x(i), 50.0 + 40.0 * libm::sinf(f32::from(i)));
+            let (points, swept) = ((0..count).map(at).collect(), Vec::new());
+            let style = LineStyle::solid(Color32::WHITE, 1.5);
+            Primitive::Clip(
+                plot,
+                vec![Primitive::Curves(vec![ScreenCurve { style, points, swept }])],
+            )
+        };
+        let counted = |primitive: Primitive, what: &str| {
+            file([200.0, 100.0], &[primitive]).matches(what).count()
+        };
+        assert_eq!([20, 2000].map(|count| counted(curve(count), "<polygon")), [0, 1]);
+        let words = |wrap: f32| {
+            let words = "three words here & now";
+            let text = Text::new(plot.center(), Align2::CENTER_CENTER, words, 10.0, Color32::WHITE);
+            counted(Text { wrap, ..text }.into(), "<text ")
+        };
+        assert_eq!([f32::INFINITY, 70.0].map(words), [1, 2]);
+    }
 }

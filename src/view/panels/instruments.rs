@@ -3,7 +3,7 @@
 //! Axes follow the truth and the lanes near it. A lane beyond them is cut off at the edge, where an
 //! arrow in its colour says so.
 
-use egui::{Button, Color32, ComboBox, Label, Rect, RichText, Sense, Stroke, Ui, vec2};
+use egui::{Button, Color32, ComboBox, Label, Rect, Response, RichText, Sense, Stroke, Ui, vec2};
 
 use super::roster::{Roster, Runner};
 use super::tracks::Detail;
@@ -13,7 +13,7 @@ use crate::lab::{
     Command, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow, Lab, METRICS, Quantity,
     StageCommand, ViewCommand,
 };
-use crate::view::chart::legend;
+use crate::view::chart::legend::{self, Entry};
 use crate::view::theme::{TYPE, strong_font};
 pub(in crate::view) use export::{csv, svg};
 use sheet::Sheet;
@@ -198,20 +198,19 @@ fn plots(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Command>) {
         let title = if is_error { Instrument::Error.name() } else { &sheet.title };
         ui.label(RichText::new(title).font(strong_font(15.0)).color(ink(ui).text));
         choices(ui, lab, commands);
-        let widths = entries.iter().map(|(_, entry)| entry.width(ui));
+        let widths = entries.iter().map(|entry| entry.width(ui));
         let room = BEFORE_LEGEND + legend::BETWEEN * entries.len() as f32 + widths.sum::<f32>();
         let is_beside = may_be_beside && room <= ui.available_width();
         if is_beside {
             ui.add_space(BEFORE_LEGEND);
-            show_legend(ui, &entries, &sheet.roster, commands);
+            let shown = legend::show_here(ui, &entries, 0.0);
+            pick_by_legend(ui, sheet, (&entries, &shown), commands);
         }
         is_beside
     });
     if has_legend && !is_beside.inner {
-        ui.scope(|ui| {
-            ui.spacing_mut().interact_size.y = legend::ROW;
-            ui.horizontal_wrapped(|ui| show_legend(ui, &entries, &sheet.roster, commands));
-        });
+        let shown = legend::show(ui, &entries);
+        pick_by_legend(ui, sheet, (&entries, &shown), commands);
     }
     chart::show(ui, lab, sheet, commands);
 }
@@ -310,36 +309,34 @@ fn choice<N: AsRef<str>>(
     menu.response.on_hover_text(id);
 }
 
-/// All whose curves are shown, by their places on the roster, and the exact solution, which has none.
-fn legend_entries(sheet: &Sheet) -> Vec<(Option<usize>, legend::Entry)> {
+/// All whose curves are shown, in the order of [`Sheet::shown`], and the exact solution.
+fn legend_entries(sheet: &Sheet) -> Vec<Entry> {
     let runners = sheet.shown().map(|(place, Runner { name, colour, dash, .. })| {
         let name = format!("{} {name}", place + 1);
         let is_front = place == sheet.roster.front;
-        (Some(place), legend::Entry { name, colour: *colour, dash: *dash, is_front })
+        Entry { name, colour: *colour, dash: *dash, is_front }
     });
     let Roster { exact, exact_colour: colour, .. } = &sheet.roster;
     let has_exact = sheet.plots.iter().any(|plot| !plot.exact.is_empty());
     let exact = has_exact.then(|| {
         let (name, dash) = (exact.clone(), [1.0, 0.0]);
-        (None, legend::Entry { name, colour: *colour, dash, is_front: false })
+        Entry { name, colour: *colour, dash, is_front: false }
     });
     runners.chain(exact).collect()
 }
 
-/// A legend, of which a click picks a lane of a race.
-fn show_legend(
-    ui: &mut Ui,
-    entries: &[(Option<usize>, legend::Entry)],
-    roster: &Roster,
+/// Picks the lane of a race whose entry of the legend was clicked.
+fn pick_by_legend(
+    ui: &Ui,
+    sheet: &Sheet,
+    (entries, shown): (&[Entry], &[Response]),
     commands: &mut Vec<Command>,
 ) {
-    ui.spacing_mut().item_spacing.x = legend::BETWEEN;
-    for (place, entry) in entries {
-        let response = entry.show(ui, 0.0);
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &entry.name));
-        focus_ring(ui, &response);
-        if response.clicked() && roster.is_race {
-            commands.extend(place.map(|it| Command::Stage(StageCommand::Pick(it))));
-        }
+    for (Entry { name, .. }, response) in entries.iter().zip(shown) {
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
+        focus_ring(ui, response);
     }
+    let clicked = sheet.shown().zip(shown).filter(|(_, entry)| entry.clicked());
+    let picks = clicked.map(|((place, _), _)| Command::Stage(StageCommand::Pick(place)));
+    commands.extend(picks.filter(|_| sheet.roster.is_race));
 }

@@ -1,10 +1,11 @@
 //! The panels of the loop lab, and the instrument *Loop*: what each loop shows when, or what this window's own loop does.
 
-use egui::{Color32, RichText, Sense, Ui, Vec2, vec2};
+use egui::{Color32, Rect, RichText, Sense, Ui, Vec2, vec2};
 
 use super::{ink, strong_font};
 use crate::lab::loop_lab::LoopLane;
 use crate::lab::{Command, Lab, LoopLab};
+use crate::view::chart::Primitive;
 use crate::view::chart::legend::{self, Entry};
 use crate::view::theme::{Ink, colour};
 
@@ -22,13 +23,16 @@ pub(super) mod table;
 
 pub(super) use export::csv;
 
+/// What the charts show.
+pub(super) const TITLE: &str = "Moment shown against moment of display";
 /// From this width on, in points, the title is whole.
 const ROOM_FOR_TITLE: f32 = 340.0;
 /// From this height on, in points, there are two small plots below, and the part of the height that they take.
 const ROOM_FOR_TWO: f32 = 230.0;
 const TWO: f32 = 0.4;
-/// Between the two, in points.
+/// Between the two, and between them and the moments, in points.
 const GAP: f32 = 10.0;
+const ABOVE_TWO: f32 = 3.0;
 
 /// Shows what each loop of the loop lab shows, or what the window's own loop does.
 pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Command>) {
@@ -43,7 +47,7 @@ fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command
     let lanes = on_stage(loops, ink(ui));
     ui.horizontal(|ui| {
         let title = match room.x >= ROOM_FOR_TITLE {
-            true => "Moment shown against moment of display",
+            true => TITLE,
             false => "Moments shown",
         };
         ui.label(RichText::new(title).font(strong_font(15.0)).color(ink(ui).text));
@@ -51,28 +55,49 @@ fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command
             controls::trace_menu(ui, loops, commands);
         }
     });
-    show_legend(ui, loops, &lanes);
+    legend::show(ui, &legend_entries(loops, &lanes, ink(ui)));
     if let Some(waiting) = loops.waiting() {
         ui.label(RichText::new(waiting).color(ink(ui).dim));
         return;
     }
     let height = (top + room.y - ui.cursor().top()).max(60.0);
-    let has_two = height >= ROOM_FOR_TWO;
-    let upper = if has_two { height * (1.0 - TWO) } else { height };
-    moments::show(ui, loops, &lanes, vec2(room.x, upper - ui.spacing().item_spacing.y));
-    if has_two {
-        let (below, _) = ui.allocate_exact_size(vec2(room.x, height - upper), Sense::hover());
-        let [left, right] = halves(below);
-        let series: Vec<_> = lanes.iter().map(counts::Series::of_lane).collect();
-        counts::show(ui, left, &series);
+    let (room, _) = ui.allocate_exact_size(vec2(room.x, height), Sense::hover());
+    let (upper, below) = parts(room);
+    moments::show(ui, upper, loops, &lanes);
+    if let Some([left, right]) = below {
+        counts::show(ui, left, &series(&lanes));
         errors::show(ui, right, loops, &lanes);
     }
 }
 
-/// The left and the right part of a rectangle for two plots.
-fn halves(room: egui::Rect) -> [egui::Rect; 2] {
-    let (left, right) = room.split_left_right_at_fraction(0.46);
-    [left.with_max_x(left.right() - GAP / 2.0), right.with_min_x(right.left() + GAP / 2.0)]
+/// The charts of the loop lab in a room, to be saved, and what names their curves.
+pub(super) fn layout(loops: &LoopLab, room: Rect, ink: &Ink) -> (Vec<Entry>, Vec<Primitive>) {
+    let lanes = on_stage(loops, ink);
+    let (upper, below) = parts(room);
+    let moments = moments::area(upper, loops, &lanes);
+    let mut all =
+        moments.map_or_else(Vec::new, |area| moments::layout(upper, &area, loops, &lanes, ink));
+    if let Some([left, right]) = below {
+        all.extend(counts::layout(left, &series(&lanes), ink));
+        all.extend(errors::layout(right, loops, &lanes, ink));
+    }
+    (legend_entries(loops, &lanes, ink), all)
+}
+
+/// The room of the moments, and with enough room two more below.
+fn parts(room: Rect) -> (Rect, Option<[Rect; 2]>) {
+    if room.height() < ROOM_FOR_TWO {
+        return (room.with_max_y(room.bottom() - ABOVE_TWO), None);
+    }
+    let (upper, below) = room.split_top_bottom_at_fraction(1.0 - TWO);
+    let (left, right) = below.split_left_right_at_fraction(0.46);
+    let halves =
+        [left.with_max_x(left.right() - GAP / 2.0), right.with_min_x(right.left() + GAP / 2.0)];
+    (upper.with_max_y(upper.bottom() - ABOVE_TWO), Some(halves))
+}
+
+fn series(lanes: &[ShownLane<'_>]) -> Vec<counts::Series> {
+    lanes.iter().map(counts::Series::of_lane).collect()
 }
 
 /// A lane on the stage, and how it is drawn.
@@ -94,23 +119,15 @@ fn on_stage<'a>(loops: &'a LoopLab, ink: &Ink) -> Vec<ShownLane<'a>> {
     loops.on_stage().iter().map(lane).collect()
 }
 
-/// The lines of the plots.
-fn show_legend(ui: &mut Ui, loops: &LoopLab, lanes: &[ShownLane<'_>]) {
+/// The names of the lines.
+fn legend_entries(loops: &LoopLab, lanes: &[ShownLane<'_>], ink: &Ink) -> Vec<Entry> {
     let entry = |lane: &ShownLane<'_>| {
         let name = format!("{} {}", lane.place + 1, lane.lane.card().name);
         let off = moments::off_the_plot(loops, lane.lane);
         let name = name + &off.map(|words| format!(" ({words})")).unwrap_or_default();
         Entry { name, colour: lane.colour, dash: lane.dash, is_front: lane.is_selected }
     };
-    let (name, colour, dash) = ("ideal".into(), ink(ui).exact, [1.0, 0.0]);
+    let (name, colour, dash) = ("ideal".into(), ink.exact, [1.0, 0.0]);
     let ideal = Entry { name, colour, dash, is_front: false };
-    ui.scope(|ui| {
-        ui.spacing_mut().interact_size.y = legend::ROW;
-        ui.horizontal_wrapped(|ui| {
-            ui.spacing_mut().item_spacing.x = legend::BETWEEN;
-            for entry in lanes.iter().map(entry).chain([ideal]) {
-                entry.show(ui, 0.0);
-            }
-        });
-    });
+    lanes.iter().map(entry).chain([ideal]).collect()
 }

@@ -44,19 +44,6 @@ pub(super) fn sheet(lab: &Lab, loops: &LoopLab, instrument: Instrument) -> Optio
     Some(Sheet { roster: Roster::of(lab), title: title.into(), plots: vec![plot] })
 }
 
-/// The moments shown against the moments of display, to be saved as a drawing; the window has its own.
-pub(super) fn moments(lab: &Lab, loops: &LoopLab) -> Sheet {
-    let plots = Plots { lab, loops };
-    let tracks = plots.held(|frame| frame.shown_ms / 1000.0);
-    let [from, to] = plots.last_frames();
-    let ideal = ExactLine::of_places(lab, [from, to].map(|t| (t, [t, t])).into_iter());
-    let up = PlotAxis::new("moment shown", "s", AxisScale::Linear);
-    let view = ([from, to], (from, to));
-    let plot = plots.over_time("moments by loop", up, tracks, Some(ideal), view);
-    let roster = Roster { exact: "ideal".into(), ..Roster::of(lab) };
-    Sheet { roster, title: "Moment shown against moment of display".into(), plots: vec![plot] }
-}
-
 #[derive(Clone, Copy)]
 struct Plots<'a> {
     lab: &'a Lab,

@@ -226,7 +226,10 @@ fn side_by_side(
 ) {
     let lanes = &picture.lanes;
     let numbers = AxisScale::Linear.marks(picture.view.v, room.height(), UP_APART);
-    let widest = numbers.iter().map(|(_, text)| charts::number_width(text)).fold(0.0, f32::max);
+    let widest = numbers
+        .iter()
+        .map(|(_, text)| charts::text_width(text, charts::NUMBER))
+        .fold(0.0, f32::max);
     let inner = Rect::from_min_max(
         pos2(room.left() + LEFT.max(widest + BESIDE_NUMBERS), room.top()),
         pos2(room.right(), room.bottom() - NUMBERS - NAMES),
@@ -293,7 +296,7 @@ fn cloud(
     // A number that stands half beside its cloud would run into the next one's.
     let fits = |at: f64, text: &str| {
         let off_centre = (area.at([at, view.v[0]]).x - rect.center().x).abs();
-        off_centre + charts::number_width(text) / 2.0 <= (rect.width() + GAP) / 2.0
+        off_centre + charts::text_width(text, charts::NUMBER) / 2.0 <= (rect.width() + GAP) / 2.0
     };
     let marks = |axis: usize, apart: f64| {
         let mut marks = area.marks(axis, AxisScale::Linear, apart);

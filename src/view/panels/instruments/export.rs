@@ -5,10 +5,11 @@ use egui::{Align2, Pos2, Rect, pos2, vec2};
 use super::super::tracks::Detail;
 use super::super::{ink_of, loops};
 use super::layout::cells;
-use super::sheet::PlotAxis;
-use super::{by_loop, chart, sheet_of};
+use super::sheet::{PlotAxis, Sheet};
+use super::{chart, sheet_of};
 use crate::lab::{Instrument, Lab, csv_row};
 use crate::view::chart::{ABOVE, NAME, Primitive, Text, legend, svg};
+use crate::view::theme::Ink;
 
 /// The size of a drawing, in its own pixels, and the room round its plots.
 const SIZE: [f32; 2] = [960.0, 600.0];
@@ -49,28 +50,38 @@ pub(in crate::view) fn csv(lab: &Lab) -> Option<Vec<String>> {
 
 /// The plots of the chosen instrument as an SVG file; `None` if it has none.
 pub(in crate::view) fn svg(lab: &Lab) -> Option<String> {
-    let sheet = match (lab.loop_lab(), lab.display().instrument) {
-        (Some(loops), Instrument::Loop) => by_loop::moments(lab, loops),
-        _ => sheet_of(lab, Detail::Samples)?,
-    };
     let ink = ink_of(lab.display().theme);
     let all = Rect::from_min_size(Pos2::ZERO, SIZE.into());
-    let head = format!("{}: {}", lab.scene_name(), sheet.title);
+    let room = Rect::from_min_max(pos2(MARGIN, HEAD), all.max - vec2(MARGIN, MARGIN / 2.0));
+    let (title, (entries, plots)) = match (lab.loop_lab(), lab.display().instrument) {
+        (Some(open), Instrument::Loop) => (loops::TITLE.into(), loops::layout(open, room, ink)),
+        _ => {
+            let sheet = sheet_of(lab, Detail::Samples)?;
+            let plots = layout(lab, &sheet, room, all.right(), ink);
+            let entries = super::legend_entries(&sheet);
+            (sheet.title, (entries, plots))
+        }
+    };
+    let head = format!("{}: {title}", lab.scene_name());
     let head = Text::new(pos2(MARGIN, MARGIN + 2.0), Align2::LEFT_CENTER, head, 17.0, ink.text);
     let mut drawing = vec![Primitive::Area(all, ink.background), head.into()];
-    let entries: Vec<_> =
-        super::legend_entries(&sheet).into_iter().map(|(_, entry)| entry).collect();
     drawing.extend(legend::layout(&entries, pos2(MARGIN, MARGIN + 26.0), ink));
-    let room = Rect::from_min_max(pos2(MARGIN, HEAD), all.max - vec2(MARGIN, MARGIN / 2.0));
-    for cell in &cells(&sheet, room, LEFT, lab.view().body) {
+    drawing.extend(plots);
+    Some(svg::file(SIZE, &drawing))
+}
+
+/// The plots of a sheet with their titles.
+fn layout(lab: &Lab, sheet: &Sheet, room: Rect, right: f32, ink: &Ink) -> Vec<Primitive> {
+    let mut all = Vec::new();
+    for cell in &cells(sheet, room, LEFT, lab.view().body) {
         let area = cell.area(&lab.view().plot_ranges);
-        let room = (area.rect.width(), all.right());
-        drawing.extend(chart::layout(lab, &sheet.roster, (cell, &area), ink, room));
+        let room = (area.rect.width(), right);
+        all.extend(chart::layout(lab, &sheet.roster, (cell, &area), ink, room));
         let title = pos2(area.rect.center().x, area.rect.top() - ABOVE / 2.0);
         let title = Text::new(title, Align2::CENTER_CENTER, &*cell.plot.title, NAME, ink.text);
-        drawing.push(title.into());
+        all.push(title.into());
     }
-    Some(svg::file(SIZE, &drawing))
+    all
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
 //! A histogram of the ticks of a frame.
 
-use egui::{Align2, Color32, FontId, Rect, Ui, pos2, vec2};
+use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 
 use super::ShownLane;
 use crate::lab::number::round;
-use crate::view::chart::{self, AxisScale, PlotArea};
-use crate::view::panels::{ink, strong_font};
+use crate::view::chart::{self, AxisScale, PlotArea, Primitive, Text};
+use crate::view::panels::ink;
+use crate::view::theme::Ink;
 
 /// What a frame can have: the last is that or more.
 const NAMES: [&str; 4] = ["0", "1", "2", "3+"];
@@ -71,56 +72,56 @@ fn in_words(series: &[Series]) -> String {
 
 /// Shows the shares, a bar for each loop.
 pub(super) fn show(ui: &Ui, room: Rect, series: &[Series]) {
-    let ink = ink(ui);
     let bars = ui.interact(room, ui.scope_id().with("ticks per frame"), egui::Sense::hover());
     bars.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, in_words(series)));
-    let painter = ui.painter_at(room);
-    painter.text(room.left_top(), Align2::LEFT_TOP, "Ticks per frame", strong_font(13.0), ink.text);
+    chart::paint(&ui.painter_at(room), &layout(room, series, ink(ui)));
+}
+
+/// The chart of the shares in a room.
+pub(super) fn layout(room: Rect, series: &[Series], ink: &Ink) -> Vec<Primitive> {
+    let title = Text::new(room.left_top(), Align2::LEFT_TOP, "Ticks per frame", 13.0, ink.text);
+    let mut all = vec![title.strong().into()];
     let rect = Rect::from_min_max(room.min + vec2(LEFT, TITLE), room.max - vec2(2.0, BELOW + NAME));
     if !rect.is_positive() || rect.height() < 2.0 * ABOVE {
-        return;
+        return all;
     }
     let highest = series.iter().flat_map(|series| series.shares_percent).fold(0.0, f64::max);
     let top = highest.max(10.0) * f64::from(rect.height() / (rect.height() - ABOVE));
     let area = PlotArea { rect, bounds: [[-0.5, 3.5], [0.0, top]] };
-    painter.rect_filled(rect, 0.0, ink.plot);
+    all.push(Primitive::Area(rect, ink.plot));
     let marks = area.marks(1, AxisScale::Linear, 24.0).into_iter();
     let marks: Vec<_> = marks.map(|(value, text)| (value, format!("{text} %"))).collect();
-    chart::paint(&painter, &chart::axes(&area, [Vec::new(), marks], ink, room.right()));
+    all.extend(chart::axes(&area, [Vec::new(), marks], ink, room.right()));
     let group = rect.width() / NAMES.len() as f32;
     let width = group * BARS / series.len().max(1) as f32;
+    let has_room = width >= ROOM_FOR_NUMBER;
+    // Without room for all numbers only that of the first, over the bar that it is of.
+    let first = series.iter().position(|series| series.is_first);
     for (count, name) in NAMES.iter().enumerate() {
         let middle = rect.left() + group * (count as f32 + 0.5);
         let at = pos2(middle, rect.bottom() + 3.0);
-        painter.text(at, Align2::CENTER_TOP, name, FontId::proportional(11.0), ink.dim);
-        let number = |x: f32, y: f32, share: f64, colour: Color32| {
-            // Over a narrow bar a third digit would lie on the next bar.
-            let is_long = width < ROOM_FOR_NUMBER && share >= 10.0;
-            let text = if is_long { round(share, 2) } else { percent(share) };
-            let at = pos2(x, y - 1.0);
-            painter.text(at, Align2::CENTER_BOTTOM, text, strong_font(11.0), colour);
-        };
-        let top_of = |share: f64| area.at([0.0, share]).y.min(rect.bottom() - MIN_HEIGHT);
+        all.push(Text::new(at, Align2::CENTER_TOP, *name, 11.0, ink.dim).into());
+        let mut numbers = Vec::new();
         for (i, series) in series.iter().enumerate() {
             let share = series.shares_percent[count];
             let left = middle - group * BARS / 2.0 + width * i as f32;
-            let along = left + 0.5..=left + width - 0.5;
-            let bar = Rect::from_x_y_ranges(along, top_of(share)..=rect.bottom());
-            painter.rect_filled(bar, 0.0, series.colour);
-            if width >= ROOM_FOR_NUMBER {
-                number(bar.center().x, bar.top(), share, series.colour);
+            let top = area.height(share).min(rect.bottom() - MIN_HEIGHT);
+            let bar = Rect::from_x_y_ranges(left + 0.5..=left + width - 0.5, top..=rect.bottom());
+            all.push(Primitive::Area(bar, series.colour));
+            if has_room || first == Some(i) {
+                // Over a narrow bar a third digit would lie on the next bar.
+                let is_long = !has_room && share >= 10.0;
+                let text = if is_long { round(share, 2) } else { percent(share) };
+                let at = bar.center_top() - vec2(0.0, 1.0);
+                let number = Text::new(at, Align2::CENTER_BOTTOM, text, 11.0, series.colour);
+                numbers.push(number.strong().into());
             }
         }
-        // Else one number, over the bar that it is of.
-        let first = series.iter().position(|series| series.is_first);
-        if let Some(i) = first.filter(|_| width < ROOM_FOR_NUMBER) {
-            let x = middle - group * BARS / 2.0 + width * (i as f32 + 0.5);
-            let share = series[i].shares_percent[count];
-            number(x, top_of(share), share, series[i].colour);
-        }
+        all.append(&mut numbers);
     }
     let [name, _] = chart::names(&area, room.left(), ["ticks in a frame", ""], ink);
-    chart::paint(&painter, &[name.into()]);
+    all.push(name.into());
+    all
 }
 
 #[cfg(test)]

@@ -6,8 +6,9 @@ use super::ShownLane;
 use super::counts::{BELOW, LEFT, NAME, TITLE};
 use crate::lab::LoopLab;
 use crate::lab::number::round;
-use crate::view::chart::{self, AxisScale, PlotArea};
-use crate::view::panels::{ink, strong_font};
+use crate::view::chart::{self, AxisScale, PlotArea, Primitive, Text};
+use crate::view::panels::ink;
+use crate::view::theme::Ink;
 
 /// The number of frames shown.
 const FRAMES: usize = 24;
@@ -24,54 +25,69 @@ pub(super) fn round_up(value: f64) -> f64 {
     steps.into_iter().find(|step| *step >= value * (1.0 - 1e-9)).unwrap_or(10.0 * decade)
 }
 
+/// The errors of the last frames of a lane in milliseconds, from the present frame back.
+fn errors_ms(loops: &LoopLab, lane: &ShownLane<'_>) -> impl Iterator<Item = f64> {
+    let until = lane.lane.frame_at(loops.now_ns()).map_or(0, |place| place + 1);
+    let frames = lane.lane.frames()[..until].iter().rev().take(FRAMES);
+    frames.map(|frame| frame.animation_error_ms)
+}
+
+/// The largest error of the last frames in milliseconds, whatever its sign.
+fn largest_ms(loops: &LoopLab, lanes: &[ShownLane<'_>]) -> f64 {
+    let errors = lanes.iter().flat_map(|lane| errors_ms(loops, lane));
+    errors.fold(0.0, |most, error| most.max(error.abs()))
+}
+
 /// Shows the error of each of the last frames, a bar for each lane.
 pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]) {
-    let ink = ink(ui);
-    let painter = ui.painter_at(room);
-    let title = if room.width() > 165.0 { "Animation error by frame" } else { "Animation error" };
-    painter.text(room.left_top(), Align2::LEFT_TOP, title, strong_font(13.0), ink.text);
+    let bars = ui.interact(room, ui.scope_id().with("animation error"), egui::Sense::hover());
+    let largest = round(largest_ms(loops, lanes), 3);
+    let told = format!("Animation error of the last {FRAMES} frames: {largest} ms at most");
+    bars.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &told));
+    chart::paint(&ui.painter_at(room), &layout(room, loops, lanes, ink(ui)));
+}
+
+/// The chart of the errors in a room.
+pub(super) fn layout(
+    room: Rect,
+    loops: &LoopLab,
+    lanes: &[ShownLane<'_>],
+    ink: &Ink,
+) -> Vec<Primitive> {
+    let [title, name] = match room.width() > 165.0 {
+        true => ["Animation error by frame", "ms, by frame from now"],
+        false => ["Animation error", "ms, by frame"],
+    };
+    let title = Text::new(room.left_top(), Align2::LEFT_TOP, title, 13.0, ink.text);
+    let mut all = vec![title.strong().into()];
     let rect = Rect::from_min_max(room.min + vec2(LEFT, TITLE), room.max - vec2(6.0, BELOW + NAME));
     if !rect.is_positive() || rect.height() < 20.0 {
-        return;
+        return all;
     }
-    // From the present frame back.
-    let errors: Vec<Vec<f64>> = lanes
-        .iter()
-        .map(|lane| {
-            let until = lane.lane.frame_at(loops.now_ns()).map_or(0, |place| place + 1);
-            let frames = lane.lane.frames()[..until].iter().rev().take(FRAMES);
-            frames.map(|frame| frame.animation_error_ms).collect()
-        })
-        .collect();
-    let largest = errors.iter().flatten().fold(0.0_f64, |most, error| most.max(error.abs()));
-    let bars = ui.interact(room, ui.scope_id().with("animation error"), egui::Sense::hover());
-    let told =
-        format!("Animation error of the last {FRAMES} frames: {} ms at most", round(largest, 3));
-    bars.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &told));
-    let reach = round_up((1.1 * largest).max(MIN_MS));
+    let reach = round_up((1.1 * largest_ms(loops, lanes)).max(MIN_MS));
     let area = PlotArea { rect, bounds: [[-(FRAMES as f64), 0.0], [-reach, reach]] };
-    painter.rect_filled(rect, 0.0, ink.plot);
+    all.push(Primitive::Area(rect, ink.plot));
     let along = [0.0, 8.0, 16.0].map(|back| (-back - 0.5, round(-back, 3))).into();
     let up = area.marks(1, AxisScale::Linear, 24.0);
-    chart::paint(&painter, &chart::axes(&area, [along, up], ink, room.right()));
+    all.extend(chart::axes(&area, [along, up], ink, room.right()));
     let frame = rect.width() / FRAMES as f32;
     let width = frame * BARS / lanes.len().max(1) as f32;
-    let zero = area.at([0.0; 2]).y;
-    for (i, (lane, errors)) in lanes.iter().zip(&errors).enumerate() {
-        for (back, error) in errors.iter().enumerate() {
+    let zero = area.height(0.0);
+    for (i, lane) in lanes.iter().enumerate() {
+        for (back, error) in errors_ms(loops, lane).enumerate() {
             let right = rect.right() - frame * back as f32;
             let left = right - frame * (1.0 + BARS) / 2.0 + width * i as f32;
-            let end = area.at([0.0, *error]).y;
+            let end = area.height(error);
             let bar = Rect::from_x_y_ranges(
                 left..=left + width.max(1.0),
                 end.min(zero - MIN_HEIGHT)..=end.max(zero + MIN_HEIGHT),
             );
-            painter.rect_filled(bar, 0.0, lane.colour);
+            all.push(Primitive::Area(bar, lane.colour));
         }
     }
-    let name = if room.width() > 165.0 { "ms, by frame from now" } else { "ms, by frame" };
     let [name, _] = chart::names(&area, room.left(), [name, ""], ink);
-    chart::paint(&painter, &[name.into()]);
+    all.push(name.into());
+    all
 }
 
 #[cfg(test)]

@@ -1,15 +1,14 @@
 //! The window's own loop: how long its last frames took, and what it made of them.
 
-use egui::{Color32, Label, Pos2, Rect, RichText, Sense, Shape, Stroke, Ui, Vec2};
-use egui::{pos2, vec2};
+use egui::{Color32, Label, Rect, RichText, Sense, Ui, Vec2, vec2};
 
 use super::columns::shown;
 use super::counts::{self, LEFT, Series};
 use super::errors::round_up;
 use crate::lab::{Lab, LiveFrame};
-use crate::view::chart::{self, AxisScale, PlotArea};
+use crate::view::chart::{self, Arrow, AxisScale, Curve, Drawing, LineStyle, PlotArea, Primitive};
 use crate::view::panels::{ink, strong_font};
-use crate::view::theme::colour;
+use crate::view::theme::{Ink, colour};
 
 /// The length of the plot in seconds.
 const LENGTH_S: f64 = 10.0;
@@ -49,8 +48,8 @@ impl Summary {
 }
 
 /// The colour of the window's own loop.
-fn own_colour(ui: &Ui) -> Color32 {
-    colour(ink(ui).theme.evaluation(1))
+fn own_colour(ink: &Ink) -> Color32 {
+    colour(ink.theme.evaluation(1))
 }
 
 fn time_ms(frame: &LiveFrame) -> f64 {
@@ -88,62 +87,44 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
     });
     let lower = if height >= ROOM_FOR_COUNTS { COUNTS } else { 0.0 };
     let (upper, below) = room.split_top_bottom_at_fraction(1.0 - lower);
-    plot(ui, upper, frames.clone(), &summary);
+    let times_ms: Vec<f64> = frames.clone().map(time_ms).collect();
+    chart::paint(&ui.painter_at(upper), &layout(upper, &times_ms, &summary, ink(ui)));
     if lower > 0.0 {
         let ticks = frames.map(|frame| frame.ticks);
-        let series = Series::new(own_colour(ui), ticks);
+        let series = Series::new(own_colour(ink(ui)), ticks);
         counts::show(ui, below.with_min_y(below.top() + 6.0), &[series]);
     }
 }
 
-/// The frame times against real time up to the last frame.
-fn plot<'a>(
-    ui: &Ui,
-    room: Rect,
-    frames: impl ExactSizeIterator<Item = &'a LiveFrame>,
-    summary: &Summary,
-) {
-    let ink = ink(ui);
+/// The chart of the frame times against real time up to the last frame, in a room.
+fn layout(room: Rect, times_ms: &[f64], summary: &Summary, ink: &Ink) -> Vec<Primitive> {
     let rect = chart::inside(room, LEFT, 6.0);
     if !rect.is_positive() {
-        return;
+        return Vec::new();
     }
     let reach = round_up((REACH * summary.usual_ms).max(1.0));
     let area = PlotArea { rect, bounds: [[-LENGTH_S, 0.0], [0.0, reach]] };
-    let painter = ui.painter_at(room);
-    painter.rect_filled(rect, 0.0, ink.plot);
     let marks = [0, 1].map(|axis| area.marks(axis, AxisScale::Linear, [56.0, 24.0][axis]));
-    let mut axes = chart::axes(&area, marks, ink, room.right());
+    let mut all = vec![Primitive::Area(rect, ink.plot)];
+    let mut ago_s = times_ms.iter().sum::<f64>() / 1000.0;
+    let moment = |&time_ms: &f64| {
+        ago_s -= time_ms / 1000.0;
+        [-ago_s, time_ms]
+    };
+    let points: Vec<[f64; 2]> = times_ms.iter().map(moment).collect();
+    let beyond = points.iter().filter(|[at_s, time_ms]| *at_s >= -LENGTH_S && *time_ms > reach);
+    let arrows = beyond.map(|&at| Arrow { from: at, to: at, colour: ink.warn }).collect();
+    let line = |style: LineStyle, points: Vec<[f64; 2]>| Curve { style, points, swept: Vec::new() };
+    let mean = LineStyle { dash: [6.0, 4.0], ..LineStyle::solid(ink.accent, 1.0) };
+    let curves = vec![
+        line(LineStyle::solid(own_colour(ink), 1.2), points),
+        line(mean, [-LENGTH_S, 0.0].map(|at_s| [at_s, summary.mean_ms]).into()),
+    ];
+    let drawing = Drawing { curves, arrows, ..Drawing::default() };
+    all.extend(chart::plot(&area, marks, &drawing, ink, room.right()));
     let names = ["real time, s from the last frame", "frame time, ms"];
-    axes.extend(chart::names(&area, rect.left(), names, ink).map(Into::into));
-    chart::paint(&painter, &axes);
-
-    let times: Vec<f64> = frames.map(time_ms).collect();
-    let mut ago_s = 0.0;
-    let mut points: Vec<Pos2> = Vec::with_capacity(times.len());
-    let inner = painter.with_clip_rect(rect);
-    for time_ms in times.iter().rev() {
-        let at = area.at([-ago_s, *time_ms]);
-        points.push(at);
-        if *time_ms > reach && ago_s <= LENGTH_S {
-            arrow_up(&inner, pos2(at.x, rect.top()), ink.warn);
-        }
-        ago_s += time_ms / 1000.0;
-    }
-    inner.add(Shape::line(points, Stroke::new(1.2, own_colour(ui))));
-    let mean = area.at([0.0, summary.mean_ms]).y;
-    inner.extend(Shape::dashed_line(
-        &[pos2(rect.left(), mean), pos2(rect.right(), mean)],
-        Stroke::new(1.0, ink.accent),
-        6.0,
-        4.0,
-    ));
-}
-
-/// A frame that took longer than the plot reaches.
-fn arrow_up(painter: &egui::Painter, tip: Pos2, colour: Color32) {
-    let corners = [vec2(0.0, 1.0), vec2(4.0, 8.0), vec2(-4.0, 8.0)].map(|corner| tip + corner);
-    painter.add(Shape::convex_polygon(corners.to_vec(), colour, Stroke::NONE));
+    all.extend(chart::names(&area, rect.left(), names, ink).map(Into::into));
+    all
 }
 
 #[cfg(test)]

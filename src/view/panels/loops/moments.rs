@@ -1,18 +1,17 @@
 //! What moment each loop shows when: a staircase, because a display holds a frame until the next.
 
-use std::sync::Arc;
+use std::iter;
 
-use egui::text::{LayoutJob, TextFormat};
-use egui::{
-    Color32, FontId, Galley, Painter, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2, pos2, vec2,
-};
+use egui::{Align2, Color32, Painter, Pos2, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 
 use super::ShownLane;
 use super::counts::BELOW;
 use crate::lab::LoopLab;
 use crate::lab::loop_lab::{LoopFrame, LoopLane};
 use crate::lab::number::round;
-use crate::view::chart::{self, AxisScale, LineStyle, PlotArea, curves};
+use crate::view::chart::{
+    self, AxisScale, LineStyle, NUMBER, PlotArea, Primitive, ScreenCurve, Text,
+};
 use crate::view::panels::{ink, strong_font};
 use crate::view::theme::Ink;
 
@@ -29,8 +28,6 @@ const LEFT: f32 = 44.0;
 const MARK: f32 = 6.0;
 /// The radii of the dots of neighbours, which may lie on each other.
 const DOTS: [f32; 2] = [2.6, 4.4];
-/// Between the name of an axis and that of its marks, in points.
-const APART: f32 = 14.0;
 
 /// The length of the plot in milliseconds.
 fn length_ms(loops: &LoopLab) -> f64 {
@@ -63,53 +60,70 @@ fn range_ms(length_ms: f64, late_ms: impl Iterator<Item = f64>) -> [f64; 2] {
     [-length_ms - up(behind), up(ahead)]
 }
 
-pub(super) fn show(ui: &mut Ui, loops: &LoopLab, lanes: &[ShownLane<'_>], size: Vec2) {
-    let (room, response) = ui.allocate_exact_size(size, Sense::hover());
-    let ink = ink(ui);
+/// Shows the moments in a room, and what each lane shows under a pointer.
+pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]) {
+    let Some(area) = area(room, loops, lanes) else { return };
+    let painter = ui.painter_at(room.expand(1.0));
+    chart::paint(&painter, &layout(room, &area, loops, lanes, ink(ui)));
+    let response = ui.interact(room, ui.scope_id().with("moments"), Sense::hover());
+    hover(&painter, loops, lanes, &area, response, ink(ui));
+}
+
+/// Where the moments are in a room; `None` if there is none for them.
+pub(super) fn area(room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]) -> Option<PlotArea> {
     let rect =
         Rect::from_min_max(room.min + vec2(LEFT, NAMES + 2.0), room.max - vec2(6.0, BELOW + NAMES));
-    if !rect.is_positive() {
-        return;
-    }
     let length_ms = length_ms(loops);
     let late = lanes.iter().flat_map(|lane| frames(loops, lane.lane)).map(LoopFrame::latency_ms);
     let bounds = [[-length_ms, 0.0], range_ms(length_ms, late)];
-    let area = PlotArea { rect, bounds };
-    let painter = ui.painter_at(room.expand(1.0));
-    painter.rect_filled(rect, 0.0, ink.plot);
+    rect.is_positive().then_some(PlotArea { rect, bounds })
+}
+
+/// The chart of the moments: its axes with marks of ticks and frames, and a staircase for each lane.
+pub(super) fn layout(
+    room: Rect,
+    area: &PlotArea,
+    loops: &LoopLab,
+    lanes: &[ShownLane<'_>],
+    ink: &Ink,
+) -> Vec<Primitive> {
+    let rect = area.rect;
+    let mut all = vec![Primitive::Area(rect, ink.plot)];
     let numbers = [0, 1].map(|axis| area.marks(axis, AxisScale::Linear, [56.0, 26.0][axis]));
-    chart::paint(&painter, &chart::axes(&area, numbers, ink, room.right()));
-    let ticks = format!("{} Hz ticks", loops.scene().tick_hz);
-    let words = named(&painter, ink, "moment shown, ms from now", (ticks, ink.accent));
-    painter.galley(pos2(rect.left(), room.top()), words, ink.dim);
+    all.extend(chart::axes(area, numbers, ink, room.right()));
+    // The name of an axis, and behind it what the marks along it are.
+    let name = |at: Pos2, anchor: Align2, name: &str, marks: (String, Color32)| Text {
+        tail: Some(marks),
+        ..Text::new(at, anchor, name, NUMBER, ink.dim)
+    };
+    let ticks = (format!("{} Hz ticks", loops.scene().tick_hz), ink.accent);
+    let above = pos2(rect.left(), room.top());
+    all.push(name(above, Align2::LEFT_TOP, "moment shown, ms from now", ticks).into());
     let hz = round(loops.traces()[loops.trace()].refresh().hz(), 4);
     let frames = (format!("{hz} Hz frames"), ink.text);
-    let words = named(&painter, ink, "displayed, ms from now", frames);
-    let half = words.size().x / 2.0;
-    let middle = rect.center().x.min(rect.right() - half);
-    painter.galley(pos2(middle - half, room.bottom() - words.size().y), words, ink.dim);
-
-    marks(&painter, loops, &area, ink);
-    let inner = painter.with_clip_rect(rect);
-    let ideal = [[-length_ms; 2], [0.0; 2]].map(|at| area.at(at));
-    inner.line_segment(ideal, Stroke::new(1.4, ink.exact));
+    let below = pos2(rect.center().x, room.bottom());
+    let along = name(below, Align2::CENTER_BOTTOM, "displayed, ms from now", frames);
+    all.push(Text { right: rect.right(), ..along }.into());
+    all.extend(marks(loops, area, ink));
+    let ideal = [area.bounds[0][0], 0.0].map(|at_ms| area.at([at_ms; 2]));
+    let mut inside = vec![Primitive::Line(ideal, Stroke::new(1.4, ink.exact))];
     // The selected lane in front.
     let (front, others): (Vec<_>, Vec<_>) =
         lanes.iter().enumerate().partition(|(_, lane)| lane.is_selected);
     for (i, lane) in others.into_iter().chain(front) {
-        staircase(&inner, loops, &area, lane, DOTS[i % 2]);
+        inside.extend(staircase(loops, area, lane, DOTS[i % 2]));
     }
-    hover(&painter, loops, lanes, &area, response, ink);
+    all.push(Primitive::Clip(rect, inside));
+    all
 }
 
 /// The staircase of a lane.
 fn staircase(
-    painter: &Painter,
     loops: &LoopLab,
     area: &PlotArea,
     lane: &ShownLane<'_>,
     radius: f32,
-) {
+) -> Vec<Primitive> {
     let frames = frames(loops, lane.lane);
     let now_ms = loops.now_ns() as f64 / 1e6;
     let at = |displayed_ns: i64, frame: &LoopFrame| {
@@ -122,49 +136,31 @@ fn staircase(
     }
     let width = if lane.is_selected { 2.4 } else { 1.8 };
     let style = LineStyle { dash: lane.dash, ..LineStyle::solid(lane.colour, width) };
-    curves::paint(painter, &points, &[], style);
-    for frame in frames {
-        let at = at(frame.displayed_ns, frame);
-        if radius > DOTS[0] {
-            painter.circle_stroke(at, radius, Stroke::new(1.4, lane.colour));
-        } else {
-            painter.circle_filled(at, radius, lane.colour);
-        }
-    }
+    let line = Primitive::Curves(vec![ScreenCurve { style, points, swept: Vec::new() }]);
+    let dot = |frame: &LoopFrame| match at(frame.displayed_ns, frame) {
+        at if radius > DOTS[0] => Primitive::Ring(at, radius, Stroke::new(1.4, lane.colour)),
+        at => Primitive::Dot(at, radius, lane.colour),
+    };
+    iter::once(line).chain(frames.iter().map(dot)).collect()
 }
 
 /// Marks of the fixed ticks along the top and of the frames along the bottom.
-fn marks(painter: &Painter, loops: &LoopLab, area: &PlotArea, ink: &Ink) {
+fn marks(loops: &LoopLab, area: &PlotArea, ink: &Ink) -> Vec<Primitive> {
     let (rect, now_ms) = (area.rect, loops.now_ns() as f64 / 1e6);
-    let tick_hz = loops.scene().tick_hz;
-    let tick_ms = 1000.0 / f64::from(tick_hz);
-    let from_ms = (now_ms + area.bounds[0][0]).max(0.0);
-    let first = (from_ms / tick_ms).ceil() as u64;
-    let mut tick = first;
-    while tick as f64 * tick_ms <= now_ms {
-        let x = area.at([tick as f64 * tick_ms - now_ms, 0.0]).x;
-        painter.vline(x, rect.top()..=rect.top() + MARK, Stroke::new(1.6, ink.accent));
-        tick += 1;
-    }
-    for frame in frames(loops, &loops.lanes()[loops.selected()]) {
-        let x = area.at([frame.displayed_ns as f64 / 1e6 - now_ms, 0.0]).x;
-        if rect.x_range().contains(x) {
-            painter.vline(x, rect.bottom() - MARK..=rect.bottom(), Stroke::new(1.2, ink.text));
-        }
-    }
-}
-
-/// The name of an axis, and behind it what the marks along it are.
-fn named(
-    painter: &Painter,
-    ink: &Ink,
-    axis: &str,
-    (marks, colour): (String, Color32),
-) -> Arc<Galley> {
-    let format = |colour| TextFormat::simple(FontId::proportional(11.5), colour);
-    let mut job = LayoutJob::single_section(axis.into(), format(ink.dim));
-    job.append(&marks, APART, format(colour));
-    painter.layout_job(job)
+    let mark = |at_ms: f64, [from, to]: [f32; 2], stroke: (f32, Color32)| {
+        let x = area.at([at_ms - now_ms, 0.0]).x;
+        Primitive::Line([pos2(x, from), pos2(x, to)], stroke.into())
+    };
+    let tick_ms = 1000.0 / f64::from(loops.scene().tick_hz);
+    let first = ((now_ms + area.bounds[0][0]).max(0.0) / tick_ms).ceil() as u64;
+    let ticks = (first..).map(|tick| tick as f64 * tick_ms).take_while(|at_ms| *at_ms <= now_ms);
+    let top = [rect.top(), rect.top() + MARK];
+    let ticks = ticks.map(|at_ms| mark(at_ms, top, (1.6, ink.accent)));
+    let shown = frames(loops, &loops.lanes()[loops.selected()]).iter();
+    let shown = shown.map(|frame| frame.displayed_ns as f64 / 1e6);
+    let in_view = shown.filter(|at_ms| at_ms - now_ms >= area.bounds[0][0]);
+    let bottom = [rect.bottom() - MARK, rect.bottom()];
+    ticks.chain(in_view.map(|at_ms| mark(at_ms, bottom, (1.2, ink.text)))).collect()
 }
 
 /// A line under the pointer, and what each lane shows there.
