@@ -1,9 +1,11 @@
 //! No text of a frame is cut off, elided, or written over another, at any usual size of the window.
 
-use egui::{Context, Pos2, RawInput, Rect, Shape, Vec2, vec2};
+use egui::epaint::text::PlacedRow;
+use egui::{Rect, Ui, Vec2, vec2};
 use rayon::prelude::*;
 
 use super::frame::write;
+use super::testing::{ShownText, TestWindow};
 use super::{panels, theme};
 use crate::lab::cloud::{CloudChoice, CloudKind, CloudWorker};
 use crate::lab::guide::STOPS;
@@ -28,43 +30,31 @@ struct Text {
 
 /// Every text of a frame of this size, as the third frame of a window has it.
 fn texts(lab: &Lab, size: Vec2) -> Vec<Text> {
-    let context = Context::default();
-    theme::dress(&context);
-    theme::show(&context, lab.display(), size.into());
-    let zoom = theme::zoom(size.into(), lab.display().scale_percent);
-    let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, size / zoom));
-    let mut texts = Vec::new();
-    for _ in 0..3 {
-        let input = RawInput { screen_rect, ..RawInput::default() };
-        let mut output = context.run_ui(input, |ui| {
+    let mut window = TestWindow::new(size / theme::zoom(size.into(), lab.display().scale_percent));
+    theme::show(&window.context, lab.display(), size.into());
+    let mut frame = || {
+        let layout = |ui: &mut Ui| {
             let (_, stage) = panels::show(ui, lab);
             let painter = ui.painter().with_clip_rect(stage);
             let picture = compose(lab, stage.size().into());
             picture.labels.iter().for_each(|label| write(&painter, stage, label));
-        });
-        output.textures_delta.clear();
-        texts.clear();
-        output.shapes.iter().for_each(|shape| collect(&shape.shape, shape.clip_rect, &mut texts));
-    }
-    texts
+        };
+        window.show(Vec::new(), layout).1
+    };
+    (0..2).for_each(|_| drop(frame()));
+    frame().texts.iter().flat_map(rows).collect()
 }
 
-fn collect(shape: &Shape, clip: Rect, texts: &mut Vec<Text>) {
-    match shape {
-        Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, clip, texts)),
-        // Row by row: a paragraph may begin in the middle of a line.
-        Shape::Text(text) => texts.extend(text.galley.rows.iter().filter_map(|row| {
-            let words = row.text();
-            (!words.trim().is_empty()).then(|| Text {
-                // What is inked of it, without the room above and below.
-                rect: row.visuals.mesh_bounds.translate(text.pos.to_vec2() + row.pos.to_vec2()),
-                clip,
-                words,
-                is_elided: text.galley.elided,
-            })
-        })),
-        _ => {}
-    }
+/// The rows of a text: a paragraph may begin in the middle of a line.
+fn rows(ShownText { shape, clip }: &ShownText) -> impl Iterator<Item = Text> {
+    let row = |row: &PlacedRow| Text {
+        // What is inked of it, without the room above and below.
+        rect: row.visuals.mesh_bounds.translate(shape.pos.to_vec2() + row.pos.to_vec2()),
+        clip: *clip,
+        words: row.text(),
+        is_elided: shape.galley.elided,
+    };
+    shape.galley.rows.iter().map(row).filter(|text| !text.words.trim().is_empty())
 }
 
 /// What cannot be read in a frame.

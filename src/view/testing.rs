@@ -1,10 +1,14 @@
-//! What the tests of this layer share: a device, and the pixels drawn with it.
+//! What the tests of this layer share: a device and the pixels drawn with it, and frames of panels without one.
 
 use std::io::{self, Write};
 
+use egui::epaint::TextShape;
+use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Ui, Vec2};
+
 use super::stage::Stage;
-use super::{AdapterPreference, Gpu, Offscreen, Readback};
+use super::{AdapterPreference, Gpu, Offscreen, Readback, panels, theme};
 use crate::lab::picture::{Picture, Rect};
+use crate::lab::{Command, Lab};
 use crate::view::stage::StageRenderer;
 use crate::view::textures::pass;
 
@@ -54,7 +58,7 @@ pub(super) fn draw_next(
 ) -> Pixels {
     let target = Offscreen::new(gpu, size_px).expect("tests ask for small targets");
     let rect = egui::Rect::from_min_size(
-        egui::Pos2::ZERO,
+        Pos2::ZERO,
         egui::vec2(size_px[0] as f32, size_px[1] as f32) / scale,
     );
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -74,3 +78,107 @@ pub(super) fn read(gpu: &Gpu, drawing: Option<wgpu::CommandBuffer>, target: &Off
 
 /// A clip rectangle that clips nothing.
 pub(super) const EVERYWHERE: Rect = Rect { min: [-1e4; 2], max: [1e4; 2] };
+
+/// A window of this size in points, whose frames are laid out and not drawn.
+pub(super) struct TestWindow {
+    pub(super) context: Context,
+    pub(super) size: Vec2,
+    /// The moment of the last frame, and from there to the next, in seconds.
+    pub(super) time_s: f64,
+    pub(super) frame_s: f64,
+}
+
+impl TestWindow {
+    pub(super) fn new(size: impl Into<Vec2>) -> Self {
+        let context = Context::default();
+        theme::dress(&context);
+        Self { context, size: size.into(), time_s: 0.0, frame_s: 1.0 / 60.0 }
+    }
+
+    /// Lays out a frame after these events. Returns what `layout` does, and what is shown.
+    pub(super) fn show<T>(
+        &mut self,
+        events: Vec<Event>,
+        mut layout: impl FnMut(&mut Ui) -> T,
+    ) -> (T, Shown) {
+        self.time_s += self.frame_s;
+        let screen_rect = Some(egui::Rect::from_min_size(Pos2::ZERO, self.size));
+        let time = Some(self.time_s);
+        let input = RawInput { screen_rect, events, time, ..RawInput::default() };
+        let mut made = None;
+        let mut output = self.context.run_ui(input, |ui| made = Some(layout(ui)));
+        output.textures_delta.clear();
+        let mut shown = Shown { texts: Vec::new(), heard: Vec::new() };
+        for clipped in output.shapes {
+            collect(clipped.shape, clipped.clip_rect, &mut shown.texts);
+        }
+        let update = output.platform_output.accesskit_update.take();
+        let nodes = update.into_iter().flat_map(|update| update.nodes);
+        let heard = nodes.filter_map(|(_, node)| Some(node.label().or(node.value())?.to_owned()));
+        shown.heard.extend(heard);
+        (made.expect("a frame is laid out"), shown)
+    }
+
+    /// Lays out all panels after these events. Returns what they ask for.
+    pub(super) fn panels(&mut self, lab: &Lab, events: Vec<Event>) -> (Vec<Command>, Shown) {
+        self.show(events, |ui| panels::show(ui, lab).0)
+    }
+
+    /// What the panels ask for in the frames of a click.
+    pub(super) fn click(&mut self, lab: &Lab, at: Pos2) -> Vec<Command> {
+        let frames = [Event::PointerMoved(at), button(at, true), button(at, false)];
+        frames.into_iter().flat_map(|event| self.panels(lab, vec![event]).0).collect()
+    }
+}
+
+/// The first mouse button, pressed or let go of.
+pub(super) fn button(pos: Pos2, pressed: bool) -> Event {
+    let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+    Event::PointerButton { pos, button, pressed, modifiers }
+}
+
+/// The texts of a frame, and what a screen reader hears if the window's context has it enabled.
+pub(super) struct Shown {
+    pub(super) texts: Vec<ShownText>,
+    pub(super) heard: Vec<String>,
+}
+
+/// A text and what clips it.
+pub(super) struct ShownText {
+    pub(super) shape: TextShape,
+    pub(super) clip: egui::Rect,
+}
+
+impl ShownText {
+    fn placed(&self) -> (egui::Rect, String) {
+        (self.shape.visual_bounding_rect(), self.shape.galley.text().to_owned())
+    }
+}
+
+impl Shown {
+    /// Every text, with its place.
+    pub(super) fn all(&self) -> Vec<(egui::Rect, String)> {
+        self.texts.iter().map(ShownText::placed).collect()
+    }
+
+    /// Every text that is not clipped, with its place.
+    pub(super) fn whole(&self) -> Vec<(egui::Rect, String)> {
+        let is_whole = |text: &&ShownText| {
+            text.clip.expand(0.5).contains_rect(text.shape.visual_bounding_rect())
+        };
+        self.texts.iter().filter(is_whole).map(ShownText::placed).collect()
+    }
+
+    /// The words of every text.
+    pub(super) fn words(&self) -> Vec<String> {
+        self.all().into_iter().map(|(_, words)| words).collect()
+    }
+}
+
+fn collect(shape: egui::Shape, clip: egui::Rect, texts: &mut Vec<ShownText>) {
+    match shape {
+        egui::Shape::Vec(all) => all.into_iter().for_each(|shape| collect(shape, clip, texts)),
+        egui::Shape::Text(shape) => texts.push(ShownText { shape, clip }),
+        _ => {}
+    }
+}

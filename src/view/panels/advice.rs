@@ -314,34 +314,22 @@ fn whole(count: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use egui::{Context, Pos2, RawInput, Rect, Shape};
+    use egui::{Pos2, Rect};
 
     use super::*;
     use crate::lab::{AnalysisWorker, Instrument, Scene, StageCommand};
     use crate::view::panels;
-    use crate::view::theme;
+    use crate::view::testing::TestWindow;
 
     /// Shows frames of this size. Returns the stage and every text that is seen whole, with where it stands.
     fn shown(lab: &Lab, size: [f32; 2]) -> (Rect, Vec<(Pos2, String)>) {
-        let context = Context::default();
-        theme::dress(&context);
-        let mut shown = (Rect::NOTHING, Vec::new());
-        for _ in 0..3 {
-            let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, size.into()));
-            let input = RawInput { screen_rect, ..RawInput::default() };
-            let mut output = context.run_ui(input, |ui| shown.0 = panels::show(ui, lab).1);
-            output.textures_delta.clear();
-            let texts = output.shapes.iter().filter_map(|shape| match &shape.shape {
-                Shape::Text(text) => {
-                    let rect = text.visual_bounding_rect();
-                    let is_whole = shape.clip_rect.contains_rect(rect) && !text.galley.elided;
-                    is_whole.then(|| (rect.left_top(), text.galley.text().to_owned()))
-                }
-                _ => None,
-            });
-            shown.1 = texts.collect();
-        }
-        shown
+        let mut window = TestWindow::new(size);
+        let mut frame = || window.show(Vec::new(), |ui| panels::show(ui, lab).1);
+        (0..2).for_each(|_| drop(frame()));
+        let (stage, mut shown) = frame();
+        shown.texts.retain(|text| !text.shape.galley.elided);
+        let texts = shown.whole().into_iter().map(|(rect, words)| (rect.left_top(), words));
+        (stage, texts.collect())
     }
 
     const SIZES: [[f32; 2]; 5] =

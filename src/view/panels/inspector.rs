@@ -216,34 +216,16 @@ fn restoring(lab: &Lab) -> Vec<Command> {
 
 #[cfg(test)]
 mod tests {
-    use egui::{Rect, Shape};
-
     use super::*;
     use crate::lab::{LaneId, SCENES, Scene, StageCommand};
-    use crate::view::panels;
-    use crate::view::theme;
+    use crate::view::testing::TestWindow;
 
     /// Every text that is seen in a frame that is high enough for all of the inspector.
     fn texts(lab: &Lab) -> Vec<String> {
-        let context = egui::Context::default();
-        theme::dress(&context);
-        let mut texts = Vec::new();
-        let screen_rect = Some(Rect::from_min_size(egui::Pos2::ZERO, vec2(1280.0, 3000.0)));
+        let mut window = TestWindow::new([1280.0, 3000.0]);
         // A header learns in the first frame how high it is.
-        for _ in 0..2 {
-            let input = egui::RawInput { screen_rect, ..Default::default() };
-            let mut output = context.run_ui(input, |ui| drop(panels::show(ui, lab)));
-            output.textures_delta.clear();
-            texts = output
-                .shapes
-                .into_iter()
-                .filter_map(|clipped| match clipped.shape {
-                    Shape::Text(text) => Some(text.galley.text().to_owned()),
-                    _ => None,
-                })
-                .collect();
-        }
-        texts
+        window.panels(lab, Vec::new());
+        window.panels(lab, Vec::new()).1.words()
     }
 
     #[test]

@@ -96,18 +96,15 @@ fn report_within(ui: &mut Ui, report: &[Mistake], room: egui::Vec2) {
 
 #[cfg(test)]
 mod tests {
-    use egui::Context;
-
     use super::*;
     use crate::lab::{Dialog, Scene};
+    use crate::view::testing::TestWindow;
 
     /// The size of the only window over the lab, in points.
     fn size_of_dialog(lab: &Lab, title: &str) -> egui::Vec2 {
-        let ctx = Context::default();
-        let screen = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(800.0, 600.0));
+        let mut window = TestWindow::new([800.0, 600.0]);
         for _ in 0..3 {
-            let input = egui::RawInput { screen_rect: Some(screen), ..Default::default() };
-            let mut output = ctx.run_ui(input, |ui| match lab.viewer().dialog() {
+            window.show(Vec::new(), |ui| match lab.viewer().dialog() {
                 Some(Dialog::Path { refused }) => {
                     path(ui, lab, refused.as_deref(), &mut Vec::new());
                 }
@@ -116,9 +113,8 @@ mod tests {
                 }
                 _ => panic!("no dialog about a file"),
             });
-            output.textures_delta.clear();
         }
-        let area = ctx.memory(|memory| memory.area_rect(Id::unique(title)));
+        let area = window.context.memory(|memory| memory.area_rect(Id::unique(title)));
         area.expect("the dialog is open").size()
     }
 

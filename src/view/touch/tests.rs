@@ -3,13 +3,13 @@ use egui::{Modifiers, pos2};
 use super::*;
 use crate::lab::picture::{Whose, compose};
 use crate::lab::{HeldBody, RunCommand, Scene, StageCommand, Step, ViewCommand};
+use crate::view::testing::TestWindow;
 
 /// A lab with a stage, and the pointer over it.
 struct Table {
     lab: Lab,
     touch: Touch,
-    context: egui::Context,
-    time: f64,
+    window: TestWindow,
 }
 
 const STAGE: Rect = Rect { min: pos2(40.0, 30.0), max: pos2(840.0, 530.0) };
@@ -18,8 +18,8 @@ impl Table {
     fn new(scene: &str) -> Self {
         let mut lab = Lab::new(Scene::built_in(scene).unwrap());
         (0..9).for_each(|_| lab.tick());
-        let mut table =
-            Self { lab, touch: Touch::default(), context: egui::Context::default(), time: 0.0 };
+        let window = TestWindow { frame_s: 0.05, ..TestWindow::new([900.0, 600.0]) };
+        let mut table = Self { lab, touch: Touch::default(), window };
         // A layer can be pointed at from the second frame on.
         table.frame(Vec::new());
         table
@@ -38,18 +38,9 @@ impl Table {
 
     /// A frame 50 ms after the last; what it asks for is done, as the window does it.
     fn frame(&mut self, events: Vec<Event>) -> Vec<Command> {
-        self.time += 0.05;
-        let input = egui::RawInput {
-            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(900.0, 600.0))),
-            time: Some(self.time),
-            events,
-            ..Default::default()
-        };
         let (picture, mut commands) = (self.picture(), Vec::new());
-        let Self { lab, touch, context, .. } = self;
-        let mut output =
-            context.run_ui(input, |ui| touch.show(ui, STAGE, &picture, lab, &mut commands));
-        output.textures_delta.clear();
+        let Self { lab, touch, window } = self;
+        window.show(events, |ui| touch.show(ui, STAGE, &picture, lab, &mut commands));
         for command in &commands {
             self.lab.apply(command.clone());
         }

@@ -147,6 +147,7 @@ fn parsed(text: &str, unit: &str) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::view::testing::TestWindow;
 
     #[test]
     fn numbers_are_short_and_can_be_typed_in_again() {
@@ -166,15 +167,15 @@ mod tests {
 
     #[test]
     fn a_fault_is_over_when_the_number_changes_or_all_are_forgotten() {
-        let context = egui::Context::default();
+        let mut window = TestWindow::new([400.0, 300.0]);
+        let context = window.context.clone();
         let id = Id::unique("field");
-        let told = |value: f64, then: fn(&Ui)| {
-            let mut output = context.run_ui(egui::RawInput::default(), |ui| {
+        let mut told = |value: f64, then: fn(&Ui)| {
+            window.show(Vec::new(), |ui| {
                 then(ui);
                 let field = Field { id, value, unit: "", name: "number", is_whole: false };
                 field.show(ui, Vec2::splat(50.0), |_| Ok(()));
             });
-            output.textures_delta.clear();
             context.data(|data| data.get_temp::<Fault>(id)).is_some()
         };
         let fail = || {

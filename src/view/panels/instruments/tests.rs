@@ -1,7 +1,4 @@
-use egui::{
-    Context, Event, Modifiers, MouseWheelUnit, PointerButton, Pos2, RawInput, Rect, Shape,
-    TouchPhase, Vec2, vec2,
-};
+use egui::{Event, Modifiers, MouseWheelUnit, Pos2, Rect, TouchPhase, Vec2, vec2};
 use rayon::prelude::*;
 
 use super::super::tracks::Detail;
@@ -11,36 +8,13 @@ use crate::lab::cloud::{CloudChoice, CloudWorker};
 use crate::lab::{Action, RunCommand, SCENES, Scene, StageCommand};
 use crate::view::chart::PlotArea;
 use crate::view::panels;
-use crate::view::theme;
+use crate::view::testing::{TestWindow, button};
 
 mod shown;
 
 /// Every text that can be seen in a frame of this size, with its place.
 fn texts(lab: &Lab, size: Vec2) -> Vec<(Rect, String)> {
-    let context = Context::default();
-    theme::dress(&context);
-    let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, size));
-    let input = RawInput { screen_rect, ..RawInput::default() };
-    let mut output = context.run_ui(input, |ui| drop(panels::show(ui, lab)));
-    output.textures_delta.clear();
-    let mut texts = Vec::new();
-    for clipped in output.shapes {
-        collect(&clipped.shape, clipped.clip_rect, &mut texts);
-    }
-    texts
-}
-
-fn collect(shape: &Shape, clip: Rect, texts: &mut Vec<(Rect, String)>) {
-    match shape {
-        Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, clip, texts)),
-        Shape::Text(text) => {
-            let rect = text.visual_bounding_rect();
-            if clip.expand(0.5).contains_rect(rect) {
-                texts.push((rect, text.galley.text().to_owned()));
-            }
-        }
-        _ => {}
-    }
+    TestWindow::new(size).panels(lab, Vec::new()).1.whole()
 }
 
 fn is_number(text: &str) -> bool {
@@ -158,35 +132,21 @@ fn a_truth_that_halted_is_not_said_to_be_shown() {
 }
 
 /// A person at the plots of an instrument, which fill a frame.
-struct Person {
-    context: Context,
-    time: f64,
-}
+struct Person(TestWindow);
 
 const FRAME: Vec2 = vec2(500.0, 420.0);
 
 impl Person {
     fn new() -> Self {
-        let context = Context::default();
-        theme::dress(&context);
-        Self { context, time: 0.0 }
+        Self(TestWindow::new(FRAME))
     }
 
     /// Shows a frame after these events. Returns every text in it and what was asked for.
     fn frame(&mut self, lab: &Lab, events: Vec<Event>) -> (Vec<String>, Vec<Command>) {
-        self.time += 1.0 / 60.0;
-        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, FRAME));
-        let input = RawInput { screen_rect, events, time: Some(self.time), ..RawInput::default() };
         let sheet = sheet_of(lab, Detail::Samples).unwrap();
         let mut commands = Vec::new();
-        let mut output =
-            self.context.run_ui(input, |ui| chart::show(ui, lab, &sheet, &mut commands));
-        output.textures_delta.clear();
-        let mut texts = Vec::new();
-        for clipped in output.shapes {
-            collect(&clipped.shape, clipped.clip_rect, &mut texts);
-        }
-        (texts.into_iter().map(|(_, text)| text).collect(), commands)
+        let (_, shown) = self.0.show(events, |ui| chart::show(ui, lab, &sheet, &mut commands));
+        (shown.whole().into_iter().map(|(_, text)| text).collect(), commands)
     }
 
     /// Shows a frame after these events, and does what was asked for. Returns every number in it.
@@ -199,15 +159,9 @@ impl Person {
     }
 
     fn click(&mut self, lab: &Lab, at: Pos2) -> Vec<Command> {
-        let button = |pressed| Event::PointerButton {
-            pos: at,
-            button: PointerButton::Primary,
-            pressed,
-            modifiers: Modifiers::NONE,
-        };
         self.frame(lab, vec![Event::PointerMoved(at)]);
-        let mut commands = self.frame(lab, vec![button(true)]).1;
-        commands.extend(self.frame(lab, vec![button(false)]).1);
+        let mut commands = self.frame(lab, vec![button(at, true)]).1;
+        commands.extend(self.frame(lab, vec![button(at, false)]).1);
         commands
     }
 }
@@ -250,19 +204,13 @@ fn a_wheel_zooms_a_drag_pans_and_a_double_click_fits() {
     let zoomed = person.numbers(&mut lab, Vec::new());
     assert_ne!(zoomed, fitted);
     assert_ne!(svg(&lab).unwrap(), drawn_whole, "what is saved is what is seen");
-    let button = |pos: Pos2, pressed: bool| Event::PointerButton {
-        pos,
-        button: PointerButton::Primary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    };
     let to = at + vec2(-150.0, 0.0);
     person.numbers(&mut lab, vec![button(at, true)]);
     person.numbers(&mut lab, vec![Event::PointerMoved(to)]);
     person.numbers(&mut lab, vec![button(to, false)]);
     let panned = person.numbers(&mut lab, Vec::new());
     assert_ne!(panned, zoomed);
-    person.time += 1.0;
+    person.0.time_s += 1.0;
     for _ in 0..2 {
         let asked = person.click(&lab, to);
         for command in asked {

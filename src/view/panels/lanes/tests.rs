@@ -1,10 +1,9 @@
 //! The table of lanes: its rows, their order, and what is said in them.
 
-use egui::{Pos2, Rect, vec2};
-
 use super::*;
 use crate::lab::{RunCommand, Scene, StageCommand};
 use crate::view::panels::table::{Order, SortKey};
+use crate::view::testing::TestWindow;
 
 fn race() -> Lab {
     let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
@@ -141,16 +140,12 @@ fn the_cost_is_that_of_a_tick_now() {
 
 #[test]
 fn who_hears_a_row_hears_its_numbers() {
-    let context = egui::Context::default();
-    context.enable_accesskit();
-    let screen = Rect::from_min_size(Pos2::ZERO, vec2(1600.0, 600.0));
-    let input = egui::RawInput { screen_rect: Some(screen), ..Default::default() };
+    let mut window = TestWindow::new([1600.0, 600.0]);
+    window.context.enable_accesskit();
     let lab = race();
-    let mut output = context.run_ui(input, |ui| _ = show(ui, &lab, &mut Vec::new()));
-    output.textures_delta.clear();
-    let update = output.platform_output.accesskit_update.take().expect("it is enabled");
-    let mut heard = update.nodes.iter().filter_map(|(_, node)| node.label());
-    let row = heard.find(|name| name.starts_with("4 Runge-Kutta 4, ")).expect("its row");
+    let (_, shown) = window.show(Vec::new(), |ui| show(ui, &lab, &mut Vec::new()));
+    let row =
+        shown.heard.iter().find(|name| name.starts_with("4 Runge-Kutta 4, ")).expect("its row");
     for head in ["error ", "energy ", "cost 4 ×"] {
         assert!(row.contains(&format!(", {head}")), "{row}");
     }

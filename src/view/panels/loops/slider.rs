@@ -46,57 +46,39 @@ fn seek(
 
 #[cfg(test)]
 mod tests {
-    use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2, pos2, vec2};
+    use egui::{Vec2, pos2, vec2};
 
     use super::*;
     use crate::lab::{Lab, Scene};
+    use crate::view::panels;
     use crate::view::panels::timeline::{HEIGHT, MARGIN, MEMORY, NAME, TRACK_Y};
-    use crate::view::{panels, theme};
+    use crate::view::testing::TestWindow;
 
     const SIZE: Vec2 = vec2(1280.0, 720.0);
-
-    /// What a frame of [`SIZE`] with these events asks for.
-    fn frame(context: &Context, lab: &Lab, events: Vec<Event>) -> Vec<Command> {
-        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, SIZE));
-        let input = RawInput { screen_rect, events, ..RawInput::default() };
-        let mut commands = Vec::new();
-        let mut output = context.run_ui(input, |ui| commands.extend(panels::show(ui, lab).0));
-        output.textures_delta.clear();
-        commands
-    }
-
-    /// What a click there asks for, in all its frames.
-    fn click(context: &Context, lab: &Lab, pos: Pos2) -> Vec<Command> {
-        let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
-        let press = |pressed| vec![Event::PointerButton { pos, button, pressed, modifiers }];
-        let frames = [vec![Event::PointerMoved(pos)], press(true), press(false)];
-        frames.into_iter().flat_map(|events| frame(context, lab, events)).collect()
-    }
 
     #[test]
     fn a_press_on_the_track_goes_to_the_moment_there_and_a_row_and_its_eye_select_and_show() {
         let mut lab = Lab::new(Scene::built_in("spring").unwrap());
         lab.apply(Command::Loop(LoopCommand::ToggleLab));
         lab.run_loops();
-        let context = Context::default();
-        theme::dress(&context);
+        let mut window = TestWindow::new(SIZE);
         let loops = lab.loop_lab().unwrap();
         let bottom = SIZE.y - panels::footer::HEIGHT;
         let table = bottom - panels::loops::table::height(loops);
         let along = Rangef::new(8.0 + NAME, SIZE.x - 8.0 - MEMORY - MARGIN);
         let middle = pos2(along.center(), table - HEIGHT + TRACK_Y);
         let half_ns = loops.end_ns() / 2;
-        frame(&context, &lab, Vec::new());
-        let sought = click(&context, &lab, middle);
+        window.panels(&lab, Vec::new());
+        let sought = window.click(&lab, middle);
         let is_half = |command: &Command| match command {
             Command::Loop(LoopCommand::Seek(ns)) => (ns - half_ns).abs() < 10_000_000,
             _ => false,
         };
         assert!(!sought.is_empty() && sought.iter().all(is_half), "{sought:?}, not {half_ns}");
         let third = table + 3.5 * panels::lanes::ROW;
-        let commands = click(&context, &lab, pos2(300.0, third));
+        let commands = window.click(&lab, pos2(300.0, third));
         assert_eq!(commands, [Command::Loop(LoopCommand::Select(2))]);
-        let commands = click(&context, &lab, pos2(50.0, third));
+        let commands = window.click(&lab, pos2(50.0, third));
         assert_eq!(commands, [Command::Loop(LoopCommand::ToggleOnStage(2))]);
     }
 }

@@ -66,10 +66,8 @@ pub(super) fn show(
 
 #[cfg(test)]
 mod tests {
-    use egui::{Context, RawInput, Rect, Shape};
-
     use crate::lab::{Instrument, Lab, Scene, StageCommand, ViewCommand};
-    use crate::view::{panels, theme};
+    use crate::view::testing::TestWindow;
 
     /// What the loupes in a frame are labelled with, under the method at this place of the spring's list.
     fn labels(entry: usize) -> Vec<String> {
@@ -78,18 +76,8 @@ mod tests {
         lab.apply(StageCommand::Instrument(Instrument::OneStep));
         lab.apply(ViewCommand::ToggleEnlarged);
         (0..20).for_each(|_| lab.tick());
-        let context = Context::default();
-        theme::dress(&context);
-        let size = egui::vec2(1280.0, 720.0);
-        let screen_rect = Some(Rect::from_min_size(egui::Pos2::ZERO, size));
-        let input = RawInput { screen_rect, ..RawInput::default() };
-        let mut output = context.run_ui(input, |ui| drop(panels::show(ui, &lab)));
-        output.textures_delta.clear();
-        let texts = output.shapes.iter().filter_map(|shape| match &shape.shape {
-            Shape::Text(text) => Some(text.galley.text().to_owned()),
-            _ => None,
-        });
-        texts.filter(|text| text.starts_with('×')).collect()
+        let (_, shown) = TestWindow::new([1280.0, 720.0]).panels(&lab, Vec::new());
+        shown.words().into_iter().filter(|text| text.starts_with('×')).collect()
     }
 
     #[test]

@@ -76,16 +76,8 @@ fn the_values_beside_a_plot_keep_their_places_while_the_curves_cross() {
 fn a_saved_picture_has_no_tabs_and_an_enlarged_instrument_has_the_room_of_the_table() {
     let mut lab = race_of_springs();
     let has_tabs = |texts: &[(Rect, String)]| texts.iter().any(|(_, text)| text == "Explain");
-    let context = Context::default();
-    theme::dress(&context);
-    let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, vec2(960.0, 600.0)));
-    let input = RawInput { screen_rect, ..RawInput::default() };
-    let mut output = context.run_ui(input, |ui| panels::show_instrument(ui, &lab));
-    output.textures_delta.clear();
-    let mut alone = Vec::new();
-    for clipped in output.shapes {
-        collect(&clipped.shape, clipped.clip_rect, &mut alone);
-    }
+    let mut window = TestWindow::new([960.0, 600.0]);
+    let alone = window.show(Vec::new(), |ui| panels::show_instrument(ui, &lab)).1.whole();
     assert!(!has_tabs(&alone) && alone.iter().any(|(_, text)| text == "time t, s"), "{alone:?}");
     let size = vec2(1280.0, 720.0);
     let lowest = |lab: &Lab| {
