@@ -119,7 +119,7 @@ impl Plots<'_> {
         exact: Option<ExactLine>,
         ([from, to], (low, high)): ([f64; 2], (f64, f64)),
     ) -> PlotModel {
-        let axes = [PlotAxis::new("moment of display", "s", AxisScale::Linear), up];
+        let axes = [PlotAxis::time("moment of display"), up];
         let plot = self.plot(id, SHOWN, axes, [[from, to], [low, high]]);
         PlotModel { tracks, exact: exact.into_iter().collect(), ..plot }
     }

@@ -81,7 +81,7 @@ pub(super) fn sheet(lab: &Lab) -> Option<Sheet> {
     let pad = 0.08 * (high - low);
     let id = format!("area of the cloud of {body}");
     let title = capitalised(&lab.scene().bodies[body].name);
-    let axes = [PlotAxis::time(), PlotAxis::new("area / start", "", scale)];
+    let axes = [PlotAxis::time("time t"), PlotAxis::new("area / start", "", scale)];
     let plot = PlotModel::new(body, id, title, axes, over_time(lab, (low - pad, high + pad)));
     let plot = PlotModel { tracks, exact: vec![exact], ..plot };
     Some(Sheet { roster: Roster::of(lab), title: "Area of the cloud".into(), plots: vec![plot] })

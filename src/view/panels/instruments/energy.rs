@@ -48,7 +48,7 @@ fn energies(lab: &Lab, body: usize) -> PlotModel {
     let range = exact.iter().flat_map(|line| line.fitted(lab, 1));
     let y = ranges::around_truth(range, &Track::fitted(lab, &tracks), 1, healthy(lab));
     let (id, title) = (format!("energies of {body}"), "kinetic dashed, potential dotted".into());
-    let axes = [PlotAxis::time(), PlotAxis::new("energy", "J", AxisScale::Linear)];
+    let axes = [PlotAxis::time("time t"), PlotAxis::new("energy", "J", AxisScale::Linear)];
     let plot = PlotModel::new(body, id, title, axes, over_time(lab, y));
     PlotModel { tracks, exact: exact.into(), ..plot }
 }

@@ -4,7 +4,7 @@ use super::super::ranges;
 use super::super::roster::Roster;
 use super::super::tracks::Track;
 use super::sheet::{PlotAxis, PlotModel, Sheet, over_time};
-use crate::lab::{Lab, METRICS, Metric, Scale};
+use crate::lab::{Lab, METRICS, Metric, Scale, Unit};
 use crate::view::chart::{AxisScale, Dots};
 
 /// Said where every error is zero, which has no logarithm.
@@ -36,7 +36,7 @@ pub(super) fn plot(lab: &Lab, body: usize, place: usize, title: String) -> PlotM
     let scale = scale(metric, &values);
     let tracks = Track::of(lab, body, |s| [s.t, scale.place(s.metrics[place])]);
     let fitted = Track::fitted(lab, &tracks);
-    let y = match (metric.scale, &*unit) {
+    let y = match (metric.scale, metric.unit) {
         (Scale::Log, _) => {
             let truth = lab.past().truth_curves()[body].samples();
             let size = truth.map(|s| s.q.abs().max(s.v.abs()));
@@ -45,14 +45,14 @@ pub(super) fn plot(lab: &Lab, body: usize, place: usize, title: String) -> PlotM
         (Scale::Linear, _) if matches!(scale, AxisScale::SymLog(_)) => {
             ranges::of_drift(&fitted, scale)
         }
-        (Scale::Linear, "%") => ranges::of_shares(&fitted),
+        (Scale::Linear, Unit::Of("%")) => ranges::of_shares(&fitted),
         (Scale::Linear, _) => ranges::from_zero(&fitted),
     };
     let is_empty = tracks.iter().all(Track::is_empty);
     let has_values = values.iter().any(|track| !track.is_empty());
     let nothing = if has_values { NO_ERROR } else { metric.absent_on(truth) };
     let nothing = is_empty.then(|| nothing.to_owned());
-    let axes = [PlotAxis::time(), PlotAxis::new(metric.name, &unit, scale)];
+    let axes = [PlotAxis::time("time t"), PlotAxis::new(metric.name, &unit, scale)];
     let id = format!("{} of {body}", metric.id);
     let plot = PlotModel::new(body, id, title, axes, over_time(lab, y));
     PlotModel { tracks, dots: Dots::SparseAlongX, nothing, ..plot }

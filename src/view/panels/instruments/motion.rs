@@ -42,7 +42,7 @@ fn plot(lab: &Lab, body: usize, detail: Detail) -> PlotModel {
         None => name,
     };
     let id = format!("{} of {body}", quantity.symbol(&coordinate));
-    let axes = [PlotAxis::time(), PlotAxis::of_quantity(quantity, &coordinate)];
+    let axes = [PlotAxis::time("time t"), PlotAxis::of_quantity(quantity, &coordinate)];
     let plot = PlotModel::new(body, id, title, axes, over_time(lab, y));
     PlotModel { tracks, dots: Dots::SparseAlongX, exact: vec![exact], ..plot }
 }

@@ -48,6 +48,7 @@ pub(super) struct PlotAxis {
     /// Empty for a pure number.
     pub(super) unit: String,
     pub(super) scale: AxisScale,
+    is_time: bool,
 }
 
 /// A curve of the exact solution.
@@ -78,7 +79,7 @@ pub(super) struct Readout {
 
 impl PlotAxis {
     pub(super) fn new(quantity: &str, unit: &str, scale: AxisScale) -> Self {
-        Self { quantity: quantity.into(), unit: unit.into(), scale }
+        Self { quantity: quantity.into(), unit: unit.into(), scale, is_time: false }
     }
 
     /// A coordinate.
@@ -104,8 +105,9 @@ impl PlotAxis {
         }
     }
 
-    pub(super) fn time() -> Self {
-        Self::new("time t", "s", AxisScale::Linear)
+    /// Time in seconds.
+    pub(super) fn time(quantity: &str) -> Self {
+        Self { is_time: true, ..Self::new(quantity, "s", AxisScale::Linear) }
     }
 
     /// The quantity with its unit.
@@ -275,7 +277,7 @@ impl PlotModel {
 
     /// Whether the axis along is time.
     pub(super) fn is_over_time(&self) -> bool {
-        self.axes[0].unit == "s"
+        self.axes[0].is_time
     }
 
     /// The names of its axes among all of a scene. All plots over one time have the same time in view.
