@@ -77,7 +77,7 @@ pub fn run(
         .map_err(|error| WindowError::NoDisplay(reason(&error)))?;
     let proxy = event_loop.create_proxy();
     if heeds_interrupts {
-        interrupt::heed(event_loop.create_proxy());
+        interrupt::send_interrupts(event_loop.create_proxy());
     }
     let SceneFiles { read, opened, keep } = files;
     let watch = FileWatch::new(Arc::clone(&read), proxy.clone());
@@ -325,7 +325,7 @@ impl ApplicationHandler<Event> for App {
     }
 
     fn user_event(&mut self, event_loop: &ActiveEventLoop, event: Event) {
-        self.heed(event_loop, event);
+        self.handle(event_loop, event);
     }
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {

@@ -10,7 +10,7 @@ use super::error::Error;
 use super::experiment::{
     self, Experiment, ExperimentArgs, Lineup, ThemeName, known_cloud, known_instrument, known_trace,
 };
-use super::frame_folder::{Existing, FrameFolder};
+use super::frame_folder::{FolderPolicy, FrameFolder};
 use super::frame_names::MAX_FRAMES;
 use super::movie::{self, MovieFormat};
 use super::output::picture_format::PictureFormat;
@@ -168,7 +168,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
     };
     let movie = match format {
         PictureFormat::Png => {
-            let existing = if args.force { Existing::Replace } else { Existing::Refuse };
+            let existing = if args.force { FolderPolicy::Replace } else { FolderPolicy::Refuse };
             let folder = FrameFolder::inspect(&args.out, existing, "--out")?;
             return clip::record(&experiment, capture, folder).map(drop);
         }

@@ -22,7 +22,7 @@ use entries::{Entries, is_a_captures};
 
 /// What may become of the frames that a folder holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Existing {
+pub(super) enum FolderPolicy {
     /// The folder has to be empty or new.
     Refuse,
     /// Frames make way for the new ones; other entries stay.
@@ -35,7 +35,7 @@ pub(super) enum Existing {
 #[derive(Debug)]
 pub(super) struct FrameFolder {
     path: PathBuf,
-    existing: Existing,
+    existing: FolderPolicy,
     /// The command-line option that names the folder.
     option: &'static str,
     entries: Entries,
@@ -53,7 +53,7 @@ impl FrameFolder {
     /// replaced.
     pub(super) fn inspect(
         path: &Path,
-        existing: Existing,
+        existing: FolderPolicy,
         option: &'static str,
     ) -> Result<Self, Error> {
         let mut folder = Self {
@@ -80,7 +80,7 @@ impl FrameFolder {
     pub(super) fn beside(name: &str) -> Result<Self, Error> {
         let siblings = (2..).map(|n: u32| format!("{name}-{n}"));
         for sibling in std::iter::once(name.to_owned()).chain(siblings) {
-            match Self::inspect(Path::new(&sibling), Existing::Refuse, "working directory") {
+            match Self::inspect(Path::new(&sibling), FolderPolicy::Refuse, "working directory") {
                 Err(taken) if taken.is_mistake() => {}
                 found => return found,
             }
@@ -101,25 +101,25 @@ impl FrameFolder {
         self.lock = lock;
         let read = || Entries::read(path).map_err(Error::of_file("read", path, option));
         let mut entries = read()?;
-        if self.existing == Existing::Refuse && !entries.is_empty() {
+        if self.existing == FolderPolicy::Refuse && !entries.is_empty() {
             let path = path.display();
             return Err(Error::mistake(format!(
                 "{path} is not empty; give another --out, or --force to replace the frames in it"
             )));
         }
-        if self.existing == Existing::Bless {
+        if self.existing == FolderPolicy::Bless {
             // A capture may stop before the frame that a directory blocks; a swap replaces all frames.
             entries.foreign = entries.foreign.or(entries.in_the_way.take());
         }
         if let Some(path) = entries.foreign {
             return Err(not_ours(&path, option));
         }
-        if self.existing != Existing::Refuse && is_pending(path) {
+        if self.existing != FolderPolicy::Refuse && is_pending(path) {
             let fail = Error::of_file("finish the --bless in", path, option);
             blessing::complete(path).map_err(fail)?;
             entries = read()?;
         }
-        if self.existing == Existing::Bless
+        if self.existing == FolderPolicy::Bless
             && let Some(path) = blessing::in_the_way(path)
         {
             return Err(not_ours(&path, option));
@@ -135,7 +135,7 @@ impl FrameFolder {
 
     /// Whether an incomplete set of frames is worth keeping.
     pub(super) fn takes_a_part(&self) -> bool {
-        self.existing != Existing::Bless
+        self.existing != FolderPolicy::Bless
     }
 
     /// The directory that files are written to.
@@ -160,7 +160,7 @@ impl FrameFolder {
             fs::remove_dir_all(&path).map_err(fail(&path))?;
         }
         let goes = |name: &OsString| match self.existing {
-            Existing::Bless => name.to_str().is_some_and(|name| !is_a_captures(name)),
+            FolderPolicy::Bless => name.to_str().is_some_and(|name| !is_a_captures(name)),
             _ => true,
         };
         // The manifest, which speaks of the frames, goes before them.
@@ -168,7 +168,7 @@ impl FrameFolder {
             let path = self.path.join(name);
             fs::remove_file(&path).map_err(fail(&path))?;
         }
-        if self.existing == Existing::Bless {
+        if self.existing == FolderPolicy::Bless {
             let blessing = Blessing::begin(&self.path);
             let failed = Error::of_file("make a directory in", &self.path, self.option);
             self.blessing = Some(blessing.map_err(failed)?);

@@ -10,7 +10,7 @@ use super::meshes::MeshRenderer;
 use super::panels::{self, Panels};
 use super::stage::{Stage, StageRenderer};
 use super::textures::{Start, pass};
-use super::theme::{self, colour, growth};
+use super::theme::{self, auto_zoom, colour};
 use super::touch::Touch;
 use crate::lab::picture::{self, Align, Label};
 use crate::lab::{Command, Lab, ViewCommand};
@@ -49,7 +49,7 @@ impl FrameRenderer {
     /// A renderer for targets of `format`, which is one in gamma space.
     pub fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
         let context = egui::Context::default();
-        theme::dress(&context);
+        theme::apply_style(&context);
         // Discs are drawn as polygons: one from the atlas would have to be filtered.
         context.tessellation_options_mut(|options| options.prerasterized_discs = false);
         Self {
@@ -162,7 +162,7 @@ impl FrameRenderer {
         scale: f32,
         figure: &Figure,
     ) -> Option<wgpu::CommandBuffer> {
-        theme::set_zoom(&self.context, growth(size_px.map(|side| side as f32 / scale)));
+        theme::set_zoom(&self.context, auto_zoom(size_px.map(|side| side as f32 / scale)));
         let input = egui::RawInput::default();
         let layout = self.lay_out_with(gpu, size_px, scale, input, |ui| {
             figure::show(ui, figure);

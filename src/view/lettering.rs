@@ -2,7 +2,7 @@
 
 use egui::{Color32, Context, FontId, RawInput};
 
-use super::theme::{dress, strong_font};
+use super::theme::{apply_style, strong_font};
 use crate::lab::palette::{Rgba, mixed};
 
 /// The size of type in a picture, in pixels.
@@ -16,7 +16,7 @@ pub struct Lettering {
 impl Default for Lettering {
     fn default() -> Self {
         let context = Context::default();
-        dress(&context);
+        apply_style(&context);
         // Fonts are there from the first frame on.
         context.run_ui(RawInput::default(), |_| ()).textures_delta.clear();
         Self { context }

@@ -46,7 +46,7 @@ mod tests {
     #[test]
     fn a_sign_that_no_font_has_is_drawn_as_a_box_and_a_blank_as_nothing() {
         let context = Context::default();
-        theme::dress(&context);
+        theme::apply_style(&context);
         context.run_ui(RawInput::default(), |_| {}).textures_delta.clear();
         let inked = |words: &str, font: FontId| {
             let layout = |fonts: &mut egui::epaint::text::FontsView<'_>| {

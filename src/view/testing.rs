@@ -91,7 +91,7 @@ pub(super) struct TestWindow {
 impl TestWindow {
     pub(super) fn new(size: impl Into<Vec2>) -> Self {
         let context = Context::default();
-        theme::dress(&context);
+        theme::apply_style(&context);
         Self { context, size: size.into(), time_s: 0.0, frame_s: 1.0 / 60.0 }
     }
 

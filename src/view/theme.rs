@@ -88,7 +88,7 @@ const LARGEST: f32 = 2.0;
 
 /// How much larger everything is in a window of this size, in points, than at the usual one: type grows with the
 /// square root of the window, in steps of which none is seen as one.
-pub(super) fn growth(size: [f32; 2]) -> f32 {
+pub(super) fn auto_zoom(size: [f32; 2]) -> f32 {
     let times = (size[0] / USUAL_SIZE[0]).min(size[1] / USUAL_SIZE[1]).max(1.0);
     (8.0 * times.sqrt().min(LARGEST)).round() / 8.0
 }
@@ -99,7 +99,7 @@ const MIN_ROOM: [f32; 2] = [800.0, 480.0];
 /// How much larger everything is in a window of this size, in points, than at the usual one, where a person has chosen this
 /// size of type and panels in percent. A window that is too small for the choice shows the largest that fits.
 pub(super) fn zoom(size: [f32; 2], percent: u32) -> f32 {
-    let grown = growth(size);
+    let grown = auto_zoom(size);
     let largest = (size[0] / MIN_ROOM[0]).min(size[1] / MIN_ROOM[1]);
     (grown * percent as f32 / 100.0).min(largest.max(grown))
 }
@@ -125,7 +125,7 @@ pub(super) fn quantity_font(size: f32) -> FontId {
 }
 
 /// The look of every widget. Set once for each context.
-pub(super) fn dress(context: &egui::Context) {
+pub(super) fn apply_style(context: &egui::Context) {
     context.set_fonts(fonts());
     context.add_glyph_rasterizer(missing_glyph::rasterizer());
     // The keys for the size of type are ours.
@@ -237,12 +237,12 @@ mod tests {
 
     #[test]
     fn type_grows_with_the_window_and_never_shrinks() {
-        assert_eq!(growth([1280.0, 720.0]), 1.0);
-        assert_eq!(growth([800.0, 600.0]), 1.0);
-        assert_eq!(growth([1920.0, 720.0]), 1.0);
-        assert!((1.2..1.3).contains(&growth([1920.0, 1080.0])));
-        assert!((1.6..1.8).contains(&growth([3840.0, 2160.0])));
-        assert_eq!(growth([1e5, 1e5]), LARGEST);
+        assert_eq!(auto_zoom([1280.0, 720.0]), 1.0);
+        assert_eq!(auto_zoom([800.0, 600.0]), 1.0);
+        assert_eq!(auto_zoom([1920.0, 720.0]), 1.0);
+        assert!((1.2..1.3).contains(&auto_zoom([1920.0, 1080.0])));
+        assert!((1.6..1.8).contains(&auto_zoom([3840.0, 2160.0])));
+        assert_eq!(auto_zoom([1e5, 1e5]), LARGEST);
     }
 
     #[test]
@@ -264,7 +264,7 @@ mod tests {
     #[test]
     fn every_sign_of_the_project_is_in_a_font() {
         let context = egui::Context::default();
-        dress(&context);
+        apply_style(&context);
         context.run_ui(egui::RawInput::default(), |_| {}).textures_delta.clear();
         let signs = "−×°²³⁰⁴⁵⁶⁷⁸⁹⁻₀₁₂ωΔζλμ←↑→↓↺…·⏮⏸⏭▶◀▲◆▼●✓½¼⅛×√≤≥";
         context.fonts_mut(|fonts| {

@@ -39,7 +39,7 @@ pub(super) enum Event {
 
 impl App {
     /// Does what the event asks for.
-    pub(super) fn heed(&mut self, event_loop: &ActiveEventLoop, event: Event) {
+    pub(super) fn handle(&mut self, event_loop: &ActiveEventLoop, event: Event) {
         match event {
             #[cfg(feature = "accessibility")]
             Event::ScreenReader(request) => {

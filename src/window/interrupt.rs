@@ -7,7 +7,7 @@ use winit::event_loop::EventLoopProxy;
 use super::Event;
 
 /// Makes Ctrl-C, SIGTERM and SIGHUP send an event to the window in place of ending the process.
-pub(super) fn heed(window: EventLoopProxy<Event>) {
+pub(super) fn send_interrupts(window: EventLoopProxy<Event>) {
     let window = Mutex::new(window);
     let tell = move || {
         // A closed window needs no event.

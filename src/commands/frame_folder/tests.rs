@@ -3,7 +3,7 @@
 use super::*;
 use crate::view::png;
 
-fn inspect(path: &Path, existing: Existing) -> Result<FrameFolder, Error> {
+fn inspect(path: &Path, existing: FolderPolicy) -> Result<FrameFolder, Error> {
     FrameFolder::inspect(path, existing, "--out")
 }
 
@@ -24,9 +24,9 @@ fn a_folder_in_use_is_refused_and_left_as_it_is() {
     let parent = tempfile::tempdir().unwrap();
     let path = parent.path().join("clip");
     fs::create_dir(&path).unwrap();
-    assert!(inspect(&path, Existing::Refuse).is_ok());
+    assert!(inspect(&path, FolderPolicy::Refuse).is_ok());
     fs::write(path.join("frame-000000.png"), "old").unwrap();
-    let error = inspect(&path, Existing::Refuse).unwrap_err();
+    let error = inspect(&path, FolderPolicy::Refuse).unwrap_err();
     assert!(error.is_mistake() && error.to_string().contains("is not empty"), "{error}");
     assert_eq!(fs::read(path.join("frame-000000.png")).unwrap(), b"old");
 }
@@ -41,7 +41,7 @@ fn frames_replace_frames_and_nothing_else() {
     for name in ["frame-000001.png.part", "manifest.json.part", "notes.txt"] {
         fs::write(file(name), "mine").unwrap();
     }
-    let mut frames = inspect(folder.path(), Existing::Replace).unwrap();
+    let mut frames = inspect(folder.path(), FolderPolicy::Replace).unwrap();
     frames.clear().unwrap();
     frames.push(&frame(1)).unwrap();
     let others = ["frame-000001.png.part", "manifest.json.part", "notes.txt"];
@@ -57,7 +57,7 @@ fn frames_replace_frames_and_nothing_else() {
 
 #[test]
 fn what_only_has_the_name_of_ours_is_never_touched() {
-    for existing in [Existing::Replace, Existing::Bless] {
+    for existing in [FolderPolicy::Replace, FolderPolicy::Bless] {
         for (name, bytes) in [
             ("manifest.json", &br#"{"name":"my web app","version":"1"}"#[..]),
             ("frame-000003.png", b"a frame of another program"),
@@ -80,9 +80,9 @@ fn what_only_has_the_name_of_ours_is_never_touched() {
 fn a_folder_has_one_writer_at_a_time() {
     let parent = tempfile::tempdir().unwrap();
     let path = parent.path().join("clip");
-    let [mut first, mut second] = [0, 1].map(|_| inspect(&path, Existing::Replace).unwrap());
+    let [mut first, mut second] = [0, 1].map(|_| inspect(&path, FolderPolicy::Replace).unwrap());
     first.clear().unwrap();
-    for busy in [second.clear().unwrap_err(), inspect(&path, Existing::Refuse).unwrap_err()] {
+    for busy in [second.clear().unwrap_err(), inspect(&path, FolderPolicy::Refuse).unwrap_err()] {
         assert!(
             busy.is_mistake() && busy.to_string().contains("another regatta is writing"),
             "{busy}"
@@ -98,7 +98,7 @@ fn a_folder_has_one_writer_at_a_time() {
 fn a_folder_filled_while_it_was_waited_for_is_refused() {
     let parent = tempfile::tempdir().unwrap();
     let path = parent.path().join("clip");
-    let [mut first, mut second] = [0, 1].map(|_| inspect(&path, Existing::Refuse).unwrap());
+    let [mut first, mut second] = [0, 1].map(|_| inspect(&path, FolderPolicy::Refuse).unwrap());
     first.clear().unwrap();
     first.push(&frame(0)).unwrap();
     first.finish("{}").unwrap();
@@ -109,7 +109,7 @@ fn a_folder_filled_while_it_was_waited_for_is_refused() {
 #[test]
 fn a_frame_that_cannot_be_written_leaves_nothing_behind() {
     let parent = tempfile::tempdir().unwrap();
-    let mut frames = inspect(parent.path(), Existing::Refuse).unwrap();
+    let mut frames = inspect(parent.path(), FolderPolicy::Refuse).unwrap();
     frames.clear().unwrap();
     // A directory of that name cannot be replaced by a file.
     fs::create_dir_all(parent.path().join("frame-000001.png/in the way")).unwrap();
@@ -126,7 +126,7 @@ fn a_file_in_the_way_is_no_folder() {
     let parent = tempfile::tempdir().unwrap();
     let path = parent.path().join("clip");
     fs::write(&path, "mine").unwrap();
-    let error = inspect(&path, Existing::Replace).unwrap_err();
+    let error = inspect(&path, FolderPolicy::Replace).unwrap_err();
     assert!(error.is_mistake() && error.to_string().contains("is not a directory"), "{error}");
 }
 

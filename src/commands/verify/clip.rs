@@ -15,7 +15,7 @@ use super::rerun::{Frames, Rerun};
 use crate::commands::clip::record;
 use crate::commands::error::Error;
 #[cfg(feature = "view")]
-use crate::commands::frame_folder::{Existing, FrameFolder};
+use crate::commands::frame_folder::{FolderPolicy, FrameFolder};
 use crate::commands::frame_names::is_pending;
 use crate::commands::manifest::{self, FILE_NAME, Manifest, SCHEMA};
 use crate::commands::output::DirectoryLock;
@@ -149,7 +149,7 @@ pub(super) fn bless(dir: &Path) -> Result<(), Error> {
     if !dir.join(FILE_NAME).exists() && !is_pending(dir) {
         read_run(dir)?;
     }
-    let folder = FrameFolder::inspect(dir, Existing::Bless, "DIR")?;
+    let folder = FrameFolder::inspect(dir, FolderPolicy::Bless, "DIR")?;
     let Rerun { experiment, capture, .. } = read_run(dir)?;
     let drawn = record(&experiment, capture, folder);
     drawn.map(drop).map_err(|error| error.within("not blessed"))

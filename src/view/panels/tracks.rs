@@ -218,22 +218,27 @@ const THINNER: f32 = 1.0;
 
 /// How tracks are drawn.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Look {
+pub(super) struct TrackStyle {
     pub(super) dots: Dots,
     /// Whether the axis along is time: no lane leaves the plot by it, for the plot follows.
     pub(super) is_over_time: bool,
 }
 
 /// The lanes within `bounds`, with an arrow where one leaves them and a mark where one was switched.
-pub(super) fn drawing(roster: &Roster, tracks: &[Track], bounds: &Bounds, look: Look) -> Drawing {
+pub(super) fn drawing(
+    roster: &Roster,
+    tracks: &[Track],
+    bounds: &Bounds,
+    style: TrackStyle,
+) -> Drawing {
     let mut drawing = Drawing::default();
     for track in tracks {
-        add(&mut drawing, roster, track, bounds, look);
+        add(&mut drawing, roster, track, bounds, style);
     }
     drawing
 }
 
-fn add(drawing: &mut Drawing, roster: &Roster, track: &Track, bounds: &Bounds, look: Look) {
+fn add(drawing: &mut Drawing, roster: &Roster, track: &Track, bounds: &Bounds, style: TrackStyle) {
     let points = &track.points[..];
     let is_dim = roster.is_race && !track.is_front;
     let is_thin = is_dim || track.strength < 1.0;
@@ -251,9 +256,9 @@ fn add(drawing: &mut Drawing, roster: &Roster, track: &Track, bounds: &Bounds, l
             let [low, high] = bounds[i];
             values[i].iter().all(|value| (low..=high).contains(value))
         };
-        (look.is_over_time || is_within(0)) && is_within(1)
+        (style.is_over_time || is_within(0)) && is_within(1)
     };
-    let is_in_view = |point: &Point| !look.is_over_time || point.at[0] >= bounds[0][0];
+    let is_in_view = |point: &Point| !style.is_over_time || point.at[0] >= bounds[0][0];
     let mut is_drawn = vec![false; points.len()];
     for stay in stays(points, within, RETURNED * roster.length_s) {
         let (first, last) = stay.into_inner();
@@ -266,7 +271,7 @@ fn add(drawing: &mut Drawing, roster: &Roster, track: &Track, bounds: &Bounds, l
             let newest = &run[run.len() - 1];
             let dash = track.dash.unwrap_or(runner(newest).dash);
             Curve {
-                style: LineStyle { colour: rgba(newest), width, dash, dots: look.dots },
+                style: LineStyle { colour: rgba(newest), width, dash, dots: style.dots },
                 points: if track.is_held { staircase(run) } else { places(run) },
                 swept: if track.is_held { Vec::new() } else { swept(run) },
             }

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use super::super::ink_of;
 use super::super::roster::{Roster, Runner};
-use super::super::tracks::{self, Look, Track};
+use super::super::tracks::{self, Track, TrackStyle};
 use crate::lab::number::significant;
 use crate::lab::past::{TruthCurve, TruthSample};
 use crate::lab::{Coordinate, Lab, LaneBody, Quantity, Unit};
@@ -304,9 +304,9 @@ impl PlotModel {
             let ([low, high], [least, most]) = (bounds[axis], self.fit[axis]);
             [low.min(least), high.max(most)]
         });
-        let look = Look { dots: self.dots, is_over_time: self.is_over_time() };
-        let mut drawing = tracks::drawing(roster, &self.tracks, &healthy, look);
-        if !look.is_over_time {
+        let style = TrackStyle { dots: self.dots, is_over_time: self.is_over_time() };
+        let mut drawing = tracks::drawing(roster, &self.tracks, &healthy, style);
+        if !style.is_over_time {
             drawing.switch_mark = SwitchMark::Ring;
         }
         let truth = &lab.race().truth().bodies()[self.body];

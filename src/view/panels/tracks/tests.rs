@@ -2,7 +2,7 @@ use super::*;
 use crate::lab::{Action, RunCommand, Scene, StageCommand};
 use crate::view::panels::ink_of;
 
-const LOOK: Look = Look { dots: Dots::None, is_over_time: true };
+const STYLE: TrackStyle = TrackStyle { dots: Dots::None, is_over_time: true };
 
 fn colour_of(lab: &Lab, entry: usize) -> egui::Color32 {
     ink_of(lab.display().theme).style(lab.entries(), &lab.entries()[entry]).0
@@ -10,7 +10,7 @@ fn colour_of(lab: &Lab, entry: usize) -> egui::Color32 {
 
 fn drawn(lab: &Lab, low: f64, high: f64) -> Drawing {
     let bounds = [[0.0, 20.0], [low, high]];
-    drawing(&Roster::of(lab), &Track::of(lab, 0, |s| [s.t, s.q]), &bounds, LOOK)
+    drawing(&Roster::of(lab), &Track::of(lab, 0, |s| [s.t, s.q]), &bounds, STYLE)
 }
 
 fn tick(lab: &mut Lab, ticks: u32) {
