@@ -256,6 +256,46 @@ fn clouds_start_anew_under_another_rate_method_or_parameter_and_tell_until_then_
     assert!(lab.cloud_request().is_none() && lab.cloud().is_none());
 }
 
+/// The clouds of a law of one coordinate `x`, 1 at the start, under Runge-Kutta after so many ticks.
+fn of_law(acceleration: &str, ticks: u64) -> CloudPicture {
+    let text = format!(
+        "title = \"it\"\nabout = \"it\"\ntick_hz = 100\nseconds = 10\nmethods = [\"rk4\"]\n\
+         [[law]]\ncoordinates = {{ x = {{ start = 1.0, acceleration = \"{acceleration}\" }} }}\n"
+    );
+    let mut lab = Lab::new(Scene::parse("it.toml", &text).unwrap());
+    lab.apply(StageCommand::Instrument(Instrument::Cloud));
+    lab.apply(RunCommand::Cloud(CloudChoice { points: 2000, ..CloudChoice::default() }));
+    (0..ticks).for_each(|_| lab.tick());
+    picture(&mut lab, &mut CloudWorker::default()).clone()
+}
+
+#[test]
+fn an_area_that_comes_back_neither_grows_nor_is_kept() {
+    // The area is exp(-sin t) of that at the start: the least of it a quarter of a turn after the start.
+    let [turning, back] = [150, 314].map(|ticks| of_law("-x - cos(t)*vx", ticks));
+    assert!(turning.lanes[0].words.starts_with("shrinks"), "{}", turning.lanes[0].words);
+    assert!((back.lanes[0].area_ratio.unwrap() - 1.0).abs() < 0.01);
+    assert_eq!(back.lanes[0].words, "has come back from ×0.368");
+}
+
+#[test]
+fn points_that_fly_off_are_counted_and_do_not_rule_the_area() {
+    let points = |picture: &CloudPicture| {
+        let [lane] = &picture.lanes[..] else { panic!("one lane") };
+        let shown: u32 = lane.density.counts().iter().sum();
+        [shown as usize, lane.hidden, lane.lost]
+    };
+    for ticks in (0..600).step_by(150) {
+        let picture = of_law("-x + x^3", ticks);
+        let [shown, hidden, lost] = points(&picture);
+        assert_eq!(shown + hidden + lost, 2000, "after {ticks} ticks");
+        assert!(ticks > 0 || shown == 2000, "after {ticks} ticks: {shown}");
+        assert!(ticks < 400 || hidden > 200 && lost > 200, "after {ticks} ticks: {hidden}, {lost}");
+        let area = picture.lanes[0].area_ratio;
+        assert!(area.is_none_or(|area| (area - 1.0).abs() < 0.2), "after {ticks} ticks: {area:?}");
+    }
+}
+
 #[test]
 fn the_exact_cloud_goes_with_the_exact_body_through_kicks_and_other_parameters() {
     let scene = Scene::built_in("pendulum").unwrap();
