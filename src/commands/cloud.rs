@@ -158,6 +158,9 @@ const USUAL_SECONDS: f64 = 60.0;
 /// How far other clouds stretch the axes, in widths of what the exact one covers.
 const BESIDE: f64 = 1.0;
 
+/// A cloud of which this part is beyond the axes says so.
+const HIDDEN: f64 = 0.1;
+
 /// The longest run that sets the axes, in seconds.
 const LONGEST_SCOUTED_S: u64 = 30;
 
@@ -172,9 +175,16 @@ struct Run {
     /// The ticks that are stepped at once.
     part: u64,
     section: Option<Section>,
+    /// The areas on the way, where they are known.
+    areas: Vec<f64>,
 }
 
 impl Run {
+    /// What the area has become.
+    fn words(&self, area_ratio: Option<f64>) -> String {
+        self.cloud.in_words(area_ratio, self.areas.iter().copied())
+    }
+
     /// Steps to a tick, and draws the points of a section at each crossing on the way; returns whether it came there before an
     /// interrupt.
     fn go_to(&mut self, tick: u64, interrupted: &AtomicBool) -> bool {
@@ -294,8 +304,14 @@ fn make(
     Cloud::find_room(points, specs).map_err(no_cloud)?;
     let cloud = |spec: &LaneSpec| {
         let cloud = Cloud::new(name, &*body, spec, start, points, scene.tick_hz);
-        let part = 1;
-        cloud.map(|cloud| Run { spec: *spec, cloud, stepping: Duration::ZERO, part, section: None })
+        cloud.map(|cloud| Run {
+            spec: *spec,
+            cloud,
+            stepping: Duration::ZERO,
+            part: 1,
+            section: None,
+            areas: Vec::new(),
+        })
     };
     let mut runs = specs.iter().map(cloud).collect::<Result<Vec<_>, _>>().map_err(no_cloud)?;
     let seconds = args.seconds.unwrap_or(scene.seconds.min(USUAL_SECONDS));
@@ -337,8 +353,8 @@ fn make(
     let mut frames = Vec::new();
     let mut border = CloudBorder::exact(name, &*body, start, scene.tick_hz).map_err(no_cloud)?;
     let every = match (form, strobe) {
-        (Form::Rows | Form::Png, _) => ticks,
-        (Form::Gif, None) => ticks.div_ceil(MAX_FRAMES),
+        (_, None) => ticks.div_ceil(MAX_FRAMES),
+        (Form::Rows | Form::Png, Some(_)) => ticks,
         (Form::Gif, Some(period)) => ticks.div_ceil(MAX_FRAMES).max(period.ceil() as u64),
     };
     let mut done = 0;
@@ -349,8 +365,10 @@ fn make(
                 let tick = run.cloud.tick();
                 return Err(Error::interrupted_after(format!("{tick} of {ticks} ticks")));
             }
+            run.areas.extend(run.cloud.area_ratio());
         }
-        let Some(paper) = &paper else { continue };
+        let is_shown = form == Form::Gif || done == ticks;
+        let Some(paper) = paper.as_ref().filter(|_| is_shown) else { continue };
         let lines = match strobe {
             Some(_) => Vec::new(),
             None => {
@@ -399,7 +417,8 @@ impl Paper {
         let palette = theme.palette();
         let mut pixels: Vec<Rgba> = vec![palette.background; width * height];
         let specs: Vec<LaneSpec> = runs.iter().map(|run| run.spec).collect();
-        for (place, Run { spec, cloud, section, .. }) in runs.iter().enumerate() {
+        for (place, run) in runs.iter().enumerate() {
+            let Run { spec, cloud, section, .. } = run;
             let density = match section {
                 Some(section) => section.density().clone(),
                 None => {
@@ -419,7 +438,14 @@ impl Paper {
             let ratio = area.map(|ratio| format!("area ×{}: ", significant(ratio, 3)));
             let words = match section {
                 Some(section) => format!("{} crossings", section.crossings()),
-                None => format!("{}{}", ratio.unwrap_or_default(), cloud.in_words(area)),
+                None => {
+                    let (left, all) = (cloud.points_left(), cloud.q().len());
+                    let shown: u32 = density.counts().iter().sum();
+                    let part = left.saturating_sub(shown as usize) as f64 / all as f64;
+                    let outside = format!("; {} % outside", significant(100.0 * part, 2));
+                    let outside = if part >= HIDDEN { outside } else { String::new() };
+                    format!("{}{}{outside}", ratio.unwrap_or_default(), run.words(area))
+                }
             };
             let name = spec.distinct_name(spec.method.name, &specs);
             for (line, (words, style)) in
@@ -450,7 +476,7 @@ fn row(run: &Run, specs: &[LaneSpec], points: usize, ticks: u64, form: Form) -> 
     };
     let how = cloud.measured_in_words();
     if form != Form::Rows || !lost.is_empty() {
-        tell(&format!("{method} {} ({how}){lost}", cloud.in_words(measure.area_ratio)));
+        tell(&format!("{method} {} ({how}){lost}", run.words(measure.area_ratio)));
     }
     let steps = points as f64 * ticks as f64 * f64::from(spec.substeps);
     Row { method, measure, body_steps_per_s: steps / stepping.as_secs_f64().max(1e-9) }

@@ -5,6 +5,7 @@
 
 use crate::sim::batch::{Batch, Ticks};
 use crate::sim::integrators::Family;
+use crate::sim::number::significant;
 use crate::sim::{State, Stepper};
 
 mod axes;
@@ -20,7 +21,7 @@ mod shape;
 pub use axes::{CloudAxes, ShownTicks};
 pub use border::CloudBorder;
 use course::{Course, Memory};
-pub use density::{Density, PlaneView};
+pub use density::{Density, LONGEST_LINE, PlaneView};
 use lozenges::Lozenges;
 pub(super) use request::MAX_CLOUDS;
 pub use request::{
@@ -147,6 +148,10 @@ enum Area {
     /// All of it, where near points take steps of their own: the map is too rough for small areas.
     Border(CloudBorder),
 }
+
+/// How many times further an area was than it is, and by how much besides, as a natural logarithm, for it to be on its way back.
+const BACK: f64 = 1.1;
+const LITTLE_BACK: f64 = 0.01;
 
 /// The mean of areas is not known if its standard error is more than this part of it: a few that go far away rule it then.
 const UNEVEN: f64 = 0.1;
@@ -312,17 +317,29 @@ impl Cloud {
         }
     }
 
-    /// What the area has become, in words.
-    pub fn in_words(&self, area_ratio: Option<f64>) -> String {
+    /// What the area has become, in words. `before` are the areas on the way, over that at the start: one that was further from it
+    /// than now has no rate.
+    pub fn in_words(
+        &self,
+        area_ratio: Option<f64>,
+        before: impl IntoIterator<Item = f64>,
+    ) -> String {
         let Some(ratio) = area_ratio else {
             let is_lost = self.present().next().is_none();
             return if is_lost { "is lost" } else { "is too fine, folded or torn to measure" }
                 .into();
         };
         let seconds = self.course.t() - self.start.t;
+        let far = |area: f64| libm::log(area).abs();
+        let farthest = before.into_iter().max_by(|&a, &b| far(a).total_cmp(&far(b)));
+        if let Some(area) = farthest.filter(|&area| far(area) > BACK * far(ratio) + LITTLE_BACK) {
+            let way = if area > ratio { "down" } else { "up" };
+            return format!("is {way} from ×{}", significant(area, 3));
+        }
         let change = libm::log(ratio);
         let time = || super::analysis::duration(seconds * std::f64::consts::LN_2 / change.abs());
         match change {
+            _ if seconds == 0.0 => "is what it was".into(),
             _ if change.abs() <= self.little => "keeps area".into(),
             _ if change > 0.0 => format!("grows ×2 in {}", time()),
             _ if change.is_finite() => format!("shrinks ×½ in {}", time()),

@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use rayon::prelude::*;
 
+use crate::lab::lane::ESCAPE;
 use crate::lab::palette::{Rgba, Theme, mixed};
 
 /// The part of the phase plane that a picture shows.
@@ -38,9 +39,10 @@ impl PlaneView {
         Self { q: if wraps { [-PI, PI] } else { q }, v, wraps }
     }
 
-    /// The least and the largest coordinate or velocity of points that are finite.
+    /// The least and the largest coordinate or velocity of points that have not blown up.
     pub(super) fn range<'p>(points: impl IntoIterator<Item = &'p [f64; 2]>, i: usize) -> [f64; 2] {
-        let numbers = points.into_iter().map(|point| point[i]).filter(|number| number.is_finite());
+        let numbers =
+            points.into_iter().map(|point| point[i]).filter(|number| number.abs() <= ESCAPE);
         numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], number| {
             [number.min(least), number.max(most)]
         })
@@ -112,6 +114,9 @@ fn spread(counts: &[f32], stride: usize, places: usize) -> Vec<f32> {
     }
     spread
 }
+
+/// The longest line between two points of a border that is drawn, as a part of the picture's longer side.
+pub const LONGEST_LINE: f64 = 0.1;
 
 /// The fewest points for which a thread has counts of its own, which are added up in the end.
 const GRAIN: usize = 1 << 17;
@@ -200,8 +205,8 @@ impl Density {
         let [width, height] = self.size_px.map(|pixels| pixels as f64);
         let [dx, dy] = [(to[0] - from[0]) * width, (to[1] - from[1]) * height];
         let steps = dx.abs().max(dy.abs()).ceil();
-        // A line across the whole picture is one around the back of an angle, or leads to infinity.
-        if !steps.is_finite() || steps > width.max(height) / 2.0 {
+        // A long line is one around the back of an angle, or leads to infinity, or is between points too few to tell the way.
+        if !steps.is_finite() || steps > LONGEST_LINE * width.max(height) {
             return;
         }
         for step in 0..=steps as usize {

@@ -16,6 +16,11 @@ const BESIDE_LINEAR: f64 = 1.0;
 /// Ticks after which a method with memory restarts about new corners: seldom, since its first step is another method's.
 const TICKS_WITH_MEMORY: u64 = 32;
 
+/// The least part of the largest corner that a diagonal is, and the least of both together that an area is, for rounding to leave
+/// digits of it.
+const RESOLVED: f64 = 1e-9;
+const RESOLVED_AREA: f64 = 1e-12;
+
 /// The diagonals of a lozenge halve each other. One whose middles are further apart than this part of its width is folded,
 /// and says nothing of an area.
 const FOLDED: f64 = 0.1;
@@ -68,12 +73,16 @@ impl Lozenges {
         areas.map(|area| Some(area).filter(|area| area.is_finite())).collect()
     }
 
-    /// Takes in what has become of the areas, and returns new corners about their middles.
+    /// Takes in what has become of the areas, and returns new corners about their middles. Under a linear map all middles are
+    /// alike, and 0 is none that rounding hides the corners of.
     pub(super) fn renew(&mut self, q: &[f64], v: &[f64]) -> [Vec<f64>; 2] {
         let lozenges = q.chunks_exact(CORNERS.len()).zip(v.chunks_exact(CORNERS.len()));
         let areas: Vec<f64> = lozenges.clone().map(|(q, v)| self.area(q, v)).collect();
         self.factors.iter_mut().zip(areas).for_each(|(factor, area)| *factor *= area);
-        let middle = |numbers: &[f64]| numbers.iter().sum::<f64>() / CORNERS.len() as f64;
+        let middle = |numbers: &[f64]| match self.is_linear {
+            true => 0.0,
+            false => numbers.iter().sum::<f64>() / CORNERS.len() as f64,
+        };
         lozenges
             .flat_map(|(q, v)| self.corners([middle(q), middle(v)]))
             .map(|[q, v]| (q, v))
@@ -81,10 +90,12 @@ impl Lozenges {
             .into()
     }
 
-    /// The area between four corners over that when they were set; not a number where the lozenge is lost or folded.
+    /// The area between four corners over that when they were set; not a number where the lozenge is lost, folded or finer than
+    /// rounding.
     fn area(&self, q: &[f64], v: &[f64]) -> f64 {
         let corner = |n: usize| [q[n] / self.beside[0], v[n] / self.beside[1]];
-        let [a, b, c, d] = [0, 1, 2, 3].map(corner);
+        let corners = [0, 1, 2, 3].map(corner);
+        let [a, b, c, d] = corners;
         let across = |[from, to]: [[f64; 2]; 2]| [to[0] - from[0], to[1] - from[1]];
         let between = |[from, to]: [[f64; 2]; 2]| [0, 1].map(|i| (from[i] + to[i]) / 2.0);
         let [first, second] = [across([a, b]), across([c, d])];
@@ -92,8 +103,12 @@ impl Lozenges {
         let off = across([between([a, b]), between([c, d])]);
         let length = |[x, y]: [f64; 2]| (x * x + y * y).sqrt();
         let longest = length(first).max(length(second));
-        // Written so that what is not a number is folded.
+        let largest =
+            corners.iter().flatten().fold(0.0, |most: f64, number| most.max(number.abs()));
+        // All written so that what is not a number is neither.
+        let is_resolved = longest > RESOLVED * largest
+            && (area == 0.0 || area > RESOLVED_AREA * largest * longest);
         let is_whole = self.is_linear || length(off) * longest <= FOLDED * area;
-        if is_whole { area } else { f64::NAN }
+        if is_resolved && is_whole { area } else { f64::NAN }
     }
 }

@@ -13,7 +13,6 @@ use super::{
 };
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::race::Race;
-use crate::sim::number::significant;
 
 /// The samples of an area over the length of a run.
 const SAMPLES: u64 = 200;
@@ -25,9 +24,6 @@ const SPREAD: f64 = 10.0;
 
 /// About how many evaluations are made before a picture is shown on the way.
 const WORK: u64 = 4_000_000;
-
-/// How much further an area was than twice of where it is, as a natural logarithm, for it to have come back.
-const COME_BACK: f64 = 0.01;
 
 /// Works on one request at a time.
 #[derive(Default)]
@@ -203,9 +199,10 @@ impl CloudRun {
                 entry: *entry,
                 density: Arc::new(density),
                 lost: cloud.q().len() - left,
-                hidden: left - shown as usize,
+                // Beside the last that is there an axis has room for one that blew up.
+                hidden: left.saturating_sub(shown as usize),
                 area_ratio,
-                words: come_back(&areas, area_ratio).unwrap_or_else(|| cloud.in_words(area_ratio)),
+                words: cloud.in_words(area_ratio, areas.iter().map(|[_, area]| *area)),
                 measured: cloud.measured_in_words(),
                 areas,
             }
@@ -229,13 +226,4 @@ impl CloudRun {
             .filter_map(|(tick, area)| Some([self.t(tick), area?]))
             .collect()
     }
-}
-
-/// What is said of an area that was much further from what it was at the start before: what it does between start and now is
-/// then no growth.
-fn come_back(areas: &[[f64; 2]], now: Option<f64>) -> Option<String> {
-    let change = |area: f64| libm::log(area).abs();
-    let far = areas.iter().map(|[_, area]| *area).max_by(|a, b| change(*a).total_cmp(&change(*b)));
-    let is_far = |far: &f64| change(*far) > 2.0 * change(now.unwrap_or(*far)) + COME_BACK;
-    far.filter(is_far).map(|far| format!("has come back from ×{}", significant(far, 3)))
 }

@@ -15,7 +15,9 @@ use super::super::{focus_ring, ink, strong_font};
 use super::error::capitalised;
 use super::sheet::{ExactLine, PlotAxis, PlotModel, Sheet, over_time};
 use super::{body_choice, chart, choice};
-use crate::lab::cloud::{CloudChoice, CloudKind, CloudPicture, Density, LaneCloud, POINTS};
+use crate::lab::cloud::{
+    CloudChoice, CloudKind, CloudPicture, Density, LONGEST_LINE, LaneCloud, POINTS,
+};
 use crate::lab::number::significant;
 use crate::lab::palette::{Rgba, Theme};
 use crate::lab::{Command, Lab, Mode, RunCommand, StageCommand};
@@ -44,8 +46,6 @@ const MIN_SIDE: f32 = 30.0;
 /// The size of the words above a cloud, in points, and the least to which they shrink where a word would break.
 const WORDS: f32 = 12.0;
 const MIN_WORDS: f32 = 8.5;
-/// A cloud that is narrower than this, in points, has numbers alone above it; a hover tells the rest.
-const ROOM_FOR_WORDS: f32 = 80.0;
 /// The width of the exact outline, in points.
 const OUTLINE: f32 = 1.1;
 /// An area that has grown or shrunk by more than this, as a power of ten, stretches no axis; and one axis shows at least
@@ -162,20 +162,37 @@ fn thousands(points: usize) -> String {
     }
 }
 
-/// The name and the words above each cloud, of this width and in one size.
-fn captions(ui: &Ui, lab: &Lab, lanes: &[LaneCloud], width: f32) -> Vec<Arc<Galley>> {
-    let texts: Vec<[String; 2]> = lanes
-        .iter()
-        .map(|lane| {
-            let told = match (lane.area_ratio, width < ROOM_FOR_WORDS) {
-                (Some(ratio), true) => {
-                    format!("×{}{}", significant(ratio, 3), missing(lab, lane).replace(", ", "\n"))
-                }
-                _ => words(lab, lane),
-            };
-            [lab.lane_name(lane.entry), told]
-        })
-        .collect();
+/// How much is told above each cloud; a hover tells the rest.
+#[derive(Clone, Copy, PartialEq)]
+enum Told {
+    Words,
+    Numbers,
+    /// The beginning of its name.
+    Name,
+}
+
+/// What is told, the most first, where the least side of a cloud is then not less than so many points.
+const TOLD: [(Told, f32); 3] = [(Told::Words, 60.0), (Told::Numbers, 40.0), (Told::Name, MIN_SIDE)];
+
+/// What is told above each cloud, of this width and in one size; `None` if a word would break.
+fn captions(
+    ui: &Ui,
+    lab: &Lab,
+    lanes: &[LaneCloud],
+    width: f32,
+    told: Told,
+) -> Option<Vec<Arc<Galley>>> {
+    let text = |lane: &LaneCloud| {
+        let words = match (told, lane.area_ratio) {
+            (Told::Name, _) => String::new(),
+            (Told::Numbers, Some(ratio)) => {
+                format!("\n×{}{}", significant(ratio, 3), missing(lab, lane).replace(", ", "\n"))
+            }
+            _ => format!("\n{}", words(lab, lane)),
+        };
+        [lab.lane_name(lane.entry), words]
+    };
+    let texts: Vec<[String; 2]> = lanes.iter().map(text).collect();
     let ink = ink(ui);
     let wide = |word: &str| {
         ui.painter().layout_no_wrap(word.into(), strong_font(WORDS), ink.text).size().x
@@ -183,18 +200,25 @@ fn captions(ui: &Ui, lab: &Lab, lanes: &[LaneCloud], width: f32) -> Vec<Arc<Gall
     let all = texts.iter().flatten().flat_map(|text| text.split([' ', '\n']));
     let longest = all.flat_map(|word| word.split_inclusive('-')).map(wide).fold(width, f32::max);
     let size = (WORDS * width / longest).max(MIN_WORDS);
-    let caption = |(lane, [name, told]): (&LaneCloud, &[String; 2])| {
+    if told != Told::Name && longest * MIN_WORDS > width * WORDS {
+        return None;
+    }
+    let caption = |(lane, [name, words]): (&LaneCloud, &[String; 2])| {
         let (colour, _) = ink.style(lab.entries(), &lab.entries()[lane.entry]);
         let is_front = lane.entry == lab.active();
         let font = if is_front { strong_font(size) } else { FontId::proportional(size) };
         let mut job = LayoutJob::default();
         job.wrap.max_width = width;
+        if told == Told::Name {
+            job.wrap.max_rows = 1;
+            job.wrap.break_anywhere = true;
+        }
         job.append(name, 0.0, TextFormat::simple(font.clone(), colour));
         let colour = if is_front { ink.text } else { ink.dim };
-        job.append(&format!("\n{told}"), 0.0, TextFormat::simple(font, colour));
+        job.append(words, 0.0, TextFormat::simple(font, colour));
         ui.painter().layout_job(job)
     };
-    lanes.iter().zip(&texts).map(caption).collect()
+    Some(lanes.iter().zip(&texts).map(caption).collect())
 }
 
 /// What has become of a cloud.
@@ -234,19 +258,23 @@ fn side_by_side(
         pos2(room.left() + LEFT.max(widest + BESIDE_NUMBERS), room.top()),
         pos2(room.right(), room.bottom() - NUMBERS - NAMES),
     );
-    let layout = |columns: usize| {
+    let layout = |columns: usize, (told, least): (Told, f32)| {
         let rows = lanes.len().div_ceil(columns);
         let gaps = GAP * (columns - 1) as f32;
-        let width = ((inner.width() - gaps) / columns as f32).max(MIN_SIDE);
-        let captions = captions(ui, lab, lanes, width);
+        let width = (inner.width() - gaps) / columns as f32;
+        let captions = captions(ui, lab, lanes, width, told)?;
         let above = captions.iter().map(|words| words.size().y).fold(0.0, f32::max) + 3.0;
-        let height = (inner.height() / rows as f32 - above - GAP / 2.0).max(MIN_SIDE);
-        (columns, vec2(width.min(WIDEST * height), height), captions, above)
+        let height = inner.height() / rows as f32 - above - GAP / 2.0;
+        let size = vec2(width.min(WIDEST * height), height);
+        (size.min_elem() >= least).then_some((columns, size, captions, above))
     };
-    let layouts = (1..=lanes.len().max(1)).map(layout);
     let area = |size: Vec2| size.x * size.y;
-    let largest = layouts.max_by(|a, b| area(a.1).total_cmp(&area(b.1)));
-    let Some((columns, size, captions, above)) = largest else { return };
+    let largest = |told: (Told, f32)| {
+        let layouts = (1..=lanes.len()).filter_map(|columns| layout(columns, told));
+        layouts.max_by(|a, b| area(a.1).total_cmp(&area(b.1)))
+    };
+    let found = TOLD.into_iter().find_map(largest);
+    let Some((columns, size, captions, above)) = found else { return };
     let rows = lanes.len().div_ceil(columns);
     for (place, (lane, words)) in lanes.iter().zip(captions).enumerate() {
         let (column, row) = (place % columns, place / columns);
@@ -318,8 +346,9 @@ fn cloud(
             pos2(rect.left() + x * rect.width(), rect.bottom() - y * rect.height())
         };
         let points: Vec<Pos2> = line.iter().map(at).filter(|at| at.is_finite()).collect();
-        // An angle goes on at the other side.
-        let goes_on = |a: &Pos2, b: &Pos2| (a.x - b.x).abs() < rect.width() / 2.0 || !view.wraps;
+        // An angle goes on at the other side, and what is between points far apart is not known.
+        let longest = LONGEST_LINE as f32 * rect.size().max_elem();
+        let goes_on = |a: &Pos2, b: &Pos2| a.distance(*b) <= longest;
         for piece in points.chunk_by(goes_on) {
             curves::paint(&painter, piece, &[], outline);
         }
