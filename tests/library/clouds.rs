@@ -53,7 +53,7 @@ fn the_area_of_a_spring_is_its_determinant_however_far_its_points_are_thrown() {
     let ratio = thrown.area_ratio().unwrap();
     assert!(exact > 1e30 && (ratio / exact - 1.0).abs() < 1e-9, "{ratio}, not {exact}");
     let mut kept = cloud("stiff", "semi-implicit-euler", CloudShape::Disc, 100, 40);
-    kept.advance(200);
+    kept.advance(30);
     assert!(kept.measure().spread.unwrap() > 1e15);
     assert!((kept.area_ratio().unwrap() - 1.0).abs() < 1e-9);
 }
