@@ -21,7 +21,7 @@ use super::terminal::tell;
 use crate::atomic_file::IfExists;
 use crate::lab::cloud::{
     Cloud, CloudAxes, CloudBorder, CloudMeasure, CloudShape, CloudStart, Density, NoCloud,
-    PlaneView, Section, ShownTicks, USUAL_POINTS,
+    PlaneView, Section, ShownTicks, USUAL_POINTS, hidden_in_words,
 };
 use crate::lab::number::{round, significant};
 use crate::lab::palette::{Rgba, Theme};
@@ -157,9 +157,6 @@ const USUAL_SECONDS: f64 = 60.0;
 
 /// How far other clouds stretch the axes, in widths of what the exact one covers.
 const BESIDE: f64 = 1.0;
-
-/// A cloud of which this part is beyond the axes says so.
-const HIDDEN: f64 = 0.1;
 
 /// The longest run that sets the axes, in seconds.
 const LONGEST_SCOUTED_S: u64 = 30;
@@ -439,12 +436,9 @@ impl Paper {
             let words = match section {
                 Some(section) => format!("{} crossings", section.crossings()),
                 None => {
-                    let (left, all) = (cloud.points_left(), cloud.q().len());
-                    let shown: u32 = density.counts().iter().sum();
-                    let part = left.saturating_sub(shown as usize) as f64 / all as f64;
-                    let outside = format!("; {} % outside", significant(100.0 * part, 2));
-                    let outside = if part >= HIDDEN { outside } else { String::new() };
-                    format!("{}{}{outside}", ratio.unwrap_or_default(), run.words(area))
+                    let hidden = hidden_in_words(cloud.hidden(&density), cloud.q().len());
+                    let hidden = hidden.map(|words| format!("; {words}")).unwrap_or_default();
+                    format!("{}{}{hidden}", ratio.unwrap_or_default(), run.words(area))
                 }
             };
             let name = spec.distinct_name(spec.method.name, &specs);

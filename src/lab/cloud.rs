@@ -149,12 +149,15 @@ enum Area {
     Border(CloudBorder),
 }
 
-/// How many times further an area was than it is, and by how much besides, as a natural logarithm, for it to be on its way back.
+/// An area is on its way back if its change was this many times that of now and this much more, as natural logarithms.
 const BACK: f64 = 1.1;
 const LITTLE_BACK: f64 = 0.01;
 
-/// The mean of areas is not known if its standard error is more than this part of it: a few that go far away rule it then.
+/// The mean of areas is not known if its standard error is more than this part of it: a few far points then decide it.
 const UNEVEN: f64 = 0.1;
+
+/// The least part of the points beyond the axes that is told.
+const HIDDEN: f64 = 0.1;
 
 /// The most sampled points, and the points of a cloud for each.
 const MAX_SAMPLES: usize = 256;
@@ -317,8 +320,8 @@ impl Cloud {
         }
     }
 
-    /// What the area has become, in words. `before` are the areas on the way, over that at the start: one that was further from it
-    /// than now has no rate.
+    /// What the area has become, in words. `before` are the areas on the way, over that at the start: an area on its way back
+    /// has no rate.
     pub fn in_words(
         &self,
         area_ratio: Option<f64>,
@@ -347,6 +350,12 @@ impl Cloud {
         }
     }
 
+    /// The points left that are beyond the axes of a picture.
+    pub fn hidden(&self, picture: &Density) -> usize {
+        // The margin of an axis may show points that blew up.
+        self.points_left().saturating_sub(picture.points())
+    }
+
     /// The points that have not blown up.
     fn present(&self) -> impl Iterator<Item = [f64; 2]> {
         let is_there = |state: &[f64; 2]| state.iter().all(|number| number.abs() <= ESCAPE);
@@ -366,6 +375,12 @@ impl Cloud {
         };
         (count > 0.0).then(|| (states().map(square).sum::<f64>() / count).sqrt())
     }
+}
+
+/// What part of a cloud of so many points is beyond the axes, in words; `None` of little.
+pub fn hidden_in_words(hidden: usize, points: usize) -> Option<String> {
+    let part = hidden as f64 / points as f64;
+    (part >= HIDDEN).then(|| format!("{} % outside", significant(100.0 * part, 2)))
 }
 
 /// The sampled points of a cloud of so many.

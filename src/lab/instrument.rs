@@ -106,7 +106,8 @@ pub static INSTRUMENTS: &[InstrumentCard] = &[
         row: Explain,
         name: "Cloud",
         about: "A shape of very many starts about that of the body, stepped by each method: brighter where more points are, \
-                the exact cloud outlined. A method keeps their area, grows it or shrinks it. They start anew where you or the script act on a body, and each is under the method, the substeps and the tick rate of now.",
+                the exact cloud outlined. A method keeps their area, grows it or shrinks it. They start again whenever you or \
+                the script act on a body; all their ticks use the present method, substeps and tick rate.",
     },
     InstrumentCard {
         instrument: Instrument::Loop,

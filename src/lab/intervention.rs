@@ -17,8 +17,8 @@ pub(super) struct Interventions {
 }
 
 impl Interventions {
-    /// The changes in `race` by which it is judged. A parameter that the script has set is in force like one that a person has set; what the
-    /// script does to throttle, rudder and state is part of the motion that is judged.
+    /// The changes in `race` by which it is judged. A parameter that the script has set is in force like one that a person has
+    /// set; what the script does to throttle, rudder and state is part of the motion that is judged.
     pub(super) fn in_race(race: &Race) -> Self {
         let mut settings: Vec<Action> = Vec::new();
         let is_in_force = |row: &&JournalRow| {

@@ -241,15 +241,12 @@ impl Race {
         let lanes = self.entrants.iter().map(|entrant| &entrant.lane).chain([&self.truth]);
         let values =
             self.values.iter().map(|values| size_of_val(values) + size_of_val(&values[..]));
+        let starts = [&self.judged_start, &self.cloud_start].into_iter().flatten();
         size_of::<Self>()
             + self.entrants.len() * size_of::<Entrant>()
             + values.sum::<usize>()
             + lanes.map(Lane::heap_bytes).sum::<usize>()
-            + [&self.judged_start, &self.cloud_start]
-                .into_iter()
-                .flatten()
-                .map(|start| start.bytes())
-                .sum::<usize>()
+            + starts.map(|start| start.bytes()).sum::<usize>()
     }
 
     /// Performs the journal's actions at this tick, and steps every lane and the truth to the next. Never allocates.

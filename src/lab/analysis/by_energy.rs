@@ -56,8 +56,11 @@ pub(super) struct FollowedEnergy {
     horizon: u64,
     hz: f64,
     means: Means,
-    /// The largest kinetic energy, the most energy that was lost, and the most that was gained, in joules.
-    extremes: [f64; 3],
+    /// The largest kinetic energy, in joules.
+    fastest: f64,
+    /// The most energy that was lost, and the most that was gained, in joules.
+    lost: f64,
+    gained: f64,
 }
 
 impl FollowedEnergy {
@@ -89,19 +92,20 @@ impl FollowedEnergy {
             horizon,
             hz,
             means: Means::over(horizon),
-            extremes: [0.0; 3],
+            fastest: 0.0,
+            lost: 0.0,
+            gained: 0.0,
         }
     }
 
     /// Goes on for about this much work. Returns whether the run is over.
     pub(super) fn work(&mut self, truth: &BodyTruth, work: u64) -> bool {
-        let Self { follow, run, horizon, hz, means, extremes } = self;
+        let Self { follow, run, horizon, hz, means, fastest, lost, gained } = self;
         let stop = follow.run(*horizon, |body, tick| {
             (run.seconds, run.evaluations) = (tick as f64 / *hz, body.body.stepper.evaluations());
             let now = body.energy();
             let gain = sum(now) - body.start;
-            let [fastest, lost, gained] = *extremes;
-            *extremes = [fastest.max(now[0]), lost.max(-gain), gained.max(gain)];
+            (*fastest, *lost, *gained) = (fastest.max(now[0]), lost.max(-gain), gained.max(gain));
             means.take_in(tick, gain);
             match body.body.has_worked(work, tick) {
                 true => ControlFlow::Break(()),
@@ -115,7 +119,7 @@ impl FollowedEnergy {
         }
         run.is_too_much = stop == StopReason::TooMuchWork;
         run.failure = RunFailure::of(stop, follow.t());
-        let [fastest, lost, gained] = *extremes;
+        let (fastest, lost, gained) = (*fastest, *lost, *gained);
         let scale = fastest.max(lost);
         if scale > 0.0 && scale.is_finite() {
             let [first, .., last] = means.means().map(|mean| mean / scale);

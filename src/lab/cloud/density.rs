@@ -164,6 +164,11 @@ impl Density {
         }
     }
 
+    /// The points within the view.
+    pub fn points(&self) -> usize {
+        self.counts.iter().map(|&count| count as usize).sum()
+    }
+
     /// The counts, row by row from the top.
     pub fn counts(&self) -> &[u32] {
         &self.counts
@@ -171,9 +176,8 @@ impl Density {
 
     /// The picture in a method's colour, brighter by the logarithm of the count, and these lines over it.
     pub fn picture(&self, theme: Theme, colour: Rgba, lines: &[Vec<[f64; 2]>]) -> Vec<Rgba> {
-        let sum: u64 = self.counts.iter().map(|&count| u64::from(count)).sum();
         let counts = self.counts.iter().map(|&count| count as f32);
-        let mut pixels = shaded(counts, sum as f32, theme, colour);
+        let mut pixels = shaded(counts, self.points() as f32, theme, colour);
         for line in lines {
             for ends in line.windows(2) {
                 self.draw_line(&mut pixels, [ends[0], ends[1]], theme.palette().exact);
@@ -205,7 +209,7 @@ impl Density {
         let [width, height] = self.size_px.map(|pixels| pixels as f64);
         let [dx, dy] = [(to[0] - from[0]) * width, (to[1] - from[1]) * height];
         let steps = dx.abs().max(dy.abs()).ceil();
-        // A long line is one around the back of an angle, or leads to infinity, or is between points too few to tell the way.
+        // A long line goes around the back of an angle or to infinity, or joins points too far apart to tell the way.
         if !steps.is_finite() || steps > LONGEST_LINE * width.max(height) {
             return;
         }

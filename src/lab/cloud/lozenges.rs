@@ -16,8 +16,8 @@ const BESIDE_LINEAR: f64 = 1.0;
 /// Ticks after which a method with memory restarts about new corners: seldom, since its first step is another method's.
 const TICKS_WITH_MEMORY: u64 = 32;
 
-/// The least part of the largest corner that a diagonal is, and the least of both together that an area is, for rounding to leave
-/// digits of it.
+/// Rounding leaves digits of an area if its longer diagonal is more than this part of the largest corner, and the area more than
+/// this part of their product.
 const RESOLVED: f64 = 1e-9;
 const RESOLVED_AREA: f64 = 1e-12;
 
@@ -73,8 +73,8 @@ impl Lozenges {
         areas.map(|area| Some(area).filter(|area| area.is_finite())).collect()
     }
 
-    /// Takes in what has become of the areas, and returns new corners about their middles. Under a linear map all middles are
-    /// alike, and 0 is none that rounding hides the corners of.
+    /// Takes in what has become of the areas, and returns new corners about their middles. A linear map changes every area alike:
+    /// the corners are then about 0, where rounding never hides them.
     pub(super) fn renew(&mut self, q: &[f64], v: &[f64]) -> [Vec<f64>; 2] {
         let lozenges = q.chunks_exact(CORNERS.len()).zip(v.chunks_exact(CORNERS.len()));
         let areas: Vec<f64> = lozenges.clone().map(|(q, v)| self.area(q, v)).collect();

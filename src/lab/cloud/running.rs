@@ -19,7 +19,7 @@ const SAMPLES: u64 = 200;
 /// How many times further the clouds of a lab reach than others: they are seen small.
 const REACH: f64 = 2.0;
 
-/// How many times as wide as at the start a cloud is while the axes show it: of one that spreads on the start would be a speck.
+/// The axes show the exact cloud until it is this many times as wide as at the start, which would then be a speck.
 const SPREAD: f64 = 10.0;
 
 /// About how many evaluations are made before a picture is shown on the way.
@@ -192,15 +192,13 @@ impl CloudRun {
         let lane = |(entry, Run { cloud, areas }): &(usize, Run<Cloud>)| {
             let mut density = Density::new([GRID; 2], view);
             density.add(cloud.q(), cloud.v());
-            let (area_ratio, left) = (cloud.area_ratio(), cloud.points_left());
-            let shown: u32 = density.counts().iter().sum();
+            let area_ratio = cloud.area_ratio();
             let areas = self.samples(areas, area_ratio);
             LaneCloud {
                 entry: *entry,
+                lost: cloud.q().len() - cloud.points_left(),
+                hidden: cloud.hidden(&density),
                 density: Arc::new(density),
-                lost: cloud.q().len() - left,
-                // Beside the last that is there an axis has room for one that blew up.
-                hidden: left.saturating_sub(shown as usize),
                 area_ratio,
                 words: cloud.in_words(area_ratio, areas.iter().map(|[_, area]| *area)),
                 measured: cloud.measured_in_words(),

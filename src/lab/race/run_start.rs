@@ -48,17 +48,18 @@ impl Race {
         self.judged_start.as_ref()
     }
 
-    /// The state right after a person or the script last acted on the bodies; `None` if neither has.
+    /// The state right after a person or the script last acted on a body; `None` if neither has.
     pub(in crate::lab) fn cloud_start(&self) -> Option<&Arc<RunStart>> {
         self.cloud_start.as_ref()
     }
 
-    /// Keeps the present state after an action that begins what is told.
+    /// Keeps the present state if `action` acted on a body: clouds start from it, and verdicts too if a person placed or
+    /// kicked a body.
     pub(super) fn note_start(&mut self, action: &Action, source: Source) {
-        let is_placed = matches!(action, Action::Place { .. } | Action::Kick(_));
-        if !is_placed && !matches!(action, Action::Set { .. }) && action.input().is_none() {
+        if !(0..self.values.len()).any(|body| action.acts_on(body)) {
             return;
         }
+        let is_placed = matches!(action, Action::Place { .. } | Action::Kick(_));
         let bodies = self.truth.bodies().iter().zip(&self.values);
         let bodies = bodies.map(|(body, values)| BodyStart {
             values: values.clone(),

@@ -140,7 +140,7 @@ pub(super) trait Claimant: Body<Vector = Vec<f64>> + Clone {
 
 /// A claim that does not hold. Messages are in lower case.
 #[derive(Debug)]
-pub(super) struct FalseClaim {
+pub(super) struct ClaimFault {
     /// The coordinate whose exact solution is false; `None` for the energy.
     pub(super) coordinate: Option<usize>,
     /// What is wrong.
@@ -149,7 +149,7 @@ pub(super) struct FalseClaim {
     pub(super) remedy: &'static str,
 }
 
-impl FalseClaim {
+impl ClaimFault {
     fn exact(coordinate: usize, what: String) -> Self {
         let remedy = "correct one of them, or remove `exact`";
         Self { coordinate: Some(coordinate), what, remedy }
@@ -166,12 +166,12 @@ impl FalseClaim {
 ///
 /// # Errors
 /// The first of these that does not hold.
-pub(super) fn check<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Result<(), FalseClaim> {
-    let false_claim = find_unsolved(body)
+pub(super) fn check<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Result<(), ClaimFault> {
+    let fault = find_unsolved(body)
         .or_else(|| find_departure(body, horizon))
         .or_else(|| find_energy_defect(body))
         .or_else(|| find_later_energy_defect(body, horizon));
-    false_claim.map_or(Ok(()), Err)
+    fault.map_or(Ok(()), Err)
 }
 
 /// Whether `a` and `b` differ by no more than `most`; a NaN does.
@@ -180,7 +180,7 @@ fn is_near(a: f64, b: f64, most: f64) -> bool {
 }
 
 /// Why the exact solution does not satisfy the equation; `None` if it does, or was not given.
-fn find_unsolved<B: Claimant>(body: &B) -> Option<FalseClaim> {
+fn find_unsolved<B: Claimant>(body: &B) -> Option<ClaimFault> {
     let body = body.without_claims();
     let start = body.start();
     let mut at = start.clone();
@@ -209,18 +209,18 @@ fn find_unsolved<B: Claimant>(body: &B) -> Option<FalseClaim> {
                     let (v, key) = (PREFIXES[d], B::START_KEYS[d]);
                     let what = format!("`{v}{name}` begins at {found}, and `{key}` is {start}");
                     let remedy = "let the two agree; `t` is 0 at the start";
-                    return Some(FalseClaim { remedy, ..FalseClaim::exact(coordinate, what) });
+                    return Some(ClaimFault { remedy, ..ClaimFault::exact(coordinate, what) });
                 }
             }
             if !is_near(slope.q[coordinate], v, B::TOLERANCE * size[1]) {
                 let what = format!("at t = {t} the velocity of `{name}` is not its derivative");
-                return Some(FalseClaim::exact(coordinate, what));
+                return Some(ClaimFault::exact(coordinate, what));
             }
             if !is_near(found, a, B::TOLERANCE * size[2]) {
                 let what = format!(
                     "at t = {t} its second derivative is {found:.9}, and the acceleration of `{name}` there is {a:.9}"
                 );
-                return Some(FalseClaim::exact(coordinate, what));
+                return Some(ClaimFault::exact(coordinate, what));
             }
         }
     }
@@ -228,7 +228,7 @@ fn find_unsolved<B: Claimant>(body: &B) -> Option<FalseClaim> {
 }
 
 /// The first tick whose motion leaves the exact solution; `None` if it does not, or was not given.
-fn find_departure<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<FalseClaim> {
+fn find_departure<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<ClaimFault> {
     let body = body.without_claims();
     let mut from = body.start();
     let mut to = from.clone();
@@ -258,7 +258,7 @@ fn find_departure<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<FalseC
                     let what = format!(
                         "at t = {t:.4} `{v}{name}` is {found:.9}, and the motion since the tick before leads to {wanted:.9}"
                     );
-                    return Some(FalseClaim::exact(coordinate, what));
+                    return Some(ClaimFault::exact(coordinate, what));
                 }
             }
         }
@@ -268,19 +268,19 @@ fn find_departure<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<FalseC
 }
 
 /// The first violation of energy conservation around the start; `None` without one, or without an energy.
-fn find_energy_defect<B: Claimant>(body: &B) -> Option<FalseClaim> {
+fn find_energy_defect<B: Claimant>(body: &B) -> Option<ClaimFault> {
     let body = body.without_claims();
     let start = body.start();
     let first = body.claimed_energy(&start)?;
     if !first.is_finite() {
-        return Some(FalseClaim::energy(format!("the energy is {first} at the start")));
+        return Some(ClaimFault::energy(format!("the energy is {first} at the start")));
     }
     let is_first = |state| body.claimed_energy(&state) == Some(first);
     if states_around(&start, STATES).all(is_first) {
         let what =
             format!("the energy is {first} in every state, which says nothing of the motion");
         let remedy = "write the kinetic and the potential energy, or remove `energy`";
-        return Some(FalseClaim { remedy, ..FalseClaim::energy(what) });
+        return Some(ClaimFault { remedy, ..ClaimFault::energy(what) });
     }
     TIMES.into_iter().find_map(|t| {
         let states = if t == 0.0 { STATES } else { LATER_STATES };
@@ -289,7 +289,7 @@ fn find_energy_defect<B: Claimant>(body: &B) -> Option<FalseClaim> {
 }
 
 /// The first violation of energy conservation along the motion; `None` without one, or without an energy.
-fn find_later_energy_defect<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<FalseClaim> {
+fn find_later_energy_defect<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<ClaimFault> {
     let body = body.without_claims();
     let mut there = body.start();
     let first = body.claimed_energy(&there)?;
@@ -312,7 +312,7 @@ fn find_later_energy_defect<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Opt
             let what = format!(
                 "the energy is not conserved: it is {first:.9} J at the start and {now:.9} J at t = {t:.2}"
             );
-            return Some(FalseClaim::energy(what));
+            return Some(ClaimFault::energy(what));
         }
         before = now;
     }
@@ -329,12 +329,12 @@ fn find_power<B: Claimant>(
     t: f64,
     state: &State<Vec<f64>>,
     states: usize,
-) -> Result<f64, FalseClaim> {
+) -> Result<f64, ClaimFault> {
     let powers = states_around(state, states).filter_map(|there| body.power(t, &there));
     let [leaks, exchanged] =
         powers.fold([0.0_f64; 2], |most, power| [0, 1].map(|i| most[i].max(power[i])));
     if leaks > B::TOLERANCE * exchanged {
-        return Err(FalseClaim::energy(format!(
+        return Err(ClaimFault::energy(format!(
             "the energy is not conserved: near t = {t:.2} it changes by {leaks:.3e} J/s, where {exchanged:.3e} J/s are exchanged"
         )));
     }

@@ -71,21 +71,21 @@ impl Band {
         fill
     }
 
+    /// The points of its lower or its upper edge.
+    fn edge(&self, i: usize) -> impl DoubleEndedIterator<Item = Pos2> {
+        self.columns().map(move |(x, heights)| pos2(x + self.step / 2.0, heights[i]))
+    }
+
     /// The corners of what is between its edges, and its colour.
     pub(super) fn outline(&self, colour: Color32) -> (Vec<Pos2>, Color32) {
-        let edge = |i: usize| self.columns().map(move |(x, y)| pos2(x + self.step / 2.0, y[i]));
-        (edge(0).chain(edge(1).rev()).collect(), colour.gamma_multiply(FILL))
+        (self.edge(0).chain(self.edge(1).rev()).collect(), colour.gamma_multiply(FILL))
     }
 
     /// What shows of its edges in a window.
     pub(super) fn edges(&self, colour: Color32, window: Rect) -> Vec<Vec<Joint>> {
-        let joint = move |x: f32, y: f32| Joint {
-            at: pos2(x + self.step / 2.0, y),
-            radius: EDGE / 2.0,
-            colour,
-        };
-        let edge = |i: usize| self.columns().map(move |(x, y)| joint(x, y[i]));
-        [0, 1].into_iter().flat_map(|i| shown(edge(i), window.expand(EDGE))).collect()
+        let joint = |at: Pos2| Joint { at, radius: EDGE / 2.0, colour };
+        let edge = |i: usize| shown(self.edge(i).map(joint), window.expand(EDGE));
+        [0, 1].into_iter().flat_map(edge).collect()
     }
 }
 

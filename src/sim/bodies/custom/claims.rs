@@ -1,7 +1,7 @@
 //! What is claimed of a custom body, for the [checker](crate::sim::bodies::claims).
 
 use super::Custom;
-use crate::sim::bodies::claims::{self, Checked, ClaimHorizon, Claimant, FalseClaim, TIMES};
+use crate::sim::bodies::claims::{self, Checked, ClaimFault, ClaimHorizon, Claimant, TIMES};
 use crate::sim::body::Body;
 use crate::sim::difference::{OFFSETS, fourth_order};
 use crate::sim::state::State;
@@ -97,8 +97,8 @@ impl Claimant for Custom {
     }
 }
 
-impl From<FalseClaim> for CustomFault {
-    fn from(FalseClaim { coordinate, what, remedy }: FalseClaim) -> Self {
+impl From<ClaimFault> for CustomFault {
+    fn from(ClaimFault { coordinate, what, remedy }: ClaimFault) -> Self {
         Self { field: coordinate.map_or("energy", |_| "exact"), what, remedy }
     }
 }

@@ -16,7 +16,7 @@ use super::error::capitalised;
 use super::sheet::{ExactLine, PlotAxis, PlotModel, Sheet, over_time};
 use super::{body_choice, chart, choice};
 use crate::lab::cloud::{
-    CloudChoice, CloudKind, CloudPicture, Density, LONGEST_LINE, LaneCloud, POINTS,
+    CloudChoice, CloudKind, CloudPicture, Density, LONGEST_LINE, LaneCloud, POINTS, hidden_in_words,
 };
 use crate::lab::number::significant;
 use crate::lab::palette::{Rgba, Theme};
@@ -52,8 +52,6 @@ const OUTLINE: f32 = 1.1;
 /// this much on both sides of 1: half of it and twice.
 const MAX_DECADES: f64 = 3.0;
 const MIN_DECADES: f64 = 0.31;
-/// A cloud of which this part is beyond the axes says so.
-const HIDDEN: f64 = 0.1;
 /// A cloud that is this far behind the run says so, in seconds.
 const BEHIND_S: f64 = 0.25;
 
@@ -174,70 +172,76 @@ enum Told {
 /// What is told, the most first, where the least side of a cloud is then not less than so many points.
 const TOLD: [(Told, f32); 3] = [(Told::Words, 60.0), (Told::Numbers, 40.0), (Told::Name, MIN_SIDE)];
 
-/// What is told above each cloud, of this width and in one size; `None` if a word would break.
-fn captions(
-    ui: &Ui,
-    lab: &Lab,
-    lanes: &[LaneCloud],
-    width: f32,
+/// What is told above each cloud, laid out anew for each width.
+struct Captions<'p> {
     told: Told,
-) -> Option<Vec<Arc<Galley>>> {
-    let text = |lane: &LaneCloud| {
-        let words = match (told, lane.area_ratio) {
-            (Told::Name, _) => String::new(),
-            (Told::Numbers, Some(ratio)) => {
-                format!("\n×{}{}", significant(ratio, 3), missing(lab, lane).replace(", ", "\n"))
-            }
-            _ => format!("\n{}", words(lab, lane)),
+    lanes: &'p [LaneCloud],
+    /// The name of each cloud, and what is told of it.
+    texts: Vec<[String; 2]>,
+    /// The width of the longest word, in points.
+    longest: f32,
+}
+
+impl<'p> Captions<'p> {
+    fn new(ui: &Ui, lab: &Lab, lanes: &'p [LaneCloud], told: Told) -> Self {
+        let text = |lane: &LaneCloud| {
+            let words = match (told, lane.area_ratio) {
+                (Told::Name, _) => String::new(),
+                (Told::Numbers, Some(_)) => format!("\n{}", parts(lab, lane, told).join("\n")),
+                _ => format!("\n{}", words(lab, lane)),
+            };
+            [lab.lane_name(lane.entry), words]
         };
-        [lab.lane_name(lane.entry), words]
-    };
-    let texts: Vec<[String; 2]> = lanes.iter().map(text).collect();
-    let ink = ink(ui);
-    let wide = |word: &str| {
-        ui.painter().layout_no_wrap(word.into(), strong_font(WORDS), ink.text).size().x
-    };
-    let all = texts.iter().flatten().flat_map(|text| text.split([' ', '\n']));
-    let longest = all.flat_map(|word| word.split_inclusive('-')).map(wide).fold(width, f32::max);
-    let size = (WORDS * width / longest).max(MIN_WORDS);
-    if told != Told::Name && longest * MIN_WORDS > width * WORDS {
-        return None;
+        let texts: Vec<[String; 2]> = lanes.iter().map(text).collect();
+        let colour = ink(ui).text;
+        let wide = |word: &str| {
+            ui.painter().layout_no_wrap(word.into(), strong_font(WORDS), colour).size().x
+        };
+        let all = texts.iter().flatten().flat_map(|text| text.split([' ', '\n']));
+        let longest = all.flat_map(|word| word.split_inclusive('-')).map(wide).fold(0.0, f32::max);
+        Self { told, lanes, texts, longest }
     }
-    let caption = |(lane, [name, words]): (&LaneCloud, &[String; 2])| {
-        let (colour, _) = ink.style(lab.entries(), &lab.entries()[lane.entry]);
-        let is_front = lane.entry == lab.active();
-        let font = if is_front { strong_font(size) } else { FontId::proportional(size) };
-        let mut job = LayoutJob::default();
-        job.wrap.max_width = width;
-        if told == Told::Name {
-            job.wrap.max_rows = 1;
-            job.wrap.break_anywhere = true;
+
+    /// All of this width and in one size; `None` if a word would break.
+    fn laid_out(&self, ui: &Ui, lab: &Lab, width: f32) -> Option<Vec<Arc<Galley>>> {
+        let longest = self.longest.max(width);
+        let size = (WORDS * width / longest).max(MIN_WORDS);
+        let is_name = self.told == Told::Name;
+        if !is_name && longest * MIN_WORDS > width * WORDS {
+            return None;
         }
-        job.append(name, 0.0, TextFormat::simple(font.clone(), colour));
-        let colour = if is_front { ink.text } else { ink.dim };
-        job.append(words, 0.0, TextFormat::simple(font, colour));
-        ui.painter().layout_job(job)
-    };
-    Some(lanes.iter().zip(&texts).map(caption).collect())
+        let ink = ink(ui);
+        let caption = |(lane, [name, words]): (&LaneCloud, &[String; 2])| {
+            let (colour, _) = ink.style(lab.entries(), &lab.entries()[lane.entry]);
+            let is_front = lane.entry == lab.active();
+            let font = if is_front { strong_font(size) } else { FontId::proportional(size) };
+            let mut job = LayoutJob::default();
+            job.wrap.max_width = width;
+            if is_name {
+                job.wrap.max_rows = 1;
+                job.wrap.break_anywhere = true;
+            }
+            job.append(name, 0.0, TextFormat::simple(font.clone(), colour));
+            let colour = if is_front { ink.text } else { ink.dim };
+            job.append(words, 0.0, TextFormat::simple(font, colour));
+            ui.painter().layout_job(job)
+        };
+        Some(self.lanes.iter().zip(&self.texts).map(caption).collect())
+    }
 }
 
 /// What has become of a cloud.
 fn words(lab: &Lab, lane: &LaneCloud) -> String {
-    let area = lane.area_ratio.map(|ratio| format!("×{}, ", significant(ratio, 3)));
-    format!("{}{}{}", area.unwrap_or_default(), lane.words, missing(lab, lane))
+    parts(lab, lane, Told::Words).join(", ")
 }
 
-/// What part of a cloud is not seen, and why.
-fn missing(lab: &Lab, lane: &LaneCloud) -> String {
-    let mut told = String::new();
-    if lane.lost > 0 {
-        told += &format!(", {} blew up", thousands(lane.lost));
-    }
-    let part = lane.hidden as f64 / lab.display().cloud.points as f64;
-    if part >= HIDDEN {
-        told += &format!(", {} % outside", significant(100.0 * part, 2));
-    }
-    told
+/// What is told of a cloud: its area, in words too if these are asked for, and the points that are not seen.
+fn parts(lab: &Lab, lane: &LaneCloud, told: Told) -> Vec<String> {
+    let area = lane.area_ratio.map(|ratio| format!("×{}", significant(ratio, 3)));
+    let words = (told == Told::Words).then(|| lane.words.clone());
+    let lost = (lane.lost > 0).then(|| format!("{} blew up", thousands(lane.lost)));
+    let hidden = hidden_in_words(lane.hidden, lab.display().cloud.points);
+    [area, words, lost, hidden].into_iter().flatten().collect()
 }
 
 /// The clouds in as many columns as make them largest.
@@ -258,19 +262,20 @@ fn side_by_side(
         pos2(room.left() + LEFT.max(widest + BESIDE_NUMBERS), room.top()),
         pos2(room.right(), room.bottom() - NUMBERS - NAMES),
     );
-    let layout = |columns: usize, (told, least): (Told, f32)| {
+    let layout = |columns: usize, captions: &Captions<'_>, least: f32| {
         let rows = lanes.len().div_ceil(columns);
         let gaps = GAP * (columns - 1) as f32;
         let width = (inner.width() - gaps) / columns as f32;
-        let captions = captions(ui, lab, lanes, width, told)?;
+        let captions = captions.laid_out(ui, lab, width)?;
         let above = captions.iter().map(|words| words.size().y).fold(0.0, f32::max) + 3.0;
         let height = inner.height() / rows as f32 - above - GAP / 2.0;
         let size = vec2(width.min(WIDEST * height), height);
         (size.min_elem() >= least).then_some((columns, size, captions, above))
     };
     let area = |size: Vec2| size.x * size.y;
-    let largest = |told: (Told, f32)| {
-        let layouts = (1..=lanes.len()).filter_map(|columns| layout(columns, told));
+    let largest = |(told, least): (Told, f32)| {
+        let captions = Captions::new(ui, lab, lanes, told);
+        let layouts = (1..=lanes.len()).filter_map(|columns| layout(columns, &captions, least));
         layouts.max_by(|a, b| area(a.1).total_cmp(&area(b.1)))
     };
     let found = TOLD.into_iter().find_map(largest);
