@@ -18,8 +18,16 @@ pub enum Scale {
 /// The unit of a metric.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
-    /// The same on every body; empty for a pure number.
-    Of(&'static str),
+    /// None: a pure number.
+    One,
+    /// Percent of what the metric says.
+    Percent,
+    /// Seconds.
+    Seconds,
+    /// Milliseconds.
+    Milliseconds,
+    /// The amplitude of the body's motion.
+    Amplitudes,
     /// The unit of the body's first coordinate. Coordinates in another unit are left out.
     Coordinate,
     /// The unit of the body's first coordinate per second.
@@ -30,9 +38,9 @@ impl Unit {
     /// The unit on a body with this coordinate.
     pub fn on(self, coordinate: &Coordinate) -> String {
         match self {
-            Unit::Of(unit) => unit.into(),
             Unit::Coordinate => coordinate.shown_unit().into(),
             Unit::Velocity => format!("{}/s", coordinate.unit),
+            same => same.to_string(),
         }
     }
 }
@@ -40,7 +48,11 @@ impl Unit {
 impl fmt::Display for Unit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Unit::Of(unit) => unit,
+            Unit::One => "",
+            Unit::Percent => "%",
+            Unit::Seconds => "s",
+            Unit::Milliseconds => "ms",
+            Unit::Amplitudes => "amplitudes",
             Unit::Coordinate => "m or rad",
             Unit::Velocity => "m/s or rad/s",
         })
@@ -121,7 +133,7 @@ pub const METRICS: &[Metric] = &[
         id: "relative_speed_error",
         name: "speed error",
         absent: "No speed to compare: the exact motion stands still.",
-        unit: Unit::Of("%"),
+        unit: Unit::Percent,
         scale: Scale::Linear,
         is_comparison: true,
         about: "speed above the exact one, in percent of the largest exact speed so far",
@@ -135,7 +147,7 @@ pub const METRICS: &[Metric] = &[
         id: ENERGY_DRIFT,
         name: "energy drift",
         absent: "No drift to show: this body does not conserve its energy.",
-        unit: Unit::Of("%"),
+        unit: Unit::Percent,
         scale: Scale::Linear,
         is_comparison: true,
         about: "energy gained, in percent of what the exact motion exchanges: the range of its kinetic energy, once both its ends were seen",
@@ -149,7 +161,7 @@ pub const METRICS: &[Metric] = &[
         id: "evaluations",
         name: "evaluations",
         absent: "No evaluations yet: no tick was made.",
-        unit: Unit::Of(""),
+        unit: Unit::One,
         scale: Scale::Linear,
         is_comparison: false,
         about: "evaluations of this body's acceleration since the start",
@@ -159,7 +171,7 @@ pub const METRICS: &[Metric] = &[
         id: "lost_time",
         name: "lost time",
         absent: "No time lost: every method shown keeps time.",
-        unit: Unit::Of("s"),
+        unit: Unit::Seconds,
         scale: Scale::Linear,
         is_comparison: false,
         about: "time by which this body is behind, under a method that does not keep it",
@@ -169,7 +181,7 @@ pub const METRICS: &[Metric] = &[
         id: "half_life",
         name: "half-life",
         absent: "No half-life: this body follows no target that stays, or is not yet half-way.",
-        unit: Unit::Of("ms"),
+        unit: Unit::Milliseconds,
         scale: Scale::Linear,
         is_comparison: false,
         about: "time in which this body covered half of the way to a target that stays, since the last input or placement",
@@ -179,7 +191,7 @@ pub const METRICS: &[Metric] = &[
         id: "overshoot",
         name: "overshoot",
         absent: "No overshoot: this body follows no target that stays.",
-        unit: Unit::Of("%"),
+        unit: Unit::Percent,
         scale: Scale::Linear,
         is_comparison: false,
         about: "furthest that this body went beyond a target that stays, in percent of the way, since the last input or placement",

@@ -7,14 +7,15 @@ use super::journal::Journal;
 use super::race::{ActionResult, Mode, Observer, Race};
 use super::scene::Scene;
 
+mod event;
 mod recording;
 mod run_with_past;
 mod start;
 mod timeline;
 mod undo;
 
+pub use event::{Event, EventKind};
 pub use recording::{Recorder, RecordingError, RunToRecord};
-pub use run_with_past::{Event, EventKind};
 pub(in crate::lab) use start::StartSettings;
 pub use timeline::{SNAPSHOT_BYTES, Timeline};
 pub(in crate::lab) use undo::Exchanged;

@@ -51,6 +51,11 @@ impl TimeScale {
         self.pieces[next - 1].t(tick)
     }
 
+    /// A tick and its time, for people: `tick 30 (0.500 s)`.
+    pub fn moment(&self, tick: u64) -> String {
+        format!("tick {tick} ({:.3} s)", self.t(tick))
+    }
+
     /// The fractional tick at a time in seconds; the first for all times before the start.
     pub fn tick_at(&self, t: f64) -> f64 {
         let next = self.pieces.partition_point(|piece| piece.t <= t).max(1);

@@ -345,7 +345,7 @@ fn events_are_ordered_by_tick_and_are_discarded_and_restored_with_their_future()
     assert!(timeline.act(Action::Kick(1.0)));
     (0..250).for_each(|_| timeline.tick());
     let events = timeline.events();
-    let done = |event: &Event| matches!(event.kind, EventKind::Done(..));
+    let done = |event: &Event| matches!(event.kind, EventKind::Done { .. });
     assert_eq!(events.iter().filter(|event| done(event)).map(|e| e.tick).collect::<Vec<_>>(), [50]);
     let race = timeline.session().race();
     let halts = race.entrants().iter().filter_map(|e| Some((e.id, e.lane.halted()?)));

@@ -3,6 +3,7 @@
 use super::frame::Frame;
 use super::pacer::Pacer;
 use super::policy::Steps;
+use crate::lab::metrics::Unit;
 
 /// By how much a frame may miss a double step and count as one: the nanoseconds of a trace are rounded.
 const LEEWAY_NS: i64 = 1000;
@@ -50,8 +51,8 @@ pub struct PacingMetric {
     pub id: &'static str,
     /// Name for people.
     pub name: &'static str,
-    /// Its unit; empty for a pure number.
-    pub unit: &'static str,
+    /// Its unit.
+    pub unit: Unit,
     /// What it is, in one line.
     pub about: &'static str,
     /// The value; `None` where it has no meaning.
@@ -63,91 +64,91 @@ pub const PACING_METRICS: &[PacingMetric] = &[
     PacingMetric {
         id: "frames",
         name: "frames",
-        unit: "",
+        unit: Unit::One,
         about: "frames made, displayed or not",
         measure: |report| Some(report.frames as f64),
     },
     PacingMetric {
         id: "animation_error_rms_ms",
         name: "animation error, RMS",
-        unit: "ms",
+        unit: Unit::Milliseconds,
         about: "change of the moment shown minus change of the moment of display, from frame to frame: judder",
         measure: |report| report.animation_error_rms_ms,
     },
     PacingMetric {
         id: "animation_error_max_ms",
         name: "largest animation error",
-        unit: "ms",
+        unit: Unit::Milliseconds,
         about: "the largest animation error of a frame, by magnitude",
         measure: |report| report.animation_error_max_ms,
     },
     PacingMetric {
         id: "repeated_percent",
         name: "repeated frames",
-        unit: "%",
+        unit: Unit::Percent,
         about: "displayed frames that show the same moment as the one before",
         measure: |report| report.repeated_percent,
     },
     PacingMetric {
         id: "double_percent",
         name: "double steps",
-        unit: "%",
+        unit: Unit::Percent,
         about: "displayed frames that show two ticks or more at once, half a tick or more beyond the display's own progress",
         measure: |report| report.double_percent,
     },
     PacingMetric {
         id: "latency_mean_ms",
         name: "mean latency",
-        unit: "ms",
+        unit: Unit::Milliseconds,
         about: "mean of the moment of display minus the moment shown",
         measure: |report| report.latency_mean_ms,
     },
     PacingMetric {
         id: "latency_max_ms",
         name: "largest latency",
-        unit: "ms",
+        unit: Unit::Milliseconds,
         about: "largest moment of display minus the moment shown",
         measure: |report| report.latency_max_ms,
     },
     PacingMetric {
         id: "dropped_ms",
         name: "dropped time",
-        unit: "ms",
+        unit: Unit::Milliseconds,
         about: "real time that was given up: the game falls behind",
         measure: |report| Some(report.dropped_ms),
     },
     PacingMetric {
         id: "owed_max_ms",
         name: "most owed time",
-        unit: "ms",
+        unit: Unit::Milliseconds,
         about: "the most real time that was neither simulated nor given up",
         measure: |report| Some(report.owed_max_ms),
     },
     PacingMetric {
         id: "position_error_rms",
         name: "position error, RMS",
-        unit: "amplitudes",
+        unit: Unit::Amplitudes,
         about: "distance from the exact solution at the moment of display, of the worst body",
         measure: |report| report.position_error_rms,
     },
     PacingMetric {
         id: "ticks",
         name: "ticks",
-        unit: "",
+        unit: Unit::One,
         about: "steps made, of whatever length",
         measure: |report| Some(report.ticks as f64),
     },
     PacingMetric {
         id: "evaluations",
         name: "evaluations",
-        unit: "",
+        unit: Unit::One,
         about: "evaluations of the bodies' accelerations",
         measure: |report| Some(report.evaluations as f64),
     },
     PacingMetric {
         id: "state_difference",
         name: "difference at half the frame rate",
-        unit: "amplitudes",
+        unit: Unit::Amplitudes,
         about: "the largest distance between the bodies with all frames and with every second frame left out",
         measure: |report| report.state_difference,
     },

@@ -1,9 +1,7 @@
 //! A run as far as it was reached: its present, its drawn past, its snapshots and what happened in it.
 
-use super::Session;
-use crate::lab::action::Action;
-use crate::lab::journal::{Journal, Source};
-use crate::lab::lane_id::LaneId;
+use super::{Event, Session};
+use crate::lab::journal::Journal;
 use crate::lab::past::{Past, PastMark};
 use crate::lab::race::Race;
 
@@ -41,29 +39,4 @@ pub(super) struct Snapshot {
     pub(super) race: Race,
     pub(super) mark: PastMark,
     pub(super) bytes: usize,
-}
-
-/// Something that happened in a run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Event {
-    /// When.
-    pub tick: u64,
-    /// What.
-    pub kind: EventKind,
-}
-
-/// What happened in a run.
-#[derive(Clone, Debug, PartialEq)]
-pub enum EventKind {
-    /// An action was performed.
-    Done(Action, Source),
-    /// A body halted.
-    Halted {
-        /// Its lane; `None` for the truth.
-        lane: Option<LaneId>,
-        /// The body's index in the scene.
-        body: usize,
-        /// Whether a value left its range, rather than the solver failing.
-        is_blow_up: bool,
-    },
 }

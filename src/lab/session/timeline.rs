@@ -1,14 +1,14 @@
 //! A session with its past and its future: it can go to any tick that it has reached, with identical bits, and takes back
 //! what a person did.
 
-use super::Session;
-use super::run_with_past::{Event, EventKind, RunWithPast, Snapshot};
+use super::run_with_past::{RunWithPast, Snapshot};
 use super::start::StartSettings;
 use super::undo::{Change, Exchanged, Future, Other, UndoStack};
+use super::{Event, EventKind, Session};
 use crate::lab::action::Action;
 use crate::lab::journal::Journal;
 use crate::lab::past::Past;
-use crate::lab::race::{ActionResult, Observer, Race};
+use crate::lab::race::{ActionResult, Mode, Observer, Race};
 use crate::lab::time_scale::TimeScale;
 
 /// The memory that snapshots and the drawn pasts of kept runs may take unless it is set, in bytes.
@@ -99,9 +99,14 @@ impl Timeline {
     /// The events up to the last tick reached, by tick.
     pub fn events(&self) -> Vec<Event> {
         let rows = self.run.session.journal().rows().iter();
-        let done = rows.take_while(|row| row.tick <= self.run.end).map(|row| Event {
-            tick: row.tick,
-            kind: EventKind::Done(row.action.clone(), row.source),
+        let is_solo = self.start().mode() == Mode::Solo;
+        let mut solo = is_solo.then(|| self.start().entrants()[0].id);
+        let done = rows.take_while(|row| row.tick <= self.run.end).map(|row| {
+            if let Action::Solo { lane } = row.action {
+                solo = Some(lane);
+            }
+            let (action, source) = (row.action.clone(), row.source);
+            Event { tick: row.tick, kind: EventKind::Done { action, source, solo } }
         });
         let mut events: Vec<Event> = done.chain(self.run.halts.iter().cloned()).collect();
         events.sort_by_key(|event| event.tick);

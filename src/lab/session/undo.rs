@@ -1,6 +1,7 @@
 //! The changes of a person that can be undone, and those that can be done again: one stack for all of them.
 
-use super::run_with_past::{Event, RunWithPast, Snapshot};
+use super::Event;
+use super::run_with_past::{RunWithPast, Snapshot};
 use super::start::StartSettings;
 use crate::lab::journal::Journal;
 

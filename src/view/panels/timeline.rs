@@ -357,7 +357,7 @@ fn tooltip(ui: &Ui, response: Response, track: &Track<'_>, groups: &[Group]) {
     response.on_hover_ui_at_pointer(|ui| {
         let near = |group: &&Group| (-6.0..=MARKS_APART - 6.0).contains(&(x - group.x));
         let Some(group) = groups.iter().rfind(near) else {
-            ui.label(marks::moment(track.tick(x), track.times));
+            ui.label(track.times.moment(track.tick(x)));
             return;
         };
         group.marks.iter().take(MAX_TOLD).for_each(|mark| drop(ui.label(&mark.text)));

@@ -45,7 +45,7 @@ pub(super) fn plot(lab: &Lab, body: usize, place: usize, title: String) -> PlotM
         (Scale::Linear, _) if matches!(scale, AxisScale::SymLog(_)) => {
             ranges::of_drift(&fitted, scale)
         }
-        (Scale::Linear, Unit::Of("%")) => ranges::of_shares(&fitted),
+        (Scale::Linear, Unit::Percent) => ranges::of_shares(&fitted),
         (Scale::Linear, _) => ranges::from_zero(&fitted),
     };
     let is_empty = tracks.iter().all(Track::is_empty);

@@ -1,9 +1,9 @@
 //! The columns of the table of loops, and how values are written in them.
 
 use super::row::Row;
-use crate::lab::LoopLab;
 use crate::lab::number::round;
 use crate::lab::pacing::PACING_METRICS;
+use crate::lab::{LoopLab, Unit};
 use crate::view::chart::legend::swatch;
 use crate::view::panels::ink;
 use crate::view::panels::table::{Column, SortKey, TableRow, show_key, show_words};
@@ -11,19 +11,18 @@ use crate::view::panels::table::{Column, SortKey, TableRow, show_key, show_words
 /// The least width of the verdict, in points.
 pub(super) const MIN_VERDICT: f32 = 264.0;
 
-/// The id of the metric that has words of its own.
-const LATENCY: &str = "latency_mean_ms";
+/// A column of numbers: name, width in points, priority, the id of the metric, and how a value is written.
+type MetricColumn = (&'static str, f32, u8, &'static str, fn(f64, Unit) -> String);
 
-/// The columns of numbers: name, width in points, priority, and the id of the metric.
-const METRICS: [(&str, f32, u8, &str); 8] = [
-    ("repeated", 66.0, 2, "repeated_percent"),
-    ("double", 56.0, 4, "double_percent"),
-    ("error RMS", 76.0, 1, "animation_error_rms_ms"),
-    ("largest", 70.0, 5, "animation_error_max_ms"),
-    ("latency", 70.0, 3, LATENCY),
-    ("dropped", 70.0, 7, "dropped_ms"),
-    ("position", 72.0, 8, "position_error_rms"),
-    ("at ½ rate", 72.0, 6, "state_difference"),
+const METRICS: [MetricColumn; 8] = [
+    ("repeated", 66.0, 2, "repeated_percent", shown),
+    ("double", 56.0, 4, "double_percent", shown),
+    ("error RMS", 76.0, 1, "animation_error_rms_ms", shown),
+    ("largest", 70.0, 5, "animation_error_max_ms", shown),
+    ("latency", 70.0, 3, "latency_mean_ms", latency),
+    ("dropped", 70.0, 7, "dropped_ms", shown),
+    ("position", 72.0, 8, "position_error_rms", shown),
+    ("at ½ rate", 72.0, 6, "state_difference", shown),
 ];
 
 /// Every column, from left to right.
@@ -82,23 +81,17 @@ pub(super) fn of<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
 }
 
 /// The column of a metric.
-fn metric<'a>(
-    (name, width, priority, id): (&'static str, f32, u8, &str),
-) -> Option<Column<Row<'a>>> {
+fn metric<'a>((name, width, priority, id, shown): MetricColumn) -> Option<Column<Row<'a>>> {
     let metric = PACING_METRICS.iter().find(|metric| metric.id == id)?;
     let value = |row: &Row<'a>| row.lane.report().and_then(metric.measure);
-    let text = move |row: &Row<'a>| {
-        let value = value(row)?;
-        Some(if metric.id == LATENCY { latency(value) } else { shown(value, metric.unit) })
-    };
-    let unit = if metric.unit == AMPLITUDES { ", in percent of the amplitude" } else { "" };
+    let text = move |row: &Row<'a>| Some(shown(value(row)?, metric.unit));
+    let is_of_amplitude = metric.unit == Unit::Amplitudes;
+    let unit = if is_of_amplitude { ", in percent of the amplitude" } else { "" };
     let about = format!("{}: {}{unit}", metric.name, metric.about);
     let size = move |row: &Row<'a>| value(row).map(f64::abs);
     Some(Column::number(name, (width, priority), &about, text, size))
 }
 
-/// The unit that is shown in percent.
-const AMPLITUDES: &str = "amplitudes";
 /// From here on milliseconds are shown as seconds.
 const MANY_MS: f64 = 10_000.0;
 /// From here on a share of the amplitude is that of a motion that has blown up.
@@ -111,24 +104,24 @@ const MIN_SHOWN: f64 = 1e-3;
 const SMALL: f64 = 0.1;
 
 /// A mean latency in milliseconds as the table has it.
-fn latency(ms: f64) -> String {
+fn latency(ms: f64, unit: Unit) -> String {
     match ms {
         ms if ms.abs() < MIN_LATENCY_MS => "0 ms".into(),
         // It grows as long as the run goes on.
         ahead if ahead < 0.0 => "ahead".into(),
-        behind => shown(behind, "ms"),
+        behind => shown(behind, unit),
     }
 }
 
 /// A value of a metric as the table has it.
-pub(super) fn shown(value: f64, unit: &str) -> String {
-    let (value, unit) = if unit == AMPLITUDES { (100.0 * value, "%") } else { (value, unit) };
+pub(super) fn shown(value: f64, unit: Unit) -> String {
     let (value, unit) = match unit {
-        "ms" if value.abs() >= MANY_MS => (value / 1000.0, "s"),
-        _ => (value, unit),
+        Unit::Amplitudes => (100.0 * value, Unit::Percent),
+        Unit::Milliseconds if value.abs() >= MANY_MS => (value / 1000.0, Unit::Seconds),
+        unit => (value, unit),
     };
     let number = match value.abs() {
-        lost if unit == "%" && lost >= LOST_PERCENT => return "lost".into(),
+        lost if unit == Unit::Percent && lost >= LOST_PERCENT => return "lost".into(),
         0.0 => "0".into(),
         small if small < MIN_SHOWN => "<0.001".into(),
         small if small < SMALL => round(libm::round(value * 1000.0) / 1000.0, 3),
@@ -141,6 +134,8 @@ pub(super) fn shown(value: f64, unit: &str) -> String {
 mod tests {
     use super::*;
 
+    const MS: Unit = Unit::Milliseconds;
+
     #[test]
     fn every_number_is_a_metric_of_the_table() {
         for column in METRICS {
@@ -150,10 +145,10 @@ mod tests {
 
     #[test]
     fn values_have_three_digits_or_decimals_and_nothing_is_told_from_almost_nothing() {
-        let texts = [(8.2247, "ms"), (0.0, "ms"), (1e-7, "ms"), (0.1234, AMPLITUDES)];
+        let texts = [(8.2247, MS), (0.0, MS), (1e-7, MS), (0.1234, Unit::Amplitudes)];
         let texts = texts.map(|(value, unit)| shown(value, unit));
         assert_eq!(texts, ["8.22 ms", "0 ms", "<0.001 ms", "12.3 %"]);
-        let texts = [-290_000.0, -0.008_81, 3e-7, 0.3, 16.66, 14_000.0].map(latency);
+        let texts = [-290_000.0, -0.008_81, 3e-7, 0.3, 16.66, 14_000.0].map(|ms| latency(ms, MS));
         assert_eq!(texts, ["ahead", "0 ms", "0 ms", "0.3 ms", "16.7 ms", "14 s"]);
     }
 }

@@ -5,7 +5,7 @@ use egui::{Color32, Label, Rect, RichText, Sense, Ui, Vec2, vec2};
 use super::columns::shown;
 use super::counts::{self, LEFT, Series};
 use super::errors::round_up;
-use crate::lab::{Lab, LiveFrame};
+use crate::lab::{Lab, LiveFrame, Unit};
 use crate::view::chart::{self, Arrow, AxisScale, Curve, Drawing, LineStyle, PlotArea, Primitive};
 use crate::view::panels::{ink, strong_font};
 use crate::view::theme::{Ink, colour};
@@ -67,14 +67,15 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
         return;
     };
     let Summary { mean_ms, usual_ms, worst_ms, dropped, error_rms_ms } = summary;
-    let [mean, usual, worst] = [mean_ms, usual_ms, worst_ms].map(|time_ms| shown(time_ms, "ms"));
+    let [mean, usual, worst] =
+        [mean_ms, usual_ms, worst_ms].map(|time_ms| shown(time_ms, Unit::Milliseconds));
     let times = format!("Frame time: mean {mean}, 99 % within {usual}, worst {worst}.");
     let lost = match dropped {
         0 => "No tick dropped.".into(),
         1 => "1 tick dropped.".into(),
         many => format!("{many} ticks dropped."),
     };
-    let error = format!("{lost} Animation error {} RMS.", shown(error_rms_ms, "ms"));
+    let error = format!("{lost} Animation error {} RMS.", shown(error_rms_ms, Unit::Milliseconds));
     ui.add(Label::new(RichText::new(times).color(ink(ui).dim)).wrap());
     let error = ui.add(Label::new(RichText::new(error).color(ink(ui).dim)).wrap());
     error.on_hover_text(

@@ -3,9 +3,8 @@
 use egui::Color32;
 
 use super::super::Ink;
-use crate::lab::number::round;
 use crate::lab::session::EventKind;
-use crate::lab::{Action, Event, LaneId, LaneSpec, Mode, Race, Scene, Source, TimeScale};
+use crate::lab::{Action, Event, LaneId, LaneSpec, Race, Scene, TimeScale};
 
 /// The sign of a mark. Of several in one place the last of this list is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -54,7 +53,7 @@ impl Group {
     }
 }
 
-/// What tells events in words.
+/// What the marks of a run depend on besides its events.
 pub(super) struct Context<'a> {
     pub(super) scene: &'a Scene,
     /// The race as it started.
@@ -66,110 +65,40 @@ pub(super) struct Context<'a> {
 impl Context<'_> {
     /// The marks of these events, by tick.
     pub(super) fn marks(&self, events: &[Event]) -> Vec<Mark> {
-        let (mut mode, alarm) = (self.start.mode(), self.ink.bad);
-        let mark = |event: &Event| {
-            let (sign, colour, what) = match &event.kind {
-                EventKind::Done(action, source) => {
-                    if let Action::Solo { .. } = action {
-                        mode = Mode::Solo;
-                    }
-                    let (sign, colour, what) = self.of_action(action, mode);
-                    let whose = match source {
-                        Source::Script => "by the script",
-                        Source::Hand => "by hand",
-                    };
-                    (sign, colour, format!("{what}, {whose}"))
-                }
-                EventKind::Halted { lane, body, is_blow_up } => {
-                    let what = self.of_halt(*lane, *body, *is_blow_up);
-                    (Sign::Halt, alarm, what)
-                }
+        let mark = |Event { tick, kind }: &Event| {
+            let (sign, colour) = match kind {
+                EventKind::Done { action, .. } => self.of_action(action),
+                EventKind::Halted { .. } => (Sign::Halt, self.ink.bad),
             };
-            let text = format!("{}: {what}", moment(event.tick, self.times));
-            Mark { tick: event.tick, sign, colour, text }
+            self.mark(*tick, (sign, colour), &kind.words(self.scene))
         };
         events.iter().map(mark).collect()
     }
 
     /// The mark of the last tick that was reached.
     pub(super) fn end(&self, tick: u64) -> Mark {
-        let text = format!("{}: the run has not gone further", moment(tick, self.times));
-        Mark { tick, sign: Sign::End, colour: self.ink.text, text }
+        self.mark(tick, (Sign::End, self.ink.text), "the run has not gone further")
     }
 
-    fn of_action(&self, action: &Action, mode: Mode) -> (Sign, Color32, String) {
+    fn mark(&self, tick: u64, (sign, colour): (Sign, Color32), what: &str) -> Mark {
+        Mark { tick, sign, colour, text: format!("{}: {what}", self.times.moment(tick)) }
+    }
+
+    fn of_action(&self, action: &Action) -> (Sign, Color32) {
         let of = |spec: &LaneSpec| self.ink.style(self.start.methods(), spec).0;
-        let percent = |part: f64| format!("{} %", round(100.0 * part, 3));
-        match *action {
-            Action::Method(method) => {
-                let what = match mode {
-                    Mode::Solo => {
-                        format!("{} in lane {}", method.id, self.start.entrants()[0].id)
-                    }
-                    Mode::Race => format!("{} is selected", method.id),
-                };
-                (Sign::Switch, of(&LaneSpec::plain(method)), what)
+        match action {
+            Action::Method(method) => (Sign::Switch, of(&LaneSpec::plain(method))),
+            Action::Lane { spec, .. } => (Sign::Switch, of(spec)),
+            Action::Solo { .. } => (Sign::Switch, self.ink.text),
+            Action::Substeps { .. } | Action::Tolerance { .. } | Action::Set { .. } => {
+                (Sign::Edit, self.ink.accent)
             }
-            Action::Lane { lane, spec } => {
-                let mut what = spec.method.id.to_owned();
-                if spec.substeps > 1 {
-                    what += &format!(" ×{}", spec.substeps);
-                }
-                if let Some(tolerance) = spec.tolerance {
-                    what += &format!(" within {}", round(tolerance, 3));
-                }
-                (Sign::Switch, of(&spec), format!("{what} in lane {lane}"))
-            }
-            Action::Solo { lane } => {
-                (Sign::Switch, self.ink.text, format!("lane {lane} goes on without the others"))
-            }
-            Action::Substeps { lane, substeps } => {
-                let s = if substeps == 1 { "" } else { "s" };
-                (Sign::Edit, self.ink.accent, format!("{substeps} substep{s} in lane {lane}"))
-            }
-            Action::Tolerance { lane, tolerance } => {
-                let what = format!("tolerance {} in lane {lane}", round(tolerance, 3));
-                (Sign::Edit, self.ink.accent, what)
-            }
-            Action::Set { body, parameter, value } => {
-                let body = &self.scene.bodies[body];
-                let parameter = &body.kind.parameters[parameter];
-                let quantity = format!("{} of {}", parameter.quantity(), body.name);
-                let value = format!("{} {}", round(value, 5), parameter.unit);
-                (Sign::Edit, self.ink.accent, format!("{quantity} = {}", value.trim_end()))
-            }
-            Action::TickHz(tick_hz) => (Sign::Rate, self.ink.text, format!("{tick_hz} Hz")),
-            Action::Throttle(part) => {
-                (Sign::Input, self.ink.dim, format!("throttle {}", percent(part)))
-            }
-            Action::Rudder(part) => {
-                (Sign::Input, self.ink.dim, format!("rudder {}", percent(part)))
-            }
-            Action::Kick(1.0) => (Sign::Kick, self.ink.warn, "kick".into()),
-            Action::Kick(times) => {
-                (Sign::Kick, self.ink.warn, format!("kick ×{}", round(times, 3)))
-            }
-            Action::Place { body, .. } => (
-                Sign::Place,
-                self.ink.good,
-                format!("{} is moved by hand", self.scene.bodies[body].name),
-            ),
+            Action::TickHz(_) => (Sign::Rate, self.ink.text),
+            Action::Throttle(_) | Action::Rudder(_) => (Sign::Input, self.ink.dim),
+            Action::Kick(_) => (Sign::Kick, self.ink.warn),
+            Action::Place { .. } => (Sign::Place, self.ink.good),
         }
     }
-
-    fn of_halt(&self, lane: Option<LaneId>, body: usize, is_blow_up: bool) -> String {
-        let name = &self.scene.bodies[body].name;
-        let fate = if is_blow_up { "blew up" } else { "halted: its solver gave up" };
-        match lane {
-            None => format!("the exact solution of {name} {fate}"),
-            Some(lane) => format!("{name} in lane {lane} {fate}"),
-        }
-    }
-}
-
-/// A tick and its time, in words.
-pub(super) fn moment(tick: u64, times: &TimeScale) -> String {
-    format!("tick {tick} ({:.3} s)", times.t(tick))
 }
 
 /// Marks in order, those less than `apart` points from the first of a group merged into it.
@@ -194,17 +123,17 @@ pub(super) fn colours(
 ) -> Vec<(u64, Color32)> {
     let of = |spec: &LaneSpec| ink.style(start.methods(), spec).0;
     let first = start.entrant(lane).map_or(ink.dim, |entrant| of(&entrant.spec));
-    let mut mode = start.mode();
     let mut colours = vec![(0, first)];
     for event in events {
         match event.kind {
-            EventKind::Done(Action::Lane { lane: switched, spec }, _) if switched == lane => {
+            EventKind::Done { action: Action::Lane { lane: switched, spec }, .. }
+                if switched == lane =>
+            {
                 colours.push((event.tick, of(&spec)));
             }
-            EventKind::Done(Action::Method(method), _) if mode == Mode::Solo => {
+            EventKind::Done { action: Action::Method(method), solo: Some(_), .. } => {
                 colours.push((event.tick, of(&LaneSpec::plain(method))));
             }
-            EventKind::Done(Action::Solo { .. }, _) => mode = Mode::Solo,
             _ => {}
         }
     }
@@ -226,6 +155,11 @@ mod tests {
 
     fn texts(lab: &Lab) -> Vec<String> {
         marks(lab).into_iter().map(|mark| mark.text).collect()
+    }
+
+    fn found_colours(lab: &Lab, lane: LaneId) -> Vec<(u64, Color32)> {
+        let timeline = lab.timeline();
+        colours(lane, &timeline.events(), timeline.start(), ink_of(lab.display().theme))
     }
 
     fn run(lab: &mut Lab, ticks: u32) {
@@ -260,6 +194,18 @@ mod tests {
         let signs: Vec<Sign> = marks(&lab).iter().map(|mark| mark.sign).collect();
         use Sign::*;
         assert_eq!(signs, [Switch, Kick, Edit, Rate, Edit, Kick]);
+    }
+
+    #[test]
+    fn a_method_after_the_race_is_in_the_lane_that_went_on() {
+        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        lab.apply(StageCommand::ToggleRace);
+        run(&mut lab, 20);
+        lab.apply(RunCommand::Act(Action::Solo { lane: LaneId(3) }));
+        lab.apply(StageCommand::Pick(0));
+        let text = texts(&lab).pop().unwrap();
+        assert!(text.ends_with("explicit-euler in lane 3, by hand"), "{text}");
+        assert_eq!(found_colours(&lab, LaneId(3)).len(), 2);
     }
 
     #[test]
@@ -299,9 +245,6 @@ mod tests {
         run(&mut lab, 20);
         lab.apply(StageCommand::Pick(3));
         run(&mut lab, 20);
-        let timeline = lab.timeline();
-        let found =
-            colours(LaneId(1), &timeline.events(), timeline.start(), ink_of(lab.display().theme));
-        assert_eq!(found, [(0, of(&lab, 0)), (20, of(&lab, 3))]);
+        assert_eq!(found_colours(&lab, LaneId(1)), [(0, of(&lab, 0)), (20, of(&lab, 3))]);
     }
 }
