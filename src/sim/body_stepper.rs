@@ -113,10 +113,17 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
 }
 
 /// A body and its state.
-#[derive(Clone)]
 pub(super) struct Placed<B: Body> {
     pub(super) body: Counted<B>,
     pub(super) state: StateOf<B>,
+}
+
+impl<B: Body> Clone for Placed<B> {
+    /// Apart from the methods, which would each have a copy of it.
+    #[inline(never)]
+    fn clone(&self) -> Self {
+        Self { body: self.body.clone(), state: self.state.clone() }
+    }
 }
 
 impl<B: Body> PlacedBody for Placed<B> {
@@ -246,10 +253,19 @@ impl<'a, V: Vector> Construct<Recorded<'a, V>> for Recording<'a, V> {
         let mut integrator = integrator.clone();
         let Self { system, mut state, t, h, substeps, .. } = self;
         let stepped = integrator.steps(&system, t, h, substeps, &mut state);
-        let State { q, v } = state;
-        let landing = stepped.map(|()| [q, v].map(|vector| vector.components().to_vec()));
-        Some(RecordedTick { evaluations: system.into_evaluations(), landing })
+        Some(recorded_tick(system, stepped, state))
     }
+}
+
+/// Apart from the methods, which would each have a copy of it.
+#[inline(never)]
+fn recorded_tick<V: Vector>(
+    system: Recorded<'_, V>,
+    stepped: Stepped,
+    State { q, v }: State<V>,
+) -> RecordedTick {
+    let landing = stepped.map(|()| [q, v].map(|vector| vector.components().to_vec()));
+    RecordedTick { evaluations: system.into_evaluations(), landing }
 }
 
 fn write<V: Vector>(state: &mut State<V>, q: &[f64], v: &[f64]) {

@@ -48,8 +48,15 @@ pub(super) trait Propagator<B: Body>: Send + 'static {
 }
 
 /// A method from the table.
-#[derive(Clone)]
 pub(super) struct MethodPropagator<I>(pub(super) I);
+
+impl<I: Clone> Clone for MethodPropagator<I> {
+    /// Apart from the bodies, which would each have a copy of it.
+    #[inline(never)]
+    fn clone(&self) -> Self {
+        Self(self.0.clone())
+    }
+}
 
 impl<B: Body, I: Integrator<Counted<B>> + Clone + 'static> Propagator<B> for MethodPropagator<I> {
     #[inline]

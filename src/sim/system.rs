@@ -296,6 +296,7 @@ impl<'a, V: Vector> Recorded<'a, V> {
 impl<V: Vector> System for Recorded<'_, V> {
     type Vector = V;
 
+    #[inline(never)]
     fn acceleration(&self, t: f64, q: &V, v: &V, a: &mut V) {
         self.system.acceleration(t, q, v, a);
         let [q, v, a] = [q, v, a].map(|vector| vector.components().to_vec());
@@ -303,6 +304,7 @@ impl<V: Vector> System for Recorded<'_, V> {
     }
 
     /// Kept as an evaluation: a slope and settings at their state, and a target at rest in it.
+    #[inline(never)]
     fn answer(&self, t: f64, question: Question<'_, V>) -> bool {
         match question {
             Question::Slope { state, .. } | Question::Engine { state, .. } => {
