@@ -41,6 +41,14 @@ pub fn enlargement(distance: f64, room: f64) -> Option<f64> {
     (2.0..=MAX).contains(&times).then_some(times)
 }
 
+/// A whole number with its thousands apart, between which no line breaks.
+pub fn grouped(number: u64) -> String {
+    match number {
+        ..1000 => number.to_string(),
+        _ => format!("{}\u{a0}{:03}", grouped(number / 1000), number % 1000),
+    }
+}
+
 /// A whole number in raised figures.
 pub fn superscript(exponent: i32) -> String {
     let raise = |c: char| match c {
@@ -66,6 +74,12 @@ mod tests {
         }
         assert_eq!((enlargement(0.0, 20.0), enlargement(1e-12, 20.0)), (None, None));
         assert_eq!((enlargement(f64::NAN, 20.0), enlargement(f64::INFINITY, 20.0)), (None, None));
+    }
+
+    #[test]
+    fn thousands_are_apart() {
+        let texts = [7, 1000, 10_020, 1_000_000].map(grouped);
+        assert_eq!(texts, ["7", "1\u{a0}000", "10\u{a0}020", "1\u{a0}000\u{a0}000"]);
     }
 
     #[test]

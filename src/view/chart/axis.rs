@@ -1,6 +1,6 @@
 //! How values lie along an axis, and where they are marked: at round values, at least three of them wherever they fit.
 
-use crate::lab::number::{round, superscript};
+use crate::lab::number::{grouped, round, superscript};
 
 /// How values lie along an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -188,12 +188,7 @@ fn power(digit: f64, exponent: i32, is_written_out: bool) -> String {
         return format!("{factor}10{}", superscript(exponent));
     }
     let value = digit * libm::pow(10.0, f64::from(exponent));
-    if value < 1e4 {
-        return round(value, 4);
-    }
-    let digits = format!("{value:.0}");
-    let (thousands, rest) = digits.split_at(digits.len() - 3);
-    format!("{thousands}\u{202f}{rest}")
+    if value < 1e4 { round(value, 4) } else { grouped(value.round() as u64) }
 }
 
 #[cfg(test)]
@@ -247,7 +242,7 @@ mod tests {
         let wide = ["2", "5", "10", "20", "50", "100", "200", "500", "1000"];
         assert_eq!(decades([2.0, 1000.0], 400.0, 30.0), wide);
         assert_eq!(decades([2.0, 1000.0], 100.0, 30.0), ["10", "100", "1000"]);
-        let large = ["10", "100", "1000", "10\u{202f}000", "100\u{202f}000"];
+        let large = ["10", "100", "1000", "10\u{a0}000", "100\u{a0}000"];
         assert_eq!(decades([1.5, 1.1e5], 200.0, 30.0), large);
         assert_eq!(decades([1e-4, 1e8], 400.0, 30.0)[..2], ["10⁻⁴", "10⁻³"]);
         assert_eq!(decades([0.4, 2.5], 80.0, 24.0), ["0.5", "1", "2"]);

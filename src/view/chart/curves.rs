@@ -52,6 +52,11 @@ pub(in crate::view) struct ScreenCurve {
 }
 
 impl Curve {
+    /// A curve of which the points are all that is known.
+    pub(in crate::view) fn new(style: LineStyle, points: Vec<[f64; 2]>) -> Self {
+        Self { style, points, swept: Vec::new() }
+    }
+
     /// The same curve as it lies on the screen.
     pub(super) fn on_screen(&self, area: &PlotArea) -> ScreenCurve {
         ScreenCurve {
@@ -59,6 +64,13 @@ impl Curve {
             points: self.points.iter().map(|at| area.at(*at)).collect(),
             swept: self.swept.iter().map(|ends| ends.map(|y| area.height(y))).collect(),
         }
+    }
+}
+
+impl ScreenCurve {
+    /// A curve of which the points are all that is known.
+    pub(in crate::view) fn new(style: LineStyle, points: Vec<Pos2>) -> Self {
+        Self { style, points, swept: Vec::new() }
     }
 }
 
@@ -108,14 +120,12 @@ pub(super) enum Drawn {
     Scattered,
 }
 
-/// How a curve through `points` on the screen is drawn as far as it is `seen`, a band in columns of this width. `swept` has
-/// the heights that the curve comes to on the way to each point, where they are known.
+/// How a curve is drawn as far as it is `seen`, a band in columns of this width.
 pub(super) fn drawn(
-    points: &[Pos2],
-    swept: &[[f32; 2]],
-    LineStyle { colour, width, dash: [drawn, gap], .. }: LineStyle,
+    ScreenCurve { style, points, swept }: &ScreenCurve,
     (seen, column): (Rect, f32),
 ) -> Drawn {
+    let LineStyle { colour, width, dash: [drawn, gap], .. } = *style;
     let joints = points.iter().map(|&at| Joint { at, radius: width / 2.0, colour });
     let runs = shown(joints, seen.expand(width));
     let is_crowded = is_crowded(&runs, width);
@@ -128,27 +138,22 @@ pub(super) fn drawn(
     Drawn::Line(runs, [drawn, if is_crowded { 0.0 } else { gap }])
 }
 
-/// Draws a curve through `points` on the screen, as far as the painter's clip shows it, in the way of [`drawn`]. What the
-/// painter gets for a line is a [`StrokeMesh`] for [`MeshRenderer`](crate::view::meshes::MeshRenderer). Returns whether more
-/// is drawn than its dots.
-pub(in crate::view) fn paint(
-    painter: &Painter,
-    points: &[Pos2],
-    swept: &[[f32; 2]],
-    style: LineStyle,
-) -> bool {
+/// Draws a curve as far as the painter's clip shows it, in the way of [`drawn`]. What the painter gets for a line is a
+/// [`StrokeMesh`] for [`MeshRenderer`](crate::view::meshes::MeshRenderer). Returns whether more is drawn than its dots.
+pub(super) fn paint(painter: &Painter, curve: &ScreenCurve) -> bool {
+    let colour = curve.style.colour;
     let (seen, px_per_point) = (painter.clip_rect(), painter.pixels_per_point());
     let stroke = |runs: Vec<Vec<Joint>>, dash: [f32; 2]| {
         let mut mesh = StrokeMesh::default();
         runs.into_iter().for_each(|run| mesh.add(run, dash, px_per_point));
         painter.add(PaintCallback { rect: seen, callback: Arc::new(mesh) });
     };
-    match drawn(points, swept, style, (seen, 1.0 / px_per_point)) {
+    match drawn(curve, (seen, 1.0 / px_per_point)) {
         Drawn::Line(runs, dash) => stroke(runs, dash),
         Drawn::Bands(all) => {
             for band in all {
-                painter.add(Shape::mesh(band.fill(style.colour)));
-                stroke(band.edges(style.colour, seen), [1.0, 0.0]);
+                painter.add(Shape::mesh(band.fill(colour)));
+                stroke(band.edges(colour, seen), [1.0, 0.0]);
             }
         }
         Drawn::Scattered => return false,

@@ -178,11 +178,8 @@ fn laid_out(curve: &FigureCurve, chart: &Chart) -> Curve {
     let [along, up] = [0, 1].map(|axis| chart.axes[axis].scale);
     let points = curve.points.iter().map(|&[x, y]| [along.place(x), up.place(y)]);
     let dots = if curve.dots > 0.0 { Dots::Each(curve.dots) } else { Dots::None };
-    Curve {
-        style: LineStyle { colour: colour(curve.colour), width: CURVE, dash: curve.dash, dots },
-        points: points.filter(|[x, y]| x.is_finite() && y.is_finite()).collect(),
-        swept: Vec::new(),
-    }
+    let style = LineStyle { colour: colour(curve.colour), width: CURVE, dash: curve.dash, dots };
+    Curve::new(style, points.filter(|[x, y]| x.is_finite() && y.is_finite()).collect())
 }
 
 /// The names of these curves: in one row, or where that is too long in columns.

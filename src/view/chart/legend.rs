@@ -2,12 +2,9 @@
 
 use std::sync::Arc;
 
-use egui::{
-    Align2, Color32, FontId, Galley, Painter, Pos2, Response, Sense, Stroke, Ui, pos2, vec2,
-};
+use egui::{Align2, Color32, FontId, Galley, Pos2, Response, Sense, Stroke, Ui, pos2, vec2};
 
-use super::curves::ScreenCurve;
-use super::{LineStyle, NAME, Primitive, Text, text_width};
+use super::{Primitive, Text, paint, text_width};
 use crate::view::theme::{Ink, ink, strong_font};
 
 /// The length of a line, the room behind it, and between two entries, in points.
@@ -18,8 +15,6 @@ pub(in crate::view) const BETWEEN: f32 = 13.0;
 pub(in crate::view) const ROW: f32 = 15.0;
 /// The size of a name, in points.
 const SIZE: f32 = 12.0;
-/// The width of a line of a legend in a file, in points.
-const WIDTH: f32 = 2.4;
 
 /// A curve's name and its line.
 #[derive(Clone, Debug)]
@@ -34,11 +29,8 @@ pub(in crate::view) struct Entry {
 
 impl Entry {
     fn words(&self, ui: &Ui) -> Arc<Galley> {
-        let (font, inked) = match self.is_front {
-            true => (strong_font(SIZE), ink(ui).text),
-            false => (FontId::proportional(SIZE), ink(ui).dim),
-        };
-        ui.painter().layout_no_wrap(self.name.clone(), font, inked)
+        let font = if self.is_front { strong_font(SIZE) } else { FontId::proportional(SIZE) };
+        ui.painter().layout_no_wrap(self.name.clone(), font, ink(ui).text)
     }
 
     /// The width that it takes, in points.
@@ -48,13 +40,21 @@ impl Entry {
 
     /// Shows it, at least this wide.
     fn show(&self, ui: &mut Ui, min_width: f32) -> Response {
-        let words = self.words(ui);
-        let size = vec2(self.width(ui).max(min_width), words.size().y);
+        let words = self.words(ui).size();
+        let size = vec2((SWATCH + BEFORE_NAME + words.x).max(min_width), words.y);
         let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-        swatch(ui.painter(), rect.left_center(), SWATCH, self.dash, self.colour);
-        let at = rect.left_center() + vec2(SWATCH + BEFORE_NAME, -words.size().y / 2.0);
-        ui.painter().galley(at, words, ink(ui).text);
+        paint(ui.painter(), &self.layout(rect.left_center(), ink(ui)));
         response
+    }
+
+    /// The line, from `from` to the right, and the name.
+    fn layout(&self, from: Pos2, ink: &Ink) -> Vec<Primitive> {
+        let at = from + vec2(SWATCH + BEFORE_NAME, 0.0);
+        let colour = if self.is_front { ink.text } else { ink.dim };
+        let name = Text::new(at, Align2::LEFT_CENTER, &*self.name, SIZE, colour);
+        let mut all = swatch(from, SWATCH, self.dash, self.colour);
+        all.push(if self.is_front { name.strong() } else { name }.into());
+        all
     }
 }
 
@@ -75,31 +75,29 @@ pub(in crate::view) fn show_here(ui: &mut Ui, entries: &[Entry], width: f32) -> 
 
 /// A piece of a curve's line, from `from` to the right, as the plots draw it.
 pub(in crate::view) fn swatch(
-    painter: &Painter,
     from: Pos2,
     length: f32,
     [drawn, gap]: [f32; 2],
     colour: Color32,
-) {
+) -> Vec<Primitive> {
     let (mut x, to) = (from.x, from.x + length);
+    let mut dashes = Vec::new();
     while x < to {
         let end = if gap > 0.0 { (x + drawn).min(to) } else { to };
-        painter.line_segment([pos2(x, from.y), pos2(end, from.y)], Stroke::new(3.0, colour));
+        let ends = [pos2(x, from.y), pos2(end, from.y)];
+        dashes.push(Primitive::Line(ends, Stroke::new(3.0, colour)));
         x = end + gap.max(1.0);
     }
+    dashes
 }
 
 /// A legend in one row, whose line is at the height of `from`.
 pub(in crate::view) fn layout(entries: &[Entry], from: Pos2, ink: &Ink) -> Vec<Primitive> {
     let mut x = from.x;
-    let entry = |Entry { name, colour, dash, .. }: &Entry| {
-        let points = vec![pos2(x, from.y), pos2(x + SWATCH, from.y)];
-        let style = LineStyle { dash: *dash, ..LineStyle::solid(*colour, WIDTH) };
-        let line = ScreenCurve { style, points, swept: Vec::new() };
-        let at = pos2(x + SWATCH + BEFORE_NAME, from.y);
-        x = at.x + text_width(name, NAME) + BETWEEN;
-        let name = Text::new(at, Align2::LEFT_CENTER, name.as_str(), NAME, ink.text);
-        [Primitive::Curves(vec![line]), name.into()]
+    let entry = |entry: &Entry| {
+        let laid_out = entry.layout(pos2(x, from.y), ink);
+        x += SWATCH + BEFORE_NAME + text_width(&entry.name, SIZE) + BETWEEN;
+        laid_out
     };
     entries.iter().flat_map(entry).collect()
 }

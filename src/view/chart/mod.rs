@@ -12,7 +12,7 @@ pub(super) use primitive::{Primitive, Text, paint};
 mod area;
 mod axis;
 mod bands;
-pub(super) mod curves;
+mod curves;
 pub(super) mod figure;
 pub(super) mod legend;
 mod primitive;

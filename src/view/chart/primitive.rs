@@ -123,9 +123,7 @@ pub(in crate::view) fn paint(painter: &Painter, primitives: &[Primitive]) {
 }
 
 fn paint_curves(painter: &Painter, curves: &[ScreenCurve]) {
-    let is_line =
-        |curve: &ScreenCurve| curves::paint(painter, &curve.points, &curve.swept, curve.style);
-    let are_lines: Vec<bool> = curves.iter().map(is_line).collect();
+    let are_lines: Vec<bool> = curves.iter().map(|curve| curves::paint(painter, curve)).collect();
     let seen = painter.clip_rect();
     for (ScreenCurve { style, points, .. }, is_line) in curves.iter().zip(are_lines) {
         let kind = if is_line { style.dots } else { Dots::Each(SCATTERED) };

@@ -115,8 +115,8 @@ impl Svg {
 
     /// Adds the line or the bands of a curve. Returns which of its points have a dot.
     fn curve(&mut self, curve: &ScreenCurve, seen: Rect) -> Dots {
-        let ScreenCurve { style, points, swept } = curve;
-        match drawn(points, swept, *style, (seen, 1.0)) {
+        let style = curve.style;
+        match drawn(curve, (seen, 1.0)) {
             Drawn::Line(runs, [_, 0.0]) => self.runs(&runs, ""),
             Drawn::Line(runs, [drawn, gap]) => {
                 self.runs(&runs, &format!(r#" stroke-dasharray="{drawn} {gap}""#));
@@ -205,12 +205,9 @@ mod tests {
         let curve = |count: u16| {
             let x = |i: u16| 200.0 * f32::from(i) / f32::from(count);
             let at = |i: u16| pos2(x(i), 50.0 + 40.0 * libm::sinf(f32::from(i)));
-            let (points, swept) = ((0..count).map(at).collect(), Vec::new());
+            let points = (0..count).map(at).collect();
             let style = LineStyle::solid(Color32::WHITE, 1.5);
-            Primitive::Clip(
-                plot,
-                vec![Primitive::Curves(vec![ScreenCurve { style, points, swept }])],
-            )
+            Primitive::Clip(plot, vec![Primitive::Curves(vec![ScreenCurve::new(style, points)])])
         };
         let counted = |primitive: Primitive, what: &str| {
             file([200.0, 100.0], &[primitive]).matches(what).count()

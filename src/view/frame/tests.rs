@@ -1,7 +1,7 @@
 use super::*;
 use crate::lab::Scene;
 use crate::lab::picture::{Fill, Picture, Shape};
-use crate::view::chart::{LineStyle, curves};
+use crate::view::chart::{self, LineStyle, Primitive, ScreenCurve};
 use crate::view::testing::{EVERYWHERE, Pixels, gpu_or_skip, read};
 use crate::view::{AdapterPreference, Offscreen};
 
@@ -86,8 +86,9 @@ fn a_curve_is_drawn_in_its_dashes_and_no_further_than_the_clip() {
         let clip = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(100.0, 64.0));
         let painter = ui.painter().with_clip_rect(clip);
         for (y, dash) in [(20.0, [8.0, 6.0]), (40.0, [8.0, 0.0])] {
-            let ends = [egui::pos2(10.0, y), egui::pos2(120.0, y)];
-            assert!(curves::paint(&painter, &ends, &[], style(dash)));
+            let ends = vec![egui::pos2(10.0, y), egui::pos2(120.0, y)];
+            let curve = ScreenCurve::new(style(dash), ends);
+            chart::paint(&painter, &[Primitive::Curves(vec![curve])]);
         }
         None
     });

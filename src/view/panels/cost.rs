@@ -3,11 +3,10 @@
 
 use egui::{Color32, Label, Rect, RichText, Ui, Vec2, vec2};
 
-use super::table::{Column, SortKey, Table, TableRow, show_words};
+use super::table::{Column, SortKey, Table, TableRow, show_line, show_words};
 use super::{ink, strong_font};
 use crate::lab::number::significant;
 use crate::lab::{Command, Entrant, Lab, LaneSpec, StageCommand};
-use crate::view::chart::legend::swatch;
 use crate::view::theme::Ink;
 
 /// The height of a row and the size of type in the heads, in points.
@@ -51,11 +50,11 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Comman
 fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
     let line = Column::shown(
         "line",
-        30.0,
+        32.0,
         "the line of this method in the plots and on the stage",
         |ui, row: &Row<'a>, rect, _| {
             let (colour, dash) = ink(ui).style(row.lab.entries(), &row.spec);
-            swatch(ui.painter(), rect.left_center(), 28.0, dash, colour);
+            show_line(ui, rect, dash, colour);
         },
         |row| SortKey::Number(row.entry as f64),
     );

@@ -23,8 +23,8 @@ pub(super) mod table;
 
 pub(super) use export::csv;
 
-/// What the charts show.
-pub(super) const TITLE: &str = "Moment shown against moment of display";
+/// What the charts of the loop lab show.
+const TITLE: &str = "Moment shown against moment of display";
 /// From this width on, in points, the title is whole.
 const ROOM_FOR_TITLE: f32 = 340.0;
 /// From this height on, in points, there are two small plots below, and the part of the height that they take.
@@ -70,8 +70,15 @@ fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command
     }
 }
 
-/// The charts of the loop lab in a room, to be saved, and what names their curves.
-pub(super) fn layout(loops: &LoopLab, room: Rect, ink: &Ink) -> (Vec<Entry>, Vec<Primitive>) {
+/// The title of the charts in a room, to be saved, what names their curves, and the charts; `None` before the first frame.
+pub(super) fn layout(
+    lab: &Lab,
+    room: Rect,
+    ink: &Ink,
+) -> Option<(&'static str, Vec<Entry>, Vec<Primitive>)> {
+    let Some(loops) = lab.loop_lab() else {
+        return Some((live::TITLE, Vec::new(), live::layout(lab, room, ink)?));
+    };
     let lanes = on_stage(loops, ink);
     let (upper, below) = parts(room);
     let moments = moments::area(upper, loops, &lanes);
@@ -81,7 +88,7 @@ pub(super) fn layout(loops: &LoopLab, room: Rect, ink: &Ink) -> (Vec<Entry>, Vec
         all.extend(counts::layout(left, &series(&lanes), ink));
         all.extend(errors::layout(right, loops, &lanes, ink));
     }
-    (legend_entries(loops, &lanes, ink), all)
+    Some((TITLE, legend_entries(loops, &lanes, ink), all))
 }
 
 /// The room of the moments, and with enough room two more below.

@@ -11,7 +11,7 @@ use super::annotations::{arrow, label};
 use super::{colour, formula, ink, strong_font};
 use crate::lab::number::{round, significant};
 use crate::lab::{Coordinate, Lab, OneStep, Slope, Unit};
-use crate::view::chart::{self, AxisScale, PlotArea};
+use crate::view::chart::{self, AxisScale, Curve, Drawing, LineStyle, PlotArea};
 use crate::view::theme::TYPE;
 
 mod loupe;
@@ -124,8 +124,6 @@ fn plot(ui: &mut Ui, lab: &Lab, step: &OneStep, size: Vec2) {
     let area = PlotArea { rect, bounds: [0, 1].map(|axis| range(step, axis)) };
     let painter = ui.painter_at(whole);
     painter.rect_filled(rect, 0.0, ink.plot);
-    let marks = [0, 1].map(|axis| area.marks(axis, AxisScale::Linear, [64.0, 26.0][axis]));
-    chart::paint(&painter, &chart::axes(&area, marks, ink, whole.right()));
     let coordinate = &shown_coordinate(lab);
     let small = FontId::proportional(11.5);
     let up = format!("velocity {}, {}", coordinate.velocity, Unit::Velocity.on(coordinate));
@@ -133,25 +131,29 @@ fn plot(ui: &mut Ui, lab: &Lab, step: &OneStep, size: Vec2) {
     let along = headed(&coordinate.name, coordinate.shown_unit());
     painter.text(rect.right_top(), Align2::RIGHT_BOTTOM, along, small, ink.dim);
 
-    let painter = painter.with_clip_rect(rect);
     let own = ink.style(lab.entries(), &step.spec).0;
     // The states with the energy of the present one, and of the landing.
+    let mut curves = Vec::new();
     for (through, colour) in [(Some(step.from), ink.exact), (step.landing, own)] {
         let lines = through.map(|through| lab.orbit(through, area.bounds[0])).unwrap_or_default();
-        for line in lines {
-            let line: Vec<Pos2> = line.into_iter().map(|point| area.at(point)).collect();
-            let thin = Stroke::new(1.0, colour.gamma_multiply(ORBIT));
-            painter.extend(egui::Shape::dashed_line(&line, thin, 6.0, 4.0));
-        }
+        let style = LineStyle::solid(colour.gamma_multiply(ORBIT), 1.0);
+        let thin = LineStyle { dash: [6.0, 4.0], ..style };
+        curves.extend(lines.into_iter().map(|line| Curve::new(thin, line)));
     }
-    let exact: Vec<Pos2> = step.exact.iter().map(|point| area.at(*point)).collect();
-    painter.line(exact, Stroke::new(2.4, ink.exact));
+    curves.push(Curve::new(LineStyle::solid(ink.exact, 2.4), step.exact.clone()));
     let from = area.at(step.from);
     let evaluations = drawn(ui, step);
-    for (_, colour, slope) in &evaluations {
-        let dotted = Stroke::new(1.4, colour.gamma_multiply(0.8));
-        painter.extend(egui::Shape::dashed_line(&[from, area.at(slope.at)], dotted, 2.0, 3.0));
+    for (_, colour, slope) in
+        evaluations.iter().filter(|(.., slope)| slope.at.iter().all(|at| at.is_finite()))
+    {
+        let style = LineStyle::solid(colour.gamma_multiply(0.8), 1.4);
+        let dotted = LineStyle { dash: [2.0, 3.0], ..style };
+        curves.push(Curve::new(dotted, vec![step.from, slope.at]));
     }
+    let marks = [0, 1].map(|axis| area.marks(axis, AxisScale::Linear, [64.0, 26.0][axis]));
+    let drawing = Drawing { curves, ..Drawing::default() };
+    chart::paint(&painter, &chart::plot(&area, marks, &drawing, ink, whole.right()));
+    let painter = painter.with_clip_rect(rect);
     chain(&painter, step, &area, &evaluations, own);
     let reach = SLOPE * rect.size().length();
     let longest = evaluations.iter().map(|(_, _, slope)| direction(&area, slope).length());

@@ -15,7 +15,7 @@ use crate::lab::{
     Action, Command, Coverage, Lab, MapRequest, Parameter, RunCommand, SeenLine, StabilityMap,
     StageCommand, Step, edited_values,
 };
-use crate::view::chart::{self, AxisScale, LineStyle, PlotArea, curves};
+use crate::view::chart::{self, AxisScale, LineStyle, PlotArea, Primitive, ScreenCurve};
 use words::{each_method, full_name, no_map, point_in_words, sentence, short_sentence};
 
 mod words;
@@ -170,18 +170,19 @@ fn boundaries(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) {
     order.sort_by_key(|(entry, _)| is_selected(*entry));
     let seen = seen_lines(lab, map, area);
     let seen_colour = mixed(ink(ui).dim, style(lab.active()).0, 0.6);
-    for (_, points) in &seen {
-        curves::paint(&painter, points, &[], LineStyle::solid(seen_colour, 1.2));
-    }
+    let curve = |style: LineStyle, points: &[Pos2]| ScreenCurve::new(style, points.to_vec());
+    let thin = LineStyle::solid(seen_colour, 1.2);
+    let mut curves: Vec<_> = seen.iter().map(|(_, points)| curve(thin, points)).collect();
     for (entry, points) in &order {
         let (colour, dash) = style(*entry);
         if is_selected(*entry) {
             let glow = LineStyle::solid(colour.gamma_multiply(0.25), 7.0);
-            curves::paint(&painter, points, &[], glow);
+            curves.push(curve(glow, points));
         }
         let width = if is_selected(*entry) { 3.4 } else { 2.2 };
-        curves::paint(&painter, points, &[], LineStyle { dash, ..LineStyle::solid(colour, width) });
+        curves.push(curve(LineStyle { dash, ..LineStyle::solid(colour, width) }, points));
     }
+    chart::paint(&painter, &[Primitive::Curves(curves)]);
     let mut taken: Vec<Pos2> = Vec::new();
     if let Some(at) = cross_at(lab, map, area) {
         let (chip, _) = you_are_here(ui, at, area.rect);

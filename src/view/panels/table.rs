@@ -5,6 +5,7 @@ use egui::{Align2, Color32, FontId, Id, Rect, Response, ScrollArea, Sense, Ui, V
 
 use super::{focus_ring, ink, keycap, short};
 use crate::lab::Command;
+use crate::view::chart::{self, legend::swatch};
 use crate::view::theme::{Ink, TYPE, strong_font};
 
 /// The width of the bar at the left of the selected row, and of the margin that it stands in, in points.
@@ -346,6 +347,11 @@ pub(super) fn show_key(ui: &Ui, rect: Rect, place: usize, colour: Color32) {
         let (at, key) = (rect.left_center(), format!("{}", (place + 1) % 10));
         keycap::paint(ui, at.x, at.y, &key, colour);
     }
+}
+
+/// Shows the line of a curve in a cell.
+pub(super) fn show_line(ui: &Ui, rect: Rect, dash: [f32; 2], colour: Color32) {
+    chart::paint(ui.painter(), &swatch(rect.left_center(), rect.width() - 4.0, dash, colour));
 }
 
 /// Writes words into a cell, rather smaller than cut.

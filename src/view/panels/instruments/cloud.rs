@@ -5,23 +5,23 @@ use std::sync::Arc;
 
 use egui::text::LayoutJob;
 use egui::{
-    Color32, ColorImage, FontId, Galley, Label, Pos2, Rect, RichText, Sense, Stroke, StrokeKind,
-    TextFormat, TextureHandle, TextureOptions, Ui, UiBuilder, Vec2, pos2, vec2,
+    Color32, ColorImage, FontId, Galley, Label, Pos2, Rect, RichText, Sense, Stroke, TextFormat,
+    TextureHandle, TextureOptions, Ui, UiBuilder, Vec2, pos2, vec2,
 };
 
 use super::super::roster::Roster;
 use super::super::tracks::Track;
-use super::super::{focus_ring, ink, strong_font};
+use super::super::{Ink, focus_ring, ink, strong_font};
 use super::error::capitalised;
 use super::sheet::{ExactLine, PlotAxis, PlotModel, Sheet, over_time};
 use super::{body_choice, chart, choice};
 use crate::lab::cloud::{
     CloudChoice, CloudKind, CloudPicture, Density, LONGEST_LINE, LaneCloud, POINTS, hidden_in_words,
 };
-use crate::lab::number::significant;
+use crate::lab::number::{grouped, significant};
 use crate::lab::palette::{Rgba, Theme};
 use crate::lab::{Command, Lab, Mode, RunCommand, StageCommand};
-use crate::view::chart::{self as charts, AxisScale, LineStyle, PlotArea, curves};
+use crate::view::chart::{self as charts, AxisScale, LineStyle, PlotArea, Primitive, ScreenCurve};
 
 /// The least room for the numbers of the axes at the left, and what these need besides their width; the room for those
 /// below, and for the axes' names, in points.
@@ -130,10 +130,11 @@ fn head(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         let offered = CloudKind::ALL.into_iter().map(kind);
         choice(ui, "shape of the cloud", offered, kind(chosen.kind), commands);
         if chosen.kind != CloudKind::Section {
-            let counts = POINTS.map(|points| format!("{} points", thousands(points)));
+            let counted = |points: usize| format!("{} points", grouped(points as u64));
+            let counts = POINTS.map(counted);
             let command =
                 |points| Command::Run(RunCommand::Cloud(CloudChoice { points, ..chosen }));
-            let now = format!("{} points", thousands(chosen.points));
+            let now = counted(chosen.points);
             let offered = POINTS.into_iter().map(command).zip(counts.iter().map(String::as_str));
             choice(ui, "points of the cloud", offered, (command(chosen.points), &now), commands);
         }
@@ -150,14 +151,6 @@ fn head(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 fn behind_s(lab: &Lab) -> Option<f64> {
     let picture = lab.cloud()?.picture.as_ref().ok()?;
     Some(lab.cloud_request()?.behind_s(picture)).filter(|behind| *behind > BEHIND_S)
-}
-
-/// In groups of digits, between which no line breaks.
-fn thousands(points: usize) -> String {
-    match points {
-        ..1000 => points.to_string(),
-        _ => format!("{}\u{a0}{:03}", thousands(points / 1000), points % 1000),
-    }
 }
 
 /// How much is told above each cloud; a hover tells the rest.
@@ -239,7 +232,7 @@ fn words(lab: &Lab, lane: &LaneCloud) -> String {
 fn parts(lab: &Lab, lane: &LaneCloud, told: Told) -> Vec<String> {
     let area = lane.area_ratio.map(|ratio| format!("×{}", significant(ratio, 3)));
     let words = (told == Told::Words).then(|| lane.words.clone());
-    let lost = (lane.lost > 0).then(|| format!("{} blew up", thousands(lane.lost)));
+    let lost = (lane.lost > 0).then(|| format!("{} blew up", grouped(lane.lost as u64)));
     let hidden = hidden_in_words(lane.hidden, lab.display().cloud.points);
     [area, words, lost, hidden].into_iter().flatten().collect()
 }
@@ -343,27 +336,14 @@ fn cloud(
     let axes = charts::axes(&area, [marks(0, 56.0), marks(1, UP_APART)], ink, f32::INFINITY);
     charts::paint(ui.painter(), &axes);
     ui.painter().image(texture.id(), rect, all, Color32::WHITE);
-    let painter = ui.painter().with_clip_rect(rect);
-    let outline = LineStyle::solid(ink.exact, OUTLINE);
-    for line in &picture.border {
-        let at = |&[q, v]: &[f64; 2]| {
-            let [x, y] = view.place(q, v).map(|part| part.clamp(-10.0, 11.0) as f32);
-            pos2(rect.left() + x * rect.width(), rect.bottom() - y * rect.height())
-        };
-        let points: Vec<Pos2> = line.iter().map(at).filter(|at| at.is_finite()).collect();
-        // An angle goes on at the other side, and what is between points far apart is not known.
-        let longest = LONGEST_LINE as f32 * rect.size().max_elem();
-        let goes_on = |a: &Pos2, b: &Pos2| a.distance(*b) <= longest;
-        for piece in points.chunk_by(goes_on) {
-            curves::paint(&painter, piece, &[], outline);
-        }
-    }
+    let mut over =
+        vec![Primitive::Clip(rect, vec![Primitive::Curves(outline(picture, rect, ink))])];
     let response = ui.interact(rect, ui.scope_id().with(("cloud", place)), Sense::click());
-    let is_front = lab.mode() == Mode::Race && lane.entry == lab.active();
-    if is_front {
+    if lab.mode() == Mode::Race && lane.entry == lab.active() {
         let rim = Stroke::new(1.6, Color32::from_rgb(colour[0], colour[1], colour[2]));
-        ui.painter().rect_stroke(rect, 0.0, rim, StrokeKind::Outside);
+        over.push(Primitive::Edge(rect, rim));
     }
+    charts::paint(ui.painter(), &over);
     let about = format!("cloud of {}: {}", lab.lane_name(lane.entry), words(lab, lane));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &about));
     focus_ring(ui, &response);
@@ -371,6 +351,23 @@ fn cloud(
     if response.on_hover_text(told).clicked() && lab.mode() == Mode::Race {
         commands.push(Command::Stage(StageCommand::Pick(lane.entry)));
     }
+}
+
+/// The border of the exact cloud.
+fn outline(picture: &CloudPicture, rect: Rect, ink: &Ink) -> Vec<ScreenCurve> {
+    let area = PlotArea { rect, bounds: [[0.0, 1.0]; 2] };
+    let style = LineStyle::solid(ink.exact, OUTLINE);
+    // An angle goes on at the other side, and what is between points far apart is not known.
+    let longest = LONGEST_LINE as f32 * rect.size().max_elem();
+    let goes_on = |a: &Pos2, b: &Pos2| a.distance(*b) <= longest;
+    let mut curves = Vec::new();
+    for line in &picture.border {
+        let points = line.iter().map(|&[q, v]| area.at(picture.view.place(q, v)));
+        let points: Vec<Pos2> = points.filter(|at| at.is_finite()).collect();
+        let pieces = points.chunk_by(goes_on);
+        curves.extend(pieces.map(|piece| ScreenCurve::new(style, piece.to_vec())));
+    }
+    curves
 }
 
 /// The size in pixels, the theme and the colour of an image.

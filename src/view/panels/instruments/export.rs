@@ -53,14 +53,13 @@ pub(in crate::view) fn svg(lab: &Lab) -> Option<String> {
     let ink = ink_of(lab.display().theme);
     let all = Rect::from_min_size(Pos2::ZERO, SIZE.into());
     let room = Rect::from_min_max(pos2(MARGIN, HEAD), all.max - vec2(MARGIN, MARGIN / 2.0));
-    let (title, (entries, plots)) = match (lab.loop_lab(), lab.display().instrument) {
-        (Some(open), Instrument::Loop) => (loops::TITLE.into(), loops::layout(open, room, ink)),
-        _ => {
-            let sheet = sheet_of(lab, Detail::Samples)?;
-            let plots = layout(lab, &sheet, room, all.right(), ink);
-            let entries = super::legend_entries(&sheet);
-            (sheet.title, (entries, plots))
-        }
+    let (title, entries, plots) = if lab.display().instrument == Instrument::Loop {
+        let (title, entries, plots) = loops::layout(lab, room, ink)?;
+        (title.to_owned(), entries, plots)
+    } else {
+        let sheet = sheet_of(lab, Detail::Samples)?;
+        let plots = layout(lab, &sheet, room, all.right(), ink);
+        (sheet.title.clone(), super::legend_entries(&sheet), plots)
     };
     let head = format!("{}: {title}", lab.scene_name());
     let head = Text::new(pos2(MARGIN, MARGIN + 2.0), Align2::LEFT_CENTER, head, 17.0, ink.text);
@@ -118,6 +117,10 @@ mod tests {
     #[test]
     fn a_drawing_has_every_curve_and_its_tags_are_closed() {
         let mut lab = race();
+        lab.apply(StageCommand::Instrument(Instrument::Loop));
+        assert!(svg(&lab).is_none(), "the window has made no frame");
+        (0..30).for_each(|_| _ = lab.advance(16_666_667));
+        assert!(svg(&lab).is_some_and(|text| text.contains("frame time, ms")));
         for instrument in Instrument::all() {
             lab.apply(StageCommand::Instrument(instrument));
             let Some(text) = svg(&lab) else { continue };

@@ -168,7 +168,7 @@ impl ExactLine {
 
     fn through(lab: &Lab, times: Vec<f64>, points: Vec<[f64; 2]>, jumps: Vec<usize>) -> Self {
         let style = LineStyle::solid(ink_of(lab.display().theme).exact, EXACT);
-        let curve = Curve { style, points, swept: Vec::new() };
+        let curve = Curve::new(style, points);
         Self { curve, times, part: "", jumps, known: None, samples: Vec::new() }
     }
 

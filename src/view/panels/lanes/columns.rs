@@ -3,9 +3,8 @@
 use super::row::{self, Row};
 use crate::lab::number::{round, significant};
 use crate::lab::{Lab, Mode};
-use crate::view::chart::legend::swatch;
 use crate::view::panels::ink;
-use crate::view::panels::table::{Column, SortKey, show_key, show_words};
+use crate::view::panels::table::{Column, SortKey, show_key, show_line, show_words};
 
 /// The least width of the verdict, in points, and the one that it keeps beside columns of what the stage or an instrument
 /// shows too, which are those from this priority on.
@@ -66,7 +65,7 @@ fn marks<'a>() -> Vec<Column<Row<'a>>> {
             let (strong, dash) = ink(ui).style(row.lab.entries(), row.spec);
             let colour = if row.flown.is_some() { strong } else { strong.gamma_multiply(0.7) };
             if row.is_first {
-                swatch(ui.painter(), rect.left_center(), rect.width() - 4.0, dash, colour);
+                show_line(ui, rect, dash, colour);
             }
         },
         place,

@@ -4,9 +4,8 @@ use super::row::Row;
 use crate::lab::number::round;
 use crate::lab::pacing::PACING_METRICS;
 use crate::lab::{LoopLab, Unit};
-use crate::view::chart::legend::swatch;
 use crate::view::panels::ink;
-use crate::view::panels::table::{Column, SortKey, TableRow, show_key, show_words};
+use crate::view::panels::table::{Column, SortKey, TableRow, show_key, show_line, show_words};
 
 /// The least width of the verdict, in points.
 pub(super) const MIN_VERDICT: f32 = 264.0;
@@ -53,7 +52,7 @@ pub(super) fn of<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
         |ui, row: &Row<'a>, rect, _| {
             let (strong, dash) = row.style(ink(ui));
             let inked = if row.is_on_stage { strong } else { strong.gamma_multiply(0.7) };
-            swatch(ui.painter(), rect.left_center(), rect.width() - 4.0, dash, inked);
+            show_line(ui, rect, dash, inked);
         },
         place,
     );

@@ -10,6 +10,7 @@ use crate::view::chart::{self, Arrow, AxisScale, Curve, Drawing, LineStyle, Plot
 use crate::view::panels::{ink, strong_font};
 use crate::view::theme::{Ink, colour};
 
+pub(super) const TITLE: &str = "This window's own loop";
 /// The length of the plot in seconds.
 const LENGTH_S: f64 = 10.0;
 /// The plot reaches to this many times the frame time that 99 in 100 frames keep.
@@ -59,8 +60,8 @@ fn time_ms(frame: &LiveFrame) -> f64 {
 pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
     let top = ui.cursor().top();
     let frames = lab.viewer().live.frames();
-    ui.label(RichText::new("This window's own loop").font(strong_font(15.0)).color(ink(ui).text));
-    let Some(summary) = Summary::of(frames.clone()) else {
+    ui.label(RichText::new(TITLE).font(strong_font(15.0)).color(ink(ui).text));
+    let Some(summary) = Summary::of(frames) else {
         let words = "No frame yet: run it with Space, and its frames show here. \
                      L opens the loop lab, where one motion runs in many loops.";
         ui.add(Label::new(RichText::new(words).color(ink(ui).dim)).wrap());
@@ -86,19 +87,37 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
     response.widget_info(|| {
         egui::WidgetInfo::labeled(egui::Role::Image, true, "frame times of this window")
     });
-    let lower = if height >= ROOM_FOR_COUNTS { COUNTS } else { 0.0 };
-    let (upper, below) = room.split_top_bottom_at_fraction(1.0 - lower);
-    let times_ms: Vec<f64> = frames.clone().map(time_ms).collect();
-    chart::paint(&ui.painter_at(upper), &layout(upper, &times_ms, &summary, ink(ui)));
-    if lower > 0.0 {
-        let ticks = frames.map(|frame| frame.ticks);
-        let series = Series::new(own_colour(ink(ui)), ticks);
-        counts::show(ui, below.with_min_y(below.top() + 6.0), &[series]);
+    let (upper, below) = parts(room);
+    chart::paint(&ui.painter_at(upper), &frame_times(lab, upper, &summary, ink(ui)));
+    if let Some(below) = below {
+        counts::show(ui, below, &[series(lab, ink(ui))]);
     }
 }
 
+/// The charts in a room, to be saved; `None` before the first frame.
+pub(super) fn layout(lab: &Lab, room: Rect, ink: &Ink) -> Option<Vec<Primitive>> {
+    let summary = Summary::of(lab.viewer().live.frames())?;
+    let (upper, below) = parts(room);
+    let mut all = frame_times(lab, upper, &summary, ink);
+    all.extend(below.into_iter().flat_map(|below| counts::layout(below, &[series(lab, ink)], ink)));
+    Some(all)
+}
+
+/// The room of the frame times, and with enough room that of a histogram.
+fn parts(room: Rect) -> (Rect, Option<Rect>) {
+    if room.height() < ROOM_FOR_COUNTS {
+        return (room, None);
+    }
+    let (upper, below) = room.split_top_bottom_at_fraction(1.0 - COUNTS);
+    (upper, Some(below.with_min_y(below.top() + 6.0)))
+}
+
+fn series(lab: &Lab, ink: &Ink) -> Series {
+    Series::new(own_colour(ink), lab.viewer().live.frames().map(|frame| frame.ticks))
+}
+
 /// The chart of the frame times against real time up to the last frame, in a room.
-fn layout(room: Rect, times_ms: &[f64], summary: &Summary, ink: &Ink) -> Vec<Primitive> {
+fn frame_times(lab: &Lab, room: Rect, summary: &Summary, ink: &Ink) -> Vec<Primitive> {
     let rect = chart::inside(room, LEFT, 6.0);
     if !rect.is_positive() {
         return Vec::new();
@@ -107,19 +126,19 @@ fn layout(room: Rect, times_ms: &[f64], summary: &Summary, ink: &Ink) -> Vec<Pri
     let area = PlotArea { rect, bounds: [[-LENGTH_S, 0.0], [0.0, reach]] };
     let marks = [0, 1].map(|axis| area.marks(axis, AxisScale::Linear, [56.0, 24.0][axis]));
     let mut all = vec![Primitive::Area(rect, ink.plot)];
-    let mut ago_s = times_ms.iter().sum::<f64>() / 1000.0;
-    let moment = |&time_ms: &f64| {
+    let times_ms = lab.viewer().live.frames().map(time_ms);
+    let mut ago_s = times_ms.clone().sum::<f64>() / 1000.0;
+    let moment = |time_ms: f64| {
         ago_s -= time_ms / 1000.0;
         [-ago_s, time_ms]
     };
-    let points: Vec<[f64; 2]> = times_ms.iter().map(moment).collect();
+    let points: Vec<[f64; 2]> = times_ms.map(moment).collect();
     let beyond = points.iter().filter(|[at_s, time_ms]| *at_s >= -LENGTH_S && *time_ms > reach);
     let arrows = beyond.map(|&at| Arrow { from: at, to: at, colour: ink.warn }).collect();
-    let line = |style: LineStyle, points: Vec<[f64; 2]>| Curve { style, points, swept: Vec::new() };
     let mean = LineStyle { dash: [6.0, 4.0], ..LineStyle::solid(ink.accent, 1.0) };
     let curves = vec![
-        line(LineStyle::solid(own_colour(ink), 1.2), points),
-        line(mean, [-LENGTH_S, 0.0].map(|at_s| [at_s, summary.mean_ms]).into()),
+        Curve::new(LineStyle::solid(own_colour(ink), 1.2), points),
+        Curve::new(mean, [-LENGTH_S, 0.0].map(|at_s| [at_s, summary.mean_ms]).into()),
     ];
     let drawing = Drawing { curves, arrows, ..Drawing::default() };
     all.extend(chart::plot(&area, marks, &drawing, ink, room.right()));

@@ -136,7 +136,7 @@ fn staircase(
     }
     let width = if lane.is_selected { 2.4 } else { 1.8 };
     let style = LineStyle { dash: lane.dash, ..LineStyle::solid(lane.colour, width) };
-    let line = Primitive::Curves(vec![ScreenCurve { style, points, swept: Vec::new() }]);
+    let line = Primitive::Curves(vec![ScreenCurve::new(style, points)]);
     let dot = |frame: &LoopFrame| match at(frame.displayed_ns, frame) {
         at if radius > DOTS[0] => Primitive::Ring(at, radius, Stroke::new(1.4, lane.colour)),
         at => Primitive::Dot(at, radius, lane.colour),
