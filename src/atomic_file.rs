@@ -14,7 +14,7 @@ const ENDING: &str = ".part";
 const RANDOM_CHARS: usize = 6;
 
 /// File systems take names of 255 bytes; a longer stem leaves no room for the random characters.
-const LONGEST_STEM: usize = 200;
+const MAX_STEM: usize = 200;
 
 /// A file being written. Dropped before it is committed, it leaves nothing.
 #[derive(Debug)]
@@ -37,7 +37,7 @@ pub(crate) enum IfExists {
 impl AtomicFile {
     /// Creates a file with a new temporary name beside `path`.
     pub(crate) fn create(path: &Path) -> io::Result<Self> {
-        let name = path.file_name().filter(|name| name.len() <= LONGEST_STEM).unwrap_or_default();
+        let name = path.file_name().filter(|name| name.len() <= MAX_STEM).unwrap_or_default();
         let mut prefix = name.to_owned();
         prefix.push(".");
         let mut builder = tempfile::Builder::new();

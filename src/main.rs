@@ -28,7 +28,7 @@ fn run() -> ExitCode {
                 && !answer.use_stderr()
                 && error.kind() != io::ErrorKind::BrokenPipe
             {
-                commands::tell(&format!("error: cannot write to standard output: {error}"));
+                commands::print_status(&format!("error: cannot write to standard output: {error}"));
                 return ExitCode::FAILURE;
             }
             return ExitCode::from(u8::try_from(answer.exit_code()).unwrap_or(1));
@@ -37,7 +37,7 @@ fn run() -> ExitCode {
     match commands::run(cli) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            commands::tell(&error.report(&commands::stderr_renderer()));
+            commands::print_status(&error.report(&commands::stderr_renderer()));
             ExitCode::from(error.exit_code())
         }
     }

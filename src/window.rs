@@ -55,10 +55,10 @@ use work_thread::WorkThread;
 
 /// The longest time between two simulation steps without a frame. It is well below the clock's longest frame, so that
 /// a window that is hidden, or not asked for frames by the window system, drops no ticks.
-const LONGEST_WAIT: Duration = Duration::from_millis(100);
+const MAX_WAIT: Duration = Duration::from_millis(100);
 /// The longest time that a frame simulates: the ticks of a race that needs more are dropped, so that the window still
 /// answers.
-const LONGEST_SIMULATION: Duration = Duration::from_millis(50);
+const MAX_SIMULATION: Duration = Duration::from_millis(50);
 /// The simulated length of the first frame after a pause, whose real length includes the pause.
 const FIRST_FRAME: Duration = Duration::ZERO;
 
@@ -203,7 +203,7 @@ impl App {
                 self.schedule(event_loop, now, after);
             }
             Ok(Drawn::Skipped) => {
-                event_loop.set_control_flow(ControlFlow::WaitUntil(now + LONGEST_WAIT));
+                event_loop.set_control_flow(ControlFlow::WaitUntil(now + MAX_WAIT));
             }
             Err(error) => self.end(event_loop, Err(error)),
         }
@@ -253,7 +253,7 @@ impl App {
         }
         let last = self.seconds.map_or(u64::MAX, |s| self.lab.nearest_tick(s));
         let frame_ns = i64::try_from(frame.as_nanos()).unwrap_or(i64::MAX);
-        self.lab.advance_in_time(last, frame_ns, &mut || now.elapsed() < LONGEST_SIMULATION);
+        self.lab.advance_in_time(last, frame_ns, &mut || now.elapsed() < MAX_SIMULATION);
         self.lab.set_pace(self.meter.pace());
         if self.lab.race().tick() >= last {
             self.end(event_loop, Ok(()));

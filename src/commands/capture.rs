@@ -121,7 +121,7 @@ const SHEET_FPS: u32 = 1;
 const SHEET_COLUMNS: u32 = 6;
 
 /// The longest side of a frame in pixels: what nearly every adapter can draw on.
-const LONGEST_SIDE_PX: u32 = 8192;
+const MAX_SIDE_PX: u32 = 8192;
 
 pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
     if args.shape.is_some() && args.instrument != Some(Instrument::Cloud) {
@@ -193,8 +193,8 @@ fn size(written: &str) -> Result<[u32; 2], String> {
         Some([width.parse::<u32>().ok()?, height.parse::<u32>().ok()?])
     });
     match sides {
-        Some(sides) if sides.iter().all(|side| (1..=LONGEST_SIDE_PX).contains(side)) => Ok(sides),
-        Some(_) => Err(format!("each side has 1 to {LONGEST_SIDE_PX} pixels")),
+        Some(sides) if sides.iter().all(|side| (1..=MAX_SIDE_PX).contains(side)) => Ok(sides),
+        Some(_) => Err(format!("each side has 1 to {MAX_SIDE_PX} pixels")),
         None => Err("give width and height in pixels, such as 1280x720".into()),
     }
 }

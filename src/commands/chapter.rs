@@ -10,7 +10,7 @@ use clap::Args;
 use super::drawing::gpu;
 use super::error::Error;
 use super::output::print;
-use super::terminal::{tell, tell_left_alone};
+use super::terminal::{print_status, report_left_alone};
 use crate::view::{OffscreenRenderer, png};
 
 mod adaptive;
@@ -75,7 +75,10 @@ fn draw(mut folder: FigureFolder) -> Result<(), Error> {
         folder.write(&format!("{name}.png"), &png::encode(SIZE_PX, &rgba))?;
     }
     let path = folder.path().display();
-    tell(&format!("wrote {} figures and their data: {path}/figure-7-2.png …", diagrams.len()));
-    tell_left_alone(folder.path(), folder.others());
+    print_status(&format!(
+        "wrote {} figures and their data: {path}/figure-7-2.png …",
+        diagrams.len()
+    ));
+    report_left_alone(folder.path(), folder.others());
     Ok(())
 }

@@ -12,7 +12,7 @@ use super::manifest::{FrameEntry, Manifest, SCHEMA};
 use super::pipeline::{Drawn, Run};
 use super::settings;
 use super::state_log::{self, StateLog};
-use super::terminal::{tell, tell_left_alone};
+use super::terminal::{print_status, report_left_alone};
 use crate::lab::Lab;
 use crate::view::png;
 
@@ -60,7 +60,7 @@ pub(super) fn record(
     if done < frames {
         return Err(interrupted_after(done, frames, &whole));
     }
-    tell(&closing_line(&capture, &whole));
-    tell_left_alone(&path, &others);
+    print_status(&closing_line(&capture, &whole));
+    report_left_alone(&path, &others);
     Ok(lab)
 }

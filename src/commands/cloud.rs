@@ -17,7 +17,7 @@ use super::numbers::number_that;
 use super::output::picture_format::{ending, mislabelled};
 use super::output::table::{Column, RowFormat, write_rows};
 use super::output::{Destination, Output, STDOUT};
-use super::terminal::tell;
+use super::terminal::print_status;
 use crate::atomic_file::IfExists;
 use crate::lab::cloud::{
     Cloud, CloudAxes, CloudBorder, CloudMeasure, CloudShape, CloudStart, Density, NoCloud,
@@ -159,7 +159,7 @@ const USUAL_SECONDS: f64 = 60.0;
 const BESIDE: f64 = 1.0;
 
 /// The longest run that sets the axes, in seconds.
-const LONGEST_SCOUTED_S: u64 = 30;
+const MAX_SCOUTED_S: u64 = 30;
 
 /// The time after which an interrupt is looked for, if a tick takes no longer.
 const LOOKED_EVERY: Duration = Duration::from_millis(50);
@@ -255,7 +255,7 @@ fn strobe(hz: f64, tick_hz: u32) -> Result<f64, Error> {
     let period = if is_whole { ticks.round() } else { ticks };
     (period >= 1.0).then_some(period).ok_or_else(|| {
         Error::mistake(format!(
-            "a section of {hz} Hz asks for more pictures than there are ticks, {tick_hz} a second; give a lower --section, or a higher --tick-hz"
+            "a section of {hz} Hz asks for more pictures than there are ticks, {tick_hz} per second; give a lower --section, or a higher --tick-hz"
         ))
     })
 }
@@ -320,7 +320,7 @@ fn make(
         )));
     }
     // The first part of a long run is as wide as the rest.
-    let long = ticks.min(LONGEST_SCOUTED_S * u64::from(scene.tick_hz));
+    let long = ticks.min(MAX_SCOUTED_S * u64::from(scene.tick_hz));
     let (ticks_shown, times) = match (form, strobe) {
         (Form::Png, None) => (ticks, 1),
         _ => (long, long.min(MAX_FRAMES)),
@@ -470,7 +470,7 @@ fn row(run: &Run, specs: &[LaneSpec], points: usize, ticks: u64, form: Form) -> 
     };
     let how = cloud.measured_in_words();
     if form != Form::Rows || !lost.is_empty() {
-        tell(&format!("{method} {} ({how}){lost}", run.words(measure.area_ratio)));
+        print_status(&format!("{method} {} ({how}){lost}", run.words(measure.area_ratio)));
     }
     let steps = points as f64 * ticks as f64 * f64::from(spec.substeps);
     Row { method, measure, body_steps_per_s: steps / stepping.as_secs_f64().max(1e-9) }

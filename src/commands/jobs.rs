@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::error::Error;
-use super::terminal::tell;
+use super::terminal::print_status;
 
 /// The longest time until an interrupt is noticed.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -51,7 +51,7 @@ pub(super) fn results<R: Send + 'static>(
     let mut tell_position = || {
         if progress.is_hidden() && told.elapsed() >= BETWEEN_LINES {
             told = Instant::now();
-            tell(&format!("{} of {number} {}", progress.position(), progress.message()));
+            print_status(&format!("{} of {number} {}", progress.position(), progress.message()));
         }
     };
     while let Some((job, result)) = next(&receiver, interrupted, &mut tell_position) {

@@ -99,7 +99,7 @@ use play::PlayArgs;
 use port::PortArgs;
 use show::ShowArgs;
 use sweep::SweepArgs;
-pub use terminal::{stderr_renderer, tell};
+pub use terminal::{print_status, stderr_renderer};
 use trace::TraceArgs;
 use verify::VerifyArgs;
 

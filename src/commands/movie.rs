@@ -14,7 +14,7 @@ use super::output::Output;
 use super::pipeline::{Drawn, Run};
 use super::schedule::Schedule;
 use super::state_log::StateLog;
-use super::terminal::tell;
+use super::terminal::print_status;
 
 /// A format of one stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,7 +62,7 @@ pub(super) fn record(
         return Err(interrupted_after(done, frames, &whole));
     }
     movie.end()?;
-    tell(&closing_line(&capture, &output.close()?));
+    print_status(&closing_line(&capture, &output.close()?));
     Ok(())
 }
 

@@ -14,7 +14,7 @@ use super::frame_folder::FrameFolder;
 use super::output::{Destination, Output};
 use super::preferences::{self, Preferences};
 use super::schedule::{FPS, Schedule, frames_in};
-use super::terminal::{counted, tell};
+use super::terminal::{counted, print_status};
 use super::unfinished::{self, UnfinishedRecording};
 use super::{clip, scene_file, state_log};
 use crate::atomic_file::IfExists;
@@ -119,7 +119,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     let unfinished = opened.as_ref().and_then(Output::file).map(UnfinishedRecording::beside);
     let stream = opened.filter(|output| output.file().is_none());
     for told in unfinished::left_behind() {
-        tell(&told);
+        print_status(&told);
         lab.set_notice(told);
     }
     let played = lab.scene().name.clone();
@@ -154,13 +154,17 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
             unfinished.finish();
         }
         if name != wanted {
-            tell(&format!("another program created {wanted} during the run; it was not replaced"));
+            print_status(&format!(
+                "another program created {wanted} during the run; it was not replaced"
+            ));
         }
         if lab.scene().name != played {
             let scene = lab.scene_name();
-            tell(&format!("the run recorded is that of {scene}, which was opened after {played}"));
+            print_status(&format!(
+                "the run recorded is that of {scene}, which was opened after {played}"
+            ));
         }
-        tell(&format!("recorded {} in {name}", ticks(&lab)));
+        print_status(&format!("recorded {} in {name}", ticks(&lab)));
     }
     match interrupted {
         true => Err(Error::interrupted_after(ticks(&lab))),
@@ -198,7 +202,7 @@ fn without_display(args: &PlayArgs, experiment: &Experiment, reason: &str) -> Re
         None => FRAMES,
     };
     let folder = FrameFolder::beside(FRAMES_DIR)?;
-    tell(&format!(
+    print_status(&format!(
         "no display to open a window on ({reason}); drawing {} s of it into {} instead",
         f64::from(frames) / f64::from(FPS),
         folder.path().display(),

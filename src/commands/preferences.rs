@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use directories::ProjectDirs;
 use toml::de::{DeTable, DeValue};
 
-use super::terminal::tell;
+use super::terminal::print_status;
 use crate::atomic_file::{IfExists, write_file};
 use crate::lab::palette::Theme;
 use crate::lab::{Lab, MAX_FILE_BYTES, SCALE_LADDER};
@@ -35,7 +35,7 @@ impl Preferences {
     pub(super) fn load() -> Self {
         let Some(path) = path() else { return Self::default() };
         Self::read(&path).unwrap_or_else(|why| {
-            tell(&format!("{} is ignored: {why}", path.display()));
+            print_status(&format!("{} is ignored: {why}", path.display()));
             Self::default()
         })
     }

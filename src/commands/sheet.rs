@@ -9,7 +9,7 @@ use super::experiment::{Experiment, Lineup};
 use super::interrupt::watch_for_interrupt;
 use super::output::Output;
 use super::pipeline::complete_analysis;
-use super::terminal::{progress, tell};
+use super::terminal::{print_status, progress};
 use crate::lab::LaneSpec;
 use crate::lab::cloud::CloudWorker;
 use crate::view::png;
@@ -71,7 +71,7 @@ pub(super) fn draw(
     let size_px = [columns * width, rows * height];
     output.write_all(&png::encode(size_px, &sheet))?;
     let name = output.close()?;
-    tell(&format!(
+    print_status(&format!(
         "wrote a sheet of {}x{}: {name}; {columns} moments across; down: {}",
         size_px[0],
         size_px[1],

@@ -5,7 +5,7 @@ use clap::Args;
 use super::error::Error;
 use super::experiment::{Offered, known_method, one_of};
 use super::output::print;
-use super::terminal::tell;
+use super::terminal::print_status;
 use crate::lab::source_code::{Language, Precision, source_code};
 use crate::sim::integrators::{METHODS, Method};
 
@@ -76,7 +76,7 @@ pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
     let precision = if args.float { Precision::Single } else { Precision::Double };
     let code = source_code(method, args.language, precision).map_err(Error::mistake)?;
     if let Some(alias) = alias {
-        tell(&format!("note: {alias} is another name of {}, which is shown", method.id));
+        print_status(&format!("note: {alias} is another name of {}, which is shown", method.id));
     }
     print(&code)
 }

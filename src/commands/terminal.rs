@@ -10,7 +10,7 @@ use annotate_snippets::Renderer;
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// Writes a line to standard error. A closed standard error is ignored.
-pub fn tell(line: &str) {
+pub fn print_status(line: &str) {
     let _ = writeln!(io::stderr(), "{line}");
 }
 
@@ -22,10 +22,10 @@ pub(super) fn counted(number: impl TryInto<u64>, thing: &str) -> String {
 
 /// Tells which entries of a folder no command made.
 #[cfg(feature = "view")]
-pub(super) fn tell_left_alone(folder: &Path, others: &[OsString]) {
+pub(super) fn report_left_alone(folder: &Path, others: &[OsString]) {
     if !others.is_empty() {
         let others: Vec<_> = others.iter().map(|name| name.display().to_string()).collect();
-        tell(&format!("left alone in {}: {}", folder.display(), others.join(", ")));
+        print_status(&format!("left alone in {}: {}", folder.display(), others.join(", ")));
     }
 }
 

@@ -9,7 +9,7 @@ use super::error::Error;
 use super::experiment::{self, ExperimentArgs, Lineup};
 use super::output::Output;
 use super::output::table::{RowFormat, RowWriter};
-use super::terminal::tell;
+use super::terminal::print_status;
 use crate::lab::{Lab, Lane, LaneBody, METRICS, SceneBody};
 use crate::sim::Solver;
 use crate::sim::bodies::Truth;
@@ -76,7 +76,7 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
     }
     trace.rows.end()?.close()?;
     tell_accuracy(&experiment.scene.bodies, &at_start, &reached, lab.race().truth());
-    halts.lines.iter().for_each(|line| tell(line));
+    halts.lines.iter().for_each(|line| print_status(line));
     Ok(())
 }
 
@@ -191,7 +191,7 @@ fn tell_accuracy(bodies: &[SceneBody], at_start: &[Truth], reached: &[Reached], 
             error if error.is_finite() => format!("reached {error:.1e} on this run"),
             _ => "reached an unknown accuracy".into(),
         };
-        tell(&format!(
+        print_status(&format!(
             "lane 0, {name}: {why}; its {id} aims at {accuracy:e}, relative, and {came}"
         ));
     }

@@ -2,7 +2,7 @@
 //! into a texture, and copied from there.
 
 use super::gpu::Gpu;
-use super::place::Place;
+use super::screen_transform::ScreenTransform;
 use super::textures::texture;
 use crate::lab::picture::{Picture, Sea, Shape};
 
@@ -28,7 +28,7 @@ pub(super) struct Backdrop {
 
 #[derive(Debug)]
 struct Scenery {
-    place: Place,
+    transform: ScreenTransform,
     sea: Sea,
     shapes: Vec<Shape>,
 }
@@ -65,10 +65,10 @@ impl Backdrop {
         &mut self,
         gpu: &Gpu,
         target: &wgpu::Texture,
-        place: &Place,
+        transform: &ScreenTransform,
         picture: &Picture,
     ) -> Covered {
-        let alike = self.last.as_ref().and_then(|last| last.alike(place, picture));
+        let alike = self.last.as_ref().and_then(|last| last.alike(transform, picture));
         let Some(alike) = alike.filter(|_| self.can_be_copied_to(target)) else {
             self.drawn = None;
             return Covered::Nothing;
@@ -84,14 +84,18 @@ impl Backdrop {
         self.drawn = Some(alike);
         if self.texture.as_ref().is_none_or(|texture| texture.size() != target.size()) {
             let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
-            self.texture = Some(texture(gpu, "backdrop", place.size_px, self.format, usage));
+            self.texture = Some(texture(gpu, "backdrop", transform.size_px, self.format, usage));
         }
         Covered::Drawing(alike)
     }
 
     /// Takes the picture to compare the next one with.
-    pub(super) fn remember(&mut self, place: Place, Picture { sea, shapes, .. }: Picture) {
-        self.last = sea.map(|sea| Scenery { place, sea, shapes });
+    pub(super) fn remember(
+        &mut self,
+        transform: ScreenTransform,
+        Picture { sea, shapes, .. }: Picture,
+    ) {
+        self.last = sea.map(|sea| Scenery { transform, sea, shapes });
     }
 
     fn can_be_copied_to(&self, target: &wgpu::Texture) -> bool {
@@ -120,8 +124,8 @@ impl Backdrop {
 
 impl Scenery {
     /// How many shapes of a picture are the same from the bottom, if its sea is.
-    fn alike(&self, place: &Place, picture: &Picture) -> Option<usize> {
-        (self.place == *place && Some(self.sea) == picture.sea).then(|| {
+    fn alike(&self, transform: &ScreenTransform, picture: &Picture) -> Option<usize> {
+        (self.transform == *transform && Some(self.sea) == picture.sea).then(|| {
             let pairs = self.shapes.iter().zip(&picture.shapes);
             pairs.take_while(|(one, other)| one == other).count()
         })
@@ -195,11 +199,12 @@ mod tests {
         let target = Offscreen::new(&gpu, [64; 2]).unwrap().texture;
         let mut backdrop = Backdrop::new(Offscreen::FORMAT);
         let edges_px = [0.0, 0.0, 64.0, 64.0];
-        let place = Place { size_px: [64; 2], origin_px: [0.0; 2], px_per_point: 1.0, edges_px };
+        let transform =
+            ScreenTransform { size_px: [64; 2], origin_px: [0.0; 2], px_per_point: 1.0, edges_px };
         let mut cover = |lines, own| {
             let picture = picture([40, 60, 90, 255], lines, own);
-            let covered = backdrop.cover(&gpu, &target, &place, &picture);
-            backdrop.remember(place, picture);
+            let covered = backdrop.cover(&gpu, &target, &transform, &picture);
+            backdrop.remember(transform, picture);
             covered
         };
         assert_eq!(cover(25, 0.0), Covered::Nothing);

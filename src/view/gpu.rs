@@ -118,7 +118,7 @@ impl Gpu {
             }
         }
         if candidates.is_empty() {
-            // wgpu would say more of each backend, but in one sentence, and of those that are not built in too.
+            // wgpu would say more of each backend, but in one sentence, and also of backends that are not built in.
             let built_in = wgpu::Instance::enabled_backend_features();
             let names = wgpu::Backend::ALL.into_iter().filter(|it| built_in.contains((*it).into()));
             let names: Vec<_> = names.map(wgpu::Backend::to_str).collect();

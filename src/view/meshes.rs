@@ -10,22 +10,24 @@ use egui::epaint::{self, Mesh, Primitive, Vertex, WHITE_UV};
 use egui::{ClippedPrimitive, ImageData, TextureId};
 
 use super::gpu::Gpu;
-use super::place::{Place, PlaceGroup, pipeline};
+use super::mesh_buffer::MeshBuffer;
+use super::screen_transform::{ScreenBindGroup, ScreenTransform, pipeline};
 use super::strokes::{StrokeMesh, StrokePipeline};
 use super::textures::texture;
-use super::triangles::Triangles;
 
-const SHADER: &str =
-    concat!(include_str!("../../shaders/place.wgsl"), include_str!("../../shaders/panels.wgsl"));
+const SHADER: &str = concat!(
+    include_str!("../../shaders/screen_transform.wgsl"),
+    include_str!("../../shaders/panels.wgsl")
+);
 
 const ATTRIBUTES: [wgpu::VertexAttribute; 3] =
     wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Unorm8x4];
 
 /// What a pixel of a triangle takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum DrawKind {
     /// Nothing but storing it: the triangle is opaque, in one colour, and large.
-    Fill,
+    OpaqueFill,
     /// A texel.
     Textured,
 }
@@ -42,26 +44,26 @@ struct Draw {
 
 #[derive(Debug)]
 enum Drawn {
-    Triangles { kind: Kind, texture: TextureId, indices: Range<u32> },
+    Triangles { kind: DrawKind, texture: TextureId, indices: Range<u32> },
     Strokes(Range<u32>),
 }
 
 /// Draws egui's meshes on targets of one format.
 #[derive(Debug)]
 pub(super) struct MeshRenderer {
-    /// One for each [`Kind`], in its order.
+    /// One for each [`DrawKind`], in its order.
     pipelines: [wgpu::RenderPipeline; 2],
     atlas_layout: wgpu::BindGroupLayout,
     atlases: HashMap<TextureId, (wgpu::Texture, wgpu::BindGroup)>,
-    place: PlaceGroup,
-    triangles: Triangles<Vertex>,
+    screen: ScreenBindGroup,
+    triangles: MeshBuffer<Vertex>,
     strokes: StrokePipeline,
     draws: Vec<Draw>,
 }
 
 impl MeshRenderer {
     pub(super) fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
-        let place = PlaceGroup::new(gpu);
+        let screen = ScreenBindGroup::new(gpu);
         let atlas_layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("panels"),
             entries: &[wgpu::BindGroupLayoutEntry {
@@ -82,7 +84,7 @@ impl MeshRenderer {
                 immediate_size: 0,
             })
         };
-        let over_atlas = layout(&[Some(&place.layout), Some(&atlas_layout)]);
+        let over_atlas = layout(&[Some(&screen.layout), Some(&atlas_layout)]);
         let pipelines =
             [("fill", None), ("textured", Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING))];
         let pipelines = pipelines.map(|(fragment, blend)| {
@@ -93,9 +95,9 @@ impl MeshRenderer {
             pipelines,
             atlas_layout,
             atlases: HashMap::new(),
-            strokes: StrokePipeline::new(gpu, &layout(&[Some(&place.layout)]), format),
-            place,
-            triangles: Triangles::new(gpu, "panels"),
+            strokes: StrokePipeline::new(gpu, &layout(&[Some(&screen.layout)]), format),
+            screen,
+            triangles: MeshBuffer::new(gpu, "panels"),
             draws: Vec::new(),
         }
     }
@@ -180,14 +182,15 @@ impl MeshRenderer {
         }
         let [width, height] = size_px.map(|side| side as f32);
         let edges_px = [0.0, 0.0, width, height];
-        self.place.write(gpu, &Place { size_px, origin_px: [0.0; 2], px_per_point, edges_px });
+        self.screen
+            .write(gpu, &ScreenTransform { size_px, origin_px: [0.0; 2], px_per_point, edges_px });
         self.triangles.upload(gpu);
         self.strokes.upload(gpu);
     }
 
     /// Draws what was prepared.
     pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.set_bind_group(0, &self.place.group, &[]);
+        pass.set_bind_group(0, &self.screen.group, &[]);
         for Draw { scissor_px: [left, top, width, height], what } in &self.draws {
             pass.set_scissor_rect(*left, *top, *width, *height);
             match what {
@@ -203,12 +206,16 @@ impl MeshRenderer {
     }
 }
 
-fn kind(mesh: &Mesh, corners: &[u32; 3], px_per_point: f32) -> Kind {
+fn kind(mesh: &Mesh, corners: &[u32; 3], px_per_point: f32) -> DrawKind {
     let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize]);
     let (ab, ac) = (px_per_point * (b.pos - a.pos), px_per_point * (c.pos - a.pos));
     let is_large = (ab.x * ac.y - ab.y * ac.x).abs() / 2.0 >= MIN_FILL_PX;
     let is_plain = [a, b, c].iter().all(|v| v.uv == WHITE_UV && v.color == a.color);
-    if is_large && is_plain && a.color.is_opaque() { Kind::Fill } else { Kind::Textured }
+    if is_large && is_plain && a.color.is_opaque() {
+        DrawKind::OpaqueFill
+    } else {
+        DrawKind::Textured
+    }
 }
 
 /// The pixels of a rectangle in points, within the target: left, top, width and height.
@@ -234,12 +241,12 @@ mod tests {
             kinds.collect::<Vec<_>>()
         };
         let grey = Color32::from_gray(40);
-        assert_eq!(kinds(50.0, grey, |_| ()), [Kind::Fill; 2]);
-        assert_eq!(kinds(40.0, grey, |_| ()), [Kind::Textured; 2]);
-        assert_eq!(kinds(50.0, grey.gamma_multiply(0.9), |_| ()), [Kind::Textured; 2]);
+        assert_eq!(kinds(50.0, grey, |_| ()), [DrawKind::OpaqueFill; 2]);
+        assert_eq!(kinds(40.0, grey, |_| ()), [DrawKind::Textured; 2]);
+        assert_eq!(kinds(50.0, grey.gamma_multiply(0.9), |_| ()), [DrawKind::Textured; 2]);
         let one_white = |mesh: &mut Mesh| mesh.vertices[1].color = Color32::WHITE;
-        assert_eq!(kinds(50.0, grey, one_white), [Kind::Textured; 2]);
+        assert_eq!(kinds(50.0, grey, one_white), [DrawKind::Textured; 2]);
         let text = |mesh: &mut Mesh| mesh.vertices[1].uv = pos2(0.5, 0.5);
-        assert_eq!(kinds(50.0, grey, text), [Kind::Textured; 2]);
+        assert_eq!(kinds(50.0, grey, text), [DrawKind::Textured; 2]);
     }
 }

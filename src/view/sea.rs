@@ -5,12 +5,14 @@ use std::ops::Range;
 use bytemuck::{Pod, Zeroable};
 
 use super::gpu::Gpu;
-use super::place::{Place, pipeline};
-use super::triangles::Triangles;
+use super::mesh_buffer::MeshBuffer;
+use super::screen_transform::{ScreenTransform, pipeline};
 use crate::lab::picture::Sea;
 
-const SHADER: &str =
-    concat!(include_str!("../../shaders/place.wgsl"), include_str!("../../shaders/sea.wgsl"));
+const SHADER: &str = concat!(
+    include_str!("../../shaders/screen_transform.wgsl"),
+    include_str!("../../shaders/sea.wgsl")
+);
 
 /// `Part` in `shaders/sea.wgsl`.
 #[repr(C)]
@@ -28,7 +30,7 @@ const ATTRIBUTES: [wgpu::VertexAttribute; 3] =
 #[derive(Debug)]
 pub(super) struct SeaPipeline {
     pipeline: wgpu::RenderPipeline,
-    triangles: Triangles<Part>,
+    triangles: MeshBuffer<Part>,
     indices: Range<u32>,
 }
 
@@ -40,13 +42,13 @@ impl SeaPipeline {
     ) -> Self {
         let names = ["sea", SHADER, "water"];
         let pipeline = pipeline::<Part>(gpu, layout, format, names, &ATTRIBUTES, None);
-        Self { pipeline, triangles: Triangles::new(gpu, "sea"), indices: 0..0 }
+        Self { pipeline, triangles: MeshBuffer::new(gpu, "sea"), indices: 0..0 }
     }
 
-    pub(super) fn upload(&mut self, gpu: &Gpu, sea: Option<&Sea>, place: &Place) {
+    pub(super) fn upload(&mut self, gpu: &Gpu, sea: Option<&Sea>, transform: &ScreenTransform) {
         let part = |sea: &Sea| {
             let [[left, top], [right, bottom]] =
-                [sea.rect.min, sea.rect.max].map(|at| place.px(at));
+                [sea.rect.min, sea.rect.max].map(|at| transform.px(at));
             let rect_px = [left, top, right, bottom].map(f32::round);
             Part { rect_px, top: sea.colours[0], bottom: sea.colours[1] }
         };

@@ -6,7 +6,7 @@ use egui::Rect;
 
 use super::gpu::Gpu;
 use super::lines::{Joint, shown};
-use super::place::Place;
+use super::screen_transform::ScreenTransform;
 use super::strokes::{StrokeMesh, StrokePipeline};
 use super::theme::colour;
 use crate::lab::picture::{self, PathPoint, Shape};
@@ -49,15 +49,15 @@ impl ShapeRenderer {
     }
 
     /// Adds shapes over the others, and says which draws they got.
-    pub(super) fn add(&mut self, shapes: &[Shape], place: &Place) -> Range<usize> {
+    pub(super) fn add(&mut self, shapes: &[Shape], transform: &ScreenTransform) -> Range<usize> {
         let first = self.draws.len();
         for run in shapes.chunk_by(|a, b| clip(a) == clip(b)) {
-            let scissor_px = place.scissor_px(clip(&run[0]));
+            let scissor_px = transform.scissor_px(clip(&run[0]));
             if scissor_px[2] == 0 || scissor_px[3] == 0 {
                 continue;
             }
             let mut mesh = StrokeMesh::default();
-            run.iter().for_each(|shape| add(&mut mesh, shape, place));
+            run.iter().for_each(|shape| add(&mut mesh, shape, transform));
             self.draws.push(Draw { scissor_px, indices: self.strokes.add(&mesh) });
         }
         first..self.draws.len()
@@ -77,21 +77,21 @@ impl ShapeRenderer {
     }
 }
 
-fn add(mesh: &mut StrokeMesh, shape: &Shape, place: &Place) {
+fn add(mesh: &mut StrokeMesh, shape: &Shape, transform: &ScreenTransform) {
     let window = clip(shape);
     let window = Rect::from_min_max(window.min.into(), window.max.into());
     match shape {
         Shape::Path(path) => {
             let widest = path.points.iter().map(|point| point.radius).fold(0.0, f32::max);
             // Half a pixel more for its blur.
-            let window = window.expand(widest + 0.5 / place.px_per_point);
+            let window = window.expand(widest + 0.5 / transform.px_per_point);
             for run in shown(path.points.iter().map(joint), window) {
-                mesh.add(run, path.dash, place.px_per_point);
+                mesh.add(run, path.dash, transform.px_per_point);
             }
         }
         Shape::Fill(fill) => {
             let corners = fill.corners.iter().map(|&(at, rgba)| (at.into(), colour(rgba)));
-            mesh.fill(&corners.collect::<Vec<_>>(), place.px_per_point);
+            mesh.fill(&corners.collect::<Vec<_>>(), transform.px_per_point);
         }
     }
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::backdrop::{Backdrop, Covered};
 use super::gpu::Gpu;
-use super::place::{Place, PlaceGroup};
+use super::screen_transform::{ScreenBindGroup, ScreenTransform};
 use super::sea::SeaPipeline;
 use super::shapes::ShapeRenderer;
 use super::textures::{Start, pass};
@@ -25,7 +25,7 @@ pub(super) struct Stage {
 /// Draws the part of a picture that is not text.
 #[derive(Debug)]
 pub(super) struct StageRenderer {
-    place: PlaceGroup,
+    screen: ScreenBindGroup,
     backdrop: Backdrop,
     sea: SeaPipeline,
     shapes: ShapeRenderer,
@@ -38,14 +38,14 @@ pub(super) struct StageRenderer {
 
 impl StageRenderer {
     pub(super) fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
-        let place = PlaceGroup::new(gpu);
+        let screen = ScreenBindGroup::new(gpu);
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("stage"),
-            bind_group_layouts: &[Some(&place.layout)],
+            bind_group_layouts: &[Some(&screen.layout)],
             immediate_size: 0,
         });
         Self {
-            place,
+            screen,
             backdrop: Backdrop::new(format),
             sea: SeaPipeline::new(gpu, &layout, format),
             shapes: ShapeRenderer::new(gpu, &layout, format),
@@ -71,22 +71,22 @@ impl StageRenderer {
         let high_px = (rect.max.to_vec2() * scale).round();
         let [left, right] = [low_px.x, high_px.x].map(|x| x.clamp(0.0, size_px[0] as f32));
         let [top, bottom] = [low_px.y, high_px.y].map(|y| y.clamp(0.0, size_px[1] as f32));
-        let place = Place {
+        let transform = ScreenTransform {
             size_px,
             origin_px: low_px.into(),
             px_per_point: scale,
             edges_px: [left, top, right.max(left), bottom.max(top)],
         };
-        self.place.write(gpu, &place);
-        self.scissor_px = place.scissor_px(EVERYWHERE);
-        self.covered = self.backdrop.cover(gpu, target, &place, &picture);
+        self.screen.write(gpu, &transform);
+        self.scissor_px = transform.scissor_px(EVERYWHERE);
+        self.covered = self.backdrop.cover(gpu, target, &transform, &picture);
         let (below, above) = picture.shapes.split_at(self.covered.shapes());
         self.shapes.clear();
         self.draws = match self.covered {
-            Covered::Drawn(_) => [0..0, self.shapes.add(above, &place)],
+            Covered::Drawn(_) => [0..0, self.shapes.add(above, &transform)],
             Covered::Nothing | Covered::Drawing(_) => {
-                self.sea.upload(gpu, picture.sea.as_ref(), &place);
-                [self.shapes.add(below, &place), self.shapes.add(above, &place)]
+                self.sea.upload(gpu, picture.sea.as_ref(), &transform);
+                [self.shapes.add(below, &transform), self.shapes.add(above, &transform)]
             }
         };
         self.shapes.upload(gpu);
@@ -100,7 +100,7 @@ impl StageRenderer {
             drop(pass);
             gpu.queue.submit([encoder.finish()]);
         }
-        self.backdrop.remember(place, picture);
+        self.backdrop.remember(transform, picture);
         if self.covered == Covered::Nothing {
             return Start::Black;
         }
@@ -126,7 +126,7 @@ impl StageRenderer {
             return false;
         }
         pass.set_scissor_rect(left, top, width, height);
-        pass.set_bind_group(0, &self.place.group, &[]);
+        pass.set_bind_group(0, &self.screen.group, &[]);
         true
     }
 

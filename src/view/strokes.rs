@@ -10,14 +10,16 @@ use egui::{Color32, Pos2, Vec2, vec2};
 
 use super::gpu::Gpu;
 use super::lines::Joint;
-use super::place::pipeline;
-use super::triangles::Triangles;
+use super::mesh_buffer::MeshBuffer;
+use super::screen_transform::pipeline;
 
-const SHADER: &str =
-    concat!(include_str!("../../shaders/place.wgsl"), include_str!("../../shaders/strokes.wgsl"));
+const SHADER: &str = concat!(
+    include_str!("../../shaders/screen_transform.wgsl"),
+    include_str!("../../shaders/strokes.wgsl")
+);
 
 /// Corners sharper than this, the cosine of the turn, are not mitred: the tip would stick out.
-const SHARPEST_MITRE: f32 = 0.0;
+const MIN_MITRE_COSINE: f32 = 0.0;
 /// How far the triangles of a line reach beyond its edge: half a pixel of blur, and a little for the corners of pixels.
 const MARGIN_PX: f32 = 1.0;
 /// From one dash to the next of a line that has one: longer than any line.
@@ -162,14 +164,14 @@ fn round_end(line: &mut Vec<Joint>, margin: f32) {
 /// Along the edge at a corner of a line, as long as it has to be; `None` where the corner is too sharp.
 fn mitre(before: Vec2, after: Vec2) -> Option<Vec2> {
     let turn = before.dot(after);
-    (turn > SHARPEST_MITRE).then(|| (before + after) / (1.0 + turn))
+    (turn > MIN_MITRE_COSINE).then(|| (before + after) / (1.0 + turn))
 }
 
 /// Draws strokes on targets of one format.
 #[derive(Debug)]
 pub(super) struct StrokePipeline {
     pipeline: wgpu::RenderPipeline,
-    triangles: Triangles<StrokeVertex>,
+    triangles: MeshBuffer<StrokeVertex>,
 }
 
 impl StrokePipeline {
@@ -182,7 +184,7 @@ impl StrokePipeline {
         let blend = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
         let names = ["strokes", SHADER, "stroke"];
         let pipeline = pipeline::<StrokeVertex>(gpu, layout, format, names, &ATTRIBUTES, blend);
-        Self { pipeline, triangles: Triangles::new(gpu, "strokes") }
+        Self { pipeline, triangles: MeshBuffer::new(gpu, "strokes") }
     }
 
     /// Forgets all strokes.

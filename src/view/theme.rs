@@ -11,7 +11,7 @@ use crate::lab::{Display, LaneSpec};
 
 /// The colours of panels, as egui wants them.
 #[derive(Debug)]
-pub(super) struct Ink {
+pub(super) struct PanelPalette {
     pub(super) background: Color32,
     pub(super) panel: Color32,
     pub(super) raised: Color32,
@@ -29,7 +29,7 @@ pub(super) struct Ink {
     pub(super) theme: Theme,
 }
 
-impl Ink {
+impl PanelPalette {
     fn of(theme: Theme) -> Self {
         let &Palette { background, panel, raised, line, plot, grid, text, dim, .. } =
             theme.palette();
@@ -60,11 +60,11 @@ impl Ink {
     }
 }
 
-static DARK: LazyLock<Ink> = LazyLock::new(|| Ink::of(Theme::Dark));
-static LIGHT: LazyLock<Ink> = LazyLock::new(|| Ink::of(Theme::Light));
+static DARK: LazyLock<PanelPalette> = LazyLock::new(|| PanelPalette::of(Theme::Dark));
+static LIGHT: LazyLock<PanelPalette> = LazyLock::new(|| PanelPalette::of(Theme::Light));
 
 /// The colours of a theme.
-pub(super) fn ink_of(theme: Theme) -> &'static Ink {
+pub(super) fn palette_of(theme: Theme) -> &'static PanelPalette {
     match theme {
         Theme::Dark => &DARK,
         Theme::Light => &LIGHT,
@@ -72,8 +72,8 @@ pub(super) fn ink_of(theme: Theme) -> &'static Ink {
 }
 
 /// The colours of the theme that a panel is shown in.
-pub(super) fn ink(ui: &Ui) -> &'static Ink {
-    ink_of(if ui.visuals().dark_mode { Theme::Dark } else { Theme::Light })
+pub(super) fn palette(ui: &Ui) -> &'static PanelPalette {
+    palette_of(if ui.visuals().dark_mode { Theme::Dark } else { Theme::Light })
 }
 
 pub(super) fn colour([r, g, b, a]: Rgba) -> Color32 {
@@ -84,13 +84,13 @@ pub(super) fn colour([r, g, b, a]: Rgba) -> Color32 {
 pub(super) const TYPE: f32 = 13.0;
 /// The window at which type has that size, in points, and how much larger than there everything may become.
 const USUAL_SIZE: [f32; 2] = [1280.0, 720.0];
-const LARGEST: f32 = 2.0;
+const MAX_ZOOM: f32 = 2.0;
 
 /// How much larger everything is in a window of this size, in points, than at the usual one: type grows with the
 /// square root of the window, in steps of which none is seen as one.
 pub(super) fn auto_zoom(size: [f32; 2]) -> f32 {
     let times = (size[0] / USUAL_SIZE[0]).min(size[1] / USUAL_SIZE[1]).max(1.0);
-    (8.0 * times.sqrt().min(LARGEST)).round() / 8.0
+    (8.0 * times.sqrt().min(MAX_ZOOM)).round() / 8.0
 }
 
 /// The least window in which every text can be read at the usual size of type, in points.
@@ -132,8 +132,8 @@ pub(super) fn apply_style(context: &egui::Context) {
     context.options_mut(|options| options.zoom_with_keyboard = false);
     for theme in [Theme::Dark, Theme::Light] {
         let egui_theme = in_egui(theme);
-        let ink = Ink::of(theme);
-        context.style_mut_of(egui_theme, |style| dress_style(style, &ink));
+        let palette = PanelPalette::of(theme);
+        context.style_mut_of(egui_theme, |style| dress_style(style, &palette));
     }
 }
 
@@ -186,7 +186,7 @@ fn fonts() -> FontDefinitions {
     fonts
 }
 
-fn dress_style(style: &mut egui::Style, ink: &Ink) {
+fn dress_style(style: &mut egui::Style, palette: &PanelPalette) {
     // The same input makes the same frame, whenever it is drawn.
     style.animation_time = 0.0;
     style.visuals.text_cursor.blink = false;
@@ -205,26 +205,26 @@ fn dress_style(style: &mut egui::Style, ink: &Ink) {
         }
     }
     let visuals = &mut style.visuals;
-    visuals.panel_fill = ink.panel;
-    visuals.window_fill = ink.panel;
-    visuals.window_stroke = Stroke::new(1.0, ink.line);
-    visuals.extreme_bg_color = ink.plot;
-    visuals.faint_bg_color = ink.raised;
-    visuals.override_text_color = Some(ink.text);
-    visuals.hyperlink_color = ink.accent;
-    visuals.selection.bg_fill = ink.accent.gamma_multiply(0.35);
-    visuals.selection.stroke = Stroke::new(1.0, ink.accent);
-    visuals.widgets.noninteractive.bg_stroke = Stroke::new(1.0, ink.line);
+    visuals.panel_fill = palette.panel;
+    visuals.window_fill = palette.panel;
+    visuals.window_stroke = Stroke::new(1.0, palette.line);
+    visuals.extreme_bg_color = palette.plot;
+    visuals.faint_bg_color = palette.raised;
+    visuals.override_text_color = Some(palette.text);
+    visuals.hyperlink_color = palette.accent;
+    visuals.selection.bg_fill = palette.accent.gamma_multiply(0.35);
+    visuals.selection.stroke = Stroke::new(1.0, palette.accent);
+    visuals.widgets.noninteractive.bg_stroke = Stroke::new(1.0, palette.line);
     for (widget, fill, rim) in [
-        (&mut visuals.widgets.inactive, ink.raised, ink.line),
-        (&mut visuals.widgets.hovered, ink.raised, ink.accent),
-        (&mut visuals.widgets.active, ink.line, ink.accent),
-        (&mut visuals.widgets.open, ink.raised, ink.accent),
+        (&mut visuals.widgets.inactive, palette.raised, palette.line),
+        (&mut visuals.widgets.hovered, palette.raised, palette.accent),
+        (&mut visuals.widgets.active, palette.line, palette.accent),
+        (&mut visuals.widgets.open, palette.raised, palette.accent),
     ] {
         widget.weak_bg_fill = fill;
         widget.bg_fill = fill;
         widget.bg_stroke = Stroke::new(1.0, rim);
-        widget.fg_stroke = Stroke::new(1.0, ink.text);
+        widget.fg_stroke = Stroke::new(1.0, palette.text);
         widget.corner_radius = CornerRadius::same(5);
         widget.expansion = 0.0;
     }
@@ -242,7 +242,7 @@ mod tests {
         assert_eq!(auto_zoom([1920.0, 720.0]), 1.0);
         assert!((1.2..1.3).contains(&auto_zoom([1920.0, 1080.0])));
         assert!((1.6..1.8).contains(&auto_zoom([3840.0, 2160.0])));
-        assert_eq!(auto_zoom([1e5, 1e5]), LARGEST);
+        assert_eq!(auto_zoom([1e5, 1e5]), MAX_ZOOM);
     }
 
     #[test]

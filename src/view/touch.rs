@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 
 use egui::{CursorIcon, Event, PointerButton, Pos2, Rect, Stroke, Ui, Vec2, vec2};
 
-use super::theme::ink;
+use super::theme::palette;
 use super::wheel;
 use crate::lab::picture::{Cell, Grasp, Picture, Whose};
 use crate::lab::{Action, Command, Lab, Mode, RunCommand, StageCommand, ViewCommand, ZoomPan};
@@ -18,7 +18,7 @@ const MEMORY_S: f64 = 0.1;
 /// From a body's edge to the ring that says that it can be grabbed, in points.
 const RING: f32 = 3.0;
 /// Its largest radius: round a ship as long as it is, it would leave the stage.
-const LARGEST_RING: f32 = 48.0;
+const MAX_RING: f32 = 48.0;
 
 /// What a pointer does to a stage, from frame to frame.
 #[derive(Debug, Default)]
@@ -214,8 +214,8 @@ impl Touch {
                 let [low, high] = [cell.rect.min, cell.rect.max].map(|at| Pos2::from(at) + origin);
                 let painter = ui.painter().with_clip_rect(Rect::from_min_max(low, high));
                 let middle = Pos2::from(grip.at) + origin;
-                let radius = (grip.radius + RING).min(LARGEST_RING);
-                painter.circle_stroke(middle, radius, Stroke::new(1.5, ink(ui).accent));
+                let radius = (grip.radius + RING).min(MAX_RING);
+                painter.circle_stroke(middle, radius, Stroke::new(1.5, palette(ui).accent));
                 CursorIcon::Grab
             }
         };

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use winit::event_loop::{ActiveEventLoop, ControlFlow};
 
-use super::{App, LONGEST_WAIT};
+use super::{App, MAX_WAIT};
 
 /// The frame rate if neither the display nor the driver sets one.
 const USUAL_REFRESH_MHZ: u32 = 60_000;
@@ -31,10 +31,10 @@ impl App {
         }
     }
 
-    /// Waits for an event; while time runs, at most for [`LONGEST_WAIT`].
+    /// Waits for an event; while time runs, at most for [`MAX_WAIT`].
     pub(super) fn wait(&self, event_loop: &ActiveEventLoop) {
         event_loop.set_control_flow(if self.lab.running() {
-            ControlFlow::WaitUntil(Instant::now() + LONGEST_WAIT)
+            ControlFlow::WaitUntil(Instant::now() + MAX_WAIT)
         } else {
             ControlFlow::Wait
         });

@@ -8,7 +8,7 @@ use rayon::ThreadPool;
 
 use crate::commands::jobs;
 use crate::commands::stopwatch::{self, Timing};
-use crate::commands::terminal::{progress, tell};
+use crate::commands::terminal::{print_status, progress};
 use crate::lab::number::significant;
 use crate::lab::{Adviser, CRITERIA, CriterionMet, LaneSpec, MethodAdvice, Scene, recommended};
 
@@ -112,7 +112,7 @@ pub(super) fn warn_of_load(rows: &[Row]) {
     if let Some(&middle) = spreads.get(spreads.len() / 2)
         && middle > BLUR - 1.0
     {
-        tell(&format!(
+        print_status(&format!(
             "warning: the machine is busy: costs in ns vary by {} % from run to run",
             significant(100.0 * middle, 2)
         ));

@@ -1,7 +1,7 @@
 //! What `regatta loop` says below its rows: which policy to take, and which motion depends on the frame rate.
 
 use super::measured::Measured;
-use crate::commands::terminal::tell;
+use crate::commands::terminal::print_status;
 use crate::lab::number::round;
 use crate::lab::pacing::{PacingReport, PolicyCard, advised_loop};
 
@@ -20,17 +20,19 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
     let origin_ms =
         if first.has_one_clock { 0.0 } else { latencies.reduce(f64::min).unwrap_or(0.0) };
     match advised_loop(&measured, origin_ms + latency_ms) {
-        Some(place) => tell(&format!("{trace}: take {}", words(&rows[place], origin_ms))),
+        Some(place) => print_status(&format!("{trace}: take {}", words(&rows[place], origin_ms))),
         None if rows.iter().all(|row| row.report.animation_error_rms_ms.is_none()) => {
-            tell(&format!("{trace}: fewer than two frames were displayed, too few to measure"));
+            print_status(&format!(
+                "{trace}: fewer than two frames were displayed, too few to measure"
+            ));
         }
-        None => tell(&format!(
+        None => print_status(&format!(
             "{trace}: no policy here keeps the game's speed at half the frame rate, stays stable, and has a mean latency \
              of {latency_ms} ms or less; try more policies, or a larger --latency-ms"
         )),
     }
     if !first.has_one_clock {
-        tell(
+        print_status(
             "  the log's two clocks have no common origin: latencies here are counted from the least, and in the rows \
              they are off by a constant",
         );
@@ -42,7 +44,7 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
     let depends: Vec<String> = depends.collect();
     if !depends.is_empty() {
         let listed = depends.join(", ");
-        tell(&format!(
+        print_status(&format!(
             "  at half the frame rate the motion differs by up to (amplitudes): {listed}"
         ));
     }

@@ -17,7 +17,7 @@ const RING: f32 = 3.0;
 const EXPLAINED: &str = "Animation error is the change of the moment shown minus the change of the moment of display, \
                          from frame to frame";
 /// A loop that is further behind or ahead, because it does not keep time, is outside of the chart.
-const LARGEST_LATENCY_MS: f64 = 200.0;
+const MAX_LATENCY_MS: f64 = 200.0;
 
 /// The number of charts in a picture of `traces` traces.
 pub(super) fn charts(traces: usize) -> usize {
@@ -89,7 +89,7 @@ fn costs(rows: &[Measured], before: &str) -> Chart {
         let radius = DOT + RING * over as f32;
         curve(n, row, radius, point(row).into_iter().collect())
     });
-    let latencies = known.iter().map(|point| point[0]).filter(|ms| ms.abs() <= LARGEST_LATENCY_MS);
+    let latencies = known.iter().map(|point| point[0]).filter(|ms| ms.abs() <= MAX_LATENCY_MS);
     let (least, most) =
         latencies.fold((0.0, 10.0), |(least, most): (f64, f64), ms| (least.min(ms), most.max(ms)));
     let worst = known.iter().map(|point| point[1]).fold(MIN_MS, f64::max);
@@ -154,7 +154,7 @@ fn note_on_several(by_trace: &[&[Measured]], left_out: usize) -> String {
 
 /// The mean latency of a loop, if the charts do not show it.
 fn beyond_chart_ms(row: &Measured) -> Option<f64> {
-    row.report.latency_mean_ms.filter(|ms| ms.abs() > LARGEST_LATENCY_MS)
+    row.report.latency_mean_ms.filter(|ms| ms.abs() > MAX_LATENCY_MS)
 }
 
 /// The loops whose latency is beyond the charts.

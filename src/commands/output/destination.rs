@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::atomic_file::{AtomicFile, IfExists};
 use crate::commands::error::Error;
-use crate::commands::terminal::tell;
+use crate::commands::terminal::print_status;
 
 /// The path that means standard output.
 pub(crate) const STDOUT: &str = "-";
@@ -141,7 +141,7 @@ impl Output {
         };
         let asked = file.path().to_owned();
         match file.commit(if_exists) {
-            // A link's own name stays the one to tell, unless the file is another.
+            // A link's own name stays the one to print_status, unless the file is another.
             Ok(written) if written == asked => Ok(name),
             Ok(written) => Ok(written.display().to_string()),
             // Somebody else made a file of that name in the meantime.
@@ -159,7 +159,7 @@ impl Output {
         let is_file = self.file().is_some();
         let name = self.close()?;
         if is_file {
-            tell(&format!("wrote {what}: {name}"));
+            print_status(&format!("wrote {what}: {name}"));
         }
         Ok(())
     }

@@ -9,7 +9,7 @@ use super::VerifyArgs;
 use super::physics::{PhysicsChange, first_change};
 #[cfg(feature = "view")]
 use super::pixels;
-use super::report::{Report, say};
+use super::report::{Report, print_line};
 use super::rerun::{Frames, Rerun};
 #[cfg(feature = "view")]
 use crate::commands::clip::record;
@@ -20,7 +20,7 @@ use crate::commands::frame_names::is_pending;
 use crate::commands::manifest::{self, FILE_NAME, Manifest, SCHEMA};
 use crate::commands::output::DirectoryLock;
 use crate::commands::state_log::StateLog;
-use crate::commands::terminal::{counted, tell};
+use crate::commands::terminal::{counted, print_status};
 use crate::commands::{scene_file, settings};
 use crate::lab::Lab;
 use crate::regular_file::{self, Unreadable};
@@ -55,7 +55,9 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
     let scene = &settings.scene;
     if scene_file::text_now(Path::new(&scene.name)).is_some_and(|now| now != scene.text) {
         let name = &scene.name;
-        tell(&format!("{name} has changed since the capture; the scene as captured is run"));
+        print_status(&format!(
+            "{name} has changed since the capture; the scene as captured is run"
+        ));
     }
     #[cfg(feature = "view")]
     let redrawn = match args.physics_only {
@@ -77,7 +79,7 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
     match failed {
         Some(error) if !physics_differs => return Err(error),
         // Different physics is a result.
-        Some(error) => tell(&error.to_string()),
+        Some(error) => print_status(&error.to_string()),
         None => {}
     }
     add_pixels(&mut report, &rerun, frames)?;
@@ -98,7 +100,7 @@ fn add_physics(
 ) -> Result<(), Error> {
     let Some(change) = first_change(&rerun.manifest, lab, state_log) else {
         let lanes = counted(lab.race().entrants().len(), "lane");
-        say(&format!("physics: same to the bit: {lanes} to tick {}", lab.race().tick()))?;
+        print_line(&format!("physics: same to the bit: {lanes} to tick {}", lab.race().tick()))?;
         report.judged("physics", None);
         report.field("physics", json!({ "same": true, "first_difference": null }));
         return Ok(());
@@ -110,7 +112,7 @@ fn add_physics(
     };
     let of_lane = lane.map_or(String::new(), |(n, method)| format!("lane {n}, {method}, "));
     let line = format!("differs first at tick {tick}{marks}: {of_lane}{what}");
-    say(&format!("physics: {line}"))?;
+    print_line(&format!("physics: {line}"))?;
     report.judged("physics", Some(line));
     let (lane, method) = lane.unzip();
     let change = json!({ "tick": tick, "lane": lane, "method": method, "what": what });
@@ -126,13 +128,13 @@ fn add_pixels(report: &mut Report, rerun: &Rerun, frames: Option<Frames>) -> Res
     let (frames, mut changes) = (differences.len(), Vec::new());
     for (entry, difference) in rerun.manifest.frames.iter().zip(differences) {
         if let Some(what) = &difference {
-            say(&format!("pixels: {}: {what}", entry.file))?;
+            print_line(&format!("pixels: {}: {what}", entry.file))?;
             changes.push(json!({ "file": entry.file, "what": what }));
         }
         report.judged(&entry.file, difference);
     }
     let all = counted(frames, "frame");
-    say(&match (changes.len(), are_exact) {
+    print_line(&match (changes.len(), are_exact) {
         (0, true) => format!("pixels: same: {all}, every pixel"),
         (0, false) => format!("pixels: same within the limits: {all}"),
         (changed, _) => format!("pixels: {changed} of {all} differ"),

@@ -15,7 +15,7 @@ use crate::commands::manifest::{Adapter, FILE_NAME, FrameEntry, Manifest};
 use crate::commands::pipeline::{Drawn, Run};
 use crate::commands::schedule::Schedule;
 use crate::commands::state_log::StateLog;
-use crate::commands::terminal::tell;
+use crate::commands::terminal::print_status;
 use crate::lab::Lab;
 use crate::regular_file;
 use crate::view::png;
@@ -115,7 +115,7 @@ fn limits(args: &VerifyArgs, was: &Adapter, is: &Adapter) -> Limits {
     let limits = Limits::of(was == is, args.max_channel, args.max_pixels);
     if was != is {
         let name = |a: &Adapter| format!("{} ({}, {})", a.name, a.backend, a.driver_info);
-        tell(&format!(
+        print_status(&format!(
             "drawn then with {}, now with {}: a channel may differ by {}, and {} % of a frame's \
              pixels by more than 1",
             name(was),

@@ -4,12 +4,12 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::report::{Report, say};
+use super::report::{Report, print_line};
 use crate::atomic_file::IfExists;
 use crate::commands::error::Error;
 use crate::commands::output::Destination;
 use crate::commands::scene_file;
-use crate::commands::terminal::{counted, tell};
+use crate::commands::terminal::{counted, print_status};
 use crate::lab::{Action, Check, Lab, Observer, Race, Resumed, Scene, Session};
 
 /// The most ticks that a race is run for its checks: a day at 1000 Hz and more, which takes a body minutes.
@@ -112,7 +112,7 @@ pub(super) fn judge(path: &Path) -> Result<Report, Error> {
     let lanes = compare(&scene);
     let mut report = Report::new("file", path);
     for lane in &lanes {
-        say(&lane.line())?;
+        print_line(&lane.line())?;
         report.judged(lane.name(), lane.difference.as_ref().map(Difference::line));
     }
     report.field("lanes", lanes.iter().map(JudgedLane::object).collect());
@@ -141,7 +141,7 @@ fn check_ticks(path: &Path, scene: &Scene) -> Result<(), Error> {
         1 => ("check lies", 1),
         count => ("checks lie", count),
     };
-    tell(&format!(
+    print_status(&format!(
         "{count} {are} beyond the end of {} at tick {end} ({} s); the race runs on to tick {last}",
         path.display(),
         scene.seconds
@@ -174,7 +174,7 @@ pub(super) fn bless(path: &Path) -> Result<(), Error> {
         Scene::with_hashes(&text, &hashes)
     };
     Destination { path, option: "FILE", if_exists: IfExists::Replace }.write(&text)?;
-    tell(&format!("blessed: {}", path.display()));
+    print_status(&format!("blessed: {}", path.display()));
     Ok(())
 }
 

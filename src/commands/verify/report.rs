@@ -118,7 +118,7 @@ impl Report {
 }
 
 /// Prints a line to standard output.
-pub(super) fn say(line: &str) -> Result<(), Error> {
+pub(super) fn print_line(line: &str) -> Result<(), Error> {
     match writeln!(io::stdout(), "{line}") {
         // Whoever listens no more still gets the exit code.
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.into()),

@@ -17,7 +17,7 @@ pub enum AxisScale {
 pub(in crate::view) type Mark = (f64, String);
 
 /// The fewest marks of an axis: with two, nothing says whether it is linear.
-const FEWEST: usize = 3;
+const MIN_MARKS: usize = 3;
 /// The most significant digits of a mark.
 const MAX_DIGITS: usize = 15;
 /// Numbers of this size are written out on an even axis, others with a power of ten.
@@ -96,11 +96,11 @@ impl AxisScale {
         let above = places[1..].iter().map(|(place, text)| (*place, format!("+{text}")));
         let all = below.chain([places[0].clone()]).chain(above);
         let marks: Vec<_> = all.filter(|(place, _)| (low..=high).contains(place)).collect();
-        (marks.len() >= FEWEST).then_some(marks)
+        (marks.len() >= MIN_MARKS).then_some(marks)
     }
 }
 
-/// Multiples of 1, 2 or 5 times a power of ten, at least `apart` from each other unless that leaves fewer than [`FEWEST`],
+/// Multiples of 1, 2 or 5 times a power of ten, at least `apart` from each other unless that leaves fewer than [`MIN_MARKS`],
 /// and that step.
 fn multiples([low, high]: [f64; 2], apart: f64) -> (Vec<f64>, f64) {
     let mut decade = libm::ceil(libm::log10(apart)) as i32 + 1;
@@ -109,7 +109,7 @@ fn multiples([low, high]: [f64; 2], apart: f64) -> (Vec<f64>, f64) {
     loop {
         for digit in [5.0, 2.0, 1.0] {
             let step = digit * libm::pow(10.0, f64::from(decade));
-            let has_enough = step < apart && found.0.len() >= FEWEST;
+            let has_enough = step < apart && found.0.len() >= MIN_MARKS;
             let (first, last) = (libm::ceil(low / step), libm::floor(high / step));
             if has_enough || !(step > 0.0 && step.is_finite()) || last - first > 1000.0 {
                 return found;
@@ -143,7 +143,7 @@ fn linear(range: [f64; 2], apart: f64) -> Option<Vec<Mark>> {
 }
 
 /// Marks at powers of ten, every few where they crowd, and between them where there is room; `None` if there are fewer
-/// than [`FEWEST`] or crowded ones only.
+/// than [`MIN_MARKS`] or crowded ones only.
 fn logarithmic([low, high]: [f64; 2], apart: f64) -> Option<Vec<Mark>> {
     let powers = |step: i64| -> Vec<(f64, i32)> {
         let [first, last] =
@@ -157,7 +157,7 @@ fn logarithmic([low, high]: [f64; 2], apart: f64) -> Option<Vec<Mark>> {
     };
     let fit = |marks: &Vec<(f64, i32)>, least: f64| {
         let is_apart = |pair: &[(f64, i32)]| place_of(&pair[1]) - place_of(&pair[0]) >= least;
-        marks.len() >= FEWEST && marks.windows(2).all(is_apart)
+        marks.len() >= MIN_MARKS && marks.windows(2).all(is_apart)
     };
     let is_plain = [low, high].map(|end| PLAIN_POWERS.contains(&(libm::floor(end) as i32)));
     let is_plain = is_plain == [true; 2];
@@ -167,10 +167,10 @@ fn logarithmic([low, high]: [f64; 2], apart: f64) -> Option<Vec<Mark>> {
         far.or_else(|| all.find(|marks| fit(marks, NEARER * apart)))
     };
     let mut step = (libm::ceil(apart) as i64).max(1);
-    while step > 1 && powers(step).len() < FEWEST {
+    while step > 1 && powers(step).len() < MIN_MARKS {
         step -= 1;
     }
-    let powers = Some(powers(step)).filter(|marks| marks.len() >= FEWEST);
+    let powers = Some(powers(step)).filter(|marks| marks.len() >= MIN_MARKS);
     let marks = if is_plain { numbers().or(powers) } else { powers.or_else(numbers) }?;
     let named = |mark: (f64, i32)| (place_of(&mark), power(mark.0, mark.1, is_plain));
     Some(marks.into_iter().map(named).collect())

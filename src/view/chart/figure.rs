@@ -7,7 +7,7 @@ use egui::{
 
 use super::{Arrow, AxisScale, Curve, Dots, Drawing, LineStyle, PlotArea, legend, paint, plot};
 use crate::lab::picture::Rgba;
-use crate::view::theme::{colour, ink};
+use crate::view::theme::{colour, palette};
 
 /// A picture of one chart or several.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,7 +87,7 @@ const INDENT: f32 = 58.0;
 
 /// Shows the figure in all of `ui`.
 pub(in crate::view) fn show(ui: &mut Ui, figure: &Figure) {
-    let frame = Frame::new().fill(ink(ui).background).inner_margin(Margin {
+    let frame = Frame::new().fill(palette(ui).background).inner_margin(Margin {
         left: 12,
         right: 26,
         top: 18,
@@ -96,7 +96,7 @@ pub(in crate::view) fn show(ui: &mut Ui, figure: &Figure) {
     egui::CentralPanel::default_margins().frame(frame).show(ui, |ui| {
         ui.horizontal(|ui| {
             ui.add_space(INDENT);
-            ui.label(RichText::new(&figure.title).size(17.0).color(ink(ui).text));
+            ui.label(RichText::new(&figure.title).size(17.0).color(palette(ui).text));
         });
         ui.add_space(4.0);
         let mut named: Vec<&FigureCurve> = Vec::new();
@@ -109,7 +109,7 @@ pub(in crate::view) fn show(ui: &mut Ui, figure: &Figure) {
         }
         show_legend(ui, &named);
         ui.add_space(8.0);
-        let note = WidgetText::from(RichText::new(&figure.note).color(ink(ui).dim));
+        let note = WidgetText::from(RichText::new(&figure.note).color(palette(ui).dim));
         let width = ui.available_width() - INDENT;
         let note = note.into_galley(ui, Some(TextWrapMode::Wrap), width, TextStyle::Body);
         let mut room = ui.available_rect_before_wrap();
@@ -144,7 +144,7 @@ fn show_chart(ui: &mut Ui, chart: &Chart, place: Rect) {
     if !chart.title.is_empty() {
         ui.horizontal(|ui| {
             ui.add_space(INDENT);
-            let title = RichText::new(&chart.title).size(14.0).color(ink(ui).text);
+            let title = RichText::new(&chart.title).size(14.0).color(palette(ui).text);
             ui.add(Label::new(title).wrap());
         });
     }
@@ -167,9 +167,9 @@ fn show_chart(ui: &mut Ui, chart: &Chart, place: Rect) {
     });
     let arrows = arrows.collect();
     let drawing = Drawing { curves, arrows, ..Drawing::default() };
-    let mut all = plot(&area, marks, &drawing, ink(ui), f32::INFINITY);
+    let mut all = plot(&area, marks, &drawing, palette(ui), f32::INFINITY);
     let names = chart.axes.each_ref().map(|axis| axis.name);
-    all.extend(super::names(&area, area.rect.left(), names, ink(ui)).map(Into::into));
+    all.extend(super::names(&area, area.rect.left(), names, palette(ui)).map(Into::into));
     paint(ui.painter(), &all);
 }
 

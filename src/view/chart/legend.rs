@@ -5,7 +5,7 @@ use std::sync::Arc;
 use egui::{Align2, Color32, FontId, Galley, Pos2, Response, Sense, Stroke, Ui, pos2, vec2};
 
 use super::{Primitive, Text, paint, text_width};
-use crate::view::theme::{Ink, ink, strong_font};
+use crate::view::theme::{PanelPalette, palette, strong_font};
 
 /// The length of a line, the room behind it, and between two entries, in points.
 const SWATCH: f32 = 26.0;
@@ -30,7 +30,7 @@ pub(in crate::view) struct Entry {
 impl Entry {
     fn words(&self, ui: &Ui) -> Arc<Galley> {
         let font = if self.is_front { strong_font(SIZE) } else { FontId::proportional(SIZE) };
-        ui.painter().layout_no_wrap(self.name.clone(), font, ink(ui).text)
+        ui.painter().layout_no_wrap(self.name.clone(), font, palette(ui).text)
     }
 
     /// The width that it takes, in points.
@@ -43,14 +43,14 @@ impl Entry {
         let words = self.words(ui).size();
         let size = vec2((SWATCH + BEFORE_NAME + words.x).max(min_width), words.y);
         let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-        paint(ui.painter(), &self.layout(rect.left_center(), ink(ui)));
+        paint(ui.painter(), &self.layout(rect.left_center(), palette(ui)));
         response
     }
 
     /// The line, from `from` to the right, and the name.
-    fn layout(&self, from: Pos2, ink: &Ink) -> Vec<Primitive> {
+    fn layout(&self, from: Pos2, palette: &PanelPalette) -> Vec<Primitive> {
         let at = from + vec2(SWATCH + BEFORE_NAME, 0.0);
-        let colour = if self.is_front { ink.text } else { ink.dim };
+        let colour = if self.is_front { palette.text } else { palette.dim };
         let name = Text::new(at, Align2::LEFT_CENTER, &*self.name, SIZE, colour);
         let mut all = swatch(from, SWATCH, self.dash, self.colour);
         all.push(if self.is_front { name.strong() } else { name }.into());
@@ -92,10 +92,14 @@ pub(in crate::view) fn swatch(
 }
 
 /// A legend in one row, whose line is at the height of `from`.
-pub(in crate::view) fn layout(entries: &[Entry], from: Pos2, ink: &Ink) -> Vec<Primitive> {
+pub(in crate::view) fn layout(
+    entries: &[Entry],
+    from: Pos2,
+    palette: &PanelPalette,
+) -> Vec<Primitive> {
     let mut x = from.x;
     let entry = |entry: &Entry| {
-        let laid_out = entry.layout(pos2(x, from.y), ink);
+        let laid_out = entry.layout(pos2(x, from.y), palette);
         x += SWATCH + BEFORE_NAME + text_width(&entry.name, SIZE) + BETWEEN;
         laid_out
     };

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Color32, Pos2, Rect, Stroke, pos2, vec2};
 
-use super::theme::Ink;
+use super::theme::PanelPalette;
 pub(super) use area::{Bounds, PlotArea};
 pub use axis::AxisScale;
 pub(super) use axis::Mark;
@@ -77,10 +77,10 @@ pub(super) fn text_width(words: &str, size: f32) -> f32 {
 pub(super) fn axes(
     area: &PlotArea,
     marks: [Vec<Mark>; 2],
-    ink: &Ink,
+    palette: &PanelPalette,
     right: f32,
 ) -> Vec<Primitive> {
-    plot(area, marks, &Drawing::default(), ink, right)
+    plot(area, marks, &Drawing::default(), palette, right)
 }
 
 /// A plot with [its axes](axes) and all that is in it.
@@ -88,13 +88,13 @@ pub(super) fn plot(
     area: &PlotArea,
     marks: [Vec<Mark>; 2],
     drawing: &Drawing,
-    ink: &Ink,
+    palette: &PanelPalette,
     right: f32,
 ) -> Vec<Primitive> {
-    let (rect, grid) = (area.rect, Stroke::new(1.0, ink.grid));
+    let (rect, grid) = (area.rect, Stroke::new(1.0, palette.grid));
     let number = |at: Pos2, anchor: Align2, text: String| {
         let is_named = !text.is_empty();
-        let text = Text { right, ..Text::new(at, anchor, text, NUMBER, ink.dim) };
+        let text = Text { right, ..Text::new(at, anchor, text, NUMBER, palette.dim) };
         is_named.then_some(Primitive::Text(text))
     };
     let [across, upwards] = marks;
@@ -123,7 +123,7 @@ pub(super) fn plot(
         }
     }
     all.push(contents(area, drawing));
-    all.push(Primitive::Edge(rect, Stroke::new(1.0, ink.line)));
+    all.push(Primitive::Edge(rect, Stroke::new(1.0, palette.line)));
     all
 }
 
@@ -132,14 +132,14 @@ pub(super) fn names<S: Into<String>>(
     area: &PlotArea,
     left: f32,
     [along, up]: [S; 2],
-    ink: &Ink,
+    palette: &PanelPalette,
 ) -> [Text; 2] {
     let rect = area.rect;
     let below = pos2(rect.center().x, rect.bottom() + NUMBERS);
     let above = pos2(left, rect.top() - ABOVE / 2.0);
     [
-        Text::new(below, Align2::CENTER_TOP, along, NAME, ink.dim),
-        Text::new(above, Align2::LEFT_CENTER, up, NAME, ink.dim),
+        Text::new(below, Align2::CENTER_TOP, along, NAME, palette.dim),
+        Text::new(above, Align2::LEFT_CENTER, up, NAME, palette.dim),
     ]
 }
 

@@ -4,13 +4,13 @@
 use egui::{Align, Color32, FontId, Label, Layout, Rect, Response, RichText, Ui, UiBuilder, vec2};
 
 use super::table::{Column, GAP, MARGIN, SortKey, Table, TableRow, show_words};
-use super::{ink, strong_font, tone};
+use super::{palette, strong_font, tone};
 use crate::lab::number::significant;
 use crate::lab::{
     Advice, AdvisedBodies, CRITERIA, Command, Criterion, CriterionMet, CriterionResult, Lab,
     LaneSpec, MAX_ADVISED_SUBSTEPS, MethodAdvice, RunCommand, ViewCommand, recommended,
 };
-use crate::view::theme::{Ink, TYPE};
+use crate::view::theme::{PanelPalette, TYPE};
 
 /// What is written in a cell, where there is room for it and where there is not.
 const CELLS: [&str; 2] = [
@@ -32,7 +32,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.y = 2.0;
     which_bodies(ui, lab, commands);
     let Some(advice) = lab.viewer().advice() else {
-        line(ui, RichText::new("judging every method …").color(ink(ui).dim));
+        line(ui, RichText::new("judging every method …").color(palette(ui).dim));
         return;
     };
     let best: Vec<Option<usize>> = (0..CRITERIA.len()).map(|i| best(advice, i)).collect();
@@ -99,7 +99,7 @@ fn answer(
         true => format!("At {} Hz, the best of {done} of {wanted} methods judged:", advice.tick_hz),
         false => format!("At {} Hz, take:", advice.tick_hz),
     };
-    line(ui, RichText::new(told).color(ink(ui).dim));
+    line(ui, RichText::new(told).color(palette(ui).dim));
     for (i, (criterion, best)) in CRITERIA.iter().zip(best).enumerate() {
         let taken = best.and_then(|row| {
             let advised = &advice.advised[row];
@@ -107,7 +107,7 @@ fn answer(
         });
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = APART;
-            let name = RichText::new(criterion.name()).color(ink(ui).dim);
+            let name = RichText::new(criterion.name()).color(palette(ui).dim);
             slot(ui, CRITERION, |ui| line(ui, name)).on_hover_text(criterion.about());
             let Some((spec, met)) = taken else {
                 let all_miss = advice.advised.iter().all(|row| row.met[i] == CriterionResult::No);
@@ -116,7 +116,7 @@ fn answer(
                     () if all_miss => format!("none with up to {MAX_ADVISED_SUBSTEPS} substeps"),
                     () => "unknown for those that might".into(),
                 };
-                line(ui, RichText::new(none).color(ink(ui).text));
+                line(ui, RichText::new(none).color(palette(ui).text));
                 return;
             };
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -132,10 +132,10 @@ fn answer(
 /// A method and its substeps, of which the name gives way to the substeps.
 fn taken_line(ui: &mut Ui, name: &str, met: &CriterionMet) {
     let font = strong_font(TYPE);
-    let strong = |words: &str| RichText::new(words).font(font.clone()).color(ink(ui).good);
+    let strong = |words: &str| RichText::new(words).font(font.clone()).color(palette(ui).good);
     let substeps = format!("×{}", met.substeps);
     let width = |words: &str| {
-        ui.painter().layout_no_wrap(words.to_owned(), font.clone(), ink(ui).good).size().x
+        ui.painter().layout_no_wrap(words.to_owned(), font.clone(), palette(ui).good).size().x
     };
     let room = ui.available_width() - width(&substeps) - ui.spacing().item_spacing.x;
     let (name_width, name, substeps) = (width(name).min(room), strong(name), strong(&substeps));
@@ -164,7 +164,7 @@ fn copy_button(ui: &mut Ui, lab: &Lab, spec: LaneSpec, commands: &mut Vec<Comman
 fn cell_width(ui: &Ui, advice: &Advice, room: f32) -> (f32, bool) {
     let width = |words: &str| {
         let font = FontId::proportional(SMALL);
-        ui.painter().layout_no_wrap(words.to_owned(), font, ink(ui).text).size().x
+        ui.painter().layout_no_wrap(words.to_owned(), font, palette(ui).text).size().x
     };
     let padding = 2.0 * ui.spacing().button_padding.x + 2.0;
     let head = CRITERIA.iter().map(|criterion| width(criterion.name())).fold(0.0, f32::max);
@@ -189,7 +189,7 @@ fn table(
 ) {
     let (width, has_rates) = cell_width(ui, advice, ui.available_width());
     let (cells, whose) = if has_rates { (CELLS[0], whose) } else { (CELLS[1], "") };
-    line(ui, RichText::new(format!("{cells}{whose}")).size(SMALL).color(ink(ui).dim));
+    line(ui, RichText::new(format!("{cells}{whose}")).size(SMALL).color(palette(ui).dim));
     let name = Column::shown(
         "method",
         0.0,
@@ -235,7 +235,7 @@ impl Row<'_> {
         let mut ui = ui.new_child(
             UiBuilder::new().max_rect(rect).layout(Layout::left_to_right(Align::Center)),
         );
-        let dim = |words: &str| RichText::new(words).color(ink(&ui).dim);
+        let dim = |words: &str| RichText::new(words).color(palette(&ui).dim);
         let met = match &met[criterion] {
             CriterionResult::With(met) => met,
             CriterionResult::No => {
@@ -251,7 +251,7 @@ impl Row<'_> {
             }
         };
         let is_best = self.best[criterion] == Some(self.index);
-        let colour = if is_best { ink(&ui).good } else { ink(&ui).text };
+        let colour = if is_best { palette(&ui).good } else { palette(&ui).text };
         let text = cell_text(met, self.has_rates);
         let used = ui.button(RichText::new(text).color(colour).size(SMALL));
         let name = format!("{}: {}", CRITERIA[criterion].name(), spec.method.name);
@@ -274,8 +274,8 @@ impl TableRow for Row<'_> {
         false
     }
 
-    fn colours(&self, ink: &Ink) -> [Color32; 2] {
-        [ink.accent, ink.text]
+    fn colours(&self, palette: &PanelPalette) -> [Color32; 2] {
+        [palette.accent, palette.text]
     }
 
     fn command(&self) -> Option<Command> {

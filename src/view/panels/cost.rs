@@ -4,10 +4,10 @@
 use egui::{Color32, Label, Rect, RichText, Ui, Vec2, vec2};
 
 use super::table::{Column, SortKey, Table, TableRow, show_line, show_words};
-use super::{ink, strong_font};
+use super::{palette, strong_font};
 use crate::lab::number::significant;
 use crate::lab::{Command, Entrant, Lab, LaneSpec, StageCommand};
-use crate::view::theme::Ink;
+use crate::view::theme::PanelPalette;
 
 /// The height of a row and the size of type in the heads, in points.
 const ROW: f32 = 22.0;
@@ -43,7 +43,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Comman
         (false, true) => "Measuring the time …",
         (false, false) => NOT_MEASURED,
     };
-    ui.add(Label::new(RichText::new(note).size(12.0).color(ink(ui).dim)).wrap());
+    ui.add(Label::new(RichText::new(note).size(12.0).color(palette(ui).dim)).wrap());
 }
 
 /// The columns; the longest bar is of `most` evaluations.
@@ -53,7 +53,7 @@ fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
         32.0,
         "the line of this method in the plots and on the stage",
         |ui, row: &Row<'a>, rect, _| {
-            let (colour, dash) = ink(ui).style(row.lab.entries(), &row.spec);
+            let (colour, dash) = palette(ui).style(row.lab.entries(), &row.spec);
             show_line(ui, rect, dash, colour);
         },
         |row| SortKey::Number(row.entry as f64),
@@ -64,7 +64,7 @@ fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
         "the integrator of this lane; × is its substeps",
         |ui, row: &Row<'a>, rect, _| {
             let name = row.spec.name_with_substeps(row.lab.entries());
-            show_words(ui, rect, &name, row.is_selected(), ink(ui).text);
+            show_words(ui, rect, &name, row.is_selected(), palette(ui).text);
         },
         |row| SortKey::Words(row.spec.method.name.into()),
     );
@@ -85,7 +85,7 @@ fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
             let part = row.evaluations as f32 / most as f32;
             let size = vec2(part * rect.width(), rect.height() - 12.0);
             let bar = Rect::from_min_size(rect.min + vec2(0.0, 6.0), size);
-            ui.painter().rect_filled(bar, 2.0, row.colours(ink(ui))[0]);
+            ui.painter().rect_filled(bar, 2.0, row.colours(palette(ui))[0]);
         },
         |row| SortKey::Number(row.evaluations as f64),
     );
@@ -146,8 +146,8 @@ impl TableRow for Row<'_> {
         self.entry == self.lab.active()
     }
 
-    fn colours(&self, ink: &Ink) -> [Color32; 2] {
-        [ink.style(self.lab.entries(), &self.spec).0, ink.text]
+    fn colours(&self, palette: &PanelPalette) -> [Color32; 2] {
+        [palette.style(self.lab.entries(), &self.spec).0, palette.text]
     }
 
     fn command(&self) -> Option<Command> {

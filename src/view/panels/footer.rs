@@ -2,7 +2,7 @@
 
 use egui::{Align, Layout, RichText, Sense, Ui, vec2};
 
-use super::{ink, keycap, loops, short};
+use super::{keycap, loops, palette, short};
 use crate::lab::number::round;
 use crate::lab::{Command, Lab, LoopCommand, Mode, RunCommand, StageCommand, Step, ViewCommand};
 use crate::view::theme::TYPE;
@@ -31,7 +31,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             let ticks = if count == 1 { "tick" } else { "ticks" };
             let text = RichText::new(format!("−{count} {ticks}")).size(DROPPED);
             let about = format!("{count} {ticks} dropped: the simulation fell behind real time");
-            let response = ui.label(text.color(ink(ui).bad)).on_hover_text(&about);
+            let response = ui.label(text.color(palette(ui).bad)).on_hover_text(&about);
             response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &about));
         }
         if width >= ROOM_FOR_KEYS {
@@ -45,7 +45,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         }
         let room = ui.available_width();
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-            let colour = if is_hint { ink(ui).text } else { ink(ui).dim };
+            let colour = if is_hint { palette(ui).text } else { palette(ui).dim };
             keycap::line(ui, &sentence, room, colour);
         });
     });
@@ -140,8 +140,11 @@ fn show_hint(ui: &mut Ui, hint: KeyHint, commands: &mut Vec<Command>) {
         egui::WidgetInfo::labeled(role, true, format!("{what} ({key})"))
     });
     let lit = response.hovered() && command.is_some() || response.has_focus();
-    let (box_colour, colour) =
-        if lit { (ink(ui).accent, ink(ui).text) } else { (ink(ui).text, ink(ui).dim) };
+    let (box_colour, colour) = if lit {
+        (palette(ui).accent, palette(ui).text)
+    } else {
+        (palette(ui).text, palette(ui).dim)
+    };
     let left = rect.left() + GAP;
     let used = keycap::paint(ui, left, rect.center().y, key, box_colour);
     let (text, _) = short(ui, &what, egui::FontId::proportional(TYPE), f32::INFINITY, colour);

@@ -2,7 +2,7 @@
 
 use egui::{Align, Button, Layout, RichText, ScrollArea, Ui, vec2};
 
-use super::{ink, keycap};
+use super::{keycap, palette};
 use crate::lab::guide::{STOPS, Tour};
 use crate::lab::{Command, Step, ViewCommand};
 use crate::view::theme::strong_font;
@@ -24,9 +24,9 @@ pub(super) fn show(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
                 Some(_) => "Not quite. ",
                 None => "",
             };
-            keycap::paragraph(ui, &format!("{said}{}", stop.answer), ink(ui).text);
+            keycap::paragraph(ui, &format!("{said}{}", stop.answer), palette(ui).text);
         } else {
-            keycap::paragraph(ui, stop.task, ink(ui).text);
+            keycap::paragraph(ui, stop.task, palette(ui).text);
         }
     });
 }
@@ -43,7 +43,7 @@ fn head(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
             if ui.button("Close").on_hover_text("close the guide (Esc)").clicked() {
                 commands.push(Command::View(ViewCommand::ToggleGuide));
             }
-            let dim = ink(ui).dim;
+            let dim = palette(ui).dim;
             let named = |name: &'static str, key: &str| match is_wide {
                 true => Button::new(name).right_text(RichText::new(key).size(11.0).color(dim)),
                 false => Button::new(name),
@@ -67,7 +67,7 @@ fn head(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
             if ui.button("⏮").on_hover_text("show this stop again").clicked() {
                 commands.push(Command::View(ViewCommand::GoToStop(place)));
             }
-            ui.label(RichText::new(format!("{} of {count}", place + 1)).color(ink(ui).dim));
+            ui.label(RichText::new(format!("{} of {count}", place + 1)).color(palette(ui).dim));
             if is_wide {
                 ui.with_layout(Layout::left_to_right(Align::Center), show_title);
             }
@@ -82,12 +82,12 @@ fn head(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
 fn choices(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
     let stop = tour.stop();
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new("Your prediction:").color(ink(ui).dim));
+        ui.label(RichText::new("Your prediction:").color(palette(ui).dim));
         for (place, choice) in stop.choices.iter().enumerate() {
             let is_guess = tour.guess() == Some(place);
             let is_right = tour.is_done() && place == stop.right;
             let words = if is_right { format!("✓ {choice}") } else { (*choice).to_owned() };
-            let colour = if is_right { ink(ui).good } else { ink(ui).text };
+            let colour = if is_right { palette(ui).good } else { palette(ui).text };
             let button = Button::new(RichText::new(words).color(colour)).selected(is_guess);
             let response = ui.add(button);
             let role = egui::Role::RadioButton;

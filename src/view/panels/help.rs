@@ -3,7 +3,7 @@
 use egui::scroll_area::ScrollBarVisibility;
 use egui::{Align2, FontId, Order, RichText, ScrollArea, Ui, Vec2, Window, pos2, vec2};
 
-use super::{ink, keycap, short};
+use super::{keycap, palette, short};
 use crate::lab::{Command, GESTURES, KEYS, ViewCommand};
 use crate::view::theme::TYPE;
 
@@ -54,7 +54,7 @@ pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
             }
             let note = "The exact solution is white, black by day; each method has its own colour and dash.";
             if columns == 2 {
-                ui.add(egui::Label::new(RichText::new(note).color(ink(ui).dim)).truncate());
+                ui.add(egui::Label::new(RichText::new(note).color(palette(ui).dim)).truncate());
             }
         });
     });
@@ -67,9 +67,9 @@ fn row(ui: &mut Ui, (shown, about, is_key): (&str, &str, bool), width: f32) {
         let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, shown));
         if is_key {
-            keycap::paint(ui, rect.left(), rect.center().y, shown, ink(ui).accent);
+            keycap::paint(ui, rect.left(), rect.center().y, shown, palette(ui).accent);
         } else {
-            let colour = ink(ui).accent;
+            let colour = palette(ui).accent;
             let (words, _) = short(ui, shown, FontId::proportional(TYPE), KEY, colour);
             let top = rect.center().y - words.size().y / 2.0;
             ui.painter().galley(pos2(rect.left(), top), words, colour);

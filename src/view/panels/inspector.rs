@@ -5,9 +5,9 @@ use egui::{
     Vec2, vec2,
 };
 
-pub(super) use self::number::Field;
+pub(super) use self::number::NumberField;
 use self::rows::{Reach, Row, Spacing, Values, rows};
-use super::ink;
+use super::palette;
 use crate::lab::{Action, Acts, Command, Lab, RunCommand, edited_values};
 
 mod engine;
@@ -25,7 +25,7 @@ const RESTORE: f32 = 20.0;
 const NAME_PART: f32 = 0.32;
 const MAX_NAME: f32 = 150.0;
 /// A name that is longer takes up to this part of the line.
-const NAME_WIDEST: f32 = 0.42;
+const MAX_NAME_PART: f32 = 0.42;
 /// Scenes of more bodies than this open with one of them unfolded, the displayed one.
 const FEW_BODIES: usize = 3;
 
@@ -39,12 +39,12 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
                 commands.push(Command::Run(RunCommand::ToggleInspector));
             }
             let restoring = restoring(lab);
-            let is_edited = !restoring.is_empty() || Field::has_faults(ui);
+            let is_edited = !restoring.is_empty() || NumberField::has_faults(ui);
             let all = ui.add_enabled_ui(is_edited, |ui| {
                 named(ui, Button::new("↺ Restore all"), "restore every value of the scene")
             });
             if all.inner.clicked() {
-                Field::forget_faults(ui);
+                NumberField::forget_faults(ui);
                 commands.extend(restoring);
             }
         });
@@ -55,7 +55,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         let bodies = &lab.scene().bodies;
         for (index, body) in bodies.iter().enumerate() {
             let is_open = bodies.len() <= FEW_BODIES || index == lab.view().body;
-            let title = RichText::new(&body.name).color(ink(ui).text);
+            let title = RichText::new(&body.name).color(palette(ui).text);
             let header = CollapsingHeader::new(title).id_salt(("body", &body.name));
             header.default_open(is_open).show_unindented(ui, |ui| {
                 show_body(ui, lab, index, commands);
@@ -68,7 +68,8 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 }
 
 fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
-    let header = CollapsingHeader::new(RichText::new(title).color(ink(ui).text)).default_open(true);
+    let header =
+        CollapsingHeader::new(RichText::new(title).color(palette(ui).text)).default_open(true);
     header.show_unindented(ui, contents);
 }
 
@@ -77,7 +78,7 @@ fn show_body(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Command>) {
     for row in rows(lab, body) {
         if row.parameter.acts != acts {
             acts = row.parameter.acts;
-            ui.label(RichText::new("from the next start").size(11.0).color(ink(ui).dim));
+            ui.label(RichText::new("from the next start").size(11.0).color(palette(ui).dim));
         }
         show_row(ui, lab, &row, commands);
     }
@@ -94,13 +95,13 @@ fn show_row(ui: &mut Ui, lab: &Lab, row: &Row, commands: &mut Vec<Command>) {
     let Some(values) = *values else {
         line(ui, &parameter.quantity(), &about, |ui, _| {
             let points = (lab.race().values(*body).len() - place) / 2;
-            let text = RichText::new(format!("{points} points")).color(ink(ui).dim);
+            let text = RichText::new(format!("{points} points")).color(palette(ui).dim);
             ui.label(text).on_hover_text("as the scene has them");
         });
         return;
     };
     let name = format!("{} of {}", parameter.quantity(), lab.scene().bodies[*body].name);
-    let field = Field {
+    let field = NumberField {
         id: ui.scope_id().with((body, place)),
         value: values.present,
         unit: &parameter.unit,
@@ -128,7 +129,7 @@ fn show_row(ui: &mut Ui, lab: &Lab, row: &Row, commands: &mut Vec<Command>) {
         let about = format!("back to {} {}", values.opened, parameter.unit);
         restore(ui, values.differ(), &about, &name, || commands.push(set(values.opened)));
     });
-    Field::show_fault(field.id, ui);
+    NumberField::show_fault(field.id, ui);
 }
 
 /// A slider that reaches round the value that the scene has. Returns what it was moved to.
@@ -160,13 +161,14 @@ fn show_slider(ui: &mut Ui, row: &Row, values: Values, name: &str, size: Vec2) -
 fn line(ui: &mut Ui, name: &str, about: &str, rest: impl FnOnce(&mut Ui, [f32; 2])) {
     let width = ui.available_width();
     let font = egui::TextStyle::Body.resolve(ui.style());
-    let whole = ui.painter().layout_no_wrap(name.to_owned(), font, ink(ui).text).size().x.ceil();
-    let name_width = (NAME_PART * width).min(MAX_NAME).max(whole.min(NAME_WIDEST * width));
+    let whole =
+        ui.painter().layout_no_wrap(name.to_owned(), font, palette(ui).text).size().x.ceil();
+    let name_width = (NAME_PART * width).min(MAX_NAME).max(whole.min(MAX_NAME_PART * width));
     ui.horizontal(|ui| {
         let layout = Layout::left_to_right(Align::Center);
         ui.allocate_ui_with_layout(vec2(name_width, LINE), layout, |ui| {
             ui.set_min_size(vec2(name_width, LINE));
-            let label = Label::new(RichText::new(name).color(ink(ui).text)).truncate();
+            let label = Label::new(RichText::new(name).color(palette(ui).text)).truncate();
             ui.add(label).on_hover_text(about);
         });
         let room = width - name_width - ui.spacing().item_spacing.x;
@@ -180,7 +182,7 @@ fn restore(ui: &mut Ui, is_changed: bool, about: &str, name: &str, then: impl Fn
         ui.allocate_exact_size(vec2(RESTORE, LINE), egui::Sense::hover());
         return;
     }
-    let text = RichText::new("↺").color(ink(ui).accent);
+    let text = RichText::new("↺").color(palette(ui).accent);
     let button = ui.add_sized([RESTORE, LINE], Button::new(text).frame(false));
     let name = format!("restore {name}");
     button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));

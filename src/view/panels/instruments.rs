@@ -5,9 +5,9 @@
 
 use egui::{Button, Color32, ComboBox, Label, Rect, Response, RichText, Sense, Stroke, Ui, vec2};
 
-use super::roster::{Roster, Runner};
+use super::series_styles::{SeriesStyle, SeriesStyles};
 use super::tracks::Detail;
-use super::{advice, cost, focus_ring, ink, loops, one_step, stability_map};
+use super::{advice, cost, focus_ring, loops, one_step, palette, stability_map};
 use crate::lab::loop_lab::FRAME_METRICS;
 use crate::lab::{
     Command, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow, Lab, METRICS, Quantity,
@@ -16,7 +16,7 @@ use crate::lab::{
 use crate::view::chart::legend::{self, Entry};
 use crate::view::theme::{TYPE, strong_font};
 pub(in crate::view) use export::{csv, svg};
-use sheet::Sheet;
+use plot_set::PlotSet;
 
 mod by_loop;
 mod chart;
@@ -28,7 +28,7 @@ mod hover;
 mod layout;
 mod motion;
 mod phase;
-mod sheet;
+mod plot_set;
 #[cfg(test)]
 mod tests;
 
@@ -68,8 +68,8 @@ pub(super) fn show_alone(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let room = ui.available_size() - vec2(10.0, 2.0);
     match lab.display().instrument {
         Instrument::Motion | Instrument::Error | Instrument::Energy | Instrument::Phase => {
-            let sheet = sheet_of(lab, detail(ui, lab));
-            sheet.iter().for_each(|sheet| plots(ui, lab, sheet, commands));
+            let set = plot_set_of(lab, detail(ui, lab));
+            set.iter().for_each(|set| plots(ui, lab, set, commands));
         }
         Instrument::Cost => cost::show(ui, lab, room, commands),
         Instrument::StabilityMap => stability_map::show(ui, lab, room, commands),
@@ -90,16 +90,16 @@ fn detail(ui: &Ui, lab: &Lab) -> Detail {
 }
 
 /// The plots of the chosen instrument, if it has any.
-fn sheet_of(lab: &Lab, detail: Detail) -> Option<Sheet> {
+fn plot_set_of(lab: &Lab, detail: Detail) -> Option<PlotSet> {
     if let Some(loops) = lab.loop_lab() {
-        return by_loop::sheet(lab, loops, lab.display().instrument);
+        return by_loop::plot_set(lab, loops, lab.display().instrument);
     }
     match lab.display().instrument {
-        Instrument::Motion => Some(motion::sheet(lab, detail)),
-        Instrument::Error => Some(error::sheet(lab)),
-        Instrument::Energy => Some(energy::sheet(lab)),
-        Instrument::Phase => Some(phase::sheet(lab)),
-        Instrument::Cloud => cloud::sheet(lab),
+        Instrument::Motion => Some(motion::plot_set(lab, detail)),
+        Instrument::Error => Some(error::plot_set(lab)),
+        Instrument::Energy => Some(energy::plot_set(lab)),
+        Instrument::Phase => Some(phase::plot_set(lab)),
+        Instrument::Cloud => cloud::plot_set(lab),
         Instrument::Cost
         | Instrument::StabilityMap
         | Instrument::OneStep
@@ -128,7 +128,7 @@ fn tabs(ui: &mut Ui, lab: &Lab, indent: f32, commands: &mut Vec<Command>) {
             if has_names {
                 let height = ui.spacing().interact_size.y;
                 let (place, _) = ui.allocate_exact_size(vec2(ROW_NAME, height), Sense::hover());
-                let name = RichText::new(row.name()).color(ink(ui).dim);
+                let name = RichText::new(row.name()).color(palette(ui).dim);
                 ui.put(place, Label::new(name).selectable(false));
             }
             for card in cards(row) {
@@ -152,7 +152,8 @@ fn is_open(lab: &Lab, card: &InstrumentCard) -> bool {
 /// The width of the tabs of a row, of which any may be the chosen one, with this much beside the words of each, in points.
 fn row_width(ui: &Ui, row: InstrumentRow, padding: f32) -> f32 {
     let tab = |card: &InstrumentCard| {
-        let words = ui.painter().layout_no_wrap(card.name.into(), strong_font(TYPE), ink(ui).text);
+        let words =
+            ui.painter().layout_no_wrap(card.name.into(), strong_font(TYPE), palette(ui).text);
         words.size().x + 2.0 * padding + BETWEEN_TABS
     };
     cards(row).map(tab).sum()
@@ -173,12 +174,12 @@ fn tabs_menu(ui: &mut Ui, lab: &Lab, indent: f32, commands: &mut Vec<Command>) {
 
 /// Shows a tab, which can be clicked if it `is_open`. Returns whether it was clicked.
 fn tab(ui: &mut Ui, card: &InstrumentCard, is_chosen: bool, is_open: bool) -> bool {
-    let ink = ink(ui);
+    let palette = palette(ui);
     let text = match is_chosen {
-        true => RichText::new(card.name).color(ink.on_accent).font(strong_font(TYPE)),
-        false => RichText::new(card.name).color(ink.text),
+        true => RichText::new(card.name).color(palette.on_accent).font(strong_font(TYPE)),
+        false => RichText::new(card.name).color(palette.text),
     };
-    let fill = if is_chosen { ink.accent } else { Color32::TRANSPARENT };
+    let fill = if is_chosen { palette.accent } else { Color32::TRANSPARENT };
     let response = ui.add_enabled(is_open, Button::new(text).fill(fill).stroke(Stroke::NONE));
     let info = || egui::WidgetInfo::selected(egui::Role::Tab, is_open, is_chosen, card.name);
     response.widget_info(info);
@@ -186,8 +187,8 @@ fn tab(ui: &mut Ui, card: &InstrumentCard, is_chosen: bool, is_open: bool) -> bo
 }
 
 /// An instrument of plots, below its title, its choices and its legend.
-fn plots(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Command>) {
-    let entries = legend_entries(sheet);
+fn plots(ui: &mut Ui, lab: &Lab, set: &PlotSet, commands: &mut Vec<Command>) {
+    let entries = legend_entries(set);
     let has_legend = ui.available_height() >= ROOM_FOR_LEGEND && entries.len() <= MAX_IN_LEGEND;
     let may_be_beside = has_legend
         && entries.len() <= BESIDE_TITLE
@@ -195,8 +196,8 @@ fn plots(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Command>) {
     let is_beside = ui.horizontal_wrapped(|ui| {
         let is_error = lab.display().instrument == Instrument::Error;
         // The metric is said by its menu.
-        let title = if is_error { Instrument::Error.name() } else { &sheet.title };
-        ui.label(RichText::new(title).font(strong_font(15.0)).color(ink(ui).text));
+        let title = if is_error { Instrument::Error.name() } else { &set.title };
+        ui.label(RichText::new(title).font(strong_font(15.0)).color(palette(ui).text));
         choices(ui, lab, commands);
         let widths = entries.iter().map(|entry| entry.width(ui));
         let room = BEFORE_LEGEND + legend::BETWEEN * entries.len() as f32 + widths.sum::<f32>();
@@ -204,15 +205,15 @@ fn plots(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Command>) {
         if is_beside {
             ui.add_space(BEFORE_LEGEND);
             let shown = legend::show_here(ui, &entries, 0.0);
-            pick_by_legend(ui, sheet, (&entries, &shown), commands);
+            pick_by_legend(ui, set, (&entries, &shown), commands);
         }
         is_beside
     });
     if has_legend && !is_beside.inner {
         let shown = legend::show(ui, &entries);
-        pick_by_legend(ui, sheet, (&entries, &shown), commands);
+        pick_by_legend(ui, set, (&entries, &shown), commands);
     }
-    chart::show(ui, lab, sheet, commands);
+    chart::show(ui, lab, set, commands);
 }
 
 /// What can be chosen in an instrument: a metric, a body.
@@ -258,7 +259,7 @@ fn body_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         let body = lab.view().body;
         let chosen =
             (Command::Stage(StageCommand::Body(body)), lab.scene().bodies[body].name.as_str());
-        ui.label(RichText::new("of").color(ink(ui).dim));
+        ui.label(RichText::new("of").color(palette(ui).dim));
         choice(
             ui,
             "body",
@@ -276,7 +277,7 @@ fn coordinate_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     if coordinates.len() > 1 {
         let command = |index| Command::View(ViewCommand::Coordinate { body, coordinate: index });
         let (chosen, index) = lab.past().coordinate(lab.race(), body);
-        ui.label(RichText::new("of").color(ink(ui).dim));
+        ui.label(RichText::new("of").color(palette(ui).dim));
         let offered = (0..).map(command).zip(coordinates.iter().map(|of| of.name));
         choice(ui, "coordinate", offered, (command(index), &*chosen.name), commands);
     }
@@ -309,26 +310,26 @@ fn choice<N: AsRef<str>>(
     menu.response.on_hover_text(id);
 }
 
-/// All whose curves are shown, in the order of [`Sheet::shown`], and the exact solution.
-fn legend_entries(sheet: &Sheet) -> Vec<Entry> {
-    let runners = sheet.shown().map(|(place, Runner { name, colour, dash, .. })| {
+/// All whose curves are shown, in the order of [`PlotSet::shown`], and the exact solution.
+fn legend_entries(set: &PlotSet) -> Vec<Entry> {
+    let series = set.shown().map(|(place, SeriesStyle { name, colour, dash, .. })| {
         let name = format!("{} {name}", place + 1);
-        let is_front = place == sheet.roster.front;
+        let is_front = place == set.styles.front;
         Entry { name, colour: *colour, dash: *dash, is_front }
     });
-    let Roster { exact, exact_colour: colour, .. } = &sheet.roster;
-    let has_exact = sheet.plots.iter().any(|plot| !plot.exact.is_empty());
+    let SeriesStyles { exact, exact_colour: colour, .. } = &set.styles;
+    let has_exact = set.plots.iter().any(|plot| !plot.exact.is_empty());
     let exact = has_exact.then(|| {
         let (name, dash) = (exact.clone(), [1.0, 0.0]);
         Entry { name, colour: *colour, dash, is_front: false }
     });
-    runners.chain(exact).collect()
+    series.chain(exact).collect()
 }
 
 /// Picks the lane of a race whose entry of the legend was clicked.
 fn pick_by_legend(
     ui: &Ui,
-    sheet: &Sheet,
+    set: &PlotSet,
     (entries, shown): (&[Entry], &[Response]),
     commands: &mut Vec<Command>,
 ) {
@@ -336,7 +337,7 @@ fn pick_by_legend(
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
         focus_ring(ui, response);
     }
-    let clicked = sheet.shown().zip(shown).filter(|(_, entry)| entry.clicked());
+    let clicked = set.shown().zip(shown).filter(|(_, entry)| entry.clicked());
     let picks = clicked.map(|((place, _), _)| Command::Stage(StageCommand::Pick(place)));
-    commands.extend(picks.filter(|_| sheet.roster.is_race));
+    commands.extend(picks.filter(|_| set.styles.is_race));
 }

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Color32, FontId, Painter, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 
-use super::{ink, short};
+use super::{palette, short};
 use crate::view::theme::{TYPE, strong_font};
 
 /// The height of a box, the least room round its letter, and the room between it and a word, in points.
@@ -43,7 +43,7 @@ pub(super) fn paint(ui: &Ui, left: f32, middle: f32, key: &str, colour: Color32)
     let rect =
         Rect::from_min_size(pos2(left, middle - HEIGHT / 2.0), vec2(width, HEIGHT)).shrink(0.5);
     let stroke = Stroke::new(1.0, colour.gamma_multiply(0.8));
-    ui.painter().rect(rect, 5.0, ink(ui).raised, stroke, egui::StrokeKind::Inside);
+    ui.painter().rect(rect, 5.0, palette(ui).raised, stroke, egui::StrokeKind::Inside);
     ui.painter().text(rect.center(), Align2::CENTER_CENTER, key, strong_font(TYPE), colour);
     width
 }
@@ -72,7 +72,7 @@ pub(super) fn line(ui: &mut Ui, sentence: &str, room: f32, colour: Color32) -> R
         let left = rect.right() - x;
         match piece {
             Piece::Key(key) if width(ui.painter(), key) <= left => {
-                x += paint(ui, x, middle, key, ink(ui).accent) + GAP;
+                x += paint(ui, x, middle, key, palette(ui).accent) + GAP;
             }
             Piece::Key(_) => is_whole = false,
             Piece::Words(words) => {
@@ -101,7 +101,7 @@ pub(super) fn paragraph(ui: &mut Ui, sentence: &str, colour: Color32) {
                     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
                     response
                         .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, key));
-                    paint(ui, rect.left(), rect.center().y, key, ink(ui).accent);
+                    paint(ui, rect.left(), rect.center().y, key, palette(ui).accent);
                 }
                 Piece::Words(words) => {
                     ui.label(egui::RichText::new(words).color(colour));

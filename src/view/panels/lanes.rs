@@ -3,10 +3,10 @@
 use egui::{Color32, RichText, Ui};
 
 use super::table::{Table, TableRow};
-use super::{formula, ink};
+use super::{formula, palette};
 use crate::lab::source_code::Language;
 use crate::lab::{Command, Lab, LaneBody, StageCommand, ViewCommand};
-use crate::view::theme::{Ink, TYPE, strong_font};
+use crate::view::theme::{PanelPalette, TYPE, strong_font};
 
 use row::Row;
 
@@ -88,9 +88,9 @@ impl TableRow for Row<'_> {
         self.is_selected
     }
 
-    fn colours(&self, ink: &Ink) -> [Color32; 2] {
-        let text = if self.flown.is_some() { ink.text } else { ink.dim };
-        [ink.style(self.lab.entries(), self.spec).0, text]
+    fn colours(&self, palette: &PanelPalette) -> [Color32; 2] {
+        let text = if self.flown.is_some() { palette.text } else { palette.dim };
+        [palette.style(self.lab.entries(), self.spec).0, text]
     }
 
     fn command(&self) -> Option<Command> {
@@ -110,7 +110,7 @@ impl TableRow for Row<'_> {
             ui.label(format!("Also asked for as {}.", method.also.join(", ")));
         }
         for line in method.formula {
-            ui.label(formula::job(line, 16.0, ink(ui).text));
+            ui.label(formula::job(line, 16.0, palette(ui).text));
         }
         ui.label(format!("At {} Hz: {}.", self.lab.clock().tick_hz(), self.said.whole()));
         let order = match method.order == method.order_with_drag {
@@ -126,7 +126,7 @@ impl TableRow for Row<'_> {
             None => "as many evaluations per step as it needs".into(),
         };
         ui.label(format!("{order} · {} · {cost}", method.family.id()));
-        ui.label(RichText::new(method.source).color(ink(ui).dim));
+        ui.label(RichText::new(method.source).color(palette(ui).dim));
     }
 }
 

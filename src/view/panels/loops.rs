@@ -2,12 +2,12 @@
 
 use egui::{Color32, Rect, RichText, Sense, Ui, Vec2, vec2};
 
-use super::{ink, strong_font};
+use super::{palette, strong_font};
 use crate::lab::loop_lab::LoopLane;
 use crate::lab::{Command, Lab, LoopLab};
 use crate::view::chart::Primitive;
 use crate::view::chart::legend::{self, Entry};
-use crate::view::theme::{Ink, colour};
+use crate::view::theme::{PanelPalette, colour};
 
 mod columns;
 pub(super) mod controls;
@@ -44,20 +44,20 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Comman
 
 fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command>) {
     let top = ui.cursor().top();
-    let lanes = on_stage(loops, ink(ui));
+    let lanes = on_stage(loops, palette(ui));
     ui.horizontal(|ui| {
         let title = match room.x >= ROOM_FOR_TITLE {
             true => TITLE,
             false => "Moments shown",
         };
-        ui.label(RichText::new(title).font(strong_font(15.0)).color(ink(ui).text));
+        ui.label(RichText::new(title).font(strong_font(15.0)).color(palette(ui).text));
         if !controls::has_trace_menu_above(ui) {
             controls::trace_menu(ui, loops, commands);
         }
     });
-    legend::show(ui, &legend_entries(loops, &lanes, ink(ui)));
+    legend::show(ui, &legend_entries(loops, &lanes, palette(ui)));
     if let Some(waiting) = loops.waiting() {
-        ui.label(RichText::new(waiting).color(ink(ui).dim));
+        ui.label(RichText::new(waiting).color(palette(ui).dim));
         return;
     }
     let height = (top + room.y - ui.cursor().top()).max(60.0);
@@ -74,21 +74,21 @@ fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command
 pub(super) fn layout(
     lab: &Lab,
     room: Rect,
-    ink: &Ink,
+    palette: &PanelPalette,
 ) -> Option<(&'static str, Vec<Entry>, Vec<Primitive>)> {
     let Some(loops) = lab.loop_lab() else {
-        return Some((live::TITLE, Vec::new(), live::layout(lab, room, ink)?));
+        return Some((live::TITLE, Vec::new(), live::layout(lab, room, palette)?));
     };
-    let lanes = on_stage(loops, ink);
+    let lanes = on_stage(loops, palette);
     let (upper, below) = parts(room);
     let moments = moments::area(upper, loops, &lanes);
     let mut all =
-        moments.map_or_else(Vec::new, |area| moments::layout(upper, &area, loops, &lanes, ink));
+        moments.map_or_else(Vec::new, |area| moments::layout(upper, &area, loops, &lanes, palette));
     if let Some([left, right]) = below {
-        all.extend(counts::layout(left, &series(&lanes), ink));
-        all.extend(errors::layout(right, loops, &lanes, ink));
+        all.extend(counts::layout(left, &series(&lanes), palette));
+        all.extend(errors::layout(right, loops, &lanes, palette));
     }
-    Some((TITLE, legend_entries(loops, &lanes, ink), all))
+    Some((TITLE, legend_entries(loops, &lanes, palette), all))
 }
 
 /// The room of the moments, and with enough room two more below.
@@ -117,9 +117,9 @@ struct ShownLane<'a> {
 }
 
 /// The lanes on the stage, from top to bottom.
-fn on_stage<'a>(loops: &'a LoopLab, ink: &Ink) -> Vec<ShownLane<'a>> {
+fn on_stage<'a>(loops: &'a LoopLab, palette: &PanelPalette) -> Vec<ShownLane<'a>> {
     let lane = |&place: &usize| {
-        let (rgba, dash) = ink.theme.loop_style(place);
+        let (rgba, dash) = palette.theme.loop_style(place);
         let (lane, is_selected) = (&loops.lanes()[place], place == loops.selected());
         ShownLane { place, lane, colour: colour(rgba), dash, is_selected }
     };
@@ -127,14 +127,14 @@ fn on_stage<'a>(loops: &'a LoopLab, ink: &Ink) -> Vec<ShownLane<'a>> {
 }
 
 /// The names of the lines.
-fn legend_entries(loops: &LoopLab, lanes: &[ShownLane<'_>], ink: &Ink) -> Vec<Entry> {
+fn legend_entries(loops: &LoopLab, lanes: &[ShownLane<'_>], palette: &PanelPalette) -> Vec<Entry> {
     let entry = |lane: &ShownLane<'_>| {
         let name = format!("{} {}", lane.place + 1, lane.lane.card().name);
         let off = moments::off_the_plot(loops, lane.lane);
         let name = name + &off.map(|words| format!(" ({words})")).unwrap_or_default();
         Entry { name, colour: lane.colour, dash: lane.dash, is_front: lane.is_selected }
     };
-    let (name, colour, dash) = ("ideal".into(), ink.exact, [1.0, 0.0]);
+    let (name, colour, dash) = ("ideal".into(), palette.exact, [1.0, 0.0]);
     let ideal = Entry { name, colour, dash, is_front: false };
     lanes.iter().map(entry).chain([ideal]).collect()
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{Color32, FontId, Frame, Galley, Key, Margin, Rect, TextFormat, Ui};
 
-use super::theme::{Ink, colour, ink, ink_of, strong_font};
+use super::theme::{PanelPalette, colour, palette, palette_of, strong_font};
 use crate::lab::{Command, Dialog, Lab, Outcome, Severity, ViewCommand};
 
 mod advice;
@@ -25,7 +25,7 @@ mod my_spring;
 mod one_step;
 mod opening;
 mod ranges;
-mod roster;
+mod series_styles;
 mod stability_map;
 mod table;
 mod timeline;
@@ -68,12 +68,13 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
     let size = ui.max_rect().size();
     if size.y >= HEIGHT_FOR_TOP_BAR {
         let panel =
-            egui::Panel::top("top bar").exact_size(top_bar::HEIGHT).frame(frame(ink(ui).panel));
+            egui::Panel::top("top bar").exact_size(top_bar::HEIGHT).frame(frame(palette(ui).panel));
         panel.show(ui, |ui| top_bar::show(ui, lab, &mut commands));
     }
     if size.y >= HEIGHT_FOR_FOOTER {
-        let panel =
-            egui::Panel::bottom("footer").exact_size(footer::HEIGHT).frame(frame(ink(ui).panel));
+        let panel = egui::Panel::bottom("footer")
+            .exact_size(footer::HEIGHT)
+            .frame(frame(palette(ui).panel));
         panel.show(ui, |ui| footer::show(ui, lab, &mut commands));
     }
     let mut pointed = None;
@@ -82,7 +83,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
         let height = lab.loop_lab().map_or_else(|| lanes::height(lab), loops::table::height);
         let height = height.min(size.y * 0.4);
         // Without a margin: a row reaches from edge to edge.
-        let frame = Frame::new().fill(ink(ui).panel);
+        let frame = Frame::new().fill(palette(ui).panel);
         let panel = egui::Panel::bottom("lanes").exact_size(height).frame(frame);
         panel.show(ui, |ui| match lab.loop_lab() {
             Some(loops) => loops::table::show(ui, loops, &mut commands),
@@ -97,7 +98,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
             true => timeline::HEIGHT,
             false => timeline::HEIGHT_OF_TRACK,
         };
-        let frame = frame(ink(ui).panel).inner_margin(Margin::symmetric(8, 1));
+        let frame = frame(palette(ui).panel).inner_margin(Margin::symmetric(8, 1));
         let panel = egui::Panel::bottom("timeline").exact_size(height).frame(frame);
         panel.show(ui, |ui| match lab.loop_lab() {
             Some(loops) => loops::slider::show(ui, loops, &mut commands),
@@ -111,8 +112,9 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
             true => (size.x, size.x - beside),
             false => (beside, 0.0),
         };
-        let panel =
-            egui::Panel::right("instruments").exact_size(width).frame(frame(ink(ui).background));
+        let panel = egui::Panel::right("instruments")
+            .exact_size(width)
+            .frame(frame(palette(ui).background));
         panel.show(ui, |ui| {
             // What is wider than the panel does not move its edge.
             let room = ui.available_rect_before_wrap();
@@ -123,7 +125,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
     }
     if let Some(tour) = lab.viewer().tour() {
         let height = guide::HEIGHT.min(ui.available_height() * 0.6);
-        let frame = Frame::new().fill(ink(ui).panel).inner_margin(Margin::symmetric(14, 8));
+        let frame = Frame::new().fill(palette(ui).panel).inner_margin(Margin::symmetric(14, 8));
         let panel = egui::Panel::bottom("guide").exact_size(height).frame(frame);
         panel.show(ui, |ui| guide::show(ui, tour, &mut commands));
     }
@@ -146,7 +148,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
 
 /// Shows the instrument alone.
 pub(super) fn show_instrument(ui: &mut Ui, lab: &Lab) {
-    let frame = Frame::new().fill(ink(ui).background).inner_margin(Margin::symmetric(8, 4));
+    let frame = Frame::new().fill(palette(ui).background).inner_margin(Margin::symmetric(8, 4));
     let panel = egui::CentralPanel::default_margins().frame(frame);
     panel.show(ui, |ui| instruments::show_alone(ui, lab, &mut Vec::new()));
 }
@@ -177,7 +179,7 @@ fn focus_ring(ui: &Ui, response: &egui::Response) {
 
 /// Draws the ring of the keyboard's focus.
 fn ring(ui: &Ui, rect: Rect) {
-    let stroke = egui::Stroke::new(1.6, ink(ui).accent);
+    let stroke = egui::Stroke::new(1.6, palette(ui).accent);
     ui.painter().rect_stroke(rect, 3.0, stroke, egui::StrokeKind::Inside);
 }
 
@@ -202,9 +204,9 @@ fn tone(ui: &Ui, word: Outcome) -> Color32 {
 /// The colour of a severity.
 fn severity_tone(ui: &Ui, severity: Severity) -> Color32 {
     match severity {
-        Severity::Fine => ink(ui).good,
-        Severity::Doubtful => ink(ui).warn,
-        Severity::Bad => ink(ui).bad,
-        Severity::Unknown => ink(ui).dim,
+        Severity::Fine => palette(ui).good,
+        Severity::Doubtful => palette(ui).warn,
+        Severity::Bad => palette(ui).bad,
+        Severity::Unknown => palette(ui).dim,
     }
 }

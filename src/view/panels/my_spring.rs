@@ -3,8 +3,8 @@
 use egui::{Align2, Button, FontId, Id, RichText, Sense, Ui, vec2};
 
 use super::dialog::{select, window};
-use super::ink;
-use super::inspector::Field;
+use super::inspector::NumberField;
+use super::palette;
 use crate::lab::{Command, Lab, MySpring, StageCommand, ViewCommand};
 use crate::view::theme::TYPE;
 
@@ -54,7 +54,7 @@ pub(super) fn show(ui: &Ui, lab: &Lab, commands: &mut Vec<Command>) {
         for (i, number) in MADE_OF.iter().enumerate() {
             line(ui, lab, number, is_new && i == 0, commands);
         }
-        ui.label(RichText::new("or by its swing").color(ink(ui).dim));
+        ui.label(RichText::new("or by its swing").color(palette(ui).dim));
         for number in &SEEN_AS {
             line(ui, lab, number, false, commands);
         }
@@ -74,7 +74,7 @@ pub(super) fn show(ui: &Ui, lab: &Lab, commands: &mut Vec<Command>) {
             }
         });
         let told = "Opens it as a scene, with the recommended method and its code to copy.";
-        ui.label(RichText::new(told).size(11.5).color(ink(ui).dim));
+        ui.label(RichText::new(told).size(11.5).color(palette(ui).dim));
     });
 }
 
@@ -101,8 +101,8 @@ fn line(
     ui.horizontal(|ui| {
         let (rect, _) = ui.allocate_exact_size(vec2(NAME, LINE), Sense::hover());
         let font = FontId::proportional(TYPE);
-        ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, name, font, ink(ui).text);
-        let field = Field { id, value: value(spring), unit, name, is_whole: false };
+        ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, name, font, palette(ui).text);
+        let field = NumberField { id, value: value(spring), unit, name, is_whole: false };
         let check = |entered| with(spring, entered).check();
         let (response, entered) = field.show(ui, vec2(NUMBER, LINE), check);
         if takes_focus {
@@ -114,5 +114,5 @@ fn line(
                 .map(|entered| Command::View(ViewCommand::DescribeSpring(with(spring, entered)))),
         );
     });
-    Field::show_fault(id, ui);
+    NumberField::show_fault(id, ui);
 }

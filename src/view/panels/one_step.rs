@@ -8,7 +8,7 @@ use egui::{
 };
 
 use super::annotations::{arrow, label};
-use super::{colour, formula, ink, strong_font};
+use super::{colour, formula, palette, strong_font};
 use crate::lab::number::{round, significant};
 use crate::lab::{Coordinate, Lab, OneStep, Slope, Unit};
 use crate::view::chart::{self, AxisScale, Curve, Drawing, LineStyle, PlotArea};
@@ -45,7 +45,7 @@ const MARGIN: f64 = 0.16;
 pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
     let Some(step) = lab.one_step() else {
         let why = "No next step: the body has halted under this method.";
-        ui.label(RichText::new(why).color(ink(ui).dim));
+        ui.label(RichText::new(why).color(palette(ui).dim));
         return;
     };
     let top = ui.cursor().top();
@@ -73,7 +73,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
 /// [`words`] as they are painted.
 fn said(ui: &Ui, lab: &Lab, step: &OneStep, width: f32) -> Arc<Galley> {
     let words = words(step, &shown_coordinate(lab));
-    ui.painter().layout(words, FontId::proportional(TYPE), ink(ui).text, width)
+    ui.painter().layout(words, FontId::proportional(TYPE), palette(ui).text, width)
 }
 
 fn shown_coordinate(lab: &Lab) -> Coordinate {
@@ -90,13 +90,13 @@ fn head(ui: &mut Ui, step: &OneStep) {
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new(title).font(strong_font(TYPE)));
         let length = format!("h = {} s{substeps}", significant(step.h, 4));
-        ui.label(RichText::new(length).color(ink(ui).dim));
+        ui.label(RichText::new(length).color(palette(ui).dim));
     });
 }
 
 /// The evaluations that are drawn, each with its number and its colour.
 fn drawn<'s>(ui: &Ui, step: &'s OneStep) -> Vec<(usize, Color32, &'s Slope)> {
-    let theme = ink(ui).theme;
+    let theme = palette(ui).theme;
     let numbered = step.evaluations.iter().enumerate().take(MAX_DRAWN);
     numbered.map(|(i, slope)| (i + 1, colour(theme.evaluation(i)), slope)).collect()
 }
@@ -116,31 +116,31 @@ fn range(step: &OneStep, axis: usize) -> [f64; 2] {
 
 fn plot(ui: &mut Ui, lab: &Lab, step: &OneStep, size: Vec2) {
     let (whole, response) = ui.allocate_exact_size(size, Sense::hover());
-    let ink = ink(ui);
+    let palette = palette(ui);
     let rect = Rect::from_min_max(
         pos2(whole.left() + LEFT, whole.top() + NAME),
         pos2(whole.right() - 12.0, whole.bottom() - BELOW),
     );
     let area = PlotArea { rect, bounds: [0, 1].map(|axis| range(step, axis)) };
     let painter = ui.painter_at(whole);
-    painter.rect_filled(rect, 0.0, ink.plot);
+    painter.rect_filled(rect, 0.0, palette.plot);
     let coordinate = &shown_coordinate(lab);
     let small = FontId::proportional(11.5);
     let up = format!("velocity {}, {}", coordinate.velocity, Unit::Velocity.on(coordinate));
-    painter.text(whole.left_top(), Align2::LEFT_TOP, up, small.clone(), ink.dim);
+    painter.text(whole.left_top(), Align2::LEFT_TOP, up, small.clone(), palette.dim);
     let along = headed(&coordinate.name, coordinate.shown_unit());
-    painter.text(rect.right_top(), Align2::RIGHT_BOTTOM, along, small, ink.dim);
+    painter.text(rect.right_top(), Align2::RIGHT_BOTTOM, along, small, palette.dim);
 
-    let own = ink.style(lab.entries(), &step.spec).0;
+    let own = palette.style(lab.entries(), &step.spec).0;
     // The states with the energy of the present one, and of the landing.
     let mut curves = Vec::new();
-    for (through, colour) in [(Some(step.from), ink.exact), (step.landing, own)] {
+    for (through, colour) in [(Some(step.from), palette.exact), (step.landing, own)] {
         let lines = through.map(|through| lab.orbit(through, area.bounds[0])).unwrap_or_default();
         let style = LineStyle::solid(colour.gamma_multiply(ORBIT), 1.0);
         let thin = LineStyle { dash: [6.0, 4.0], ..style };
         curves.extend(lines.into_iter().map(|line| Curve::new(thin, line)));
     }
-    curves.push(Curve::new(LineStyle::solid(ink.exact, 2.4), step.exact.clone()));
+    curves.push(Curve::new(LineStyle::solid(palette.exact, 2.4), step.exact.clone()));
     let from = area.at(step.from);
     let evaluations = drawn(ui, step);
     for (_, colour, slope) in
@@ -152,7 +152,7 @@ fn plot(ui: &mut Ui, lab: &Lab, step: &OneStep, size: Vec2) {
     }
     let marks = [0, 1].map(|axis| area.marks(axis, AxisScale::Linear, [64.0, 26.0][axis]));
     let drawing = Drawing { curves, ..Drawing::default() };
-    chart::paint(&painter, &chart::plot(&area, marks, &drawing, ink, whole.right()));
+    chart::paint(&painter, &chart::plot(&area, marks, &drawing, palette, whole.right()));
     let painter = painter.with_clip_rect(rect);
     chain(&painter, step, &area, &evaluations, own);
     let reach = SLOPE * rect.size().length();
@@ -161,28 +161,28 @@ fn plot(ui: &mut Ui, lab: &Lab, step: &OneStep, size: Vec2) {
     for (_, colour, slope) in &evaluations {
         let at = area.at(slope.at);
         arrow(&painter, [at, at + direction(&area, slope) * (reach / longest)], 1.8, *colour);
-        painter.circle(at, 3.6, *colour, Stroke::new(1.2, ink.plot));
+        painter.circle(at, 3.6, *colour, Stroke::new(1.2, palette.plot));
     }
-    painter.circle(from, STATE, own, Stroke::new(1.6, ink.plot));
+    painter.circle(from, STATE, own, Stroke::new(1.6, palette.plot));
     let mut taken = vec![from];
     if let Some(exact) = step.exact_landing() {
-        painter.circle_stroke(area.at(exact), STATE + 2.0, Stroke::new(2.2, ink.exact));
+        painter.circle_stroke(area.at(exact), STATE + 2.0, Stroke::new(2.2, palette.exact));
         taken.push(area.at(exact));
     }
     if let Some(landing) = step.landing {
-        painter.circle(area.at(landing), STATE, own, Stroke::new(1.6, ink.plot));
+        painter.circle(area.at(landing), STATE, own, Stroke::new(1.6, palette.plot));
         taken.push(area.at(landing));
     }
     for (number, colour, slope) in &evaluations {
         let at = badge_place(area.at(slope.at), rect, &taken);
         taken.push(at);
         painter.line_segment([area.at(slope.at), at], Stroke::new(1.0, *colour));
-        badge(&painter, at, *number, [*colour, ink.background]);
+        badge(&painter, at, *number, [*colour, palette.background]);
     }
     let mut named: Vec<(Pos2, f32)> = Vec::new();
     let words = [
-        (Some(step.from), "state", ink.text),
-        (step.exact_landing(), "exact", ink.exact),
+        (Some(step.from), "state", palette.text),
+        (step.exact_landing(), "exact", palette.exact),
         (step.landing, "lands here", own),
     ];
     for (point, text, colour) in words {
@@ -212,13 +212,13 @@ fn plot(ui: &mut Ui, lab: &Lab, step: &OneStep, size: Vec2) {
         };
         // Where there is no room the colours have to say it.
         let Some(&at) = places.iter().find(is_free) else { continue };
-        label(&painter, (at, 0.0), text, [colour, ink.plot]);
+        label(&painter, (at, 0.0), text, [colour, palette.plot]);
         named.push((at, half));
     }
     let states = evaluations.iter().map(|(_, _, slope)| area.at(slope.at));
     let taken: Vec<Pos2> =
         taken.into_iter().chain(named.into_iter().map(|(at, _)| at)).chain(states).collect();
-    loupe::show(&painter, &area, step, &taken, (ink, own));
+    loupe::show(&painter, &area, step, &taken, (palette, own));
     let about = format!("one step of {}", step.spec.method.name);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &about));
 }
@@ -289,7 +289,7 @@ fn table(ui: &mut Ui, lab: &Lab, step: &OneStep) {
     let (figures, gap) = if ui.available_width() < ROOM_FOR_FIGURES { (3, 5.0) } else { (4, 14.0) };
     ScrollArea::vertical().id_salt("one step").auto_shrink(false).show(ui, |ui| {
         for line in step.spec.method.formula {
-            ui.label(formula::job(line, 16.0, ink(ui).text));
+            ui.label(formula::job(line, 16.0, palette(ui).text));
         }
         let grid = Grid::new("evaluations").num_columns(5).spacing([gap, 1.0]).striped(true);
         grid.min_row_height(ROW - 2.0).show(ui, |ui| {
@@ -300,12 +300,12 @@ fn table(ui: &mut Ui, lab: &Lab, step: &OneStep) {
                 headed(v, &Unit::Velocity.on(coordinate)),
                 format!("a, {}/s²", coordinate.unit),
             ] {
-                ui.label(RichText::new(head).size(11.0).color(ink(ui).dim));
+                ui.label(RichText::new(head).size(11.0).color(palette(ui).dim));
             }
             ui.end_row();
             for (number, colour, slope) in drawn(ui, step) {
                 let (rect, _) = ui.allocate_exact_size(vec2(20.0, 18.0), Sense::hover());
-                badge(ui.painter(), rect.center(), number, [colour, ink(ui).background]);
+                badge(ui.painter(), rect.center(), number, [colour, palette(ui).background]);
                 ui.label(RichText::new(when(slope.when)).color(colour));
                 for value in [slope.at[0], slope.at[1], slope.slope[1]] {
                     ui.label(RichText::new(signed(value, figures)).color(colour));
@@ -313,8 +313,8 @@ fn table(ui: &mut Ui, lab: &Lab, step: &OneStep) {
                 ui.end_row();
             }
             for (name, point, colour) in [
-                ("lands at", step.landing, ink(ui).style(lab.entries(), &step.spec).0),
-                ("exact", step.exact_landing(), ink(ui).exact),
+                ("lands at", step.landing, palette(ui).style(lab.entries(), &step.spec).0),
+                ("exact", step.exact_landing(), palette(ui).exact),
             ] {
                 ui.label("");
                 ui.label(RichText::new(name).color(colour));

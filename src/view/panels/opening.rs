@@ -3,7 +3,7 @@
 use egui::{Align2, Id, Key, Label, RichText, ScrollArea, TextEdit, TextStyle, TextWrapMode, Ui};
 
 use super::dialog::{select, window};
-use super::ink;
+use super::palette;
 use crate::lab::{Command, Lab, Mistake, ViewCommand};
 
 /// The width of a path that can be read without scrolling, in points.
@@ -44,7 +44,7 @@ pub(super) fn path(ui: &Ui, lab: &Lab, refused: Option<&[Mistake]>, commands: &m
             commands.push(Command::View(ViewCommand::OpenTypedPath));
         }
         let keys = "Enter opens, Tab completes, Esc closes. Or drop a file onto the window.";
-        ui.label(RichText::new(keys).color(ink(ui).dim));
+        ui.label(RichText::new(keys).color(palette(ui).dim));
         if let Some(report) = refused {
             ui.separator();
             let room = egui::vec2(width, ctx.content_rect().height() - 240.0);
@@ -61,7 +61,7 @@ pub(super) fn mistakes(ui: &Ui, file: &str, report: &[Mistake], commands: &mut V
     window(&title).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(ctx, |ui| {
         let font = TextStyle::Monospace.resolve(ui.style());
         let width = |text: &String| {
-            let text = ui.painter().layout_no_wrap(text.clone(), font.clone(), ink(ui).dim);
+            let text = ui.painter().layout_no_wrap(text.clone(), font.clone(), palette(ui).dim);
             text.size().x
         };
         let texts = report.iter().flat_map(|mistake| [&mistake.message, &mistake.quoted]);
@@ -80,7 +80,7 @@ fn report_within(ui: &mut Ui, report: &[Mistake], room: egui::Vec2) {
     let room = room.max(egui::Vec2::ZERO);
     ScrollArea::both().max_width(room.x).max_height(room.y).show(ui, |ui| {
         for Mistake { message, quoted } in report {
-            let message = RichText::new(message).monospace().color(ink(ui).bad);
+            let message = RichText::new(message).monospace().color(palette(ui).bad);
             // A scroll area as such has no right edge to wrap at.
             ui.scope(|ui| {
                 ui.set_max_width(room.x);

@@ -15,7 +15,7 @@ const LOST_DRIFT: f64 = 1e4;
 const MIN_DRIFT: f64 = 1e-9;
 /// The least half range of an axis, against the values on it: a body that has not moved yet is shown with labels no
 /// longer than when it has.
-const NARROWEST: f64 = 0.02;
+const MIN_HALF_RANGE: f64 = 0.02;
 
 /// The range of the truth along an axis, stretched to take in what is at most `healthy` times as far out.
 pub(super) fn around_truth(
@@ -26,7 +26,7 @@ pub(super) fn around_truth(
 ) -> (f64, f64) {
     let (low, high) = range(truth).unwrap_or((-1.0, 1.0));
     let far = high.abs().max(low.abs());
-    let half = if far > 0.0 { ((high - low) / 2.0).max(NARROWEST * far) } else { 1.0 };
+    let half = if far > 0.0 { ((high - low) / 2.0).max(MIN_HALF_RANGE * far) } else { 1.0 };
     let middle = (low + high) / 2.0;
     let near = |value: &f64| (value - middle).abs() <= healthy * half;
     let all = lanes.iter().flat_map(|lane| lane.along(axis)).filter(near);

@@ -9,7 +9,7 @@ use egui::{
 };
 
 use super::annotations::{label, mixed, polygon};
-use super::{colour, ink, strong_font};
+use super::{colour, palette, strong_font};
 use crate::lab::number::round;
 use crate::lab::{
     Action, Command, Coverage, Lab, MapRequest, Parameter, RunCommand, SeenLine, StabilityMap,
@@ -47,7 +47,8 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Comman
     let top = ui.cursor().top();
     let Some(place) = lab.mapped_parameter() else {
         ui.label(
-            RichText::new("This body has no parameter that a map could show.").color(ink(ui).dim),
+            RichText::new("This body has no parameter that a map could show.")
+                .color(palette(ui).dim),
         );
         return;
     };
@@ -56,12 +57,12 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Comman
     let wanted = (lab.view().body, place);
     let map = map.filter(|map| (map.request.body, map.request.parameter) == wanted);
     let Some(map) = map else {
-        ui.label(RichText::new("Working out the map …").color(ink(ui).dim));
+        ui.label(RichText::new("Working out the map …").color(palette(ui).dim));
         return;
     };
     if let Some(why) = map.refused {
         let why = no_map(why);
-        ui.add(Label::new(RichText::new(why).color(ink(ui).dim)).wrap());
+        ui.add(Label::new(RichText::new(why).color(palette(ui).dim)).wrap());
         return;
     }
     let left = top + room.y - ui.cursor().top();
@@ -100,7 +101,7 @@ fn head(ui: &mut Ui, lab: &Lab, place: usize, commands: &mut Vec<Command>) {
 
 fn plot(ui: &mut Ui, lab: &Lab, map: &StabilityMap, size: Vec2, commands: &mut Vec<Command>) {
     let (whole, _) = ui.allocate_exact_size(size, Sense::hover());
-    let (ink, painter) = (ink(ui), ui.painter_at(whole));
+    let (palette, painter) = (palette(ui), ui.painter_at(whole));
     let has_names = size.y >= 150.0;
     let names = if has_names { NAME } else { 4.0 };
     let rect = Rect::from_min_max(
@@ -110,19 +111,19 @@ fn plot(ui: &mut Ui, lab: &Lab, map: &StabilityMap, size: Vec2, commands: &mut V
     let MapRequest { rates_hz, range, .. } = &map.request;
     let area = PlotArea { rect, bounds: [rates_hz, range].map(|ends| ends.map(libm::log10)) };
 
-    painter.rect_filled(rect, 0.0, mixed(ink.plot, ink.accent, 0.14));
+    painter.rect_filled(rect, 0.0, mixed(palette.plot, palette.accent, 0.14));
     water(ui, map, &area);
     let marks = [0, 1].map(|axis| area.marks(axis, AxisScale::Log, [28.0, 22.0][axis]));
-    chart::paint(&painter, &chart::axes(&area, marks, ink, whole.right()));
+    chart::paint(&painter, &chart::axes(&area, marks, palette, whole.right()));
     if has_names {
         let parameter = parameter(lab, map.request.parameter);
         let unit =
             if parameter.unit.is_empty() { String::new() } else { format!(", {}", parameter.unit) };
         let name = format!("{}{unit}", full_name(parameter));
         let small = FontId::proportional(11.5);
-        painter.text(whole.left_top(), Align2::LEFT_TOP, name, small.clone(), ink.dim);
+        painter.text(whole.left_top(), Align2::LEFT_TOP, name, small.clone(), palette.dim);
         let below = pos2(rect.center().x, whole.bottom());
-        painter.text(below, Align2::CENTER_BOTTOM, "tick rate, Hz", small, ink.dim);
+        painter.text(below, Align2::CENTER_BOTTOM, "tick rate, Hz", small, palette.dim);
     }
     boundaries(ui, lab, map, &area);
     cross(ui, lab, map, &area, commands);
@@ -135,7 +136,7 @@ fn water(ui: &Ui, map: &StabilityMap, area: &PlotArea) {
         map.regions.iter().filter(|region| region.coverage == Coverage::Part).collect();
     // As many layers as there are methods leave this much of the land.
     let layer = 1.0 - (1.0 - DEEPEST).powf(1.0 / part.len().max(1) as f32);
-    let theme = ink(ui).theme;
+    let theme = palette(ui).theme;
     let [sea, blue] = [theme.palette().sea[0], theme.evaluation(1)].map(colour);
     let water = mixed(sea, blue, 0.3).gamma_multiply(layer);
     for region in part {
@@ -165,11 +166,11 @@ fn boundaries(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) {
         })
         .collect();
     let is_selected = |entry: usize| entry == lab.active();
-    let style = |entry: usize| ink(ui).style(lab.entries(), &lab.entries()[entry]);
+    let style = |entry: usize| palette(ui).style(lab.entries(), &lab.entries()[entry]);
     let mut order: Vec<&(usize, Vec<Pos2>)> = lines.iter().collect();
     order.sort_by_key(|(entry, _)| is_selected(*entry));
     let seen = seen_lines(lab, map, area);
-    let seen_colour = mixed(ink(ui).dim, style(lab.active()).0, 0.6);
+    let seen_colour = mixed(palette(ui).dim, style(lab.active()).0, 0.6);
     let curve = |style: LineStyle, points: &[Pos2]| ScreenCurve::new(style, points.to_vec());
     let thin = LineStyle::solid(seen_colour, 1.2);
     let mut curves: Vec<_> = seen.iter().map(|(_, points)| curve(thin, points)).collect();
@@ -205,7 +206,7 @@ fn boundaries(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) {
         for text in with_limit.into_iter().chain([name]) {
             let width = 7.0 * text.chars().count() as f32;
             if let Some((at, angle)) = label_place(points, width, area.rect, &taken, &others) {
-                let land = ink(ui).plot.gamma_multiply(0.8);
+                let land = palette(ui).plot.gamma_multiply(0.8);
                 label(&painter, (at, angle), &text, [style(*entry).0, land]);
                 taken.extend(along(at, angle, width));
                 named.push(*entry);
@@ -213,7 +214,7 @@ fn boundaries(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) {
             }
         }
     }
-    let land = ink(ui).plot.gamma_multiply(0.8);
+    let land = palette(ui).plot.gamma_multiply(0.8);
     for (ratio, points) in &seen {
         let others = seen.iter().filter(|(other, _)| other != ratio).map(|(_, points)| points);
         let others = others.chain(lines.iter().map(|(_, points)| points)).flatten();
@@ -307,7 +308,7 @@ fn only_everywhere(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) -> V
     let verb = if more > 0 { "are" } else { "is" };
     let name = numbered(*entry, &lab.lane_name(*entry));
     let text = format!("{name}{others} {verb} stable everywhere");
-    let (colour, _) = ink(ui).style(lab.entries(), &lab.entries()[*entry]);
+    let (colour, _) = palette(ui).style(lab.entries(), &lab.entries()[*entry]);
     let painter = ui.painter().with_clip_rect(area.rect);
     let at = area.rect.left_top() + vec2(8.0, 6.0);
     let rect = painter.text(at, Align2::LEFT_TOP, text, strong_font(12.0), colour);
@@ -325,7 +326,7 @@ fn cross_at(lab: &Lab, map: &StabilityMap, area: &PlotArea) -> Option<Pos2> {
 fn cross(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea, commands: &mut Vec<Command>) {
     let Some(at) = cross_at(lab, map, area) else { return };
     let response = ui.interact(area.rect, Id::unique(CROSS_ID), Sense::click_and_drag());
-    let (ink, painter) = (ink(ui), ui.painter().with_clip_rect(area.rect));
+    let (palette, painter) = (palette(ui), ui.painter().with_clip_rect(area.rect));
     let place = map.request.parameter;
     let value = lab.race().values(map.request.body)[place];
     let here = format!(
@@ -350,30 +351,35 @@ fn cross(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea, commands: &mut
     let is_lit = response.hovered() || response.dragged();
     let response = response.on_hover_cursor(egui::CursorIcon::Crosshair);
     if response.has_focus() {
-        painter.rect_stroke(area.rect, 0.0, Stroke::new(1.0, ink.accent), egui::StrokeKind::Inside);
+        painter.rect_stroke(
+            area.rect,
+            0.0,
+            Stroke::new(1.0, palette.accent),
+            egui::StrokeKind::Inside,
+        );
     }
-    let thin = Stroke::new(1.0, ink.accent.gamma_multiply(0.45));
+    let thin = Stroke::new(1.0, palette.accent.gamma_multiply(0.45));
     for ends in [
         [pos2(area.rect.left(), at.y), pos2(area.rect.right(), at.y)],
         [pos2(at.x, area.rect.top()), pos2(at.x, area.rect.bottom())],
     ] {
         painter.extend(egui::Shape::dashed_line(&ends, thin, 2.0, 3.0));
     }
-    let under = Stroke::new(5.0, ink.plot.gamma_multiply(0.8));
-    let over = Stroke::new(if is_lit { 2.6 } else { 2.0 }, ink.accent);
+    let under = Stroke::new(5.0, palette.plot.gamma_multiply(0.8));
+    let over = Stroke::new(if is_lit { 2.6 } else { 2.0 }, palette.accent);
     for stroke in [under, over] {
         painter.circle_stroke(at, 0.7 * CROSS, stroke);
         painter.line_segment([at - vec2(CROSS, 0.0), at + vec2(CROSS, 0.0)], stroke);
         painter.line_segment([at - vec2(0.0, CROSS), at + vec2(0.0, CROSS)], stroke);
     }
     let (chip, galley) = you_are_here(ui, at, area.rect);
-    painter.rect_filled(chip, 4.0, ink.accent);
-    painter.galley(chip.min + vec2(6.0, 3.0), galley, ink.on_accent);
+    painter.rect_filled(chip, 4.0, palette.accent);
+    painter.galley(chip.min + vec2(6.0, 3.0), galley, palette.on_accent);
 }
 
 /// The words beside a cross at this place of a map, and their frame.
 fn you_are_here(ui: &Ui, at: Pos2, map: Rect) -> (Rect, Arc<Galley>) {
-    let colour = ink(ui).on_accent;
+    let colour = palette(ui).on_accent;
     let words = ui.painter().layout_no_wrap("you are here".into(), strong_font(12.0), colour);
     let size = words.size() + vec2(12.0, 6.0);
     let is_left = at.x + CROSS + 6.0 + size.x > map.right();

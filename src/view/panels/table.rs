@@ -3,10 +3,10 @@
 
 use egui::{Align2, Color32, FontId, Id, Rect, Response, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
 
-use super::{focus_ring, ink, keycap, short};
+use super::{focus_ring, keycap, palette, short};
 use crate::lab::Command;
 use crate::view::chart::{self, legend::swatch};
-use crate::view::theme::{Ink, TYPE, strong_font};
+use crate::view::theme::{PanelPalette, TYPE, strong_font};
 
 /// The width of the bar at the left of the selected row, and of the margin that it stands in, in points.
 const BAR: f32 = 4.0;
@@ -27,7 +27,7 @@ pub(super) trait TableRow {
     fn is_selected(&self) -> bool;
 
     /// The colour of the bar at its left where it is selected, and that of its numbers.
-    fn colours(&self, ink: &Ink) -> [Color32; 2];
+    fn colours(&self, palette: &PanelPalette) -> [Color32; 2];
 
     /// What a click asks for; `None` if it cannot be clicked.
     fn command(&self) -> Option<Command>;
@@ -224,7 +224,7 @@ impl<R: TableRow> Table<R> {
             let name = format!("sort by {}", column.name);
             response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
             let is_lit = response.hovered() || response.has_focus();
-            let inked = if is_lit { ink(ui).accent } else { ink(ui).dim };
+            let inked = if is_lit { palette(ui).accent } else { palette(ui).dim };
             let side = if column.is_number() { Align2::RIGHT_CENTER } else { Align2::LEFT_CENTER };
             let words = format!("{}{}", column.head, arrow(order, column.name));
             let font = || FontId::proportional(self.head_type);
@@ -233,7 +233,7 @@ impl<R: TableRow> Table<R> {
             let corner = side.align_size_within_rect(text.size(), rect).min;
             ui.painter().galley(corner, text, inked);
             if let Some(words) = &column.beside_head {
-                let dim = ink(ui).dim;
+                let dim = palette(ui).dim;
                 let beside = ui.painter().layout_no_wrap(words.clone(), font(), dim);
                 if beside.size().x + BESIDE_HEAD < room {
                     let at = Align2::RIGHT_CENTER.align_size_within_rect(beside.size(), rect).min;
@@ -292,9 +292,9 @@ impl<R: TableRow> Table<R> {
             let name = row.spoken() + &heard.collect::<String>();
             egui::WidgetInfo::selected(egui::Role::Button, true, is_selected, name)
         });
-        let [own, text] = row.colours(ink(ui));
+        let [own, text] = row.colours(palette(ui));
         if is_selected || command.is_some() && response.hovered() {
-            let fill = ink(ui).raised.gamma_multiply(if is_selected { 1.0 } else { 0.6 });
+            let fill = palette(ui).raised.gamma_multiply(if is_selected { 1.0 } else { 0.6 });
             ui.painter().rect_filled(rect, 3.0, fill);
         }
         focus_ring(ui, &response);
@@ -384,8 +384,8 @@ mod tests {
             false
         }
 
-        fn colours(&self, ink: &Ink) -> [Color32; 2] {
-            [ink.text; 2]
+        fn colours(&self, palette: &PanelPalette) -> [Color32; 2] {
+            [palette.text; 2]
         }
 
         fn command(&self) -> Option<Command> {

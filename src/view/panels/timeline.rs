@@ -10,7 +10,7 @@ use egui::{
 
 use self::marks::{Context, Group, Sign, grouped};
 pub(super) use self::span::Span;
-use super::{Ink, ink};
+use super::{PanelPalette, palette};
 use crate::lab::{Command, Event, Lab, Mode, RunCommand, StageCommand, Step, TimeScale};
 use crate::view::chart::AxisScale;
 use crate::view::wheel;
@@ -53,14 +53,14 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let times = lab.timeline().times();
     let response = groove.interact(ui);
     let span = viewed(ui, lab, &times, &response, along);
-    let track = Track { groove, span, times: &times, ink: ink(ui) };
+    let track = Track { groove, span, times: &times, palette: palette(ui) };
 
     seek(ui, lab, &response, &track, commands);
     let context = Context {
         scene: lab.scene(),
         start: lab.timeline().start(),
         times: &times,
-        ink: track.ink,
+        palette: track.palette,
     };
     let in_view = |x: f32| along.expand(1.0).contains(x);
     let end = lab.timeline().end();
@@ -70,12 +70,12 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     groups.retain(|group| in_view(group.x));
 
     let painter = ui.painter().clone();
-    groove.write(&painter, span, track.ink);
+    groove.write(&painter, span, track.palette);
     fill(&painter, lab, &events, &track);
     groups.iter().for_each(|group| draw_group(&painter, &track, group));
     let present = track.x(lab.race().tick());
     if along.expand(1.0).contains(present) {
-        groove.handle(&painter, present, response.has_focus(), track.ink);
+        groove.handle(&painter, present, response.has_focus(), track.palette);
     }
     beside(ui, lab, Rect::from_min_max(pos2(along.max + MARGIN, room.top()), room.max), commands);
     tooltip(ui, response, &track, &groups);
@@ -117,28 +117,40 @@ impl Groove {
     }
 
     /// Writes the name at its left and times at round steps below, each where there is room.
-    pub(super) fn write(&self, painter: &Painter, span: Span, ink: &Ink) {
+    pub(super) fn write(&self, painter: &Painter, span: Span, palette: &PanelPalette) {
         if is_tall(self.room) {
-            numbers(painter, (span, self.along), self.y, self.room.bottom(), ink);
+            numbers(painter, (span, self.along), self.y, self.room.bottom(), palette);
         }
-        self.write_at(painter, Align2::LEFT_CENTER, "Timeline", ink);
+        self.write_at(painter, Align2::LEFT_CENTER, "Timeline", palette);
     }
 
     /// Writes words at an end of the panel, where there is room.
-    pub(super) fn write_at(&self, painter: &Painter, end: Align2, words: &str, ink: &Ink) {
+    pub(super) fn write_at(
+        &self,
+        painter: &Painter,
+        end: Align2,
+        words: &str,
+        palette: &PanelPalette,
+    ) {
         if self.room.width() >= ROOM_FOR_WORDS {
             let at = pos2(end.pos_in_rect(&self.room).x, self.y);
-            painter.text(at, end, words, FontId::proportional(11.5), ink.dim);
+            painter.text(at, end, words, FontId::proportional(11.5), palette.dim);
         }
     }
 
     /// The present.
-    pub(super) fn handle(&self, painter: &Painter, x: f32, has_focus: bool, ink: &Ink) {
+    pub(super) fn handle(
+        &self,
+        painter: &Painter,
+        x: f32,
+        has_focus: bool,
+        palette: &PanelPalette,
+    ) {
         let rim = match has_focus {
-            true => Stroke::new(2.5, ink.accent),
-            false => Stroke::new(2.0, ink.background),
+            true => Stroke::new(2.5, palette.accent),
+            false => Stroke::new(2.0, palette.background),
         };
-        painter.circle(pos2(x, self.y), 6.0, ink.exact, rim);
+        painter.circle(pos2(x, self.y), 6.0, palette.exact, rim);
     }
 }
 
@@ -152,7 +164,7 @@ struct Track<'a> {
     groove: Groove,
     span: Span,
     times: &'a TimeScale,
-    ink: &'static Ink,
+    palette: &'static PanelPalette,
 }
 
 impl Track<'_> {
@@ -236,16 +248,22 @@ pub(super) fn step(ui: &Ui, response: &Response, commands: &mut Vec<Command>) {
 }
 
 /// Times at round steps under a track whose middle is at `y`.
-fn numbers(painter: &Painter, (span, along): (Span, Rangef), y: f32, bottom: f32, ink: &Ink) {
+fn numbers(
+    painter: &Painter,
+    (span, along): (Span, Rangef),
+    y: f32,
+    bottom: f32,
+    palette: &PanelPalette,
+) {
     let Span { from_s, to_s } = span;
     let mut marks = AxisScale::Linear.marks([from_s, to_s], along.span(), NUMBERS_APART);
     marks.last_mut().into_iter().for_each(|(_, text)| text.push_str(" s"));
     for (t, text) in marks {
         let x = span.x(t, along);
         let top = y + 0.5 * THICKNESS;
-        painter.vline(x, Rangef::new(top + 1.0, top + 4.0), Stroke::new(1.0, ink.dim));
+        painter.vline(x, Rangef::new(top + 1.0, top + 4.0), Stroke::new(1.0, palette.dim));
         let at = pos2(x, bottom);
-        painter.text(at, Align2::CENTER_BOTTOM, text, FontId::proportional(10.5), ink.dim);
+        painter.text(at, Align2::CENTER_BOTTOM, text, FontId::proportional(10.5), palette.dim);
     }
 }
 
@@ -253,26 +271,30 @@ fn numbers(painter: &Painter, (span, along): (Span, Rangef), y: f32, bottom: f32
 fn fill(painter: &Painter, lab: &Lab, events: &[Event], track: &Track<'_>) {
     let round = 0.5 * THICKNESS;
     let (groove, along) = (track.groove, track.groove.along);
-    painter.rect_filled(groove.piece(along.min, along.max), round, track.ink.raised);
+    painter.rect_filled(groove.piece(along.min, along.max), round, track.palette.raised);
     let [present, end] = [lab.race().tick(), lab.timeline().end()].map(|tick| track.x(tick));
-    painter.rect_filled(groove.piece(along.min, end), round, track.ink.dim.gamma_multiply(0.45));
+    painter.rect_filled(
+        groove.piece(along.min, end),
+        round,
+        track.palette.dim.gamma_multiply(0.45),
+    );
     let lane = lab.selected().id;
-    let colours = marks::colours(lane, events, lab.timeline().start(), track.ink);
+    let colours = marks::colours(lane, events, lab.timeline().start(), track.palette);
     for (i, (from, colour)) in colours.iter().enumerate() {
         let to = colours.get(i + 1).map_or(present, |(tick, _)| track.x(*tick)).min(present);
         let piece = groove.piece(track.x(*from), to);
         if piece.width() > 0.0 {
             let corners = if i == 0 { round } else { 0.0 };
-            painter.rect_filled(piece, corners, strength(*colour, lab.mode(), track.ink));
+            painter.rect_filled(piece, corners, strength(*colour, lab.mode(), track.palette));
         }
     }
 }
 
 /// The colour of the selected lane on the track: dimmed in a race, whose lanes have many colours.
-fn strength(colour: Color32, mode: Mode, ink: &Ink) -> Color32 {
+fn strength(colour: Color32, mode: Mode, palette: &PanelPalette) -> Color32 {
     match mode {
         Mode::Solo => colour,
-        Mode::Race => ink.background.lerp_to_gamma(colour, 0.8),
+        Mode::Race => palette.background.lerp_to_gamma(colour, 0.8),
     }
 }
 
@@ -282,7 +304,7 @@ fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
     let mark = group.shown();
     let colour = mark.colour;
     let centre = pos2(x, foot - 6.0);
-    let rim = Stroke::new(1.0, track.ink.background);
+    let rim = Stroke::new(1.0, track.palette.background);
     let polygon = |points: &[[f32; 2]]| {
         let points = points.iter().map(|&[dx, dy]| centre + vec2(dx, dy)).collect();
         painter.add(Shape::convex_polygon(points, colour, rim));
@@ -303,7 +325,7 @@ fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
         }
         Sign::Rate => polygon(&[[-4.5, 3.5], [0.0, -4.5], [4.5, 3.5]]),
         Sign::Place => {
-            painter.circle(centre, 3.6, track.ink.background, Stroke::new(1.8, colour));
+            painter.circle(centre, 3.6, track.palette.background, Stroke::new(1.8, colour));
         }
         Sign::Kick => polygon(&[[0.0, -5.2], [4.4, 0.0], [0.0, 5.2], [-4.4, 0.0]]),
         Sign::Switch => {
@@ -314,7 +336,7 @@ fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
     if group.marks.len() > 1 {
         let at = centre + vec2(if mark.sign == Sign::Halt { 8.5 } else { 5.5 }, -1.0);
         let count = group.marks.len().to_string();
-        painter.text(at, Align2::LEFT_CENTER, count, FontId::proportional(9.0), track.ink.text);
+        painter.text(at, Align2::LEFT_CENTER, count, FontId::proportional(9.0), track.palette.text);
     }
 }
 
@@ -327,7 +349,13 @@ fn beside(ui: &mut Ui, lab: &Lab, room: Rect, commands: &mut Vec<Command>) {
     if is_told && is_near && room.height() > HEIGHT_OF_TRACK {
         let text = memory(timeline.bytes(), timeline.limit());
         let at = room.right_bottom();
-        ui.painter().text(at, Align2::RIGHT_BOTTOM, text, FontId::proportional(10.5), ink(ui).dim);
+        ui.painter().text(
+            at,
+            Align2::RIGHT_BOTTOM,
+            text,
+            FontId::proportional(10.5),
+            palette(ui).dim,
+        );
     }
     if let Some(what) = lab.timeline().undoes() {
         let size = vec2(UNDO - 6.0, 18.0).min(room.size());
@@ -352,7 +380,7 @@ fn memory(bytes: usize, limit: usize) -> String {
 fn tooltip(ui: &Ui, response: Response, track: &Track<'_>, groups: &[Group]) {
     let Some(Pos2 { x, .. }) = response.hover_pos() else { return };
     let x = track.groove.along.clamp(x);
-    let line = Stroke::new(1.0, ink(ui).text.gamma_multiply(0.5));
+    let line = Stroke::new(1.0, palette(ui).text.gamma_multiply(0.5));
     ui.painter().vline(x, Rangef::new(track.groove.y - 12.0, track.groove.y + 4.0), line);
     response.on_hover_ui_at_pointer(|ui| {
         let near = |group: &&Group| (-6.0..=MARKS_APART - 6.0).contains(&(x - group.x));

@@ -4,8 +4,8 @@ use egui::{
     Align, Button, ComboBox, Frame, Label, Layout, RichText, Sense, TextWrapMode, Ui, vec2,
 };
 
-use super::ink;
 use super::loops::controls;
+use super::palette;
 use crate::lab::{
     Command, Lab, LoopCommand, Mode, Pace, RunCommand, SCENES, SPEED_LADDER, Scene, StageCommand,
     Step, TICK_LADDER, ViewCommand,
@@ -75,7 +75,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 
 fn word(ui: &mut Ui, width: f32, word: &str) {
     if width >= ROOM_FOR_WORDS {
-        ui.label(RichText::new(format!("  {word}")).color(ink(ui).dim));
+        ui.label(RichText::new(format!("  {word}")).color(palette(ui).dim));
     }
 }
 
@@ -98,8 +98,8 @@ fn scene_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             let title = title.map(|scene| scene.title).unwrap_or_default();
             let mut line = egui::text::LayoutJob::default();
             let part = |font, colour| egui::TextFormat::simple(font, colour);
-            line.append(&name, 0.0, part(strong_font(TYPE), ink(ui).text));
-            line.append(&title, 12.0, part(egui::FontId::proportional(TYPE), ink(ui).dim));
+            line.append(&name, 0.0, part(strong_font(TYPE), palette(ui).text));
+            line.append(&title, 12.0, part(egui::FontId::proportional(TYPE), palette(ui).dim));
             if ui.selectable_label(is_open, line).clicked() {
                 commands.push(Command::Stage(StageCommand::Scene(place)));
             }
@@ -163,7 +163,7 @@ fn modes(ui: &mut Ui, lab: &Lab, width: f32, commands: &mut Vec<Command>) {
         ),
         (loops, "see one motion in every game loop, in slow motion (L)", is_in_loops, toggle_loops),
     ];
-    let frame = Frame::new().fill(ink(ui).raised).corner_radius(5.0);
+    let frame = Frame::new().fill(palette(ui).raised).corner_radius(5.0);
     frame.show(ui, |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         for (name, about, is_chosen, command) in parts {
@@ -177,18 +177,18 @@ fn modes(ui: &mut Ui, lab: &Lab, width: f32, commands: &mut Vec<Command>) {
 /// Shows a part of a control. Returns whether it was clicked.
 fn part(ui: &mut Ui, name: &str, about: &str, is_chosen: bool) -> bool {
     let font = || if is_chosen { strong_font(TYPE) } else { egui::FontId::proportional(TYPE) };
-    let text = ui.painter().layout_no_wrap(name.into(), font(), ink(ui).text);
+    let text = ui.painter().layout_no_wrap(name.into(), font(), palette(ui).text);
     let size = vec2(text.size().x + 24.0, 26.0);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response
         .widget_info(|| egui::WidgetInfo::selected(egui::Role::RadioButton, true, is_chosen, name));
     if is_chosen {
-        ui.painter().rect_filled(rect, 6.0, ink(ui).accent);
+        ui.painter().rect_filled(rect, 6.0, palette(ui).accent);
     } else if response.hovered() || response.has_focus() {
-        let stroke = egui::Stroke::new(1.0, ink(ui).accent);
+        let stroke = egui::Stroke::new(1.0, palette(ui).accent);
         ui.painter().rect_stroke(rect, 6.0, stroke, egui::StrokeKind::Inside);
     }
-    let colour = if is_chosen { ink(ui).on_accent } else { ink(ui).text };
+    let colour = if is_chosen { palette(ui).on_accent } else { palette(ui).text };
     let at = rect.center();
     ui.painter().text(at, egui::Align2::CENTER_CENTER, name, font(), colour);
     response.on_hover_text(about).clicked()
@@ -235,7 +235,7 @@ fn tick_rate_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 fn pace(ui: &mut Ui, lab: &Lab) {
     // Paused, no frame is drawn but for an event, and no time goes by.
     if !lab.running() {
-        ui.label(RichText::new("paused").color(ink(ui).accent));
+        ui.label(RichText::new("paused").color(palette(ui).accent));
         return;
     }
     let text = match lab.viewer().pace {
@@ -245,7 +245,7 @@ fn pace(ui: &mut Ui, lab: &Lab) {
         Some(Pace::Unknown) => return,
         None => "scripted time".into(),
     };
-    ui.label(RichText::new(text).color(ink(ui).dim))
+    ui.label(RichText::new(text).color(palette(ui).dim))
         .on_hover_text("frames drawn per second · simulated seconds per second");
 }
 

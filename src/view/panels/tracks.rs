@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
-use super::roster::Roster;
+use super::series_styles::SeriesStyles;
 use crate::lab::past::Summary;
 use crate::lab::{Entrant, History, Lab, Quantity, Sample};
 use crate::view::chart::{Arrow, Bounds, Curve, Dots, Drawing, LineStyle, Switch};
@@ -125,7 +125,7 @@ impl Track {
         tracks
     }
 
-    /// A track of these times (s) and places, under the one at place `entry` of the roster.
+    /// A track of these times (s) and places, under the one at place `entry` of the styles.
     pub(super) fn of_places(
         entry: usize,
         is_front: bool,
@@ -226,24 +226,30 @@ pub(super) struct TrackStyle {
 
 /// The lanes within `bounds`, with an arrow where one leaves them and a mark where one was switched.
 pub(super) fn drawing(
-    roster: &Roster,
+    styles: &SeriesStyles,
     tracks: &[Track],
     bounds: &Bounds,
     style: TrackStyle,
 ) -> Drawing {
     let mut drawing = Drawing::default();
     for track in tracks {
-        add(&mut drawing, roster, track, bounds, style);
+        add(&mut drawing, styles, track, bounds, style);
     }
     drawing
 }
 
-fn add(drawing: &mut Drawing, roster: &Roster, track: &Track, bounds: &Bounds, style: TrackStyle) {
+fn add(
+    drawing: &mut Drawing,
+    styles: &SeriesStyles,
+    track: &Track,
+    bounds: &Bounds,
+    style: TrackStyle,
+) {
     let points = &track.points[..];
-    let is_dim = roster.is_race && !track.is_front;
+    let is_dim = styles.is_race && !track.is_front;
     let is_thin = is_dim || track.strength < 1.0;
     let width = if is_thin { FRONT - THINNER } else { FRONT };
-    let runner = |point: &Point| &roster.runners[point.entry];
+    let runner = |point: &Point| &styles.series[point.entry];
     let strength = if is_dim { DIM } else { track.strength };
     let rgba = |point: &Point| runner(point).colour.gamma_multiply(strength);
     // A body that had halted has no samples from there to the switch.
@@ -260,7 +266,7 @@ fn add(drawing: &mut Drawing, roster: &Roster, track: &Track, bounds: &Bounds, s
     };
     let is_in_view = |point: &Point| !style.is_over_time || point.at[0] >= bounds[0][0];
     let mut is_drawn = vec![false; points.len()];
-    for stay in stays(points, within, RETURNED * roster.length_s) {
+    for stay in stays(points, within, RETURNED * styles.length_s) {
         let (first, last) = stay.into_inner();
         // To the edge on both sides, and not across a switch on the way in.
         let enters = first > 0 && goes_on(&points[first - 1], &points[first]);

@@ -3,7 +3,7 @@
 use egui::epaint::PathShape;
 use egui::{Color32, FontId, Pos2, Rect, Stroke, Ui, pos2, vec2};
 
-use super::{ink, severity_tone, short};
+use super::{palette, severity_tone, short};
 use crate::lab::{Outcome, Severity};
 use crate::view::theme::TYPE;
 
@@ -94,7 +94,7 @@ impl VerdictText {
         if let Some((sign, severity)) = self.sign {
             sign.paint(ui, pos2(left.x + HALF, left.y), severity_tone(ui, severity));
         }
-        let colour = if self.sign.is_some() { colour } else { ink(ui).dim };
+        let colour = if self.sign.is_some() { colour } else { palette(ui).dim };
         let room = cell.width() - ROOM;
         let fitted = |words: &String| short(ui, words, FontId::proportional(TYPE), room, colour);
         let fits = self.wordings.iter().map(fitted).find(|(_, is_whole)| *is_whole);

@@ -2,8 +2,8 @@
 
 use egui::{CollapsingHeader, ComboBox, RichText, Ui, vec2};
 
-use super::super::ink;
-use super::{Field, LINE, line};
+use super::super::palette;
+use super::{LINE, NumberField, line};
 use crate::lab::number::significant;
 use crate::lab::port::Setup;
 use crate::lab::{Command, Lab, RunCommand};
@@ -11,7 +11,7 @@ use crate::lab::{Command, Lab, RunCommand};
 /// Shows the numbers of a body that is a spring as the engine has them that is chosen; nothing of any other body.
 pub(super) fn show(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Command>) {
     let Some(spring) = lab.spring_joint(body) else { return };
-    let header = CollapsingHeader::new(RichText::new("as in engine…").color(ink(ui).dim));
+    let header = CollapsingHeader::new(RichText::new("as in engine…").color(palette(ui).dim));
     header.id_salt(("engine", body)).show_unindented(ui, |ui| {
         let setups = lab.joint_setups();
         let id = ui.scope_id().with("mode");
@@ -33,7 +33,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Comma
         let values = setup.mode.values(spring.joint, spring.mass_kg);
         for (index, (setting, value)) in setup.mode.settings().into_iter().zip(values).enumerate() {
             let unit = setting.quantity.unit();
-            let field = Field {
+            let field = NumberField {
                 id: ui.scope_id().with((chosen, index)),
                 value,
                 unit,
@@ -52,7 +52,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Comma
                 };
                 commands.extend(entered.map(set).into_iter().flatten());
             });
-            Field::show_fault(field.id, ui);
+            NumberField::show_fault(field.id, ui);
         }
         let lane = lab.entries().iter().find(|spec| spec.method == setup.method);
         let substeps = lane.map_or(setup.substeps, |spec| spec.substeps);
@@ -62,6 +62,6 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Comma
             let [hz, ratio] = [hz, ratio].map(|number| significant(number, 3));
             format!("×{substeps}: a player sees {hz} Hz, damping ratio {ratio}")
         });
-        ui.label(RichText::new(seen).size(11.0).color(ink(ui).dim));
+        ui.label(RichText::new(seen).size(11.0).color(palette(ui).dim));
     });
 }

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use egui::{DragValue, Id, Response, RichText, Ui, Vec2};
 
-use super::super::ink;
+use super::super::palette;
 
 /// What one point of a drag changes, as a part of the number.
 const SPEED: f64 = 0.004;
@@ -20,7 +20,7 @@ struct Fault {
 }
 
 /// A number as a field shows it.
-pub(in crate::view::panels) struct Field<'a> {
+pub(in crate::view::panels) struct NumberField<'a> {
     /// Tells it from all others.
     pub(in crate::view::panels) id: Id,
     pub(in crate::view::panels) value: f64,
@@ -31,7 +31,7 @@ pub(in crate::view::panels) struct Field<'a> {
     pub(in crate::view::panels) is_whole: bool,
 }
 
-impl Field<'_> {
+impl NumberField<'_> {
     /// Shows the field. Returns what was entered, if `check` finds nothing wrong with it.
     pub(in crate::view::panels) fn show(
         &self,
@@ -94,14 +94,14 @@ impl Field<'_> {
     pub(super) fn width(&self, ui: &Ui) -> f32 {
         let font = egui::TextStyle::Button.resolve(ui.style());
         let text = format!("{} {}", plain(self.value), self.unit);
-        let size = ui.painter().layout_no_wrap(text, font, ink(ui).text).size();
+        let size = ui.painter().layout_no_wrap(text, font, palette(ui).text).size();
         size.x + 2.0 * ui.spacing().button_padding.x
     }
 
     /// Says under the field with this id what was wrong with what was typed last.
     pub(in crate::view::panels) fn show_fault(id: Id, ui: &mut Ui) {
         if let Some(fault) = ui.data(|data| data.get_temp::<Fault>(id)) {
-            ui.label(RichText::new(fault.text).size(11.0).color(ink(ui).bad));
+            ui.label(RichText::new(fault.text).size(11.0).color(palette(ui).bad));
         }
     }
 
@@ -173,7 +173,7 @@ mod tests {
         let mut told = |value: f64, then: fn(&Ui)| {
             window.show(Vec::new(), |ui| {
                 then(ui);
-                let field = Field { id, value, unit: "", name: "number", is_whole: false };
+                let field = NumberField { id, value, unit: "", name: "number", is_whole: false };
                 field.show(ui, Vec2::splat(50.0), |_| Ok(()));
             });
             context.data(|data| data.get_temp::<Fault>(id)).is_some()
@@ -186,7 +186,7 @@ mod tests {
         assert!(told(1.0, |_| ()));
         assert!(!told(2.0, |_| ()), "it was restored");
         fail();
-        assert!(!told(1.0, Field::forget_faults));
+        assert!(!told(1.0, NumberField::forget_faults));
     }
 
     #[test]

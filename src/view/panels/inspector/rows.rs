@@ -9,7 +9,7 @@ const LINEAR_REACH: f64 = 4.0;
 /// How far the slider of a value reaches that the scene has at 0, which says nothing of its size.
 const FROM_NOTHING: f64 = 10.0;
 /// The fewest counts that a slider reaches.
-const FEWEST: f64 = 16.0;
+const MIN_REACH: f64 = 16.0;
 
 /// A parameter of a body.
 pub(super) struct Row<'l> {
@@ -91,7 +91,7 @@ impl Reach {
                 (-reach, reach, Spacing::Linear)
             }
             Range::Count(most) => {
-                (1.0, f64::from(most).min(FEWEST.max(LINEAR_REACH * size)), Spacing::Whole)
+                (1.0, f64::from(most).min(MIN_REACH.max(LINEAR_REACH * size)), Spacing::Whole)
             }
             Range::Between(least, most) => (least, most, Spacing::Linear),
             Range::Curve { .. } => return None,

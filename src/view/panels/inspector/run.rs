@@ -2,14 +2,14 @@
 
 use egui::{ComboBox, Id, RichText, Ui, vec2};
 
-use super::number::Field;
+use super::number::NumberField;
 use super::{LINE, RESTORE, line, restore};
 use crate::lab::scene::{MAX_TICK_HZ, MIN_SECONDS};
 use crate::lab::{
     Action, Command, Entrant, Lab, LaneSpec, MAX_SECONDS, MAX_SUBSTEPS, Mode, RunCommand,
     StageCommand, TOLERANCES,
 };
-use crate::view::panels::ink;
+use crate::view::panels::palette;
 
 /// The widths of the fields of a lane, in points.
 const SUBSTEPS: f32 = 44.0;
@@ -19,7 +19,7 @@ const LANE: f32 = 16.0;
 pub(super) fn show_lanes(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     for entrant in lab.race().entrants() {
         let fields = ui.horizontal(|ui| show_lane(ui, lab, entrant, commands)).inner;
-        fields.iter().for_each(|id| Field::show_fault(*id, ui));
+        fields.iter().for_each(|id| NumberField::show_fault(*id, ui));
     }
 }
 
@@ -29,12 +29,12 @@ fn show_lane(ui: &mut Ui, lab: &Lab, entrant: &Entrant, commands: &mut Vec<Comma
     let spec = entrant.spec;
     let ids = ["substeps", "tolerance"].map(|field| ui.scope_id().with((lane, field)));
     let number = number(lab, entrant);
-    let digits = RichText::new(number.to_string()).color(ink(ui).style(lab.entries(), &spec).0);
+    let digits = RichText::new(number.to_string()).color(palette(ui).style(lab.entries(), &spec).0);
     ui.add_sized([LANE, LINE], egui::Label::new(digits.strong()));
     let gap = ui.spacing().item_spacing.x;
     let width = ui.available_width() - SUBSTEPS - TOLERANCE - RESTORE - 4.0 * gap;
     show_methods(ui, lab, entrant, width.max(60.0), commands);
-    let substeps = Field {
+    let substeps = NumberField {
         id: ids[0],
         value: f64::from(spec.substeps),
         unit: "×",
@@ -48,7 +48,7 @@ fn show_lane(ui: &mut Ui, lab: &Lab, entrant: &Entrant, commands: &mut Vec<Comma
     commands.extend(entered.map(|value| act(Action::Substeps { lane, substeps: value as u32 })));
     match spec.method.tolerance {
         Some(card) => {
-            let tolerance = Field {
+            let tolerance = NumberField {
                 id: ids[1],
                 value: spec.tolerance.unwrap_or(card.absolute_v),
                 unit: "",
@@ -89,7 +89,7 @@ fn show_methods(
     let present = entrant.spec;
     let menu = ComboBox::from_id_salt(("method", entrant.id)).width(width).truncate();
     let name = |spec: &LaneSpec| spec.distinct_name(spec.method.name, lab.entries());
-    let menu = menu.selected_text(RichText::new(name(&present)).color(ink(ui).text));
+    let menu = menu.selected_text(RichText::new(name(&present)).color(palette(ui).text));
     menu.show_ui(ui, |ui| {
         for (entry, spec) in lab.entries().iter().enumerate() {
             let is_present = entry == lab.entry(entrant);
@@ -122,7 +122,7 @@ fn opened(lab: &Lab, entrant: &Entrant) -> LaneSpec {
 pub(super) fn show_time(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let opened = lab.scene_as_opened();
     let tick_hz = lab.race().tick_hz();
-    let rate = Field {
+    let rate = NumberField {
         id: ui.scope_id().with("tick rate"),
         value: f64::from(tick_hz),
         unit: "Hz",
@@ -140,9 +140,9 @@ pub(super) fn show_time(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             commands.push(Command::Stage(StageCommand::TickHz(opened.tick_hz)));
         });
     });
-    Field::show_fault(rate.id, ui);
+    NumberField::show_fault(rate.id, ui);
     let seconds = lab.scene().seconds;
-    let length = Field {
+    let length = NumberField {
         id: ui.scope_id().with("length"),
         value: seconds,
         unit: "s",
@@ -165,7 +165,7 @@ pub(super) fn show_time(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             });
         },
     );
-    Field::show_fault(length.id, ui);
+    NumberField::show_fault(length.id, ui);
 }
 
 /// What makes lanes and time as the scene has them: nothing, where they are so.

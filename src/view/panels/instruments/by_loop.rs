@@ -1,11 +1,11 @@
 //! The plots of the loop lab: what each loop on the stage shows and holds, up to the moment of display.
 
 use super::super::ranges;
-use super::super::roster::Roster;
+use super::super::series_styles::SeriesStyles;
 use super::super::tracks::Track;
 use super::error::capitalised;
 use super::phase::SAMPLES;
-use super::sheet::{ExactLine, PlotAxis, PlotModel, Sheet, time_in_view};
+use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, time_in_view};
 use crate::lab::loop_lab::{FRAME_METRICS, LoopFrame, LoopLane};
 use crate::lab::past::Energies;
 use crate::lab::{Instrument, Lab, LoopLab, METRICS, Scale};
@@ -24,7 +24,7 @@ const STEPPED: &str = "as stepped";
 const NO_ERROR: &str = "No error: every loop on the stage shows the exact place.";
 
 /// The instrument's plots; `None` if it has none in the loop lab.
-pub(super) fn sheet(lab: &Lab, loops: &LoopLab, instrument: Instrument) -> Option<Sheet> {
+pub(super) fn plot_set(lab: &Lab, loops: &LoopLab, instrument: Instrument) -> Option<PlotSet> {
     let plots = Plots { lab, loops };
     let (title, mut plot) = match instrument {
         Instrument::Motion => ("Motion", plots.motion()),
@@ -41,7 +41,7 @@ pub(super) fn sheet(lab: &Lab, loops: &LoopLab, instrument: Instrument) -> Optio
     if let Some(waiting) = loops.waiting() {
         plot.nothing = Some(waiting.into());
     }
-    Some(Sheet { roster: Roster::of(lab), title: title.into(), plots: vec![plot] })
+    Some(PlotSet { styles: SeriesStyles::of(lab), title: title.into(), plots: vec![plot] })
 }
 
 #[derive(Clone, Copy)]
@@ -198,7 +198,7 @@ mod tests {
     }
 
     fn plot(lab: &Lab, instrument: Instrument) -> PlotModel {
-        sheet(lab, lab.loop_lab().unwrap(), instrument).unwrap().plots.remove(0)
+        plot_set(lab, lab.loop_lab().unwrap(), instrument).unwrap().plots.remove(0)
     }
 
     #[test]
@@ -215,10 +215,10 @@ mod tests {
                 let lines = drawing.as_ref().map(|text| text.matches("<polyline").count());
                 assert!(lines.is_some_and(|lines| lines > 10), "{scene} {instrument:?}");
                 let has_values = table.lines().count() > 100;
-                let Some(sheet) = sheet(&lab, lab.loop_lab().unwrap(), instrument) else {
+                let Some(set) = plot_set(&lab, lab.loop_lab().unwrap(), instrument) else {
                     continue;
                 };
-                assert_eq!(has_values, sheet.plots[0].nothing.is_none(), "{scene} {instrument:?}");
+                assert_eq!(has_values, set.plots[0].nothing.is_none(), "{scene} {instrument:?}");
                 if has_values {
                     assert!(names.iter().all(|name| table.contains(&format!(",{name},"))));
                     assert!(!drawing.unwrap().contains("NaN"), "{scene} {instrument:?}");

@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 use egui::{Align2, FontId, Pos2, Rect, Response, Sense, Ui, Vec2, pos2, vec2};
 
-use super::super::roster::Roster;
-use super::super::{focus_ring, ink, ring, short};
+use super::super::series_styles::SeriesStyles;
+use super::super::{focus_ring, palette, ring, short};
 use super::hover;
 use super::layout::{Cell, cells};
-use super::sheet::Sheet;
+use super::plot_set::PlotSet;
 use crate::lab::{Command, Lab, StageCommand, ViewCommand};
 use crate::view::chart::{self, ABOVE, NAME, NUMBER, PlotArea, Primitive, Text};
-use crate::view::theme::{Ink, strong_font};
+use crate::view::theme::{PanelPalette, strong_font};
 use crate::view::wheel;
 
 /// The least room for the numbers of an upright axis, in points.
@@ -60,15 +60,15 @@ impl Views {
     }
 }
 
-/// Shows a sheet in all that is left of `ui`.
-pub(super) fn show(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Command>) {
+/// Shows a set in all that is left of `ui`.
+pub(super) fn show(ui: &mut Ui, lab: &Lab, set: &PlotSet, commands: &mut Vec<Command>) {
     let room = ui.available_rect_before_wrap();
     ui.allocate_rect(room, Sense::hover());
     let body = lab.view().body;
     let mut views = Views(lab.view().plot_ranges.clone());
     // The heights of plots do not depend on the room beside them.
-    let left = room_for_numbers(ui, &cells(sheet, room, LEFT, body), &views);
-    let cells = cells(sheet, room, left, body);
+    let left = room_for_numbers(ui, &cells(set, room, LEFT, body), &views);
+    let cells = cells(set, room, left, body);
     let (mut pointer, mut focused) = (None, None);
     for (place, cell) in cells.iter().enumerate().filter(|(_, cell)| cell.plot.nothing.is_none()) {
         let response =
@@ -82,7 +82,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Com
         if response.double_clicked() {
             views.fit(cell);
         } else if response.clicked() {
-            commands.extend(picked(&sheet.roster, cell, &views.area(cell), &response));
+            commands.extend(picked(&set.styles, cell, &views.area(cell), &response));
         } else if response.dragged() {
             views.pan(cell, response.drag_delta());
         }
@@ -91,13 +91,13 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Com
     }
     for (place, cell) in cells.iter().enumerate() {
         let area = views.area(cell);
-        show_plot(ui, lab, &sheet.roster, (cell, &area), commands);
+        show_plot(ui, lab, &set.styles, (cell, &area), commands);
         if cell.plot.nothing.is_none() {
             let at = pointer.filter(|(over, _)| *over == place || cell.plot.is_over_time());
             let t = at.and_then(|(over, at)| {
                 hover::time_at(cells[over].plot, &views.area(&cells[over]), at)
             });
-            hover::show(ui, &sheet.roster, (cell, &area), t, place == 0);
+            hover::show(ui, &set.styles, (cell, &area), t, place == 0);
         }
     }
     focused.into_iter().for_each(|rect| ring(ui, rect));
@@ -116,7 +116,7 @@ fn room_for_numbers(ui: &Ui, cells: &[Cell<'_>], views: &Views) -> f32 {
     let marks = cells.iter().flat_map(|cell| cell.marks(&views.area(cell), 1));
     let widths = marks.map(|(_, text)| {
         let font = FontId::proportional(NUMBER);
-        ui.painter().layout_no_wrap(text, font, ink(ui).dim).size().x
+        ui.painter().layout_no_wrap(text, font, palette(ui).dim).size().x
     });
     widths.fold(LEFT, |room, width| room.max(width + 10.0))
 }
@@ -150,13 +150,13 @@ fn menu(ui: &mut Ui, cell: &Cell<'_>, views: &mut Views, commands: &mut Vec<Comm
 
 /// The command that selects the lane of the curve under a click.
 fn picked(
-    roster: &Roster,
+    styles: &SeriesStyles,
     cell: &Cell<'_>,
     area: &PlotArea,
     response: &Response,
 ) -> Option<Command> {
     let at = response.interact_pointer_pos()?;
-    if !roster.is_race {
+    if !styles.is_race {
         return None;
     }
     let distance = |track: &super::super::tracks::Track| {
@@ -180,30 +180,30 @@ fn distance_to(at: Pos2, [from, to]: [Pos2; 2]) -> f32 {
 fn show_plot(
     ui: &mut Ui,
     lab: &Lab,
-    roster: &Roster,
+    styles: &SeriesStyles,
     (cell, area): (&Cell<'_>, &PlotArea),
     commands: &mut Vec<Command>,
 ) {
-    let (plot, ink) = (cell.plot, ink(ui));
+    let (plot, palette) = (cell.plot, palette(ui));
     let painter = ui.painter().clone();
     let columns = area.rect.width() * painter.pixels_per_point();
     let right = ui.max_rect().right();
     let name = FontId::proportional(NAME);
-    let name = painter.layout_no_wrap(plot.axes[1].name(), name, ink.dim).size().x;
+    let name = painter.layout_no_wrap(plot.axes[1].name(), name, palette.dim).size().x;
     let edge = pos2(cell.left, area.rect.top() - ABOVE / 2.0);
     let title = pos2(area.rect.left().max(edge.x + name + 12.0), edge.y);
     let is_chosen = lab.view().body == plot.body;
     let font = if is_chosen { strong_font(NAME) } else { FontId::proportional(NAME) };
     // Up to the values beside the plot.
-    let (words, is_whole) = short(ui, &plot.title, font, area.rect.right() - title.x, ink.text);
+    let (words, is_whole) = short(ui, &plot.title, font, area.rect.right() - title.x, palette.text);
     let at = Align2::LEFT_CENTER.anchor_size(title, words.size()).min;
     let response = ui.interact(
         Rect::from_min_size(at, words.size()),
         ui.scope_id().with((&plot.id, "title")),
         Sense::click(),
     );
-    painter.galley(at, words, ink.text);
-    chart::paint(&painter, &layout(lab, roster, (cell, area), ink, (columns, right)));
+    painter.galley(at, words, palette.text);
+    chart::paint(&painter, &layout(lab, styles, (cell, area), palette, (columns, right)));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &plot.title));
     focus_ring(ui, &response);
     let about = "show this body large, and in the other instruments";
@@ -216,17 +216,17 @@ fn show_plot(
 /// A plot with its axes and without its title, on so many columns of pixels. No number along goes on beyond `right`.
 pub(super) fn layout(
     lab: &Lab,
-    roster: &Roster,
+    styles: &SeriesStyles,
     (cell, area): (&Cell<'_>, &PlotArea),
-    ink: &Ink,
+    palette: &PanelPalette,
     (columns, right): (f32, f32),
 ) -> Vec<Primitive> {
     let (plot, frame) = (cell.plot, area.rect);
     let [along, up] =
-        chart::names(area, cell.left, plot.axes.each_ref().map(|axis| axis.name()), ink);
-    let mut all = vec![Primitive::Area(frame, ink.plot), up.into()];
+        chart::names(area, cell.left, plot.axes.each_ref().map(|axis| axis.name()), palette);
+    let mut all = vec![Primitive::Area(frame, palette.plot), up.into()];
     if let Some(why) = &plot.nothing {
-        let why = Text::new(frame.center(), Align2::CENTER_CENTER, why.as_str(), NAME, ink.dim);
+        let why = Text::new(frame.center(), Align2::CENTER_CENTER, why.as_str(), NAME, palette.dim);
         all.push(Text { wrap: 0.9 * frame.width(), ..why }.into());
         return all;
     }
@@ -236,7 +236,7 @@ pub(super) fn layout(
     } else {
         across.iter_mut().for_each(|(_, text)| text.clear());
     }
-    let drawing = plot.drawing(lab, roster, &area.bounds, columns);
-    all.extend(chart::plot(area, [across, upwards], &drawing, ink, right));
+    let drawing = plot.drawing(lab, styles, &area.bounds, columns);
+    all.extend(chart::plot(area, [across, upwards], &drawing, palette, right));
     all
 }

@@ -9,11 +9,11 @@ use egui::{
     TextureHandle, TextureOptions, Ui, UiBuilder, Vec2, pos2, vec2,
 };
 
-use super::super::roster::Roster;
+use super::super::series_styles::SeriesStyles;
 use super::super::tracks::Track;
-use super::super::{Ink, focus_ring, ink, strong_font};
+use super::super::{PanelPalette, focus_ring, palette, strong_font};
 use super::error::capitalised;
-use super::sheet::{ExactLine, PlotAxis, PlotModel, Sheet, over_time};
+use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, over_time};
 use super::{body_choice, chart, choice};
 use crate::lab::cloud::{
     CloudChoice, CloudKind, CloudPicture, Density, LONGEST_LINE, LaneCloud, POINTS, hidden_in_words,
@@ -38,7 +38,7 @@ const ROOM_FOR_AREAS: f32 = 330.0;
 const AREAS: f32 = 0.3;
 const MIN_AREAS: f32 = 110.0;
 /// How many times wider than high a cloud is at most.
-const WIDEST: f32 = 1.3;
+const MAX_ASPECT: f32 = 1.3;
 /// The most texels of a side of a cloud's image: each is two of the density or less.
 const MAX_TEXELS: usize = 1024;
 /// The least side of a cloud, in points.
@@ -56,7 +56,7 @@ const MIN_DECADES: f64 = 0.31;
 const BEHIND_S: f64 = 0.25;
 
 /// The areas of all clouds over time; `None` while there are none.
-pub(super) fn sheet(lab: &Lab) -> Option<Sheet> {
+pub(super) fn plot_set(lab: &Lab) -> Option<PlotSet> {
     let picture = lab.cloud()?.picture.as_ref().ok()?;
     let body = lab.view().body;
     let scale = AxisScale::Log;
@@ -82,7 +82,11 @@ pub(super) fn sheet(lab: &Lab) -> Option<Sheet> {
     let axes = [PlotAxis::time("time t"), PlotAxis::new("area / start", "", scale)];
     let plot = PlotModel::new(body, id, title, axes, over_time(lab, (low - pad, high + pad)));
     let plot = PlotModel { tracks, exact: vec![exact], ..plot };
-    Some(Sheet { roster: Roster::of(lab), title: "Area of the cloud".into(), plots: vec![plot] })
+    Some(PlotSet {
+        styles: SeriesStyles::of(lab),
+        title: "Area of the cloud".into(),
+        plots: vec![plot],
+    })
 }
 
 /// Shows the clouds, and below them their areas where there is room.
@@ -90,7 +94,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Comman
     let bottom = ui.cursor().top() + room.y;
     head(ui, lab, commands);
     let say = |ui: &mut Ui, words: String| {
-        ui.add(Label::new(RichText::new(words).color(ink(ui).dim)).wrap());
+        ui.add(Label::new(RichText::new(words).color(palette(ui).dim)).wrap());
     };
     if let Some(why) = lab.cloud_refusal() {
         return say(ui, capitalised(&format!("{why}.")));
@@ -109,12 +113,12 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Comman
     let (clouds, _) = ui.allocate_exact_size(vec2(room.x, left - for_areas), Sense::hover());
     side_by_side(ui, lab, picture, clouds, commands);
     if for_areas > 0.0
-        && let Some(sheet) = sheet(lab)
+        && let Some(set) = plot_set(lab)
     {
         let below = Rect::from_min_max(pos2(clouds.left(), clouds.bottom() + 4.0), clouds.max)
             .with_max_y(bottom);
         let mut ui = ui.new_child(UiBuilder::new().max_rect(below));
-        chart::show(&mut ui, lab, &sheet, commands);
+        chart::show(&mut ui, lab, &set, commands);
     }
 }
 
@@ -123,7 +127,7 @@ fn head(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let chosen = lab.display().cloud;
     let picture = lab.cloud().and_then(|found| found.picture.as_ref().ok());
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new("Cloud").font(strong_font(15.0)).color(ink(ui).text));
+        ui.label(RichText::new("Cloud").font(strong_font(15.0)).color(palette(ui).text));
         let kind = |kind: CloudKind| {
             (Command::Run(RunCommand::Cloud(CloudChoice { kind, ..chosen })), kind.name())
         };
@@ -142,7 +146,7 @@ fn head(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         let told = picture.and_then(|picture| picture.section.clone());
         let behind = || behind_s(lab).map(|s| format!("{} s behind", significant(s, 2)));
         if let Some(words) = told.or_else(behind) {
-            ui.label(RichText::new(words).color(ink(ui).dim));
+            ui.label(RichText::new(words).color(palette(ui).dim));
         }
     });
 }
@@ -165,7 +169,7 @@ enum Told {
 /// What is told, the most first, where the least side of a cloud is then not less than so many points.
 const TOLD: [(Told, f32); 3] = [(Told::Words, 60.0), (Told::Numbers, 40.0), (Told::Name, MIN_SIDE)];
 
-/// What is told above each cloud, laid out anew for each width.
+/// What is told above each cloud, laid out again for each width.
 struct Captions<'p> {
     told: Told,
     lanes: &'p [LaneCloud],
@@ -186,7 +190,7 @@ impl<'p> Captions<'p> {
             [lab.lane_name(lane.entry), words]
         };
         let texts: Vec<[String; 2]> = lanes.iter().map(text).collect();
-        let colour = ink(ui).text;
+        let colour = palette(ui).text;
         let wide = |word: &str| {
             ui.painter().layout_no_wrap(word.into(), strong_font(WORDS), colour).size().x
         };
@@ -203,9 +207,9 @@ impl<'p> Captions<'p> {
         if !is_name && longest * MIN_WORDS > width * WORDS {
             return None;
         }
-        let ink = ink(ui);
+        let palette = palette(ui);
         let caption = |(lane, [name, words]): (&LaneCloud, &[String; 2])| {
-            let (colour, _) = ink.style(lab.entries(), &lab.entries()[lane.entry]);
+            let (colour, _) = palette.style(lab.entries(), &lab.entries()[lane.entry]);
             let is_front = lane.entry == lab.active();
             let font = if is_front { strong_font(size) } else { FontId::proportional(size) };
             let mut job = LayoutJob::default();
@@ -215,7 +219,7 @@ impl<'p> Captions<'p> {
                 job.wrap.break_anywhere = true;
             }
             job.append(name, 0.0, TextFormat::simple(font.clone(), colour));
-            let colour = if is_front { ink.text } else { ink.dim };
+            let colour = if is_front { palette.text } else { palette.dim };
             job.append(words, 0.0, TextFormat::simple(font, colour));
             ui.painter().layout_job(job)
         };
@@ -262,7 +266,7 @@ fn side_by_side(
         let captions = captions.laid_out(ui, lab, width)?;
         let above = captions.iter().map(|words| words.size().y).fold(0.0, f32::max) + 3.0;
         let height = inner.height() / rows as f32 - above - GAP / 2.0;
-        let size = vec2(width.min(WIDEST * height), height);
+        let size = vec2(width.min(MAX_ASPECT * height), height);
         (size.min_elem() >= least).then_some((columns, size, captions, above))
     };
     let area = |size: Vec2| size.x * size.y;
@@ -279,7 +283,7 @@ fn side_by_side(
         let is_lowest = row + 1 == rows || place + columns >= lanes.len();
         let top = inner.top() + row as f32 * (size.y + above + GAP / 2.0);
         let corner = pos2(inner.left() + column as f32 * (size.x + GAP), top);
-        ui.painter().galley(corner, words, ink(ui).text);
+        ui.painter().galley(corner, words, palette(ui).text);
         let rect = Rect::from_min_size(corner + vec2(0.0, above), size);
         cloud(ui, lab, picture, lane, (rect, place), [column == 0, is_lowest], commands);
     }
@@ -288,7 +292,7 @@ fn side_by_side(
     let at = pos2(room.left(), room.bottom());
     let names = format!("across: {}; up: {}", names[0], names[1]);
     let small = FontId::proportional(11.5);
-    ui.painter().text(at, egui::Align2::LEFT_BOTTOM, names, small, ink(ui).dim);
+    ui.painter().text(at, egui::Align2::LEFT_BOTTOM, names, small, palette(ui).dim);
 }
 
 /// A cloud, with numbers at the left and below where it `has` them.
@@ -301,7 +305,7 @@ fn cloud(
     has: [bool; 2],
     commands: &mut Vec<Command>,
 ) {
-    let ink = ink(ui);
+    let palette = palette(ui);
     let px_per_point = ui.pixels_per_point();
     // On whole pixels, so that each texel is one.
     let whole = |at: f32| (at * px_per_point).round() / px_per_point;
@@ -314,8 +318,8 @@ fn cloud(
         pixels.div_ceil(pixels.div_ceil(MAX_TEXELS))
     };
     let size_px = [pixels(rect.width()), pixels(rect.height())];
-    let (colour, _) = ink.theme.lane_style(lab.entries(), &lab.entries()[lane.entry]);
-    let texture = image(ui, place, &lane.density, (size_px, ink.theme, colour));
+    let (colour, _) = palette.theme.lane_style(lab.entries(), &lab.entries()[lane.entry]);
+    let texture = image(ui, place, &lane.density, (size_px, palette.theme, colour));
     let all = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
     let view = picture.view;
     let area = PlotArea { rect, bounds: [view.q, view.v] };
@@ -333,11 +337,11 @@ fn cloud(
             .for_each(|(_, text)| text.clear());
         marks
     };
-    let axes = charts::axes(&area, [marks(0, 56.0), marks(1, UP_APART)], ink, f32::INFINITY);
+    let axes = charts::axes(&area, [marks(0, 56.0), marks(1, UP_APART)], palette, f32::INFINITY);
     charts::paint(ui.painter(), &axes);
     ui.painter().image(texture.id(), rect, all, Color32::WHITE);
     let mut over =
-        vec![Primitive::Clip(rect, vec![Primitive::Curves(outline(picture, rect, ink))])];
+        vec![Primitive::Clip(rect, vec![Primitive::Curves(outline(picture, rect, palette))])];
     let response = ui.interact(rect, ui.scope_id().with(("cloud", place)), Sense::click());
     if lab.mode() == Mode::Race && lane.entry == lab.active() {
         let rim = Stroke::new(1.6, Color32::from_rgb(colour[0], colour[1], colour[2]));
@@ -354,9 +358,9 @@ fn cloud(
 }
 
 /// The border of the exact cloud.
-fn outline(picture: &CloudPicture, rect: Rect, ink: &Ink) -> Vec<ScreenCurve> {
+fn outline(picture: &CloudPicture, rect: Rect, palette: &PanelPalette) -> Vec<ScreenCurve> {
     let area = PlotArea { rect, bounds: [[0.0, 1.0]; 2] };
-    let style = LineStyle::solid(ink.exact, OUTLINE);
+    let style = LineStyle::solid(palette.exact, OUTLINE);
     // An angle goes on at the other side, and what is between points far apart is not known.
     let longest = LONGEST_LINE as f32 * rect.size().max_elem();
     let goes_on = |a: &Pos2, b: &Pos2| a.distance(*b) <= longest;

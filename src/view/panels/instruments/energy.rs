@@ -1,11 +1,11 @@
 //! The energies of the selected lane and of the exact solution, and the energy that every lane has gained.
 
 use super::super::ranges;
-use super::super::roster::Roster;
+use super::super::series_styles::SeriesStyles;
 use super::super::tracks::Track;
 use super::error;
 use super::motion::healthy;
-use super::sheet::{ExactLine, PlotAxis, PlotModel, Sheet, over_time};
+use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, over_time};
 use crate::lab::past::Energies;
 use crate::lab::{Lab, METRICS};
 use crate::view::chart::AxisScale;
@@ -20,7 +20,7 @@ const PARTS: [Part; 3] = [
     ("total", [1.0, 0.0], 1.0, |energies| energies.total_j),
 ];
 
-pub(super) fn sheet(lab: &Lab) -> Sheet {
+pub(super) fn plot_set(lab: &Lab) -> PlotSet {
     let body = lab.view().body;
     let drift = METRICS.iter().position(|metric| metric.id == "energy_drift");
     let drift =
@@ -30,7 +30,7 @@ pub(super) fn sheet(lab: &Lab) -> Sheet {
     // Why there is no drift is said only where there is no energy either.
     let drift = drift.filter(|plot| plot.nothing.is_none() || !conserves);
     let plots = conserves.then_some(energies).into_iter().chain(drift).collect();
-    Sheet { roster: Roster::of(lab), title: "Energy".into(), plots }
+    PlotSet { styles: SeriesStyles::of(lab), title: "Energy".into(), plots }
 }
 
 fn energies(lab: &Lab, body: usize) -> PlotModel {

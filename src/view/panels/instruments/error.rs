@@ -1,9 +1,9 @@
 //! The chosen metric of the chosen body over time: an error, or a count.
 
 use super::super::ranges;
-use super::super::roster::Roster;
+use super::super::series_styles::SeriesStyles;
 use super::super::tracks::Track;
-use super::sheet::{PlotAxis, PlotModel, Sheet, over_time};
+use super::plot_set::{PlotAxis, PlotModel, PlotSet, over_time};
 use crate::lab::{Lab, METRICS, Metric, Scale, Unit};
 use crate::view::chart::{AxisScale, Dots};
 
@@ -16,12 +16,12 @@ pub(super) fn choices() -> impl Iterator<Item = usize> {
     (0..METRICS.len()).filter(|&place| METRICS[place].id != "energy_drift")
 }
 
-pub(super) fn sheet(lab: &Lab) -> Sheet {
+pub(super) fn plot_set(lab: &Lab) -> PlotSet {
     let (body, place) = (lab.view().body, lab.display().metric);
     let metric = &METRICS[place];
     let name = capitalised(&lab.scene().bodies[body].name);
-    Sheet {
-        roster: Roster::of(lab),
+    PlotSet {
+        styles: SeriesStyles::of(lab),
         title: capitalised(metric.name),
         plots: vec![plot(lab, body, place, name)],
     }

@@ -3,13 +3,13 @@
 use egui::{Align2, Pos2, Rect, pos2, vec2};
 
 use super::super::tracks::Detail;
-use super::super::{ink_of, loops};
+use super::super::{loops, palette_of};
 use super::layout::cells;
-use super::sheet::{PlotAxis, Sheet};
-use super::{chart, sheet_of};
+use super::plot_set::{PlotAxis, PlotSet};
+use super::{chart, plot_set_of};
 use crate::lab::{Instrument, Lab, csv_row};
 use crate::view::chart::{ABOVE, NAME, Primitive, Text, legend, svg};
-use crate::view::theme::Ink;
+use crate::view::theme::PanelPalette;
 
 /// The size of a drawing, in its own pixels, and the room round its plots.
 const SIZE: [f32; 2] = [960.0, 600.0];
@@ -23,8 +23,8 @@ pub(in crate::view) fn csv(lab: &Lab) -> Option<Vec<String>> {
         return Some(loops::csv(lab));
     }
     let mut lines = vec!["plot,quantity,unit,curve,t_s,value\n".to_owned()];
-    let sheet = sheet_of(lab, Detail::Samples)?;
-    for plot in &sheet.plots {
+    let set = plot_set_of(lab, Detail::Samples)?;
+    for plot in &set.plots {
         let mut add = |curve: &str, t: f64, at: [f64; 2]| {
             let values = plot.axes.iter().zip(at).skip(usize::from(plot.is_over_time()));
             for (axis, place) in values {
@@ -35,7 +35,7 @@ pub(in crate::view) fn csv(lab: &Lab) -> Option<Vec<String>> {
         };
         for track in &plot.tracks {
             for (t, entry, at) in track.places() {
-                let id = &sheet.roster.runners[entry].id;
+                let id = &set.styles.series[entry].id;
                 add(format!("{id} {}", track.part).trim_end(), t, at);
             }
         }
@@ -50,34 +50,40 @@ pub(in crate::view) fn csv(lab: &Lab) -> Option<Vec<String>> {
 
 /// The plots of the chosen instrument as an SVG file; `None` if it has none.
 pub(in crate::view) fn svg(lab: &Lab) -> Option<String> {
-    let ink = ink_of(lab.display().theme);
+    let palette = palette_of(lab.display().theme);
     let all = Rect::from_min_size(Pos2::ZERO, SIZE.into());
     let room = Rect::from_min_max(pos2(MARGIN, HEAD), all.max - vec2(MARGIN, MARGIN / 2.0));
     let (title, entries, plots) = if lab.display().instrument == Instrument::Loop {
-        let (title, entries, plots) = loops::layout(lab, room, ink)?;
+        let (title, entries, plots) = loops::layout(lab, room, palette)?;
         (title.to_owned(), entries, plots)
     } else {
-        let sheet = sheet_of(lab, Detail::Samples)?;
-        let plots = layout(lab, &sheet, room, all.right(), ink);
-        (sheet.title.clone(), super::legend_entries(&sheet), plots)
+        let set = plot_set_of(lab, Detail::Samples)?;
+        let plots = layout(lab, &set, room, all.right(), palette);
+        (set.title.clone(), super::legend_entries(&set), plots)
     };
     let head = format!("{}: {title}", lab.scene_name());
-    let head = Text::new(pos2(MARGIN, MARGIN + 2.0), Align2::LEFT_CENTER, head, 17.0, ink.text);
-    let mut drawing = vec![Primitive::Area(all, ink.background), head.into()];
-    drawing.extend(legend::layout(&entries, pos2(MARGIN, MARGIN + 26.0), ink));
+    let head = Text::new(pos2(MARGIN, MARGIN + 2.0), Align2::LEFT_CENTER, head, 17.0, palette.text);
+    let mut drawing = vec![Primitive::Area(all, palette.background), head.into()];
+    drawing.extend(legend::layout(&entries, pos2(MARGIN, MARGIN + 26.0), palette));
     drawing.extend(plots);
     Some(svg::file(SIZE, &drawing))
 }
 
-/// The plots of a sheet with their titles.
-fn layout(lab: &Lab, sheet: &Sheet, room: Rect, right: f32, ink: &Ink) -> Vec<Primitive> {
+/// The plots of a set with their titles.
+fn layout(
+    lab: &Lab,
+    set: &PlotSet,
+    room: Rect,
+    right: f32,
+    palette: &PanelPalette,
+) -> Vec<Primitive> {
     let mut all = Vec::new();
-    for cell in &cells(sheet, room, LEFT, lab.view().body) {
+    for cell in &cells(set, room, LEFT, lab.view().body) {
         let area = cell.area(&lab.view().plot_ranges);
         let room = (area.rect.width(), right);
-        all.extend(chart::layout(lab, &sheet.roster, (cell, &area), ink, room));
+        all.extend(chart::layout(lab, &set.styles, (cell, &area), palette, room));
         let title = pos2(area.rect.center().x, area.rect.top() - ABOVE / 2.0);
-        let title = Text::new(title, Align2::CENTER_CENTER, &*cell.plot.title, NAME, ink.text);
+        let title = Text::new(title, Align2::CENTER_CENTER, &*cell.plot.title, NAME, palette.text);
         all.push(title.into());
     }
     all
@@ -101,13 +107,13 @@ mod tests {
         for instrument in [Instrument::Motion, Instrument::Error, Instrument::Phase] {
             lab.apply(StageCommand::Instrument(instrument));
             let text = csv(&lab).unwrap().concat();
-            let sheet = sheet_of(&lab, Detail::Samples).unwrap();
-            let rows = |plot: &super::super::sheet::PlotModel| {
+            let set = plot_set_of(&lab, Detail::Samples).unwrap();
+            let rows = |plot: &super::super::plot_set::PlotModel| {
                 let lanes: usize = plot.tracks.iter().map(|track| track.places().count()).sum();
                 let exact: usize = plot.exact.iter().map(|line| line.times.len()).sum();
                 (lanes + exact) * if plot.is_over_time() { 1 } else { 2 }
             };
-            assert_eq!(text.lines().count(), 1 + sheet.plots.iter().map(rows).sum::<usize>());
+            assert_eq!(text.lines().count(), 1 + set.plots.iter().map(rows).sum::<usize>());
             assert!(text.lines().all(|line| line.split(',').count() == 6), "{instrument:?}");
         }
         lab.apply(StageCommand::Instrument(Instrument::Advice));

@@ -2,10 +2,10 @@
 
 use egui::{Align2, FontId, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
 
-use super::super::ink;
-use super::super::roster::Roster;
+use super::super::palette;
+use super::super::series_styles::SeriesStyles;
 use super::layout::Cell;
-use super::sheet::{PlotModel, Readout};
+use super::plot_set::{PlotModel, Readout};
 use crate::view::chart::{NAME, PlotArea};
 use crate::view::theme::strong_font;
 
@@ -33,25 +33,25 @@ pub(super) fn time_at(plot: &PlotModel, area: &PlotArea, at: Pos2) -> Option<f64
 /// time is written above the plot.
 pub(super) fn show(
     ui: &Ui,
-    roster: &Roster,
+    styles: &SeriesStyles,
     (cell, area): (&Cell<'_>, &PlotArea),
     t: Option<f64>,
     has_tag: bool,
 ) {
-    let (frame, now) = (area.rect, roster.now_s);
+    let (frame, now) = (area.rect, styles.now_s);
     let [from, to] = area.bounds[0];
     let is_over_time = cell.plot.is_over_time();
-    let readouts = cell.plot.readouts(roster, t.unwrap_or(now));
+    let readouts = cell.plot.readouts(styles, t.unwrap_or(now));
     let painter = ui.painter();
     if is_over_time && (from..to).contains(&now) {
         let x = area.at([now, 0.0]).x;
         let ends = [pos2(x, frame.top()), pos2(x, frame.bottom())];
-        let dim = Stroke::new(1.0, ink(ui).dim);
+        let dim = Stroke::new(1.0, palette(ui).dim);
         painter.extend(Shape::dashed_line(&ends, dim, 2.0, 3.0));
     }
     if let Some(t) = t {
         let inside = painter.with_clip_rect(frame.expand(DOT));
-        let line = Stroke::new(CROSSHAIR, ink(ui).accent);
+        let line = Stroke::new(CROSSHAIR, palette(ui).accent);
         if is_over_time {
             inside.vline(area.at([t, 0.0]).x, frame.y_range(), line);
         }
@@ -59,7 +59,7 @@ pub(super) fn show(
             let at = area.at(readout.at);
             if frame.contains(at) {
                 inside.circle_filled(at, DOT, readout.colour);
-                inside.circle_stroke(at, DOT, Stroke::new(1.0, ink(ui).plot));
+                inside.circle_stroke(at, DOT, Stroke::new(1.0, palette(ui).plot));
             }
         }
         if has_tag {
@@ -88,14 +88,14 @@ fn decimals(t: f64, wide: f64) -> String {
 
 /// The time at `x`, above the plot.
 fn time_tag(ui: &Ui, frame: Rect, x: f32, text: &str) {
-    let (painter, ink) = (ui.painter(), ink(ui));
-    let words = painter.layout_no_wrap(text.to_owned(), strong_font(NAME), ink.on_accent);
+    let (painter, palette) = (ui.painter(), palette(ui));
+    let words = painter.layout_no_wrap(text.to_owned(), strong_font(NAME), palette.on_accent);
     let size = words.size() + vec2(14.0, 5.0);
     let least = frame.left() + size.x / 2.0;
     let middle = x.clamp(least, (frame.right() - size.x / 2.0).max(least));
     let tag = Rect::from_center_size(pos2(middle, frame.top() - size.y / 2.0 - 1.0), size);
-    painter.rect_filled(tag, 4.0, ink.accent);
-    painter.galley(tag.min + vec2(7.0, 2.5), words, ink.on_accent);
+    painter.rect_filled(tag, 4.0, palette.accent);
+    painter.galley(tag.min + vec2(7.0, 2.5), words, palette.on_accent);
 }
 
 /// Writes the values beside the plot, in an order that stays: the exact solution, then the lanes by their numbers.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use egui::{Rect, pos2};
 
-use super::sheet::{PlotModel, Sheet};
+use super::plot_set::{PlotModel, PlotSet};
 use crate::view::chart::{ABOVE, Mark, NAMES, NUMBERS, PlotArea};
 
 /// The least distance between marks along and up, in points, as long as three fit.
@@ -46,14 +46,14 @@ impl Cell<'_> {
 }
 
 /// The plots that fit into `room`, that of `body` among them, with `left` points for the numbers of their axes.
-pub(super) fn cells(sheet: &Sheet, room: Rect, left: f32, body: usize) -> Vec<Cell<'_>> {
+pub(super) fn cells(set: &PlotSet, room: Rect, left: f32, body: usize) -> Vec<Cell<'_>> {
     let below = NUMBERS + NAMES;
     let height = (room.height() - below).max(1.0);
     let fit = ((height + GAP) / (ABOVE + MIN_HEIGHT + GAP)).floor().max(1.0) as usize;
-    let count = sheet.plots.len().min(fit);
-    let chosen = sheet.plots.iter().position(|plot| plot.body == body).unwrap_or(0);
-    let first = chosen.min(sheet.plots.len() - count);
-    let shown = &sheet.plots[first..first + count];
+    let count = set.plots.len().min(fit);
+    let chosen = set.plots.iter().position(|plot| plot.body == body).unwrap_or(0);
+    let first = chosen.min(set.plots.len() - count);
+    let shown = &set.plots[first..first + count];
     let weight = |plot: &PlotModel| if plot.body == body { CHOSEN } else { 1.0 };
     let weights: f32 = shown.iter().map(weight).sum();
     let spare = height - count as f32 * (ABOVE + MIN_HEIGHT) - (count - 1) as f32 * GAP;

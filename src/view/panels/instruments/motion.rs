@@ -1,10 +1,10 @@
 //! A quantity of every body over time, under all lanes and exactly.
 
 use super::super::ranges;
-use super::super::roster::Roster;
+use super::super::series_styles::SeriesStyles;
 use super::super::tracks::{Detail, Track};
 use super::error::capitalised;
-use super::sheet::{ExactLine, PlotAxis, PlotModel, Sheet, over_time};
+use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, over_time};
 use crate::lab::{Lab, Mode};
 use crate::view::chart::Dots;
 
@@ -13,11 +13,11 @@ use crate::view::chart::Dots;
 const HEALTHY: f64 = 1.6;
 const HEALTHY_ALONE: f64 = 4.0;
 
-pub(super) fn sheet(lab: &Lab, detail: Detail) -> Sheet {
+pub(super) fn plot_set(lab: &Lab, detail: Detail) -> PlotSet {
     let bodies = 0..lab.scene().bodies.len();
     let title = if bodies.len() > 1 { "Motion of every body" } else { "Motion" };
-    Sheet {
-        roster: Roster::of(lab),
+    PlotSet {
+        styles: SeriesStyles::of(lab),
         title: title.into(),
         plots: bodies.map(|body| plot(lab, body, detail)).collect(),
     }

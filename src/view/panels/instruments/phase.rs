@@ -1,18 +1,18 @@
 //! Velocity over coordinate, for the last turns of every lane and of the exact solution.
 
 use super::super::ranges;
-use super::super::roster::Roster;
+use super::super::series_styles::SeriesStyles;
 use super::super::tracks::Track;
 use super::error::capitalised;
 use super::motion::healthy;
-use super::sheet::{ExactLine, PlotAxis, PlotModel, Sheet};
+use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet};
 use crate::lab::Lab;
 use crate::view::chart::Dots;
 
 /// Samples in a phase portrait: a few turns, and each still to be told from the next.
 pub(super) const SAMPLES: usize = 360;
 
-pub(super) fn sheet(lab: &Lab) -> Sheet {
+pub(super) fn plot_set(lab: &Lab) -> PlotSet {
     let body = lab.view().body;
     let mut tracks = Track::of(lab, body, |s| [s.q, s.v]);
     tracks.iter_mut().for_each(|lane| lane.keep_latest(SAMPLES));
@@ -29,5 +29,5 @@ pub(super) fn sheet(lab: &Lab) -> Sheet {
     let axes = PlotAxis::of_phase(&coordinate);
     let plot = PlotModel::new(body, id, title, axes, [x.into(), y.into()]);
     let plot = PlotModel { tracks, dots: Dots::Sparse, exact: vec![exact], ..plot };
-    Sheet { roster: Roster::of(lab), title: "Phase portrait".into(), plots: vec![plot] }
+    PlotSet { styles: SeriesStyles::of(lab), title: "Phase portrait".into(), plots: vec![plot] }
 }

@@ -31,13 +31,13 @@ fn assert_legible(lab: &Lab, what: &str) {
     for card in INSTRUMENTS {
         assert!(place(card.name).is_some(), "{what}: no tab {}", card.name);
     }
-    let Some(sheet) = sheet_of(lab, Detail::Samples) else {
+    let Some(set) = plot_set_of(lab, Detail::Samples) else {
         let words = here.iter().filter(|(_, text)| text.len() > 10).count();
         assert!(words > 3, "{what}: {here:?}");
         return;
     };
     let numbers: Vec<_> = here.iter().filter(|(_, text)| is_number(text)).collect();
-    for plot in &sheet.plots {
+    for plot in &set.plots {
         if let Some(why) = &plot.nothing {
             assert!(place(why).is_some(), "{what}: {why}");
             assert!(why == NO_ERROR || METRICS.iter().any(|metric| metric.absent == why));
@@ -47,7 +47,7 @@ fn assert_legible(lab: &Lab, what: &str) {
         let up = place(&plot.axes[1].name()).unwrap_or_else(|| panic!("{what}: {here:?}"));
         assert!(!title.intersects(*up), "{what}: {} and {}", plot.title, plot.axes[1].name());
         let below = |top: f32| {
-            let others = sheet.plots.iter().filter_map(|plot| place(&plot.title));
+            let others = set.plots.iter().filter_map(|plot| place(&plot.title));
             let tops = others.map(|rect| rect.top()).filter(move |&other| other > top);
             tops.fold(f32::INFINITY, f32::min)
         };
@@ -58,7 +58,7 @@ fn assert_legible(lab: &Lab, what: &str) {
         let marks: Vec<&str> = marks.map(|(_, text)| &**text).collect();
         assert!(marks.len() >= 3, "{what}, {}: {marks:?}", plot.title);
     }
-    if let Some(plot) = sheet.plots.iter().find(|plot| plot.nothing.is_none()) {
+    if let Some(plot) = set.plots.iter().find(|plot| plot.nothing.is_none()) {
         let along = place(&plot.axes[0].name()).unwrap_or_else(|| panic!("{what}: {here:?}"));
         let row = along.top() - 20.0..along.top();
         let marks = numbers.iter().filter(|(rect, _)| row.contains(&rect.center().y)).count();
@@ -143,9 +143,9 @@ impl Person {
 
     /// Shows a frame after these events. Returns every text in it and what was asked for.
     fn frame(&mut self, lab: &Lab, events: Vec<Event>) -> (Vec<String>, Vec<Command>) {
-        let sheet = sheet_of(lab, Detail::Samples).unwrap();
+        let set = plot_set_of(lab, Detail::Samples).unwrap();
         let mut commands = Vec::new();
-        let (_, shown) = self.0.show(events, |ui| chart::show(ui, lab, &sheet, &mut commands));
+        let (_, shown) = self.0.show(events, |ui| chart::show(ui, lab, &set, &mut commands));
         (shown.whole().into_iter().map(|(_, text)| text).collect(), commands)
     }
 
@@ -225,12 +225,12 @@ fn a_wheel_zooms_a_drag_pans_and_a_double_click_fits() {
 #[test]
 fn a_click_on_a_curve_selects_its_lane() {
     let (lab, mut person) = (race_of_springs(), Person::new());
-    let sheet = sheet_of(&lab, Detail::Samples).unwrap();
+    let set = plot_set_of(&lab, Detail::Samples).unwrap();
     let room = Rect::from_min_size(Pos2::ZERO, FRAME);
-    let cell = &layout::cells(&sheet, room, 40.0, 0)[0];
+    let cell = &layout::cells(&set, room, 40.0, 0)[0];
     // Explicit Euler swings wider than all others.
     let widest = 0;
-    let track = sheet.plots[0].tracks.iter().find(|track| track.entry == widest).unwrap();
+    let track = set.plots[0].tracks.iter().find(|track| track.entry == widest).unwrap();
     let (_, _, at) = track.places().find(|(t, _, [_, y])| *t > 0.9 && *y > 1.2).unwrap();
     let at = PlotArea { rect: cell.frame, bounds: cell.plot.fit }.at(at);
     let is_pick = |command: &Command| *command == Command::Stage(StageCommand::Pick(widest));
@@ -248,21 +248,21 @@ fn after_a_placement_the_axis_fits_the_new_swing_and_the_exact_line_is_broken() 
     };
     lab.apply(place(8.0));
     (0..300).for_each(|_| lab.tick());
-    let top = |lab: &Lab| sheet_of(lab, Detail::Samples).unwrap().plots[0].fit[1][1];
+    let top = |lab: &Lab| plot_set_of(lab, Detail::Samples).unwrap().plots[0].fit[1][1];
     assert!((8.0..12.0).contains(&top(&lab)), "{}", top(&lab));
     lab.apply(place(0.5));
     (0..10).for_each(|_| lab.tick());
     assert!(top(&lab) > 8.0, "the new swing has only begun");
     (0..120).for_each(|_| lab.tick());
     assert!((0.5..1.0).contains(&top(&lab)), "{}", top(&lab));
-    let sheet = sheet_of(&lab, Detail::Samples).unwrap();
-    let plot = &sheet.plots[0];
-    let pieces = plot.drawing(&lab, &sheet.roster, &plot.fit, 400.0).truth;
+    let set = plot_set_of(&lab, Detail::Samples).unwrap();
+    let plot = &set.plots[0];
+    let pieces = plot.drawing(&lab, &set.styles, &plot.fit, 400.0).truth;
     let starts: Vec<[f64; 2]> = pieces.iter().map(|curve| curve.points[0]).collect();
     assert_eq!(starts, [[0.0, 1.0], [2.0, 8.0], [7.0, 0.5]]);
     // Where the exact line is out of view, arrows say so.
-    let white = sheet.roster.exact_colour;
-    let arrows = plot.drawing(&lab, &sheet.roster, &plot.fit, 400.0).arrows;
+    let white = set.styles.exact_colour;
+    let arrows = plot.drawing(&lab, &set.styles, &plot.fit, 400.0).arrows;
     assert!(arrows.iter().any(|arrow| arrow.colour == white && arrow.from[0] < 7.0));
     // A parameter that is changed begins a new swing too, without a jump.
     lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value: 4.0 }));

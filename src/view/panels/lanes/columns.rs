@@ -3,7 +3,7 @@
 use super::row::{self, Row};
 use crate::lab::number::{round, significant};
 use crate::lab::{Lab, Mode};
-use crate::view::panels::ink;
+use crate::view::panels::palette;
 use crate::view::panels::table::{Column, SortKey, show_key, show_line, show_words};
 
 /// The least width of the verdict, in points, and the one that it keeps beside columns of what the stage or an instrument
@@ -50,7 +50,7 @@ fn marks<'a>() -> Vec<Column<Row<'a>>> {
         26.0,
         about,
         |ui, row: &Row<'a>, rect, _| {
-            let colour = if row.is_selected { ink(ui).accent } else { row.text(ui) };
+            let colour = if row.is_selected { palette(ui).accent } else { row.text(ui) };
             if row.is_first {
                 show_key(ui, rect, row.entry, colour);
             }
@@ -62,7 +62,7 @@ fn marks<'a>() -> Vec<Column<Row<'a>>> {
         36.0,
         "the line of this method in the plots and on the stage",
         |ui, row: &Row<'a>, rect, _| {
-            let (strong, dash) = ink(ui).style(row.lab.entries(), row.spec);
+            let (strong, dash) = palette(ui).style(row.lab.entries(), row.spec);
             let colour = if row.flown.is_some() { strong } else { strong.gamma_multiply(0.7) };
             if row.is_first {
                 show_line(ui, rect, dash, colour);

@@ -5,7 +5,7 @@ use egui::{Color32, Ui};
 use super::verdict;
 use crate::lab::number::significant;
 use crate::lab::{ChaseFinding, Entrant, Lab, LaneBody, LaneSpec, METRICS, Mode};
-use crate::view::panels::ink;
+use crate::view::panels::palette;
 use crate::view::panels::verdict::VerdictText;
 
 /// A method, or a body of the lane that is flown solo.
@@ -70,7 +70,7 @@ impl<'a> Row<'a> {
 
     /// The colour of its words.
     pub(super) fn text(&self, ui: &Ui) -> Color32 {
-        if self.flown.is_some() { ink(ui).text } else { ink(ui).dim }
+        if self.flown.is_some() { palette(ui).text } else { palette(ui).dim }
     }
 
     /// The body of the row, or else the one that the verdict is about.

@@ -4,7 +4,7 @@ use super::row::Row;
 use crate::lab::number::round;
 use crate::lab::pacing::PACING_METRICS;
 use crate::lab::{LoopLab, Unit};
-use crate::view::panels::ink;
+use crate::view::panels::palette;
 use crate::view::panels::table::{Column, SortKey, TableRow, show_key, show_line, show_words};
 
 /// The least width of the verdict, in points.
@@ -33,7 +33,7 @@ pub(super) fn of<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
         26.0,
         about,
         |ui, row: &Row<'a>, rect, _| {
-            let colour = if row.is_selected() { ink(ui).accent } else { row.text(ui) };
+            let colour = if row.is_selected() { palette(ui).accent } else { row.text(ui) };
             show_key(ui, rect, row.place, colour);
         },
         place,
@@ -50,7 +50,7 @@ pub(super) fn of<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
         36.0,
         "the line of this loop in the plots and on the stage",
         |ui, row: &Row<'a>, rect, _| {
-            let (strong, dash) = row.style(ink(ui));
+            let (strong, dash) = row.style(palette(ui));
             let inked = if row.is_on_stage { strong } else { strong.gamma_multiply(0.7) };
             show_line(ui, rect, dash, inked);
         },

@@ -6,7 +6,7 @@ use crate::lab::loop_lab::SLOWNESS;
 use crate::lab::number::round;
 use crate::lab::pacing::TRACES;
 use crate::lab::{Command, LoopCommand, LoopLab};
-use crate::view::panels::ink;
+use crate::view::panels::palette;
 
 /// From this width of the window on, in points, the top bar has the menu of traces; else the instrument has it.
 const ROOM_FOR_TRACES: f32 = 1180.0;
@@ -106,7 +106,7 @@ pub(in crate::view::panels) fn moment(loops: &LoopLab, is_wide: bool) -> String 
 /// The display that is simulated.
 pub(in crate::view::panels) fn display(ui: &mut Ui, loops: &LoopLab) {
     let hz = round(loops.traces()[loops.trace()].refresh().hz(), 4);
-    let text = RichText::new(format!("{hz} Hz display, simulated")).color(ink(ui).dim);
+    let text = RichText::new(format!("{hz} Hz display, simulated")).color(palette(ui).dim);
     ui.label(text).on_hover_text("nothing here depends on the display of this computer");
 }
 

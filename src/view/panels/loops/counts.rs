@@ -5,8 +5,8 @@ use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 use super::ShownLane;
 use crate::lab::number::round;
 use crate::view::chart::{self, AxisScale, PlotArea, Primitive, Text};
-use crate::view::panels::ink;
-use crate::view::theme::Ink;
+use crate::view::panels::palette;
+use crate::view::theme::PanelPalette;
 
 /// What a frame can have: the last is that or more.
 const NAMES: [&str; 4] = ["0", "1", "2", "3+"];
@@ -74,12 +74,12 @@ fn in_words(series: &[Series]) -> String {
 pub(super) fn show(ui: &Ui, room: Rect, series: &[Series]) {
     let bars = ui.interact(room, ui.scope_id().with("ticks per frame"), egui::Sense::hover());
     bars.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, in_words(series)));
-    chart::paint(&ui.painter_at(room), &layout(room, series, ink(ui)));
+    chart::paint(&ui.painter_at(room), &layout(room, series, palette(ui)));
 }
 
 /// The chart of the shares in a room.
-pub(super) fn layout(room: Rect, series: &[Series], ink: &Ink) -> Vec<Primitive> {
-    let title = Text::new(room.left_top(), Align2::LEFT_TOP, "Ticks per frame", 13.0, ink.text);
+pub(super) fn layout(room: Rect, series: &[Series], palette: &PanelPalette) -> Vec<Primitive> {
+    let title = Text::new(room.left_top(), Align2::LEFT_TOP, "Ticks per frame", 13.0, palette.text);
     let mut all = vec![title.strong().into()];
     let rect = Rect::from_min_max(room.min + vec2(LEFT, TITLE), room.max - vec2(2.0, BELOW + NAME));
     if !rect.is_positive() || rect.height() < 2.0 * ABOVE {
@@ -88,10 +88,10 @@ pub(super) fn layout(room: Rect, series: &[Series], ink: &Ink) -> Vec<Primitive>
     let highest = series.iter().flat_map(|series| series.shares_percent).fold(0.0, f64::max);
     let top = highest.max(10.0) * f64::from(rect.height() / (rect.height() - ABOVE));
     let area = PlotArea { rect, bounds: [[-0.5, 3.5], [0.0, top]] };
-    all.push(Primitive::Area(rect, ink.plot));
+    all.push(Primitive::Area(rect, palette.plot));
     let marks = area.marks(1, AxisScale::Linear, 24.0).into_iter();
     let marks: Vec<_> = marks.map(|(value, text)| (value, format!("{text} %"))).collect();
-    all.extend(chart::axes(&area, [Vec::new(), marks], ink, room.right()));
+    all.extend(chart::axes(&area, [Vec::new(), marks], palette, room.right()));
     let group = rect.width() / NAMES.len() as f32;
     let width = group * BARS / series.len().max(1) as f32;
     let has_room = width >= ROOM_FOR_NUMBER;
@@ -100,7 +100,7 @@ pub(super) fn layout(room: Rect, series: &[Series], ink: &Ink) -> Vec<Primitive>
     for (count, name) in NAMES.iter().enumerate() {
         let middle = rect.left() + group * (count as f32 + 0.5);
         let at = pos2(middle, rect.bottom() + 3.0);
-        all.push(Text::new(at, Align2::CENTER_TOP, *name, 11.0, ink.dim).into());
+        all.push(Text::new(at, Align2::CENTER_TOP, *name, 11.0, palette.dim).into());
         let mut numbers = Vec::new();
         for (i, series) in series.iter().enumerate() {
             let share = series.shares_percent[count];
@@ -119,7 +119,7 @@ pub(super) fn layout(room: Rect, series: &[Series], ink: &Ink) -> Vec<Primitive>
         }
         all.append(&mut numbers);
     }
-    let [name, _] = chart::names(&area, room.left(), ["ticks in a frame", ""], ink);
+    let [name, _] = chart::names(&area, room.left(), ["ticks in a frame", ""], palette);
     all.push(name.into());
     all
 }

@@ -7,8 +7,8 @@ use super::counts::{BELOW, LEFT, NAME, TITLE};
 use crate::lab::LoopLab;
 use crate::lab::number::round;
 use crate::view::chart::{self, AxisScale, PlotArea, Primitive, Text};
-use crate::view::panels::ink;
-use crate::view::theme::Ink;
+use crate::view::panels::palette;
+use crate::view::theme::PanelPalette;
 
 /// The number of frames shown.
 const FRAMES: usize = 24;
@@ -44,7 +44,7 @@ pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]
     let largest = round(largest_ms(loops, lanes), 3);
     let told = format!("Animation error of the last {FRAMES} frames: {largest} ms at most");
     bars.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &told));
-    chart::paint(&ui.painter_at(room), &layout(room, loops, lanes, ink(ui)));
+    chart::paint(&ui.painter_at(room), &layout(room, loops, lanes, palette(ui)));
 }
 
 /// The chart of the errors in a room.
@@ -52,13 +52,13 @@ pub(super) fn layout(
     room: Rect,
     loops: &LoopLab,
     lanes: &[ShownLane<'_>],
-    ink: &Ink,
+    palette: &PanelPalette,
 ) -> Vec<Primitive> {
     let [title, name] = match room.width() > 165.0 {
         true => ["Animation error by frame", "ms, by frame from now"],
         false => ["Animation error", "ms, by frame"],
     };
-    let title = Text::new(room.left_top(), Align2::LEFT_TOP, title, 13.0, ink.text);
+    let title = Text::new(room.left_top(), Align2::LEFT_TOP, title, 13.0, palette.text);
     let mut all = vec![title.strong().into()];
     let rect = Rect::from_min_max(room.min + vec2(LEFT, TITLE), room.max - vec2(6.0, BELOW + NAME));
     if !rect.is_positive() || rect.height() < 20.0 {
@@ -66,10 +66,10 @@ pub(super) fn layout(
     }
     let reach = round_up((1.1 * largest_ms(loops, lanes)).max(MIN_MS));
     let area = PlotArea { rect, bounds: [[-(FRAMES as f64), 0.0], [-reach, reach]] };
-    all.push(Primitive::Area(rect, ink.plot));
+    all.push(Primitive::Area(rect, palette.plot));
     let along = [0.0, 8.0, 16.0].map(|back| (-back - 0.5, round(-back, 3))).into();
     let up = area.marks(1, AxisScale::Linear, 24.0);
-    all.extend(chart::axes(&area, [along, up], ink, room.right()));
+    all.extend(chart::axes(&area, [along, up], palette, room.right()));
     let frame = rect.width() / FRAMES as f32;
     let width = frame * BARS / lanes.len().max(1) as f32;
     let zero = area.height(0.0);
@@ -85,7 +85,7 @@ pub(super) fn layout(
             all.push(Primitive::Area(bar, lane.colour));
         }
     }
-    let [name, _] = chart::names(&area, room.left(), [name, ""], ink);
+    let [name, _] = chart::names(&area, room.left(), [name, ""], palette);
     all.push(name.into());
     all
 }

@@ -7,8 +7,8 @@ use super::counts::{self, LEFT, Series};
 use super::errors::round_up;
 use crate::lab::{Lab, LiveFrame, Unit};
 use crate::view::chart::{self, Arrow, AxisScale, Curve, Drawing, LineStyle, PlotArea, Primitive};
-use crate::view::panels::{ink, strong_font};
-use crate::view::theme::{Ink, colour};
+use crate::view::panels::{palette, strong_font};
+use crate::view::theme::{PanelPalette, colour};
 
 pub(super) const TITLE: &str = "This window's own loop";
 /// The length of the plot in seconds.
@@ -49,8 +49,8 @@ impl Summary {
 }
 
 /// The colour of the window's own loop.
-fn own_colour(ink: &Ink) -> Color32 {
-    colour(ink.theme.evaluation(1))
+fn own_colour(palette: &PanelPalette) -> Color32 {
+    colour(palette.theme.evaluation(1))
 }
 
 fn time_ms(frame: &LiveFrame) -> f64 {
@@ -60,11 +60,11 @@ fn time_ms(frame: &LiveFrame) -> f64 {
 pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
     let top = ui.cursor().top();
     let frames = lab.viewer().live.frames();
-    ui.label(RichText::new(TITLE).font(strong_font(15.0)).color(ink(ui).text));
+    ui.label(RichText::new(TITLE).font(strong_font(15.0)).color(palette(ui).text));
     let Some(summary) = Summary::of(frames) else {
         let words = "No frame yet: run it with Space, and its frames show here. \
                      L opens the loop lab, where one motion runs in many loops.";
-        ui.add(Label::new(RichText::new(words).color(ink(ui).dim)).wrap());
+        ui.add(Label::new(RichText::new(words).color(palette(ui).dim)).wrap());
         return;
     };
     let Summary { mean_ms, usual_ms, worst_ms, dropped, error_rms_ms } = summary;
@@ -77,8 +77,8 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
         many => format!("{many} ticks dropped."),
     };
     let error = format!("{lost} Animation error {} RMS.", shown(error_rms_ms, Unit::Milliseconds));
-    ui.add(Label::new(RichText::new(times).color(ink(ui).dim)).wrap());
-    let error = ui.add(Label::new(RichText::new(error).color(ink(ui).dim)).wrap());
+    ui.add(Label::new(RichText::new(times).color(palette(ui).dim)).wrap());
+    let error = ui.add(Label::new(RichText::new(error).color(palette(ui).dim)).wrap());
     error.on_hover_text(
         "change of the moment shown minus change of real time; a frame counts as displayed when it begins",
     );
@@ -88,18 +88,20 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
         egui::WidgetInfo::labeled(egui::Role::Image, true, "frame times of this window")
     });
     let (upper, below) = parts(room);
-    chart::paint(&ui.painter_at(upper), &frame_times(lab, upper, &summary, ink(ui)));
+    chart::paint(&ui.painter_at(upper), &frame_times(lab, upper, &summary, palette(ui)));
     if let Some(below) = below {
-        counts::show(ui, below, &[series(lab, ink(ui))]);
+        counts::show(ui, below, &[series(lab, palette(ui))]);
     }
 }
 
 /// The charts in a room, to be saved; `None` before the first frame.
-pub(super) fn layout(lab: &Lab, room: Rect, ink: &Ink) -> Option<Vec<Primitive>> {
+pub(super) fn layout(lab: &Lab, room: Rect, palette: &PanelPalette) -> Option<Vec<Primitive>> {
     let summary = Summary::of(lab.viewer().live.frames())?;
     let (upper, below) = parts(room);
-    let mut all = frame_times(lab, upper, &summary, ink);
-    all.extend(below.into_iter().flat_map(|below| counts::layout(below, &[series(lab, ink)], ink)));
+    let mut all = frame_times(lab, upper, &summary, palette);
+    all.extend(
+        below.into_iter().flat_map(|below| counts::layout(below, &[series(lab, palette)], palette)),
+    );
     Some(all)
 }
 
@@ -112,12 +114,12 @@ fn parts(room: Rect) -> (Rect, Option<Rect>) {
     (upper, Some(below.with_min_y(below.top() + 6.0)))
 }
 
-fn series(lab: &Lab, ink: &Ink) -> Series {
-    Series::new(own_colour(ink), lab.viewer().live.frames().map(|frame| frame.ticks))
+fn series(lab: &Lab, palette: &PanelPalette) -> Series {
+    Series::new(own_colour(palette), lab.viewer().live.frames().map(|frame| frame.ticks))
 }
 
 /// The chart of the frame times against real time up to the last frame, in a room.
-fn frame_times(lab: &Lab, room: Rect, summary: &Summary, ink: &Ink) -> Vec<Primitive> {
+fn frame_times(lab: &Lab, room: Rect, summary: &Summary, palette: &PanelPalette) -> Vec<Primitive> {
     let rect = chart::inside(room, LEFT, 6.0);
     if !rect.is_positive() {
         return Vec::new();
@@ -125,7 +127,7 @@ fn frame_times(lab: &Lab, room: Rect, summary: &Summary, ink: &Ink) -> Vec<Primi
     let reach = round_up((REACH * summary.usual_ms).max(1.0));
     let area = PlotArea { rect, bounds: [[-LENGTH_S, 0.0], [0.0, reach]] };
     let marks = [0, 1].map(|axis| area.marks(axis, AxisScale::Linear, [56.0, 24.0][axis]));
-    let mut all = vec![Primitive::Area(rect, ink.plot)];
+    let mut all = vec![Primitive::Area(rect, palette.plot)];
     let times_ms = lab.viewer().live.frames().map(time_ms);
     let mut ago_s = times_ms.clone().sum::<f64>() / 1000.0;
     let moment = |time_ms: f64| {
@@ -134,16 +136,16 @@ fn frame_times(lab: &Lab, room: Rect, summary: &Summary, ink: &Ink) -> Vec<Primi
     };
     let points: Vec<[f64; 2]> = times_ms.map(moment).collect();
     let beyond = points.iter().filter(|[at_s, time_ms]| *at_s >= -LENGTH_S && *time_ms > reach);
-    let arrows = beyond.map(|&at| Arrow { from: at, to: at, colour: ink.warn }).collect();
-    let mean = LineStyle { dash: [6.0, 4.0], ..LineStyle::solid(ink.accent, 1.0) };
+    let arrows = beyond.map(|&at| Arrow { from: at, to: at, colour: palette.warn }).collect();
+    let mean = LineStyle { dash: [6.0, 4.0], ..LineStyle::solid(palette.accent, 1.0) };
     let curves = vec![
-        Curve::new(LineStyle::solid(own_colour(ink), 1.2), points),
+        Curve::new(LineStyle::solid(own_colour(palette), 1.2), points),
         Curve::new(mean, [-LENGTH_S, 0.0].map(|at_s| [at_s, summary.mean_ms]).into()),
     ];
     let drawing = Drawing { curves, arrows, ..Drawing::default() };
-    all.extend(chart::plot(&area, marks, &drawing, ink, room.right()));
+    all.extend(chart::plot(&area, marks, &drawing, palette, room.right()));
     let names = ["real time, s from the last frame", "frame time, ms"];
-    all.extend(chart::names(&area, rect.left(), names, ink).map(Into::into));
+    all.extend(chart::names(&area, rect.left(), names, palette).map(Into::into));
     all
 }
 

@@ -12,13 +12,13 @@ use crate::lab::number::round;
 use crate::view::chart::{
     self, AxisScale, LineStyle, NUMBER, PlotArea, Primitive, ScreenCurve, Text,
 };
-use crate::view::panels::{ink, strong_font};
-use crate::view::theme::Ink;
+use crate::view::panels::{palette, strong_font};
+use crate::view::theme::PanelPalette;
 
 /// The number of the display's frames that are shown.
 const FRAMES: f64 = 12.0;
 /// Where a lane is further off, in lengths of the plot, it is off the plot.
-const FURTHEST: f64 = 1.0;
+const MAX_OFF: f64 = 1.0;
 /// The range ends at multiples of this, in milliseconds, so that it seldom changes.
 const RANGE_STEP_MS: f64 = 20.0;
 /// Room for the names of the axes and the numbers at the left, in points.
@@ -45,14 +45,14 @@ fn frames<'a>(loops: &LoopLab, lane: &'a LoopLane) -> &'a [LoopFrame] {
 pub(super) fn off_the_plot(loops: &LoopLab, lane: &LoopLane) -> Option<String> {
     let frame = &lane.frames()[lane.frame_at(loops.now_ns())?];
     let late_ms = loops.late_ms(frame);
-    let is_off = late_ms.abs() > FURTHEST * length_ms(loops);
+    let is_off = late_ms.abs() > MAX_OFF * length_ms(loops);
     let side = if late_ms > 0.0 { "behind" } else { "ahead" };
     is_off.then(|| format!("{} s {side}", round(late_ms.abs() / 1000.0, 2)))
 }
 
 /// The range of moments shown, in milliseconds from now, for frames that are so late.
 fn range_ms(length_ms: f64, late_ms: impl Iterator<Item = f64>) -> [f64; 2] {
-    let on_plot = late_ms.filter(|late| late.abs() <= FURTHEST * length_ms);
+    let on_plot = late_ms.filter(|late| late.abs() <= MAX_OFF * length_ms);
     let [behind, ahead] = on_plot
         .fold([0.0; 2], |[behind, ahead]: [f64; 2], late| [behind.max(late), ahead.max(-late)]);
     // Rounding is no reason for more room.
@@ -64,9 +64,9 @@ fn range_ms(length_ms: f64, late_ms: impl Iterator<Item = f64>) -> [f64; 2] {
 pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]) {
     let Some(area) = area(room, loops, lanes) else { return };
     let painter = ui.painter_at(room.expand(1.0));
-    chart::paint(&painter, &layout(room, &area, loops, lanes, ink(ui)));
+    chart::paint(&painter, &layout(room, &area, loops, lanes, palette(ui)));
     let response = ui.interact(room, ui.scope_id().with("moments"), Sense::hover());
-    hover(&painter, loops, lanes, &area, response, ink(ui));
+    hover(&painter, loops, lanes, &area, response, palette(ui));
 }
 
 /// Where the moments are in a room; `None` if there is none for them.
@@ -85,28 +85,28 @@ pub(super) fn layout(
     area: &PlotArea,
     loops: &LoopLab,
     lanes: &[ShownLane<'_>],
-    ink: &Ink,
+    palette: &PanelPalette,
 ) -> Vec<Primitive> {
     let rect = area.rect;
-    let mut all = vec![Primitive::Area(rect, ink.plot)];
+    let mut all = vec![Primitive::Area(rect, palette.plot)];
     let numbers = [0, 1].map(|axis| area.marks(axis, AxisScale::Linear, [56.0, 26.0][axis]));
-    all.extend(chart::axes(area, numbers, ink, room.right()));
+    all.extend(chart::axes(area, numbers, palette, room.right()));
     // The name of an axis, and behind it what the marks along it are.
     let name = |at: Pos2, anchor: Align2, name: &str, marks: (String, Color32)| Text {
         tail: Some(marks),
-        ..Text::new(at, anchor, name, NUMBER, ink.dim)
+        ..Text::new(at, anchor, name, NUMBER, palette.dim)
     };
-    let ticks = (format!("{} Hz ticks", loops.scene().tick_hz), ink.accent);
+    let ticks = (format!("{} Hz ticks", loops.scene().tick_hz), palette.accent);
     let above = pos2(rect.left(), room.top());
     all.push(name(above, Align2::LEFT_TOP, "moment shown, ms from now", ticks).into());
     let hz = round(loops.traces()[loops.trace()].refresh().hz(), 4);
-    let frames = (format!("{hz} Hz frames"), ink.text);
+    let frames = (format!("{hz} Hz frames"), palette.text);
     let below = pos2(rect.center().x, room.bottom());
     let along = name(below, Align2::CENTER_BOTTOM, "displayed, ms from now", frames);
     all.push(Text { right: rect.right(), ..along }.into());
-    all.extend(marks(loops, area, ink));
+    all.extend(marks(loops, area, palette));
     let ideal = [area.bounds[0][0], 0.0].map(|at_ms| area.at([at_ms; 2]));
-    let mut inside = vec![Primitive::Line(ideal, Stroke::new(1.4, ink.exact))];
+    let mut inside = vec![Primitive::Line(ideal, Stroke::new(1.4, palette.exact))];
     // The selected lane in front.
     let (front, others): (Vec<_>, Vec<_>) =
         lanes.iter().enumerate().partition(|(_, lane)| lane.is_selected);
@@ -145,7 +145,7 @@ fn staircase(
 }
 
 /// Marks of the fixed ticks along the top and of the frames along the bottom.
-fn marks(loops: &LoopLab, area: &PlotArea, ink: &Ink) -> Vec<Primitive> {
+fn marks(loops: &LoopLab, area: &PlotArea, palette: &PanelPalette) -> Vec<Primitive> {
     let (rect, now_ms) = (area.rect, loops.now_ns() as f64 / 1e6);
     let mark = |at_ms: f64, [from, to]: [f32; 2], stroke: (f32, Color32)| {
         let x = area.at([at_ms - now_ms, 0.0]).x;
@@ -155,12 +155,12 @@ fn marks(loops: &LoopLab, area: &PlotArea, ink: &Ink) -> Vec<Primitive> {
     let first = ((now_ms + area.bounds[0][0]).max(0.0) / tick_ms).ceil() as u64;
     let ticks = (first..).map(|tick| tick as f64 * tick_ms).take_while(|at_ms| *at_ms <= now_ms);
     let top = [rect.top(), rect.top() + MARK];
-    let ticks = ticks.map(|at_ms| mark(at_ms, top, (1.6, ink.accent)));
+    let ticks = ticks.map(|at_ms| mark(at_ms, top, (1.6, palette.accent)));
     let shown = frames(loops, &loops.lanes()[loops.selected()]).iter();
     let shown = shown.map(|frame| frame.displayed_ns as f64 / 1e6);
     let in_view = shown.filter(|at_ms| at_ms - now_ms >= area.bounds[0][0]);
     let bottom = [rect.bottom() - MARK, rect.bottom()];
-    ticks.chain(in_view.map(|at_ms| mark(at_ms, bottom, (1.2, ink.text)))).collect()
+    ticks.chain(in_view.map(|at_ms| mark(at_ms, bottom, (1.2, palette.text)))).collect()
 }
 
 /// A line under the pointer, and what each lane shows there.
@@ -170,7 +170,7 @@ fn hover(
     lanes: &[ShownLane<'_>],
     area: &PlotArea,
     response: Response,
-    ink: &'static Ink,
+    palette: &'static PanelPalette,
 ) {
     response.widget_info(|| {
         egui::WidgetInfo::labeled(
@@ -180,7 +180,7 @@ fn hover(
         )
     });
     let Some(pointer) = response.hover_pos().filter(|at| area.rect.contains(*at)) else { return };
-    painter.vline(pointer.x, area.rect.y_range(), Stroke::new(1.0, ink.accent));
+    painter.vline(pointer.x, area.rect.y_range(), Stroke::new(1.0, palette.accent));
     let at_ns = loops.now_ns() + (area.point(pointer)[0] * 1e6) as i64;
     response.on_hover_ui_at_pointer(|ui| {
         let when = format!("At {:.1} ms the display shows", at_ns as f64 / 1e6);

@@ -6,8 +6,8 @@ use crate::lab::loop_lab::LoopLane;
 use crate::lab::{Command, LoopCommand, LoopLab, Severity};
 use crate::view::panels::table::TableRow;
 use crate::view::panels::verdict::{Sign, VerdictText};
-use crate::view::panels::{ink, strong_font};
-use crate::view::theme::{Ink, TYPE, colour};
+use crate::view::panels::{palette, strong_font};
+use crate::view::theme::{PanelPalette, TYPE, colour};
 
 /// A loop as a row.
 pub(super) struct Row<'a> {
@@ -36,12 +36,12 @@ impl<'a> Row<'a> {
 
     /// The colour of its words.
     pub(super) fn text(&self, ui: &Ui) -> Color32 {
-        self.colours(ink(ui))[1]
+        self.colours(palette(ui))[1]
     }
 
     /// Its colour and dash in the plots.
-    pub(super) fn style(&self, ink: &Ink) -> (Color32, [f32; 2]) {
-        let (rgba, dash) = ink.theme.loop_style(self.place);
+    pub(super) fn style(&self, palette: &PanelPalette) -> (Color32, [f32; 2]) {
+        let (rgba, dash) = palette.theme.loop_style(self.place);
         (colour(rgba), dash)
     }
 
@@ -55,9 +55,9 @@ impl<'a> Row<'a> {
             .widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, is_on, &name));
         let is_lit = response.hovered() || response.has_focus();
         let inked = match (is_lit, is_on) {
-            (true, _) => ink(ui).accent,
-            (false, true) => self.style(ink(ui)).0,
-            (false, false) => ink(ui).dim.gamma_multiply(0.55),
+            (true, _) => palette(ui).accent,
+            (false, true) => self.style(palette(ui)).0,
+            (false, false) => palette(ui).dim.gamma_multiply(0.55),
         };
         let centre = rect.left_center() + vec2(9.0, 0.0);
         let lid = |side: f32| {
@@ -85,8 +85,8 @@ impl TableRow for Row<'_> {
         self.place == self.loops.selected()
     }
 
-    fn colours(&self, ink: &Ink) -> [Color32; 2] {
-        [self.style(ink).0, if self.is_on_stage { ink.text } else { ink.dim }]
+    fn colours(&self, palette: &PanelPalette) -> [Color32; 2] {
+        [self.style(palette).0, if self.is_on_stage { palette.text } else { palette.dim }]
     }
 
     fn command(&self) -> Option<Command> {
@@ -107,6 +107,6 @@ impl TableRow for Row<'_> {
         let tick_hz = self.loops.scene().tick_hz;
         ui.label(format!("At {tick_hz} Hz, trace {display}: {}.", self.verdict.whole()));
         ui.label(format!("Used by {}.", card.users));
-        ui.label(RichText::new(card.source).color(ink(ui).dim));
+        ui.label(RichText::new(card.source).color(palette(ui).dim));
     }
 }

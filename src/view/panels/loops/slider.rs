@@ -3,7 +3,7 @@
 use egui::{Align2, Rangef, Response, Ui};
 
 use crate::lab::{Command, LoopCommand, LoopLab};
-use crate::view::panels::ink;
+use crate::view::panels::palette;
 use crate::view::panels::timeline::{Groove, Span, THICKNESS, pressed, step};
 
 /// Shows it.
@@ -14,16 +14,16 @@ pub(in crate::view::panels) fn show(ui: &mut Ui, loops: &LoopLab, commands: &mut
     let response = groove.interact(ui);
     seek(ui, loops, &response, (span, groove.along), commands);
 
-    let (ink, painter, along) = (ink(ui), ui.painter(), groove.along);
+    let (palette, painter, along) = (palette(ui), ui.painter(), groove.along);
     let now_s = loops.now_ns() as f64 / 1e9;
-    groove.write(painter, span, ink);
+    groove.write(painter, span, palette);
     let text = format!("{now_s:.2} of {:.0} s", span.to_s);
-    groove.write_at(painter, Align2::RIGHT_CENTER, &text, ink);
+    groove.write_at(painter, Align2::RIGHT_CENTER, &text, palette);
     let x = span.x(now_s, along);
-    for (to, colour) in [(along.max, ink.raised), (x, ink.dim.gamma_multiply(0.8))] {
+    for (to, colour) in [(along.max, palette.raised), (x, palette.dim.gamma_multiply(0.8))] {
         painter.rect_filled(groove.piece(along.min, to), 0.5 * THICKNESS, colour);
     }
-    groove.handle(painter, x, response.has_focus(), ink);
+    groove.handle(painter, x, response.has_focus(), palette);
 }
 
 /// Goes to where the mouse is pressed; with the focus, the arrows go by frames.

@@ -5,7 +5,7 @@ use egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, Vec2, vec2};
 use crate::lab::OneStep;
 use crate::lab::number::{enlargement, round};
 use crate::view::chart::PlotArea;
-use crate::view::theme::Ink;
+use crate::view::theme::PanelPalette;
 
 /// Its radius, its least radius, and how far it keeps from the plot's edges and from all else in the plot, in points.
 const RADIUS: f32 = 44.0;
@@ -28,7 +28,7 @@ pub(super) fn show(
     area: &PlotArea,
     step: &OneStep,
     taken: &[Pos2],
-    (ink, own): (&Ink, Color32),
+    (palette, own): (&PanelPalette, Color32),
 ) {
     let (Some(landing), Some(exact)) = (step.landing, step.exact_landing()) else { return };
     let [right, up] = area.lengths([0, 1].map(|axis| landing[axis] - exact[axis]));
@@ -50,18 +50,18 @@ pub(super) fn show(
     let Some(at) = furthest.filter(|at| nearest(at) > radius + APART) else { return };
     let pointed = area.at(landing);
     let towards = (pointed - at).normalized();
-    let thin = Stroke::new(1.0, ink.dim);
+    let thin = Stroke::new(1.0, palette.dim);
     painter.line_segment([at + radius * towards, pointed - (EXACT + 2.0) * towards], thin);
-    painter.circle(at, radius, ink.plot, Stroke::new(1.5, ink.dim));
+    painter.circle(at, radius, palette.plot, Stroke::new(1.5, palette.dim));
     let half = vec2((right * times / 2.0) as f32, -(up * times / 2.0) as f32);
     let lift = Vec2::new(0.0, -5.0);
     let [exact, landing] = [at + lift - half, at + lift + half];
-    painter.line_segment([exact, landing], Stroke::new(1.0, ink.grid));
-    painter.circle_stroke(exact, EXACT, Stroke::new(2.2, ink.exact));
-    painter.circle(landing, LANDING, own, Stroke::new(1.6, ink.plot));
+    painter.line_segment([exact, landing], Stroke::new(1.0, palette.grid));
+    painter.circle_stroke(exact, EXACT, Stroke::new(2.2, palette.exact));
+    painter.circle(landing, LANDING, own, Stroke::new(1.6, palette.plot));
     let text = format!("×{}", round(times, 1));
     let foot = at + vec2(0.0, radius - 9.0);
-    painter.text(foot, Align2::CENTER_CENTER, text, FontId::proportional(11.0), ink.text);
+    painter.text(foot, Align2::CENTER_CENTER, text, FontId::proportional(11.0), palette.text);
 }
 
 #[cfg(test)]

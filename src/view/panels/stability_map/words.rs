@@ -8,7 +8,7 @@ use egui::{Color32, FontId, Galley, TextFormat, Ui};
 use crate::lab::analysis::{Here, duration};
 use crate::lab::number::round;
 use crate::lab::{Coverage, Lab, LaneSpec, MapRequest, NoSmallMotion, Parameter, StabilityMap};
-use crate::view::panels::{ink, strong_font};
+use crate::view::panels::{palette, strong_font};
 
 /// The letter of a parameter in the equation of motion, or else its name.
 pub(super) fn letter(parameter: &Parameter) -> String {
@@ -56,7 +56,7 @@ fn wrapped(
     (size, notes): (f32, &str),
 ) -> (Arc<Galley>, f32) {
     let wrapped = |mut job: LayoutJob| {
-        append(&mut job, notes, FontId::proportional(12.0), ink(ui).dim);
+        append(&mut job, notes, FontId::proportional(12.0), palette(ui).dim);
         job.wrap.max_width = width;
         ui.painter().layout_job(job)
     };
@@ -76,8 +76,8 @@ fn counted_job(ui: &Ui, lab: &Lab, map: &StabilityMap, size: f32) -> LayoutJob {
 /// A point of the map, and what the methods do there.
 fn job(ui: &Ui, [here, does]: &[String; 2], size: f32) -> LayoutJob {
     let mut job = LayoutJob::default();
-    append(&mut job, &format!("{here}: "), strong_font(size), ink(ui).text);
-    append(&mut job, does, FontId::proportional(size), ink(ui).text);
+    append(&mut job, &format!("{here}: "), strong_font(size), palette(ui).text);
+    append(&mut job, does, FontId::proportional(size), palette(ui).text);
     job
 }
 

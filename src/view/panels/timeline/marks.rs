@@ -2,7 +2,7 @@
 
 use egui::Color32;
 
-use super::super::Ink;
+use super::super::PanelPalette;
 use crate::lab::session::EventKind;
 use crate::lab::{Action, Event, LaneId, LaneSpec, Race, Scene, TimeScale};
 
@@ -59,7 +59,7 @@ pub(super) struct Context<'a> {
     /// The race as it started.
     pub(super) start: &'a Race,
     pub(super) times: &'a TimeScale,
-    pub(super) ink: &'static Ink,
+    pub(super) palette: &'static PanelPalette,
 }
 
 impl Context<'_> {
@@ -68,7 +68,7 @@ impl Context<'_> {
         let mark = |Event { tick, kind }: &Event| {
             let (sign, colour) = match kind {
                 EventKind::Done { action, .. } => self.of_action(action),
-                EventKind::Halted { .. } => (Sign::Halt, self.ink.bad),
+                EventKind::Halted { .. } => (Sign::Halt, self.palette.bad),
             };
             self.mark(*tick, (sign, colour), &kind.words(self.scene))
         };
@@ -77,7 +77,7 @@ impl Context<'_> {
 
     /// The mark of the last tick that was reached.
     pub(super) fn end(&self, tick: u64) -> Mark {
-        self.mark(tick, (Sign::End, self.ink.text), "the run has not gone further")
+        self.mark(tick, (Sign::End, self.palette.text), "the run has not gone further")
     }
 
     fn mark(&self, tick: u64, (sign, colour): (Sign, Color32), what: &str) -> Mark {
@@ -85,18 +85,18 @@ impl Context<'_> {
     }
 
     fn of_action(&self, action: &Action) -> (Sign, Color32) {
-        let of = |spec: &LaneSpec| self.ink.style(self.start.methods(), spec).0;
+        let of = |spec: &LaneSpec| self.palette.style(self.start.methods(), spec).0;
         match action {
             Action::Method(method) => (Sign::Switch, of(&LaneSpec::plain(method))),
             Action::Lane { spec, .. } => (Sign::Switch, of(spec)),
-            Action::Solo { .. } => (Sign::Switch, self.ink.text),
+            Action::Solo { .. } => (Sign::Switch, self.palette.text),
             Action::Substeps { .. } | Action::Tolerance { .. } | Action::Set { .. } => {
-                (Sign::Edit, self.ink.accent)
+                (Sign::Edit, self.palette.accent)
             }
-            Action::TickHz(_) => (Sign::Rate, self.ink.text),
-            Action::Throttle(_) | Action::Rudder(_) => (Sign::Input, self.ink.dim),
-            Action::Kick(_) => (Sign::Kick, self.ink.warn),
-            Action::Place { .. } => (Sign::Place, self.ink.good),
+            Action::TickHz(_) => (Sign::Rate, self.palette.text),
+            Action::Throttle(_) | Action::Rudder(_) => (Sign::Input, self.palette.dim),
+            Action::Kick(_) => (Sign::Kick, self.palette.warn),
+            Action::Place { .. } => (Sign::Place, self.palette.good),
         }
     }
 }
@@ -119,10 +119,10 @@ pub(super) fn colours(
     lane: LaneId,
     events: &[Event],
     start: &Race,
-    ink: &Ink,
+    palette: &PanelPalette,
 ) -> Vec<(u64, Color32)> {
-    let of = |spec: &LaneSpec| ink.style(start.methods(), spec).0;
-    let first = start.entrant(lane).map_or(ink.dim, |entrant| of(&entrant.spec));
+    let of = |spec: &LaneSpec| palette.style(start.methods(), spec).0;
+    let first = start.entrant(lane).map_or(palette.dim, |entrant| of(&entrant.spec));
     let mut colours = vec![(0, first)];
     for event in events {
         match event.kind {
@@ -144,13 +144,13 @@ pub(super) fn colours(
 mod tests {
     use super::*;
     use crate::lab::{Lab, RunCommand, StageCommand};
-    use crate::view::theme::ink_of;
+    use crate::view::theme::palette_of;
 
     fn marks(lab: &Lab) -> Vec<Mark> {
         let timeline = lab.timeline();
         let (start, times) = (timeline.start(), &timeline.times());
-        let ink = ink_of(lab.display().theme);
-        Context { scene: lab.scene(), start, times, ink }.marks(&timeline.events())
+        let palette = palette_of(lab.display().theme);
+        Context { scene: lab.scene(), start, times, palette }.marks(&timeline.events())
     }
 
     fn texts(lab: &Lab) -> Vec<String> {
@@ -159,7 +159,7 @@ mod tests {
 
     fn found_colours(lab: &Lab, lane: LaneId) -> Vec<(u64, Color32)> {
         let timeline = lab.timeline();
-        colours(lane, &timeline.events(), timeline.start(), ink_of(lab.display().theme))
+        colours(lane, &timeline.events(), timeline.start(), palette_of(lab.display().theme))
     }
 
     fn run(lab: &mut Lab, ticks: u32) {
@@ -240,7 +240,7 @@ mod tests {
     fn the_track_has_the_colours_of_the_methods_in_force() {
         let mut lab = Lab::new(Scene::built_in("spring").unwrap());
         let of = |lab: &Lab, entry: usize| {
-            ink_of(lab.display().theme).style(lab.entries(), &lab.entries()[entry]).0
+            palette_of(lab.display().theme).style(lab.entries(), &lab.entries()[entry]).0
         };
         run(&mut lab, 20);
         lab.apply(StageCommand::Pick(3));

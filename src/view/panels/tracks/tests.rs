@@ -1,16 +1,16 @@
 use super::*;
 use crate::lab::{Action, RunCommand, Scene, StageCommand};
-use crate::view::panels::ink_of;
+use crate::view::panels::palette_of;
 
 const STYLE: TrackStyle = TrackStyle { dots: Dots::None, is_over_time: true };
 
 fn colour_of(lab: &Lab, entry: usize) -> egui::Color32 {
-    ink_of(lab.display().theme).style(lab.entries(), &lab.entries()[entry]).0
+    palette_of(lab.display().theme).style(lab.entries(), &lab.entries()[entry]).0
 }
 
 fn drawn(lab: &Lab, low: f64, high: f64) -> Drawing {
     let bounds = [[0.0, 20.0], [low, high]];
-    drawing(&Roster::of(lab), &Track::of(lab, 0, |s| [s.t, s.q]), &bounds, STYLE)
+    drawing(&SeriesStyles::of(lab), &Track::of(lab, 0, |s| [s.t, s.q]), &bounds, STYLE)
 }
 
 fn tick(lab: &mut Lab, ticks: u32) {
@@ -29,7 +29,7 @@ fn the_past_keeps_the_colour_of_the_method_that_flew_it_and_a_switch_has_a_mark(
     let colours: Vec<_> = curves.iter().map(|curve| curve.style.colour).collect();
     assert_eq!(colours, flown.map(|(entry, _)| colour_of(&lab, entry)));
     let dashes = flown.map(|(entry, _)| {
-        ink_of(lab.display().theme).style(lab.entries(), &lab.entries()[entry]).1
+        palette_of(lab.display().theme).style(lab.entries(), &lab.entries()[entry]).1
     });
     assert!(curves.iter().map(|curve| curve.style.dash).eq(dashes));
     for (before, after) in curves.iter().zip(&curves[1..]) {

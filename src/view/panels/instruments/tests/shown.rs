@@ -13,8 +13,8 @@ fn motion_shows_the_chosen_quantity_and_its_table_follows() {
     lab.apply(StageCommand::Restart);
     (0..17).for_each(|_| lab.tick());
     let at_the_end = |lab: &Lab| {
-        let sheet = sheet_of(lab, Detail::Samples).unwrap();
-        let readouts = sheet.plots[0].readouts(&sheet.roster, 8.5);
+        let set = plot_set_of(lab, Detail::Samples).unwrap();
+        let readouts = set.plots[0].readouts(&set.styles, 8.5);
         [readouts[0].at[1], readouts[1].at[1]]
     };
     let [place, exact_place] = at_the_end(&lab);
@@ -42,8 +42,8 @@ fn a_net_plots_what_moves_far_and_any_other_coordinate_that_is_chosen() {
     let rows: Vec<&str> = table.lines().filter(|line| line.contains(",x7,m,")).collect();
     assert!(rows.len() > 90 && rows.len() + 1 == table.lines().count(), "from the start: {table}");
     let now = lab.race().entrants()[0].lane.bodies()[0].stepper.q()[chosen];
-    let sheet = sheet_of(&lab, Detail::Samples).unwrap();
-    assert_eq!(sheet.plots[0].readouts(&sheet.roster, lab.race().t())[0].at[1], now);
+    let set = plot_set_of(&lab, Detail::Samples).unwrap();
+    assert_eq!(set.plots[0].readouts(&set.styles, lab.race().t())[0].at[1], now);
     // To go back repeats the run as it was recorded.
     lab.apply(RunCommand::Seek(40));
     lab.apply(RunCommand::Seek(90));

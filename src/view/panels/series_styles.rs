@@ -2,15 +2,15 @@
 
 use egui::Color32;
 
-use super::ink_of;
+use super::palette_of;
 use crate::lab::pacing::POLICIES;
 use crate::lab::{Lab, LoopLab, Mode};
 use crate::view::theme::colour;
 
 /// Whose curves the plots show.
-pub(super) struct Roster {
+pub(super) struct SeriesStyles {
     /// By the place that a track calls its entry.
-    pub(super) runners: Vec<Runner>,
+    pub(super) series: Vec<SeriesStyle>,
     /// The place of the one in front.
     pub(super) front: usize,
     /// Whether there are several at a time, which are told apart by their digits.
@@ -24,7 +24,7 @@ pub(super) struct Roster {
 }
 
 /// One of them.
-pub(super) struct Runner {
+pub(super) struct SeriesStyle {
     pub(super) id: String,
     pub(super) name: String,
     pub(super) colour: Color32,
@@ -32,7 +32,7 @@ pub(super) struct Runner {
     pub(super) dash: [f32; 2],
 }
 
-impl Roster {
+impl SeriesStyles {
     /// The methods of the run, or of the open loop lab its loops.
     pub(super) fn of(lab: &Lab) -> Self {
         match lab.loop_lab() {
@@ -42,36 +42,36 @@ impl Roster {
     }
 
     fn of_methods(lab: &Lab) -> Self {
-        let ink = ink_of(lab.display().theme);
-        let runners = lab.entries().iter().map(|spec| {
-            let (colour, dash) = ink.style(lab.entries(), spec);
+        let palette = palette_of(lab.display().theme);
+        let series = lab.entries().iter().map(|spec| {
+            let (colour, dash) = palette.style(lab.entries(), spec);
             let [id, name] = [spec.method.id, spec.method.name];
             let [id, name] = [id, name].map(|name| spec.distinct_name(name, lab.entries()));
-            Runner { id, name, colour, dash }
+            SeriesStyle { id, name, colour, dash }
         });
         Self {
-            runners: runners.collect(),
+            series: series.collect(),
             front: lab.active(),
             is_race: lab.mode() == Mode::Race,
             exact: lab.race().truth().bodies()[lab.view().body].truth_in_words(),
-            exact_colour: ink.exact,
+            exact_colour: palette.exact,
             now_s: lab.race().t(),
             length_s: lab.scene().seconds,
         }
     }
 
     fn of_loops(lab: &Lab, loops: &LoopLab) -> Self {
-        let ink = ink_of(lab.display().theme);
-        let runners = POLICIES.iter().enumerate().map(|(place, card)| {
-            let (rgba, dash) = ink.theme.loop_style(place);
-            Runner { id: card.id.into(), name: card.name.into(), colour: colour(rgba), dash }
+        let palette = palette_of(lab.display().theme);
+        let series = POLICIES.iter().enumerate().map(|(place, card)| {
+            let (rgba, dash) = palette.theme.loop_style(place);
+            SeriesStyle { id: card.id.into(), name: card.name.into(), colour: colour(rgba), dash }
         });
         Self {
-            runners: runners.collect(),
+            series: series.collect(),
             front: loops.selected(),
             is_race: true,
             exact: loops.body().kind.truth.id().into(),
-            exact_colour: ink.exact,
+            exact_colour: palette.exact,
             now_s: loops.now_ns() as f64 / 1e9,
             length_s: loops.end_ns() as f64 / 1e9,
         }

@@ -9,7 +9,7 @@ const FIRST_CAPACITY: u64 = 1 << 16;
 
 /// The triangles of some meshes, with vertices of one kind.
 #[derive(Debug)]
-pub(super) struct Triangles<V> {
+pub(super) struct MeshBuffer<V> {
     label: &'static str,
     vertex_buffer: wgpu::Buffer,
     index_buffer: wgpu::Buffer,
@@ -18,7 +18,7 @@ pub(super) struct Triangles<V> {
     indices: Vec<u32>,
 }
 
-impl<V: bytemuck::Pod> Triangles<V> {
+impl<V: bytemuck::Pod> MeshBuffer<V> {
     pub(super) fn new(gpu: &Gpu, label: &'static str) -> Self {
         Self {
             label,

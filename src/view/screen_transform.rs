@@ -5,7 +5,7 @@ use bytemuck::{Pod, Zeroable};
 use super::gpu::Gpu;
 use crate::lab::picture::Rect;
 
-/// `Place` in `shaders/place.wgsl`.
+/// `ScreenTransform` in `shaders/screen_transform.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct Uniform {
@@ -17,7 +17,7 @@ struct Uniform {
 
 /// Where the points of some part of a frame lie on the target.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Place {
+pub(super) struct ScreenTransform {
     pub(super) size_px: [u32; 2],
     /// Where the part begins.
     pub(super) origin_px: [f32; 2],
@@ -26,7 +26,7 @@ pub(super) struct Place {
     pub(super) edges_px: [f32; 4],
 }
 
-impl Place {
+impl ScreenTransform {
     /// Where a point is, in pixels of the target.
     pub(super) fn px(&self, point: [f32; 2]) -> [f32; 2] {
         [0, 1].map(|axis| self.origin_px[axis] + point[axis] * self.px_per_point)
@@ -45,13 +45,13 @@ impl Place {
 
 /// Tells a shader of a place, as its first bind group.
 #[derive(Debug)]
-pub(super) struct PlaceGroup {
+pub(super) struct ScreenBindGroup {
     pub(super) layout: wgpu::BindGroupLayout,
     pub(super) group: wgpu::BindGroup,
     buffer: wgpu::Buffer,
 }
 
-impl PlaceGroup {
+impl ScreenBindGroup {
     pub(super) fn new(gpu: &Gpu) -> Self {
         let device = &gpu.device;
         let buffer = device.create_buffer(&wgpu::BufferDescriptor {
@@ -81,7 +81,7 @@ impl PlaceGroup {
         Self { layout, group, buffer }
     }
 
-    pub(super) fn write(&self, gpu: &Gpu, place: &Place) {
+    pub(super) fn write(&self, gpu: &Gpu, place: &ScreenTransform) {
         let uniform = Uniform {
             target_px: place.size_px.map(|side| side as f32),
             origin_px: place.origin_px,
@@ -92,7 +92,7 @@ impl PlaceGroup {
     }
 }
 
-/// A pipeline of triangles with vertices `V` and `shaders/place.wgsl`, named by label, shader and fragment
+/// A pipeline of triangles with vertices `V` and `shaders/screen_transform.wgsl`, named by label, shader and fragment
 /// function, the colours of which are premultiplied.
 pub(super) fn pipeline<V>(
     gpu: &Gpu,

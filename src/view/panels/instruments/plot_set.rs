@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::super::ink_of;
-use super::super::roster::{Roster, Runner};
+use super::super::palette_of;
+use super::super::series_styles::{SeriesStyle, SeriesStyles};
 use super::super::tracks::{self, Track, TrackStyle};
 use crate::lab::number::significant;
 use crate::lab::past::{TruthCurve, TruthSample};
@@ -17,8 +17,8 @@ use egui::Color32;
 pub(super) const EXACT: f32 = 1.3;
 
 /// An instrument of plots.
-pub(super) struct Sheet {
-    pub(super) roster: Roster,
+pub(super) struct PlotSet {
+    pub(super) styles: SeriesStyles,
     pub(super) title: String,
     pub(super) plots: Vec<PlotModel>,
 }
@@ -67,7 +67,7 @@ pub(super) struct ExactLine {
 
 /// The value of one curve at a moment.
 pub(super) struct Readout {
-    /// Its place on the roster; `None` for the exact solution.
+    /// Its place on the styles; `None` for the exact solution.
     pub(super) entry: Option<usize>,
     pub(super) colour: Color32,
     pub(super) is_front: bool,
@@ -119,10 +119,10 @@ impl PlotAxis {
     /// The value at a place, with its unit.
     pub(super) fn number(&self, place: f64) -> String {
         /// A longer number is told less precisely.
-        const LONGEST: usize = 7;
+        const MAX_CHARS: usize = 7;
         let value = self.scale.value(place);
         let number = significant(value, 3);
-        let is_long = number.chars().count() > LONGEST;
+        let is_long = number.chars().count() > MAX_CHARS;
         let number = if is_long { significant(value, 1) } else { number };
         if self.unit.is_empty() { number } else { format!("{number} {}", self.unit) }
     }
@@ -167,7 +167,7 @@ impl ExactLine {
     }
 
     fn through(lab: &Lab, times: Vec<f64>, points: Vec<[f64; 2]>, jumps: Vec<usize>) -> Self {
-        let style = LineStyle::solid(ink_of(lab.display().theme).exact, EXACT);
+        let style = LineStyle::solid(palette_of(lab.display().theme).exact, EXACT);
         let curve = Curve::new(style, points);
         Self { curve, times, part: "", jumps, known: None, samples: Vec::new() }
     }
@@ -296,7 +296,7 @@ impl PlotModel {
     pub(super) fn drawing(
         &self,
         lab: &Lab,
-        roster: &Roster,
+        styles: &SeriesStyles,
         bounds: &Bounds,
         columns: f32,
     ) -> Drawing {
@@ -305,7 +305,7 @@ impl PlotModel {
             [low.min(least), high.max(most)]
         });
         let style = TrackStyle { dots: self.dots, is_over_time: self.is_over_time() };
-        let mut drawing = tracks::drawing(roster, &self.tracks, &healthy, style);
+        let mut drawing = tracks::drawing(styles, &self.tracks, &healthy, style);
         if !style.is_over_time {
             drawing.switch_mark = SwitchMark::Ring;
         }
@@ -320,16 +320,16 @@ impl PlotModel {
     }
 
     /// The values of all curves at time `t` (s).
-    pub(super) fn readouts(&self, roster: &Roster, t: f64) -> Vec<Readout> {
+    pub(super) fn readouts(&self, styles: &SeriesStyles, t: f64) -> Vec<Readout> {
         let lanes = self.tracks.iter().filter_map(|track| {
             let (entry, at) = track.at(t)?;
-            let key = if roster.is_race { format!("{}", entry + 1) } else { String::new() };
-            let (colour, name) = (roster.runners[entry].colour, joined(&key, track.part));
+            let key = if styles.is_race { format!("{}", entry + 1) } else { String::new() };
+            let (colour, name) = (styles.series[entry].colour, joined(&key, track.part));
             Some(Readout { entry: Some(entry), colour, is_front: track.is_front, name, at })
         });
         let exact = self.exact.iter().filter_map(|line| {
             let (at, name) = (line.at(t)?, joined("", line.part));
-            Some(Readout { entry: None, colour: roster.exact_colour, is_front: true, name, at })
+            Some(Readout { entry: None, colour: styles.exact_colour, is_front: true, name, at })
         });
         lanes.chain(exact).collect()
     }
@@ -357,15 +357,15 @@ fn joined(key: &str, part: &str) -> String {
     format!("{key} {part}").trim().to_owned()
 }
 
-impl Sheet {
-    /// Those whose curves the plots show, with their places on the roster.
-    pub(super) fn shown(&self) -> impl Iterator<Item = (usize, &Runner)> {
+impl PlotSet {
+    /// Those whose curves the plots show, with their places on the styles.
+    pub(super) fn shown(&self) -> impl Iterator<Item = (usize, &SeriesStyle)> {
         let tracks = self.plots.iter().flat_map(|plot| &plot.tracks);
         let mut shown: Vec<usize> =
             tracks.flat_map(|track| track.flown().chain([track.entry])).collect();
         shown.sort_unstable();
         shown.dedup();
-        shown.into_iter().map(|entry| (entry, &self.roster.runners[entry]))
+        shown.into_iter().map(|entry| (entry, &self.styles.series[entry]))
     }
 }
 
