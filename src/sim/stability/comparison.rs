@@ -1,6 +1,9 @@
-//! The modes of a method on a body, compared with its true modes.
+//! What a method makes of a motion: the map of a step, its eigenvalues, and these compared with the true modes.
 
-use super::spectrum::Eigenvalue;
+use super::spectrum::{Eigenvalue, eigenvalues, has_memory, linear_maps};
+use super::tick::Tick;
+use crate::sim::Stepper;
+use crate::sim::integrators::StepFailure;
 
 /// How a method treats small deviations of a body from its present state.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +28,7 @@ pub const FOREVER_S: f64 = 365.0 * 86_400.0;
 
 impl Stability {
     /// The stability of a map that overflows.
-    pub(super) const OVERFLOW: Self = Self {
+    const OVERFLOW: Self = Self {
         spectral_radius: f64::INFINITY,
         growth_per_s: f64::INFINITY,
         loss_per_s: 0.0,
@@ -63,19 +66,57 @@ impl Mode {
     }
 }
 
-/// The stability of a tick of `times` steps over `h` (s), from the eigenvalues of the map of a step; `None` if that
-/// overflows.
-pub(super) fn compare_step(
-    truth: &[Mode],
-    values: Option<Vec<Eigenvalue>>,
-    h: f64,
-    times: u32,
-) -> Stability {
-    let Some(values) = values else { return Stability::OVERFLOW };
-    let stability = compare(truth, &values, h);
-    let spectral_radius = libm::pow(stability.spectral_radius, f64::from(times));
-    Stability { spectral_radius, ..stability }
+/// A motion of a linear body whose coordinates a method steps together.
+#[derive(Clone, Debug)]
+pub(super) struct Motion {
+    /// Its shapes, of length 1 and at right angles.
+    pub(super) shapes: Vec<Vec<f64>>,
+    pub(super) truth: Vec<Mode>,
+    /// The unit of velocity, per second: in it the fastest mode makes circles. 0 if no force acts.
+    pub(super) rate: f64,
 }
+
+impl Motion {
+    /// The stability of a tick of `times` times `step` of the method of `stepper`, from runs that begin at this `amplitude`;
+    /// and whether the method has memory.
+    ///
+    /// # Errors
+    /// The failure of the method in the first steps.
+    pub(super) fn stability(
+        &self,
+        stepper: &mut dyn Stepper,
+        (step, times): (Tick, u32),
+        amplitude: f64,
+    ) -> Result<(Stability, bool), StepFailure> {
+        let rate = if self.rate > 0.0 { self.rate } else { 1.0 / step.h };
+        let maps = linear_maps(stepper, &self.shapes, step, [amplitude, rate])?;
+        let mut stability = Stability::OVERFLOW;
+        if let Some(mut values) = eigenvalues(&maps) {
+            self.keep_what_drifts(&mut values);
+            stability = compare(&self.truth, &values, step.h);
+            // The map of a tick is a power of that of a step, in which the modes turn less.
+            stability.spectral_radius = libm::pow(stability.spectral_radius, f64::from(times));
+        }
+        Ok((stability, has_memory(&maps)))
+    }
+
+    /// Sets to 1 as many of the eigenvalues nearest 1 as there are force-free modes: methods preserve uniform drift,
+    /// but rounding splits a double eigenvalue by √ε.
+    fn keep_what_drifts(&self, values: &mut [Eigenvalue]) {
+        let still = self.truth.iter().filter(|mode| mode.is_still()).count();
+        if still == 0 {
+            return;
+        }
+        let distance = |value: &Eigenvalue| value.distance_from(1.0);
+        values.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+        for value in values.iter_mut().take(still).filter(|value| distance(value) < SPLIT) {
+            *value = Eigenvalue { modulus: 1.0, angle: 0.0 };
+        }
+    }
+}
+
+/// The furthest that rounding moves a double eigenvalue.
+const SPLIT: f64 = 1e-6;
 
 /// A growth per tick below this is zero: it is the rounding of the differences.
 const NO_GROWTH: f64 = 1e-9;
@@ -85,7 +126,7 @@ const NO_GROWTH: f64 = 1e-9;
 const IGNORED_EXCESS: f64 = 0.1;
 
 /// Pairs the eigenvalues of a map over `h` (s) with the true modes and compares them.
-pub(super) fn compare(truth: &[Mode], values: &[Eigenvalue], h: f64) -> Stability {
+fn compare(truth: &[Mode], values: &[Eigenvalue], h: f64) -> Stability {
     let (pairs, frequency_error) = pairs(truth, values, h);
     let excess = pairs.iter().map(|&(truth, found)| match truth {
         Some(Mode { growth_per_s: own, .. }) if own * h > NO_GROWTH => {

@@ -4,12 +4,10 @@
 //! separately, so that its map is found mode by mode from the stepper: of size 2 without memory,
 //! instead of twice the number of coordinates.
 
-use std::slice;
-
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::comparison::{Mode, Stability, compare_step};
-use super::spectrum::{self, NEUTRAL_WITH_MEMORY, linear_maps};
+use super::comparison::{Mode, Motion, Stability};
+use super::spectrum::{self, NEUTRAL_WITH_MEMORY};
 use super::tick::Tick;
 use super::trend::growth_of_energy;
 use crate::sim::bodies::Input;
@@ -73,9 +71,9 @@ impl NormalMode {
         tick: Tick,
     ) -> Result<Stability, StepFailure> {
         let mut stepper = body.with_solver(solver, tick.t);
+        let (step, times) = tick.repeated(solver.method());
         let (mut stability, has_memory) =
-            self.stability_by_map(&mut *stepper, solver, tick, 1.0)?;
-        let (step, _) = tick.repeated(solver.method());
+            self.motion().stability(&mut *stepper, (step, times), 1.0)?;
         let is_blurred = (stability.growth_per_s * step.h).abs() <= NEUTRAL_WITH_MEMORY;
         if has_memory && is_blurred && self.is_conserved() && self.omega_squared > 0.0 {
             // The map of a method with memory is not accurate enough for a small growth; the energy
@@ -103,25 +101,13 @@ impl NormalMode {
         tick: Tick,
     ) -> Result<Stability, StepFailure> {
         let mut stepper = body.with_solver(solver, tick.t);
-        Ok(self.stability_by_map(&mut *stepper, solver, tick, SMALL)?.0)
+        let steps = tick.repeated(solver.method());
+        Ok(self.motion().stability(&mut *stepper, steps, SMALL)?.0)
     }
 
-    /// From the map of a motion of this `amplitude`; and whether the method has memory.
-    fn stability_by_map(
-        &self,
-        stepper: &mut dyn Stepper,
-        solver: Solver,
-        tick: Tick,
-        amplitude: f64,
-    ) -> Result<(Stability, bool), StepFailure> {
-        // The map of a tick is a power of that of a step, in which the mode turns less.
-        let (tick, times) = tick.repeated(solver.method());
-        // The unit of velocity: the orbit of the mode is a circle, or the distance in a step is 1.
-        let rate = if self.omega_squared > 0.0 { self.omega_squared.sqrt() } else { 1.0 / tick.h };
-        let maps = linear_maps(stepper, slice::from_ref(&self.shape), tick, [amplitude, rate])?;
-        let values = spectrum::eigenvalues(&maps);
-        let stability = compare_step(&self.true_modes(), values, tick.h, times);
-        Ok((stability, spectrum::has_memory(&maps)))
+    fn motion(&self) -> Motion {
+        let (shapes, truth) = (vec![self.shape.clone()], self.true_modes().into());
+        Motion { shapes, truth, rate: self.omega_squared.sqrt() }
     }
 }
 

@@ -3,10 +3,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::comparison::{Mode, Stability, compare_step};
+use super::comparison::{Mode, Motion, Stability};
 use super::deviation::{self, acceleration_at, force_slopes};
 use super::modes::{NormalMode, modes_of, unforced};
-use super::spectrum::{self, Eigenvalue, linear_maps};
+use super::spectrum::{self, Eigenvalue};
 use super::tick::Tick;
 use crate::sim::Stepper;
 use crate::sim::integrators::{Method, StepFailure};
@@ -23,9 +23,7 @@ pub struct SmallMotion {
 #[derive(Clone, Debug)]
 pub struct CoupledMotion {
     jacobian: DMatrix<f64>,
-    truth: Vec<Mode>,
-    /// The unit of velocity, per second: in it the fastest mode makes circles.
-    rate: f64,
+    motion: Motion,
 }
 
 /// Why a body has no small motions about rest.
@@ -92,7 +90,9 @@ impl SmallMotion {
             return Err(NoSmallMotion::TooManyCoordinates);
         }
         let (truth, rate) = true_modes(&self.jacobian).ok_or(NoSmallMotion::NotFinite)?;
-        Ok(CoupledMotion { jacobian: self.jacobian, truth, rate })
+        let axes = DMatrix::identity(truth.len() / 2, truth.len() / 2);
+        let shapes = axes.column_iter().map(|axis| axis.iter().copied().collect()).collect();
+        Ok(CoupledMotion { jacobian: self.jacobian, motion: Motion { shapes, truth, rate } })
     }
 }
 
@@ -105,7 +105,7 @@ pub fn normal_modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
 impl CoupledMotion {
     /// Whether the true motion grows without bound.
     pub fn grows(&self) -> bool {
-        self.truth.iter().any(|mode| mode.growth_per_s > 0.0)
+        self.motion.truth.iter().any(|mode| mode.growth_per_s > 0.0)
     }
 
     /// Stability of `method` with equal steps on this motion, from the map of all coordinates over a step. Growth that
@@ -119,29 +119,9 @@ impl CoupledMotion {
         h: f64,
         substeps: u32,
     ) -> Result<Stability, StepFailure> {
-        // The map of a tick is a power of that of a step, in which the modes turn less.
-        let (tick, times) = Tick { t: 0.0, h, substeps }.repeated(Some(method));
-        let n = self.jacobian.nrows();
-        let axis = |i| (0..n).map(|j| f64::from(u8::from(i == j))).collect();
-        let axes: Vec<Vec<f64>> = (0..n).map(axis).collect();
+        let steps = Tick { t: 0.0, h, substeps }.repeated(Some(method));
         let mut deviation = deviation::linear(self.jacobian.clone(), method);
-        let maps = linear_maps(&mut *deviation, &axes, tick, [1.0, self.rate])?;
-        let mut values = spectrum::eigenvalues(&maps);
-        if let Some(values) = &mut values {
-            self.keep_what_drifts(values);
-        }
-        Ok(compare_step(&self.truth, values, tick.h, times))
-    }
-
-    /// Sets to 1 as many of the eigenvalues nearest 1 as there are force-free modes: methods preserve uniform drift,
-    /// but rounding splits a double eigenvalue by √ε.
-    fn keep_what_drifts(&self, values: &mut [Eigenvalue]) {
-        let distance = |value: &Eigenvalue| value.distance_from(1.0);
-        values.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
-        let still = self.truth.iter().filter(|mode| mode.is_still()).count();
-        for value in values.iter_mut().take(still).filter(|value| distance(value) < SPLIT) {
-            *value = Eigenvalue { modulus: 1.0, angle: 0.0 };
-        }
+        Ok(self.motion.stability(&mut *deviation, steps, 1.0)?.0)
     }
 }
 
@@ -150,9 +130,6 @@ const LATER_S: [f64; 2] = [0.37, 2.9];
 
 /// Rates below this fraction of the largest count as zero: twice the digits that a double eigenvalue keeps.
 const FORCE_FREE: f64 = 1e-7;
-
-/// The furthest that rounding moves a double eigenvalue.
-const SPLIT: f64 = 1e-6;
 
 /// A true growth below this fraction of the largest rate is rounding.
 const ROUNDED_GROWTH: f64 = 1e-10;
@@ -182,8 +159,7 @@ fn true_modes(jacobian: &DMatrix<f64>) -> Option<(Vec<Mode>, f64)> {
             },
         }
     };
-    let rate = if largest > 0.0 { largest } else { 1.0 };
-    Some((values.iter().map(mode).collect(), rate))
+    Some((values.iter().map(mode).collect(), largest))
 }
 
 /// A place where `free` rests at any time: the origin, if it rests there at the start, or else what Newton's iteration
@@ -340,7 +316,7 @@ mod tests {
         let motion = SmallMotion { jacobian: DMatrix::from_row_slice(2, 4, &rows) };
         assert!(motion.normal_modes().is_none());
         let motion = motion.coupled().unwrap();
-        assert_eq!(motion.truth.iter().filter(|mode| mode.is_still()).count(), 2);
+        assert_eq!(motion.motion.truth.iter().filter(|mode| mode.is_still()).count(), 2);
         for id in ["semi-implicit-euler", "rk4", "implicit-midpoint", "bdf2"] {
             let found = motion.stability(method(id).unwrap(), 0.01, 1).unwrap();
             assert!(found.is_bounded(), "{id}: {found:?}");
