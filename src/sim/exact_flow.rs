@@ -3,7 +3,7 @@
 use super::body::Body;
 use super::integrators::Stepped;
 use super::propagator::Propagator;
-use super::state::{State, Vector, largest};
+use super::state::{State, Vector, largest, nan_is_infinite};
 use super::stepper::Change;
 use super::system::Counted;
 use crate::sim::system::StateOf;
@@ -70,7 +70,7 @@ impl<V: Vector> Anchor<V> {
             error[0] += largest(scratch.q.components());
             error[1] += largest(scratch.v.components());
         }
-        error.map(|error| if error.is_nan() { f64::INFINITY } else { error })
+        error.map(nan_is_infinite)
     }
 }
 

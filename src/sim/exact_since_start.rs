@@ -5,7 +5,7 @@ use std::cell::RefCell;
 
 use super::body::Body;
 use super::exact_flow::late_error;
-use super::state::{State, Vector, largest};
+use super::state::{State, Vector, largest, nan_is_infinite};
 
 /// The rounding of a closed form whose operations are not known, relative to its value.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -56,8 +56,7 @@ impl<V: Vector> ExactSinceStart<V> {
         body.acceleration(self.t, &state.q, &state.v, a);
         let [q, v] = late_error(f64::EPSILON * self.t, &state.v, a);
         let of = |size: &V, by_time: f64| ROUNDING * largest(size.components()) + by_time;
-        [of(&state.q, q), of(&state.v, v)]
-            .map(|error| if error.is_nan() { f64::INFINITY } else { error })
+        [of(&state.q, q), of(&state.v, v)].map(nan_is_infinite)
     }
 }
 

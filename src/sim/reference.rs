@@ -8,7 +8,7 @@ use super::body::Body;
 use super::exact_since_start::ExactSinceStart;
 use super::integrators::{StepFailure, Stepped};
 use super::propagator::Propagator;
-use super::state::{State, Vector, bytes_with_vectors, largest};
+use super::state::{State, Vector, bytes_with_vectors, largest, nan_is_infinite};
 use super::stepper::Change;
 use super::system::Counted;
 
@@ -271,8 +271,7 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
     }
 }
 
-/// The largest magnitude; infinite if a component is NaN, so that no comparison loses it.
+/// The largest magnitude.
 fn size<V: Vector>(vector: &V) -> f64 {
-    let size = largest(vector.components());
-    if size.is_nan() { f64::INFINITY } else { size }
+    nan_is_infinite(largest(vector.components()))
 }

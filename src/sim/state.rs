@@ -223,6 +223,12 @@ pub(in crate::sim) fn largest<'a>(components: impl IntoIterator<Item = &'a f64>)
     f64::from_bits(most.into_iter().fold(0, u64::max))
 }
 
+/// An error or a size; infinite if it is not a number, so that no comparison loses it.
+#[inline]
+pub(in crate::sim) fn nan_is_infinite(error: f64) -> f64 {
+    if error.is_nan() { f64::INFINITY } else { error }
+}
+
 /// Coordinates and velocities. Also their time derivative `(v, a)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State<V> {

@@ -4,6 +4,7 @@ use super::problems::{SHIP, fresh, problem, spring};
 use super::{Claim, yes_or_no};
 use crate::sim::body::Body;
 use crate::sim::integrators::{Method, StepFailure};
+use crate::sim::state::nan_is_infinite;
 
 /// An error below this is rounding, summed over all steps.
 const EXACT: f64 = 1e-13;
@@ -29,8 +30,7 @@ fn error<B: Body<Vector = f64> + 'static>(
         for (part, (found, truth)) in
             [(state.q, truth.q), (state.v, truth.v)].into_iter().enumerate()
         {
-            let off = (found - truth).abs();
-            worst[part] = if off.is_nan() { f64::INFINITY } else { off.max(worst[part]) };
+            worst[part] = nan_is_infinite((found - truth).abs()).max(worst[part]);
             largest[part] = truth.abs().max(largest[part]);
         }
     }

@@ -4,7 +4,7 @@ use super::problems::{Kepler, Problem, fresh, kepler_orbit, problem, spring};
 use super::{Claim, yes_or_no};
 use crate::sim::body::Body;
 use crate::sim::integrators::{Method, Override, StepFailure, integrator};
-use crate::sim::state::{State, Vector};
+use crate::sim::state::{State, Vector, nan_is_infinite};
 
 /// What the error may be, in units of the tolerance: less is wasted work.
 const MET: std::ops::Range<f64> = 0.1..3.0;
@@ -29,8 +29,7 @@ fn error_an_arc<V: Vector>(
         let found = state.q.components().iter().chain(state.v.components());
         let wanted = end.q.components().iter().chain(end.v.components());
         let errors = found.zip(wanted).map(|(found, wanted)| {
-            let error = (found - wanted).abs() / (tolerance * (1.0 + wanted.abs()));
-            if error.is_nan() { f64::INFINITY } else { error }
+            nan_is_infinite((found - wanted).abs() / (tolerance * (1.0 + wanted.abs())))
         });
         sum += errors.fold(0.0, f64::max);
     }

@@ -178,19 +178,19 @@ impl Parser<'_> {
     }
 
     fn any(&mut self) -> Parsed<usize> {
-        self.operation(Level::Or)
+        self.operation(None)
     }
 
-    /// Operands joined by operators that bind at least as tightly as `least`.
-    fn operation(&mut self, least: Level) -> Parsed<usize> {
-        let mut left = self.operand(least)?;
-        while let Some(infix) = self.infix().filter(|infix| infix.level >= least) {
+    /// Operands joined by operators that bind more tightly than those `outside`.
+    fn operation(&mut self, outside: Option<Level>) -> Parsed<usize> {
+        let mut left = self.operand(outside)?;
+        while let Some(infix) = self.infix().filter(|infix| Some(infix.level) > outside) {
             if infix.op == Op::Power {
                 left = self.power(left)?;
                 continue;
             }
             self.next += 1;
-            let right = self.operation(infix.level.tighter())?;
+            let right = self.operation(Some(infix.level))?;
             for operand in [left, right] {
                 match infix.op {
                     Op::And | Op::Or => self.want_truth(operand)?,
@@ -216,12 +216,12 @@ impl Parser<'_> {
         INFIXES.iter().find(|infix| is_sign && infix.sign == self.written())
     }
 
-    /// What stands before an operator that binds at least as tightly as `least`.
-    fn operand(&mut self, least: Level) -> Parsed<usize> {
+    /// What stands before an operator that binds more tightly than those `outside`.
+    fn operand(&mut self, outside: Option<Level>) -> Parsed<usize> {
         let start = self.span().start;
-        if least <= Level::Not && self.is_word("not") {
+        if outside <= Some(Level::And) && self.is_word("not") {
             self.next += 1;
-            let operand = self.nested(|parser| parser.operation(Level::Not))?;
+            let operand = self.nested(|parser| parser.operation(Some(Level::And)))?;
             let operand = self.want_truth(operand)?;
             return Ok(self.push(Op::Not, &[operand], start..self.span_of(operand).end));
         }
@@ -229,7 +229,7 @@ impl Parser<'_> {
         if !is_negated && !self.takes("+") {
             return self.primary();
         }
-        let operand = self.nested(|parser| parser.operation(Level::Sign))?;
+        let operand = self.nested(|parser| parser.operation(Some(Level::Product)))?;
         let operand = self.want_number(operand)?;
         if !is_negated {
             return Ok(operand);
@@ -241,7 +241,7 @@ impl Parser<'_> {
     fn power(&mut self, base: usize) -> Parsed<usize> {
         self.next += 1;
         let base = self.want_number(base)?;
-        let exponent = self.nested(|parser| parser.operation(Level::Sign))?;
+        let exponent = self.nested(|parser| parser.operation(Some(Level::Product)))?;
         let exponent = self.want_number(exponent)?;
         let span = self.span_of(base).start..self.span_of(exponent).end;
         let Some((times, is_inverse)) = self.whole(exponent) else {

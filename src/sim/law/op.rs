@@ -44,27 +44,10 @@ impl Op {
 pub(super) enum Level {
     Or,
     And,
-    Not,
     Comparison,
     Sum,
     Product,
-    Sign,
     Power,
-}
-
-impl Level {
-    /// The level of what can stand to the right of an operator that groups to the left.
-    pub(super) fn tighter(self) -> Self {
-        match self {
-            Level::Or => Level::And,
-            Level::And => Level::Not,
-            Level::Not => Level::Comparison,
-            Level::Comparison => Level::Sum,
-            Level::Sum => Level::Product,
-            Level::Product => Level::Sign,
-            Level::Sign | Level::Power => Level::Power,
-        }
-    }
 }
 
 /// An operator between two operands.
