@@ -11,7 +11,8 @@ use crate::sim::state::{State, Vector};
 use crate::sim::system::{StateOf, System};
 
 /// The tableau of a pair of `N` stages. The last stage is at the kept solution, so that its slope is
-/// the first of the next step.
+/// the first of the next step: it is evaluated if the error needs it or another step follows, and carried to the next
+/// tick in the first case.
 pub trait Pair<const N: usize>: Send + 'static {
     /// The order of the kept solution.
     const ORDER: u32;
@@ -23,13 +24,18 @@ pub trait Pair<const N: usize>: Send + 'static {
     const E: [f64; N];
     /// The default tolerance.
     const TOLERANCE: Tolerance;
+
+    /// The factor for the next step after one with this error, relative to the tolerance.
+    fn factor(error: f64) -> f64 {
+        steady_factor(error, Self::ORDER)
+    }
 }
 
 /// An adaptive method that steps by the pair `P`.
 #[derive(Clone)]
 pub struct EmbeddedPair<V, P, const N: usize> {
     step_size: StepSize,
-    /// The slopes at the stages; the first is carried to the next tick.
+    /// The slopes at the stages; the first may be carried to the next tick.
     k: [State<V>; N],
     /// The state at which a stage is evaluated.
     stage: State<V>,
@@ -69,8 +75,9 @@ impl<S: System<Vector: Vector>, P: Pair<N>, const N: usize> Integrator<S>
 
     fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { step_size, k, stage, error, zero, .. } = self;
+        let is_last_in_error = P::E[N - 1] != 0.0;
         let mut progress = step_size.begin_tick(h);
-        if !progress.continues_the_last() {
+        if !(is_last_in_error && progress.continues_the_last()) {
             system.derivative(t, y, &mut k[0]);
         }
         while !progress.is_finished() {
@@ -78,13 +85,19 @@ impl<S: System<Vector: Vector>, P: Pair<N>, const N: usize> Integrator<S>
             for i in 1..N {
                 let (known, next) = k.split_at_mut(i);
                 weighted_sum(stage, y, h, &P::A[i], known);
-                system.derivative(t + h * P::C[i], stage, &mut next[0]);
+                if i < N - 1 || is_last_in_error {
+                    system.derivative(t + h * P::C[i], stage, &mut next[0]);
+                }
             }
             weighted_sum(error, zero, 1.0, &P::E, k);
             let error = progress.error(h, error, y);
-            if progress.accepts(error, |error| steady_factor(error, P::ORDER)) {
+            if progress.accepts(error, P::factor) {
                 y.assign(stage);
-                k.swap(0, N - 1);
+                if is_last_in_error {
+                    k.swap(0, N - 1);
+                } else if !progress.is_finished() {
+                    system.derivative(t + h, y, &mut k[0]);
+                }
             }
         }
         Ok(())
