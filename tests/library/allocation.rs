@@ -8,12 +8,12 @@ use regatta::lab::past::Past;
 use regatta::lab::{Action, Lab, Options, Race, SCENES, Scene, StageCommand};
 use regatta::sim::bodies::{Follow, Form, Grid, NetPlan, Pin, Ship, Spring, net_kind};
 use regatta::sim::integrators::{
-    GENERAL_METHODS, ImplicitMidpoint, METHODS, Method, Rk4, StepFailure, custom_integrator,
-    integrator, method,
+    GENERAL_METHODS, ImplicitMidpoint, Integrator, METHODS, Method, Rk4, StepFailure,
+    custom_integrator, integrator, method,
 };
 use regatta::sim::{Elementwise, Solver, State, Stepper, System, Vector};
 
-use super::conformance::systems::Sparse;
+use super::conformance::systems::{Sparse, fresh, problem, springs};
 
 struct Counting;
 
@@ -65,31 +65,16 @@ fn the_counter_counts() {
     assert_eq!((count, grown, kept.len()), (1, 1, 100));
 }
 
-/// As many springs as the vector has components, all equal.
-struct Springs<V>(std::marker::PhantomData<V>);
-
-impl<V: Vector> System for Springs<V> {
-    type Vector = V;
-    fn acceleration(&self, _t: f64, q: &V, v: &V, a: &mut V) {
-        let pairs = q.components().iter().zip(v.components());
-        for (a, (q, v)) in a.components_mut().iter_mut().zip(pairs) {
-            *a = -400.0 * q - v;
-        }
-    }
-}
-
-fn steps_without_allocating<S: System<Vector: Vector> + 'static>(system: &S, like: &S::Vector) {
-    all_step_without_allocating(GENERAL_METHODS, system, like);
-}
-
-fn all_step_without_allocating<S: System<Vector: Vector> + 'static>(
+/// Steps a system by each of these methods, as `make` makes it for vectors like this one.
+fn all_step_without_allocating<S: System<Vector: Vector>>(
     methods: &[Method],
     system: &S,
     like: &S::Vector,
+    make: fn(&Method, &S::Vector) -> Box<dyn Integrator<S>>,
 ) {
     for method in methods {
         let mut state = State { q: like.clone(), v: like.clone() };
-        let mut integrator = integrator::<S>(method, like);
+        let mut integrator = make(method, like);
         let count = allocations_in(|| {
             for step in 0..1000 {
                 let stepped = integrator.step(system, 0.05 * f64::from(step), 0.05, &mut state);
@@ -110,15 +95,13 @@ fn all_step_without_allocating<S: System<Vector: Vector> + 'static>(
 
 #[test]
 fn no_method_allocates_in_a_thousand_steps_on_any_vector() {
-    let spring = Spring { mass: 1.0, stiffness: 400.0, damping: 1.0, x0: 1.0, v0: 0.0, kick: 1.0 };
-    steps_without_allocating(&spring, &1.0);
-    let plane = Springs(std::marker::PhantomData);
-    steps_without_allocating(&plane, &glam::DVec2::ONE);
-    let many = Springs(std::marker::PhantomData);
-    steps_without_allocating(&many, &vec![1.0; 50]);
+    let methods = GENERAL_METHODS;
+    all_step_without_allocating(methods, &springs(400.0, 1.0), &1.0, |it, _| fresh(it));
+    all_step_without_allocating(methods, &springs(400.0, 1.0), &glam::DVec2::ONE, integrator);
+    let many = vec![1.0; 50];
+    all_step_without_allocating(methods, &springs(400.0, 1.0), &many, integrator);
     // Solved by iteration, with slopes by differences.
-    let sparse = Sparse(Springs(std::marker::PhantomData));
-    steps_without_allocating(&sparse, &vec![1.0; 50]);
+    all_step_without_allocating(methods, &Sparse(springs(400.0, 1.0)), &many, integrator);
 }
 
 #[test]
@@ -128,10 +111,9 @@ fn neither_a_method_nor_a_body_of_ones_own_allocates() {
         card(custom_integrator::<Rk4<Vec<f64>>>),
         Method { id: "mine-too", ..card(custom_integrator::<ImplicitMidpoint<Vec<f64>>>) },
     ];
-    let springs = Springs(std::marker::PhantomData);
-    all_step_without_allocating(&mine, &springs, &glam::DVec2::ONE);
+    all_step_without_allocating(&mine, &springs(400.0, 1.0), &glam::DVec2::ONE, integrator);
     let spring = Spring { mass: 1.0, stiffness: 400.0, damping: 1.0, x0: 1.0, v0: 0.0, kick: 1.0 };
-    all_step_without_allocating(&mine, &spring, &1.0);
+    all_step_without_allocating(&mine, &problem(spring.clone()), &1.0, |it, _| fresh(it));
 
     let start = State { q: 1.0, v: 0.0 };
     let mut race = Race::of(&spring, start, Options::default());
@@ -146,7 +128,7 @@ fn no_follower_allocates_in_a_thousand_steps() {
     let (first, second) = special[..engines].split_at(3);
     for (order, methods) in [(1, first), (2, second)] {
         let camera = Follow { order, rate: 5.0, step: 1.0, ..Follow::default() };
-        all_step_without_allocating(methods, &camera, &0.0);
+        all_step_without_allocating(methods, &problem(camera), &0.0, |it, _| fresh(it));
     }
 }
 
@@ -154,7 +136,7 @@ fn no_follower_allocates_in_a_thousand_steps() {
 fn no_engine_allocates_in_a_thousand_steps() {
     let first = METHODS.iter().position(Method::is_engine).expect("engines");
     let ship = Ship { drag: 1.0, mass: 2.0, thrust: 3.0, ..Ship::BLANK };
-    all_step_without_allocating(&METHODS[first..], &ship, &0.0);
+    all_step_without_allocating(&METHODS[first..], &problem(ship), &0.0, |it, _| fresh(it));
 }
 
 /// The built-in scenes but the cloth, of which thousands of ticks take minutes in an unoptimised build.

@@ -2,10 +2,10 @@
 //!
 //! Bourg & Bywalec, *Physics for Game Developers*, 2nd edition, chapter 7.
 
-use crate::any_system::{AnySystem, any};
+use regatta::conformance::problems::{fresh, problem};
 use regatta::sim::bodies::{Body, Ship, Spring};
 use regatta::sim::integrators::{
-    AdaptiveEulerAsPrinted, GENERAL_METHODS, Integrator, Method, Tolerance, integrator, method,
+    AdaptiveEulerAsPrinted, GENERAL_METHODS, Integrator, Method, Tolerance, method,
 };
 use regatta::sim::{Counted, State, System};
 
@@ -21,10 +21,10 @@ const SHIP: Ship = Ship {
 
 /// The ship after each of the first `n` steps of `h`.
 fn sail(id: &str, h: f64, n: u32) -> Vec<State<f64>> {
-    let mut integrator = integrator(method(id).expect("a method"), &0.0);
+    let (ship, mut integrator) = (problem(SHIP), fresh(method(id).expect("a method")));
     let mut state = SHIP.start();
     let states = (0..n).map(|step| {
-        integrator.step(&SHIP, h * f64::from(step), h, &mut state).unwrap();
+        integrator.step(&ship, h * f64::from(step), h, &mut state).unwrap();
         state.clone()
     });
     states.collect()
@@ -72,8 +72,9 @@ fn on_a_force_that_depends_on_position_only_all_printed_listings_are_one_method(
     assert_eq!(printed().count(), 4);
     let run = |method: &Method, damping: f64| {
         let spring = Spring { mass: 2.0, stiffness: 300.0, damping, x0: 1.0, v0: -0.4, kick: 1.0 };
-        let mut integrator = integrator(method, &0.0);
+        let mut integrator = fresh(method);
         let mut state = spring.start();
+        let spring = problem(spring);
         for step in 0..400 {
             integrator.step(&spring, 0.05 * f64::from(step), 0.05, &mut state).unwrap();
         }
@@ -126,8 +127,8 @@ impl System for Rising {
 #[test]
 fn adaptive_euler_as_printed_sees_a_force_change_within_the_step() {
     let card = method("adaptive-euler-as-printed").expect("a method");
-    let rising = Counted::new(any(Rising));
-    let mut integrator = integrator::<Counted<AnySystem>>(card, &0.0);
+    let rising = problem(Rising);
+    let mut integrator = fresh(card);
     let mut state = State { q: 0.0, v: 0.0 };
     integrator.step(&rising, 3.0, 0.5, &mut state).unwrap();
     let lost = rising.counts().lost_time;
@@ -140,8 +141,8 @@ fn adaptive_euler_as_printed_sees_a_force_change_within_the_step() {
 #[test]
 fn the_card_of_adaptive_euler_as_printed_holds_the_tolerance_of_the_chapters_2_55_s() {
     let card = method("adaptive-euler-as-printed").expect("a method");
-    let ship = Counted::new(any(SHIP));
-    let mut integrator = integrator::<Counted<AnySystem>>(card, &0.0);
+    let ship = problem(SHIP);
+    let mut integrator = fresh(card);
     let mut state = SHIP.start();
     for tick in 0..17 {
         integrator.step(&ship, 0.5 * f64::from(tick), 0.5, &mut state).unwrap();

@@ -3,8 +3,9 @@
 //!
 //! Bourg & Bywalec, *Physics for Game Developers*, 2nd edition, chapter 7.
 
+use regatta::conformance::problems::{fresh, problem};
 use regatta::sim::bodies::{Body, Ship, Spring};
-use regatta::sim::integrators::{AdaptiveEuler, Integrator, Tolerance, integrator, method};
+use regatta::sim::integrators::{AdaptiveEuler, Integrator, Tolerance, method};
 use regatta::sim::{Counted, State};
 
 const SHIP: Ship = Ship {
@@ -22,10 +23,10 @@ const TABLE_STEPS: [u32; 5] = [13, 14, 15, 16, 17];
 
 /// The ship after each of the first `n` steps of `h`.
 fn sail(id: &str, h: f64, n: u32) -> Vec<State<f64>> {
-    let mut integrator = integrator(method(id).expect("a method"), &0.0);
+    let (ship, mut integrator) = (problem(SHIP), fresh(method(id).expect("a method")));
     let mut state = SHIP.start();
     let states = (0..n).map(|step| {
-        integrator.step(&SHIP, h * f64::from(step), h, &mut state).unwrap();
+        integrator.step(&ship, h * f64::from(step), h, &mut state).unwrap();
         state.clone()
     });
     states.collect()
@@ -179,10 +180,10 @@ fn one_hertz() -> Spring {
 /// The amplitude after `n` steps of `h` from an amplitude of 1 at `phase`.
 fn amplitude(id: &str, spring: &Spring, h: f64, n: u32, phase: f64) -> f64 {
     let omega = spring.angular_frequency();
-    let mut integrator = integrator(method(id).expect("a method"), &0.0);
+    let (spring, mut integrator) = (problem(spring.clone()), fresh(method(id).expect("a method")));
     let mut state = State { q: libm::cos(phase), v: omega * libm::sin(phase) };
     for step in 0..n {
-        integrator.step(spring, h * f64::from(step), h, &mut state).unwrap();
+        integrator.step(&spring, h * f64::from(step), h, &mut state).unwrap();
     }
     libm::hypot(state.q, state.v / omega)
 }
@@ -211,10 +212,11 @@ fn one_step_multiplies_the_amplitude_as_the_formula_says() {
 fn semi_implicit_euler_conserves_its_own_energy() {
     let spring = one_hertz();
     let omega2 = spring.stiffness / spring.mass;
+    let spring = problem(spring);
     for h in [1e-3, 1.0 / 60.0, 0.1, 0.3] {
         let conserved =
             |s: &State<f64>| (s.v * s.v + omega2 * s.q * s.q) / 2.0 - h / 2.0 * omega2 * s.q * s.v;
-        let mut integrator = integrator(method("semi-implicit-euler").unwrap(), &0.0);
+        let mut integrator = fresh(method("semi-implicit-euler").unwrap());
         let mut state = State { q: 0.8, v: -1.9 };
         let first = conserved(&state);
         let plain = |s: &State<f64>| (s.v * s.v + omega2 * s.q * s.q) / 2.0;
@@ -274,8 +276,8 @@ fn semi_implicit_euler_swings_too_fast_as_tabled() {
         let spring = one_hertz();
         let step = |q, v| {
             let mut state = State { q, v };
-            let mut integrator = integrator(method("semi-implicit-euler").unwrap(), &0.0);
-            integrator.step(&spring, 0.0, h, &mut state).unwrap();
+            let mut integrator = fresh(method("semi-implicit-euler").unwrap());
+            integrator.step(&problem(spring.clone()), 0.0, h, &mut state).unwrap();
             state
         };
         // The map turns by θ a step, with 2 cos θ its trace.

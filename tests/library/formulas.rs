@@ -17,12 +17,10 @@
 
 use std::marker::PhantomData;
 
-use crate::any_system::any;
 use evaluation::{Evaluation, Step, Values, acceleration};
-use regatta::sim::integrators::{
-    DormandPrince54, EmbeddedPair, Family, METHODS, Method, Pair, integrator,
-};
-use regatta::sim::{Counted, EngineSettings, Pursuit, Question, State, System};
+use regatta::conformance::problems::{fresh, problem};
+use regatta::sim::integrators::{DormandPrince54, EmbeddedPair, Family, METHODS, Method, Pair};
+use regatta::sim::{EngineSettings, Pursuit, Question, State, System};
 use value::Value;
 
 mod evaluation;
@@ -116,10 +114,10 @@ fn steps(method: &Method, formula: &[&str], case: &Case) -> Vec<Step> {
     let [stiffness, damping, drag, force] = case.told;
     let settings = EngineSettings { stiffness, damping, drag };
     let order = method.law_order().unwrap_or(1);
-    let told = any(Told { settings, force, rate: case.rate, order });
+    let told = problem(Told { settings, force, rate: case.rate, order });
     let [q, v] = case.start;
     let mut state = State { q, v };
-    let mut stepper = integrator(method, &state.q);
+    let mut stepper = fresh(method);
     let has_substeps = method.engine.is_some_and(|engine| engine.has_substeps);
     let substeps = if has_substeps { case.substeps } else { 1 };
     let a0 = acceleration(0.0, q, v);
@@ -186,7 +184,7 @@ fn judged<'a>(method: &'a Method, formula: &'a [&str]) -> impl Iterator<Item = S
     let is_for = move |case: &&Case| match method.only {
         _ if is_adaptive => false,
         // Beyond what a pendulum takes, and far beyond for those that do not notice.
-        _ if !method.is_engine() || method.id == "held-force" => !is_far(case),
+        _ if !method.is_engine() || method.holds_force() => !is_far(case),
         Some(_) if case.start[0].abs() > 1e9 => formula.concat().contains("10¹⁰"),
         _ => method.engine.is_some_and(|e| e.damping_ratio.is_some()) || case.told[0] == 0.0,
     };
@@ -207,9 +205,9 @@ fn judged<'a>(method: &'a Method, formula: &'a [&str]) -> impl Iterator<Item = S
 /// The longest step from the first start that an adaptive method makes at once.
 fn longest_step(method: &Method) -> f64 {
     let evaluations = |h: f64| {
-        let told = any(Told { settings: EngineSettings::NONE, force: 0.0, rate: 1.0, order: 1 });
-        let (system, mut state) = (Counted::new(told), State { q: 1.0, v: 0.5 });
-        integrator(method, &state.q).steps(&system, 0.0, h, 1, &mut state).unwrap();
+        let told = Told { settings: EngineSettings::NONE, force: 0.0, rate: 1.0, order: 1 };
+        let (system, mut state) = (problem(told), State { q: 1.0, v: 0.5 });
+        fresh(method).steps(&system, 0.0, h, 1, &mut state).unwrap();
         system.evaluations()
     };
     let at_once = evaluations(1e-5);

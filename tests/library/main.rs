@@ -3,7 +3,6 @@
 
 mod advice_work;
 mod allocation;
-mod any_system;
 mod as_printed;
 mod bad_scenes;
 mod batches;

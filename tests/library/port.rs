@@ -2,11 +2,12 @@
 
 use std::f64::consts::TAU;
 
+use regatta::conformance::problems::{fresh, problem};
 use regatta::lab::port::{
     Approach, Ported, Reach, Setup, Wish, WishError, drive_limits, followers, port, setups,
 };
 use regatta::sim::bodies::Follow;
-use regatta::sim::integrators::{Family, METHODS, integrator, method};
+use regatta::sim::integrators::{Family, METHODS, method};
 use regatta::sim::{State, least_squares};
 
 use crate::dice::Dice;
@@ -36,14 +37,14 @@ fn draw(dice: &mut Dice) -> (Wish, f64, u32) {
 
 /// The states of a run of `ticks` ticks.
 fn run(setup: &Setup, joint: [f64; 2], start: [f64; 2], ticks: u32) -> Vec<[f64; 2]> {
-    let body = Body { spring: joint, drag: 0.0, push: 0.0, is_held: false }.any();
+    let body = Body { spring: joint, drag: 0.0, push: 0.0, is_held: false }.problem();
     let mut state = State { q: start[0], v: start[1] };
     // A force that is read anew in every substep is the right side of an equation under semi-implicit Euler.
     let stepped = match setup.mode.is_explicit {
         true => method("semi-implicit-euler").unwrap(),
         false => setup.method,
     };
-    let mut engine = integrator(stepped, &state.q);
+    let mut engine = fresh(stepped);
     let mut states = vec![start];
     for tick in 0..ticks {
         let t = f64::from(tick) / setup.tick_hz;
@@ -294,9 +295,9 @@ fn every_follower_halves_the_distance_in_the_same_time_at_every_rate_of_frames()
         };
         let order = port.method.law_order().unwrap() as usize;
         // Its target rests at 0.
-        let system = Follow { order, rate, ..Follow::default() };
+        let system = problem(Follow { order, rate, ..Follow::default() });
         let mut state = State { q: 1.0, v: 0.0 };
-        let mut follower = integrator::<Follow>(port.method, &state.q);
+        let mut follower = fresh(port.method);
         for _ in 0..frames as u32 {
             follower.steps(&system, 0.0, 1.0 / port.fps, 1, &mut state).unwrap();
         }

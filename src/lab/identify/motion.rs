@@ -2,7 +2,7 @@
 
 use super::candidates::Candidate;
 use super::logged_body::LoggedBody;
-use crate::sim::integrators::integrator;
+use crate::sim::integrators::{fresh, problem};
 use crate::sim::{Question, State, System};
 
 /// A body whose numbers are known, as a system.
@@ -49,14 +49,14 @@ pub(in crate::lab) fn run(
     tick_s: f64,
     ticks: impl Iterator<Item = u64>,
 ) -> Option<Vec<[f64; 2]>> {
-    let known = Known {
+    let known = problem(Known {
         spring: body.spring?,
         drag: body.drag,
         push: body.push,
         is_held: candidate.is_held,
-    };
+    });
     let mut state = State { q: start[0], v: start[1] };
-    let mut stepper = integrator::<Known>(candidate.method, &state.q);
+    let mut stepper = fresh(candidate.method);
     let (mut now, mut states, mut first) = (0, Vec::new(), None);
     for tick in ticks {
         let tick = tick - *first.get_or_insert(tick);

@@ -7,7 +7,7 @@ use crate::lab::bisection::bisect;
 use crate::sim::State;
 use crate::sim::bodies::Follow;
 use crate::sim::integrators::{
-    FollowerQuantity, FollowerSetting, METHODS, Method, in_code, integrator,
+    FollowerQuantity, FollowerSetting, METHODS, Method, fresh, in_code, problem,
 };
 
 /// How fast a value approaches a target that rests.
@@ -61,10 +61,10 @@ impl Approach {
 fn half_life(method: &Method, rate: f64, fps: f64) -> Option<f64> {
     let order = method.law_order()?;
     // Its target rests at 0.
-    let system = Follow { order: order as usize, rate, ..Follow::default() };
+    let system = problem(Follow { order: order as usize, rate, ..Follow::default() });
     let step = |x: f64, v: f64| {
         let mut state = State { q: x, v };
-        integrator::<Follow>(method, &x).steps(&system, 0.0, 1.0 / fps, 1, &mut state).ok()?;
+        fresh(method).steps(&system, 0.0, 1.0 / fps, 1, &mut state).ok()?;
         Some(Vector2::new(state.q, state.v))
     };
     let first = step(1.0, 0.0)?;

@@ -5,20 +5,16 @@ use std::ops::Range;
 use super::copies::Copies;
 use super::parts::Parts;
 use super::{Advance, Ticks};
-use crate::sim::integrators::{Integrator, integrator};
+use crate::sim::integrators::{Integrator, Problem, fresh};
 use crate::sim::solver::Solver;
 use crate::sim::state::State;
-use crate::sim::system::System;
-
-/// A copy whose type is forgotten, so that all methods are compiled for it once.
-type AnyCopy = Box<dyn System<Vector = f64>>;
 
 /// Neighbouring copies with an integrator each.
 struct Alone<C> {
     copies: C,
     /// The index of the first copy.
     first: usize,
-    integrators: Vec<Box<dyn Integrator<AnyCopy>>>,
+    integrators: Vec<Box<dyn Integrator<Problem<f64>>>>,
 }
 
 /// The copies that a thread takes at a time: a step of an implicit method takes a microsecond.
@@ -32,7 +28,7 @@ pub(super) fn each_alone<C: Copies>(
 ) -> Option<Box<dyn Advance>> {
     let method = solver.method()?;
     let own = |_| {
-        let mut own: Box<dyn Integrator<AnyCopy>> = integrator(method, &0.0);
+        let mut own = fresh(method);
         if let Solver::With(_, other) = solver {
             own.set(other);
         }

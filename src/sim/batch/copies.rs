@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::instruction_set::InstructionSet;
+use crate::sim::integrators::{Problem, problem};
 use crate::sim::system::System;
 
 /// Copies of a body of one coordinate.
@@ -17,7 +18,7 @@ pub(in crate::sim) trait Copies: Clone + Send + Sync + 'static {
     fn block<const W: usize>(&self, set: InstructionSet) -> Self::Block<W>;
 
     /// One copy.
-    fn alone(&self, copy: usize) -> Box<dyn System<Vector = f64>>;
+    fn alone(&self, copy: usize) -> Problem<f64>;
 }
 
 /// `W` neighbouring copies of a body.
@@ -48,8 +49,8 @@ impl<S: OneCoordinate> Copies for Alike<S> {
         AlikeBlock(self.0.clone())
     }
 
-    fn alone(&self, _copy: usize) -> Box<dyn System<Vector = f64>> {
-        Box::new(self.0.clone())
+    fn alone(&self, _copy: usize) -> Problem<f64> {
+        problem(self.0.clone())
     }
 }
 
@@ -89,8 +90,8 @@ impl<S: OneCoordinate> Copies for Each<S> {
         EachBlock { systems: self.0.clone(), first: 0 }
     }
 
-    fn alone(&self, copy: usize) -> Box<dyn System<Vector = f64>> {
-        Box::new(Self::of(&self.0, copy).clone())
+    fn alone(&self, copy: usize) -> Problem<f64> {
+        problem(Self::of(&self.0, copy).clone())
     }
 }
 

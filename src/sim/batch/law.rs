@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::copies::{BlockSystem, Copies};
 use super::instruction_set::{InstructionSet, Kernel};
+use crate::sim::integrators::{Problem, problem};
 use crate::sim::law::{At, Equations, LawLanes, Registers};
 use crate::sim::system::System;
 
@@ -36,9 +37,9 @@ impl Copies for LawCopies {
         LawBlock { equations: self.equations.clone(), lanes, set }
     }
 
-    fn alone(&self, _copy: usize) -> Box<dyn System<Vector = f64>> {
+    fn alone(&self, _copy: usize) -> Problem<f64> {
         let registers = RefCell::new(Registers::new(&self.equations, &self.values));
-        Box::new(LawAlone { equations: self.equations.clone(), registers, steering: self.steering })
+        problem(LawAlone { equations: self.equations.clone(), registers, steering: self.steering })
     }
 }
 

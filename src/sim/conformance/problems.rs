@@ -5,21 +5,9 @@ use glam::DVec2;
 use crate::sim::bodies::{Ship, Spring};
 use crate::sim::integrators::{Integrator, Method, Override, integrator};
 use crate::sim::state::{State, Vector};
-use crate::sim::system::{Counted, System};
+use crate::sim::system::System;
 
-/// A system to put methods on, which counts evaluations. Its type is behind a pointer, so that the methods are not
-/// compiled again for each problem.
-pub type Problem<V> = Counted<Box<dyn System<Vector = V>>>;
-
-/// This system as a problem, with nothing counted.
-pub fn problem<S: System<Vector: Vector> + 'static>(system: S) -> Problem<S::Vector> {
-    Counted::new(Box::new(system))
-}
-
-/// A fresh integrator for systems of one coordinate.
-pub fn fresh(method: &Method) -> Box<dyn Integrator<Problem<f64>>> {
-    integrator(method, &0.0)
-}
+pub use crate::sim::integrators::{Problem, fresh, problem};
 
 /// A fresh integrator that takes the steps it is given: an adaptive one gets a tolerance that does not bind.
 pub fn fixed_step<V: Vector>(method: &Method, like: &V) -> Box<dyn Integrator<Problem<V>>> {

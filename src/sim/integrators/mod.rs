@@ -58,6 +58,8 @@ mod physx;
 mod physx_tgs;
 mod position_verlet;
 mod prelude;
+#[cfg(feature = "batch")]
+mod problem;
 mod pybullet;
 mod rapier;
 mod reset_on_change;
@@ -86,6 +88,8 @@ pub use follower::{Follower, FollowerRule};
 pub use free_spin::{FreeSpin, SpinMap};
 pub use integrator::{Integrator, Override};
 pub use joint_mode::{JointMode, JointQuantity, Setting, in_code};
+#[cfg(feature = "batch")]
+pub use problem::{Problem, fresh, problem};
 pub use shared::embedded_pair::{EmbeddedPair, Pair};
 pub use tolerance::Tolerance;
 

@@ -1,21 +1,17 @@
 //! What the cards say of one method beside another.
 
+use regatta::sim::State;
+use regatta::sim::bodies::Spring;
 use regatta::sim::integrators::{Family, GENERAL_METHODS, integrator, method};
-use regatta::sim::{State, System};
 
-use super::systems::{Kepler, fresh, kepler_orbit, spring};
+use super::systems::{Kepler, Problem, fresh, kepler_orbit, problem, spring};
 
-/// The states of one body after each of `steps` steps of `h`.
-fn course<S: System<Vector = f64> + 'static>(
-    id: &str,
-    system: &S,
-    h: f64,
-    steps: u32,
-) -> Vec<State<f64>> {
-    let mut integrator = fresh::<S>(method(id).expect("a method"));
+/// The states of a spring after each of `steps` steps of `h`.
+fn course(id: &str, spring: Spring, h: f64, steps: u32) -> Vec<State<f64>> {
+    let (system, mut integrator) = (problem(spring), fresh(method(id).expect("a method")));
     let mut state = State { q: 1.0, v: 0.7 };
     let states = (0..steps).map(|step| {
-        integrator.step(system, h * f64::from(step), h, &mut state).unwrap();
+        integrator.step(&system, h * f64::from(step), h, &mut state).unwrap();
         state.clone()
     });
     states.collect()
@@ -24,7 +20,7 @@ fn course<S: System<Vector = f64> + 'static>(
 #[test]
 fn midpoint_gains_as_slowly_as_improved_euler_and_adams_bashforth_2_twice_as_fast() {
     let gain = |id| {
-        let states = course(id, &spring(1.0, 0.0), 0.1, 20_000);
+        let states = course(id, spring(1.0, 0.0), 0.1, 20_000);
         let amplitude = |state: &State<f64>| libm::hypot(state.q, state.v);
         libm::log(amplitude(&states[19_999]) / amplitude(&states[9_999]))
     };
@@ -42,7 +38,7 @@ fn no_explicit_method_is_cheaper_than_ssp_rk3_and_bounded_on_a_spring() {
     });
     let cheapest = bounded.min_by_key(|method| method.evaluations).expect("two there are");
     assert_eq!(cheapest.id, "ssp-rk3");
-    let states = course("ssp-rk3", &spring(1.0, 0.0), 0.5, 10_000);
+    let states = course("ssp-rk3", spring(1.0, 0.0), 0.5, 10_000);
     let last = states.last().expect("some");
     assert!(libm::hypot(last.q, last.v) < 1e-3, "it dies away: {last:?}");
 }
@@ -53,9 +49,9 @@ fn pefrl_is_more_accurate_than_yoshida_4_at_the_same_cost() {
         let start = kepler_orbit(0.3, 0.0);
         let mut state = start.clone();
         let card = method(id).expect("a method");
-        let mut integrator = integrator::<Kepler>(card, &state.q);
+        let mut integrator = integrator::<Problem<_>>(card, &state.q);
         let steps = evaluations / card.evaluations.expect("on the card");
-        integrator.steps(&Kepler, 0.0, 5.0, steps, &mut state).unwrap();
+        integrator.steps(&problem(Kepler), 0.0, 5.0, steps, &mut state).unwrap();
         (state.q - kepler_orbit(0.3, 5.0).q).length()
     };
     for evaluations in [360, 720, 1440] {
@@ -69,7 +65,7 @@ fn pefrl_is_more_accurate_than_yoshida_4_at_the_same_cost() {
 fn stormer_verlet_takes_velocity_verlets_path_under_drag_too() {
     for ratio in [0.0, 0.1] {
         let paths = ["stormer-verlet", "velocity-verlet"]
-            .map(|id| course(id, &spring(3.0, ratio), 0.1, 1000));
+            .map(|id| course(id, spring(3.0, ratio), 0.1, 1000));
         for (step, (stormer, velocity)) in paths[0].iter().zip(&paths[1]).enumerate() {
             let off = (stormer.q - velocity.q).abs().max((stormer.v - velocity.v).abs());
             assert!(off < 1e-12, "ζ = {ratio}, step {step}: {off:e}");

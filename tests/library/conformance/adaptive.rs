@@ -7,8 +7,7 @@ use regatta::sim::integrators::{
 };
 use regatta::sim::{Counted, State, System};
 
-use super::systems::{bits, spring};
-use crate::any_system::any;
+use super::systems::{bits, fresh, problem, spring};
 
 fn adaptive() -> impl Iterator<Item = &'static Method> {
     GENERAL_METHODS.iter().filter(|method| method.family == Family::Adaptive)
@@ -17,9 +16,9 @@ fn adaptive() -> impl Iterator<Item = &'static Method> {
 #[test]
 fn work_depends_on_the_tolerance_by_the_order() {
     let evaluations = |method: &Method, tolerance| {
-        let system = Counted::new(any(spring(1.0, 0.0)));
+        let system = problem(spring(1.0, 0.0));
         let mut state = State { q: 1.0, v: 0.7 };
-        let mut integrator = integrator(method, &state.q);
+        let mut integrator = fresh(method);
         integrator.set(Override::tolerance(tolerance));
         for tick in 0..8 {
             integrator.step(&system, 2.5 * f64::from(tick), 2.5, &mut state).unwrap();
@@ -70,14 +69,14 @@ fn a_tolerance_survives_a_reset() {
     for method in adaptive() {
         let run = |tolerance: Option<f64>, reset: bool| {
             let mut state = State { q: 1.0, v: 0.0 };
-            let mut integrator = integrator(method, &state.q);
+            let mut integrator = fresh(method);
             if let Some(tolerance) = tolerance {
                 integrator.set(Override::tolerance(tolerance));
             }
             if reset {
                 integrator.reset();
             }
-            integrator.step(&spring(20.0, 0.1), 0.0, 0.1, &mut state).unwrap();
+            integrator.step(&problem(spring(20.0, 0.1)), 0.0, 0.1, &mut state).unwrap();
             bits(&state)
         };
         assert_eq!(run(Some(1e-5), true), run(Some(1e-5), false), "{}", method.id);
@@ -99,8 +98,8 @@ impl System for Undefined {
 fn a_step_with_an_undefined_force_is_never_accepted() {
     for method in adaptive() {
         let mut state = State { q: DVec2::ONE, v: DVec2::ZERO };
-        let mut integrator = integrator::<Undefined>(method, &state.q);
-        let stepped = integrator.step(&Undefined, 0.0, 0.1, &mut state);
+        let mut integrator = integrator(method, &state.q);
+        let stepped = integrator.step(&problem(Undefined), 0.0, 0.1, &mut state);
         assert!(matches!(stepped, Err(StepFailure::TooManySubsteps { .. })), "{}", method.id);
     }
 }

@@ -6,7 +6,7 @@ use regatta::sim::integrators::{
 };
 use regatta::sim::{Counted, State};
 
-use super::systems::{Timetable, spring, unbound};
+use super::systems::{Problem, Timetable, fixed_step, spring};
 
 #[test]
 fn adaptive_euler_costs_two_evaluations_a_substep_and_one_a_rejection() {
@@ -29,19 +29,19 @@ fn run(method: &Method, power: i32, t: f64, substeps: u32) -> (State<f64>, Vec<f
 }
 
 fn run_by(
-    mut integrator: Box<dyn Integrator<Timetable>>,
+    mut integrator: Box<dyn Integrator<Problem<DVec2>>>,
     power: i32,
     t: f64,
     substeps: u32,
 ) -> (State<f64>, Vec<f64>) {
-    let system = Timetable::new(power);
+    let (system, timetable) = Timetable::new(power);
     let v = if power == 0 { 1.0 } else { 0.0 };
     let mut state = State { q: DVec2::new(0.0, 1.0), v: DVec2::new(v, 0.0) };
     for tick in 0..3 {
         let at = t + 0.1 * f64::from(tick);
         integrator.steps(&system, at, 0.1, substeps, &mut state).unwrap();
     }
-    (State { q: state.q.x, v: state.v.x - v }, system.asked.into_inner())
+    (State { q: state.q.x, v: state.v.x - v }, timetable.asked.take())
 }
 
 #[test]
@@ -83,13 +83,13 @@ fn a_method_of_order_p_integrates_a_force_of_degree_p_minus_1_in_time_exactly() 
         for (t, substeps) in [(0.0, 1), (5.0, 1), (5.0, 4)] {
             let end: f64 = t + 0.3;
             let gained = end.powi(power) - f64::powi(t, power);
-            let (state, _) = run_by(unbound(method, &DVec2::ZERO), power, t, substeps);
+            let (state, _) = run_by(fixed_step(method, &DVec2::ZERO), power, t, substeps);
             let error = (state.v / gained - 1.0).abs();
             assert!(error < 1e-12, "{}: off by {error:e} from {t} s", method.id);
         }
         // And not every force: Simpson's rule, by which both Runge-Kutta 4 integrate, ends at degree 3,
         // the midpoint rule at 1.
-        let (state, _) = run_by(unbound(method, &DVec2::ZERO), power + 4, 0.0, 1);
+        let (state, _) = run_by(fixed_step(method, &DVec2::ZERO), power + 4, 0.0, 1);
         let error = (state.v / f64::powi(0.3, power + 4) - 1.0).abs();
         assert!(error > 1e-12, "{} cannot be that good: {error:e}", method.id);
     }

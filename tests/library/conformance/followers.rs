@@ -1,14 +1,16 @@
 //! Followers: what their cards claim, measured on bodies that follow a target.
 
 use std::cell::RefCell;
+use std::rc::Rc;
 
 use glam::{DVec2, DVec3};
 use regatta::sim::bodies::{Body, Follow};
-use regatta::sim::integrators::{Family, METHODS, Method, StepFailure, integrator, method};
-use regatta::sim::{Counted, Pursuit, Question, State, System, Vector};
+use regatta::sim::integrators::{
+    Family, Integrator, METHODS, Method, StepFailure, integrator, method,
+};
+use regatta::sim::{Pursuit, Question, State, System, Vector};
 
-use super::systems::{bits, fresh, spring};
-use crate::any_system::{AnySystem, any};
+use super::systems::{Problem, bits, fresh, problem, spring};
 
 fn followers() -> impl Iterator<Item = &'static Method> {
     METHODS.iter().filter(|method| method.family == Family::Follower)
@@ -27,10 +29,10 @@ fn still(method: &Method, rate: f64) -> Follow {
 
 /// The states after each of `steps` steps of `h`.
 fn course(method: &Method, body: &Follow, h: f64, steps: u32) -> Vec<State<f64>> {
-    let mut integrator = fresh::<Follow>(method);
+    let (system, mut integrator) = (problem(body.clone()), fresh(method));
     let mut state = body.start();
     let states = (0..steps).map(|step| {
-        integrator.step(body, h * f64::from(step), h, &mut state).expect("the law it is for");
+        integrator.step(&system, h * f64::from(step), h, &mut state).expect("the law it is for");
         state.clone()
     });
     states.collect()
@@ -63,9 +65,9 @@ fn behind_an_even_target_each_follower_has_the_order_on_its_card() {
 #[test]
 fn a_step_costs_the_evaluations_of_the_target_on_the_card() {
     for method in followers() {
-        let counted = Counted::new(any(still(method, 3.0)));
+        let counted = problem(still(method, 3.0));
         let mut state = still(method, 3.0).start();
-        let mut integrator = fresh::<Counted<AnySystem>>(method);
+        let mut integrator = fresh(method);
         for steps in 1..50 {
             integrator.step(&counted, 0.0, 0.1, &mut state).expect("the law it is for");
             assert_eq!(counted.evaluations(), u64::from(steps * method.evaluations.unwrap()));
@@ -97,10 +99,10 @@ fn up_to_its_limit_a_follower_stays_near_a_still_target_and_beyond_it_leaves() {
 #[test]
 fn a_follower_loses_area_and_cannot_be_run_backwards() {
     for method in followers() {
-        let body = Follow { ramp: 0.8, ..still(method, 3.0) };
+        let system = problem(Follow { ramp: 0.8, ..still(method, 3.0) });
         let step = |t: f64, h: f64, [q, v]: [f64; 2]| {
             let mut state = State { q, v };
-            fresh::<Follow>(method).step(&body, t, h, &mut state).expect("the law it is for");
+            fresh(method).step(&system, t, h, &mut state).expect("the law it is for");
             [state.q, state.v]
         };
         let [from, along, across] =
@@ -131,18 +133,19 @@ fn a_follower_has_no_memory_and_looks_at_the_target_at_the_end_of_its_step() {
     for method in followers() {
         assert!(method.restart.is_none() && method.keeps_time && method.tolerance.is_none());
         let body = Follow { sine: 0.3, sine_hz: 1.0, ..still(method, 3.0) };
-        let system = Watched(body.clone(), RefCell::default());
+        let watched = Rc::new(Watched(body.clone(), RefCell::default()));
+        let system = problem(watched.clone());
         let mut state = body.start();
-        let mut kept = fresh::<Watched>(method);
+        let mut kept = fresh(method);
         kept.steps(&system, 5.0, 0.3, 3, &mut state).expect("the law it is for");
-        let asked = system.1.take();
+        let asked = watched.1.take();
         let wanted = [5.1, 5.2, 5.3];
         let are_near = asked.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12);
         assert!(asked.len() == 3 && are_near, "{}: {asked:?}", method.id);
 
         let mut alike = state.clone();
         kept.step(&system, 5.3, 0.1, &mut state).expect("the law it is for");
-        fresh::<Watched>(method).step(&system, 5.3, 0.1, &mut alike).expect("the law it is for");
+        fresh(method).step(&system, 5.3, 0.1, &mut alike).expect("the law it is for");
         assert_eq!(bits(&state), bits(&alike), "{}", method.id);
     }
 }
@@ -155,9 +158,10 @@ fn a_follower_refuses_what_follows_nothing_and_the_law_of_the_other_order() {
     };
     for method in followers() {
         let mut state = State { q: 1.0, v: 0.0 };
-        refused(method, fresh(method).step(&spring(3.0, 0.1), 0.0, 0.1, &mut state));
+        refused(method, fresh(method).step(&problem(spring(3.0, 0.1)), 0.0, 0.1, &mut state));
         let other = Follow { order: 3 - order_of(method), ..still(method, 3.0) };
-        refused(method, fresh(method).step(&other, 0.0, 0.1, &mut other.start()));
+        let mut start = other.start();
+        refused(method, fresh(method).step(&problem(other), 0.0, 0.1, &mut start));
     }
 }
 
@@ -180,19 +184,25 @@ impl<V: Vector> System for Ones<V> {
 
 #[test]
 fn equal_targets_get_equal_bits_in_every_vector() {
-    fn run<V: Vector>(method: &Method, like: V) -> Vec<u64> {
-        let system = Ones(like.clone(), order_of(method) as u32);
+    fn run<V: Vector>(
+        method: &Method,
+        mut integrator: Box<dyn Integrator<Problem<V>>>,
+        like: V,
+    ) -> Vec<u64> {
+        let system = problem(Ones(like.clone(), order_of(method) as u32));
         let mut state = State { q: like.clone(), v: like };
         state.q.components_mut().fill(-0.3);
         state.v.components_mut().fill(0.7);
-        let mut integrator = integrator::<Ones<V>>(method, &state.q);
         integrator.steps(&system, 0.0, 0.7, 7, &mut state).expect("the law it is for");
         bits(&state)
     }
     for method in followers() {
-        let alone = run(method, 0.0);
-        for many in [run(method, DVec2::ZERO), run(method, DVec3::ZERO), run(method, vec![0.0; 5])]
-        {
+        let alone = run(method, fresh(method), 0.0);
+        for many in [
+            run(method, integrator(method, &DVec2::ZERO), DVec2::ZERO),
+            run(method, integrator(method, &DVec3::ZERO), DVec3::ZERO),
+            run(method, integrator(method, &vec![0.0; 5]), vec![0.0; 5]),
+        ] {
             let half = many.len() / 2;
             assert!(many[..half].iter().all(|&bits| bits == alone[0]), "{}", method.id);
             assert!(many[half..].iter().all(|&bits| bits == alone[1]), "{}", method.id);

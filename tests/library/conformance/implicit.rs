@@ -3,10 +3,9 @@
 use glam::DVec2;
 use regatta::sim::bodies::{Body, Pendulum};
 use regatta::sim::integrators::{Family, GENERAL_METHODS, Method, StepFailure, integrator, method};
-use regatta::sim::{Counted, State, System};
+use regatta::sim::{State, System};
 
-use super::systems::{Kepler, Timetable, fresh, kepler_orbit, spring};
-use crate::any_system::any;
+use super::systems::{Kepler, Timetable, fresh, kepler_orbit, problem, spring};
 
 fn implicit() -> impl Iterator<Item = &'static Method> {
     GENERAL_METHODS.iter().filter(|method| method.family == Family::Implicit)
@@ -45,11 +44,11 @@ impl System for Row {
 fn energy_error(method: &Method, n: usize, h: f64, steps: u32) -> f64 {
     let displaced = |i: usize| if i == 0 { 1.0 } else { 0.0 };
     let mut state = State { q: (0..n).map(displaced).collect(), v: vec![0.0; n] };
-    let mut integrator = integrator::<Row>(method, &state.q);
+    let (row, mut integrator) = (problem(Row), integrator(method, &state.q));
     let first = Row::energy(&state);
     let mut most: f64 = 0.0;
     for step in 0..steps {
-        integrator.step(&Row, h * f64::from(step), h, &mut state).unwrap();
+        integrator.step(&row, h * f64::from(step), h, &mut state).unwrap();
         let error = (Row::energy(&state) / first - 1.0).abs();
         assert!(error.is_finite(), "{}", method.id);
         most = most.max(error);
@@ -80,8 +79,8 @@ fn a_row_of_64_masses_agrees_with_runge_kutta_at_a_fine_step() {
     let run = |id: &str, steps: u32| {
         let bump = |i: usize| 1.0 / (1.0 + (i as f64 - 20.0) * (i as f64 - 20.0) / 25.0);
         let mut state = State { q: (0..64).map(bump).collect::<Vec<f64>>(), v: vec![0.0; 64] };
-        let mut integrator = integrator::<Row>(method(id).expect("a method"), &state.q);
-        integrator.steps(&Row, 0.0, 0.5, steps, &mut state).unwrap();
+        let mut integrator = integrator(method(id).expect("a method"), &state.q);
+        integrator.steps(&problem(Row), 0.0, 0.5, steps, &mut state).unwrap();
         state
     };
     let truth = run("rk4", 1_000);
@@ -103,7 +102,7 @@ fn a_row_of_64_masses_agrees_with_runge_kutta_at_a_fine_step() {
 fn growth(id: &str, z: f64, phase: f64) -> f64 {
     let mut state = State { q: libm::cos(phase), v: libm::sin(phase) };
     let method = method(id).expect("a method");
-    fresh(method).step(&spring(1.0, 0.0), 0.0, z, &mut state).unwrap();
+    fresh(method).step(&problem(spring(1.0, 0.0)), 0.0, z, &mut state).unwrap();
     state.q * state.q + state.v * state.v
 }
 
@@ -129,7 +128,7 @@ fn one_step_multiplies_the_amplitude_by_its_formula() {
 #[test]
 fn bdf2_takes_less_energy_than_implicit_euler_for_the_same_work() {
     let left = |id| {
-        let system = Counted::new(any(spring(1.0, 0.0)));
+        let system = problem(spring(1.0, 0.0));
         let mut state = State { q: 1.0, v: 0.7 };
         let mut integrator = fresh(method(id).expect("a method"));
         integrator.steps(&system, 0.0, 100.0, 1000, &mut state).unwrap();
@@ -166,7 +165,7 @@ fn implicit_midpoint_oscillates_too_slowly_as_tabulated() {
         let step = |q, v| {
             let mut state = State { q, v };
             let method = method("implicit-midpoint").unwrap();
-            fresh(method).step(&spring(1.0, 0.0), 0.0, z, &mut state).unwrap();
+            fresh(method).step(&problem(spring(1.0, 0.0)), 0.0, z, &mut state).unwrap();
             state
         };
         // The map rotates by θ per step, and its trace is 2 cos θ.
@@ -182,10 +181,10 @@ fn implicit_midpoint_oscillates_too_slowly_as_tabulated() {
 /// the start of the step, where there is no stage.
 fn cost(method: &Method, components: u32) -> u32 {
     let stages = method.order.div_ceil(2);
-    let system = Timetable::new(0);
+    let (system, timetable) = Timetable::new(0);
     let mut state = State { q: DVec2::ONE, v: DVec2::ZERO };
     integrator(method, &state.q).step(&system, 5.0, 0.1, &mut state).unwrap();
-    let at_start = system.asked.borrow().iter().filter(|&&t| t == 5.0).count() as u32;
+    let at_start = timetable.asked.borrow().iter().filter(|&&t| t == 5.0).count() as u32;
     // TR-BDF2 solves for its two stages one after the other.
     let solutions = if method.id == "tr-bdf2" { 2 } else { 1 };
     at_start + solutions * (2 * stages + stages * stages * components)
@@ -199,7 +198,7 @@ fn a_linear_force_takes_two_iterations_at_any_scale() {
         let evaluations = 100 * cost..=(100 + u32::from(method.restart.is_some())) * cost;
         for (omega, h) in [(1.0, 0.1), (100.0, 0.1), (0.01, 0.1)] {
             let run = |scale: f64| {
-                let system = Counted::new(any(spring(omega, 0.1)));
+                let system = problem(spring(omega, 0.1));
                 let mut state = State { q: scale, v: -0.3 * scale };
                 let mut integrator = fresh(method);
                 for step in 0..100 {
@@ -220,7 +219,7 @@ fn a_linear_force_takes_two_iterations_at_any_scale() {
 #[test]
 fn a_weakly_nonlinear_force_takes_hardly_more() {
     for method in implicit() {
-        let orbit = Counted::new(Kepler);
+        let orbit = problem(Kepler);
         let mut state = kepler_orbit(0.3, 0.0);
         let mut integrator = integrator(method, &state.q);
         let h = std::f64::consts::TAU / 1000.0;
@@ -238,10 +237,10 @@ fn a_weakly_nonlinear_force_takes_hardly_more() {
 fn a_motion_that_decays_to_zero_does_not_fail() {
     for method in implicit() {
         let mut state = State { q: 1.0, v: 0.0 };
-        let mut integrator = fresh(method);
+        let (spring, mut integrator) = (problem(spring(1.0, 0.5)), fresh(method));
         for step in 0..20_000 {
             let t = 0.3 * f64::from(step);
-            integrator.step(&spring(1.0, 0.5), t, 0.3, &mut state).unwrap();
+            integrator.step(&spring, t, 0.3, &mut state).unwrap();
         }
         assert!(state.q.abs() < 1e-300, "{}: {:e}", method.id, state.q);
     }
@@ -279,10 +278,10 @@ fn a_bounded_force_is_solved_at_any_step() {
             let damping = if round % 3 == 1 { between(0.0, 2.0) * length * length } else { 0.0 };
             let body = Pendulum { length, mass, gravity, damping, theta0, omega0, kick };
             let mut state = body.start();
-            let mut integrator = integrator::<Pendulum>(method, &state.q);
+            let (system, mut integrator) = (problem(body.clone()), fresh(method));
             for step in 0..40 {
                 let (t, h) = (f64::from(step) / hz, 1.0 / hz);
-                if integrator.step(&body, t, h, &mut state).is_err() {
+                if integrator.step(&system, t, h, &mut state).is_err() {
                     given_up.push((method.id, step, hz, body.clone()));
                     break;
                 }
@@ -317,7 +316,7 @@ impl System for Pole {
 fn an_equation_without_a_solution_is_reported() {
     for method in implicit() {
         let mut state = State { q: 0.0, v: 0.01 };
-        let stepped = fresh(method).step(&any(DryFriction), 0.0, 0.1, &mut state);
+        let stepped = fresh(method).step(&problem(DryFriction), 0.0, 0.1, &mut state);
         let Err(failure @ StepFailure::NewtonFailed { limit }) = stepped else {
             panic!("{}: {stepped:?}", method.id)
         };
@@ -336,11 +335,11 @@ fn a_force_or_a_state_that_is_not_finite_is_reported() {
         for broken in [f64::NAN, f64::INFINITY] {
             let mut state = State { q: DVec2::ONE, v: DVec2::ZERO };
             let mut integrator = integrator(method, &state.q);
-            let stepped = integrator.step(&any(Broken(broken)), 0.0, 0.1, &mut state);
+            let stepped = integrator.step(&problem(Broken(broken)), 0.0, 0.1, &mut state);
             assert!(matches!(stepped, Err(StepFailure::NewtonFailed { .. })), "{}", method.id);
 
             let mut state = State { q: broken, v: 0.0 };
-            let stepped = fresh(method).step(&spring(1.0, 0.0), 0.0, 0.1, &mut state);
+            let stepped = fresh(method).step(&problem(spring(1.0, 0.0)), 0.0, 0.1, &mut state);
             assert!(matches!(stepped, Err(StepFailure::NewtonFailed { .. })), "{}", method.id);
         }
     }
@@ -350,7 +349,7 @@ fn a_force_or_a_state_that_is_not_finite_is_reported() {
 fn a_pole_is_no_solution() {
     for method in implicit() {
         let mut state = State { q: 1.0, v: 0.0 };
-        let stepped = fresh(method).step(&any(Pole), 0.0, 0.1, &mut state);
+        let stepped = fresh(method).step(&problem(Pole), 0.0, 0.1, &mut state);
         if ["newmark", "tr-bdf2"].contains(&method.id) {
             // They use the force at the start, which the caller must check.
             assert!(!state.q.is_finite(), "{stepped:?} at {state:?}");
@@ -373,9 +372,9 @@ fn a_coordinate_far_away_does_not_degrade_the_others() {
     for method in implicit() {
         let run = |far: f64| {
             let mut state = State { q: DVec2::new(far, 1.0), v: DVec2::new(20.0, 0.0) };
-            let mut integrator = integrator(method, &state.q);
+            let (apart, mut integrator) = (problem(Apart), integrator(method, &state.q));
             for step in 0..1000 {
-                integrator.step(&any(Apart), 0.01 * f64::from(step), 0.01, &mut state).unwrap();
+                integrator.step(&apart, 0.01 * f64::from(step), 0.01, &mut state).unwrap();
             }
             [state.q.y, state.v.y, state.v.x]
         };

@@ -3,7 +3,7 @@
 use regatta::sim::State;
 use regatta::sim::integrators::{DAMPING_RATIOS, GENERAL_METHODS, Method};
 
-use super::systems::{fresh, spring};
+use super::systems::{fresh, problem, spring};
 
 /// The largest `h ω` at which a method that carries something stays stable in the long run: the Verlets go
 /// on with a force that was taken at a predicted velocity.
@@ -18,7 +18,7 @@ const RESOLUTION: f64 = 6e-4;
 
 /// The spectral radius of the map of one step of a fresh method, by differences.
 fn radius(method: &Method, ratio: f64, h: f64) -> f64 {
-    let system = spring(1.0, ratio);
+    let system = problem(spring(1.0, ratio));
     let step = |q: f64, v: f64| {
         let mut state = State { q, v };
         fresh(method).step(&system, 0.0, h, &mut state).unwrap();
@@ -36,7 +36,7 @@ fn radius(method: &Method, ratio: f64, h: f64) -> f64 {
 
 /// How far a swing has grown after many steps; it stops once that is beyond all doubt.
 fn growth(method: &Method, ratio: f64, h: f64) -> f64 {
-    let system = spring(1.0, ratio);
+    let system = problem(spring(1.0, ratio));
     let mut state = State { q: 0.6, v: 0.8 };
     let mut integrator = fresh(method);
     for step in 0..100_000 {

@@ -2,23 +2,25 @@
 
 use regatta::conformance::problems::{Air, SHIP, course_in_air};
 use regatta::sim::bodies::{Body, Ship};
-use regatta::sim::integrators::method;
+use regatta::sim::integrators::{integrator, method};
 use regatta::sim::{State, System};
 
-use super::systems::{Kepler, Sparse, Springs, bits, fresh, kepler_orbit, spring};
+use super::systems::{
+    Kepler, Problem, Sparse, bits, fresh, kepler_orbit, problem, spring, springs,
+};
 
 /// The states after each of `steps` steps of `h`.
-fn course<S: System<Vector = f64> + 'static>(
+fn course(
     id: &str,
-    system: &S,
+    system: impl System<Vector = f64> + 'static,
     start: &State<f64>,
     h: f64,
     steps: u32,
 ) -> Vec<State<f64>> {
-    let mut integrator = fresh::<S>(method(id).expect("a method"));
+    let (system, mut integrator) = (problem(system), fresh(method(id).expect("a method")));
     let mut state = start.clone();
     let states = (0..steps).map(|step| {
-        integrator.step(system, h * f64::from(step), h, &mut state).unwrap();
+        integrator.step(&system, h * f64::from(step), h, &mut state).unwrap();
         state.clone()
     });
     states.collect()
@@ -27,7 +29,7 @@ fn course<S: System<Vector = f64> + 'static>(
 /// The largest error over a hundred steps, relative to the largest position and velocity.
 fn error<B: Body<Vector = f64> + 'static>(id: &str, body: &B, h: f64) -> f64 {
     let (start, mut worst, mut largest) = (body.start(), [0.0_f64; 2], [0.0_f64; 2]);
-    for (step, found) in course(id, body, &start, h, 100).into_iter().enumerate() {
+    for (step, found) in course(id, body.clone(), &start, h, 100).into_iter().enumerate() {
         let truth = body.exact(h * (step + 1) as f64, &start).expect("a closed form");
         for (i, (found, truth)) in [(found.q, truth.q), (found.v, truth.v)].into_iter().enumerate()
         {
@@ -58,7 +60,7 @@ fn linearly_implicit_euler_is_implicit_euler_on_a_linear_spring() {
     for (omega, ratio) in [(1.0, 0.0), (1.0, 0.2), (30.0, 0.05), (300.0, 1.0)] {
         let spring = spring(omega, ratio);
         let [one, other] = ["linearly-implicit-euler", "implicit-euler"]
-            .map(|id| course(id, &spring, &start, 0.1, 100));
+            .map(|id| course(id, spring.clone(), &start, 0.1, 100));
         for (one, other) in one.iter().zip(&other) {
             let off = (one.q - other.q).abs().max((one.v - other.v).abs());
             assert!(off < 1e-13, "ω = {omega}, ζ = {ratio}: {off:e}");
@@ -66,7 +68,7 @@ fn linearly_implicit_euler_is_implicit_euler_on_a_linear_spring() {
     }
     // And not on a curved force.
     let [one, other] = ["linearly-implicit-euler", "implicit-euler"]
-        .map(|id| course(id, &super::systems::UnitPendulum, &start, 0.1, 100));
+        .map(|id| course(id, super::systems::UnitPendulum, &start, 0.1, 100));
     assert!((one[99].q - other[99].q).abs() > 1e-6);
 }
 
@@ -77,7 +79,7 @@ fn linearly_implicit_euler_makes_the_step_of_xpbd() {
     let body =
         regatta::sim::bodies::Spring { mass, stiffness, damping: 0.0, x0: 0.5, v0: 3.0, kick: 1.0 };
     let [mut x, mut v] = [0.5, 3.0];
-    for found in course("linearly-implicit-euler", &body, &body.start(), h, 100) {
+    for found in course("linearly-implicit-euler", body.clone(), &body.start(), h, 100) {
         let predicted = x + h * v;
         let lambda = -predicted / (1.0 / mass + 1.0 / (stiffness * h * h));
         let next = predicted + lambda / mass;
@@ -89,7 +91,7 @@ fn linearly_implicit_euler_makes_the_step_of_xpbd() {
 #[test]
 fn drag_that_is_implicit_or_exact_is_stable_at_any_step_and_that_of_semi_implicit_euler_is_not() {
     let coasting = Ship { thrust: 0.0, v0: 20.0, mass: 1.0, drag: 1000.0, ..SHIP };
-    let last = |id| course(id, &coasting, &coasting.start(), 0.1, 50)[49].v;
+    let last = |id| course(id, coasting.clone(), &coasting.start(), 0.1, 50)[49].v;
     assert!(last("semi-implicit-euler").abs() > 1e50);
     let found = last("semi-implicit-euler-implicit-drag");
     assert!(found.abs() < 1e-50, "{found}");
@@ -97,7 +99,8 @@ fn drag_that_is_implicit_or_exact_is_stable_at_any_step_and_that_of_semi_implici
     assert!(found.abs() < 1e-50, "{found}");
     // One step divides by 1 + h c / m.
     let light = Ship { thrust: 0.0, v0: 20.0, ..SHIP };
-    let after = &course("semi-implicit-euler-implicit-drag", &light, &light.start(), 3.0, 1)[0];
+    let after =
+        &course("semi-implicit-euler-implicit-drag", light.clone(), &light.start(), 3.0, 1)[0];
     assert!((after.v - 20.0 / 1.3).abs() < 1e-13, "{after:?}");
 }
 
@@ -107,7 +110,7 @@ fn verlet_with_exact_drag_decays_as_a_coasting_ship_does() {
     for h in [0.1, 3.0, 40.0] {
         let start = coasting.start();
         for (step, found) in
-            course("verlet-exact-drag", &coasting, &start, h, 100).into_iter().enumerate()
+            course("verlet-exact-drag", coasting.clone(), &start, h, 100).into_iter().enumerate()
         {
             let truth = coasting.exact(h * (step + 1) as f64, &start).expect("a closed form");
             assert!((found.v - truth.v).abs() < 1e-13 * start.v, "{h} s: {}, {}", found.v, truth.v);
@@ -120,7 +123,7 @@ fn both_second_orders_hold_in_air_whose_drag_is_not_linear() {
     for id in ["verlet-exact-drag", "exponential-rosenbrock-euler"] {
         let error = |steps: u32| {
             let h = 2.0 / f64::from(steps);
-            let states = course(id, &Air, &course_in_air(0.0), h, steps);
+            let states = course(id, Air, &course_in_air(0.0), h, steps);
             let (found, truth) = (states.last().expect("some"), course_in_air(2.0));
             (found.q - truth.q).abs().max((found.v - truth.v).abs())
         };
@@ -140,10 +143,10 @@ fn coordinates_that_drag_couples_are_decayed_together() {
         }
     }
     let mut state = State { q: glam::DVec2::ZERO, v: glam::DVec2::X };
-    let card = method("verlet-exact-drag").expect("a method");
-    let mut integrator = regatta::sim::integrators::integrator::<Coupled>(card, &state.q);
+    let (coupled, card) = (problem(Coupled), method("verlet-exact-drag").expect("a method"));
+    let mut integrator = integrator(card, &state.q);
     for step in 0..10 {
-        integrator.step(&Coupled, 0.7 * f64::from(step), 0.7, &mut state).unwrap();
+        integrator.step(&coupled, 0.7 * f64::from(step), 0.7, &mut state).unwrap();
     }
     let (decay, angle) = (libm::exp(-3.5), 21.0);
     let truth = decay * glam::DVec2::new(libm::cos(angle), -libm::sin(angle));
@@ -157,13 +160,13 @@ fn a_sparse_system_takes_the_steps_of_others_to_rounding() {
             let like: Vec<f64> = (0..8).map(|i| 1.0 - 0.3 * f64::from(i)).collect();
             let mut state = State { q: like.clone(), v: like };
             let card = method(id).expect("a method");
-            let mut integrator = regatta::sim::integrators::integrator::<S>(card, &state.q);
+            let mut integrator = integrator::<S>(card, &state.q);
             for i in 0..100 {
                 integrator.step(system, 0.1 * f64::from(i), 0.1, &mut state).unwrap();
             }
             [state.q, state.v].concat()
         }
-        let springs = Springs(std::marker::PhantomData);
+        let springs: Problem<Vec<f64>> = springs(9.0, 0.4);
         if sparse { steps(id, &Sparse(springs)) } else { steps(id, &springs) }
     };
     for id in [
@@ -185,8 +188,8 @@ fn tr_bdf2_takes_less_of_an_orbit_than_bdf2() {
     let error = |id: &str| {
         let mut state = kepler_orbit(0.3, 0.0);
         let card = method(id).expect("a method");
-        let mut integrator = regatta::sim::integrators::integrator::<Kepler>(card, &state.q);
-        integrator.steps(&Kepler, 0.0, 5.0, 400, &mut state).unwrap();
+        let mut integrator = integrator(card, &state.q);
+        integrator.steps(&problem(Kepler), 0.0, 5.0, 400, &mut state).unwrap();
         (state.q - kepler_orbit(0.3, 5.0).q).length()
     };
     let [one, other] = ["tr-bdf2", "bdf2"].map(error);
@@ -197,7 +200,7 @@ fn tr_bdf2_takes_less_of_an_orbit_than_bdf2() {
 fn jakobsens_positions_follow_his_recurrence_without_a_velocity() {
     let (omega, h) = (5.0, 1.0 / 60.0);
     let start = State { q: 1.0, v: 0.7 };
-    let states = course("jakobsen-verlet", &spring(omega, 0.0), &start, h, 300);
+    let states = course("jakobsen-verlet", spring(omega, 0.0), &start, h, 300);
     let (mut before, mut x) = (start.q - h * start.v, start.q);
     for State { q, v } in &states {
         let next = x + 0.99 * (x - before) - h * h * omega * omega * x;
@@ -211,7 +214,8 @@ fn jakobsens_drag_depends_on_the_tick_rate() {
     let coasting = Ship { thrust: 0.0, drag: 0.0, v0: 20.0, ..SHIP };
     let after_a_second = |rate: u32| {
         let h = 1.0 / f64::from(rate);
-        course("jakobsen-verlet", &coasting, &coasting.start(), h, rate)[rate as usize - 1].v / 20.0
+        course("jakobsen-verlet", coasting.clone(), &coasting.start(), h, rate)[rate as usize - 1].v
+            / 20.0
     };
     for (rate, left) in [(30, 0.7397), (60, 0.5472), (144, 0.2352)] {
         let found = after_a_second(rate);
@@ -237,7 +241,7 @@ fn a_body_at_rest_under_forces_that_balance_stays_there() {
         "exponential-rosenbrock-euler",
     ] {
         let rest = State { q: -0.3 - 9.81 / 4e4, v: 0.0 };
-        let states = course(id, &Weight, &rest, 0.005, 10_000);
+        let states = course(id, Weight, &rest, 0.005, 10_000);
         let off = states.iter().map(|state| (state.q - rest.q).abs()).fold(0.0, f64::max);
         assert!(off < 1e-13, "{id}: {off:e}");
         assert_ne!(bits(&states[0]), [0, 0]);

@@ -3,7 +3,7 @@
 use regatta::sim::integrators::{Family, GENERAL_METHODS, Method};
 use regatta::sim::{State, System};
 
-use super::systems::{UnitPendulum, fresh, spring};
+use super::systems::{UnitPendulum, fresh, problem, spring};
 
 /// Beyond this energy error no motion is left.
 const LOST: f64 = 1e6;
@@ -23,14 +23,14 @@ impl Drift {
 
 /// The pendulum's energy over `steps` steps of `h`; `None` if it was lost on the way.
 fn drift(method: &Method, h: f64, steps: u32) -> Option<Drift> {
-    let mut integrator = fresh(method);
+    let (pendulum, mut integrator) = (problem(UnitPendulum), fresh(method));
     let mut state = State { q: 1.2, v: 0.5 };
     let energy = |s: &State<f64>| s.v * s.v / 2.0 - libm::cos(s.q);
     let first = energy(&state);
     let (mut least, mut most) = (0.0_f64, 0.0_f64);
     let (middle, mut sum, mut moment, mut square) = (f64::from(steps - 1) / 2.0, 0.0, 0.0, 0.0);
     for step in 0..steps {
-        integrator.step(&UnitPendulum, h * f64::from(step), h, &mut state).unwrap();
+        integrator.step(&pendulum, h * f64::from(step), h, &mut state).unwrap();
         let error = energy(&state) - first;
         if !error.is_finite() || error.abs() > LOST {
             return None;
@@ -64,16 +64,16 @@ fn symplectic_methods_and_no_others_bound_energy_without_a_trend_over_a_million_
 }
 
 /// How far from its start `steps` steps of `h` and as many of `-h` leave the state.
-fn out_and_back<S: System<Vector = f64> + 'static>(method: &Method, system: &S) -> f64 {
+fn out_and_back(method: &Method, system: impl System<Vector = f64> + 'static) -> f64 {
     const H: f64 = 0.1;
     const STEPS: u32 = 100_000;
     let start = State { q: 1.2, v: 0.5 };
     let mut state = start.clone();
-    let mut integrator = fresh::<S>(method);
+    let (system, mut integrator) = (problem(system), fresh(method));
     let out = (0..STEPS).map(|n| (H * f64::from(n), H));
     let back = (1..=STEPS).rev().map(|n| (H * f64::from(n), -H));
     for (t, h) in out.chain(back) {
-        integrator.step(system, t, h, &mut state).unwrap();
+        integrator.step(&system, t, h, &mut state).unwrap();
         if !state.q.is_finite() || state.q.abs() > LOST {
             return f64::INFINITY;
         }
@@ -86,8 +86,8 @@ fn reversible_methods_and_no_others_return_after_a_hundred_thousand_steps() {
     // Backwards by steps of -h: on forces without drag the same as turning the velocity round.
     for method in GENERAL_METHODS {
         // What is rounded on a spring adds up; on a pendulum, whose frequency it changes, it also grows.
-        let on_spring = (out_and_back(method, &spring(1.0, 0.0)), 1e-12, true);
-        let on_pendulum = (out_and_back(method, &UnitPendulum), 1e-9, false);
+        let on_spring = (out_and_back(method, spring(1.0, 0.0)), 1e-12, true);
+        let on_pendulum = (out_and_back(method, UnitPendulum), 1e-9, false);
         for (off, rounded, is_linear) in [on_spring, on_pendulum] {
             println!("{:26} {off:.1e}", method.id);
             if method.reversible || is_linear && method.exact_if_linear {

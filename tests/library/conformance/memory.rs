@@ -1,13 +1,10 @@
 //! The memory of methods, and when it must be dropped.
 
-use std::cell::RefCell;
-
 use glam::DVec2;
 use regatta::sim::State;
-use regatta::sim::bodies::Spring;
 use regatta::sim::integrators::{GENERAL_METHODS, Integrator, Method, integrator};
 
-use super::systems::{Timetable, bits, fresh, spring};
+use super::systems::{Problem, Timetable, bits, fresh, problem, spring};
 
 /// Methods with memory: of a force, a slope, a position, or a substep length.
 fn methods_with_memory() -> impl Iterator<Item = &'static Method> {
@@ -15,9 +12,10 @@ fn methods_with_memory() -> impl Iterator<Item = &'static Method> {
 }
 
 /// Steps a lively damped spring `n` times by `h`.
-fn run(integrator: &mut dyn Integrator<Spring>, state: &mut State<f64>, h: f64, n: u32) {
+fn run(integrator: &mut dyn Integrator<Problem<f64>>, state: &mut State<f64>, h: f64, n: u32) {
+    let spring = problem(spring(20.0, 0.1));
     for step in 0..n {
-        integrator.step(&spring(20.0, 0.1), h * f64::from(step), h, state).unwrap();
+        integrator.step(&spring, h * f64::from(step), h, state).unwrap();
     }
 }
 
@@ -55,9 +53,9 @@ fn memory_is_dropped_for_a_step_of_another_length() {
 fn a_carried_step_changes_sign_when_time_reverses() {
     // Jakobsen's takes from the velocity both ways.
     for method in GENERAL_METHODS.iter().filter(|method| method.order > 0) {
-        let system = Timetable { power: 1, asked: RefCell::default() };
+        let (system, _) = Timetable::new(1);
         let mut state = State { q: DVec2::new(0.0, 1.0), v: DVec2::new(0.0, 0.0) };
-        let mut integrator = integrator::<Timetable>(method, &state.q);
+        let mut integrator = integrator(method, &state.q);
         integrator.step(&system, 0.0, 0.1, &mut state).unwrap();
         integrator.step(&system, 0.1, -0.1, &mut state).unwrap();
         assert!(state.v.x.abs() < 1e-15, "{}: {} m/s left", method.id, state.v.x);

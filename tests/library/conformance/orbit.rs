@@ -3,16 +3,16 @@
 use regatta::sim::System;
 use regatta::sim::integrators::{integrator, method};
 
-use super::systems::{Kepler, kepler_orbit};
+use super::systems::{Kepler, Problem, kepler_orbit, problem};
 
 /// How far from periapsis ten orbits of eccentricity 0.6 end, at 200 steps an orbit.
 fn after_ten_orbits(id: &str) -> f64 {
     let start = kepler_orbit(0.6, 0.0);
     let mut state = start.clone();
-    let mut integrator = integrator::<Kepler>(method(id).expect("a method"), &state.q);
-    let h = std::f64::consts::TAU / 200.0;
+    let mut integrator = integrator::<Problem<_>>(method(id).expect("a method"), &state.q);
+    let (kepler, h) = (problem(Kepler), std::f64::consts::TAU / 200.0);
     for step in 0..2000 {
-        integrator.step(&Kepler, h * f64::from(step), h, &mut state).unwrap();
+        integrator.step(&kepler, h * f64::from(step), h, &mut state).unwrap();
     }
     (state.q - start.q).length()
 }

@@ -1,37 +1,34 @@
-//! The systems that methods are measured on, and a way to put a method on them.
+//! The systems that methods are measured on.
 
 use std::cell::RefCell;
+use std::marker::PhantomData;
+use std::rc::Rc;
 
 use glam::DVec2;
-use regatta::sim::integrators::{Integrator, Method, Override, integrator};
 use regatta::sim::{Coupling, State, System, Vector};
 
-pub(crate) use regatta::conformance::problems::{Kepler, UnitPendulum, kepler_orbit, spring};
-
-/// A fresh integrator for systems of one coordinate, compiled for `S`.
-pub(crate) fn fresh<S: System<Vector = f64> + 'static>(method: &Method) -> Box<dyn Integrator<S>> {
-    integrator(method, &0.0)
-}
-
-/// A fresh integrator that takes the steps it is given: an adaptive one gets a tolerance that does not bind.
-pub(crate) fn unbound<S: System<Vector: Vector> + 'static>(
-    method: &Method,
-    like: &S::Vector,
-) -> Box<dyn Integrator<S>> {
-    let mut integrator = integrator(method, like);
-    integrator.set(Override::tolerance(1e100));
-    integrator
-}
+pub(crate) use regatta::conformance::problems::{
+    Kepler, Problem, UnitPendulum, fixed_step, fresh, kepler_orbit, problem, spring,
+};
 
 /// As many independent damped springs as the vector has components.
-pub(crate) struct Springs<V>(pub(crate) std::marker::PhantomData<V>);
+struct Springs<V> {
+    stiffness: f64,
+    damping: f64,
+    vector: PhantomData<V>,
+}
+
+/// Springs of a kilogram, of this stiffness and damping.
+pub(crate) fn springs<V: Vector>(stiffness: f64, damping: f64) -> Problem<V> {
+    problem(Springs { stiffness, damping, vector: PhantomData })
+}
 
 impl<V: Vector> System for Springs<V> {
     type Vector = V;
     fn acceleration(&self, _t: f64, q: &V, v: &V, a: &mut V) {
         let pairs = q.components().iter().zip(v.components());
         for (a, (q, v)) in a.components_mut().iter_mut().zip(pairs) {
-            *a = -9.0 * q - 0.4 * v;
+            *a = -self.stiffness * q - self.damping * v;
         }
     }
 }
@@ -58,8 +55,10 @@ pub(crate) struct Timetable {
 }
 
 impl Timetable {
-    pub(crate) fn new(power: i32) -> Self {
-        Self { power, asked: RefCell::default() }
+    /// The system, and where it keeps the times.
+    pub(crate) fn new(power: i32) -> (Problem<DVec2>, Rc<Self>) {
+        let system = Rc::new(Self { power, asked: RefCell::default() });
+        (problem(system.clone()), system)
     }
 }
 

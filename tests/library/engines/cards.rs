@@ -3,9 +3,10 @@
 use std::collections::HashSet;
 use std::f64::consts::TAU;
 
+use regatta::conformance::problems::fresh;
 use regatta::sim::bodies::{BODIES, Body as _, Kind, Net, Range, incompatibility, kind};
-use regatta::sim::integrators::{METHODS, Method, StepFailure, integrator, method};
-use regatta::sim::{Counted, Solver, State};
+use regatta::sim::integrators::{METHODS, Method, StepFailure, method};
+use regatta::sim::{Solver, State};
 
 use super::log::{Body, Log};
 
@@ -15,8 +16,7 @@ fn engines() -> impl Iterator<Item = &'static Method> {
 
 /// A held force is a spring of user code, and so is any spring where there is no joint: in pybullet's multibody.
 fn spring_of(method: &Method, spring: [f64; 2]) -> Body {
-    let is_held = method.id == "held-force" || !has_spring(method);
-    Body { spring, drag: 0.0, push: 0.0, is_held }
+    Body { spring, drag: 0.0, push: 0.0, is_held: !method.has_joint() }
 }
 
 fn has_spring(method: &Method) -> bool {
@@ -26,7 +26,7 @@ fn has_spring(method: &Method) -> bool {
 /// The state after `ticks` ticks of `h`.
 fn after(method: &Method, body: &Body, h: f64, ticks: u32, from: [f64; 2]) -> State<f64> {
     let mut state = State { q: from[0], v: from[1] };
-    let (body, mut engine) = (body.any(), integrator(method, &state.q));
+    let (body, mut engine) = (body.problem(), fresh(method));
     for tick in 0..ticks {
         engine.steps(&body, f64::from(tick) * h, h, method.default_substeps, &mut state).unwrap();
     }
@@ -105,9 +105,9 @@ fn the_damping_ratio_of_an_engine_is_what_a_spring_of_1_hz_has_at_its_defaults()
 
 /// Whether an undamped spring stays within bounds for long.
 fn is_bounded(method: &Method, z: f64) -> bool {
-    let body = spring_of(method, [z * z, 0.0]).any();
+    let body = spring_of(method, [z * z, 0.0]).problem();
     let mut state = State { q: 1.0, v: 0.01 };
-    let mut engine = integrator(method, &state.q);
+    let mut engine = fresh(method);
     (0..200_000).all(|_| {
         engine.steps(&body, 0.0, 1.0, method.default_substeps, &mut state).unwrap();
         state.q.abs() < 1e3 && state.v.abs() < 1e3 * z.max(1.0)
@@ -152,9 +152,9 @@ fn mujoco_puts_a_runaway_back_to_the_origin_at_rest() {
     for id in ["engine-mujoco", "engine-mujoco-rk4"] {
         let method = method(id).unwrap();
         // Four substeps on a force held through all of them gain energy.
-        let body = Body { spring: [987.0, 0.0], drag: 0.0, push: 0.0, is_held: true }.any();
+        let body = Body { spring: [987.0, 0.0], drag: 0.0, push: 0.0, is_held: true }.problem();
         let mut state = State { q: 1.0, v: 0.0 };
-        let mut engine = integrator(method, &state.q);
+        let mut engine = fresh(method);
         let mut largest = 0.0_f64;
         for _ in 0..2000 {
             engine.steps(&body, 0.0, 1.0 / 60.0, 4, &mut state).unwrap();
@@ -189,9 +189,9 @@ fn an_engine_keeps_area_on_an_undamped_spring_where_its_card_says_so_and_none_ca
 /// The evaluations of 10 ticks of a body that is pushed.
 fn evaluations(method: &Method, substeps: u32) -> u64 {
     let body = Body { spring: [0.0; 2], drag: 0.1, push: 1.0, is_held: false };
-    let counted = Counted::new(body.any());
+    let counted = body.problem();
     let mut state = State { q: 0.0, v: 0.0 };
-    let mut engine = integrator(method, &state.q);
+    let mut engine = fresh(method);
     for tick in 0..10 {
         engine.steps(&counted, f64::from(tick), 1.0, substeps, &mut state).unwrap();
     }
@@ -216,9 +216,9 @@ fn a_tick_costs_what_its_card_says_with_and_without_substeps_of_the_engines_own(
 fn a_spring_force_held_over_one_substep_is_bounded_up_to_2_and_over_more_at_no_step() {
     let held = method("held-force").unwrap();
     let is_bounded = |z: f64, substeps: u32| {
-        let body = spring_of(held, [z * z, 0.0]).any();
+        let body = spring_of(held, [z * z, 0.0]).problem();
         let mut state = State { q: 1.0, v: 0.01 };
-        let mut engine = integrator(held, &state.q);
+        let mut engine = fresh(held);
         for tick in 0..200_000 {
             engine.steps(&body, f64::from(tick), 1.0, substeps, &mut state).unwrap();
         }

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 use std::fs;
 use std::path::PathBuf;
 
-use crate::any_system::{AnySystem, any};
-use regatta::sim::integrators::{Method, StepFailure, integrator, method};
+use regatta::conformance::problems::{Problem, fresh, problem};
+use regatta::sim::integrators::{Method, StepFailure, method};
 use regatta::sim::{Question, State, System};
 
 /// Where the logs are, with their manifest.
@@ -27,8 +27,8 @@ pub(crate) struct Body {
 }
 
 impl Body {
-    pub(crate) fn any(&self) -> AnySystem {
-        any(self.clone())
+    pub(crate) fn problem(&self) -> Problem<f64> {
+        problem(self.clone())
     }
 }
 
@@ -161,7 +161,7 @@ impl Log {
     /// The run of its card from the first row, at the ticks of all rows.
     pub(crate) fn run(&self) -> Result<Vec<Row>, StepFailure> {
         let mut state = State { q: self.rows[0].x, v: self.rows[0].v };
-        let (body, mut stepper) = (self.body.any(), integrator(self.method(), &state.q));
+        let (body, mut stepper) = (self.body.problem(), fresh(self.method()));
         let mut tick = self.rows[0].tick;
         let mut reached = Vec::new();
         for row in &self.rows {

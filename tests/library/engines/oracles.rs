@@ -1,7 +1,8 @@
 //! What the engines are known for, in figures taken from their logs.
 
+use regatta::conformance::problems::fresh;
 use regatta::sim::State;
-use regatta::sim::integrators::{integrator, method};
+use regatta::sim::integrators::method;
 
 use super::log::Body;
 
@@ -68,7 +69,7 @@ const HZ_1: f64 = std::f64::consts::TAU;
 fn after(id: &str, body: &Body, hz: f64, ticks: u32, from: [f64; 2]) -> State<f64> {
     let method = method(id).expect("a method of the table");
     let mut state = State { q: from[0], v: from[1] };
-    let (body, mut engine) = (body.any(), integrator(method, &state.q));
+    let (body, mut engine) = (body.problem(), fresh(method));
     for tick in 0..ticks {
         let t = f64::from(tick) / hz;
         engine.steps(&body, t, 1.0 / hz, method.default_substeps, &mut state).unwrap();

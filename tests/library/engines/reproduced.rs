@@ -1,7 +1,7 @@
 //! Each card does what its engine did.
 
+use regatta::conformance::problems::fresh;
 use regatta::sim::State;
-use regatta::sim::integrators::integrator;
 
 use super::log::{Log, Row};
 
@@ -38,7 +38,7 @@ fn the_card_of_an_engine_reproduces_each_logged_tick_from_the_one_before() {
         for pair in log.rows.windows(2).filter(|pair| pair[1].tick == pair[0].tick + 1) {
             let [from, to] = [pair[0], pair[1]];
             let mut state = State { q: from.x, v: from.v };
-            let (body, mut stepper) = (log.body.any(), integrator(log.method(), &state.q));
+            let (body, mut stepper) = (log.body.problem(), fresh(log.method()));
             let t = from.tick as f64 * log.tick_s;
             stepper.steps(&body, t, log.tick_s, log.substeps, &mut state).unwrap();
             let off = off(Row { tick: to.tick, x: state.q, v: state.v }, to, scale);

@@ -1,9 +1,11 @@
 //! What the headers say of forces that depend on time, measured.
 
 use std::cell::Cell;
+use std::rc::Rc;
 
+use regatta::conformance::problems::{fresh, problem};
 use regatta::lab::source_code::{Language, Precision, source_code};
-use regatta::sim::integrators::{Method, integrator, method};
+use regatta::sim::integrators::{Method, method};
 use regatta::sim::{State, System};
 
 use super::known::sources;
@@ -28,12 +30,13 @@ impl System for Held {
 /// The position after a second in `steps` steps, in each of which the force is held at its value after `part` of it.
 fn position(method: &Method, steps: u32, part: f64) -> f64 {
     let h = 1.0 / f64::from(steps);
-    let system = Held { time: Cell::new(0.0) };
+    let held = Rc::new(Held { time: Cell::new(0.0) });
+    let system = problem(held.clone());
     let mut state = State { q: 1.0, v: 0.0 };
-    let mut stepper = integrator(method, &state.q);
+    let mut stepper = fresh(method);
     for n in 0..steps {
         let t = f64::from(n) * h;
-        system.time.set(t + part * h);
+        held.time.set(t + part * h);
         stepper.steps(&system, t, h, 1, &mut state).unwrap();
     }
     state.q

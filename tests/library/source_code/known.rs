@@ -1,8 +1,8 @@
 //! The runs that are compared: their forces and targets, and the steps of the methods of the table.
 
-use crate::any_system::any;
+use regatta::conformance::problems::{fresh, problem};
 use regatta::lab::source_code::MethodSource;
-use regatta::sim::integrators::{METHODS, Method, integrator};
+use regatta::sim::integrators::{METHODS, Method};
 use regatta::sim::{Pursuit, Question, State, System};
 
 /// The acceleration of a run.
@@ -110,10 +110,10 @@ impl System for Run {
 pub(crate) fn steps(method: &Method, case: &Case) -> Vec<[f64; 2]> {
     let force = FORCES[case.force].a;
     let order = method.law_order().unwrap_or(1);
-    let run = any(Run { force, order, has_joint: method.id != "engine-pybullet" });
+    let run = problem(Run { force, order, has_joint: method.has_joint() });
     let [q, v] = case.start;
     let mut state = State { q, v };
-    let mut stepper = integrator(method, &state.q);
+    let mut stepper = fresh(method);
     (0..STEPS)
         .map(|n| {
             let h = case.length(n);
