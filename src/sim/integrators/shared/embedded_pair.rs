@@ -90,8 +90,7 @@ impl<S: System<Vector: Vector>, P: Pair<N>, const N: usize> Integrator<S>
                 }
             }
             weighted_sum(error, zero, 1.0, &P::E, k);
-            let error = progress.error(h, error, y);
-            if progress.accepts(error, P::factor) {
+            if progress.accepts(error, y, P::factor) {
                 y.assign(stage);
                 if is_last_in_error {
                     k.swap(0, N - 1);

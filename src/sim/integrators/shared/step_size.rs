@@ -33,7 +33,7 @@ pub(in crate::sim::integrators) fn factor(root: f64) -> f64 {
 
 /// As [`factor`] for an error of order p, but 1 if the step is accepted and could hardly grow.
 #[inline]
-pub(in crate::sim::integrators) fn steady_factor(error: f64, order: u32) -> f64 {
+pub(super) fn steady_factor(error: f64, order: u32) -> f64 {
     let steady = (0..order).fold(1.0, |product, _| product * (SAFETY / MIN_GROWTH));
     if (steady..=MAX_STEADY_ERROR).contains(&error) {
         1.0
@@ -44,29 +44,29 @@ pub(in crate::sim::integrators) fn steady_factor(error: f64, order: u32) -> f64 
 
 /// The step size of an adaptive method.
 #[derive(Clone)]
-pub(in crate::sim::integrators) struct StepSize {
-    pub(in crate::sim::integrators) tolerance: Tolerance,
+pub(super) struct StepSize {
+    pub(super) tolerance: Tolerance,
     /// The length of the last tick.
     last_step: LastStep,
     /// The first substep to try in a tick of the same length.
     next: f64,
     /// Substeps accepted and rejected since construction or reset.
-    pub(in crate::sim::integrators) attempts: (u64, u64),
+    pub(super) attempts: (u64, u64),
 }
 
 impl StepSize {
-    pub(in crate::sim::integrators) fn new(tolerance: Tolerance) -> Self {
+    pub(super) fn new(tolerance: Tolerance) -> Self {
         Self { tolerance, last_step: LastStep::NONE, next: 0.0, attempts: (0, 0) }
     }
 
-    pub(in crate::sim::integrators) fn reset(&mut self) {
+    pub(super) fn reset(&mut self) {
         *self = Self::new(self.tolerance);
     }
 
     /// Begins a tick of `h`: with the substep carried from the last tick, or with a single substep if
     /// that tick had another length.
     #[inline]
-    pub(in crate::sim::integrators) fn begin_tick(&mut self, h: f64) -> TickProgress<'_> {
+    pub(super) fn begin_tick(&mut self, h: f64) -> TickProgress<'_> {
         let continues = self.last_step.is_continued_by(h);
         let carried = if continues { self.next } else { h };
         TickProgress { size: self, continues, h, left: h, carried, trial: h, attempts: 0 }
@@ -74,7 +74,7 @@ impl StepSize {
 }
 
 /// The progress through a tick.
-pub(in crate::sim::integrators) struct TickProgress<'a> {
+pub(super) struct TickProgress<'a> {
     size: &'a mut StepSize,
     continues: bool,
     h: f64,
@@ -87,13 +87,13 @@ pub(in crate::sim::integrators) struct TickProgress<'a> {
 impl TickProgress<'_> {
     /// Whether memory from the last tick is valid in this one.
     #[inline]
-    pub(in crate::sim::integrators) fn continues_the_last(&self) -> bool {
+    pub(super) fn continues_the_last(&self) -> bool {
         self.continues
     }
 
     /// The substep to try next; the last one ends exactly where the tick does.
     #[inline]
-    pub(in crate::sim::integrators) fn trial(&mut self) -> Result<f64, StepFailure> {
+    pub(super) fn trial(&mut self) -> Result<f64, StepFailure> {
         if self.attempts == MAX_ATTEMPTS {
             return Err(StepFailure::TooManySubsteps { limit: MAX_ATTEMPTS });
         }
@@ -105,34 +105,25 @@ impl TickProgress<'_> {
 
     /// The time from the start of the tick to the start of the substep.
     #[inline]
-    pub(in crate::sim::integrators) fn elapsed(&self) -> f64 {
+    pub(super) fn elapsed(&self) -> f64 {
         self.h - self.left
     }
 
     #[inline]
-    pub(in crate::sim::integrators) fn is_finished(&self) -> bool {
+    pub(super) fn is_finished(&self) -> bool {
         self.left == 0.0
     }
 
-    /// The error of the last attempt, relative to the tolerance.
+    /// Accepts or rejects a substep from `y` that is off by its length times `error`. `factor` gives the factor for the next
+    /// step from the error relative to the tolerance; it is not used after a substep cut short by the end of the tick.
     #[inline]
-    pub(in crate::sim::integrators) fn error<V: Vector>(
-        &self,
-        h: f64,
+    pub(super) fn accepts<V: Vector>(
+        &mut self,
         error: &State<V>,
         y: &State<V>,
-    ) -> f64 {
-        self.size.tolerance.relative_error(h, error, y)
-    }
-
-    /// Accepts or rejects a substep with this error. `factor` gives the factor for the next step; it is
-    /// not used after a substep cut short by the end of the tick.
-    #[inline]
-    pub(in crate::sim::integrators) fn accepts(
-        &mut self,
-        error: f64,
         factor: impl FnOnce(f64) -> f64,
     ) -> bool {
+        let error = self.size.tolerance.relative_error(self.trial, error, y);
         let is_good = error <= 1.0;
         if is_good {
             self.size.attempts.0 += 1;
