@@ -6,10 +6,10 @@ mod amplitude;
 mod by_energy;
 mod change;
 mod chase_finding;
+mod criterion;
 mod criterion_met;
 mod energy;
 mod energy_finding;
-mod followed_body;
 mod frequency;
 mod judge;
 mod limits;
@@ -18,6 +18,7 @@ mod outcome;
 mod peaks;
 mod run;
 mod searches;
+mod slices;
 mod stability_map;
 mod survey;
 mod truth;
@@ -25,11 +26,11 @@ mod verdict;
 mod worker;
 
 pub use advice::{
-    Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS,
-    MethodAdvice, recommended,
+    Adviser, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS, MethodAdvice, recommended,
 };
 pub use amplitude::Change;
 pub use chase_finding::ChaseFinding;
+pub use criterion::{CRITERIA, Criterion};
 pub use energy_finding::EnergyFinding;
 pub use judge::{Judge, MAX_HORIZON_S};
 pub use limits::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};

@@ -21,7 +21,7 @@ mod trend;
 
 pub use comparison::{FOREVER_S, Stability};
 pub use modes::{NormalMode, unforced};
-pub use power::spectral_radius;
+pub use power::PowerIteration;
 pub use search::{RATES_HZ, RateSearch};
 pub use small_motion::{CoupledMotion, NoSmallMotion, SmallMotion, normal_modes};
 pub use tick::Tick;

@@ -43,7 +43,7 @@ impl Work for AnalysisWorker {
 
     fn work(&mut self, _: &dyn Fn() -> bool) -> (Option<Event>, bool) {
         let more = self.work();
-        ((!self.is_judging()).then(|| Event::Analysed(self.findings())), more)
+        ((!self.is_within_a_part()).then(|| Event::Analysed(self.findings())), more)
     }
 }
 

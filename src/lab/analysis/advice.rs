@@ -1,68 +1,18 @@
 //! Advice on the method for a scene at its tick rate: the fewest substeps that meet each of three criteria, and how much
 //! lower the rate or stiffer the bodies could be.
 
-use std::sync::OnceLock;
+use std::sync::Arc;
 
+use super::criterion::{CRITERIA, Criterion};
 pub use super::criterion_met::CriterionMet;
-use super::judge::{CriterionFinding, Judge};
-use super::searches::{FACTORS, slowest_down, tried_substeps};
+use super::judge::{CriterionFinding, Judge, horizon_s};
+use super::run::MAX_WORK;
+use super::searches::{FACTORS, RatesDown, tried_substeps};
+use super::slices::{Meter, Once, at_once};
 use super::verdict::Verdict;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::{Scene, SceneBody, edited_values};
 use crate::sim::stability::RateSearch;
-
-/// A requirement that a developer may have of a method.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Criterion {
-    /// Nothing grows that does not grow in truth, over the scene and in the long run.
-    Bounded,
-    /// Amplitude and frequency show no visible error.
-    LooksRight,
-    /// The state shows no visible error at any moment.
-    Accurate,
-}
-
-/// Every criterion, from the easiest to the hardest.
-pub static CRITERIA: [Criterion; 3] =
-    [Criterion::Bounded, Criterion::LooksRight, Criterion::Accurate];
-
-impl Criterion {
-    /// Its name in output, in kebab case.
-    pub fn id(self) -> &'static str {
-        match self {
-            Criterion::Bounded => "bounded",
-            Criterion::LooksRight => "looks-right",
-            Criterion::Accurate => "accurate",
-        }
-    }
-
-    /// Its name for people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Criterion::Bounded => "bounded",
-            Criterion::LooksRight => "looks right",
-            Criterion::Accurate => "accurate",
-        }
-    }
-
-    /// The requirement in one line.
-    pub fn about(self) -> &'static str {
-        match self {
-            Criterion::Bounded => {
-                "nothing grows that should not: no mode of a linear body doubles within a year; any other body, followed \
-                 for 20 times the scene, neither doubles its swing nor goes on gaining, and one that loses, followed \
-                 for up to 2000 times, comes to rest"
-            }
-            Criterion::LooksRight => {
-                "each swing as wide as the truth's, within 5 % of the widest, and the frequency within 1 %, of several \
-                 modes that of the one with the most energy; without a swing, within 5 % of the range"
-            }
-            Criterion::Accurate => {
-                "no coordinate or velocity off by more than 1 % of its amplitude"
-            }
-        }
-    }
-}
 
 /// The most substeps per tick that are tried.
 pub const MAX_ADVISED_SUBSTEPS: u32 = 64;
@@ -93,9 +43,7 @@ pub struct MethodAdvice {
 impl MethodAdvice {
     /// Searches the margins of the criterion at this place, if the method meets it.
     pub fn search_margins(&mut self, adviser: &Adviser, criterion: usize) {
-        if let CriterionResult::With(met) = &mut self.met[criterion] {
-            *met = adviser.with_margins(self.spec, CRITERIA[criterion], met.clone());
-        }
+        at_once(adviser.search_margins(self, criterion));
     }
 }
 
@@ -126,16 +74,24 @@ pub struct Adviser {
     scene: Scene,
     judge: Judge,
     tick_hz: u32,
-    /// Judges of the scene made stiffer, by the place of their factor; `None` if no scene can be so stiff. Of several
-    /// threads that need one, the first makes it.
-    stiffer: [OnceLock<Option<Judge>>; FACTORS.len()],
+    /// Judges of the scene made stiffer, by the place of their factor; `None` if no scene can be so stiff.
+    stiffer: [Once<Option<Judge>>; FACTORS.len()],
 }
 
 impl Adviser {
     /// An adviser for `scene` under this throttle at this rate.
     pub fn new(scene: &Scene, throttle: f64, tick_hz: u32) -> Self {
-        let judge = Judge::new(scene, throttle);
-        Self { scene: scene.clone(), judge, tick_hz, stiffer: Default::default() }
+        at_once(Self::find(scene.clone(), throttle, tick_hz, Arc::default()))
+    }
+
+    /// As [`Self::new`], with its work counted by `meter`.
+    pub(super) async fn find(scene: Scene, throttle: f64, tick_hz: u32, meter: Arc<Meter>) -> Self {
+        let judge = Judge::find(&scene, throttle, horizon_s(&scene), meter).await;
+        Self { scene, judge, tick_hz, stiffer: Default::default() }
+    }
+
+    pub(super) fn scene(&self) -> &Scene {
+        &self.scene
     }
 
     /// The judge of the scene.
@@ -156,24 +112,31 @@ impl Adviser {
     /// The work done so far, the truths' included, in evaluations of the acceleration of one coordinate. What is found by
     /// modes is not counted.
     pub fn work_done(&self) -> u64 {
-        let stiffer = self.stiffer.iter().filter_map(|judge| judge.get()?.as_ref());
-        std::iter::once(&self.judge).chain(stiffer).map(Judge::work_done).sum()
+        self.judge.meter().counted()
     }
 
     /// Whether a method meets a criterion, with how many substeps, and its margins. The substeps of `spec` are ignored.
     pub fn meets(&self, spec: LaneSpec, criterion: Criterion) -> CriterionResult {
-        match self.fewest_substeps(spec, criterion) {
-            CriterionResult::With(met) => {
-                CriterionResult::With(self.with_margins(spec, criterion, met))
-            }
-            other => other,
+        let mut result = at_once(self.fewest_substeps(spec, criterion));
+        if let CriterionResult::With(met) = &mut result {
+            at_once(self.add_margins(spec, criterion, met));
         }
+        result
     }
 
     /// The verdict on a lane, and whether its method meets each criterion, with how many substeps. No margin is searched.
     pub fn judged(&self, spec: LaneSpec) -> MethodAdvice {
-        let met = CRITERIA.map(|criterion| self.fewest_substeps(spec, criterion));
-        MethodAdvice { spec, verdict: self.verdict(spec), met }
+        at_once(self.advice_on(spec))
+    }
+
+    /// As [`Self::judged`].
+    pub(super) async fn advice_on(&self, spec: LaneSpec) -> MethodAdvice {
+        let mut met = [const { CriterionResult::Unknown }; CRITERIA.len()];
+        for (met, criterion) in met.iter_mut().zip(CRITERIA) {
+            *met = self.fewest_substeps(spec, criterion).await;
+        }
+        let verdict = self.judge.verdict_within(MAX_WORK, spec, self.tick_hz).await;
+        MethodAdvice { spec, verdict, met }
     }
 
     /// The margins that are worth a search: each the place of a method in `advised` and of a criterion that it meets. With a
@@ -198,34 +161,40 @@ impl Adviser {
         places.filter(is_worth).collect()
     }
 
-    /// How a method meets a criterion, with its margins searched.
-    fn with_margins(
-        &self,
-        spec: LaneSpec,
-        criterion: Criterion,
-        met: CriterionMet,
-    ) -> CriterionMet {
+    /// As [`MethodAdvice::search_margins`].
+    pub(super) async fn search_margins(&self, advice: &mut MethodAdvice, criterion: usize) {
+        if let CriterionResult::With(met) = &mut advice.met[criterion] {
+            self.add_margins(advice.spec, CRITERIA[criterion], met).await;
+        }
+    }
+
+    /// Searches the margins of a method that meets a criterion.
+    async fn add_margins(&self, spec: LaneSpec, criterion: Criterion, met: &mut CriterionMet) {
         let spec = LaneSpec { substeps: met.substeps, ..spec };
-        let (stiffness_factor, limited_by) = self.stiffest(spec, criterion).unzip();
-        let slowest_hz = self.slowest_down(spec, criterion);
-        CriterionMet { are_margins_searched: true, slowest_hz, stiffness_factor, limited_by, ..met }
+        (met.stiffness_factor, met.limited_by) = self.stiffest(spec, criterion).await.unzip();
+        met.slowest_hz = self.slowest_down(spec, criterion).await;
+        met.are_margins_searched = true;
     }
 
     /// Whether a method meets a criterion, and with how many substeps: with one fewer it does not.
-    fn fewest_substeps(&self, spec: LaneSpec, criterion: Criterion) -> CriterionResult {
+    async fn fewest_substeps(&self, spec: LaneSpec, criterion: Criterion) -> CriterionResult {
         let with = |substeps: u32| LaneSpec { substeps, ..spec };
-        let tried = |substeps| find(&self.judge, criterion, with(substeps), self.tick_hz);
+        let tried = |substeps| self.judge.meets(criterion, with(substeps), self.tick_hz);
         let (mut fails, mut holds, mut with_most) = (0, None, None);
         for substeps in (0..).map(tried_substeps).take_while(|&n| n <= MAX_ADVISED_SUBSTEPS) {
             // What fails with the most substeps is not searched.
             if substeps > FEW_SUBSTEPS && with_most.is_none() {
-                with_most = Some(tried(MAX_ADVISED_SUBSTEPS));
+                with_most = Some(tried(MAX_ADVISED_SUBSTEPS).await);
                 if matches!(with_most, Some(CriterionFinding::Fails { .. })) {
                     return CriterionResult::No;
                 }
             }
             let finding = with_most.filter(|_| substeps == MAX_ADVISED_SUBSTEPS);
-            match finding.unwrap_or_else(|| tried(substeps)) {
+            let finding = match finding {
+                Some(finding) => finding,
+                None => tried(substeps).await,
+            };
+            match finding {
                 CriterionFinding::Holds { evaluations_per_s } => {
                     holds = Some((substeps, evaluations_per_s));
                     break;
@@ -237,7 +206,7 @@ impl Adviser {
         let Some((mut substeps, mut evaluations_per_s)) = holds else { return CriterionResult::No };
         while substeps - fails > 1 {
             let middle = fails.midpoint(substeps);
-            match tried(middle) {
+            match tried(middle).await {
                 CriterionFinding::Holds { evaluations_per_s: found } => {
                     (substeps, evaluations_per_s) = (middle, found);
                 }
@@ -257,38 +226,40 @@ impl Adviser {
     /// The lowest rate in Hz of [`RATES_HZ`](crate::sim::stability::RATES_HZ) at which a lane meets a criterion; `None` if
     /// it meets it at no rate.
     pub fn slowest(&self, spec: LaneSpec, criterion: Criterion) -> Option<u32> {
-        RateSearch::run(|hz| holds(find(&self.judge, criterion, spec, hz)))
+        RateSearch::run(|hz| at_once(self.judge.meets(criterion, spec, hz)).holds())
     }
 
     /// The lowest rate, going down from the requested one, at which the lane still meets the criterion: one hertz lower
     /// it does not, or no tick fits into the horizon. `None` if that is not known.
-    fn slowest_down(&self, spec: LaneSpec, criterion: Criterion) -> Option<u32> {
+    async fn slowest_down(&self, spec: LaneSpec, criterion: Criterion) -> Option<u32> {
         // The runs of a net are dear, and so are the modes of a method with memory.
         let is_dear = spec.method.restart.is_some()
             || self.scene.bodies.iter().any(|body| body.kind.net().is_some());
         let strides = if is_dear { 6 } else { 60 };
         // The last miss of the search is that next to its result.
         let mut is_known = true;
-        let slowest = slowest_down(self.tick_hz, strides, |hz| {
-            let miss = miss(&self.judge, criterion, spec, hz);
+        let mut search = RatesDown::from(self.tick_hz, strides);
+        while let Some(hz) = search.next() {
+            let miss = self.judge.misses(criterion, spec, hz).await;
             if miss.is_some() {
                 is_known = miss != Some(CriterionFinding::Unknown) || !self.judge.has_ticks(hz);
             }
-            miss.is_none()
-        });
-        is_known.then_some(slowest)
+            search.note(hz, miss.is_none());
+        }
+        is_known.then_some(search.held_hz)
     }
 
     /// The largest of [`FACTORS`] by which every body may be stiffer, as it may by each below, and the parameter that
     /// limits it; `None` if it is not known whether the criterion holds with the next.
-    fn stiffest(&self, spec: LaneSpec, criterion: Criterion) -> Option<(f64, String)> {
-        let mut last_miss = None;
-        let holds = |place: &usize| {
-            let Some(judge) = self.stiffer(*place) else { return false };
-            last_miss = miss(judge, criterion, spec, self.tick_hz);
-            last_miss.is_none()
-        };
-        let held = (1..FACTORS.len()).take_while(holds).count();
+    async fn stiffest(&self, spec: LaneSpec, criterion: Criterion) -> Option<(f64, String)> {
+        let (mut held, mut last_miss) = (0, None);
+        while held + 1 < FACTORS.len()
+            && last_miss.is_none()
+            && let Some(judge) = self.stiffer(held + 1).await
+        {
+            last_miss = judge.misses(criterion, spec, self.tick_hz).await;
+            held += usize::from(last_miss.is_none());
+        }
         let culprit = match last_miss {
             Some(CriterionFinding::Unknown) => return None,
             Some(CriterionFinding::Fails { body }) => Some(body),
@@ -318,13 +289,14 @@ impl Adviser {
     }
 
     /// The judge of the scene with every body stiffer by the factor at this place.
-    fn stiffer(&self, place: usize) -> Option<&Judge> {
-        let make = || {
+    async fn stiffer(&self, place: usize) -> Option<&Judge> {
+        let find = async {
             let scene = self.stiffen(FACTORS[place])?;
-            let judge = Judge::over(&scene, self.judge.throttle(), self.judge.horizon_s());
+            let (throttle, horizon_s) = (self.judge.throttle(), self.judge.horizon_s());
+            let judge = Judge::find(&scene, throttle, horizon_s, self.judge.meter().clone()).await;
             Some(judge.within(WORK_WHEN_STIFFER))
         };
-        self.stiffer[place].get_or_init(make).as_ref()
+        self.stiffer[place].get(find).await.as_ref()
     }
 
     fn stiffen(&self, factor: f64) -> Option<Scene> {
@@ -336,34 +308,6 @@ impl Adviser {
         }
         Some(scene)
     }
-}
-
-fn find(judge: &Judge, criterion: Criterion, spec: LaneSpec, tick_hz: u32) -> CriterionFinding {
-    match criterion {
-        Criterion::Bounded => judge.is_bounded(spec, tick_hz),
-        Criterion::LooksRight => judge.looks_right(spec, tick_hz),
-        Criterion::Accurate => judge.is_accurate(spec, tick_hz),
-    }
-}
-
-/// How a lane misses a criterion; `None` if it meets it. Where the modes tell that, nothing is run.
-fn miss(
-    judge: &Judge,
-    criterion: Criterion,
-    spec: LaneSpec,
-    tick_hz: u32,
-) -> Option<CriterionFinding> {
-    let is_met_by_modes = match criterion {
-        Criterion::Bounded => judge.is_bounded_by_modes(spec, tick_hz),
-        Criterion::LooksRight => judge.looks_right_by_modes(spec, tick_hz),
-        Criterion::Accurate => false,
-    };
-    let finding = || find(judge, criterion, spec, tick_hz);
-    if is_met_by_modes { None } else { Some(finding()).filter(|&finding| !holds(finding)) }
-}
-
-fn holds(finding: CriterionFinding) -> bool {
-    matches!(finding, CriterionFinding::Holds { .. })
 }
 
 /// The recommended method for a criterion, by its place in `advised`: the method with the least `cost` that meets it,

@@ -6,15 +6,12 @@ use std::ops::ControlFlow;
 use super::amplitude::{Change, amplitude};
 use super::energy::Means;
 use super::energy_finding::EnergyFinding;
-use super::followed_body::FollowedBody;
 use super::limits::VISIBLE;
-use super::truth::{BodyTruth, ticks};
+use super::truth::{BodyTruth, FollowedBody, ticks};
 use super::verdict::RunFailure;
-use crate::lab::action::Action;
-use crate::lab::follow::{Follow, StopReason, Ticked};
+use crate::lab::follow::StopReason;
 use crate::lab::lane_spec::LaneSpec;
-use crate::sim::integrators::StepFailure;
-use crate::sim::stability::{Tick, spectral_radius};
+use crate::sim::stability::{PowerIteration, Tick};
 
 /// The part of the work of a run that the spectral radius may take too.
 const WORK_OF_RADIUS: u64 = 12;
@@ -37,144 +34,74 @@ impl EnergyRun {
 }
 
 /// Runs `truth`'s body under `spec` over the horizon, with its inputs.
-pub(super) fn follow_energy(
+pub(super) async fn follow_energy(
     truth: &BodyTruth,
     spec: LaneSpec,
     tick_hz: u32,
     max_work: u64,
 ) -> EnergyRun {
-    let mut followed = FollowedEnergy::new(truth, spec, tick_hz, max_work);
-    while !followed.work(truth, u64::MAX) {}
-    followed.run
-}
-
-/// A run without a truth on its way. It can be stopped after any tick, and goes on from there.
-pub(super) struct FollowedEnergy {
-    follow: Follow<'static, Metered>,
-    /// The run so far. What it does to the energy is found at its end.
-    pub(super) run: EnergyRun,
-    horizon: u64,
-    hz: f64,
-    means: Means,
-    /// The largest kinetic energy, in joules.
-    fastest: f64,
-    /// The most energy that was lost, and the most that was gained, in joules.
-    lost: f64,
-    gained: f64,
-}
-
-impl FollowedEnergy {
-    /// A run before its first tick. The spectral radius is computed.
-    pub(super) fn new(truth: &BodyTruth, spec: LaneSpec, tick_hz: u32, max_work: u64) -> Self {
-        let (hz, horizon) = (f64::from(tick_hz), ticks(truth.horizon_s, tick_hz));
-        let body = truth.body_under(spec.solver(), spec.substeps);
-        let stepper = &*body.stepper;
-        let n = stepper.q().len() as u64;
-        let tick = Tick { t: 0.0, h: 1.0 / hz, substeps: spec.substeps };
-        let max_evaluations = max_work / n / WORK_OF_RADIUS;
-        let radius = spectral_radius(stepper, spec.solver(), tick, max_evaluations);
-        let run = EnergyRun {
-            finding: EnergyFinding {
-                change: 0.0,
-                trend: Change::None,
-                drift_percent: None,
-                is_conserved: stepper.energy().is_some(),
-                spectral_radius: radius.ok().flatten().filter(|radius| radius.is_finite()),
-            },
-            is_too_much: false,
-            failure: None,
-            evaluations: 0,
-            seconds: 0.0,
+    let (hz, horizon) = (f64::from(tick_hz), ticks(truth.horizon_s, tick_hz));
+    let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).within(max_work);
+    let is_conserved = followed.body.stepper.energy().is_some();
+    let spectral_radius = spectral_radius(truth, &mut followed.body, spec, hz, max_work).await;
+    let (mut seconds, mut evaluations) = (0.0, 0);
+    let mut means = Means::over(horizon);
+    // The largest kinetic energy, and the most that was lost and gained, in joules.
+    let (mut fastest, mut lost, mut gained) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let see = |body: &FollowedBody, tick: u64| {
+        (seconds, evaluations) = (tick as f64 / hz, body.stepper.evaluations());
+        let gain = body.energy() - body.base_j;
+        let [kinetic, _] = body.energies();
+        (fastest, lost, gained) = (fastest.max(kinetic), lost.max(-gain), gained.max(gain));
+        means.take_in(tick, gain);
+        ControlFlow::Continue(())
+    };
+    let stop = truth.go_on(&mut followed, horizon, see).await;
+    let mut finding = EnergyFinding {
+        change: 0.0,
+        trend: Change::None,
+        drift_percent: None,
+        is_conserved,
+        spectral_radius,
+    };
+    let scale = fastest.max(lost);
+    if scale > 0.0 && scale.is_finite() {
+        let [first, .., last] = means.means().map(|mean| mean / scale);
+        finding.change = last;
+        let drift = if gained > lost { gained } else { -lost };
+        finding.drift_percent = is_conserved.then_some(100.0 * drift / scale);
+        finding.trend = if is_conserved {
+            Change::between(amplitude(first), amplitude(last))
+        } else if last > first.max(0.0) + 2.0 * VISIBLE {
+            Change::Grows
+        } else {
+            Change::None
         };
-        Self {
-            follow: truth.follow(Metered::new(body), tick_hz).within(max_work),
-            run,
-            horizon,
-            hz,
-            means: Means::over(horizon),
-            fastest: 0.0,
-            lost: 0.0,
-            gained: 0.0,
-        }
     }
-
-    /// Goes on for about this much work. Returns whether the run is over.
-    pub(super) fn work(&mut self, truth: &BodyTruth, work: u64) -> bool {
-        let Self { follow, run, horizon, hz, means, fastest, lost, gained } = self;
-        let stop = follow.run(*horizon, |body, tick| {
-            (run.seconds, run.evaluations) = (tick as f64 / *hz, body.body.stepper.evaluations());
-            let now = body.energy();
-            let gain = sum(now) - body.start;
-            (*fastest, *lost, *gained) = (fastest.max(now[0]), lost.max(-gain), gained.max(gain));
-            means.take_in(tick, gain);
-            match body.body.has_worked(work, tick) {
-                true => ControlFlow::Break(()),
-                false => ControlFlow::Continue(()),
-            }
-        });
-        let ticks = follow.ticks();
-        follow.body.body.count_work(truth, ticks);
-        if stop == StopReason::Seen {
-            return false;
-        }
-        run.is_too_much = stop == StopReason::TooMuchWork;
-        run.failure = RunFailure::of(stop, follow.t());
-        let (fastest, lost, gained) = (*fastest, *lost, *gained);
-        let scale = fastest.max(lost);
-        if scale > 0.0 && scale.is_finite() {
-            let [first, .., last] = means.means().map(|mean| mean / scale);
-            let finding = &mut run.finding;
-            finding.change = last;
-            let drift = if gained > lost { gained } else { -lost };
-            finding.drift_percent = finding.is_conserved.then_some(100.0 * drift / scale);
-            finding.trend = if finding.is_conserved {
-                Change::between(amplitude(first), amplitude(last))
-            } else if last > first.max(0.0) + 2.0 * VISIBLE {
-                Change::Grows
-            } else {
-                Change::None
-            };
-        }
-        true
+    EnergyRun {
+        finding,
+        is_too_much: stop == StopReason::TooMuchWork,
+        failure: RunFailure::of(stop, followed.t()),
+        evaluations,
+        seconds,
     }
 }
 
-/// A body whose energy is measured, and what the inputs add to it is known.
-struct Metered {
-    body: FollowedBody,
-    /// The energy at the start and what the inputs have added, in joules.
-    start: f64,
-}
-
-impl Metered {
-    fn new(body: FollowedBody) -> Self {
-        let mut metered = Self { body, start: 0.0 };
-        metered.start = sum(metered.energy());
-        metered
+/// The spectral radius of a tick about the state of `body`, if it is finite.
+async fn spectral_radius(
+    truth: &BodyTruth,
+    body: &mut FollowedBody,
+    spec: LaneSpec,
+    hz: f64,
+    max_work: u64,
+) -> Option<f64> {
+    let n = body.stepper.q().len() as u64;
+    let tick = Tick { t: 0.0, h: 1.0 / hz, substeps: spec.substeps };
+    let most = max_work / n / WORK_OF_RADIUS;
+    let mut iteration = PowerIteration::new(&*body.stepper, spec.solver(), tick, most).ok()??;
+    let evaluations = spec.method.evaluations_per_tick(spec.substeps).map_or(n, u64::from);
+    while iteration.advance().ok()? {
+        truth.meter.pass(evaluations * n).await;
     }
-
-    /// The kinetic and the potential energy in joules.
-    fn energy(&self) -> [f64; 2] {
-        self.body.stepper.mechanical_energy().unwrap_or([0.0; 2])
-    }
-}
-
-fn sum([kinetic, potential]: [f64; 2]) -> f64 {
-    kinetic + potential
-}
-
-impl Ticked for Metered {
-    fn act(&mut self, tick: u64, t: f64, action: &Action) {
-        let before = sum(self.energy());
-        self.body.act(tick, t, action);
-        self.start += sum(self.energy()) - before;
-    }
-
-    fn tick(&mut self, tick: u64, t: f64, h: f64) -> Result<(), StepFailure> {
-        self.body.tick(tick, t, h)
-    }
-
-    fn has_worked_more(&self, than: u64, ticks: u64) -> bool {
-        self.body.has_worked_more(than, ticks)
-    }
+    iteration.radius().filter(|radius| radius.is_finite())
 }

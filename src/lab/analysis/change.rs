@@ -87,8 +87,11 @@ fn steadily_doubles_in_s(truth: &BodyTruth, run: &Run) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
     use crate::lab::analysis::run::{MAX_WORK, Until, follow};
+    use crate::lab::analysis::slices::at_once;
     use crate::lab::analysis::verdict::RunFailure;
     use crate::lab::{LaneSpec, Scene};
     use crate::sim::integrators::StepFailure;
@@ -99,8 +102,9 @@ mod tests {
         let text = "title = 't'\ntick_hz = 60\nseconds = 10\n[[pendulum]]\nlength_m = 1\n";
         let scene = Scene::parse("t", text).unwrap();
         let spec = LaneSpec::plain(method("velocity-verlet").unwrap());
-        let truth = BodyTruth::new(&scene.bodies[0], &[], 1.0, scene.seconds);
-        let run = follow(&truth, spec, 60, Until::LongRun, MAX_WORK);
+        let body = &scene.bodies[0];
+        let truth = at_once(BodyTruth::find(body, &[], 1.0, scene.seconds, Arc::default()));
+        let run = at_once(follow(&truth, spec, 60, Until::LongRun, MAX_WORK));
         (truth, run)
     }
 

@@ -5,14 +5,15 @@
 //! times. Any other body is followed for [`LONG_RUN`](super::LONG_RUN) times the horizon, and its verdict claims nothing
 //! beyond that.
 
-use std::mem;
+use std::sync::Arc;
 
-use super::by_energy::{EnergyRun, FollowedEnergy};
+use super::by_energy::{EnergyRun, follow_energy};
 use super::change::MotionChange;
 use super::chase_finding::ChaseFinding;
 use super::limits::TOLERANCE;
 use super::modes::Modes;
-use super::run::{FollowedRun, MAX_WORK, Run, Until};
+use super::run::{MAX_WORK, Run, Until, follow};
+use super::slices::{Meter, at_once};
 use super::survey::TimedInput;
 use super::truth::{BodyTruth, ticks};
 use super::verdict::{Comparison, Finding, LongTerm, NoTruth, NotJudged, Verdict};
@@ -28,11 +29,16 @@ pub const MAX_HORIZON_S: f64 = 60.0;
 
 /// The true motion of a scene, with which lanes are compared.
 pub struct Judge {
-    scene: Scene,
     horizon_s: f64,
     throttle: f64,
     max_work: u64,
     truths: Vec<BodyTruth>,
+    meter: Arc<Meter>,
+}
+
+/// The horizon of a scene in simulated seconds.
+pub(super) fn horizon_s(scene: &Scene) -> f64 {
+    scene.seconds.min(MAX_HORIZON_S)
 }
 
 /// The script's actions on the body at this index of the scene.
@@ -44,30 +50,28 @@ fn inputs_of(scene: &Scene, body: usize) -> Vec<TimedInput> {
 impl Judge {
     /// A judge of `scene` under this throttle, -1 to 1, over its length but at most [`MAX_HORIZON_S`].
     pub fn new(scene: &Scene, throttle: f64) -> Self {
-        Self::over(scene, throttle, scene.seconds.min(MAX_HORIZON_S))
+        Self::over(scene, throttle, horizon_s(scene))
     }
 
     /// A judge of `scene` under this throttle over `horizon_s` simulated seconds, which is positive and may exceed the
     /// scene's length.
     pub fn over(scene: &Scene, throttle: f64, horizon_s: f64) -> Self {
-        let mut judge = Self { horizon_s, ..Self::before_truths(scene.clone(), throttle) };
-        while judge.find_truth() {}
-        judge
+        at_once(Self::find(scene, throttle, horizon_s, Arc::default()))
     }
 
-    /// A judge that knows the truth of no body yet. It judges once [`Self::find_truth`] has found all.
-    pub(super) fn before_truths(scene: Scene, throttle: f64) -> Self {
-        let horizon_s = scene.seconds.min(MAX_HORIZON_S);
-        Self { scene, horizon_s, throttle, max_work: MAX_WORK, truths: Vec::new() }
-    }
-
-    /// Finds the truth of the next body. Returns whether there was one.
-    pub(super) fn find_truth(&mut self) -> bool {
-        let place = self.truths.len();
-        let Some(body) = self.scene.bodies.get(place) else { return false };
-        let inputs = inputs_of(&self.scene, place);
-        self.truths.push(BodyTruth::new(body, &inputs, self.throttle, self.horizon_s));
-        true
+    /// As [`Self::over`], with its work counted by `meter`.
+    pub(super) async fn find(
+        scene: &Scene,
+        throttle: f64,
+        horizon_s: f64,
+        meter: Arc<Meter>,
+    ) -> Self {
+        let mut truths = Vec::with_capacity(scene.bodies.len());
+        for (place, body) in scene.bodies.iter().enumerate() {
+            let (inputs, meter) = (inputs_of(scene, place), meter.clone());
+            truths.push(BodyTruth::find(body, &inputs, throttle, horizon_s, meter).await);
+        }
+        Self { horizon_s, throttle, max_work: MAX_WORK, truths, meter }
     }
 
     /// Limits the work of each run to less than [`MAX_WORK`]; what takes more is not known.
@@ -93,49 +97,26 @@ impl Judge {
 
     /// The verdict on a lane at this tick rate: that of its worst body.
     pub fn verdict(&self, spec: LaneSpec, tick_hz: u32) -> Verdict {
-        self.verdict_within(self.max_work, spec, tick_hz)
+        at_once(self.verdict_within(self.max_work, spec, tick_hz))
     }
 
-    /// The work done so far, that on the truth included, in the unit of [`MAX_WORK`].
-    pub(super) fn work_done(&self) -> u64 {
-        self.truths.iter().map(BodyTruth::work_done).sum()
+    /// What counts its work.
+    pub(super) fn meter(&self) -> &Arc<Meter> {
+        &self.meter
     }
 
     /// The verdict on a lane, whose run on each body takes at most this work, or is not judged.
-    fn verdict_within(&self, max_work: u64, spec: LaneSpec, tick_hz: u32) -> Verdict {
-        let mut judged = JudgedLane::new(spec, tick_hz, max_work);
-        loop {
-            if let Some(verdict) = self.work(&mut judged, u64::MAX) {
-                return verdict;
-            }
+    pub(super) async fn verdict_within(
+        &self,
+        max_work: u64,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> Verdict {
+        let mut verdicts = Vec::with_capacity(self.truths.len());
+        for body in 0..self.truths.len() {
+            verdicts.push(self.verdict_on_body(body, max_work, spec, tick_hz).await);
         }
-    }
-
-    /// Goes on for about this much work with the verdict on a lane, at most to the end of its run on a body. Returns the
-    /// verdict once it is found.
-    pub(super) fn work(&self, judged: &mut JudgedLane, work: u64) -> Option<Verdict> {
-        let &mut JudgedLane { spec, tick_hz, max_work, ref mut verdicts, ref mut run } = judged;
-        let body = verdicts.len();
-        let truth = &self.truths[body];
-        let followed = run.get_or_insert_with(|| self.start(truth, spec, tick_hz, max_work));
-        let is_over = match followed {
-            JudgedRun::Compared(run, _) => run.work(truth, work),
-            JudgedRun::ByEnergy(run) => run.work(truth, work),
-            JudgedRun::None(_) => true,
-        };
-        if !is_over {
-            return None;
-        }
-        verdicts.push(match run.take()? {
-            JudgedRun::Compared(run, by_modes) => {
-                self.compared(body, spec, tick_hz, &run.measured.run, by_modes)
-            }
-            JudgedRun::ByEnergy(run) => self.by_energy(body, tick_hz, run.run),
-            JudgedRun::None(why) => {
-                self.verdict_on(body, Finding::NotJudged(why), LongTerm::default())
-            }
-        });
-        (verdicts.len() == self.truths.len()).then(|| Self::of_all(mem::take(verdicts)))
+        Self::of_all(verdicts)
     }
 
     /// The verdict on a lane, from those on all its bodies.
@@ -153,29 +134,37 @@ impl Judge {
         Verdict { evaluations, long_term, of_bodies: verdicts, ..worst }
     }
 
-    /// The run by which a body is judged.
-    fn start(&self, truth: &BodyTruth, spec: LaneSpec, tick_hz: u32, max_work: u64) -> JudgedRun {
+    async fn verdict_on_body(
+        &self,
+        body: usize,
+        max_work: u64,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> Verdict {
+        let truth = &self.truths[body];
         if truth.is_too_dear() {
             // A tick of a large body may take seconds, and growth beyond the horizon tells nobody anything.
             return match self.not_judged(tick_hz, max_work == 0) {
-                Some(why) => JudgedRun::None(why),
-                None => {
-                    JudgedRun::ByEnergy(FollowedEnergy::new(truth, spec, tick_hz, max_work).into())
-                }
+                Some(why) => self.verdict_with(body, Finding::NotJudged(why), LongTerm::default()),
+                None => self.by_energy(
+                    body,
+                    tick_hz,
+                    follow_energy(truth, spec, tick_hz, max_work).await,
+                ),
             };
         }
-        let found = Modes::of(truth, spec, tick_hz);
+        let found = Modes::of(truth, spec, tick_hz).await;
         let max_work = if found.is_ok() { max_work } else { 0 };
         let by_modes = found.ok().flatten().map(|modes| {
             modes.change(truth.swing.is_some(), self.horizon_s - truth.last_input_s())
         });
         let until = if by_modes.is_some() { Until::Horizon } else { Until::LongRun };
-        let run = FollowedRun::new(truth, spec, tick_hz, until, max_work);
-        JudgedRun::Compared(run.into(), by_modes)
+        let run = follow(truth, spec, tick_hz, until, max_work).await;
+        self.compared(body, spec, tick_hz, &run, by_modes).await
     }
 
     /// The verdict on a body from its run beside the truth, and from its modes if they tell.
-    fn compared(
+    async fn compared(
         &self,
         body: usize,
         spec: LaneSpec,
@@ -186,7 +175,7 @@ impl Judge {
         let truth = &self.truths[body];
         let MotionChange { long_term, within, energy_change, frequency_error } =
             by_modes.unwrap_or_else(|| MotionChange::of_run(truth, run, self.horizon_s));
-        let truth_error = truth.gap(run.seconds, tick_hz);
+        let truth_error = truth.gap(run.seconds, tick_hz).await;
         let not_judged = self.not_judged(tick_hz, run.is_cut_short());
         let finding = if let Some(failure) = run.failure.clone() {
             Finding::Failed { failure, by_energy: None }
@@ -207,7 +196,7 @@ impl Judge {
             })
         };
         let chase = ChaseFinding::of(truth, spec, tick_hz, run.chase.as_ref());
-        let verdict = self.verdict_on(body, finding, long_term);
+        let verdict = self.verdict_with(body, finding, long_term);
         Verdict { chase, evaluations: run.evaluations, seconds: run.seconds, ..verdict }
     }
 
@@ -222,7 +211,7 @@ impl Judge {
         // A run over the horizon does not show that nothing grows later.
         let is_bounded = (!found.is_bounded()).then_some(false);
         let verdict =
-            self.verdict_on(body, finding, LongTerm { is_bounded, ..LongTerm::default() });
+            self.verdict_with(body, finding, LongTerm { is_bounded, ..LongTerm::default() });
         Verdict { evaluations: run.evaluations, seconds: run.seconds, ..verdict }
     }
 
@@ -234,7 +223,7 @@ impl Judge {
         }
     }
 
-    fn verdict_on(&self, body: usize, finding: Finding, long_term: LongTerm) -> Verdict {
+    fn verdict_with(&self, body: usize, finding: Finding, long_term: LongTerm) -> Verdict {
         let is_bounded = match finding {
             Finding::Failed { .. } => Some(false),
             Finding::NotJudged(_) => None,
@@ -253,33 +242,6 @@ impl Judge {
             of_bodies: Vec::new(),
         }
     }
-}
-
-/// A lane that is being judged, body by body.
-pub(super) struct JudgedLane {
-    spec: LaneSpec,
-    tick_hz: u32,
-    /// The most work of each run.
-    max_work: u64,
-    /// The verdicts on the leading bodies.
-    verdicts: Vec<Verdict>,
-    /// The run of the next body, once it is begun.
-    run: Option<JudgedRun>,
-}
-
-impl JudgedLane {
-    pub(super) fn new(spec: LaneSpec, tick_hz: u32, max_work: u64) -> Self {
-        Self { spec, tick_hz, max_work, verdicts: Vec::new(), run: None }
-    }
-}
-
-/// The run by which a body is judged.
-enum JudgedRun {
-    /// Beside the truth, and what the modes tell of a linear body.
-    Compared(Box<FollowedRun>, Option<MotionChange>),
-    /// Of a body without a reference solution.
-    ByEnergy(Box<FollowedEnergy>),
-    None(NotJudged),
 }
 
 /// Why the truth cannot be used; `None` if it can. `gap` is its largest error in amplitudes.

@@ -2,10 +2,9 @@
 
 use super::amplitude::Change;
 use super::change::MotionChange;
-use super::followed_body::work_of;
 use super::limits::VISIBLE;
 use super::run::MAX_WORK;
-use super::truth::BodyTruth;
+use super::truth::{BodyTruth, work_of};
 use super::verdict::LongTerm;
 use crate::lab::bisection::bisect;
 use crate::lab::lane_spec::LaneSpec;
@@ -32,7 +31,7 @@ impl<'a> Modes<'a> {
     ///
     /// # Errors
     /// If that takes too much work.
-    pub(super) fn of(
+    pub(super) async fn of(
         truth: &'a BodyTruth,
         spec: LaneSpec,
         tick_hz: u32,
@@ -45,17 +44,21 @@ impl<'a> Modes<'a> {
         let n = modes.len() as u64;
         // An implicit step takes differences of the force along every coordinate.
         let evaluations = u64::from(spec.method.evaluations.unwrap_or(modes.len() as u32));
-        let steps = STEPS_PER_MODE * n;
-        if work_of(steps * evaluations, n, spec.solver()) > MAX_WORK {
+        let work_of_mode = work_of(STEPS_PER_MODE * evaluations, n, spec.solver());
+        if work_of_mode.saturating_mul(n) > MAX_WORK {
             return Err(TooMuch);
         }
         let free = unforced(&*truth.with_last_parameters());
         let tick = Tick { t: 0.0, h: 1.0 / f64::from(tick_hz), substeps: spec.substeps };
-        let each = modes.iter().map(|(mode, share)| {
-            let stability = mode.stability(&*free, spec.solver(), tick).ok()?;
-            Some((mode, *share, stability))
-        });
-        Ok(each.collect::<Option<_>>().map(|modes| Self { modes }))
+        let mut found = Vec::with_capacity(modes.len());
+        for (mode, share) in modes {
+            let Ok(stability) = mode.stability(&*free, spec.solver(), tick) else {
+                return Ok(None);
+            };
+            found.push((mode, *share, stability));
+            truth.meter.pass(work_of_mode).await;
+        }
+        Ok(Some(Self { modes: found }))
     }
 
     pub(super) fn are_bounded(&self) -> bool {

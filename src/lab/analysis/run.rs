@@ -4,12 +4,11 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::energy::Energy;
-use super::followed_body::FollowedBody;
 use super::peaks::Peaks;
-use super::truth::{BodyTruth, LONG_RUN, TruthSeries, ticks};
+use super::truth::{BodyTruth, FollowedBody, LONG_RUN, TruthSeries, ticks};
 use super::verdict::RunFailure;
 use crate::lab::chase::Chase;
-use crate::lab::follow::{Follow, StopReason};
+use crate::lab::follow::StopReason;
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::Stepper;
 use crate::sim::integrators::StepFailure;
@@ -87,98 +86,56 @@ pub(super) struct Run {
 }
 
 /// Runs `truth`'s body under `spec` from its start.
-pub(super) fn follow(
+pub(super) async fn follow(
     truth: &BodyTruth,
     spec: LaneSpec,
     tick_hz: u32,
     until: Until,
     max_work: u64,
 ) -> Run {
-    let mut followed = FollowedRun::new(truth, spec, tick_hz, until, max_work);
-    while !followed.work(truth, u64::MAX) {}
-    followed.measured.run
-}
-
-/// A run on its way. It can be stopped after any tick, and goes on from there beside the same truth.
-pub(super) struct FollowedRun {
-    follow: Follow<'static, FollowedBody>,
-    pub(super) measured: Measured,
-    /// The tick at which it ends.
-    end: u64,
-}
-
-impl FollowedRun {
-    /// A run before its first tick. The true states are computed.
-    pub(super) fn new(
-        truth: &BodyTruth,
-        spec: LaneSpec,
-        tick_hz: u32,
-        until: Until,
-        max_work: u64,
-    ) -> Self {
-        let hz = f64::from(tick_hz);
-        let horizon = ticks(truth.horizon_s, tick_hz);
-        let end = match until {
-            Until::Error(_) | Until::Horizon => horizon,
-            Until::Grown | Until::LongRun => {
-                ticks(LONG_RUN * truth.horizon_s, tick_hz).max(horizon)
-            }
-        };
-        // A run that is judged without its error needs no truth.
-        let series = (until != Until::Grown).then(|| truth.series(tick_hz));
-        let is_too_much = series.as_ref().is_some_and(|series| series.is_too_much);
-        let body = truth.body_under(spec.solver(), spec.substeps);
-        let measured = Measured {
-            chased_s: truth.inputs.first().map_or(truth.horizon_s, |input| input.t),
-            energy: Energy::of(&*body.stepper, truth, horizon, end),
-            peaks: Peaks::new(truth, &*body.stepper),
-            run: Run {
-                is_too_much,
-                chase: Chase::new(&*body.stepper, 0.0).filter(|_| !is_too_much),
-                ..Run::new(horizon as f64 / hz)
-            },
-            series,
-            until,
-            horizon,
-            hz,
-        };
-        let follow = truth.follow(body, tick_hz).within(max_work);
-        Self { follow, measured, end }
+    let hz = f64::from(tick_hz);
+    let horizon = ticks(truth.horizon_s, tick_hz);
+    let end = match until {
+        Until::Error(_) | Until::Horizon => horizon,
+        Until::Grown | Until::LongRun => ticks(LONG_RUN * truth.horizon_s, tick_hz).max(horizon),
+    };
+    // A run that is judged without its error needs no truth.
+    let series = match until {
+        Until::Grown => None,
+        _ => Some(truth.series(tick_hz).await),
+    };
+    if series.as_ref().is_some_and(|series| series.is_too_much) {
+        return Run { is_too_much: true, ..Run::new(horizon as f64 / hz) };
     }
-
-    /// Goes on for about this much work. Returns whether the run is over.
-    pub(super) fn work(&mut self, truth: &BodyTruth, work: u64) -> bool {
-        let Self { follow, measured, end } = self;
-        if measured.run.is_too_much {
-            return true;
+    let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).within(max_work);
+    let stepper = &*followed.body.stepper;
+    let mut measured = Measured {
+        chased_s: truth.inputs.first().map_or(truth.horizon_s, |input| input.t),
+        energy: Energy::of(stepper, truth, horizon, end),
+        peaks: Peaks::new(truth, stepper),
+        run: Run { chase: Chase::new(stepper, 0.0), ..Run::new(horizon as f64 / hz) },
+        series,
+        until,
+        horizon,
+        hz,
+    };
+    let see = |body: &FollowedBody, tick| measured.take_in(truth, body, tick);
+    let mut stop = truth.go_on(&mut followed, end, see).await;
+    if stop == StopReason::End && end > horizon {
+        // The truth is not needed beyond the horizon.
+        measured.run.is_losing = measured.energy.is_losing() && truth.swing.is_some();
+        let stepper = &*followed.body.stepper;
+        if measured.run.is_losing && measured.run.is_undecided(stepper, truth) {
+            let see = |body: &FollowedBody, tick| measured.take_in(truth, body, tick);
+            stop = truth.go_on(&mut followed, FOLLOWED_ON * end, see).await;
         }
-        let mut is_paused = false;
-        let stop = follow.run(*end, |body, tick| {
-            measured.take_in(truth, body, tick)?;
-            is_paused = body.has_worked(work, tick);
-            if is_paused { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
-        let ticks = follow.ticks();
-        follow.body.count_work(truth, ticks);
-        let run = &mut measured.run;
-        if stop == StopReason::End && *end > measured.horizon && !run.is_losing {
-            // The truth is not needed beyond the horizon.
-            run.is_losing = measured.energy.is_losing() && truth.swing.is_some();
-            if run.is_losing && run.is_undecided(&*follow.body.stepper, truth) {
-                *end *= FOLLOWED_ON;
-                is_paused = true;
-            }
-        }
-        if !is_paused {
-            measured.end(stop, ticks, follow.t());
-        }
-        !is_paused
     }
+    measured.end(stop, followed.ticks(), followed.t())
 }
 
 /// What is measured on a run on its way.
-pub(super) struct Measured {
-    pub(super) run: Run,
+struct Measured {
+    run: Run,
     energy: Energy,
     peaks: Option<Peaks>,
     series: Option<Arc<TruthSeries>>,
@@ -232,14 +189,14 @@ impl Measured {
         if is_needed { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     }
 
-    /// Completes the run, which has stopped after so many ticks, at time `t` (s).
-    fn end(&mut self, stop: StopReason, ticks: u64, t: f64) {
-        let Self { run, energy, peaks, horizon, .. } = self;
-        run.half_turns = peaks.take().map_or(Vec::new(), |peaks| peaks.half_turns);
+    /// The run, which has stopped after so many ticks, at time `t` (s).
+    fn end(self, stop: StopReason, ticks: u64, t: f64) -> Run {
+        let Self { mut run, energy, peaks, horizon, .. } = self;
+        run.half_turns = peaks.map_or(Vec::new(), |peaks| peaks.half_turns);
         (run.quarters, run.long_quarters) = (energy.horizon.means(), energy.long.means());
         run.is_too_much = stop == StopReason::TooMuchWork;
         let failure = RunFailure::of(stop, t);
-        if ticks < *horizon {
+        if ticks < horizon {
             run.failure = failure;
         } else {
             run.later = failure;
@@ -248,6 +205,7 @@ impl Measured {
             run.error = f64::INFINITY;
             (run.error_at_s, run.last_error) = (run.seconds, f64::INFINITY);
         }
+        run
     }
 }
 

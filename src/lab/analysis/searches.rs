@@ -45,22 +45,37 @@ pub(super) const FACTORS: [f64; 30] = [
     MAX_STIFFER,
 ];
 
-/// The lowest rate in Hz, going down from `hz`, at which `holds` is still true; it is true at `hz`. Each stride is the
-/// rate divided by `strides`, and the last of them is gone hertz by hertz: no rate that was tried above the one returned
-/// has failed.
-pub(super) fn slowest_down(hz: u32, strides: u32, mut holds: impl FnMut(u32) -> bool) -> u32 {
-    let mut held = hz;
-    while held > 1 {
-        let next = held - (held / strides).max(1);
-        if !holds(next) {
-            while held - 1 > next && holds(held - 1) {
-                held -= 1;
-            }
-            break;
-        }
-        held = next;
+/// A search for the lowest rate, going down from one at which a property is true. Each stride is the rate divided by
+/// `strides`, and the last of them is gone hertz by hertz: no rate that was tried above the one found has failed.
+pub(super) struct RatesDown {
+    /// The lowest rate in Hz, so far, at which the property is true.
+    pub(super) held_hz: u32,
+    strides: u32,
+    /// The highest rate at which it is not.
+    failed_hz: Option<u32>,
+}
+
+impl RatesDown {
+    pub(super) fn from(hz: u32, strides: u32) -> Self {
+        Self { held_hz: hz, strides, failed_hz: None }
     }
-    held
+
+    /// The next rate to try.
+    pub(super) fn next(&self) -> Option<u32> {
+        let stride =
+            if self.failed_hz.is_some() { 1 } else { (self.held_hz / self.strides).max(1) };
+        let next = self.held_hz.checked_sub(stride)?;
+        (next > self.failed_hz.unwrap_or(0)).then_some(next)
+    }
+
+    /// Takes note of whether the property is true at the rate that was tried.
+    pub(super) fn note(&mut self, hz: u32, holds: bool) {
+        if holds {
+            self.held_hz = hz;
+        } else {
+            self.failed_hz = Some(hz);
+        }
+    }
 }
 
 #[cfg(test)]
@@ -71,6 +86,14 @@ mod tests {
     fn two_numbers_of_substeps_are_tried_per_octave_up_to_the_most_that_are_advised() {
         let tried: Vec<u32> = (0..).map(tried_substeps).take_while(|&n| n <= 64).collect();
         assert_eq!(tried, [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64]);
+    }
+
+    fn slowest_down(hz: u32, strides: u32, mut holds: impl FnMut(u32) -> bool) -> u32 {
+        let mut search = RatesDown::from(hz, strides);
+        while let Some(next) = search.next() {
+            search.note(next, holds(next));
+        }
+        search.held_hz
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! What is known of the true motion of one body before any method is compared with it.
 
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::Arc;
 
-use super::survey::{Ranges, TimedInput, TruthNode, follow_truth};
+use super::slices::Meter;
+use super::survey::{Ranges, TimedInput, TruthNode};
 use crate::lab::action::Action;
 use crate::lab::extent::Extent;
 use crate::lab::scene::SceneBody;
@@ -12,21 +13,24 @@ use crate::sim::stability::{NormalMode, normal_modes};
 use crate::sim::{Solver, Stepper};
 
 mod amplitudes;
+mod followed_body;
 mod reach;
 mod series;
 mod swing;
+mod walk;
 
 use amplitudes::{amplitudes, largest_alike};
+pub(super) use followed_body::{FollowedBody, ticks, work_of};
 pub(super) use reach::Reach;
 use reach::ReachSoFar;
+pub(super) use series::TruthSeries;
 use series::TruthSeriesByRate;
-pub(super) use series::{TruthSeries, tick_after, ticks};
 pub(super) use swing::Swing;
 
 /// The long run of a nonlinear body in horizons.
 pub const LONG_RUN: f64 = 20.0;
 
-/// Limits of [`follow_truth`], in moments and in products of the exact flow, n² for a chain of n masses.
+/// Limits of [`BodyTruth::walk`], in moments and in products of the exact flow, n² for a chain of n masses.
 const MAX_MOMENTS: usize = 100_000;
 const MAX_REFERENCE_MOMENTS: usize = 20_000;
 const MIN_MOMENTS: usize = 512;
@@ -70,17 +74,19 @@ pub(super) struct BodyTruth {
     /// Whether it fails before anything has moved: no other walk gets further, and each would pay for it again.
     fails_at_start: bool,
     series_by_rate: TruthSeriesByRate,
-    work_done: AtomicU64,
+    /// What counts the work on it.
+    pub(super) meter: Arc<Meter>,
 }
 
 impl BodyTruth {
     /// The amplitude of a component is half its true range, or that of the component of the same unit with the largest
     /// range. The amplitude of a constant component is its value.
-    pub(super) fn new(
+    pub(super) async fn find(
         body: &SceneBody,
         inputs: &[TimedInput],
         throttle: f64,
         horizon_s: f64,
+        meter: Arc<Meter>,
     ) -> Self {
         let (at_start, later) = inputs.iter().partition::<Vec<_>, _>(|input| input.t <= 0.0);
         let later = later.into_iter().filter(|input| input.t < horizon_s);
@@ -100,9 +106,9 @@ impl BodyTruth {
             failure: None,
             fails_at_start: false,
             series_by_rate: TruthSeriesByRate::default(),
-            work_done: AtomicU64::new(0),
+            meter,
         };
-        truth.survey();
+        truth.survey().await;
         truth
     }
 
@@ -145,27 +151,16 @@ impl BodyTruth {
         self.body.kind.coordinates(&self.body.values)
     }
 
-    /// The work done so far on this body, its truth included, in evaluations of one coordinate.
-    pub(super) fn work_done(&self) -> u64 {
-        self.work_done.load(Ordering::Relaxed)
-    }
-
-    /// Counts work that was done on it.
-    pub(super) fn count_work(&self, work: u64) {
-        self.work_done.fetch_add(work, Ordering::Relaxed);
-    }
-
-    /// Counts the work of this many moments of the true motion of `body`, which was followed through them.
-    fn count_moments(&self, moments: u64, body: &dyn Stepper) {
-        let n = body.q().len() as u64;
-        let each = match self.body.kind.truth {
+    /// The work of one moment of the true motion, in evaluations of one coordinate.
+    pub(super) fn work_of_moment(&self) -> u64 {
+        let n = self.coordinates().len() as u64;
+        match self.body.kind.truth {
             Truth::Exact => WORK_OF_MOMENT + n * n / PRODUCTS_PER_EVALUATION,
             Truth::Reference => WORK_OF_REFERENCE_MOMENT * n,
-        };
-        self.count_work(moments * each);
+        }
     }
 
-    fn survey(&mut self) {
+    async fn survey(&mut self) {
         let mut body = self.start(Solver::Truth);
         let n = body.q().len();
         let max_moments = match self.body.kind.truth {
@@ -181,11 +176,11 @@ impl BodyTruth {
         let mut extent = Extent::default();
         extent.cover(0.0, body.kinetic_energy());
         let conserves = body.energy().is_some() && self.inputs.is_empty();
-        let mut moments: u64 = 0;
+        let mut has_moved = false;
         // A reference is dear: what was seen of it is kept.
         let mut seen = (self.body.kind.truth == Truth::Reference).then(Vec::new);
-        let walked = follow_truth(&mut *body, &self.inputs, self.horizon_s, most, |from, to| {
-            moments += 1;
+        let see = |from: &TruthNode, to: &TruthNode| {
+            has_moved = true;
             seen.iter_mut().for_each(|seen| seen.push((from.clone(), to.clone())));
             reach.take_in(from, to);
             for moment in fastest(from, to).into_iter().filter(|_| conserves) {
@@ -194,28 +189,31 @@ impl BodyTruth {
                 kinetic = kinetic.max(now.unwrap_or(0.0));
                 extent.cover(0.0, now);
             }
-        });
-        self.count_moments(moments, &*body);
+        };
+        let walked = self.walk(&mut *body, Solver::Truth, self.horizon_s, most, see).await;
         self.exchanged_j = extent.exchanged_j(&*self.start(Solver::Truth));
         self.failure = walked.err();
-        self.fails_at_start = self.failure.is_some() && moments == 0;
+        self.fails_at_start = self.failure.is_some() && !has_moved;
         self.amplitudes = amplitudes(&reach.ranges.0, &self.coordinates());
         self.energy_scale =
             Some(kinetic).filter(|&scale| conserves && scale > 0.0 && scale.is_finite());
         let middle = |range: &(f64, f64)| range.0 + (range.1 - range.0) / 2.0;
         self.centres = reach.ranges.0[..n].iter().map(middle).collect();
         if self.failure.is_none() && self.energy_scale.is_some() {
-            self.swing = self.watch(&self.centres, seen.as_deref(), most);
+            self.swing = self.watch(&self.centres, seen.as_deref(), most).await;
         }
         let returns = self.swing.as_ref().is_some_and(|swing| swing.crossings.len() > 2);
         if !self.is_oscillator() && !returns && !self.fails_at_start {
             // Other motions are followed beyond the horizon, as far as the truth goes.
-            let long = Some(self.body.kind.truth)
-                .filter(|truth| *truth == Truth::Reference && self.failure.is_none())
-                .and_then(|_| self.long_run(close_solver(), most).ok())
-                .unwrap_or_else(|| match self.long_run(Solver::Truth, most) {
-                    Ok(long) | Err(long) => long,
-                });
+            let is_close = self.body.kind.truth == Truth::Reference && self.failure.is_none();
+            let close = match is_close {
+                true => self.long_run(close_solver(), most).await.ok(),
+                false => None,
+            };
+            let long = match close {
+                Some(long) => long,
+                None => self.long_run(Solver::Truth, most).await.unwrap_or_else(|long| long),
+            };
             reach = long.reach;
             if self.energy_scale.is_none() && !long.means.is_empty() {
                 // A motion that comes to rest swings about its place of rest.
@@ -225,7 +223,7 @@ impl BodyTruth {
         // What is knocked away from a target that stays does not swing about it.
         let is_chase = body.pursuit(0.0).is_some_and(|pursuit| pursuit.is_still);
         if self.failure.is_none() && self.energy_scale.is_none() && !is_chase {
-            self.swing = self.watch(&self.centres, seen.as_deref(), most);
+            self.swing = self.watch(&self.centres, seen.as_deref(), most).await;
         }
         self.reach = reach.reach(&self.body, &self.centres, &self.amplitudes);
     }
@@ -234,24 +232,19 @@ impl BodyTruth {
     ///
     /// # Errors
     /// If the solver fails: the motion up to there.
-    fn long_run(&self, solver: Solver, most: usize) -> Result<LongRun, LongRun> {
+    async fn long_run(&self, solver: Solver, most: usize) -> Result<LongRun, LongRun> {
         let mut body = self.start(solver);
         let mut reach = ReachSoFar::new(Ranges::at(&*body), &self.body);
         let mut sums = vec![0.0; body.q().len()];
-        let (mut seconds, mut moments) = (0.0, 0);
-        let long_run_s = LONG_RUN * self.horizon_s;
-        let walked = follow_truth(&mut *body, &self.inputs, long_run_s, most, |from, to| {
-            moments += 1;
+        let mut seconds = 0.0;
+        let see = |from: &TruthNode, to: &TruthNode| {
             reach.take_in(from, to);
             seconds += to.t - from.t;
             for (i, sum) in sums.iter_mut().enumerate() {
                 *sum += (to.t - from.t) * (from.x[i] + to.x[i]) / 2.0;
             }
-        });
-        match solver {
-            Solver::Truth => self.count_moments(moments, &*body),
-            _ => self.count_work(body.evaluations() * sums.len() as u64),
-        }
+        };
+        let walked = self.walk(&mut *body, solver, LONG_RUN * self.horizon_s, most, see).await;
         let means =
             if seconds > 0.0 { sums.iter().map(|sum| sum / seconds).collect() } else { Vec::new() };
         let long = LongRun { reach, means };

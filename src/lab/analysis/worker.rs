@@ -4,8 +4,9 @@
 use std::sync::Arc;
 
 use super::advice::{Adviser, MethodAdvice};
-use super::judge::{Judge, JudgedLane};
+use super::judge::{Judge, horizon_s};
 use super::run::MAX_WORK;
+use super::slices::{Meter, Sliced};
 use super::stability_map::{MapRequest, MapWork, StabilityMap};
 use super::verdict::Verdict;
 use crate::lab::intervention::Interventions;
@@ -104,7 +105,7 @@ pub struct Advice {
 /// The most work of a bounded worker on all verdicts together, the truth's included: a second or two.
 const MAX_WORK_OF_ALL: u64 = MAX_WORK;
 
-/// About the work of one step on a verdict: some milliseconds.
+/// About the work of one step: some milliseconds.
 const WORK_OF_STEP: u64 = 1_000_000;
 
 /// Works on one request at a time.
@@ -112,21 +113,30 @@ pub struct AnalysisWorker {
     /// The most work on all verdicts.
     max_work: u64,
     request: AnalysisRequest,
-    judge: Option<Judge>,
+    judge: Option<Arc<Judge>>,
     verdicts: Vec<Option<Verdict>>,
     /// The number of leading verdicts that answer the present request.
     judged: usize,
-    /// The next one, once it is begun.
-    judging: Option<JudgedLane>,
     advising: Option<AdviceInProgress>,
     /// The last map that was wanted.
     mapping: Option<MapWork>,
+    /// The part of the answer that is being found.
+    part: Option<Sliced<Part>>,
+}
+
+/// A part of the answer, found in slices.
+enum Part {
+    Judge(Arc<Judge>),
+    Verdict(Box<Verdict>),
+    Adviser(AdvisedBodies, Arc<Adviser>),
+    /// The advice in this row, new or with more margins searched.
+    Advised(usize, Box<MethodAdvice>),
 }
 
 /// Advice being computed: the methods are judged one by one, and then margins are searched one by one.
 struct AdviceInProgress {
     bodies: AdvisedBodies,
-    adviser: Adviser,
+    adviser: Arc<Adviser>,
     /// The methods that step the scene.
     methods: Vec<&'static Method>,
     advised: Vec<MethodAdvice>,
@@ -135,24 +145,46 @@ struct AdviceInProgress {
 }
 
 impl AdviceInProgress {
-    /// Judges one more method, or searches one more margin.
-    fn advance(&mut self) {
-        if let Some(method) = self.methods.get(self.advised.len()) {
-            self.advised.push(self.adviser.judged(LaneSpec::plain(method)));
+    fn new(bodies: AdvisedBodies, adviser: Arc<Adviser>) -> Self {
+        let scene = adviser.scene();
+        let lane_of = |method: &Method| scene.lanes.iter().position(|l| l.method == method);
+        let mut methods: Vec<_> = scene.non_engine_methods().collect();
+        // Those that race come first: they are what a person sees.
+        methods.sort_by_key(|method| lane_of(method).unwrap_or(usize::MAX));
+        let (advised, margins) = (Vec::new(), None);
+        Self { bodies, adviser, methods, advised, margins }
+    }
+
+    /// The next method to judge, or else the next margin to search.
+    fn next(&mut self) -> Option<Sliced<Part>> {
+        let adviser = self.adviser.clone();
+        let meter = adviser.judge().meter().clone();
+        let row = self.advised.len();
+        if let Some(method) = self.methods.get(row) {
+            let spec = LaneSpec::plain(method);
+            return Some(Sliced::new(meter, async move {
+                Part::Advised(row, adviser.advice_on(spec).await.into())
+            }));
         }
-        if self.advised.len() < self.methods.len() {
+        let (row, criterion) = *self.margins.as_ref()?.last()?;
+        let mut advice = self.advised[row].clone();
+        Some(Sliced::new(meter, async move {
+            adviser.search_margins(&mut advice, criterion).await;
+            Part::Advised(row, advice.into())
+        }))
+    }
+
+    fn accept(&mut self, row: usize, advice: MethodAdvice) {
+        if let Some(margins) = &mut self.margins {
+            self.advised[row] = advice;
+            margins.pop();
             return;
         }
-        match &mut self.margins {
-            None => {
-                let mut margins = self.adviser.worth_margins(&self.advised);
-                margins.reverse();
-                self.margins = Some(margins);
-            }
-            Some(margins) => {
-                let Some((row, criterion)) = margins.pop() else { return };
-                self.advised[row].search_margins(&self.adviser, criterion);
-            }
+        self.advised.push(advice);
+        if self.advised.len() == self.methods.len() {
+            let mut margins = self.adviser.worth_margins(&self.advised);
+            margins.reverse();
+            self.margins = Some(margins);
         }
     }
 
@@ -171,9 +203,9 @@ impl AnalysisWorker {
             judge: None,
             verdicts,
             judged: 0,
-            judging: None,
             advising: None,
             mapping: None,
+            part: None,
         }
     }
 
@@ -182,9 +214,10 @@ impl AnalysisWorker {
         Self { max_work: MAX_WORK_OF_ALL, ..self }
     }
 
-    /// Replaces the request. Results that answer the new one too are kept.
+    /// Replaces the request. Results that answer the new one too are kept; a part that is being found is given up.
     pub fn set_request(&mut self, request: AnalysisRequest) {
         self.set_map(&request);
+        self.part = None;
         if !request.is_of(&self.request.scene) {
             let mapping = self.mapping.take();
             *self = Self { max_work: self.max_work, mapping, ..Self::new(request) };
@@ -200,7 +233,6 @@ impl AnalysisWorker {
         }
         if !is_at_same_rate || request.entries != self.request.entries {
             self.judged = 0;
-            self.judging = None;
         }
         if let Some(bodies) = request.advice {
             self.advising.take_if(|advising| advising.bodies != bodies);
@@ -218,56 +250,76 @@ impl AnalysisWorker {
         }
     }
 
-    /// Does one step: finds a region of the map, the truth of a body or part of a missing verdict or, if none is missing,
-    /// judges a method or searches a margin for the advice. Returns whether there is more to do.
+    /// Does one step: finds a region of the map or goes on for a slice with the next part of the answer: the truths, a
+    /// missing verdict or, if none is missing, a method or a margin of the advice. Returns whether there is more to do.
     pub fn work(&mut self) -> bool {
-        let AnalysisRequest { scene, by_hand, entries, tick_hz, advice, map } = &self.request;
-        if let Some(wanted) = map
+        if let Some(wanted) = &self.request.map
             && !self.is_mapped()
         {
             // Before the verdicts, because it takes less time than one of them may.
-            let new = || MapWork::new(scene.bodies[wanted.body].kind.clone(), wanted.clone());
+            let kind = &self.request.scene.bodies[wanted.body].kind;
+            let new = || MapWork::new(kind.clone(), wanted.clone());
             self.mapping.get_or_insert_with(new).advance();
-        } else if let Some(&spec) = entries.get(self.judged) {
-            let new = || Judge::before_truths(by_hand.applied_to(scene), 1.0);
-            let judge = self.judge.get_or_insert_with(new);
-            if judge.find_truth() {
-                return true;
+        } else if let Some(mut part) = self.part.take().or_else(|| self.next_part()) {
+            match part.go_on(WORK_OF_STEP) {
+                Some(found) => self.accept(found),
+                None => self.part = Some(part),
             }
-            let judging = self.judging.get_or_insert_with(|| {
-                // Work that earlier verdicts did not use is for the later ones.
-                let left = self.max_work.saturating_sub(judge.work_done());
-                let share = left / (entries.len() - self.judged) as u64;
-                JudgedLane::new(spec, *tick_hz, share.min(MAX_WORK))
-            });
-            if let Some(verdict) = judge.work(judging, WORK_OF_STEP) {
-                self.judging = None;
-                self.verdicts[self.judged] = Some(verdict.starting_at(by_hand.starts_at_s()));
-                self.judged += 1;
-            }
-        } else if let Some(bodies) = *advice {
-            let advising = self.advising.get_or_insert_with(|| {
-                let scene = bodies.of(by_hand.applied_to(scene));
-                let lane_of = |method: &Method| scene.lanes.iter().position(|l| l.method == method);
-                let mut methods: Vec<_> = scene.non_engine_methods().collect();
-                // Those that race come first: they are what a person sees.
-                methods.sort_by_key(|method| lane_of(method).unwrap_or(usize::MAX));
-                AdviceInProgress {
-                    bodies,
-                    adviser: Adviser::new(&scene, 1.0, *tick_hz),
-                    methods,
-                    advised: Vec::new(),
-                    margins: None,
-                }
-            });
-            advising.advance();
         }
         !self.is_done()
     }
 
-    /// Whether it is within a verdict: its findings are those of some steps ago.
-    pub fn is_judging(&self) -> bool {
-        self.judging.is_some()
+    /// The next part of the answer, if one is missing.
+    fn next_part(&mut self) -> Option<Sliced<Part>> {
+        let AnalysisRequest { scene, by_hand, entries, tick_hz, advice, .. } = &self.request;
+        let (tick_hz, meter) = (*tick_hz, Arc::<Meter>::default());
+        if let Some(&spec) = entries.get(self.judged) {
+            let Some(judge) = self.judge.clone() else {
+                let scene = by_hand.applied_to(scene);
+                return Some(Sliced::new(meter.clone(), async move {
+                    let horizon_s = horizon_s(&scene);
+                    Part::Judge(Judge::find(&scene, 1.0, horizon_s, meter).await.into())
+                }));
+            };
+            // Work that earlier verdicts did not use is for the later ones.
+            let left = self.max_work.saturating_sub(judge.meter().counted());
+            let share = (left / (entries.len() - self.judged) as u64).min(MAX_WORK);
+            return Some(Sliced::new(judge.meter().clone(), async move {
+                Part::Verdict(judge.verdict_within(share, spec, tick_hz).await.into())
+            }));
+        }
+        let bodies = (*advice)?;
+        if let Some(advising) = &mut self.advising {
+            return advising.next();
+        }
+        let scene = bodies.of(by_hand.applied_to(scene));
+        Some(Sliced::new(meter.clone(), async move {
+            Part::Adviser(bodies, Adviser::find(scene, 1.0, tick_hz, meter).await.into())
+        }))
+    }
+
+    fn accept(&mut self, found: Part) {
+        match found {
+            Part::Judge(judge) => self.judge = Some(judge),
+            Part::Verdict(verdict) => {
+                let starts_at_s = self.request.by_hand.starts_at_s();
+                self.verdicts[self.judged] = Some(verdict.starting_at(starts_at_s));
+                self.judged += 1;
+            }
+            Part::Adviser(bodies, adviser) => {
+                self.advising = Some(AdviceInProgress::new(bodies, adviser));
+            }
+            Part::Advised(row, advice) => {
+                if let Some(advising) = &mut self.advising {
+                    advising.accept(row, *advice);
+                }
+            }
+        }
+    }
+
+    /// Whether it is within a part of the answer: its findings are those of some steps ago.
+    pub fn is_within_a_part(&self) -> bool {
+        self.part.is_some()
     }
 
     /// Does all steps.

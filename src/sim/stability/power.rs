@@ -21,50 +21,68 @@ const DISPLACEMENT: f64 = 1e-7;
 /// 150.
 const START: f64 = 1e-150;
 
-/// The spectral radius of a tick of `solver` on `body`, linearised about its current state: of the map of state and
-/// memory for a method with memory. `None` if the iteration has not settled within `max_evaluations`, for a method
-/// that chooses its substeps, and for an implicit one with memory.
-///
-/// Up to rounding, n iterations grow like ρⁿ nᵖ (p > 0 for a drifting body); a second difference of the
-/// logarithm removes p.
-///
-/// # Errors
-/// The failure of the method.
-pub fn spectral_radius(
-    body: &dyn Stepper,
-    solver: Solver,
-    tick: Tick,
-    max_evaluations: u64,
-) -> Result<Option<f64>, StepFailure> {
-    let Some(method) = solver.method().filter(|it| it.keeps_time && it.tolerance.is_none()) else {
-        return Ok(None);
-    };
-    let evaluations = method.evaluations_per_tick(tick.substeps);
-    // Fewer ticks tell nothing, and one of them may take an implicit method seconds on a large body.
-    if max_evaluations / u64::from(evaluations.unwrap_or(1)) < MIN_ITERATIONS as u64 {
-        return Ok(None);
-    }
-    let logs = match (method.restart, evaluations) {
-        (None, _) => iterate(displaced_ticks(body, solver, tick, max_evaluations)?)?,
-        (Some(_), Some(evaluations)) => {
-            iterate(continued_run(body, method, tick, max_evaluations / u64::from(evaluations)))?
-        }
-        (Some(_), None) => return Ok(None),
-    };
-    Ok(settled_radius(&logs))
+/// The power iteration that leads to the spectral radius of a tick, one tick at a time.
+pub struct PowerIteration {
+    /// Makes the next tick, and returns the logarithm of the length of the deviation after it.
+    tick: Box<TickOfDeviation>,
+    logs: Vec<f64>,
 }
 
-/// The logarithms of the lengths of a deviation after each tick, of which `tick` returns the next, while they are finite.
-fn iterate(
-    mut tick: impl FnMut() -> Result<Option<f64>, StepFailure>,
-) -> Result<Vec<f64>, StepFailure> {
-    let mut logs = Vec::with_capacity(MAX_ITERATIONS);
-    while logs.len() < MAX_ITERATIONS
-        && let Some(log) = tick()?.filter(|log| log.is_finite())
-    {
-        logs.push(log);
+type TickOfDeviation = dyn FnMut() -> Result<Option<f64>, StepFailure> + Send;
+
+impl PowerIteration {
+    /// The iteration with ticks of `solver` on `body`, linearised about its current state: with the map of state and
+    /// memory for a method with memory. `None` if `max_evaluations` are too few, for a method that chooses its
+    /// substeps, and for an implicit one with memory.
+    ///
+    /// # Errors
+    /// The failure of the method.
+    pub fn new(
+        body: &dyn Stepper,
+        solver: Solver,
+        tick: Tick,
+        max_evaluations: u64,
+    ) -> Result<Option<Self>, StepFailure> {
+        let Some(method) = solver.method().filter(|it| it.keeps_time && it.tolerance.is_none())
+        else {
+            return Ok(None);
+        };
+        let evaluations = method.evaluations_per_tick(tick.substeps);
+        // Fewer ticks tell nothing, and one of them may take an implicit method seconds on a large body.
+        if max_evaluations / u64::from(evaluations.unwrap_or(1)) < MIN_ITERATIONS as u64 {
+            return Ok(None);
+        }
+        let tick: Box<TickOfDeviation> = match (method.restart, evaluations) {
+            (None, _) => Box::new(displaced_ticks(body, solver, tick, max_evaluations)?),
+            (Some(_), Some(evaluations)) => {
+                let max_ticks = max_evaluations / u64::from(evaluations);
+                Box::new(continued_run(body, method, tick, max_ticks))
+            }
+            (Some(_), None) => return Ok(None),
+        };
+        Ok(Some(Self { tick, logs: Vec::with_capacity(MAX_ITERATIONS) }))
     }
-    Ok(logs)
+
+    /// Makes a tick. Returns whether the iteration continues: while the deviation is finite.
+    ///
+    /// # Errors
+    /// The failure of the method.
+    pub fn advance(&mut self) -> Result<bool, StepFailure> {
+        if self.logs.len() == MAX_ITERATIONS {
+            return Ok(false);
+        }
+        let log = (self.tick)()?.filter(|log| log.is_finite());
+        self.logs.extend(log);
+        Ok(log.is_some())
+    }
+
+    /// The spectral radius; `None` if the iteration has not settled.
+    ///
+    /// Up to rounding, n iterations grow like ρⁿ nᵖ (p > 0 for a drifting body); a second difference of the
+    /// logarithm removes p.
+    pub fn radius(&self) -> Option<f64> {
+        settled_radius(&self.logs)
+    }
 }
 
 /// Ticks of a method that restarts at each, from the state of `body` and displaced by the deviation. They end if it vanishes
@@ -74,7 +92,7 @@ fn displaced_ticks(
     solver: Solver,
     tick: Tick,
     max_evaluations: u64,
-) -> Result<impl FnMut() -> Result<Option<f64>, StepFailure>, StepFailure> {
+) -> Result<impl FnMut() -> Result<Option<f64>, StepFailure> + use<>, StepFailure> {
     let Tick { t, h, substeps } = tick;
     let mut stepper = body.with_solver(solver, t);
     let [q, v] = [body.q().to_vec(), body.v().to_vec()];
@@ -123,7 +141,7 @@ fn continued_run(
     method: &'static Method,
     tick: Tick,
     max_ticks: u64,
-) -> impl FnMut() -> Result<Option<f64>, StepFailure> {
+) -> impl FnMut() -> Result<Option<f64>, StepFailure> + use<> {
     let Tick { t, h, substeps } = tick;
     let n = body.q().len();
     let mut deviation = deviation::along(body, t, h, DISPLACEMENT, method);
@@ -181,13 +199,18 @@ mod tests {
     use crate::sim::integrators::method;
     use crate::sim::stability::SmallMotion;
 
+    fn spectral_radius(body: &dyn Stepper, id: &str, tick: Tick) -> Option<f64> {
+        let solver = Solver::Method(method(id).unwrap());
+        let mut iteration = PowerIteration::new(body, solver, tick, u64::MAX).unwrap()?;
+        while iteration.advance().unwrap() {}
+        iteration.radius()
+    }
+
     /// The radius of a method on a chain of ω² = 800, whose fastest mode has ω² = 3200 sin²(5π/22).
     fn radius_on_chain(id: &str, h: f64) -> Option<f64> {
         let chain =
             (kind("chain").unwrap().build)(&[10.0, 1.0, 800.0, 0.0, 3.0, 1.0, 1.0], Solver::Truth);
-        let solver = Solver::Method(method(id).unwrap());
-        let tick = Tick { t: 0.0, h, substeps: 1 };
-        spectral_radius(&*chain, solver, tick, u64::MAX).unwrap()
+        spectral_radius(&*chain, id, Tick { t: 0.0, h, substeps: 1 })
     }
 
     fn fastest() -> f64 {
@@ -230,14 +253,13 @@ mod tests {
         let values = [10.0, 1.0, 800.0, c, 3.0, 1.0, 1.0];
         let chain = (kind("chain").unwrap().build)(&values, Solver::Truth);
         for id in ["velocity-verlet", "adams-bashforth-2", "stormer-verlet"] {
-            let solver = Solver::Method(method(id).unwrap());
             // The limit of velocity Verlet at this damping ratio is 1.354, without damping 2.
             for z in [0.5, 1.2, 1.7, 3.0] {
                 let tick = Tick { t: 0.0, h: z / fastest(), substeps: 1 };
                 let coupled = SmallMotion::of(&*chain).unwrap().coupled().unwrap();
                 let wanted = coupled.stability(method(id).unwrap(), tick.h, 1).unwrap();
                 let wanted = wanted.spectral_radius;
-                let found = spectral_radius(&*chain, solver, tick, u64::MAX).unwrap().unwrap();
+                let found = spectral_radius(&*chain, id, tick).unwrap();
                 let off = (found / wanted - 1.0).abs();
                 assert!(off < 2e-3, "{id}, h ω = {z}: {found}, not {wanted}");
             }
@@ -248,9 +270,7 @@ mod tests {
     fn a_drift_is_no_growth_and_a_method_of_its_own_substeps_has_no_radius() {
         let ship = (kind("ship").unwrap().build)(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0], Solver::Truth);
         let tick = Tick { t: 0.0, h: 0.1, substeps: 1 };
-        let of = |id| {
-            spectral_radius(&*ship, Solver::Method(method(id).unwrap()), tick, u64::MAX).unwrap()
-        };
+        let of = |id| spectral_radius(&*ship, id, tick);
         for id in ["explicit-euler", "velocity-verlet", "adams-bashforth-2"] {
             let found = of(id).unwrap();
             assert!((found - 1.0).abs() < 2e-3, "{id}: {found}");

@@ -3,6 +3,7 @@
 use super::{Judge, without_truth};
 use crate::lab::analysis::by_energy::follow_energy;
 use crate::lab::analysis::change::bounded;
+use crate::lab::analysis::criterion::Criterion;
 use crate::lab::analysis::frequency::frequency_error;
 use crate::lab::analysis::limits::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 use crate::lab::analysis::modes::{Modes, TooMuch};
@@ -10,7 +11,7 @@ use crate::lab::analysis::run::{Run, Until, follow};
 use crate::lab::analysis::truth::BodyTruth;
 use crate::lab::lane_spec::LaneSpec;
 
-/// Whether a lane meets a [`Criterion`](crate::lab::Criterion).
+/// Whether a lane meets a [`Criterion`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::lab::analysis) enum CriterionFinding {
     /// It does, at this cost.
@@ -19,6 +20,12 @@ pub(in crate::lab::analysis) enum CriterionFinding {
     Fails { body: usize },
     /// Not known: it would take too much work, or there is no truth or no tick.
     Unknown,
+}
+
+impl CriterionFinding {
+    pub(in crate::lab::analysis) fn holds(self) -> bool {
+        matches!(self, CriterionFinding::Holds { .. })
+    }
 }
 
 /// Why a body is not known to meet a criterion.
@@ -37,139 +44,12 @@ impl From<TooMuch> for CriterionMiss {
 }
 
 impl Judge {
-    /// Whether nothing grows that does not grow in truth, over the horizon and in the long run.
-    pub(in crate::lab::analysis) fn is_bounded(
+    /// Whether a lane meets a criterion.
+    pub(in crate::lab::analysis) async fn meets(
         &self,
+        criterion: Criterion,
         spec: LaneSpec,
         tick_hz: u32,
-    ) -> CriterionFinding {
-        self.each(tick_hz, |truth| {
-            if truth.is_too_dear() {
-                let run = follow_energy(truth, spec, tick_hz, self.max_work);
-                return match run.is_bounded() {
-                    _ if run.is_too_much => Err(CriterionMiss::Unknown),
-                    true => Ok(run.evaluations as f64 / run.seconds),
-                    false => Err(CriterionMiss::Fails),
-                };
-            }
-            if let Some(modes) = Modes::of(truth, spec, tick_hz)? {
-                if !modes.are_bounded() {
-                    return Err(CriterionMiss::Fails);
-                }
-                let run = follow(truth, spec, tick_hz, Until::Horizon, self.max_work);
-                return cost_if(run.failure.is_none(), &run);
-            }
-            let run = follow(truth, spec, tick_hz, Until::Grown, self.max_work);
-            match bounded(truth, &run) {
-                Some(is_bounded) => cost_if(is_bounded, &run),
-                None => Err(CriterionMiss::Unknown),
-            }
-        })
-    }
-
-    /// Whether the modes of every body tell that it is bounded.
-    pub(in crate::lab::analysis) fn is_bounded_by_modes(
-        &self,
-        spec: LaneSpec,
-        tick_hz: u32,
-    ) -> bool {
-        self.by_modes(spec, tick_hz, |_, modes| modes.are_bounded())
-    }
-
-    /// Whether the modes of every body tell that it looks right.
-    pub(in crate::lab::analysis) fn looks_right_by_modes(
-        &self,
-        spec: LaneSpec,
-        tick_hz: u32,
-    ) -> bool {
-        self.by_modes(spec, tick_hz, |truth, modes| {
-            truth.swing.is_some()
-                && modes.frequency_error().is_some_and(|error| error.abs() <= FREQUENCY_TOLERANCE)
-                && self.are_as_wide(truth, modes) == Some(true)
-        })
-    }
-
-    /// Whether every body is linear and `tells` is true of its modes.
-    fn by_modes(
-        &self,
-        spec: LaneSpec,
-        tick_hz: u32,
-        tells: impl Fn(&BodyTruth, &Modes) -> bool,
-    ) -> bool {
-        let told = |truth: &BodyTruth| match Modes::of(truth, spec, tick_hz) {
-            Ok(Some(modes)) => truth.failure.is_none() && tells(truth, &modes),
-            Ok(None) | Err(TooMuch) => false,
-        };
-        self.has_ticks(tick_hz) && self.truths.iter().all(told)
-    }
-
-    /// Whether the modes keep the true amplitude; `None` if an input changes it, or if nothing moves.
-    fn are_as_wide(&self, truth: &BodyTruth, modes: &Modes) -> Option<bool> {
-        if truth.inputs.is_empty() { modes.are_as_wide(self.horizon_s) } else { None }
-    }
-
-    /// The run of a lane, of which nothing is known if the truth cannot be used for it.
-    fn beside_truth(
-        &self,
-        truth: &BodyTruth,
-        spec: LaneSpec,
-        tick_hz: u32,
-        until: Until,
-    ) -> Result<Run, CriterionMiss> {
-        if truth.is_too_dear() {
-            return Err(CriterionMiss::Unknown);
-        }
-        let run = follow(truth, spec, tick_hz, until, self.max_work);
-        let gap = truth.gap(run.seconds, tick_hz);
-        without_truth(truth, &run, gap).map_or(Ok(run), |_| Err(CriterionMiss::Unknown))
-    }
-
-    /// Whether every body stays within [`TOLERANCE`] of its truth.
-    pub(in crate::lab::analysis) fn is_accurate(
-        &self,
-        spec: LaneSpec,
-        tick_hz: u32,
-    ) -> CriterionFinding {
-        self.each(tick_hz, |truth| {
-            let run = self.beside_truth(truth, spec, tick_hz, Until::Error(TOLERANCE))?;
-            cost_if(run.error <= TOLERANCE, &run)
-        })
-    }
-
-    /// Whether every body has the true amplitude within [`VISIBLE`] and the true frequency within
-    /// [`FREQUENCY_TOLERANCE`]. A body that makes too few turns has to stay within [`VISIBLE`] of its range. What is
-    /// accurate looks right.
-    pub(in crate::lab::analysis) fn looks_right(
-        &self,
-        spec: LaneSpec,
-        tick_hz: u32,
-    ) -> CriterionFinding {
-        self.each(tick_hz, |truth| {
-            let run = self.beside_truth(truth, spec, tick_hz, Until::Horizon)?;
-            if run.failure.is_some() || run.error <= TOLERANCE {
-                return cost_if(run.failure.is_none(), &run);
-            }
-            // The range is twice the amplitude.
-            let is_near = run.error <= 2.0 * VISIBLE;
-            let Some(swing) = &truth.swing else { return cost_if(is_near, &run) };
-            let modes = Modes::of(truth, spec, tick_hz)?;
-            let error = match &modes {
-                Some(modes) => modes.frequency_error(),
-                None => frequency_error(truth, &run).map(|measured| measured.error),
-            };
-            let Some(error) = error else { return cost_if(is_near, &run) };
-            let is_as_wide = modes
-                .and_then(|modes| self.are_as_wide(truth, &modes))
-                .unwrap_or_else(|| swing.is_as_wide(&run.half_turns, tick_hz));
-            cost_if(is_as_wide && error.abs() <= FREQUENCY_TOLERANCE, &run)
-        })
-    }
-
-    /// Applies `of` to every body, which returns the evaluations per second of a body that meets the criterion.
-    fn each(
-        &self,
-        tick_hz: u32,
-        of: impl Fn(&BodyTruth) -> Result<f64, CriterionMiss>,
     ) -> CriterionFinding {
         if !self.has_ticks(tick_hz) {
             return CriterionFinding::Unknown;
@@ -177,7 +57,12 @@ impl Judge {
         let mut evaluations_per_s = 0.0;
         let mut is_unknown = false;
         for (body, truth) in self.truths.iter().enumerate() {
-            match of(truth) {
+            let met = match criterion {
+                Criterion::Bounded => self.is_bounded(truth, spec, tick_hz).await,
+                Criterion::LooksRight => self.looks_right(truth, spec, tick_hz).await,
+                Criterion::Accurate => self.is_accurate(truth, spec, tick_hz).await,
+            };
+            match met {
                 Ok(evaluations) => evaluations_per_s += evaluations,
                 Err(CriterionMiss::Fails) => return CriterionFinding::Fails { body },
                 Err(CriterionMiss::Unknown) => is_unknown = true,
@@ -188,6 +73,131 @@ impl Judge {
         } else {
             CriterionFinding::Holds { evaluations_per_s }
         }
+    }
+
+    /// How a lane misses a criterion; `None` if it meets it. Where the modes tell that, nothing is run.
+    pub(in crate::lab::analysis) async fn misses(
+        &self,
+        criterion: Criterion,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> Option<CriterionFinding> {
+        if self.is_met_by_modes(criterion, spec, tick_hz).await {
+            return None;
+        }
+        let finding = self.meets(criterion, spec, tick_hz).await;
+        Some(finding).filter(|finding| !finding.holds())
+    }
+
+    /// Whether the modes of every body tell that it meets a criterion.
+    async fn is_met_by_modes(&self, criterion: Criterion, spec: LaneSpec, tick_hz: u32) -> bool {
+        if criterion == Criterion::Accurate || !self.has_ticks(tick_hz) {
+            return false;
+        }
+        for truth in &self.truths {
+            let Ok(Some(modes)) = Modes::of(truth, spec, tick_hz).await else { return false };
+            let is_met = match criterion {
+                Criterion::Bounded => modes.are_bounded(),
+                _ => {
+                    let error = modes.frequency_error();
+                    truth.swing.is_some()
+                        && error.is_some_and(|error| error.abs() <= FREQUENCY_TOLERANCE)
+                        && self.are_as_wide(truth, &modes) == Some(true)
+                }
+            };
+            if truth.failure.is_some() || !is_met {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Whether nothing grows that does not grow in truth, over the horizon and in the long run.
+    async fn is_bounded(
+        &self,
+        truth: &BodyTruth,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> Result<f64, CriterionMiss> {
+        if truth.is_too_dear() {
+            let run = follow_energy(truth, spec, tick_hz, self.max_work).await;
+            return match run.is_bounded() {
+                _ if run.is_too_much => Err(CriterionMiss::Unknown),
+                true => Ok(run.evaluations as f64 / run.seconds),
+                false => Err(CriterionMiss::Fails),
+            };
+        }
+        if let Some(modes) = Modes::of(truth, spec, tick_hz).await? {
+            if !modes.are_bounded() {
+                return Err(CriterionMiss::Fails);
+            }
+            let run = follow(truth, spec, tick_hz, Until::Horizon, self.max_work).await;
+            return cost_if(run.failure.is_none(), &run);
+        }
+        let run = follow(truth, spec, tick_hz, Until::Grown, self.max_work).await;
+        match bounded(truth, &run) {
+            Some(is_bounded) => cost_if(is_bounded, &run),
+            None => Err(CriterionMiss::Unknown),
+        }
+    }
+
+    /// Whether the modes keep the true amplitude; `None` if an input changes it, or if nothing moves.
+    fn are_as_wide(&self, truth: &BodyTruth, modes: &Modes) -> Option<bool> {
+        if truth.inputs.is_empty() { modes.are_as_wide(self.horizon_s) } else { None }
+    }
+
+    /// The run of a lane, of which nothing is known if the truth cannot be used for it.
+    async fn beside_truth(
+        &self,
+        truth: &BodyTruth,
+        spec: LaneSpec,
+        tick_hz: u32,
+        until: Until,
+    ) -> Result<Run, CriterionMiss> {
+        if truth.is_too_dear() {
+            return Err(CriterionMiss::Unknown);
+        }
+        let run = follow(truth, spec, tick_hz, until, self.max_work).await;
+        let gap = truth.gap(run.seconds, tick_hz).await;
+        without_truth(truth, &run, gap).map_or(Ok(run), |_| Err(CriterionMiss::Unknown))
+    }
+
+    /// Whether a body stays within [`TOLERANCE`] of its truth.
+    async fn is_accurate(
+        &self,
+        truth: &BodyTruth,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> Result<f64, CriterionMiss> {
+        let run = self.beside_truth(truth, spec, tick_hz, Until::Error(TOLERANCE)).await?;
+        cost_if(run.error <= TOLERANCE, &run)
+    }
+
+    /// Whether a body has the true amplitude within [`VISIBLE`] and the true frequency within [`FREQUENCY_TOLERANCE`]. A
+    /// body that makes too few turns has to stay within [`VISIBLE`] of its range. What is accurate looks right.
+    async fn looks_right(
+        &self,
+        truth: &BodyTruth,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> Result<f64, CriterionMiss> {
+        let run = self.beside_truth(truth, spec, tick_hz, Until::Horizon).await?;
+        if run.failure.is_some() || run.error <= TOLERANCE {
+            return cost_if(run.failure.is_none(), &run);
+        }
+        // The range is twice the amplitude.
+        let is_near = run.error <= 2.0 * VISIBLE;
+        let Some(swing) = &truth.swing else { return cost_if(is_near, &run) };
+        let modes = Modes::of(truth, spec, tick_hz).await?;
+        let error = match &modes {
+            Some(modes) => modes.frequency_error(),
+            None => frequency_error(truth, &run).map(|measured| measured.error),
+        };
+        let Some(error) = error else { return cost_if(is_near, &run) };
+        let is_as_wide = modes
+            .and_then(|modes| self.are_as_wide(truth, &modes))
+            .unwrap_or_else(|| swing.is_as_wide(&run.half_turns, tick_hz));
+        cost_if(is_as_wide && error.abs() <= FREQUENCY_TOLERANCE, &run)
     }
 }
 

@@ -2,9 +2,10 @@
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::{Arc, Mutex};
 
-use super::BodyTruth;
+use super::{BodyTruth, FollowedBody, ticks};
+use crate::lab::analysis::slices::Once;
 use crate::lab::follow::StopReason;
 use crate::sim::Solver;
 use crate::sim::integrators::StepFailure;
@@ -18,7 +19,7 @@ const MAX_KEPT: usize = 1 << 22;
 
 /// The cached series by tick rate in Hz. Of several threads that ask for one, the first computes it.
 pub(in crate::lab::analysis) type TruthSeriesByRate =
-    Mutex<HashMap<u32, Arc<OnceLock<Arc<TruthSeries>>>>>;
+    Mutex<HashMap<u32, Arc<Once<Arc<TruthSeries>>>>>;
 
 /// The true states at the ticks of one rate.
 pub(in crate::lab::analysis) struct TruthSeries {
@@ -47,25 +48,25 @@ impl TruthSeries {
 
 impl BodyTruth {
     /// The largest error of the truth up to this moment, in amplitudes, at the ticks of this rate.
-    pub(in crate::lab::analysis) fn gap(&self, seconds: f64, tick_hz: u32) -> f64 {
-        self.series(tick_hz).gap(ticks(seconds, tick_hz).max(1))
+    pub(in crate::lab::analysis) async fn gap(&self, seconds: f64, tick_hz: u32) -> f64 {
+        self.series(tick_hz).await.gap(ticks(seconds, tick_hz).max(1))
     }
 
     /// The true states at the ticks of this rate, up to the horizon.
-    pub(in crate::lab::analysis) fn series(&self, tick_hz: u32) -> Arc<TruthSeries> {
-        let cell = {
+    pub(in crate::lab::analysis) async fn series(&self, tick_hz: u32) -> Arc<TruthSeries> {
+        let once = {
             let mut series_by_rate = self.series_by_rate.lock().expect("no thread panics with it");
-            let known = series_by_rate.values().filter_map(|cell| cell.get());
+            let known = series_by_rate.values().filter_map(|once| once.found());
             let held: usize = known.map(|series| series.values.len()).sum();
             if held > MAX_KEPT && !series_by_rate.contains_key(&tick_hz) {
                 series_by_rate.clear();
             }
             Arc::clone(series_by_rate.entry(tick_hz).or_default())
         };
-        Arc::clone(cell.get_or_init(|| Arc::new(self.compute_series(tick_hz))))
+        Arc::clone(once.get(async { Arc::new(self.compute_series(tick_hz).await) }).await)
     }
 
-    fn compute_series(&self, tick_hz: u32) -> TruthSeries {
+    async fn compute_series(&self, tick_hz: u32) -> TruthSeries {
         let n = self.coordinates().len();
         let mut series = TruthSeries {
             values: Vec::new(),
@@ -84,8 +85,8 @@ impl BodyTruth {
             series.failure.clone_from(&self.failure);
             return series;
         }
-        let mut follow = self.follow(self.body_under(Solver::Truth, 1), tick_hz);
-        let stop = follow.run(ticks, |body, _| {
+        let mut run = self.follow(Solver::Truth, 1, tick_hz);
+        let see = |body: &FollowedBody, _| {
             let body = &*body.stepper;
             series.values.extend(body.q().iter().chain(body.v()));
             let off = body.truth_error().unwrap_or([0.0; 2]);
@@ -95,24 +96,10 @@ impl BodyTruth {
             }
             series.gaps.push(gap);
             ControlFlow::Continue(())
-        });
-        if let StopReason::Failed(failure) = stop {
+        };
+        if let StopReason::Failed(failure) = self.go_on(&mut run, ticks, see).await {
             series.failure = Some(failure);
         }
-        self.count_moments(series.gaps.len() as u64, &*follow.body.stepper);
         series
     }
-}
-
-/// The part of a tick by which an input may come late: its time is rounded.
-const ON_TIME: f64 = 1e-6;
-
-/// The number of whole ticks of this rate in `seconds`.
-pub(in crate::lab::analysis) fn ticks(seconds: f64, tick_hz: u32) -> u64 {
-    (seconds * f64::from(tick_hz) + ON_TIME).floor() as u64
-}
-
-/// The first tick of this rate that does not begin before `seconds`.
-pub(in crate::lab::analysis) fn tick_after(seconds: f64, tick_hz: u32) -> u64 {
-    (seconds * f64::from(tick_hz) - ON_TIME).ceil().max(0.0) as u64
 }

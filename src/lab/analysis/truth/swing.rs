@@ -1,7 +1,6 @@
 //! The true swing of a body: its crossings and the width of its half turns.
 
 use super::{BodyTruth, TruthNode};
-use crate::lab::analysis::survey::follow_truth;
 use crate::lab::bisection::bisect;
 use crate::sim::Solver;
 
@@ -21,7 +20,7 @@ pub(in crate::lab::analysis) struct Swing {
 
 impl BodyTruth {
     /// The swing about `middles`, one per coordinate, from the moments that were `seen` if they were kept.
-    pub(super) fn watch(
+    pub(super) async fn watch(
         &self,
         middles: &[f64],
         seen: Option<&[(TruthNode, TruthNode)]>,
@@ -55,8 +54,7 @@ impl BodyTruth {
         match seen {
             Some(seen) => seen.iter().for_each(|(from, to)| see(from, to)),
             None => {
-                follow_truth(&mut *body, &self.inputs, self.horizon_s, most, see).ok()?;
-                self.count_moments(peaks.len() as u64, &*body);
+                self.walk(&mut *body, Solver::Truth, self.horizon_s, most, see).await.ok()?;
             }
         }
         let coordinate = (0..n).find(|&i| crossings[i].len() >= 2)?;

@@ -2,11 +2,16 @@
 
 use super::*;
 use crate::lab::Scene;
+use crate::lab::analysis::slices::at_once;
+
+fn of_first_body(scene: &Scene, seconds: f64) -> BodyTruth {
+    at_once(BodyTruth::find(&scene.bodies[0], &[], 1.0, seconds, Arc::default()))
+}
 
 fn truth(text: &str, seconds: f64) -> BodyTruth {
     let text = format!("title = \"t\"\ntick_hz = 60\nseconds = {seconds}\n{text}");
     let scene = Scene::parse("t", &text).unwrap();
-    BodyTruth::new(&scene.bodies[0], &[], 1.0, seconds)
+    of_first_body(&scene, seconds)
 }
 
 #[test]
@@ -71,9 +76,9 @@ fn a_pendulum_swings_at_the_period_of_its_amplitude() {
 fn the_long_run_is_as_far_as_by_a_reference() {
     for name in ["helm", "quarter-car"] {
         let scene = Scene::built_in(name).unwrap();
-        let truth = BodyTruth::new(&scene.bodies[0], &[], 1.0, 2.0);
+        let truth = of_first_body(&scene, 2.0);
         let [close, exact] = [close_solver(), Solver::Truth]
-            .map(|solver| truth.long_run(solver, 2000).ok().unwrap());
+            .map(|solver| at_once(truth.long_run(solver, 2000)).ok().unwrap());
         let n = close.means.len();
         for i in 0..n {
             let off = (close.means[i] - exact.means[i]).abs() / truth.amplitudes[i];

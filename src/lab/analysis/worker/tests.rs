@@ -167,61 +167,93 @@ fn a_lane_without_a_truth_makes_no_tick_when_no_work_is_left() {
     assert!(ticked(1_000_000) > 0);
 }
 
+/// The worker's meters, each once.
+fn meters(worker: &AnalysisWorker) -> Vec<Arc<Meter>> {
+    let part = worker.part.as_ref().map(Sliced::meter);
+    let judge = worker.judge.as_ref().map(|judge| judge.meter());
+    let adviser = worker.advising.as_ref().map(|advising| advising.adviser.judge().meter());
+    let mut meters: Vec<_> = [part, judge, adviser].into_iter().flatten().cloned().collect();
+    meters.sort_by_key(Arc::as_ptr);
+    meters.dedup_by_key(|meter| Arc::as_ptr(meter));
+    meters
+}
+
 #[test]
-fn no_step_within_a_verdict_does_twice_its_work_and_a_new_rate_drops_the_verdict_in_progress() {
+fn no_step_does_twice_its_work_and_a_new_request_drops_the_part_in_progress() {
     let text = "title = 't'\ntick_hz = 60\nseconds = 60\n[[pendulum]]\nlength_m = 1\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 100\n";
     let spec = LaneSpec { substeps: 16, ..LaneSpec::plain(method("rk4").unwrap()) };
     let scene = Arc::new(Scene::parse("t", text).unwrap());
     let whole = |tick_hz: u32| Judge::new(&scene, 1.0).verdict(spec, tick_hz);
     let fine = AnalysisRequest { scene: scene.clone(), entries: vec![spec], ..request("spring") };
-    let mut worker = AnalysisWorker::new(fine.clone());
+    let advised = AnalysisRequest { advice: Some(AdvisedBodies::All), ..fine.clone() };
+    let mut worker = AnalysisWorker::new(advised);
     let mut steps = Vec::new();
-    while worker.work() {
-        let before = worker.judge.as_ref().unwrap().work_done();
-        if worker.is_judging() {
-            assert!(!worker.findings().complete);
-            worker.work();
-            steps.push(worker.judge.as_ref().unwrap().work_done() - before);
-        }
+    let passed = |meters: &[Arc<Meter>]| meters.iter().map(|meter| meter.passed()).sum::<u64>();
+    while worker.findings().advice.is_none_or(|advice| advice.advised.is_empty()) {
+        let before = passed(&meters(&worker));
+        worker.work();
+        assert!(!worker.findings().complete);
+        steps.push(passed(&meters(&worker)) - before);
     }
-    assert!(steps.len() > 2 && steps.iter().all(|&work| work < 2 * WORK_OF_STEP), "{steps:?}");
+    assert!(steps.len() > 10 && steps.iter().all(|&work| work < 2 * WORK_OF_STEP), "{steps:?}");
     assert_eq!(worker.findings().verdicts, [Some(whole(60))]);
     worker.set_request(AnalysisRequest { tick_hz: 30, ..fine.clone() });
     worker.work();
-    assert!(worker.is_judging());
+    assert!(worker.is_within_a_part());
     let coarse = AnalysisRequest { tick_hz: 20, ..fine };
     worker.set_request(coarse.clone());
-    assert!(!worker.is_judging());
+    assert!(!worker.is_within_a_part());
     answer(&mut worker, &coarse);
     assert_eq!(worker.findings().verdicts, [Some(whole(20))]);
 }
 
+/// All that is found of a method on a scene: the truths, a verdict and, unless it takes long, advice with its margins.
+async fn all_of(scene: Scene, spec: LaneSpec, tick_hz: u32, meter: Arc<Meter>) -> String {
+    let adviser = Adviser::find(scene, 1.0, tick_hz, meter).await;
+    let verdict = adviser.judge().verdict_within(300_000, spec, tick_hz).await;
+    // As text, because NaN is found too.
+    if adviser.scene().bodies.iter().any(|body| body.kind.net().is_some()) {
+        return format!("{verdict:?}");
+    }
+    let mut advice = adviser.advice_on(spec).await;
+    for criterion in 0..advice.met.len() {
+        adviser.search_margins(&mut advice, criterion).await;
+    }
+    format!("{verdict:?}, {advice:?}")
+}
+
+const SLICE: u64 = WORK_OF_STEP / 20;
+
 #[test]
-fn a_verdict_in_slices_of_a_tick_or_two_is_that_of_one_go() {
-    let most = 300_000;
-    for (scene, id, tick_hz) in [
+fn what_is_found_in_slices_and_the_work_of_it_are_those_of_one_go_and_no_slice_exceeds_its_work() {
+    for (name, id, tick_hz) in [
         ("spring", "velocity-verlet", 60),
-        ("spring", "explicit-euler", 60),
+        ("spring", "implicit-midpoint", 60),
+        ("chain", "implicit-euler", 60),
         ("orbit", "rk4", 20),
         ("pendulum", "rk4", 5),
-        ("pendulum", "implicit-euler", 60),
         ("cloth", "semi-implicit-euler", 60),
     ] {
-        let judge = Judge::new(&Scene::built_in(scene).unwrap(), 1.0);
-        let judged = |work: u64| {
-            let mut lane = JudgedLane::new(LaneSpec::plain(method(id).unwrap()), tick_hz, most);
-            let mut calls = 0;
+        let spec = LaneSpec::plain(method(id).unwrap());
+        let found = |slice: u64| {
+            let meter = Arc::<Meter>::default();
+            let scene = Scene { seconds: 2.0, ..Scene::built_in(name).unwrap() };
+            let work = all_of(scene, spec, tick_hz, meter.clone());
+            let mut sliced = Sliced::new(meter.clone(), work);
+            let mut slices = Vec::new();
             loop {
-                calls += 1;
-                if let Some(verdict) = judge.work(&mut lane, work) {
-                    return (calls, verdict);
+                let before = meter.passed();
+                let found = sliced.go_on(slice);
+                slices.push(meter.passed() - before);
+                if let Some(found) = found {
+                    return ((found, meter.counted()), slices);
                 }
             }
         };
-        let (sliced, whole) = (judged(1), judged(u64::MAX));
-        // As text, because NaN is found too.
-        assert_eq!(format!("{:?}", sliced.1), format!("{:?}", whole.1), "{scene}, {id}");
-        assert!(sliced.0 > 2 * whole.0, "{scene}, {id}: {} calls", sliced.0);
+        let ((whole, once), (sliced, slices)) = (found(u64::MAX), found(SLICE));
+        assert_eq!(sliced, whole, "{name}, {id}");
+        assert!(once.len() == 1 && slices.len() > 2, "{name}, {id}: {} slices", slices.len());
+        assert!(slices.iter().all(|&work| work < 2 * SLICE), "{name}, {id}: {slices:?}");
     }
 }

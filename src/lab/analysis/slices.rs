@@ -1,0 +1,202 @@
+//! Long work in slices: an `async` function counts its work on a [`Meter`] as it goes, and pauses where the slice is over.
+//! It waits for nothing else, so that it needs no runtime: what goes on with it polls it.
+
+use std::future::{Future, poll_fn};
+use std::mem;
+use std::pin::{Pin, pin};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Condvar, Mutex, OnceLock, PoisonError};
+use std::task::{Context, Poll, Waker};
+
+/// Work in evaluations of one coordinate, as it is done.
+#[derive(Debug)]
+pub(super) struct Meter {
+    counted: AtomicU64,
+    /// With what is not counted, by which a slice is limited all the same.
+    passed: AtomicU64,
+    /// What has passed at the end of the slice.
+    end: AtomicU64,
+}
+
+impl Default for Meter {
+    /// A meter of work without slices.
+    fn default() -> Self {
+        let [counted, passed] = [AtomicU64::new(0), AtomicU64::new(0)];
+        Self { counted, passed, end: AtomicU64::new(u64::MAX) }
+    }
+}
+
+impl Meter {
+    /// The work that was counted so far.
+    pub(super) fn counted(&self) -> u64 {
+        self.counted.load(Ordering::Relaxed)
+    }
+
+    /// All work so far.
+    #[cfg(test)]
+    pub(super) fn passed(&self) -> u64 {
+        self.passed.load(Ordering::Relaxed)
+    }
+
+    /// The work left in the slice.
+    pub(super) fn left(&self) -> u64 {
+        let passed = self.passed.load(Ordering::Relaxed);
+        self.end.load(Ordering::Relaxed).saturating_sub(passed)
+    }
+
+    /// Counts work that was done, and pauses if the slice is over.
+    pub(super) async fn count(&self, work: u64) {
+        self.counted.fetch_add(work, Ordering::Relaxed);
+        self.pass(work).await;
+    }
+
+    /// Pauses if the slice is over after work that is not counted.
+    pub(super) async fn pass(&self, work: u64) {
+        self.passed.fetch_add(work, Ordering::Relaxed);
+        let mut goes_on = self.left() > 0;
+        poll_fn(|_| if mem::replace(&mut goes_on, true) { Poll::Ready(()) } else { Poll::Pending })
+            .await;
+    }
+}
+
+/// Work that is done slice by slice. Dropped, it is given up.
+pub(super) struct Sliced<T> {
+    meter: Arc<Meter>,
+    work: Pin<Box<dyn Future<Output = T> + Send>>,
+}
+
+impl<T> Sliced<T> {
+    /// Work that is counted on this meter.
+    pub(super) fn new(meter: Arc<Meter>, work: impl Future<Output = T> + Send + 'static) -> Self {
+        Self { meter, work: Box::pin(work) }
+    }
+
+    #[cfg(test)]
+    pub(super) fn meter(&self) -> &Arc<Meter> {
+        &self.meter
+    }
+
+    /// Goes on for about this much work, and returns what it leads to once that is found.
+    pub(super) fn go_on(&mut self, work: u64) -> Option<T> {
+        let end = self.meter.passed.load(Ordering::Relaxed).saturating_add(work);
+        self.meter.end.store(end, Ordering::Relaxed);
+        let found = poll(self.work.as_mut());
+        self.meter.end.store(u64::MAX, Ordering::Relaxed);
+        found
+    }
+}
+
+/// Does all of the work.
+pub(super) fn at_once<T>(work: impl Future<Output = T>) -> T {
+    let mut work = pin!(work);
+    loop {
+        if let Some(found) = poll(work.as_mut()) {
+            return found;
+        }
+    }
+}
+
+fn poll<T>(work: Pin<&mut (impl Future<Output = T> + ?Sized)>) -> Option<T> {
+    match work.poll(&mut Context::from_waker(Waker::noop())) {
+        Poll::Ready(found) => Some(found),
+        Poll::Pending => None,
+    }
+}
+
+/// A value that is found once: by the first who asks for it, while others, on other threads, wait.
+pub(super) struct Once<T> {
+    found: OnceLock<T>,
+    is_sought: Mutex<bool>,
+    is_free: Condvar,
+}
+
+impl<T> Default for Once<T> {
+    fn default() -> Self {
+        Self { found: OnceLock::new(), is_sought: Mutex::default(), is_free: Condvar::new() }
+    }
+}
+
+impl<T> Once<T> {
+    /// The value, if it was found.
+    pub(super) fn found(&self) -> Option<&T> {
+        self.found.get()
+    }
+
+    /// The value; `find` finds it if it is not known.
+    pub(super) async fn get(&self, find: impl Future<Output = T>) -> &T {
+        let turn = self.found().is_none().then(|| Turn::of(self));
+        if self.found().is_none() {
+            _ = self.found.set(find.await);
+        }
+        drop(turn);
+        self.found().expect("it was found")
+    }
+}
+
+/// The turn of the one who seeks the value. It is over when this is dropped, in the midst of work that is given up as well.
+struct Turn<'a, T>(&'a Once<T>);
+
+impl<'a, T> Turn<'a, T> {
+    fn of(once: &'a Once<T>) -> Self {
+        let is_sought = once.is_sought.lock().unwrap_or_else(PoisonError::into_inner);
+        let free = once.is_free.wait_while(is_sought, |is_sought| *is_sought);
+        *free.unwrap_or_else(PoisonError::into_inner) = true;
+        Self(once)
+    }
+}
+
+impl<T> Drop for Turn<'_, T> {
+    fn drop(&mut self) {
+        *self.0.is_sought.lock().unwrap_or_else(PoisonError::into_inner) = false;
+        self.0.is_free.notify_all();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slice_ends_with_the_work_that_uses_it_up() {
+        let meter = Arc::<Meter>::default();
+        let counts = meter.clone();
+        let mut work = Sliced::new(meter.clone(), async move {
+            for _ in 0..4 {
+                counts.count(3).await;
+            }
+            counts.pass(10).await;
+            "found"
+        });
+        let mut passed = Vec::new();
+        let found = loop {
+            let found = work.go_on(5);
+            passed.push(meter.passed());
+            if let Some(found) = found {
+                break found;
+            }
+        };
+        assert_eq!((found, passed, meter.counted()), ("found", vec![6, 12, 22, 22], 12));
+        at_once(meter.count(7));
+        assert_eq!(meter.left(), u64::MAX - 29);
+    }
+
+    #[test]
+    fn a_value_is_found_once_and_again_if_its_finder_was_given_up() {
+        let (once, meter) = (Arc::<Once<u32>>::default(), Arc::<Meter>::default());
+        let seek = |value: u32| {
+            let (once, meter, counts) = (once.clone(), meter.clone(), meter.clone());
+            Sliced::new(meter, async move {
+                let find = async {
+                    counts.count(1).await;
+                    value
+                };
+                *once.get(find).await
+            })
+        };
+        let mut given_up = seek(1);
+        assert_eq!((given_up.go_on(1), once.found()), (None, None));
+        drop(given_up);
+        assert_eq!([2, 3].map(|value| seek(value).go_on(9)), [Some(2); 2]);
+        assert_eq!(meter.counted(), 2);
+    }
+}

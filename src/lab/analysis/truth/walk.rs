@@ -1,0 +1,152 @@
+//! Follows the true motion of one body in adaptive steps.
+
+use super::BodyTruth;
+use crate::lab::analysis::survey::{Ranges, TruthNode};
+use crate::sim::integrators::StepFailure;
+use crate::sim::{Solver, Stepper};
+
+/// The part of a step at which it is checked: irrational, so that regular steps do not resonate with a period.
+const CHECKED_AT: f64 = 0.381_966_011_250_105_1;
+/// The first step as a part of the duration: far below any period that can be followed.
+const FIRST_STEP: f64 = 1e-7;
+/// The largest error of the cubic through both ends of a step, as a part of the motion's range: steps of about a sixth
+/// of a radian.
+const CHORD: f64 = 1e-5;
+/// A range smaller than this part of the magnitude is rounding, and this part is used in its place.
+const ROUNDING: f64 = 1e-9;
+/// The least and the greatest ratio of a step to the one before.
+const FACTORS: (f64, f64) = (0.3, 2.0);
+/// One in this many moments is reserved for the end of the motion, in case the others do not reach it.
+const KEPT: usize = 4;
+
+impl BodyTruth {
+    /// Follows `body`, which is at its start under `solver`, over `seconds`, applies its inputs in order, and passes both
+    /// ends of each step to `see`. The steps are so short that the cubic through both ends is as good as exact. If that
+    /// would take more than `most` moments, the rest of the motion is sampled at scattered moments, and `see` receives each
+    /// as both ends.
+    ///
+    /// # Errors
+    /// If the solver fails or is not finite.
+    pub(super) async fn walk(
+        &self,
+        body: &mut dyn Stepper,
+        solver: Solver,
+        seconds: f64,
+        most: usize,
+        see: impl FnMut(&TruthNode, &TruthNode),
+    ) -> Result<(), StepFailure> {
+        let mut fare = Fare { solver, of_moment: self.work_of_moment(), moments: 0, counted: 0 };
+        let walked = self.pay_as_it_walks(&mut fare, body, seconds, most, see).await;
+        self.meter.count(fare.due(body)).await;
+        walked
+    }
+
+    async fn pay_as_it_walks(
+        &self,
+        fare: &mut Fare,
+        body: &mut dyn Stepper,
+        seconds: f64,
+        most: usize,
+        mut see: impl FnMut(&TruthNode, &TruthNode),
+    ) -> Result<(), StepFailure> {
+        let mut inputs = &self.inputs[..];
+        let mut ranges = Ranges::at(body);
+        let mut here = TruthNode::of(body, 0.0);
+        let mut step = FIRST_STEP * seconds;
+        let kept = most / KEPT;
+        while here.t < seconds && fare.moments + kept < most {
+            if let Some((next, rest)) = inputs.split_first()
+                && next.t <= here.t
+            {
+                next.action.apply_to(body, here.t);
+                (here, inputs) = (TruthNode::of(body, here.t), rest);
+                step = FIRST_STEP * seconds;
+                continue;
+            }
+            let seconds = inputs.first().map_or(seconds, |next| next.t.min(seconds));
+            let end = if here.t + 1.001 * step < seconds { here.t + step } else { seconds };
+            let check = TruthNode::of_advanced(body, here.t, here.t + CHECKED_AT * (end - here.t))?;
+            let there = TruthNode::of_advanced(body, check.t, end)?;
+            fare.moments += 2;
+            ranges.take_in(&here, &check);
+            ranges.take_in(&check, &there);
+            see(&here, &check);
+            see(&check, &there);
+            self.meter.count(fare.due(body)).await;
+            let part = (check.t - here.t) / (there.t - here.t);
+            let off = worst_chord(&here, &check, &there, part, &ranges);
+            let factor = libm::sqrt(libm::sqrt(CHORD / off));
+            let factor = if factor > FACTORS.0 { factor.min(FACTORS.1) } else { FACTORS.0 };
+            step = (end - here.t) * factor;
+            here = there;
+        }
+        let left = seconds - here.t;
+        if left > 0.0 {
+            let mut parts: Vec<f64> = (1..=kept).map(|k| (k as f64 * CHECKED_AT).fract()).collect();
+            parts.sort_by(f64::total_cmp);
+            let start = here.t;
+            for part in parts {
+                let t = start + part * left;
+                while let Some((next, rest)) = inputs.split_first()
+                    && next.t <= t
+                {
+                    here = TruthNode::of_advanced(body, here.t, next.t.max(here.t))?;
+                    next.action.apply_to(body, here.t);
+                    inputs = rest;
+                }
+                let there = TruthNode::of_advanced(body, here.t, t)?;
+                fare.moments += 1;
+                see(&there, &there);
+                self.meter.count(fare.due(body)).await;
+                here = there;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The work of a walk, as it is counted.
+struct Fare {
+    solver: Solver,
+    /// That of a moment of the truth.
+    of_moment: u64,
+    /// The moments that were seen.
+    moments: usize,
+    counted: u64,
+}
+
+impl Fare {
+    /// The work that is not counted yet.
+    fn due(&mut self, body: &dyn Stepper) -> u64 {
+        let work = match self.solver {
+            Solver::Truth => self.moments as u64 * self.of_moment,
+            _ => body.evaluations() * body.q().len() as u64,
+        };
+        work - std::mem::replace(&mut self.counted, work)
+    }
+}
+
+/// The largest error of the cubic from `here` to `there` at `check`, as a part of the range of its kind of component.
+fn worst_chord(
+    here: &TruthNode,
+    check: &TruthNode,
+    there: &TruthNode,
+    part: f64,
+    ranges: &Ranges,
+) -> f64 {
+    let n = here.x.len() / 2;
+    let covered = |half: std::ops::Range<usize>| {
+        let cover = |i: usize| {
+            let (low, high) = ranges.0[i];
+            (high - low).max(ROUNDING * low.abs().max(high.abs()))
+        };
+        half.map(cover).fold(0.0, f64::max)
+    };
+    let (q, v) = (covered(0..n), covered(n..2 * n));
+    let off = (0..2 * n).map(|i| {
+        let scale = if i < n { q } else { v };
+        let off = (here.between(there, i, part) - check.x[i]).abs();
+        if scale > 0.0 { off / scale } else { 0.0 }
+    });
+    off.fold(1e-300, f64::max)
+}
