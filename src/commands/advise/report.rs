@@ -106,11 +106,12 @@ fn why_none(scene: &Scene, rows: &[Row], criterion: usize) -> String {
 pub(super) fn object(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize) -> Value {
     let recommended = CRITERIA.iter().enumerate().map(|(i, criterion)| {
         let take = match recommended_row(rows, i) {
-            Some((row, met)) => json!({
-                "method": row.advised.spec.method.id,
-                "substeps": met.substeps,
-                "tick_hz": adviser.tick_hz(),
-            }),
+            Some((row, met)) => {
+                let method = row.advised.spec.method.id;
+                let mut take = json!(Recommendation { method, with: met.clone() });
+                take["tick_hz"] = adviser.tick_hz().into();
+                take
+            }
             None => json!({ "none": why_none(scene, rows, i) }),
         };
         (criterion.id().to_owned(), take)
