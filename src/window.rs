@@ -170,7 +170,7 @@ impl App {
             let size = window.inner_size();
             let scale = window.scale_factor() as f32;
             let notice = screenshot::save(gpu, [size.width, size.height], scale, &self.lab);
-            self.lab.set_notice(notice);
+            self.lab.viewer_mut().set_notice(notice);
             self.stand_still();
         }
         let waits_for_field = self.waits_for_field();
@@ -191,7 +191,8 @@ impl App {
                     || self.screenshot
                     || waits_for_field;
                 self.asked.extend(commands);
-                let notice_leaves = self.lab.notice_left_ns().map(|ns| ns.unsigned_abs());
+                let notice = self.lab.viewer().notice.as_ref();
+                let notice_leaves = notice.map(|notice| notice.left_ns().unsigned_abs());
                 let notice_leaves = notice_leaves.map_or(Duration::MAX, Duration::from_nanos);
                 let recorded = || self.recording.as_ref()?.left(&self.lab, now);
                 let after = match again {
@@ -222,7 +223,7 @@ impl App {
                 Some(DriverRequest::Screenshot) => self.screenshot = true,
                 Some(DriverRequest::Record) => {
                     let notice = recording::save(&self.lab);
-                    self.lab.set_notice(notice);
+                    self.lab.viewer_mut().set_notice(notice);
                     self.stand_still();
                 }
                 Some(DriverRequest::CopyInstrument) => self.copy_instrument(),
@@ -249,12 +250,12 @@ impl App {
         self.last_frame = self.lab.running().then_some(now);
         let passed = now.duration_since(std::mem::replace(&mut self.simulated, now));
         if !self.lab.time_runs() {
-            self.lab.rest(i64::try_from(passed.as_nanos()).unwrap_or(i64::MAX));
+            self.lab.viewer_mut().pass(i64::try_from(passed.as_nanos()).unwrap_or(i64::MAX));
         }
         let last = self.seconds.map_or(u64::MAX, |s| self.lab.nearest_tick(s));
         let frame_ns = i64::try_from(frame.as_nanos()).unwrap_or(i64::MAX);
         self.lab.advance_in_time(last, frame_ns, &mut || now.elapsed() < MAX_SIMULATION);
-        self.lab.set_pace(self.meter.pace());
+        self.lab.viewer_mut().pace = Some(self.meter.pace());
         if self.lab.race().tick() >= last {
             self.end(event_loop, Ok(()));
         }
@@ -302,7 +303,7 @@ impl ApplicationHandler<Event> for App {
         match Canvas::new(event_loop, window, self.proxy.clone()) {
             Ok(canvas) => {
                 if let Some(theme) = canvas.window.theme() {
-                    self.lab.follow_theme(settings::theme_of(theme));
+                    self.lab.viewer_mut().preferences.follow_theme(settings::theme_of(theme));
                 }
                 canvas.window.set_visible(true);
                 self.canvas = Some(canvas);
@@ -367,7 +368,7 @@ impl ApplicationHandler<Event> for App {
                 self.minimised = size.width == 0 || size.height == 0;
             }
             WindowEvent::ThemeChanged(theme) => {
-                self.lab.follow_theme(settings::theme_of(*theme));
+                self.lab.viewer_mut().preferences.follow_theme(settings::theme_of(*theme));
                 return self.request_redraw();
             }
             WindowEvent::ScaleFactorChanged { .. } | WindowEvent::Moved(_) => canvas.resize(),

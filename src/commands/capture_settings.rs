@@ -30,9 +30,12 @@ impl CaptureSettings {
     /// The lab at the start of the run.
     pub(super) fn lab(&self, experiment: &Experiment) -> Lab {
         let mut lab = experiment.lab();
-        lab.set_motion(if self.motion { Motion::Recorded } else { Motion::Reduced });
-        lab.choose_theme(self.theme);
-        self.instrument.into_iter().for_each(|instrument| lab.choose_instrument(instrument));
+        lab.viewer_mut().preferences.display.motion =
+            if self.motion { Motion::Recorded } else { Motion::Reduced };
+        lab.viewer_mut().preferences.choose_theme(self.theme);
+        self.instrument
+            .into_iter()
+            .for_each(|it| lab.viewer_mut().preferences.display.instrument = it);
         if let Some(kind) = self.cloud {
             lab.apply(RunCommand::Cloud(CloudChoice { kind, ..lab.display().cloud }));
         }

@@ -98,15 +98,16 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     };
     let experiment = Experiment { loop_trace: args.loop_trace, ..experiment };
     let mut lab = experiment.lab();
-    lab.set_motion(if args.reduced_motion { Motion::Reduced } else { Motion::Live });
+    lab.viewer_mut().preferences.display.motion =
+        if args.reduced_motion { Motion::Reduced } else { Motion::Live };
     if let Some(mb) = args.rewind_mb {
         lab.set_rewind_bytes(usize::from(mb) << 20);
     }
     if let Some(theme) = args.theme.map(Theme::from).or(preferences.theme) {
-        lab.choose_theme(theme);
+        lab.viewer_mut().preferences.choose_theme(theme);
     }
     if let Some(percent) = preferences.scale_percent {
-        lab.choose_scale(percent);
+        lab.viewer_mut().preferences.choose_scale(percent);
     }
     let record = args.record.as_deref().map(|path| {
         let if_exists = if args.force { IfExists::Replace } else { IfExists::Beside };
@@ -120,7 +121,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     let stream = opened.filter(|output| output.file().is_none());
     for told in unfinished::left_behind() {
         print_status(&told);
-        lab.set_notice(told);
+        lab.viewer_mut().set_notice(told);
     }
     let played = lab.scene().name.clone();
     let settings = WindowSettings {
@@ -137,7 +138,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         done => {
             let Closed { lab, interrupted, size } = done.map_err(Error::failed)?;
             let is_own = args.seconds.is_some() || args.experiment.names_a_scene();
-            let theme = lab.chosen_theme().filter(|_| args.theme.is_none());
+            let theme = lab.viewer().preferences.chosen_theme().filter(|_| args.theme.is_none());
             let scene = if is_own { preferences.scene } else { preferences::scene_of(&lab) };
             let (theme, size) = (theme.or(preferences.theme), size.or(preferences.size));
             let scale_percent = Some(lab.display().scale_percent);

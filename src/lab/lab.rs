@@ -1,12 +1,8 @@
 //! The lab: a run with its past, the clock that drives it, and its display. Commands come in; state goes out.
 
-use super::command::SCALE_LADDER;
-use super::display::{Display, Motion, Pace, View};
-use super::instrument::Instrument;
+use super::display::{Display, View};
 use super::lane_spec::LaneSpec;
 use super::loop_lab::LoopLab;
-use super::notice::Notice;
-use super::palette::Theme;
 use super::past::Past;
 use super::race::{Entrant, Mode, Race};
 use super::scene::Scene;
@@ -30,6 +26,7 @@ mod showing;
 
 pub use findings::MANY_LANES;
 pub use joint::SpringJoint;
+use looping::Activity;
 
 /// A scene being run and looked at.
 pub struct Lab {
@@ -41,7 +38,7 @@ pub struct Lab {
     pub(super) dropped: u64,
     pub(super) viewer: Viewer,
     /// The open loop lab.
-    pub(super) loop_lab: Option<LoopLab>,
+    activity: Activity,
 }
 
 impl Lab {
@@ -59,7 +56,7 @@ impl Lab {
             dropped: 0,
             viewer: Viewer::new(timeline.session().race().entrants()[0].id),
             timeline,
-            loop_lab: None,
+            activity: Activity::Run,
             start,
         }
     }
@@ -132,7 +129,10 @@ impl Lab {
     }
     /// The open loop lab; `None` in solo and in a race.
     pub fn loop_lab(&self) -> Option<&LoopLab> {
-        self.loop_lab.as_ref()
+        match &self.activity {
+            Activity::Run => None,
+            Activity::Loops(loops) => Some(loops),
+        }
     }
     /// Whether it is not paused.
     pub fn running(&self) -> bool {
@@ -155,6 +155,10 @@ impl Lab {
     pub fn viewer(&self) -> &Viewer {
         &self.viewer
     }
+    /// What a person looks at, to be changed by a driver.
+    pub fn viewer_mut(&mut self) -> &mut Viewer {
+        &mut self.viewer
+    }
     /// How the lab is displayed.
     pub fn display(&self) -> &Display {
         &self.viewer.preferences.display
@@ -168,59 +172,10 @@ impl Lab {
     pub fn set_rewind_bytes(&mut self, bytes: usize) {
         self.timeline.set_limit(bytes);
     }
-    /// Sets what moves on the stage besides the bodies.
-    pub fn set_motion(&mut self, motion: Motion) {
-        self.viewer.preferences.display.motion = motion;
-    }
-    /// Shows the system's theme, unless a person has chosen one.
-    pub fn follow_theme(&mut self, theme: Theme) {
-        if !self.viewer.preferences.theme_is_chosen {
-            self.viewer.preferences.display.theme = theme;
-        }
-    }
-    /// Shows this instrument at first.
-    pub fn choose_instrument(&mut self, instrument: Instrument) {
-        self.viewer.preferences.display.instrument = instrument;
-    }
-    /// Shows this theme, whatever the system's is.
-    pub fn choose_theme(&mut self, theme: Theme) {
-        self.viewer.preferences.theme_is_chosen = true;
-        self.viewer.preferences.display.theme = theme;
-    }
-    /// The theme that a person has chosen; `None` while it follows the system's.
-    pub fn chosen_theme(&self) -> Option<Theme> {
-        self.viewer.preferences.theme_is_chosen.then_some(self.viewer.preferences.display.theme)
-    }
-    /// Shows type and panels at this size in percent, within the bounds of [`SCALE_LADDER`].
-    pub fn choose_scale(&mut self, percent: u32) {
-        let [least, .., most] = SCALE_LADDER;
-        self.viewer.preferences.display.scale_percent = percent.clamp(least, most);
-    }
-    /// Sets the pace that the driver has measured.
-    pub fn set_pace(&mut self, pace: Pace) {
-        self.viewer.pace = Some(pace);
-    }
-    /// Sets the times of a tick that the driver has measured, as [`Viewer::tick_times`].
-    pub fn set_tick_times(&mut self, times: Vec<(LaneSpec, Option<f64>)>) {
-        self.viewer.tick_times = times;
-    }
-    /// Shows a message for some seconds.
-    pub fn set_notice(&mut self, notice: impl Into<Notice>) {
-        self.viewer.notice = Some(notice.into());
-    }
-
-    /// Lets nanoseconds of real time go by while time in the lab stands still.
-    pub fn rest(&mut self, ns: i64) {
-        self.viewer.pass(ns);
-    }
-    /// After how many nanoseconds of real time the message leaves; `None` if there is none.
-    pub fn notice_left_ns(&self) -> Option<i64> {
-        self.viewer.notice.as_ref().map(Notice::left_ns)
-    }
 
     /// The window's title: people and tests read it.
     pub fn title(&self) -> String {
-        if let Some(loops) = &self.loop_lab {
+        if let Activity::Loops(loops) = &self.activity {
             return self.title_of_loops(loops);
         }
         let race = if self.mode() == Mode::Race { "race: " } else { "" };

@@ -74,6 +74,8 @@ pub struct Metric {
     pub scale: Scale,
     /// Whether it compares the lane with the truth.
     pub is_comparison: bool,
+    /// Whether it is about the energy that a body conserves: the energy instrument shows it.
+    pub is_of_energy: bool,
     /// What it is, in one line.
     pub about: &'static str,
     /// The value for a body in a lane and the same body in truth; `None` where it is undefined. A comparison is undefined
@@ -82,11 +84,24 @@ pub struct Metric {
 }
 
 impl Metric {
+    /// The place of the position error in [`METRICS`].
+    pub const POSITION_ERROR: usize = place_of("position_error");
+    /// The place of the velocity error.
+    pub const VELOCITY_ERROR: usize = place_of("velocity_error");
+    /// The place of the energy drift.
+    pub const ENERGY_DRIFT: usize = place_of("energy_drift");
+    /// The place of the evaluations.
+    pub const EVALUATIONS: usize = place_of("evaluations");
+    /// The place of the half-life.
+    pub const HALF_LIFE: usize = place_of("half_life");
+    /// The place of the overshoot.
+    pub const OVERSHOOT: usize = place_of("overshoot");
+
     /// The text shown if no lane has a value on this body, which is the one in truth.
     pub fn absent_on(&self, truth: &LaneBody) -> &'static str {
-        if self.id == ENERGY_DRIFT && truth.false_claims().energy {
+        if self.is_of_energy && truth.false_claims().energy {
             "No drift to show: with these constants the body's `energy` is not conserved."
-        } else if self.id == ENERGY_DRIFT && truth.stepper.energy().is_none() {
+        } else if self.is_of_energy && truth.stepper.energy().is_none() {
             self.absent
         } else if self.is_comparison && truth.halted().is_some() {
             match truth.truth() {
@@ -99,7 +114,22 @@ impl Metric {
     }
 }
 
-const ENERGY_DRIFT: &str = "energy_drift";
+/// The place of the metric with this id.
+const fn place_of(id: &str) -> usize {
+    let mut place = 0;
+    while !is_same(METRICS[place].id.as_bytes(), id.as_bytes()) {
+        place += 1;
+    }
+    place
+}
+
+const fn is_same(a: &[u8], b: &[u8]) -> bool {
+    match (a, b) {
+        ([], []) => true,
+        ([x, a @ ..], [y, b @ ..]) => *x == *y && is_same(a, b),
+        _ => false,
+    }
+}
 
 /// Every metric, the one that lanes are ranked by first.
 pub const METRICS: &[Metric] = &[
@@ -110,6 +140,7 @@ pub const METRICS: &[Metric] = &[
         unit: Unit::Coordinate,
         scale: Scale::Log,
         is_comparison: true,
+        is_of_energy: false,
         about: "largest difference from the exact solution in a coordinate",
         measure: |lane, truth| {
             let [q, exact] = both(lane, truth)?.map(|body| body.like_first(body.stepper.q()));
@@ -123,6 +154,7 @@ pub const METRICS: &[Metric] = &[
         unit: Unit::Velocity,
         scale: Scale::Log,
         is_comparison: true,
+        is_of_energy: false,
         about: "largest difference from the exact solution in a velocity",
         measure: |lane, truth| {
             let [v, exact] = both(lane, truth)?.map(|body| body.like_first(body.stepper.v()));
@@ -136,6 +168,7 @@ pub const METRICS: &[Metric] = &[
         unit: Unit::Percent,
         scale: Scale::Linear,
         is_comparison: true,
+        is_of_energy: false,
         about: "speed above the exact one, in percent of the largest exact speed so far",
         measure: |lane, truth| {
             let [speed, exact] = both(lane, truth)?.map(LaneBody::speed);
@@ -144,12 +177,13 @@ pub const METRICS: &[Metric] = &[
         },
     },
     Metric {
-        id: ENERGY_DRIFT,
+        id: "energy_drift",
         name: "energy drift",
         absent: "No drift to show: this body does not conserve its energy.",
         unit: Unit::Percent,
         scale: Scale::Linear,
         is_comparison: true,
+        is_of_energy: true,
         about: "energy gained, in percent of what the exact motion exchanges: the range of its kinetic energy, once both its ends were seen",
         measure: |lane, truth| {
             let [lane, exact] = both(lane, truth)?;
@@ -164,6 +198,7 @@ pub const METRICS: &[Metric] = &[
         unit: Unit::One,
         scale: Scale::Linear,
         is_comparison: false,
+        is_of_energy: false,
         about: "evaluations of this body's acceleration since the start",
         measure: |lane, _| Some(lane.stepper.evaluations() as f64),
     },
@@ -174,6 +209,7 @@ pub const METRICS: &[Metric] = &[
         unit: Unit::Seconds,
         scale: Scale::Linear,
         is_comparison: false,
+        is_of_energy: false,
         about: "time by which this body is behind, under a method that does not keep it",
         measure: |lane, _| Some(lane.stepper.counts().lost_time).filter(|&lost| lost > 0.0),
     },
@@ -184,6 +220,7 @@ pub const METRICS: &[Metric] = &[
         unit: Unit::Milliseconds,
         scale: Scale::Linear,
         is_comparison: false,
+        is_of_energy: false,
         about: "time in which this body covered half of the way to a target that stays, since the last input or placement",
         measure: |lane, _| Some(1e3 * lane.chase()?.half_life_s()?),
     },
@@ -194,6 +231,7 @@ pub const METRICS: &[Metric] = &[
         unit: Unit::Percent,
         scale: Scale::Linear,
         is_comparison: false,
+        is_of_energy: false,
         about: "furthest that this body went beyond a target that stays, in percent of the way, since the last input or placement",
         measure: |lane, _| lane.chase().map(Chase::overshoot_percent),
     },

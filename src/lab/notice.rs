@@ -21,7 +21,7 @@ impl Notice {
     }
 
     /// How long it is still shown, in nanoseconds.
-    pub(super) fn left_ns(&self) -> i64 {
+    pub fn left_ns(&self) -> i64 {
         self.left_ns
     }
 
@@ -61,6 +61,7 @@ impl Deref for Notice {
 
 #[cfg(test)]
 mod tests {
+    use super::Notice;
     use crate::lab::{Lab, Scene};
 
     #[test]
@@ -69,14 +70,14 @@ mod tests {
             let shown_s = |words: &str| {
                 let mut lab = Lab::new(Scene::built_in("spring").unwrap());
                 lab.running = is_running;
-                lab.set_notice(words);
+                lab.viewer_mut().set_notice(words);
                 let mut frames = 0;
                 while lab.viewer().notice.is_some() {
                     lab.advance(70_000_000);
-                    lab.rest(if is_running { 0 } else { 70_000_000 });
+                    lab.viewer_mut().pass(if is_running { 0 } else { 70_000_000 });
                     frames += 1;
                 }
-                assert_eq!(lab.notice_left_ns(), None);
+                assert_eq!(lab.viewer().notice.as_ref().map(Notice::left_ns), None);
                 f64::from(frames) * 0.07
             };
             let [short, long] = [shown_s("saved"), shown_s(&"word ".repeat(20))];

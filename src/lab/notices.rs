@@ -143,7 +143,7 @@ fn of_claims(scene: &Scene, race: &Race, action: &Action) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Lab, METRICS, RunCommand, StageCommand};
+    use crate::lab::{Lab, METRICS, Metric, RunCommand, StageCommand};
 
     #[test]
     fn what_goes_on_is_told_with_what_became_of_it_and_where_it_begins() {
@@ -193,7 +193,7 @@ mod tests {
         let mut lab = Lab::new(Scene::parse("x.toml", text).unwrap());
         let mut set = |parameter: usize, value: f64| {
             lab.apply(RunCommand::Act(Action::Set { body: 0, parameter, value }));
-            let drift = METRICS.iter().find(|metric| metric.id == "energy_drift").unwrap();
+            let drift = &METRICS[Metric::ENERGY_DRIFT];
             let absent = drift.absent_on(&lab.race().truth().bodies()[0]);
             let told = lab.viewer.notice.take().map(|notice| notice.to_string());
             (told, absent.contains("with these constants"))

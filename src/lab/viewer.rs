@@ -2,7 +2,7 @@
 
 use super::analysis::{Advice, Findings, StabilityMap, Verdict};
 use super::cloud::{CloudChoice, FoundCloud};
-use super::command::USUAL_SCALE_PERCENT;
+use super::command::{SCALE_LADDER, USUAL_SCALE_PERCENT};
 use super::display::{Arrangement, Display, Motion, Pace, View};
 use super::guide::{Hints, Tour};
 use super::held::HeldBody;
@@ -50,6 +50,32 @@ pub struct Preferences {
     pub(super) my_spring: MySpring,
     /// The stop at which the guide was closed.
     pub(super) left_at: usize,
+}
+
+impl Preferences {
+    /// Shows the system's theme, unless a person has chosen one.
+    pub fn follow_theme(&mut self, theme: Theme) {
+        if !self.theme_is_chosen {
+            self.display.theme = theme;
+        }
+    }
+
+    /// Shows this theme, whatever the system's is.
+    pub fn choose_theme(&mut self, theme: Theme) {
+        self.theme_is_chosen = true;
+        self.display.theme = theme;
+    }
+
+    /// The theme that a person has chosen; `None` while it follows the system's.
+    pub fn chosen_theme(&self) -> Option<Theme> {
+        self.theme_is_chosen.then_some(self.display.theme)
+    }
+
+    /// Shows type and panels at this size in percent, within the bounds of [`SCALE_LADDER`].
+    pub fn choose_scale(&mut self, percent: u32) {
+        let [least, .., most] = SCALE_LADDER;
+        self.display.scale_percent = percent.clamp(least, most);
+    }
 }
 
 impl Default for Preferences {
@@ -204,8 +230,13 @@ impl Viewer {
         self.findings.as_ref()?.map.as_ref()
     }
 
+    /// Shows a message for some seconds.
+    pub fn set_notice(&mut self, notice: impl Into<Notice>) {
+        self.notice = Some(notice.into());
+    }
+
     /// Lets nanoseconds of real time go by: a notice leaves.
-    pub(super) fn pass(&mut self, ns: i64) {
+    pub fn pass(&mut self, ns: i64) {
         self.notice.iter_mut().for_each(|notice| notice.pass(ns));
         self.notice.take_if(|notice| notice.left_ns() == 0);
     }
@@ -214,13 +245,13 @@ impl Viewer {
     pub(super) fn next_interpolation(&mut self) {
         self.preferences.display.interpolation = self.preferences.display.interpolation.next();
         let name = self.preferences.display.interpolation.name();
-        self.notice = Some(format!("drawing between ticks: {name}").into());
+        self.set_notice(format!("drawing between ticks: {name}"));
     }
 
     /// Shows type and panels at this size, and tells which.
     pub(super) fn show_scale(&mut self, percent: u32) {
         self.preferences.display.scale_percent = percent;
-        self.notice = Some(format!("text and panels at {percent} %").into());
+        self.set_notice(format!("text and panels at {percent} %"));
     }
 
     /// Shows the lanes of a race in the other arrangement, and tells which.
@@ -230,6 +261,6 @@ impl Viewer {
             Arrangement::SideBySide => (Arrangement::Overlay, "lanes over each other"),
         };
         self.preferences.display.arrangement = arrangement;
-        self.notice = Some(told.to_owned().into());
+        self.set_notice(told);
     }
 }

@@ -230,7 +230,7 @@ fn every_text_can_be_read_at_every_size_of_type() {
     for scale_percent in SCALE_LADDER {
         let labs = [("harbour", race_of_all("harbour")), ("stiff", run("stiff", false))];
         for (name, mut lab) in labs {
-            lab.choose_scale(scale_percent);
+            lab.viewer_mut().preferences.choose_scale(scale_percent);
             assert_legible(&lab, &format!("{name} at {scale_percent} %"));
         }
     }
@@ -268,7 +268,7 @@ fn every_text_of_the_loop_lab_can_be_read_on_any_stage_display_and_theme() {
     for name in ["spring", "harbour", "orbit"] {
         for theme in [Theme::Dark, Theme::Light] {
             let mut lab = run(name, false);
-            lab.choose_theme(theme);
+            lab.viewer_mut().preferences.choose_theme(theme);
             lab.apply(Command::Loop(LoopCommand::ToggleLab));
             lab.run_loops();
             lab.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
@@ -367,7 +367,7 @@ fn one_step_far_out_the_stability_map_and_the_times_of_ticks_can_be_read() {
     lab.analyse();
     assert_legible(&lab, "the map");
     let times = lab.entries().iter().map(|spec| (*spec, Some(987.6))).collect();
-    lab.set_tick_times(times);
+    lab.viewer_mut().tick_times = times;
     lab.apply(StageCommand::Instrument(Instrument::Cost));
     assert_legible(&lab, "the times");
     lab.apply(StageCommand::Instrument(Instrument::OneStep));

@@ -71,11 +71,13 @@ impl App {
                 }
             }
             Event::NotRecorded(reason) => {
-                self.lab.set_notice(format!("The recording is not kept as it grows: {reason}"));
+                self.lab
+                    .viewer_mut()
+                    .set_notice(format!("The recording is not kept as it grows: {reason}"));
                 self.request_redraw();
             }
             Event::TicksTimed(times) => {
-                self.lab.set_tick_times(times);
+                self.lab.viewer_mut().tick_times = times;
                 if !self.lab.running() {
                     self.request_redraw();
                 }

@@ -16,7 +16,7 @@ const SCALE: f32 = 2.0;
 impl App {
     /// Puts the values on the clipboard.
     pub(super) fn copy_instrument(&mut self) {
-        self.lab.set_notice(match instrument_csv(&self.lab) {
+        let notice = match instrument_csv(&self.lab) {
             Some(lines) => {
                 let rows = lines.len() - 1;
                 match self.clipboard.set_text(lines.concat()) {
@@ -25,14 +25,15 @@ impl App {
                 }
             }
             None => "this instrument has no values to copy".into(),
-        });
+        };
+        self.lab.viewer_mut().set_notice(notice);
     }
 
     /// Puts the method at this index of the list on the clipboard, as source code.
     pub(super) fn copy_method(&mut self, entry: usize) {
         let language = self.lab.viewer().language();
         let Some(method) = self.lab.entries().get(entry).map(|spec| spec.method) else { return };
-        self.lab.set_notice(match source_code(method, language, Precision::Double) {
+        self.lab.viewer_mut().set_notice(match source_code(method, language, Precision::Double) {
             Ok(code) => method_notice(self.clipboard.set_text(code), method, language),
             Err(refused) => refused.to_string(),
         });
@@ -42,7 +43,7 @@ impl App {
     pub(super) fn copy_joint(&mut self, entry: usize) {
         let Some(code) = self.lab.joint_code(entry) else { return };
         let method = self.lab.entries()[entry].method;
-        self.lab.set_notice(match self.clipboard.set_text(code) {
+        self.lab.viewer_mut().set_notice(match self.clipboard.set_text(code) {
             Ok(()) => format!("copied the spring's settings of {}", method.name),
             Err(reason) => {
                 format!("no clipboard: {reason}; `regatta port --to {}` prints them", method.id)
@@ -54,7 +55,7 @@ impl App {
     pub(super) fn export_instrument(&mut self) {
         if let Some(canvas) = &self.canvas {
             let notice = save(&canvas.gpu, &self.lab);
-            self.lab.set_notice(notice);
+            self.lab.viewer_mut().set_notice(notice);
         }
         self.stand_still();
     }

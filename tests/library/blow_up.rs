@@ -163,7 +163,7 @@ fn each_halt_is_announced_once_with_method_body_tick_and_reason() {
         assert_eq!(lab.mode(), Mode::Race);
         let mut notices = Vec::new();
         for _ in 0..ticks {
-            lab.set_notice("nothing new");
+            lab.viewer_mut().set_notice("nothing new");
             lab.tick();
             let news = lab.viewer().notice.as_deref().filter(|notice| *notice != "nothing new");
             notices.extend(news.map(String::from));

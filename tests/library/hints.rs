@@ -277,7 +277,7 @@ fn what_a_person_takes_in_hand_the_script_leaves_alone_until_a_restart_and_says_
 fn taking_the_same_control_again_is_not_told_again() {
     let mut lab = scripted();
     lab.apply(RunCommand::Act(Action::Rudder(0.3)));
-    lab.set_notice("something else");
+    lab.viewer_mut().set_notice("something else");
     lab.apply(RunCommand::RudderRight);
     assert_eq!(lab.viewer().notice.as_deref(), Some("something else"));
     lab.apply(RunCommand::Act(Action::Throttle(0.1)));

@@ -26,7 +26,7 @@ pub(crate) struct Twin {
 impl Twin {
     pub(crate) fn new(mut lab: Lab) -> Self {
         // As in a window: it tells of the memory for rewinding.
-        lab.set_pace(Pace::Unknown);
+        lab.viewer_mut().pace = Some(Pace::Unknown);
         let gpu = pollster::block_on(Gpu::headless(AdapterPreference::CpuOnly))
             .expect("the window has an adapter too");
         let target = Offscreen::new(&gpu, SIZE_PX).unwrap();
@@ -182,7 +182,7 @@ impl Twin {
     #[track_caller]
     pub(crate) fn looks_alike(&mut self, desk: &Desk) {
         self.move_aside(desk);
-        self.lab.rest(i64::MAX);
+        self.lab.viewer_mut().pass(i64::MAX);
         self.settle();
         let drawing = self.frame(None).drawing;
         let mut rgba = Vec::new();

@@ -3,6 +3,7 @@
 use std::mem::take;
 
 use super::Lab;
+use super::looping::Activity;
 use crate::lab::action::Action;
 use crate::lab::command::{
     Command, RunCommand, SCALE_LADDER, SPEED_LADDER, StageCommand, TICK_LADDER,
@@ -38,19 +39,18 @@ impl Lab {
     }
 
     pub(super) fn carry_out(&mut self, command: Command) -> Option<DriverRequest> {
-        let is_in_loop_lab = self.loop_lab.is_some();
-        if is_in_loop_lab && !matches!(command, Command::View(_)) {
+        if self.loop_lab().is_some() && !matches!(command, Command::View(_)) {
             self.viewer.notice = None;
         }
-        match (command, is_in_loop_lab) {
+        match (command, &self.activity) {
             (Command::View(command), _) => return self.carry_out_on_view(command),
-            (Command::Run(command), false) => return self.carry_out_on_run(command),
-            (Command::Run(_), true) => self.refuse_in_loop_lab(),
-            (Command::Stage(command), false) => self.carry_out_on_stage(command),
-            (Command::Stage(command), true) => self.carry_out_in_loop_lab(command),
-            (Command::Loop(LoopCommand::ToggleLab), false) => self.open_loop_lab(),
-            (Command::Loop(_), false) => {}
-            (Command::Loop(command), true) => self.change_loop_lab(command),
+            (Command::Run(command), Activity::Run) => return self.carry_out_on_run(command),
+            (Command::Run(_), Activity::Loops(_)) => self.refuse_in_loop_lab(),
+            (Command::Stage(command), Activity::Run) => self.carry_out_on_stage(command),
+            (Command::Stage(command), Activity::Loops(_)) => self.carry_out_in_loop_lab(command),
+            (Command::Loop(LoopCommand::ToggleLab), Activity::Run) => self.open_loop_lab(),
+            (Command::Loop(_), Activity::Run) => {}
+            (Command::Loop(command), Activity::Loops(_)) => self.change_loop_lab(command),
         }
         None
     }
@@ -99,7 +99,7 @@ impl Lab {
                 let listed = self.entries().iter().position(|spec| spec.method == method);
                 match (listed, self.scene().refusal(method)) {
                     (Some(entry), _) => self.pick(entry),
-                    (None, Some(refusal)) => self.set_notice(refusal.to_string()),
+                    (None, Some(refusal)) => self.viewer.set_notice(refusal.to_string()),
                     (None, None) => unreachable!("every method that fits is on the list"),
                 }
             }
@@ -135,7 +135,7 @@ impl Lab {
                 self.running |= self.comes_to_rest();
                 // A hint leads on; the old run is a click away on the timeline.
                 if self.restart_keeping_run() && self.hint().is_none() {
-                    self.set_notice("restarted: Ctrl Z brings the run back");
+                    self.viewer.set_notice("restarted: Ctrl Z brings the run back");
                 }
             }
             StageCommand::Scene(place) => self.open(place),
@@ -303,7 +303,8 @@ impl Lab {
                 self.start.list[entry] = spec;
                 self.start.entry = entry;
                 self.restart();
-                self.set_notice(format!("the race restarted with {} in it", spec.method.name));
+                self.viewer
+                    .set_notice(format!("the race restarted with {} in it", spec.method.name));
             }
             (Mode::Race, Some(flown)) => {
                 let lane = flown.id;
@@ -330,7 +331,7 @@ impl Lab {
     /// Switches equal cost on or off.
     fn toggle_equal_cost(&mut self) {
         if self.mode() == Mode::Solo {
-            return self.set_notice("equal cost needs a race: press C");
+            return self.viewer.set_notice("equal cost needs a race: press C");
         }
         let lanes: Vec<(LaneId, LaneSpec)> =
             self.race().entrants().iter().map(|entrant| (entrant.id, entrant.spec)).collect();
@@ -359,7 +360,7 @@ impl Lab {
             self.act(Action::Lane { lane, spec });
         }
         self.start.before_equal_cost = before;
-        self.set_notice(notice);
+        self.viewer.set_notice(notice);
     }
 
     /// Pauses and goes `ticks` ticks forward, or back if negative.

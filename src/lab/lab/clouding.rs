@@ -12,7 +12,7 @@ impl Lab {
     /// a person or the script last acted on the bodies. `None` while the instrument is another, or the displayed body has no
     /// cloud.
     pub fn cloud_request(&self) -> Option<CloudRequest> {
-        let is_shown = self.display().instrument == Instrument::Cloud && self.loop_lab.is_none();
+        let is_shown = self.display().instrument == Instrument::Cloud && self.loop_lab().is_none();
         if !is_shown || self.cloud_refusal().is_some() {
             return None;
         }

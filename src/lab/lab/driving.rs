@@ -1,6 +1,7 @@
 //! Time in a lab: for each frame it makes the ticks that are due.
 
 use super::Lab;
+use super::looping::Activity;
 use crate::lab::action::Action;
 use crate::lab::live_loop::LiveFrame;
 use crate::lab::notices::Notices;
@@ -61,7 +62,7 @@ impl Lab {
             return Due::default();
         }
         self.viewer.pass(frame_ns);
-        if let Some(loops) = &mut self.loop_lab {
+        if let Activity::Loops(loops) = &mut self.activity {
             loops.advance(frame_ns);
             return Due::default();
         }
@@ -120,7 +121,7 @@ impl Lab {
 
     pub(super) fn tell(&mut self, told: Vec<String>) {
         if !told.is_empty() {
-            self.set_notice(told);
+            self.viewer.set_notice(told);
         }
     }
 

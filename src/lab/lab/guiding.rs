@@ -5,7 +5,7 @@ use crate::lab::command::{Command, StageCommand};
 use crate::lab::guide::{Chosen, Goal, Hints, STOPS, Situation, Stop, Tour, suits_race};
 use crate::lab::interpolation::Interpolation;
 use crate::lab::journal::Source;
-use crate::lab::metrics::METRICS;
+use crate::lab::metrics::Metric;
 use crate::lab::quantity::Quantity;
 use crate::lab::race::Mode;
 use crate::lab::scene::SCENES;
@@ -63,7 +63,7 @@ impl Lab {
     /// Closes the guide, as what it tells of is no longer shown.
     pub(super) fn leave_guide(&mut self) {
         if self.close_guide() {
-            self.set_notice("the guide is closed: F2 opens it where you left it");
+            self.viewer.set_notice("the guide is closed: F2 opens it where you left it");
         }
     }
 
@@ -117,7 +117,7 @@ impl Lab {
             method: self.entries()[self.active()].method.id,
             speed_percent: self.clock.speed_percent(),
             is_running: self.running,
-            is_in_loop_lab: self.loop_lab.is_some(),
+            is_in_loop_lab: self.loop_lab().is_some(),
             display: self.display(),
         });
         self.viewer.tour = Some(tour);
@@ -126,16 +126,16 @@ impl Lab {
 
 /// The place of the metric that compares this quantity with the truth's.
 fn error_of(quantity: Quantity) -> usize {
-    let id = match quantity {
-        Quantity::Position => "position_error",
-        Quantity::Velocity => "velocity_error",
-    };
-    METRICS.iter().position(|metric| metric.id == id).expect("there is such a metric")
+    match quantity {
+        Quantity::Position => Metric::POSITION_ERROR,
+        Quantity::Velocity => Metric::VELOCITY_ERROR,
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::METRICS;
     use crate::lab::command::{RunCommand, ViewCommand};
     use crate::lab::{Key, Scene, command_for};
 

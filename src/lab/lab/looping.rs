@@ -1,5 +1,6 @@
 //! The loop lab as a mode of the lab: opening and leaving it, and what commands do in it.
 
+use std::mem::take;
 use std::sync::Arc;
 
 use super::Lab;
@@ -11,6 +12,16 @@ use crate::lab::pacing::FrameTrace;
 use crate::lab::scene::SceneBody;
 use crate::lab::step::Step;
 use crate::sim::integrators::{Method, method};
+
+/// What a person is at: what the stage shows, and what its commands act on.
+#[derive(Default)]
+pub(in crate::lab) enum Activity {
+    /// The run.
+    #[default]
+    Run,
+    /// The loop lab, while the run waits.
+    Loops(Box<LoopLab>),
+}
 
 /// The method of the body at first: none that adds much of its own.
 const METHOD_AT_FIRST: &str = "rk4";
@@ -29,13 +40,13 @@ impl Lab {
         let method = method(METHOD_AT_FIRST).expect("a built-in method");
         let body = self.view().body;
         if let Some(refusal) = self.loop_lab_refusal() {
-            return self.set_notice(refusal);
+            return self.viewer.set_notice(refusal);
         }
         let mut loops = LoopLab::new(self.scene(), body, method);
         loops.offer(self.viewer.live.trace());
         loops.run_goes_on = self.running;
         loops.play_opening();
-        self.loop_lab = Some(loops);
+        self.activity = Activity::Loops(loops.into());
         self.viewer.preferences.display.instrument = Instrument::Loop;
         self.viewer.preferences.display.inspector = false;
         self.viewer.held = None;
@@ -48,7 +59,7 @@ impl Lab {
 
     /// Leaves the loop lab; the run goes on as it did before.
     fn leave_loop_lab(&mut self) {
-        let Some(loops) = self.loop_lab.take() else { return };
+        let Activity::Loops(loops) = take(&mut self.activity) else { return };
         self.running = loops.run_goes_on;
         self.viewer.notice = None;
         if self.display().instrument == Instrument::Loop {
@@ -59,7 +70,7 @@ impl Lab {
     /// Opens the loop lab on the trace of this name, if there is one.
     pub fn open_loop_lab_on(&mut self, trace: &str) {
         self.open_loop_lab();
-        if let Some(loops) = &mut self.loop_lab
+        if let Activity::Loops(loops) = &mut self.activity
             && let Some(place) = loops.traces().iter().position(|known| known.name() == trace)
         {
             loops.choose_trace(place);
@@ -69,10 +80,10 @@ impl Lab {
 
     /// Opens the loop lab, if it is closed, on the first of these traces.
     pub fn open_traces(&mut self, traces: Vec<FrameTrace>) {
-        if self.loop_lab.is_none() {
+        if self.loop_lab().is_none() {
             self.open_loop_lab();
         }
-        if let Some(loops) = &mut self.loop_lab
+        if let Activity::Loops(loops) = &mut self.activity
             && !traces.is_empty()
         {
             loops.add_traces(traces);
@@ -82,13 +93,13 @@ impl Lab {
 
     /// The loops that the open loop lab wants at present, for a [`LoopWorker`]; `None` if it has all, or is closed.
     pub fn loop_request(&self) -> Option<Arc<LoopRequest>> {
-        let loops = self.loop_lab.as_ref().filter(|loops| !loops.is_complete());
+        let loops = self.loop_lab().filter(|loops| !loops.is_complete());
         loops.map(|loops| Arc::clone(loops.request()))
     }
 
     /// Shows a loop that was run, if it is still wanted.
     pub fn accept_loop(&mut self, found: FoundLoop) {
-        if let Some(loops) = &mut self.loop_lab {
+        if let Activity::Loops(loops) = &mut self.activity {
             loops.accept(found);
         }
     }
@@ -104,7 +115,7 @@ impl Lab {
 
     /// Carries out a command on the stage while the loop lab is on it.
     pub(super) fn carry_out_in_loop_lab(&mut self, command: StageCommand) {
-        let Some(loops) = &mut self.loop_lab else { return };
+        let Activity::Loops(loops) = &mut self.activity else { return };
         let tick_hz = loops.scene().tick_hz;
         let frames_per_second = loops.traces()[loops.trace()].refresh().hz().round() as i64;
         match command {
@@ -135,16 +146,18 @@ impl Lab {
                 beside.into_iter().for_each(|slowness| loops.set_slowness(slowness));
             }
             StageCommand::Scene(_) | StageCommand::SceneBeside(_) | StageCommand::Body(_) => {
-                let (loops, running) = (self.loop_lab.take(), self.running);
+                let (loops, running) = (take(&mut self.activity), self.running);
                 self.carry_out_on_stage(command);
-                self.loop_lab = loops;
+                self.activity = loops;
                 self.running = running;
                 if let Some(refusal) = self.loop_lab_refusal() {
                     self.leave_loop_lab();
-                    return self.set_notice(refusal);
+                    return self.viewer.set_notice(refusal);
                 }
                 let (scene, body) = (self.start.scene.clone(), self.view().body);
-                self.loop_lab.iter_mut().for_each(|loops| loops.show(&scene, body));
+                if let Activity::Loops(loops) = &mut self.activity {
+                    loops.show(&scene, body);
+                }
             }
             StageCommand::Metric(place) => loops.set_metric(place),
             StageCommand::Instrument(instrument) if instrument.is_in_loop_lab() => {
@@ -153,7 +166,7 @@ impl Lab {
             }
             StageCommand::Instrument(instrument) => {
                 let name = instrument.name();
-                self.set_notice(format!("{name} is not in the loop lab: L leaves it"));
+                self.viewer.set_notice(format!("{name} is not in the loop lab: L leaves it"));
             }
         }
         self.end_opening_of_loop_lab();
@@ -161,16 +174,18 @@ impl Lab {
 
     /// Says that the loop lab takes no command on the run.
     pub(super) fn refuse_in_loop_lab(&mut self) {
-        self.set_notice("not in the loop lab: L leaves it");
+        self.viewer.set_notice("not in the loop lab: L leaves it");
         self.end_opening_of_loop_lab();
     }
 
     fn end_opening_of_loop_lab(&mut self) {
-        self.loop_lab.iter_mut().for_each(LoopLab::end_opening);
+        if let Activity::Loops(loops) = &mut self.activity {
+            loops.end_opening();
+        }
     }
 
     pub(super) fn change_loop_lab(&mut self, command: LoopCommand) {
-        let Some(loops) = &mut self.loop_lab else { return };
+        let Activity::Loops(loops) = &mut self.activity else { return };
         match command {
             LoopCommand::ToggleLab => self.leave_loop_lab(),
             LoopCommand::Select(place) => loops.select(place),
@@ -186,7 +201,7 @@ impl Lab {
     }
 
     fn set_loop_method(&mut self, method: &'static Method) {
-        let Some(loops) = &mut self.loop_lab else { return };
+        let Activity::Loops(loops) = &mut self.activity else { return };
         let notice = match loops.scene().refusal(method) {
             Some(refusal) => refusal.to_string(),
             None => {
@@ -194,12 +209,12 @@ impl Lab {
                 format!("every loop steps by {}", method.name)
             }
         };
-        self.set_notice(notice);
+        self.viewer.set_notice(notice);
     }
 
     fn step_loops(&mut self, frames: i64) {
         self.running = false;
-        if let Some(loops) = &mut self.loop_lab {
+        if let Activity::Loops(loops) = &mut self.activity {
             loops.step(frames);
         }
     }

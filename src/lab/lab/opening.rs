@@ -73,7 +73,7 @@ impl Lab {
         let name = self.scene_name();
         if is_equal {
             self.viewer.dialog.take_if(|dialog| matches!(dialog, Dialog::Mistakes { .. }));
-            return self.set_notice(format!("{name} saved; nothing that matters changed"));
+            return self.viewer.set_notice(format!("{name} saved; nothing that matters changed"));
         }
         let is_by_hand = is_by_hand(&self.timeline);
         let told = if !keeps {
@@ -92,7 +92,7 @@ impl Lab {
             // Another scene has another lab.
             (true, false) => " (your kicks and edits left out)",
         };
-        self.set_notice(format!("{name}: {told}{left_out}"));
+        self.viewer.set_notice(format!("{name}: {told}{left_out}"));
     }
 
     /// Shows why the scene at the typed path, which is that of the file at `path`, cannot be opened. The field for the
@@ -114,7 +114,7 @@ impl Lab {
     /// Tells that a file on the list is not there any more. The run goes on.
     pub fn file_is_gone(&mut self, path: &Path) {
         if let Some(name) = self.scene_list.name_of(path) {
-            self.set_notice(format!(
+            self.viewer.set_notice(format!(
                 "{name} is gone: the run goes on, and the file is read again when it is back"
             ));
         }
@@ -123,7 +123,7 @@ impl Lab {
     /// Tells that a file on the list is there again, with the same text.
     pub fn file_is_back(&mut self, path: &Path) {
         if let Some(name) = self.scene_list.name_of(path) {
-            self.set_notice(format!("{name} is back, unchanged"));
+            self.viewer.set_notice(format!("{name} is back, unchanged"));
         }
     }
 

@@ -13,7 +13,7 @@ impl Lab {
         if self.record_chosen_coordinates() {
             return self.timeline.show_present();
         }
-        self.set_notice(format!("{name} is plotted from the next restart on: press Home"));
+        self.viewer.set_notice(format!("{name} is plotted from the next restart on: press Home"));
     }
 
     /// Records the coordinates that a person has chosen, and of other bodies the usual ones. Returns whether it could.

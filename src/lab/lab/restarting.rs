@@ -53,7 +53,7 @@ impl Lab {
                 let notice = format!("undid {}: Ctrl Shift Z redoes it", undone.what);
                 self.after_exchange(undone, notice, rested);
             }
-            None => self.set_notice("nothing to undo"),
+            None => self.viewer.set_notice("nothing to undo"),
         }
     }
 
@@ -65,7 +65,7 @@ impl Lab {
                 let notice = format!("redid {}: Ctrl Z takes it back", redone.what);
                 self.after_exchange(redone, notice, rested);
             }
-            None => self.set_notice("nothing to redo"),
+            None => self.viewer.set_notice("nothing to redo"),
         }
     }
 
@@ -91,7 +91,7 @@ impl Lab {
         self.timeline.show_present();
         self.clock.set_tick_hz(self.race().tick_hz());
         self.running |= rested && !self.comes_to_rest();
-        self.set_notice(notice);
+        self.viewer.set_notice(notice);
     }
 }
 

@@ -79,7 +79,7 @@ impl Lab {
     /// Goes back to before the selected lane was lost, and runs on from there.
     pub(super) fn watch_again(&mut self) {
         let Some(tick) = self.lost_at() else {
-            return self.set_notice("nothing has halted in this lane");
+            return self.viewer.set_notice("nothing has halted in this lane");
         };
         let lead = ((LEAD_S * f64::from(self.race().tick_hz())) as u64).max(MIN_LEAD);
         self.seek(tick.saturating_sub(lead));
@@ -97,7 +97,7 @@ mod tests {
     /// A lab that somebody watches.
     fn watched(scene: &str) -> Lab {
         let mut lab = Lab::new(Scene::built_in(scene).unwrap());
-        lab.set_motion(Motion::Live);
+        lab.viewer_mut().preferences.display.motion = Motion::Live;
         lab
     }
 
@@ -179,7 +179,7 @@ mod tests {
         let scene = Scene::parse("t.toml", text).unwrap();
         let mut frames = [Motion::Recorded, Motion::Live].map(|motion| {
             let mut lab = Lab::new(scene.clone());
-            lab.set_motion(motion);
+            lab.viewer_mut().preferences.display.motion = motion;
             let halts = |lab: &Lab| lab.lost_at().is_some();
             let frames = (0..2000).take_while(|_| {
                 lab.advance(16_666_667);

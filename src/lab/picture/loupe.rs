@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::moment::DrawContext;
 use super::sketch::{Camera, SOLID, circle, demote, disc, fill, line, ring};
 use super::{Align, Label, Picture, Rect, Rgba};
-use crate::lab::METRICS;
+use crate::lab::Metric;
 use crate::lab::palette::faded;
 use crate::lab::race::Entrant;
 use crate::sim::number::{enlargement, round};
@@ -44,9 +44,8 @@ impl LoupeLane {
         let race = moment.lab.race();
         let [place, truth] =
             [&lane.lane, race.truth()].map(|lane| lane.bodies()[body].stepper.place());
-        let error = METRICS.iter().position(|metric| metric.id == "position_error");
         let lately = moment.history(lane, body).since(race.t() - LATELY_S);
-        let errors = lately.filter_map(|sample| Some(sample.metrics[error?]));
+        let errors = lately.map(|sample| sample.metrics[Metric::POSITION_ERROR]);
         Self { off_m: place - truth, lately_m: errors.fold(0.0, f64::max), colour }
     }
 }

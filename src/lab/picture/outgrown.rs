@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::moment::DrawContext;
 use super::{Framing, Look, Outline};
 use crate::lab::race::Entrant;
-use crate::lab::{History, Lab, METRICS, Mode, Motion};
+use crate::lab::{History, Lab, Metric, Mode, Motion};
 
 /// For how long the zoom is evened out, in seconds: a swing of the harbour's spring; and in how many parts.
 const EVENED_S: f64 = 1.0;
@@ -95,9 +95,8 @@ fn parts(outline: &Outline) -> impl Iterator<Item = DVec2> {
 
 /// How far from the truth a lane has been lately, in metres.
 pub(super) fn strayed_m(moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> f64 {
-    let error = METRICS.iter().position(|metric| metric.id == "position_error");
     let lately = moment.history(lane, body).since(moment.t - REMEMBERED_S);
-    let errors = lately.filter_map(|sample| Some(sample.metrics[error?]));
+    let errors = lately.map(|sample| sample.metrics[Metric::POSITION_ERROR]);
     errors.filter(|error| error.is_finite()).fold(0.0, f64::max)
 }
 
@@ -142,7 +141,7 @@ mod tests {
 
     fn watched(scene: &str) -> Lab {
         let mut lab = Lab::new(Scene::built_in(scene).unwrap());
-        lab.set_motion(Motion::Live);
+        lab.viewer_mut().preferences.display.motion = Motion::Live;
         lab
     }
 
@@ -181,10 +180,10 @@ mod tests {
     fn what_is_recorded_or_shown_with_reduced_motion_keeps_its_stage() {
         for motion in [Motion::Recorded, Motion::Reduced] {
             let mut lab = watched("harbour");
-            lab.set_motion(motion);
+            lab.viewer_mut().preferences.display.motion = motion;
             (0..15 * 60).for_each(|_| lab.tick());
             let (_, scale) = hero(&lab);
-            lab.set_motion(Motion::Live);
+            lab.viewer_mut().preferences.display.motion = Motion::Live;
             assert!(hero(&lab).1 < scale / 8.0, "{motion:?}");
         }
     }

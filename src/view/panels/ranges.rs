@@ -108,11 +108,10 @@ fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Lab, METRICS, Scene, StageCommand};
+    use crate::lab::{Lab, Metric, Scene, StageCommand};
 
-    fn lanes(lab: &Lab, metric: &str) -> Vec<Track> {
-        let index = METRICS.iter().position(|listed| listed.id == metric).unwrap();
-        Track::of(lab, 0, |s| [s.t, s.metrics[index]])
+    fn lanes(lab: &Lab, metric: usize) -> Vec<Track> {
+        Track::of(lab, 0, |s| [s.t, s.metrics[metric]])
     }
 
     #[test]
@@ -121,11 +120,11 @@ mod tests {
         lab.apply(StageCommand::ToggleRace);
         (0..600).for_each(|_| lab.tick());
         // Explicit Euler is some thousand per cent off, semi-implicit Euler swings by five.
-        let (low, high) = of_shares(&lanes(&lab, "energy_drift"));
+        let (low, high) = of_shares(&lanes(&lab, Metric::ENERGY_DRIFT));
         assert!((-8.0..-4.0).contains(&low) && (4.0..8.0).contains(&high), "{low} to {high} %");
         lab.apply(StageCommand::Pick(0));
         lab.apply(StageCommand::ToggleRace);
-        let (low, high) = of_shares(&lanes(&lab, "energy_drift"));
+        let (low, high) = of_shares(&lanes(&lab, Metric::ENERGY_DRIFT));
         assert!(low < 0.0 && (200.0..400.0).contains(&high), "{low} to {high} %");
     }
 
@@ -153,7 +152,7 @@ mod tests {
             assert!(high - low >= 1.0, "{low} to {high}");
         }
         let still = Lab::new(Scene::built_in("spring").unwrap());
-        let (low, high) = from_zero(&lanes(&still, "evaluations"));
+        let (low, high) = from_zero(&lanes(&still, Metric::EVALUATIONS));
         assert!(low < 0.0 && high > 0.0, "{low} to {high}");
     }
 }

@@ -8,7 +8,7 @@ use super::phase::SAMPLES;
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, time_in_view};
 use crate::lab::loop_lab::{FRAME_METRICS, LoopFrame, LoopLane};
 use crate::lab::past::Energies;
-use crate::lab::{Instrument, Lab, LoopLab, METRICS, Scale};
+use crate::lab::{Instrument, Lab, LoopLab, METRICS, Metric, Scale};
 use crate::view::chart::{AxisScale, Bounds, Dots};
 
 /// The seconds in view where every frame shows.
@@ -89,9 +89,8 @@ impl Plots<'_> {
         let is_empty = exact.times.is_empty();
         let view = self.time_in_view();
         let plot = self.over_time("energy by loop", up, tracks, Some(exact), (view, y));
-        let drift = METRICS.iter().find(|metric| metric.id == "energy_drift");
         let truth = &self.lab.race().truth().bodies()[self.lab.view().body];
-        let why = drift.filter(|_| is_empty).map(|metric| metric.absent_on(truth).to_owned());
+        let why = is_empty.then(|| METRICS[Metric::ENERGY_DRIFT].absent_on(truth).to_owned());
         PlotModel { title: self.title(STEPPED), nothing: why, ..plot }
     }
 

@@ -7,7 +7,7 @@ use super::error;
 use super::motion::healthy;
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, over_time};
 use crate::lab::past::Energies;
-use crate::lab::{Lab, METRICS};
+use crate::lab::{Lab, Metric};
 use crate::view::chart::AxisScale;
 
 /// An energy: its name, its dash, how much of its colour it has, and how it is found.
@@ -22,13 +22,12 @@ const PARTS: [Part; 3] = [
 
 pub(super) fn plot_set(lab: &Lab) -> PlotSet {
     let body = lab.view().body;
-    let drift = METRICS.iter().position(|metric| metric.id == "energy_drift");
-    let drift =
-        drift.map(|place| error::plot(lab, body, place, "share of the swing's energy".into()));
+    let title = "share of the swing's energy";
+    let drift = error::plot(lab, body, Metric::ENERGY_DRIFT, title.into());
     let energies = energies(lab, body);
     let conserves = !energies.exact.iter().all(|line| line.times.is_empty());
     // Why there is no drift is said only where there is no energy either.
-    let drift = drift.filter(|plot| plot.nothing.is_none() || !conserves);
+    let drift = Some(drift).filter(|plot| plot.nothing.is_none() || !conserves);
     let plots = conserves.then_some(energies).into_iter().chain(drift).collect();
     PlotSet { styles: SeriesStyles::of(lab), title: "Energy".into(), plots }
 }

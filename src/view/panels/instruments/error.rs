@@ -13,7 +13,7 @@ pub(super) const NO_ERROR: &str =
 
 /// The metrics to choose from, by their places in [`METRICS`]: all that the energy instrument does not show.
 pub(super) fn choices() -> impl Iterator<Item = usize> {
-    (0..METRICS.len()).filter(|&place| METRICS[place].id != "energy_drift")
+    (0..METRICS.len()).filter(|&place| !METRICS[place].is_of_energy)
 }
 
 pub(super) fn plot_set(lab: &Lab) -> PlotSet {
@@ -61,9 +61,7 @@ pub(super) fn plot(lab: &Lab, body: usize, place: usize, title: String) -> PlotM
 fn scale(metric: &Metric, values: &[Track]) -> AxisScale {
     match metric.scale {
         Scale::Log => AxisScale::Log,
-        Scale::Linear if metric.id == "energy_drift" => {
-            AxisScale::SymLog(ranges::linear_drift(values))
-        }
+        Scale::Linear if metric.is_of_energy => AxisScale::SymLog(ranges::linear_drift(values)),
         Scale::Linear => AxisScale::Linear,
     }
 }

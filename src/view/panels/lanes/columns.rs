@@ -2,7 +2,7 @@
 
 use super::row::{self, Row};
 use crate::lab::number::{round, significant};
-use crate::lab::{Lab, Mode};
+use crate::lab::{Lab, Metric, Mode};
 use crate::view::panels::palette;
 use crate::view::panels::table::{Column, SortKey, show_key, show_line, show_words};
 
@@ -131,7 +131,7 @@ fn exact<'a>() -> Column<Row<'a>> {
 }
 
 fn error<'a>() -> Column<Row<'a>> {
-    let error = |row: &Row<'a>| row.measure("position_error");
+    let error = |row: &Row<'a>| row.measure(Metric::POSITION_ERROR);
     let text = move |row: &Row<'a>| error(row).map_or_else(|| row.no_truth(), |it| row.in_unit(it));
     let about = "largest difference from the exact solution in a coordinate";
     Column::number("error", (88.0, 2), about, text, error)
@@ -157,7 +157,7 @@ fn chase<'a>() -> [Column<Row<'a>>; 2] {
 }
 
 fn energy<'a>() -> Column<Row<'a>> {
-    let drift = |row: &Row<'a>| row.measure("energy_drift");
+    let drift = |row: &Row<'a>| row.measure(Metric::ENERGY_DRIFT);
     let text = move |row: &Row<'a>| {
         let Some(drift) = drift(row) else {
             return row.no_truth().filter(|_| row.conserves_energy());

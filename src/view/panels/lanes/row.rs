@@ -4,7 +4,7 @@ use egui::{Color32, Ui};
 
 use super::verdict;
 use crate::lab::number::significant;
-use crate::lab::{ChaseFinding, Entrant, Lab, LaneBody, LaneSpec, METRICS, Mode};
+use crate::lab::{ChaseFinding, Entrant, Lab, LaneBody, LaneSpec, METRICS, Metric, Mode};
 use crate::view::panels::palette;
 use crate::view::panels::verdict::VerdictText;
 
@@ -123,22 +123,21 @@ impl<'a> Row<'a> {
         self.flown_body().is_some_and(|body| body.stepper.energy().is_some())
     }
 
-    /// A metric of the body, if it is flown.
-    pub(super) fn measure(&self, id: &str) -> Option<f64> {
-        let metric = METRICS.iter().find(|metric| metric.id == id)?;
-        (metric.measure)(self.flown_body()?, self.truth())
+    /// The metric at this place of [`METRICS`], of the body, if it is flown.
+    pub(super) fn measure(&self, metric: usize) -> Option<f64> {
+        (METRICS[metric].measure)(self.flown_body()?, self.truth())
     }
 
     /// The half-life of the body in this lane, or else the one of the verdict.
     pub(super) fn half_life_ms(&self) -> Option<f64> {
         let judged = || Some(1e3 * self.chase()?.half_life_s?);
-        self.measure("half_life").or_else(judged)
+        self.measure(Metric::HALF_LIFE).or_else(judged)
     }
 
     /// The overshoot of the body in this lane, or else the one of the verdict.
     pub(super) fn overshoot_percent(&self) -> Option<f64> {
         let judged = || Some(self.chase()?.overshoot_percent);
-        self.measure("overshoot").or_else(judged)
+        self.measure(Metric::OVERSHOOT).or_else(judged)
     }
 
     fn chase(&self) -> Option<&'a ChaseFinding> {
