@@ -38,6 +38,7 @@ impl Pair<3> for Tableau {
     /// A millimetre, a millimetre per second, or a thousandth of the value: just visible.
     const TOLERANCE: Tolerance = Tolerance { absolute_q: 1e-3, absolute_v: 1e-3, relative: 1e-3 };
 
+    #[inline(always)]
     fn factor(error: f64) -> f64 {
         factor(error.sqrt())
     }

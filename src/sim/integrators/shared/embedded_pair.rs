@@ -7,7 +7,7 @@ use super::step_size::{StepSize, steady_factor};
 use crate::sim::integrators::failure::Stepped;
 use crate::sim::integrators::integrator::{Integrator, Override};
 use crate::sim::integrators::tolerance::Tolerance;
-use crate::sim::state::{State, Vector};
+use crate::sim::state::{Elementwise, State, Vector};
 use crate::sim::system::{StateOf, System};
 
 /// The tableau of a pair of `N` stages. The last stage is at the kept solution, so that its slope is
@@ -26,6 +26,7 @@ pub trait Pair<const N: usize>: Send + 'static {
     const TOLERANCE: Tolerance;
 
     /// The factor for the next step after one with this error, relative to the tolerance.
+    #[inline(always)]
     fn factor(error: f64) -> f64 {
         steady_factor(error, Self::ORDER)
     }
@@ -40,22 +41,18 @@ pub struct EmbeddedPair<V, P, const N: usize> {
     /// The state at which a stage is evaluated.
     stage: State<V>,
     error: State<V>,
-    zero: State<V>,
     pair: PhantomData<P>,
 }
 
 impl<V: Vector, P: Pair<N>, const N: usize> EmbeddedPair<V, P, N> {
     /// The method with a tolerance that overrides its card's.
     pub fn with_tolerance(like: &V, tolerance: Tolerance) -> Self {
-        let mut zero = State { q: like.clone(), v: like.clone() };
-        zero.q.components_mut().fill(0.0);
-        zero.v.components_mut().fill(0.0);
+        let state = State { q: like.clone(), v: like.clone() };
         Self {
             step_size: StepSize::new(tolerance),
-            k: std::array::from_fn(|_| zero.clone()),
-            stage: zero.clone(),
-            error: zero.clone(),
-            zero,
+            k: std::array::from_fn(|_| state.clone()),
+            stage: state.clone(),
+            error: state,
             pair: PhantomData,
         }
     }
@@ -74,7 +71,7 @@ impl<S: System<Vector: Vector>, P: Pair<N>, const N: usize> Integrator<S>
     }
 
     fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
-        let Self { step_size, k, stage, error, zero, .. } = self;
+        let Self { step_size, k, stage, error, .. } = self;
         let is_last_in_error = P::E[N - 1] != 0.0;
         let mut progress = step_size.begin_tick(h);
         if !(is_last_in_error && progress.continues_the_last()) {
@@ -84,12 +81,15 @@ impl<S: System<Vector: Vector>, P: Pair<N>, const N: usize> Integrator<S>
             let (t, h) = (t + progress.elapsed(), progress.trial()?);
             for i in 1..N {
                 let (known, next) = k.split_at_mut(i);
-                weighted_sum(stage, y, h, &P::A[i], known);
+                stage.assign(y);
+                add_weighted(stage, h, &P::A[i], known);
                 if i < N - 1 || is_last_in_error {
                     system.derivative(t + h * P::C[i], stage, &mut next[0]);
                 }
             }
-            weighted_sum(error, zero, 1.0, &P::E, k);
+            error.q.assign_scaled(P::E[0], &k[0].q);
+            error.v.assign_scaled(P::E[0], &k[0].v);
+            add_weighted(error, 1.0, &P::E[1..], &k[1..]);
             if progress.accepts(error, y, P::factor) {
                 y.assign(stage);
                 if is_last_in_error {
@@ -113,16 +113,9 @@ impl<S: System<Vector: Vector>, P: Pair<N>, const N: usize> Integrator<S>
     }
 }
 
-/// `sum = y + h Σ weights k`.
+/// `sum += h Σ weights k`.
 #[inline(always)]
-fn weighted_sum<V: Vector>(
-    sum: &mut State<V>,
-    y: &State<V>,
-    h: f64,
-    weights: &[f64],
-    k: &[State<V>],
-) {
-    sum.assign(y);
+fn add_weighted<V: Vector>(sum: &mut State<V>, h: f64, weights: &[f64], k: &[State<V>]) {
     for (weight, k) in weights.iter().zip(k) {
         if *weight != 0.0 {
             sum.add_scaled(h * weight, k);
