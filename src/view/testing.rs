@@ -80,6 +80,9 @@ pub(super) fn read(gpu: &Gpu, drawing: Option<wgpu::CommandBuffer>, target: &Off
 pub(super) const EVERYWHERE: Rect = Rect { min: [-1e4; 2], max: [1e4; 2] };
 
 /// A window of this size in points, whose frames are laid out and not drawn.
+///
+/// `egui_kittest` finds what a screen reader hears, where these tests judge every painted text with its place and what
+/// clips it, and point at places of plots.
 pub(super) struct TestWindow {
     pub(super) context: Context,
     pub(super) size: Vec2,

@@ -29,6 +29,7 @@ mod histories;
 mod honesty;
 mod judged_runs;
 mod judging;
+mod keys;
 mod laws;
 mod layouts;
 mod loop_snippets;

@@ -3,8 +3,7 @@
 use std::time::{Duration, Instant};
 
 use regatta::lab::{
-    Command, KEYS, Key, Lab, LoopCommand, RunCommand, SCENES, Scene, StageCommand, Step,
-    TICK_LADDER, ViewCommand,
+    Command, KEYS, Key, Lab, LoopCommand, RunCommand, Scene, StageCommand, Step, ViewCommand,
 };
 
 use crate::desk::Desk;
@@ -127,47 +126,6 @@ fn in_the_loop_lab_keys_choose_loops_displays_rates_and_methods_and_leave_as_it_
         desk.titled(&lab.title());
     }
     assert!(!lab.title().contains("loop lab") && lab.running());
-    desk.quit();
-}
-
-#[test]
-fn a_race_is_titled_by_its_selected_lane() {
-    let test = "a_race_is_titled_by_its_selected_lane";
-    let Some(desk) = Desk::open(test, "--scene stiff") else { return };
-    desk.titled("Regatta - stiff - Semi-implicit Euler - 60 Hz");
-    desk.press("c");
-    desk.titled("Regatta - stiff - race: Semi-implicit Euler - 60 Hz");
-    desk.press("1 space");
-    desk.titled("Regatta - stiff - race: Explicit Euler - 60 Hz (paused)");
-    desk.press("c");
-    desk.titled("Regatta - stiff - Explicit Euler - 60 Hz (paused)");
-    desk.quit();
-}
-
-#[test]
-fn brackets_walk_the_tick_rates_and_n_and_b_the_scenes() {
-    let test = "brackets_walk_the_tick_rates_and_n_and_b_the_scenes";
-    let Some(desk) = Desk::open(test, "--scene spring --tick-hz 2") else { return };
-    for hz in TICK_LADDER {
-        desk.titled(&format!("Regatta - spring - Explicit Euler - {hz} Hz"));
-        desk.press("bracketright");
-    }
-    for hz in TICK_LADDER.into_iter().rev() {
-        desk.titled(&format!("Regatta - spring - Explicit Euler - {hz} Hz"));
-        desk.press("bracketleft");
-    }
-    let (mut lab, start) = (lab("spring"), "Regatta - spring - Explicit Euler - 2 Hz");
-    desk.titled(start);
-    for (key, command) in [
-        ("n", Command::Stage(StageCommand::SceneBeside(Step::Next))),
-        ("b", Command::Stage(StageCommand::SceneBeside(Step::Previous))),
-    ] {
-        for _ in SCENES {
-            desk.press(key);
-            lab.apply(command.clone());
-            desk.titled(&lab.title());
-        }
-    }
     desk.quit();
 }
 

@@ -3,7 +3,7 @@
 
 use egui::{Color32, Label, Rect, RichText, Ui, Vec2, vec2};
 
-use super::table::{Column, SortKey, Table, TableRow, show_line, show_words};
+use super::table::{Column, SortKey, Table, TableRow, show_words};
 use super::{palette, strong_font};
 use crate::lab::number::significant;
 use crate::lab::{Command, Entrant, Lab, LaneSpec, StageCommand};
@@ -48,16 +48,9 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Comman
 
 /// The columns; the longest bar is of `most` evaluations.
 fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
-    let line = Column::shown(
-        "line",
-        32.0,
-        "the line of this method in the plots and on the stage",
-        |ui, row: &Row<'a>, rect, _| {
-            let (colour, dash) = palette(ui).style(row.lab.entries(), &row.spec);
-            show_line(ui, rect, dash, colour);
-        },
-        |row| SortKey::Number(row.entry as f64),
-    );
+    let about = "the line of this method in the plots and on the stage";
+    let style = |row: &Row<'a>, palette: &PanelPalette| palette.style(row.lab.entries(), &row.spec);
+    let line = Column::line(about, |row: &Row<'a>| Some(row.entry), style);
     let method = Column::shown(
         "method",
         0.0,
@@ -90,7 +83,7 @@ fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
         |row| SortKey::Number(row.evaluations as f64),
     );
     let bar = Column { priority: 3, ..bar.headed("") };
-    let mut all = vec![line.headed(""), method, evaluations, bar];
+    let mut all = vec![line, method, evaluations, bar];
     if has_times {
         let dash = || "-".to_owned();
         let time_of = move |row: &Row<'a>| Some(row.ns.map_or_else(dash, time));

@@ -29,6 +29,11 @@ pub(super) trait TableRow {
     /// The colour of the bar at its left where it is selected, and that of its numbers.
     fn colours(&self, palette: &PanelPalette) -> [Color32; 2];
 
+    /// The colour of its numbers.
+    fn text(&self, ui: &Ui) -> Color32 {
+        self.colours(palette(ui))[1]
+    }
+
     /// What a click asks for; `None` if it cannot be clicked.
     fn command(&self) -> Option<Command>;
 
@@ -122,6 +127,42 @@ impl<R> Column<R> {
     fn is_number(&self) -> bool {
         matches!(self.cell, Cell::Number(_))
     }
+}
+
+impl<R: TableRow> Column<R> {
+    /// The keys that select the first ten places; a row without a place has none.
+    pub(super) fn key(about: &str, place: impl Fn(&R) -> Option<usize> + Copy + 'static) -> Self {
+        let show = move |ui: &mut Ui, row: &R, rect: Rect, _: &mut Vec<Command>| {
+            let Some(place) = place(row).filter(|place| *place < 10) else { return };
+            let colour = match row.is_selected() {
+                true => palette(ui).accent,
+                false => row.text(ui),
+            };
+            let (at, key) = (rect.left_center(), format!("{}", (place + 1) % 10));
+            keycap::paint(ui, at.x, at.y, &key, colour);
+        };
+        Self::shown("Key", 26.0, about, show, move |row| by_place(place(row)))
+    }
+
+    /// The lines of rows in the plots: colour and dash. A row without a place has none.
+    pub(super) fn line(
+        about: &str,
+        place: impl Fn(&R) -> Option<usize> + Copy + 'static,
+        style: impl Fn(&R, &PanelPalette) -> (Color32, [f32; 2]) + 'static,
+    ) -> Self {
+        let show = move |ui: &mut Ui, row: &R, rect: Rect, _: &mut Vec<Command>| {
+            if place(row).is_some() {
+                let (colour, dash) = style(row, palette(ui));
+                let line = swatch(rect.left_center(), rect.width() - 4.0, dash, colour);
+                chart::paint(ui.painter(), &line);
+            }
+        };
+        Self::shown("line", 36.0, about, show, move |row| by_place(place(row))).headed("")
+    }
+}
+
+fn by_place(place: Option<usize>) -> SortKey {
+    place.map(|place| place as f64).into()
 }
 
 /// A table.
@@ -339,19 +380,6 @@ impl<R: TableRow> Table<R> {
         let offset = if bottom <= room { 0.0 } else { bottom - (self.row_height + room) / 2.0 };
         (known != Some(selected)).then(|| offset.clamp(0.0, hidden))
     }
-}
-
-/// Shows the key that selects the row at this place, if it is one of ten.
-pub(super) fn show_key(ui: &Ui, rect: Rect, place: usize, colour: Color32) {
-    if place < 10 {
-        let (at, key) = (rect.left_center(), format!("{}", (place + 1) % 10));
-        keycap::paint(ui, at.x, at.y, &key, colour);
-    }
-}
-
-/// Shows the line of a curve in a cell.
-pub(super) fn show_line(ui: &Ui, rect: Rect, dash: [f32; 2], colour: Color32) {
-    chart::paint(ui.painter(), &swatch(rect.left_center(), rect.width() - 4.0, dash, colour));
 }
 
 /// Writes words into a cell, rather smaller than cut.

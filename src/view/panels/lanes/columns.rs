@@ -3,8 +3,7 @@
 use super::row::{self, Row};
 use crate::lab::number::{round, significant};
 use crate::lab::{Lab, Metric, Mode};
-use crate::view::panels::palette;
-use crate::view::panels::table::{Column, SortKey, show_key, show_line, show_words};
+use crate::view::panels::table::{Column, SortKey, TableRow, show_words};
 
 /// The least width of the verdict, in points, and the one that it keeps beside columns of what the stage or an instrument
 /// shows too, which are those from this priority on.
@@ -43,33 +42,14 @@ pub(super) fn of<'a>(lab: &Lab) -> Vec<Column<Row<'a>>> {
 
 /// Key, line and method.
 fn marks<'a>() -> Vec<Column<Row<'a>>> {
-    let place = |row: &Row<'a>| SortKey::Number(row.entry as f64);
+    let place = |row: &Row<'a>| row.is_first.then_some(row.entry);
     let about = "the key that switches to this method, or selects its lane in a race";
-    let key = Column::shown(
-        "Key",
-        26.0,
-        about,
-        |ui, row: &Row<'a>, rect, _| {
-            let colour = if row.is_selected { palette(ui).accent } else { row.text(ui) };
-            if row.is_first {
-                show_key(ui, rect, row.entry, colour);
-            }
-        },
-        place,
-    );
-    let line = Column::shown(
-        "line",
-        36.0,
-        "the line of this method in the plots and on the stage",
-        |ui, row: &Row<'a>, rect, _| {
-            let (strong, dash) = palette(ui).style(row.lab.entries(), row.spec);
-            let colour = if row.flown.is_some() { strong } else { strong.gamma_multiply(0.7) };
-            if row.is_first {
-                show_line(ui, rect, dash, colour);
-            }
-        },
-        place,
-    );
+    let key = Column::key(about, place);
+    let about = "the line of this method in the plots and on the stage";
+    let line = Column::line(about, place, |row: &Row<'a>, palette| {
+        let (strong, dash) = palette.style(row.lab.entries(), row.spec);
+        (if row.flown.is_some() { strong } else { strong.gamma_multiply(0.7) }, dash)
+    });
     let about = "the integrator of this lane; × is its substeps, a small number its tolerance";
     let method = Column::shown(
         "Method",
@@ -83,7 +63,7 @@ fn marks<'a>() -> Vec<Column<Row<'a>>> {
         },
         |row| SortKey::Words(row.spec.method.name.into()),
     );
-    vec![key, line.headed(""), method]
+    vec![key, line, method]
 }
 
 fn body<'a>() -> Column<Row<'a>> {

@@ -1,11 +1,8 @@
 //! A row of the table, and its numbers.
 
-use egui::{Color32, Ui};
-
 use super::verdict;
 use crate::lab::number::significant;
 use crate::lab::{ChaseFinding, Entrant, Lab, LaneBody, LaneSpec, METRICS, Metric, Mode};
-use crate::view::panels::palette;
 use crate::view::panels::verdict::VerdictText;
 
 /// A method, or a body of the lane that is flown solo.
@@ -67,12 +64,6 @@ impl<'a> Row<'a> {
             false => vec![row(shown)],
         }
     }
-
-    /// The colour of its words.
-    pub(super) fn text(&self, ui: &Ui) -> Color32 {
-        if self.flown.is_some() { palette(ui).text } else { palette(ui).dim }
-    }
-
     /// The body of the row, or else the one that the verdict is about.
     pub(super) fn body_name(&self) -> Option<&'a str> {
         let bodies = &self.lab.scene().bodies;

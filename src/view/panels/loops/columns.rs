@@ -4,8 +4,7 @@ use super::row::Row;
 use crate::lab::number::round;
 use crate::lab::pacing::PACING_METRICS;
 use crate::lab::{LoopLab, Unit};
-use crate::view::panels::palette;
-use crate::view::panels::table::{Column, SortKey, TableRow, show_key, show_line, show_words};
+use crate::view::panels::table::{Column, SortKey, TableRow, show_words};
 
 /// The least width of the verdict, in points.
 pub(super) const MIN_VERDICT: f32 = 264.0;
@@ -26,18 +25,8 @@ const METRICS: [MetricColumn; 8] = [
 
 /// Every column, from left to right.
 pub(super) fn of<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
-    let place = |row: &Row<'a>| SortKey::Number(row.place as f64);
-    let about = "the key that selects this loop and brings it on the stage";
-    let key = Column::shown(
-        "Key",
-        26.0,
-        about,
-        |ui, row: &Row<'a>, rect, _| {
-            let colour = if row.is_selected() { palette(ui).accent } else { row.text(ui) };
-            show_key(ui, rect, row.place, colour);
-        },
-        place,
-    );
+    let place = |row: &Row<'a>| Some(row.place);
+    let key = Column::key("the key that selects this loop and brings it on the stage", place);
     let on_stage = Column::shown(
         "on the stage",
         22.0,
@@ -45,17 +34,11 @@ pub(super) fn of<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
         |ui, row: &Row<'a>, rect, commands| row.eye(ui, rect, commands),
         |row| SortKey::Number(if row.is_on_stage { 0.0 } else { 1.0 }),
     );
-    let line = Column::shown(
-        "line",
-        36.0,
-        "the line of this loop in the plots and on the stage",
-        |ui, row: &Row<'a>, rect, _| {
-            let (strong, dash) = row.style(palette(ui));
-            let inked = if row.is_on_stage { strong } else { strong.gamma_multiply(0.7) };
-            show_line(ui, rect, dash, inked);
-        },
-        place,
-    );
+    let about = "the line of this loop in the plots and on the stage";
+    let line = Column::line(about, place, |row: &Row<'a>, palette| {
+        let (strong, dash) = row.style(palette);
+        (if row.is_on_stage { strong } else { strong.gamma_multiply(0.7) }, dash)
+    });
     let name = Column::shown(
         "Loop",
         136.0,
@@ -63,7 +46,7 @@ pub(super) fn of<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
         |ui, row: &Row<'a>, rect, _| {
             show_words(ui, rect, row.lane.card().name, row.is_selected(), row.text(ui));
         },
-        place,
+        |row| SortKey::Number(row.place as f64),
     );
     let about = "what this loop does to motion at this tick rate on this display; sorted from best to worst";
     let display = loops.traces()[loops.trace()].name();
@@ -75,7 +58,7 @@ pub(super) fn of<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
         |row| row.verdict.rank.into(),
     );
     let head = format!("Verdict at {} Hz, trace {display}", loops.scene().tick_hz);
-    let marks = [key, on_stage.headed(""), line.headed(""), name, verdict.headed(head)];
+    let marks = [key, on_stage.headed(""), line, name, verdict.headed(head)];
     marks.into_iter().chain(METRICS.into_iter().filter_map(metric)).collect()
 }
 

@@ -34,11 +34,6 @@ impl<'a> Row<'a> {
         Self { loops, place, lane, is_on_stage, verdict }
     }
 
-    /// The colour of its words.
-    pub(super) fn text(&self, ui: &Ui) -> Color32 {
-        self.colours(palette(ui))[1]
-    }
-
     /// Its colour and dash in the plots.
     pub(super) fn style(&self, palette: &PanelPalette) -> (Color32, [f32; 2]) {
         let (rgba, dash) = palette.theme.loop_style(self.place);

@@ -1,0 +1,56 @@
+//! What keys do to a run, as the title tells. That the window knows every key is tested with one.
+
+use regatta::lab::{KEYS, Key, Lab, SCENES, Scene, StageCommand, TICK_LADDER};
+
+/// Does what the table says of a key.
+fn press(lab: &mut Lab, key: Key) {
+    let mut all = KEYS.iter().flat_map(|binding| binding.keys);
+    let (_, command) = all.find(|(other, _)| *other == key).expect("a key of the table");
+    assert_eq!(lab.apply(command.clone()), None);
+}
+
+fn lab(scene: &str) -> Lab {
+    Lab::new(Scene::built_in(scene).unwrap())
+}
+
+#[test]
+fn a_race_is_titled_by_its_selected_lane() {
+    let mut lab = lab("stiff");
+    let mut title_after = |keys: &[Key]| {
+        keys.iter().for_each(|key| press(&mut lab, *key));
+        lab.title()
+    };
+    assert_eq!(title_after(&[]), "Regatta - stiff - Semi-implicit Euler - 60 Hz");
+    let race = title_after(&[Key::Sign('c')]);
+    assert_eq!(race, "Regatta - stiff - race: Semi-implicit Euler - 60 Hz");
+    let paused = title_after(&[Key::Digit(1), Key::Space]);
+    assert_eq!(paused, "Regatta - stiff - race: Explicit Euler - 60 Hz (paused, tick 0)");
+    let solo = title_after(&[Key::Sign('c')]);
+    assert_eq!(solo, "Regatta - stiff - Explicit Euler - 60 Hz (paused, tick 0)");
+}
+
+#[test]
+fn brackets_walk_the_tick_rates_and_n_and_b_the_scenes() {
+    let mut lab = lab("spring");
+    lab.apply(StageCommand::TickHz(2));
+    let start = "Regatta - spring - Explicit Euler - 2 Hz";
+    let up = TICK_LADDER.into_iter().map(|hz| (hz, ']'));
+    let down = TICK_LADDER.into_iter().rev().map(|hz| (hz, '['));
+    for (hz, key) in up.chain(down) {
+        assert_eq!(lab.title(), format!("Regatta - spring - Explicit Euler - {hz} Hz"));
+        press(&mut lab, Key::Sign(key));
+    }
+    assert_eq!(lab.title(), start);
+    let mut walk = |key: char| -> Vec<String> {
+        let mut title_of = |_| {
+            press(&mut lab, Key::Sign(key));
+            lab.scene_name()
+        };
+        SCENES.iter().map(&mut title_of).collect()
+    };
+    let (there, mut back) = (walk('n'), walk('b'));
+    back.reverse();
+    back.rotate_left(1);
+    assert_eq!(there, back);
+    assert_eq!(there.last().map(String::as_str), Some("spring"));
+}
