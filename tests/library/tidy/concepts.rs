@@ -11,11 +11,26 @@ struct Concept {
     marks: &'static [&'static str],
 }
 
-const CONCEPTS: [Concept; 28] = [
+const CONCEPTS: [Concept; 31] = [
     Concept {
         name: "dispatch by the type of a method",
         file: "src/sim/integrators/mod.rs",
         marks: &["::CARD.id"],
+    },
+    Concept {
+        name: "methods for systems of any type with one coordinate",
+        file: "src/sim/integrators/problem.rs",
+        marks: &["integrator(method, &0.0)"],
+    },
+    Concept {
+        name: "tick of an adaptive method",
+        file: "src/sim/integrators/shared/embedded_pair.rs",
+        marks: &["step_size.begin_tick("],
+    },
+    Concept {
+        name: "stability of a method on a motion",
+        file: "src/sim/stability/comparison.rs",
+        marks: &["linear_maps(stepper,"],
     },
     Concept {
         name: "step of a follower",
