@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use std::time::Instant;
 
 use regatta::commands::manifest::fingerprint;
-use regatta::lab::{self, Lab, Scene};
+use regatta::lab::{self, Scene, Studio};
 use regatta::view::{AdapterPreference, Gpu, OffscreenRenderer, Panels, png};
 
 const ROUNDS: usize = 5;
@@ -84,7 +84,7 @@ fn stages(panels: Panels) -> Result<(f64, f64), String> {
         .map_err(|error| error.to_string())?;
     let renderer = OffscreenRenderer::new(gpu, SIZE_PX, 1.0).map_err(|error| error.to_string())?;
     let mut renderer = renderer.with_panels(panels);
-    let mut lab = Lab::new(Scene::built_in("harbour").expect("a built-in scene"));
+    let mut lab = Studio::new(Scene::built_in("harbour").expect("a built-in scene"));
     lab.apply(lab::StageCommand::ToggleRace);
     lab.analyse();
     // All frames first drawn and then encoded: the system counts processor time too coarsely for one frame.

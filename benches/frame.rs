@@ -4,7 +4,7 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use regatta::lab::{Lab, LaneSpec, RunCommand, Scene, StageCommand, picture};
+use regatta::lab::{LaneSpec, RunCommand, Scene, StageCommand, Studio, picture};
 use regatta::sim::integrators::GENERAL_METHODS;
 use regatta::view::{
     AdapterPreference, FrameRenderer, Gpu, Offscreen, OffscreenRenderer, Panels, Readback, png,
@@ -40,8 +40,8 @@ fn main() {
     measure(&gpu, Scene { lanes, ..harbour });
 }
 
-fn racing(scene: Scene) -> Lab {
-    let mut lab = Lab::new(scene);
+fn racing(scene: Scene) -> Studio {
+    let mut lab = Studio::new(scene);
     lab.apply(StageCommand::ToggleRace);
     lab
 }
@@ -93,7 +93,7 @@ const ROWS: [Row; 9] = [
 ];
 
 /// The times that the stages of some frames take.
-fn frames(gpu: &Gpu, panels: Panels, lab: &mut Lab) -> impl Iterator<Item = [Duration; STAGES]> {
+fn frames(gpu: &Gpu, panels: Panels, lab: &mut Studio) -> impl Iterator<Item = [Duration; STAGES]> {
     let canvas = Offscreen::new(gpu, SIZE_PX).expect("1280x720 is within any limit");
     let mut renderer = FrameRenderer::new(gpu, Offscreen::FORMAT).with_panels(panels);
     let (mut readback, mut rgba) = (Readback::default(), Vec::new());

@@ -1,4 +1,4 @@
-//! The window: drives a [`Lab`] in real time, by keys and mouse, and shows it. No other code reads a wall clock to
+//! The window: drives a [`Studio`] in real time, by keys and mouse, and shows it. No other code reads a wall clock to
 //! drive a lab.
 //!
 //! A frame is drawn when something has changed: always while time runs, and after an event while it is paused. A
@@ -14,7 +14,7 @@ use winit::window::{Fullscreen, WindowId};
 
 use crate::lab::cloud::CloudWorker;
 use crate::lab::loop_lab::LoopWorker;
-use crate::lab::{AnalysisWorker, Command, DriverRequest, Lab, ViewCommand};
+use crate::lab::{AnalysisWorker, Command, DriverRequest, Studio, ViewCommand};
 
 mod canvas;
 mod clipboard;
@@ -67,7 +67,7 @@ const FIRST_FRAME: Duration = Duration::ZERO;
 /// # Errors
 /// [`WindowError::NoDisplay`] if there is none, before any other error; the others at any time.
 pub fn run(
-    mut lab: Lab,
+    mut lab: Studio,
     settings: WindowSettings,
     files: SceneFiles,
 ) -> Result<Closed, WindowError> {
@@ -121,7 +121,7 @@ pub fn run(
 }
 
 struct App {
-    lab: Lab,
+    lab: Studio,
     analysis: WorkThread<AnalysisWorker>,
     loops: WorkThread<LoopWorker>,
     clouds: WorkThread<CloudWorker>,

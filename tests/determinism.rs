@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 use regatta::lab::scene::Scripted;
 use regatta::lab::{
-    Action, BuiltIn, Lab, LaneSpec, Race, RunCommand, SCENES, Scene, SceneBody, StageCommand,
+    Action, BuiltIn, LaneSpec, Race, RunCommand, SCENES, Scene, SceneBody, StageCommand, Studio,
 };
 use regatta::sim::integrators::{GENERAL_METHODS, Method, method};
 
@@ -53,10 +53,10 @@ enum Field {
 }
 
 impl Field {
-    fn open(self, scene: &Scene) -> Lab {
+    fn open(self, scene: &Scene) -> Studio {
         match self {
             Field::Solo(method) => {
-                let mut lab = Lab::new(scene.clone());
+                let mut lab = Studio::new(scene.clone());
                 lab.apply(StageCommand::Method(method));
                 // From the start again, so that the script has the method in hand.
                 lab.apply(StageCommand::Restart);
@@ -65,7 +65,7 @@ impl Field {
             Field::Everyone => {
                 let spec = |method| LaneSpec { method, ..scene.lanes[0] };
                 let lanes = scene.fitting_methods().map(spec).collect();
-                let mut lab = Lab::new(Scene { lanes, ..scene.clone() });
+                let mut lab = Studio::new(Scene { lanes, ..scene.clone() });
                 lab.apply(StageCommand::ToggleRace);
                 lab
             }
@@ -80,13 +80,13 @@ fn built_in(name: &str) -> Scene {
 /// The tick reached and the hash of each lane there.
 type Mark = (u64, Vec<u64>);
 
-fn mark(lab: &Lab) -> Mark {
+fn mark(lab: &Studio) -> Mark {
     (lab.race().tick(), lab.race().lane_hashes().collect())
 }
 
 /// Runs a lab from frames of these lengths in nanoseconds, and marks the first frame at which each of
 /// ten parts of `ticks` ticks is reached.
-fn paced(mut lab: Lab, ticks: u64, mut frames: impl FnMut() -> i64) -> Vec<Mark> {
+fn paced(mut lab: Studio, ticks: u64, mut frames: impl FnMut() -> i64) -> Vec<Mark> {
     let mut marks = Vec::new();
     for part in 1..=10 {
         while lab.race().tick() < ticks * part / 10 {
@@ -120,7 +120,12 @@ fn ragged(seed: u64) -> impl FnMut() -> i64 {
 
 /// Ticks a lab one by one to the last of `ticks`, compares it on the way with what pacings have marked, and returns
 /// the hashes at `ticks`.
-fn compare(mut lab: Lab, ticks: &[u64], paced: &[(&str, Vec<Mark>)], what: &str) -> Vec<Vec<u64>> {
+fn compare(
+    mut lab: Studio,
+    ticks: &[u64],
+    paced: &[(&str, Vec<Mark>)],
+    what: &str,
+) -> Vec<Vec<u64>> {
     let mut hashes = Vec::new();
     let marked = paced.iter().flat_map(|(_, marks)| marks).map(|mark| mark.0);
     let last = marked.chain(ticks.iter().copied()).max().expect("some ticks");
@@ -270,7 +275,7 @@ fn a_persons_commands_act_as_the_same_script_does() {
 #[test]
 fn ragged_frames_lose_ticks_to_the_cap_and_the_loss_is_counted() {
     let mut frames = ragged(0x5eed_0003);
-    let mut lab = Lab::new(built_in("spring"));
+    let mut lab = Studio::new(built_in("spring"));
     let (mut real_ns, mut ticks, mut dropped) = (0, 0, 0);
     for _ in 0..2000 {
         let frame = frames();
@@ -309,11 +314,11 @@ fn the_hash_sees_the_last_bit_of_every_value() {
 fn each_lane_has_the_hash_of_a_race_of_its_own() {
     let scene = built_in("harbour");
     let mut race = Field::Everyone.open(&scene);
-    let mut solos: Vec<Lab> =
+    let mut solos: Vec<Studio> =
         GENERAL_METHODS.iter().map(|method| Field::Solo(method).open(&scene)).collect();
     for _ in 0..200 {
         race.tick();
-        solos.iter_mut().for_each(Lab::tick);
+        solos.iter_mut().for_each(Studio::tick);
     }
     let alone = solos.iter().map(|lab| lab.race().state_hash());
     assert!(race.race().lane_hashes().eq(alone));
@@ -352,7 +357,7 @@ fn a_race_of_a_scene_is_the_race_that_the_program_runs() {
     let scripted = quick_scenes().map(|scene| scripted(scene.name, script()));
     for scene in plain.chain(scripted) {
         let mut race = Race::of_scene(&scene);
-        let mut lab = Lab::new(scene);
+        let mut lab = Studio::new(scene);
         lab.apply(StageCommand::ToggleRace);
         for _ in 0..20 {
             race.run(100);

@@ -4,7 +4,7 @@ use super::experiment::Experiment;
 use super::schedule::Schedule;
 use crate::lab::cloud::{CloudChoice, CloudKind};
 use crate::lab::palette::Theme;
-use crate::lab::{Instrument, Lab, Motion, RunCommand};
+use crate::lab::{Instrument, Motion, RunCommand, Studio};
 
 /// How a run is drawn: its frames, their size and what they show.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +28,7 @@ pub(super) struct CaptureSettings {
 
 impl CaptureSettings {
     /// The lab at the start of the run.
-    pub(super) fn lab(&self, experiment: &Experiment) -> Lab {
+    pub(super) fn lab(&self, experiment: &Experiment) -> Studio {
         let mut lab = experiment.lab();
         lab.viewer_mut().preferences.display.motion =
             if self.motion { Motion::Recorded } else { Motion::Reduced };

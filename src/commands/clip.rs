@@ -13,7 +13,7 @@ use super::pipeline::{Drawn, Run};
 use super::settings;
 use super::state_log::{self, StateLog};
 use super::terminal::{print_status, report_left_alone};
-use crate::lab::Lab;
+use crate::lab::Studio;
 use crate::view::png;
 
 /// Draws a run into `folder` and reports on standard error what it wrote. Returns the lab at its end.
@@ -21,7 +21,7 @@ pub(super) fn record(
     experiment: &Experiment,
     capture: CaptureSettings,
     mut folder: FrameFolder,
-) -> Result<Lab, Error> {
+) -> Result<Studio, Error> {
     let CaptureSettings { schedule, size_px, .. } = capture;
     let mut renderer = capture.renderer()?;
     let adapter = adapter(&renderer);

@@ -13,7 +13,7 @@ use crate::lab::cloud::CloudKind;
 use crate::lab::pacing::{POLICIES, PolicyCard, TRACES, TraceCard, policy, trace_card};
 use crate::lab::palette::Theme;
 use crate::lab::{
-    Clock, Instrument, Lab, LaneSpec, MANY_LANES, MAX_SECONDS, SCENES, Scene, StageCommand,
+    Clock, Instrument, LaneSpec, MANY_LANES, MAX_SECONDS, SCENES, Scene, StageCommand, Studio,
     lanes_that_race, nearest,
 };
 use crate::sim::integrators::{METHODS, Method, method};
@@ -178,8 +178,8 @@ impl Experiment {
     }
 
     /// The lab at tick 0. A single lane is shown solo.
-    pub(super) fn lab(&self) -> Lab {
-        let mut lab = Lab::new(self.scene.clone());
+    pub(super) fn lab(&self) -> Studio {
+        let mut lab = Studio::new(self.scene.clone());
         lab.apply(StageCommand::Method(self.opening_method()));
         if self.lineup == Lineup::Everyone && lab.scene().lanes.len() > 1 {
             lab.apply(StageCommand::ToggleRace);

@@ -16,7 +16,7 @@ use super::jobs;
 use super::schedule::Schedule;
 use super::state_log::StateLog;
 use super::terminal::progress;
-use crate::lab::Lab;
+use crate::lab::Studio;
 use crate::lab::cloud::CloudWorker;
 use crate::view::{OffscreenRenderer, Panels, ReadbackError};
 
@@ -48,7 +48,7 @@ type Encoded<T> = (Drawn, thread::Result<T>);
 pub(super) struct Run<'a> {
     pub(super) renderer: &'a mut OffscreenRenderer,
     /// At tick 0.
-    pub(super) lab: &'a mut Lab,
+    pub(super) lab: &'a mut Studio,
     pub(super) state_log: &'a mut StateLog,
     pub(super) schedule: Schedule,
 }
@@ -191,7 +191,7 @@ impl<T> ReorderingWindow<T> {
 /// they are found; a recording waits for a stated amount of work on verdicts before each frame, so that its frames are
 /// reproducible. Returns `false` after an interrupt, when the work is not waited for: the process is about to end.
 pub(super) fn complete_analysis(
-    lab: &mut Lab,
+    lab: &mut Studio,
     renderer: &OffscreenRenderer,
     clouds: &mut CloudWorker,
     interrupted: &AtomicBool,
@@ -224,8 +224,8 @@ mod tests {
         Some(OffscreenRenderer::new(gpu, [160, 90], 0.3).unwrap())
     }
 
-    fn race() -> Lab {
-        let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    fn race() -> Studio {
+        let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
         lab.apply(StageCommand::ToggleRace);
         lab.analyse();
         lab

@@ -20,7 +20,7 @@ use super::{clip, scene_file, state_log};
 use crate::atomic_file::IfExists;
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
-use crate::lab::{Lab, Motion};
+use crate::lab::{Motion, Studio};
 use crate::window::{self, Closed, SceneFiles, WindowError, WindowSettings};
 
 const EXAMPLES: &str = "\
@@ -192,12 +192,16 @@ fn refuse_to_record_over(
 }
 
 /// The length of a run in words.
-fn ticks(lab: &Lab) -> String {
+fn ticks(lab: &Studio) -> String {
     counted(lab.timeline().end(), "tick")
 }
 
 /// Draws the first seconds into a folder, and returns the lab as it then is.
-fn without_display(args: &PlayArgs, experiment: &Experiment, reason: &str) -> Result<Lab, Error> {
+fn without_display(
+    args: &PlayArgs,
+    experiment: &Experiment,
+    reason: &str,
+) -> Result<Studio, Error> {
     let frames = match args.seconds {
         Some(seconds) => frames_in(seconds, FPS)?,
         None => FRAMES,

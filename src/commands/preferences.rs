@@ -11,7 +11,7 @@ use toml::de::{DeTable, DeValue};
 use super::terminal::print_status;
 use crate::atomic_file::{IfExists, write_file};
 use crate::lab::palette::Theme;
-use crate::lab::{Lab, MAX_FILE_BYTES, SCALE_LADDER};
+use crate::lab::{MAX_FILE_BYTES, SCALE_LADDER, Studio};
 use crate::regular_file;
 
 /// The name of the file.
@@ -123,7 +123,7 @@ impl Preferences {
 }
 
 /// The open scene of a lab, as it is remembered: a name, or an absolute path.
-pub(super) fn scene_of(lab: &Lab) -> Option<PathBuf> {
+pub(super) fn scene_of(lab: &Studio) -> Option<PathBuf> {
     match lab.scene_list().open_path() {
         Some(path) => path.canonicalize().ok(),
         None => Some(lab.scene_name().into()),

@@ -4,7 +4,7 @@
 use super::error::Error;
 use super::frame_names::MAX_FRAMES;
 use crate::lab::pacing::LONGEST_FRAME_MS;
-use crate::lab::{Lab, Observer};
+use crate::lab::{Observer, Studio};
 
 /// The usual frames per simulated second: smooth enough for every scene, at half the files and half the time of 60.
 pub(super) const FPS: u32 = 30;
@@ -40,13 +40,13 @@ impl Schedule {
     }
 
     /// The tick nearest to the last frame, for a lab that stands at the start.
-    pub(super) fn ticks(self, lab: &Lab) -> u64 {
+    pub(super) fn ticks(self, lab: &Studio) -> u64 {
         lab.nearest_tick(f64::from(self.frames.saturating_sub(1)) / f64::from(self.fps))
     }
 
     /// Advances a lab that stands at the frame before `frame`, or at the start, to `frame`, before the eyes of an
     /// observer.
-    pub(super) fn advance(self, lab: &mut Lab, frame: u32, observer: &mut impl Observer) {
+    pub(super) fn advance(self, lab: &mut Studio, frame: u32, observer: &mut impl Observer) {
         let Some(before) = frame.checked_sub(1) else { return };
         let longest = u64::from(LONGEST_FRAME_MS) * 1_000_000;
         let mut left = self.time_ns(frame) - self.time_ns(before);
@@ -61,7 +61,7 @@ impl Schedule {
 }
 
 /// Nanoseconds, rounded up, until the tick is reached at which the script sets the next tick rate.
-fn until_rate_changes(lab: &Lab) -> u64 {
+fn until_rate_changes(lab: &Studio) -> u64 {
     let (tick, clock) = (lab.race().tick(), lab.clock());
     let Some((next, _)) = lab.scene().rates_from(tick + 1).next() else { return u64::MAX };
     // The clock counts in nanoseconds × hertz × percent.
@@ -81,7 +81,7 @@ mod tests {
         let text = "title = 'x'\ntick_hz = 1\nseconds = 9\n[[spring]]\nmass_kg = 1\n\
                     stiffness_n_per_m = 1\n[[command]]\ntick = 5\ntick_hz = 1000\n\
                     [[command]]\ntick = 1505\ntick_hz = 8\n";
-        let mut lab = Lab::new(Scene::parse("x.toml", text).unwrap());
+        let mut lab = Studio::new(Scene::parse("x.toml", text).unwrap());
         let schedule = Schedule { frames: 301, fps: 30 };
         for frame in 0..schedule.frames {
             schedule.advance(&mut lab, frame, &mut ());
@@ -93,7 +93,7 @@ mod tests {
             let moment = f64::from(frame) / f64::from(schedule.fps);
             assert!((shown - moment).abs() < 1e-6, "frame {frame} shows {shown} s, not {moment} s");
         }
-        assert_eq!(schedule.ticks(&Lab::new(lab.scene().clone())), lab.race().tick());
+        assert_eq!(schedule.ticks(&Studio::new(lab.scene().clone())), lab.race().tick());
     }
 
     #[test]
@@ -120,7 +120,7 @@ mod tests {
         {
             let mut scene = Scene::built_in("spring").unwrap();
             scene.tick_hz = tick_hz;
-            let mut lab = Lab::new(scene);
+            let mut lab = Studio::new(scene);
             let schedule = Schedule { frames: 2 * fps, fps };
             let mut seen = Ticks(0);
             for frame in 0..=schedule.frames {

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value};
 
 use super::manifest::{LaneEnd, LaneMark, Mark};
-use crate::lab::{Lab, METRICS, Observer, Race};
+use crate::lab::{METRICS, Observer, Race, Studio};
 use crate::sim::Solver;
 
 /// The default number of marks in a run. They locate a difference to within a few ticks, and the manifest of a race stays
@@ -58,7 +58,7 @@ fn mark(race: &Race) -> Mark {
 }
 
 /// Each lane at the end, with its metrics against the truth.
-pub(super) fn ends(lab: &Lab) -> Vec<LaneEnd> {
+pub(super) fn ends(lab: &Studio) -> Vec<LaneEnd> {
     let race = lab.race();
     let end = |(entrant, hash): (&crate::lab::Entrant, u64)| {
         let lane = &entrant.lane;
@@ -97,7 +97,7 @@ mod tests {
     #[test]
     fn marks_are_made_at_the_start_at_each_stride_and_at_the_end() {
         for (every, expected) in [(1, vec![0, 1, 2, 3, 4, 5, 6, 7]), (3, vec![0, 3, 6, 7])] {
-            let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+            let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
             let mut state_log = StateLog::new(every, lab.race());
             (0..7).for_each(|_| lab.tick_seen(&mut state_log));
             let marks = state_log.close(lab.race());

@@ -10,7 +10,7 @@ use super::experiment::{self, ExperimentArgs, Lineup};
 use super::output::Output;
 use super::output::table::{RowFormat, RowWriter};
 use super::terminal::print_status;
-use crate::lab::{Lab, Lane, LaneBody, METRICS, SceneBody};
+use crate::lab::{Lane, LaneBody, METRICS, SceneBody, Studio};
 use crate::sim::Solver;
 use crate::sim::bodies::Truth;
 
@@ -98,7 +98,7 @@ impl<'a> Trace<'a> {
     }
 
     /// Writes the present of the truth and of every lane, but of bodies that have halted.
-    fn tick(&mut self, lab: &Lab) -> io::Result<()> {
+    fn tick(&mut self, lab: &Studio) -> io::Result<()> {
         let race = lab.race();
         if !race.tick().is_multiple_of(self.args.every) {
             return Ok(());
@@ -116,7 +116,7 @@ impl<'a> Trace<'a> {
         number: usize,
         lane: &Lane,
         truth: Option<&Lane>,
-        lab: &Lab,
+        lab: &Studio,
     ) -> io::Result<()> {
         self.cells[2] = number.into();
         let bodies = lane.bodies().iter().zip(&lab.scene().bodies).enumerate();
@@ -204,7 +204,7 @@ struct Halts {
 }
 
 impl Halts {
-    fn note(&mut self, lab: &Lab) {
+    fn note(&mut self, lab: &Studio) {
         let race = lab.race();
         for (entrant, halt) in race.just_halted() {
             let before = |id| race.entrants().iter().take_while(move |other| other.id != id);

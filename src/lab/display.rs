@@ -1,4 +1,4 @@
-//! How a lab is displayed, and what it requests of its driver.
+//! How a studio is displayed, and what it requests of its driver.
 
 use std::collections::BTreeMap;
 
@@ -31,7 +31,7 @@ pub enum Motion {
     Live,
 }
 
-/// How the lab is displayed, whatever the scene is. It does not affect the physics.
+/// How the studio is displayed, whatever the scene is. It does not affect the physics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Display {
     /// Whether the exact ghost is drawn.
@@ -116,7 +116,7 @@ pub enum Pace {
     },
 }
 
-/// What a command requests of the driver, because the lab cannot do it.
+/// What a command requests of the driver, because the studio cannot do it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DriverRequest {
     /// Save a screenshot to a file.

@@ -2,7 +2,7 @@
 //! they make.
 //!
 //! This layer knows no GPU, no window, no files and no wall clock: text comes in as `&str`, time as
-//! integers, and what comes out is plain data. [`Lab`] holds it all together.
+//! integers, and what comes out is plain data. [`Studio`] holds it all together.
 
 mod action;
 pub mod analysis;
@@ -26,8 +26,6 @@ mod interpolation;
 mod intervention;
 mod journal;
 mod key;
-#[expect(clippy::module_inception, reason = "the lab is what this layer is about")]
-mod lab;
 mod lane;
 mod lane_id;
 mod lane_spec;
@@ -53,6 +51,7 @@ mod scene_list;
 pub mod session;
 pub mod source_code;
 mod step;
+mod studio;
 mod time_scale;
 mod viewer;
 mod zoom_pan;
@@ -86,7 +85,6 @@ pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow};
 pub use interpolation::Interpolation;
 pub use journal::{Journal, JournalRow, Source};
 pub use key::{Binding, KEYS, Key, command_for};
-pub use lab::{Lab, MANY_LANES, SpringJoint};
 pub use lane::{ESCAPE, Halt, Lane, LaneBody, Resumed, ResumedFrom};
 pub use lane_id::LaneId;
 pub use lane_spec::LaneSpec;
@@ -112,6 +110,7 @@ pub use scene_list::SceneList;
 pub use session::{Event, Session, Timeline};
 pub use source_code::source_code;
 pub use step::Step;
+pub use studio::{MANY_LANES, SpringJoint, Studio};
 pub use time_scale::TimeScale;
 pub use viewer::{Dialog, Preferences, Viewer};
 pub use zoom_pan::{ZOOMS, ZoomPan};

@@ -62,13 +62,13 @@ impl Deref for Notice {
 #[cfg(test)]
 mod tests {
     use super::Notice;
-    use crate::lab::{Lab, Scene};
+    use crate::lab::{Scene, Studio};
 
     #[test]
     fn a_notice_leaves_after_some_seconds_and_a_long_one_later_whether_time_runs_or_not() {
         for is_running in [true, false] {
             let shown_s = |words: &str| {
-                let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+                let mut lab = Studio::new(Scene::built_in("spring").unwrap());
                 lab.running = is_running;
                 lab.viewer_mut().set_notice(words);
                 let mut frames = 0;

@@ -143,7 +143,7 @@ fn of_claims(scene: &Scene, race: &Race, action: &Action) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Lab, METRICS, Metric, RunCommand, StageCommand};
+    use crate::lab::{METRICS, Metric, RunCommand, StageCommand, Studio};
 
     #[test]
     fn what_goes_on_is_told_with_what_became_of_it_and_where_it_begins() {
@@ -169,7 +169,7 @@ mod tests {
 
     #[test]
     fn a_body_that_blew_up_says_when_and_with_what_value_in_its_unit() {
-        let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
+        let mut lab = Studio::new(Scene::built_in("stiff").unwrap());
         lab.apply(StageCommand::Method(crate::sim::integrators::method("explicit-euler").unwrap()));
         lab.apply(StageCommand::TickHz(10));
         while lab.selected().lane.halted().is_none() {
@@ -190,7 +190,7 @@ mod tests {
         let text = "title = 'x'\ntick_hz = 60\nseconds = 5\nmethods = ['rk4']\n[[law]]\nname = 'spring'\n\
             constants = { k = 9.0, c = 0.0, a = 1.0 }\nenergy = 'vx^2/2 + k*x^2/2'\n[law.coordinates.x]\nstart = 0.3\n\
             acceleration = '-k*x - c*vx'\nexact = 'a*x0*cos(sqrt(k)*t)'";
-        let mut lab = Lab::new(Scene::parse("x.toml", text).unwrap());
+        let mut lab = Studio::new(Scene::parse("x.toml", text).unwrap());
         let mut set = |parameter: usize, value: f64| {
             lab.apply(RunCommand::Act(Action::Set { body: 0, parameter, value }));
             let drift = &METRICS[Metric::ENERGY_DRIFT];

@@ -2,9 +2,9 @@
 //! where the true motion from the same state lands. It is taken on copies, so that the run is not disturbed.
 
 use super::bisection::bisect;
-use super::lab::Lab;
 use super::lane::LaneBody;
 use super::lane_spec::LaneSpec;
+use super::studio::Studio;
 use crate::sim::Solver;
 use crate::sim::stability::Tick;
 
@@ -57,7 +57,7 @@ impl OneStep {
     }
 }
 
-impl Lab {
+impl Studio {
     /// What the selected lane is about to do with the displayed body. `None` if the body has halted.
     pub fn one_step(&self) -> Option<OneStep> {
         let (entrant, race) = (self.selected(), self.race());

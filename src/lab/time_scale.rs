@@ -86,7 +86,7 @@ impl Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::Lab;
+    use crate::lab::Studio;
 
     #[test]
     fn time_goes_on_at_each_rate_from_where_the_rate_was_set() {
@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn seconds_are_counted_across_the_rates_of_a_script() {
-        let lab = Lab::new(scene());
+        let lab = Studio::new(scene());
         for (seconds, tick) in [
             (0.0, 0),
             (0.4, 0),
@@ -136,7 +136,7 @@ mod tests {
 
     #[test]
     fn the_tick_is_the_same_seen_from_any_tick_before_it() {
-        let mut lab = Lab::new(scene());
+        let mut lab = Studio::new(scene());
         for tick in 0..60 {
             assert_eq!(lab.race().tick(), tick);
             assert_eq!(lab.nearest_tick(9.4), 53.max(tick));

@@ -126,7 +126,7 @@ pub struct Viewer {
     pub tick_times: Vec<(LaneSpec, Option<f64>)>,
     /// The latest message, until it has been shown for some seconds.
     pub notice: Option<Notice>,
-    /// The last frames of the lab's own loop.
+    /// The last frames of the studio's own loop.
     pub live: LiveLoop,
     pub(super) findings: Option<Findings>,
     /// The clouds that were found last.
@@ -214,18 +214,18 @@ impl Viewer {
         self.held.as_ref()
     }
 
-    /// The verdict on the method at this index of the list, of the run that [`Lab::analysis_request`](super::Lab::analysis_request)
-    /// describes; `None` until it has been [found](super::Lab::accept_findings).
+    /// The verdict on the method at this index of the list, of the run that [`Studio::analysis_request`](super::Studio::analysis_request)
+    /// describes; `None` until it has been [found](super::Studio::accept_findings).
     pub fn verdict(&self, entry: usize) -> Option<&Verdict> {
         self.findings.as_ref()?.verdicts.get(entry)?.as_ref()
     }
 
-    /// The advice on this scene, as far as it has been [found](super::Lab::accept_findings); `None` while it is not shown.
+    /// The advice on this scene, as far as it has been [found](super::Studio::accept_findings); `None` while it is not shown.
     pub fn advice(&self) -> Option<&Advice> {
         self.findings.as_ref()?.advice.as_ref()
     }
 
-    /// The stability map, as far as it has been [found](super::Lab::accept_findings); `None` while it is not shown.
+    /// The stability map, as far as it has been [found](super::Studio::accept_findings); `None` while it is not shown.
     pub fn stability_map(&self) -> Option<&StabilityMap> {
         self.findings.as_ref()?.map.as_ref()
     }

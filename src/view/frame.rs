@@ -13,7 +13,7 @@ use super::textures::{Start, pass};
 use super::theme::{self, auto_zoom, colour};
 use super::touch::Touch;
 use crate::lab::picture::{self, Align, Label};
-use crate::lab::{Command, Lab, ViewCommand};
+use crate::lab::{Command, Studio, ViewCommand};
 
 /// Where the copies of a label lie that make its halo, in points.
 const HALO: [[f32; 2]; 4] = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
@@ -86,7 +86,7 @@ impl FrameRenderer {
         size_px: [u32; 2],
         scale: f32,
         input: egui::RawInput,
-        lab: &Lab,
+        lab: &Studio,
     ) -> (Vec<Command>, FrameOutput) {
         let (commands, layout) = self.lay_out(gpu, size_px, scale, input, lab);
         (commands, self.paint(gpu, target, size_px, layout))
@@ -99,7 +99,7 @@ impl FrameRenderer {
         size_px: [u32; 2],
         scale: f32,
         input: egui::RawInput,
-        lab: &Lab,
+        lab: &Studio,
     ) -> (Vec<Command>, Layout) {
         let mut commands = Vec::new();
         theme::show(&self.context, lab.display(), size_px.map(|side| side as f32 / scale));

@@ -12,8 +12,8 @@ use crate::lab::guide::STOPS;
 use crate::lab::palette::Theme;
 use crate::lab::picture::compose;
 use crate::lab::{
-    Arrangement, Command, Instrument, Lab, LoopCommand, RunCommand, SCALE_LADDER, SCENES, Scene,
-    StageCommand, Step, ViewCommand,
+    Arrangement, Command, Instrument, LoopCommand, RunCommand, SCALE_LADDER, SCENES, Scene,
+    StageCommand, Step, Studio, ViewCommand,
 };
 
 /// Sizes of windows in points: the first is the least, the last has four times the usual pixels.
@@ -29,7 +29,7 @@ struct Text {
 }
 
 /// Every text of a frame of this size, as the third frame of a window has it.
-fn texts(lab: &Lab, size: Vec2) -> Vec<Text> {
+fn texts(lab: &Studio, size: Vec2) -> Vec<Text> {
     let mut window = TestWindow::new(size / theme::zoom(size.into(), lab.display().scale_percent));
     theme::show(&window.context, lab.display(), size.into());
     let mut frame = || {
@@ -58,7 +58,7 @@ fn rows(ShownText { shape, clip }: &ShownText) -> impl Iterator<Item = Text> {
 }
 
 /// What cannot be read in a frame.
-fn faults(lab: &Lab, size: Vec2) -> Vec<String> {
+fn faults(lab: &Studio, size: Vec2) -> Vec<String> {
     let texts = texts(lab, size);
     assert!(texts.len() > 20, "{}", texts.len());
     let mut faults = Vec::new();
@@ -88,26 +88,26 @@ fn faults(lab: &Lab, size: Vec2) -> Vec<String> {
 }
 
 /// A lab on the scene of this name, some seconds after its start.
-fn run(name: &str, race: bool) -> Lab {
+fn run(name: &str, race: bool) -> Studio {
     started(Scene::built_in(name).expect("a built-in scene"), race)
 }
 
 /// The same in a race of all methods.
-fn race_of_all(name: &str) -> Lab {
+fn race_of_all(name: &str) -> Studio {
     let mut scene = Scene::built_in(name).expect("a built-in scene");
-    scene.lanes = Lab::new(scene.clone()).entries().to_vec();
+    scene.lanes = Studio::new(scene.clone()).entries().to_vec();
     started(scene, true)
 }
 
-fn started(scene: Scene, race: bool) -> Lab {
+fn started(scene: Scene, race: bool) -> Studio {
     let mut lab = moved(scene, race);
     lab.analyse();
     lab
 }
 
 /// The same without verdicts.
-fn moved(scene: Scene, race: bool) -> Lab {
-    let mut lab = Lab::new(scene);
+fn moved(scene: Scene, race: bool) -> Studio {
+    let mut lab = Studio::new(scene);
     if race {
         lab.apply(StageCommand::ToggleRace);
     }
@@ -117,7 +117,7 @@ fn moved(scene: Scene, race: bool) -> Lab {
 }
 
 #[track_caller]
-fn assert_legible(lab: &Lab, what: &str) {
+fn assert_legible(lab: &Studio, what: &str) {
     let mut all = Vec::new();
     for size in SIZES {
         all.extend(faults(lab, size).into_iter().map(|fault| format!("{what}, {size}: {fault}")));
@@ -166,7 +166,7 @@ fn every_text_can_be_read_beside_clouds_and_sections() {
         ("kicked-rotor", true, CloudKind::Section),
     ];
     for (name, race, kind) in scenes {
-        let mut lab = Lab::new(Scene::built_in(name).expect("a built-in scene"));
+        let mut lab = Studio::new(Scene::built_in(name).expect("a built-in scene"));
         if race {
             lab.apply(StageCommand::ToggleRace);
         }
@@ -313,7 +313,7 @@ fn every_text_of_every_instrument_of_the_loop_lab_can_be_read() {
 }
 
 /// The texts beside the stage of a frame of this size, and where the stage ends.
-fn beside_the_stage(lab: &Lab, size: Vec2) -> Vec<Text> {
+fn beside_the_stage(lab: &Studio, size: Vec2) -> Vec<Text> {
     let left = (1.0 - panels::INSTRUMENTS) * size.x / theme::zoom(size.into(), 100);
     texts(lab, size).into_iter().filter(|text| text.rect.left() > left).collect()
 }

@@ -1,7 +1,7 @@
 //! Frames without a window: the frame renderer on a texture. Captures, screenshots and tests use it.
 
 use super::{Figure, FrameRenderer, Gpu, GpuError, Offscreen, Panels, Readback, ReadbackError};
-use crate::lab::Lab;
+use crate::lab::Studio;
 
 /// Draws a lab into memory.
 pub struct OffscreenRenderer {
@@ -47,7 +47,7 @@ impl OffscreenRenderer {
     ///
     /// # Errors
     /// A [`ReadbackError`] where the device does not give the frame back.
-    pub fn draw(&mut self, lab: &Lab, rgba: &mut Vec<u8>) -> Result<(), ReadbackError> {
+    pub fn draw(&mut self, lab: &Studio, rgba: &mut Vec<u8>) -> Result<(), ReadbackError> {
         self.submit(lab)?;
         self.collect(rgba)
     }
@@ -56,7 +56,7 @@ impl OffscreenRenderer {
     ///
     /// # Errors
     /// A [`ReadbackError`] where the device is lost.
-    pub fn submit(&mut self, lab: &Lab) -> Result<(), ReadbackError> {
+    pub fn submit(&mut self, lab: &Studio) -> Result<(), ReadbackError> {
         let Self { gpu, renderer, canvas, readback, scale } = self;
         let input = egui::RawInput { time: Some(lab.race().t()), ..Default::default() };
         // Without a pointer there are no commands.

@@ -8,7 +8,7 @@ use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Ui, Vec2};
 use super::stage::Stage;
 use super::{AdapterPreference, Gpu, Offscreen, Readback, panels, theme};
 use crate::lab::picture::{Picture, Rect};
-use crate::lab::{Command, Lab};
+use crate::lab::{Command, Studio};
 use crate::view::stage::StageRenderer;
 use crate::view::textures::pass;
 
@@ -123,12 +123,12 @@ impl TestWindow {
     }
 
     /// Lays out all panels after these events. Returns what they ask for.
-    pub(super) fn panels(&mut self, lab: &Lab, events: Vec<Event>) -> (Vec<Command>, Shown) {
+    pub(super) fn panels(&mut self, lab: &Studio, events: Vec<Event>) -> (Vec<Command>, Shown) {
         self.show(events, |ui| panels::show(ui, lab).0)
     }
 
     /// What the panels ask for in the frames of a click.
-    pub(super) fn click(&mut self, lab: &Lab, at: Pos2) -> Vec<Command> {
+    pub(super) fn click(&mut self, lab: &Studio, at: Pos2) -> Vec<Command> {
         let frames = [Event::PointerMoved(at), button(at, true), button(at, false)];
         frames.into_iter().flat_map(|event| self.panels(lab, vec![event]).0).collect()
     }

@@ -8,7 +8,7 @@ use egui::{CursorIcon, Event, PointerButton, Pos2, Rect, Stroke, Ui, Vec2, vec2}
 use super::theme::palette;
 use super::wheel;
 use crate::lab::picture::{Cell, Grasp, Picture, Whose};
-use crate::lab::{Action, Command, Lab, Mode, RunCommand, StageCommand, ViewCommand, ZoomPan};
+use crate::lab::{Action, Command, Mode, RunCommand, StageCommand, Studio, ViewCommand, ZoomPan};
 
 /// From this distance on, in points, a press is a drag: less is a hand that trembles.
 const DRAG: f32 = 3.0;
@@ -52,7 +52,7 @@ enum Pressed {
 
 /// The stage of a frame.
 struct Stage<'a> {
-    lab: &'a Lab,
+    lab: &'a Studio,
     picture: &'a Picture,
     /// Where it is, in points of the frame.
     rect: Rect,
@@ -76,7 +76,7 @@ impl Touch {
         ui: &Ui,
         rect: Rect,
         picture: &Picture,
-        lab: &Lab,
+        lab: &Studio,
         commands: &mut Vec<Command>,
     ) {
         let stage = Stage { lab, picture, rect };
@@ -114,7 +114,7 @@ impl Touch {
     }
 
     /// The lab may have released the body itself (Escape), or may still hold one that this state forgot.
-    fn agree_with(&mut self, lab: &Lab, commands: &mut Vec<Command>) {
+    fn agree_with(&mut self, lab: &Studio, commands: &mut Vec<Command>) {
         let holds = matches!(self.press, Some(Press { on: Pressed::Body { .. }, .. }));
         match lab.viewer().held() {
             None if holds => self.press = None,

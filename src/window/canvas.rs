@@ -10,7 +10,7 @@ use winit::window::Window;
 
 use super::clipboard::Clipboard;
 use super::{Event, WindowError};
-use crate::lab::{Command, Lab};
+use crate::lab::{Command, Studio};
 use crate::view::{FrameRenderer, Gpu, Screen};
 
 pub(super) struct Canvas {
@@ -92,7 +92,7 @@ impl Canvas {
     /// Draws a frame and shows it. What was copied from a text field goes to the clipboard.
     pub(super) fn draw(
         &mut self,
-        lab: &Lab,
+        lab: &Studio,
         clipboard: &mut Clipboard,
     ) -> Result<Drawn, WindowError> {
         if self.surface_is_lost || self.gpu.is_lost() {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::App;
 use crate::atomic_file::{IfExists, write_file};
 use crate::lab::source_code::{Language, Precision};
-use crate::lab::{Lab, source_code};
+use crate::lab::{Studio, source_code};
 use crate::sim::integrators::Method;
 use crate::view::{Gpu, OffscreenRenderer, Panels, instrument_csv, instrument_svg, png};
 
@@ -74,7 +74,7 @@ fn method_notice(copied: Result<(), String>, method: &Method, language: Language
 }
 
 /// Saves the files, and returns a notice with their names or the error.
-fn save(gpu: &Gpu, lab: &Lab) -> String {
+fn save(gpu: &Gpu, lab: &Studio) -> String {
     match try_save(gpu, lab) {
         Ok(paths) => {
             let names: Vec<_> = paths.iter().map(|path| path.display().to_string()).collect();
@@ -85,7 +85,7 @@ fn save(gpu: &Gpu, lab: &Lab) -> String {
 }
 
 /// Saves a picture and a table, and a drawing of an instrument whose plots can be drawn.
-fn try_save(gpu: &Gpu, lab: &Lab) -> Result<Vec<PathBuf>, String> {
+fn try_save(gpu: &Gpu, lab: &Studio) -> Result<Vec<PathBuf>, String> {
     let csv = instrument_csv(lab).ok_or("this instrument has no plots")?;
     let mut rgba = Vec::new();
     OffscreenRenderer::new(gpu.clone(), SIZE_PX, SCALE)
@@ -107,7 +107,7 @@ fn try_save(gpu: &Gpu, lab: &Lab) -> Result<Vec<PathBuf>, String> {
 }
 
 /// A file name, without its ending, that says what the files show.
-fn name(lab: &Lab) -> String {
+fn name(lab: &Studio) -> String {
     let instrument = lab.display().instrument.id();
     let scene = &lab.scene().name;
     match lab.loop_lab() {

@@ -7,7 +7,7 @@ use winit::event_loop::EventLoopProxy;
 use super::Event;
 use super::opening::KeepRecording;
 use super::work_thread::{Work, WorkThread};
-use crate::lab::Lab;
+use crate::lab::Studio;
 use crate::lab::session::{Recorder, RunToRecord};
 
 /// The time between two recordings: what is lost at most.
@@ -26,7 +26,7 @@ impl GrowingRecording {
     }
 
     /// Records the run so far, if that is due.
-    pub(super) fn update(&mut self, lab: &Lab, now: Instant) {
+    pub(super) fn update(&mut self, lab: &Studio, now: Instant) {
         if self.asked.is_none_or(|asked| now.duration_since(asked) >= EVERY) {
             self.asked = Some(now);
             self.thread.ask(Some(lab.to_record()));
@@ -34,7 +34,7 @@ impl GrowingRecording {
     }
 
     /// The time until it is due again; `None` if all that was done is recorded.
-    pub(super) fn left(&self, lab: &Lab, now: Instant) -> Option<Duration> {
+    pub(super) fn left(&self, lab: &Studio, now: Instant) -> Option<Duration> {
         let passed = self.asked.map_or(EVERY, |asked| now.duration_since(asked));
         let is_new = self.thread.request().as_ref() != Some(&lab.to_record());
         is_new.then(|| EVERY.saturating_sub(passed))

@@ -4,7 +4,7 @@ use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use std::sync::Arc;
 
 use crate::lab::pacing::trace_file;
-use crate::lab::{Lab, Mistake, SCENES, Scene, StageCommand, ViewCommand};
+use crate::lab::{Mistake, SCENES, Scene, StageCommand, Studio, ViewCommand};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
 
 /// Reads a scene file and returns its scene and its text, or what the command line would print of its mistakes.
@@ -25,7 +25,7 @@ pub struct SceneFiles {
 }
 
 /// Opens the scene file at `path` and returns its path and text. If it cannot be opened, a dialog says why.
-pub(super) fn open(lab: &mut Lab, read: &ReadScene, path: &Path) -> Option<(PathBuf, String)> {
+pub(super) fn open(lab: &mut Studio, read: &ReadScene, path: &Path) -> Option<(PathBuf, String)> {
     if is_trace(path) {
         open_trace(lab, path).unwrap_or_else(|report| lab.show_mistakes(path, report));
         return None;
@@ -46,7 +46,7 @@ fn is_trace(path: &Path) -> bool {
 }
 
 /// Opens the loop lab on the traces in a CSV file.
-fn open_trace(lab: &mut Lab, path: &Path) -> Result<(), Vec<Mistake>> {
+fn open_trace(lab: &mut Studio, path: &Path) -> Result<(), Vec<Mistake>> {
     let bytes = regular_file::read(path, MAX_TABLE_BYTES)
         .map_err(|why| vec![format!("error: cannot read {}: {why}", path.display()).into()])?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -55,7 +55,7 @@ fn open_trace(lab: &mut Lab, path: &Path) -> Result<(), Vec<Mistake>> {
     Ok(())
 }
 
-fn open_listed(lab: &mut Lab, read: &ReadScene, path: &Path) -> Result<String, Vec<Mistake>> {
+fn open_listed(lab: &mut Studio, read: &ReadScene, path: &Path) -> Result<String, Vec<Mistake>> {
     let (scene, text) = read(path)?;
     lab.open_file(path, scene);
     Ok(text)
@@ -63,7 +63,7 @@ fn open_listed(lab: &mut Lab, read: &ReadScene, path: &Path) -> Result<String, V
 
 /// Opens what was typed, as the command line does: the built-in scene of that name, or else the file at that path,
 /// whose path and text are returned. If it cannot be opened, the field stays open and says why.
-pub(super) fn open_typed(lab: &mut Lab, read: &ReadScene) -> Option<(PathBuf, String)> {
+pub(super) fn open_typed(lab: &mut Studio, read: &ReadScene) -> Option<(PathBuf, String)> {
     let typed = lab.viewer().typed_path().trim().to_owned();
     match SCENES.iter().position(|scene| scene.name == typed) {
         Some(place) => {
@@ -91,7 +91,7 @@ pub(super) fn open_typed(lab: &mut Lab, read: &ReadScene) -> Option<(PathBuf, St
 }
 
 /// The path under which the file is already on the list of scenes, or else `path` itself.
-fn known(lab: &Lab, path: &Path) -> PathBuf {
+fn known(lab: &Studio, path: &Path) -> PathBuf {
     let real = path.canonicalize().ok();
     let is_same = |listed: &&Path| real.is_some() && listed.canonicalize().ok() == real;
     lab.scene_list().paths().find(is_same).unwrap_or(path).to_owned()
@@ -155,7 +155,7 @@ mod tests {
         let text = SCENES.iter().find(|scene| scene.name == "ship").unwrap().text;
         std::fs::write(&good, text).unwrap();
         std::fs::write(&bad, "tick_hz = 0").unwrap();
-        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
         let opened = open(&mut lab, &read(), &good);
         assert_eq!(opened, Some((good, text.to_owned())));
         assert_eq!(lab.scene_name(), "ship.toml");
@@ -207,7 +207,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.toml");
         std::fs::write(&path, "").unwrap();
-        let mut lab = Lab::new(Scene::built_in("ship").unwrap());
+        let mut lab = Studio::new(Scene::built_in("ship").unwrap());
         lab.open_file(&path, Scene::built_in("ship").unwrap());
         assert_eq!(known(&lab, &folder.path().join("./a.toml")), path);
         let other = folder.path().join("b.toml");

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-use crate::lab::{Lab, Pace};
+use crate::lab::{Pace, Studio};
 
 /// The shortest span to measure over: long enough for a steady figure, short enough to follow a change.
 const SPAN: Duration = Duration::from_secs(1);
@@ -27,7 +27,7 @@ impl Meter {
 
     /// Adds a frame of `lab` that began at `now`. A pause, a jump in time or a change of rate starts the measurement
     /// again.
-    pub(super) fn frame(&mut self, now: Instant, lab: &Lab) {
+    pub(super) fn frame(&mut self, now: Instant, lab: &Studio) {
         let under = (lab.clock().tick_hz(), lab.clock().speed_percent());
         let t = lab.time_with_owed_s();
         let went_back = self.frames.back().is_some_and(|&(_, last)| t < last);
@@ -68,11 +68,11 @@ mod tests {
     use crate::lab::{Command, RunCommand, Scene, StageCommand, Step, ViewCommand};
 
     /// A lab at this tick rate, its meter, and when the last frame began.
-    struct Run(Lab, Meter, Instant);
+    struct Run(Studio, Meter, Instant);
 
     impl Run {
         fn at(tick_hz: u32) -> Self {
-            let mut lab = Lab::new(Scene::built_in("ship").unwrap());
+            let mut lab = Studio::new(Scene::built_in("ship").unwrap());
             lab.apply(StageCommand::TickHz(tick_hz));
             Self(lab, Meter::default(), Instant::now())
         }

@@ -3,17 +3,17 @@
 use std::path::PathBuf;
 
 use crate::atomic_file::{IfExists, write_file};
-use crate::lab::Lab;
+use crate::lab::Studio;
 
 /// Saves the run so far under a new name, and returns a notice with the name or the error.
-pub(super) fn save(lab: &Lab) -> String {
+pub(super) fn save(lab: &Studio) -> String {
     match try_save(lab) {
         Ok(path) => format!("Saved {0}. Check it with: regatta verify {0}", path.display()),
         Err(reason) => format!("no recording: {reason}"),
     }
 }
 
-fn try_save(lab: &Lab) -> Result<PathBuf, String> {
+fn try_save(lab: &Studio) -> Result<PathBuf, String> {
     let name = format!("regatta-{}-recording.toml", lab.scene().name);
     let text = lab.recording().map_err(|error| error.to_string())?;
     write_file(name.as_ref(), text.as_bytes(), IfExists::Beside)

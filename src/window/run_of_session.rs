@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::{Closed, SceneFiles, WindowError, WindowSettings, run};
-use crate::lab::{Lab, MAX_FILE_BYTES, Scene, Session};
+use crate::lab::{MAX_FILE_BYTES, Scene, Session, Studio};
 use crate::regular_file;
 
 /// The window of the program.
@@ -34,6 +34,6 @@ impl Window {
             Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
         };
         let files = SceneFiles { read: Arc::new(read), opened: None, keep: None };
-        run(Lab::of_session(session), WindowSettings::default(), files)
+        run(Studio::of_session(session), WindowSettings::default(), files)
     }
 }

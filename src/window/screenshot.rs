@@ -4,18 +4,18 @@
 use std::path::PathBuf;
 
 use crate::atomic_file::{IfExists, write_file};
-use crate::lab::{Lab, Mode};
+use crate::lab::{Mode, Studio};
 use crate::view::{Gpu, OffscreenRenderer, png};
 
 /// Saves a picture under a new name, and returns a notice with the name or the error.
-pub(super) fn save(gpu: &Gpu, size_px: [u32; 2], scale: f32, lab: &Lab) -> String {
+pub(super) fn save(gpu: &Gpu, size_px: [u32; 2], scale: f32, lab: &Studio) -> String {
     match try_save(gpu, size_px, scale, lab) {
         Ok(path) => format!("saved {}", path.display()),
         Err(reason) => format!("no screenshot: {reason}"),
     }
 }
 
-fn try_save(gpu: &Gpu, size_px: [u32; 2], scale: f32, lab: &Lab) -> Result<PathBuf, String> {
+fn try_save(gpu: &Gpu, size_px: [u32; 2], scale: f32, lab: &Studio) -> Result<PathBuf, String> {
     let mut rgba = Vec::new();
     OffscreenRenderer::new(gpu.clone(), size_px, scale)
         .map_err(|error| error.to_string())?
@@ -27,7 +27,7 @@ fn try_save(gpu: &Gpu, size_px: [u32; 2], scale: f32, lab: &Lab) -> Result<PathB
 }
 
 /// A file name, without its ending, that says what the picture shows.
-fn name(lab: &Lab) -> String {
+fn name(lab: &Studio) -> String {
     if let Some(loops) = lab.loop_lab() {
         let (policy, ms) = (loops.selected_card().id, loops.now_ns() / 1_000_000);
         return format!("regatta-{}-loop-{policy}-at-{ms}-ms", lab.scene().name);

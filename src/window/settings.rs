@@ -3,7 +3,7 @@
 use winit::dpi::{LogicalSize, PhysicalSize};
 use winit::window::{Window, WindowAttributes};
 
-use crate::lab::Lab;
+use crate::lab::Studio;
 use crate::lab::palette::Theme;
 
 /// How a window opens, and when it closes by itself.
@@ -20,7 +20,7 @@ pub struct WindowSettings {
 /// What a closed window returns.
 pub struct Closed {
     /// The lab in its last state.
-    pub lab: Lab,
+    pub lab: Studio,
     /// Whether it was closed by Ctrl-C.
     pub interrupted: bool,
     /// Its last size in points, if it did not fill the screen.

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use winit::event_loop::EventLoopProxy;
 
 use super::Event;
-use crate::lab::{Follow, Instrument, Lab, Lane, LaneSpec};
+use crate::lab::{Follow, Instrument, Lane, LaneSpec, Studio};
 
 /// The time between two measurements.
 const PERIOD: Duration = Duration::from_secs(1);
@@ -47,7 +47,7 @@ impl TickTimer {
     }
 
     /// Has the lanes timed, if their cost is shown and was not measured within the last second.
-    pub(super) fn ask(&mut self, lab: &Lab, now: Instant) {
+    pub(super) fn ask(&mut self, lab: &Studio, now: Instant) {
         let is_due = self.last.is_none_or(|last| now.duration_since(last) >= PERIOD);
         if lab.display().instrument != Instrument::Cost || !is_due {
             return;
@@ -120,7 +120,7 @@ mod tests {
 
     #[test]
     fn every_lane_of_a_race_takes_some_time() {
-        let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+        let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
         lab.apply(StageCommand::ToggleRace);
         let lanes = lab.race().entrants().iter();
         let lanes = lanes.map(|lane| (lane.spec, lane.lane.clone())).collect();

@@ -5,7 +5,7 @@ use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
 use std::cell::Cell;
 
 use regatta::lab::past::Past;
-use regatta::lab::{Action, Lab, Options, Race, SCENES, Scene, StageCommand};
+use regatta::lab::{Action, Options, Race, SCENES, Scene, StageCommand, Studio};
 use regatta::sim::bodies::{Follow, Form, Grid, NetPlan, Pin, Ship, Spring, net_kind};
 use regatta::sim::integrators::{
     GENERAL_METHODS, ImplicitMidpoint, Integrator, METHODS, Method, Rk4, StepFailure,
@@ -183,7 +183,7 @@ fn a_race_does_not_allocate_while_its_histories_fill_and_turn_over() {
 #[test]
 fn a_lab_allocates_in_no_tick_but_those_at_which_it_takes_a_snapshot() {
     for scene in scenes() {
-        let mut lab = Lab::new(scene);
+        let mut lab = Studio::new(scene);
         lab.apply(StageCommand::ToggleRace);
         // A lane that halts is announced in words, which do: let those halt first that will.
         for _ in 0..3000 {

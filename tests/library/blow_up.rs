@@ -2,8 +2,8 @@
 
 use regatta::lab::past::Past;
 use regatta::lab::{
-    Action, Clock, ESCAPE, Lab, LaneBody, LaneId, LaneSpec, Mode, Race, RunCommand, Scene,
-    StageCommand,
+    Action, Clock, ESCAPE, LaneBody, LaneId, LaneSpec, Mode, Race, RunCommand, Scene, StageCommand,
+    Studio,
 };
 use regatta::sim::integrators::{GENERAL_METHODS, StepFailure, method};
 
@@ -158,7 +158,7 @@ fn a_halted_body_keeps_its_last_good_state_beside_others_that_go_on() {
 fn each_halt_is_announced_once_with_method_body_tick_and_reason() {
     let names = ["free spring", "damped spring", "ship"];
     for (scene, ticks) in [("stiff", 20_000), ("harbour", 80_000)] {
-        let mut lab = Lab::new(Scene::built_in(scene).expect("a built-in scene"));
+        let mut lab = Studio::new(Scene::built_in(scene).expect("a built-in scene"));
         lab.apply(StageCommand::ToggleRace);
         assert_eq!(lab.mode(), Mode::Race);
         let mut notices = Vec::new();
@@ -188,7 +188,7 @@ fn each_halt_is_announced_once_with_method_body_tick_and_reason() {
 
 #[test]
 fn the_halt_of_a_lane_is_not_told_once_that_lane_is_gone() {
-    let mut lab = Lab::new(Scene::built_in("stiff").expect("a built-in scene"));
+    let mut lab = Studio::new(Scene::built_in("stiff").expect("a built-in scene"));
     lab.apply(StageCommand::ToggleRace);
     while lab.viewer().notice.as_deref().is_none() {
         lab.tick();
@@ -208,7 +208,7 @@ fn a_kick_past_all_bounds_is_no_state_but_a_halt_with_its_reason() {
              [[spring]]\nname = 'light'\nmass_kg = {mass:e}\nstiffness_n_per_m = 1e-300\nkick_n_s = 1e15\n\
              [[ship]]\nthrust_n = 1\ndrag_n_s_per_m = 1\nmass_kg = 1\nkick_n_s = 0\n"
         );
-        let mut lab = Lab::new(Scene::parse("light.toml", &text).expect("a good scene"));
+        let mut lab = Studio::new(Scene::parse("light.toml", &text).expect("a good scene"));
         (0..5).for_each(|_| lab.tick());
         let before = states(lab.race(), "");
         lab.apply(RunCommand::Act(Action::Kick(times)));

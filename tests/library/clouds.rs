@@ -9,7 +9,9 @@ use regatta::lab::cloud::{
 };
 use regatta::lab::palette::Theme;
 use regatta::lab::scene::Scripted;
-use regatta::lab::{Action, Command, Instrument, Lab, LaneSpec, RunCommand, Scene, StageCommand};
+use regatta::lab::{
+    Action, Command, Instrument, LaneSpec, RunCommand, Scene, StageCommand, Studio,
+};
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, Stepper};
 
@@ -202,17 +204,17 @@ fn the_number_of_threads_changes_no_count_of_a_picture() {
 }
 
 /// A race that shows the clouds of its lanes.
-fn race_of(scene: &str, methods: &[&str], kind: CloudKind) -> Lab {
+fn race_of(scene: &str, methods: &[&str], kind: CloudKind) -> Studio {
     let plain = |id: &&str| LaneSpec::plain(method(id).unwrap());
     let lanes = methods.iter().map(plain).collect();
-    let mut lab = Lab::new(Scene { lanes, ..Scene::built_in(scene).unwrap() });
+    let mut lab = Studio::new(Scene { lanes, ..Scene::built_in(scene).unwrap() });
     lab.apply(StageCommand::ToggleRace);
     lab.apply(StageCommand::Instrument(Instrument::Cloud));
     lab.apply(RunCommand::Cloud(CloudChoice { kind, points: 1500 }));
     lab
 }
 
-fn picture<'l>(lab: &'l mut Lab, worker: &mut CloudWorker) -> &'l CloudPicture {
+fn picture<'l>(lab: &'l mut Studio, worker: &mut CloudWorker) -> &'l CloudPicture {
     lab.complete_clouds(worker, || false);
     lab.cloud().expect("it was stepped").picture.as_ref().unwrap()
 }
@@ -279,7 +281,7 @@ fn of_law(acceleration: &str, ticks: u64) -> CloudPicture {
         "title = \"it\"\nabout = \"it\"\ntick_hz = 100\nseconds = 10\nmethods = [\"rk4\"]\n\
          [[law]]\ncoordinates = {{ x = {{ start = 1.0, acceleration = \"{acceleration}\" }} }}\n"
     );
-    let mut lab = Lab::new(Scene::parse("it.toml", &text).unwrap());
+    let mut lab = Studio::new(Scene::parse("it.toml", &text).unwrap());
     lab.apply(StageCommand::Instrument(Instrument::Cloud));
     lab.apply(RunCommand::Cloud(CloudChoice { points: 2000, ..CloudChoice::default() }));
     (0..ticks).for_each(|_| lab.tick());
@@ -319,7 +321,7 @@ fn clouds_that_blow_up_right_after_they_start_anew_are_drawn_without_them() {
          [[law]]\ncoordinates = { x = { start = 1.0, acceleration = \"-x*x*x\" } }\n";
     let place = Action::Place { body: 0, q: [1e9].into(), v: [0.0].into() };
     let script = vec![Scripted { tick: 3, action: place }];
-    let mut lab = Lab::new(Scene { script, ..Scene::parse("it.toml", law).unwrap() });
+    let mut lab = Studio::new(Scene { script, ..Scene::parse("it.toml", law).unwrap() });
     lab.apply(StageCommand::Instrument(Instrument::Cloud));
     lab.apply(RunCommand::Cloud(CloudChoice { points: 500, ..CloudChoice::default() }));
     let mut worker = CloudWorker::default();
@@ -339,7 +341,7 @@ fn the_exact_cloud_goes_with_the_exact_body_through_kicks_and_other_parameters()
     let set = |value: f64| Action::Set { body: 0, parameter: length, value };
     let scripted = |tick: u64, action: Action| Scripted { tick, action };
     let script = vec![scripted(10, Action::Kick(1.0)), scripted(20, set(2.0))];
-    let mut lab = Lab::new(Scene { script, ..scene });
+    let mut lab = Studio::new(Scene { script, ..scene });
     lab.apply(StageCommand::Instrument(Instrument::Cloud));
     let disc = CloudKind::Shape(CloudShape::Disc);
     lab.apply(RunCommand::Cloud(CloudChoice { kind: disc, points: 100 }));

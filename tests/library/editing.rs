@@ -1,7 +1,7 @@
 //! Edits during a run: they are in the journal, and a restart keeps them.
 
 use regatta::lab::{
-    Action, Lab, LaneId, LaneSpec, Mode, RunCommand, Scene, Session, StageCommand, ViewCommand,
+    Action, LaneId, LaneSpec, Mode, RunCommand, Scene, Session, StageCommand, Studio, ViewCommand,
 };
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 
@@ -35,7 +35,7 @@ fn dragging_a_parameter_at_one_tick_adds_few_rows_and_repeats_to_the_bit() {
 
 #[test]
 fn a_selected_lane_stays_selected_when_its_method_changes() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     lab.apply(StageCommand::ToggleRace);
     lab.apply(StageCommand::Pick(0));
     lab.tick();
@@ -53,9 +53,9 @@ fn a_selected_lane_stays_selected_when_its_method_changes() {
 
 #[test]
 fn a_race_restarts_with_the_methods_that_a_person_gave_its_lanes() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     lab.apply(StageCommand::ToggleRace);
-    let methods = |lab: &Lab| -> Vec<&str> {
+    let methods = |lab: &Studio| -> Vec<&str> {
         let lanes = lab.race().entrants().iter();
         lanes.map(|lane| lane.spec.method.id).collect()
     };
@@ -78,7 +78,7 @@ fn a_race_restarts_with_the_methods_that_a_person_gave_its_lanes() {
 
 #[test]
 fn a_new_scene_length_applies_to_plots_and_verdicts_and_stays_after_a_restart() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     let seconds = lab.scene().seconds;
     for nonsense in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e12] {
         lab.apply(RunCommand::Seconds(nonsense));
@@ -92,7 +92,7 @@ fn a_new_scene_length_applies_to_plots_and_verdicts_and_stays_after_a_restart() 
 
 #[test]
 fn escape_closes_the_inspector_before_it_quits() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     lab.apply(RunCommand::ToggleInspector);
     assert!(lab.display().inspector);
     assert_eq!(lab.apply(ViewCommand::Escape), None);

@@ -4,16 +4,16 @@ use std::f64::consts::TAU;
 
 use regatta::lab::past::{Past, TruthSample};
 use regatta::lab::picture::{Grip, Picture, Whose, compose};
-use regatta::lab::{Action, Interpolation, Lab, Race, RunCommand, Scene, StageCommand};
+use regatta::lab::{Action, Interpolation, Race, RunCommand, Scene, StageCommand, Studio};
 
-fn open(scene: &str, tick_hz: u32) -> Lab {
-    let mut lab = Lab::new(Scene::built_in(scene).unwrap());
+fn open(scene: &str, tick_hz: u32) -> Studio {
+    let mut lab = Studio::new(Scene::built_in(scene).unwrap());
     lab.apply(StageCommand::TickHz(tick_hz));
     lab.apply(StageCommand::Restart);
     lab
 }
 
-fn samples(lab: &Lab) -> Vec<TruthSample> {
+fn samples(lab: &Studio) -> Vec<TruthSample> {
     lab.past().truth_curves()[0].samples().copied().collect()
 }
 
@@ -102,7 +102,7 @@ fn an_input_bends_the_curve_from_its_tick_on_and_not_the_tick_before_it() {
 }
 
 /// Where a hand can take hold of the ghost.
-fn ghost(lab: &Lab, picture: &Picture) -> Vec<Grip> {
+fn ghost(lab: &Studio, picture: &Picture) -> Vec<Grip> {
     picture.cells[0].grips(lab).filter(|grip| grip.whose == Whose::Truth).collect()
 }
 
@@ -163,7 +163,7 @@ fn recording_the_curve_moves_no_bit_of_the_truth() {
 fn a_scene_shorter_than_a_tick_has_a_curve_no_finer_than_a_tick_needs() {
     let text = "title = \"short\"\ntick_hz = 1\nseconds = 0.01\n\
         [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\nx0_m = 1\n";
-    let mut lab = Lab::new(Scene::parse("short.toml", text).unwrap());
+    let mut lab = Studio::new(Scene::parse("short.toml", text).unwrap());
     (0..3).for_each(|_| lab.tick());
     let samples = samples(&lab);
     assert!((4096..6000).contains(&samples.len()), "{}", samples.len());

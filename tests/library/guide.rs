@@ -4,19 +4,19 @@ use regatta::lab::cloud::{CloudChoice, CloudKind, CloudWorker};
 use regatta::lab::guide::{Goal, STOPS};
 use regatta::lab::port::{Wish, setups};
 use regatta::lab::{
-    Command, Instrument, Judge, Lab, LaneSpec, LoopCommand, LoopLab, METRICS, OneStep, Outcome,
-    Quantity, Race, RunCommand, SCENES, Scene, StageCommand, Step, Verdict, ViewCommand,
+    Command, Instrument, Judge, LaneSpec, LoopCommand, LoopLab, METRICS, OneStep, Outcome,
+    Quantity, Race, RunCommand, SCENES, Scene, StageCommand, Step, Studio, Verdict, ViewCommand,
     command_for, port,
 };
 use regatta::sim::integrators::method;
 
-fn lab_at(stop: usize) -> Lab {
-    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+fn lab_at(stop: usize) -> Studio {
+    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
     lab.apply(ViewCommand::GoToStop(stop));
     lab
 }
 
-fn is_done(lab: &Lab) -> bool {
+fn is_done(lab: &Studio) -> bool {
     lab.viewer().tour().expect("the guide is open").is_done()
 }
 

@@ -2,7 +2,7 @@
 //! when the keys are pressed as they say.
 
 use regatta::lab::{
-    Action, Command, Key, Lab, Mode, RunCommand, SCENES, Scene, StageCommand, Step, ViewCommand,
+    Action, Command, Key, Mode, RunCommand, SCENES, Scene, StageCommand, Step, Studio, ViewCommand,
     command_for,
 };
 use regatta::sim::integrators::GENERAL_METHODS;
@@ -11,11 +11,11 @@ const C: Key = Key::Sign('c');
 const LOWER_RATE: Key = Key::Sign('[');
 const HIGHER_RATE: Key = Key::Sign(']');
 
-fn open(name: &str) -> Lab {
-    Lab::new(Scene::built_in(name).expect("a built-in scene"))
+fn open(name: &str) -> Studio {
+    Studio::new(Scene::built_in(name).expect("a built-in scene"))
 }
 
-fn press(lab: &mut Lab, keys: &[Key]) {
+fn press(lab: &mut Studio, keys: &[Key]) {
     for &key in keys {
         let (command, _) = command_for(key).expect("a key of the table");
         lab.apply(command);
@@ -24,7 +24,7 @@ fn press(lab: &mut Lab, keys: &[Key]) {
 
 /// Ticks through so many simulated seconds, and returns the largest |q| of the first coordinate of a body in the
 /// first lane on the way.
-fn largest(lab: &mut Lab, body: usize, seconds: f64) -> f64 {
+fn largest(lab: &mut Studio, body: usize, seconds: f64) -> f64 {
     let end = lab.race().t() + seconds;
     let mut largest = 0.0_f64;
     while lab.race().t() < end {
@@ -36,7 +36,7 @@ fn largest(lab: &mut Lab, body: usize, seconds: f64) -> f64 {
 
 /// Ticks through so many simulated seconds, and returns the largest distance of each lane's first body from the
 /// truth on the way.
-fn largest_errors(lab: &mut Lab, seconds: f64) -> Vec<f64> {
+fn largest_errors(lab: &mut Studio, seconds: f64) -> Vec<f64> {
     let end = lab.race().t() + seconds;
     let mut errors = vec![0.0_f64; lab.race().entrants().len()];
     while lab.race().t() < end {
@@ -50,7 +50,7 @@ fn largest_errors(lab: &mut Lab, seconds: f64) -> Vec<f64> {
 }
 
 /// Whether the swing of a body, over its next ten seconds, stays what it is.
-fn holds(lab: &mut Lab, body: usize) -> bool {
+fn holds(lab: &mut Studio, body: usize) -> bool {
     let before = largest(lab, body, 2.0);
     (0..5).all(|_| largest(lab, body, 2.0) < 1.1 * before)
 }
@@ -61,7 +61,7 @@ fn every_scene_names_the_lane_that_it_opens_with() {
         let parsed = Scene::built_in(scene.name).expect("a built-in scene");
         let opening = parsed.opening_method.expect("every built-in scene names one");
         assert!(parsed.lanes.iter().any(|lane| lane.method == opening), "{}", scene.name);
-        let lab = Lab::new(parsed);
+        let lab = Studio::new(parsed);
         assert_eq!(lab.entries()[lab.active()].method, opening, "{}", scene.name);
         assert_eq!(lab.mode(), Mode::Solo);
     }
@@ -79,7 +79,7 @@ fn a_scene_opens_with_a_lane_of_its_own_and_never_with_another_method() {
         };
         let opened = |text: &str| {
             let Ok(scene) = Scene::parse("x.toml", text) else { return None };
-            let lab = Lab::new(scene);
+            let lab = Studio::new(scene);
             Some(lab.entries()[lab.active()].method.id)
         };
         if method.id != "rk4-as-printed" {
@@ -189,7 +189,7 @@ fn the_ship_under_explicit_euler_is_faster_than_the_ghost_and_behind_it_all_the_
 #[test]
 fn after_home_the_next_step_of_the_tour_is_shown_and_what_brings_back_the_run_after_the_last() {
     let mut lab = open("spring");
-    let restart_later = |lab: &mut Lab| {
+    let restart_later = |lab: &mut Studio| {
         press(lab, &[Key::Digit(2)]);
         (0..10).for_each(|_| lab.tick());
         press(lab, &[Key::Home]);
@@ -230,14 +230,14 @@ fn the_arrows_steer_the_helm_from_the_first_press_on() {
 }
 
 /// The helm's script with a method and a tick rate in it.
-fn scripted() -> Lab {
+fn scripted() -> Studio {
     let more = "[[command]]\ntick = 20\nmethod = \"rk4\"\n[[command]]\ntick = 30\ntick_hz = 10\n\
                 [[command]]\ntick = 40\nthrottle = 0.5\n";
     let text = SCENES.iter().find(|scene| scene.name == "helm").unwrap().text;
-    Lab::new(Scene::parse("helm.toml", &format!("{text}{more}")).unwrap())
+    Studio::new(Scene::parse("helm.toml", &format!("{text}{more}")).unwrap())
 }
 
-fn controls(lab: &Lab) -> (&'static str, u32, f64, f64) {
+fn controls(lab: &Studio) -> (&'static str, u32, f64, f64) {
     let method = lab.entries()[lab.active()].method.id;
     (method, lab.clock().tick_hz(), lab.race().throttle(), lab.race().rudder())
 }
@@ -308,7 +308,7 @@ fn where_no_script_is_to_come_there_is_nothing_to_tell() {
 fn a_throttle_by_hand_changes_the_analysis_request_and_one_of_the_script_does_not() {
     let text = SCENES.iter().find(|scene| scene.name == "ship").unwrap().text;
     let script = "[[command]]\ntick = 3\nthrottle = 0.5\n";
-    let mut lab = Lab::new(Scene::parse("ship.toml", &format!("{text}{script}")).unwrap());
+    let mut lab = Studio::new(Scene::parse("ship.toml", &format!("{text}{script}")).unwrap());
     let asked = lab.analysis_request();
     (0..10).for_each(|_| lab.tick());
     assert_eq!(lab.race().throttle(), 0.5);

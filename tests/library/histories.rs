@@ -1,14 +1,14 @@
 //! What trails and plots are drawn from: every sample knows the method that it was flown under, a switch leaves a
 //! mark, and the newest sample is the present.
 
-use regatta::lab::{History, Lab, LaneId, Scene, StageCommand, Step};
+use regatta::lab::{History, LaneId, Scene, StageCommand, Step, Studio};
 
-fn lab(seconds: f64, tick_hz: u32) -> Lab {
+fn lab(seconds: f64, tick_hz: u32) -> Studio {
     let scene = Scene { seconds, tick_hz, ..Scene::built_in("spring").unwrap() };
-    Lab::new(scene)
+    Studio::new(scene)
 }
 
-fn history(lab: &Lab) -> &History {
+fn history(lab: &Studio) -> &History {
     &lab.past().histories(LaneId(1))[0]
 }
 
@@ -36,7 +36,7 @@ fn a_swing_as_fast_as_the_samples_shows_in_what_they_swept_over() {
     // 158 swings per second, and a sample at every 30th tick: at nearly the same place of every fifth swing.
     let text = "title = 'fast'\ntick_hz = 1000\nseconds = 60\nmethods = ['velocity-verlet']\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1e6\nx0_m = 1\n";
-    let mut lab = Lab::new(Scene::parse("fast.toml", text).unwrap());
+    let mut lab = Studio::new(Scene::parse("fast.toml", text).unwrap());
     (0..3000).for_each(|_| lab.tick());
     let least = |q: f64| move |least: f64, sample: &regatta::lab::Sample| least.min(q * sample.q);
     assert!(history(&lab).samples().fold(0.0, least(1.0)) > -1.0, "no sample is at the far end");

@@ -1,14 +1,14 @@
 //! Verdicts are of the run on the stage: of the scene as it is edited, and from where a person last moved a body.
 
 use regatta::lab::scene::Scripted;
-use regatta::lab::{Action, Judge, Lab, RunCommand, Scene, StageCommand, Step, Verdict};
+use regatta::lab::{Action, Judge, RunCommand, Scene, StageCommand, Step, Studio, Verdict};
 
-fn opened(name: &str) -> Lab {
-    Lab::new(Scene::built_in(name).unwrap())
+fn opened(name: &str) -> Studio {
+    Studio::new(Scene::built_in(name).unwrap())
 }
 
 /// The lab's verdict on each method of its list, with times that count from where the run is judged.
-fn verdicts(lab: &mut Lab) -> Vec<String> {
+fn verdicts(lab: &mut Studio) -> Vec<String> {
     lab.analyse();
     let of = |entry| {
         let verdict = lab.viewer().verdict(entry).unwrap().clone();
@@ -18,7 +18,7 @@ fn verdicts(lab: &mut Lab) -> Vec<String> {
 }
 
 /// The time of the run at which the judged part begins, by the first verdict.
-fn starts_at_s(lab: &mut Lab) -> f64 {
+fn starts_at_s(lab: &mut Studio) -> f64 {
     lab.analyse();
     lab.viewer().verdict(0).unwrap().starts_at_s
 }
@@ -45,7 +45,7 @@ fn with(mut scene: Scene, values: &[(&str, f64)]) -> Scene {
 }
 
 /// The state of the first body in truth.
-fn truth(lab: &Lab) -> (f64, f64) {
+fn truth(lab: &Studio) -> (f64, f64) {
     let stepper = &lab.race().truth().bodies()[0].stepper;
     (stepper.q()[0], stepper.v()[0])
 }
@@ -69,7 +69,7 @@ fn a_parameter_set_by_hand_is_judged_without_the_scripts_changes_to_it() {
     let parameter = parameter(&scene, "stiffness_n_per_m");
     let set = |value| Action::Set { body: 0, parameter, value };
     scene.script.push(Scripted { tick: 300, action: set(4.0) });
-    let mut lab = Lab::new(scene.clone());
+    let mut lab = Studio::new(scene.clone());
     lab.apply(RunCommand::Act(set(90.0)));
     scene.script.clear();
     let edited = with(scene, &[("stiffness_n_per_m", 90.0)]);
@@ -88,8 +88,8 @@ fn damped_by_script() -> Scene {
 #[test]
 fn a_parameter_set_by_the_script_is_judged_like_one_set_by_hand() {
     let scene = damped_by_script();
-    let mut scripted = Lab::new(scene.clone());
-    let mut by_hand = Lab::new(Scene { script: Vec::new(), ..scene.clone() });
+    let mut scripted = Studio::new(scene.clone());
+    let mut by_hand = Studio::new(Scene { script: Vec::new(), ..scene.clone() });
     let before = verdicts(&mut scripted);
     assert_ne!(before, verdicts(&mut by_hand), "the script is part of what is judged");
     (0..61).for_each(|_| scripted.tick());
@@ -171,7 +171,7 @@ fn a_run_judged_from_a_placement_keeps_its_throttle_and_the_rest_of_the_script()
         Scene { script, ..Scene::built_in("ship").unwrap() }
     };
     let hz = u64::from(scripted(&[]).tick_hz);
-    let mut lab = Lab::new(scripted(&[(hz, 0.5), (9 * hz, -0.25)]));
+    let mut lab = Studio::new(scripted(&[(hz, 0.5), (9 * hz, -0.25)]));
     (0..2 * hz).for_each(|_| lab.tick());
     lab.apply(RunCommand::Act(Action::Place { body: 0, q: [10.0].into(), v: [3.0].into() }));
     let rest = scripted(&[(0, 0.5), (7 * hz, -0.25)]);

@@ -1,16 +1,16 @@
 //! What keys do to a run, as the title tells. That the window knows every key is tested with one.
 
-use regatta::lab::{KEYS, Key, Lab, SCENES, Scene, StageCommand, TICK_LADDER};
+use regatta::lab::{KEYS, Key, SCENES, Scene, StageCommand, Studio, TICK_LADDER};
 
 /// Does what the table says of a key.
-fn press(lab: &mut Lab, key: Key) {
+fn press(lab: &mut Studio, key: Key) {
     let mut all = KEYS.iter().flat_map(|binding| binding.keys);
     let (_, command) = all.find(|(other, _)| *other == key).expect("a key of the table");
     assert_eq!(lab.apply(command.clone()), None);
 }
 
-fn lab(scene: &str) -> Lab {
-    Lab::new(Scene::built_in(scene).unwrap())
+fn lab(scene: &str) -> Studio {
+    Studio::new(Scene::built_in(scene).unwrap())
 }
 
 #[test]

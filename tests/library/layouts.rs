@@ -1,7 +1,7 @@
 //! Solo and race: which lanes there are, what they are under, and what a restart keeps of it.
 
 use regatta::lab::{
-    Action, Command, Lab, Lane, LaneSpec, Mode, RunCommand, Scene, StageCommand, Step,
+    Action, Command, Lane, LaneSpec, Mode, RunCommand, Scene, StageCommand, Step, Studio,
 };
 use regatta::sim::Solver;
 use regatta::sim::integrators::{GENERAL_METHODS, method};
@@ -18,7 +18,7 @@ fn bits(lane: &Lane) -> Vec<u64> {
 
 #[test]
 fn solo_to_race_and_back_flies_the_method_that_was_selected() {
-    let mut lab = Lab::new(scene("spring"));
+    let mut lab = Studio::new(scene("spring"));
     for method in GENERAL_METHODS {
         lab.apply(StageCommand::Method(method));
         lab.apply(StageCommand::ToggleRace);
@@ -44,8 +44,9 @@ fn solo_to_race_and_back_flies_the_method_that_was_selected() {
 fn a_race_is_of_the_scenes_lanes_and_of_the_method_last_flown_and_takes_no_others() {
     let text = "title = \"pair\"\ntick_hz = 60\nseconds = 5\nmethods = [\"rk4\", \"improved-euler\"]\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
-    let racing = |lab: &Lab| lab.race().entrants().iter().map(|e| lab.entry(e)).collect::<Vec<_>>();
-    let mut lab = Lab::new(Scene::parse("pair.toml", text).unwrap());
+    let racing =
+        |lab: &Studio| lab.race().entrants().iter().map(|e| lab.entry(e)).collect::<Vec<_>>();
+    let mut lab = Studio::new(Scene::parse("pair.toml", text).unwrap());
     assert_eq!(lab.entries().len(), GENERAL_METHODS.len(), "every method can be flown");
     lab.apply(StageCommand::ToggleRace);
     assert_eq!(racing(&lab), [0, 1]);
@@ -69,7 +70,7 @@ fn a_race_is_of_the_scenes_lanes_and_of_the_method_last_flown_and_takes_no_other
 
 #[test]
 fn throttle_and_rudder_go_in_tenths_stop_at_their_ends_and_are_back_amidships_after_a_restart() {
-    let mut lab = Lab::new(scene("helm"));
+    let mut lab = Studio::new(scene("helm"));
     assert!(
         lab.race().takes("rudder") && lab.race().takes("throttle") && !lab.race().takes("anchor")
     );
@@ -89,17 +90,17 @@ fn throttle_and_rudder_go_in_tenths_stop_at_their_ends_and_are_back_amidships_af
     for _ in 0..10 {
         lab.tick();
     }
-    let heading = |lab: &Lab| lab.race().entrants()[0].lane.bodies()[0].stepper.q()[2];
+    let heading = |lab: &Studio| lab.race().entrants()[0].lane.bodies()[0].stepper.q()[2];
     assert!(heading(&lab) > 0.1, "left is counter-clockwise");
     lab.apply(StageCommand::Restart);
     assert_eq!((lab.race().rudder(), heading(&lab)), (0.0, 0.0));
-    assert!(!Lab::new(scene("ship")).race().takes("rudder"));
+    assert!(!Studio::new(scene("ship")).race().takes("rudder"));
 }
 
 #[test]
 fn a_lane_takes_the_substeps_that_are_advised_in_flight_and_keeps_them() {
     let spec = |substeps| LaneSpec { substeps, ..LaneSpec::plain(method("rk4").unwrap()) };
-    let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
+    let mut lab = Studio::new(Scene::built_in("stiff").unwrap());
     (0..10).for_each(|_| lab.tick());
     let before = lab.race().entrants()[0].lane.bodies()[0].stepper.q().to_vec();
     lab.apply(RunCommand::SetLane(spec(8)));

@@ -3,7 +3,7 @@
 use regatta::lab::palette::Theme;
 use regatta::lab::picture::{FAR, Picture, Shape, Whose, compose};
 use regatta::lab::{
-    Action, Command, ESCAPE, Lab, LoopCommand, Mode, RunCommand, SCENES, Scene, StageCommand,
+    Action, Command, ESCAPE, LoopCommand, Mode, RunCommand, SCENES, Scene, StageCommand, Studio,
     ViewCommand,
 };
 
@@ -34,7 +34,7 @@ fn assert_drawable(picture: &Picture, what: &str) {
 #[test]
 fn nothing_that_blows_up_reaches_a_vertex() {
     for scene in SCENES {
-        let mut lab = Lab::new(Scene::built_in(scene.name).unwrap());
+        let mut lab = Studio::new(Scene::built_in(scene.name).unwrap());
         lab.apply(StageCommand::ToggleRace);
         for frame in 0..400 {
             lab.advance(16_666_667);
@@ -68,7 +68,7 @@ fn bodies_at_the_edge_of_what_is_followed_are_drawn() {
     });
     for scene in alone.chain([scene.clone()]) {
         let what = format!("far {}", scene.bodies.last().expect("a body").name);
-        let mut lab = Lab::new(scene);
+        let mut lab = Studio::new(scene);
         lab.apply(StageCommand::ToggleRace);
         for _ in 0..20 {
             lab.advance(16_666_667);
@@ -82,7 +82,7 @@ fn bodies_at_the_edge_of_what_is_followed_are_drawn() {
 #[test]
 fn a_body_of_two_coordinates_alone_has_a_cell_for_each_lane_that_fits_its_shape() {
     for name in ["chain", "pendulum", "orbit", "helm"] {
-        let mut lab = Lab::new(Scene::built_in(name).unwrap());
+        let mut lab = Studio::new(Scene::built_in(name).unwrap());
         lab.apply(StageCommand::ToggleRace);
         lab.apply(StageCommand::ToggleArrangement);
         lab.advance(100_000_000);
@@ -107,7 +107,7 @@ fn a_body_of_two_coordinates_alone_has_a_cell_for_each_lane_that_fits_its_shape(
 
 #[test]
 fn an_orbits_trail_lies_on_its_ellipse() {
-    let mut lab = Lab::new(Scene::built_in("orbit").unwrap());
+    let mut lab = Studio::new(Scene::built_in("orbit").unwrap());
     for _ in 0..400 {
         lab.advance(16_666_667);
     }
@@ -122,7 +122,7 @@ fn an_orbits_trail_lies_on_its_ellipse() {
 
 #[test]
 fn a_trail_leads_from_the_body_back_in_time_and_fades() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     for _ in 0..100 {
         lab.advance(16_666_667);
     }
@@ -140,7 +140,7 @@ fn a_trail_leads_from_the_body_back_in_time_and_fades() {
 
 #[test]
 fn stages_of_no_size_are_composed() {
-    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
     for mode in [Mode::Solo, Mode::Race] {
         assert_eq!(lab.mode(), mode);
         for size in [[0.0, 0.0], [1.0, 1.0], [2000.0, 0.0], [0.0, 2000.0], [30.0, 20.0]] {
@@ -153,8 +153,8 @@ fn stages_of_no_size_are_composed() {
 #[test]
 fn every_body_has_a_cell_inside_the_stage_and_side_by_side_every_body_of_every_lane() {
     let size = [780.0, 500.0];
-    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
-    let assert_apart = |lab: &Lab, count: usize| {
+    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
+    let assert_apart = |lab: &Studio, count: usize| {
         let picture = compose(lab, size);
         assert_eq!(picture.cells.len(), count);
         for (i, cell) in picture.cells.iter().enumerate() {
@@ -181,7 +181,7 @@ fn every_body_has_a_cell_inside_the_stage_and_side_by_side_every_body_of_every_l
 
 #[test]
 fn over_each_other_every_lane_has_a_number_and_the_selected_one_its_own_body() {
-    let mut lab = Lab::new(Scene::built_in("orbit").unwrap());
+    let mut lab = Studio::new(Scene::built_in("orbit").unwrap());
     lab.apply(StageCommand::ToggleRace);
     (0..60).for_each(|_| lab.tick());
     for entry in 0..lab.race().entrants().len() {
@@ -201,8 +201,8 @@ fn over_each_other_every_lane_has_a_number_and_the_selected_one_its_own_body() {
 #[test]
 fn side_by_side_bodies_and_words_stay_in_their_cells_however_low_those_are() {
     let mut scene = Scene::built_in("harbour").unwrap();
-    scene.lanes = Lab::new(scene.clone()).entries().to_vec();
-    let mut lab = Lab::new(scene);
+    scene.lanes = Studio::new(scene.clone()).entries().to_vec();
+    let mut lab = Studio::new(scene);
     lab.apply(StageCommand::ToggleRace);
     lab.apply(StageCommand::ToggleArrangement);
     (0..240).for_each(|_| lab.tick());
@@ -229,7 +229,7 @@ fn badges(picture: &Picture) -> Vec<&str> {
 
 #[test]
 fn a_body_that_comes_and_goes_is_drawn_while_it_is_inside_and_told_of_by_how_far_it_swings() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     let euler = lab.entries().iter().position(|spec| spec.method.id == "explicit-euler");
     lab.apply(StageCommand::Pick(euler.unwrap()));
     (0..540).for_each(|_| lab.tick());
@@ -259,7 +259,7 @@ fn a_body_that_comes_and_goes_is_drawn_while_it_is_inside_and_told_of_by_how_far
 
 #[test]
 fn a_lane_that_left_the_stage_has_a_badge_with_its_place_and_is_drawn_across_nothing() {
-    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
     lab.apply(StageCommand::ToggleRace);
     (0..600).for_each(|_| lab.tick());
     let picture = compose(&lab, [780.0, 500.0]);
@@ -283,9 +283,9 @@ fn a_lane_that_left_the_stage_has_a_badge_with_its_place_and_is_drawn_across_not
 
 #[test]
 fn the_ghost_shows_only_when_it_is_asked_for() {
-    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
     lab.advance(100_000_000);
-    let drawn = |lab: &Lab| {
+    let drawn = |lab: &Studio| {
         let picture = compose(lab, [780.0, 500.0]);
         let is_ghost = |grip: &regatta::lab::picture::Grip| grip.whose == Whose::Truth;
         let ghosts = picture.cells.iter().flat_map(|cell| cell.grips(lab)).filter(is_ghost).count();
@@ -303,9 +303,9 @@ fn the_stage_says_which_body_halted_and_where_there_is_no_truth() {
     let text = "title = 'x'\ntick_hz = 10\nseconds = 60\nmethods = ['explicit-euler', 'rk4']\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 400\nkick_n_s = 0\n\
                 [[ship]]\nthrust_n = 20000\ndrag_n_s_per_m = 1000\nmass_kg = 10000\nkick_n_s = 1e15\n";
-    let mut lab = Lab::new(Scene::parse("two.toml", text).unwrap());
+    let mut lab = Studio::new(Scene::parse("two.toml", text).unwrap());
     lab.apply(StageCommand::ToggleRace);
-    let said = |lab: &Lab| {
+    let said = |lab: &Studio| {
         let labels = compose(lab, [780.0, 500.0]).labels.into_iter().map(|label| label.text);
         let is_told = |text: &String| text.contains("blew up") || text.contains("from tick");
         labels.filter(is_told).collect::<Vec<_>>()
@@ -317,7 +317,7 @@ fn the_stage_says_which_body_halted_and_where_there_is_no_truth() {
     assert_eq!(said(&lab), std::slice::from_ref(&spring));
 
     // A kick that neither lanes nor truth survive: the ghost is gone with the truth.
-    let ghosts = |lab: &Lab| {
+    let ghosts = |lab: &Studio| {
         let cells = compose(lab, [780.0, 500.0]).cells;
         let grips = cells.iter().flat_map(|cell| cell.grips(lab));
         grips.filter(|grip| grip.whose == Whose::Truth).count()
@@ -334,7 +334,7 @@ fn the_stage_says_which_body_halted_and_where_there_is_no_truth() {
 
 #[test]
 fn loops_over_each_other_are_named_below_and_numbered_above_their_bodies() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     lab.apply(Command::Loop(LoopCommand::ToggleLab));
     lab.run_loops();
     lab.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));

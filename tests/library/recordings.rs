@@ -3,7 +3,7 @@
 use regatta::lab::scene::Scripted;
 use regatta::lab::session::RecordingError;
 use regatta::lab::{
-    Action, Lab, LaneId, LaneSpec, Mode, RunCommand, SCENES, Scene, Session, StageCommand,
+    Action, LaneId, LaneSpec, Mode, RunCommand, SCENES, Scene, Session, StageCommand, Studio,
     equal_cost, lanes_that_race,
 };
 use regatta::sim::integrators::{GENERAL_METHODS, method};
@@ -122,7 +122,7 @@ fn a_saved_scene_has_the_comments_and_the_order_of_its_author() {
 
 #[test]
 fn a_recording_of_a_scene_with_comments_keeps_them_and_repeats_its_run() {
-    let mut lab = Lab::new(parsed(BY_HAND));
+    let mut lab = Studio::new(parsed(BY_HAND));
     lab.apply(StageCommand::ToggleRace);
     lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value: 55.5 }));
     lab.apply(StageCommand::Restart);
@@ -158,8 +158,8 @@ fn a_scene_is_saved_plainly_where_its_authors_way_of_writing_is_not_known() {
 }
 
 /// The harbour in solo mode, after an action of every kind.
-fn flown() -> Lab {
-    let mut lab = Lab::new(built_in("harbour"));
+fn flown() -> Studio {
+    let mut lab = Studio::new(built_in("harbour"));
     let rk4 = LaneSpec { substeps: 3, ..LaneSpec::plain(method("rk4").unwrap()) };
     let actions = [
         Action::Set { body: 0, parameter: 1, value: 90.0 },
@@ -208,7 +208,7 @@ fn a_recording_has_all_actions_and_repeats_the_run_to_the_bit() {
 #[test]
 fn a_recording_repeats_its_run_in_a_lab() {
     let lab = flown();
-    let mut again = Lab::new(parsed(&lab.recording().unwrap()));
+    let mut again = Studio::new(parsed(&lab.recording().unwrap()));
     (0..250).for_each(|_| again.tick());
     assert_eq!(again.race().state_hash(), lab.race().state_hash());
     assert_eq!(again.recording().unwrap(), lab.recording().unwrap(), "and is recorded alike");
@@ -216,7 +216,7 @@ fn a_recording_repeats_its_run_in_a_lab() {
 
 #[test]
 fn a_recording_of_a_scripted_race_that_goes_solo_repeats_it_to_the_bit() {
-    let mut lab = Lab::new(built_in("helm"));
+    let mut lab = Studio::new(built_in("helm"));
     lab.apply(StageCommand::ToggleRace);
     (0..200).for_each(|_| lab.tick());
     lab.apply(RunCommand::Act(Action::Rudder(0.4)));
@@ -247,7 +247,7 @@ fn a_recorded_race_opens_as_a_race_and_a_recorded_solo_run_does_not() {
     let race = parsed(&text);
     assert!(race.opens_as_race && wrong_lanes(&race).is_empty());
 
-    let mut again = Lab::new(solo.clone());
+    let mut again = Studio::new(solo.clone());
     again.open_file("solo.toml".as_ref(), solo);
     assert_eq!(again.mode(), Mode::Solo);
     again.open_file("race.toml".as_ref(), race);
@@ -263,7 +263,7 @@ fn a_restart_keeps_the_settings_of_a_person_and_not_those_of_a_script() {
         "{}\n[[command]]\ntick = 5\nset = {{ body = \"ship\", key = \"mass_kg\", value = 5.0 }}\n",
         built_in("ship").to_toml()
     );
-    let mut lab = Lab::new(parsed(&text));
+    let mut lab = Studio::new(parsed(&text));
     let mass = lab.race().values(0)[2];
     (0..10).for_each(|_| lab.tick());
     assert_eq!(lab.race().values(0)[2], 5.0);
@@ -334,9 +334,9 @@ fn equal_cost_includes_the_effect_of_the_script_on_the_cost() {
 
 #[test]
 fn equal_cost_is_switched_on_and_off_by_a_key_and_on_by_a_scene() {
-    let mut lab = Lab::new(built_in("spring"));
+    let mut lab = Studio::new(built_in("spring"));
     lab.apply(StageCommand::ToggleRace);
-    let substeps = |lab: &Lab| -> Vec<u32> {
+    let substeps = |lab: &Studio| -> Vec<u32> {
         lab.race().entrants().iter().map(|entrant| entrant.lane.substeps()).collect()
     };
     let before = substeps(&lab);
@@ -366,9 +366,9 @@ fn lanes_of_one_method_get_their_own_substeps_back_after_equal_cost() {
     let dearest = "[[lane]]\nmethod = \"implicit-euler\"\n";
     let spring = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
     let head = "title = \"t\"\ntick_hz = 60\nseconds = 9\n";
-    let mut lab = Lab::new(parsed(&format!("{head}{}{dearest}{spring}", lanes.concat())));
+    let mut lab = Studio::new(parsed(&format!("{head}{}{dearest}{spring}", lanes.concat())));
     lab.apply(StageCommand::ToggleRace);
-    let substeps = |lab: &Lab| -> Vec<u32> {
+    let substeps = |lab: &Studio| -> Vec<u32> {
         lab.race().entrants().iter().map(|entrant| entrant.lane.substeps()).collect()
     };
     let before = substeps(&lab);
@@ -409,7 +409,7 @@ fn new_hashes_are_written_into_a_file_without_other_changes() {
 
 #[test]
 fn an_action_at_the_last_tick_is_in_the_recording() {
-    let mut lab = Lab::new(built_in("spring"));
+    let mut lab = Studio::new(built_in("spring"));
     lab.apply(RunCommand::Act(Action::Place { body: 0, q: [2.5].into(), v: [0.0].into() }));
     let at_start = parsed(&lab.recording().unwrap());
     assert_eq!(at_start.script.len(), 1);

@@ -1,15 +1,15 @@
 //! A restart goes back to the start line, and keeps what a person chose and nothing of what the script did.
 
-use regatta::lab::{Action, Lab, RunCommand, SCENES, Scene, StageCommand};
+use regatta::lab::{Action, RunCommand, SCENES, Scene, StageCommand, Studio};
 
 /// The ship, whose script changes method and tick rate.
-fn scripted() -> Lab {
+fn scripted() -> Studio {
     let text = SCENES.iter().find(|scene| scene.name == "ship").unwrap().text;
     let script = "[[command]]\ntick = 3\ntick_hz = 100\n[[command]]\ntick = 4\nmethod = \"rk4\"\n";
-    Lab::new(Scene::parse("ship.toml", &format!("{text}{script}")).unwrap())
+    Studio::new(Scene::parse("ship.toml", &format!("{text}{script}")).unwrap())
 }
 
-fn settings(lab: &Lab) -> (u32, u32, &'static str) {
+fn settings(lab: &Studio) -> (u32, u32, &'static str) {
     let method = lab.entries()[lab.active()].method.id;
     (lab.clock().tick_hz(), lab.race().tick_hz(), method)
 }
@@ -57,7 +57,7 @@ fn a_restart_owes_no_part_of_a_tick_and_keeps_the_speed() {
 
 #[test]
 fn a_frame_goes_no_further_than_it_may() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     lab.advance_in_time(7, 100_000_000, &mut || true);
     assert_eq!(lab.race().tick(), 6);
     lab.advance_in_time(7, 100_000_000, &mut || true);
@@ -68,7 +68,7 @@ fn a_frame_goes_no_further_than_it_may() {
 
 #[test]
 fn a_run_with_actions_by_hand_comes_back_after_a_restart_and_goes_again() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     (0..40).for_each(|_| lab.tick());
     lab.apply(RunCommand::Act(Action::Kick(1.0)));
     (0..40).for_each(|_| lab.tick());
@@ -94,7 +94,7 @@ fn a_run_with_actions_by_hand_comes_back_after_a_restart_and_goes_again() {
 
 #[test]
 fn a_frame_whose_time_is_up_drops_the_ticks_that_are_left() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     let mut made = 0;
     let due = lab.advance_in_time(u64::MAX, 100_000_000, &mut || {
         made += 1;
@@ -107,7 +107,7 @@ fn a_frame_whose_time_is_up_drops_the_ticks_that_are_left() {
 
 #[test]
 fn what_a_hand_still_did_to_a_body_of_the_scene_before_changes_nothing() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     lab.tick();
     let before = lab.race().state_hash();
     let place = Action::Place { body: 2, q: [1.0].into(), v: [0.0].into() };

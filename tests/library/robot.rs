@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use regatta::lab::identify::{Columns, Log};
 use regatta::lab::pacing::trace_file;
-use regatta::lab::{Action, Lab, Race, RunCommand, SCENES, Scene};
+use regatta::lab::{Action, Race, RunCommand, SCENES, Scene, Studio};
 
 use super::bad_scenes::check_places;
 use super::dice::Dice;
@@ -80,7 +80,7 @@ fn targets() -> Vec<Target> {
 
 /// A run with an act in it.
 fn recording(scene: &str) -> String {
-    let mut lab = Lab::new(Scene::built_in(scene).expect("a built-in scene"));
+    let mut lab = Studio::new(Scene::built_in(scene).expect("a built-in scene"));
     (0..70).for_each(|_| lab.tick());
     lab.apply(RunCommand::Act(Action::Kick(0.5)));
     (0..70).for_each(|_| lab.tick());

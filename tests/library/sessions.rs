@@ -7,7 +7,7 @@ use crate::dice::Dice;
 use regatta::lab::past::{Past, TruthSample};
 use regatta::lab::session::{EventKind, SNAPSHOT_BYTES};
 use regatta::lab::{
-    Action, Command, Event, Lab, LaneId, LaneSpec, RunCommand, Scene, Session, StageCommand,
+    Action, Command, Event, LaneId, LaneSpec, RunCommand, Scene, Session, StageCommand, Studio,
     Timeline,
 };
 use regatta::sim::bodies::BODIES;
@@ -262,7 +262,7 @@ fn difference(found: &Shown, wanted: &Shown) -> String {
 fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
     let mut dice = Dice::new(3);
     for n in 0..8 {
-        let mut lab = Lab::new(scene(&mut dice, n));
+        let mut lab = Studio::new(scene(&mut dice, n));
         (0..700).for_each(|_| lab.tick());
         lab.apply(RunCommand::Act(Action::Kick(0.3)));
         (0..300).for_each(|_| lab.tick());
@@ -372,10 +372,10 @@ fn events_are_ordered_by_tick_and_are_discarded_and_restored_with_their_future()
 
 #[test]
 fn undo_also_restores_the_settings_of_the_next_start() {
-    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
     lab.apply(StageCommand::ToggleRace);
     (0..200).for_each(|_| lab.tick());
-    let substeps = |lab: &Lab| -> Vec<u32> {
+    let substeps = |lab: &Studio| -> Vec<u32> {
         lab.race().entrants().iter().map(|entrant| entrant.lane.substeps()).collect()
     };
     let (mass, plain, asked) = (lab.race().values(0)[0], substeps(&lab), lab.analysis_request());
@@ -399,7 +399,7 @@ fn undo_also_restores_the_settings_of_the_next_start() {
 
 #[test]
 fn a_parameter_that_acts_at_the_start_does_not_change_the_run_or_its_future() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     (0..200).for_each(|_| lab.tick());
     lab.apply(RunCommand::Seek(100));
     lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 3, value: 0.25 }));

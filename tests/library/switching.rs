@@ -3,8 +3,8 @@
 
 use regatta::lab::past::Past;
 use regatta::lab::{
-    Action, Command, Lab, Lane, LaneBody, LaneId, LaneSpec, Observer, Race, Resumed, ResumedFrom,
-    RunCommand, Scene, SceneBody, StageCommand, Step,
+    Action, Command, Lane, LaneBody, LaneId, LaneSpec, Observer, Race, Resumed, ResumedFrom,
+    RunCommand, Scene, SceneBody, StageCommand, Step, Studio,
 };
 use regatta::sim::bodies::{Body, Ship, Spring};
 use regatta::sim::integrators::{GENERAL_METHODS, Method, method};
@@ -175,12 +175,12 @@ fn what_is_set_to_what_it_is_changes_no_bit_of_lanes_or_truth() {
 fn a_persons_action_that_changes_nothing_changes_no_bit() {
     for method in GENERAL_METHODS {
         let begun = || {
-            let mut lab = Lab::new(mixed());
+            let mut lab = Studio::new(mixed());
             lab.apply(StageCommand::Method(method));
             (0..40).for_each(|_| lab.tick());
             lab
         };
-        let ended = |mut lab: Lab| {
+        let ended = |mut lab: Studio| {
             (0..40).for_each(|_| lab.tick());
             (bits(&lab.race().entrants()[0].lane), bits(lab.race().truth()))
         };
@@ -386,7 +386,7 @@ fn a_throttle_set_while_a_ship_had_halted_holds_when_it_goes_on() {
 
 #[test]
 fn a_method_is_not_blamed_for_a_state_that_it_inherits_and_the_notice_says_where_it_begins() {
-    let mut lab = Lab::new(scene("stiff"));
+    let mut lab = Studio::new(scene("stiff"));
     for command in [
         Command::Stage(StageCommand::Pick(1)),
         Command::Stage(StageCommand::TickRate(Step::Previous)),

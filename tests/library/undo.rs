@@ -1,14 +1,14 @@
 //! Whatever a person changes can be undone and done again, in one order.
 
-use regatta::lab::{Action, Command, Lab, RunCommand, Scene, StageCommand, ViewCommand};
+use regatta::lab::{Action, Command, RunCommand, Scene, StageCommand, Studio, ViewCommand};
 
 use crate::dice::Dice;
 
-fn lab(scene: &str) -> Lab {
-    Lab::new(Scene::built_in(scene).unwrap())
+fn lab(scene: &str) -> Studio {
+    Studio::new(Scene::built_in(scene).unwrap())
 }
 
-fn method(lab: &Lab) -> &'static str {
+fn method(lab: &Studio) -> &'static str {
     lab.race().entrants()[0].lane.solver().method().unwrap().id
 }
 
@@ -23,7 +23,7 @@ struct Whole {
     scene: String,
 }
 
-fn whole(lab: &mut Lab) -> Whole {
+fn whole(lab: &mut Studio) -> Whole {
     let tick = lab.race().tick();
     // From elsewhere, so that no action at the end itself is done yet.
     lab.apply(RunCommand::Seek(0));
@@ -104,8 +104,8 @@ fn a_switch_a_slider_a_placement_and_a_kick_are_undone_and_done_again_one_by_one
 #[test]
 fn a_drag_of_a_slider_is_one_change_and_the_next_drag_another() {
     let mut lab = lab("spring");
-    let stiffness = |lab: &Lab| lab.race().values(0)[1];
-    let drag = |lab: &mut Lab, to: f64| {
+    let stiffness = |lab: &Studio| lab.race().values(0)[1];
+    let drag = |lab: &mut Studio, to: f64| {
         lab.apply(ViewCommand::PointerDown(true));
         for part in 1..=10 {
             let value = to * (1.0 + f64::from(part) / 10.0);

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{DynamicImage, RgbaImage};
-use regatta::lab::{Action, Lab, RunCommand, SCENES, Scene, StageCommand, Step};
+use regatta::lab::{Action, RunCommand, SCENES, Scene, StageCommand, Step, Studio};
 use regatta::view::{AdapterPreference, Gpu, OffscreenRenderer, Panels};
 
 const SIZE_PX: [u32; 2] = [400, 225];
@@ -32,8 +32,8 @@ fn gpu_or_skip(test: &str) -> Option<Gpu> {
 }
 
 /// The lab of a built-in scene, in solo or racing, after [`FRAMES`] at 60 a second.
-fn sailed(scene: &str, race: bool, mut each_frame: impl FnMut(&Lab)) -> Lab {
-    let mut lab = Lab::new(Scene::built_in(scene).unwrap());
+fn sailed(scene: &str, race: bool, mut each_frame: impl FnMut(&Studio)) -> Studio {
+    let mut lab = Studio::new(Scene::built_in(scene).unwrap());
     if race {
         lab.apply(StageCommand::ToggleRace);
     } else {
@@ -84,7 +84,7 @@ fn the_comparison_sees_one_pixel_and_one_level() {
 }
 
 /// What an renderer for pictures of `size_px` makes of a lab.
-fn drawn(renderer: &mut OffscreenRenderer, size_px: [u32; 2], lab: &Lab) -> RgbaImage {
+fn drawn(renderer: &mut OffscreenRenderer, size_px: [u32; 2], lab: &Studio) -> RgbaImage {
     let mut rgba = Vec::new();
     renderer.draw(lab, &mut rgba).unwrap();
     RgbaImage::from_raw(size_px[0], size_px[1], rgba).unwrap()
@@ -148,7 +148,7 @@ fn the_inspector_beside_a_run_that_was_gone_back_in_looks_as_it_did() {
 #[test]
 fn the_loop_lab_looks_as_it_did() {
     let Some(gpu) = gpu_or_skip("the_loop_lab_looks_as_it_did") else { return };
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     lab.open_loop_lab_on("steady-144");
     lab.run_loops();
     (0..FRAMES).for_each(|_| _ = lab.advance(16_666_667));

@@ -10,7 +10,7 @@ use egui::{
     Event, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, RawInput, TouchPhase, pos2,
     vec2,
 };
-use regatta::lab::{KEYS, Lab, Scene, ViewCommand};
+use regatta::lab::{KEYS, Scene, Studio, ViewCommand};
 use regatta::view::{AdapterPreference, FrameRenderer, Gpu, Offscreen};
 
 use crate::dice::Dice;
@@ -52,7 +52,7 @@ const MAX_GROWTH_MB: f64 = 5.0;
 const MIN_MB: f64 = 1.0;
 
 struct Program {
-    lab: Lab,
+    lab: Studio,
     gpu: Gpu,
     canvas: Offscreen,
     renderer: FrameRenderer,
@@ -135,7 +135,7 @@ fn a_thousand_random_events_leave_no_more_memory_held_than_a_few_megabytes() {
         // Not `eprintln!`, which the test runner hides when a test passes.
         Err(error) => return drop(writeln!(io::stderr(), "SKIPPED {test}: {error}")),
     };
-    let mut lab = Lab::new(Scene::built_in("harbour").expect("a built-in scene"));
+    let mut lab = Studio::new(Scene::built_in("harbour").expect("a built-in scene"));
     lab.set_rewind_bytes(REWIND_MB << 20);
     let canvas = Offscreen::new(&gpu, SIZE_PX).expect("1280x720 is within any limit");
     let renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);

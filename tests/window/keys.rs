@@ -3,13 +3,13 @@
 use std::time::{Duration, Instant};
 
 use regatta::lab::{
-    Command, KEYS, Key, Lab, LoopCommand, RunCommand, Scene, StageCommand, Step, ViewCommand,
+    Command, KEYS, Key, LoopCommand, RunCommand, Scene, StageCommand, Step, Studio, ViewCommand,
 };
 
 use crate::desk::Desk;
 
-fn lab(scene: &str) -> Lab {
-    Lab::new(Scene::built_in(scene).unwrap())
+fn lab(scene: &str) -> Studio {
+    Studio::new(Scene::built_in(scene).unwrap())
 }
 
 /// The key's name in X, with its modifier.

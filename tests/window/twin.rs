@@ -3,7 +3,7 @@
 use egui::accesskit::{Action, Node, Role};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect};
 use image::RgbaImage;
-use regatta::lab::{Command, Lab, Pace};
+use regatta::lab::{Command, Pace, Studio};
 use regatta::view::{AdapterPreference, FrameOutput, FrameRenderer, Gpu, Offscreen, Readback};
 
 use crate::desk::Desk;
@@ -15,7 +15,7 @@ const ASIDE: Pos2 = Pos2::new(40.0, 300.0);
 
 /// A lab and its panels, which are given what the window is given.
 pub(crate) struct Twin {
-    pub(crate) lab: Lab,
+    pub(crate) lab: Studio,
     gpu: Gpu,
     target: Offscreen,
     renderer: FrameRenderer,
@@ -24,7 +24,7 @@ pub(crate) struct Twin {
 }
 
 impl Twin {
-    pub(crate) fn new(mut lab: Lab) -> Self {
+    pub(crate) fn new(mut lab: Studio) -> Self {
         // As in a window: it tells of the memory for rewinding.
         lab.viewer_mut().pace = Some(Pace::Unknown);
         let gpu = pollster::block_on(Gpu::headless(AdapterPreference::CpuOnly))

@@ -1,7 +1,7 @@
 //! Every kind of widget worked by the mouse, in the window and in its twin: both come to the same run, and look alike.
 
 use regatta::lab::{
-    INSTRUMENTS, Instrument, Lab, MySpring, Scene, StageCommand, Step, ViewCommand,
+    INSTRUMENTS, Instrument, MySpring, Scene, StageCommand, Step, Studio, ViewCommand,
 };
 
 use crate::desk::Desk;
@@ -10,7 +10,7 @@ use crate::twin::Twin;
 /// A paused window at the start of a scene, and its twin.
 pub(crate) fn paused(test: &str, scene: &str) -> Option<(Desk, Twin)> {
     let desk = Desk::open(test, &format!("--scene {scene}"))?;
-    let mut twin = Twin::new(Lab::new(Scene::built_in(scene).unwrap()));
+    let mut twin = Twin::new(Studio::new(Scene::built_in(scene).unwrap()));
     desk.press("space");
     twin.apply(ViewCommand::TogglePause);
     desk.titled(&twin.lab.title());

@@ -22,7 +22,7 @@ use crate::commands::output::DirectoryLock;
 use crate::commands::state_log::StateLog;
 use crate::commands::terminal::{counted, print_status};
 use crate::commands::{scene_file, settings};
-use crate::lab::Lab;
+use crate::lab::Studio;
 use crate::regular_file::{self, Unreadable};
 
 /// The error of a capture in `dir` that cannot be judged, for this reason.
@@ -65,7 +65,7 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
         false => pixels::judge(args, &rerun).map(Some),
     };
     #[cfg(not(feature = "view"))]
-    let redrawn = Ok::<Option<(Frames, (Lab, StateLog))>, Error>(None);
+    let redrawn = Ok::<Option<(Frames, (Studio, StateLog))>, Error>(None);
     let (frames, (lab, state_log), failed) = match redrawn {
         Ok(Some((frames, run))) => (Some(frames), run, None),
         Ok(None) => (None, rerun.run(), None),
@@ -95,7 +95,7 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
 fn add_physics(
     report: &mut Report,
     rerun: &Rerun,
-    lab: &Lab,
+    lab: &Studio,
     state_log: StateLog,
 ) -> Result<(), Error> {
     let Some(change) = first_change(&rerun.manifest, lab, state_log) else {

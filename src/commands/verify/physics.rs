@@ -2,7 +2,7 @@
 
 use super::super::manifest::{LaneEnd, LaneMark, Manifest, Mark, is_same_value};
 use super::super::state_log::{self, StateLog};
-use crate::lab::Lab;
+use crate::lab::Studio;
 
 /// The first mark that differs.
 pub(super) struct PhysicsChange {
@@ -16,7 +16,7 @@ pub(super) struct PhysicsChange {
 /// differently.
 pub(super) fn first_change(
     manifest: &Manifest,
-    lab: &Lab,
+    lab: &Studio,
     state_log: StateLog,
 ) -> Option<PhysicsChange> {
     let now = state_log.close(lab.race());
@@ -28,7 +28,7 @@ pub(super) fn first_change(
 }
 
 /// The first difference in how the lanes ended, if there is one. Metrics are not compared.
-fn other_end(then: &[LaneEnd], lab: &Lab) -> Option<PhysicsChange> {
+fn other_end(then: &[LaneEnd], lab: &Studio) -> Option<PhysicsChange> {
     let tick = lab.race().tick();
     let now = state_log::ends(lab);
     if then.len() != now.len() {
@@ -55,7 +55,7 @@ fn other_end(then: &[LaneEnd], lab: &Lab) -> Option<PhysicsChange> {
 }
 
 /// The first difference between two marks, if there is one.
-fn change(then: &Mark, now: &Mark, lab: &Lab) -> Option<PhysicsChange> {
+fn change(then: &Mark, now: &Mark, lab: &Studio) -> Option<PhysicsChange> {
     if then.tick != now.tick || then.lanes.len() != now.lanes.len() {
         let what = format!(
             "{} lanes at tick {} in the manifest, {} at tick {} now",
@@ -82,7 +82,7 @@ fn change(then: &Mark, now: &Mark, lab: &Lab) -> Option<PhysicsChange> {
 }
 
 /// The first coordinate or velocity of a lane that differs, and by how much.
-fn first_coordinate(then: &LaneMark, now: &LaneMark, lab: &Lab, lane: usize) -> String {
+fn first_coordinate(then: &LaneMark, now: &LaneMark, lab: &Studio, lane: usize) -> String {
     let bodies = lab.race().entrants()[lane].lane.bodies();
     for (n, body) in bodies.iter().enumerate() {
         let values = |mark: &LaneMark| {

@@ -16,7 +16,7 @@ use crate::commands::pipeline::{Drawn, Run};
 use crate::commands::schedule::Schedule;
 use crate::commands::state_log::StateLog;
 use crate::commands::terminal::print_status;
-use crate::lab::Lab;
+use crate::lab::Studio;
 use crate::regular_file;
 use crate::view::png;
 
@@ -78,7 +78,10 @@ fn difference(a: &[u8], b: &[u8]) -> Difference {
 
 /// Draws every frame of the capture again and compares it with its file. Returns the lab at the end and the log of its
 /// states too.
-pub(super) fn judge(args: &VerifyArgs, rerun: &Rerun) -> Result<(Frames, (Lab, StateLog)), Error> {
+pub(super) fn judge(
+    args: &VerifyArgs,
+    rerun: &Rerun,
+) -> Result<(Frames, (Studio, StateLog)), Error> {
     let Rerun { manifest, capture, .. } = rerun;
     check_differences(args, manifest)?;
     let cannot = |error: Error| error.or_mistake().within("the pixels cannot be judged");

@@ -10,7 +10,7 @@ use crate::commands::error::Error;
 use crate::commands::output::Destination;
 use crate::commands::scene_file;
 use crate::commands::terminal::{counted, print_status};
-use crate::lab::{Action, Check, Lab, Observer, Race, Resumed, Scene, Session};
+use crate::lab::{Action, Check, Observer, Race, Resumed, Scene, Session, Studio};
 
 /// The most ticks that a race is run for its checks: a day at 1000 Hz and more, which takes a body minutes.
 const MAX_TICKS: u64 = 100_000_000;
@@ -134,7 +134,7 @@ fn check_ticks(path: &Path, scene: &Scene) -> Result<(), Error> {
             path.display()
         )));
     }
-    let end = Lab::new(scene.clone()).nearest_tick(scene.seconds);
+    let end = Studio::new(scene.clone()).nearest_tick(scene.seconds);
     let late = scene.checks.iter().map(|check| check.tick).filter(|tick| *tick > end);
     let Some(last) = late.clone().max() else { return Ok(()) };
     let (are, count) = match late.count() {
@@ -154,7 +154,7 @@ fn check_ticks(path: &Path, scene: &Scene) -> Result<(), Error> {
 pub(super) fn bless(path: &Path) -> Result<(), Error> {
     let (scene, text) = scene_file::load(path)?;
     let text = if scene.checks.is_empty() {
-        let end = Lab::new(scene.clone()).nearest_tick(scene.seconds);
+        let end = Studio::new(scene.clone()).nearest_tick(scene.seconds);
         let checks = Session::racing(scene.clone().into()).recording(end).checks;
         let rows: String = checks.iter().map(Check::to_toml).collect();
         with_line_ends_of(&text, &format!("{}\n{rows}", text.trim_end()))

@@ -4,7 +4,7 @@ use crate::commands::capture_settings::CaptureSettings;
 use crate::commands::experiment::Experiment;
 use crate::commands::manifest::Manifest;
 use crate::commands::state_log::StateLog;
-use crate::lab::Lab;
+use crate::lab::Studio;
 
 /// The run of a manifest, to be repeated.
 pub(super) struct Rerun {
@@ -23,14 +23,14 @@ pub(super) struct Frames {
 
 impl Rerun {
     /// The lab at the start of the run, and the log of its states.
-    pub(super) fn begin(&self) -> (Lab, StateLog) {
+    pub(super) fn begin(&self) -> (Studio, StateLog) {
         let lab = self.capture.lab(&self.experiment);
         let state_log = StateLog::new(self.capture.mark_every, lab.race());
         (lab, state_log)
     }
 
     /// The lab at the end of the run and its log, where nothing is drawn.
-    pub(super) fn run(&self) -> (Lab, StateLog) {
+    pub(super) fn run(&self) -> (Studio, StateLog) {
         let (mut lab, mut state_log) = self.begin();
         for frame in 0..self.manifest.frames.len() as u32 {
             self.capture.schedule.advance(&mut lab, frame, &mut state_log);

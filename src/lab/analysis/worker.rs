@@ -34,7 +34,7 @@ impl AdvisedBodies {
     }
 }
 
-/// The verdicts and the advice that a lab wants. Two requests of one [`Lab`](crate::lab::Lab) are equal if they have the
+/// The verdicts and the advice that a studio wants. Two requests of one [`Studio`](crate::lab::Studio) are equal if they have the
 /// same answer.
 #[derive(Clone, Debug)]
 pub struct AnalysisRequest {

@@ -13,7 +13,7 @@ const FAR: f64 = 12.0;
 /// How many times wider than the exact cloud at its widest an axis is that follows it.
 const ROOM: f64 = 1.8;
 
-/// The moments through which the axes of a lab are found.
+/// The moments through which the axes of a studio are found.
 const MOMENTS: u64 = 60;
 /// The most ticks of a run through which they are found: a second of work or less.
 const MAX_TICKS: u64 = 3000;
@@ -39,7 +39,7 @@ impl ShownTicks {
 }
 
 impl From<u64> for ShownTicks {
-    /// What the axes of the clouds of a lab show, in a run of so many ticks.
+    /// What the axes of the clouds of a studio show, in a run of so many ticks.
     fn from(ticks: u64) -> Self {
         let ticks = ticks.min(MAX_TICKS);
         Self { ticks, times: ticks.min(MOMENTS), beside: BESIDE, spread: f64::INFINITY }

@@ -74,7 +74,7 @@ impl Default for CloudChoice {
     }
 }
 
-/// The clouds that a lab wants.
+/// The clouds that a studio wants.
 #[derive(Clone, Debug)]
 pub struct CloudRequest {
     pub(in crate::lab) scene: Arc<Scene>,

@@ -16,7 +16,7 @@ use crate::lab::race::Race;
 
 /// The samples of an area over the length of a run.
 const SAMPLES: u64 = 200;
-/// How many times further the clouds of a lab reach than others: they are seen small.
+/// How many times further the clouds of a studio reach than others: they are seen small.
 const REACH: f64 = 2.0;
 
 /// The axes show the exact cloud until it is this many times as wide as at the start, which would then be a speck.

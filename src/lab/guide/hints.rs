@@ -164,9 +164,9 @@ mod tests {
 
     #[test]
     fn in_a_race_no_hint_asks_for_what_only_solo_does() {
-        use crate::lab::Lab;
+        use crate::lab::Studio;
         for scene in SCENES {
-            let mut lab = Lab::new(Scene::built_in(scene.name).unwrap());
+            let mut lab = Studio::new(Scene::built_in(scene.name).unwrap());
             let solo = lab.hint().expect("a hint");
             lab.apply(StageCommand::ToggleRace);
             lab.begin_hints();
@@ -181,11 +181,11 @@ mod tests {
 
     #[test]
     fn nobody_is_asked_to_start_again_what_has_only_just_begun() {
-        use crate::lab::Lab;
+        use crate::lab::Studio;
         let text = "title = 'mine'\ntick_hz = 60\nseconds = 9\nmethods = ['rk4', 'implicit-euler']\n\
              [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 9\nx0_m = 1\n";
-        let mut lab = Lab::new(Scene::parse("mine.toml", text).unwrap());
-        let asks_for = |lab: &Lab, key: &str| lab.hint().expect("a lead").contains(key);
+        let mut lab = Studio::new(Scene::parse("mine.toml", text).unwrap());
+        let asks_for = |lab: &Studio, key: &str| lab.hint().expect("a lead").contains(key);
         assert!(asks_for(&lab, "`C`"), "it was just opened");
         lab.apply(StageCommand::Pick(1));
         assert!(asks_for(&lab, "`C`"), "it starts under the other method");

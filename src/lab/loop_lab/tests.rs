@@ -1,6 +1,6 @@
 use super::*;
 use crate::lab::pacing::policy;
-use crate::lab::{Action, Command, Lab, RunCommand, StageCommand, Step};
+use crate::lab::{Action, Command, RunCommand, StageCommand, Step, Studio};
 use crate::sim::integrators::method;
 
 fn lab() -> LoopLab {
@@ -132,7 +132,7 @@ fn the_stage_holds_one_to_four_lanes_in_the_order_of_the_table() {
 
 #[test]
 fn a_net_is_not_taken_and_the_reason_is_told() {
-    let mut lab = Lab::new(Scene::built_in("rope").unwrap());
+    let mut lab = Studio::new(Scene::built_in("rope").unwrap());
     lab.apply(Command::Loop(LoopCommand::ToggleLab));
     assert!(lab.loop_lab().is_none());
     assert!(lab.viewer().notice.as_ref().is_some_and(|told| told.starts_with("rope is a net")));
@@ -140,7 +140,7 @@ fn a_net_is_not_taken_and_the_reason_is_told() {
 
 #[test]
 fn a_net_that_is_opened_in_it_leaves_it_with_the_reason() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     lab.apply(Command::Loop(LoopCommand::ToggleLab));
     assert!(lab.loop_lab().is_some());
     let rope = crate::lab::SCENES.iter().position(|scene| scene.name == "rope").unwrap();
@@ -153,9 +153,10 @@ fn a_net_that_is_opened_in_it_leaves_it_with_the_reason() {
 
 #[test]
 fn opening_it_and_choosing_run_nothing_and_loops_are_shown_as_they_come() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     lab.apply(Command::Loop(LoopCommand::ToggleLab));
-    let shown = |lab: &Lab| lab.loop_lab().unwrap().lanes().iter().filter(|l| l.was_run()).count();
+    let shown =
+        |lab: &Studio| lab.loop_lab().unwrap().lanes().iter().filter(|l| l.was_run()).count();
     assert_eq!(shown(&lab), 0);
     let request = lab.loop_request();
     let mut worker = LoopWorker::default();
@@ -186,7 +187,7 @@ fn a_loop_that_is_stopped_is_run_again() {
 
 #[test]
 fn the_loop_lab_keeps_every_command_on_the_run_from_the_run_behind_it() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     (0..40).for_each(|_| lab.tick());
     lab.apply(Command::Loop(LoopCommand::ToggleLab));
     let before = (lab.race().state_hash(), lab.clock().speed_percent(), lab.scene().seconds);

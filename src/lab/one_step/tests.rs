@@ -5,13 +5,13 @@ use crate::lab::scene::Scene;
 use crate::sim::integrators::{GENERAL_METHODS, METHODS, Method};
 
 /// A lab under a method, after some ticks.
-fn lab(scene: &str, method: &str, ticks: u64) -> Lab {
+fn lab(scene: &str, method: &str, ticks: u64) -> Studio {
     let mut scene = Scene::built_in(scene).unwrap();
     let method = METHODS.iter().find(|known| known.id == method).unwrap();
     if method.is_engine() {
         scene.lanes.push(LaneSpec::plain(method));
     }
-    let mut lab = Lab::new(scene);
+    let mut lab = Studio::new(scene);
     let entry = lab.entries().iter().position(|spec| spec.method == method).unwrap();
     lab.apply(StageCommand::Pick(entry));
     (0..ticks).for_each(|_| lab.tick());

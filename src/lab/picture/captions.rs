@@ -7,7 +7,7 @@ use super::sketch::{Camera, SOLID, fill, line, path, ring, rounded};
 use super::{Align, Label, Picture, Rect, Rgba};
 use crate::lab::palette::{Palette, faded};
 use crate::lab::race::Entrant;
-use crate::lab::{Halt, Lab, LaneBody, Severity};
+use crate::lab::{Halt, LaneBody, Severity, Studio};
 use crate::sim::bodies::Coordinate;
 use crate::sim::number::{round, significant};
 
@@ -53,13 +53,13 @@ fn text(
     Label { at, align, size, colour, is_strong: false, halo: faded(palette.sea[1], 0.85), text }
 }
 
-fn lane_name(lab: &Lab, entrant: &Entrant) -> String {
+fn lane_name(lab: &Studio, entrant: &Entrant) -> String {
     let entry = lab.entry(entrant);
     format!("{} {}", entry + 1, lab.lane_name(entry))
 }
 
 /// The width of the column at the left of a stage this wide in which [`lane`] names each of these, in points.
-pub(super) fn lanes_width(lab: &Lab, entrants: &[&Entrant], stage: f32) -> f32 {
+pub(super) fn lanes_width(lab: &Studio, entrants: &[&Entrant], stage: f32) -> f32 {
     let width = |lane: &&Entrant| LANE_INSET + LETTER * lane_name(lab, lane).chars().count() as f32;
     let widest = entrants.iter().map(width).fold(LANES.0, f32::max);
     if stage >= ROOM_FOR_LANES { widest.min(MAX_FOR_LANES * stage) } else { LANES.1 }
@@ -445,7 +445,7 @@ mod tests {
 
     #[test]
     fn the_numbers_beside_a_name_end_before_the_chip_however_far_the_body_is() {
-        let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
+        let mut lab = Studio::new(Scene::built_in("stiff").unwrap());
         for _ in 0..3 {
             lab.apply(StageCommand::TickRate(Step::Previous));
         }
@@ -467,7 +467,7 @@ mod tests {
 
     #[test]
     fn a_chip_on_a_run_that_was_changed_says_that_the_verdict_is_of_another() {
-        let words = |lab: &Lab, size| -> Vec<String> {
+        let words = |lab: &Studio, size| -> Vec<String> {
             let labels = compose(lab, size).labels.into_iter().map(|label| label.text);
             labels.filter(|text| text.contains("blow")).collect()
         };
@@ -479,7 +479,7 @@ mod tests {
                 "blows up, if run from the start",
             ),
         ] {
-            let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
+            let mut lab = Studio::new(Scene::built_in("stiff").unwrap());
             (0..ticks).for_each(|_| lab.tick());
             lab.apply(StageCommand::TickHz(49));
             lab.analyse();

@@ -16,7 +16,7 @@ use super::{
 };
 use crate::lab::palette::faded;
 use crate::lab::race::Entrant;
-use crate::lab::{Arrangement, Lab, Mode, ZoomPan};
+use crate::lab::{Arrangement, Mode, Studio, ZoomPan};
 
 /// The most lanes of which each body has its number on it.
 const MAX_NUMBERED: usize = 9;
@@ -43,7 +43,7 @@ const FAINT: f32 = 0.45;
 const TOLERANCE: f64 = 0.15;
 
 /// The picture of the lab on a stage of `size` points.
-pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
+pub fn compose(lab: &Studio, size: [f32; 2]) -> Picture {
     if let Some(loops) = lab.loop_lab() {
         return loop_stage::compose(lab, loops, size);
     }

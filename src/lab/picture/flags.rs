@@ -320,7 +320,7 @@ pub(super) fn badges(
 mod tests {
     use super::*;
     use crate::lab::picture::compose;
-    use crate::lab::{Lab, Scene, StageCommand};
+    use crate::lab::{Scene, StageCommand, Studio};
 
     /// What is told of a body that was at these places in a cell that shows 5 m to each side, and whether at the right.
     fn told(places: &[[f64; 2]]) -> Option<(String, bool)> {
@@ -371,7 +371,7 @@ mod tests {
 
     #[test]
     fn no_badge_lies_over_a_spring_of_its_row_and_no_flag_over_the_name_of_its_body() {
-        let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+        let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
         lab.apply(StageCommand::ToggleRace);
         let (mut badges, mut beside) = (0, 0);
         for _ in 0..300 {

@@ -234,12 +234,12 @@ impl DrawContext<'_> {
 mod tests {
     use super::*;
     use crate::lab::picture::compose;
-    use crate::lab::{Lab, Scene, StageCommand, ViewCommand};
+    use crate::lab::{Scene, StageCommand, Studio, ViewCommand};
 
     #[test]
     fn an_orbit_that_leaves_the_true_one_is_followed_in_solo() {
         for (is_race, is_seen) in [(false, true), (true, false)] {
-            let mut lab = Lab::new(Scene::built_in("orbit").unwrap());
+            let mut lab = Studio::new(Scene::built_in("orbit").unwrap());
             lab.apply(StageCommand::Pick(0));
             if is_race {
                 lab.apply(StageCommand::ToggleRace);
@@ -257,7 +257,7 @@ mod tests {
     #[test]
     fn bodies_on_one_ruler_are_zoomed_as_one_and_it_with_them() {
         for over in [0, 1] {
-            let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+            let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
             lab.advance(100_000_000);
             let before = compose(&lab, [780.0, 500.0]);
             let zoomed_as = before.cells[over].zoomed_as;

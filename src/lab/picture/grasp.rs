@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::sketch::Camera;
 use super::{Look, Pull, Rect};
-use crate::lab::{HeldBody, Lab, LaneId};
+use crate::lab::{HeldBody, LaneId, Studio};
 
 /// How close to the middle of a small handle a hand can take hold of it, in points: as close as people aim.
 const MIN_RADIUS: f32 = 14.0;
@@ -56,7 +56,7 @@ pub enum Whose {
 
 impl Cell {
     /// Where the bodies can be taken hold of.
-    pub fn grips(&self, lab: &Lab) -> impl Iterator<Item = Grip> {
+    pub fn grips(&self, lab: &Studio) -> impl Iterator<Item = Grip> {
         let look = Look::of(&lab.race().truth().bodies()[self.body]);
         let is_recorder = self.camera.quay_m != 0.0;
         let least = if is_recorder { MIN_RADIUS.max(self.camera.block / 2.0) } else { MIN_RADIUS };
@@ -70,7 +70,7 @@ impl Cell {
 
     /// What a hand at this point of the stage takes hold of: of what it touches the nearest, another lane's body or a
     /// ghost only where that of the cell's own lane is out of reach.
-    pub fn grip_at(&self, lab: &Lab, at: [f32; 2]) -> Option<Grip> {
+    pub fn grip_at(&self, lab: &Studio, at: [f32; 2]) -> Option<Grip> {
         if !self.rect.contains(at) {
             return None;
         }
@@ -107,7 +107,7 @@ pub struct Grasp {
 
 impl Grasp {
     /// Takes hold of the body in `cell` by `grip`, with the hand at this point of the stage.
-    pub fn new(lab: &Lab, cell: &Cell, grip: &Grip, hand: [f32; 2]) -> Option<Self> {
+    pub fn new(lab: &Studio, cell: &Cell, grip: &Grip, hand: [f32; 2]) -> Option<Self> {
         let race = lab.race();
         let lane = match grip.whose {
             Whose::Lane { lane, .. } => &race.entrant(lane)?.lane,
@@ -137,7 +137,7 @@ impl Grasp {
 
     /// Brings the hand to a point of the stage, where it moves with this velocity in points per second of simulated
     /// time, y down.
-    pub fn pull(&mut self, lab: &Lab, hand: [f32; 2], velocity: [f64; 2]) {
+    pub fn pull(&mut self, lab: &Studio, hand: [f32; 2], velocity: [f64; 2]) {
         let Self { cell, handle, offset_m, held } = self;
         let body = &lab.race().truth().bodies()[cell.body];
         let look = Look::of(body);

@@ -9,7 +9,7 @@ use super::sketch::{Camera, SOLID, line, path};
 use super::{Align, Framing, Label, Look, Outline, Picture, Rect, Rgba, chart};
 use crate::lab::loop_lab::{LoopFrame, LoopLane};
 use crate::lab::palette::{Palette, faded};
-use crate::lab::{Lab, LoopLab, Severity};
+use crate::lab::{LoopLab, Severity, Studio};
 use crate::sim::number::round;
 
 /// From this height of the stage on, in points, a ruler fits above it.
@@ -40,7 +40,7 @@ const PATH_S: f64 = 0.16;
 const MARGIN: f64 = 1.22;
 
 /// The picture of the loop lab on a stage of `size` points.
-pub(super) fn compose(lab: &Lab, loops: &LoopLab, size: [f32; 2]) -> Picture {
+pub(super) fn compose(lab: &Studio, loops: &LoopLab, size: [f32; 2]) -> Picture {
     let palette = lab.display().theme.palette();
     let mut picture = Picture::default();
     let stage = Rect { min: [0.0; 2], max: size };
@@ -60,7 +60,12 @@ pub(super) fn compose(lab: &Lab, loops: &LoopLab, size: [f32; 2]) -> Picture {
 }
 
 /// Draws a band for each loop on the stage. Returns the camera of the first, if it stays where it is.
-fn side_by_side(picture: &mut Picture, lab: &Lab, loops: &LoopLab, ground: Rect) -> Option<Camera> {
+fn side_by_side(
+    picture: &mut Picture,
+    lab: &Studio,
+    loops: &LoopLab,
+    ground: Rect,
+) -> Option<Camera> {
     let palette = lab.display().theme.palette();
     let on_stage = loops.on_stage();
     let height = (ground.max[1] - ground.min[1]) / on_stage.len() as f32;
@@ -81,7 +86,7 @@ fn side_by_side(picture: &mut Picture, lab: &Lab, loops: &LoopLab, ground: Rect)
 
 /// Draws all loops on the stage over each other, the selected one in front, and names them below. Returns the camera, if
 /// it stays where it is.
-fn overlay(picture: &mut Picture, lab: &Lab, loops: &LoopLab, ground: Rect) -> Option<Camera> {
+fn overlay(picture: &mut Picture, lab: &Studio, loops: &LoopLab, ground: Rect) -> Option<Camera> {
     let on_stage = loops.on_stage();
     let is_selected = |place: usize| place == loops.selected();
     let foot = FOOT + LINE * (on_stage.len() - 1) as f32;
@@ -150,7 +155,7 @@ struct Band<'a> {
 }
 
 impl<'a> Band<'a> {
-    fn new(lab: &Lab, loops: &'a LoopLab, place: usize, rect: Rect, foot: f32) -> Self {
+    fn new(lab: &Studio, loops: &'a LoopLab, place: usize, rect: Rect, foot: f32) -> Self {
         let theme = lab.display().theme;
         let (lane, colour) = (&loops.lanes()[place], theme.loop_style(place).0);
         Self { loops, lane, place, rect, foot, colour, palette: theme.palette() }

@@ -105,14 +105,14 @@ pub(super) fn draw(
 #[cfg(test)]
 mod tests {
     use crate::lab::picture::compose;
-    use crate::lab::{Lab, Scene, StageCommand};
+    use crate::lab::{Scene, StageCommand, Studio};
 
     /// What the loupes on the stage are labelled with after some seconds of a race of the methods with these ids.
     fn labels(scene: &str, methods: &[&str], seconds: u32) -> Vec<String> {
         let mut scene = Scene::built_in(scene).unwrap();
-        let all = Lab::new(scene.clone()).entries().to_vec();
+        let all = Studio::new(scene.clone()).entries().to_vec();
         scene.lanes = all.into_iter().filter(|spec| methods.contains(&spec.method.id)).collect();
-        let mut lab = Lab::new(scene);
+        let mut lab = Studio::new(scene);
         lab.apply(StageCommand::ToggleRace);
         (0..seconds * lab.race().tick_hz()).for_each(|_| lab.tick());
         let picture = compose(&lab, [800.0, 440.0]);
@@ -135,7 +135,7 @@ mod tests {
         // A damped spring that has come to rest.
         let text = "title = 't'\ntick_hz = 60\nseconds = 20\nmethods = ['rk4', 'gauss-legendre-4']\n\
              [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 90\ndamping_n_s_per_m = 4\nx0_m = 1\n";
-        let mut lab = Lab::new(Scene::parse("t.toml", text).unwrap());
+        let mut lab = Studio::new(Scene::parse("t.toml", text).unwrap());
         lab.apply(StageCommand::ToggleRace);
         let mut shown = [2_u32, 16].map(|seconds| {
             while lab.race().t() < f64::from(seconds) {

@@ -3,7 +3,7 @@
 use super::Rgba;
 use crate::lab::palette::Palette;
 use crate::lab::race::Entrant;
-use crate::lab::{History, Lab, LaneBody};
+use crate::lab::{History, LaneBody, Studio};
 
 /// The part of a scene's duration that a chart recorder's paper holds: three swings of the harbour's
 /// 1 Hz spring, and no more of a faster one than can be told apart.
@@ -13,7 +13,7 @@ const MAX_PAPER_S: f64 = 3.0;
 
 /// The moment that is drawn.
 pub(super) struct DrawContext<'a> {
-    pub(super) lab: &'a Lab,
+    pub(super) lab: &'a Studio,
     pub(super) palette: &'static Palette,
     /// The moment in seconds.
     pub(super) t: f64,
@@ -22,7 +22,7 @@ pub(super) struct DrawContext<'a> {
 }
 
 impl<'a> DrawContext<'a> {
-    pub(super) fn of(lab: &'a Lab) -> Self {
+    pub(super) fn of(lab: &'a Studio) -> Self {
         Self {
             lab,
             palette: lab.display().theme.palette(),
@@ -51,20 +51,20 @@ pub(super) fn turns(body: &LaneBody) -> bool {
 #[cfg(test)]
 mod tests {
     use crate::lab::picture::{Whose, compose};
-    use crate::lab::{Interpolation, Lab, RunCommand, Scene, StageCommand, Step, ViewCommand};
+    use crate::lab::{Interpolation, RunCommand, Scene, StageCommand, Step, Studio, ViewCommand};
     use crate::sim::number::significant;
 
     /// A spring under RK4 at a rate at which a tick can be seen.
-    fn lab() -> Lab {
+    fn lab() -> Studio {
         let scene = Scene { tick_hz: 5, ..Scene::built_in("spring").unwrap() };
-        let mut lab = Lab::new(scene);
+        let mut lab = Studio::new(scene);
         let rk4 = lab.entries().iter().position(|spec| spec.method.id == "rk4");
         lab.apply(StageCommand::Pick(rk4.unwrap()));
         lab
     }
 
     /// Where the mass and the ghost are drawn, in metres, and what the stage says of the mass.
-    fn drawn(lab: &Lab) -> ([f64; 2], String) {
+    fn drawn(lab: &Studio) -> ([f64; 2], String) {
         let picture = compose(lab, [780.0, 500.0]);
         let cell = &picture.cells[0];
         let of = |truth: bool| {

@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::moment::DrawContext;
 use super::{Framing, Look, Outline};
 use crate::lab::race::Entrant;
-use crate::lab::{History, Lab, Metric, Mode, Motion};
+use crate::lab::{History, Metric, Mode, Motion, Studio};
 
 /// For how long the zoom is evened out, in seconds: a swing of the harbour's spring; and in how many parts.
 const EVENED_S: f64 = 1.0;
@@ -101,7 +101,7 @@ pub(super) fn strayed_m(moment: &DrawContext<'_>, lane: &Entrant, body: usize) -
 }
 
 /// How fast time runs so that a lane which outgrows the stage can be watched, in percent of the speed that is set.
-pub(in crate::lab) fn slow_motion_percent(lab: &Lab) -> u32 {
+pub(in crate::lab) fn slow_motion_percent(lab: &Studio) -> u32 {
     if lab.display().motion != Motion::Live || lab.mode() != Mode::Solo {
         return 100;
     }
@@ -139,14 +139,14 @@ mod tests {
 
     const SIZE: [f32; 2] = [780.0, 500.0];
 
-    fn watched(scene: &str) -> Lab {
-        let mut lab = Lab::new(Scene::built_in(scene).unwrap());
+    fn watched(scene: &str) -> Studio {
+        let mut lab = Studio::new(Scene::built_in(scene).unwrap());
         lab.viewer_mut().preferences.display.motion = Motion::Live;
         lab
     }
 
     /// Whether the lane's body is on the stage, and how many points a metre has there.
-    fn hero(lab: &Lab) -> (bool, f64) {
+    fn hero(lab: &Studio) -> (bool, f64) {
         let picture = compose(lab, SIZE);
         let cell = &picture.cells[0];
         let is_lane = |whose| matches!(whose, Whose::Lane { .. });

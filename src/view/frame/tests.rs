@@ -137,7 +137,7 @@ fn the_first_frame_of_any_size_is_laid_out_like_the_next() {
     let Some(gpu) = gpu_or_skip("the_first_frame_of_any_size_is_laid_out_like_the_next") else {
         return;
     };
-    let lab = Lab::new(Scene::built_in("spring").unwrap());
+    let lab = Studio::new(Scene::built_in("spring").unwrap());
     let mut renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
     for size_px in [[1280, 720], [1920, 1080], [3840, 2160], [800, 600]] {
         let [first, second] = [0, 1].map(|_| {

@@ -7,8 +7,8 @@ use super::table::{Column, GAP, MARGIN, SortKey, Table, TableRow, show_words};
 use super::{palette, strong_font, tone};
 use crate::lab::number::significant;
 use crate::lab::{
-    Advice, AdvisedBodies, CRITERIA, Command, Criterion, CriterionMet, CriterionResult, Lab,
-    LaneSpec, MAX_ADVISED_SUBSTEPS, MethodAdvice, RunCommand, ViewCommand, recommended,
+    Advice, AdvisedBodies, CRITERIA, Command, Criterion, CriterionMet, CriterionResult, LaneSpec,
+    MAX_ADVISED_SUBSTEPS, MethodAdvice, RunCommand, Studio, ViewCommand, recommended,
 };
 use crate::view::theme::{PanelPalette, TYPE};
 
@@ -28,7 +28,7 @@ const CRITERION: f32 = 76.0;
 /// From this width of an answer on, in points, the whole name of its button fits.
 const ROOM_FOR_COPY_CODE: f32 = 240.0;
 
-pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.y = 2.0;
     which_bodies(ui, lab, commands);
     let Some(advice) = lab.viewer().advice() else {
@@ -46,7 +46,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 }
 
 /// The choice between all bodies and the selected one, if there are several.
-fn which_bodies(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+fn which_bodies(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
     let bodies = &lab.scene().bodies;
     if bodies.len() < 2 {
         return;
@@ -89,7 +89,7 @@ fn slot<R>(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui) -> R) -> R {
 /// What to take for each criterion, of the methods judged by now.
 fn answer(
     ui: &mut Ui,
-    lab: &Lab,
+    lab: &Studio,
     advice: &Advice,
     best: &[Option<usize>],
     commands: &mut Vec<Command>,
@@ -144,7 +144,7 @@ fn taken_line(ui: &mut Ui, name: &str, met: &CriterionMet) {
 }
 
 /// A button that copies a method as source code.
-fn copy_button(ui: &mut Ui, lab: &Lab, spec: LaneSpec, commands: &mut Vec<Command>) {
+fn copy_button(ui: &mut Ui, lab: &Studio, spec: LaneSpec, commands: &mut Vec<Command>) {
     let Some(entry) = lab.entries().iter().position(|entry| entry.method == spec.method) else {
         return;
     };
@@ -322,7 +322,7 @@ mod tests {
     use crate::view::testing::TestWindow;
 
     /// Shows frames of this size. Returns the stage and every text that is seen whole, with where it stands.
-    fn shown(lab: &Lab, size: [f32; 2]) -> (Rect, Vec<(Pos2, String)>) {
+    fn shown(lab: &Studio, size: [f32; 2]) -> (Rect, Vec<(Pos2, String)>) {
         let mut window = TestWindow::new(size);
         let mut frame = || window.show(Vec::new(), |ui| panels::show(ui, lab).1);
         (0..2).for_each(|_| drop(frame()));
@@ -335,8 +335,8 @@ mod tests {
     const SIZES: [[f32; 2]; 5] =
         [[800.0, 600.0], [900.0, 600.0], [1024.0, 640.0], [1280.0, 720.0], [1920.0, 1080.0]];
 
-    fn asked(scene: &str, is_of_one: bool) -> (Lab, AnalysisWorker) {
-        let mut lab = Lab::new(Scene::built_in(scene).unwrap());
+    fn asked(scene: &str, is_of_one: bool) -> (Studio, AnalysisWorker) {
+        let mut lab = Studio::new(Scene::built_in(scene).unwrap());
         lab.apply(StageCommand::Instrument(Instrument::Advice));
         lab.apply(ViewCommand::AdviseOnOneBody(is_of_one));
         let worker = AnalysisWorker::new(lab.analysis_request());
@@ -362,7 +362,7 @@ mod tests {
     }
 
     /// Has so many methods judged.
-    fn judge(lab: &mut Lab, worker: &mut AnalysisWorker, count: usize) {
+    fn judge(lab: &mut Studio, worker: &mut AnalysisWorker, count: usize) {
         while lab.viewer().advice().is_none_or(|advice| advice.advised.len() < count) {
             worker.work();
             lab.accept_findings(worker.findings());
@@ -400,7 +400,7 @@ mod tests {
     #[test]
     fn the_answer_stands_above_the_table_from_the_first_method_on_and_grows() {
         let (mut lab, mut worker) = asked("spring", false);
-        let of = |lab: &Lab, words: &str| {
+        let of = |lab: &Studio, words: &str| {
             let (_, texts) = shown(lab, [1280.0, 720.0]);
             let found = texts.iter().find(|(_, text)| text == words).map(|(at, _)| at.y);
             found.unwrap_or_else(|| panic!("{words}: {texts:?}"))

@@ -6,7 +6,7 @@ use egui::{Color32, Label, Rect, RichText, Ui, Vec2, vec2};
 use super::table::{Column, SortKey, Table, TableRow, show_words};
 use super::{palette, strong_font};
 use crate::lab::number::significant;
-use crate::lab::{Command, Entrant, Lab, LaneSpec, StageCommand};
+use crate::lab::{Command, Entrant, LaneSpec, StageCommand, Studio};
 use crate::view::theme::PanelPalette;
 
 /// The height of a row and the size of type in the heads, in points.
@@ -20,7 +20,7 @@ const FRAME_NS: f64 = 1e9 / 60.0;
 const MEASURED: &str = "Fastest of several timed runs, repeated once per second.";
 const NOT_MEASURED: &str = "Time is measured in the window.";
 
-pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, lab: &Studio, room: Vec2, commands: &mut Vec<Command>) {
     let lanes = lab.race().entrants().iter().enumerate();
     let rows: Vec<Row<'_>> = lanes.map(|(place, lane)| Row::new(lab, place, lane)).collect();
     let most = rows.iter().map(|row| row.evaluations).max().unwrap_or(0).max(1);
@@ -106,7 +106,7 @@ fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
 
 /// A lane.
 struct Row<'a> {
-    lab: &'a Lab,
+    lab: &'a Studio,
     entry: usize,
     spec: LaneSpec,
     evaluations: u64,
@@ -116,7 +116,7 @@ struct Row<'a> {
 }
 
 impl<'a> Row<'a> {
-    fn new(lab: &'a Lab, place: usize, lane: &Entrant) -> Self {
+    fn new(lab: &'a Studio, place: usize, lane: &Entrant) -> Self {
         let spec = lane.spec;
         let mut times = lab.viewer().tick_times.iter();
         Self {

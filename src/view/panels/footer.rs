@@ -4,7 +4,7 @@ use egui::{Align, Layout, RichText, Sense, Ui, vec2};
 
 use super::{keycap, loops, palette, short};
 use crate::lab::number::round;
-use crate::lab::{Command, Lab, LoopCommand, Mode, RunCommand, StageCommand, Step, ViewCommand};
+use crate::lab::{Command, LoopCommand, Mode, RunCommand, StageCommand, Step, Studio, ViewCommand};
 use crate::view::theme::TYPE;
 
 pub(super) const HEIGHT: f32 = 32.0;
@@ -19,7 +19,7 @@ const GAP: f32 = 16.0;
 /// A key, what it does, and the command.
 type KeyHint = (&'static str, String, Option<Command>);
 
-pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
     let width = ui.available_width();
     let (parts, is_hint) = told(lab);
     let sentence = fitting(ui, &parts, width);
@@ -52,7 +52,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 }
 
 /// The parts of the notice, or else of the hint, or else what the scene is about; and whether it is one of the first two.
-fn told(lab: &Lab) -> (Vec<String>, bool) {
+fn told(lab: &Studio) -> (Vec<String>, bool) {
     if let Some(notice) = &lab.viewer().notice {
         return (notice.parts().to_vec(), true);
     }
@@ -75,7 +75,7 @@ fn fitting(ui: &Ui, parts: &[String], width: f32) -> String {
 }
 
 /// The hints from right to left.
-fn key_hints(lab: &Lab) -> Vec<KeyHint> {
+fn key_hints(lab: &Studio) -> Vec<KeyHint> {
     let hint = |key, what: &str, command| (key, what.to_owned(), Some(command));
     let mut hints = vec![hint("H", "all keys", Command::View(ViewCommand::ToggleHelp))];
     let pause = if lab.running() { "pause" } else { "run" };
@@ -162,9 +162,9 @@ mod tests {
 
     #[test]
     fn the_throttle_is_told_of_a_ship_that_is_looked_at_or_whose_throttle_is_not_full() {
-        let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+        let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
         let is_told =
-            |lab: &Lab| key_hints(lab).iter().any(|(_, what, _)| what.starts_with("throttle"));
+            |lab: &Studio| key_hints(lab).iter().any(|(_, what, _)| what.starts_with("throttle"));
         let kinds = lab.scene().bodies.iter().map(|body| body.kind.id);
         let ship = kinds.clone().position(|id| id == "ship").unwrap();
         let spring = kinds.clone().position(|id| id == "spring").unwrap();

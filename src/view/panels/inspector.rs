@@ -8,7 +8,7 @@ use egui::{
 pub(super) use self::number::NumberField;
 use self::rows::{Reach, Row, Spacing, Values, rows};
 use super::palette;
-use crate::lab::{Action, Acts, Command, Lab, RunCommand, edited_values};
+use crate::lab::{Action, Acts, Command, RunCommand, Studio, edited_values};
 
 mod engine;
 mod number;
@@ -29,7 +29,7 @@ const MAX_NAME_PART: f32 = 0.42;
 /// Scenes of more bodies than this open with one of them unfolded, the displayed one.
 const FEW_BODIES: usize = 3;
 
-pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
     ui.spacing_mut().interact_size.y = LINE;
     ui.spacing_mut().button_padding.y = 1.0;
     ui.horizontal(|ui| {
@@ -73,7 +73,7 @@ fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
     header.show_unindented(ui, contents);
 }
 
-fn show_body(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Command>) {
+fn show_body(ui: &mut Ui, lab: &Studio, body: usize, commands: &mut Vec<Command>) {
     let mut acts = Acts::AtOnce;
     for row in rows(lab, body) {
         if row.parameter.acts != acts {
@@ -85,7 +85,7 @@ fn show_body(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Command>) {
     engine::show(ui, lab, body, commands);
 }
 
-fn show_row(ui: &mut Ui, lab: &Lab, row: &Row, commands: &mut Vec<Command>) {
+fn show_row(ui: &mut Ui, lab: &Studio, row: &Row, commands: &mut Vec<Command>) {
     let Row { body, place, parameter, values } = row;
     let kind = &lab.scene().bodies[*body].kind;
     let set = |value| {
@@ -198,7 +198,7 @@ fn named(ui: &mut Ui, button: Button<'_>, about: &str) -> Response {
 }
 
 /// Commands that restore every edited value; empty if nothing was edited.
-fn restoring(lab: &Lab) -> Vec<Command> {
+fn restoring(lab: &Studio) -> Vec<Command> {
     let changed = (0..lab.scene().bodies.len()).flat_map(|body| {
         let changed = move |row: Row| {
             let opened = row.values.filter(|values| values.differ())?.opened;
@@ -223,7 +223,7 @@ mod tests {
     use crate::view::testing::TestWindow;
 
     /// Every text that is seen in a frame that is high enough for all of the inspector.
-    fn texts(lab: &Lab) -> Vec<String> {
+    fn texts(lab: &Studio) -> Vec<String> {
         let mut window = TestWindow::new([1280.0, 3000.0]);
         // A header learns in the first frame how high it is.
         window.panels(lab, Vec::new());
@@ -233,7 +233,7 @@ mod tests {
     #[test]
     fn every_parameter_and_every_lane_of_every_scene_is_shown() {
         for scene in SCENES {
-            let mut lab = Lab::new(Scene::built_in(scene.name).unwrap());
+            let mut lab = Studio::new(Scene::built_in(scene.name).unwrap());
             lab.apply(StageCommand::ToggleRace);
             lab.apply(RunCommand::ToggleInspector);
             let texts = texts(&lab);
@@ -266,7 +266,7 @@ mod tests {
 
     #[test]
     fn restoring_all_makes_a_scene_what_it_was() {
-        let mut lab = Lab::new(Scene::built_in("chain").unwrap());
+        let mut lab = Studio::new(Scene::built_in("chain").unwrap());
         lab.apply(StageCommand::ToggleRace);
         assert_eq!(restoring(&lab), []);
         let place = |key| lab.scene().bodies[0].kind.parameter(key).unwrap().0;

@@ -10,8 +10,8 @@ use super::tracks::Detail;
 use super::{advice, cost, focus_ring, loops, one_step, palette, stability_map};
 use crate::lab::loop_lab::FRAME_METRICS;
 use crate::lab::{
-    Command, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow, Lab, METRICS, Quantity,
-    StageCommand, ViewCommand,
+    Command, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow, METRICS, Quantity,
+    StageCommand, Studio, ViewCommand,
 };
 use crate::view::chart::legend::{self, Entry};
 use crate::view::theme::{TYPE, strong_font};
@@ -57,14 +57,14 @@ pub(super) fn min_height(instrument: Instrument) -> f32 {
 }
 
 /// Shows the tabs, `indent` points from the left, and the chosen instrument.
-pub(super) fn show(ui: &mut Ui, lab: &Lab, indent: f32, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, lab: &Studio, indent: f32, commands: &mut Vec<Command>) {
     tabs(ui, lab, indent, commands);
     ui.add_space(2.0);
     show_alone(ui, lab, commands);
 }
 
 /// Shows the chosen instrument without tabs.
-pub(super) fn show_alone(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+pub(super) fn show_alone(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
     let room = ui.available_size() - vec2(10.0, 2.0);
     match lab.display().instrument {
         Instrument::Motion | Instrument::Error | Instrument::Energy | Instrument::Phase => {
@@ -81,7 +81,7 @@ pub(super) fn show_alone(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 }
 
 /// How closely a person looks at the plots in all that is left of `ui`.
-fn detail(ui: &Ui, lab: &Lab) -> Detail {
+fn detail(ui: &Ui, lab: &Studio) -> Detail {
     let room = ui.available_rect_before_wrap();
     match ui.rect_contains_pointer(room) || chart::is_zoomed(lab) {
         true => Detail::Samples,
@@ -90,7 +90,7 @@ fn detail(ui: &Ui, lab: &Lab) -> Detail {
 }
 
 /// The plots of the chosen instrument, if it has any.
-fn plot_set_of(lab: &Lab, detail: Detail) -> Option<PlotSet> {
+fn plot_set_of(lab: &Studio, detail: Detail) -> Option<PlotSet> {
     if let Some(loops) = lab.loop_lab() {
         return by_loop::plot_set(lab, loops, lab.display().instrument);
     }
@@ -109,7 +109,7 @@ fn plot_set_of(lab: &Lab, detail: Detail) -> Option<PlotSet> {
 }
 
 /// Two rows of tabs: without their names in a narrow panel, and in one that is narrower still a menu.
-fn tabs(ui: &mut Ui, lab: &Lab, indent: f32, commands: &mut Vec<Command>) {
+fn tabs(ui: &mut Ui, lab: &Studio, indent: f32, commands: &mut Vec<Command>) {
     let room = ui.available_width() - indent;
     let usual = ui.spacing().button_padding.x;
     let fits = |padding: f32, name: f32| {
@@ -145,7 +145,7 @@ fn cards(row: InstrumentRow) -> impl Iterator<Item = &'static InstrumentCard> {
     INSTRUMENTS.iter().filter(move |card| card.row == row)
 }
 
-fn is_open(lab: &Lab, card: &InstrumentCard) -> bool {
+fn is_open(lab: &Studio, card: &InstrumentCard) -> bool {
     lab.loop_lab().is_none() || card.instrument.is_in_loop_lab()
 }
 
@@ -160,7 +160,7 @@ fn row_width(ui: &Ui, row: InstrumentRow, padding: f32) -> f32 {
 }
 
 /// A menu of the instruments.
-fn tabs_menu(ui: &mut Ui, lab: &Lab, indent: f32, commands: &mut Vec<Command>) {
+fn tabs_menu(ui: &mut Ui, lab: &Studio, indent: f32, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         ui.add_space(indent);
         let instrument = lab.display().instrument;
@@ -187,7 +187,7 @@ fn tab(ui: &mut Ui, card: &InstrumentCard, is_chosen: bool, is_open: bool) -> bo
 }
 
 /// An instrument of plots, below its title, its choices and its legend.
-fn plots(ui: &mut Ui, lab: &Lab, set: &PlotSet, commands: &mut Vec<Command>) {
+fn plots(ui: &mut Ui, lab: &Studio, set: &PlotSet, commands: &mut Vec<Command>) {
     let entries = legend_entries(set);
     let has_legend = ui.available_height() >= ROOM_FOR_LEGEND && entries.len() <= MAX_IN_LEGEND;
     let may_be_beside = has_legend
@@ -217,7 +217,7 @@ fn plots(ui: &mut Ui, lab: &Lab, set: &PlotSet, commands: &mut Vec<Command>) {
 }
 
 /// What can be chosen in an instrument: a metric, a body.
-fn choices(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+fn choices(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
     let instrument = lab.display().instrument;
     if instrument == Instrument::Error {
         let (offered, chosen): (Vec<_>, usize) = match lab.loop_lab() {
@@ -253,7 +253,7 @@ fn choices(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 }
 
 /// Offers the bodies of the scene, if it has several.
-fn body_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+fn body_choice(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
     if lab.scene().bodies.len() > 1 {
         let names = lab.scene().bodies.iter().map(|body| body.name.as_str());
         let body = lab.view().body;
@@ -271,7 +271,7 @@ fn body_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 }
 
 /// Offers the coordinates of the displayed body, if it has several.
-fn coordinate_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+fn coordinate_choice(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
     let body = lab.view().body;
     let coordinates = lab.race().truth().bodies()[body].coordinates();
     if coordinates.len() > 1 {

@@ -5,7 +5,7 @@ use egui::{Color32, RichText, Ui};
 use super::table::{Table, TableRow};
 use super::{formula, palette};
 use crate::lab::source_code::Language;
-use crate::lab::{Command, Lab, LaneBody, StageCommand, ViewCommand};
+use crate::lab::{Command, LaneBody, StageCommand, Studio, ViewCommand};
 use crate::view::theme::{PanelPalette, TYPE, strong_font};
 
 use row::Row;
@@ -20,7 +20,7 @@ pub(super) const ROW: f32 = 26.0;
 /// Rows in sight, where the window is high enough: the lanes of a usual race. The rest is scrolled to.
 const ROWS: std::ops::RangeInclusive<usize> = 5..=8;
 
-pub(super) fn height(lab: &Lab) -> f32 {
+pub(super) fn height(lab: &Studio) -> f32 {
     height_of(lab.scene().lanes.len())
 }
 
@@ -30,7 +30,7 @@ pub(super) fn height_of(rows: usize) -> f32 {
 }
 
 /// Shows the table. Returns the place of the lane whose row the pointer or the keyboard's focus is on.
-pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) -> Option<usize> {
+pub(super) fn show(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) -> Option<usize> {
     let mut pointed = None;
     table(lab).show(ui, groups(lab), commands, |row, response, commands| {
         response.context_menu(|ui| menu(ui, lab, row.entry, commands));
@@ -41,13 +41,13 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) -> Optio
     pointed
 }
 
-fn table(lab: &Lab) -> Table<Row<'_>> {
+fn table(lab: &Studio) -> Table<Row<'_>> {
     let (columns, min_rest) = (columns::of(lab), columns::min_verdict);
     Table { id: "lanes", columns, min_rest, row_height: ROW, head_type: TYPE }
 }
 
 /// The rows of each method.
-fn groups(lab: &Lab) -> Vec<Vec<Row<'_>>> {
+fn groups(lab: &Studio) -> Vec<Vec<Row<'_>>> {
     let truth = lab.race().truth().bodies().iter().enumerate();
     let exact = |(body, truth): (usize, &LaneBody)| {
         let (q, _) = truth.halted().is_none().then(|| lab.shown_truth(body))?;
@@ -58,7 +58,7 @@ fn groups(lab: &Lab) -> Vec<Vec<Row<'_>>> {
 }
 
 /// The menu of a row: a spring's settings in its engine, and its method as code, in each language.
-pub(super) fn menu(ui: &mut Ui, lab: &Lab, entry: usize, commands: &mut Vec<Command>) {
+pub(super) fn menu(ui: &mut Ui, lab: &Studio, entry: usize, commands: &mut Vec<Command>) {
     let has_joint = lab.joint_code(entry).is_some();
     if has_joint && ui.button("Copy the spring's settings (Ctrl C)").clicked() {
         commands.push(Command::View(ViewCommand::CopyJoint(entry)));

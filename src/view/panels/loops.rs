@@ -4,7 +4,7 @@ use egui::{Color32, Rect, RichText, Sense, Ui, Vec2, vec2};
 
 use super::{palette, strong_font};
 use crate::lab::loop_lab::LoopLane;
-use crate::lab::{Command, Lab, LoopLab};
+use crate::lab::{Command, LoopLab, Studio};
 use crate::view::chart::Primitive;
 use crate::view::chart::legend::{self, Entry};
 use crate::view::theme::{PanelPalette, colour};
@@ -35,7 +35,7 @@ const GAP: f32 = 10.0;
 const ABOVE_TWO: f32 = 3.0;
 
 /// Shows what each loop of the loop lab shows, or what the window's own loop does.
-pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, lab: &Studio, room: Vec2, commands: &mut Vec<Command>) {
     match lab.loop_lab() {
         Some(loops) => show_lab(ui, loops, room, commands),
         None => live::show(ui, lab, room),
@@ -72,7 +72,7 @@ fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command
 
 /// The title of the charts in a room, to be saved, what names their curves, and the charts; `None` before the first frame.
 pub(super) fn layout(
-    lab: &Lab,
+    lab: &Studio,
     room: Rect,
     palette: &PanelPalette,
 ) -> Option<(&'static str, Vec<Entry>, Vec<Primitive>)> {

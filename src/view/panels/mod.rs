@@ -6,7 +6,7 @@ use egui::text::{LayoutJob, TextWrapping};
 use egui::{Color32, FontId, Frame, Galley, Key, Margin, Rect, TextFormat, Ui};
 
 use super::theme::{PanelPalette, colour, palette, palette_of, strong_font};
-use crate::lab::{Command, Dialog, Lab, Outcome, Severity, ViewCommand};
+use crate::lab::{Command, Dialog, Outcome, Severity, Studio, ViewCommand};
 
 mod advice;
 mod annotations;
@@ -63,7 +63,7 @@ const INSPECTOR: f32 = 0.62;
 const MIN_INSPECTOR: f32 = 130.0;
 
 /// Shows all panels. Returns what was asked for and the rectangle left for the stage, in points.
-pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
+pub(super) fn show(ui: &mut Ui, lab: &Studio) -> (Vec<Command>, Rect) {
     let mut commands = Vec::new();
     let size = ui.max_rect().size();
     if size.y >= HEIGHT_FOR_TOP_BAR {
@@ -147,14 +147,14 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
 }
 
 /// Shows the instrument alone.
-pub(super) fn show_instrument(ui: &mut Ui, lab: &Lab) {
+pub(super) fn show_instrument(ui: &mut Ui, lab: &Studio) {
     let frame = Frame::new().fill(palette(ui).background).inner_margin(Margin::symmetric(8, 4));
     let panel = egui::CentralPanel::default_margins().frame(frame);
     panel.show(ui, |ui| instruments::show_alone(ui, lab, &mut Vec::new()));
 }
 
 /// The instruments; with the inspector open they keep the upper part, where there is room for both.
-fn beside_the_stage(ui: &mut Ui, lab: &Lab, indent: f32, commands: &mut Vec<Command>) {
+fn beside_the_stage(ui: &mut Ui, lab: &Studio, indent: f32, commands: &mut Vec<Command>) {
     let most = ui.available_height() - instruments::min_height(lab.display().instrument);
     if !lab.display().inspector || lab.display().enlarged {
         instruments::show(ui, lab, indent, commands);

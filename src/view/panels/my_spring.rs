@@ -5,7 +5,7 @@ use egui::{Align2, Button, FontId, Id, RichText, Sense, Ui, vec2};
 use super::dialog::{select, window};
 use super::inspector::NumberField;
 use super::palette;
-use crate::lab::{Command, Lab, MySpring, StageCommand, ViewCommand};
+use crate::lab::{Command, MySpring, StageCommand, Studio, ViewCommand};
 use crate::view::theme::TYPE;
 
 const TITLE: &str = "My spring";
@@ -44,7 +44,7 @@ const SEEN_AS: [Number; 2] = [
     }),
 ];
 
-pub(super) fn show(ui: &Ui, lab: &Lab, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &Ui, lab: &Studio, commands: &mut Vec<Command>) {
     let ctx = ui.ctx();
     window(TITLE).anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(ctx, |ui| {
         ui.set_width(NAME + NUMBER + 8.0);
@@ -91,7 +91,7 @@ fn is_new(ui: &Ui) -> bool {
 
 fn line(
     ui: &mut Ui,
-    lab: &Lab,
+    lab: &Studio,
     (name, unit, value, with): &Number,
     takes_focus: bool,
     commands: &mut Vec<Command>,

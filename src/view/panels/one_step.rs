@@ -10,7 +10,7 @@ use egui::{
 use super::annotations::{arrow, label};
 use super::{colour, formula, palette, strong_font};
 use crate::lab::number::{round, significant};
-use crate::lab::{Coordinate, Lab, OneStep, Slope, Unit};
+use crate::lab::{Coordinate, OneStep, Slope, Studio, Unit};
 use crate::view::chart::{self, AxisScale, Curve, Drawing, LineStyle, PlotArea};
 use crate::view::theme::TYPE;
 
@@ -42,7 +42,7 @@ const MAX_DRAWN: usize = 12;
 /// How much wider the plot is than what it shows.
 const MARGIN: f64 = 0.16;
 
-pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
+pub(super) fn show(ui: &mut Ui, lab: &Studio, room: Vec2) {
     let Some(step) = lab.one_step() else {
         let why = "No next step: the body has halted under this method.";
         ui.label(RichText::new(why).color(palette(ui).dim));
@@ -71,12 +71,12 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
 }
 
 /// [`words`] as they are painted.
-fn said(ui: &Ui, lab: &Lab, step: &OneStep, width: f32) -> Arc<Galley> {
+fn said(ui: &Ui, lab: &Studio, step: &OneStep, width: f32) -> Arc<Galley> {
     let words = words(step, &shown_coordinate(lab));
     ui.painter().layout(words, FontId::proportional(TYPE), palette(ui).text, width)
 }
 
-fn shown_coordinate(lab: &Lab) -> Coordinate {
+fn shown_coordinate(lab: &Studio) -> Coordinate {
     lab.race().truth().bodies()[lab.view().body].coordinates().at(0)
 }
 
@@ -114,7 +114,7 @@ fn range(step: &OneStep, axis: usize) -> [f64; 2] {
     [low - MARGIN * size, high + MARGIN * size]
 }
 
-fn plot(ui: &mut Ui, lab: &Lab, step: &OneStep, size: Vec2) {
+fn plot(ui: &mut Ui, lab: &Studio, step: &OneStep, size: Vec2) {
     let (whole, response) = ui.allocate_exact_size(size, Sense::hover());
     let palette = palette(ui);
     let rect = Rect::from_min_max(
@@ -282,7 +282,7 @@ fn table_height(step: &OneStep) -> f32 {
 }
 
 /// The formula, every evaluation in numbers, and where the tick ends.
-fn table(ui: &mut Ui, lab: &Lab, step: &OneStep) {
+fn table(ui: &mut Ui, lab: &Studio, step: &OneStep) {
     let coordinate = &shown_coordinate(lab);
     let (q, v) = (&coordinate.name, &coordinate.velocity);
     ui.spacing_mut().item_spacing.y = 1.0;

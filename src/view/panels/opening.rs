@@ -4,13 +4,18 @@ use egui::{Align2, Id, Key, Label, RichText, ScrollArea, TextEdit, TextStyle, Te
 
 use super::dialog::{select, window};
 use super::palette;
-use crate::lab::{Command, Lab, Mistake, ViewCommand};
+use crate::lab::{Command, Mistake, Studio, ViewCommand};
 
 /// The width of a path that can be read without scrolling, in points.
 const WIDTH: f32 = 460.0;
 
 /// A field that has the focus as long as it is there: what is typed is meant for it.
-pub(super) fn path(ui: &Ui, lab: &Lab, refused: Option<&[Mistake]>, commands: &mut Vec<Command>) {
+pub(super) fn path(
+    ui: &Ui,
+    lab: &Studio,
+    refused: Option<&[Mistake]>,
+    commands: &mut Vec<Command>,
+) {
     let ctx = ui.ctx();
     let width = WIDTH.min(ctx.content_rect().width() - 40.0).max(40.0);
     window("Open a scene or a frame log").anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(ctx, |ui| {
@@ -101,7 +106,7 @@ mod tests {
     use crate::view::testing::TestWindow;
 
     /// The size of the only window over the lab, in points.
-    fn size_of_dialog(lab: &Lab, title: &str) -> egui::Vec2 {
+    fn size_of_dialog(lab: &Studio, title: &str) -> egui::Vec2 {
         let mut window = TestWindow::new([800.0, 600.0]);
         for _ in 0..3 {
             window.show(Vec::new(), |ui| match lab.viewer().dialog() {
@@ -122,7 +127,7 @@ mod tests {
     fn a_long_message_is_wrapped_and_a_quoted_line_is_not() {
         let message = |words: usize| format!("a.toml:1:1: {}", "words ".repeat(words));
         let shown = |report: Mistake| {
-            let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+            let mut lab = Studio::new(Scene::built_in("spring").unwrap());
             lab.show_mistakes(std::path::Path::new("a.toml"), vec![report]);
             size_of_dialog(&lab, "a.toml cannot be opened")
         };
@@ -135,7 +140,7 @@ mod tests {
 
     #[test]
     fn the_field_shows_why_a_path_is_refused() {
-        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
         lab.apply(ViewCommand::AskForPath);
         let before = size_of_dialog(&lab, "Open a scene or a frame log");
         lab.refuse_typed_path(

@@ -108,15 +108,15 @@ fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Lab, Metric, Scene, StageCommand};
+    use crate::lab::{Metric, Scene, StageCommand, Studio};
 
-    fn lanes(lab: &Lab, metric: usize) -> Vec<Track> {
+    fn lanes(lab: &Studio, metric: usize) -> Vec<Track> {
         Track::of(lab, 0, |s| [s.t, s.metrics[metric]])
     }
 
     #[test]
     fn energy_drift_is_scaled_to_the_healthy_lanes_and_without_one_to_what_is_not_lost() {
-        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
         lab.apply(StageCommand::ToggleRace);
         (0..600).for_each(|_| lab.tick());
         // Explicit Euler is some thousand per cent off, semi-implicit Euler swings by five.
@@ -130,7 +130,7 @@ mod tests {
 
     #[test]
     fn an_axis_takes_in_the_truth_and_what_is_near_and_nothing_that_is_far_beyond() {
-        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
         lab.apply(StageCommand::ToggleRace);
         (0..600).for_each(|_| lab.tick());
         let tracks = Track::of(&lab, 0, |s| [s.t, s.q]);
@@ -151,7 +151,7 @@ mod tests {
         for (low, high) in [of_shares(&[]), from_zero(&[]), of_decades(&[], 0.0)] {
             assert!(high - low >= 1.0, "{low} to {high}");
         }
-        let still = Lab::new(Scene::built_in("spring").unwrap());
+        let still = Studio::new(Scene::built_in("spring").unwrap());
         let (low, high) = from_zero(&lanes(&still, Metric::EVALUATIONS));
         assert!(low < 0.0 && high > 0.0, "{low} to {high}");
     }

@@ -4,7 +4,7 @@ use egui::Color32;
 
 use super::palette_of;
 use crate::lab::pacing::POLICIES;
-use crate::lab::{Lab, LoopLab, Mode};
+use crate::lab::{LoopLab, Mode, Studio};
 use crate::view::theme::colour;
 
 /// Whose curves the plots show.
@@ -34,14 +34,14 @@ pub(super) struct SeriesStyle {
 
 impl SeriesStyles {
     /// The methods of the run, or of the open loop lab its loops.
-    pub(super) fn of(lab: &Lab) -> Self {
+    pub(super) fn of(lab: &Studio) -> Self {
         match lab.loop_lab() {
             Some(loops) => Self::of_loops(lab, loops),
             None => Self::of_methods(lab),
         }
     }
 
-    fn of_methods(lab: &Lab) -> Self {
+    fn of_methods(lab: &Studio) -> Self {
         let palette = palette_of(lab.display().theme);
         let series = lab.entries().iter().map(|spec| {
             let (colour, dash) = palette.style(lab.entries(), spec);
@@ -60,7 +60,7 @@ impl SeriesStyles {
         }
     }
 
-    fn of_loops(lab: &Lab, loops: &LoopLab) -> Self {
+    fn of_loops(lab: &Studio, loops: &LoopLab) -> Self {
         let palette = palette_of(lab.display().theme);
         let series = POLICIES.iter().enumerate().map(|(place, card)| {
             let (rgba, dash) = palette.theme.loop_style(place);

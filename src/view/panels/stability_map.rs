@@ -12,8 +12,8 @@ use super::annotations::{label, mixed, polygon};
 use super::{colour, palette, strong_font};
 use crate::lab::number::round;
 use crate::lab::{
-    Action, Command, Coverage, Lab, MapRequest, Parameter, RunCommand, SeenLine, StabilityMap,
-    StageCommand, Step, edited_values,
+    Action, Command, Coverage, MapRequest, Parameter, RunCommand, SeenLine, StabilityMap,
+    StageCommand, Step, Studio, edited_values,
 };
 use crate::view::chart::{self, AxisScale, LineStyle, PlotArea, Primitive, ScreenCurve};
 use words::{each_method, full_name, no_map, point_in_words, sentence, short_sentence};
@@ -43,7 +43,7 @@ const APART: f32 = 13.0;
 /// Half the height of the letters of a label, in points.
 const HALF_LETTER: f32 = 6.0;
 
-pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, lab: &Studio, room: Vec2, commands: &mut Vec<Command>) {
     let top = ui.cursor().top();
     let Some(place) = lab.mapped_parameter() else {
         ui.label(
@@ -75,12 +75,12 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Comman
     ui.add(Label::new(words)).on_hover_text(each_method(map));
 }
 
-fn parameter(lab: &Lab, place: usize) -> &Parameter {
+fn parameter(lab: &Studio, place: usize) -> &Parameter {
     &lab.scene().bodies[lab.view().body].kind.parameters[place]
 }
 
 /// The title, and the menu of the parameters.
-fn head(ui: &mut Ui, lab: &Lab, place: usize, commands: &mut Vec<Command>) {
+fn head(ui: &mut Ui, lab: &Studio, place: usize, commands: &mut Vec<Command>) {
     let body = &lab.scene().bodies[lab.view().body];
     ui.horizontal(|ui| {
         let title = RichText::new(format!("Stability: {} over", body.name));
@@ -99,7 +99,7 @@ fn head(ui: &mut Ui, lab: &Lab, place: usize, commands: &mut Vec<Command>) {
     });
 }
 
-fn plot(ui: &mut Ui, lab: &Lab, map: &StabilityMap, size: Vec2, commands: &mut Vec<Command>) {
+fn plot(ui: &mut Ui, lab: &Studio, map: &StabilityMap, size: Vec2, commands: &mut Vec<Command>) {
     let (whole, _) = ui.allocate_exact_size(size, Sense::hover());
     let (palette, painter) = (palette(ui), ui.painter_at(whole));
     let has_names = size.y >= 150.0;
@@ -154,7 +154,7 @@ fn water(ui: &Ui, map: &StabilityMap, area: &PlotArea) {
 }
 
 /// Each method's boundary in its colour with its name and its limit beside it, the selected method's last.
-fn boundaries(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) {
+fn boundaries(ui: &Ui, lab: &Studio, map: &StabilityMap, area: &PlotArea) {
     let painter = ui.painter().with_clip_rect(area.rect);
     let lines: Vec<(usize, Vec<Pos2>)> = map
         .regions
@@ -231,7 +231,7 @@ fn boundaries(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) {
 }
 
 /// The lines along which a player sees the same damping ratio of the selected engine.
-fn seen_lines(lab: &Lab, map: &StabilityMap, area: &PlotArea) -> Vec<(f64, Vec<Pos2>)> {
+fn seen_lines(lab: &Studio, map: &StabilityMap, area: &PlotArea) -> Vec<(f64, Vec<Pos2>)> {
     let found = map.regions.iter().zip(&map.request.specs);
     let selected = found.filter(|(_, (entry, _))| *entry == lab.active());
     let has_room = area.rect.height() >= ROOM_FOR_LINES;
@@ -299,7 +299,7 @@ fn label_place(
 }
 
 /// Names the methods that are stable everywhere. Returns the places along that.
-fn only_everywhere(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) -> Vec<Pos2> {
+fn only_everywhere(ui: &Ui, lab: &Studio, map: &StabilityMap, area: &PlotArea) -> Vec<Pos2> {
     let found = map.regions.iter().zip(&map.request.specs);
     let mut everywhere = found.filter(|(region, _)| region.coverage == Coverage::Everywhere);
     let Some((_, (entry, _))) = everywhere.next() else { return Vec::new() };
@@ -316,14 +316,14 @@ fn only_everywhere(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) -> V
 }
 
 /// Where the run is; a value below the map is at its lower end.
-fn cross_at(lab: &Lab, map: &StabilityMap, area: &PlotArea) -> Option<Pos2> {
+fn cross_at(lab: &Studio, map: &StabilityMap, area: &PlotArea) -> Option<Pos2> {
     let value = lab.race().values(map.request.body).get(map.request.parameter)?;
     let hz = f64::from(lab.clock().tick_hz());
     Some(area.rect.clamp(area.at([hz, value.max(f64::MIN_POSITIVE)].map(libm::log10))))
 }
 
 /// The cross, which sets the tick rate and the parameter when it is dragged.
-fn cross(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea, commands: &mut Vec<Command>) {
+fn cross(ui: &Ui, lab: &Studio, map: &StabilityMap, area: &PlotArea, commands: &mut Vec<Command>) {
     let Some(at) = cross_at(lab, map, area) else { return };
     let response = ui.interact(area.rect, Id::unique(CROSS_ID), Sense::click_and_drag());
     let (palette, painter) = (palette(ui), ui.painter().with_clip_rect(area.rect));
@@ -389,7 +389,7 @@ fn you_are_here(ui: &Ui, at: Pos2, map: Rect) -> (Rect, Arc<Galley>) {
 }
 
 /// Moves the cross by the arrow keys: along the ladder of tick rates, and by equal factors of the parameter.
-fn step(ui: &Ui, lab: &Lab, map: &StabilityMap, commands: &mut Vec<Command>) {
+fn step(ui: &Ui, lab: &Studio, map: &StabilityMap, commands: &mut Vec<Command>) {
     let pressed = |key| ui.input(|input| input.num_presses(key));
     commands.extend(
         (0..pressed(Key::ArrowLeft))
@@ -408,7 +408,7 @@ fn step(ui: &Ui, lab: &Lab, map: &StabilityMap, commands: &mut Vec<Command>) {
 }
 
 /// Sets the tick rate and the parameter to a point of the map.
-fn go_to(lab: &Lab, map: &StabilityMap, [x, y]: [f64; 2], commands: &mut Vec<Command>) {
+fn go_to(lab: &Studio, map: &StabilityMap, [x, y]: [f64; 2], commands: &mut Vec<Command>) {
     let tick_hz = libm::pow(10.0, x).round().max(1.0) as u32;
     if tick_hz != lab.clock().tick_hz() {
         commands.push(Command::Stage(StageCommand::TickHz(tick_hz)));
@@ -417,7 +417,7 @@ fn go_to(lab: &Lab, map: &StabilityMap, [x, y]: [f64; 2], commands: &mut Vec<Com
 }
 
 /// Sets the parameter to three digits of a value.
-fn set(lab: &Lab, map: &StabilityMap, value: f64, commands: &mut Vec<Command>) {
+fn set(lab: &Studio, map: &StabilityMap, value: f64, commands: &mut Vec<Command>) {
     let (body, parameter) = (map.request.body, map.request.parameter);
     let value = to_three_digits(value);
     let values = lab.race().values(body);

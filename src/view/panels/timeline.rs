@@ -11,7 +11,7 @@ use egui::{
 use self::marks::{Context, Group, Sign, grouped};
 pub(super) use self::span::Span;
 use super::{PanelPalette, palette};
-use crate::lab::{Command, Event, Lab, Mode, RunCommand, StageCommand, Step, TimeScale};
+use crate::lab::{Command, Event, Mode, RunCommand, StageCommand, Step, Studio, TimeScale};
 use crate::view::chart::AxisScale;
 use crate::view::wheel;
 
@@ -45,7 +45,7 @@ const MIN_TICKS: f64 = 12.0;
 /// The most marks that a tooltip tells of.
 const MAX_TOLD: usize = 8;
 
-pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
     let room = ui.available_rect_before_wrap();
     let Some(groove) = groove(lab, room) else { return };
     let along = groove.along;
@@ -81,7 +81,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     tooltip(ui, response, &track, &groups);
 }
 
-fn groove(lab: &Lab, room: Rect) -> Option<Groove> {
+fn groove(lab: &Studio, room: Rect) -> Option<Groove> {
     Groove::new(room, if lab.timeline().undoes().is_some() { UNDO } else { 0.0 })
 }
 
@@ -178,7 +178,7 @@ impl Track<'_> {
 }
 
 /// The part of the run that is in view, after what the wheel and the clicks of this frame make of it.
-fn viewed(ui: &Ui, lab: &Lab, times: &TimeScale, response: &Response, along: Rangef) -> Span {
+fn viewed(ui: &Ui, lab: &Studio, times: &TimeScale, response: &Response, along: Rangef) -> Span {
     let id = response.id;
     let whole = Span::whole(lab.scene().seconds, times.t(lab.timeline().end()));
     if response.double_clicked() {
@@ -207,7 +207,13 @@ fn viewed(ui: &Ui, lab: &Lab, times: &TimeScale, response: &Response, along: Ran
 }
 
 /// Goes to where the mouse is pressed; with the focus, the arrows go by ticks.
-fn seek(ui: &Ui, lab: &Lab, response: &Response, track: &Track<'_>, commands: &mut Vec<Command>) {
+fn seek(
+    ui: &Ui,
+    lab: &Studio,
+    response: &Response,
+    track: &Track<'_>,
+    commands: &mut Vec<Command>,
+) {
     let present = lab.race().tick();
     let name = format!("timeline, at tick {present}");
     response.widget_info(|| egui::WidgetInfo::slider(true, lab.race().t(), &name));
@@ -268,7 +274,7 @@ fn numbers(
 }
 
 /// The track: what was run up to the present in the colours of the methods, what was run beyond it in grey.
-fn fill(painter: &Painter, lab: &Lab, events: &[Event], track: &Track<'_>) {
+fn fill(painter: &Painter, lab: &Studio, events: &[Event], track: &Track<'_>) {
     let round = 0.5 * THICKNESS;
     let (groove, along) = (track.groove, track.groove.along);
     painter.rect_filled(groove.piece(along.min, along.max), round, track.palette.raised);
@@ -341,7 +347,7 @@ fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
 }
 
 /// The *undo* button, and the memory that the past takes.
-fn beside(ui: &mut Ui, lab: &Lab, room: Rect, commands: &mut Vec<Command>) {
+fn beside(ui: &mut Ui, lab: &Studio, room: Rect, commands: &mut Vec<Command>) {
     let timeline = lab.timeline();
     let is_near = timeline.bytes() as f64 >= NEAR_THE_BOUND * timeline.limit() as f64;
     // A recording of the picture says nothing of the machine that it is made on.

@@ -7,8 +7,8 @@ use egui::{
 use super::loops::controls;
 use super::palette;
 use crate::lab::{
-    Command, Lab, LoopCommand, Mode, Pace, RunCommand, SCENES, SPEED_LADDER, Scene, StageCommand,
-    Step, TICK_LADDER, ViewCommand,
+    Command, LoopCommand, Mode, Pace, RunCommand, SCENES, SPEED_LADDER, Scene, StageCommand, Step,
+    Studio, TICK_LADDER, ViewCommand,
 };
 use crate::view::theme::{TYPE, strong_font};
 
@@ -20,7 +20,7 @@ const ROOM_FOR_BACK: f32 = 700.0;
 const ROOM_FOR_WORDS: f32 = 960.0;
 const ROOM_FOR_PACE: f32 = 1100.0;
 
-pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
     let width = ui.available_width();
     ui.horizontal_centered(|ui| {
         scene_menu(ui, lab, commands);
@@ -80,7 +80,7 @@ fn word(ui: &mut Ui, width: f32, word: &str) {
 }
 
 /// Each scene by its name, with its title beside it.
-fn scene_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+fn scene_menu(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
     let name = lab.scene_name();
     let menu = ComboBox::from_id_salt("scene").selected_text(&name).width(92.0).height(480.0);
     let response = menu.show_ui(ui, |ui| {
@@ -112,7 +112,7 @@ fn scene_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     });
 }
 
-fn transport(ui: &mut Ui, lab: &Lab, has_back: bool, commands: &mut Vec<Command>) {
+fn transport(ui: &mut Ui, lab: &Studio, has_back: bool, commands: &mut Vec<Command>) {
     let unit = if lab.loop_lab().is_some() { "frame" } else { "tick" };
     button(ui, "⏮", "restart (Home)", Command::Stage(StageCommand::Restart), commands);
     if has_back {
@@ -137,7 +137,7 @@ fn transport(ui: &mut Ui, lab: &Lab, has_back: bool, commands: &mut Vec<Command>
 }
 
 /// Solo, race or loop lab: three parts of one control.
-fn modes(ui: &mut Ui, lab: &Lab, width: f32, commands: &mut Vec<Command>) {
+fn modes(ui: &mut Ui, lab: &Studio, width: f32, commands: &mut Vec<Command>) {
     ui.add_space(4.0);
     let is_in_loops = lab.loop_lab().is_some();
     let toggle_loops = Command::Loop(LoopCommand::ToggleLab);
@@ -194,7 +194,7 @@ fn part(ui: &mut Ui, name: &str, about: &str, is_chosen: bool) -> bool {
     response.on_hover_text(about).clicked()
 }
 
-fn speed_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+fn speed_menu(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
     let percent = lab.clock().speed_percent();
     let text = RichText::new(format!("{}×", multiple(percent)));
     let menu = ComboBox::from_id_salt("speed").selected_text(text).width(54.0).height(400.0);
@@ -218,7 +218,7 @@ fn multiple(percent: u32) -> String {
     }
 }
 
-fn tick_rate_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+fn tick_rate_menu(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
     let tick_hz = lab.loop_lab().map_or(lab.clock().tick_hz(), |loops| loops.scene().tick_hz);
     let text = RichText::new(format!("{tick_hz} Hz"));
     let menu = ComboBox::from_id_salt("tick rate").selected_text(text).width(72.0).height(480.0);
@@ -232,7 +232,7 @@ fn tick_rate_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     response.response.on_hover_text("ticks per simulated second ([ and ])");
 }
 
-fn pace(ui: &mut Ui, lab: &Lab) {
+fn pace(ui: &mut Ui, lab: &Studio) {
     // Paused, no frame is drawn but for an event, and no time goes by.
     if !lab.running() {
         ui.label(RichText::new("paused").color(palette(ui).accent));
@@ -249,7 +249,7 @@ fn pace(ui: &mut Ui, lab: &Lab) {
         .on_hover_text("frames drawn per second · simulated seconds per second");
 }
 
-fn inspector_button(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+fn inspector_button(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
     let (is_open, about) = (lab.display().inspector, "inspector (E)");
     let response = ui.add(Button::new("Edit").selected(is_open)).on_hover_text(about);
     response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, is_open, about));

@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 
 use super::series_styles::SeriesStyles;
 use crate::lab::past::Summary;
-use crate::lab::{Entrant, History, Lab, Quantity, Sample};
+use crate::lab::{Entrant, History, Quantity, Sample, Studio};
 use crate::view::chart::{Arrow, Bounds, Curve, Dots, Drawing, LineStyle, Switch};
 
 /// A sample of a lane in a plot.
@@ -72,7 +72,7 @@ const RETURNED: f64 = 0.1;
 impl Track {
     /// A track for each lane, of `place` of its samples of the body; those that are not finite are left out. The one in
     /// front is the last.
-    pub(super) fn of(lab: &Lab, body: usize, place: impl Fn(&Sample) -> [f64; 2]) -> Vec<Self> {
+    pub(super) fn of(lab: &Studio, body: usize, place: impl Fn(&Sample) -> [f64; 2]) -> Vec<Self> {
         Self::of_points(lab, body, |s| {
             let at = place(s);
             Point { t: s.t, entry: s.entry, at, swept: [at[1]; 2], jumped: s.jumped }
@@ -82,7 +82,7 @@ impl Track {
     /// A track for each lane, of a quantity of the body over time; of a coordinate with all that it comes to between
     /// samples.
     pub(super) fn of_quantity(
-        lab: &Lab,
+        lab: &Studio,
         body: usize,
         quantity: Quantity,
         detail: Detail,
@@ -104,11 +104,15 @@ impl Track {
         Self::of_histories(lab, body, points)
     }
 
-    fn of_points(lab: &Lab, body: usize, point: impl Fn(&Sample) -> Point) -> Vec<Self> {
+    fn of_points(lab: &Studio, body: usize, point: impl Fn(&Sample) -> Point) -> Vec<Self> {
         Self::of_histories(lab, body, |history| finite(history.samples().map(&point)))
     }
 
-    fn of_histories(lab: &Lab, body: usize, points: impl Fn(&History) -> Vec<Point>) -> Vec<Self> {
+    fn of_histories(
+        lab: &Studio,
+        body: usize,
+        points: impl Fn(&History) -> Vec<Point>,
+    ) -> Vec<Self> {
         let front = lab.selected().id;
         let track = |lane: &Entrant| Self {
             points: points(&lab.past().histories(lane.id)[body]),
@@ -185,7 +189,7 @@ impl Track {
 
     /// The tracks that an axis is fitted to: without what was before a body was put elsewhere or a parameter changed, but
     /// for the moments after that.
-    pub(super) fn fitted<'t>(lab: &Lab, tracks: &'t [Self]) -> Cow<'t, [Self]> {
+    pub(super) fn fitted<'t>(lab: &Studio, tracks: &'t [Self]) -> Cow<'t, [Self]> {
         let since_s = lab.past().swing_since_s(lab.race().t());
         if since_s == f64::NEG_INFINITY {
             return Cow::Borrowed(tracks);

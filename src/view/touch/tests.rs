@@ -7,7 +7,7 @@ use crate::view::testing::TestWindow;
 
 /// A lab with a stage, and the pointer over it.
 struct Table {
-    lab: Lab,
+    lab: Studio,
     touch: Touch,
     window: TestWindow,
 }
@@ -16,7 +16,7 @@ const STAGE: Rect = Rect { min: pos2(40.0, 30.0), max: pos2(840.0, 530.0) };
 
 impl Table {
     fn new(scene: &str) -> Self {
-        let mut lab = Lab::new(Scene::built_in(scene).unwrap());
+        let mut lab = Studio::new(Scene::built_in(scene).unwrap());
         (0..9).for_each(|_| lab.tick());
         let window = TestWindow { frame_s: 0.05, ..TestWindow::new([900.0, 600.0]) };
         let mut table = Self { lab, touch: Touch::default(), window };

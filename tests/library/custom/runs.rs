@@ -3,7 +3,7 @@
 use glam::DVec2;
 use regatta::lab::picture::{Look, Mark, Outline};
 use regatta::lab::session::RecordingError;
-use regatta::lab::{Adviser, CRITERIA, Lab, Lane, LaneSpec, Mode, Report};
+use regatta::lab::{Adviser, CRITERIA, Lane, LaneSpec, Mode, Report, Studio};
 use regatta::prelude::{Options, Scene, Session, State};
 use regatta::sim::Solver;
 use regatta::sim::integrators::method;
@@ -73,7 +73,7 @@ fn the_lab_goes_on_with_a_run_where_it_is() {
     let mut session = Session::racing(scene().into());
     session.act(regatta::lab::Action::Kick(2.0));
     session.run(100);
-    let mut lab = Lab::of_session(session.clone());
+    let mut lab = Studio::of_session(session.clone());
     assert_eq!((lab.mode(), lab.race().tick()), (Mode::Race, 100));
     assert_eq!(lab.race().state_hash(), session.race().state_hash());
     lab.tick();

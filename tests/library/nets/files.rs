@@ -1,6 +1,6 @@
 //! Nets in scene files.
 
-use regatta::lab::{Lab, LaneSpec, Race, Scene};
+use regatta::lab::{LaneSpec, Race, Scene, Studio};
 use regatta::sim::integrators::method;
 
 fn parse(net: &str) -> Scene {
@@ -45,8 +45,8 @@ fn a_kick_of_the_script_reaches_the_net() {
     let text = format!(
         "title = 't'\ntick_hz = 60\nseconds = 1\n[[net]]\n{GRID}\ngravity_m_per_s2 = 0\n[[command]]\ntick = 3\nkick = 1\n"
     );
-    let mut lab = Lab::new(Scene::parse("t", &text).unwrap());
-    let velocity = |lab: &Lab| lab.race().truth().bodies()[0].stepper.v()[0];
+    let mut lab = Studio::new(Scene::parse("t", &text).unwrap());
+    let velocity = |lab: &Studio| lab.race().truth().bodies()[0].stepper.v()[0];
     (0..3).for_each(|_| lab.tick());
     assert_eq!(velocity(&lab), 0.0);
     lab.tick();

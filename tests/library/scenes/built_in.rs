@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use regatta::lab::{
-    Action, Judge, Lab, LaneSpec, SCENES, Scene, SceneBody, StageCommand, TICK_LADDER,
+    Action, Judge, LaneSpec, SCENES, Scene, SceneBody, StageCommand, Studio, TICK_LADDER,
 };
 use regatta::sim::bodies::{Body, Chain};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
@@ -223,14 +223,14 @@ fn the_helm_turns_to_its_script_and_the_methods_part_there_as_its_scene_says() {
     let scene = built_in("helm");
     let rudder: Vec<_> = scene.script.iter().map(|scripted| scripted.action.clone()).collect();
     assert_eq!(rudder, [Action::Rudder(1.0), Action::Rudder(-1.0), Action::Rudder(0.0)]);
-    let mut lab = Lab::new(scene.clone());
+    let mut lab = Studio::new(scene.clone());
     lab.apply(StageCommand::ToggleRace);
-    let heading = |lab: &Lab| lab.race().truth().bodies()[0].stepper.q()[2];
-    let error = |lab: &Lab| {
+    let heading = |lab: &Studio| lab.race().truth().bodies()[0].stepper.q()[2];
+    let error = |lab: &Studio| {
         let [lane, truth] = [&lab.race().entrants()[0].lane, lab.race().truth()];
         (lane.bodies()[0].stepper.place() - truth.bodies()[0].stepper.place()).length()
     };
-    let run_to = |lab: &mut Lab, tick| {
+    let run_to = |lab: &mut Studio, tick| {
         while lab.race().tick() < tick {
             lab.tick();
         }

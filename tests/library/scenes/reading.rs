@@ -2,8 +2,8 @@
 
 use regatta::lab::scene::{LAST_TICK, MAX_BODIES, MAX_TICK_HZ};
 use regatta::lab::{
-    Action, Lab, LaneId, LaneSpec, MAX_LANES, MAX_SECONDS, Race, Scene, SceneBody, SceneKey,
-    StageCommand, scene_tables,
+    Action, LaneId, LaneSpec, MAX_LANES, MAX_SECONDS, Race, Scene, SceneBody, SceneKey,
+    StageCommand, Studio, scene_tables,
 };
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 
@@ -176,7 +176,7 @@ fn a_scene_without_lanes_races_the_methods_that_step_all_its_bodies() {
 
 #[test]
 fn a_method_that_does_not_fit_is_not_taken_up_and_the_reason_is_told() {
-    let mut lab = Lab::new(built_in("spring"));
+    let mut lab = Studio::new(built_in("spring"));
     let before = lab.active();
     lab.apply(StageCommand::Method(method("smooth-damp").unwrap()));
     assert_eq!(lab.active(), before);

@@ -191,12 +191,12 @@ fn trespasses_are_seen() {
         ("src/sim/rk5.rs", "use std::{cell::Cell, time::Instant};"),
         ("src/sim/rk5.rs", "fn f() { std::thread::spawn(g); }"),
         ("src/sim/rk5.rs", "use toml::Table;"),
-        ("src/sim/rk5.rs", "use crate::lab::Lab;"),
-        ("src/sim/bodies/raft.rs", "use super::super::super::lab::{ESCAPE, Lab};"),
-        ("src/lab/lab.rs", "use wgpu::Device;"),
-        ("src/lab/lab.rs", "fn f() -> std::time::Duration { g() }"),
-        ("src/lab/lab.rs", "use std::{fs, mem};"),
-        ("src/lab/lab.rs", "use crate::{lab, view};"),
+        ("src/sim/rk5.rs", "use crate::lab::Studio;"),
+        ("src/sim/bodies/raft.rs", "use super::super::super::lab::{ESCAPE, Studio};"),
+        ("src/lab/studio.rs", "use wgpu::Device;"),
+        ("src/lab/studio.rs", "fn f() -> std::time::Duration { g() }"),
+        ("src/lab/studio.rs", "use std::{fs, mem};"),
+        ("src/lab/studio.rs", "use crate::{lab, view};"),
         ("src/view/sea.rs", "use crate::sim::Stepper;"),
         ("src/view/sea.rs", "use winit::window::Window;"),
         ("src/view/sea.rs", "let now = std::time::Instant::now();"),
@@ -213,7 +213,7 @@ fn trespasses_are_seen() {
         ("src/lab/scene.rs", "use crate::sim::State; use toml::Table; use serde::Deserialize;"),
         ("src/view/sea.rs", "use std::time::Duration; use crate::lab::picture::Sea;"),
         ("src/window.rs", "use std::time::Instant; use crate::view::Gpu;"),
-        ("src/commands/trace.rs", "use std::fs::File; use crate::lab::Lab;"),
+        ("src/commands/trace.rs", "use std::fs::File; use crate::lab::Studio;"),
         ("src/main.rs", "use crate::commands; use anyhow::Result;"),
     ];
     for (path, text) in good {
@@ -227,7 +227,7 @@ fn voices_are_heard() {
         assert_eq!(voices(&source("src/commands/list.rs", text)).len(), 1, "{text}");
         assert_eq!(voices(&source("src/main.rs", text)).len(), 0, "{text}");
     }
-    assert_eq!(voices(&source("src/lab/lab.rs", "println!();")).len(), 1);
+    assert_eq!(voices(&source("src/lab/studio.rs", "println!();")).len(), 1);
     none(voices(&source("src/commands/list.rs", "println!(); // not eprintln!")));
 }
 

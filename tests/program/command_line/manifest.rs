@@ -5,7 +5,7 @@ use std::fs;
 use std::process::Output;
 
 use regatta::commands::manifest::{Manifest, SCHEMA};
-use regatta::lab::{Lab, METRICS, Scene, StageCommand};
+use regatta::lab::{METRICS, Scene, StageCommand, Studio};
 use regatta::sim::integrators::METHODS;
 use serde_json::Value;
 
@@ -167,7 +167,7 @@ fn frames_and_marks_are_those_of_the_run() {
 
     let mut scene = Scene::built_in("harbour").unwrap();
     scene.tick_hz = 49;
-    let mut lab = Lab::new(scene);
+    let mut lab = Studio::new(scene);
     lab.apply(StageCommand::ToggleRace);
     for mark in &manifest.marks {
         while lab.race().tick() < mark.tick {

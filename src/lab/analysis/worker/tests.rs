@@ -75,8 +75,8 @@ fn a_verdict_at_another_rate_stands_until_it_is_computed_again() {
 
 #[test]
 fn a_map_keeps_its_regions_while_its_cross_is_moved() {
-    use crate::lab::{Instrument, Lab, RunCommand, StageCommand};
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    use crate::lab::{Instrument, RunCommand, StageCommand, Studio};
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     lab.apply(StageCommand::Instrument(Instrument::StabilityMap));
     let mut worker = AnalysisWorker::new(lab.analysis_request());
     while worker.work() {}

@@ -6,14 +6,14 @@ use crate::sim::bodies::BODIES;
 const SIZE: [f32; 2] = [800.0, 500.0];
 
 /// The scene of a kind's name, some way into its course and paused.
-fn lab(kind: &str) -> Lab {
-    let mut lab = Lab::new(Scene::built_in(kind).expect("a scene for each kind"));
+fn lab(kind: &str) -> Studio {
+    let mut lab = Studio::new(Scene::built_in(kind).expect("a scene for each kind"));
     lab.apply(ViewCommand::TogglePause);
     (0..7).for_each(|_| lab.tick());
     lab
 }
 
-fn picture(lab: &Lab) -> Picture {
+fn picture(lab: &Studio) -> Picture {
     compose(lab, SIZE)
 }
 
@@ -139,9 +139,9 @@ fn of_a_chain_only_the_bead_in_hand_moves() {
 
 #[test]
 fn a_ghost_is_grabbed_where_its_lane_is_out_of_reach() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     lab.apply(ViewCommand::TogglePause);
-    let own_and_ghost = |lab: &Lab| {
+    let own_and_ghost = |lab: &Studio| {
         [false, true].map(|is_ghost| {
             let of = |grip: &Grip| (grip.whose == Whose::Truth) == is_ghost;
             picture(lab).cells[0].grips(lab).find(of).unwrap()

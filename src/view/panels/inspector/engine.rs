@@ -6,10 +6,10 @@ use super::super::palette;
 use super::{LINE, NumberField, line};
 use crate::lab::number::significant;
 use crate::lab::port::Setup;
-use crate::lab::{Command, Lab, RunCommand};
+use crate::lab::{Command, RunCommand, Studio};
 
 /// Shows the numbers of a body that is a spring as the engine has them that is chosen; nothing of any other body.
-pub(super) fn show(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, lab: &Studio, body: usize, commands: &mut Vec<Command>) {
     let Some(spring) = lab.spring_joint(body) else { return };
     let header = CollapsingHeader::new(RichText::new("as in engine…").color(palette(ui).dim));
     header.id_salt(("engine", body)).show_unindented(ui, |ui| {

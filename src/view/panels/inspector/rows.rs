@@ -1,6 +1,6 @@
 //! What the inspector shows of a body: a row for each of its parameters, each with how far its slider reaches.
 
-use crate::lab::{Acts, Lab, Parameter, Range};
+use crate::lab::{Acts, Parameter, Range, Studio};
 
 /// A slider reaches this many times below and above the value that the scene has.
 const REACH: f64 = 100.0;
@@ -35,7 +35,7 @@ impl Values {
 }
 
 /// The parameters of a body: those that act at once, then those that act from the next start.
-pub(super) fn rows<'l>(lab: &'l Lab, body: usize) -> Vec<Row<'l>> {
+pub(super) fn rows<'l>(lab: &'l Studio, body: usize) -> Vec<Row<'l>> {
     let opened = &lab.scene_as_opened().bodies[body];
     let (present, next) = (lab.race().values(body), &lab.scene().bodies[body].values);
     let row = |(place, parameter): (usize, &'l Parameter)| {
@@ -109,7 +109,7 @@ mod tests {
     fn every_parameter_of_every_kind_of_body_has_one_row() {
         let mut kinds = Vec::new();
         for scene in SCENES {
-            let lab = Lab::new(Scene::built_in(scene.name).unwrap());
+            let lab = Studio::new(Scene::built_in(scene.name).unwrap());
             for (index, body) in lab.scene().bodies.iter().enumerate() {
                 let rows = rows(&lab, index);
                 let mut places: Vec<usize> = rows.iter().map(|row| row.place).collect();

@@ -6,8 +6,8 @@ use super::number::NumberField;
 use super::{LINE, RESTORE, line, restore};
 use crate::lab::scene::{MAX_TICK_HZ, MIN_SECONDS};
 use crate::lab::{
-    Action, Command, Entrant, Lab, LaneSpec, MAX_SECONDS, MAX_SUBSTEPS, Mode, RunCommand,
-    StageCommand, TOLERANCES,
+    Action, Command, Entrant, LaneSpec, MAX_SECONDS, MAX_SUBSTEPS, Mode, RunCommand, StageCommand,
+    Studio, TOLERANCES,
 };
 use crate::view::panels::palette;
 
@@ -16,7 +16,7 @@ const SUBSTEPS: f32 = 44.0;
 const TOLERANCE: f32 = 64.0;
 const LANE: f32 = 16.0;
 
-pub(super) fn show_lanes(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+pub(super) fn show_lanes(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
     for entrant in lab.race().entrants() {
         let fields = ui.horizontal(|ui| show_lane(ui, lab, entrant, commands)).inner;
         fields.iter().for_each(|id| NumberField::show_fault(*id, ui));
@@ -24,7 +24,7 @@ pub(super) fn show_lanes(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 }
 
 /// A lane's line. Returns its fields.
-fn show_lane(ui: &mut Ui, lab: &Lab, entrant: &Entrant, commands: &mut Vec<Command>) -> [Id; 2] {
+fn show_lane(ui: &mut Ui, lab: &Studio, entrant: &Entrant, commands: &mut Vec<Command>) -> [Id; 2] {
     let lane = entrant.id;
     let spec = entrant.spec;
     let ids = ["substeps", "tolerance"].map(|field| ui.scope_id().with((lane, field)));
@@ -72,7 +72,7 @@ fn show_lane(ui: &mut Ui, lab: &Lab, entrant: &Entrant, commands: &mut Vec<Comma
 }
 
 /// The number that a lane goes by: in solo that of the method's key, which follows every switch.
-fn number(lab: &Lab, entrant: &Entrant) -> usize {
+fn number(lab: &Studio, entrant: &Entrant) -> usize {
     match lab.mode() {
         Mode::Solo => lab.entry(entrant) + 1,
         Mode::Race => entrant.id.0,
@@ -81,7 +81,7 @@ fn number(lab: &Lab, entrant: &Entrant) -> usize {
 
 fn show_methods(
     ui: &mut Ui,
-    lab: &Lab,
+    lab: &Studio,
     entrant: &Entrant,
     width: f32,
     commands: &mut Vec<Command>,
@@ -108,7 +108,7 @@ fn show_methods(
 }
 
 /// What a lane is under in the scene as it was opened; in solo, the method that it is under now as the scene has it.
-fn opened(lab: &Lab, entrant: &Entrant) -> LaneSpec {
+fn opened(lab: &Studio, entrant: &Entrant) -> LaneSpec {
     let present = entrant.spec;
     let list = lab.scene_as_opened().method_list();
     let lane = list
@@ -119,7 +119,7 @@ fn opened(lab: &Lab, entrant: &Entrant) -> LaneSpec {
     *lane.or_else(listed).unwrap_or(&present)
 }
 
-pub(super) fn show_time(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+pub(super) fn show_time(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
     let opened = lab.scene_as_opened();
     let tick_hz = lab.race().tick_hz();
     let rate = NumberField {
@@ -169,7 +169,7 @@ pub(super) fn show_time(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 }
 
 /// What makes lanes and time as the scene has them: nothing, where they are so.
-pub(super) fn restoring(lab: &Lab) -> impl Iterator<Item = Command> {
+pub(super) fn restoring(lab: &Studio) -> impl Iterator<Item = Command> {
     let lanes = lab.race().entrants().iter().filter_map(|entrant| {
         let (lane, spec) = (entrant.id, opened(lab, entrant));
         let is_changed = entrant.spec != spec;
@@ -201,7 +201,7 @@ mod tests {
 
     #[test]
     fn in_solo_the_number_beside_the_method_follows_a_switch() {
-        let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+        let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
         lab.apply(StageCommand::Pick(2));
         assert_eq!(number(&lab, lab.selected()), 3);
         lab.apply(StageCommand::Method(lab.entries()[7].method));

@@ -8,7 +8,7 @@ use super::phase::SAMPLES;
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, time_in_view};
 use crate::lab::loop_lab::{FRAME_METRICS, LoopFrame, LoopLane};
 use crate::lab::past::Energies;
-use crate::lab::{Instrument, Lab, LoopLab, METRICS, Metric, Scale};
+use crate::lab::{Instrument, LoopLab, METRICS, Metric, Scale, Studio};
 use crate::view::chart::{AxisScale, Bounds, Dots};
 
 /// The seconds in view where every frame shows.
@@ -24,7 +24,7 @@ const STEPPED: &str = "as stepped";
 const NO_ERROR: &str = "No error: every loop on the stage shows the exact place.";
 
 /// The instrument's plots; `None` if it has none in the loop lab.
-pub(super) fn plot_set(lab: &Lab, loops: &LoopLab, instrument: Instrument) -> Option<PlotSet> {
+pub(super) fn plot_set(lab: &Studio, loops: &LoopLab, instrument: Instrument) -> Option<PlotSet> {
     let plots = Plots { lab, loops };
     let (title, mut plot) = match instrument {
         Instrument::Motion => ("Motion", plots.motion()),
@@ -46,7 +46,7 @@ pub(super) fn plot_set(lab: &Lab, loops: &LoopLab, instrument: Instrument) -> Op
 
 #[derive(Clone, Copy)]
 struct Plots<'a> {
-    lab: &'a Lab,
+    lab: &'a Studio,
     loops: &'a LoopLab,
 }
 
@@ -188,15 +188,15 @@ mod tests {
     use crate::lab::{Command, LoopCommand, Scene, StageCommand};
     use crate::view::panels::instruments::{csv, svg};
 
-    fn lab_at(scene: &str, now_ns: i64) -> Lab {
-        let mut lab = Lab::new(Scene::built_in(scene).unwrap());
+    fn lab_at(scene: &str, now_ns: i64) -> Studio {
+        let mut lab = Studio::new(Scene::built_in(scene).unwrap());
         lab.apply(Command::Loop(LoopCommand::ToggleLab));
         lab.run_loops();
         lab.apply(Command::Loop(LoopCommand::Seek(now_ns)));
         lab
     }
 
-    fn plot(lab: &Lab, instrument: Instrument) -> PlotModel {
+    fn plot(lab: &Studio, instrument: Instrument) -> PlotModel {
         plot_set(lab, lab.loop_lab().unwrap(), instrument).unwrap().plots.remove(0)
     }
 

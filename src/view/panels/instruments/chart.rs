@@ -9,7 +9,7 @@ use super::super::{focus_ring, palette, ring, short};
 use super::hover;
 use super::layout::{Cell, cells};
 use super::plot_set::PlotSet;
-use crate::lab::{Command, Lab, StageCommand, ViewCommand};
+use crate::lab::{Command, StageCommand, Studio, ViewCommand};
 use crate::view::chart::{self, ABOVE, NAME, NUMBER, PlotArea, Primitive, Text};
 use crate::view::theme::{PanelPalette, strong_font};
 use crate::view::wheel;
@@ -61,7 +61,7 @@ impl Views {
 }
 
 /// Shows a set in all that is left of `ui`.
-pub(super) fn show(ui: &mut Ui, lab: &Lab, set: &PlotSet, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, lab: &Studio, set: &PlotSet, commands: &mut Vec<Command>) {
     let room = ui.available_rect_before_wrap();
     ui.allocate_rect(room, Sense::hover());
     let body = lab.view().body;
@@ -107,7 +107,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, set: &PlotSet, commands: &mut Vec<Com
 }
 
 /// Whether a person has zoomed or panned.
-pub(super) fn is_zoomed(lab: &Lab) -> bool {
+pub(super) fn is_zoomed(lab: &Studio) -> bool {
     !lab.view().plot_ranges.is_empty()
 }
 
@@ -179,7 +179,7 @@ fn distance_to(at: Pos2, [from, to]: [Pos2; 2]) -> f32 {
 /// Shows a plot with its axes and its title.
 fn show_plot(
     ui: &mut Ui,
-    lab: &Lab,
+    lab: &Studio,
     styles: &SeriesStyles,
     (cell, area): (&Cell<'_>, &PlotArea),
     commands: &mut Vec<Command>,
@@ -215,7 +215,7 @@ fn show_plot(
 
 /// A plot with its axes and without its title, on so many columns of pixels. No number along goes on beyond `right`.
 pub(super) fn layout(
-    lab: &Lab,
+    lab: &Studio,
     styles: &SeriesStyles,
     (cell, area): (&Cell<'_>, &PlotArea),
     palette: &PanelPalette,

@@ -20,7 +20,7 @@ use crate::lab::cloud::{
 };
 use crate::lab::number::{grouped, significant};
 use crate::lab::palette::{Rgba, Theme};
-use crate::lab::{Command, Lab, Mode, RunCommand, StageCommand};
+use crate::lab::{Command, Mode, RunCommand, StageCommand, Studio};
 use crate::view::chart::{self as charts, AxisScale, LineStyle, PlotArea, Primitive, ScreenCurve};
 
 /// The least room for the numbers of the axes at the left, and what these need besides their width; the room for those
@@ -56,7 +56,7 @@ const MIN_DECADES: f64 = 0.31;
 const BEHIND_S: f64 = 0.25;
 
 /// The areas of all clouds over time; `None` while there are none.
-pub(super) fn plot_set(lab: &Lab) -> Option<PlotSet> {
+pub(super) fn plot_set(lab: &Studio) -> Option<PlotSet> {
     let picture = lab.cloud()?.picture.as_ref().ok()?;
     let body = lab.view().body;
     let scale = AxisScale::Log;
@@ -90,7 +90,7 @@ pub(super) fn plot_set(lab: &Lab) -> Option<PlotSet> {
 }
 
 /// Shows the clouds, and below them their areas where there is room.
-pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, lab: &Studio, room: Vec2, commands: &mut Vec<Command>) {
     let bottom = ui.cursor().top() + room.y;
     head(ui, lab, commands);
     let say = |ui: &mut Ui, words: String| {
@@ -123,7 +123,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Comman
 }
 
 /// The title, and what can be chosen.
-fn head(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+fn head(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
     let chosen = lab.display().cloud;
     let picture = lab.cloud().and_then(|found| found.picture.as_ref().ok());
     ui.horizontal_wrapped(|ui| {
@@ -152,7 +152,7 @@ fn head(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 }
 
 /// How far the clouds are behind the run, in seconds, if it is far enough to be seen.
-fn behind_s(lab: &Lab) -> Option<f64> {
+fn behind_s(lab: &Studio) -> Option<f64> {
     let picture = lab.cloud()?.picture.as_ref().ok()?;
     Some(lab.cloud_request()?.behind_s(picture)).filter(|behind| *behind > BEHIND_S)
 }
@@ -180,7 +180,7 @@ struct Captions<'p> {
 }
 
 impl<'p> Captions<'p> {
-    fn new(ui: &Ui, lab: &Lab, lanes: &'p [LaneCloud], told: Told) -> Self {
+    fn new(ui: &Ui, lab: &Studio, lanes: &'p [LaneCloud], told: Told) -> Self {
         let text = |lane: &LaneCloud| {
             let words = match (told, lane.area_ratio) {
                 (Told::Name, _) => String::new(),
@@ -200,7 +200,7 @@ impl<'p> Captions<'p> {
     }
 
     /// All of this width and in one size; `None` if a word would break.
-    fn laid_out(&self, ui: &Ui, lab: &Lab, width: f32) -> Option<Vec<Arc<Galley>>> {
+    fn laid_out(&self, ui: &Ui, lab: &Studio, width: f32) -> Option<Vec<Arc<Galley>>> {
         let longest = self.longest.max(width);
         let size = (WORDS * width / longest).max(MIN_WORDS);
         let is_name = self.told == Told::Name;
@@ -228,12 +228,12 @@ impl<'p> Captions<'p> {
 }
 
 /// What has become of a cloud.
-fn words(lab: &Lab, lane: &LaneCloud) -> String {
+fn words(lab: &Studio, lane: &LaneCloud) -> String {
     parts(lab, lane, Told::Words).join(", ")
 }
 
 /// What is told of a cloud: its area, in words too if these are asked for, and the points that are not seen.
-fn parts(lab: &Lab, lane: &LaneCloud, told: Told) -> Vec<String> {
+fn parts(lab: &Studio, lane: &LaneCloud, told: Told) -> Vec<String> {
     let area = lane.area_ratio.map(|ratio| format!("×{}", significant(ratio, 3)));
     let words = (told == Told::Words).then(|| lane.words.clone());
     let lost = (lane.lost > 0).then(|| format!("{} blew up", grouped(lane.lost as u64)));
@@ -244,7 +244,7 @@ fn parts(lab: &Lab, lane: &LaneCloud, told: Told) -> Vec<String> {
 /// The clouds in as many columns as make them largest.
 fn side_by_side(
     ui: &Ui,
-    lab: &Lab,
+    lab: &Studio,
     picture: &CloudPicture,
     room: Rect,
     commands: &mut Vec<Command>,
@@ -298,7 +298,7 @@ fn side_by_side(
 /// A cloud, with numbers at the left and below where it `has` them.
 fn cloud(
     ui: &Ui,
-    lab: &Lab,
+    lab: &Studio,
     picture: &CloudPicture,
     lane: &LaneCloud,
     (rect, place): (Rect, usize),

@@ -7,7 +7,7 @@ use super::error;
 use super::motion::healthy;
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, over_time};
 use crate::lab::past::Energies;
-use crate::lab::{Lab, Metric};
+use crate::lab::{Metric, Studio};
 use crate::view::chart::AxisScale;
 
 /// An energy: its name, its dash, how much of its colour it has, and how it is found.
@@ -20,7 +20,7 @@ const PARTS: [Part; 3] = [
     ("total", [1.0, 0.0], 1.0, |energies| energies.total_j),
 ];
 
-pub(super) fn plot_set(lab: &Lab) -> PlotSet {
+pub(super) fn plot_set(lab: &Studio) -> PlotSet {
     let body = lab.view().body;
     let title = "share of the swing's energy";
     let drift = error::plot(lab, body, Metric::ENERGY_DRIFT, title.into());
@@ -32,7 +32,7 @@ pub(super) fn plot_set(lab: &Lab) -> PlotSet {
     PlotSet { styles: SeriesStyles::of(lab), title: "Energy".into(), plots }
 }
 
-fn energies(lab: &Lab, body: usize) -> PlotModel {
+fn energies(lab: &Studio, body: usize) -> PlotModel {
     let energy = |(part, dash, strength, of): Part| {
         let tracks = Track::of(lab, body, |s| [s.t, s.energies.map_or(f64::NAN, of)]);
         tracks

@@ -4,7 +4,7 @@ use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
 use super::super::tracks::Track;
 use super::plot_set::{PlotAxis, PlotModel, PlotSet, over_time};
-use crate::lab::{Lab, METRICS, Metric, Scale, Unit};
+use crate::lab::{METRICS, Metric, Scale, Studio, Unit};
 use crate::view::chart::{AxisScale, Dots};
 
 /// Said where every error is zero, which has no logarithm.
@@ -16,7 +16,7 @@ pub(super) fn choices() -> impl Iterator<Item = usize> {
     (0..METRICS.len()).filter(|&place| !METRICS[place].is_of_energy)
 }
 
-pub(super) fn plot_set(lab: &Lab) -> PlotSet {
+pub(super) fn plot_set(lab: &Studio) -> PlotSet {
     let (body, place) = (lab.view().body, lab.display().metric);
     let metric = &METRICS[place];
     let name = capitalised(&lab.scene().bodies[body].name);
@@ -28,7 +28,7 @@ pub(super) fn plot_set(lab: &Lab) -> PlotSet {
 }
 
 /// A plot of a metric of a body.
-pub(super) fn plot(lab: &Lab, body: usize, place: usize, title: String) -> PlotModel {
+pub(super) fn plot(lab: &Studio, body: usize, place: usize, title: String) -> PlotModel {
     let metric = &METRICS[place];
     let truth = &lab.race().truth().bodies()[body];
     let unit = metric.unit.on(&truth.coordinates().at(0));

@@ -7,7 +7,7 @@ use super::super::{loops, palette_of};
 use super::layout::cells;
 use super::plot_set::{PlotAxis, PlotSet};
 use super::{chart, plot_set_of};
-use crate::lab::{Instrument, Lab, csv_row};
+use crate::lab::{Instrument, Studio, csv_row};
 use crate::view::chart::{ABOVE, NAME, Primitive, Text, legend, svg};
 use crate::view::theme::PanelPalette;
 
@@ -18,7 +18,7 @@ const HEAD: f32 = 62.0;
 const LEFT: f32 = 64.0;
 /// The values of the chosen instrument as comma-separated text, a line for each sample of each curve; `None` if it has no
 /// plots.
-pub(in crate::view) fn csv(lab: &Lab) -> Option<Vec<String>> {
+pub(in crate::view) fn csv(lab: &Studio) -> Option<Vec<String>> {
     if lab.display().instrument == Instrument::Loop {
         return Some(loops::csv(lab));
     }
@@ -49,7 +49,7 @@ pub(in crate::view) fn csv(lab: &Lab) -> Option<Vec<String>> {
 }
 
 /// The plots of the chosen instrument as an SVG file; `None` if it has none.
-pub(in crate::view) fn svg(lab: &Lab) -> Option<String> {
+pub(in crate::view) fn svg(lab: &Studio) -> Option<String> {
     let palette = palette_of(lab.display().theme);
     let all = Rect::from_min_size(Pos2::ZERO, SIZE.into());
     let room = Rect::from_min_max(pos2(MARGIN, HEAD), all.max - vec2(MARGIN, MARGIN / 2.0));
@@ -71,7 +71,7 @@ pub(in crate::view) fn svg(lab: &Lab) -> Option<String> {
 
 /// The plots of a set with their titles.
 fn layout(
-    lab: &Lab,
+    lab: &Studio,
     set: &PlotSet,
     room: Rect,
     right: f32,
@@ -94,8 +94,8 @@ mod tests {
     use super::*;
     use crate::lab::{Instrument, Scene, StageCommand};
 
-    fn race() -> Lab {
-        let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    fn race() -> Studio {
+        let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
         lab.apply(StageCommand::ToggleRace);
         (0..300).for_each(|_| lab.tick());
         lab

@@ -5,7 +5,7 @@ use super::super::series_styles::SeriesStyles;
 use super::super::tracks::{Detail, Track};
 use super::error::capitalised;
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, over_time};
-use crate::lab::{Lab, Mode};
+use crate::lab::{Mode, Studio};
 use crate::view::chart::Dots;
 
 /// A lane this many times further out than the truth no longer stretches the axes; and where it is alone,
@@ -13,7 +13,7 @@ use crate::view::chart::Dots;
 const HEALTHY: f64 = 1.6;
 const HEALTHY_ALONE: f64 = 4.0;
 
-pub(super) fn plot_set(lab: &Lab, detail: Detail) -> PlotSet {
+pub(super) fn plot_set(lab: &Studio, detail: Detail) -> PlotSet {
     let bodies = 0..lab.scene().bodies.len();
     let title = if bodies.len() > 1 { "Motion of every body" } else { "Motion" };
     PlotSet {
@@ -23,7 +23,7 @@ pub(super) fn plot_set(lab: &Lab, detail: Detail) -> PlotSet {
     }
 }
 
-fn plot(lab: &Lab, body: usize, detail: Detail) -> PlotModel {
+fn plot(lab: &Studio, body: usize, detail: Detail) -> PlotModel {
     let truth = &lab.race().truth().bodies()[body];
     let (coordinate, _) = lab.past().coordinate(lab.race(), body);
     let quantity = lab.display().quantity;
@@ -48,7 +48,7 @@ fn plot(lab: &Lab, body: usize, detail: Detail) -> PlotModel {
 }
 
 /// How many times further out than the truth a lane still stretches the axes.
-pub(super) fn healthy(lab: &Lab) -> f64 {
+pub(super) fn healthy(lab: &Studio) -> f64 {
     match lab.mode() {
         Mode::Solo => HEALTHY_ALONE,
         Mode::Race => HEALTHY,

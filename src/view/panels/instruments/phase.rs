@@ -6,13 +6,13 @@ use super::super::tracks::Track;
 use super::error::capitalised;
 use super::motion::healthy;
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet};
-use crate::lab::Lab;
+use crate::lab::Studio;
 use crate::view::chart::Dots;
 
 /// Samples in a phase portrait: a few turns, and each still to be told from the next.
 pub(super) const SAMPLES: usize = 360;
 
-pub(super) fn plot_set(lab: &Lab) -> PlotSet {
+pub(super) fn plot_set(lab: &Studio) -> PlotSet {
     let body = lab.view().body;
     let mut tracks = Track::of(lab, body, |s| [s.q, s.v]);
     tracks.iter_mut().for_each(|lane| lane.keep_latest(SAMPLES));

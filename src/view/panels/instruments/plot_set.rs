@@ -9,7 +9,7 @@ use super::super::series_styles::{SeriesStyle, SeriesStyles};
 use super::super::tracks::{self, Track, TrackStyle};
 use crate::lab::number::significant;
 use crate::lab::past::{TruthCurve, TruthSample};
-use crate::lab::{Coordinate, Lab, LaneBody, Quantity, Unit};
+use crate::lab::{Coordinate, LaneBody, Quantity, Studio, Unit};
 use crate::view::chart::{Arrow, AxisScale, Bounds, Curve, Dots, Drawing, LineStyle, SwitchMark};
 use egui::Color32;
 
@@ -131,7 +131,7 @@ impl PlotAxis {
 impl ExactLine {
     /// The exact solution of a body at the times for which `place` finds a point.
     pub(super) fn of(
-        lab: &Lab,
+        lab: &Studio,
         body: usize,
         place: impl Fn(&TruthSample) -> Option<[f64; 2]>,
     ) -> Self {
@@ -139,7 +139,7 @@ impl ExactLine {
     }
 
     fn of_samples(
-        lab: &Lab,
+        lab: &Studio,
         samples: impl Iterator<Item = TruthSample>,
         place: impl Fn(&TruthSample) -> Option<[f64; 2]>,
     ) -> Self {
@@ -160,20 +160,20 @@ impl ExactLine {
     }
 
     /// The exact solution at these times (s) and places; those that are not finite are left out.
-    pub(super) fn of_places(lab: &Lab, places: impl Iterator<Item = (f64, [f64; 2])>) -> Self {
+    pub(super) fn of_places(lab: &Studio, places: impl Iterator<Item = (f64, [f64; 2])>) -> Self {
         let known = places.filter(|(_, at)| at.iter().all(|x| x.is_finite()));
         let (times, points) = known.unzip();
         Self::through(lab, times, points, Vec::new())
     }
 
-    fn through(lab: &Lab, times: Vec<f64>, points: Vec<[f64; 2]>, jumps: Vec<usize>) -> Self {
+    fn through(lab: &Studio, times: Vec<f64>, points: Vec<[f64; 2]>, jumps: Vec<usize>) -> Self {
         let style = LineStyle::solid(palette_of(lab.display().theme).exact, EXACT);
         let curve = Curve::new(style, points);
         Self { curve, times, part: "", jumps, known: None, samples: Vec::new() }
     }
 
     /// A quantity of a body over time.
-    pub(super) fn of_quantity(lab: &Lab, body: usize, quantity: Quantity) -> Self {
+    pub(super) fn of_quantity(lab: &Studio, body: usize, quantity: Quantity) -> Self {
         let value = |s: &TruthSample| quantity.among([s.q, s.v]);
         let finite = samples(lab, body).filter(|s| s.t.is_finite() && value(s).is_finite());
         let samples: Vec<TruthSample> = finite.collect();
@@ -227,7 +227,7 @@ impl ExactLine {
 
     /// The values along an axis that it is fitted to, with those between samples: since a body was put elsewhere or a
     /// parameter changed, but for the moments after that.
-    pub(super) fn fitted(&self, lab: &Lab, axis: usize) -> impl Iterator<Item = f64> + Clone {
+    pub(super) fn fitted(&self, lab: &Studio, axis: usize) -> impl Iterator<Item = f64> + Clone {
         let since_s = lab.past().swing_since_s(lab.race().t());
         let later = self.times.partition_point(|&t| t < since_s);
         let put = self.jumps.iter().rfind(|&&jump| self.times[jump] == since_s);
@@ -254,7 +254,7 @@ impl ExactLine {
 }
 
 /// The recent past of the exact solution of a body, up to now.
-fn samples(lab: &Lab, body: usize) -> impl Iterator<Item = TruthSample> {
+fn samples(lab: &Studio, body: usize) -> impl Iterator<Item = TruthSample> {
     let (curve, t) = (&lab.past().truth_curves()[body], lab.race().t());
     let truth = &lab.race().truth().bodies()[body];
     let goes_on = truth.halted().is_none() && curve.samples().next_back().is_some_and(|s| s.t < t);
@@ -295,7 +295,7 @@ impl PlotModel {
     /// Everything in the plot with `bounds` in view on this number of pixel columns.
     pub(super) fn drawing(
         &self,
-        lab: &Lab,
+        lab: &Studio,
         styles: &SeriesStyles,
         bounds: &Bounds,
         columns: f32,
@@ -370,7 +370,7 @@ impl PlotSet {
 }
 
 /// The time in view and the given range of values.
-pub(super) fn over_time(lab: &Lab, (low, high): (f64, f64)) -> Bounds {
+pub(super) fn over_time(lab: &Studio, (low, high): (f64, f64)) -> Bounds {
     let [from, to] = time_in_view(lab.scene().seconds, lab.race().t());
     [[from, to], [low, high]]
 }

@@ -13,7 +13,7 @@ use crate::view::testing::{TestWindow, button};
 mod shown;
 
 /// Every text that can be seen in a frame of this size, with its place.
-fn texts(lab: &Lab, size: Vec2) -> Vec<(Rect, String)> {
+fn texts(lab: &Studio, size: Vec2) -> Vec<(Rect, String)> {
     TestWindow::new(size).panels(lab, Vec::new()).1.whole()
 }
 
@@ -22,7 +22,7 @@ fn is_number(text: &str) -> bool {
     digits.starts_with(|c: char| c.is_ascii_digit()) && !text.contains(' ')
 }
 
-fn assert_legible(lab: &Lab, what: &str) {
+fn assert_legible(lab: &Studio, what: &str) {
     const SIZE: Vec2 = vec2(1280.0, 720.0);
     let left = (1.0 - panels::INSTRUMENTS) * SIZE.x;
     let texts = texts(lab, SIZE);
@@ -69,7 +69,7 @@ fn assert_legible(lab: &Lab, what: &str) {
 #[test]
 fn every_axis_of_every_instrument_is_named_and_has_three_marks() {
     SCENES.par_iter().for_each(|scene| {
-        let mut lab = Lab::new(Scene::built_in(scene.name).unwrap());
+        let mut lab = Studio::new(Scene::built_in(scene.name).unwrap());
         for mode in ["solo", "race"] {
             for seconds in [0, 3] {
                 for _ in 0..60 * seconds {
@@ -92,7 +92,7 @@ fn every_axis_of_every_instrument_is_named_and_has_three_marks() {
 
 #[test]
 fn in_a_low_window_a_plot_has_the_room_of_its_legend() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     lab.apply(StageCommand::ToggleRace);
     (0..240).for_each(|_| lab.tick());
     for size in [vec2(800.0, 450.0), vec2(960.0, 540.0)] {
@@ -108,7 +108,7 @@ fn in_a_low_window_a_plot_has_the_room_of_its_legend() {
 fn every_metric_can_be_looked_at() {
     let offered = error::choices().count();
     assert_eq!(offered + 1, METRICS.len(), "and the energy drift");
-    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
     lab.apply(StageCommand::ToggleRace);
     (0..60).for_each(|_| lab.tick());
     lab.apply(StageCommand::Instrument(Instrument::Error));
@@ -122,8 +122,8 @@ fn every_metric_can_be_looked_at() {
 fn a_truth_that_halted_is_not_said_to_be_shown() {
     let text = "title = 'x'\ntick_hz = 60\nseconds = 1\nmethods = ['rk4']\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\nkick_n_s = 1e15\n";
-    let mut lab = Lab::new(Scene::parse("kicked.toml", text).unwrap());
-    let says = |lab: &Lab, words: &str| {
+    let mut lab = Studio::new(Scene::parse("kicked.toml", text).unwrap());
+    let says = |lab: &Studio, words: &str| {
         texts(lab, vec2(1280.0, 720.0)).iter().any(|(_, text)| text.contains(words))
     };
     assert!(!says(&lab, "no exact solution"));
@@ -142,7 +142,7 @@ impl Person {
     }
 
     /// Shows a frame after these events. Returns every text in it and what was asked for.
-    fn frame(&mut self, lab: &Lab, events: Vec<Event>) -> (Vec<String>, Vec<Command>) {
+    fn frame(&mut self, lab: &Studio, events: Vec<Event>) -> (Vec<String>, Vec<Command>) {
         let set = plot_set_of(lab, Detail::Samples).unwrap();
         let mut commands = Vec::new();
         let (_, shown) = self.0.show(events, |ui| chart::show(ui, lab, &set, &mut commands));
@@ -150,7 +150,7 @@ impl Person {
     }
 
     /// Shows a frame after these events, and does what was asked for. Returns every number in it.
-    fn numbers(&mut self, lab: &mut Lab, events: Vec<Event>) -> Vec<String> {
+    fn numbers(&mut self, lab: &mut Studio, events: Vec<Event>) -> Vec<String> {
         let (texts, commands) = self.frame(lab, events);
         for command in commands {
             lab.apply(command);
@@ -158,7 +158,7 @@ impl Person {
         texts.into_iter().filter(|text| is_number(text)).collect()
     }
 
-    fn click(&mut self, lab: &Lab, at: Pos2) -> Vec<Command> {
+    fn click(&mut self, lab: &Studio, at: Pos2) -> Vec<Command> {
         self.frame(lab, vec![Event::PointerMoved(at)]);
         let mut commands = self.frame(lab, vec![button(at, true)]).1;
         commands.extend(self.frame(lab, vec![button(at, false)]).1);
@@ -166,8 +166,8 @@ impl Person {
     }
 }
 
-fn race_of_springs() -> Lab {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+fn race_of_springs() -> Studio {
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     lab.apply(StageCommand::ToggleRace);
     (0..240).for_each(|_| lab.tick());
     lab
@@ -240,7 +240,7 @@ fn a_click_on_a_curve_selects_its_lane() {
 
 #[test]
 fn after_a_placement_the_axis_fits_the_new_swing_and_the_exact_line_is_broken() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     lab.apply(StageCommand::Pick(3));
     (0..120).for_each(|_| lab.tick());
     let place = |q: f64| {
@@ -248,7 +248,7 @@ fn after_a_placement_the_axis_fits_the_new_swing_and_the_exact_line_is_broken() 
     };
     lab.apply(place(8.0));
     (0..300).for_each(|_| lab.tick());
-    let top = |lab: &Lab| plot_set_of(lab, Detail::Samples).unwrap().plots[0].fit[1][1];
+    let top = |lab: &Studio| plot_set_of(lab, Detail::Samples).unwrap().plots[0].fit[1][1];
     assert!((8.0..12.0).contains(&top(&lab)), "{}", top(&lab));
     lab.apply(place(0.5));
     (0..10).for_each(|_| lab.tick());
@@ -275,8 +275,8 @@ fn after_a_placement_the_axis_fits_the_new_swing_and_the_exact_line_is_broken() 
 #[test]
 fn a_reference_that_has_no_error_yet_is_not_said_to_have_one() {
     for scene in ["helm", "pendulum"] {
-        let mut lab = Lab::new(Scene::built_in(scene).unwrap());
-        let words = |lab: &Lab| lab.race().truth().bodies()[0].truth_in_words();
+        let mut lab = Studio::new(Scene::built_in(scene).unwrap());
+        let words = |lab: &Studio| lab.race().truth().bodies()[0].truth_in_words();
         let at_start = words(&lab);
         assert!(at_start == "reference" || at_start.contains("10⁻¹"), "{scene}: {at_start}");
         (0..60).for_each(|_| lab.tick());
@@ -288,9 +288,9 @@ fn a_reference_that_has_no_error_yet_is_not_said_to_have_one() {
 fn the_cloud_tells_what_becomes_of_the_area_and_why_a_body_has_none() {
     const SIZE: Vec2 = vec2(1280.0, 720.0);
     let said =
-        |lab: &Lab, wanted: &str| texts(lab, SIZE).iter().any(|(_, text)| text.contains(wanted));
+        |lab: &Studio, wanted: &str| texts(lab, SIZE).iter().any(|(_, text)| text.contains(wanted));
     let lab_of = |scene: &str| {
-        let mut lab = Lab::new(Scene::built_in(scene).unwrap());
+        let mut lab = Studio::new(Scene::built_in(scene).unwrap());
         lab.apply(StageCommand::ToggleRace);
         lab.apply(StageCommand::Instrument(Instrument::Cloud));
         lab.apply(RunCommand::Cloud(CloudChoice { points: 1200, ..CloudChoice::default() }));

@@ -2,7 +2,7 @@
 
 use super::row::{self, Row};
 use crate::lab::number::{round, significant};
-use crate::lab::{Lab, Metric, Mode};
+use crate::lab::{Metric, Mode, Studio};
 use crate::view::panels::table::{Column, SortKey, TableRow, show_words};
 
 /// The least width of the verdict, in points, and the one that it keeps beside columns of what the stage or an instrument
@@ -17,7 +17,7 @@ pub(super) fn min_verdict(priority: u8) -> f32 {
 }
 
 /// The columns of a run.
-pub(super) fn of<'a>(lab: &Lab) -> Vec<Column<Row<'a>>> {
+pub(super) fn of<'a>(lab: &Studio) -> Vec<Column<Row<'a>>> {
     let is_solo = lab.mode() == Mode::Solo;
     let mut truths = lab.race().truth().bodies().iter();
     let mut columns = marks();
@@ -81,7 +81,7 @@ fn body<'a>() -> Column<Row<'a>> {
 }
 
 /// The verdicts, with the body in their head that all of them are about, and in a race the body of the numbers.
-fn verdict<'a>(lab: &Lab) -> Column<Row<'a>> {
+fn verdict<'a>(lab: &Studio) -> Column<Row<'a>> {
     let about = "what this method does to the scene at this tick rate: its worst body, judged in a run of its own; a click sorts from best to worst";
     let bodies = &lab.scene().bodies;
     let whose = row::judged_body(lab).map(|body| format!(" ({})", bodies[body].name));
@@ -169,12 +169,12 @@ fn work<'a>() -> [Column<Row<'a>>; 2] {
 
 #[cfg(test)]
 mod tests {
-    use crate::lab::{Lab, Scene, StageCommand};
+    use crate::lab::{Scene, StageCommand, Studio};
     use crate::view::panels::lanes;
 
     #[test]
     fn what_the_stage_shows_too_has_a_column_only_where_there_is_room_for_it() {
-        let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+        let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
         lab.apply(StageCommand::ToggleRace);
         let table = lanes::table(&lab);
         let names = |width: f32| -> Vec<&str> {

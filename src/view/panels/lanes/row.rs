@@ -2,12 +2,12 @@
 
 use super::verdict;
 use crate::lab::number::significant;
-use crate::lab::{ChaseFinding, Entrant, Lab, LaneBody, LaneSpec, METRICS, Metric, Mode};
+use crate::lab::{ChaseFinding, Entrant, LaneBody, LaneSpec, METRICS, Metric, Mode, Studio};
 use crate::view::panels::verdict::VerdictText;
 
 /// A method, or a body of the lane that is flown solo.
 pub(super) struct Row<'a> {
-    pub(super) lab: &'a Lab,
+    pub(super) lab: &'a Studio,
     /// The method's index on the list.
     pub(super) entry: usize,
     pub(super) spec: &'a LaneSpec,
@@ -29,7 +29,7 @@ pub(super) struct Row<'a> {
 impl<'a> Row<'a> {
     /// The rows of the method on this index of the list. `exact` holds where each exact body is.
     pub(super) fn of_method(
-        lab: &'a Lab,
+        lab: &'a Studio,
         (entry, spec): (usize, &'a LaneSpec),
         exact: &[Option<f64>],
     ) -> Vec<Self> {
@@ -154,7 +154,7 @@ impl<'a> Row<'a> {
 
 /// The body that the verdicts on all methods of a race are about, if there are several bodies and it is one: it is
 /// named once, above them.
-pub(super) fn judged_body(lab: &Lab) -> Option<usize> {
+pub(super) fn judged_body(lab: &Studio) -> Option<usize> {
     if lab.mode() == Mode::Solo || lab.scene().bodies.len() < 2 {
         return None;
     }

@@ -5,19 +5,19 @@ use crate::lab::{RunCommand, Scene, StageCommand};
 use crate::view::panels::table::{Order, SortKey};
 use crate::view::testing::TestWindow;
 
-fn race() -> Lab {
-    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+fn race() -> Studio {
+    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
     lab.apply(StageCommand::ToggleRace);
     (0..60).for_each(|_| lab.tick());
     lab.analyse();
     lab
 }
 
-fn sorted(lab: &Lab, order: Order) -> Vec<Row<'_>> {
+fn sorted(lab: &Studio, order: Order) -> Vec<Row<'_>> {
     table(lab).sorted(groups(lab), order).into_iter().flatten().collect()
 }
 
-fn entries(lab: &Lab, order: Order) -> Vec<usize> {
+fn entries(lab: &Studio, order: Order) -> Vec<usize> {
     sorted(lab, order).iter().map(|row| row.entry).collect()
 }
 
@@ -54,7 +54,7 @@ fn every_column_sorts_all_rows_both_ways_and_those_without_a_value_last() {
 
 #[test]
 fn in_solo_the_rows_of_the_bodies_stay_together_under_every_order() {
-    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
     lab.apply(StageCommand::Pick(1));
     lab.tick();
     let bodies = lab.scene().bodies.len();
@@ -66,13 +66,13 @@ fn in_solo_the_rows_of_the_bodies_stay_together_under_every_order() {
     }
 }
 
-fn said(lab: &Lab) -> Vec<String> {
+fn said(lab: &Studio) -> Vec<String> {
     sorted(lab, None).iter().map(|row| row.said.whole().to_owned()).collect()
 }
 
 #[test]
 fn a_method_is_being_judged_until_it_is() {
-    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
     assert!(said(&lab).iter().all(|said| said == "judging…"), "{:?}", said(&lab));
     lab.analyse();
     assert!(said(&lab).iter().all(|said| said != "judging…"), "{:?}", said(&lab));
@@ -80,7 +80,7 @@ fn a_method_is_being_judged_until_it_is() {
 
 #[test]
 fn a_verdict_tells_what_will_be_and_a_halt_what_was() {
-    let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
+    let mut lab = Studio::new(Scene::built_in("stiff").unwrap());
     lab.apply(StageCommand::ToggleRace);
     lab.apply(StageCommand::TickHz(49));
     lab.analyse();
@@ -102,7 +102,7 @@ fn a_verdict_tells_what_will_be_and_a_halt_what_was() {
 fn the_body_that_every_verdict_is_about_is_named_once() {
     let mut lab = race();
     let flown: Vec<usize> = lab.race().entrants().iter().map(|lane| lab.entry(lane)).collect();
-    let names = |lab: &Lab| {
+    let names = |lab: &Studio| {
         let said = said(lab);
         flown.iter().filter(|&&entry| said[entry].contains("free spring")).count()
     };
@@ -121,7 +121,7 @@ fn the_body_that_every_verdict_is_about_is_named_once() {
 #[test]
 fn the_cost_is_that_of_a_tick_now() {
     let mut lab = race();
-    let costs = |lab: &Lab| -> Vec<Option<f64>> {
+    let costs = |lab: &Studio| -> Vec<Option<f64>> {
         let flown = lab.race().entrants().iter().map(|lane| lab.entry(lane));
         let exact = vec![None; lab.scene().bodies.len()];
         let rows = |entry: usize| Row::of_method(lab, (entry, &lab.entries()[entry]), &exact);

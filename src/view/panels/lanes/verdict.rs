@@ -1,12 +1,12 @@
 //! What is said in a row of the table of lanes.
 
-use crate::lab::{Entrant, Lab, Outcome};
+use crate::lab::{Entrant, Outcome, Studio};
 use crate::view::panels::verdict::{Sign, VerdictText};
 
 /// What is said of the method on this index of the list, and of the lane under it if there is one. The judged body is
 /// named, unless the row is the body's own or it is the one `named_above`.
 pub(super) fn text_of(
-    lab: &Lab,
+    lab: &Studio,
     entry: usize,
     flown: Option<&Entrant>,
     body: Option<usize>,

@@ -5,7 +5,7 @@ use egui::{Color32, Label, Rect, RichText, Sense, Ui, Vec2, vec2};
 use super::columns::shown;
 use super::counts::{self, LEFT, Series};
 use super::errors::round_up;
-use crate::lab::{Lab, LiveFrame, Unit};
+use crate::lab::{LiveFrame, Studio, Unit};
 use crate::view::chart::{self, Arrow, AxisScale, Curve, Drawing, LineStyle, PlotArea, Primitive};
 use crate::view::panels::{palette, strong_font};
 use crate::view::theme::{PanelPalette, colour};
@@ -57,7 +57,7 @@ fn time_ms(frame: &LiveFrame) -> f64 {
     frame.duration_ns as f64 / 1e6
 }
 
-pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
+pub(super) fn show(ui: &mut Ui, lab: &Studio, room: Vec2) {
     let top = ui.cursor().top();
     let frames = lab.viewer().live.frames();
     ui.label(RichText::new(TITLE).font(strong_font(15.0)).color(palette(ui).text));
@@ -95,7 +95,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
 }
 
 /// The charts in a room, to be saved; `None` before the first frame.
-pub(super) fn layout(lab: &Lab, room: Rect, palette: &PanelPalette) -> Option<Vec<Primitive>> {
+pub(super) fn layout(lab: &Studio, room: Rect, palette: &PanelPalette) -> Option<Vec<Primitive>> {
     let summary = Summary::of(lab.viewer().live.frames())?;
     let (upper, below) = parts(room);
     let mut all = frame_times(lab, upper, &summary, palette);
@@ -114,12 +114,17 @@ fn parts(room: Rect) -> (Rect, Option<Rect>) {
     (upper, Some(below.with_min_y(below.top() + 6.0)))
 }
 
-fn series(lab: &Lab, palette: &PanelPalette) -> Series {
+fn series(lab: &Studio, palette: &PanelPalette) -> Series {
     Series::new(own_colour(palette), lab.viewer().live.frames().map(|frame| frame.ticks))
 }
 
 /// The chart of the frame times against real time up to the last frame, in a room.
-fn frame_times(lab: &Lab, room: Rect, summary: &Summary, palette: &PanelPalette) -> Vec<Primitive> {
+fn frame_times(
+    lab: &Studio,
+    room: Rect,
+    summary: &Summary,
+    palette: &PanelPalette,
+) -> Vec<Primitive> {
     let rect = chart::inside(room, LEFT, 6.0);
     if !rect.is_positive() {
         return Vec::new();

@@ -49,7 +49,7 @@ mod tests {
     use egui::{Vec2, pos2, vec2};
 
     use super::*;
-    use crate::lab::{Lab, Scene};
+    use crate::lab::{Scene, Studio};
     use crate::view::panels;
     use crate::view::panels::timeline::{HEIGHT, MARGIN, MEMORY, NAME, TRACK_Y};
     use crate::view::testing::TestWindow;
@@ -58,7 +58,7 @@ mod tests {
 
     #[test]
     fn a_press_on_the_track_goes_to_the_moment_there_and_a_row_and_its_eye_select_and_show() {
-        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
         lab.apply(Command::Loop(LoopCommand::ToggleLab));
         lab.run_loops();
         let mut window = TestWindow::new(SIZE);

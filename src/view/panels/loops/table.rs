@@ -33,11 +33,11 @@ fn groups(loops: &LoopLab) -> Vec<Vec<Row<'_>>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Lab, LoopCommand, Scene};
+    use crate::lab::{LoopCommand, Scene, Studio};
 
     #[test]
     fn rows_are_sorted_by_their_verdicts_and_back() {
-        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
         lab.apply(Command::Loop(LoopCommand::ToggleLab));
         lab.run_loops();
         let loops = lab.loop_lab().unwrap();

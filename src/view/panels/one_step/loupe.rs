@@ -66,12 +66,12 @@ pub(super) fn show(
 
 #[cfg(test)]
 mod tests {
-    use crate::lab::{Instrument, Lab, Scene, StageCommand, ViewCommand};
+    use crate::lab::{Instrument, Scene, StageCommand, Studio, ViewCommand};
     use crate::view::testing::TestWindow;
 
     /// What the loupes in a frame are labelled with, under the method at this place of the spring's list.
     fn labels(entry: usize) -> Vec<String> {
-        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
         lab.apply(StageCommand::Pick(entry));
         lab.apply(StageCommand::Instrument(Instrument::OneStep));
         lab.apply(ViewCommand::ToggleEnlarged);

@@ -5,8 +5,8 @@ use super::*;
 use crate::lab::{Instrument, RunCommand, Scene, StageCommand, Step};
 use crate::view::testing::{TestWindow, button};
 
-fn lab(scene: &str) -> Lab {
-    let mut lab = Lab::new(Scene::built_in(scene).unwrap());
+fn lab(scene: &str) -> Studio {
+    let mut lab = Studio::new(Scene::built_in(scene).unwrap());
     lab.apply(StageCommand::Instrument(Instrument::StabilityMap));
     lab.analyse();
     lab
@@ -95,7 +95,7 @@ fn a_boundary_is_labelled_with_its_limit_where_nothing_is_damped() {
     let mut window = window();
     let texts = window.panels(&lab("spring"), Vec::new()).1.words();
     assert!(texts.iter().any(|text| text.ends_with(": ω h < 2")), "{texts:?}");
-    let mut damped = Lab::new(Scene::built_in("harbour").unwrap());
+    let mut damped = Studio::new(Scene::built_in("harbour").unwrap());
     damped.apply(StageCommand::Instrument(Instrument::StabilityMap));
     damped.apply(StageCommand::Body(1));
     damped.analyse();
@@ -107,7 +107,7 @@ fn a_boundary_is_labelled_with_its_limit_where_nothing_is_damped() {
 fn the_lines_of_equal_damping_of_the_selected_engine_are_labelled_and_explained() {
     let mut window = window();
     let mut lab = lab("engines");
-    let mut words = |lab: &Lab| window.panels(lab, Vec::new()).1.words().join("\n");
+    let mut words = |lab: &Studio| window.panels(lab, Vec::new()).1.words().join("\n");
     let shown = words(&lab);
     for part in ["damping 0.05", "damping 0.1", "the damping ratio that a player sees of Box2D"] {
         assert!(shown.contains(part), "{part}: {shown}");

@@ -7,7 +7,7 @@ use egui::{Color32, FontId, Galley, TextFormat, Ui};
 
 use crate::lab::analysis::{Here, duration};
 use crate::lab::number::round;
-use crate::lab::{Coverage, Lab, LaneSpec, MapRequest, NoSmallMotion, Parameter, StabilityMap};
+use crate::lab::{Coverage, LaneSpec, MapRequest, NoSmallMotion, Parameter, StabilityMap, Studio};
 use crate::view::panels::{palette, strong_font};
 
 /// The letter of a parameter in the equation of motion, or else its name.
@@ -22,7 +22,7 @@ pub(super) fn full_name(parameter: &Parameter) -> String {
 }
 
 /// A point of the map: `20 Hz, k = 90 N/m`.
-pub(super) fn point_in_words(lab: &Lab, place: usize, tick_hz: u32, value: f64) -> String {
+pub(super) fn point_in_words(lab: &Studio, place: usize, tick_hz: u32, value: f64) -> String {
     let parameter = super::parameter(lab, place);
     let text =
         format!("{tick_hz} Hz, {} = {} {}", letter(parameter), round(value, 3), parameter.unit);
@@ -31,7 +31,12 @@ pub(super) fn point_in_words(lab: &Lab, place: usize, tick_hz: u32, value: f64) 
 
 /// What the methods do at the present point, and what the map does not draw, wrapped to a width; and the room that is left
 /// for that, in points: it does not change while the cross is moved.
-pub(super) fn sentence(ui: &Ui, lab: &Lab, map: &StabilityMap, width: f32) -> (Arc<Galley>, f32) {
+pub(super) fn sentence(
+    ui: &Ui,
+    lab: &Studio,
+    map: &StabilityMap,
+    width: f32,
+) -> (Arc<Galley>, f32) {
     let seen = seen_note(lab, map);
     let notes = " Drag the cross to change both values at once.".to_owned() + &seen + &notes(map);
     wrapped(ui, lab, map, width, (13.0, &notes))
@@ -40,7 +45,7 @@ pub(super) fn sentence(ui: &Ui, lab: &Lab, map: &StabilityMap, width: f32) -> (A
 /// The same with the thin lines alone of what is drawn and what is not.
 pub(super) fn short_sentence(
     ui: &Ui,
-    lab: &Lab,
+    lab: &Studio,
     map: &StabilityMap,
     width: f32,
 ) -> (Arc<Galley>, f32) {
@@ -50,7 +55,7 @@ pub(super) fn short_sentence(
 /// What the methods do at the present point in type of this size, and the notes, wrapped to a width.
 fn wrapped(
     ui: &Ui,
-    lab: &Lab,
+    lab: &Studio,
     map: &StabilityMap,
     width: f32,
     (size, notes): (f32, &str),
@@ -66,7 +71,7 @@ fn wrapped(
     (words, height)
 }
 
-fn counted_job(ui: &Ui, lab: &Lab, map: &StabilityMap, size: f32) -> LayoutJob {
+fn counted_job(ui: &Ui, lab: &Studio, map: &StabilityMap, size: f32) -> LayoutJob {
     let MapRequest { parameter, tick_hz, .. } = &map.request;
     let here = point_in_words(lab, *parameter, *tick_hz, map.request.value());
     let does = if map.here.is_empty() { "judging …".to_owned() } else { counted(map) };
@@ -82,7 +87,7 @@ fn job(ui: &Ui, [here, does]: &[String; 2], size: f32) -> LayoutJob {
 }
 
 /// The longest that the words about a point of this map become.
-fn longest(lab: &Lab, map: &StabilityMap) -> [String; 2] {
+fn longest(lab: &Studio, map: &StabilityMap) -> [String; 2] {
     let MapRequest { parameter, rates_hz, range, specs, .. } = &map.request;
     let names = names(map);
     let here = range.map(|value| point_in_words(lab, *parameter, rates_hz[1] as u32, value));
@@ -162,7 +167,7 @@ pub(super) fn no_map(why: NoSmallMotion) -> String {
 }
 
 /// What the thin lines are, if there are any.
-fn seen_note(lab: &Lab, map: &StabilityMap) -> String {
+fn seen_note(lab: &Studio, map: &StabilityMap) -> String {
     let found = map.regions.iter().zip(&map.request.specs);
     let mut selected = found.filter(|(_, (entry, _))| *entry == lab.active());
     match selected.any(|(region, _)| !region.seen.is_empty()) {

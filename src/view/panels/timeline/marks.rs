@@ -143,26 +143,26 @@ pub(super) fn colours(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Lab, RunCommand, StageCommand};
+    use crate::lab::{RunCommand, StageCommand, Studio};
     use crate::view::theme::palette_of;
 
-    fn marks(lab: &Lab) -> Vec<Mark> {
+    fn marks(lab: &Studio) -> Vec<Mark> {
         let timeline = lab.timeline();
         let (start, times) = (timeline.start(), &timeline.times());
         let palette = palette_of(lab.display().theme);
         Context { scene: lab.scene(), start, times, palette }.marks(&timeline.events())
     }
 
-    fn texts(lab: &Lab) -> Vec<String> {
+    fn texts(lab: &Studio) -> Vec<String> {
         marks(lab).into_iter().map(|mark| mark.text).collect()
     }
 
-    fn found_colours(lab: &Lab, lane: LaneId) -> Vec<(u64, Color32)> {
+    fn found_colours(lab: &Studio, lane: LaneId) -> Vec<(u64, Color32)> {
         let timeline = lab.timeline();
         colours(lane, &timeline.events(), timeline.start(), palette_of(lab.display().theme))
     }
 
-    fn run(lab: &mut Lab, ticks: u32) {
+    fn run(lab: &mut Studio, ticks: u32) {
         (0..ticks).for_each(|_| lab.tick());
     }
 
@@ -171,7 +171,7 @@ mod tests {
         let text = "title = 'x'\ntick_hz = 60\nseconds = 5\nmethods = ['explicit-euler']\n\
                     [[spring]]\nname = 'buoy'\nmass_kg = 1\nstiffness_n_per_m = 40\nkick_n_s = 1\n\
                     [[command]]\ntick = 12\nmethod = 'rk4'\n";
-        let mut lab = Lab::new(Scene::parse("marked.toml", text).unwrap());
+        let mut lab = Studio::new(Scene::parse("marked.toml", text).unwrap());
         run(&mut lab, 30);
         lab.apply(RunCommand::Act(Action::Kick(1.0)));
         lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value: 90.0 }));
@@ -198,7 +198,7 @@ mod tests {
 
     #[test]
     fn a_method_after_the_race_is_in_the_lane_that_went_on() {
-        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
         lab.apply(StageCommand::ToggleRace);
         run(&mut lab, 20);
         lab.apply(RunCommand::Act(Action::Solo { lane: LaneId(3) }));
@@ -210,7 +210,7 @@ mod tests {
 
     #[test]
     fn a_body_that_blows_up_is_marked_with_its_lane() {
-        let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
+        let mut lab = Studio::new(Scene::built_in("stiff").unwrap());
         lab.apply(StageCommand::ToggleRace);
         run(&mut lab, 300);
         let halts: Vec<Mark> =
@@ -238,8 +238,8 @@ mod tests {
 
     #[test]
     fn the_track_has_the_colours_of_the_methods_in_force() {
-        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-        let of = |lab: &Lab, entry: usize| {
+        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
+        let of = |lab: &Studio, entry: usize| {
             palette_of(lab.display().theme).style(lab.entries(), &lab.entries()[entry]).0
         };
         run(&mut lab, 20);

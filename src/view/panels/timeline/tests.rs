@@ -9,10 +9,10 @@ const SIZE: Vec2 = vec2(1280.0, 720.0);
 
 #[test]
 fn a_press_on_the_track_goes_to_the_tick_there_and_a_drag_follows() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     (0..600).for_each(|_| lab.tick());
     let mut window = TestWindow::new(SIZE);
-    let mut frame = |lab: &Lab, event: Input| window.panels(lab, vec![event]).0;
+    let mut frame = |lab: &Studio, event: Input| window.panels(lab, vec![event]).0;
     let height = SIZE.y - panels::footer::HEIGHT - panels::lanes::height(&lab) - HEIGHT + TRACK_Y;
     let along = Rangef::new(8.0 + NAME, SIZE.x - 8.0 - MEMORY - MARGIN);
     let whole = Span::whole(lab.scene().seconds, 10.0);
@@ -31,10 +31,10 @@ fn a_press_on_the_track_goes_to_the_tick_there_and_a_drag_follows() {
 
 #[test]
 fn letting_go_of_the_track_does_not_undo_the_step_of_a_key() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     (0..600).for_each(|_| lab.tick());
     let mut window = TestWindow::new(SIZE);
-    let mut frame = |lab: &Lab, event: Input| window.panels(lab, vec![event]).0;
+    let mut frame = |lab: &Studio, event: Input| window.panels(lab, vec![event]).0;
     let height = SIZE.y - panels::footer::HEIGHT - panels::lanes::height(&lab) - HEIGHT + TRACK_Y;
     let at = |x: f32| pos2(x, height);
     frame(&lab, Input::PointerMoved(at(300.0)));
@@ -50,9 +50,9 @@ fn letting_go_of_the_track_does_not_undo_the_step_of_a_key() {
 
 #[test]
 fn an_undo_is_offered_once_something_was_changed() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     let room = Rect::from_min_size(Pos2::ZERO, vec2(400.0, HEIGHT));
-    let beside = |lab: &Lab| room.right() - groove(lab, room).unwrap().along.max;
+    let beside = |lab: &Studio| room.right() - groove(lab, room).unwrap().along.max;
     assert_eq!((lab.timeline().undoes(), beside(&lab)), (None, MARGIN));
     (0..60).for_each(|_| lab.tick());
     lab.apply(RunCommand::Act(Action::Kick(1.0)));

@@ -4,22 +4,22 @@ use crate::view::panels::palette_of;
 
 const STYLE: TrackStyle = TrackStyle { dots: Dots::None, is_over_time: true };
 
-fn colour_of(lab: &Lab, entry: usize) -> egui::Color32 {
+fn colour_of(lab: &Studio, entry: usize) -> egui::Color32 {
     palette_of(lab.display().theme).style(lab.entries(), &lab.entries()[entry]).0
 }
 
-fn drawn(lab: &Lab, low: f64, high: f64) -> Drawing {
+fn drawn(lab: &Studio, low: f64, high: f64) -> Drawing {
     let bounds = [[0.0, 20.0], [low, high]];
     drawing(&SeriesStyles::of(lab), &Track::of(lab, 0, |s| [s.t, s.q]), &bounds, STYLE)
 }
 
-fn tick(lab: &mut Lab, ticks: u32) {
+fn tick(lab: &mut Studio, ticks: u32) {
     (0..ticks).for_each(|_| lab.tick());
 }
 
 #[test]
 fn the_past_keeps_the_colour_of_the_method_that_flew_it_and_a_switch_has_a_mark() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     let flown = [(3, 60), (1, 90), (4, 30)];
     for (entry, ticks) in flown {
         lab.apply(StageCommand::Pick(entry));
@@ -42,7 +42,7 @@ fn the_past_keeps_the_colour_of_the_method_that_flew_it_and_a_switch_has_a_mark(
 
 #[test]
 fn a_switch_after_a_halt_is_marked_where_the_other_method_took_over() {
-    let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
+    let mut lab = Studio::new(Scene::built_in("stiff").unwrap());
     lab.apply(StageCommand::Pick(0));
     while lab.race().entrants()[0].lane.halted().is_none() {
         lab.tick();
@@ -58,7 +58,7 @@ fn a_switch_after_a_halt_is_marked_where_the_other_method_took_over() {
 
 #[test]
 fn a_lane_that_grows_out_of_the_plot_ends_there_with_an_arrow() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     lab.apply(StageCommand::Pick(0));
     lab.apply(StageCommand::Restart);
     tick(&mut lab, 900);
@@ -86,7 +86,7 @@ fn a_lane_that_comes_back_to_stay_is_drawn_again() {
 
 #[test]
 fn no_stroke_leads_to_where_a_body_was_put() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     tick(&mut lab, 60);
     lab.apply(RunCommand::Act(Action::Place { body: 0, q: [0.5].into(), v: [0.0].into() }));
     tick(&mut lab, 60);
@@ -100,7 +100,7 @@ fn no_stroke_leads_to_where_a_body_was_put() {
 
 #[test]
 fn a_method_that_flies_outside_all_along_has_an_arrow_of_its_own() {
-    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
     lab.apply(StageCommand::Pick(0));
     tick(&mut lab, 600);
     lab.apply(StageCommand::Pick(1));

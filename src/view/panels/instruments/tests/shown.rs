@@ -6,13 +6,13 @@ use crate::lab::{RunCommand, StageCommand, ViewCommand};
 #[test]
 fn motion_shows_the_chosen_quantity_and_its_table_follows() {
     // The ship of the guide: Euler's speed is ahead of the exact one, and its place behind.
-    let mut lab = Lab::new(Scene::built_in("ship").unwrap());
+    let mut lab = Studio::new(Scene::built_in("ship").unwrap());
     let euler = lab.entries().iter().position(|spec| spec.method.id == "explicit-euler");
     lab.apply(StageCommand::Pick(euler.unwrap()));
     lab.apply(StageCommand::TickHz(2));
     lab.apply(StageCommand::Restart);
     (0..17).for_each(|_| lab.tick());
-    let at_the_end = |lab: &Lab| {
+    let at_the_end = |lab: &Studio| {
         let set = plot_set_of(lab, Detail::Samples).unwrap();
         let readouts = set.plots[0].readouts(&set.styles, 8.5);
         [readouts[0].at[1], readouts[1].at[1]]
@@ -30,8 +30,8 @@ fn motion_shows_the_chosen_quantity_and_its_table_follows() {
 
 #[test]
 fn a_net_plots_what_moves_far_and_any_other_coordinate_that_is_chosen() {
-    let mut lab = Lab::new(Scene::built_in("bridge").unwrap());
-    let named = |lab: &Lab| lab.past().coordinate(lab.race(), 0).0.name.to_string();
+    let mut lab = Studio::new(Scene::built_in("bridge").unwrap());
+    let named = |lab: &Studio| lab.past().coordinate(lab.race(), 0).0.name.to_string();
     assert_eq!(named(&lab), "y4", "the sag in the middle");
     (0..90).for_each(|_| lab.tick());
     let coordinates = lab.race().truth().bodies()[0].coordinates();
@@ -80,7 +80,7 @@ fn a_saved_picture_has_no_tabs_and_an_enlarged_instrument_has_the_room_of_the_ta
     let alone = window.show(Vec::new(), |ui| panels::show_instrument(ui, &lab)).1.whole();
     assert!(!has_tabs(&alone) && alone.iter().any(|(_, text)| text == "time t, s"), "{alone:?}");
     let size = vec2(1280.0, 720.0);
-    let lowest = |lab: &Lab| {
+    let lowest = |lab: &Studio| {
         let shown = texts(lab, size);
         let place = |wanted: &str| shown.iter().find(|(_, text)| text == wanted).map(|it| it.0);
         (place("time t, s").unwrap().top(), place("Explain").unwrap().left())
@@ -94,7 +94,7 @@ fn a_saved_picture_has_no_tabs_and_an_enlarged_instrument_has_the_room_of_the_ta
 
 #[test]
 fn a_pure_number_has_no_unit() {
-    let mut lab = Lab::new(Scene::built_in("duffing").unwrap());
+    let mut lab = Studio::new(Scene::built_in("duffing").unwrap());
     (0..60).for_each(|_| lab.tick());
     let shown = texts(&lab, vec2(1280.0, 720.0));
     let of_one = shown.iter().find(|(_, text)| text.ends_with(" 1") || text.ends_with(", 1"));

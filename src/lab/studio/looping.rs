@@ -1,9 +1,9 @@
-//! The loop lab as a mode of the lab: opening and leaving it, and what commands do in it.
+//! The loop lab as a mode of the studio: opening and leaving it, and what commands do in it.
 
 use std::mem::take;
 use std::sync::Arc;
 
-use super::Lab;
+use super::Studio;
 use crate::lab::command::{StageCommand, TICK_LADDER};
 use crate::lab::guide::Goal;
 use crate::lab::instrument::Instrument;
@@ -26,7 +26,7 @@ pub(in crate::lab) enum Activity {
 /// The method of the body at first: none that adds much of its own.
 const METHOD_AT_FIRST: &str = "rk4";
 
-impl Lab {
+impl Studio {
     /// Why the loop lab does not take the displayed body: a net, because what is made ready for every loop would take too
     /// long. `None` if it does.
     pub fn loop_lab_refusal(&self) -> Option<String> {

@@ -2,7 +2,7 @@
 
 use std::mem::take;
 
-use super::Lab;
+use super::Studio;
 use super::looping::Activity;
 use crate::lab::action::Action;
 use crate::lab::command::{
@@ -21,7 +21,7 @@ use crate::lab::step::Step;
 use crate::lab::viewer::Dialog;
 use crate::sim::bodies::Acts;
 
-impl Lab {
+impl Studio {
     /// Carries out a command. Returns what the driver has to do for it, if anything.
     pub fn apply(&mut self, command: impl Into<Command>) -> Option<DriverRequest> {
         let command = command.into();

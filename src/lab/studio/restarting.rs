@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use super::Lab;
+use super::Studio;
 use crate::lab::journal::Source;
 use crate::lab::race::Mode;
 use crate::lab::session::{Exchanged, Timeline};
 
-impl Lab {
+impl Studio {
     /// Begins the run again with the present settings. The run so far is lost unless it was [kept](Self::keep_run).
     pub(super) fn restart(&mut self) {
         self.timeline.restart(self.start.session());
@@ -39,7 +39,7 @@ impl Lab {
         self.timeline.keep_run(what, self.start.clone());
     }
 
-    /// Makes what was done so far part of the start, so that none of it can be undone: for a driver that has set up the lab
+    /// Makes what was done so far part of the start, so that none of it can be undone: for a driver that has set up the studio
     /// by commands.
     pub fn forget_changes(&mut self) {
         self.timeline.forget_changes();

@@ -1,8 +1,8 @@
-//! The verdicts and the advice of a lab: what it requests, and how it takes the findings in.
+//! The verdicts and the advice of a studio: what it requests, and how it takes the findings in.
 
 use std::sync::Arc;
 
-use super::Lab;
+use super::Studio;
 use crate::lab::analysis::{AdvisedBodies, AnalysisRequest, AnalysisWorker, Findings, MapRequest};
 use crate::lab::instrument::Instrument;
 use crate::lab::intervention::Interventions;
@@ -13,8 +13,8 @@ use crate::sim::bodies::{Acts, Parameter, Range};
 /// From so many lanes on the best is selected: fewer are told apart whichever is in front.
 pub const MANY_LANES: usize = 10;
 
-impl Lab {
-    /// The verdicts and the advice that the lab wants at present, for a [`AnalysisWorker`]: a verdict on each method of the
+impl Studio {
+    /// The verdicts and the advice that the studio wants at present, for a [`AnalysisWorker`]: a verdict on each method of the
     /// list at the present tick rate, and advice while it is shown.
     ///
     /// They are of the scene from its start, with what a person has set since and the parameters that the script has set
@@ -94,7 +94,7 @@ impl Lab {
     }
 
     /// Leaves the selection among many lanes to their verdicts, as if nobody had selected one: for a driver that has set up
-    /// the lab by commands.
+    /// the studio by commands.
     pub fn leave_selection(&mut self) {
         self.viewer.is_selected = false;
     }
@@ -148,14 +148,14 @@ impl Lab {
 
 #[cfg(test)]
 mod tests {
-    use crate::lab::{Lab, Scene, StageCommand};
+    use crate::lab::{Scene, StageCommand, Studio};
 
     #[test]
     fn of_many_lanes_the_best_is_selected_unless_somebody_has_selected_one() {
         for (lanes, picks, is_best) in [(10, false, true), (10, true, false), (5, false, false)] {
             let scene = Scene { seconds: 2.0, ..Scene::built_in("spring").unwrap() };
-            let all = Lab::new(scene.clone()).entries()[..lanes].to_vec();
-            let mut lab = Lab::new(Scene { lanes: all, ..scene });
+            let all = Studio::new(scene.clone()).entries()[..lanes].to_vec();
+            let mut lab = Studio::new(Scene { lanes: all, ..scene });
             lab.apply(StageCommand::ToggleRace);
             if picks {
                 lab.apply(StageCommand::Pick(0));

@@ -1,4 +1,4 @@
-//! The lab: a run with its past, the clock that drives it, and its display. Commands come in; state goes out.
+//! The studio: a run with its past, the clock that drives it, and its display. Commands come in; state goes out.
 
 use super::display::{Display, View};
 use super::lane_spec::LaneSpec;
@@ -29,7 +29,7 @@ pub use joint::SpringJoint;
 use looping::Activity;
 
 /// A scene being run and looked at.
-pub struct Lab {
+pub struct Studio {
     pub(super) scene_list: SceneList,
     pub(super) start: StartSettings,
     pub(super) timeline: Timeline,
@@ -41,7 +41,7 @@ pub struct Lab {
     activity: Activity,
 }
 
-impl Lab {
+impl Studio {
     /// Opens a scene, running, in solo mode, under the method that [it names](Scene::opening_method), else
     /// under the first of its lanes. The caller decides on
     /// [`Scene::opens_as_race`].
@@ -159,7 +159,7 @@ impl Lab {
     pub fn viewer_mut(&mut self) -> &mut Viewer {
         &mut self.viewer
     }
-    /// How the lab is displayed.
+    /// How the studio is displayed.
     pub fn display(&self) -> &Display {
         &self.viewer.preferences.display
     }

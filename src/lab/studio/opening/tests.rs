@@ -15,8 +15,8 @@ fn scene(text: &str) -> Scene {
 const PATH: &str = "boat/ship.toml";
 
 /// A lab that runs the file's scene.
-fn lab(text: &str) -> Lab {
-    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+fn lab(text: &str) -> Studio {
+    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
     lab.open_file(Path::new(PATH), scene(text));
     lab
 }
@@ -117,7 +117,7 @@ fn a_rate_that_nobody_chose_follows_the_file_and_one_that_was_chosen_stays() {
 #[test]
 fn a_path_that_is_refused_stays_in_its_field_with_the_reason_until_it_is_edited() {
     let mut lab = lab(text("spring"));
-    let refused = |lab: &Lab| match lab.viewer().dialog() {
+    let refused = |lab: &Studio| match lab.viewer().dialog() {
         Some(Dialog::Path { refused }) => refused.clone(),
         other => panic!("{other:?}"),
     };
@@ -153,7 +153,7 @@ fn a_broken_file_shows_its_mistakes_and_the_run_goes_on() {
     (0..50).for_each(|_| lab.tick());
     let hash = lab.race().state_hash();
     lab.reload_failed(Path::new(PATH), vec!["boat/ship.toml:1:1: no".into()]);
-    let shown = |lab: &Lab| matches!(lab.viewer().dialog(), Some(Dialog::Mistakes { .. }));
+    let shown = |lab: &Studio| matches!(lab.viewer().dialog(), Some(Dialog::Mistakes { .. }));
     assert!(shown(&lab) && lab.race().state_hash() == hash);
     assert_eq!(lab.apply(ViewCommand::Escape), None);
     assert!(!shown(&lab));
@@ -172,7 +172,7 @@ fn a_broken_file_shows_its_mistakes_and_the_run_goes_on() {
 
 #[test]
 fn the_memory_for_rewinding_is_that_of_every_scene_that_is_opened() {
-    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
     lab.set_rewind_bytes(1 << 20);
     lab.apply(StageCommand::SceneBeside(Step::Next));
     assert_eq!(lab.timeline().limit(), 1 << 20);
@@ -186,7 +186,7 @@ fn the_memory_for_rewinding_is_that_of_every_scene_that_is_opened() {
 
 #[test]
 fn what_a_person_prefers_survives_a_scene_and_where_they_look_does_not() {
-    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
     let chosen = lab.viewer().preferences.clone();
     for command in [
         Command::Stage(StageCommand::Body(1)),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::Lab;
+use super::Studio;
 use super::restarting::is_by_hand;
 use crate::lab::instrument::Instrument;
 use crate::lab::race::Mode;
@@ -16,7 +16,7 @@ const MY_SPRING: &str = "my spring";
 /// The most ticks for which a changed scene is run again: an hour at 60 Hz, which takes about a second.
 const MAX_RERUN: u64 = 60 * 3600;
 
-impl Lab {
+impl Studio {
     /// The scenes that can be opened.
     pub fn scene_list(&self) -> &SceneList {
         &self.scene_list
@@ -169,7 +169,7 @@ impl Lab {
     /// guide, which is about another. The preferences stay, and so does the mode, unless the scene opens as a race.
     pub(super) fn open(&mut self, place: usize) {
         let place = place % self.scene_list.count();
-        let mut lab = Lab::new(self.scene_list.scene(place));
+        let mut lab = Studio::new(self.scene_list.scene(place));
         lab.scene_list = self.scene_list.clone();
         lab.scene_list.set_open(place);
         lab.start.mode = if lab.scene().opens_as_race { Mode::Race } else { self.mode() };

@@ -1,14 +1,14 @@
-//! The clouds of the lab: which it wants, and how it takes them in.
+//! The clouds of the studio: which it wants, and how it takes them in.
 
 use std::sync::Arc;
 
-use super::Lab;
+use super::Studio;
 use crate::lab::cloud::{CloudKind, CloudRequest, CloudWorker, FoundCloud, MAX_CLOUDS, NoCloud};
 use crate::lab::instrument::Instrument;
 use crate::lab::intervention::Interventions;
 
-impl Lab {
-    /// The clouds that the lab wants at present, for a [`CloudWorker`]: those of its lanes, about the start of the run or where
+impl Studio {
+    /// The clouds that the studio wants at present, for a [`CloudWorker`]: those of its lanes, about the start of the run or where
     /// a person or the script last acted on the bodies. `None` while the instrument is another, or the displayed body has no
     /// cloud.
     pub fn cloud_request(&self) -> Option<CloudRequest> {

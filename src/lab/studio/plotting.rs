@@ -1,8 +1,8 @@
 //! Which coordinates the plots show, and so which the run records.
 
-use super::Lab;
+use super::Studio;
 
-impl Lab {
+impl Studio {
     /// Shows this coordinate of a body in the plots; where the run so far is too long to be run again for it, from the
     /// next restart on.
     pub(super) fn plot_coordinate(&mut self, body: usize, coordinate: usize) {

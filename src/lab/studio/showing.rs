@@ -1,10 +1,10 @@
 //! The moment that is shown: at rest that of the tick reached, and while time runs one between ticks.
 
-use super::Lab;
+use super::Studio;
 use crate::lab::interpolation::Interpolation;
 use crate::lab::lane::LaneBody;
 
-impl Lab {
+impl Studio {
     /// How bodies are drawn now: at rest as they are at the tick, however they are drawn between ticks.
     fn drawn(&self) -> Interpolation {
         if self.time_runs() { self.display().interpolation } else { Interpolation::Raw }

@@ -1,6 +1,6 @@
-//! The guide and the hints of a lab: how a stop is opened, and when its task is done.
+//! The guide and the hints of a studio: how a stop is opened, and when its task is done.
 
-use super::Lab;
+use super::Studio;
 use crate::lab::command::{Command, StageCommand};
 use crate::lab::guide::{Chosen, Goal, Hints, STOPS, Situation, Stop, Tour, suits_race};
 use crate::lab::interpolation::Interpolation;
@@ -11,7 +11,7 @@ use crate::lab::race::Mode;
 use crate::lab::scene::SCENES;
 use crate::lab::step::Step;
 
-impl Lab {
+impl Studio {
     /// What to try next: the scene's own hint, then what follows on it. Keys stand between backticks.
     pub fn hint(&self) -> Option<String> {
         if let Some(tour) = &self.viewer.tour {
@@ -45,7 +45,7 @@ impl Lab {
         rows.iter().any(|row| row.tick > 0 && row.source == Source::Hand)
     }
 
-    /// Shows the hints from the first one again: for a driver that has set up the lab by commands.
+    /// Shows the hints from the first one again: for a driver that has set up the studio by commands.
     pub fn begin_hints(&mut self) {
         self.viewer.hints = Hints::default();
         if self.mode() == Mode::Race {
@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn what_a_stop_sets_without_saying_so_is_undone_when_the_guide_is_left() {
-        let chosen = |lab: &Lab| {
+        let chosen = |lab: &Studio| {
             let display = lab.display();
             (display.quantity, display.metric, display.interpolation)
         };
@@ -150,7 +150,7 @@ mod tests {
             (Command::View(ViewCommand::ToggleGuide), 4),
             (Command::Stage(StageCommand::SceneBeside(Step::Next)), 14),
         ] {
-            let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+            let mut lab = Studio::new(Scene::built_in("spring").unwrap());
             lab.apply(StageCommand::Metric(METRICS.len() - 1));
             lab.apply(RunCommand::NextInterpolation);
             let before = chosen(&lab);
@@ -166,7 +166,7 @@ mod tests {
     #[test]
     fn keys_go_through_the_stops_of_the_open_guide_both_ways_and_stay_at_its_ends() {
         let [next, back] = [Key::PageDown, Key::PageUp].map(|key| command_for(key).unwrap().0);
-        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
         lab.apply(next.clone());
         lab.apply(back.clone());
         assert!(lab.viewer.tour.is_none(), "the guide is closed");

@@ -1,6 +1,6 @@
-//! Time in a lab: for each frame it makes the ticks that are due.
+//! Time in a studio: for each frame it makes the ticks that are due.
 
-use super::Lab;
+use super::Studio;
 use super::looping::Activity;
 use crate::lab::action::Action;
 use crate::lab::live_loop::LiveFrame;
@@ -11,14 +11,14 @@ use crate::lab::race::{Mode, Observer};
 use crate::lab::session::Timeline;
 use crate::lab::time_scale::TimeScale;
 
-impl Lab {
+impl Studio {
     /// The fractional tick at which `seconds` of simulated time have passed, if only the script changes the tick rate from
     /// now on; the present tick if they have passed already.
     pub fn tick_at(&self, seconds: f64) -> f64 {
         self.times_from_now().tick_at(seconds)
     }
 
-    /// The tick nearest to `seconds` of simulated time, by [`Lab::tick_at`].
+    /// The tick nearest to `seconds` of simulated time, by [`Studio::tick_at`].
     pub fn nearest_tick(&self, seconds: f64) -> u64 {
         self.times_from_now().nearest_tick(seconds)
     }
@@ -34,7 +34,7 @@ impl Lab {
         self.advance_seen(frame_ns, &mut ())
     }
 
-    /// Like [`Lab::advance`], but stops at tick `last`. After each tick it asks whether there is time for another; if there
+    /// Like [`Studio::advance`], but stops at tick `last`. After each tick it asks whether there is time for another; if there
     /// is not, it drops those that are still due.
     pub fn advance_in_time(
         &mut self,
@@ -45,7 +45,7 @@ impl Lab {
         self.advance_by(frame_ns, last, is_time_left, &mut ())
     }
 
-    /// Like [`Lab::advance`], with an observer.
+    /// Like [`Studio::advance`], with an observer.
     pub fn advance_seen(&mut self, frame_ns: i64, observer: &mut impl Observer) -> Due {
         self.advance_by(frame_ns, u64::MAX, &mut || true, observer)
     }
@@ -112,7 +112,7 @@ impl Lab {
         self.tick_seen(&mut ());
     }
 
-    /// Like [`Lab::tick`], with an observer.
+    /// Like [`Studio::tick`], with an observer.
     pub fn tick_seen(&mut self, observer: &mut impl Observer) {
         let ((), told) =
             self.watched(|timeline, notices| timeline.tick_seen(&mut (notices, observer)));

@@ -1,7 +1,7 @@
 //! Where a run that is watched rests: at its scene's length, and where all its bodies have blown up, which can be watched
 //! again.
 
-use super::Lab;
+use super::Studio;
 use crate::lab::action::Action;
 use crate::lab::display::Motion;
 use crate::lab::journal::Source;
@@ -13,7 +13,7 @@ use crate::sim::number::{round, significant};
 const LEAD_S: f64 = 1.0;
 const MIN_LEAD: u64 = 24;
 
-impl Lab {
+impl Studio {
     /// Whether the run rests at this tick.
     pub(super) fn comes_to_rest(&self) -> bool {
         self.is_at_its_end() || self.just_lost().is_some()
@@ -92,17 +92,17 @@ impl Lab {
 mod tests {
     use super::*;
     use crate::lab::picture::slow_motion_percent;
-    use crate::lab::{Lab, RunCommand, Scene, StageCommand, ViewCommand};
+    use crate::lab::{RunCommand, Scene, StageCommand, Studio, ViewCommand};
 
     /// A lab that somebody watches.
-    fn watched(scene: &str) -> Lab {
-        let mut lab = Lab::new(Scene::built_in(scene).unwrap());
+    fn watched(scene: &str) -> Studio {
+        let mut lab = Studio::new(Scene::built_in(scene).unwrap());
         lab.viewer_mut().preferences.display.motion = Motion::Live;
         lab
     }
 
     /// Lets time run, at most so many seconds of real time.
-    fn watch(lab: &mut Lab, seconds: u32) {
+    fn watch(lab: &mut Studio, seconds: u32) {
         for _ in 0..60 * seconds {
             if lab.running() {
                 lab.advance(16_666_667);
@@ -157,11 +157,11 @@ mod tests {
 
     #[test]
     fn nothing_rests_that_is_recorded_steered_or_told_how_long_to_run() {
-        let ends = |mut lab: Lab| {
+        let ends = |mut lab: Studio| {
             watch(&mut lab, 21);
             lab.race().t() > lab.scene().seconds
         };
-        assert!(ends(Lab::new(Scene::built_in("spring").unwrap())), "nobody watches");
+        assert!(ends(Studio::new(Scene::built_in("spring").unwrap())), "nobody watches");
         let mut steered = watched("spring");
         steered.apply(RunCommand::Act(Action::Kick(1.0)));
         assert!(ends(steered), "a person is at it");
@@ -178,9 +178,9 @@ mod tests {
              [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1e6\nx0_m = 1\n";
         let scene = Scene::parse("t.toml", text).unwrap();
         let mut frames = [Motion::Recorded, Motion::Live].map(|motion| {
-            let mut lab = Lab::new(scene.clone());
+            let mut lab = Studio::new(scene.clone());
             lab.viewer_mut().preferences.display.motion = motion;
-            let halts = |lab: &Lab| lab.lost_at().is_some();
+            let halts = |lab: &Studio| lab.lost_at().is_some();
             let frames = (0..2000).take_while(|_| {
                 lab.advance(16_666_667);
                 !halts(&lab)

@@ -1,6 +1,6 @@
-//! A spring of a lab's scene as engines are told it.
+//! A spring of a studio's scene as engines are told it.
 
-use super::Lab;
+use super::Studio;
 use crate::lab::action::Action;
 use crate::lab::lane::LaneBody;
 use crate::lab::lane_spec::joint_per_mass;
@@ -36,7 +36,7 @@ impl SpringJoint {
     }
 }
 
-impl Lab {
+impl Studio {
     /// A body of the scene that is a spring which engines can be told, as it is now.
     pub fn spring_joint(&self, body: usize) -> Option<SpringJoint> {
         let LaneBody { kind, stepper, .. } = &self.race().truth().bodies()[body];
@@ -69,7 +69,7 @@ mod tests {
 
     #[test]
     fn a_setting_of_an_engine_sets_the_spring_and_control_c_on_the_engine_copies_it() {
-        let mut lab = Lab::new(Scene::built_in("engines").unwrap());
+        let mut lab = Studio::new(Scene::built_in("engines").unwrap());
         let spring = lab.spring_joint(0).unwrap();
         let setups = lab.joint_setups();
         let box2d = setups.iter().find(|setup| setup.mode.stiffness.name == "hertz").unwrap();
@@ -98,7 +98,7 @@ mod tests {
         assert_eq!(lab.apply(ViewCommand::Copy), Some(DriverRequest::CopyMethod(entry)));
         assert_eq!(lab.apply(ViewCommand::CopyJoint(entry)), None);
         // An engine that is told other numbers has those.
-        let alike = Lab::new(Scene::built_in("alike").unwrap());
+        let alike = Studio::new(Scene::built_in("alike").unwrap());
         let told = [0, 3].map(|entry| alike.joint_code(entry).unwrap());
         assert!(told[0].contains("= 1.5;") && told[1].contains("= 1.50169895;"), "{told:?}");
     }
