@@ -11,7 +11,7 @@ struct Concept {
     marks: &'static [&'static str],
 }
 
-const CONCEPTS: [Concept; 31] = [
+const CONCEPTS: [Concept; 32] = [
     Concept {
         name: "dispatch by the type of a method",
         file: "src/sim/integrators/mod.rs",
@@ -150,6 +150,11 @@ const CONCEPTS: [Concept; 31] = [
         name: "report of a verification",
         file: "src/commands/verify/report.rs",
         marks: &["fn to_junit"],
+    },
+    Concept {
+        name: "painter of a plot's curves",
+        file: "src/view/chart/curves.rs",
+        marks: &["PaintCallback {"],
     },
 ];
 
