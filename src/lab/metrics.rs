@@ -90,8 +90,6 @@ impl Metric {
     pub const VELOCITY_ERROR: usize = place_of("velocity_error");
     /// The place of the energy drift.
     pub const ENERGY_DRIFT: usize = place_of("energy_drift");
-    /// The place of the evaluations.
-    pub const EVALUATIONS: usize = place_of("evaluations");
     /// The place of the half-life.
     pub const HALF_LIFE: usize = place_of("half_life");
     /// The place of the overshoot.

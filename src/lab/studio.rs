@@ -37,7 +37,7 @@ pub struct Studio {
     pub(super) running: bool,
     pub(super) dropped: u64,
     pub(super) viewer: Viewer,
-    /// The open loop lab.
+    /// What the stage shows.
     activity: Activity,
 }
 

@@ -108,7 +108,7 @@ fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Metric, Scene, StageCommand, Studio};
+    use crate::lab::{METRICS, Metric, Scene, StageCommand, Studio};
 
     fn lanes(lab: &Studio, metric: usize) -> Vec<Track> {
         Track::of(lab, 0, |s| [s.t, s.metrics[metric]])
@@ -152,7 +152,8 @@ mod tests {
             assert!(high - low >= 1.0, "{low} to {high}");
         }
         let still = Studio::new(Scene::built_in("spring").unwrap());
-        let (low, high) = from_zero(&lanes(&still, Metric::EVALUATIONS));
+        let evaluations = METRICS.iter().position(|metric| metric.id == "evaluations").unwrap();
+        let (low, high) = from_zero(&lanes(&still, evaluations));
         assert!(low < 0.0 && high > 0.0, "{low} to {high}");
     }
 }
