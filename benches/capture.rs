@@ -84,16 +84,16 @@ fn stages(panels: Panels) -> Result<(f64, f64), String> {
         .map_err(|error| error.to_string())?;
     let renderer = OffscreenRenderer::new(gpu, SIZE_PX, 1.0).map_err(|error| error.to_string())?;
     let mut renderer = renderer.with_panels(panels);
-    let mut lab = Studio::new(Scene::built_in("harbour").expect("a built-in scene"));
-    lab.apply(lab::StageCommand::ToggleRace);
-    lab.analyse();
+    let mut studio = Studio::new(Scene::built_in("harbour").expect("a built-in scene"));
+    studio.apply(lab::StageCommand::ToggleRace);
+    studio.analyse();
     // All frames first drawn and then encoded: the system counts processor time too coarsely for one frame.
     let mut frames = Vec::new();
     let start = processor_s(Whose::Own);
     for _ in 0..FRAMES {
-        lab.advance(1_000_000_000 / i64::from(FPS));
+        studio.advance(1_000_000_000 / i64::from(FPS));
         let mut rgba = Vec::new();
-        renderer.draw(&lab, &mut rgba).map_err(|error| error.to_string())?;
+        renderer.draw(&studio, &mut rgba).map_err(|error| error.to_string())?;
         frames.push(rgba);
     }
     let drawn = processor_s(Whose::Own);

@@ -41,23 +41,23 @@ fn main() {
 }
 
 fn racing(scene: Scene) -> Studio {
-    let mut lab = Studio::new(scene);
-    lab.apply(StageCommand::ToggleRace);
-    lab
+    let mut studio = Studio::new(scene);
+    studio.apply(StageCommand::ToggleRace);
+    studio
 }
 
 fn measure(gpu: &Gpu, scene: Scene) {
-    let mut lab = racing(scene);
-    lab.analyse();
+    let mut studio = racing(scene);
+    studio.analyse();
     for _ in 0..WARM_UP {
-        lab.advance(FRAME_NS);
+        studio.advance(FRAME_NS);
     }
-    let shapes = picture::compose(&lab, STAGE_POINTS).shapes.len();
-    let lanes = lab.race().entrants().len();
+    let shapes = picture::compose(&studio, STAGE_POINTS).shapes.len();
+    let lanes = studio.race().entrants().len();
     for panels in [Panels::Shown, Panels::Off] {
         println!("\nharbour, {lanes} lanes, {shapes} shapes, 1280x720, panels {panels:?}");
         println!("{:44} {:>8} {:>8}", "stages of a frame, in ms", "median", "least");
-        let frames: Vec<_> = frames(gpu, panels, &mut lab).collect();
+        let frames: Vec<_> = frames(gpu, panels, &mut studio).collect();
         for Row { name, stages, aim } in &ROWS {
             let sums = frames.iter().map(|frame| stages.iter().map(|&stage| frame[stage]).sum());
             let mut sums: Vec<Duration> = sums.collect();
@@ -93,21 +93,25 @@ const ROWS: [Row; 9] = [
 ];
 
 /// The times that the stages of some frames take.
-fn frames(gpu: &Gpu, panels: Panels, lab: &mut Studio) -> impl Iterator<Item = [Duration; STAGES]> {
+fn frames(
+    gpu: &Gpu,
+    panels: Panels,
+    studio: &mut Studio,
+) -> impl Iterator<Item = [Duration; STAGES]> {
     let canvas = Offscreen::new(gpu, SIZE_PX).expect("1280x720 is within any limit");
     let mut renderer = FrameRenderer::new(gpu, Offscreen::FORMAT).with_panels(panels);
     let (mut readback, mut rgba) = (Readback::default(), Vec::new());
     (0..FRAMES).map(move |_| {
         let mut ends = vec![Instant::now()];
         let mut lap = || ends.push(Instant::now());
-        lab.apply(RunCommand::ThrottleDown);
-        lab.apply(RunCommand::ThrottleUp);
-        lab.advance(FRAME_NS);
+        studio.apply(RunCommand::ThrottleDown);
+        studio.apply(RunCommand::ThrottleUp);
+        studio.advance(FRAME_NS);
         lap();
-        black_box(picture::compose(lab, STAGE_POINTS));
+        black_box(picture::compose(studio, STAGE_POINTS));
         lap();
-        let input = egui::RawInput { time: Some(lab.race().t()), ..Default::default() };
-        let (_, layout) = renderer.lay_out(gpu, SIZE_PX, 1.0, input, lab);
+        let input = egui::RawInput { time: Some(studio.race().t()), ..Default::default() };
+        let (_, layout) = renderer.lay_out(gpu, SIZE_PX, 1.0, input, studio);
         lap();
         let output = renderer.paint(gpu, &canvas.view, SIZE_PX, layout);
         gpu.queue.submit(output.drawing);

@@ -67,7 +67,7 @@ const FIRST_FRAME: Duration = Duration::ZERO;
 /// # Errors
 /// [`WindowError::NoDisplay`] if there is none, before any other error; the others at any time.
 pub fn run(
-    mut lab: Studio,
+    mut studio: Studio,
     settings: WindowSettings,
     files: SceneFiles,
 ) -> Result<Closed, WindowError> {
@@ -82,10 +82,10 @@ pub fn run(
     let SceneFiles { read, opened, keep } = files;
     let watch = FileWatch::new(Arc::clone(&read), proxy.clone());
     if let Some((path, _)) = &opened {
-        lab.list_as_file(path);
+        studio.list_as_file(path);
     }
     watch.watch(opened);
-    let analysed = lab.analysis_request();
+    let analysed = studio.analysis_request();
     let analysis = AnalysisWorker::new(analysed.clone());
     let mut app = App {
         analysis: WorkThread::new(analysis, analysed, proxy.clone()),
@@ -93,7 +93,7 @@ pub fn run(
         clouds: WorkThread::new(CloudWorker::default(), None, proxy.clone()),
         recording: keep.map(|keep| GrowingRecording::new(keep, proxy.clone())),
         tick_timer: TickTimer::new(proxy.clone()),
-        lab,
+        studio,
         read,
         watch,
         seconds,
@@ -116,12 +116,12 @@ pub fn run(
         outcome: Ok(()),
     };
     event_loop.run_app(&mut app).map_err(|error| WindowError::Refused(reason(&error)))?;
-    let App { outcome, lab, interrupted, size, .. } = app;
-    outcome.map(|()| Closed { lab, interrupted, size })
+    let App { outcome, studio, interrupted, size, .. } = app;
+    outcome.map(|()| Closed { studio, interrupted, size })
 }
 
 struct App {
-    lab: Studio,
+    studio: Studio,
     analysis: WorkThread<AnalysisWorker>,
     loops: WorkThread<LoopWorker>,
     clouds: WorkThread<CloudWorker>,
@@ -169,15 +169,15 @@ impl App {
             let Canvas { window, gpu, .. } = canvas;
             let size = window.inner_size();
             let scale = window.scale_factor() as f32;
-            let notice = screenshot::save(gpu, [size.width, size.height], scale, &self.lab);
-            self.lab.viewer_mut().set_notice(notice);
+            let notice = screenshot::save(gpu, [size.width, size.height], scale, &self.studio);
+            self.studio.viewer_mut().set_notice(notice);
             self.stand_still();
         }
         let waits_for_field = self.waits_for_field();
         let Some(canvas) = &mut self.canvas else { return };
         // Text for a field that is not shown yet waits until it is.
         let early = if waits_for_field { canvas.take_events() } else { Vec::new() };
-        let drawn = canvas.draw(&self.lab, &mut self.clipboard);
+        let drawn = canvas.draw(&self.studio, &mut self.clipboard);
         canvas.put_back(early);
         match drawn {
             Ok(Drawn::Shown { commands, repaint_after }) => {
@@ -185,16 +185,16 @@ impl App {
                     log::info!("first frame after {} ms", self.started.elapsed().as_millis());
                     self.stand_still();
                 }
-                self.meter.frame(now, &self.lab);
-                let again = self.lab.running()
+                self.meter.frame(now, &self.studio);
+                let again = self.studio.running()
                     || !commands.is_empty()
                     || self.screenshot
                     || waits_for_field;
                 self.asked.extend(commands);
-                let notice = self.lab.viewer().notice.as_ref();
+                let notice = self.studio.viewer().notice.as_ref();
                 let notice_leaves = notice.map(|notice| notice.left_ns().unsigned_abs());
                 let notice_leaves = notice_leaves.map_or(Duration::MAX, Duration::from_nanos);
-                let recorded = || self.recording.as_ref()?.left(&self.lab, now);
+                let recorded = || self.recording.as_ref()?.left(&self.studio, now);
                 let after = match again {
                     true => Duration::ZERO,
                     false => {
@@ -218,12 +218,12 @@ impl App {
     /// Applies the commands and steps the ticks that are due.
     fn simulate(&mut self, event_loop: &ActiveEventLoop, now: Instant) {
         for command in std::mem::take(&mut self.asked) {
-            match self.lab.apply(command) {
+            match self.studio.apply(command) {
                 Some(DriverRequest::Quit) => self.end(event_loop, Ok(())),
                 Some(DriverRequest::Screenshot) => self.screenshot = true,
                 Some(DriverRequest::Record) => {
-                    let notice = recording::save(&self.lab);
-                    self.lab.viewer_mut().set_notice(notice);
+                    let notice = recording::save(&self.studio);
+                    self.studio.viewer_mut().set_notice(notice);
                     self.stand_still();
                 }
                 Some(DriverRequest::CopyInstrument) => self.copy_instrument(),
@@ -232,37 +232,37 @@ impl App {
                 Some(DriverRequest::ExportInstrument) => self.export_instrument(),
                 Some(DriverRequest::ToggleFullScreen) => self.toggle_full_screen(),
                 Some(DriverRequest::OpenTypedPath) => {
-                    let opened = opening::open_typed(&mut self.lab, &self.read);
+                    let opened = opening::open_typed(&mut self.studio, &self.read);
                     self.watch.watch(opened);
                 }
                 Some(DriverRequest::CompletePath) => {
-                    let path = opening::completed(self.lab.viewer().typed_path());
-                    self.lab.apply(ViewCommand::TypePath(path));
+                    let path = opening::completed(self.studio.viewer().typed_path());
+                    self.studio.apply(ViewCommand::TypePath(path));
                 }
                 None => {}
             }
         }
-        self.analysis.ask(self.lab.analysis_request());
-        self.loops.ask(self.lab.loop_request());
-        self.clouds.ask(self.lab.cloud_request().map(Arc::new));
-        self.tick_timer.ask(&self.lab, now);
+        self.analysis.ask(self.studio.analysis_request());
+        self.loops.ask(self.studio.loop_request());
+        self.clouds.ask(self.studio.cloud_request().map(Arc::new));
+        self.tick_timer.ask(&self.studio, now);
         let frame = self.last_frame.map_or(FIRST_FRAME, |last| now.duration_since(last));
-        self.last_frame = self.lab.running().then_some(now);
+        self.last_frame = self.studio.running().then_some(now);
         let passed = now.duration_since(std::mem::replace(&mut self.simulated, now));
-        if !self.lab.time_runs() {
-            self.lab.viewer_mut().pass(i64::try_from(passed.as_nanos()).unwrap_or(i64::MAX));
+        if !self.studio.time_runs() {
+            self.studio.viewer_mut().pass(i64::try_from(passed.as_nanos()).unwrap_or(i64::MAX));
         }
-        let last = self.seconds.map_or(u64::MAX, |s| self.lab.nearest_tick(s));
+        let last = self.seconds.map_or(u64::MAX, |s| self.studio.nearest_tick(s));
         let frame_ns = i64::try_from(frame.as_nanos()).unwrap_or(i64::MAX);
-        self.lab.advance_in_time(last, frame_ns, &mut || now.elapsed() < MAX_SIMULATION);
-        self.lab.viewer_mut().pace = Some(self.meter.pace());
-        if self.lab.race().tick() >= last {
+        self.studio.advance_in_time(last, frame_ns, &mut || now.elapsed() < MAX_SIMULATION);
+        self.studio.viewer_mut().pace = Some(self.meter.pace());
+        if self.studio.race().tick() >= last {
             self.end(event_loop, Ok(()));
         }
         if let Some(recording) = &mut self.recording {
-            recording.update(&self.lab, now);
+            recording.update(&self.studio, now);
         }
-        let title = self.lab.title();
+        let title = self.studio.title();
         if title != self.title
             && let Some(canvas) = &self.canvas
         {
@@ -289,7 +289,7 @@ impl ApplicationHandler<Event> for App {
         if self.canvas.is_some() {
             return;
         }
-        self.title = self.lab.title();
+        self.title = self.studio.title();
         let attributes = settings::attributes(self.size)
             .with_title(self.title.clone())
             // AccessKit has to be there before the window shows.
@@ -303,7 +303,7 @@ impl ApplicationHandler<Event> for App {
         match Canvas::new(event_loop, window, self.proxy.clone()) {
             Ok(canvas) => {
                 if let Some(theme) = canvas.window.theme() {
-                    self.lab.viewer_mut().preferences.follow_theme(settings::theme_of(theme));
+                    self.studio.viewer_mut().preferences.follow_theme(settings::theme_of(theme));
                 }
                 canvas.window.set_visible(true);
                 self.canvas = Some(canvas);
@@ -351,7 +351,7 @@ impl ApplicationHandler<Event> for App {
                 }
             }
             WindowEvent::DroppedFile(path) => {
-                self.watch.watch(opening::open(&mut self.lab, &self.read, path));
+                self.watch.watch(opening::open(&mut self.studio, &self.read, path));
                 self.stand_still();
                 return self.request_redraw();
             }
@@ -368,14 +368,14 @@ impl ApplicationHandler<Event> for App {
                 self.minimised = size.width == 0 || size.height == 0;
             }
             WindowEvent::ThemeChanged(theme) => {
-                self.lab.viewer_mut().preferences.follow_theme(settings::theme_of(*theme));
+                self.studio.viewer_mut().preferences.follow_theme(settings::theme_of(*theme));
                 return self.request_redraw();
             }
             WindowEvent::ScaleFactorChanged { .. } | WindowEvent::Moved(_) => canvas.resize(),
             _ => {}
         }
         // While time runs the next frame is due soon, and a moving mouse needs no extra frames.
-        if (response.repaint || !self.asked.is_empty()) && !self.lab.running() {
+        if (response.repaint || !self.asked.is_empty()) && !self.studio.running() {
             self.request_redraw();
         }
     }

@@ -56,18 +56,18 @@ impl Field {
     fn open(self, scene: &Scene) -> Studio {
         match self {
             Field::Solo(method) => {
-                let mut lab = Studio::new(scene.clone());
-                lab.apply(StageCommand::Method(method));
+                let mut studio = Studio::new(scene.clone());
+                studio.apply(StageCommand::Method(method));
                 // From the start again, so that the script has the method in hand.
-                lab.apply(StageCommand::Restart);
-                lab
+                studio.apply(StageCommand::Restart);
+                studio
             }
             Field::Everyone => {
                 let spec = |method| LaneSpec { method, ..scene.lanes[0] };
                 let lanes = scene.fitting_methods().map(spec).collect();
-                let mut lab = Studio::new(Scene { lanes, ..scene.clone() });
-                lab.apply(StageCommand::ToggleRace);
-                lab
+                let mut studio = Studio::new(Scene { lanes, ..scene.clone() });
+                studio.apply(StageCommand::ToggleRace);
+                studio
             }
         }
     }
@@ -80,19 +80,19 @@ fn built_in(name: &str) -> Scene {
 /// The tick reached and the hash of each lane there.
 type Mark = (u64, Vec<u64>);
 
-fn mark(lab: &Studio) -> Mark {
-    (lab.race().tick(), lab.race().lane_hashes().collect())
+fn mark(studio: &Studio) -> Mark {
+    (studio.race().tick(), studio.race().lane_hashes().collect())
 }
 
 /// Runs a lab from frames of these lengths in nanoseconds, and marks the first frame at which each of
 /// ten parts of `ticks` ticks is reached.
-fn paced(mut lab: Studio, ticks: u64, mut frames: impl FnMut() -> i64) -> Vec<Mark> {
+fn paced(mut studio: Studio, ticks: u64, mut frames: impl FnMut() -> i64) -> Vec<Mark> {
     let mut marks = Vec::new();
     for part in 1..=10 {
-        while lab.race().tick() < ticks * part / 10 {
-            lab.advance(frames());
+        while studio.race().tick() < ticks * part / 10 {
+            studio.advance(frames());
         }
-        marks.push(mark(&lab));
+        marks.push(mark(&studio));
     }
     marks
 }
@@ -121,7 +121,7 @@ fn ragged(seed: u64) -> impl FnMut() -> i64 {
 /// Ticks a lab one by one to the last of `ticks`, compares it on the way with what pacings have marked, and returns
 /// the hashes at `ticks`.
 fn compare(
-    mut lab: Studio,
+    mut studio: Studio,
     ticks: &[u64],
     paced: &[(&str, Vec<Mark>)],
     what: &str,
@@ -129,15 +129,15 @@ fn compare(
     let mut hashes = Vec::new();
     let marked = paced.iter().flat_map(|(_, marks)| marks).map(|mark| mark.0);
     let last = marked.chain(ticks.iter().copied()).max().expect("some ticks");
-    while lab.race().tick() < last {
-        lab.tick();
-        let tick = lab.race().tick();
+    while studio.race().tick() < last {
+        studio.tick();
+        let tick = studio.race().tick();
         if ticks.contains(&tick) {
-            hashes.push(mark(&lab).1);
+            hashes.push(mark(&studio).1);
         }
         for (pacing, marks) in paced {
             if let Some(there) = marks.iter().find(|there| there.0 == tick) {
-                assert_eq!(*there, mark(&lab), "{what}: {pacing} pacing against tick by tick");
+                assert_eq!(*there, mark(&studio), "{what}: {pacing} pacing against tick by tick");
             }
         }
     }
@@ -275,19 +275,19 @@ fn a_persons_commands_act_as_the_same_script_does() {
 #[test]
 fn ragged_frames_lose_ticks_to_the_cap_and_the_loss_is_counted() {
     let mut frames = ragged(0x5eed_0003);
-    let mut lab = Studio::new(built_in("spring"));
+    let mut studio = Studio::new(built_in("spring"));
     let (mut real_ns, mut ticks, mut dropped) = (0, 0, 0);
     for _ in 0..2000 {
         let frame = frames();
         real_ns += frame.max(0);
-        let due = lab.advance(frame);
-        assert!(due.ticks <= lab.clock().max_ticks());
+        let due = studio.advance(frame);
+        assert!(due.ticks <= studio.clock().max_ticks());
         ticks += u64::from(due.ticks);
         dropped += due.dropped;
     }
     assert!(dropped > 0);
-    assert_eq!((lab.race().tick(), lab.dropped()), (ticks, dropped));
-    let owed = real_ns.unsigned_abs() * u64::from(lab.clock().tick_hz()) / SECOND.unsigned_abs();
+    assert_eq!((studio.race().tick(), studio.dropped()), (ticks, dropped));
+    let owed = real_ns.unsigned_abs() * u64::from(studio.clock().tick_hz()) / SECOND.unsigned_abs();
     assert_eq!(ticks + dropped, owed, "every nanosecond is a tick stepped, dropped, or owed");
 }
 
@@ -320,7 +320,7 @@ fn each_lane_has_the_hash_of_a_race_of_its_own() {
         race.tick();
         solos.iter_mut().for_each(Studio::tick);
     }
-    let alone = solos.iter().map(|lab| lab.race().state_hash());
+    let alone = solos.iter().map(|studio| studio.race().state_hash());
     assert!(race.race().lane_hashes().eq(alone));
 }
 
@@ -357,15 +357,15 @@ fn a_race_of_a_scene_is_the_race_that_the_program_runs() {
     let scripted = quick_scenes().map(|scene| scripted(scene.name, script()));
     for scene in plain.chain(scripted) {
         let mut race = Race::of_scene(&scene);
-        let mut lab = Studio::new(scene);
-        lab.apply(StageCommand::ToggleRace);
+        let mut studio = Studio::new(scene);
+        studio.apply(StageCommand::ToggleRace);
         for _ in 0..20 {
             race.run(100);
-            (0..100).for_each(|_| lab.tick());
-            assert_eq!(race.t().to_bits(), lab.race().t().to_bits());
-            assert!(race.lane_hashes().eq(lab.race().lane_hashes()), "{}", lab.scene().name);
+            (0..100).for_each(|_| studio.tick());
+            assert_eq!(race.t().to_bits(), studio.race().t().to_bits());
+            assert!(race.lane_hashes().eq(studio.race().lane_hashes()), "{}", studio.scene().name);
         }
-        let methods = lab.scene().lanes.iter().map(|lane| lane.method.id);
+        let methods = studio.scene().lanes.iter().map(|lane| lane.method.id);
         assert!(race.hashes_by_method().eq(methods.zip(race.lane_hashes())));
     }
 }

@@ -139,7 +139,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
     }
     let experiment = args.experiment.load(lineup)?;
     if args.loop_trace.is_some()
-        && let Some(refusal) = experiment.lab().loop_lab_refusal()
+        && let Some(refusal) = experiment.studio().loop_lab_refusal()
     {
         return Err(Error::mistake(format!("--loop: {refusal}")));
     }
@@ -164,7 +164,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
         theme: args.theme.map(Theme::from).unwrap_or_default(),
         mark_every: args
             .mark_every
-            .unwrap_or_else(|| state_log::usual_stride(schedule.ticks(&experiment.lab()))),
+            .unwrap_or_else(|| state_log::usual_stride(schedule.ticks(&experiment.studio()))),
     };
     let movie = match format {
         PictureFormat::Png => {

@@ -28,17 +28,17 @@ pub(super) struct CaptureSettings {
 
 impl CaptureSettings {
     /// The lab at the start of the run.
-    pub(super) fn lab(&self, experiment: &Experiment) -> Studio {
-        let mut lab = experiment.lab();
-        lab.viewer_mut().preferences.display.motion =
+    pub(super) fn studio(&self, experiment: &Experiment) -> Studio {
+        let mut studio = experiment.studio();
+        studio.viewer_mut().preferences.display.motion =
             if self.motion { Motion::Recorded } else { Motion::Reduced };
-        lab.viewer_mut().preferences.choose_theme(self.theme);
+        studio.viewer_mut().preferences.choose_theme(self.theme);
         self.instrument
             .into_iter()
-            .for_each(|it| lab.viewer_mut().preferences.display.instrument = it);
+            .for_each(|it| studio.viewer_mut().preferences.display.instrument = it);
         if let Some(kind) = self.cloud {
-            lab.apply(RunCommand::Cloud(CloudChoice { kind, ..lab.display().cloud }));
+            studio.apply(RunCommand::Cloud(CloudChoice { kind, ..studio.display().cloud }));
         }
-        lab
+        studio
     }
 }

@@ -28,10 +28,11 @@ pub(super) fn record(
     folder.clear()?;
 
     let interrupted = watch_for_interrupt();
-    let mut lab = capture.lab(experiment);
-    let mut state_log = StateLog::new(capture.mark_every, lab.race());
+    let mut studio = capture.studio(experiment);
+    let mut state_log = StateLog::new(capture.mark_every, studio.race());
     let mut entries = Vec::new();
-    let run = Run { renderer: &mut renderer, lab: &mut lab, state_log: &mut state_log, schedule };
+    let run =
+        Run { renderer: &mut renderer, studio: &mut studio, state_log: &mut state_log, schedule };
     let encode = |drawn: &Drawn| (png::encode(size_px, &drawn.rgba), fingerprint(&drawn.rgba));
     let drawn = run.draw_all(&interrupted, encode, |&Drawn { tick, alpha, .. }, (file, pixels)| {
         folder.push(&file)?;
@@ -52,8 +53,8 @@ pub(super) fn record(
         adapter,
         complete: done == frames,
         frames: entries,
-        lanes: state_log::ends(&lab),
-        marks: state_log.close(lab.race()),
+        lanes: state_log::ends(&studio),
+        marks: state_log.close(studio.race()),
     };
     let (path, others) = (folder.path().to_owned(), folder.others().to_vec());
     folder.finish(&manifest.to_text())?;
@@ -62,5 +63,5 @@ pub(super) fn record(
     }
     print_status(&closing_line(&capture, &whole));
     report_left_alone(&path, &others);
-    Ok(lab)
+    Ok(studio)
 }

@@ -178,23 +178,23 @@ impl Experiment {
     }
 
     /// The lab at tick 0. A single lane is shown solo.
-    pub(super) fn lab(&self) -> Studio {
-        let mut lab = Studio::new(self.scene.clone());
-        lab.apply(StageCommand::Method(self.opening_method()));
-        if self.lineup == Lineup::Everyone && lab.scene().lanes.len() > 1 {
-            lab.apply(StageCommand::ToggleRace);
+    pub(super) fn studio(&self) -> Studio {
+        let mut studio = Studio::new(self.scene.clone());
+        studio.apply(StageCommand::Method(self.opening_method()));
+        if self.lineup == Lineup::Everyone && studio.scene().lanes.len() > 1 {
+            studio.apply(StageCommand::ToggleRace);
         } else {
-            lab.apply(StageCommand::Restart);
+            studio.apply(StageCommand::Restart);
         }
         if self.leaves_selection() {
-            lab.leave_selection();
+            studio.leave_selection();
         }
-        lab.begin_hints();
-        lab.forget_changes();
+        studio.begin_hints();
+        studio.forget_changes();
         if let Some(card) = self.loop_trace {
-            lab.open_loop_lab_on(card.id);
+            studio.open_loop_lab_on(card.id);
         }
-        lab
+        studio
     }
 }
 
@@ -375,13 +375,13 @@ mod tests {
             let named = ids[..count].iter().flat_map(|id| ["--method", id]);
             let words = ["", "--scene", "spring"].into_iter().chain(named);
             let line = <Line as clap::Parser>::parse_from(words);
-            let mut lab = line.experiment.load(Lineup::Solo).unwrap().lab();
-            assert_eq!(lab.entries()[lab.active()].method.id, ids[0]);
-            lab.analyse();
-            let outcome = |entry: usize| lab.viewer().verdict(entry).unwrap().outcome();
+            let mut studio = line.experiment.load(Lineup::Solo).unwrap().studio();
+            assert_eq!(studio.entries()[studio.active()].method.id, ids[0]);
+            studio.analyse();
+            let outcome = |entry: usize| studio.viewer().verdict(entry).unwrap().outcome();
             let best = (0..count).map(outcome).min().unwrap();
             assert_ne!(outcome(0), best);
-            assert_eq!(outcome(lab.active()) == best, is_best, "{count}");
+            assert_eq!(outcome(studio.active()) == best, is_best, "{count}");
         }
     }
 }

@@ -44,11 +44,11 @@ pub(super) fn record(
     let Schedule { frames, .. } = capture.schedule;
     let mut movie = Movie::begin(format, &mut output, &capture)?;
     let interrupted = watch_for_interrupt();
-    let mut lab = capture.lab(experiment);
-    let mut state_log = StateLog::new(u64::MAX, lab.race());
+    let mut studio = capture.studio(experiment);
+    let mut state_log = StateLog::new(u64::MAX, studio.race());
     let run = Run {
         renderer: &mut renderer,
-        lab: &mut lab,
+        studio: &mut studio,
         state_log: &mut state_log,
         schedule: capture.schedule,
     };

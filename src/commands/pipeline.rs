@@ -48,7 +48,7 @@ type Encoded<T> = (Drawn, thread::Result<T>);
 pub(super) struct Run<'a> {
     pub(super) renderer: &'a mut OffscreenRenderer,
     /// At tick 0.
-    pub(super) lab: &'a mut Studio,
+    pub(super) studio: &'a mut Studio,
     pub(super) state_log: &'a mut StateLog,
     pub(super) schedule: Schedule,
 }
@@ -118,17 +118,17 @@ impl Run<'_> {
         interrupted: &AtomicBool,
         mut hand_on: impl FnMut(Drawn),
     ) -> Result<u32, ReadbackError> {
-        let Self { renderer, lab, state_log, schedule } = self;
+        let Self { renderer, studio, state_log, schedule } = self;
         let (mut moments, mut clouds) = (VecDeque::new(), CloudWorker::default());
         let mut drawn = 0;
         let mut next = 0;
         loop {
             let more = next < schedule.frames && !interrupted.load(Ordering::Relaxed);
             if more {
-                schedule.advance(lab, next, state_log);
-                if complete_analysis(lab, renderer, &mut clouds, interrupted) {
-                    renderer.submit(lab)?;
-                    moments.push_back((lab.race().tick(), lab.clock().alpha_fraction()));
+                schedule.advance(studio, next, state_log);
+                if complete_analysis(studio, renderer, &mut clouds, interrupted) {
+                    renderer.submit(studio)?;
+                    moments.push_back((studio.race().tick(), studio.clock().alpha_fraction()));
                     next += 1;
                 }
             }
@@ -191,15 +191,15 @@ impl<T> ReorderingWindow<T> {
 /// they are found; a recording waits for a stated amount of work on verdicts before each frame, so that its frames are
 /// reproducible. Returns `false` after an interrupt, when the work is not waited for: the process is about to end.
 pub(super) fn complete_analysis(
-    lab: &mut Studio,
+    studio: &mut Studio,
     renderer: &OffscreenRenderer,
     clouds: &mut CloudWorker,
     interrupted: &AtomicBool,
 ) -> bool {
-    lab.run_loops();
+    studio.run_loops();
     if renderer.panels() == Panels::Shown {
-        lab.analyse_bounded(|worker| jobs::result(interrupted, move || worker.finish()));
-        lab.complete_clouds(clouds, || interrupted.load(Ordering::Relaxed));
+        studio.analyse_bounded(|worker| jobs::result(interrupted, move || worker.finish()));
+        studio.complete_clouds(clouds, || interrupted.load(Ordering::Relaxed));
     }
     !interrupted.load(Ordering::Relaxed)
 }
@@ -225,10 +225,10 @@ mod tests {
     }
 
     fn race() -> Studio {
-        let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-        lab.apply(StageCommand::ToggleRace);
-        lab.analyse();
-        lab
+        let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+        studio.apply(StageCommand::ToggleRace);
+        studio.analyse();
+        studio
     }
 
     /// Runs the pipeline from frame 0.
@@ -237,10 +237,10 @@ mod tests {
         interrupted: &AtomicBool,
         mut take: impl FnMut(&Drawn) -> Result<(), Error> + Send,
     ) -> Result<u32, Error> {
-        let mut lab = race();
-        let mut state_log = StateLog::new(1, lab.race());
-        let (lab, state_log) = (&mut lab, &mut state_log);
-        let run = Run { renderer, lab, state_log, schedule: SCHEDULE };
+        let mut studio = race();
+        let mut state_log = StateLog::new(1, studio.race());
+        let (studio, state_log) = (&mut studio, &mut state_log);
+        let run = Run { renderer, studio, state_log, schedule: SCHEDULE };
         // The first of every two takes longer than the second.
         let encode = |drawn: &Drawn| {
             thread::sleep(Duration::from_millis(if drawn.frame.is_multiple_of(2) { 5 } else { 0 }));
@@ -268,11 +268,11 @@ mod tests {
     fn an_encoder_that_panics_ends_the_run_with_its_panic() {
         let test = "an_encoder_that_panics_ends_the_run_with_its_panic";
         let Some(mut renderer) = renderer_or_skip(test) else { return };
-        let mut lab = race();
-        let mut state_log = StateLog::new(1, lab.race());
+        let mut studio = race();
+        let mut state_log = StateLog::new(1, studio.race());
         let run = Run {
             renderer: &mut renderer,
-            lab: &mut lab,
+            studio: &mut studio,
             state_log: &mut state_log,
             schedule: SCHEDULE,
         };
@@ -285,11 +285,11 @@ mod tests {
     fn no_more_frames_are_on_their_way_than_there_are_buffers() {
         let test = "no_more_frames_are_on_their_way_than_there_are_buffers";
         let Some(mut renderer) = renderer_or_skip(test) else { return };
-        let mut lab = race();
-        let mut state_log = StateLog::new(1, lab.race());
+        let mut studio = race();
+        let mut state_log = StateLog::new(1, studio.race());
         let run = Run {
             renderer: &mut renderer,
-            lab: &mut lab,
+            studio: &mut studio,
             state_log: &mut state_log,
             schedule: SCHEDULE,
         };
@@ -314,11 +314,11 @@ mod tests {
     fn frames_come_in_order_with_the_same_bytes_as_one_at_a_time() {
         let test = "frames_come_in_order_with_the_same_bytes_as_one_at_a_time";
         let Some(mut renderer) = renderer_or_skip(test) else { return };
-        let (mut lab, mut rgba, mut one_by_one) = (race(), Vec::new(), Vec::new());
+        let (mut studio, mut rgba, mut one_by_one) = (race(), Vec::new(), Vec::new());
         for frame in 0..SCHEDULE.frames {
-            SCHEDULE.advance(&mut lab, frame, &mut ());
-            renderer.draw(&lab, &mut rgba).unwrap();
-            one_by_one.push((lab.race().tick(), lab.clock().alpha_fraction(), rgba.clone()));
+            SCHEDULE.advance(&mut studio, frame, &mut ());
+            renderer.draw(&studio, &mut rgba).unwrap();
+            one_by_one.push((studio.race().tick(), studio.clock().alpha_fraction(), rgba.clone()));
         }
         let mut frames = Vec::new();
         let drawn = piped(&mut renderer, &AtomicBool::new(false), |drawn| {

@@ -97,17 +97,17 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         None => (args.experiment.load(lineup)?, args.experiment.clone()),
     };
     let experiment = Experiment { loop_trace: args.loop_trace, ..experiment };
-    let mut lab = experiment.lab();
-    lab.viewer_mut().preferences.display.motion =
+    let mut studio = experiment.studio();
+    studio.viewer_mut().preferences.display.motion =
         if args.reduced_motion { Motion::Reduced } else { Motion::Live };
     if let Some(mb) = args.rewind_mb {
-        lab.set_rewind_bytes(usize::from(mb) << 20);
+        studio.set_rewind_bytes(usize::from(mb) << 20);
     }
     if let Some(theme) = args.theme.map(Theme::from).or(preferences.theme) {
-        lab.viewer_mut().preferences.choose_theme(theme);
+        studio.viewer_mut().preferences.choose_theme(theme);
     }
     if let Some(percent) = preferences.scale_percent {
-        lab.viewer_mut().preferences.choose_scale(percent);
+        studio.viewer_mut().preferences.choose_scale(percent);
     }
     let record = args.record.as_deref().map(|path| {
         let if_exists = if args.force { IfExists::Replace } else { IfExists::Beside };
@@ -121,9 +121,9 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     let stream = opened.filter(|output| output.file().is_none());
     for told in unfinished::left_behind() {
         print_status(&told);
-        lab.viewer_mut().set_notice(told);
+        studio.viewer_mut().set_notice(told);
     }
-    let played = lab.scene().name.clone();
+    let played = studio.scene().name.clone();
     let settings = WindowSettings {
         seconds: args.seconds,
         size: preferences.size,
@@ -131,25 +131,25 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     };
     let keep = unfinished.as_ref().map(UnfinishedRecording::keeper);
     let files = SceneFiles { keep, ..files(&options, &experiment) };
-    let (lab, interrupted) = match window::run(lab, settings, files) {
+    let (studio, interrupted) = match window::run(studio, settings, files) {
         Err(WindowError::NoDisplay(reason)) => {
             (without_display(args, &experiment, &reason)?, false)
         }
         done => {
-            let Closed { lab, interrupted, size } = done.map_err(Error::failed)?;
+            let Closed { studio, interrupted, size } = done.map_err(Error::failed)?;
             let is_own = args.seconds.is_some() || args.experiment.names_a_scene();
-            let theme = lab.viewer().preferences.chosen_theme().filter(|_| args.theme.is_none());
-            let scene = if is_own { preferences.scene } else { preferences::scene_of(&lab) };
+            let theme = studio.viewer().preferences.chosen_theme().filter(|_| args.theme.is_none());
+            let scene = if is_own { preferences.scene } else { preferences::scene_of(&studio) };
             let (theme, size) = (theme.or(preferences.theme), size.or(preferences.size));
-            let scale_percent = Some(lab.display().scale_percent);
+            let scale_percent = Some(studio.display().scale_percent);
             Preferences { scene, theme, scale_percent, size }.save();
-            (lab, interrupted)
+            (studio, interrupted)
         }
     };
     if let Some(to) = record {
         let mut record = stream.map_or_else(|| to.begin(), Ok)?;
         let wanted = record.name();
-        record.write_all(lab.recording().map_err(Error::failed)?.as_bytes())?;
+        record.write_all(studio.recording().map_err(Error::failed)?.as_bytes())?;
         let name = record.close()?;
         if let Some(unfinished) = unfinished {
             unfinished.finish();
@@ -159,16 +159,16 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
                 "another program created {wanted} during the run; it was not replaced"
             ));
         }
-        if lab.scene().name != played {
-            let scene = lab.scene_name();
+        if studio.scene().name != played {
+            let scene = studio.scene_name();
             print_status(&format!(
                 "the run recorded is that of {scene}, which was opened after {played}"
             ));
         }
-        print_status(&format!("recorded {} in {name}", ticks(&lab)));
+        print_status(&format!("recorded {} in {name}", ticks(&studio)));
     }
     match interrupted {
-        true => Err(Error::interrupted_after(ticks(&lab))),
+        true => Err(Error::interrupted_after(ticks(&studio))),
         false => Ok(()),
     }
 }
@@ -192,8 +192,8 @@ fn refuse_to_record_over(
 }
 
 /// The length of a run in words.
-fn ticks(lab: &Studio) -> String {
-    counted(lab.timeline().end(), "tick")
+fn ticks(studio: &Studio) -> String {
+    counted(studio.timeline().end(), "tick")
 }
 
 /// Draws the first seconds into a folder, and returns the lab as it then is.
@@ -222,15 +222,15 @@ fn without_display(
         cloud: None,
         motion: !args.reduced_motion,
         theme: args.theme.map(Theme::from).unwrap_or_default(),
-        mark_every: state_log::usual_stride(schedule.ticks(&experiment.lab())),
+        mark_every: state_log::usual_stride(schedule.ticks(&experiment.studio())),
     };
-    let last = args.seconds.map(|seconds| experiment.lab().nearest_tick(seconds));
-    let mut lab = clip::record(experiment, capture, folder)?;
+    let last = args.seconds.map(|seconds| experiment.studio().nearest_tick(seconds));
+    let mut studio = clip::record(experiment, capture, folder)?;
     // The last frame is before the end.
-    while last.is_some_and(|last| lab.race().tick() < last) {
-        lab.tick();
+    while last.is_some_and(|last| studio.race().tick() < last) {
+        studio.tick();
     }
-    Ok(lab)
+    Ok(studio)
 }
 
 /// How the window reads scene files: the file named on the command line with the options given there, others as they

@@ -123,10 +123,10 @@ impl Preferences {
 }
 
 /// The open scene of a lab, as it is remembered: a name, or an absolute path.
-pub(super) fn scene_of(lab: &Studio) -> Option<PathBuf> {
-    match lab.scene_list().open_path() {
+pub(super) fn scene_of(studio: &Studio) -> Option<PathBuf> {
+    match studio.scene_list().open_path() {
         Some(path) => path.canonicalize().ok(),
-        None => Some(lab.scene_name().into()),
+        None => Some(studio.scene_name().into()),
     }
 }
 

@@ -40,20 +40,20 @@ impl Schedule {
     }
 
     /// The tick nearest to the last frame, for a lab that stands at the start.
-    pub(super) fn ticks(self, lab: &Studio) -> u64 {
-        lab.nearest_tick(f64::from(self.frames.saturating_sub(1)) / f64::from(self.fps))
+    pub(super) fn ticks(self, studio: &Studio) -> u64 {
+        studio.nearest_tick(f64::from(self.frames.saturating_sub(1)) / f64::from(self.fps))
     }
 
     /// Advances a lab that stands at the frame before `frame`, or at the start, to `frame`, before the eyes of an
     /// observer.
-    pub(super) fn advance(self, lab: &mut Studio, frame: u32, observer: &mut impl Observer) {
+    pub(super) fn advance(self, studio: &mut Studio, frame: u32, observer: &mut impl Observer) {
         let Some(before) = frame.checked_sub(1) else { return };
         let longest = u64::from(LONGEST_FRAME_MS) * 1_000_000;
         let mut left = self.time_ns(frame) - self.time_ns(before);
         // In stretches that the clock accepts without dropping ticks.
         while left > 0 {
-            let stretch = left.min(longest).min(until_rate_changes(lab));
-            let due = lab.advance_seen(stretch as i64, observer);
+            let stretch = left.min(longest).min(until_rate_changes(studio));
+            let due = studio.advance_seen(stretch as i64, observer);
             assert_eq!(due.dropped, 0, "a stretch is no longer than the clock's longest frame");
             left -= stretch;
         }
@@ -61,9 +61,9 @@ impl Schedule {
 }
 
 /// Nanoseconds, rounded up, until the tick is reached at which the script sets the next tick rate.
-fn until_rate_changes(lab: &Studio) -> u64 {
-    let (tick, clock) = (lab.race().tick(), lab.clock());
-    let Some((next, _)) = lab.scene().rates_from(tick + 1).next() else { return u64::MAX };
+fn until_rate_changes(studio: &Studio) -> u64 {
+    let (tick, clock) = (studio.race().tick(), studio.clock());
+    let Some((next, _)) = studio.scene().rates_from(tick + 1).next() else { return u64::MAX };
     // The clock counts in nanoseconds × hertz × percent.
     let (owed, whole) = clock.alpha_fraction();
     let due = u128::from(next - tick) * u128::from(whole) - u128::from(owed);
@@ -81,19 +81,19 @@ mod tests {
         let text = "title = 'x'\ntick_hz = 1\nseconds = 9\n[[spring]]\nmass_kg = 1\n\
                     stiffness_n_per_m = 1\n[[command]]\ntick = 5\ntick_hz = 1000\n\
                     [[command]]\ntick = 1505\ntick_hz = 8\n";
-        let mut lab = Studio::new(Scene::parse("x.toml", text).unwrap());
+        let mut studio = Studio::new(Scene::parse("x.toml", text).unwrap());
         let schedule = Schedule { frames: 301, fps: 30 };
         for frame in 0..schedule.frames {
-            schedule.advance(&mut lab, frame, &mut ());
-            let present = lab.race().t();
-            let next_hz = lab.scene().rates_from(lab.race().tick()).next();
-            let next_hz = next_hz.filter(|(tick, _)| *tick == lab.race().tick());
-            let hz = next_hz.map_or(lab.clock().tick_hz(), |(_, hz)| hz);
-            let shown = present + lab.clock().alpha() / f64::from(hz);
+            schedule.advance(&mut studio, frame, &mut ());
+            let present = studio.race().t();
+            let next_hz = studio.scene().rates_from(studio.race().tick()).next();
+            let next_hz = next_hz.filter(|(tick, _)| *tick == studio.race().tick());
+            let hz = next_hz.map_or(studio.clock().tick_hz(), |(_, hz)| hz);
+            let shown = present + studio.clock().alpha() / f64::from(hz);
             let moment = f64::from(frame) / f64::from(schedule.fps);
             assert!((shown - moment).abs() < 1e-6, "frame {frame} shows {shown} s, not {moment} s");
         }
-        assert_eq!(schedule.ticks(&Studio::new(lab.scene().clone())), lab.race().tick());
+        assert_eq!(schedule.ticks(&Studio::new(studio.scene().clone())), studio.race().tick());
     }
 
     #[test]
@@ -120,13 +120,13 @@ mod tests {
         {
             let mut scene = Scene::built_in("spring").unwrap();
             scene.tick_hz = tick_hz;
-            let mut lab = Studio::new(scene);
+            let mut studio = Studio::new(scene);
             let schedule = Schedule { frames: 2 * fps, fps };
             let mut seen = Ticks(0);
             for frame in 0..=schedule.frames {
-                schedule.advance(&mut lab, frame, &mut seen);
+                schedule.advance(&mut studio, frame, &mut seen);
                 let due = u64::from(frame) * u64::from(tick_hz) / u64::from(fps);
-                assert_eq!(lab.race().tick(), due, "frame {frame}, {tick_hz} Hz, {fps} fps");
+                assert_eq!(studio.race().tick(), due, "frame {frame}, {tick_hz} Hz, {fps} fps");
                 assert_eq!(seen.0, due);
             }
         }

@@ -25,8 +25,8 @@ pub(super) fn draw(
 ) -> Result<(), Error> {
     let [width, height] = capture.size_px;
     let columns = capture.schedule.frames;
-    let lab = experiment.lab();
-    let lanes = lab.race().entrants().iter().map(|entrant| entrant.spec);
+    let studio = experiment.studio();
+    let lanes = studio.race().entrants().iter().map(|entrant| entrant.spec);
     let lanes: Vec<LaneSpec> = lanes.collect();
     let methods: Vec<&str> = lanes.iter().map(|lane| lane.method.id).collect();
     let rows = lanes.len() as u32;
@@ -50,15 +50,15 @@ pub(super) fn draw(
             lineup: Lineup::Solo,
             loop_trace: None,
         };
-        let (mut lab, mut clouds) = (capture.lab(&alone), CloudWorker::default());
+        let (mut studio, mut clouds) = (capture.studio(&alone), CloudWorker::default());
         for column in 0..columns {
-            capture.schedule.advance(&mut lab, column, &mut ());
-            if !complete_analysis(&mut lab, &renderer, &mut clouds, &interrupted) {
+            capture.schedule.advance(&mut studio, column, &mut ());
+            if !complete_analysis(&mut studio, &renderer, &mut clouds, &interrupted) {
                 progress.finish_and_clear();
                 let done = row as u32 * columns + column;
                 return Err(interrupted_after(done, cells, "none, a sheet is one"));
             }
-            renderer.draw(&lab, &mut cell)?;
+            renderer.draw(&studio, &mut cell)?;
             let top = row * height as usize;
             for (y, line) in cell.chunks_exact(row_bytes).enumerate() {
                 let at = (top + y) * sheet_row_bytes + column as usize * row_bytes;

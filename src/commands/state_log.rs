@@ -58,11 +58,11 @@ fn mark(race: &Race) -> Mark {
 }
 
 /// Each lane at the end, with its metrics against the truth.
-pub(super) fn ends(lab: &Studio) -> Vec<LaneEnd> {
-    let race = lab.race();
+pub(super) fn ends(studio: &Studio) -> Vec<LaneEnd> {
+    let race = studio.race();
     let end = |(entrant, hash): (&crate::lab::Entrant, u64)| {
         let lane = &entrant.lane;
-        let bodies = lane.bodies().iter().zip(race.truth().bodies()).zip(&lab.scene().bodies);
+        let bodies = lane.bodies().iter().zip(race.truth().bodies()).zip(&studio.scene().bodies);
         let bodies = bodies.map(|((body, truth), named)| {
             let mut entry = Map::from_iter([
                 ("name".to_owned(), Value::from(&*named.name)),
@@ -97,14 +97,14 @@ mod tests {
     #[test]
     fn marks_are_made_at_the_start_at_each_stride_and_at_the_end() {
         for (every, expected) in [(1, vec![0, 1, 2, 3, 4, 5, 6, 7]), (3, vec![0, 3, 6, 7])] {
-            let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-            let mut state_log = StateLog::new(every, lab.race());
-            (0..7).for_each(|_| lab.tick_seen(&mut state_log));
-            let marks = state_log.close(lab.race());
+            let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+            let mut state_log = StateLog::new(every, studio.race());
+            (0..7).for_each(|_| studio.tick_seen(&mut state_log));
+            let marks = state_log.close(studio.race());
             assert_eq!(marks.iter().map(|mark| mark.tick).collect::<Vec<_>>(), expected);
             let last = &marks.last().unwrap().lanes[0];
-            assert_eq!(last.hash, format!("{:016x}", lab.race().state_hash()));
-            assert_eq!(last.q.len(), lab.scene().bodies.len());
+            assert_eq!(last.hash, format!("{:016x}", studio.race().state_hash()));
+            assert_eq!(last.q.len(), studio.scene().bodies.len());
         }
     }
 

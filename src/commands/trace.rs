@@ -60,22 +60,25 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
     let lineup = if args.experiment.names_no_method() { Lineup::Everyone } else { Lineup::Solo };
     let experiment = args.experiment.load(lineup)?;
     let seconds = args.seconds.unwrap_or(experiment.scene.seconds);
-    let mut lab = experiment.lab();
+    let mut studio = experiment.studio();
     let mut halts = Halts::default();
 
-    let at_start: Vec<Truth> = lab.race().truth().bodies().iter().map(LaneBody::truth).collect();
+    let at_start: Vec<Truth> = studio.race().truth().bodies().iter().map(LaneBody::truth).collect();
     let mut trace = Trace::begin(args)?;
-    trace.tick(&lab)?;
-    let last = lab.nearest_tick(seconds);
+    trace.tick(&studio)?;
+    let last = studio.nearest_tick(seconds);
     let mut reached = vec![Reached::default(); experiment.scene.bodies.len()];
-    while lab.race().tick() < last {
-        lab.tick();
-        reached.iter_mut().zip(lab.race().truth().bodies()).for_each(|(it, truth)| it.note(truth));
-        trace.tick(&lab)?;
-        halts.note(&lab);
+    while studio.race().tick() < last {
+        studio.tick();
+        reached
+            .iter_mut()
+            .zip(studio.race().truth().bodies())
+            .for_each(|(it, truth)| it.note(truth));
+        trace.tick(&studio)?;
+        halts.note(&studio);
     }
     trace.rows.end()?.close()?;
-    tell_accuracy(&experiment.scene.bodies, &at_start, &reached, lab.race().truth());
+    tell_accuracy(&experiment.scene.bodies, &at_start, &reached, studio.race().truth());
     halts.lines.iter().for_each(|line| print_status(line));
     Ok(())
 }
@@ -98,15 +101,15 @@ impl<'a> Trace<'a> {
     }
 
     /// Writes the present of the truth and of every lane, but of bodies that have halted.
-    fn tick(&mut self, lab: &Studio) -> io::Result<()> {
-        let race = lab.race();
+    fn tick(&mut self, studio: &Studio) -> io::Result<()> {
+        let race = studio.race();
         if !race.tick().is_multiple_of(self.args.every) {
             return Ok(());
         }
         (self.cells[0], self.cells[1]) = (race.tick().into(), race.t().into());
-        self.lane(0, race.truth(), None, lab)?;
+        self.lane(0, race.truth(), None, studio)?;
         for (n, entrant) in race.entrants().iter().enumerate() {
-            self.lane(n + 1, &entrant.lane, Some(race.truth()), lab)?;
+            self.lane(n + 1, &entrant.lane, Some(race.truth()), studio)?;
         }
         Ok(())
     }
@@ -116,10 +119,10 @@ impl<'a> Trace<'a> {
         number: usize,
         lane: &Lane,
         truth: Option<&Lane>,
-        lab: &Studio,
+        studio: &Studio,
     ) -> io::Result<()> {
         self.cells[2] = number.into();
-        let bodies = lane.bodies().iter().zip(&lab.scene().bodies).enumerate();
+        let bodies = lane.bodies().iter().zip(&studio.scene().bodies).enumerate();
         for (n, (body, named)) in bodies.filter(|(_, (body, _))| body.halted().is_none()) {
             self.cells[3] = method_id(lane.solver(), body).into();
             self.cells[4] = named.name.as_str().into();
@@ -204,13 +207,13 @@ struct Halts {
 }
 
 impl Halts {
-    fn note(&mut self, lab: &Studio) {
-        let race = lab.race();
+    fn note(&mut self, studio: &Studio) {
+        let race = studio.race();
         for (entrant, halt) in race.just_halted() {
             let before = |id| race.entrants().iter().take_while(move |other| other.id != id);
             let number = entrant.map_or(0, |entrant| 1 + before(entrant.id).count());
             let lane = entrant.map_or(race.truth(), |entrant| &entrant.lane);
-            let body = &lab.scene().bodies[halt.body].name;
+            let body = &studio.scene().bodies[halt.body].name;
             let no_truth = if number == 0 { ", and so do its comparisons" } else { "" };
             self.lines.push(format!(
                 "lane {number}, {}, halted at tick {} (t = {:.3} s): {body} {}; its rows end there{no_truth}",

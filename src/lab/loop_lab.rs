@@ -97,7 +97,7 @@ impl LoopLab {
         let scene = Arc::new(scene.clone().of_one_body(body));
         let traces: Vec<_> = cards.into_iter().map(|card| card.trace(DISPLAY)).collect();
         let trace = traces[0].clone();
-        let mut lab = Self {
+        let mut studio = Self {
             body: at_start(&scene),
             original: scene.clone(),
             request: Arc::new(LoopRequest { scene: scene.clone(), method, trace, first: vec![] }),
@@ -118,8 +118,8 @@ impl LoopLab {
             slowness: SLOWNESS_AT_FIRST,
             run_goes_on: true,
         };
-        lab.choose_trace(0);
-        lab
+        studio.choose_trace(0);
+        studio
     }
 
     /// Goes on by itself to the second trace of the opening, until [`end_opening`](Self::end_opening).

@@ -68,16 +68,16 @@ mod tests {
     fn a_notice_leaves_after_some_seconds_and_a_long_one_later_whether_time_runs_or_not() {
         for is_running in [true, false] {
             let shown_s = |words: &str| {
-                let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-                lab.running = is_running;
-                lab.viewer_mut().set_notice(words);
+                let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+                studio.running = is_running;
+                studio.viewer_mut().set_notice(words);
                 let mut frames = 0;
-                while lab.viewer().notice.is_some() {
-                    lab.advance(70_000_000);
-                    lab.viewer_mut().pass(if is_running { 0 } else { 70_000_000 });
+                while studio.viewer().notice.is_some() {
+                    studio.advance(70_000_000);
+                    studio.viewer_mut().pass(if is_running { 0 } else { 70_000_000 });
                     frames += 1;
                 }
-                assert_eq!(lab.viewer().notice.as_ref().map(Notice::left_ns), None);
+                assert_eq!(studio.viewer().notice.as_ref().map(Notice::left_ns), None);
                 f64::from(frames) * 0.07
             };
             let [short, long] = [shown_s("saved"), shown_s(&"word ".repeat(20))];

@@ -169,19 +169,21 @@ mod tests {
 
     #[test]
     fn a_body_that_blew_up_says_when_and_with_what_value_in_its_unit() {
-        let mut lab = Studio::new(Scene::built_in("stiff").unwrap());
-        lab.apply(StageCommand::Method(crate::sim::integrators::method("explicit-euler").unwrap()));
-        lab.apply(StageCommand::TickHz(10));
-        while lab.selected().lane.halted().is_none() {
-            lab.tick();
+        let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
+        studio.apply(StageCommand::Method(
+            crate::sim::integrators::method("explicit-euler").unwrap(),
+        ));
+        studio.apply(StageCommand::TickHz(10));
+        while studio.selected().lane.halted().is_none() {
+            studio.tick();
         }
-        let halt = lab.selected().lane.halted().unwrap().clone();
+        let halt = studio.selected().lane.halted().unwrap().clone();
         assert_eq!(halt.t, halt.tick as f64 / 10.0);
         let when = format!("blew up at {}", duration(halt.t));
         assert_eq!(halt.fate(), when);
-        let fate = lab.selected().lane.bodies()[halt.body].fate().unwrap();
+        let fate = studio.selected().lane.bodies()[halt.body].fate().unwrap();
         assert_eq!(fate, format!("{when} (speed 10³⁹ m/s)"));
-        let notice = lab.viewer.notice.take().unwrap().to_string();
+        let notice = studio.viewer.notice.take().unwrap().to_string();
         assert_eq!(notice, format!("Explicit Euler: stiff spring {fate}"));
     }
 
@@ -190,12 +192,12 @@ mod tests {
         let text = "title = 'x'\ntick_hz = 60\nseconds = 5\nmethods = ['rk4']\n[[law]]\nname = 'spring'\n\
             constants = { k = 9.0, c = 0.0, a = 1.0 }\nenergy = 'vx^2/2 + k*x^2/2'\n[law.coordinates.x]\nstart = 0.3\n\
             acceleration = '-k*x - c*vx'\nexact = 'a*x0*cos(sqrt(k)*t)'";
-        let mut lab = Studio::new(Scene::parse("x.toml", text).unwrap());
+        let mut studio = Studio::new(Scene::parse("x.toml", text).unwrap());
         let mut set = |parameter: usize, value: f64| {
-            lab.apply(RunCommand::Act(Action::Set { body: 0, parameter, value }));
+            studio.apply(RunCommand::Act(Action::Set { body: 0, parameter, value }));
             let drift = &METRICS[Metric::ENERGY_DRIFT];
-            let absent = drift.absent_on(&lab.race().truth().bodies()[0]);
-            let told = lab.viewer.notice.take().map(|notice| notice.to_string());
+            let absent = drift.absent_on(&studio.race().truth().bodies()[0]);
+            let told = studio.viewer.notice.take().map(|notice| notice.to_string());
             (told, absent.contains("with these constants"))
         };
         assert_eq!(set(0, 16.0), (None, false));

@@ -64,13 +64,13 @@ impl Studio {
     /// Goes on with a run, where it is, in its mode.
     pub fn of_session(session: Session) -> Self {
         let tick = session.race().tick();
-        let mut lab = Self::new((**session.scene()).clone());
-        lab.start = StartSettings::of_session(&session);
-        lab.clock = Clock::new(lab.start.tick_hz);
-        lab.viewer = Viewer::new(session.race().entrants()[0].id);
-        lab.timeline = Timeline::new(session.before_its_first_tick());
-        (0..tick).for_each(|_| lab.timeline.tick());
-        lab
+        let mut studio = Self::new((**session.scene()).clone());
+        studio.start = StartSettings::of_session(&session);
+        studio.clock = Clock::new(studio.start.tick_hz);
+        studio.viewer = Viewer::new(session.race().entrants()[0].id);
+        studio.timeline = Timeline::new(session.before_its_first_tick());
+        (0..tick).for_each(|_| studio.timeline.tick());
+        studio
     }
 
     /// The open scene with the parameters and the length that a person has set.

@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn seconds_are_counted_across_the_rates_of_a_script() {
-        let lab = Studio::new(scene());
+        let studio = Studio::new(scene());
         for (seconds, tick) in [
             (0.0, 0),
             (0.4, 0),
@@ -130,18 +130,18 @@ mod tests {
             (5.65, 46),
             (9.4, 53),
         ] {
-            assert_eq!(lab.nearest_tick(seconds), tick, "{seconds} s");
+            assert_eq!(studio.nearest_tick(seconds), tick, "{seconds} s");
         }
     }
 
     #[test]
     fn the_tick_is_the_same_seen_from_any_tick_before_it() {
-        let mut lab = Studio::new(scene());
+        let mut studio = Studio::new(scene());
         for tick in 0..60 {
-            assert_eq!(lab.race().tick(), tick);
-            assert_eq!(lab.nearest_tick(9.4), 53.max(tick));
-            assert_eq!(lab.nearest_tick(lab.race().t()), tick);
-            lab.tick();
+            assert_eq!(studio.race().tick(), tick);
+            assert_eq!(studio.nearest_tick(9.4), 53.max(tick));
+            assert_eq!(studio.nearest_tick(studio.race().t()), tick);
+            studio.tick();
         }
     }
 }

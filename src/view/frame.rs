@@ -86,9 +86,9 @@ impl FrameRenderer {
         size_px: [u32; 2],
         scale: f32,
         input: egui::RawInput,
-        lab: &Studio,
+        studio: &Studio,
     ) -> (Vec<Command>, FrameOutput) {
-        let (commands, layout) = self.lay_out(gpu, size_px, scale, input, lab);
+        let (commands, layout) = self.lay_out(gpu, size_px, scale, input, studio);
         (commands, self.paint(gpu, target, size_px, layout))
     }
 
@@ -99,33 +99,33 @@ impl FrameRenderer {
         size_px: [u32; 2],
         scale: f32,
         input: egui::RawInput,
-        lab: &Studio,
+        studio: &Studio,
     ) -> (Vec<Command>, Layout) {
         let mut commands = Vec::new();
-        theme::show(&self.context, lab.display(), size_px.map(|side| side as f32 / scale));
+        theme::show(&self.context, studio.display(), size_px.map(|side| side as f32 / scale));
         let shown = self.shown;
         let mut touch = std::mem::take(&mut self.touch);
         let layout = self.lay_out_with(gpu, size_px, scale, input, |ui| {
             let (is_down, was_down) =
-                (ui.input(|input| input.pointer.any_down()), lab.viewer().pointer_is_down());
+                (ui.input(|input| input.pointer.any_down()), studio.viewer().pointer_is_down());
             if is_down && !was_down {
                 commands.push(Command::View(ViewCommand::PointerDown(true)));
             }
             let rect = match shown {
                 Panels::Shown => {
-                    let (asked, rect) = panels::show(ui, lab);
+                    let (asked, rect) = panels::show(ui, studio);
                     commands.extend(asked);
                     rect
                 }
                 Panels::Off => ui.max_rect(),
                 Panels::Instrument => {
-                    panels::show_instrument(ui, lab);
+                    panels::show_instrument(ui, studio);
                     return None;
                 }
             };
             let size = rect.size().max(egui::Vec2::ZERO);
-            let picture = picture::compose(lab, size.into());
-            touch.show(ui, rect, &picture, lab, &mut commands);
+            let picture = picture::compose(studio, size.into());
+            touch.show(ui, rect, &picture, studio, &mut commands);
             if was_down && !is_down {
                 commands.push(Command::View(ViewCommand::PointerDown(false)));
             }

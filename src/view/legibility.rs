@@ -29,14 +29,15 @@ struct Text {
 }
 
 /// Every text of a frame of this size, as the third frame of a window has it.
-fn texts(lab: &Studio, size: Vec2) -> Vec<Text> {
-    let mut window = TestWindow::new(size / theme::zoom(size.into(), lab.display().scale_percent));
-    theme::show(&window.context, lab.display(), size.into());
+fn texts(studio: &Studio, size: Vec2) -> Vec<Text> {
+    let mut window =
+        TestWindow::new(size / theme::zoom(size.into(), studio.display().scale_percent));
+    theme::show(&window.context, studio.display(), size.into());
     let mut frame = || {
         let layout = |ui: &mut Ui| {
-            let (_, stage) = panels::show(ui, lab);
+            let (_, stage) = panels::show(ui, studio);
             let painter = ui.painter().with_clip_rect(stage);
-            let picture = compose(lab, stage.size().into());
+            let picture = compose(studio, stage.size().into());
             picture.labels.iter().for_each(|label| write(&painter, stage, label));
         };
         window.show(Vec::new(), layout).1
@@ -58,8 +59,8 @@ fn rows(ShownText { shape, clip }: &ShownText) -> impl Iterator<Item = Text> {
 }
 
 /// What cannot be read in a frame.
-fn faults(lab: &Studio, size: Vec2) -> Vec<String> {
-    let texts = texts(lab, size);
+fn faults(studio: &Studio, size: Vec2) -> Vec<String> {
+    let texts = texts(studio, size);
     assert!(texts.len() > 20, "{}", texts.len());
     let mut faults = Vec::new();
     // What is scrolled out of sight is not in the frame; a row at the edge is cut by purpose.
@@ -100,27 +101,29 @@ fn race_of_all(name: &str) -> Studio {
 }
 
 fn started(scene: Scene, race: bool) -> Studio {
-    let mut lab = moved(scene, race);
-    lab.analyse();
-    lab
+    let mut studio = moved(scene, race);
+    studio.analyse();
+    studio
 }
 
 /// The same without verdicts.
 fn moved(scene: Scene, race: bool) -> Studio {
-    let mut lab = Studio::new(scene);
+    let mut studio = Studio::new(scene);
     if race {
-        lab.apply(StageCommand::ToggleRace);
+        studio.apply(StageCommand::ToggleRace);
     }
-    let ticks = 4 * lab.race().tick_hz();
-    (0..ticks).for_each(|_| lab.tick());
-    lab
+    let ticks = 4 * studio.race().tick_hz();
+    (0..ticks).for_each(|_| studio.tick());
+    studio
 }
 
 #[track_caller]
-fn assert_legible(lab: &Studio, what: &str) {
+fn assert_legible(studio: &Studio, what: &str) {
     let mut all = Vec::new();
     for size in SIZES {
-        all.extend(faults(lab, size).into_iter().map(|fault| format!("{what}, {size}: {fault}")));
+        all.extend(
+            faults(studio, size).into_iter().map(|fault| format!("{what}, {size}: {fault}")),
+        );
     }
     assert!(all.is_empty(), "\n{}", all.join("\n"));
 }
@@ -143,12 +146,12 @@ fn every_text_can_be_read_under_every_instrument_beside_the_inspector_on_every_s
         let mut labs = [false, true].map(|race| moved(Scene::built_in(scene.name).unwrap(), race));
         for (i, instrument) in Instrument::all().enumerate() {
             let [inspector, race, size] = [s + i, s / 2 + i, s + i / 2].map(|n| n % 2);
-            let lab = &mut labs[race];
-            lab.apply(StageCommand::Instrument(instrument));
-            if lab.display().inspector != (inspector == 1) {
-                lab.apply(RunCommand::ToggleInspector);
+            let studio = &mut labs[race];
+            studio.apply(StageCommand::Instrument(instrument));
+            if studio.display().inspector != (inspector == 1) {
+                studio.apply(RunCommand::ToggleInspector);
             }
-            let faults = faults(lab, SIZES[size]);
+            let faults = faults(studio, SIZES[size]);
             let name = instrument.name();
             let at = format!("{}, {name}, inspector {inspector}, race {race}", scene.name);
             all.extend(faults.into_iter().map(|fault| format!("{at}, {}: {fault}", SIZES[size])));
@@ -166,36 +169,36 @@ fn every_text_can_be_read_beside_clouds_and_sections() {
         ("kicked-rotor", true, CloudKind::Section),
     ];
     for (name, race, kind) in scenes {
-        let mut lab = Studio::new(Scene::built_in(name).expect("a built-in scene"));
+        let mut studio = Studio::new(Scene::built_in(name).expect("a built-in scene"));
         if race {
-            lab.apply(StageCommand::ToggleRace);
+            studio.apply(StageCommand::ToggleRace);
         }
-        (0..lab.race().tick_hz()).for_each(|_| lab.tick());
-        lab.apply(StageCommand::Instrument(Instrument::Cloud));
-        lab.apply(RunCommand::Cloud(CloudChoice { kind, points: 1000 }));
-        lab.complete_clouds(&mut CloudWorker::default(), || false);
-        assert_legible(&lab, &format!("clouds of {name}, race {race}"));
-        lab.apply(ViewCommand::ToggleEnlarged);
-        assert_legible(&lab, &format!("large clouds of {name}, race {race}"));
+        (0..studio.race().tick_hz()).for_each(|_| studio.tick());
+        studio.apply(StageCommand::Instrument(Instrument::Cloud));
+        studio.apply(RunCommand::Cloud(CloudChoice { kind, points: 1000 }));
+        studio.complete_clouds(&mut CloudWorker::default(), || false);
+        assert_legible(&studio, &format!("clouds of {name}, race {race}"));
+        studio.apply(ViewCommand::ToggleEnlarged);
+        assert_legible(&studio, &format!("large clouds of {name}, race {race}"));
     }
 }
 
 #[test]
 fn every_text_can_be_read_at_every_stop_of_the_guide_beside_the_inspector() {
     let mut all = Vec::new();
-    let mut lab = run("spring", false);
-    lab.apply(ViewCommand::ToggleGuide);
+    let mut studio = run("spring", false);
+    studio.apply(ViewCommand::ToggleGuide);
     for stop in 0..STOPS.len() {
-        (0..60).for_each(|_| lab.tick());
+        (0..60).for_each(|_| studio.tick());
         for (i, size) in SIZES[..2].iter().enumerate() {
-            if lab.display().inspector != (i == stop % 2) {
-                lab.apply(RunCommand::ToggleInspector);
+            if studio.display().inspector != (i == stop % 2) {
+                studio.apply(RunCommand::ToggleInspector);
             }
-            let faults = faults(&lab, *size);
-            let at = format!("stop {stop}, inspector {}, {size}", lab.display().inspector);
+            let faults = faults(&studio, *size);
+            let at = format!("stop {stop}, inspector {}, {size}", studio.display().inspector);
             all.extend(faults.into_iter().map(|fault| format!("{at}: {fault}")));
         }
-        lab.apply(ViewCommand::StopBeside(Step::Next));
+        studio.apply(ViewCommand::StopBeside(Step::Next));
     }
     assert!(all.is_empty(), "\n{}", all.join("\n"));
 }
@@ -203,12 +206,12 @@ fn every_text_can_be_read_at_every_stop_of_the_guide_beside_the_inspector() {
 #[test]
 fn every_text_can_be_read_with_all_methods_racing_in_both_arrangements() {
     for name in ["harbour", "orbit"] {
-        let mut lab = race_of_all(name);
-        assert_eq!(lab.display().arrangement, Arrangement::Overlay);
-        assert_legible(&lab, &format!("all methods on {name}"));
-        lab.apply(StageCommand::ToggleArrangement);
+        let mut studio = race_of_all(name);
+        assert_eq!(studio.display().arrangement, Arrangement::Overlay);
+        assert_legible(&studio, &format!("all methods on {name}"));
+        studio.apply(StageCommand::ToggleArrangement);
         for size in &SIZES[1..] {
-            let faults = faults(&lab, *size);
+            let faults = faults(&studio, *size);
             assert!(faults.is_empty(), "{name} side by side, {size}:\n{}", faults.join("\n"));
         }
     }
@@ -216,12 +219,12 @@ fn every_text_can_be_read_with_all_methods_racing_in_both_arrangements() {
 
 #[test]
 fn every_text_can_be_read_under_every_method_from_the_start() {
-    let mut lab = race_of_all("harbour");
-    lab.apply(StageCommand::ToggleRace);
-    for entry in 0..lab.entries().len() {
-        lab.apply(StageCommand::Pick(entry));
-        lab.apply(StageCommand::Restart);
-        assert_legible(&lab, lab.entries()[entry].method.name);
+    let mut studio = race_of_all("harbour");
+    studio.apply(StageCommand::ToggleRace);
+    for entry in 0..studio.entries().len() {
+        studio.apply(StageCommand::Pick(entry));
+        studio.apply(StageCommand::Restart);
+        assert_legible(&studio, studio.entries()[entry].method.name);
     }
 }
 
@@ -229,9 +232,9 @@ fn every_text_can_be_read_under_every_method_from_the_start() {
 fn every_text_can_be_read_at_every_size_of_type() {
     for scale_percent in SCALE_LADDER {
         let labs = [("harbour", race_of_all("harbour")), ("stiff", run("stiff", false))];
-        for (name, mut lab) in labs {
-            lab.viewer_mut().preferences.choose_scale(scale_percent);
-            assert_legible(&lab, &format!("{name} at {scale_percent} %"));
+        for (name, mut studio) in labs {
+            studio.viewer_mut().preferences.choose_scale(scale_percent);
+            assert_legible(&studio, &format!("{name} at {scale_percent} %"));
         }
     }
 }
@@ -243,22 +246,22 @@ fn every_text_can_be_read_in_the_light_theme_and_with_the_help_and_the_inspector
         Command::View(ViewCommand::ToggleHelp),
         Command::Run(RunCommand::ToggleInspector),
     ] {
-        let mut lab = run("harbour", false);
-        lab.apply(command.clone());
+        let mut studio = run("harbour", false);
+        studio.apply(command.clone());
         assert_eq!(
-            lab.display().theme == Theme::Light,
+            studio.display().theme == Theme::Light,
             command == Command::View(ViewCommand::ToggleTheme)
         );
         if command == Command::View(ViewCommand::ToggleHelp) {
             // The overlay lies over what is below it on purpose: only what is elided or cut is a fault.
             for size in SIZES {
-                let faults = faults(&lab, size);
+                let faults = faults(&studio, size);
                 let cut: Vec<_> =
                     faults.iter().filter(|fault| !fault.contains(" is over ")).collect();
                 assert!(cut.is_empty(), "help, {size}: {cut:?}");
             }
         } else {
-            assert_legible(&lab, &format!("{command:?}"));
+            assert_legible(&studio, &format!("{command:?}"));
         }
     }
 }
@@ -267,60 +270,60 @@ fn every_text_can_be_read_in_the_light_theme_and_with_the_help_and_the_inspector
 fn every_text_of_the_loop_lab_can_be_read_on_any_stage_display_and_theme() {
     for name in ["spring", "harbour", "orbit"] {
         for theme in [Theme::Dark, Theme::Light] {
-            let mut lab = run(name, false);
-            lab.viewer_mut().preferences.choose_theme(theme);
-            lab.apply(Command::Loop(LoopCommand::ToggleLab));
-            lab.run_loops();
-            lab.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
-            assert_legible(&lab, &format!("loop lab on {name}, {theme:?}"));
-            lab.apply(StageCommand::ToggleArrangement);
-            assert_legible(&lab, &format!("loops over each other on {name}, {theme:?}"));
+            let mut studio = run(name, false);
+            studio.viewer_mut().preferences.choose_theme(theme);
+            studio.apply(Command::Loop(LoopCommand::ToggleLab));
+            studio.run_loops();
+            studio.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
+            assert_legible(&studio, &format!("loop lab on {name}, {theme:?}"));
+            studio.apply(StageCommand::ToggleArrangement);
+            assert_legible(&studio, &format!("loops over each other on {name}, {theme:?}"));
         }
     }
 }
 
 #[test]
 fn every_text_of_the_loop_lab_can_be_read_with_every_loop_and_on_every_display() {
-    let mut lab = run("spring", false);
-    lab.apply(Command::Loop(LoopCommand::ToggleLab));
-    lab.run_loops();
-    let loops = lab.loop_lab().expect("it is open");
+    let mut studio = run("spring", false);
+    studio.apply(Command::Loop(LoopCommand::ToggleLab));
+    studio.run_loops();
+    let loops = studio.loop_lab().expect("it is open");
     let (traces, places) = (loops.traces().len(), loops.lanes().len());
     for trace in 0..traces {
-        lab.apply(Command::Loop(LoopCommand::Trace(trace)));
-        lab.run_loops();
-        lab.apply(Command::Loop(LoopCommand::Seek(5_000_000_000)));
-        assert_legible(&lab, &format!("trace {trace}"));
+        studio.apply(Command::Loop(LoopCommand::Trace(trace)));
+        studio.run_loops();
+        studio.apply(Command::Loop(LoopCommand::Seek(5_000_000_000)));
+        assert_legible(&studio, &format!("trace {trace}"));
     }
     for place in 0..places {
-        lab.apply(Command::Loop(LoopCommand::Select(place)));
-        assert_legible(&lab, &format!("loop {place} selected"));
+        studio.apply(Command::Loop(LoopCommand::Select(place)));
+        assert_legible(&studio, &format!("loop {place} selected"));
     }
 }
 
 #[test]
 fn every_text_of_every_instrument_of_the_loop_lab_can_be_read() {
     for name in ["spring", "harbour"] {
-        let mut lab = run(name, false);
-        lab.apply(Command::Loop(LoopCommand::ToggleLab));
-        lab.run_loops();
-        lab.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
+        let mut studio = run(name, false);
+        studio.apply(Command::Loop(LoopCommand::ToggleLab));
+        studio.run_loops();
+        studio.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
         for instrument in Instrument::all().filter(|one| one.is_in_loop_lab()) {
-            lab.apply(StageCommand::Instrument(instrument));
-            assert_legible(&lab, &format!("{} by loop on {name}", instrument.name()));
+            studio.apply(StageCommand::Instrument(instrument));
+            assert_legible(&studio, &format!("{} by loop on {name}", instrument.name()));
         }
     }
 }
 
 /// The texts beside the stage of a frame of this size, and where the stage ends.
-fn beside_the_stage(lab: &Studio, size: Vec2) -> Vec<Text> {
+fn beside_the_stage(studio: &Studio, size: Vec2) -> Vec<Text> {
     let left = (1.0 - panels::INSTRUMENTS) * size.x / theme::zoom(size.into(), 100);
-    texts(lab, size).into_iter().filter(|text| text.rect.left() > left).collect()
+    texts(studio, size).into_iter().filter(|text| text.rect.left() > left).collect()
 }
 
 #[test]
 fn instruments_are_chosen_in_two_rows_of_tabs_and_in_a_small_window_from_a_menu() {
-    let lab = moved(Scene::built_in("spring").unwrap(), true);
+    let studio = moved(Scene::built_in("spring").unwrap(), true);
     for (size, rows, names) in [
         (vec2(640.0, 360.0), 1, 1),
         (vec2(800.0, 600.0), 2, Instrument::all().count()),
@@ -328,7 +331,7 @@ fn instruments_are_chosen_in_two_rows_of_tabs_and_in_a_small_window_from_a_menu(
     ] {
         let is_name =
             |text: &Text| Instrument::all().any(|instrument| instrument.name() == text.words);
-        let mut tabs = beside_the_stage(&lab, size);
+        let mut tabs = beside_the_stage(&studio, size);
         // The title of the instrument, which is below them, may be its name.
         let head = tabs.iter().find(|text| is_name(text)).expect("a tab").rect.top();
         tabs.retain(|text| is_name(text) && text.rect.top() < head + 50.0);
@@ -343,12 +346,12 @@ fn instruments_are_chosen_in_two_rows_of_tabs_and_in_a_small_window_from_a_menu(
 
 #[test]
 fn what_one_step_does_to_the_swing_is_seen_whole_under_any_method() {
-    let mut lab = race_of_all("spring");
-    lab.apply(StageCommand::Instrument(Instrument::OneStep));
+    let mut studio = race_of_all("spring");
+    studio.apply(StageCommand::Instrument(Instrument::OneStep));
     for entry in [0, 3, 11] {
-        lab.apply(StageCommand::Pick(entry));
+        studio.apply(StageCommand::Pick(entry));
         for size in [vec2(960.0, 540.0)].into_iter().chain(SIZES) {
-            let texts = beside_the_stage(&lab, size);
+            let texts = beside_the_stage(&studio, size);
             let said = texts.iter().position(|text| text.words.starts_with("This tick"));
             let said = &texts[said.expect("what the tick does")..];
             let last = said.iter().position(|text| text.words.trim_end().ends_with("m/s."));
@@ -362,31 +365,31 @@ fn what_one_step_does_to_the_swing_is_seen_whole_under_any_method() {
 
 #[test]
 fn one_step_far_out_the_stability_map_and_the_times_of_ticks_can_be_read() {
-    let mut lab = run("spring", true);
-    lab.apply(StageCommand::Instrument(Instrument::StabilityMap));
-    lab.analyse();
-    assert_legible(&lab, "the map");
-    let times = lab.entries().iter().map(|spec| (*spec, Some(987.6))).collect();
-    lab.viewer_mut().tick_times = times;
-    lab.apply(StageCommand::Instrument(Instrument::Cost));
-    assert_legible(&lab, "the times");
-    lab.apply(StageCommand::Instrument(Instrument::OneStep));
-    (0..1800).for_each(|_| lab.tick());
-    assert_legible(&lab, "a step far out");
+    let mut studio = run("spring", true);
+    studio.apply(StageCommand::Instrument(Instrument::StabilityMap));
+    studio.analyse();
+    assert_legible(&studio, "the map");
+    let times = studio.entries().iter().map(|spec| (*spec, Some(987.6))).collect();
+    studio.viewer_mut().tick_times = times;
+    studio.apply(StageCommand::Instrument(Instrument::Cost));
+    assert_legible(&studio, "the times");
+    studio.apply(StageCommand::Instrument(Instrument::OneStep));
+    (0..1800).for_each(|_| studio.tick());
+    assert_legible(&studio, "a step far out");
 }
 
 #[test]
 fn large_energies_can_be_read_beside_their_names() {
-    let mut lab = run("stiff", true);
-    lab.apply(RunCommand::ToggleEqualCost);
-    lab.apply(StageCommand::Pick(1));
-    lab.apply(StageCommand::Instrument(Instrument::Energy));
-    (0..8 * 60).for_each(|_| lab.tick());
-    assert_legible(&lab, "the energies");
+    let mut studio = run("stiff", true);
+    studio.apply(RunCommand::ToggleEqualCost);
+    studio.apply(StageCommand::Pick(1));
+    studio.apply(StageCommand::Instrument(Instrument::Energy));
+    (0..8 * 60).for_each(|_| studio.tick());
+    assert_legible(&studio, "the energies");
     let mut longest = 0;
     for _ in 0..60 {
-        lab.tick();
-        let texts = texts(&lab, SIZES[1]);
+        studio.tick();
+        let texts = texts(&studio, SIZES[1]);
         let name = texts.iter().find(|text| text.words == "2 potential").expect("it has a value");
         let is_value =
             |text: &&Text| text.words.ends_with(" J") && text.rect.left() > name.rect.left();
@@ -402,11 +405,11 @@ fn large_energies_can_be_read_beside_their_names() {
 
 #[test]
 fn every_text_of_this_windows_own_loop_can_be_read() {
-    let mut lab = run("spring", false);
-    lab.apply(StageCommand::Instrument(Instrument::Loop));
-    assert_legible(&lab, "no frame yet");
+    let mut studio = run("spring", false);
+    studio.apply(StageCommand::Instrument(Instrument::Loop));
+    assert_legible(&studio, "no frame yet");
     for frame in 0..600 {
-        lab.advance(if frame % 50 == 7 { 41_000_000 } else { 16_600_000 });
+        studio.advance(if frame % 50 == 7 { 41_000_000 } else { 16_600_000 });
     }
-    assert_legible(&lab, "ten seconds of frames");
+    assert_legible(&studio, "ten seconds of frames");
 }

@@ -46,11 +46,11 @@ pub use readback::{Readback, ReadbackError};
 pub use screen::Screen;
 
 /// The values of the instrument shown, as lines of comma-separated text under a heading; `None` if it has no plots.
-pub fn instrument_csv(lab: &crate::lab::Studio) -> Option<Vec<String>> {
-    panels::csv(lab)
+pub fn instrument_csv(studio: &crate::lab::Studio) -> Option<Vec<String>> {
+    panels::csv(studio)
 }
 
 /// The plots of the instrument shown, as an SVG file; `None` if it has none.
-pub fn instrument_svg(lab: &crate::lab::Studio) -> Option<String> {
-    panels::svg(lab)
+pub fn instrument_svg(studio: &crate::lab::Studio) -> Option<String> {
+    panels::svg(studio)
 }

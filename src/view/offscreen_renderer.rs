@@ -47,8 +47,8 @@ impl OffscreenRenderer {
     ///
     /// # Errors
     /// A [`ReadbackError`] where the device does not give the frame back.
-    pub fn draw(&mut self, lab: &Studio, rgba: &mut Vec<u8>) -> Result<(), ReadbackError> {
-        self.submit(lab)?;
+    pub fn draw(&mut self, studio: &Studio, rgba: &mut Vec<u8>) -> Result<(), ReadbackError> {
+        self.submit(studio)?;
         self.collect(rgba)
     }
 
@@ -56,11 +56,11 @@ impl OffscreenRenderer {
     ///
     /// # Errors
     /// A [`ReadbackError`] where the device is lost.
-    pub fn submit(&mut self, lab: &Studio) -> Result<(), ReadbackError> {
+    pub fn submit(&mut self, studio: &Studio) -> Result<(), ReadbackError> {
         let Self { gpu, renderer, canvas, readback, scale } = self;
-        let input = egui::RawInput { time: Some(lab.race().t()), ..Default::default() };
+        let input = egui::RawInput { time: Some(studio.race().t()), ..Default::default() };
         // Without a pointer there are no commands.
-        let (_, output) = renderer.draw(gpu, &canvas.view, canvas.size_px, *scale, input, lab);
+        let (_, output) = renderer.draw(gpu, &canvas.view, canvas.size_px, *scale, input, studio);
         readback.begin(gpu, output.drawing, &canvas.texture)
     }
 

@@ -123,14 +123,14 @@ impl TestWindow {
     }
 
     /// Lays out all panels after these events. Returns what they ask for.
-    pub(super) fn panels(&mut self, lab: &Studio, events: Vec<Event>) -> (Vec<Command>, Shown) {
-        self.show(events, |ui| panels::show(ui, lab).0)
+    pub(super) fn panels(&mut self, studio: &Studio, events: Vec<Event>) -> (Vec<Command>, Shown) {
+        self.show(events, |ui| panels::show(ui, studio).0)
     }
 
     /// What the panels ask for in the frames of a click.
-    pub(super) fn click(&mut self, lab: &Studio, at: Pos2) -> Vec<Command> {
+    pub(super) fn click(&mut self, studio: &Studio, at: Pos2) -> Vec<Command> {
         let frames = [Event::PointerMoved(at), button(at, true), button(at, false)];
-        frames.into_iter().flat_map(|event| self.panels(lab, vec![event]).0).collect()
+        frames.into_iter().flat_map(|event| self.panels(studio, vec![event]).0).collect()
     }
 }
 

@@ -52,7 +52,7 @@ enum Pressed {
 
 /// The stage of a frame.
 struct Stage<'a> {
-    lab: &'a Studio,
+    studio: &'a Studio,
     picture: &'a Picture,
     /// Where it is, in points of the frame.
     rect: Rect,
@@ -76,16 +76,16 @@ impl Touch {
         ui: &Ui,
         rect: Rect,
         picture: &Picture,
-        lab: &Studio,
+        studio: &Studio,
         commands: &mut Vec<Command>,
     ) {
-        let stage = Stage { lab, picture, rect };
+        let stage = Stage { studio, picture, rect };
         let (events, time, hover) =
             ui.input(|input| (input.events.clone(), input.time, input.pointer.latest_pos()));
         let over_stage = |at: Pos2| {
             rect.contains(at) && ui.ctx().layer_id_at(at).is_none_or(|layer| layer == ui.layer_id())
         };
-        self.agree_with(lab, commands);
+        self.agree_with(studio, commands);
         for event in events {
             match event {
                 Event::PointerButton {
@@ -114,9 +114,9 @@ impl Touch {
     }
 
     /// The lab may have released the body itself (Escape), or may still hold one that this state forgot.
-    fn agree_with(&mut self, lab: &Studio, commands: &mut Vec<Command>) {
+    fn agree_with(&mut self, studio: &Studio, commands: &mut Vec<Command>) {
         let holds = matches!(self.press, Some(Press { on: Pressed::Body { .. }, .. }));
-        match lab.viewer().held() {
+        match studio.viewer().held() {
             None if holds => self.press = None,
             Some(_) if !holds => commands.push(Command::View(ViewCommand::LetGo)),
             _ => {}
@@ -126,8 +126,8 @@ impl Touch {
     fn press(&mut self, stage: &Stage<'_>, time: f64, at: Pos2, commands: &mut Vec<Command>) {
         let Some(cell) = stage.cell(at) else { return };
         let point = stage.point(at);
-        let grip = cell.grip_at(stage.lab, point);
-        let on = match grip.and_then(|grip| Grasp::new(stage.lab, cell, &grip, point)) {
+        let grip = cell.grip_at(stage.studio, point);
+        let on = match grip.and_then(|grip| Grasp::new(stage.studio, cell, &grip, point)) {
             Some(grasp) => {
                 commands.push(Command::Run(RunCommand::Hold(grasp.held().clone())));
                 let entry = match grip.map(|grip| grip.whose) {
@@ -137,7 +137,7 @@ impl Touch {
                 Pressed::Body { grasp, entry }
             }
             None => {
-                let zoom_pan = stage.lab.view().zoom_pan(cell.zoomed_as);
+                let zoom_pan = stage.studio.view().zoom_pan(cell.zoomed_as);
                 Pressed::Sea { cell: cell.clone(), zoom_pan }
             }
         };
@@ -155,7 +155,7 @@ impl Touch {
         }
         match &mut press.on {
             Pressed::Body { grasp, .. } => {
-                grasp.pull(stage.lab, stage.point(at), [0.0; 2]);
+                grasp.pull(stage.studio, stage.point(at), [0.0; 2]);
                 commands.push(Command::Run(RunCommand::Hold(grasp.held().clone())));
             }
             Pressed::Sea { cell, zoom_pan } => {
@@ -182,10 +182,10 @@ impl Touch {
         let entry = match on {
             Pressed::Body { mut grasp, entry } => {
                 if is_drag {
-                    let speed = f64::from(stage.lab.clock().speed_percent()) / 100.0;
+                    let speed = f64::from(stage.studio.clock().speed_percent()) / 100.0;
                     let velocity = if flung { self.track.velocity() } else { Vec2::ZERO };
                     let velocity = [velocity.x, velocity.y].map(|points| f64::from(points) / speed);
-                    grasp.pull(stage.lab, stage.point(at), velocity);
+                    grasp.pull(stage.studio, stage.point(at), velocity);
                     let held = grasp.held();
                     let (body, q, v) = (held.body, held.q.clone(), held.v.clone());
                     commands.push(Command::Run(RunCommand::Act(Action::Place { body, q, v })));
@@ -195,7 +195,7 @@ impl Touch {
             }
             Pressed::Sea { cell, .. } => cell.entry,
         };
-        if !is_drag && stage.lab.mode() == Mode::Race {
+        if !is_drag && stage.studio.mode() == Mode::Race {
             commands.push(Command::Stage(StageCommand::Pick(entry)));
         }
     }
@@ -209,7 +209,7 @@ impl Touch {
             None => {
                 let Some(at) = hover else { return };
                 let Some(cell) = stage.cell(at) else { return };
-                let Some(grip) = cell.grip_at(stage.lab, stage.point(at)) else { return };
+                let Some(grip) = cell.grip_at(stage.studio, stage.point(at)) else { return };
                 let origin = stage.rect.min.to_vec2();
                 let [low, high] = [cell.rect.min, cell.rect.max].map(|at| Pos2::from(at) + origin);
                 let painter = ui.painter().with_clip_rect(Rect::from_min_max(low, high));
@@ -232,7 +232,7 @@ fn zoom(ui: &Ui, stage: &Stage<'_>, at: Pos2, commands: &mut Vec<Command>) {
         commands.push(Command::View(ViewCommand::ZoomPan { body, zoom_pan: ZoomPan::default() }));
     } else if times != 1.0 {
         let about = cell.part(stage.point(at));
-        let zoom_pan = stage.lab.view().zoom_pan(body).zoomed(times, about);
+        let zoom_pan = stage.studio.view().zoom_pan(body).zoomed(times, about);
         commands.push(Command::View(ViewCommand::ZoomPan { body, zoom_pan }));
     }
 }

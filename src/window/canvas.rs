@@ -92,7 +92,7 @@ impl Canvas {
     /// Draws a frame and shows it. What was copied from a text field goes to the clipboard.
     pub(super) fn draw(
         &mut self,
-        lab: &Studio,
+        studio: &Studio,
         clipboard: &mut Clipboard,
     ) -> Result<Drawn, WindowError> {
         if self.surface_is_lost || self.gpu.is_lost() {
@@ -103,7 +103,8 @@ impl Canvas {
         let view = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let input = self.egui.take_egui_input(&self.window);
         let scale = self.window.scale_factor() as f32;
-        let (commands, output) = self.renderer.draw(&self.gpu, &view, size_px, scale, input, lab);
+        let (commands, output) =
+            self.renderer.draw(&self.gpu, &view, size_px, scale, input, studio);
         if let Some(drawing) = output.drawing {
             self.gpu.queue.submit([drawing]);
         }

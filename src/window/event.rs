@@ -53,47 +53,47 @@ impl App {
                 self.end(event_loop, Ok(()));
             }
             Event::Analysed(findings) => {
-                self.lab.accept_findings(findings);
-                if !self.lab.running() {
+                self.studio.accept_findings(findings);
+                if !self.studio.running() {
                     self.request_redraw();
                 }
             }
             Event::LoopRun(found) => {
-                self.lab.accept_loop(found);
-                if !self.lab.running() {
+                self.studio.accept_loop(found);
+                if !self.studio.running() {
                     self.request_redraw();
                 }
             }
             Event::Clouds(found) => {
-                self.lab.accept_cloud(*found);
-                if !self.lab.running() {
+                self.studio.accept_cloud(*found);
+                if !self.studio.running() {
                     self.request_redraw();
                 }
             }
             Event::NotRecorded(reason) => {
-                self.lab
+                self.studio
                     .viewer_mut()
                     .set_notice(format!("The recording is not kept as it grows: {reason}"));
                 self.request_redraw();
             }
             Event::TicksTimed(times) => {
-                self.lab.viewer_mut().tick_times = times;
-                if !self.lab.running() {
+                self.studio.viewer_mut().tick_times = times;
+                if !self.studio.running() {
                     self.request_redraw();
                 }
             }
             Event::FileGone(path) => {
-                self.lab.file_is_gone(&path);
+                self.studio.file_is_gone(&path);
                 self.request_redraw();
             }
             Event::FileBack(path) => {
-                self.lab.file_is_back(&path);
+                self.studio.file_is_back(&path);
                 self.request_redraw();
             }
             Event::FileChanged { path, read } => {
                 match read {
-                    Ok((scene, _)) => self.lab.reload_file(&path, scene),
-                    Err(report) => self.lab.reload_failed(&path, report),
+                    Ok((scene, _)) => self.studio.reload_file(&path, scene),
+                    Err(report) => self.studio.reload_failed(&path, report),
                 }
                 // The time that this took is not simulated.
                 self.stand_still();

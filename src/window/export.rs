@@ -16,7 +16,7 @@ const SCALE: f32 = 2.0;
 impl App {
     /// Puts the values on the clipboard.
     pub(super) fn copy_instrument(&mut self) {
-        let notice = match instrument_csv(&self.lab) {
+        let notice = match instrument_csv(&self.studio) {
             Some(lines) => {
                 let rows = lines.len() - 1;
                 match self.clipboard.set_text(lines.concat()) {
@@ -26,24 +26,26 @@ impl App {
             }
             None => "this instrument has no values to copy".into(),
         };
-        self.lab.viewer_mut().set_notice(notice);
+        self.studio.viewer_mut().set_notice(notice);
     }
 
     /// Puts the method at this index of the list on the clipboard, as source code.
     pub(super) fn copy_method(&mut self, entry: usize) {
-        let language = self.lab.viewer().language();
-        let Some(method) = self.lab.entries().get(entry).map(|spec| spec.method) else { return };
-        self.lab.viewer_mut().set_notice(match source_code(method, language, Precision::Double) {
-            Ok(code) => method_notice(self.clipboard.set_text(code), method, language),
-            Err(refused) => refused.to_string(),
-        });
+        let language = self.studio.viewer().language();
+        let Some(method) = self.studio.entries().get(entry).map(|spec| spec.method) else { return };
+        self.studio.viewer_mut().set_notice(
+            match source_code(method, language, Precision::Double) {
+                Ok(code) => method_notice(self.clipboard.set_text(code), method, language),
+                Err(refused) => refused.to_string(),
+            },
+        );
     }
 
     /// Puts the lines of code that tell an engine the displayed spring on the clipboard.
     pub(super) fn copy_joint(&mut self, entry: usize) {
-        let Some(code) = self.lab.joint_code(entry) else { return };
-        let method = self.lab.entries()[entry].method;
-        self.lab.viewer_mut().set_notice(match self.clipboard.set_text(code) {
+        let Some(code) = self.studio.joint_code(entry) else { return };
+        let method = self.studio.entries()[entry].method;
+        self.studio.viewer_mut().set_notice(match self.clipboard.set_text(code) {
             Ok(()) => format!("copied the spring's settings of {}", method.name),
             Err(reason) => {
                 format!("no clipboard: {reason}; `regatta port --to {}` prints them", method.id)
@@ -54,8 +56,8 @@ impl App {
     /// Saves three files under new names.
     pub(super) fn export_instrument(&mut self) {
         if let Some(canvas) = &self.canvas {
-            let notice = save(&canvas.gpu, &self.lab);
-            self.lab.viewer_mut().set_notice(notice);
+            let notice = save(&canvas.gpu, &self.studio);
+            self.studio.viewer_mut().set_notice(notice);
         }
         self.stand_still();
     }
@@ -74,8 +76,8 @@ fn method_notice(copied: Result<(), String>, method: &Method, language: Language
 }
 
 /// Saves the files, and returns a notice with their names or the error.
-fn save(gpu: &Gpu, lab: &Studio) -> String {
-    match try_save(gpu, lab) {
+fn save(gpu: &Gpu, studio: &Studio) -> String {
+    match try_save(gpu, studio) {
         Ok(paths) => {
             let names: Vec<_> = paths.iter().map(|path| path.display().to_string()).collect();
             format!("saved {}", names.join(", "))
@@ -85,18 +87,18 @@ fn save(gpu: &Gpu, lab: &Studio) -> String {
 }
 
 /// Saves a picture and a table, and a drawing of an instrument whose plots can be drawn.
-fn try_save(gpu: &Gpu, lab: &Studio) -> Result<Vec<PathBuf>, String> {
-    let csv = instrument_csv(lab).ok_or("this instrument has no plots")?;
+fn try_save(gpu: &Gpu, studio: &Studio) -> Result<Vec<PathBuf>, String> {
+    let csv = instrument_csv(studio).ok_or("this instrument has no plots")?;
     let mut rgba = Vec::new();
     OffscreenRenderer::new(gpu.clone(), SIZE_PX, SCALE)
         .map_err(|error| error.to_string())?
         .with_panels(Panels::Instrument)
-        .draw(lab, &mut rgba)
+        .draw(studio, &mut rgba)
         .map_err(|error| error.to_string())?;
     let png = png::encode(SIZE_PX, &rgba);
-    let svg = instrument_svg(lab).map(String::into_bytes);
+    let svg = instrument_svg(studio).map(String::into_bytes);
     let files = [("png", Some(png)), ("svg", svg), ("csv", Some(csv.concat().into_bytes()))];
-    let name = name(lab);
+    let name = name(studio);
     let files = files.into_iter().filter_map(|(ending, bytes)| Some((ending, bytes?)));
     let written = files.map(|(ending, bytes)| {
         let path = format!("{name}.{ending}");
@@ -107,15 +109,15 @@ fn try_save(gpu: &Gpu, lab: &Studio) -> Result<Vec<PathBuf>, String> {
 }
 
 /// A file name, without its ending, that says what the files show.
-fn name(lab: &Studio) -> String {
-    let instrument = lab.display().instrument.id();
-    let scene = &lab.scene().name;
-    match lab.loop_lab() {
+fn name(studio: &Studio) -> String {
+    let instrument = studio.display().instrument.id();
+    let scene = &studio.scene().name;
+    match studio.loop_lab() {
         Some(loops) => {
             let ms = loops.now_ns() / 1_000_000;
             format!("regatta-{scene}-loops-{instrument}-at-{ms}-ms")
         }
-        None => format!("regatta-{scene}-{instrument}-tick-{}", lab.race().tick()),
+        None => format!("regatta-{scene}-{instrument}-tick-{}", studio.race().tick()),
     }
 }
 

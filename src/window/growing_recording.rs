@@ -26,17 +26,17 @@ impl GrowingRecording {
     }
 
     /// Records the run so far, if that is due.
-    pub(super) fn update(&mut self, lab: &Studio, now: Instant) {
+    pub(super) fn update(&mut self, studio: &Studio, now: Instant) {
         if self.asked.is_none_or(|asked| now.duration_since(asked) >= EVERY) {
             self.asked = Some(now);
-            self.thread.ask(Some(lab.to_record()));
+            self.thread.ask(Some(studio.to_record()));
         }
     }
 
     /// The time until it is due again; `None` if all that was done is recorded.
-    pub(super) fn left(&self, lab: &Studio, now: Instant) -> Option<Duration> {
+    pub(super) fn left(&self, studio: &Studio, now: Instant) -> Option<Duration> {
         let passed = self.asked.map_or(EVERY, |asked| now.duration_since(asked));
-        let is_new = self.thread.request().as_ref() != Some(&lab.to_record());
+        let is_new = self.thread.request().as_ref() != Some(&studio.to_record());
         is_new.then(|| EVERY.saturating_sub(passed))
     }
 }

@@ -64,13 +64,13 @@ impl App {
     /// Whether the path field is open but has no focus yet, because no frame has shown it.
     pub(super) fn waits_for_field(&self) -> bool {
         let panels = self.canvas.as_ref().map(|canvas| canvas.egui.egui_ctx());
-        matches!(self.lab.viewer().dialog(), Some(Dialog::Path { .. }))
+        matches!(self.studio.viewer().dialog(), Some(Dialog::Path { .. }))
             && panels.is_some_and(|panels| !panels.text_edit_focused())
     }
 
     /// Whether keys are text for the path field, once the commands that wait for the next frame are applied.
     fn asks_for_path(&self) -> bool {
-        let is_open = matches!(self.lab.viewer().dialog(), Some(Dialog::Path { .. }));
+        let is_open = matches!(self.studio.viewer().dialog(), Some(Dialog::Path { .. }));
         self.asked.iter().fold(is_open, |is_open, command| match command {
             Command::View(ViewCommand::AskForPath) => true,
             // `OpenTypedPath` closes the field only if the scene can be opened.

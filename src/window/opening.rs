@@ -25,16 +25,20 @@ pub struct SceneFiles {
 }
 
 /// Opens the scene file at `path` and returns its path and text. If it cannot be opened, a dialog says why.
-pub(super) fn open(lab: &mut Studio, read: &ReadScene, path: &Path) -> Option<(PathBuf, String)> {
+pub(super) fn open(
+    studio: &mut Studio,
+    read: &ReadScene,
+    path: &Path,
+) -> Option<(PathBuf, String)> {
     if is_trace(path) {
-        open_trace(lab, path).unwrap_or_else(|report| lab.show_mistakes(path, report));
+        open_trace(studio, path).unwrap_or_else(|report| studio.show_mistakes(path, report));
         return None;
     }
-    let path = known(lab, path);
-    match open_listed(lab, read, &path) {
+    let path = known(studio, path);
+    match open_listed(studio, read, &path) {
         Ok(text) => Some((path, text)),
         Err(report) => {
-            lab.show_mistakes(&path, report);
+            studio.show_mistakes(&path, report);
             None
         }
     }
@@ -46,43 +50,43 @@ fn is_trace(path: &Path) -> bool {
 }
 
 /// Opens the loop lab on the traces in a CSV file.
-fn open_trace(lab: &mut Studio, path: &Path) -> Result<(), Vec<Mistake>> {
+fn open_trace(studio: &mut Studio, path: &Path) -> Result<(), Vec<Mistake>> {
     let bytes = regular_file::read(path, MAX_TABLE_BYTES)
         .map_err(|why| vec![format!("error: cannot read {}: {why}", path.display()).into()])?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let traces = trace_file::from_bytes(&name, &bytes);
-    lab.open_traces(traces.map_err(|error| vec![format!("error: {error}").into()])?);
+    studio.open_traces(traces.map_err(|error| vec![format!("error: {error}").into()])?);
     Ok(())
 }
 
-fn open_listed(lab: &mut Studio, read: &ReadScene, path: &Path) -> Result<String, Vec<Mistake>> {
+fn open_listed(studio: &mut Studio, read: &ReadScene, path: &Path) -> Result<String, Vec<Mistake>> {
     let (scene, text) = read(path)?;
-    lab.open_file(path, scene);
+    studio.open_file(path, scene);
     Ok(text)
 }
 
 /// Opens what was typed, as the command line does: the built-in scene of that name, or else the file at that path,
 /// whose path and text are returned. If it cannot be opened, the field stays open and says why.
-pub(super) fn open_typed(lab: &mut Studio, read: &ReadScene) -> Option<(PathBuf, String)> {
-    let typed = lab.viewer().typed_path().trim().to_owned();
+pub(super) fn open_typed(studio: &mut Studio, read: &ReadScene) -> Option<(PathBuf, String)> {
+    let typed = studio.viewer().typed_path().trim().to_owned();
     match SCENES.iter().position(|scene| scene.name == typed) {
         Some(place) => {
-            lab.apply(StageCommand::Scene(place));
+            studio.apply(StageCommand::Scene(place));
             None
         }
         None => {
-            let path = known(lab, &from_home(&typed));
+            let path = known(studio, &from_home(&typed));
             if is_trace(&path) {
-                match open_trace(lab, &path) {
-                    Ok(()) => _ = lab.apply(ViewCommand::CloseDialog),
-                    Err(report) => lab.refuse_typed_path(&path, report),
+                match open_trace(studio, &path) {
+                    Ok(()) => _ = studio.apply(ViewCommand::CloseDialog),
+                    Err(report) => studio.refuse_typed_path(&path, report),
                 }
                 return None;
             }
-            match open_listed(lab, read, &path) {
+            match open_listed(studio, read, &path) {
                 Ok(text) => Some((path, text)),
                 Err(report) => {
-                    lab.refuse_typed_path(&path, report);
+                    studio.refuse_typed_path(&path, report);
                     None
                 }
             }
@@ -91,10 +95,10 @@ pub(super) fn open_typed(lab: &mut Studio, read: &ReadScene) -> Option<(PathBuf,
 }
 
 /// The path under which the file is already on the list of scenes, or else `path` itself.
-fn known(lab: &Studio, path: &Path) -> PathBuf {
+fn known(studio: &Studio, path: &Path) -> PathBuf {
     let real = path.canonicalize().ok();
     let is_same = |listed: &&Path| real.is_some() && listed.canonicalize().ok() == real;
-    lab.scene_list().paths().find(is_same).unwrap_or(path).to_owned()
+    studio.scene_list().paths().find(is_same).unwrap_or(path).to_owned()
 }
 
 /// Replaces a `~` at the beginning of a path by the home directory.
@@ -155,26 +159,28 @@ mod tests {
         let text = SCENES.iter().find(|scene| scene.name == "ship").unwrap().text;
         std::fs::write(&good, text).unwrap();
         std::fs::write(&bad, "tick_hz = 0").unwrap();
-        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-        let opened = open(&mut lab, &read(), &good);
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        let opened = open(&mut studio, &read(), &good);
         assert_eq!(opened, Some((good, text.to_owned())));
-        assert_eq!(lab.scene_name(), "ship.toml");
-        lab.tick();
-        assert_eq!(open(&mut lab, &read(), &bad), None);
-        assert_eq!((lab.scene_name().as_str(), lab.race().tick()), ("ship.toml", 1));
-        let Some(Dialog::Mistakes { report, .. }) = lab.viewer().dialog() else { panic!() };
+        assert_eq!(studio.scene_name(), "ship.toml");
+        studio.tick();
+        assert_eq!(open(&mut studio, &read(), &bad), None);
+        assert_eq!((studio.scene_name().as_str(), studio.race().tick()), ("ship.toml", 1));
+        let Some(Dialog::Mistakes { report, .. }) = studio.viewer().dialog() else { panic!() };
         let message = &report[0].message;
         assert!(message.starts_with(&format!("{}:1:", bad.display())), "{message}");
-        lab.apply(ViewCommand::AskForPath);
-        lab.apply(ViewCommand::TypePath(bad.display().to_string()));
-        assert_eq!(open_typed(&mut lab, &read()), None);
-        let Some(Dialog::Path { refused: Some(report) }) = lab.viewer().dialog() else { panic!() };
+        studio.apply(ViewCommand::AskForPath);
+        studio.apply(ViewCommand::TypePath(bad.display().to_string()));
+        assert_eq!(open_typed(&mut studio, &read()), None);
+        let Some(Dialog::Path { refused: Some(report) }) = studio.viewer().dialog() else {
+            panic!()
+        };
         let message = &report[0].message;
         assert!(message.starts_with(&format!("{}:1:", bad.display())), "{message}");
         // The name of a built-in scene opens that, as on the command line.
-        lab.apply(ViewCommand::TypePath(" ship ".into()));
-        assert_eq!(open_typed(&mut lab, &read()), None);
-        assert_eq!((lab.scene_name().as_str(), lab.viewer().dialog()), ("ship", None));
+        studio.apply(ViewCommand::TypePath(" ship ".into()));
+        assert_eq!(open_typed(&mut studio, &read()), None);
+        assert_eq!((studio.scene_name().as_str(), studio.viewer().dialog()), ("ship", None));
     }
 
     #[test]
@@ -207,10 +213,10 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.toml");
         std::fs::write(&path, "").unwrap();
-        let mut lab = Studio::new(Scene::built_in("ship").unwrap());
-        lab.open_file(&path, Scene::built_in("ship").unwrap());
-        assert_eq!(known(&lab, &folder.path().join("./a.toml")), path);
+        let mut studio = Studio::new(Scene::built_in("ship").unwrap());
+        studio.open_file(&path, Scene::built_in("ship").unwrap());
+        assert_eq!(known(&studio, &folder.path().join("./a.toml")), path);
         let other = folder.path().join("b.toml");
-        assert_eq!(known(&lab, &other), other);
+        assert_eq!(known(&studio, &other), other);
     }
 }

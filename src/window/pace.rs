@@ -27,15 +27,15 @@ impl Meter {
 
     /// Adds a frame of `lab` that began at `now`. A pause, a jump in time or a change of rate starts the measurement
     /// again.
-    pub(super) fn frame(&mut self, now: Instant, lab: &Studio) {
-        let under = (lab.clock().tick_hz(), lab.clock().speed_percent());
-        let t = lab.time_with_owed_s();
+    pub(super) fn frame(&mut self, now: Instant, studio: &Studio) {
+        let under = (studio.clock().tick_hz(), studio.clock().speed_percent());
+        let t = studio.time_with_owed_s();
         let went_back = self.frames.back().is_some_and(|&(_, last)| t < last);
-        if !lab.time_runs() || went_back || under != self.under {
+        if !studio.time_runs() || went_back || under != self.under {
             self.frames.clear();
             self.under = under;
         }
-        if !lab.time_runs() {
+        if !studio.time_runs() {
             return;
         }
         self.frames.push_back((now, t));
@@ -72,19 +72,19 @@ mod tests {
 
     impl Run {
         fn at(tick_hz: u32) -> Self {
-            let mut lab = Studio::new(Scene::built_in("ship").unwrap());
-            lab.apply(StageCommand::TickHz(tick_hz));
-            Self(lab, Meter::default(), Instant::now())
+            let mut studio = Studio::new(Scene::built_in("ship").unwrap());
+            studio.apply(StageCommand::TickHz(tick_hz));
+            Self(studio, Meter::default(), Instant::now())
         }
 
         /// Draws frames of 20 ms, and returns the pace after each.
         fn frames(&mut self, count: u32) -> Vec<Pace> {
-            let Run(lab, meter, now) = self;
+            let Run(studio, meter, now) = self;
             let frame = Duration::from_millis(20);
             let frames = (0..count).map(|_| {
                 *now += frame;
-                lab.advance(frame.as_nanos() as i64);
-                meter.frame(*now, lab);
+                studio.advance(frame.as_nanos() as i64);
+                meter.frame(*now, studio);
                 meter.pace()
             });
             frames.collect()
@@ -134,11 +134,11 @@ mod tests {
     #[test]
     fn time_that_is_given_up_shows_in_the_pace() {
         let mut run = Run::at(60);
-        let Run(lab, meter, now) = &mut run;
+        let Run(studio, meter, now) = &mut run;
         for _ in 0..10 {
             *now += Duration::from_millis(500);
-            lab.advance(500_000_000);
-            meter.frame(*now, lab);
+            studio.advance(500_000_000);
+            meter.frame(*now, studio);
         }
         let Pace::Measured { frames_per_second, real_time_factor } = meter.pace() else { panic!() };
         assert!((frames_per_second - 2.0).abs() < 1e-9 && (real_time_factor - 0.5).abs() < 0.02);

@@ -6,16 +6,16 @@ use crate::atomic_file::{IfExists, write_file};
 use crate::lab::Studio;
 
 /// Saves the run so far under a new name, and returns a notice with the name or the error.
-pub(super) fn save(lab: &Studio) -> String {
-    match try_save(lab) {
+pub(super) fn save(studio: &Studio) -> String {
+    match try_save(studio) {
         Ok(path) => format!("Saved {0}. Check it with: regatta verify {0}", path.display()),
         Err(reason) => format!("no recording: {reason}"),
     }
 }
 
-fn try_save(lab: &Studio) -> Result<PathBuf, String> {
-    let name = format!("regatta-{}-recording.toml", lab.scene().name);
-    let text = lab.recording().map_err(|error| error.to_string())?;
+fn try_save(studio: &Studio) -> Result<PathBuf, String> {
+    let name = format!("regatta-{}-recording.toml", studio.scene().name);
+    let text = studio.recording().map_err(|error| error.to_string())?;
     write_file(name.as_ref(), text.as_bytes(), IfExists::Beside)
         .map_err(|error| format!("cannot write {name} here: {error}"))
 }

@@ -8,33 +8,33 @@ use crate::lab::{Mode, Studio};
 use crate::view::{Gpu, OffscreenRenderer, png};
 
 /// Saves a picture under a new name, and returns a notice with the name or the error.
-pub(super) fn save(gpu: &Gpu, size_px: [u32; 2], scale: f32, lab: &Studio) -> String {
-    match try_save(gpu, size_px, scale, lab) {
+pub(super) fn save(gpu: &Gpu, size_px: [u32; 2], scale: f32, studio: &Studio) -> String {
+    match try_save(gpu, size_px, scale, studio) {
         Ok(path) => format!("saved {}", path.display()),
         Err(reason) => format!("no screenshot: {reason}"),
     }
 }
 
-fn try_save(gpu: &Gpu, size_px: [u32; 2], scale: f32, lab: &Studio) -> Result<PathBuf, String> {
+fn try_save(gpu: &Gpu, size_px: [u32; 2], scale: f32, studio: &Studio) -> Result<PathBuf, String> {
     let mut rgba = Vec::new();
     OffscreenRenderer::new(gpu.clone(), size_px, scale)
         .map_err(|error| error.to_string())?
-        .draw(lab, &mut rgba)
+        .draw(studio, &mut rgba)
         .map_err(|error| error.to_string())?;
-    let path = format!("{}.png", name(lab));
+    let path = format!("{}.png", name(studio));
     write_file(path.as_ref(), &png::encode(size_px, &rgba), IfExists::Beside)
         .map_err(|error| format!("cannot write {path} here: {error}"))
 }
 
 /// A file name, without its ending, that says what the picture shows.
-fn name(lab: &Studio) -> String {
-    if let Some(loops) = lab.loop_lab() {
+fn name(studio: &Studio) -> String {
+    if let Some(loops) = studio.loop_lab() {
         let (policy, ms) = (loops.selected_card().id, loops.now_ns() / 1_000_000);
-        return format!("regatta-{}-loop-{policy}-at-{ms}-ms", lab.scene().name);
+        return format!("regatta-{}-loop-{policy}-at-{ms}-ms", studio.scene().name);
     }
-    let method = match lab.mode() {
-        Mode::Solo => lab.entries()[lab.active()].method.id,
+    let method = match studio.mode() {
+        Mode::Solo => studio.entries()[studio.active()].method.id,
         Mode::Race => "race",
     };
-    format!("regatta-{}-{method}-tick-{}", lab.scene().name, lab.race().tick())
+    format!("regatta-{}-{method}-tick-{}", studio.scene().name, studio.race().tick())
 }

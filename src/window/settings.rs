@@ -20,7 +20,7 @@ pub struct WindowSettings {
 /// What a closed window returns.
 pub struct Closed {
     /// The lab in its last state.
-    pub lab: Studio,
+    pub studio: Studio,
     /// Whether it was closed by Ctrl-C.
     pub interrupted: bool,
     /// Its last size in points, if it did not fill the screen.

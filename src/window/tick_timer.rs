@@ -47,13 +47,13 @@ impl TickTimer {
     }
 
     /// Has the lanes timed, if their cost is shown and was not measured within the last second.
-    pub(super) fn ask(&mut self, lab: &Studio, now: Instant) {
+    pub(super) fn ask(&mut self, studio: &Studio, now: Instant) {
         let is_due = self.last.is_none_or(|last| now.duration_since(last) >= PERIOD);
-        if lab.display().instrument != Instrument::Cost || !is_due {
+        if studio.display().instrument != Instrument::Cost || !is_due {
             return;
         }
         self.last = Some(now);
-        let race = lab.race();
+        let race = studio.race();
         let entrants = race.entrants().iter();
         let lanes = entrants.map(|lane| (lane.spec, lane.lane.clone())).collect();
         // If the thread has ended, nothing more is measured; the window stays open.
@@ -120,9 +120,9 @@ mod tests {
 
     #[test]
     fn every_lane_of_a_race_takes_some_time() {
-        let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-        lab.apply(StageCommand::ToggleRace);
-        let lanes = lab.race().entrants().iter();
+        let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+        studio.apply(StageCommand::ToggleRace);
+        let lanes = studio.race().entrants().iter();
         let lanes = lanes.map(|lane| (lane.spec, lane.lane.clone())).collect();
         let timed = timed(&Lanes { lanes, t: 0.0, tick_hz: 60 });
         assert_eq!(timed.len(), 5);

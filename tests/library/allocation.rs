@@ -183,22 +183,22 @@ fn a_race_does_not_allocate_while_its_histories_fill_and_turn_over() {
 #[test]
 fn a_lab_allocates_in_no_tick_but_those_at_which_it_takes_a_snapshot() {
     for scene in scenes() {
-        let mut lab = Studio::new(scene);
-        lab.apply(StageCommand::ToggleRace);
+        let mut studio = Studio::new(scene);
+        studio.apply(StageCommand::ToggleRace);
         // A lane that halts is announced in words, which do: let those halt first that will.
         for _ in 0..3000 {
-            lab.tick();
+            studio.tick();
         }
         let mut snapshots = 0;
         for _ in 0..3000 {
-            if allocations_in(|| lab.tick()) > 0 {
-                assert_eq!(lab.race().tick() % 32, 0, "{}", lab.scene().name);
+            if allocations_in(|| studio.tick()) > 0 {
+                assert_eq!(studio.race().tick() % 32, 0, "{}", studio.scene().name);
                 snapshots += 1;
             }
         }
         assert!((1..=3000_u32.div_ceil(32)).contains(&snapshots), "{snapshots}");
-        let count = allocations_in(|| _ = lab.advance(1_000_000));
-        assert_eq!(count, 0, "{}", lab.scene().name);
+        let count = allocations_in(|| _ = studio.advance(1_000_000));
+        assert_eq!(count, 0, "{}", studio.scene().name);
     }
 }
 

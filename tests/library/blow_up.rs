@@ -158,21 +158,22 @@ fn a_halted_body_keeps_its_last_good_state_beside_others_that_go_on() {
 fn each_halt_is_announced_once_with_method_body_tick_and_reason() {
     let names = ["free spring", "damped spring", "ship"];
     for (scene, ticks) in [("stiff", 20_000), ("harbour", 80_000)] {
-        let mut lab = Studio::new(Scene::built_in(scene).expect("a built-in scene"));
-        lab.apply(StageCommand::ToggleRace);
-        assert_eq!(lab.mode(), Mode::Race);
+        let mut studio = Studio::new(Scene::built_in(scene).expect("a built-in scene"));
+        studio.apply(StageCommand::ToggleRace);
+        assert_eq!(studio.mode(), Mode::Race);
         let mut notices = Vec::new();
         for _ in 0..ticks {
-            lab.viewer_mut().set_notice("nothing new");
-            lab.tick();
-            let news = lab.viewer().notice.as_deref().filter(|notice| *notice != "nothing new");
+            studio.viewer_mut().set_notice("nothing new");
+            studio.tick();
+            let news = studio.viewer().notice.as_deref().filter(|notice| *notice != "nothing new");
             notices.extend(news.map(String::from));
         }
-        let halts = lab.race().entrants().iter().flat_map(|e| e.lane.halts().map(move |h| (e, h)));
+        let halts =
+            studio.race().entrants().iter().flat_map(|e| e.lane.halts().map(move |h| (e, h)));
         let mut expected: Vec<String> = halts
             .map(|(entrant, halt)| {
                 let method = entrant.spec.method.name;
-                let body = &lab.scene().bodies[halt.body].name;
+                let body = &studio.scene().bodies[halt.body].name;
                 assert!(scene == "stiff" || names.contains(&body.as_str()));
                 let fate = entrant.lane.bodies()[halt.body].fate().expect("it halted");
                 format!("{method}: {body} {fate}")
@@ -188,14 +189,14 @@ fn each_halt_is_announced_once_with_method_body_tick_and_reason() {
 
 #[test]
 fn the_halt_of_a_lane_is_not_told_once_that_lane_is_gone() {
-    let mut lab = Studio::new(Scene::built_in("stiff").expect("a built-in scene"));
-    lab.apply(StageCommand::ToggleRace);
-    while lab.viewer().notice.as_deref().is_none() {
-        lab.tick();
-        assert!(lab.race().tick() < 1000);
+    let mut studio = Studio::new(Scene::built_in("stiff").expect("a built-in scene"));
+    studio.apply(StageCommand::ToggleRace);
+    while studio.viewer().notice.as_deref().is_none() {
+        studio.tick();
+        assert!(studio.race().tick() < 1000);
     }
-    lab.apply(StageCommand::ToggleRace);
-    assert_eq!(lab.viewer().notice.as_deref(), None);
+    studio.apply(StageCommand::ToggleRace);
+    assert_eq!(studio.viewer().notice.as_deref(), None);
 }
 
 #[test]
@@ -208,12 +209,12 @@ fn a_kick_past_all_bounds_is_no_state_but_a_halt_with_its_reason() {
              [[spring]]\nname = 'light'\nmass_kg = {mass:e}\nstiffness_n_per_m = 1e-300\nkick_n_s = 1e15\n\
              [[ship]]\nthrust_n = 1\ndrag_n_s_per_m = 1\nmass_kg = 1\nkick_n_s = 0\n"
         );
-        let mut lab = Studio::new(Scene::parse("light.toml", &text).expect("a good scene"));
-        (0..5).for_each(|_| lab.tick());
-        let before = states(lab.race(), "");
-        lab.apply(RunCommand::Act(Action::Kick(times)));
-        assert_eq!(states(lab.race(), ""), before, "the state stays the last good one");
-        for lane in [lab.race().truth(), &lab.race().entrants()[0].lane] {
+        let mut studio = Studio::new(Scene::parse("light.toml", &text).expect("a good scene"));
+        (0..5).for_each(|_| studio.tick());
+        let before = states(studio.race(), "");
+        studio.apply(RunCommand::Act(Action::Kick(times)));
+        assert_eq!(states(studio.race(), ""), before, "the state stays the last good one");
+        for lane in [studio.race().truth(), &studio.race().entrants()[0].lane] {
             let [spring, ship] = lane.bodies() else { panic!("two bodies") };
             assert!(ship.halted().is_none());
             let halt = spring.halted().expect("a kick of 1e45 m/s or more");
@@ -221,8 +222,8 @@ fn a_kick_past_all_bounds_is_no_state_but_a_halt_with_its_reason() {
             assert!(halt.failure.to_string().starts_with(reason), "{}", halt.failure);
             assert_eq!(spring.previous_v, spring.stepper.v(), "nothing is drawn moving");
         }
-        lab.tick();
-        let notice = lab.viewer().notice.as_deref().expect("a halt is told");
+        studio.tick();
+        let notice = studio.viewer().notice.as_deref().expect("a halt is told");
         assert!(notice.contains(&format!("halted at tick 5: light {reason}")), "{notice}");
         assert!(notice.starts_with("the exact solution halted at tick 5: "), "{notice}");
     }

@@ -207,16 +207,16 @@ fn the_number_of_threads_changes_no_count_of_a_picture() {
 fn race_of(scene: &str, methods: &[&str], kind: CloudKind) -> Studio {
     let plain = |id: &&str| LaneSpec::plain(method(id).unwrap());
     let lanes = methods.iter().map(plain).collect();
-    let mut lab = Studio::new(Scene { lanes, ..Scene::built_in(scene).unwrap() });
-    lab.apply(StageCommand::ToggleRace);
-    lab.apply(StageCommand::Instrument(Instrument::Cloud));
-    lab.apply(RunCommand::Cloud(CloudChoice { kind, points: 1500 }));
-    lab
+    let mut studio = Studio::new(Scene { lanes, ..Scene::built_in(scene).unwrap() });
+    studio.apply(StageCommand::ToggleRace);
+    studio.apply(StageCommand::Instrument(Instrument::Cloud));
+    studio.apply(RunCommand::Cloud(CloudChoice { kind, points: 1500 }));
+    studio
 }
 
-fn picture<'l>(lab: &'l mut Studio, worker: &mut CloudWorker) -> &'l CloudPicture {
-    lab.complete_clouds(worker, || false);
-    lab.cloud().expect("it was stepped").picture.as_ref().unwrap()
+fn picture<'l>(studio: &'l mut Studio, worker: &mut CloudWorker) -> &'l CloudPicture {
+    studio.complete_clouds(worker, || false);
+    studio.cloud().expect("it was stepped").picture.as_ref().unwrap()
 }
 
 /// All that a picture shows.
@@ -232,47 +232,47 @@ fn a_cloud_is_the_same_whichever_way_a_tick_was_come_to() {
     let methods = ["rk4", "adams-bashforth-2", "dormand-prince-54", "implicit-euler"];
     let new = || race_of("liouville", &methods, CloudKind::default());
     let at = |ticks: u64| {
-        let mut lab = new();
-        (0..ticks).for_each(|_| lab.tick());
-        shown(picture(&mut lab, &mut CloudWorker::default()))
+        let mut studio = new();
+        (0..ticks).for_each(|_| studio.tick());
+        shown(picture(&mut studio, &mut CloudWorker::default()))
     };
     let (early, late) = (at(37), at(70));
     assert_ne!(early, late);
-    let (mut lab, mut worker) = (new(), CloudWorker::default());
+    let (mut studio, mut worker) = (new(), CloudWorker::default());
     for tick in 0..70 {
-        lab.tick();
+        studio.tick();
         if tick % 3 == 0 {
-            picture(&mut lab, &mut worker);
+            picture(&mut studio, &mut worker);
         }
     }
-    assert!(shown(picture(&mut lab, &mut worker)) == late);
-    lab.apply(RunCommand::Seek(37));
-    assert!(shown(picture(&mut lab, &mut worker)) == early, "back");
-    lab.apply(RunCommand::Seek(70));
-    assert!(shown(picture(&mut lab, &mut worker)) == late, "and forth");
+    assert!(shown(picture(&mut studio, &mut worker)) == late);
+    studio.apply(RunCommand::Seek(37));
+    assert!(shown(picture(&mut studio, &mut worker)) == early, "back");
+    studio.apply(RunCommand::Seek(70));
+    assert!(shown(picture(&mut studio, &mut worker)) == late, "and forth");
 }
 
 #[test]
 fn clouds_start_anew_under_another_rate_method_or_parameter_and_tell_until_then_nothing() {
-    let mut lab = race_of("liouville", &["rk4", "explicit-euler"], CloudKind::default());
-    lab.apply(StageCommand::ToggleRace);
+    let mut studio = race_of("liouville", &["rk4", "explicit-euler"], CloudKind::default());
+    studio.apply(StageCommand::ToggleRace);
     let mut worker = CloudWorker::default();
-    (0..6).for_each(|_| lab.tick());
-    picture(&mut lab, &mut worker);
+    (0..6).for_each(|_| studio.tick());
+    picture(&mut studio, &mut worker);
     let set = Action::Set { body: 0, parameter: 0, value: 2.0 };
     for command in [
         Command::Stage(StageCommand::TickHz(24)),
         Command::Stage(StageCommand::Pick(1)),
         Command::Run(RunCommand::Act(set)),
     ] {
-        lab.apply(command);
-        assert!(lab.cloud().is_none());
-        (0..6).for_each(|_| lab.tick());
-        let now = picture(&mut lab, &mut worker);
+        studio.apply(command);
+        assert!(studio.cloud().is_none());
+        (0..6).for_each(|_| studio.tick());
+        let now = picture(&mut studio, &mut worker);
         assert!(now.tick > 0 && now.lanes[0].areas.len() > 3);
     }
-    lab.apply(StageCommand::Instrument(Instrument::Motion));
-    assert!(lab.cloud_request().is_none() && lab.cloud().is_none());
+    studio.apply(StageCommand::Instrument(Instrument::Motion));
+    assert!(studio.cloud_request().is_none() && studio.cloud().is_none());
 }
 
 /// The clouds of a law of one coordinate `x`, 1 at the start, under Runge-Kutta after so many ticks.
@@ -281,11 +281,11 @@ fn of_law(acceleration: &str, ticks: u64) -> CloudPicture {
         "title = \"it\"\nabout = \"it\"\ntick_hz = 100\nseconds = 10\nmethods = [\"rk4\"]\n\
          [[law]]\ncoordinates = {{ x = {{ start = 1.0, acceleration = \"{acceleration}\" }} }}\n"
     );
-    let mut lab = Studio::new(Scene::parse("it.toml", &text).unwrap());
-    lab.apply(StageCommand::Instrument(Instrument::Cloud));
-    lab.apply(RunCommand::Cloud(CloudChoice { points: 2000, ..CloudChoice::default() }));
-    (0..ticks).for_each(|_| lab.tick());
-    picture(&mut lab, &mut CloudWorker::default()).clone()
+    let mut studio = Studio::new(Scene::parse("it.toml", &text).unwrap());
+    studio.apply(StageCommand::Instrument(Instrument::Cloud));
+    studio.apply(RunCommand::Cloud(CloudChoice { points: 2000, ..CloudChoice::default() }));
+    (0..ticks).for_each(|_| studio.tick());
+    picture(&mut studio, &mut CloudWorker::default()).clone()
 }
 
 #[test]
@@ -321,13 +321,13 @@ fn clouds_that_blow_up_right_after_they_start_anew_are_drawn_without_them() {
          [[law]]\ncoordinates = { x = { start = 1.0, acceleration = \"-x*x*x\" } }\n";
     let place = Action::Place { body: 0, q: [1e9].into(), v: [0.0].into() };
     let script = vec![Scripted { tick: 3, action: place }];
-    let mut lab = Studio::new(Scene { script, ..Scene::parse("it.toml", law).unwrap() });
-    lab.apply(StageCommand::Instrument(Instrument::Cloud));
-    lab.apply(RunCommand::Cloud(CloudChoice { points: 500, ..CloudChoice::default() }));
+    let mut studio = Studio::new(Scene { script, ..Scene::parse("it.toml", law).unwrap() });
+    studio.apply(StageCommand::Instrument(Instrument::Cloud));
+    studio.apply(RunCommand::Cloud(CloudChoice { points: 500, ..CloudChoice::default() }));
     let mut worker = CloudWorker::default();
     for tick in 1..16 {
-        lab.tick();
-        let lane = &picture(&mut lab, &mut worker).lanes[0];
+        studio.tick();
+        let lane = &picture(&mut studio, &mut worker).lanes[0];
         assert!(lane.hidden + lane.lost <= 500, "at tick {tick}");
         assert!(tick < 12 || lane.lost == 500, "at tick {tick}: {}", lane.lost);
     }
@@ -341,21 +341,21 @@ fn the_exact_cloud_goes_with_the_exact_body_through_kicks_and_other_parameters()
     let set = |value: f64| Action::Set { body: 0, parameter: length, value };
     let scripted = |tick: u64, action: Action| Scripted { tick, action };
     let script = vec![scripted(10, Action::Kick(1.0)), scripted(20, set(2.0))];
-    let mut lab = Studio::new(Scene { script, ..scene });
-    lab.apply(StageCommand::Instrument(Instrument::Cloud));
+    let mut studio = Studio::new(Scene { script, ..scene });
+    studio.apply(StageCommand::Instrument(Instrument::Cloud));
     let disc = CloudKind::Shape(CloudShape::Disc);
-    lab.apply(RunCommand::Cloud(CloudChoice { kind: disc, points: 100 }));
+    studio.apply(RunCommand::Cloud(CloudChoice { kind: disc, points: 100 }));
     let mut worker = CloudWorker::default();
-    (0..30).for_each(|_| lab.tick());
+    (0..30).for_each(|_| studio.tick());
     for (tick, started) in [(6, 0), (16, 10), (26, 20), (36, 30), (26, 20)] {
-        lab.apply(RunCommand::Seek(tick.min(30)));
+        studio.apply(RunCommand::Seek(tick.min(30)));
         if tick == 36 {
-            lab.apply(RunCommand::Act(set(0.5)));
-            (0..6).for_each(|_| lab.tick());
+            studio.apply(RunCommand::Act(set(0.5)));
+            (0..6).for_each(|_| studio.tick());
         }
-        let now = picture(&mut lab, &mut worker).clone();
+        let now = picture(&mut studio, &mut worker).clone();
         assert_eq!(now.tick, tick - started, "at tick {tick}");
-        let body = &lab.race().truth().bodies()[0].stepper;
+        let body = &studio.race().truth().bodies()[0].stepper;
         let [line] = &now.border[..] else { panic!("a disc has one border") };
         // What is around the body turns once about it.
         let angle = |[q, v]: &[f64; 2]| (v - body.v()[0]).atan2(q - body.q()[0]);
@@ -368,9 +368,9 @@ fn the_exact_cloud_goes_with_the_exact_body_through_kicks_and_other_parameters()
 #[test]
 fn every_lane_has_a_cloud_on_the_same_axes_and_what_blew_up_is_counted() {
     let methods = ["explicit-euler", "semi-implicit-euler", "velocity-verlet"];
-    let mut lab = race_of("stiff", &methods, CloudKind::default());
-    (0..240).for_each(|_| lab.tick());
-    let picture = picture(&mut lab, &mut CloudWorker::default());
+    let mut studio = race_of("stiff", &methods, CloudKind::default());
+    (0..240).for_each(|_| studio.tick());
+    let picture = picture(&mut studio, &mut CloudWorker::default());
     assert_eq!(picture.lanes.iter().map(|lane| lane.entry).collect::<Vec<_>>(), [0, 1, 2]);
     let [euler, symplectic, verlet] = &picture.lanes[..] else { panic!("three lanes") };
     assert_eq!((euler.lost, &*euler.words), (1500, "is lost"));
@@ -382,18 +382,18 @@ fn every_lane_has_a_cloud_on_the_same_axes_and_what_blew_up_is_counted() {
 
 #[test]
 fn a_body_that_has_several_coordinates_has_no_clouds_in_a_lab_which_says_why() {
-    let lab = race_of("orbit", &["rk4"], CloudKind::default());
-    assert!(lab.cloud_request().is_none());
-    let why = lab.cloud_refusal().unwrap().to_string();
+    let studio = race_of("orbit", &["rk4"], CloudKind::default());
+    assert!(studio.cloud_request().is_none());
+    let why = studio.cloud_refusal().unwrap().to_string();
     assert!(why.contains("has 2 coordinates"), "{why}");
     assert!(race_of("spring", &["rk4"], CloudKind::default()).cloud_refusal().is_none());
 }
 
 #[test]
 fn a_section_has_every_start_at_every_crossing_and_does_not_depend_on_the_tick() {
-    let mut lab = race_of("kicked-rotor", &["semi-implicit-euler"], CloudKind::Section);
+    let mut studio = race_of("kicked-rotor", &["semi-implicit-euler"], CloudKind::Section);
     let mut worker = CloudWorker::default();
-    let first = picture(&mut lab, &mut worker);
+    let first = picture(&mut studio, &mut worker);
     assert_eq!(first.section.as_deref(), Some("at each tick"));
     let lane = &first.lanes[0];
     // The momentum of the sea and the islands that are in sight is that of most points.
@@ -401,6 +401,6 @@ fn a_section_has_every_start_at_every_crossing_and_does_not_depend_on_the_tick()
     assert_eq!(lane.words, "400 starts, 3000 times");
     assert!((400_000..=1_200_000).contains(&points), "{points}");
     let first = shown(first);
-    (0..30).for_each(|_| lab.tick());
-    assert!(shown(picture(&mut lab, &mut worker)) == first);
+    (0..30).for_each(|_| studio.tick());
+    assert!(shown(picture(&mut studio, &mut worker)) == first);
 }

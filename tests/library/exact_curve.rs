@@ -7,21 +7,21 @@ use regatta::lab::picture::{Grip, Picture, Whose, compose};
 use regatta::lab::{Action, Interpolation, Race, RunCommand, Scene, StageCommand, Studio};
 
 fn open(scene: &str, tick_hz: u32) -> Studio {
-    let mut lab = Studio::new(Scene::built_in(scene).unwrap());
-    lab.apply(StageCommand::TickHz(tick_hz));
-    lab.apply(StageCommand::Restart);
-    lab
+    let mut studio = Studio::new(Scene::built_in(scene).unwrap());
+    studio.apply(StageCommand::TickHz(tick_hz));
+    studio.apply(StageCommand::Restart);
+    studio
 }
 
-fn samples(lab: &Studio) -> Vec<TruthSample> {
-    lab.past().truth_curves()[0].samples().copied().collect()
+fn samples(studio: &Studio) -> Vec<TruthSample> {
+    studio.past().truth_curves()[0].samples().copied().collect()
 }
 
 #[test]
 fn a_spring_at_5_hz_reaches_both_ends_of_its_swing() {
-    let mut lab = open("spring", 5);
-    (0..100).for_each(|_| lab.tick());
-    let samples = samples(&lab);
+    let mut studio = open("spring", 5);
+    (0..100).for_each(|_| studio.tick());
+    let samples = samples(&studio);
     let ends = samples
         .iter()
         .map(|sample| sample.q)
@@ -36,9 +36,9 @@ fn a_spring_at_5_hz_reaches_both_ends_of_its_swing() {
 
 #[test]
 fn a_stiff_spring_at_49_hz_swings_as_far_at_every_swing() {
-    let mut lab = open("stiff", 49);
-    (0..600).for_each(|_| lab.tick());
-    let samples = samples(&lab);
+    let mut studio = open("stiff", 49);
+    (0..600).for_each(|_| studio.tick());
+    let samples = samples(&studio);
     let period_s = TAU / 100.0;
     let mut swings = 0;
     for swing in samples.chunk_by(|a, b| (a.t / period_s).floor() == (b.t / period_s).floor()) {
@@ -56,12 +56,12 @@ fn the_grid_reaches_back_as_long_as_the_scene_lasts_and_does_not_depend_on_the_t
     for scene in ["spring", "pendulum", "helm", "orbit"] {
         let seconds = Scene::built_in(scene).unwrap().seconds;
         let [coarse, fine] = [5, 240].map(|hz| {
-            let mut lab = open(scene, hz);
-            (0..hz * 70).for_each(|_| lab.tick());
-            let samples = samples(&lab);
+            let mut studio = open(scene, hz);
+            (0..hz * 70).for_each(|_| studio.tick());
+            let samples = samples(&studio);
             assert!(samples.is_sorted_by(|a, b| a.t < b.t || (a.t == b.t && a.v != b.v)));
             assert!(samples.len() >= 4096, "{}", samples.len());
-            assert!(samples[0].t <= lab.race().t() - seconds, "{scene}");
+            assert!(samples[0].t <= studio.race().t() - seconds, "{scene}");
             samples
         });
         if scene != "helm" {
@@ -76,13 +76,13 @@ fn the_grid_reaches_back_as_long_as_the_scene_lasts_and_does_not_depend_on_the_t
 
 #[test]
 fn a_kick_is_a_jump_of_the_velocity_at_its_tick() {
-    let mut lab = open("spring", 10);
-    (0..7).for_each(|_| lab.tick());
-    let before = lab.race().truth().bodies()[0].stepper.v()[0];
-    lab.apply(RunCommand::Act(Action::Kick(1.0)));
-    let after = lab.race().truth().bodies()[0].stepper.v()[0];
-    (0..5).for_each(|_| lab.tick());
-    let samples = samples(&lab);
+    let mut studio = open("spring", 10);
+    (0..7).for_each(|_| studio.tick());
+    let before = studio.race().truth().bodies()[0].stepper.v()[0];
+    studio.apply(RunCommand::Act(Action::Kick(1.0)));
+    let after = studio.race().truth().bodies()[0].stepper.v()[0];
+    (0..5).for_each(|_| studio.tick());
+    let samples = samples(&studio);
     let corner = samples.windows(2).find(|pair| pair[0].t == pair[1].t).expect("a jump");
     assert!((corner[0].t - 0.7).abs() < 1e-12);
     assert_eq!((corner[0].v, corner[1].v), (before, after));
@@ -91,46 +91,46 @@ fn a_kick_is_a_jump_of_the_velocity_at_its_tick() {
 
 #[test]
 fn an_input_bends_the_curve_from_its_tick_on_and_not_the_tick_before_it() {
-    let mut lab = open("ship", 1);
-    (0..10).for_each(|_| lab.tick());
-    let shown = lab.past().truth_between(lab.race(), 0, 0.5);
-    lab.apply(RunCommand::Act(Action::Throttle(-1.0)));
-    assert_eq!(lab.past().truth_between(lab.race(), 0, 0.5), shown);
-    lab.tick();
-    let (_, v) = lab.past().truth_between(lab.race(), 0, 0.0);
-    assert!(lab.past().truth_between(lab.race(), 0, 0.5).1 < v, "the engine runs backwards");
+    let mut studio = open("ship", 1);
+    (0..10).for_each(|_| studio.tick());
+    let shown = studio.past().truth_between(studio.race(), 0, 0.5);
+    studio.apply(RunCommand::Act(Action::Throttle(-1.0)));
+    assert_eq!(studio.past().truth_between(studio.race(), 0, 0.5), shown);
+    studio.tick();
+    let (_, v) = studio.past().truth_between(studio.race(), 0, 0.0);
+    assert!(studio.past().truth_between(studio.race(), 0, 0.5).1 < v, "the engine runs backwards");
 }
 
 /// Where a hand can take hold of the ghost.
-fn ghost(lab: &Studio, picture: &Picture) -> Vec<Grip> {
-    picture.cells[0].grips(lab).filter(|grip| grip.whose == Whose::Truth).collect()
+fn ghost(studio: &Studio, picture: &Picture) -> Vec<Grip> {
+    picture.cells[0].grips(studio).filter(|grip| grip.whose == Whose::Truth).collect()
 }
 
 #[test]
 fn the_ghost_is_the_exact_motion_at_the_moment_of_the_lanes_however_they_are_drawn() {
-    let mut lab = open("spring", 5);
+    let mut studio = open("spring", 5);
     let size = [780.0, 500.0];
     let mut reach = (0.0_f64, 0.0_f64);
     for frame in 0..300 {
-        lab.advance(16_666_667);
-        let moment_s = (lab.race().tick() as f64 - 1.0 + lab.clock().alpha()) / 5.0;
+        studio.advance(16_666_667);
+        let moment_s = (studio.race().tick() as f64 - 1.0 + studio.clock().alpha()) / 5.0;
         if moment_s < 0.0 {
             continue;
         }
         let exact = libm::cos(TAU * moment_s);
-        let (q, v) = lab.past().truth_between(lab.race(), 0, lab.clock().alpha());
+        let (q, v) = studio.past().truth_between(studio.race(), 0, studio.clock().alpha());
         assert!((q[0] - exact).abs() < 1e-12, "frame {frame}");
         assert!((v[0] + TAU * libm::sin(TAU * moment_s)).abs() < 1e-11, "frame {frame}");
         for _ in Interpolation::ALL {
-            lab.apply(RunCommand::NextInterpolation);
-            let picture = compose(&lab, size);
-            let x = picture.cells[0].metres(ghost(&lab, &picture)[0].at).x;
-            let exact = libm::cos(TAU * lab.shown_s());
+            studio.apply(RunCommand::NextInterpolation);
+            let picture = compose(&studio, size);
+            let x = picture.cells[0].metres(ghost(&studio, &picture)[0].at).x;
+            let exact = libm::cos(TAU * studio.shown_s());
             assert!((x - exact).abs() < 1e-3, "frame {frame}: {x} m, truly {exact} m");
             reach = (reach.0.min(x), reach.1.max(x));
         }
-        assert_eq!(lab.display().interpolation, Interpolation::Monotone);
-        assert!((lab.shown_s() - moment_s).abs() < 1e-12, "frame {frame}");
+        assert_eq!(studio.display().interpolation, Interpolation::Monotone);
+        assert!((studio.shown_s() - moment_s).abs() < 1e-12, "frame {frame}");
     }
     assert!(reach.0 < -0.99 && reach.1 > 0.99, "{reach:?}");
 }
@@ -163,9 +163,9 @@ fn recording_the_curve_moves_no_bit_of_the_truth() {
 fn a_scene_shorter_than_a_tick_has_a_curve_no_finer_than_a_tick_needs() {
     let text = "title = \"short\"\ntick_hz = 1\nseconds = 0.01\n\
         [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\nx0_m = 1\n";
-    let mut lab = Studio::new(Scene::parse("short.toml", text).unwrap());
-    (0..3).for_each(|_| lab.tick());
-    let samples = samples(&lab);
+    let mut studio = Studio::new(Scene::parse("short.toml", text).unwrap());
+    (0..3).for_each(|_| studio.tick());
+    let samples = samples(&studio);
     assert!((4096..6000).contains(&samples.len()), "{}", samples.len());
     assert_eq!(samples[samples.len() - 1].t, 3.0);
 }

@@ -11,48 +11,48 @@ use regatta::lab::{
 use regatta::sim::integrators::method;
 
 fn lab_at(stop: usize) -> Studio {
-    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-    lab.apply(ViewCommand::GoToStop(stop));
-    lab
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    studio.apply(ViewCommand::GoToStop(stop));
+    studio
 }
 
-fn is_done(lab: &Studio) -> bool {
-    lab.viewer().tour().expect("the guide is open").is_done()
+fn is_done(studio: &Studio) -> bool {
+    studio.viewer().tour().expect("the guide is open").is_done()
 }
 
 #[test]
 fn every_stop_opens_as_it_says_and_is_done_by_its_last_key_at_the_latest() {
     for (place, stop) in STOPS.iter().enumerate() {
-        let mut lab = lab_at(place);
-        let tour = lab.viewer().tour().unwrap();
+        let mut studio = lab_at(place);
+        let tour = studio.viewer().tour().unwrap();
         assert_eq!((tour.place(), tour.guess(), tour.is_done()), (place, None, false));
-        assert_eq!(lab.scene().name, stop.scene, "{}", stop.title);
-        assert_eq!(lab.entries()[lab.active()].method.id, stop.method, "{}", stop.title);
-        assert_eq!((lab.clock().tick_hz(), lab.mode()), (stop.tick_hz, stop.mode));
-        assert_eq!(lab.display().instrument, stop.instrument, "{}", stop.title);
-        assert_eq!(lab.display().quantity, stop.quantity, "{}", stop.title);
-        let shown = METRICS[lab.display().metric].name;
+        assert_eq!(studio.scene().name, stop.scene, "{}", stop.title);
+        assert_eq!(studio.entries()[studio.active()].method.id, stop.method, "{}", stop.title);
+        assert_eq!((studio.clock().tick_hz(), studio.mode()), (stop.tick_hz, stop.mode));
+        assert_eq!(studio.display().instrument, stop.instrument, "{}", stop.title);
+        assert_eq!(studio.display().quantity, stop.quantity, "{}", stop.title);
+        let shown = METRICS[studio.display().metric].name;
         assert!(shown.starts_with(stop.quantity.name()), "{}: {shown}", stop.title);
         if stop.question.contains("speed") && stop.instrument == Instrument::Motion {
             assert_eq!(stop.quantity, Quantity::Velocity, "{}", stop.title);
         }
         let is_stepped = matches!(stop.goal, Goal::SteppedTo(_));
-        assert_eq!((lab.race().tick(), lab.running()), (0, !is_stepped));
+        assert_eq!((studio.race().tick(), studio.running()), (0, !is_stepped));
         if !is_stepped {
-            (0..5).for_each(|_| lab.tick());
+            (0..5).for_each(|_| studio.tick());
         }
-        lab.apply(ViewCommand::Predict(stop.right));
-        assert!(!is_done(&lab), "{} is done before it begins", stop.title);
+        studio.apply(ViewCommand::Predict(stop.right));
+        assert!(!is_done(&studio), "{} is done before it begins", stop.title);
         assert!(!stop.keys.is_empty());
         for key in stop.keys {
             let (command, _) = command_for(*key).expect("a key of the table");
-            lab.apply(command);
+            studio.apply(command);
         }
-        assert!(is_done(&lab), "{} is not done by its keys", stop.title);
-        assert_eq!(lab.viewer().tour().unwrap().guess(), Some(stop.right));
+        assert!(is_done(&studio), "{} is not done by its keys", stop.title);
+        assert_eq!(studio.viewer().tour().unwrap().guess(), Some(stop.right));
         // The prediction was one.
-        lab.apply(ViewCommand::Predict(0));
-        assert_eq!(lab.viewer().tour().unwrap().guess(), Some(stop.right));
+        studio.apply(ViewCommand::Predict(0));
+        assert_eq!(studio.viewer().tour().unwrap().guess(), Some(stop.right));
     }
 }
 
@@ -74,14 +74,14 @@ fn stops_name_scenes_and_methods_that_there_are_and_keys_between_pairs_of_backti
 
 #[test]
 fn the_guide_closes_with_escape_and_opens_where_it_was_left() {
-    let mut lab = lab_at(3);
-    assert_eq!(lab.apply(ViewCommand::Escape), None);
-    assert!(lab.viewer().tour().is_none());
-    lab.apply(ViewCommand::ToggleGuide);
-    assert_eq!(lab.viewer().tour().unwrap().place(), 3);
-    assert_eq!(lab.scene().name, STOPS[3].scene);
-    lab.apply(ViewCommand::GoToStop(usize::MAX));
-    assert_eq!(lab.viewer().tour().unwrap().place(), STOPS.len() - 1);
+    let mut studio = lab_at(3);
+    assert_eq!(studio.apply(ViewCommand::Escape), None);
+    assert!(studio.viewer().tour().is_none());
+    studio.apply(ViewCommand::ToggleGuide);
+    assert_eq!(studio.viewer().tour().unwrap().place(), 3);
+    assert_eq!(studio.scene().name, STOPS[3].scene);
+    studio.apply(ViewCommand::GoToStop(usize::MAX));
+    assert_eq!(studio.viewer().tour().unwrap().place(), STOPS.len() - 1);
 }
 
 fn place_of(goal: Goal) -> usize {
@@ -97,22 +97,22 @@ fn what_a_stop_says_never_stays_over_another_scene_or_mode() {
         Command::Stage(StageCommand::Scene(0)),
         Command::Loop(LoopCommand::ToggleLab),
     ] {
-        let mut lab = lab_at(place);
-        lab.apply(elsewhere.clone());
-        assert!(lab.viewer().tour().is_none(), "{elsewhere:?}");
-        let notice = lab.viewer().notice.as_deref().expect("the way back");
+        let mut studio = lab_at(place);
+        studio.apply(elsewhere.clone());
+        assert!(studio.viewer().tour().is_none(), "{elsewhere:?}");
+        let notice = studio.viewer().notice.as_deref().expect("the way back");
         assert!(notice.contains("F2"), "{notice}");
-        lab.apply(ViewCommand::ToggleGuide);
-        assert_eq!(lab.viewer().tour().map(|tour| tour.place()), Some(place));
-        assert_eq!(lab.scene().name, STOPS[place].scene);
-        assert!(lab.loop_lab().is_none());
+        studio.apply(ViewCommand::ToggleGuide);
+        assert_eq!(studio.viewer().tour().map(|tour| tour.place()), Some(place));
+        assert_eq!(studio.scene().name, STOPS[place].scene);
+        assert!(studio.loop_lab().is_none());
     }
     // The loop lab is what this stop is about; another scene in it is not.
-    let mut lab = lab_at(place_of(Goal::LoopLab));
-    lab.apply(Command::Loop(LoopCommand::ToggleLab));
-    assert!(is_done(&lab));
-    lab.apply(StageCommand::SceneBeside(Step::Next));
-    assert!(lab.loop_lab().is_some() && lab.viewer().tour().is_none());
+    let mut studio = lab_at(place_of(Goal::LoopLab));
+    studio.apply(Command::Loop(LoopCommand::ToggleLab));
+    assert!(is_done(&studio));
+    studio.apply(StageCommand::SceneBeside(Step::Next));
+    assert!(studio.loop_lab().is_some() && studio.viewer().tour().is_none());
 }
 
 #[test]
@@ -137,14 +137,14 @@ fn the_guide_visits_the_instruments_that_explain_and_the_loop_lab() {
 
 #[test]
 fn the_area_of_a_cloud_of_pendulums_becomes_what_the_guide_says() {
-    let mut lab = lab_at(STOPS.iter().position(|s| s.instrument == Instrument::Cloud).unwrap());
-    lab.apply(StageCommand::ToggleRace);
+    let mut studio = lab_at(STOPS.iter().position(|s| s.instrument == Instrument::Cloud).unwrap());
+    studio.apply(StageCommand::ToggleRace);
     let kind = CloudKind::default();
-    lab.apply(RunCommand::Cloud(CloudChoice { kind, points: 10_000 }));
+    studio.apply(RunCommand::Cloud(CloudChoice { kind, points: 10_000 }));
     // 1.25 s.
-    (0..15).for_each(|_| lab.tick());
-    lab.complete_clouds(&mut CloudWorker::default(), || false);
-    let lanes = &lab.cloud().unwrap().picture.as_ref().unwrap().lanes;
+    (0..15).for_each(|_| studio.tick());
+    studio.complete_clouds(&mut CloudWorker::default(), || false);
+    let lanes = &studio.cloud().unwrap().picture.as_ref().unwrap().lanes;
     let areas: Vec<f64> = lanes.iter().map(|lane| lane.area_ratio.unwrap()).collect();
     assert!((1.4..1.7).contains(&areas[0]), "{areas:?}");
     assert!(areas[1] < 0.6, "{areas:?}");
@@ -281,14 +281,14 @@ fn runge_kutta_on_the_ship_comes_within_rounding_and_then_more_ticks_take_no_err
 
 #[test]
 fn each_step_of_explicit_euler_makes_the_swing_18_percent_wider_at_10_hz() {
-    let mut lab = lab_at(place_of(Goal::SteppedTo(3)));
+    let mut studio = lab_at(place_of(Goal::SteppedTo(3)));
     let omega = std::f64::consts::TAU;
     let swing = |[q, v]: [f64; 2]| q.hypot(v / omega);
     for _ in 0..4 {
-        let OneStep { from, landing, .. } = lab.one_step().expect("a next step");
+        let OneStep { from, landing, .. } = studio.one_step().expect("a next step");
         let wider = swing(landing.expect("it lands")) / swing(from);
         assert!((1.175..1.185).contains(&wider), "{wider}");
-        lab.apply(StageCommand::Tick(Step::Next));
+        studio.apply(StageCommand::Tick(Step::Next));
     }
 }
 
@@ -329,10 +329,10 @@ fn a_spring_4_times_as_stiff_needs_2_times_the_tick_rate() {
 
 #[test]
 fn the_fixed_loop_judders_by_12_ms_and_the_one_that_counts_refreshes_does_not() {
-    let mut lab = lab_at(place_of(Goal::LoopLab));
-    lab.apply(Command::Loop(LoopCommand::ToggleLab));
-    lab.run_loops();
-    let loops: &LoopLab = lab.loop_lab().expect("it opens");
+    let mut studio = lab_at(place_of(Goal::LoopLab));
+    studio.apply(Command::Loop(LoopCommand::ToggleLab));
+    studio.run_loops();
+    let loops: &LoopLab = studio.loop_lab().expect("it opens");
     assert_eq!(loops.slowness(), 8);
     let shown: Vec<(&str, f64)> = loops
         .on_stage()

@@ -15,34 +15,34 @@ fn open(name: &str) -> Studio {
     Studio::new(Scene::built_in(name).expect("a built-in scene"))
 }
 
-fn press(lab: &mut Studio, keys: &[Key]) {
+fn press(studio: &mut Studio, keys: &[Key]) {
     for &key in keys {
         let (command, _) = command_for(key).expect("a key of the table");
-        lab.apply(command);
+        studio.apply(command);
     }
 }
 
 /// Ticks through so many simulated seconds, and returns the largest |q| of the first coordinate of a body in the
 /// first lane on the way.
-fn largest(lab: &mut Studio, body: usize, seconds: f64) -> f64 {
-    let end = lab.race().t() + seconds;
+fn largest(studio: &mut Studio, body: usize, seconds: f64) -> f64 {
+    let end = studio.race().t() + seconds;
     let mut largest = 0.0_f64;
-    while lab.race().t() < end {
-        lab.tick();
-        largest = largest.max(lab.race().entrants()[0].lane.bodies()[body].stepper.q()[0].abs());
+    while studio.race().t() < end {
+        studio.tick();
+        largest = largest.max(studio.race().entrants()[0].lane.bodies()[body].stepper.q()[0].abs());
     }
     largest
 }
 
 /// Ticks through so many simulated seconds, and returns the largest distance of each lane's first body from the
 /// truth on the way.
-fn largest_errors(lab: &mut Studio, seconds: f64) -> Vec<f64> {
-    let end = lab.race().t() + seconds;
-    let mut errors = vec![0.0_f64; lab.race().entrants().len()];
-    while lab.race().t() < end {
-        lab.tick();
-        let truth = lab.race().truth().bodies()[0].stepper.place();
-        for (error, entrant) in errors.iter_mut().zip(lab.race().entrants()) {
+fn largest_errors(studio: &mut Studio, seconds: f64) -> Vec<f64> {
+    let end = studio.race().t() + seconds;
+    let mut errors = vec![0.0_f64; studio.race().entrants().len()];
+    while studio.race().t() < end {
+        studio.tick();
+        let truth = studio.race().truth().bodies()[0].stepper.place();
+        for (error, entrant) in errors.iter_mut().zip(studio.race().entrants()) {
             *error = error.max((entrant.lane.bodies()[0].stepper.place() - truth).length());
         }
     }
@@ -50,9 +50,9 @@ fn largest_errors(lab: &mut Studio, seconds: f64) -> Vec<f64> {
 }
 
 /// Whether the swing of a body, over its next ten seconds, stays what it is.
-fn holds(lab: &mut Studio, body: usize) -> bool {
-    let before = largest(lab, body, 2.0);
-    (0..5).all(|_| largest(lab, body, 2.0) < 1.1 * before)
+fn holds(studio: &mut Studio, body: usize) -> bool {
+    let before = largest(studio, body, 2.0);
+    (0..5).all(|_| largest(studio, body, 2.0) < 1.1 * before)
 }
 
 #[test]
@@ -61,9 +61,9 @@ fn every_scene_names_the_lane_that_it_opens_with() {
         let parsed = Scene::built_in(scene.name).expect("a built-in scene");
         let opening = parsed.opening_method.expect("every built-in scene names one");
         assert!(parsed.lanes.iter().any(|lane| lane.method == opening), "{}", scene.name);
-        let lab = Studio::new(parsed);
-        assert_eq!(lab.entries()[lab.active()].method, opening, "{}", scene.name);
-        assert_eq!(lab.mode(), Mode::Solo);
+        let studio = Studio::new(parsed);
+        assert_eq!(studio.entries()[studio.active()].method, opening, "{}", scene.name);
+        assert_eq!(studio.mode(), Mode::Solo);
     }
 }
 
@@ -79,8 +79,8 @@ fn a_scene_opens_with_a_lane_of_its_own_and_never_with_another_method() {
         };
         let opened = |text: &str| {
             let Ok(scene) = Scene::parse("x.toml", text) else { return None };
-            let lab = Studio::new(scene);
-            Some(lab.entries()[lab.active()].method.id)
+            let studio = Studio::new(scene);
+            Some(studio.entries()[studio.active()].method.id)
         };
         if method.id != "rk4-as-printed" {
             assert_eq!(opened(&text("")), Some(method.id), "the first lane's");
@@ -91,11 +91,11 @@ fn a_scene_opens_with_a_lane_of_its_own_and_never_with_another_method() {
 
 #[test]
 fn the_next_scene_opens_with_its_own_method_whatever_was_flown_before() {
-    let mut lab = open("harbour");
-    press(&mut lab, &[Key::Digit(4)]);
+    let mut studio = open("harbour");
+    press(&mut studio, &[Key::Digit(4)]);
     for _ in SCENES {
-        press(&mut lab, &[Key::Sign('n')]);
-        assert_eq!(Some(lab.entries()[lab.active()].method), lab.scene().opening_method);
+        press(&mut studio, &[Key::Sign('n')]);
+        assert_eq!(Some(studio.entries()[studio.active()].method), studio.scene().opening_method);
     }
 }
 
@@ -103,55 +103,56 @@ fn the_next_scene_opens_with_its_own_method_whatever_was_flown_before() {
 fn the_springs_gain_energy_until_2_is_pressed() {
     for (scene, bodies) in [("spring", 0..1), ("harbour", 0..2)] {
         for body in bodies {
-            let mut lab = open(scene);
-            assert!(largest(&mut lab, body, 10.0) > 5.0, "{scene}");
-            press(&mut lab, &[Key::Digit(2)]);
-            assert!(holds(&mut lab, body), "{scene}");
+            let mut studio = open(scene);
+            assert!(largest(&mut studio, body, 10.0) > 5.0, "{scene}");
+            press(&mut studio, &[Key::Digit(2)]);
+            assert!(holds(&mut studio, body), "{scene}");
         }
     }
 }
 
 #[test]
 fn the_stiff_spring_blows_up_two_presses_lower_and_holds_again_two_higher_after_a_restart() {
-    let mut lab = open("stiff");
-    let seconds = lab.scene().seconds;
-    assert!(largest(&mut lab, 0, seconds) < 2.0, "it holds at first");
-    press(&mut lab, &[LOWER_RATE, LOWER_RATE]);
-    assert_eq!(lab.clock().tick_hz(), 49);
-    largest(&mut lab, 0, seconds);
-    assert!(lab.race().entrants()[0].lane.halted().is_some_and(|halt| halt.is_blow_up()));
-    press(&mut lab, &[HIGHER_RATE, HIGHER_RATE, Key::Home]);
-    assert_eq!(lab.clock().tick_hz(), 60);
-    assert!(largest(&mut lab, 0, seconds) < 2.0);
+    let mut studio = open("stiff");
+    let seconds = studio.scene().seconds;
+    assert!(largest(&mut studio, 0, seconds) < 2.0, "it holds at first");
+    press(&mut studio, &[LOWER_RATE, LOWER_RATE]);
+    assert_eq!(studio.clock().tick_hz(), 49);
+    largest(&mut studio, 0, seconds);
+    assert!(studio.race().entrants()[0].lane.halted().is_some_and(|halt| halt.is_blow_up()));
+    press(&mut studio, &[HIGHER_RATE, HIGHER_RATE, Key::Home]);
+    assert_eq!(studio.clock().tick_hz(), 60);
+    assert!(largest(&mut studio, 0, seconds) < 2.0);
 }
 
 #[test]
 fn the_chain_is_lost_four_presses_lower() {
-    let mut lab = open("chain");
-    press(&mut lab, &[Key::Sign('k')]);
-    assert!(largest(&mut lab, 0, 5.0) < 3.0);
-    press(&mut lab, &[LOWER_RATE; 4]);
-    assert_eq!(lab.clock().tick_hz(), 20);
-    assert!(largest(&mut lab, 0, 5.0) > 1e3);
+    let mut studio = open("chain");
+    press(&mut studio, &[Key::Sign('k')]);
+    assert!(largest(&mut studio, 0, 5.0) < 3.0);
+    press(&mut studio, &[LOWER_RATE; 4]);
+    assert_eq!(studio.clock().tick_hz(), 20);
+    assert!(largest(&mut studio, 0, 5.0) > 1e3);
 }
 
 #[test]
 fn the_pendulum_goes_over_the_top_and_after_2_and_a_restart_never_does() {
-    let mut lab = open("pendulum");
-    assert!(largest(&mut lab, 0, 5.0) > std::f64::consts::PI);
-    press(&mut lab, &[Key::Digit(2), Key::Home]);
-    assert!(largest(&mut lab, 0, 600.0) < std::f64::consts::PI);
+    let mut studio = open("pendulum");
+    assert!(largest(&mut studio, 0, 5.0) > std::f64::consts::PI);
+    press(&mut studio, &[Key::Digit(2), Key::Home]);
+    assert!(largest(&mut studio, 0, 600.0) < std::f64::consts::PI);
 }
 
 #[test]
 fn ship_and_ellipses_are_truer_at_a_higher_tick_rate() {
     for (scene, seconds) in [("ship", 20.0), ("orbit", 6.0)] {
-        let mut lab = open(scene);
-        press(&mut lab, &[C]);
-        let coarse = largest_errors(&mut lab, seconds);
-        press(&mut lab, &[HIGHER_RATE, Key::Home]);
-        let fine = largest_errors(&mut lab, seconds);
-        for (entrant, (coarse, fine)) in lab.race().entrants().iter().zip(coarse.iter().zip(&fine))
+        let mut studio = open(scene);
+        press(&mut studio, &[C]);
+        let coarse = largest_errors(&mut studio, seconds);
+        press(&mut studio, &[HIGHER_RATE, Key::Home]);
+        let fine = largest_errors(&mut studio, seconds);
+        for (entrant, (coarse, fine)) in
+            studio.race().entrants().iter().zip(coarse.iter().zip(&fine))
         {
             let method = entrant.spec.method;
             // An adaptive method chooses its own steps.
@@ -162,13 +163,13 @@ fn ship_and_ellipses_are_truer_at_a_higher_tick_rate() {
 
 #[test]
 fn explicit_euler_is_calm_on_all_three_ships_one_press_higher() {
-    let mut lab = open("surge");
-    press(&mut lab, &[C]);
-    largest(&mut lab, 0, 20.0);
-    press(&mut lab, &[HIGHER_RATE]);
-    assert_eq!(lab.clock().tick_hz(), 2);
-    largest(&mut lab, 0, 10.0);
-    let entrant = &lab.race().entrants()[0];
+    let mut studio = open("surge");
+    press(&mut studio, &[C]);
+    largest(&mut studio, 0, 20.0);
+    press(&mut studio, &[HIGHER_RATE]);
+    assert_eq!(studio.clock().tick_hz(), 2);
+    largest(&mut studio, 0, 10.0);
+    let entrant = &studio.race().entrants()[0];
     assert_eq!(entrant.spec.method.id, "explicit-euler");
     for body in entrant.lane.bodies() {
         assert!((body.stepper.v()[0] - 20.0).abs() < 1e-3, "{}", body.stepper.v()[0]);
@@ -177,10 +178,10 @@ fn explicit_euler_is_calm_on_all_three_ships_one_press_higher() {
 
 #[test]
 fn the_ship_under_explicit_euler_is_faster_than_the_ghost_and_behind_it_all_the_way() {
-    let mut lab = open("ship");
-    while lab.race().t() < lab.scene().seconds {
-        lab.tick();
-        let [ship, ghost] = [&lab.race().entrants()[0].lane, lab.race().truth()]
+    let mut studio = open("ship");
+    while studio.race().t() < studio.scene().seconds {
+        studio.tick();
+        let [ship, ghost] = [&studio.race().entrants()[0].lane, studio.race().truth()]
             .map(|lane| [lane.bodies()[0].stepper.q()[0], lane.bodies()[0].stepper.v()[0]]);
         assert!(ship[1] > ghost[1] && ship[0] < ghost[0], "{ship:?} {ghost:?}");
     }
@@ -188,14 +189,14 @@ fn the_ship_under_explicit_euler_is_faster_than_the_ghost_and_behind_it_all_the_
 
 #[test]
 fn after_home_the_next_step_of_the_tour_is_shown_and_what_brings_back_the_run_after_the_last() {
-    let mut lab = open("spring");
-    let restart_later = |lab: &mut Studio| {
-        press(lab, &[Key::Digit(2)]);
-        (0..10).for_each(|_| lab.tick());
-        press(lab, &[Key::Home]);
-        (lab.hint(), lab.viewer().notice.as_deref().map(str::to_owned))
+    let mut studio = open("spring");
+    let restart_later = |studio: &mut Studio| {
+        press(studio, &[Key::Digit(2)]);
+        (0..10).for_each(|_| studio.tick());
+        press(studio, &[Key::Home]);
+        (studio.hint(), studio.viewer().notice.as_deref().map(str::to_owned))
     };
-    let (hint, notice) = restart_later(&mut lab);
+    let (hint, notice) = restart_later(&mut studio);
     assert_eq!((hint.unwrap().contains("`C`"), notice), (true, None));
     for command in [
         Command::Stage(StageCommand::ToggleRace),
@@ -208,25 +209,25 @@ fn after_home_the_next_step_of_the_tour_is_shown_and_what_brings_back_the_run_af
         Command::Stage(StageCommand::ToggleRace),
         Command::Stage(StageCommand::ToggleRace),
     ] {
-        lab.apply(command);
+        studio.apply(command);
     }
-    let (hint, notice) = restart_later(&mut lab);
+    let (hint, notice) = restart_later(&mut studio);
     assert_eq!((hint, notice.is_some_and(|told| told.contains("Ctrl Z"))), (None, true));
 }
 
 #[test]
 fn the_arrows_steer_the_helm_from_the_first_press_on() {
-    let mut lab = open("helm");
-    press(&mut lab, &[Key::Right, Key::Right, Key::Up, Key::Down]);
-    assert_eq!((lab.race().rudder(), lab.race().throttle()), (-0.2, 0.9));
+    let mut studio = open("helm");
+    press(&mut studio, &[Key::Right, Key::Right, Key::Up, Key::Down]);
+    assert_eq!((studio.race().rudder(), studio.race().throttle()), (-0.2, 0.9));
     for _ in 0..300 {
-        lab.tick();
-        assert_eq!(lab.race().rudder(), -0.2, "at tick {}", lab.race().tick());
+        studio.tick();
+        assert_eq!(studio.race().rudder(), -0.2, "at tick {}", studio.race().tick());
     }
-    let heading = lab.race().truth().bodies()[0].stepper.q()[2];
+    let heading = studio.race().truth().bodies()[0].stepper.q()[2];
     assert!(heading < -1.0, "to the right: {heading}");
-    press(&mut lab, &[C]);
-    assert_eq!(lab.mode(), Mode::Race);
+    press(&mut studio, &[C]);
+    assert_eq!(studio.mode(), Mode::Race);
 }
 
 /// The helm's script with a method and a tick rate in it.
@@ -237,9 +238,9 @@ fn scripted() -> Studio {
     Studio::new(Scene::parse("helm.toml", &format!("{text}{more}")).unwrap())
 }
 
-fn controls(lab: &Studio) -> (&'static str, u32, f64, f64) {
-    let method = lab.entries()[lab.active()].method.id;
-    (method, lab.clock().tick_hz(), lab.race().throttle(), lab.race().rudder())
+fn controls(studio: &Studio) -> (&'static str, u32, f64, f64) {
+    let method = studio.entries()[studio.active()].method.id;
+    (method, studio.clock().tick_hz(), studio.race().throttle(), studio.race().rudder())
 }
 
 #[test]
@@ -259,73 +260,73 @@ fn what_a_person_takes_in_hand_the_script_leaves_alone_until_a_restart_and_says_
         // A hand on the wheel is one, though it turns nothing.
         (Command::Run(RunCommand::Act(Action::Rudder(0.0))), "rudder", ("rk4", 10, 0.5, 0.0)),
     ] {
-        let mut lab = scripted();
-        assert_eq!(lab.viewer().notice.as_deref(), None);
-        lab.apply(command.clone());
+        let mut studio = scripted();
+        assert_eq!(studio.viewer().notice.as_deref(), None);
+        studio.apply(command.clone());
         let said = format!("you have the {name} now: the script leaves it alone until a restart");
-        assert_eq!(lab.viewer().notice.as_deref(), Some(&*said), "{command:?}");
-        (0..60).for_each(|_| lab.tick());
-        assert_eq!(controls(&lab), expected, "{command:?}");
+        assert_eq!(studio.viewer().notice.as_deref(), Some(&*said), "{command:?}");
+        (0..60).for_each(|_| studio.tick());
+        assert_eq!(controls(&studio), expected, "{command:?}");
 
-        lab.apply(StageCommand::Restart);
-        (0..60).for_each(|_| lab.tick());
-        assert_eq!(controls(&lab), ("rk4", 10, 0.5, 1.0), "the script has all in hand again");
+        studio.apply(StageCommand::Restart);
+        (0..60).for_each(|_| studio.tick());
+        assert_eq!(controls(&studio), ("rk4", 10, 0.5, 1.0), "the script has all in hand again");
     }
 }
 
 #[test]
 fn taking_the_same_control_again_is_not_told_again() {
-    let mut lab = scripted();
-    lab.apply(RunCommand::Act(Action::Rudder(0.3)));
-    lab.viewer_mut().set_notice("something else");
-    lab.apply(RunCommand::RudderRight);
-    assert_eq!(lab.viewer().notice.as_deref(), Some("something else"));
-    lab.apply(RunCommand::Act(Action::Throttle(0.1)));
+    let mut studio = scripted();
+    studio.apply(RunCommand::Act(Action::Rudder(0.3)));
+    studio.viewer_mut().set_notice("something else");
+    studio.apply(RunCommand::RudderRight);
+    assert_eq!(studio.viewer().notice.as_deref(), Some("something else"));
+    studio.apply(RunCommand::Act(Action::Throttle(0.1)));
     assert_eq!(
-        lab.viewer().notice.as_deref(),
+        studio.viewer().notice.as_deref(),
         Some("you have the throttle now: the script leaves it alone until a restart")
     );
 }
 
 #[test]
 fn where_no_script_is_to_come_there_is_nothing_to_tell() {
-    let mut lab = open("spring");
+    let mut studio = open("spring");
     for command in [
         Command::Stage(StageCommand::Pick(3)),
         Command::Stage(StageCommand::TickRate(Step::Next)),
         Command::Run(RunCommand::Act(Action::Throttle(0.3))),
     ] {
-        lab.apply(command.clone());
-        assert_eq!(lab.viewer().notice.as_deref(), None, "{command:?}");
+        studio.apply(command.clone());
+        assert_eq!(studio.viewer().notice.as_deref(), None, "{command:?}");
     }
-    let mut lab = open("helm");
-    (0..200).for_each(|_| lab.tick());
-    lab.apply(RunCommand::Act(Action::Rudder(0.5)));
-    assert_eq!(lab.viewer().notice.as_deref(), None, "the script is over");
+    let mut studio = open("helm");
+    (0..200).for_each(|_| studio.tick());
+    studio.apply(RunCommand::Act(Action::Rudder(0.5)));
+    assert_eq!(studio.viewer().notice.as_deref(), None, "the script is over");
 }
 
 #[test]
 fn a_throttle_by_hand_changes_the_analysis_request_and_one_of_the_script_does_not() {
     let text = SCENES.iter().find(|scene| scene.name == "ship").unwrap().text;
     let script = "[[command]]\ntick = 3\nthrottle = 0.5\n";
-    let mut lab = Studio::new(Scene::parse("ship.toml", &format!("{text}{script}")).unwrap());
-    let asked = lab.analysis_request();
-    (0..10).for_each(|_| lab.tick());
-    assert_eq!(lab.race().throttle(), 0.5);
-    assert!(lab.analysis_request() == asked, "nothing is asked that was not asked at the start");
-    lab.apply(RunCommand::Act(Action::Throttle(0.2)));
-    let by_hand = lab.analysis_request();
+    let mut studio = Studio::new(Scene::parse("ship.toml", &format!("{text}{script}")).unwrap());
+    let asked = studio.analysis_request();
+    (0..10).for_each(|_| studio.tick());
+    assert_eq!(studio.race().throttle(), 0.5);
+    assert!(studio.analysis_request() == asked, "nothing is asked that was not asked at the start");
+    studio.apply(RunCommand::Act(Action::Throttle(0.2)));
+    let by_hand = studio.analysis_request();
     assert!(by_hand != asked);
-    (0..10).for_each(|_| lab.tick());
-    assert!(lab.analysis_request() == by_hand);
-    lab.apply(StageCommand::Restart);
-    assert!(lab.analysis_request() == asked);
+    (0..10).for_each(|_| studio.tick());
+    assert!(studio.analysis_request() == by_hand);
+    studio.apply(StageCommand::Restart);
+    assert!(studio.analysis_request() == asked);
 }
 
 #[test]
 fn a_jump_is_higher_at_a_higher_rate() {
     let (mut slow, mut fast) = (open("jump"), open("jump"));
     press(&mut fast, &[HIGHER_RATE]);
-    let [low, high] = [&mut slow, &mut fast].map(|lab| largest(lab, 0, 0.8));
+    let [low, high] = [&mut slow, &mut fast].map(|studio| largest(studio, 0, 0.8));
     assert!((low - 1.1445).abs() < 1e-9 && high > low + 0.01, "{low} {high}");
 }

@@ -3,13 +3,13 @@
 
 use regatta::lab::{History, LaneId, Scene, StageCommand, Step, Studio};
 
-fn lab(seconds: f64, tick_hz: u32) -> Studio {
+fn studio(seconds: f64, tick_hz: u32) -> Studio {
     let scene = Scene { seconds, tick_hz, ..Scene::built_in("spring").unwrap() };
     Studio::new(scene)
 }
 
-fn history(lab: &Studio) -> &History {
-    &lab.past().histories(LaneId(1))[0]
+fn history(studio: &Studio) -> &History {
+    &studio.past().histories(LaneId(1))[0]
 }
 
 const FRAME_NS: i64 = 16_666_667;
@@ -17,18 +17,18 @@ const FRAME_NS: i64 = 16_666_667;
 #[test]
 fn the_newest_sample_is_the_present_after_every_frame_however_rare_samples_are() {
     // A sample at every 49th tick.
-    let mut lab = lab(100.0, 1000);
+    let mut studio = studio(100.0, 1000);
     for frame in 0..300 {
-        lab.advance(FRAME_NS);
-        let newest = history(&lab).samples().last().unwrap();
-        assert_eq!(newest.t, lab.race().t(), "after frame {frame}");
-        let stepper = &lab.race().entrants()[0].lane.bodies()[0].stepper;
+        studio.advance(FRAME_NS);
+        let newest = history(&studio).samples().last().unwrap();
+        assert_eq!(newest.t, studio.race().t(), "after frame {frame}");
+        let stepper = &studio.race().entrants()[0].lane.bodies()[0].stepper;
         assert_eq!((newest.q, newest.v), (stepper.q()[0], stepper.v()[0]));
     }
-    let count = history(&lab).samples().count();
+    let count = history(&studio).samples().count();
     assert!((100..=104).contains(&count), "{count} samples of 5 s");
-    lab.apply(StageCommand::Tick(Step::Next));
-    assert_eq!(history(&lab).samples().last().unwrap().t, lab.race().t());
+    studio.apply(StageCommand::Tick(Step::Next));
+    assert_eq!(history(&studio).samples().last().unwrap().t, studio.race().t());
 }
 
 #[test]
@@ -36,13 +36,13 @@ fn a_swing_as_fast_as_the_samples_shows_in_what_they_swept_over() {
     // 158 swings per second, and a sample at every 30th tick: at nearly the same place of every fifth swing.
     let text = "title = 'fast'\ntick_hz = 1000\nseconds = 60\nmethods = ['velocity-verlet']\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1e6\nx0_m = 1\n";
-    let mut lab = Studio::new(Scene::parse("fast.toml", text).unwrap());
-    (0..3000).for_each(|_| lab.tick());
+    let mut studio = Studio::new(Scene::parse("fast.toml", text).unwrap());
+    (0..3000).for_each(|_| studio.tick());
     let least = |q: f64| move |least: f64, sample: &regatta::lab::Sample| least.min(q * sample.q);
-    assert!(history(&lab).samples().fold(0.0, least(1.0)) > -1.0, "no sample is at the far end");
-    let samples: Vec<[f64; 2]> = history(&lab).samples().map(|s| s.swept.ends()).collect();
+    assert!(history(&studio).samples().fold(0.0, least(1.0)) > -1.0, "no sample is at the far end");
+    let samples: Vec<[f64; 2]> = history(&studio).samples().map(|s| s.swept.ends()).collect();
     assert!(samples[1..].iter().all(|&[low, high]| low < -0.8 && high > 0.8), "{samples:?}");
-    let truth = lab.past().truth_curves()[0].samples();
+    let truth = studio.past().truth_curves()[0].samples();
     let truth: Vec<[f64; 2]> = truth.map(|sample| sample.swept.ends()).collect();
     assert!(truth[1..].iter().all(|&[low, high]| low < -0.8 && high > 0.8), "{truth:?}");
 }
@@ -50,24 +50,24 @@ fn a_swing_as_fast_as_the_samples_shows_in_what_they_swept_over() {
 #[test]
 fn a_switch_in_flight_keeps_the_method_of_the_past_and_marks_its_moment() {
     for (tick_hz, seconds) in [(60, 20.0), (1000, 100.0)] {
-        let mut lab = lab(seconds, tick_hz);
+        let mut studio = studio(seconds, tick_hz);
         let mut switched_at = Vec::new();
         for pick in [1, 3, 0] {
             for _ in 0..50 {
-                lab.advance(FRAME_NS);
+                studio.advance(FRAME_NS);
             }
-            switched_at.push(lab.race().t());
-            lab.apply(StageCommand::Pick(pick));
+            switched_at.push(studio.race().t());
+            studio.apply(StageCommand::Pick(pick));
         }
-        lab.advance(FRAME_NS);
-        let flown: Vec<(usize, f64)> = history(&lab).samples().map(|s| (s.entry, s.t)).collect();
+        studio.advance(FRAME_NS);
+        let flown: Vec<(usize, f64)> = history(&studio).samples().map(|s| (s.entry, s.t)).collect();
         let runs: Vec<(usize, f64, f64)> = flown
             .chunk_by(|one, next| one.0 == next.0)
             .map(|run| (run[0].0, run[0].1, run[run.len() - 1].1))
             .collect();
         let [a, b, c] = switched_at[..] else { panic!() };
-        assert_eq!(runs, [(0, 0.0, a), (1, a, b), (3, b, c), (0, c, lab.race().t())]);
-        let samples = history(&lab).samples();
+        assert_eq!(runs, [(0, 0.0, a), (1, a, b), (3, b, c), (0, c, studio.race().t())]);
+        let samples = history(&studio).samples();
         assert!(samples.clone().zip(samples.skip(1)).all(|(one, next)| one.t <= next.t));
     }
 }
@@ -76,14 +76,14 @@ fn a_switch_in_flight_keeps_the_method_of_the_past_and_marks_its_moment() {
 fn a_method_switched_to_itself_leaves_no_mark() {
     let flown = |picks: bool| {
         // A sample at every 49th tick.
-        let mut lab = lab(100.0, 1000);
+        let mut studio = studio(100.0, 1000);
         for _ in 0..100 {
-            lab.advance(FRAME_NS);
+            studio.advance(FRAME_NS);
             if picks {
-                lab.apply(StageCommand::Pick(lab.active()));
+                studio.apply(StageCommand::Pick(studio.active()));
             }
         }
-        history(&lab).samples().map(|sample| sample.t).collect::<Vec<_>>()
+        history(&studio).samples().map(|sample| sample.t).collect::<Vec<_>>()
     };
     assert_eq!(flown(true), flown(false));
 }

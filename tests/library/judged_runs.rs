@@ -8,19 +8,19 @@ fn opened(name: &str) -> Studio {
 }
 
 /// The lab's verdict on each method of its list, with times that count from where the run is judged.
-fn verdicts(lab: &mut Studio) -> Vec<String> {
-    lab.analyse();
+fn verdicts(studio: &mut Studio) -> Vec<String> {
+    studio.analyse();
     let of = |entry| {
-        let verdict = lab.viewer().verdict(entry).unwrap().clone();
+        let verdict = studio.viewer().verdict(entry).unwrap().clone();
         Verdict { starts_at_s: 0.0, ..verdict }.to_string()
     };
-    (0..lab.entries().len()).map(of).collect()
+    (0..studio.entries().len()).map(of).collect()
 }
 
 /// The time of the run at which the judged part begins, by the first verdict.
-fn starts_at_s(lab: &mut Studio) -> f64 {
-    lab.analyse();
-    lab.viewer().verdict(0).unwrap().starts_at_s
+fn starts_at_s(studio: &mut Studio) -> f64 {
+    studio.analyse();
+    studio.viewer().verdict(0).unwrap().starts_at_s
 }
 
 /// The judge's verdict on each method of the scene's list.
@@ -45,20 +45,20 @@ fn with(mut scene: Scene, values: &[(&str, f64)]) -> Scene {
 }
 
 /// The state of the first body in truth.
-fn truth(lab: &Studio) -> (f64, f64) {
-    let stepper = &lab.race().truth().bodies()[0].stepper;
+fn truth(studio: &Studio) -> (f64, f64) {
+    let stepper = &studio.race().truth().bodies()[0].stepper;
     (stepper.q()[0], stepper.v()[0])
 }
 
 #[test]
 fn an_edited_parameter_gives_the_verdicts_of_the_edited_body() {
-    let mut lab = opened("spring");
-    let before = verdicts(&mut lab);
-    (0..100).for_each(|_| lab.tick());
-    let stiffness = parameter(lab.scene(), "stiffness_n_per_m");
-    lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: stiffness, value: 10_000.0 }));
+    let mut studio = opened("spring");
+    let before = verdicts(&mut studio);
+    (0..100).for_each(|_| studio.tick());
+    let stiffness = parameter(studio.scene(), "stiffness_n_per_m");
+    studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: stiffness, value: 10_000.0 }));
     let stiff = with(Scene::built_in("spring").unwrap(), &[("stiffness_n_per_m", 10_000.0)]);
-    let after = verdicts(&mut lab);
+    let after = verdicts(&mut studio);
     assert_eq!(after, verdicts_on(&stiff));
     assert_ne!(after, before);
 }
@@ -69,11 +69,11 @@ fn a_parameter_set_by_hand_is_judged_without_the_scripts_changes_to_it() {
     let parameter = parameter(&scene, "stiffness_n_per_m");
     let set = |value| Action::Set { body: 0, parameter, value };
     scene.script.push(Scripted { tick: 300, action: set(4.0) });
-    let mut lab = Studio::new(scene.clone());
-    lab.apply(RunCommand::Act(set(90.0)));
+    let mut studio = Studio::new(scene.clone());
+    studio.apply(RunCommand::Act(set(90.0)));
     scene.script.clear();
     let edited = with(scene, &[("stiffness_n_per_m", 90.0)]);
-    assert_eq!(verdicts(&mut lab), verdicts_on(&edited));
+    assert_eq!(verdicts(&mut studio), verdicts_on(&edited));
 }
 
 /// A spring whose damping the script sets from 4 to 60 at tick 60.
@@ -117,50 +117,50 @@ fn growth_is_that_of_the_parameters_that_the_script_leaves_in_force() {
 
 #[test]
 fn a_body_placed_by_hand_is_judged_from_where_it_was_placed() {
-    let mut lab = opened("pendulum");
-    let before = verdicts(&mut lab);
-    (0..77).for_each(|_| lab.tick());
-    lab.apply(RunCommand::Act(Action::Place { body: 0, q: [0.1].into(), v: [0.5].into() }));
+    let mut studio = opened("pendulum");
+    let before = verdicts(&mut studio);
+    (0..77).for_each(|_| studio.tick());
+    studio.apply(RunCommand::Act(Action::Place { body: 0, q: [0.1].into(), v: [0.5].into() }));
     let (theta, omega) = ("theta0_rad", "omega0_rad_per_s");
     let placed = with(Scene::built_in("pendulum").unwrap(), &[(theta, 0.1), (omega, 0.5)]);
-    let after = verdicts(&mut lab);
+    let after = verdicts(&mut studio);
     assert_eq!(after, verdicts_on(&placed));
     assert_ne!(after, before);
     // Time that passes changes nothing; going back before the placement does, and forward again.
-    let question = lab.analysis_request();
-    lab.apply(StageCommand::Tick(Step::Next));
-    assert!(lab.analysis_request() == question);
-    lab.apply(RunCommand::Seek(50));
-    assert_eq!(verdicts(&mut lab), before);
-    lab.apply(RunCommand::Seek(78));
-    assert!(lab.analysis_request() == question);
-    lab.apply(StageCommand::Restart);
-    assert_eq!(verdicts(&mut lab), before);
+    let question = studio.analysis_request();
+    studio.apply(StageCommand::Tick(Step::Next));
+    assert!(studio.analysis_request() == question);
+    studio.apply(RunCommand::Seek(50));
+    assert_eq!(verdicts(&mut studio), before);
+    studio.apply(RunCommand::Seek(78));
+    assert!(studio.analysis_request() == question);
+    studio.apply(StageCommand::Restart);
+    assert_eq!(verdicts(&mut studio), before);
 }
 
 #[test]
 fn a_body_placed_at_rest_is_judged_at_rest() {
-    let mut lab = opened("spring");
-    lab.tick();
-    lab.apply(RunCommand::Act(Action::Place { body: 0, q: [0.0].into(), v: [0.0].into() }));
-    for verdict in verdicts(&mut lab) {
+    let mut studio = opened("spring");
+    studio.tick();
+    studio.apply(RunCommand::Act(Action::Place { body: 0, q: [0.0].into(), v: [0.0].into() }));
+    for verdict in verdicts(&mut studio) {
         assert!(verdict.starts_with("within rounding"), "{verdict}");
     }
 }
 
 #[test]
 fn a_kicked_body_is_judged_from_its_true_state_after_the_kick() {
-    let mut lab = opened("spring");
-    (0..130).for_each(|_| lab.tick());
-    assert_eq!(starts_at_s(&mut lab), 0.0);
-    let (_, before) = truth(&lab);
-    lab.apply(RunCommand::Act(Action::Kick(3.0)));
-    let (x, v) = truth(&lab);
+    let mut studio = opened("spring");
+    (0..130).for_each(|_| studio.tick());
+    assert_eq!(starts_at_s(&mut studio), 0.0);
+    let (_, before) = truth(&studio);
+    studio.apply(RunCommand::Act(Action::Kick(3.0)));
+    let (x, v) = truth(&studio);
     assert_ne!(v, before);
     let kicked = Scene::built_in("spring").unwrap();
     let kicked = with(kicked, &[("x0_m", x), ("v0_m_per_s", v)]);
-    assert_eq!(verdicts(&mut lab), verdicts_on(&kicked));
-    assert_eq!(starts_at_s(&mut lab), 130.0 / 60.0);
+    assert_eq!(verdicts(&mut studio), verdicts_on(&kicked));
+    assert_eq!(starts_at_s(&mut studio), 130.0 / 60.0);
 }
 
 #[test]
@@ -171,14 +171,14 @@ fn a_run_judged_from_a_placement_keeps_its_throttle_and_the_rest_of_the_script()
         Scene { script, ..Scene::built_in("ship").unwrap() }
     };
     let hz = u64::from(scripted(&[]).tick_hz);
-    let mut lab = Studio::new(scripted(&[(hz, 0.5), (9 * hz, -0.25)]));
-    (0..2 * hz).for_each(|_| lab.tick());
-    lab.apply(RunCommand::Act(Action::Place { body: 0, q: [10.0].into(), v: [3.0].into() }));
+    let mut studio = Studio::new(scripted(&[(hz, 0.5), (9 * hz, -0.25)]));
+    (0..2 * hz).for_each(|_| studio.tick());
+    studio.apply(RunCommand::Act(Action::Place { body: 0, q: [10.0].into(), v: [3.0].into() }));
     let rest = scripted(&[(0, 0.5), (7 * hz, -0.25)]);
     let rest = with(rest, &[("s0_m", 10.0), ("v0_m_per_s", 3.0)]);
-    assert_eq!(verdicts(&mut lab), verdicts_on(&rest));
+    assert_eq!(verdicts(&mut studio), verdicts_on(&rest));
     // A throttle by hand holds from there on, and what the script had to come for it is gone.
-    lab.apply(RunCommand::Act(Action::Throttle(0.8)));
+    studio.apply(RunCommand::Act(Action::Throttle(0.8)));
     let by_hand = with(scripted(&[(0, 0.8)]), &[("s0_m", 10.0), ("v0_m_per_s", 3.0)]);
-    assert_eq!(verdicts(&mut lab), verdicts_on(&by_hand));
+    assert_eq!(verdicts(&mut studio), verdicts_on(&by_hand));
 }

@@ -3,22 +3,22 @@
 use regatta::lab::{KEYS, Key, SCENES, Scene, StageCommand, Studio, TICK_LADDER};
 
 /// Does what the table says of a key.
-fn press(lab: &mut Studio, key: Key) {
+fn press(studio: &mut Studio, key: Key) {
     let mut all = KEYS.iter().flat_map(|binding| binding.keys);
     let (_, command) = all.find(|(other, _)| *other == key).expect("a key of the table");
-    assert_eq!(lab.apply(command.clone()), None);
+    assert_eq!(studio.apply(command.clone()), None);
 }
 
-fn lab(scene: &str) -> Studio {
+fn studio(scene: &str) -> Studio {
     Studio::new(Scene::built_in(scene).unwrap())
 }
 
 #[test]
 fn a_race_is_titled_by_its_selected_lane() {
-    let mut lab = lab("stiff");
+    let mut studio = studio("stiff");
     let mut title_after = |keys: &[Key]| {
-        keys.iter().for_each(|key| press(&mut lab, *key));
-        lab.title()
+        keys.iter().for_each(|key| press(&mut studio, *key));
+        studio.title()
     };
     assert_eq!(title_after(&[]), "Regatta - stiff - Semi-implicit Euler - 60 Hz");
     let race = title_after(&[Key::Sign('c')]);
@@ -31,20 +31,20 @@ fn a_race_is_titled_by_its_selected_lane() {
 
 #[test]
 fn brackets_walk_the_tick_rates_and_n_and_b_the_scenes() {
-    let mut lab = lab("spring");
-    lab.apply(StageCommand::TickHz(2));
+    let mut studio = studio("spring");
+    studio.apply(StageCommand::TickHz(2));
     let start = "Regatta - spring - Explicit Euler - 2 Hz";
     let up = TICK_LADDER.into_iter().map(|hz| (hz, ']'));
     let down = TICK_LADDER.into_iter().rev().map(|hz| (hz, '['));
     for (hz, key) in up.chain(down) {
-        assert_eq!(lab.title(), format!("Regatta - spring - Explicit Euler - {hz} Hz"));
-        press(&mut lab, Key::Sign(key));
+        assert_eq!(studio.title(), format!("Regatta - spring - Explicit Euler - {hz} Hz"));
+        press(&mut studio, Key::Sign(key));
     }
-    assert_eq!(lab.title(), start);
+    assert_eq!(studio.title(), start);
     let mut walk = |key: char| -> Vec<String> {
         let mut title_of = |_| {
-            press(&mut lab, Key::Sign(key));
-            lab.scene_name()
+            press(&mut studio, Key::Sign(key));
+            studio.scene_name()
         };
         SCENES.iter().map(&mut title_of).collect()
     };

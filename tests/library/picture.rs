@@ -34,15 +34,15 @@ fn assert_drawable(picture: &Picture, what: &str) {
 #[test]
 fn nothing_that_blows_up_reaches_a_vertex() {
     for scene in SCENES {
-        let mut lab = Studio::new(Scene::built_in(scene.name).unwrap());
-        lab.apply(StageCommand::ToggleRace);
+        let mut studio = Studio::new(Scene::built_in(scene.name).unwrap());
+        studio.apply(StageCommand::ToggleRace);
         for frame in 0..400 {
-            lab.advance(16_666_667);
+            studio.advance(16_666_667);
             if frame % 3 == 0 {
-                lab.apply(RunCommand::NextInterpolation);
+                studio.apply(RunCommand::NextInterpolation);
             }
             let what = format!("{} at frame {frame}", scene.name);
-            assert_drawable(&compose(&lab, [780.0, 500.0]), &what);
+            assert_drawable(&compose(&studio, [780.0, 500.0]), &what);
         }
     }
 }
@@ -68,13 +68,13 @@ fn bodies_at_the_edge_of_what_is_followed_are_drawn() {
     });
     for scene in alone.chain([scene.clone()]) {
         let what = format!("far {}", scene.bodies.last().expect("a body").name);
-        let mut lab = Studio::new(scene);
-        lab.apply(StageCommand::ToggleRace);
+        let mut studio = Studio::new(scene);
+        studio.apply(StageCommand::ToggleRace);
         for _ in 0..20 {
-            lab.advance(16_666_667);
-            assert_drawable(&compose(&lab, [780.0, 500.0]), &what);
-            lab.apply(RunCommand::Act(Action::Kick(1e12)));
-            assert!(lab.race().truth().bodies()[0].stepper.v()[0].abs() < ESCAPE);
+            studio.advance(16_666_667);
+            assert_drawable(&compose(&studio, [780.0, 500.0]), &what);
+            studio.apply(RunCommand::Act(Action::Kick(1e12)));
+            assert!(studio.race().truth().bodies()[0].stepper.v()[0].abs() < ESCAPE);
         }
     }
 }
@@ -82,13 +82,13 @@ fn bodies_at_the_edge_of_what_is_followed_are_drawn() {
 #[test]
 fn a_body_of_two_coordinates_alone_has_a_cell_for_each_lane_that_fits_its_shape() {
     for name in ["chain", "pendulum", "orbit", "helm"] {
-        let mut lab = Studio::new(Scene::built_in(name).unwrap());
-        lab.apply(StageCommand::ToggleRace);
-        lab.apply(StageCommand::ToggleArrangement);
-        lab.advance(100_000_000);
+        let mut studio = Studio::new(Scene::built_in(name).unwrap());
+        studio.apply(StageCommand::ToggleRace);
+        studio.apply(StageCommand::ToggleArrangement);
+        studio.advance(100_000_000);
         let size = [780.0, 500.0];
-        let picture = compose(&lab, size);
-        let lanes = lab.race().entrants().iter();
+        let picture = compose(&studio, size);
+        let lanes = studio.race().entrants().iter();
         assert_eq!(picture.cells.len(), lanes.len(), "{name}");
         for (i, cell) in picture.cells.iter().enumerate() {
             let ([left, top], [right, bottom]) = (cell.rect.min, cell.rect.max);
@@ -107,11 +107,11 @@ fn a_body_of_two_coordinates_alone_has_a_cell_for_each_lane_that_fits_its_shape(
 
 #[test]
 fn an_orbits_trail_lies_on_its_ellipse() {
-    let mut lab = Studio::new(Scene::built_in("orbit").unwrap());
+    let mut studio = Studio::new(Scene::built_in("orbit").unwrap());
     for _ in 0..400 {
-        lab.advance(16_666_667);
+        studio.advance(16_666_667);
     }
-    let curve = &lab.past().truth_curves()[0];
+    let curve = &studio.past().truth_curves()[0];
     for sample in curve.samples() {
         // The distances from the two foci of a = 10 m, e = 0.6 add up to 2 a.
         let sum = sample.at.length() + (sample.at + glam::DVec2::new(12.0, 0.0)).length();
@@ -122,11 +122,11 @@ fn an_orbits_trail_lies_on_its_ellipse() {
 
 #[test]
 fn a_trail_leads_from_the_body_back_in_time_and_fades() {
-    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     for _ in 0..100 {
-        lab.advance(16_666_667);
+        studio.advance(16_666_667);
     }
-    let picture = compose(&lab, [780.0, 500.0]);
+    let picture = compose(&studio, [780.0, 500.0]);
     // The trail of the lane in front is 2.4 points wide.
     let mut trails =
         picture.paths().filter(|path| path.points[0].radius == 1.2 && path.points.len() > 2);
@@ -140,22 +140,22 @@ fn a_trail_leads_from_the_body_back_in_time_and_fades() {
 
 #[test]
 fn stages_of_no_size_are_composed() {
-    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     for mode in [Mode::Solo, Mode::Race] {
-        assert_eq!(lab.mode(), mode);
+        assert_eq!(studio.mode(), mode);
         for size in [[0.0, 0.0], [1.0, 1.0], [2000.0, 0.0], [0.0, 2000.0], [30.0, 20.0]] {
-            assert_drawable(&compose(&lab, size), &format!("{size:?}"));
+            assert_drawable(&compose(&studio, size), &format!("{size:?}"));
         }
-        lab.apply(StageCommand::ToggleRace);
+        studio.apply(StageCommand::ToggleRace);
     }
 }
 
 #[test]
 fn every_body_has_a_cell_inside_the_stage_and_side_by_side_every_body_of_every_lane() {
     let size = [780.0, 500.0];
-    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-    let assert_apart = |lab: &Studio, count: usize| {
-        let picture = compose(lab, size);
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    let assert_apart = |studio: &Studio, count: usize| {
+        let picture = compose(studio, size);
         assert_eq!(picture.cells.len(), count);
         for (i, cell) in picture.cells.iter().enumerate() {
             let ([left, top], [right, bottom]) = (cell.rect.min, cell.rect.max);
@@ -170,30 +170,30 @@ fn every_body_has_a_cell_inside_the_stage_and_side_by_side_every_body_of_every_l
             }
         }
     };
-    lab.advance(100_000_000);
-    assert_apart(&lab, 3);
-    lab.apply(StageCommand::ToggleRace);
-    lab.advance(100_000_000);
-    assert_apart(&lab, 3);
-    lab.apply(StageCommand::ToggleArrangement);
-    assert_apart(&lab, 3 * lab.race().entrants().len());
+    studio.advance(100_000_000);
+    assert_apart(&studio, 3);
+    studio.apply(StageCommand::ToggleRace);
+    studio.advance(100_000_000);
+    assert_apart(&studio, 3);
+    studio.apply(StageCommand::ToggleArrangement);
+    assert_apart(&studio, 3 * studio.race().entrants().len());
 }
 
 #[test]
 fn over_each_other_every_lane_has_a_number_and_the_selected_one_its_own_body() {
-    let mut lab = Studio::new(Scene::built_in("orbit").unwrap());
-    lab.apply(StageCommand::ToggleRace);
-    (0..60).for_each(|_| lab.tick());
-    for entry in 0..lab.race().entrants().len() {
-        lab.apply(StageCommand::Pick(entry));
-        let picture = compose(&lab, [780.0, 500.0]);
+    let mut studio = Studio::new(Scene::built_in("orbit").unwrap());
+    studio.apply(StageCommand::ToggleRace);
+    (0..60).for_each(|_| studio.tick());
+    for entry in 0..studio.race().entrants().len() {
+        studio.apply(StageCommand::Pick(entry));
+        let picture = compose(&studio, [780.0, 500.0]);
         assert_eq!((picture.cells.len(), picture.cells[0].entry), (1, entry));
-        for lane in lab.race().entrants() {
-            let (lane, number) = (lane.id, (lab.entry(lane) + 1).to_string());
+        for lane in studio.race().entrants() {
+            let (lane, number) = (lane.id, (studio.entry(lane) + 1).to_string());
             let is_told = picture.labels.iter().any(|label| label.text == number);
             assert!(is_told || lane == picture.cells[0].lane, "{number} with {entry} in front");
             let is_own = |whose| matches!(whose, Whose::Lane { lane: of, .. } if of == lane);
-            assert!(picture.cells[0].grips(&lab).any(|grip| is_own(grip.whose)), "{number}");
+            assert!(picture.cells[0].grips(&studio).any(|grip| is_own(grip.whose)), "{number}");
         }
     }
 }
@@ -202,16 +202,16 @@ fn over_each_other_every_lane_has_a_number_and_the_selected_one_its_own_body() {
 fn side_by_side_bodies_and_words_stay_in_their_cells_however_low_those_are() {
     let mut scene = Scene::built_in("harbour").unwrap();
     scene.lanes = Studio::new(scene.clone()).entries().to_vec();
-    let mut lab = Studio::new(scene);
-    lab.apply(StageCommand::ToggleRace);
-    lab.apply(StageCommand::ToggleArrangement);
-    (0..240).for_each(|_| lab.tick());
-    let picture = compose(&lab, [780.0, 376.0]);
-    let (lanes, height) = (lab.race().entrants().len(), 376.0_f32);
+    let mut studio = Studio::new(scene);
+    studio.apply(StageCommand::ToggleRace);
+    studio.apply(StageCommand::ToggleArrangement);
+    (0..240).for_each(|_| studio.tick());
+    let picture = compose(&studio, [780.0, 376.0]);
+    let (lanes, height) = (studio.race().entrants().len(), 376.0_f32);
     assert!(lanes > 25 && picture.cells.len() == 3 * lanes);
     let is_truth = |whose| matches!(whose, Whose::Truth);
     for cell in &picture.cells {
-        let truth = cell.grips(&lab).find(|grip| is_truth(grip.whose)).expect("a ghost");
+        let truth = cell.grips(&studio).find(|grip| is_truth(grip.whose)).expect("a ghost");
         assert!(cell.rect.contains(truth.at), "{:?} in {:?}", truth.at, cell.rect);
     }
     for label in &picture.labels {
@@ -229,25 +229,25 @@ fn badges(picture: &Picture) -> Vec<&str> {
 
 #[test]
 fn a_body_that_comes_and_goes_is_drawn_while_it_is_inside_and_told_of_by_how_far_it_swings() {
-    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-    let euler = lab.entries().iter().position(|spec| spec.method.id == "explicit-euler");
-    lab.apply(StageCommand::Pick(euler.unwrap()));
-    (0..540).for_each(|_| lab.tick());
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    let euler = studio.entries().iter().position(|spec| spec.method.id == "explicit-euler");
+    studio.apply(StageCommand::Pick(euler.unwrap()));
+    (0..540).for_each(|_| studio.tick());
     let (mut drawn, mut furthest) = (0, 0.0_f64);
     for frame in 0..60 {
-        lab.advance(16_666_667);
-        let picture = compose(&lab, [780.0, 500.0]);
+        studio.advance(16_666_667);
+        let picture = compose(&studio, [780.0, 500.0]);
         let cell = &picture.cells[0];
         let is_lane = |whose| matches!(whose, Whose::Lane { .. });
-        let grip = cell.grips(&lab).find(|grip| is_lane(grip.whose)).expect("it can be grabbed");
+        let grip = cell.grips(&studio).find(|grip| is_lane(grip.whose)).expect("it can be grabbed");
         let is_inside = grip.at[0] > 70.0 && cell.rect.contains(grip.at);
         // A block has a face in its own colour, and so has a badge: but only a block has a pen.
-        let colour = Theme::Dark.style(lab.entries()[euler.unwrap()].method).0;
+        let colour = Theme::Dark.style(studio.entries()[euler.unwrap()].method).0;
         let is_pen = |shape: &&Shape| matches!(shape, Shape::Fill(fill) if fill.corners.len() == 3 && fill.corners[0].1 == colour);
         let pens = picture.shapes.iter().filter(is_pen).count();
         assert!(pens == usize::from(is_inside), "{pens} at frame {frame}, {:?}", grip.at);
         drawn += pens;
-        let place = lab.race().entrants()[0].lane.bodies()[0].stepper.q()[0];
+        let place = studio.race().entrants()[0].lane.bodies()[0].stepper.q()[0];
         furthest = furthest.max(place.abs());
         let told = badges(&picture);
         assert_eq!(told.len(), 1, "{told:?} at frame {frame}");
@@ -259,11 +259,11 @@ fn a_body_that_comes_and_goes_is_drawn_while_it_is_inside_and_told_of_by_how_far
 
 #[test]
 fn a_lane_that_left_the_stage_has_a_badge_with_its_place_and_is_drawn_across_nothing() {
-    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-    lab.apply(StageCommand::ToggleRace);
-    (0..600).for_each(|_| lab.tick());
-    let picture = compose(&lab, [780.0, 500.0]);
-    let x = lab.race().entrants()[0].lane.bodies()[0].stepper.q()[0];
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    studio.apply(StageCommand::ToggleRace);
+    (0..600).for_each(|_| studio.tick());
+    let picture = compose(&studio, [780.0, 500.0]);
+    let x = studio.race().entrants()[0].lane.bodies()[0].stepper.q()[0];
     let decade = libm::floor(libm::log10(x.abs())) as i32;
     assert!(decade >= 1, "{x}");
     let texts: Vec<&str> = picture.labels.iter().map(|label| &*label.text).collect();
@@ -271,7 +271,7 @@ fn a_lane_that_left_the_stage_has_a_badge_with_its_place_and_is_drawn_across_not
         text.ends_with(" m") && text.starts_with(['−', '1', '2', '3', '4', '5', '6', '7', '8', '9'])
     };
     assert!(texts.iter().any(|text| is_badge(&text)), "{texts:?}");
-    let colour = Theme::Dark.style(lab.entries()[0].method).0;
+    let colour = Theme::Dark.style(studio.entries()[0].method).0;
     let trails = picture.paths().filter(|path| path.points[0].colour[..3] == colour[..3]);
     let widest = trails.map(|path| {
         let x = path.points.iter().map(|point| point.at[0]);
@@ -283,17 +283,18 @@ fn a_lane_that_left_the_stage_has_a_badge_with_its_place_and_is_drawn_across_not
 
 #[test]
 fn the_ghost_shows_only_when_it_is_asked_for() {
-    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-    lab.advance(100_000_000);
-    let drawn = |lab: &Studio| {
-        let picture = compose(lab, [780.0, 500.0]);
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    studio.advance(100_000_000);
+    let drawn = |studio: &Studio| {
+        let picture = compose(studio, [780.0, 500.0]);
         let is_ghost = |grip: &regatta::lab::picture::Grip| grip.whose == Whose::Truth;
-        let ghosts = picture.cells.iter().flat_map(|cell| cell.grips(lab)).filter(is_ghost).count();
+        let ghosts =
+            picture.cells.iter().flat_map(|cell| cell.grips(studio)).filter(is_ghost).count();
         (picture.shapes.len(), ghosts)
     };
-    let with = drawn(&lab);
-    lab.apply(ViewCommand::ToggleGhost);
-    let without = drawn(&lab);
+    let with = drawn(&studio);
+    studio.apply(ViewCommand::ToggleGhost);
+    let without = drawn(&studio);
     assert!(without.0 < with.0, "{without:?} shapes without a ghost, {with:?} with");
     assert_eq!((without.1, with.1), (0, 3));
 }
@@ -303,53 +304,53 @@ fn the_stage_says_which_body_halted_and_where_there_is_no_truth() {
     let text = "title = 'x'\ntick_hz = 10\nseconds = 60\nmethods = ['explicit-euler', 'rk4']\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 400\nkick_n_s = 0\n\
                 [[ship]]\nthrust_n = 20000\ndrag_n_s_per_m = 1000\nmass_kg = 10000\nkick_n_s = 1e15\n";
-    let mut lab = Studio::new(Scene::parse("two.toml", text).unwrap());
-    lab.apply(StageCommand::ToggleRace);
-    let said = |lab: &Studio| {
-        let labels = compose(lab, [780.0, 500.0]).labels.into_iter().map(|label| label.text);
+    let mut studio = Studio::new(Scene::parse("two.toml", text).unwrap());
+    studio.apply(StageCommand::ToggleRace);
+    let said = |studio: &Studio| {
+        let labels = compose(studio, [780.0, 500.0]).labels.into_iter().map(|label| label.text);
         let is_told = |text: &String| text.contains("blew up") || text.contains("from tick");
         labels.filter(is_told).collect::<Vec<_>>()
     };
-    assert_eq!(said(&lab), [""; 0]);
-    (0..300).for_each(|_| lab.tick());
-    let halt = lab.race().entrants()[0].lane.halted().expect("explicit Euler loses the spring");
+    assert_eq!(said(&studio), [""; 0]);
+    (0..300).for_each(|_| studio.tick());
+    let halt = studio.race().entrants()[0].lane.halted().expect("explicit Euler loses the spring");
     let spring = format!("1 {}", halt.fate());
-    assert_eq!(said(&lab), std::slice::from_ref(&spring));
+    assert_eq!(said(&studio), std::slice::from_ref(&spring));
 
     // A kick that neither lanes nor truth survive: the ghost is gone with the truth.
-    let ghosts = |lab: &Studio| {
-        let cells = compose(lab, [780.0, 500.0]).cells;
-        let grips = cells.iter().flat_map(|cell| cell.grips(lab));
+    let ghosts = |studio: &Studio| {
+        let cells = compose(studio, [780.0, 500.0]).cells;
+        let grips = cells.iter().flat_map(|cell| cell.grips(studio));
         grips.filter(|grip| grip.whose == Whose::Truth).count()
     };
-    assert_eq!(ghosts(&lab), 2);
-    lab.apply(RunCommand::Act(Action::Kick(1e30)));
+    assert_eq!(ghosts(&studio), 2);
+    studio.apply(RunCommand::Act(Action::Kick(1e30)));
     let ship = ["1 blew up at 30 s · 2 blew up at 30 s", "no exact solution from tick 300 on"];
-    assert_eq!(said(&lab), [&*spring, ship[0], ship[1]]);
-    assert_eq!(ghosts(&lab), 1);
-    lab.apply(StageCommand::ToggleRace);
-    let alone = said(&lab);
+    assert_eq!(said(&studio), [&*spring, ship[0], ship[1]]);
+    assert_eq!(ghosts(&studio), 1);
+    studio.apply(StageCommand::ToggleRace);
+    let alone = said(&studio);
     assert!(alone.contains(&ship[1].to_owned()), "{alone:?}");
 }
 
 #[test]
 fn loops_over_each_other_are_named_below_and_numbered_above_their_bodies() {
-    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-    lab.apply(Command::Loop(LoopCommand::ToggleLab));
-    lab.run_loops();
-    lab.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
-    let below = compose(&lab, [780.0, 500.0]);
-    lab.apply(StageCommand::ToggleArrangement);
-    let over = compose(&lab, [780.0, 500.0]);
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    studio.apply(Command::Loop(LoopCommand::ToggleLab));
+    studio.run_loops();
+    studio.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
+    let below = compose(&studio, [780.0, 500.0]);
+    studio.apply(StageCommand::ToggleArrangement);
+    let over = compose(&studio, [780.0, 500.0]);
     let exact = |picture: &Picture| {
-        let colour = lab.display().theme.palette().exact;
+        let colour = studio.display().theme.palette().exact;
         let is_exact = |shape: &&Shape| match shape {
             Shape::Path(path) => path.points.iter().all(|point| point.colour == colour),
             _ => false,
         };
         picture.shapes.iter().filter(is_exact).count()
     };
-    let loops = lab.loop_lab().unwrap();
+    let loops = studio.loop_lab().unwrap();
     let count = loops.on_stage().len();
     assert_eq!(exact(&below), count * exact(&over), "one exact body");
     for &place in loops.on_stage() {

@@ -122,14 +122,14 @@ fn a_saved_scene_has_the_comments_and_the_order_of_its_author() {
 
 #[test]
 fn a_recording_of_a_scene_with_comments_keeps_them_and_repeats_its_run() {
-    let mut lab = Studio::new(parsed(BY_HAND));
-    lab.apply(StageCommand::ToggleRace);
-    lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value: 55.5 }));
-    lab.apply(StageCommand::Restart);
-    (0..45).for_each(|_| lab.tick());
-    lab.apply(RunCommand::Act(Action::Kick(2.0)));
-    (0..45).for_each(|_| lab.tick());
-    let text = lab.recording().unwrap();
+    let mut studio = Studio::new(parsed(BY_HAND));
+    studio.apply(StageCommand::ToggleRace);
+    studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value: 55.5 }));
+    studio.apply(StageCommand::Restart);
+    (0..45).for_each(|_| studio.tick());
+    studio.apply(RunCommand::Act(Action::Kick(2.0)));
+    (0..45).for_each(|_| studio.tick());
+    let text = studio.recording().unwrap();
     assert_eq!(
         other_lines(BY_HAND, &text),
         ["seconds   = 5   # a short one", "stiffness_n_per_m = 4e1 # soft"]
@@ -159,7 +159,7 @@ fn a_scene_is_saved_plainly_where_its_authors_way_of_writing_is_not_known() {
 
 /// The harbour in solo mode, after an action of every kind.
 fn flown() -> Studio {
-    let mut lab = Studio::new(built_in("harbour"));
+    let mut studio = Studio::new(built_in("harbour"));
     let rk4 = LaneSpec { substeps: 3, ..LaneSpec::plain(method("rk4").unwrap()) };
     let actions = [
         Action::Set { body: 0, parameter: 1, value: 90.0 },
@@ -176,25 +176,25 @@ fn flown() -> Studio {
         Action::Tolerance { lane: LaneId(1), tolerance: 1e-7 },
     ];
     for action in actions {
-        (0..25).for_each(|_| lab.tick());
-        lab.apply(RunCommand::Act(action));
+        (0..25).for_each(|_| studio.tick());
+        studio.apply(RunCommand::Act(action));
     }
-    (0..25).for_each(|_| lab.tick());
-    lab
+    (0..25).for_each(|_| studio.tick());
+    studio
 }
 
 #[test]
 fn a_recording_has_all_actions_and_repeats_the_run_to_the_bit() {
-    let lab = flown();
-    let scene = parsed(&lab.recording().unwrap());
+    let studio = flown();
+    let scene = parsed(&studio.recording().unwrap());
     let ticks: Vec<u64> = scene.script.iter().map(|row| row.tick).collect();
     assert_eq!(ticks, (1..=9).map(|n| 25 * n).collect::<Vec<_>>());
     assert_eq!(scene.bodies[0].values, built_in("harbour").bodies[0].values, "as at the start");
     assert_eq!((scene.lanes.len(), scene.tick_hz), (1, 60));
-    assert!((scene.seconds - lab.race().t()).abs() < 1e-12);
+    assert!((scene.seconds - studio.race().t()).abs() < 1e-12);
     let last = scene.checks.last().unwrap();
     assert_eq!((last.tick, last.lane), (250, LaneId(1)));
-    assert_eq!(Some(last.hash), lab.race().lane_hashes().next());
+    assert_eq!(Some(last.hash), studio.race().lane_hashes().next());
     // In every second at its rate, and at the end.
     let checked: Vec<u64> = scene.checks.iter().map(|check| check.tick).collect();
     assert_eq!(checked, [60, 117, 167, 217, 250]);
@@ -207,28 +207,28 @@ fn a_recording_has_all_actions_and_repeats_the_run_to_the_bit() {
 
 #[test]
 fn a_recording_repeats_its_run_in_a_lab() {
-    let lab = flown();
-    let mut again = Studio::new(parsed(&lab.recording().unwrap()));
+    let studio = flown();
+    let mut again = Studio::new(parsed(&studio.recording().unwrap()));
     (0..250).for_each(|_| again.tick());
-    assert_eq!(again.race().state_hash(), lab.race().state_hash());
-    assert_eq!(again.recording().unwrap(), lab.recording().unwrap(), "and is recorded alike");
+    assert_eq!(again.race().state_hash(), studio.race().state_hash());
+    assert_eq!(again.recording().unwrap(), studio.recording().unwrap(), "and is recorded alike");
 }
 
 #[test]
 fn a_recording_of_a_scripted_race_that_goes_solo_repeats_it_to_the_bit() {
-    let mut lab = Studio::new(built_in("helm"));
-    lab.apply(StageCommand::ToggleRace);
-    (0..200).for_each(|_| lab.tick());
-    lab.apply(RunCommand::Act(Action::Rudder(0.4)));
-    (0..200).for_each(|_| lab.tick());
-    let recorded = parsed(&lab.recording().unwrap());
+    let mut studio = Studio::new(built_in("helm"));
+    studio.apply(StageCommand::ToggleRace);
+    (0..200).for_each(|_| studio.tick());
+    studio.apply(RunCommand::Act(Action::Rudder(0.4)));
+    (0..200).for_each(|_| studio.tick());
+    let recorded = parsed(&studio.recording().unwrap());
     assert!(recorded.checks.iter().any(|check| check.lane.0 == recorded.lanes.len()));
     assert!(wrong_lanes(&recorded).is_empty());
 
-    lab.apply(StageCommand::Pick(2));
-    lab.apply(StageCommand::ToggleRace);
-    (0..50).for_each(|_| lab.tick());
-    let recorded = parsed(&lab.recording().unwrap());
+    studio.apply(StageCommand::Pick(2));
+    studio.apply(StageCommand::ToggleRace);
+    (0..50).for_each(|_| studio.tick());
+    let recorded = parsed(&studio.recording().unwrap());
     let last = recorded.checks.last().unwrap();
     assert_eq!((last.tick, last.lane), (450, LaneId(3)), "its number is that of before");
     assert!(recorded.script.iter().any(|row| row.action == Action::Solo { lane: LaneId(3) }));
@@ -237,12 +237,12 @@ fn a_recording_of_a_scripted_race_that_goes_solo_repeats_it_to_the_bit() {
 
 #[test]
 fn a_recorded_race_opens_as_a_race_and_a_recorded_solo_run_does_not() {
-    let mut lab = flown();
-    let solo = parsed(&lab.recording().unwrap());
+    let mut studio = flown();
+    let solo = parsed(&studio.recording().unwrap());
     assert!(!solo.opens_as_race);
-    lab.apply(StageCommand::ToggleRace);
-    (0..90).for_each(|_| lab.tick());
-    let text = lab.recording().unwrap();
+    studio.apply(StageCommand::ToggleRace);
+    (0..90).for_each(|_| studio.tick());
+    let text = studio.recording().unwrap();
     assert!(text.contains("\n[race]\nopen = true\n"), "{text}");
     let race = parsed(&text);
     assert!(race.opens_as_race && wrong_lanes(&race).is_empty());
@@ -253,7 +253,7 @@ fn a_recorded_race_opens_as_a_race_and_a_recorded_solo_run_does_not() {
     again.open_file("race.toml".as_ref(), race);
     assert_eq!(again.mode(), Mode::Race);
     (0..90).for_each(|_| again.tick());
-    assert_eq!(again.race().state_hash(), lab.race().state_hash());
+    assert_eq!(again.race().state_hash(), studio.race().state_hash());
     assert_eq!(again.recording().unwrap(), text, "and is recorded alike");
 }
 
@@ -263,18 +263,18 @@ fn a_restart_keeps_the_settings_of_a_person_and_not_those_of_a_script() {
         "{}\n[[command]]\ntick = 5\nset = {{ body = \"ship\", key = \"mass_kg\", value = 5.0 }}\n",
         built_in("ship").to_toml()
     );
-    let mut lab = Studio::new(parsed(&text));
-    let mass = lab.race().values(0)[2];
-    (0..10).for_each(|_| lab.tick());
-    assert_eq!(lab.race().values(0)[2], 5.0);
-    lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 0, value: 123.0 }));
-    lab.apply(StageCommand::Restart);
-    assert_eq!((lab.race().values(0)[2], lab.race().values(0)[0]), (mass, 123.0));
-    assert_eq!(lab.scene().bodies[0].values[0], 123.0);
+    let mut studio = Studio::new(parsed(&text));
+    let mass = studio.race().values(0)[2];
+    (0..10).for_each(|_| studio.tick());
+    assert_eq!(studio.race().values(0)[2], 5.0);
+    studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: 0, value: 123.0 }));
+    studio.apply(StageCommand::Restart);
+    assert_eq!((studio.race().values(0)[2], studio.race().values(0)[0]), (mass, 123.0));
+    assert_eq!(studio.scene().bodies[0].values[0], 123.0);
     // A person who has set what the script sets keeps it.
-    lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 2, value: 7.0 }));
-    (0..10).for_each(|_| lab.tick());
-    assert_eq!(lab.race().values(0)[2], 7.0);
+    studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: 2, value: 7.0 }));
+    (0..10).for_each(|_| studio.tick());
+    assert_eq!(studio.race().values(0)[2], 7.0);
 }
 
 #[test]
@@ -334,19 +334,19 @@ fn equal_cost_includes_the_effect_of_the_script_on_the_cost() {
 
 #[test]
 fn equal_cost_is_switched_on_and_off_by_a_key_and_on_by_a_scene() {
-    let mut lab = Studio::new(built_in("spring"));
-    lab.apply(StageCommand::ToggleRace);
-    let substeps = |lab: &Studio| -> Vec<u32> {
-        lab.race().entrants().iter().map(|entrant| entrant.lane.substeps()).collect()
+    let mut studio = Studio::new(built_in("spring"));
+    studio.apply(StageCommand::ToggleRace);
+    let substeps = |studio: &Studio| -> Vec<u32> {
+        studio.race().entrants().iter().map(|entrant| entrant.lane.substeps()).collect()
     };
-    let before = substeps(&lab);
-    (0..10).for_each(|_| lab.tick());
-    lab.apply(RunCommand::ToggleEqualCost);
-    let equal = substeps(&lab);
+    let before = substeps(&studio);
+    (0..10).for_each(|_| studio.tick());
+    studio.apply(RunCommand::ToggleEqualCost);
+    let equal = substeps(&studio);
     assert!(equal.iter().any(|n| *n > 1), "{equal:?}");
-    assert_eq!(lab.race().tick(), 10, "the race goes on");
-    lab.apply(RunCommand::ToggleEqualCost);
-    assert_eq!(substeps(&lab), before);
+    assert_eq!(studio.race().tick(), 10, "the race goes on");
+    studio.apply(RunCommand::ToggleEqualCost);
+    assert_eq!(substeps(&studio), before);
 
     let text = built_in("spring").to_toml();
     let (top, tables) = text.split_once("\n[[").expect("a body");
@@ -366,18 +366,18 @@ fn lanes_of_one_method_get_their_own_substeps_back_after_equal_cost() {
     let dearest = "[[lane]]\nmethod = \"implicit-euler\"\n";
     let spring = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
     let head = "title = \"t\"\ntick_hz = 60\nseconds = 9\n";
-    let mut lab = Studio::new(parsed(&format!("{head}{}{dearest}{spring}", lanes.concat())));
-    lab.apply(StageCommand::ToggleRace);
-    let substeps = |lab: &Studio| -> Vec<u32> {
-        lab.race().entrants().iter().map(|entrant| entrant.lane.substeps()).collect()
+    let mut studio = Studio::new(parsed(&format!("{head}{}{dearest}{spring}", lanes.concat())));
+    studio.apply(StageCommand::ToggleRace);
+    let substeps = |studio: &Studio| -> Vec<u32> {
+        studio.race().entrants().iter().map(|entrant| entrant.lane.substeps()).collect()
     };
-    let before = substeps(&lab);
+    let before = substeps(&studio);
     assert_eq!(before, [1, 4, 1]);
-    lab.apply(RunCommand::ToggleEqualCost);
-    let equal = substeps(&lab);
+    studio.apply(RunCommand::ToggleEqualCost);
+    let equal = substeps(&studio);
     assert_ne!(equal, before);
-    lab.apply(RunCommand::ToggleEqualCost);
-    assert_eq!(substeps(&lab), before);
+    studio.apply(RunCommand::ToggleEqualCost);
+    assert_eq!(substeps(&studio), before);
 }
 
 #[test]
@@ -409,13 +409,13 @@ fn new_hashes_are_written_into_a_file_without_other_changes() {
 
 #[test]
 fn an_action_at_the_last_tick_is_in_the_recording() {
-    let mut lab = Studio::new(built_in("spring"));
-    lab.apply(RunCommand::Act(Action::Place { body: 0, q: [2.5].into(), v: [0.0].into() }));
-    let at_start = parsed(&lab.recording().unwrap());
+    let mut studio = Studio::new(built_in("spring"));
+    studio.apply(RunCommand::Act(Action::Place { body: 0, q: [2.5].into(), v: [0.0].into() }));
+    let at_start = parsed(&studio.recording().unwrap());
     assert_eq!(at_start.script.len(), 1);
-    (0..10).for_each(|_| lab.tick());
-    lab.apply(RunCommand::Act(Action::Kick(1.0)));
-    let recorded = parsed(&lab.recording().unwrap());
+    (0..10).for_each(|_| studio.tick());
+    studio.apply(RunCommand::Act(Action::Kick(1.0)));
+    let recorded = parsed(&studio.recording().unwrap());
     assert_eq!(recorded.script.iter().map(|row| row.tick).collect::<Vec<_>>(), [0, 10]);
     assert!(wrong_lanes(&recorded).is_empty());
 }

@@ -80,11 +80,11 @@ fn targets() -> Vec<Target> {
 
 /// A run with an act in it.
 fn recording(scene: &str) -> String {
-    let mut lab = Studio::new(Scene::built_in(scene).expect("a built-in scene"));
-    (0..70).for_each(|_| lab.tick());
-    lab.apply(RunCommand::Act(Action::Kick(0.5)));
-    (0..70).for_each(|_| lab.tick());
-    lab.recording().expect("a run that can be written")
+    let mut studio = Studio::new(Scene::built_in(scene).expect("a built-in scene"));
+    (0..70).for_each(|_| studio.tick());
+    studio.apply(RunCommand::Act(Action::Kick(0.5)));
+    (0..70).for_each(|_| studio.tick());
+    studio.recording().expect("a run that can be written")
 }
 
 fn read_scene(bytes: &[u8], round: usize) -> bool {

@@ -262,45 +262,49 @@ fn difference(found: &Shown, wanted: &Shown) -> String {
 fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
     let mut dice = Dice::new(3);
     for n in 0..8 {
-        let mut lab = Studio::new(scene(&mut dice, n));
-        (0..700).for_each(|_| lab.tick());
-        lab.apply(RunCommand::Act(Action::Kick(0.3)));
-        (0..300).for_each(|_| lab.tick());
-        let end = shown(lab.timeline());
-        lab.apply(RunCommand::Seek(400));
-        assert_eq!((lab.timeline().end(), lab.timeline().is_in_past()), (1000, true));
+        let mut studio = Studio::new(scene(&mut dice, n));
+        (0..700).for_each(|_| studio.tick());
+        studio.apply(RunCommand::Act(Action::Kick(0.3)));
+        (0..300).for_each(|_| studio.tick());
+        let end = shown(studio.timeline());
+        studio.apply(RunCommand::Seek(400));
+        assert_eq!((studio.timeline().end(), studio.timeline().is_in_past()), (1000, true));
         // What changes nothing leaves the future as it is.
-        let throttle = lab.race().throttle();
-        lab.apply(RunCommand::Act(Action::Throttle(throttle)));
+        let throttle = studio.race().throttle();
+        studio.apply(RunCommand::Act(Action::Throttle(throttle)));
         assert_eq!(
-            (lab.timeline().end(), lab.timeline().undoes()),
+            (studio.timeline().end(), studio.timeline().undoes()),
             (1000, Some("the kick at tick 700"))
         );
 
-        let rows = lab.timeline().session().journal().rows().len();
-        lab.apply(RunCommand::Act(Action::Kick(-0.4)));
-        assert_eq!((lab.timeline().end(), lab.timeline().is_in_past()), (400, false));
-        assert_eq!(lab.timeline().session().journal().rows().len(), rows, "one came, one went");
-        let notice = lab.viewer().notice.as_deref().expect("it says so");
+        let rows = studio.timeline().session().journal().rows().len();
+        studio.apply(RunCommand::Act(Action::Kick(-0.4)));
+        assert_eq!((studio.timeline().end(), studio.timeline().is_in_past()), (400, false));
+        assert_eq!(studio.timeline().session().journal().rows().len(), rows, "one came, one went");
+        let notice = studio.viewer().notice.as_deref().expect("it says so");
         assert!(notice.contains("Ctrl Z"), "{notice}");
-        (0..900).for_each(|_| lab.tick());
-        assert_ne!(shown(lab.timeline()).hashes, end.hashes);
+        (0..900).for_each(|_| studio.tick());
+        assert_ne!(shown(studio.timeline()).hashes, end.hashes);
 
-        lab.apply(RunCommand::Undo);
-        assert_eq!((lab.race().tick(), lab.timeline().end()), (400, 1000));
-        lab.apply(RunCommand::Seek(1000));
-        let found = shown(lab.timeline());
+        studio.apply(RunCommand::Undo);
+        assert_eq!((studio.race().tick(), studio.timeline().end()), (400, 1000));
+        studio.apply(RunCommand::Seek(1000));
+        let found = shown(studio.timeline());
         assert!(found == end, "scene {n}: {}", difference(&found, &end));
-        lab.apply(RunCommand::Undo);
-        assert_eq!((lab.race().tick(), lab.timeline().end()), (700, 700), "before the first kick");
-        assert_eq!(lab.timeline().undoes(), None);
-        lab.apply(RunCommand::Undo);
-        assert_eq!(lab.timeline().end(), 700, "there is no more to undo");
-        lab.apply(RunCommand::Redo);
-        lab.apply(RunCommand::Seek(1000));
-        let found = shown(lab.timeline());
+        studio.apply(RunCommand::Undo);
+        assert_eq!(
+            (studio.race().tick(), studio.timeline().end()),
+            (700, 700),
+            "before the first kick"
+        );
+        assert_eq!(studio.timeline().undoes(), None);
+        studio.apply(RunCommand::Undo);
+        assert_eq!(studio.timeline().end(), 700, "there is no more to undo");
+        studio.apply(RunCommand::Redo);
+        studio.apply(RunCommand::Seek(1000));
+        let found = shown(studio.timeline());
         assert!(found == end, "scene {n}: {}", difference(&found, &end));
-        assert_eq!(lab.timeline().redoes(), Some("the kick at tick 400"));
+        assert_eq!(studio.timeline().redoes(), Some("the kick at tick 400"));
     }
 }
 
@@ -372,43 +376,47 @@ fn events_are_ordered_by_tick_and_are_discarded_and_restored_with_their_future()
 
 #[test]
 fn undo_also_restores_the_settings_of_the_next_start() {
-    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-    lab.apply(StageCommand::ToggleRace);
-    (0..200).for_each(|_| lab.tick());
-    let substeps = |lab: &Studio| -> Vec<u32> {
-        lab.race().entrants().iter().map(|entrant| entrant.lane.substeps()).collect()
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    studio.apply(StageCommand::ToggleRace);
+    (0..200).for_each(|_| studio.tick());
+    let substeps = |studio: &Studio| -> Vec<u32> {
+        studio.race().entrants().iter().map(|entrant| entrant.lane.substeps()).collect()
     };
-    let (mass, plain, asked) = (lab.race().values(0)[0], substeps(&lab), lab.analysis_request());
+    let (mass, plain, asked) =
+        (studio.race().values(0)[0], substeps(&studio), studio.analysis_request());
     for command in [
         Command::Run(RunCommand::Act(Action::Set { body: 0, parameter: 0, value: 2.5 })),
         Command::Stage(StageCommand::TickHz(50)),
         Command::Run(RunCommand::ToggleEqualCost),
     ] {
-        lab.apply(RunCommand::Seek(100));
-        lab.apply(command);
-        lab.apply(RunCommand::Undo);
-        assert_eq!((lab.race().values(0)[0], lab.scene().bodies[0].values[0]), (mass, mass));
-        assert!(lab.analysis_request() == asked);
+        studio.apply(RunCommand::Seek(100));
+        studio.apply(command);
+        studio.apply(RunCommand::Undo);
+        assert_eq!((studio.race().values(0)[0], studio.scene().bodies[0].values[0]), (mass, mass));
+        assert!(studio.analysis_request() == asked);
     }
-    lab.apply(RunCommand::ToggleEqualCost);
-    assert_ne!(substeps(&lab), plain, "what was undone is not taken back, but done");
-    lab.apply(RunCommand::Undo);
-    lab.apply(StageCommand::Restart);
-    assert_eq!((lab.race().tick_hz(), substeps(&lab)), (60, plain));
+    studio.apply(RunCommand::ToggleEqualCost);
+    assert_ne!(substeps(&studio), plain, "what was undone is not taken back, but done");
+    studio.apply(RunCommand::Undo);
+    studio.apply(StageCommand::Restart);
+    assert_eq!((studio.race().tick_hz(), substeps(&studio)), (60, plain));
 }
 
 #[test]
 fn a_parameter_that_acts_at_the_start_does_not_change_the_run_or_its_future() {
-    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-    (0..200).for_each(|_| lab.tick());
-    lab.apply(RunCommand::Seek(100));
-    lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 3, value: 0.25 }));
-    assert_eq!((lab.timeline().end(), lab.timeline().undoes()), (200, Some("the start value")));
-    assert!(lab.timeline().session().journal().rows().is_empty());
-    lab.apply(StageCommand::Restart);
-    assert_eq!(lab.race().truth().bodies()[0].stepper.q(), [0.25]);
-    lab.apply(RunCommand::Undo);
-    assert_eq!((lab.race().tick(), lab.timeline().end()), (100, 200));
-    lab.apply(RunCommand::Undo);
-    assert_ne!(lab.scene().bodies[0].values[3], 0.25);
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    (0..200).for_each(|_| studio.tick());
+    studio.apply(RunCommand::Seek(100));
+    studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: 3, value: 0.25 }));
+    assert_eq!(
+        (studio.timeline().end(), studio.timeline().undoes()),
+        (200, Some("the start value"))
+    );
+    assert!(studio.timeline().session().journal().rows().is_empty());
+    studio.apply(StageCommand::Restart);
+    assert_eq!(studio.race().truth().bodies()[0].stepper.q(), [0.25]);
+    studio.apply(RunCommand::Undo);
+    assert_eq!((studio.race().tick(), studio.timeline().end()), (100, 200));
+    studio.apply(RunCommand::Undo);
+    assert_ne!(studio.scene().bodies[0].values[3], 0.25);
 }

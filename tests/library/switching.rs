@@ -175,14 +175,14 @@ fn what_is_set_to_what_it_is_changes_no_bit_of_lanes_or_truth() {
 fn a_persons_action_that_changes_nothing_changes_no_bit() {
     for method in GENERAL_METHODS {
         let begun = || {
-            let mut lab = Studio::new(mixed());
-            lab.apply(StageCommand::Method(method));
-            (0..40).for_each(|_| lab.tick());
-            lab
+            let mut studio = Studio::new(mixed());
+            studio.apply(StageCommand::Method(method));
+            (0..40).for_each(|_| studio.tick());
+            studio
         };
-        let ended = |mut lab: Studio| {
-            (0..40).for_each(|_| lab.tick());
-            (bits(&lab.race().entrants()[0].lane), bits(lab.race().truth()))
+        let ended = |mut studio: Studio| {
+            (0..40).for_each(|_| studio.tick());
+            (bits(&studio.race().entrants()[0].lane), bits(studio.race().truth()))
         };
         let left = ended(begun());
         let (pick, hz) = (begun().active(), begun().clock().tick_hz());
@@ -386,31 +386,31 @@ fn a_throttle_set_while_a_ship_had_halted_holds_when_it_goes_on() {
 
 #[test]
 fn a_method_is_not_blamed_for_a_state_that_it_inherits_and_the_notice_says_where_it_begins() {
-    let mut lab = Studio::new(scene("stiff"));
+    let mut studio = Studio::new(scene("stiff"));
     for command in [
         Command::Stage(StageCommand::Pick(1)),
         Command::Stage(StageCommand::TickRate(Step::Previous)),
         Command::Stage(StageCommand::TickRate(Step::Previous)),
     ] {
-        lab.apply(command);
+        studio.apply(command);
     }
-    while lab.race().entrants()[0].lane.halted().is_none() {
-        lab.tick();
-        assert!(lab.race().tick() < 1000);
+    while studio.race().entrants()[0].lane.halted().is_none() {
+        studio.tick();
+        assert!(studio.race().tick() < 1000);
     }
-    (0..30).for_each(|_| lab.tick());
-    lab.apply(StageCommand::Pick(3));
+    (0..30).for_each(|_| studio.tick());
+    studio.apply(StageCommand::Pick(3));
     assert_eq!(
-        lab.viewer().notice.as_deref(),
+        studio.viewer().notice.as_deref(),
         Some("stiff spring had blown up: resumed from the exact solution")
     );
     for _ in 0..1000 {
-        lab.tick();
+        studio.tick();
         assert!(
-            !lab.viewer().notice.as_deref().unwrap().contains("Runge-Kutta 4"),
+            !studio.viewer().notice.as_deref().unwrap().contains("Runge-Kutta 4"),
             "{:?}",
-            lab.viewer().notice.as_deref()
+            studio.viewer().notice.as_deref()
         );
     }
-    assert_eq!(lab.race().entrants()[0].lane.halted(), None);
+    assert_eq!(studio.race().entrants()[0].lane.halted(), None);
 }

@@ -4,12 +4,12 @@ use regatta::lab::{Action, Command, RunCommand, Scene, StageCommand, Studio, Vie
 
 use crate::dice::Dice;
 
-fn lab(scene: &str) -> Studio {
+fn studio(scene: &str) -> Studio {
     Studio::new(Scene::built_in(scene).unwrap())
 }
 
-fn method(lab: &Studio) -> &'static str {
-    lab.race().entrants()[0].lane.solver().method().unwrap().id
+fn method(studio: &Studio) -> &'static str {
+    studio.race().entrants()[0].lane.solver().method().unwrap().id
 }
 
 /// A run as far as it was reached, wherever it is now, and the scene of its next start.
@@ -23,41 +23,41 @@ struct Whole {
     scene: String,
 }
 
-fn whole(lab: &mut Studio) -> Whole {
-    let tick = lab.race().tick();
+fn whole(studio: &mut Studio) -> Whole {
+    let tick = studio.race().tick();
     // From elsewhere, so that no action at the end itself is done yet.
-    lab.apply(RunCommand::Seek(0));
-    lab.apply(RunCommand::Seek(u64::MAX));
-    let race = lab.race();
+    studio.apply(RunCommand::Seek(0));
+    studio.apply(RunCommand::Seek(u64::MAX));
+    let race = studio.race();
     let lanes = race.entrants().iter();
     let whole = Whole {
         rows: race.journal().rows().len(),
-        end: lab.timeline().end(),
+        end: studio.timeline().end(),
         state: race.state_hash(),
         tick_hz: race.tick_hz(),
         methods: lanes.map(|e| (e.lane.solver().method().unwrap().id, e.lane.substeps())).collect(),
-        scene: lab.scene().to_toml(),
+        scene: studio.scene().to_toml(),
     };
-    lab.apply(RunCommand::Seek(tick));
+    studio.apply(RunCommand::Seek(tick));
     whole
 }
 
 #[test]
 fn a_switch_in_the_past_that_was_undone_is_not_in_the_next_start() {
-    let mut lab = lab("spring");
-    (0..200).for_each(|_| lab.tick());
-    lab.apply(RunCommand::Seek(100));
-    lab.apply(StageCommand::Pick(1));
-    assert_eq!(method(&lab), "semi-implicit-euler");
-    lab.apply(RunCommand::Undo);
-    assert_eq!((method(&lab), lab.timeline().end()), ("explicit-euler", 200));
-    lab.apply(StageCommand::Restart);
-    assert_eq!(method(&lab), "explicit-euler");
+    let mut studio = studio("spring");
+    (0..200).for_each(|_| studio.tick());
+    studio.apply(RunCommand::Seek(100));
+    studio.apply(StageCommand::Pick(1));
+    assert_eq!(method(&studio), "semi-implicit-euler");
+    studio.apply(RunCommand::Undo);
+    assert_eq!((method(&studio), studio.timeline().end()), ("explicit-euler", 200));
+    studio.apply(StageCommand::Restart);
+    assert_eq!(method(&studio), "explicit-euler");
 }
 
 #[test]
 fn a_switch_a_slider_a_placement_and_a_kick_are_undone_and_done_again_one_by_one() {
-    let mut lab = lab("harbour");
+    let mut studio = studio("harbour");
     let place = Action::Place { body: 0, q: [0.5].into(), v: [0.0].into() };
     let mut sides = Vec::new();
     for command in [
@@ -73,79 +73,85 @@ fn a_switch_a_slider_a_placement_and_a_kick_are_undone_and_done_again_one_by_one
         Command::Stage(StageCommand::Restart),
         Command::Run(RunCommand::Act(Action::Throttle(0.5))),
     ] {
-        (0..50).for_each(|_| lab.tick());
-        let before = whole(&mut lab);
-        lab.apply(command);
-        let after = whole(&mut lab);
+        (0..50).for_each(|_| studio.tick());
+        let before = whole(&mut studio);
+        studio.apply(command);
+        let after = whole(&mut studio);
         assert_ne!(before, after);
         sides.push((before, after));
     }
     for (before, after) in sides.iter().rev() {
-        lab.apply(RunCommand::Undo);
-        let now = whole(&mut lab);
+        studio.apply(RunCommand::Undo);
+        let now = whole(&mut studio);
         match before.state == after.state {
             // The change was one of the next start: the run goes on.
             true => assert_eq!(now.scene, before.scene),
             false => assert_eq!(now, *before),
         }
     }
-    assert_eq!((lab.timeline().undoes(), lab.race().tick()), (None, 50));
+    assert_eq!((studio.timeline().undoes(), studio.race().tick()), (None, 50));
     for (_, after) in &sides {
-        lab.apply(RunCommand::Redo);
-        let again = whole(&mut lab);
+        studio.apply(RunCommand::Redo);
+        let again = whole(&mut studio);
         assert_eq!((again.rows, &again.scene), (after.rows, &after.scene));
     }
-    assert_eq!(lab.timeline().redoes(), None);
-    lab.apply(RunCommand::Undo);
-    lab.apply(RunCommand::Act(Action::Kick(1.0)));
-    assert_eq!(lab.timeline().redoes(), None, "another change was made");
+    assert_eq!(studio.timeline().redoes(), None);
+    studio.apply(RunCommand::Undo);
+    studio.apply(RunCommand::Act(Action::Kick(1.0)));
+    assert_eq!(studio.timeline().redoes(), None, "another change was made");
 }
 
 #[test]
 fn a_drag_of_a_slider_is_one_change_and_the_next_drag_another() {
-    let mut lab = lab("spring");
-    let stiffness = |lab: &Studio| lab.race().values(0)[1];
-    let drag = |lab: &mut Studio, to: f64| {
-        lab.apply(ViewCommand::PointerDown(true));
+    let mut studio = studio("spring");
+    let stiffness = |studio: &Studio| studio.race().values(0)[1];
+    let drag = |studio: &mut Studio, to: f64| {
+        studio.apply(ViewCommand::PointerDown(true));
         for part in 1..=10 {
             let value = to * (1.0 + f64::from(part) / 10.0);
-            lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value }));
+            studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value }));
             // The cross of the stability map sets the rate too.
-            lab.apply(StageCommand::TickHz(60 + part));
-            (0..3).for_each(|_| lab.tick());
+            studio.apply(StageCommand::TickHz(60 + part));
+            (0..3).for_each(|_| studio.tick());
         }
-        lab.apply(ViewCommand::PointerDown(false));
+        studio.apply(ViewCommand::PointerDown(false));
     };
-    (0..50).for_each(|_| lab.tick());
-    let first = stiffness(&lab);
-    drag(&mut lab, 20.0);
-    let second = stiffness(&lab);
-    drag(&mut lab, 30.0);
-    assert_ne!(stiffness(&lab), second);
-    lab.apply(RunCommand::Undo);
-    assert_eq!((stiffness(&lab), lab.race().tick(), lab.race().tick_hz()), (second, 80, 70));
-    lab.apply(RunCommand::Undo);
-    assert_eq!((stiffness(&lab), lab.race().tick(), lab.race().tick_hz()), (first, 50, 60));
-    assert_eq!((lab.timeline().undoes(), lab.scene().bodies[0].values[1]), (None, first));
-    lab.apply(RunCommand::Redo);
-    assert_eq!((lab.timeline().end(), lab.timeline().redoes().is_some()), (80, true));
-    lab.apply(RunCommand::Seek(80));
-    assert_eq!(stiffness(&lab), second);
+    (0..50).for_each(|_| studio.tick());
+    let first = stiffness(&studio);
+    drag(&mut studio, 20.0);
+    let second = stiffness(&studio);
+    drag(&mut studio, 30.0);
+    assert_ne!(stiffness(&studio), second);
+    studio.apply(RunCommand::Undo);
+    assert_eq!(
+        (stiffness(&studio), studio.race().tick(), studio.race().tick_hz()),
+        (second, 80, 70)
+    );
+    studio.apply(RunCommand::Undo);
+    assert_eq!(
+        (stiffness(&studio), studio.race().tick(), studio.race().tick_hz()),
+        (first, 50, 60)
+    );
+    assert_eq!((studio.timeline().undoes(), studio.scene().bodies[0].values[1]), (None, first));
+    studio.apply(RunCommand::Redo);
+    assert_eq!((studio.timeline().end(), studio.timeline().redoes().is_some()), (80, true));
+    studio.apply(RunCommand::Seek(80));
+    assert_eq!(stiffness(&studio), second);
 }
 
 #[test]
 fn random_changes_are_undone_and_done_again_to_the_bit() {
     let mut dice = Dice::new(7);
     for _ in 0..8 {
-        let mut lab = lab("harbour");
+        let mut studio = studio("harbour");
         let mut befores = Vec::new();
         let mut below = |limit: u64| dice.below(limit as usize) as u64;
         for _ in 0..12 {
-            (0..below(90)).for_each(|_| lab.tick());
+            (0..below(90)).for_each(|_| studio.tick());
             if below(2) == 0 {
-                lab.apply(RunCommand::Seek(below(lab.timeline().end() + 1)));
+                studio.apply(RunCommand::Seek(below(studio.timeline().end() + 1)));
             }
-            let (tick, before) = (lab.race().tick(), whole(&mut lab));
+            let (tick, before) = (studio.race().tick(), whole(&mut studio));
             let command = match below(6) {
                 0 => Command::Run(RunCommand::Act(Action::Kick(0.5))),
                 1 => Command::Stage(StageCommand::Pick(below(5) as usize)),
@@ -157,52 +163,52 @@ fn random_changes_are_undone_and_done_again_to_the_bit() {
                     Command::Run(RunCommand::Act(Action::Set { body: 0, parameter: 1, value }))
                 }
             };
-            let undoes = lab.timeline().undoes().map(str::to_owned);
-            lab.apply(command.clone());
-            let is_kept = lab.timeline().undoes() != undoes.as_deref();
+            let undoes = studio.timeline().undoes().map(str::to_owned);
+            studio.apply(command.clone());
+            let is_kept = studio.timeline().undoes() != undoes.as_deref();
             // A restart of a run in which nothing was done is no change.
             if if command == Command::Stage(StageCommand::Restart) {
                 is_kept
             } else {
-                whole(&mut lab) != before
+                whole(&mut studio) != before
             } {
                 befores.push((tick, before));
             }
         }
-        let last = whole(&mut lab);
+        let last = whole(&mut studio);
         let mut undone = 0;
-        while lab.timeline().undoes().is_some() {
-            lab.apply(RunCommand::Undo);
+        while studio.timeline().undoes().is_some() {
+            studio.apply(RunCommand::Undo);
             let (tick, before) = befores.pop().expect("as many as were made");
-            assert_eq!((lab.race().tick(), whole(&mut lab)), (tick, before));
+            assert_eq!((studio.race().tick(), whole(&mut studio)), (tick, before));
             undone += 1;
         }
         assert!(undone >= 2, "{undone}");
-        (0..undone).for_each(|_| _ = lab.apply(RunCommand::Redo));
-        assert_eq!(whole(&mut lab), last);
+        (0..undone).for_each(|_| _ = studio.apply(RunCommand::Redo));
+        assert_eq!(whole(&mut studio), last);
     }
 }
 
 #[test]
 fn the_changes_that_can_be_undone_stay_within_the_memory_for_rewinding() {
-    let mut lab = lab("harbour");
-    lab.set_rewind_bytes(1 << 20);
+    let mut studio = studio("harbour");
+    studio.set_rewind_bytes(1 << 20);
     for n in 0..60_u32 {
-        (0..120).for_each(|_| lab.tick());
-        lab.apply(RunCommand::Act(Action::Kick(1.0)));
+        (0..120).for_each(|_| studio.tick());
+        studio.apply(RunCommand::Act(Action::Kick(1.0)));
         if n % 7 == 0 {
-            lab.apply(StageCommand::Restart);
+            studio.apply(StageCommand::Restart);
         }
-        assert!(lab.timeline().bytes() <= 1 << 20, "{}", lab.timeline().bytes());
+        assert!(studio.timeline().bytes() <= 1 << 20, "{}", studio.timeline().bytes());
     }
-    assert_eq!(lab.timeline().undoes(), Some("the kick at tick 360"));
+    assert_eq!(studio.timeline().undoes(), Some("the kick at tick 360"));
     for (limit, is_kept) in [(64 << 20, true), (1 << 20, false)] {
-        lab.set_rewind_bytes(limit);
-        lab.apply(RunCommand::Act(Action::Kick(2.0)));
-        let before = lab.timeline().bytes();
-        lab.apply(StageCommand::Restart);
-        assert_eq!(lab.timeline().undoes().is_some(), is_kept, "{limit}");
-        let is_counted = lab.timeline().bytes() > before + (1 << 20);
+        studio.set_rewind_bytes(limit);
+        studio.apply(RunCommand::Act(Action::Kick(2.0)));
+        let before = studio.timeline().bytes();
+        studio.apply(StageCommand::Restart);
+        assert_eq!(studio.timeline().undoes().is_some(), is_kept, "{limit}");
+        let is_counted = studio.timeline().bytes() > before + (1 << 20);
         assert_eq!(is_counted, is_kept, "the drawn past of a run that is kept counts: {limit}");
     }
 }

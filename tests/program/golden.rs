@@ -33,23 +33,23 @@ fn gpu_or_skip(test: &str) -> Option<Gpu> {
 
 /// The lab of a built-in scene, in solo or racing, after [`FRAMES`] at 60 a second.
 fn sailed(scene: &str, race: bool, mut each_frame: impl FnMut(&Studio)) -> Studio {
-    let mut lab = Studio::new(Scene::built_in(scene).unwrap());
+    let mut studio = Studio::new(Scene::built_in(scene).unwrap());
     if race {
-        lab.apply(StageCommand::ToggleRace);
+        studio.apply(StageCommand::ToggleRace);
     } else {
-        lab.apply(StageCommand::Pick(1));
+        studio.apply(StageCommand::Pick(1));
     }
-    lab.forget_changes();
+    studio.forget_changes();
     for frame in 0..FRAMES {
         if frame == FRAMES / 2 && !race {
-            lab.apply(RunCommand::Act(Action::Kick(1.0)));
-            lab.apply(StageCommand::Pick(3));
+            studio.apply(RunCommand::Act(Action::Kick(1.0)));
+            studio.apply(StageCommand::Pick(3));
         }
-        lab.advance(16_666_667);
-        lab.analyse_bounded(|worker| Some(worker.finish()));
-        each_frame(&lab);
+        studio.advance(16_666_667);
+        studio.analyse_bounded(|worker| Some(worker.finish()));
+        each_frame(&studio);
     }
-    lab
+    studio
 }
 
 /// The worst channel difference, and how many pixels are off by more than 1.
@@ -84,9 +84,9 @@ fn the_comparison_sees_one_pixel_and_one_level() {
 }
 
 /// What an renderer for pictures of `size_px` makes of a lab.
-fn drawn(renderer: &mut OffscreenRenderer, size_px: [u32; 2], lab: &Studio) -> RgbaImage {
+fn drawn(renderer: &mut OffscreenRenderer, size_px: [u32; 2], studio: &Studio) -> RgbaImage {
     let mut rgba = Vec::new();
-    renderer.draw(lab, &mut rgba).unwrap();
+    renderer.draw(studio, &mut rgba).unwrap();
     RgbaImage::from_raw(size_px[0], size_px[1], rgba).unwrap()
 }
 
@@ -135,24 +135,24 @@ fn the_inspector_beside_a_run_that_was_gone_back_in_looks_as_it_did() {
     let Some(gpu) = gpu_or_skip(test) else { return };
     // 1280 × 720 points.
     let size_px = [512, 288];
-    let mut lab = sailed("spring", false, |_| ());
-    lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value: 90.0 }));
-    lab.apply(StageCommand::Second(Step::Next));
-    lab.apply(RunCommand::Seek(FRAMES - 20));
-    lab.apply(RunCommand::ToggleInspector);
-    lab.analyse_bounded(|worker| Some(worker.finish()));
-    let drawn = drawn(&mut OffscreenRenderer::new(gpu, size_px, 0.4).unwrap(), size_px, &lab);
+    let mut studio = sailed("spring", false, |_| ());
+    studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value: 90.0 }));
+    studio.apply(StageCommand::Second(Step::Next));
+    studio.apply(RunCommand::Seek(FRAMES - 20));
+    studio.apply(RunCommand::ToggleInspector);
+    studio.analyse_bounded(|worker| Some(worker.finish()));
+    let drawn = drawn(&mut OffscreenRenderer::new(gpu, size_px, 0.4).unwrap(), size_px, &studio);
     assert_eq!(wrong("spring-inspector.png", &drawn), None);
 }
 
 #[test]
 fn the_loop_lab_looks_as_it_did() {
     let Some(gpu) = gpu_or_skip("the_loop_lab_looks_as_it_did") else { return };
-    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-    lab.open_loop_lab_on("steady-144");
-    lab.run_loops();
-    (0..FRAMES).for_each(|_| _ = lab.advance(16_666_667));
-    let drawn = drawn(&mut OffscreenRenderer::new(gpu, SIZE_PX, SCALE).unwrap(), SIZE_PX, &lab);
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    studio.open_loop_lab_on("steady-144");
+    studio.run_loops();
+    (0..FRAMES).for_each(|_| _ = studio.advance(16_666_667));
+    let drawn = drawn(&mut OffscreenRenderer::new(gpu, SIZE_PX, SCALE).unwrap(), SIZE_PX, &studio);
     assert_eq!(wrong("spring-loops.png", &drawn), None);
 }
 
@@ -160,10 +160,13 @@ fn the_loop_lab_looks_as_it_did() {
 fn the_same_lab_gives_the_same_bytes_from_two_renderers() {
     let test = "the_same_lab_gives_the_same_bytes_from_two_renderers";
     let Some(gpu) = gpu_or_skip(test) else { return };
-    let lab = sailed("harbour", true, |_| ());
+    let studio = sailed("harbour", true, |_| ());
     let draw = || {
         let mut rgba = Vec::new();
-        OffscreenRenderer::new(gpu.clone(), SIZE_PX, SCALE).unwrap().draw(&lab, &mut rgba).unwrap();
+        OffscreenRenderer::new(gpu.clone(), SIZE_PX, SCALE)
+            .unwrap()
+            .draw(&studio, &mut rgba)
+            .unwrap();
         rgba
     };
     assert!(draw() == draw());
@@ -172,12 +175,12 @@ fn the_same_lab_gives_the_same_bytes_from_two_renderers() {
 #[test]
 fn without_panels_the_stage_fills_the_frame() {
     let Some(gpu) = gpu_or_skip("without_panels_the_stage_fills_the_frame") else { return };
-    let lab = sailed("harbour", true, |_| ());
+    let studio = sailed("harbour", true, |_| ());
     let draw = |panels| {
         let mut rgba = Vec::new();
         let mut renderer =
             OffscreenRenderer::new(gpu.clone(), SIZE_PX, SCALE).unwrap().with_panels(panels);
-        renderer.draw(&lab, &mut rgba).unwrap();
+        renderer.draw(&studio, &mut rgba).unwrap();
         RgbaImage::from_raw(SIZE_PX[0], SIZE_PX[1], rgba).unwrap()
     };
     let (shown, off) = (draw(Panels::Shown), draw(Panels::Off));
@@ -199,7 +202,7 @@ fn drawing_changes_no_bit_of_the_physics() {
     let mut renderer = OffscreenRenderer::new(gpu, [64, 36], 0.1).unwrap();
     let mut rgba = Vec::new();
     for race in [false, true] {
-        let drawn = sailed("harbour", race, |lab| renderer.draw(lab, &mut rgba).unwrap());
+        let drawn = sailed("harbour", race, |studio| renderer.draw(studio, &mut rgba).unwrap());
         let unseen = sailed("harbour", race, |_| ());
         assert_eq!(drawn.race().tick(), FRAMES);
         assert_eq!(drawn.race().state_hash(), unseen.race().state_hash());
@@ -209,13 +212,13 @@ fn drawing_changes_no_bit_of_the_physics() {
 #[test]
 fn frames_of_every_size_from_one_pixel_up_are_drawn() {
     let Some(gpu) = gpu_or_skip("frames_of_every_size_from_one_pixel_up_are_drawn") else { return };
-    let lab = sailed("harbour", true, |_| ());
+    let studio = sailed("harbour", true, |_| ());
     let mut rgba = Vec::new();
     for size_px in [[1, 1], [1, 300], [300, 1], [17, 33], [121, 261], [421, 201], [1001, 501]] {
         for scale in [0.5, 1.0, 2.0] {
             OffscreenRenderer::new(gpu.clone(), size_px, scale)
                 .unwrap()
-                .draw(&lab, &mut rgba)
+                .draw(&studio, &mut rgba)
                 .unwrap();
             assert_eq!(rgba.len(), 4 * (size_px[0] * size_px[1]) as usize, "{size_px:?}");
             assert!(rgba.chunks_exact(4).all(|pixel| pixel[3] == 255), "{size_px:?} at {scale}");

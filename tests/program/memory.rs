@@ -52,7 +52,7 @@ const MAX_GROWTH_MB: f64 = 5.0;
 const MIN_MB: f64 = 1.0;
 
 struct Program {
-    lab: Studio,
+    studio: Studio,
     gpu: Gpu,
     canvas: Offscreen,
     renderer: FrameRenderer,
@@ -62,24 +62,24 @@ struct Program {
 impl Program {
     /// Shows a frame with these events in it, and does what they ask for.
     fn frame(&mut self, events: Vec<Event>) {
-        let Self { lab, gpu, canvas, renderer, time_s } = self;
+        let Self { studio, gpu, canvas, renderer, time_s } = self;
         *time_s += 1.0 / 60.0;
-        lab.advance(16_666_667);
+        studio.advance(16_666_667);
         let input = RawInput { time: Some(*time_s), events, ..RawInput::default() };
-        let (commands, output) = renderer.draw(gpu, &canvas.view, SIZE_PX, 1.0, input, lab);
+        let (commands, output) = renderer.draw(gpu, &canvas.view, SIZE_PX, 1.0, input, studio);
         gpu.queue.submit(output.drawing);
         let wait = wgpu::PollType::Wait { submission_index: None, timeout: None };
         gpu.device.poll(wait).expect("the device is there");
         for command in commands {
-            lab.apply(command);
+            studio.apply(command);
         }
     }
 
     /// Opens a scene of one body, so that nothing of the runs before is needed any more, and returns what is then held, in MB.
     fn at_rest(&mut self) -> f64 {
-        self.lab.apply(ViewCommand::CloseDialog);
+        self.studio.apply(ViewCommand::CloseDialog);
         let scene = Scene::built_in("spring").expect("a built-in scene");
-        self.lab.open_file("rest.toml".as_ref(), scene);
+        self.studio.open_file("rest.toml".as_ref(), scene);
         (0..30).for_each(|_| self.frame(vec![Event::PointerGone]));
         HELD.load(Ordering::Relaxed) as f64 / f64::from(1 << 20)
     }
@@ -120,7 +120,7 @@ impl Program {
             _ => {
                 let bound = &KEYS[dice.below(KEYS.len())].keys;
                 let (_, command) = &bound[dice.below(bound.len())];
-                self.lab.apply(command.clone());
+                self.studio.apply(command.clone());
                 self.frame(Vec::new());
             }
         }
@@ -135,11 +135,11 @@ fn a_thousand_random_events_leave_no_more_memory_held_than_a_few_megabytes() {
         // Not `eprintln!`, which the test runner hides when a test passes.
         Err(error) => return drop(writeln!(io::stderr(), "SKIPPED {test}: {error}")),
     };
-    let mut lab = Studio::new(Scene::built_in("harbour").expect("a built-in scene"));
-    lab.set_rewind_bytes(REWIND_MB << 20);
+    let mut studio = Studio::new(Scene::built_in("harbour").expect("a built-in scene"));
+    studio.set_rewind_bytes(REWIND_MB << 20);
     let canvas = Offscreen::new(&gpu, SIZE_PX).expect("1280x720 is within any limit");
     let renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
-    let mut program = Program { lab, gpu, canvas, renderer, time_s: 0.0 };
+    let mut program = Program { studio, gpu, canvas, renderer, time_s: 0.0 };
     let mut dice = Dice::new(12);
     let mut held = Vec::new();
     for event in 1..=EVENTS {

@@ -8,7 +8,7 @@ use regatta::lab::{
 
 use crate::desk::Desk;
 
-fn lab(scene: &str) -> Studio {
+fn studio(scene: &str) -> Studio {
     Studio::new(Scene::built_in(scene).unwrap())
 }
 
@@ -51,7 +51,7 @@ fn every_key_of_the_table_does_what_the_table_says() {
     let test = "every_key_of_the_table_does_what_the_table_says";
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     desk.titled("Regatta - spring - Explicit Euler - 60 Hz");
-    let mut lab = lab("spring");
+    let mut studio = studio("spring");
     for (key, command) in KEYS.iter().flat_map(|binding| binding.keys) {
         // Where a path or a number is typed, keys are text.
         let others = [
@@ -70,24 +70,24 @@ fn every_key_of_the_table_does_what_the_table_says() {
             // The other keys do other things in the loop lab.
             for _ in 0..2 {
                 desk.press(&x_name(*key));
-                assert_eq!(lab.apply(command.clone()), None);
-                desk.titled(&lab.title());
+                assert_eq!(studio.apply(command.clone()), None);
+                desk.titled(&studio.title());
             }
         } else if !others.contains(command) {
             desk.press(&x_name(*key));
-            assert_eq!(lab.apply(command.clone()), None);
-            desk.titled(&lab.title());
+            assert_eq!(studio.apply(command.clone()), None);
+            desk.titled(&studio.title());
         }
     }
     // Three keys opened, closed and opened the help.
-    assert!(lab.display().help && lab.display().inspector && lab.display().enlarged);
-    assert!(!lab.running());
+    assert!(studio.display().help && studio.display().inspector && studio.display().enlarged);
+    assert!(!studio.running());
     desk.press_and_see("Escape");
     desk.press_and_see("Escape");
     desk.press_and_see("Escape");
     desk.press("space");
-    lab.apply(ViewCommand::TogglePause);
-    desk.titled(&lab.title());
+    studio.apply(ViewCommand::TogglePause);
+    desk.titled(&studio.title());
     desk.quit();
 }
 
@@ -95,8 +95,8 @@ fn every_key_of_the_table_does_what_the_table_says() {
 fn in_the_loop_lab_keys_choose_loops_displays_rates_and_methods_and_leave_as_it_was() {
     let test = "in_the_loop_lab_keys_choose_loops_displays_rates_and_methods_and_leave_as_it_was";
     let Some(desk) = Desk::open(test, "--scene spring --loop") else { return };
-    let mut lab = lab("spring");
-    lab.apply(Command::Loop(LoopCommand::ToggleLab));
+    let mut studio = studio("spring");
+    studio.apply(Command::Loop(LoopCommand::ToggleLab));
     desk.titled("Regatta - spring - loop lab: Fixed - edge - 60 Hz");
     for (keys, commands) in [
         ("space", vec![Command::View(ViewCommand::TogglePause)]),
@@ -122,10 +122,10 @@ fn in_the_loop_lab_keys_choose_loops_displays_rates_and_methods_and_leave_as_it_
         ("l", vec![Command::Loop(LoopCommand::ToggleLab)]),
     ] {
         desk.press(keys);
-        commands.into_iter().for_each(|command| _ = lab.apply(command));
-        desk.titled(&lab.title());
+        commands.into_iter().for_each(|command| _ = studio.apply(command));
+        desk.titled(&studio.title());
     }
-    assert!(!lab.title().contains("loop lab") && lab.running());
+    assert!(!studio.title().contains("loop lab") && studio.running());
     desk.quit();
 }
 

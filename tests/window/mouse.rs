@@ -19,8 +19,8 @@ fn panels_are_worked_by_the_mouse_at_every_scale() {
     let test = "panels_are_worked_by_the_mouse_at_every_scale";
     // In points. Small, since a press that lasts long in slow frames makes no click.
     let (width, height) = (640, 360);
-    let lab = Studio::new(Scene::built_in("spring").unwrap());
-    let rows = lab.scene().lanes.len().clamp(5, 8) as u32;
+    let studio = Studio::new(Scene::built_in("spring").unwrap());
+    let rows = studio.scene().lanes.len().clamp(5, 8) as u32;
     let list = (26 + 26 * rows).min(height * 2 / 5);
     let second_row = height - 32 - list + 63;
     for scale in [1, 2] {

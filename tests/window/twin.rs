@@ -15,7 +15,7 @@ const ASIDE: Pos2 = Pos2::new(40.0, 300.0);
 
 /// A lab and its panels, which are given what the window is given.
 pub(crate) struct Twin {
-    pub(crate) lab: Studio,
+    pub(crate) studio: Studio,
     gpu: Gpu,
     target: Offscreen,
     renderer: FrameRenderer,
@@ -24,27 +24,27 @@ pub(crate) struct Twin {
 }
 
 impl Twin {
-    pub(crate) fn new(mut lab: Studio) -> Self {
+    pub(crate) fn new(mut studio: Studio) -> Self {
         // As in a window: it tells of the memory for rewinding.
-        lab.viewer_mut().pace = Some(Pace::Unknown);
+        studio.viewer_mut().pace = Some(Pace::Unknown);
         let gpu = pollster::block_on(Gpu::headless(AdapterPreference::CpuOnly))
             .expect("the window has an adapter too");
         let target = Offscreen::new(&gpu, SIZE_PX).unwrap();
         let renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
         renderer.context().enable_accesskit();
-        Self { lab, gpu, target, renderer, nodes: Vec::new() }
+        Self { studio, gpu, target, renderer, nodes: Vec::new() }
     }
 
     /// Shows a frame with this event, and applies what it asks for.
     fn frame(&mut self, event: Option<Event>) -> FrameOutput {
         let events = event.into_iter().collect();
         let input = RawInput { events, focused: true, ..RawInput::default() };
-        let Self { lab, gpu, target, renderer, .. } = self;
-        let (commands, mut output) = renderer.draw(gpu, &target.view, SIZE_PX, 1.0, input, lab);
+        let Self { studio, gpu, target, renderer, .. } = self;
+        let (commands, mut output) = renderer.draw(gpu, &target.view, SIZE_PX, 1.0, input, studio);
         let update = output.platform.accesskit_update.take().expect("it is enabled");
         self.nodes = update.nodes.into_iter().map(|(_, node)| node).collect();
         for command in commands {
-            self.lab.apply(command);
+            self.studio.apply(command);
         }
         output
     }
@@ -58,8 +58,8 @@ impl Twin {
 
     /// Shows frames until nothing changes any more.
     fn settle(&mut self) {
-        self.lab.run_loops();
-        self.lab.analyse();
+        self.studio.run_loops();
+        self.studio.analyse();
         (0..3).for_each(|_| drop(self.frame(None)));
     }
 
@@ -90,7 +90,7 @@ impl Twin {
 
     /// Applies a command, for which a key was pressed in the window.
     pub(crate) fn apply(&mut self, command: impl Into<Command>) {
-        self.lab.apply(command);
+        self.studio.apply(command);
     }
 
     /// Clicks the widget of this name here and in the window, and waits for both to have the same title.
@@ -106,12 +106,12 @@ impl Twin {
     #[track_caller]
     pub(crate) fn click_at(&mut self, desk: &Desk, at: Pos2) {
         let at = at.floor();
-        if !self.lab.running() {
+        if !self.studio.running() {
             desk.still();
         }
         desk.click(at.x as u32, at.y as u32);
         self.show([Event::PointerMoved(at), button(at, true), button(at, false)]);
-        desk.titled(&self.lab.title());
+        desk.titled(&self.studio.title());
     }
 
     /// Clicks the widget of this name with the right button, here and in the window.
@@ -149,7 +149,7 @@ impl Twin {
             modifiers: Modifiers::NONE,
         }]);
         self.settle();
-        desk.titled(&self.lab.title());
+        desk.titled(&self.studio.title());
     }
 
     /// Drags from a place to another, here and in the window.
@@ -163,12 +163,12 @@ impl Twin {
         for at in [middle, to] {
             desk.xdotool(&format!("mousemove --window WINDOW {} {}", at.x, at.y));
             self.show([Event::PointerMoved(at)]);
-            desk.titled(&self.lab.title());
+            desk.titled(&self.studio.title());
         }
         desk.xdotool("mouseup 1");
         self.show([button(to, false)]);
         self.settle();
-        desk.titled(&self.lab.title());
+        desk.titled(&self.studio.title());
     }
 
     /// Moves the pointer aside here and in the window.
@@ -182,7 +182,7 @@ impl Twin {
     #[track_caller]
     pub(crate) fn looks_alike(&mut self, desk: &Desk) {
         self.move_aside(desk);
-        self.lab.viewer_mut().pass(i64::MAX);
+        self.studio.viewer_mut().pass(i64::MAX);
         self.settle();
         let drawing = self.frame(None).drawing;
         let mut rgba = Vec::new();

@@ -13,7 +13,7 @@ pub(crate) fn paused(test: &str, scene: &str) -> Option<(Desk, Twin)> {
     let mut twin = Twin::new(Studio::new(Scene::built_in(scene).unwrap()));
     desk.press("space");
     twin.apply(ViewCommand::TogglePause);
-    desk.titled(&twin.lab.title());
+    desk.titled(&twin.studio.title());
     // After a tick at least, a restart leaves a run to bring back.
     desk.press("period Home");
     twin.apply(StageCommand::Tick(Step::Next));
@@ -27,7 +27,7 @@ pub(crate) fn paused(test: &str, scene: &str) -> Option<(Desk, Twin)> {
 #[track_caller]
 fn same(desk: &Desk, twin: &mut Twin) {
     twin.looks_alike(desk);
-    let [window, twin] = [desk.recording(), twin.lab.recording().unwrap()];
+    let [window, twin] = [desk.recording(), twin.studio.recording().unwrap()];
     let end = |text: &str| text.rsplit("[[command]]").next().map(str::to_owned);
     assert_eq!(end(&window), end(&twin));
 }
@@ -60,9 +60,12 @@ fn the_menus_and_buttons_above_and_below_and_the_table_are_worked_by_the_mouse()
     ] {
         twin.click(&desk, name);
     }
-    let lab = &twin.lab;
-    assert_eq!((lab.clock().speed_percent(), lab.clock().tick_hz(), lab.active()), (200, 120, 3));
-    assert!(!lab.display().help);
+    let studio = &twin.studio;
+    assert_eq!(
+        (studio.clock().speed_percent(), studio.clock().tick_hz(), studio.active()),
+        (200, 120, 3)
+    );
+    assert!(!studio.display().help);
     same(&desk, &mut twin);
     desk.quit();
 }
@@ -73,7 +76,7 @@ fn the_instruments_and_the_inspector_are_worked_by_the_mouse() {
     let Some((desk, mut twin)) = paused(test, "spring") else { return };
     for card in INSTRUMENTS {
         twin.click(&desk, card.name);
-        assert_eq!(twin.lab.display().instrument, card.instrument);
+        assert_eq!(twin.studio.display().instrument, card.instrument);
     }
     twin.click(&desk, "Error");
     twin.click(&desk, "position error");
@@ -85,7 +88,7 @@ fn the_instruments_and_the_inspector_are_worked_by_the_mouse() {
     twin.drag(&desk, stiffness.center(), stiffness.lerp_inside(egui::vec2(0.8, 0.5)));
     twin.click(&desk, "restore stiffness");
     twin.enter(&desk, "stiffness", "90");
-    assert!(twin.lab.race().values(0).contains(&90.0));
+    assert!(twin.studio.race().values(0).contains(&90.0));
     same(&desk, &mut twin);
     // Escape would close the inspector.
     desk.close();
@@ -101,24 +104,24 @@ fn the_guide_and_the_timeline_are_worked_by_the_mouse() {
     desk.at_tick(120);
     let track = twin.slider("timeline");
     twin.click_at(&desk, track.lerp_inside(egui::vec2(0.05, 0.5)));
-    let tick = twin.lab.race().tick();
+    let tick = twin.studio.race().tick();
     assert!((1..119).contains(&tick), "{tick}");
     desk.at_tick(tick);
     twin.click(&desk, "2 Semi-implicit Euler");
     twin.click(&desk, "undo ");
-    assert_eq!((twin.lab.timeline().end(), twin.lab.active()), (120, 0));
+    assert_eq!((twin.studio.timeline().end(), twin.studio.active()), (120, 0));
     same(&desk, &mut twin);
     twin.click(&desk, "guide (F2)");
     twin.click(&desk, "pause (Space)");
     // In the window time ran, so that there is a run to bring back.
-    twin.lab.tick();
+    twin.studio.tick();
     twin.click(&desk, "restart (Home)");
-    let choice = twin.lab.viewer().tour().unwrap().stop().choices[1];
+    let choice = twin.studio.viewer().tour().unwrap().stop().choices[1];
     twin.click(&desk, choice);
-    assert_eq!(twin.lab.viewer().tour().unwrap().guess(), Some(1));
+    assert_eq!(twin.studio.viewer().tour().unwrap().guess(), Some(1));
     same(&desk, &mut twin);
     twin.click(&desk, "Close");
-    assert!(twin.lab.viewer().tour().is_none());
+    assert!(twin.studio.viewer().tour().is_none());
     same(&desk, &mut twin);
     desk.quit();
 }
@@ -127,18 +130,20 @@ fn the_guide_and_the_timeline_are_worked_by_the_mouse() {
 fn a_drag_of_the_cross_on_the_stability_map_sets_the_tick_rate_and_the_parameter() {
     let test = "a_drag_of_the_cross_on_the_stability_map_sets_the_tick_rate_and_the_parameter";
     let Some((desk, mut twin)) = paused(test, "spring") else { return };
-    let values = twin.lab.race().values(0).to_vec();
+    let values = twin.studio.race().values(0).to_vec();
     twin.click(&desk, Instrument::StabilityMap.name());
     let map = twin.slider("you are here");
     twin.drag(&desk, map.center(), map.lerp_inside(egui::vec2(0.3, 0.4)));
-    let lab = &twin.lab;
-    assert!(lab.clock().tick_hz() != lab.scene().tick_hz && lab.race().values(0) != values);
-    desk.titled(&lab.title());
+    let studio = &twin.studio;
+    assert!(
+        studio.clock().tick_hz() != studio.scene().tick_hz && studio.race().values(0) != values
+    );
+    desk.titled(&studio.title());
     let recording = desk.recording();
     let set = recording.lines().rfind(|line| line.contains("\"stiffness_n_per_m\""));
     let value = set.and_then(|line| line.rsplit("value = ").next()?.strip_suffix(" }"));
     let value: f64 = value.expect("the last value set").parse().unwrap();
-    let expected = lab.race().values(0).iter().copied().find(|value| !values.contains(value));
+    let expected = studio.race().values(0).iter().copied().find(|value| !values.contains(value));
     assert_eq!(Some(value), expected);
     desk.quit();
 }
@@ -152,8 +157,8 @@ fn a_spring_of_ones_own_is_typed_advised_on_and_kept_for_the_next_time() {
     twin.enter(&desk, "frequency", "3");
     twin.enter(&desk, "damping ratio", "1");
     twin.click(&desk, "Advise at");
-    assert_eq!((twin.lab.scene_name().as_str(), twin.lab.race().tick()), ("my spring", 0));
-    assert_eq!(twin.lab.display().instrument, Instrument::Advice);
+    assert_eq!((twin.studio.scene_name().as_str(), twin.studio.race().tick()), ("my spring", 0));
+    assert_eq!(twin.studio.display().instrument, Instrument::Advice);
     let softer = MySpring { stiffness_n_per_m: 50.0, ..MySpring::default() };
     let faster = MySpring::of_frequency(12.0, 3.0, softer.damping_ratio());
     let spring = MySpring::of_frequency(12.0, faster.frequency_hz(), 1.0);

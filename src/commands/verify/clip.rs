@@ -66,7 +66,7 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
     };
     #[cfg(not(feature = "view"))]
     let redrawn = Ok::<Option<(Frames, (Studio, StateLog))>, Error>(None);
-    let (frames, (lab, state_log), failed) = match redrawn {
+    let (frames, (studio, state_log), failed) = match redrawn {
         Ok(Some((frames, run))) => (Some(frames), run, None),
         Ok(None) => (None, rerun.run(), None),
         // The physics is judged even where the pixels cannot be.
@@ -74,7 +74,7 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
         Err(error) => return Err(error),
     };
     let mut report = Report::new("dir", dir);
-    add_physics(&mut report, &rerun, &lab, state_log)?;
+    add_physics(&mut report, &rerun, &studio, state_log)?;
     let physics_differs = report.differing() > 0;
     match failed {
         Some(error) if !physics_differs => return Err(error),
@@ -95,12 +95,12 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
 fn add_physics(
     report: &mut Report,
     rerun: &Rerun,
-    lab: &Studio,
+    studio: &Studio,
     state_log: StateLog,
 ) -> Result<(), Error> {
-    let Some(change) = first_change(&rerun.manifest, lab, state_log) else {
-        let lanes = counted(lab.race().entrants().len(), "lane");
-        print_line(&format!("physics: same to the bit: {lanes} to tick {}", lab.race().tick()))?;
+    let Some(change) = first_change(&rerun.manifest, studio, state_log) else {
+        let lanes = counted(studio.race().entrants().len(), "lane");
+        print_line(&format!("physics: same to the bit: {lanes} to tick {}", studio.race().tick()))?;
         report.judged("physics", None);
         report.field("physics", json!({ "same": true, "first_difference": null }));
         return Ok(());

@@ -16,28 +16,28 @@ pub(super) struct PhysicsChange {
 /// differently.
 pub(super) fn first_change(
     manifest: &Manifest,
-    lab: &Studio,
+    studio: &Studio,
     state_log: StateLog,
 ) -> Option<PhysicsChange> {
-    let now = state_log.close(lab.race());
+    let now = state_log.close(studio.race());
     let mut marks = manifest.marks.iter().zip(&now);
     marks
-        .find_map(|(then, now)| change(then, now, lab))
+        .find_map(|(then, now)| change(then, now, studio))
         .or_else(|| other_length(&manifest.marks, &now))
-        .or_else(|| other_end(&manifest.lanes, lab))
+        .or_else(|| other_end(&manifest.lanes, studio))
 }
 
 /// The first difference in how the lanes ended, if there is one. Metrics are not compared.
-fn other_end(then: &[LaneEnd], lab: &Studio) -> Option<PhysicsChange> {
-    let tick = lab.race().tick();
-    let now = state_log::ends(lab);
+fn other_end(then: &[LaneEnd], studio: &Studio) -> Option<PhysicsChange> {
+    let tick = studio.race().tick();
+    let now = state_log::ends(studio);
     if then.len() != now.len() {
         let what = format!("{} lanes at the end in the manifest, {} now", then.len(), now.len());
         return Some(PhysicsChange { tick, lane: None, what });
     }
     let halt =
         |end: &LaneEnd| end.halted.map_or("never".to_owned(), |tick| format!("at tick {tick}"));
-    then.iter().zip(&now).zip(lab.race().entrants()).enumerate().find_map(
+    then.iter().zip(&now).zip(studio.race().entrants()).enumerate().find_map(
         |(n, ((then, now), entrant))| {
             let (key, was, is) = [
                 ("method", then.method.clone(), now.method.clone()),
@@ -55,7 +55,7 @@ fn other_end(then: &[LaneEnd], lab: &Studio) -> Option<PhysicsChange> {
 }
 
 /// The first difference between two marks, if there is one.
-fn change(then: &Mark, now: &Mark, lab: &Studio) -> Option<PhysicsChange> {
+fn change(then: &Mark, now: &Mark, studio: &Studio) -> Option<PhysicsChange> {
     if then.tick != now.tick || then.lanes.len() != now.lanes.len() {
         let what = format!(
             "{} lanes at tick {} in the manifest, {} at tick {} now",
@@ -70,20 +70,20 @@ fn change(then: &Mark, now: &Mark, lab: &Studio) -> Option<PhysicsChange> {
     lanes
         .filter(|(_, (then, now))| !then.is_same(now))
         .map(|(n, (was, is))| {
-            let entrant = &lab.race().entrants()[n];
+            let entrant = &studio.race().entrants()[n];
             let method = entrant.spec.method.id;
             PhysicsChange {
                 tick: then.tick,
                 lane: Some((n + 1, method)),
-                what: first_coordinate(was, is, lab, n),
+                what: first_coordinate(was, is, studio, n),
             }
         })
         .next()
 }
 
 /// The first coordinate or velocity of a lane that differs, and by how much.
-fn first_coordinate(then: &LaneMark, now: &LaneMark, lab: &Studio, lane: usize) -> String {
-    let bodies = lab.race().entrants()[lane].lane.bodies();
+fn first_coordinate(then: &LaneMark, now: &LaneMark, studio: &Studio, lane: usize) -> String {
+    let bodies = studio.race().entrants()[lane].lane.bodies();
     for (n, body) in bodies.iter().enumerate() {
         let values = |mark: &LaneMark| {
             let row = |rows: &[Vec<f64>]| rows.get(n).cloned().unwrap_or_default();
@@ -94,7 +94,7 @@ fn first_coordinate(then: &LaneMark, now: &LaneMark, lab: &Studio, lane: usize) 
         let names = names.clone().map(|c| c.name).chain(names.map(|c| c.velocity));
         for ((name, was), is) in names.zip(values(then)).zip(values(now)) {
             if !is_same_value(was, is) {
-                let body = &lab.scene().bodies[n].name;
+                let body = &studio.scene().bodies[n].name;
                 let off = (is - was).abs();
                 return format!("{body}, {name}: {was} in the manifest, {is} now, off by {off:e}");
             }

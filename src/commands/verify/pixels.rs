@@ -89,10 +89,10 @@ pub(super) fn judge(
     let limits = limits(args, &manifest.adapter, &adapter(&renderer));
     let frames = manifest.frames.len() as u32;
     let interrupted = watch_for_interrupt();
-    let (mut lab, mut state_log) = rerun.begin();
+    let (mut studio, mut state_log) = rerun.begin();
     let run = Run {
         renderer: &mut renderer,
-        lab: &mut lab,
+        studio: &mut studio,
         state_log: &mut state_log,
         schedule: Schedule { frames, ..capture.schedule },
     };
@@ -110,7 +110,7 @@ pub(super) fn judge(
         return Err(cannot(interrupted_after(done, frames, "nothing is written")));
     }
     let are_exact = limits.max_channel == 0;
-    Ok((Frames { are_exact, differences }, (lab, state_log)))
+    Ok((Frames { are_exact, differences }, (studio, state_log)))
 }
 
 /// The limits of what the options allow. Tells of another driver than the one that drew the frames.

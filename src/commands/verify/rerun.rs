@@ -24,17 +24,17 @@ pub(super) struct Frames {
 impl Rerun {
     /// The lab at the start of the run, and the log of its states.
     pub(super) fn begin(&self) -> (Studio, StateLog) {
-        let lab = self.capture.lab(&self.experiment);
-        let state_log = StateLog::new(self.capture.mark_every, lab.race());
-        (lab, state_log)
+        let studio = self.capture.studio(&self.experiment);
+        let state_log = StateLog::new(self.capture.mark_every, studio.race());
+        (studio, state_log)
     }
 
     /// The lab at the end of the run and its log, where nothing is drawn.
     pub(super) fn run(&self) -> (Studio, StateLog) {
-        let (mut lab, mut state_log) = self.begin();
+        let (mut studio, mut state_log) = self.begin();
         for frame in 0..self.manifest.frames.len() as u32 {
-            self.capture.schedule.advance(&mut lab, frame, &mut state_log);
+            self.capture.schedule.advance(&mut studio, frame, &mut state_log);
         }
-        (lab, state_log)
+        (studio, state_log)
     }
 }

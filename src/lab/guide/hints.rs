@@ -166,14 +166,14 @@ mod tests {
     fn in_a_race_no_hint_asks_for_what_only_solo_does() {
         use crate::lab::Studio;
         for scene in SCENES {
-            let mut lab = Studio::new(Scene::built_in(scene.name).unwrap());
-            let solo = lab.hint().expect("a hint");
-            lab.apply(StageCommand::ToggleRace);
-            lab.begin_hints();
-            let hint = lab.hint().expect("a lead");
+            let mut studio = Studio::new(Scene::built_in(scene.name).unwrap());
+            let solo = studio.hint().expect("a hint");
+            studio.apply(StageCommand::ToggleRace);
+            studio.begin_hints();
+            let hint = studio.hint().expect("a lead");
             assert!(suits_race(&hint), "{}: {hint}", scene.name);
-            lab.apply(StageCommand::ToggleRace);
-            assert!(lab.hint().is_some(), "{}: {solo}", scene.name);
+            studio.apply(StageCommand::ToggleRace);
+            assert!(studio.hint().is_some(), "{}: {solo}", scene.name);
         }
         assert!(suits_race("Press `[`.") && !suits_race("Press `2`."));
         assert!(!suits_race("Steer with `←`. `C` races all methods."), "its last key counts too");
@@ -184,16 +184,16 @@ mod tests {
         use crate::lab::Studio;
         let text = "title = 'mine'\ntick_hz = 60\nseconds = 9\nmethods = ['rk4', 'implicit-euler']\n\
              [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 9\nx0_m = 1\n";
-        let mut lab = Studio::new(Scene::parse("mine.toml", text).unwrap());
-        let asks_for = |lab: &Studio, key: &str| lab.hint().expect("a lead").contains(key);
-        assert!(asks_for(&lab, "`C`"), "it was just opened");
-        lab.apply(StageCommand::Pick(1));
-        assert!(asks_for(&lab, "`C`"), "it starts under the other method");
-        lab.tick();
-        lab.apply(StageCommand::Pick(0));
-        assert!(asks_for(&lab, "`Home`"), "it did not start under this one");
-        lab.apply(StageCommand::Restart);
-        assert!(asks_for(&lab, "`C`"));
+        let mut studio = Studio::new(Scene::parse("mine.toml", text).unwrap());
+        let asks_for = |studio: &Studio, key: &str| studio.hint().expect("a lead").contains(key);
+        assert!(asks_for(&studio, "`C`"), "it was just opened");
+        studio.apply(StageCommand::Pick(1));
+        assert!(asks_for(&studio, "`C`"), "it starts under the other method");
+        studio.tick();
+        studio.apply(StageCommand::Pick(0));
+        assert!(asks_for(&studio, "`Home`"), "it did not start under this one");
+        studio.apply(StageCommand::Restart);
+        assert!(asks_for(&studio, "`C`"));
     }
 
     #[test]

@@ -3,194 +3,195 @@ use crate::lab::pacing::policy;
 use crate::lab::{Action, Command, RunCommand, StageCommand, Step, Studio};
 use crate::sim::integrators::method;
 
-fn lab() -> LoopLab {
+fn studio() -> LoopLab {
     lab_of(&Scene::built_in("spring").unwrap())
 }
 
 fn lab_of(scene: &Scene) -> LoopLab {
-    let mut lab = LoopLab::new(scene, 0, method("rk4").unwrap());
-    run(&mut lab);
-    lab
+    let mut studio = LoopLab::new(scene, 0, method("rk4").unwrap());
+    run(&mut studio);
+    studio
 }
 
 /// Runs the loops that it wants.
-fn run(lab: &mut LoopLab) {
+fn run(studio: &mut LoopLab) {
     let mut worker = LoopWorker::default();
-    worker.set_request(Some(lab.request().clone()));
+    worker.set_request(Some(studio.request().clone()));
     while let Some(found) = worker.work(&|| false) {
-        lab.accept(found);
+        studio.accept(found);
     }
 }
 
 #[test]
 fn it_opens_where_raw_ticks_judder_and_whole_refreshes_do_not() {
-    let lab = lab();
-    assert_eq!(lab.traces()[lab.trace()].name(), "edge");
+    let studio = studio();
+    assert_eq!(studio.traces()[studio.trace()].name(), "edge");
     let error = |id: &str| {
-        let lane = lab.lanes().iter().find(|lane| lane.card().id == id).unwrap();
+        let lane = studio.lanes().iter().find(|lane| lane.card().id == id).unwrap();
         lane.report().unwrap().animation_error_rms_ms.unwrap()
     };
     assert!((11.0..12.6).contains(&error("fixed")), "{}", error("fixed"));
     assert!(error("whole-refresh") < 1e-6, "{}", error("whole-refresh"));
-    assert_eq!(on_stage(&lab), ["fixed", "whole-refresh"]);
-    assert_eq!(lab.selected_card(), policy("fixed").unwrap());
+    assert_eq!(on_stage(&studio), ["fixed", "whole-refresh"]);
+    assert_eq!(studio.selected_card(), policy("fixed").unwrap());
 }
 
-fn on_stage(lab: &LoopLab) -> Vec<&'static str> {
-    lab.on_stage().iter().map(|&place| lab.lanes()[place].card().id).collect()
+fn on_stage(studio: &LoopLab) -> Vec<&'static str> {
+    studio.on_stage().iter().map(|&place| studio.lanes()[place].card().id).collect()
 }
 
 #[test]
 fn the_opening_goes_on_to_a_fast_display_unless_a_person_does_something() {
     let past_the_first = 8 * (OPENING_NS + 1_000_000);
-    let mut lab = lab();
-    lab.advance(past_the_first);
-    assert_eq!(lab.trace(), 0, "not asked for");
-    lab.seek(0);
-    lab.play_opening();
-    lab.advance(past_the_first);
-    assert_eq!(lab.traces()[lab.trace()].name(), "steady-144");
-    assert_eq!(on_stage(&lab), ["fixed", "fixed-linear"]);
-    assert_eq!(lab.now_ns(), 0);
-    run(&mut lab);
-    lab.advance(past_the_first);
-    assert_eq!(lab.traces()[lab.trace()].name(), "steady-144", "it stays there");
-    lab.select(0);
-    lab.choose_trace(0);
-    assert_eq!(on_stage(&lab).len(), 3, "what a person chose stays");
+    let mut studio = studio();
+    studio.advance(past_the_first);
+    assert_eq!(studio.trace(), 0, "not asked for");
+    studio.seek(0);
+    studio.play_opening();
+    studio.advance(past_the_first);
+    assert_eq!(studio.traces()[studio.trace()].name(), "steady-144");
+    assert_eq!(on_stage(&studio), ["fixed", "fixed-linear"]);
+    assert_eq!(studio.now_ns(), 0);
+    run(&mut studio);
+    studio.advance(past_the_first);
+    assert_eq!(studio.traces()[studio.trace()].name(), "steady-144", "it stays there");
+    studio.select(0);
+    studio.choose_trace(0);
+    assert_eq!(on_stage(&studio).len(), 3, "what a person chose stays");
 }
 
 #[test]
 fn a_script_acts_on_the_body_at_its_times_under_any_tick_rate() {
     let scene = Scene::built_in("helm").unwrap();
     assert!(!scene.script.is_empty());
-    let mut lab = lab_of(&scene);
-    let ends = |lab: &LoopLab| lab.lanes()[0].frames().last().unwrap().exact[0];
-    let at_own_rate = ends(&lab);
+    let mut studio = lab_of(&scene);
+    let ends = |studio: &LoopLab| studio.lanes()[0].frames().last().unwrap().exact[0];
+    let at_own_rate = ends(&studio);
     let bare = Scene { script: Vec::new(), ..scene.clone() };
     assert_ne!(at_own_rate, ends(&lab_of(&bare)));
-    lab.set_tick_hz(3 * scene.tick_hz);
-    run(&mut lab);
-    let relative = (ends(&lab) / at_own_rate - 1.0).abs();
+    studio.set_tick_hz(3 * scene.tick_hz);
+    run(&mut studio);
+    let relative = (ends(&studio) / at_own_rate - 1.0).abs();
     assert!(relative < 1e-12, "{relative}");
 }
 
 #[test]
 fn a_display_holds_a_frame_until_the_next() {
-    let mut lab = lab();
-    lab.step(3);
-    let lane = &lab.lanes()[lab.selected()];
-    let at = lane.frame_at(lab.now_ns()).unwrap();
+    let mut studio = studio();
+    studio.step(3);
+    let lane = &studio.lanes()[studio.selected()];
+    let at = lane.frame_at(studio.now_ns()).unwrap();
     assert_eq!(at, 3);
     assert_eq!(lane.frame_at(lane.frames()[4].displayed_ns - 1), Some(3));
     assert_eq!(lane.frame_at(-1), None);
-    lab.step(-100);
-    assert_eq!(lab.now_ns(), 0);
+    studio.step(-100);
+    assert_eq!(studio.now_ns(), 0);
 }
 
 #[test]
 fn a_frame_that_stands_still_is_further_and_further_behind() {
-    let mut lab = lab();
-    let place = lab.traces().iter().position(|trace| trace.name() == "alt-tab-5s").unwrap();
-    lab.choose_trace(place);
-    run(&mut lab);
-    let frames = lab.lanes()[lab.selected()].frames();
+    let mut studio = studio();
+    let place = studio.traces().iter().position(|trace| trace.name() == "alt-tab-5s").unwrap();
+    studio.choose_trace(place);
+    run(&mut studio);
+    let frames = studio.lanes()[studio.selected()].frames();
     let longest = frames.windows(2).max_by_key(|pair| pair[1].displayed_ns - pair[0].displayed_ns);
     let held = longest.unwrap()[0].clone();
-    lab.seek(held.displayed_ns + 5_000_000);
-    assert_eq!(lab.late_ms(&held), held.latency_ms());
-    lab.seek(held.displayed_ns + 1_500_000_000);
-    assert!((lab.late_ms(&held) - held.latency_ms() - 1500.0).abs() < 1e-9);
+    studio.seek(held.displayed_ns + 5_000_000);
+    assert_eq!(studio.late_ms(&held), held.latency_ms());
+    studio.seek(held.displayed_ns + 1_500_000_000);
+    assert!((studio.late_ms(&held) - held.latency_ms() - 1500.0).abs() < 1e-9);
 }
 
 #[test]
 fn it_plays_slowly_and_begins_again_at_its_end() {
-    let mut lab = lab();
-    lab.advance(80_000_000);
-    assert_eq!(lab.now_ns(), 10_000_000);
-    lab.seek(i64::MAX);
-    assert_eq!(lab.now_ns(), lab.end_ns());
-    lab.advance(80_000_000);
-    assert_eq!(lab.now_ns(), 0);
+    let mut studio = studio();
+    studio.advance(80_000_000);
+    assert_eq!(studio.now_ns(), 10_000_000);
+    studio.seek(i64::MAX);
+    assert_eq!(studio.now_ns(), studio.end_ns());
+    studio.advance(80_000_000);
+    assert_eq!(studio.now_ns(), 0);
 }
 
 #[test]
 fn the_stage_holds_one_to_four_lanes_in_the_order_of_the_table() {
-    let mut lab = lab();
+    let mut studio = studio();
     for place in [0, 1, 2, 99] {
-        lab.select(place);
+        studio.select(place);
     }
-    assert_eq!(lab.on_stage().len(), MAX_ON_STAGE);
-    assert!(lab.on_stage().is_sorted() && lab.on_stage().contains(&lab.selected()));
+    assert_eq!(studio.on_stage().len(), MAX_ON_STAGE);
+    assert!(studio.on_stage().is_sorted() && studio.on_stage().contains(&studio.selected()));
     for place in 0..POLICIES.len() {
-        if lab.on_stage().contains(&place) {
-            lab.toggle(place);
+        if studio.on_stage().contains(&place) {
+            studio.toggle(place);
         }
     }
-    assert_eq!(lab.on_stage().len(), 1);
+    assert_eq!(studio.on_stage().len(), 1);
 }
 
 #[test]
 fn a_net_is_not_taken_and_the_reason_is_told() {
-    let mut lab = Studio::new(Scene::built_in("rope").unwrap());
-    lab.apply(Command::Loop(LoopCommand::ToggleLab));
-    assert!(lab.loop_lab().is_none());
-    assert!(lab.viewer().notice.as_ref().is_some_and(|told| told.starts_with("rope is a net")));
+    let mut studio = Studio::new(Scene::built_in("rope").unwrap());
+    studio.apply(Command::Loop(LoopCommand::ToggleLab));
+    assert!(studio.loop_lab().is_none());
+    assert!(studio.viewer().notice.as_ref().is_some_and(|told| told.starts_with("rope is a net")));
 }
 
 #[test]
 fn a_net_that_is_opened_in_it_leaves_it_with_the_reason() {
-    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-    lab.apply(Command::Loop(LoopCommand::ToggleLab));
-    assert!(lab.loop_lab().is_some());
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    studio.apply(Command::Loop(LoopCommand::ToggleLab));
+    assert!(studio.loop_lab().is_some());
     let rope = crate::lab::SCENES.iter().position(|scene| scene.name == "rope").unwrap();
-    lab.apply(StageCommand::Scene(rope));
-    assert!(lab.loop_lab().is_none());
-    assert_eq!(lab.scene_name(), "rope");
-    let notice = lab.viewer().notice.as_deref().unwrap_or_default();
+    studio.apply(StageCommand::Scene(rope));
+    assert!(studio.loop_lab().is_none());
+    assert_eq!(studio.scene_name(), "rope");
+    let notice = studio.viewer().notice.as_deref().unwrap_or_default();
     assert!(notice.contains("is a net, which the loop lab does not take"), "{notice}");
 }
 
 #[test]
 fn opening_it_and_choosing_run_nothing_and_loops_are_shown_as_they_come() {
-    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-    lab.apply(Command::Loop(LoopCommand::ToggleLab));
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    studio.apply(Command::Loop(LoopCommand::ToggleLab));
     let shown =
-        |lab: &Studio| lab.loop_lab().unwrap().lanes().iter().filter(|l| l.was_run()).count();
-    assert_eq!(shown(&lab), 0);
-    let request = lab.loop_request();
+        |studio: &Studio| studio.loop_lab().unwrap().lanes().iter().filter(|l| l.was_run()).count();
+    assert_eq!(shown(&studio), 0);
+    let request = studio.loop_request();
     let mut worker = LoopWorker::default();
     worker.set_request(request.clone());
-    lab.advance(1_000_000_000);
-    lab.accept_loop(worker.work(&|| false).unwrap());
-    let loops = lab.loop_lab().unwrap();
+    studio.advance(1_000_000_000);
+    studio.accept_loop(worker.work(&|| false).unwrap());
+    let loops = studio.loop_lab().unwrap();
     assert!(loops.lanes()[loops.on_stage()[0]].was_run(), "what is on the stage comes first");
     assert_eq!((loops.now_ns(), loops.is_stage_complete()), (0, false), "time waits for the stage");
     let late = worker.work(&|| false).unwrap();
-    lab.apply(StageCommand::TickRate(Step::Next));
-    assert_eq!(shown(&lab), 0, "all of them are of the old rate");
-    lab.accept_loop(late);
-    assert_eq!(shown(&lab), 0, "and so is one that comes late");
-    lab.run_loops();
-    assert!(lab.loop_request().is_none(), "it has all");
+    studio.apply(StageCommand::TickRate(Step::Next));
+    assert_eq!(shown(&studio), 0, "all of them are of the old rate");
+    studio.accept_loop(late);
+    assert_eq!(shown(&studio), 0, "and so is one that comes late");
+    studio.run_loops();
+    assert!(studio.loop_request().is_none(), "it has all");
 }
 
 #[test]
 fn a_loop_that_is_stopped_is_run_again() {
-    let lab = lab();
+    let studio = studio();
     let mut worker = LoopWorker::default();
-    worker.set_request(Some(lab.request().clone()));
+    worker.set_request(Some(studio.request().clone()));
     assert!(worker.work(&|| true).is_none() && !worker.is_done());
     let place = worker.work(&|| false).map(|found| found.place);
-    assert_eq!(place, Some(lab.on_stage()[0]));
+    assert_eq!(place, Some(studio.on_stage()[0]));
 }
 
 #[test]
 fn the_loop_lab_keeps_every_command_on_the_run_from_the_run_behind_it() {
-    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-    (0..40).for_each(|_| lab.tick());
-    lab.apply(Command::Loop(LoopCommand::ToggleLab));
-    let before = (lab.race().state_hash(), lab.clock().speed_percent(), lab.scene().seconds);
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    (0..40).for_each(|_| studio.tick());
+    studio.apply(Command::Loop(LoopCommand::ToggleLab));
+    let before =
+        (studio.race().state_hash(), studio.clock().speed_percent(), studio.scene().seconds);
     for command in [
         Command::Run(RunCommand::Act(Action::Kick(1.0))),
         Command::Run(RunCommand::Seek(3)),
@@ -200,11 +201,12 @@ fn the_loop_lab_keeps_every_command_on_the_run_from_the_run_behind_it() {
         Command::Run(RunCommand::MapParameter(1)),
         Command::Run(RunCommand::ToggleEqualCost),
     ] {
-        assert_eq!(lab.apply(command.clone()), None);
-        let now = (lab.race().state_hash(), lab.clock().speed_percent(), lab.scene().seconds);
+        assert_eq!(studio.apply(command.clone()), None);
+        let now =
+            (studio.race().state_hash(), studio.clock().speed_percent(), studio.scene().seconds);
         assert_eq!(now, before, "{command:?}");
-        assert_eq!(lab.view().mapped_parameter, None);
-        let notice = lab.viewer().notice.as_deref().unwrap_or_default();
+        assert_eq!(studio.view().mapped_parameter, None);
+        let notice = studio.viewer().notice.as_deref().unwrap_or_default();
         assert_eq!(notice, "not in the loop lab: L leaves it", "{command:?}");
     }
 }

@@ -5,17 +5,17 @@ use crate::lab::scene::Scene;
 use crate::sim::integrators::{GENERAL_METHODS, METHODS, Method};
 
 /// A lab under a method, after some ticks.
-fn lab(scene: &str, method: &str, ticks: u64) -> Studio {
+fn studio(scene: &str, method: &str, ticks: u64) -> Studio {
     let mut scene = Scene::built_in(scene).unwrap();
     let method = METHODS.iter().find(|known| known.id == method).unwrap();
     if method.is_engine() {
         scene.lanes.push(LaneSpec::plain(method));
     }
-    let mut lab = Studio::new(scene);
-    let entry = lab.entries().iter().position(|spec| spec.method == method).unwrap();
-    lab.apply(StageCommand::Pick(entry));
-    (0..ticks).for_each(|_| lab.tick());
-    lab
+    let mut studio = Studio::new(scene);
+    let entry = studio.entries().iter().position(|spec| spec.method == method).unwrap();
+    studio.apply(StageCommand::Pick(entry));
+    (0..ticks).for_each(|_| studio.tick());
+    studio
 }
 
 /// A scene that the method steps.
@@ -30,7 +30,7 @@ fn near(found: [f64; 2], wanted: [f64; 2]) -> bool {
 
 #[test]
 fn runge_kutta_4_evaluates_at_the_places_of_the_textbook() {
-    let step = lab("spring", "rk4", 7).one_step().unwrap();
+    let step = studio("spring", "rk4", 7).one_step().unwrap();
     let h = 1.0 / 60.0;
     let omega_squared = std::f64::consts::TAU * std::f64::consts::TAU;
     let f = |[x, v]: [f64; 2]| [v, -omega_squared * x];
@@ -57,14 +57,14 @@ fn runge_kutta_4_evaluates_at_the_places_of_the_textbook() {
 fn every_method_lands_where_the_run_goes_to_the_bit_and_does_not_disturb_it() {
     for scene in ["spring", "chain", "pendulum", "orbit"] {
         for method in GENERAL_METHODS {
-            let mut lab = lab(scene, method.id, 5);
-            let before: Vec<u64> = lab.race().lane_hashes().collect();
-            let evaluations = lab.race().entrants()[0].lane.evaluations();
-            let step = lab.one_step().unwrap();
-            let counted = lab.evaluations_of_next_tick(0);
-            assert_eq!(lab.race().lane_hashes().collect::<Vec<_>>(), before, "{}", method.id);
-            lab.tick();
-            let lane = &lab.race().entrants()[0].lane;
+            let mut studio = studio(scene, method.id, 5);
+            let before: Vec<u64> = studio.race().lane_hashes().collect();
+            let evaluations = studio.race().entrants()[0].lane.evaluations();
+            let step = studio.one_step().unwrap();
+            let counted = studio.evaluations_of_next_tick(0);
+            assert_eq!(studio.race().lane_hashes().collect::<Vec<_>>(), before, "{}", method.id);
+            studio.tick();
+            let lane = &studio.race().entrants()[0].lane;
             let stepper = &lane.bodies()[0].stepper;
             let bits = |at: [f64; 2]| at.map(f64::to_bits);
             let landed = [stepper.q()[0], stepper.v()[0]];
@@ -79,7 +79,7 @@ fn every_method_lands_where_the_run_goes_to_the_bit_and_does_not_disturb_it() {
 fn weights_on_a_card_lead_to_the_landing() {
     let mut chains = 0;
     for method in METHODS {
-        let step = lab(scene_for(method), method.id, 3).one_step().unwrap();
+        let step = studio(scene_for(method), method.id, 3).one_step().unwrap();
         assert_eq!(step.chain.is_empty(), method.weights.is_empty(), "{}", method.id);
         if let Some(&end) = step.chain.last() {
             assert!(near(end, step.landing.unwrap()), "{}: {end:?}", method.id);
@@ -91,36 +91,36 @@ fn weights_on_a_card_lead_to_the_landing() {
 
 #[test]
 fn a_halted_body_has_no_next_step() {
-    let lab = lab("stiff", "explicit-euler", 400);
-    assert!(lab.race().entrants()[0].lane.halted().is_some());
-    assert_eq!(lab.one_step(), None);
+    let studio = studio("stiff", "explicit-euler", 400);
+    assert!(studio.race().entrants()[0].lane.halted().is_some());
+    assert_eq!(studio.one_step(), None);
 }
 
 #[test]
 fn runge_kutta_4_loses_the_same_part_of_the_swing_in_every_tick_and_a_32nd_of_it_in_half_ticks() {
     for ticks in [0, 1, 5] {
-        let mut lab = lab("spring", "rk4", 0);
-        lab.apply(StageCommand::TickHz(5));
-        lab.apply(StageCommand::Restart);
-        (0..ticks).for_each(|_| lab.tick());
-        let [whole, halves] = lab.one_step().unwrap().growth.unwrap();
+        let mut studio = studio("spring", "rk4", 0);
+        studio.apply(StageCommand::TickHz(5));
+        studio.apply(StageCommand::Restart);
+        (0..ticks).for_each(|_| studio.tick());
+        let [whole, halves] = studio.one_step().unwrap().growth.unwrap();
         // |R(iz)|² = 1 - z⁶/72 + z⁸/576 with z = 2π/5.
         let z = std::f64::consts::TAU / 5.0;
         let wanted = (1.0 - z.powi(6) / 72.0 + z.powi(8) / 576.0).sqrt() - 1.0;
         assert!((whole - wanted).abs() < 1e-6, "{whole}, not {wanted}");
         assert!((25.0..40.0).contains(&(whole / halves)), "{}", whole / halves);
     }
-    assert_eq!(lab("ship", "rk4", 3).one_step().unwrap().growth, None, "a ship does not swing");
-    assert_eq!(lab("chain", "rk4", 3).one_step().unwrap().growth, None);
+    assert_eq!(studio("ship", "rk4", 3).one_step().unwrap().growth, None, "a ship does not swing");
+    assert_eq!(studio("chain", "rk4", 3).one_step().unwrap().growth, None);
 }
 
 #[test]
 fn an_orbit_has_the_energy_of_its_state_and_turns_where_it_has_no_speed() {
-    let lab = lab("spring", "rk4", 7);
+    let studio = studio("spring", "rk4", 7);
     let tau = std::f64::consts::TAU;
     let size = |[q, v]: [f64; 2]| libm::hypot(q, v / tau);
-    let from = lab.one_step().unwrap().from;
-    let lines = lab.orbit(from, [-0.2, 2.0]);
+    let from = studio.one_step().unwrap().from;
+    let lines = studio.orbit(from, [-0.2, 2.0]);
     assert_eq!(lines.len(), 2, "above and below");
     for line in &lines {
         assert!(line.len() > 40);

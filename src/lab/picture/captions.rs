@@ -53,26 +53,27 @@ fn text(
     Label { at, align, size, colour, is_strong: false, halo: faded(palette.sea[1], 0.85), text }
 }
 
-fn lane_name(lab: &Studio, entrant: &Entrant) -> String {
-    let entry = lab.entry(entrant);
-    format!("{} {}", entry + 1, lab.lane_name(entry))
+fn lane_name(studio: &Studio, entrant: &Entrant) -> String {
+    let entry = studio.entry(entrant);
+    format!("{} {}", entry + 1, studio.lane_name(entry))
 }
 
 /// The width of the column at the left of a stage this wide in which [`lane`] names each of these, in points.
-pub(super) fn lanes_width(lab: &Studio, entrants: &[&Entrant], stage: f32) -> f32 {
-    let width = |lane: &&Entrant| LANE_INSET + LETTER * lane_name(lab, lane).chars().count() as f32;
+pub(super) fn lanes_width(studio: &Studio, entrants: &[&Entrant], stage: f32) -> f32 {
+    let width =
+        |lane: &&Entrant| LANE_INSET + LETTER * lane_name(studio, lane).chars().count() as f32;
     let widest = entrants.iter().map(width).fold(LANES.0, f32::max);
     if stage >= ROOM_FOR_LANES { widest.min(MAX_FOR_LANES * stage) } else { LANES.1 }
 }
 
 /// Names a lane at the left of its row, with a bar where it is selected.
 pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, entrant: &Entrant) {
-    let lab = moment.lab;
-    let entry = lab.entry(entrant);
+    let studio = moment.studio;
+    let entry = studio.entry(entrant);
     let (colour, _) = moment.style(entry);
     let (left, right) = (rect.min[0] + LANE_INSET, rect.max[0]);
     let middle = (rect.min[1] + rect.max[1]) / 2.0;
-    if entrant.id == lab.selected().id {
+    if entrant.id == studio.selected().id {
         let (top, bottom) = (rect.min[1] + 4.0, rect.max[1] - 4.0);
         let x = rect.min[0] + 2.5;
         let bar = line([x, top], [x, bottom.max(top)], 3.0, colour, rect);
@@ -84,7 +85,7 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, 
         let at = [left, y];
         picture.labels.push(text(moment.palette, at, Align::Left, size, colour, words));
     };
-    let mut name = lane_name(lab, entrant);
+    let mut name = lane_name(studio, entrant);
     if right - left < ROOM_FOR_CAPTION[0] {
         write(middle, colour, format!("{}", entry + 1));
         return;
@@ -157,7 +158,7 @@ fn inset(rect: Rect) -> f32 {
 /// Names a body at the head of its cell.
 pub(super) fn name(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, index: usize) {
     if let Some(at) = caption_place(rect) {
-        let name = capitalised(&moment.lab.scene().bodies[index].name);
+        let name = capitalised(&moment.studio.scene().bodies[index].name);
         let size = if inset(rect) > 0.0 { 14.0 } else { 11.5 };
         let label = text(moment.palette, at, Align::Left, size, moment.palette.text, name);
         picture.labels.push(Label { is_strong: true, ..label });
@@ -167,7 +168,7 @@ pub(super) fn name(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, 
 /// The room of the name of a body at the head of its cell, if it is named there.
 pub(super) fn name_room(rect: Rect, moment: &DrawContext<'_>, index: usize) -> Option<Rect> {
     let [x, y] = caption_place(rect)?;
-    let letters = moment.lab.scene().bodies[index].name.chars().count();
+    let letters = moment.studio.scene().bodies[index].name.chars().count();
     Some(Rect { min: [x, y - 7.0], max: [x + NAME_LETTER * letters as f32, y + 7.0] })
 }
 
@@ -187,9 +188,9 @@ pub(super) fn head(
 ) {
     let Some([x, y]) = caption_place(rect) else { return };
     let body = &entrant.lane.bodies()[index];
-    let name = moment.lab.scene().bodies[index].name.chars().count();
+    let name = moment.studio.scene().bodies[index].name.chars().count();
     let left = x + NAME_LETTER * name as f32 + 14.0;
-    let (coordinate, _) = moment.lab.past().coordinate(moment.lab.race(), index);
+    let (coordinate, _) = moment.studio.past().coordinate(moment.studio.race(), index);
     let right = left + LETTER * widest_state(&coordinate) as f32 + 14.0;
     let chip =
         Chip::of(moment, index, entrant).filter(|_| rect.max[1] - rect.min[1] >= ROOM_FOR_CHIP);
@@ -233,12 +234,12 @@ fn state(
     if let Some(halt) = body.halted() {
         picture.labels.push(text(palette, at, Align::Left, 12.5, palette.bad, halt.fate()));
     } else if rect.max[0] - rect.min[0] > ROOM_FOR_NUMBERS {
-        let held = moment.lab.viewer().held().filter(|held| held.body == index);
+        let held = moment.studio.viewer().held().filter(|held| held.body == index);
         let (q, v) = match held {
             Some(held) => (held.q.to_vec(), held.v.to_vec()),
-            None => moment.lab.shown_state(body),
+            None => moment.studio.shown_state(body),
         };
-        let (coordinate, plotted) = moment.lab.past().coordinate(moment.lab.race(), index);
+        let (coordinate, plotted) = moment.studio.past().coordinate(moment.studio.race(), index);
         let place = format!("{} {}", brief(q[plotted]), coordinate.shown_unit());
         let words = format!(
             "{} = {}   {} = {} {}/s",
@@ -272,8 +273,8 @@ struct Chip {
 impl Chip {
     /// The chip of a body whose method does not do what it should.
     fn of(moment: &DrawContext<'_>, index: usize, entrant: &Entrant) -> Option<Self> {
-        let entry = moment.lab.entry(entrant);
-        let verdict = moment.lab.viewer().verdict(entry)?;
+        let entry = moment.studio.entry(entrant);
+        let verdict = moment.studio.viewer().verdict(entry)?;
         let palette = moment.palette;
         let (sign, tone) = match verdict.outcome().severity() {
             Severity::Bad => ("▲", palette.bad),
@@ -286,17 +287,17 @@ impl Chip {
         let furthest = |samples: &mut dyn Iterator<Item = f64>| {
             samples.map(f64::abs).filter(|x| x.is_finite()).fold(0.0, f64::max)
         };
-        let past = moment.lab.past();
+        let past = moment.studio.past();
         let since_s = past.changed_s();
         let samples = moment.history(entrant, index).since(since_s);
         let lane = furthest(&mut samples.map(|sample| sample.q));
         let samples = past.truth_curves()[index].since(since_s);
         let exact = furthest(&mut samples.map(|sample| sample.q));
-        let unit = moment.lab.race().truth().bodies()[index].coordinates().at(0).shown_unit();
+        let unit = moment.studio.race().truth().bodies()[index].coordinates().at(0).shown_unit();
         let how_far =
             |reach: f64| format!("{} {unit}", significant(reach, 2)).trim_end().to_owned();
         // The run on the screen is another than the judged one.
-        let is_other = moment.lab.was_changed_on_the_way();
+        let is_other = moment.studio.was_changed_on_the_way();
         let halt = entrant.lane.bodies()[index].halted();
         Some(Self {
             sign,
@@ -306,7 +307,8 @@ impl Chip {
                 None => verdict.wordings(false)[usize::from(!is_other)].clone(),
             },
             brief: verdict.fails_in_brief().filter(|_| is_other && halt.is_none()),
-            swing: (verdict.long_term.swings && past.coordinate(moment.lab.race(), index).1 == 0)
+            swing: (verdict.long_term.swings
+                && past.coordinate(moment.studio.race(), index).1 == 0)
                 .then(|| format!("{}, exact {}", how_far(lane), how_far(exact))),
         })
     }
@@ -445,15 +447,15 @@ mod tests {
 
     #[test]
     fn the_numbers_beside_a_name_end_before_the_chip_however_far_the_body_is() {
-        let mut lab = Studio::new(Scene::built_in("stiff").unwrap());
+        let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
         for _ in 0..3 {
-            lab.apply(StageCommand::TickRate(Step::Previous));
+            studio.apply(StageCommand::TickRate(Step::Previous));
         }
-        lab.analyse();
+        studio.analyse();
         let mut said = 0;
-        for _ in 0..lab.race().tick_hz() {
-            lab.tick();
-            let picture = compose(&lab, [780.0, 460.0]);
+        for _ in 0..studio.race().tick_hz() {
+            studio.tick();
+            let picture = compose(&studio, [780.0, 460.0]);
             let chip = picture.labels.iter().find(|label| label.text == "▲").expect("a chip");
             let numbers = picture.labels.iter().filter(|label| label.text.starts_with("x = "));
             for label in numbers {
@@ -467,8 +469,8 @@ mod tests {
 
     #[test]
     fn a_chip_on_a_run_that_was_changed_says_that_the_verdict_is_of_another() {
-        let words = |lab: &Studio, size| -> Vec<String> {
-            let labels = compose(lab, size).labels.into_iter().map(|label| label.text);
+        let words = |studio: &Studio, size| -> Vec<String> {
+            let labels = compose(studio, size).labels.into_iter().map(|label| label.text);
             labels.filter(|text| text.contains("blow")).collect()
         };
         for (ticks, wide, narrow) in [
@@ -479,13 +481,13 @@ mod tests {
                 "blows up, if run from the start",
             ),
         ] {
-            let mut lab = Studio::new(Scene::built_in("stiff").unwrap());
-            (0..ticks).for_each(|_| lab.tick());
-            lab.apply(StageCommand::TickHz(49));
-            lab.analyse();
-            (0..20).for_each(|_| lab.tick());
-            assert_eq!(words(&lab, [960.0, 560.0]), [wide], "changed at {ticks}");
-            assert_eq!(words(&lab, [470.0, 330.0]), [narrow], "changed at {ticks}");
+            let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
+            (0..ticks).for_each(|_| studio.tick());
+            studio.apply(StageCommand::TickHz(49));
+            studio.analyse();
+            (0..20).for_each(|_| studio.tick());
+            assert_eq!(words(&studio, [960.0, 560.0]), [wide], "changed at {ticks}");
+            assert_eq!(words(&studio, [470.0, 330.0]), [narrow], "changed at {ticks}");
         }
     }
 }

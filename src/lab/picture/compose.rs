@@ -43,18 +43,18 @@ const FAINT: f32 = 0.45;
 const TOLERANCE: f64 = 0.15;
 
 /// The picture of the lab on a stage of `size` points.
-pub fn compose(lab: &Studio, size: [f32; 2]) -> Picture {
-    if let Some(loops) = lab.loop_lab() {
-        return loop_stage::compose(lab, loops, size);
+pub fn compose(studio: &Studio, size: [f32; 2]) -> Picture {
+    if let Some(loops) = studio.loop_lab() {
+        return loop_stage::compose(studio, loops, size);
     }
-    let moment = DrawContext::of(lab);
+    let moment = DrawContext::of(studio);
     let mut picture = Picture::default();
     let stage = Rect { min: [0.0; 2], max: size };
     chart::sea(&mut picture, stage, moment.palette);
-    let bodies = lab.scene().bodies.len();
+    let bodies = studio.scene().bodies.len();
     let ghosts: Vec<Ghost> = (0..bodies).map(|index| Ghost::new(&moment, index)).collect();
-    let entrants: Vec<&Entrant> = lab.race().entrants().iter().collect();
-    match (lab.mode(), lab.display().arrangement) {
+    let entrants: Vec<&Entrant> = studio.race().entrants().iter().collect();
+    match (studio.mode(), studio.display().arrangement) {
         (Mode::Solo, _) | (Mode::Race, Arrangement::Overlay) => {
             overlay(&mut picture, &moment, stage, &ghosts, &entrants);
         }
@@ -73,8 +73,8 @@ fn overlay(
     ghosts: &[Ghost],
     entrants: &[&Entrant],
 ) {
-    let front = moment.lab.selected();
-    let alone = (moment.lab.mode() == Mode::Solo).then_some(front);
+    let front = moment.studio.selected();
+    let alone = (moment.studio.mode() == Mode::Solo).then_some(front);
     let views = on_one_stage(moment, ghosts.iter().map(|ghost| ghost.view).collect(), alone);
     // A ship on a straight course has its own marks.
     let has_ruler = stage.max[1] - stage.min[1] >= ROOM_FOR_RULER
@@ -97,7 +97,7 @@ fn overlay(
         let of_body = Band { moment, index, ghost, view, camera, lanes: entrants, front };
         of_body.draw(picture);
         captions::name(picture, *cell, moment, index);
-        if moment.lab.mode() == Mode::Solo {
+        if moment.studio.mode() == Mode::Solo {
             captions::head(picture, *cell, moment, index, front);
         }
         let is_measured = match view.framing {
@@ -152,7 +152,7 @@ fn side_by_side(
         }
         return;
     }
-    let gutter = captions::lanes_width(moment.lab, entrants, stage.max[0] - stage.min[0]);
+    let gutter = captions::lanes_width(moment.studio, entrants, stage.max[0] - stage.min[0]);
     let right = Rect { min: [stage.min[0] + gutter, stage.min[1]], ..stage };
     let cells = grid(right, entrants.len(), bodies);
     for (entrant, row) in entrants.iter().zip(cells.chunks(bodies)) {
@@ -189,9 +189,9 @@ struct Band<'a> {
 impl Band<'_> {
     fn draw(&self, picture: &mut Picture) {
         let Self { moment, index, ghost, view, ref camera, .. } = *self;
-        let (lab, framing, palette) = (moment.lab, view.framing, moment.palette);
-        let truth = &lab.race().truth().bodies()[index];
-        let shows_ghost = lab.display().ghost && truth.halted().is_none();
+        let (studio, framing, palette) = (moment.studio, view.framing, moment.palette);
+        let truth = &studio.race().truth().bodies()[index];
+        let shows_ghost = studio.display().ghost && truth.halted().is_none();
         self.ground(picture, shows_ghost);
 
         let behind = self.lanes.iter().filter(|lane| !self.is_front(lane));
@@ -201,7 +201,7 @@ impl Band<'_> {
         let mut cell = Cell {
             rect: camera.rect,
             lane: self.front.id,
-            entry: lab.entry(self.front),
+            entry: studio.entry(self.front),
             body: index,
             zoomed_as: view.zoomed_as,
             seen: Vec::new(),
@@ -209,9 +209,9 @@ impl Band<'_> {
         };
         for lane in behind.chain([&self.front]) {
             let body = &lane.lane.bodies()[index];
-            let (look, coordinates) = (Look::of(body), lab.shown_state(body).0);
+            let (look, coordinates) = (Look::of(body), studio.shown_state(body).0);
             let outline = look.outline(moment.t, &coordinates);
-            let entry = lab.entry(lane);
+            let entry = studio.entry(lane);
             let (colour, dash) = moment.style(entry);
             let at = camera.points(outline.at);
             let flag = Flag { at, number: entry + 1, colour };
@@ -221,7 +221,7 @@ impl Band<'_> {
             let seen = OutlineView { outline: &outline, camera, palette };
             let whose = Whose::Lane { lane: lane.id, entry };
             cell.seen.push((whose, coordinates));
-            let held = lab.viewer().held().filter(|held| held.body == index);
+            let held = studio.viewer().held().filter(|held| held.body == index);
             let away = self.trail(picture, lane, outline.at, flag).filter(|_| held.is_none());
             lost.extend(away);
             if held.is_none() && !self.room().contains(at) {
@@ -277,7 +277,7 @@ impl Band<'_> {
             let busy = Rect { min: [x - half, y - 2.0 * lift], max: [x + half, y + half] };
             let reach_m = ghost.view.reach_m.max_element();
             loupe::draw(picture, moment, camera, (&near, reach_m), (room, busy));
-            if lab.mode() == Mode::Solo && index == 0 {
+            if studio.mode() == Mode::Solo && index == 0 {
                 let bead = ghost.outline.marks.iter().find_map(|mark| match mark {
                     Mark::Disc { radius, .. } => Some(camera.size(*radius)),
                     _ => None,
@@ -289,10 +289,10 @@ impl Band<'_> {
         }
         let is_alone = self.lanes.len() == 1;
         let says_beside =
-            is_alone && (lab.mode() == Mode::Solo || self.front.lane.bodies().len() == 1);
+            is_alone && (studio.mode() == Mode::Solo || self.front.lane.bodies().len() == 1);
         let halted = self.lanes.iter().filter(|_| !says_beside).filter_map(|lane| {
             let halt = lane.lane.bodies()[index].halted()?;
-            Some(((!is_alone).then(|| lab.entry(lane) + 1), halt))
+            Some(((!is_alone).then(|| studio.entry(lane) + 1), halt))
         });
         captions::halts(picture, camera.rect, halted, truth, palette);
         picture.cells.push(cell);
@@ -371,7 +371,7 @@ impl Band<'_> {
         let places = legs.iter().flatten().map(|place| place.at);
         let away = Lost::of(flag, camera, self.room(), std::iter::once(from).chain(places));
         // A person who zooms in has chosen what to see.
-        let is_fitted = moment.lab.view().zoom_pan(view.zoomed_as) == ZoomPan::default();
+        let is_fitted = moment.studio.view().zoom_pan(view.zoomed_as) == ZoomPan::default();
         if is_fitted && away.is_some() {
             return away;
         }

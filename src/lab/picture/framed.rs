@@ -64,7 +64,7 @@ pub(super) fn on_one_stage(
     }
     share(&mut views, &is_alike);
     for (view, before_m) in views.iter_mut().zip(before) {
-        if moment.lab.display().motion == Motion::Live {
+        if moment.studio.display().motion == Motion::Live {
             view.grown = view.half_m() / before_m;
         }
         if let Framing::Recorder { .. } = view.framing {
@@ -106,10 +106,10 @@ impl BodyView {
     /// Makes room for how far a lane goes, which is alone on the stage: some times further than the truth, or for a person
     /// who watches as far as it goes.
     fn widened(mut self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> Self {
-        if moment.lab.display().motion == Motion::Live {
+        if moment.studio.display().motion == Motion::Live {
             return self.outgrown(moment, lane, body);
         }
-        let since_s = moment.lab.past().swing_since_s(moment.lab.race().t());
+        let since_s = moment.studio.past().swing_since_s(moment.studio.race().t());
         let furthest = |centre_m: DVec2| {
             let samples = moment.history(lane, body).since(since_s);
             let places = samples.map(|s| (s.at - centre_m).abs()).filter(|at| at.is_finite());
@@ -160,9 +160,9 @@ pub(super) fn quay_width(cell: Rect) -> f32 {
 impl DrawContext<'_> {
     /// The camera of a cell that shows the body at this index of the scene, zoomed and panned as a person has it.
     pub(super) fn camera(&self, rect: Rect, index: usize, view: &BodyView) -> Camera {
-        let unit = drawn_unit(&self.lab.race().truth().bodies()[index].kind);
+        let unit = drawn_unit(&self.studio.race().truth().bodies()[index].kind);
         let camera = Camera { unit, ..self.fitted(rect, view) }.grown(view.grown);
-        camera.through(self.lab.view().zoom_pan(view.zoomed_as))
+        camera.through(self.studio.view().zoom_pan(view.zoomed_as))
     }
 
     fn fitted(&self, rect: Rect, view: &BodyView) -> Camera {
@@ -181,7 +181,7 @@ impl DrawContext<'_> {
         };
         match view.framing {
             Framing::Follow { width_m, height_m, .. } => {
-                let centre_m = if self.lab.display().motion != Motion::Reduced {
+                let centre_m = if self.studio.display().motion != Motion::Reduced {
                     view.followed
                 } else {
                     // In pages, so that nothing but the ship moves.
@@ -219,7 +219,7 @@ impl DrawContext<'_> {
     /// The width and height, in metres, of what is to be seen of a body that is alone in its scene and
     /// moves both across and up. Other bodies move along rows.
     pub(super) fn shape(&self, view: &BodyView) -> Option<DVec2> {
-        let [body] = self.lab.race().truth().bodies() else { return None };
+        let [body] = self.studio.race().truth().bodies() else { return None };
         match view.framing {
             Framing::Fixed { half_m, .. } => Some(half_m),
             Framing::Follow { width_m, height_m, .. } if turns(body) => {
@@ -239,16 +239,16 @@ mod tests {
     #[test]
     fn an_orbit_that_leaves_the_true_one_is_followed_in_solo() {
         for (is_race, is_seen) in [(false, true), (true, false)] {
-            let mut lab = Studio::new(Scene::built_in("orbit").unwrap());
-            lab.apply(StageCommand::Pick(0));
+            let mut studio = Studio::new(Scene::built_in("orbit").unwrap());
+            studio.apply(StageCommand::Pick(0));
             if is_race {
-                lab.apply(StageCommand::ToggleRace);
+                studio.apply(StageCommand::ToggleRace);
             }
-            (0..9 * lab.race().tick_hz()).for_each(|_| lab.tick());
-            let picture = compose(&lab, [800.0, 440.0]);
+            (0..9 * studio.race().tick_hz()).for_each(|_| studio.tick());
+            let picture = compose(&studio, [800.0, 440.0]);
             let camera = &picture.cells[0].camera;
-            let place = lab.race().entrants()[0].lane.bodies()[0].stepper.place();
-            let truth = lab.race().truth().bodies()[0].stepper.place();
+            let place = studio.race().entrants()[0].lane.bodies()[0].stepper.place();
+            let truth = studio.race().truth().bodies()[0].stepper.place();
             assert!(camera.rect.contains(camera.points(truth)));
             assert_eq!(camera.rect.contains(camera.points(place)), is_seen, "{place}");
         }
@@ -257,13 +257,13 @@ mod tests {
     #[test]
     fn bodies_on_one_ruler_are_zoomed_as_one_and_it_with_them() {
         for over in [0, 1] {
-            let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-            lab.advance(100_000_000);
-            let before = compose(&lab, [780.0, 500.0]);
+            let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+            studio.advance(100_000_000);
+            let before = compose(&studio, [780.0, 500.0]);
             let zoomed_as = before.cells[over].zoomed_as;
-            let zoom_pan = lab.view().zoom_pan(zoomed_as).zoomed(0.5, [0.1, 0.0]);
-            lab.apply(ViewCommand::ZoomPan { body: zoomed_as, zoom_pan });
-            let after = compose(&lab, [780.0, 500.0]);
+            let zoom_pan = studio.view().zoom_pan(zoomed_as).zoomed(0.5, [0.1, 0.0]);
+            studio.apply(ViewCommand::ZoomPan { body: zoomed_as, zoom_pan });
+            let after = compose(&studio, [780.0, 500.0]);
             let [free, damped, ship] = [0, 1, 2].map(|body| after.cells[body].camera);
             assert_eq!(free.points_per_metre, before.cells[0].camera.points_per_metre / 2.0);
             let scale = |camera: &Camera| (camera.points_per_metre, camera.at[0], camera.quay_m);

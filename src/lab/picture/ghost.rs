@@ -22,16 +22,16 @@ pub(super) struct Ghost {
 impl Ghost {
     /// The ghost of the body at this index of the scene: the exact flow at the moment drawn, which is that of the lanes.
     pub(super) fn new(moment: &DrawContext<'_>, index: usize) -> Self {
-        let race = moment.lab.race();
+        let race = moment.studio.race();
         let body = &race.truth().bodies()[index];
-        let remembered = moment.lab.past();
+        let remembered = moment.studio.past();
         let curve = &remembered.truth_curves()[index];
         let look = Look::of(body);
         let framing = look.framing();
         // To find the truth between ticks, a body is copied. One that is not drawn is wanted only where the view follows it.
-        let is_needed = moment.lab.display().ghost || matches!(framing, Framing::Follow { .. });
+        let is_needed = moment.studio.display().ghost || matches!(framing, Framing::Follow { .. });
         let (q, v) = match is_needed {
-            true => moment.lab.shown_truth(index),
+            true => moment.studio.shown_truth(index),
             false => (body.stepper.q().to_vec(), body.stepper.v().to_vec()),
         };
         let course = look.course(&q, &v);
@@ -56,7 +56,7 @@ impl Ghost {
         trail_s: f64,
         tolerance_m: f64,
     ) -> Vec<Place> {
-        let curve = &moment.lab.past().truth_curves()[index];
+        let curve = &moment.studio.past().truth_curves()[index];
         let colour = faded(moment.palette.exact, 0.55);
         thinned(past(curve, self.outline.at, moment.t, trail_s, colour), tolerance_m)
     }

@@ -56,8 +56,8 @@ pub enum Whose {
 
 impl Cell {
     /// Where the bodies can be taken hold of.
-    pub fn grips(&self, lab: &Studio) -> impl Iterator<Item = Grip> {
-        let look = Look::of(&lab.race().truth().bodies()[self.body]);
+    pub fn grips(&self, studio: &Studio) -> impl Iterator<Item = Grip> {
+        let look = Look::of(&studio.race().truth().bodies()[self.body]);
         let is_recorder = self.camera.quay_m != 0.0;
         let least = if is_recorder { MIN_RADIUS.max(self.camera.block / 2.0) } else { MIN_RADIUS };
         self.seen.iter().flat_map(move |(whose, q)| {
@@ -70,7 +70,7 @@ impl Cell {
 
     /// What a hand at this point of the stage takes hold of: of what it touches the nearest, another lane's body or a
     /// ghost only where that of the cell's own lane is out of reach.
-    pub fn grip_at(&self, lab: &Studio, at: [f32; 2]) -> Option<Grip> {
+    pub fn grip_at(&self, studio: &Studio, at: [f32; 2]) -> Option<Grip> {
         if !self.rect.contains(at) {
             return None;
         }
@@ -80,7 +80,7 @@ impl Cell {
             Whose::Lane { .. } => 1,
             Whose::Truth => 2,
         };
-        let touched = self.grips(lab).filter(|grip| away(grip) <= grip.radius);
+        let touched = self.grips(studio).filter(|grip| away(grip) <= grip.radius);
         touched.min_by(|a, b| rank(a).cmp(&rank(b)).then(away(a).total_cmp(&away(b))))
     }
 
@@ -107,8 +107,8 @@ pub struct Grasp {
 
 impl Grasp {
     /// Takes hold of the body in `cell` by `grip`, with the hand at this point of the stage.
-    pub fn new(lab: &Studio, cell: &Cell, grip: &Grip, hand: [f32; 2]) -> Option<Self> {
-        let race = lab.race();
+    pub fn new(studio: &Studio, cell: &Cell, grip: &Grip, hand: [f32; 2]) -> Option<Self> {
+        let race = studio.race();
         let lane = match grip.whose {
             Whose::Lane { lane, .. } => &race.entrant(lane)?.lane,
             Whose::Truth => race.truth(),
@@ -131,15 +131,15 @@ impl Grasp {
             },
             cell: cell.clone(),
         };
-        grasp.pull(lab, hand, [0.0; 2]);
+        grasp.pull(studio, hand, [0.0; 2]);
         Some(grasp)
     }
 
     /// Brings the hand to a point of the stage, where it moves with this velocity in points per second of simulated
     /// time, y down.
-    pub fn pull(&mut self, lab: &Studio, hand: [f32; 2], velocity: [f64; 2]) {
+    pub fn pull(&mut self, studio: &Studio, hand: [f32; 2], velocity: [f64; 2]) {
         let Self { cell, handle, offset_m, held } = self;
-        let body = &lab.race().truth().bodies()[cell.body];
+        let body = &studio.race().truth().bodies()[cell.body];
         let look = Look::of(body);
         held.hand = cell.metres(hand);
         let velocity = DVec2::new(velocity[0], -velocity[1]) / cell.camera.points_per_metre;

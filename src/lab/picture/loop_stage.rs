@@ -40,8 +40,8 @@ const PATH_S: f64 = 0.16;
 const MARGIN: f64 = 1.22;
 
 /// The picture of the loop lab on a stage of `size` points.
-pub(super) fn compose(lab: &Studio, loops: &LoopLab, size: [f32; 2]) -> Picture {
-    let palette = lab.display().theme.palette();
+pub(super) fn compose(studio: &Studio, loops: &LoopLab, size: [f32; 2]) -> Picture {
+    let palette = studio.display().theme.palette();
     let mut picture = Picture::default();
     let stage = Rect { min: [0.0; 2], max: size };
     chart::sea(&mut picture, stage, palette);
@@ -49,8 +49,8 @@ pub(super) fn compose(lab: &Studio, loops: &LoopLab, size: [f32; 2]) -> Picture 
     let top = if has_ruler { chart::RULER } else { 0.0 };
     let ground = Rect { min: [0.0, top], max: size };
     let ruled = match loops.is_overlaid() {
-        true => overlay(&mut picture, lab, loops, ground),
-        false => side_by_side(&mut picture, lab, loops, ground),
+        true => overlay(&mut picture, studio, loops, ground),
+        false => side_by_side(&mut picture, studio, loops, ground),
     };
     if let Some(camera) = ruled.filter(|_| has_ruler) {
         let strip = Rect { min: stage.min, max: [size[0], top] };
@@ -62,11 +62,11 @@ pub(super) fn compose(lab: &Studio, loops: &LoopLab, size: [f32; 2]) -> Picture 
 /// Draws a band for each loop on the stage. Returns the camera of the first, if it stays where it is.
 fn side_by_side(
     picture: &mut Picture,
-    lab: &Studio,
+    studio: &Studio,
     loops: &LoopLab,
     ground: Rect,
 ) -> Option<Camera> {
-    let palette = lab.display().theme.palette();
+    let palette = studio.display().theme.palette();
     let on_stage = loops.on_stage();
     let height = (ground.max[1] - ground.min[1]) / on_stage.len() as f32;
     let mut ruled = None;
@@ -78,26 +78,33 @@ fn side_by_side(
             let edge = line(ends[0], ends[1], 1.0, faded(palette.chart, 0.35), rect);
             picture.shapes.push(edge);
         }
-        let band = Band::new(lab, loops, place, rect, FOOT);
-        ruled = ruled.or(band.draw(picture, lab.display().ghost));
+        let band = Band::new(studio, loops, place, rect, FOOT);
+        ruled = ruled.or(band.draw(picture, studio.display().ghost));
     }
     ruled
 }
 
 /// Draws all loops on the stage over each other, the selected one in front, and names them below. Returns the camera, if
 /// it stays where it is.
-fn overlay(picture: &mut Picture, lab: &Studio, loops: &LoopLab, ground: Rect) -> Option<Camera> {
+fn overlay(
+    picture: &mut Picture,
+    studio: &Studio,
+    loops: &LoopLab,
+    ground: Rect,
+) -> Option<Camera> {
     let on_stage = loops.on_stage();
     let is_selected = |place: usize| place == loops.selected();
     let foot = FOOT + LINE * (on_stage.len() - 1) as f32;
     let mut back_to_front = on_stage.to_vec();
     back_to_front.sort_by_key(|&place| is_selected(place));
-    let bands: Vec<Band<'_>> =
-        back_to_front.into_iter().map(|place| Band::new(lab, loops, place, ground, foot)).collect();
+    let bands: Vec<Band<'_>> = back_to_front
+        .into_iter()
+        .map(|place| Band::new(studio, loops, place, ground, foot))
+        .collect();
     let front = bands.last()?;
     let exact = front.exact(front.frames()?.last()?);
     let camera = front.camera(exact.at);
-    if lab.display().ghost {
+    if studio.display().ghost {
         front.ghost(picture, &camera, &exact);
     }
     for band in &bands {
@@ -155,8 +162,8 @@ struct Band<'a> {
 }
 
 impl<'a> Band<'a> {
-    fn new(lab: &Studio, loops: &'a LoopLab, place: usize, rect: Rect, foot: f32) -> Self {
-        let theme = lab.display().theme;
+    fn new(studio: &Studio, loops: &'a LoopLab, place: usize, rect: Rect, foot: f32) -> Self {
+        let theme = studio.display().theme;
         let (lane, colour) = (&loops.lanes()[place], theme.loop_style(place).0);
         Self { loops, lane, place, rect, foot, colour, palette: theme.palette() }
     }

@@ -41,7 +41,7 @@ pub(super) struct LoupeLane {
 
 impl LoupeLane {
     pub(super) fn of(moment: &DrawContext<'_>, lane: &Entrant, body: usize, colour: Rgba) -> Self {
-        let race = moment.lab.race();
+        let race = moment.studio.race();
         let [place, truth] =
             [&lane.lane, race.truth()].map(|lane| lane.bodies()[body].stepper.place());
         let lately = moment.history(lane, body).since(race.t() - LATELY_S);
@@ -65,7 +65,7 @@ pub(super) fn draw(
     let furthest = camera.points_per_metre * furthest_m;
     let has_room = (0..2).all(|axis| room.max[axis] - room.min[axis] >= ROOM[axis]);
     let is_apart = furthest <= SEEN && furthest_m >= ROUNDING * reach_m;
-    if lanes.len() < 2 || !has_room || !is_apart || moment.lab.race().t() < LATELY_S {
+    if lanes.len() < 2 || !has_room || !is_apart || moment.studio.race().t() < LATELY_S {
         return;
     }
     let Some(times) = enlargement(furthest, REACH * f64::from(RADIUS)) else { return };
@@ -112,10 +112,10 @@ mod tests {
         let mut scene = Scene::built_in(scene).unwrap();
         let all = Studio::new(scene.clone()).entries().to_vec();
         scene.lanes = all.into_iter().filter(|spec| methods.contains(&spec.method.id)).collect();
-        let mut lab = Studio::new(scene);
-        lab.apply(StageCommand::ToggleRace);
-        (0..seconds * lab.race().tick_hz()).for_each(|_| lab.tick());
-        let picture = compose(&lab, [800.0, 440.0]);
+        let mut studio = Studio::new(scene);
+        studio.apply(StageCommand::ToggleRace);
+        (0..seconds * studio.race().tick_hz()).for_each(|_| studio.tick());
+        let picture = compose(&studio, [800.0, 440.0]);
         let texts = picture.labels.into_iter().map(|label| label.text);
         texts.filter(|text| text.starts_with('×')).collect()
     }
@@ -135,13 +135,14 @@ mod tests {
         // A damped spring that has come to rest.
         let text = "title = 't'\ntick_hz = 60\nseconds = 20\nmethods = ['rk4', 'gauss-legendre-4']\n\
              [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 90\ndamping_n_s_per_m = 4\nx0_m = 1\n";
-        let mut lab = Studio::new(Scene::parse("t.toml", text).unwrap());
-        lab.apply(StageCommand::ToggleRace);
+        let mut studio = Studio::new(Scene::parse("t.toml", text).unwrap());
+        studio.apply(StageCommand::ToggleRace);
         let mut shown = [2_u32, 16].map(|seconds| {
-            while lab.race().t() < f64::from(seconds) {
-                lab.tick();
+            while studio.race().t() < f64::from(seconds) {
+                studio.tick();
             }
-            let labels = compose(&lab, [800.0, 440.0]).labels.into_iter().map(|label| label.text);
+            let labels =
+                compose(&studio, [800.0, 440.0]).labels.into_iter().map(|label| label.text);
             labels.filter(|text| text.starts_with('×')).count()
         });
         shown.reverse();

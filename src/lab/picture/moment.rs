@@ -13,7 +13,7 @@ const MAX_PAPER_S: f64 = 3.0;
 
 /// The moment that is drawn.
 pub(super) struct DrawContext<'a> {
-    pub(super) lab: &'a Studio,
+    pub(super) studio: &'a Studio,
     pub(super) palette: &'static Palette,
     /// The moment in seconds.
     pub(super) t: f64,
@@ -22,24 +22,24 @@ pub(super) struct DrawContext<'a> {
 }
 
 impl<'a> DrawContext<'a> {
-    pub(super) fn of(lab: &'a Studio) -> Self {
+    pub(super) fn of(studio: &'a Studio) -> Self {
         Self {
-            lab,
-            palette: lab.display().theme.palette(),
-            t: lab.shown_s(),
-            paper_s: (PAPER * lab.scene().seconds).min(MAX_PAPER_S),
+            studio,
+            palette: studio.display().theme.palette(),
+            t: studio.shown_s(),
+            paper_s: (PAPER * studio.scene().seconds).min(MAX_PAPER_S),
         }
     }
 
     /// The colour and the dash pattern of the lane on this index of the list.
     pub(super) fn style(&self, entry: usize) -> (Rgba, [f32; 2]) {
-        let lanes = self.lab.entries();
-        self.lab.display().theme.lane_style(lanes, &lanes[entry])
+        let lanes = self.studio.entries();
+        self.studio.display().theme.lane_style(lanes, &lanes[entry])
     }
 
     /// What is remembered of a body in a lane.
     pub(super) fn history(&self, entrant: &Entrant, body: usize) -> &'a History {
-        &self.lab.past().histories(entrant.id)[body]
+        &self.studio.past().histories(entrant.id)[body]
     }
 }
 
@@ -55,20 +55,20 @@ mod tests {
     use crate::sim::number::significant;
 
     /// A spring under RK4 at a rate at which a tick can be seen.
-    fn lab() -> Studio {
+    fn studio() -> Studio {
         let scene = Scene { tick_hz: 5, ..Scene::built_in("spring").unwrap() };
-        let mut lab = Studio::new(scene);
-        let rk4 = lab.entries().iter().position(|spec| spec.method.id == "rk4");
-        lab.apply(StageCommand::Pick(rk4.unwrap()));
-        lab
+        let mut studio = Studio::new(scene);
+        let rk4 = studio.entries().iter().position(|spec| spec.method.id == "rk4");
+        studio.apply(StageCommand::Pick(rk4.unwrap()));
+        studio
     }
 
     /// Where the mass and the ghost are drawn, in metres, and what the stage says of the mass.
-    fn drawn(lab: &Studio) -> ([f64; 2], String) {
-        let picture = compose(lab, [780.0, 500.0]);
+    fn drawn(studio: &Studio) -> ([f64; 2], String) {
+        let picture = compose(studio, [780.0, 500.0]);
         let cell = &picture.cells[0];
         let of = |truth: bool| {
-            let grip = cell.grips(lab).find(|grip| (grip.whose == Whose::Truth) == truth);
+            let grip = cell.grips(studio).find(|grip| (grip.whose == Whose::Truth) == truth);
             cell.camera.metres(grip.expect("it is on the stage").at).x
         };
         let mut texts = picture.labels.into_iter().map(|label| label.text);
@@ -82,41 +82,41 @@ mod tests {
     #[test]
     fn at_rest_everything_is_of_the_tick_of_the_title_however_bodies_are_drawn_between_ticks() {
         for _ in Interpolation::ALL {
-            let mut lab = lab();
-            lab.apply(ViewCommand::TogglePause);
-            lab.apply(StageCommand::Restart);
-            lab.apply(StageCommand::Tick(Step::Next));
-            lab.apply(StageCommand::Tick(Step::Next));
+            let mut studio = studio();
+            studio.apply(ViewCommand::TogglePause);
+            studio.apply(StageCommand::Restart);
+            studio.apply(StageCommand::Tick(Step::Next));
+            studio.apply(StageCommand::Tick(Step::Next));
             for _ in Interpolation::ALL {
-                let [mass, truth] = [&lab.race().entrants()[0].lane, lab.race().truth()]
+                let [mass, truth] = [&studio.race().entrants()[0].lane, studio.race().truth()]
                     .map(|lane| lane.bodies()[0].stepper.q()[0]);
-                let ([block, ghost], said) = drawn(&lab);
-                let way = lab.display().interpolation;
+                let ([block, ghost], said) = drawn(&studio);
+                let way = studio.display().interpolation;
                 assert!(is_near(block, mass) && is_near(ghost, truth), "{way:?}: {block} {ghost}");
                 assert!(said.contains(&format!("x = {} m", significant(mass, 4))), "{said}");
-                assert_eq!(lab.shown_s(), lab.race().t());
-                lab.apply(RunCommand::NextInterpolation);
+                assert_eq!(studio.shown_s(), studio.race().t());
+                studio.apply(RunCommand::NextInterpolation);
             }
         }
     }
 
     #[test]
     fn while_time_runs_bodies_ghost_and_numbers_share_the_moment_drawn() {
-        let mut lab = lab();
+        let mut studio = studio();
         for part in [0.35, 0.7, 1.0, 1.3, 1.75] {
-            lab.apply(StageCommand::Restart);
-            lab.advance((part * 0.2e9) as i64);
-            lab.advance(100_000_000);
+            studio.apply(StageCommand::Restart);
+            studio.advance((part * 0.2e9) as i64);
+            studio.advance(100_000_000);
             for way in Interpolation::ALL {
-                let ([block, ghost], said) = drawn(&lab);
-                let exact = libm::cos(std::f64::consts::TAU * lab.shown_s());
-                assert!(is_near(ghost, exact), "{way:?}: {ghost} at {} s", lab.shown_s());
+                let ([block, ghost], said) = drawn(&studio);
+                let exact = libm::cos(std::f64::consts::TAU * studio.shown_s());
+                assert!(is_near(ghost, exact), "{way:?}: {ghost} at {} s", studio.shown_s());
                 let x = said.split(' ').nth(2).expect("x = …").replace('−', "-");
                 assert!(
                     (x.parse::<f64>().unwrap() - block).abs() < 1e-3,
                     "{way:?}: {said}, {block}"
                 );
-                lab.apply(RunCommand::NextInterpolation);
+                studio.apply(RunCommand::NextInterpolation);
             }
         }
     }
@@ -124,14 +124,14 @@ mod tests {
     #[test]
     fn when_time_runs_on_the_stage_goes_on_from_what_was_shown_at_rest() {
         for ways in 0..Interpolation::ALL.len() {
-            let mut lab = lab();
-            (0..ways).for_each(|_| _ = lab.apply(RunCommand::NextInterpolation));
-            lab.advance(730_000_000);
-            lab.apply(ViewCommand::TogglePause);
-            let (rest, _) = drawn(&lab);
-            lab.apply(ViewCommand::TogglePause);
-            let (on, _) = drawn(&lab);
-            let way = lab.display().interpolation;
+            let mut studio = studio();
+            (0..ways).for_each(|_| _ = studio.apply(RunCommand::NextInterpolation));
+            studio.advance(730_000_000);
+            studio.apply(ViewCommand::TogglePause);
+            let (rest, _) = drawn(&studio);
+            studio.apply(ViewCommand::TogglePause);
+            let (on, _) = drawn(&studio);
+            let way = studio.display().interpolation;
             assert!(is_near(rest[0], on[0]) && is_near(rest[1], on[1]), "{way:?}: {rest:?} {on:?}");
         }
     }

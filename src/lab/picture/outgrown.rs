@@ -64,7 +64,7 @@ impl Room {
     fn present(&self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> DVec2 {
         let body = &lane.lane.bodies()[body];
         let look = Look::of(body);
-        let race = moment.lab.race();
+        let race = moment.studio.race();
         let h = race.last_step_s();
         let extent = |q: &[f64], v: &[f64]| {
             let reaches = [-OVERSHOT * h, OVERSHOT * h].map(|h| {
@@ -101,11 +101,12 @@ pub(super) fn strayed_m(moment: &DrawContext<'_>, lane: &Entrant, body: usize) -
 }
 
 /// How fast time runs so that a lane which outgrows the stage can be watched, in percent of the speed that is set.
-pub(in crate::lab) fn slow_motion_percent(lab: &Studio) -> u32 {
-    if lab.display().motion != Motion::Live || lab.mode() != Mode::Solo {
+pub(in crate::lab) fn slow_motion_percent(studio: &Studio) -> u32 {
+    if studio.display().motion != Motion::Live || studio.mode() != Mode::Solo {
         return 100;
     }
-    let decades = lab.past().histories(lab.selected().id).iter().zip(lab.selected().lane.bodies());
+    let decades =
+        studio.past().histories(studio.selected().id).iter().zip(studio.selected().lane.bodies());
     let decades = decades.map(|(history, body)| {
         let base_m = match Look::of(body).framing() {
             Framing::Recorder { half_width_m } => half_width_m,
@@ -114,7 +115,7 @@ pub(in crate::lab) fn slow_motion_percent(lab: &Studio) -> u32 {
         };
         if body.halted().is_some() { 0.0 } else { decades_per_s(history, base_m) }
     });
-    let speed = f64::from(lab.clock().speed_percent()) / 100.0;
+    let speed = f64::from(studio.clock().speed_percent()) / 100.0;
     let fastest = speed * decades.fold(0.0, f64::max);
     if fastest <= FASTEST { 100 } else { ((100.0 * FASTEST / fastest) as u32).max(SLOWEST) }
 }
@@ -140,62 +141,62 @@ mod tests {
     const SIZE: [f32; 2] = [780.0, 500.0];
 
     fn watched(scene: &str) -> Studio {
-        let mut lab = Studio::new(Scene::built_in(scene).unwrap());
-        lab.viewer_mut().preferences.display.motion = Motion::Live;
-        lab
+        let mut studio = Studio::new(Scene::built_in(scene).unwrap());
+        studio.viewer_mut().preferences.display.motion = Motion::Live;
+        studio
     }
 
     /// Whether the lane's body is on the stage, and how many points a metre has there.
-    fn hero(lab: &Studio) -> (bool, f64) {
-        let picture = compose(lab, SIZE);
+    fn hero(studio: &Studio) -> (bool, f64) {
+        let picture = compose(studio, SIZE);
         let cell = &picture.cells[0];
         let is_lane = |whose| matches!(whose, Whose::Lane { .. });
-        let grip = cell.grips(lab).find(|grip| is_lane(grip.whose)).expect("it can be grabbed");
+        let grip = cell.grips(studio).find(|grip| is_lane(grip.whose)).expect("it can be grabbed");
         (cell.rect.contains(grip.at), cell.camera.points_per_metre)
     }
 
     #[test]
     fn the_stage_zooms_out_evenly_after_a_swing_that_outgrows_it_and_keeps_it_in_sight() {
-        let mut lab = watched("harbour");
-        let (_, first) = hero(&lab);
+        let mut studio = watched("harbour");
+        let (_, first) = hero(&studio);
         let mut last = first;
         for frame in 0..15 * 60 {
-            lab.advance(16_666_667);
-            let (is_seen, scale) = hero(&lab);
+            studio.advance(16_666_667);
+            let (is_seen, scale) = hero(&studio);
             assert!(is_seen, "at frame {frame}");
             assert!((0.95..1.02).contains(&(scale / last)), "{last} to {scale} at frame {frame}");
             last = scale;
         }
         assert!(last < first / 20.0, "{first} to {last} points per metre");
         // The swing that another method keeps has the stage that it found.
-        lab.apply(StageCommand::Pick(1));
-        (0..300).for_each(|_| _ = lab.advance(16_666_667));
-        let (is_seen, held) = hero(&lab);
+        studio.apply(StageCommand::Pick(1));
+        (0..300).for_each(|_| _ = studio.advance(16_666_667));
+        let (is_seen, held) = hero(&studio);
         assert!(is_seen && (0.7..1.4).contains(&(held / last)), "{last} to {held}");
-        lab.apply(StageCommand::Restart);
-        assert_eq!(hero(&lab).1, first);
+        studio.apply(StageCommand::Restart);
+        assert_eq!(hero(&studio).1, first);
     }
 
     #[test]
     fn what_is_recorded_or_shown_with_reduced_motion_keeps_its_stage() {
         for motion in [Motion::Recorded, Motion::Reduced] {
-            let mut lab = watched("harbour");
-            lab.viewer_mut().preferences.display.motion = motion;
-            (0..15 * 60).for_each(|_| lab.tick());
-            let (_, scale) = hero(&lab);
-            lab.viewer_mut().preferences.display.motion = Motion::Live;
-            assert!(hero(&lab).1 < scale / 8.0, "{motion:?}");
+            let mut studio = watched("harbour");
+            studio.viewer_mut().preferences.display.motion = motion;
+            (0..15 * 60).for_each(|_| studio.tick());
+            let (_, scale) = hero(&studio);
+            studio.viewer_mut().preferences.display.motion = Motion::Live;
+            assert!(hero(&studio).1 < scale / 8.0, "{motion:?}");
         }
     }
 
     #[test]
     fn what_blows_up_stays_on_the_stage_to_its_last_tick() {
         for scene in ["stiff", "orbit", "chain", "rope"] {
-            let mut lab = watched(scene);
-            lab.apply(StageCommand::Pick(0));
+            let mut studio = watched(scene);
+            studio.apply(StageCommand::Pick(0));
             for frame in 0..400 {
-                lab.advance(16_666_667);
-                let picture = compose(&lab, SIZE);
+                studio.advance(16_666_667);
+                let picture = compose(&studio, SIZE);
                 let cell = &picture.cells[0];
                 let is_lane = |whose| matches!(whose, Whose::Lane { .. });
                 let is_near = |at: [f32; 2]| {
@@ -204,7 +205,7 @@ mod tests {
                         (cell.rect.min[i] - room..cell.rect.max[i] + room).contains(&at[i])
                     })
                 };
-                let grips = cell.grips(&lab).filter(|grip| is_lane(grip.whose));
+                let grips = cell.grips(&studio).filter(|grip| is_lane(grip.whose));
                 let away = grips.map(|grip| grip.at).find(|at| !is_near(*at));
                 assert_eq!(away, None, "{scene} at frame {frame}");
             }

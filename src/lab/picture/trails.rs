@@ -82,7 +82,11 @@ impl DrawContext<'_> {
     }
 
     fn fade(&self, age: f64, trail_s: f64) -> f32 {
-        if self.lab.display().motion != Motion::Reduced { demote(1.0 - age / trail_s) } else { 0.6 }
+        if self.studio.display().motion != Motion::Reduced {
+            demote(1.0 - age / trail_s)
+        } else {
+            0.6
+        }
     }
 
     /// Where a place lies on a chart recorder's paper: older is further down, from the pen under the block on.

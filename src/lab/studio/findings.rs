@@ -155,21 +155,21 @@ mod tests {
         for (lanes, picks, is_best) in [(10, false, true), (10, true, false), (5, false, false)] {
             let scene = Scene { seconds: 2.0, ..Scene::built_in("spring").unwrap() };
             let all = Studio::new(scene.clone()).entries()[..lanes].to_vec();
-            let mut lab = Studio::new(Scene { lanes: all, ..scene });
-            lab.apply(StageCommand::ToggleRace);
+            let mut studio = Studio::new(Scene { lanes: all, ..scene });
+            studio.apply(StageCommand::ToggleRace);
             if picks {
-                lab.apply(StageCommand::Pick(0));
+                studio.apply(StageCommand::Pick(0));
             }
-            let first = lab.active();
-            lab.analyse();
+            let first = studio.active();
+            studio.analyse();
             let outcome =
-                |entry: usize| lab.viewer().verdict(entry).expect("it is judged").outcome();
+                |entry: usize| studio.viewer().verdict(entry).expect("it is judged").outcome();
             let best = (0..lanes).map(outcome).min().expect("there are lanes");
-            assert_eq!(lab.active() != first, is_best, "{lanes} lanes, picked: {picks}");
-            assert_eq!(outcome(lab.active()) == best, is_best, "{lanes} lanes, picked: {picks}");
-            let selected = lab.active();
-            lab.apply(StageCommand::Restart);
-            assert_eq!(lab.active(), selected);
+            assert_eq!(studio.active() != first, is_best, "{lanes} lanes, picked: {picks}");
+            assert_eq!(outcome(studio.active()) == best, is_best, "{lanes} lanes, picked: {picks}");
+            let selected = studio.active();
+            studio.apply(StageCommand::Restart);
+            assert_eq!(studio.active(), selected);
         }
     }
 }

@@ -141,8 +141,8 @@ mod tests {
 
     #[test]
     fn what_a_stop_sets_without_saying_so_is_undone_when_the_guide_is_left() {
-        let chosen = |lab: &Studio| {
-            let display = lab.display();
+        let chosen = |studio: &Studio| {
+            let display = studio.display();
             (display.quantity, display.metric, display.interpolation)
         };
         for (close, stops) in [
@@ -150,35 +150,35 @@ mod tests {
             (Command::View(ViewCommand::ToggleGuide), 4),
             (Command::Stage(StageCommand::SceneBeside(Step::Next)), 14),
         ] {
-            let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-            lab.apply(StageCommand::Metric(METRICS.len() - 1));
-            lab.apply(RunCommand::NextInterpolation);
-            let before = chosen(&lab);
-            lab.apply(ViewCommand::ToggleGuide);
-            (0..stops).for_each(|_| _ = lab.apply(ViewCommand::StopBeside(Step::Next)));
-            assert_ne!(chosen(&lab), before);
-            lab.apply(RunCommand::NextInterpolation);
-            lab.apply(close.clone());
-            assert!(lab.viewer.tour.is_none() && chosen(&lab) == before, "{close:?}");
+            let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+            studio.apply(StageCommand::Metric(METRICS.len() - 1));
+            studio.apply(RunCommand::NextInterpolation);
+            let before = chosen(&studio);
+            studio.apply(ViewCommand::ToggleGuide);
+            (0..stops).for_each(|_| _ = studio.apply(ViewCommand::StopBeside(Step::Next)));
+            assert_ne!(chosen(&studio), before);
+            studio.apply(RunCommand::NextInterpolation);
+            studio.apply(close.clone());
+            assert!(studio.viewer.tour.is_none() && chosen(&studio) == before, "{close:?}");
         }
     }
 
     #[test]
     fn keys_go_through_the_stops_of_the_open_guide_both_ways_and_stay_at_its_ends() {
         let [next, back] = [Key::PageDown, Key::PageUp].map(|key| command_for(key).unwrap().0);
-        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-        lab.apply(next.clone());
-        lab.apply(back.clone());
-        assert!(lab.viewer.tour.is_none(), "the guide is closed");
-        lab.apply(ViewCommand::ToggleGuide);
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        studio.apply(next.clone());
+        studio.apply(back.clone());
+        assert!(studio.viewer.tour.is_none(), "the guide is closed");
+        studio.apply(ViewCommand::ToggleGuide);
         let last = STOPS.len() - 1;
         for (command, places) in [
             (next, (1..=last).chain([last]).collect::<Vec<_>>()),
             (back, (0..last).rev().chain([0]).collect()),
         ] {
             for place in places {
-                lab.apply(command.clone());
-                assert_eq!(lab.viewer.tour.as_ref().map(Tour::place), Some(place));
+                studio.apply(command.clone());
+                assert_eq!(studio.viewer.tour.as_ref().map(Tour::place), Some(place));
             }
         }
     }

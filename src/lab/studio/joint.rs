@@ -69,34 +69,37 @@ mod tests {
 
     #[test]
     fn a_setting_of_an_engine_sets_the_spring_and_control_c_on_the_engine_copies_it() {
-        let mut lab = Studio::new(Scene::built_in("engines").unwrap());
-        let spring = lab.spring_joint(0).unwrap();
-        let setups = lab.joint_setups();
+        let mut studio = Studio::new(Scene::built_in("engines").unwrap());
+        let spring = studio.spring_joint(0).unwrap();
+        let setups = studio.joint_setups();
         let box2d = setups.iter().find(|setup| setup.mode.stiffness.name == "hertz").unwrap();
         for action in spring.set(*box2d, 0, 3.0) {
-            lab.apply(RunCommand::Act(action));
+            studio.apply(RunCommand::Act(action));
         }
-        let spring = lab.spring_joint(0).unwrap();
+        let spring = studio.spring_joint(0).unwrap();
         for action in spring.set(*box2d, 1, 0.25) {
-            lab.apply(RunCommand::Act(action));
+            studio.apply(RunCommand::Act(action));
         }
-        let spring = lab.spring_joint(0).unwrap();
+        let spring = studio.spring_joint(0).unwrap();
         let [hertz, ratio] = box2d.mode.values(spring.joint, spring.mass_kg);
         assert!((hertz - 3.0).abs() < 1e-12 && (ratio - 0.25).abs() < 1e-12, "{hertz} {ratio}");
 
-        let entry = lab.entries().iter().position(|spec| spec.method == box2d.method).unwrap();
-        let code = lab.joint_code(entry).unwrap();
+        let entry = studio.entries().iter().position(|spec| spec.method == box2d.method).unwrap();
+        let code = studio.joint_code(entry).unwrap();
         assert!(code.contains("def.hertz = 3.0;\n"), "{code}");
-        assert_eq!(lab.apply(ViewCommand::CopyJoint(entry)), Some(DriverRequest::CopyJoint(entry)));
-        lab.apply(ViewCommand::PointAt(Some(entry)));
-        assert_eq!(lab.apply(ViewCommand::Copy), Some(DriverRequest::CopyJoint(entry)));
+        assert_eq!(
+            studio.apply(ViewCommand::CopyJoint(entry)),
+            Some(DriverRequest::CopyJoint(entry))
+        );
+        studio.apply(ViewCommand::PointAt(Some(entry)));
+        assert_eq!(studio.apply(ViewCommand::Copy), Some(DriverRequest::CopyJoint(entry)));
         // A custom method is copied as source code, and so is an engine's step by its menu.
-        let ship = lab.scene().bodies.iter().position(|body| body.kind.id == "ship").unwrap();
-        assert_eq!(lab.spring_joint(ship), None);
-        lab.apply(StageCommand::Body(ship));
-        lab.apply(ViewCommand::PointAt(Some(entry)));
-        assert_eq!(lab.apply(ViewCommand::Copy), Some(DriverRequest::CopyMethod(entry)));
-        assert_eq!(lab.apply(ViewCommand::CopyJoint(entry)), None);
+        let ship = studio.scene().bodies.iter().position(|body| body.kind.id == "ship").unwrap();
+        assert_eq!(studio.spring_joint(ship), None);
+        studio.apply(StageCommand::Body(ship));
+        studio.apply(ViewCommand::PointAt(Some(entry)));
+        assert_eq!(studio.apply(ViewCommand::Copy), Some(DriverRequest::CopyMethod(entry)));
+        assert_eq!(studio.apply(ViewCommand::CopyJoint(entry)), None);
         // An engine that is told other numbers has those.
         let alike = Studio::new(Scene::built_in("alike").unwrap());
         let told = [0, 3].map(|entry| alike.joint_code(entry).unwrap());

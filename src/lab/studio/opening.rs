@@ -169,20 +169,20 @@ impl Studio {
     /// guide, which is about another. The preferences stay, and so does the mode, unless the scene opens as a race.
     pub(super) fn open(&mut self, place: usize) {
         let place = place % self.scene_list.count();
-        let mut lab = Studio::new(self.scene_list.scene(place));
-        lab.scene_list = self.scene_list.clone();
-        lab.scene_list.set_open(place);
-        lab.start.mode = if lab.scene().opens_as_race { Mode::Race } else { self.mode() };
-        lab.viewer = self.viewer.before_next_scene(lab.viewer.selected);
-        lab.clock.set_speed_percent(self.clock.speed_percent());
-        lab.running = self.running;
-        lab.timeline.set_limit(self.timeline.limit());
-        lab.restart();
-        let file = lab.scene_list.file(place);
+        let mut studio = Studio::new(self.scene_list.scene(place));
+        studio.scene_list = self.scene_list.clone();
+        studio.scene_list.set_open(place);
+        studio.start.mode = if studio.scene().opens_as_race { Mode::Race } else { self.mode() };
+        studio.viewer = self.viewer.before_next_scene(studio.viewer.selected);
+        studio.clock.set_speed_percent(self.clock.speed_percent());
+        studio.running = self.running;
+        studio.timeline.set_limit(self.timeline.limit());
+        studio.restart();
+        let file = studio.scene_list.file(place);
         let mistakes = file.and_then(|file| Some((file.name(), file.mistakes.clone()?)));
-        lab.viewer.dialog = mistakes.map(|(file, report)| Dialog::Mistakes { file, report });
-        lab.leave_guide();
-        *self = lab;
+        studio.viewer.dialog = mistakes.map(|(file, report)| Dialog::Mistakes { file, report });
+        studio.leave_guide();
+        *self = studio;
     }
 }
 

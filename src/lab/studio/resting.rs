@@ -96,70 +96,74 @@ mod tests {
 
     /// A lab that somebody watches.
     fn watched(scene: &str) -> Studio {
-        let mut lab = Studio::new(Scene::built_in(scene).unwrap());
-        lab.viewer_mut().preferences.display.motion = Motion::Live;
-        lab
+        let mut studio = Studio::new(Scene::built_in(scene).unwrap());
+        studio.viewer_mut().preferences.display.motion = Motion::Live;
+        studio
     }
 
     /// Lets time run, at most so many seconds of real time.
-    fn watch(lab: &mut Studio, seconds: u32) {
+    fn watch(studio: &mut Studio, seconds: u32) {
         for _ in 0..60 * seconds {
-            if lab.running() {
-                lab.advance(16_666_667);
+            if studio.running() {
+                studio.advance(16_666_667);
             }
         }
     }
 
     #[test]
     fn a_run_that_is_watched_rests_at_the_length_of_its_scene_once() {
-        let mut lab = watched("spring");
+        let mut studio = watched("spring");
         // As long as the scene: nothing is slowed.
-        watch(&mut lab, 21);
-        assert_eq!((lab.race().t(), lab.running()), (lab.scene().seconds, false));
-        assert_eq!(slow_motion_percent(&lab), 100, "a swing that grows by itself is fast enough");
-        let hint = lab.hint().expect("what to do");
+        watch(&mut studio, 21);
+        assert_eq!((studio.race().t(), studio.running()), (studio.scene().seconds, false));
+        assert_eq!(
+            slow_motion_percent(&studio),
+            100,
+            "a swing that grows by itself is fast enough"
+        );
+        let hint = studio.hint().expect("what to do");
         assert!(hint.contains("`Home`") && hint.contains("`Space`"), "{hint}");
-        lab.apply(ViewCommand::TogglePause);
-        watch(&mut lab, 2);
-        assert!(lab.running() && lab.race().t() > lab.scene().seconds);
-        assert!(!lab.hint().is_some_and(|hint| hint.contains("are over")));
+        studio.apply(ViewCommand::TogglePause);
+        watch(&mut studio, 2);
+        assert!(studio.running() && studio.race().t() > studio.scene().seconds);
+        assert!(!studio.hint().is_some_and(|hint| hint.contains("are over")));
     }
 
     #[test]
     fn what_is_undone_at_rest_runs_on_from_there() {
-        let mut lab = watched("spring");
-        watch(&mut lab, 5);
-        let switched = lab.race().tick();
-        lab.apply(StageCommand::Pick(1));
-        watch(&mut lab, 20);
-        assert!(!lab.running());
-        lab.apply(RunCommand::Undo);
-        assert!(lab.running() && lab.race().tick() == switched, "nobody has paused it");
-        watch(&mut lab, 20);
-        let end = lab.race().tick();
-        lab.apply(StageCommand::Pick(2));
-        lab.apply(RunCommand::Undo);
-        assert_eq!((lab.race().tick(), lab.running()), (end, false), "it rests there");
+        let mut studio = watched("spring");
+        watch(&mut studio, 5);
+        let switched = studio.race().tick();
+        studio.apply(StageCommand::Pick(1));
+        watch(&mut studio, 20);
+        assert!(!studio.running());
+        studio.apply(RunCommand::Undo);
+        assert!(studio.running() && studio.race().tick() == switched, "nobody has paused it");
+        watch(&mut studio, 20);
+        let end = studio.race().tick();
+        studio.apply(StageCommand::Pick(2));
+        studio.apply(RunCommand::Undo);
+        assert_eq!((studio.race().tick(), studio.running()), (end, false), "it rests there");
     }
 
     #[test]
     fn a_restart_runs_after_a_rest_and_stays_paused_after_a_pause() {
-        let mut lab = watched("spring");
-        watch(&mut lab, 21);
-        assert!(!lab.running());
-        lab.apply(StageCommand::Restart);
-        assert_eq!((lab.race().tick(), lab.running()), (0, true));
-        watch(&mut lab, 1);
-        lab.apply(ViewCommand::TogglePause);
-        lab.apply(StageCommand::Restart);
-        assert_eq!((lab.race().tick(), lab.running()), (0, false));
+        let mut studio = watched("spring");
+        watch(&mut studio, 21);
+        assert!(!studio.running());
+        studio.apply(StageCommand::Restart);
+        assert_eq!((studio.race().tick(), studio.running()), (0, true));
+        watch(&mut studio, 1);
+        studio.apply(ViewCommand::TogglePause);
+        studio.apply(StageCommand::Restart);
+        assert_eq!((studio.race().tick(), studio.running()), (0, false));
     }
 
     #[test]
     fn nothing_rests_that_is_recorded_steered_or_told_how_long_to_run() {
-        let ends = |mut lab: Studio| {
-            watch(&mut lab, 21);
-            lab.race().t() > lab.scene().seconds
+        let ends = |mut studio: Studio| {
+            watch(&mut studio, 21);
+            studio.race().t() > studio.scene().seconds
         };
         assert!(ends(Studio::new(Scene::built_in("spring").unwrap())), "nobody watches");
         let mut steered = watched("spring");
@@ -178,25 +182,25 @@ mod tests {
              [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1e6\nx0_m = 1\n";
         let scene = Scene::parse("t.toml", text).unwrap();
         let mut frames = [Motion::Recorded, Motion::Live].map(|motion| {
-            let mut lab = Studio::new(scene.clone());
-            lab.viewer_mut().preferences.display.motion = motion;
-            let halts = |lab: &Studio| lab.lost_at().is_some();
+            let mut studio = Studio::new(scene.clone());
+            studio.viewer_mut().preferences.display.motion = motion;
+            let halts = |studio: &Studio| studio.lost_at().is_some();
             let frames = (0..2000).take_while(|_| {
-                lab.advance(16_666_667);
-                !halts(&lab)
+                studio.advance(16_666_667);
+                !halts(&studio)
             });
-            (frames.count(), lab)
+            (frames.count(), studio)
         });
-        let [(usual, plain), (slow, lab)] = &mut frames;
+        let [(usual, plain), (slow, studio)] = &mut frames;
         assert!(*slow > 3 * *usual, "{slow} frames of what takes {usual}");
-        assert_eq!(lab.lost_at(), plain.lost_at());
-        assert!(!lab.running() && plain.running(), "it rests");
-        assert!(lab.hint().is_some_and(|hint| hint.contains("blew up") && hint.contains("`W`")));
-        let (end, hash) = (lab.race().tick(), lab.race().state_hash());
-        lab.apply(RunCommand::WatchAgain);
-        assert!(lab.running() && lab.race().tick() < end);
-        watch(lab, 20);
-        assert_eq!((lab.race().tick(), lab.race().state_hash()), (end, hash));
-        assert!(!lab.running());
+        assert_eq!(studio.lost_at(), plain.lost_at());
+        assert!(!studio.running() && plain.running(), "it rests");
+        assert!(studio.hint().is_some_and(|hint| hint.contains("blew up") && hint.contains("`W`")));
+        let (end, hash) = (studio.race().tick(), studio.race().state_hash());
+        studio.apply(RunCommand::WatchAgain);
+        assert!(studio.running() && studio.race().tick() < end);
+        watch(studio, 20);
+        assert_eq!((studio.race().tick(), studio.race().state_hash()), (end, hash));
+        assert!(!studio.running());
     }
 }

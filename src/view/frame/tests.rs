@@ -137,12 +137,12 @@ fn the_first_frame_of_any_size_is_laid_out_like_the_next() {
     let Some(gpu) = gpu_or_skip("the_first_frame_of_any_size_is_laid_out_like_the_next") else {
         return;
     };
-    let lab = Studio::new(Scene::built_in("spring").unwrap());
+    let studio = Studio::new(Scene::built_in("spring").unwrap());
     let mut renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
     for size_px in [[1280, 720], [1920, 1080], [3840, 2160], [800, 600]] {
         let [first, second] = [0, 1].map(|_| {
             let input = egui::RawInput::default();
-            let (_, mut layout) = renderer.lay_out(&gpu, size_px, 1.0, input, &lab);
+            let (_, mut layout) = renderer.lay_out(&gpu, size_px, 1.0, input, &studio);
             layout.panels.textures_delta.clear();
             layout.stage.expect("a lab has a stage").rect
         });

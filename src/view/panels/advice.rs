@@ -28,34 +28,34 @@ const CRITERION: f32 = 76.0;
 /// From this width of an answer on, in points, the whole name of its button fits.
 const ROOM_FOR_COPY_CODE: f32 = 240.0;
 
-pub(super) fn show(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.y = 2.0;
-    which_bodies(ui, lab, commands);
-    let Some(advice) = lab.viewer().advice() else {
+    which_bodies(ui, studio, commands);
+    let Some(advice) = studio.viewer().advice() else {
         line(ui, RichText::new("judging every method …").color(palette(ui).dim));
         return;
     };
     let best: Vec<Option<usize>> = (0..CRITERIA.len()).map(|i| best(advice, i)).collect();
-    answer(ui, lab, advice, &best, commands);
+    answer(ui, studio, advice, &best, commands);
     ui.separator();
     let whose = match advice.bodies {
-        AdvisedBodies::All if lab.scene().bodies.len() > 1 => ", all bodies",
+        AdvisedBodies::All if studio.scene().bodies.len() > 1 => ", all bodies",
         _ => "",
     };
     table(ui, advice, whose, &best, commands);
 }
 
 /// The choice between all bodies and the selected one, if there are several.
-fn which_bodies(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
-    let bodies = &lab.scene().bodies;
+fn which_bodies(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
+    let bodies = &studio.scene().bodies;
     if bodies.len() < 2 {
         return;
     }
-    let display = lab.display();
+    let display = studio.display();
     ui.horizontal(|ui| {
         for (is_one, name) in [
             (false, format!("all {} bodies", bodies.len())),
-            (true, format!("{} alone", bodies[lab.view().body].name)),
+            (true, format!("{} alone", bodies[studio.view().body].name)),
         ] {
             let is_chosen = display.advises_on_one_body == is_one;
             let choice = ui.selectable_label(is_chosen, RichText::new(name).size(SMALL));
@@ -89,7 +89,7 @@ fn slot<R>(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui) -> R) -> R {
 /// What to take for each criterion, of the methods judged by now.
 fn answer(
     ui: &mut Ui,
-    lab: &Studio,
+    studio: &Studio,
     advice: &Advice,
     best: &[Option<usize>],
     commands: &mut Vec<Command>,
@@ -120,7 +120,7 @@ fn answer(
                 return;
             };
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                copy_button(ui, lab, spec, commands);
+                copy_button(ui, studio, spec, commands);
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                     taken_line(ui, spec.method.name, met);
                 });
@@ -144,11 +144,11 @@ fn taken_line(ui: &mut Ui, name: &str, met: &CriterionMet) {
 }
 
 /// A button that copies a method as source code.
-fn copy_button(ui: &mut Ui, lab: &Studio, spec: LaneSpec, commands: &mut Vec<Command>) {
-    let Some(entry) = lab.entries().iter().position(|entry| entry.method == spec.method) else {
+fn copy_button(ui: &mut Ui, studio: &Studio, spec: LaneSpec, commands: &mut Vec<Command>) {
+    let Some(entry) = studio.entries().iter().position(|entry| entry.method == spec.method) else {
         return;
     };
-    let language = lab.viewer().language();
+    let language = studio.viewer().language();
     let about = format!("copy {} as {language}; other languages: right click", spec.method.name);
     let word = if ui.available_width() < ROOM_FOR_COPY_CODE { "Copy" } else { "Copy code" };
     let response = ui.button(RichText::new(word).size(SMALL)).on_hover_text(&about);
@@ -156,7 +156,7 @@ fn copy_button(ui: &mut Ui, lab: &Studio, spec: LaneSpec, commands: &mut Vec<Com
     if response.clicked() {
         commands.push(Command::View(ViewCommand::CopyMethod { entry, language }));
     }
-    response.context_menu(|ui| super::lanes::menu(ui, lab, entry, commands));
+    response.context_menu(|ui| super::lanes::menu(ui, studio, entry, commands));
 }
 
 /// The width of the column of a criterion, in points, as wide as its widest cell, and whether that has room for the
@@ -322,9 +322,9 @@ mod tests {
     use crate::view::testing::TestWindow;
 
     /// Shows frames of this size. Returns the stage and every text that is seen whole, with where it stands.
-    fn shown(lab: &Studio, size: [f32; 2]) -> (Rect, Vec<(Pos2, String)>) {
+    fn shown(studio: &Studio, size: [f32; 2]) -> (Rect, Vec<(Pos2, String)>) {
         let mut window = TestWindow::new(size);
-        let mut frame = || window.show(Vec::new(), |ui| panels::show(ui, lab).1);
+        let mut frame = || window.show(Vec::new(), |ui| panels::show(ui, studio).1);
         (0..2).for_each(|_| drop(frame()));
         let (stage, mut shown) = frame();
         shown.texts.retain(|text| !text.shape.galley.elided);
@@ -336,20 +336,20 @@ mod tests {
         [[800.0, 600.0], [900.0, 600.0], [1024.0, 640.0], [1280.0, 720.0], [1920.0, 1080.0]];
 
     fn asked(scene: &str, is_of_one: bool) -> (Studio, AnalysisWorker) {
-        let mut lab = Studio::new(Scene::built_in(scene).unwrap());
-        lab.apply(StageCommand::Instrument(Instrument::Advice));
-        lab.apply(ViewCommand::AdviseOnOneBody(is_of_one));
-        let worker = AnalysisWorker::new(lab.analysis_request());
-        (lab, worker)
+        let mut studio = Studio::new(Scene::built_in(scene).unwrap());
+        studio.apply(StageCommand::Instrument(Instrument::Advice));
+        studio.apply(ViewCommand::AdviseOnOneBody(is_of_one));
+        let worker = AnalysisWorker::new(studio.analysis_request());
+        (studio, worker)
     }
 
     #[test]
     fn no_row_of_the_table_lies_over_the_inspector() {
-        let (mut lab, mut worker) = asked("spring", false);
-        judge(&mut lab, &mut worker, 4);
-        lab.apply(RunCommand::ToggleInspector);
+        let (mut studio, mut worker) = asked("spring", false);
+        judge(&mut studio, &mut worker, 4);
+        studio.apply(RunCommand::ToggleInspector);
         for size in SIZES {
-            let (stage, texts) = shown(&lab, size);
+            let (stage, texts) = shown(&studio, size);
             let beside = |(at, _): &&(Pos2, String)| at.x > stage.right();
             let title = texts.iter().find(|(_, words)| words == "Inspector").expect("a title").0.y;
             let over = texts.iter().filter(beside).filter(|(at, words)| {
@@ -362,20 +362,20 @@ mod tests {
     }
 
     /// Has so many methods judged.
-    fn judge(lab: &mut Studio, worker: &mut AnalysisWorker, count: usize) {
-        while lab.viewer().advice().is_none_or(|advice| advice.advised.len() < count) {
+    fn judge(studio: &mut Studio, worker: &mut AnalysisWorker, count: usize) {
+        while studio.viewer().advice().is_none_or(|advice| advice.advised.len() < count) {
             worker.work();
-            lab.accept_findings(worker.findings());
+            studio.accept_findings(worker.findings());
         }
     }
 
     #[test]
     fn every_column_is_seen_whole_and_the_stage_keeps_its_room() {
-        let (mut lab, mut worker) = asked("spring", false);
-        let wanted = lab.scene().non_engine_methods().count();
-        judge(&mut lab, &mut worker, wanted);
+        let (mut studio, mut worker) = asked("spring", false);
+        let wanted = studio.scene().non_engine_methods().count();
+        judge(&mut studio, &mut worker, wanted);
         for size in SIZES {
-            let (stage, texts) = shown(&lab, size);
+            let (stage, texts) = shown(&studio, size);
             let stage_to = size[0] * (1.0 - panels::INSTRUMENTS);
             assert!((stage.right() - stage_to).abs() < 1.0, "{size:?}: {stage:?}");
             for criterion in &CRITERIA {
@@ -399,34 +399,34 @@ mod tests {
 
     #[test]
     fn the_answer_stands_above_the_table_from_the_first_method_on_and_grows() {
-        let (mut lab, mut worker) = asked("spring", false);
-        let of = |lab: &Studio, words: &str| {
-            let (_, texts) = shown(lab, [1280.0, 720.0]);
+        let (mut studio, mut worker) = asked("spring", false);
+        let of = |studio: &Studio, words: &str| {
+            let (_, texts) = shown(studio, [1280.0, 720.0]);
             let found = texts.iter().find(|(_, text)| text == words).map(|(at, _)| at.y);
             found.unwrap_or_else(|| panic!("{words}: {texts:?}"))
         };
-        let wanted = lab.scene().non_engine_methods().count();
+        let wanted = studio.scene().non_engine_methods().count();
         let told = |done| format!("At 60 Hz, the best of {done} of {wanted} methods judged:");
-        judge(&mut lab, &mut worker, 1);
-        of(&lab, &told(1));
+        judge(&mut studio, &mut worker, 1);
+        of(&studio, &told(1));
         // Explicit Euler grows under any number of substeps.
-        of(&lab, "none yet");
-        judge(&mut lab, &mut worker, 2);
-        of(&lab, &told(2));
+        of(&studio, "none yet");
+        judge(&mut studio, &mut worker, 2);
+        of(&studio, &told(2));
         // The cells of the table have more words.
-        assert!(of(&lab, "×1") < of(&lab, "method"));
+        assert!(of(&studio, "×1") < of(&studio, "method"));
     }
 
     #[test]
     fn the_selected_body_can_be_asked_about_alone() {
         let counts = |is_of_one: bool| {
-            let (mut lab, mut worker) = asked("harbour", is_of_one);
-            judge(&mut lab, &mut worker, 2);
-            let (_, texts) = shown(&lab, [1280.0, 720.0]);
+            let (mut studio, mut worker) = asked("harbour", is_of_one);
+            judge(&mut studio, &mut worker, 2);
+            let (_, texts) = shown(&studio, [1280.0, 720.0]);
             assert!(texts.iter().any(|(_, text)| text == "free spring alone"), "{texts:?}");
             let whose = texts.iter().any(|(_, text)| text.ends_with(", all bodies"));
             assert_eq!(whose, !is_of_one, "{texts:?}");
-            let euler = &lab.viewer().advice().unwrap().advised[1];
+            let euler = &studio.viewer().advice().unwrap().advised[1];
             assert_eq!(euler.spec.method.id, "semi-implicit-euler");
             euler.met[0].met().unwrap().evaluations_per_s
         };

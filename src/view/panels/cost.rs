@@ -20,9 +20,9 @@ const FRAME_NS: f64 = 1e9 / 60.0;
 const MEASURED: &str = "Fastest of several timed runs, repeated once per second.";
 const NOT_MEASURED: &str = "Time is measured in the window.";
 
-pub(super) fn show(ui: &mut Ui, lab: &Studio, room: Vec2, commands: &mut Vec<Command>) {
-    let lanes = lab.race().entrants().iter().enumerate();
-    let rows: Vec<Row<'_>> = lanes.map(|(place, lane)| Row::new(lab, place, lane)).collect();
+pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<Command>) {
+    let lanes = studio.race().entrants().iter().enumerate();
+    let rows: Vec<Row<'_>> = lanes.map(|(place, lane)| Row::new(studio, place, lane)).collect();
     let most = rows.iter().map(|row| row.evaluations).max().unwrap_or(0).max(1);
     let has_times = rows.iter().any(|row| row.ns.is_some());
     ui.label(RichText::new("Cost of the next tick, all bodies").font(strong_font(13.0)));
@@ -37,7 +37,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Studio, room: Vec2, commands: &mut Vec<Com
     let height = (ROW * (rows.len() + 1) as f32).min(room.y - 66.0).max(60.0);
     let groups = rows.into_iter().map(|row| vec![row]).collect();
     ui.allocate_ui(vec2(room.x, height), |ui| table.show(ui, groups, commands, |_, _, _| {}));
-    let is_window = lab.viewer().pace.is_some();
+    let is_window = studio.viewer().pace.is_some();
     let note = match (has_times, is_window) {
         (true, _) => MEASURED,
         (false, true) => "Measuring the time …",
@@ -49,14 +49,15 @@ pub(super) fn show(ui: &mut Ui, lab: &Studio, room: Vec2, commands: &mut Vec<Com
 /// The columns; the longest bar is of `most` evaluations.
 fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
     let about = "the line of this method in the plots and on the stage";
-    let style = |row: &Row<'a>, palette: &PanelPalette| palette.style(row.lab.entries(), &row.spec);
+    let style =
+        |row: &Row<'a>, palette: &PanelPalette| palette.style(row.studio.entries(), &row.spec);
     let line = Column::line(about, |row: &Row<'a>| Some(row.entry), style);
     let method = Column::shown(
         "method",
         0.0,
         "the integrator of this lane; × is its substeps",
         |ui, row: &Row<'a>, rect, _| {
-            let name = row.spec.name_with_substeps(row.lab.entries());
+            let name = row.spec.name_with_substeps(row.studio.entries());
             show_words(ui, rect, &name, row.is_selected(), palette(ui).text);
         },
         |row| SortKey::Words(row.spec.method.name.into()),
@@ -88,7 +89,7 @@ fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
         let dash = || "-".to_owned();
         let time_of = move |row: &Row<'a>| Some(row.ns.map_or_else(dash, time));
         let share_of = move |row: &Row<'a>| {
-            Some(row.ns.map_or_else(dash, |ns| share(ns, row.lab.race().tick_hz())))
+            Some(row.ns.map_or_else(dash, |ns| share(ns, row.studio.race().tick_hz())))
         };
         let ns = |row: &Row<'a>| row.ns;
         all.push(Column::number(
@@ -106,7 +107,7 @@ fn columns<'a>(most: u64, has_times: bool) -> Vec<Column<Row<'a>>> {
 
 /// A lane.
 struct Row<'a> {
-    lab: &'a Studio,
+    studio: &'a Studio,
     entry: usize,
     spec: LaneSpec,
     evaluations: u64,
@@ -116,14 +117,14 @@ struct Row<'a> {
 }
 
 impl<'a> Row<'a> {
-    fn new(lab: &'a Studio, place: usize, lane: &Entrant) -> Self {
+    fn new(studio: &'a Studio, place: usize, lane: &Entrant) -> Self {
         let spec = lane.spec;
-        let mut times = lab.viewer().tick_times.iter();
+        let mut times = studio.viewer().tick_times.iter();
         Self {
-            lab,
-            entry: lab.entry(lane),
+            studio,
+            entry: studio.entry(lane),
             spec,
-            evaluations: lab.evaluations_of_next_tick(place),
+            evaluations: studio.evaluations_of_next_tick(place),
             is_halted: lane.lane.halted().is_some(),
             ns: times.find(|(of, _)| *of == spec).and_then(|(_, ns)| *ns),
         }
@@ -132,15 +133,15 @@ impl<'a> Row<'a> {
 
 impl TableRow for Row<'_> {
     fn spoken(&self) -> String {
-        format!("{} {}", self.entry + 1, self.spec.name_with_substeps(self.lab.entries()))
+        format!("{} {}", self.entry + 1, self.spec.name_with_substeps(self.studio.entries()))
     }
 
     fn is_selected(&self) -> bool {
-        self.entry == self.lab.active()
+        self.entry == self.studio.active()
     }
 
     fn colours(&self, palette: &PanelPalette) -> [Color32; 2] {
-        [palette.style(self.lab.entries(), &self.spec).0, palette.text]
+        [palette.style(self.studio.entries(), &self.spec).0, palette.text]
     }
 
     fn command(&self) -> Option<Command> {

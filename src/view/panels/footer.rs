@@ -19,15 +19,15 @@ const GAP: f32 = 16.0;
 /// A key, what it does, and the command.
 type KeyHint = (&'static str, String, Option<Command>);
 
-pub(super) fn show(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let width = ui.available_width();
-    let (parts, is_hint) = told(lab);
+    let (parts, is_hint) = told(studio);
     let sentence = fitting(ui, &parts, width);
     let room_for_hint = keycap::line_width(ui, &sentence) + GAP;
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
-        if lab.dropped() > 0 && lab.loop_lab().is_none() {
-            let count = lab.dropped();
+        if studio.dropped() > 0 && studio.loop_lab().is_none() {
+            let count = studio.dropped();
             let ticks = if count == 1 { "tick" } else { "ticks" };
             let text = RichText::new(format!("−{count} {ticks}")).size(DROPPED);
             let about = format!("{count} {ticks} dropped: the simulation fell behind real time");
@@ -36,7 +36,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
         }
         if width >= ROOM_FOR_KEYS {
             // From the right: the first are the last to go.
-            for hint in key_hints(lab) {
+            for hint in key_hints(studio) {
                 if ui.available_width() - width_of(ui, &hint) < room_for_hint {
                     break;
                 }
@@ -52,18 +52,18 @@ pub(super) fn show(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
 }
 
 /// The parts of the notice, or else of the hint, or else what the scene is about; and whether it is one of the first two.
-fn told(lab: &Studio) -> (Vec<String>, bool) {
-    if let Some(notice) = &lab.viewer().notice {
+fn told(studio: &Studio) -> (Vec<String>, bool) {
+    if let Some(notice) = &studio.viewer().notice {
         return (notice.parts().to_vec(), true);
     }
-    if let Some(loops) = lab.loop_lab()
-        && lab.viewer().tour().is_none()
+    if let Some(loops) = studio.loop_lab()
+        && studio.viewer().tour().is_none()
     {
         return (loops::hints::parts(loops).into(), true);
     }
-    match lab.hint() {
+    match studio.hint() {
         Some(hint) => (vec![hint], true),
-        None => (vec![lab.scene().about.clone()], false),
+        None => (vec![studio.scene().about.clone()], false),
     }
 }
 
@@ -75,13 +75,13 @@ fn fitting(ui: &Ui, parts: &[String], width: f32) -> String {
 }
 
 /// The hints from right to left.
-fn key_hints(lab: &Studio) -> Vec<KeyHint> {
+fn key_hints(studio: &Studio) -> Vec<KeyHint> {
     let hint = |key, what: &str, command| (key, what.to_owned(), Some(command));
     let mut hints = vec![hint("H", "all keys", Command::View(ViewCommand::ToggleHelp))];
-    let pause = if lab.running() { "pause" } else { "run" };
+    let pause = if studio.running() { "pause" } else { "run" };
     let pause = hint("Space", pause, Command::View(ViewCommand::TogglePause));
     let toggle_loops = Command::Loop(LoopCommand::ToggleLab);
-    if let Some(loops) = lab.loop_lab() {
+    if let Some(loops) = studio.loop_lab() {
         hints.push(hint("L", "leave the lab", toggle_loops));
         hints.push(pause);
         hints.push(hint(
@@ -95,21 +95,21 @@ fn key_hints(lab: &Studio) -> Vec<KeyHint> {
         return hints;
     }
     let inputs = [
-        ("throttle", "↑ ↓", lab.race().throttle(), 1.0),
-        ("rudder", "← →", lab.race().rudder(), 0.0),
+        ("throttle", "↑ ↓", studio.race().throttle(), 1.0),
+        ("rudder", "← →", studio.race().rudder(), 0.0),
     ];
     // Of a body that nobody looks at, an input is told only where it is in use.
-    let shown = &lab.scene().bodies[lab.view().body].kind;
+    let shown = &studio.scene().bodies[studio.view().body].kind;
     for (input, key, part, at_start) in inputs {
         let is_in_use = shown.inputs.contains(&input) || part != at_start;
-        if lab.race().takes(input) && is_in_use {
+        if studio.race().takes(input) && is_in_use {
             hints.push((key, format!("{input} {} %", round(part * 100.0, 3)), None));
         }
     }
-    if lab.lost_at().is_some() {
+    if studio.lost_at().is_some() {
         hints.push(hint("W", "watch again", Command::Run(RunCommand::WatchAgain)));
     }
-    match lab.mode() {
+    match studio.mode() {
         Mode::Race => {
             hints.push(hint("E", "inspector", Command::Run(RunCommand::ToggleInspector)));
             hints.push(hint("V", "side by side", Command::Stage(StageCommand::ToggleArrangement)));
@@ -162,18 +162,19 @@ mod tests {
 
     #[test]
     fn the_throttle_is_told_of_a_ship_that_is_looked_at_or_whose_throttle_is_not_full() {
-        let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-        let is_told =
-            |lab: &Studio| key_hints(lab).iter().any(|(_, what, _)| what.starts_with("throttle"));
-        let kinds = lab.scene().bodies.iter().map(|body| body.kind.id);
+        let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+        let is_told = |studio: &Studio| {
+            key_hints(studio).iter().any(|(_, what, _)| what.starts_with("throttle"))
+        };
+        let kinds = studio.scene().bodies.iter().map(|body| body.kind.id);
         let ship = kinds.clone().position(|id| id == "ship").unwrap();
         let spring = kinds.clone().position(|id| id == "spring").unwrap();
-        lab.apply(StageCommand::Body(spring));
-        assert!(!is_told(&lab));
-        lab.apply(StageCommand::Body(ship));
-        assert!(is_told(&lab));
-        lab.apply(StageCommand::Body(spring));
-        lab.apply(RunCommand::ThrottleDown);
-        assert!(is_told(&lab));
+        studio.apply(StageCommand::Body(spring));
+        assert!(!is_told(&studio));
+        studio.apply(StageCommand::Body(ship));
+        assert!(is_told(&studio));
+        studio.apply(StageCommand::Body(spring));
+        studio.apply(RunCommand::ThrottleDown);
+        assert!(is_told(&studio));
     }
 }

@@ -29,7 +29,7 @@ const MAX_NAME_PART: f32 = 0.42;
 /// Scenes of more bodies than this open with one of them unfolded, the displayed one.
 const FEW_BODIES: usize = 3;
 
-pub(super) fn show(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     ui.spacing_mut().interact_size.y = LINE;
     ui.spacing_mut().button_padding.y = 1.0;
     ui.horizontal(|ui| {
@@ -38,7 +38,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
             if named(ui, Button::new("×").frame(false), "close the inspector (E)").clicked() {
                 commands.push(Command::Run(RunCommand::ToggleInspector));
             }
-            let restoring = restoring(lab);
+            let restoring = restoring(studio);
             let is_edited = !restoring.is_empty() || NumberField::has_faults(ui);
             let all = ui.add_enabled_ui(is_edited, |ui| {
                 named(ui, Button::new("↺ Restore all"), "restore every value of the scene")
@@ -52,18 +52,18 @@ pub(super) fn show(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         // Room for the bar at the right, which lies over what is under it.
         ui.set_max_width(ui.available_width() - 8.0);
-        let bodies = &lab.scene().bodies;
+        let bodies = &studio.scene().bodies;
         for (index, body) in bodies.iter().enumerate() {
-            let is_open = bodies.len() <= FEW_BODIES || index == lab.view().body;
+            let is_open = bodies.len() <= FEW_BODIES || index == studio.view().body;
             let title = RichText::new(&body.name).color(palette(ui).text);
             let header = CollapsingHeader::new(title).id_salt(("body", &body.name));
             header.default_open(is_open).show_unindented(ui, |ui| {
-                show_body(ui, lab, index, commands);
+                show_body(ui, studio, index, commands);
             });
         }
-        let lanes = if lab.race().entrants().len() > 1 { "Lanes" } else { "Method" };
-        section(ui, lanes, |ui| run::show_lanes(ui, lab, commands));
-        section(ui, "Time", |ui| run::show_time(ui, lab, commands));
+        let lanes = if studio.race().entrants().len() > 1 { "Lanes" } else { "Method" };
+        section(ui, lanes, |ui| run::show_lanes(ui, studio, commands));
+        section(ui, "Time", |ui| run::show_time(ui, studio, commands));
     });
 }
 
@@ -73,34 +73,34 @@ fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
     header.show_unindented(ui, contents);
 }
 
-fn show_body(ui: &mut Ui, lab: &Studio, body: usize, commands: &mut Vec<Command>) {
+fn show_body(ui: &mut Ui, studio: &Studio, body: usize, commands: &mut Vec<Command>) {
     let mut acts = Acts::AtOnce;
-    for row in rows(lab, body) {
+    for row in rows(studio, body) {
         if row.parameter.acts != acts {
             acts = row.parameter.acts;
             ui.label(RichText::new("from the next start").size(11.0).color(palette(ui).dim));
         }
-        show_row(ui, lab, &row, commands);
+        show_row(ui, studio, &row, commands);
     }
-    engine::show(ui, lab, body, commands);
+    engine::show(ui, studio, body, commands);
 }
 
-fn show_row(ui: &mut Ui, lab: &Studio, row: &Row, commands: &mut Vec<Command>) {
+fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>) {
     let Row { body, place, parameter, values } = row;
-    let kind = &lab.scene().bodies[*body].kind;
+    let kind = &studio.scene().bodies[*body].kind;
     let set = |value| {
         Command::Run(RunCommand::Act(Action::Set { body: *body, parameter: *place, value }))
     };
     let about = format!("{}\n{}, {}", parameter.described(), parameter.key, parameter.range);
     let Some(values) = *values else {
         line(ui, &parameter.quantity(), &about, |ui, _| {
-            let points = (lab.race().values(*body).len() - place) / 2;
+            let points = (studio.race().values(*body).len() - place) / 2;
             let text = RichText::new(format!("{points} points")).color(palette(ui).dim);
             ui.label(text).on_hover_text("as the scene has them");
         });
         return;
     };
-    let name = format!("{} of {}", parameter.quantity(), lab.scene().bodies[*body].name);
+    let name = format!("{} of {}", parameter.quantity(), studio.scene().bodies[*body].name);
     let field = NumberField {
         id: ui.scope_id().with((body, place)),
         value: values.present,
@@ -113,8 +113,8 @@ fn show_row(ui: &mut Ui, lab: &Studio, row: &Row, commands: &mut Vec<Command>) {
     };
     let check = |value| {
         let values = match parameter.acts {
-            Acts::AtOnce => lab.race().values(*body),
-            Acts::AtStart => &lab.scene().bodies[*body].values,
+            Acts::AtOnce => studio.race().values(*body),
+            Acts::AtStart => &studio.scene().bodies[*body].values,
         };
         let checked = edited_values(kind, values, *place, value);
         checked.map(drop).map_err(|error| error.to_string())
@@ -198,8 +198,8 @@ fn named(ui: &mut Ui, button: Button<'_>, about: &str) -> Response {
 }
 
 /// Commands that restore every edited value; empty if nothing was edited.
-fn restoring(lab: &Studio) -> Vec<Command> {
-    let changed = (0..lab.scene().bodies.len()).flat_map(|body| {
+fn restoring(studio: &Studio) -> Vec<Command> {
+    let changed = (0..studio.scene().bodies.len()).flat_map(|body| {
         let changed = move |row: Row| {
             let opened = row.values.filter(|values| values.differ())?.opened;
             Some(Command::Run(RunCommand::Act(Action::Set {
@@ -208,12 +208,12 @@ fn restoring(lab: &Studio) -> Vec<Command> {
                 value: opened,
             })))
         };
-        rows(lab, body).into_iter().filter_map(changed)
+        rows(studio, body).into_iter().filter_map(changed)
     });
     let sets: Vec<Command> = changed.collect();
     // Twice, because a value may be refused until another is restored.
     let twice = sets.iter().chain(&sets).cloned();
-    twice.chain(run::restoring(lab)).collect()
+    twice.chain(run::restoring(studio)).collect()
 }
 
 #[cfg(test)]
@@ -223,33 +223,33 @@ mod tests {
     use crate::view::testing::TestWindow;
 
     /// Every text that is seen in a frame that is high enough for all of the inspector.
-    fn texts(lab: &Studio) -> Vec<String> {
+    fn texts(studio: &Studio) -> Vec<String> {
         let mut window = TestWindow::new([1280.0, 3000.0]);
         // A header learns in the first frame how high it is.
-        window.panels(lab, Vec::new());
-        window.panels(lab, Vec::new()).1.words()
+        window.panels(studio, Vec::new());
+        window.panels(studio, Vec::new()).1.words()
     }
 
     #[test]
     fn every_parameter_and_every_lane_of_every_scene_is_shown() {
         for scene in SCENES {
-            let mut lab = Studio::new(Scene::built_in(scene.name).unwrap());
-            lab.apply(StageCommand::ToggleRace);
-            lab.apply(RunCommand::ToggleInspector);
-            let texts = texts(&lab);
+            let mut studio = Studio::new(Scene::built_in(scene.name).unwrap());
+            studio.apply(StageCommand::ToggleRace);
+            studio.apply(RunCommand::ToggleInspector);
+            let texts = texts(&studio);
             let count = |wanted: &str| texts.iter().filter(|text| *text == wanted).count();
             let named = |name: &str| {
                 let is_of = |text: &&String| text.split(" ×").next() == Some(name);
                 texts.iter().filter(is_of).count()
             };
-            let bodies = &lab.scene().bodies;
+            let bodies = &studio.scene().bodies;
             for parameter in bodies.iter().flat_map(|body| &body.kind.parameters) {
                 let quantity = parameter.quantity();
                 let of_all = bodies.iter().flat_map(|body| &body.kind.parameters);
                 let alike = of_all.filter(|other| other.quantity() == quantity).count();
                 assert!(count(&quantity) >= alike, "{}: {quantity}: {texts:?}", scene.name);
             }
-            for entrant in lab.race().entrants() {
+            for entrant in studio.race().entrants() {
                 let name = entrant.spec.method.name;
                 // In the list of lanes too.
                 assert!(named(name) >= 2, "{}: {name}", scene.name);
@@ -266,30 +266,30 @@ mod tests {
 
     #[test]
     fn restoring_all_makes_a_scene_what_it_was() {
-        let mut lab = Studio::new(Scene::built_in("chain").unwrap());
-        lab.apply(StageCommand::ToggleRace);
-        assert_eq!(restoring(&lab), []);
-        let place = |key| lab.scene().bodies[0].kind.parameter(key).unwrap().0;
+        let mut studio = Studio::new(Scene::built_in("chain").unwrap());
+        studio.apply(StageCommand::ToggleRace);
+        assert_eq!(restoring(&studio), []);
+        let place = |key| studio.scene().bodies[0].kind.parameter(key).unwrap().0;
         let (masses, plucked) = (place("masses"), place("plucked_mass"));
-        let most = lab.scene().bodies[0].values[masses];
-        assert!(lab.scene().bodies[0].values[plucked] > 1.0);
+        let most = studio.scene().bodies[0].values[masses];
+        assert!(studio.scene().bodies[0].values[plucked] > 1.0);
         for (parameter, value) in [(plucked, 1.0), (masses, 2.0), (0, 3.0), (plucked, 2.0)] {
-            lab.apply(RunCommand::Act(Action::Set { body: 0, parameter, value }));
+            studio.apply(RunCommand::Act(Action::Set { body: 0, parameter, value }));
         }
-        lab.apply(RunCommand::Act(Action::Substeps { lane: LaneId(1), substeps: 7 }));
-        lab.apply(StageCommand::TickHz(20));
-        lab.apply(RunCommand::Seconds(3.0));
-        lab.tick();
-        assert_ne!(lab.scene().bodies[0].values[masses], most);
-        assert_eq!(lab.race().values(0)[masses], most, "until the next start");
-        for command in restoring(&lab) {
-            lab.apply(command);
+        studio.apply(RunCommand::Act(Action::Substeps { lane: LaneId(1), substeps: 7 }));
+        studio.apply(StageCommand::TickHz(20));
+        studio.apply(RunCommand::Seconds(3.0));
+        studio.tick();
+        assert_ne!(studio.scene().bodies[0].values[masses], most);
+        assert_eq!(studio.race().values(0)[masses], most, "until the next start");
+        for command in restoring(&studio) {
+            studio.apply(command);
         }
-        assert_eq!(restoring(&lab), []);
-        assert_eq!(lab.race().values(0), lab.scene_as_opened().bodies[0].values);
-        assert_eq!(lab.scene().bodies[0].values, lab.scene_as_opened().bodies[0].values);
-        assert_eq!(lab.scene().seconds, lab.scene_as_opened().seconds);
-        assert_eq!(lab.race().tick_hz(), lab.scene_as_opened().tick_hz);
-        assert_eq!(lab.entries()[0], lab.scene_as_opened().lanes[0]);
+        assert_eq!(restoring(&studio), []);
+        assert_eq!(studio.race().values(0), studio.scene_as_opened().bodies[0].values);
+        assert_eq!(studio.scene().bodies[0].values, studio.scene_as_opened().bodies[0].values);
+        assert_eq!(studio.scene().seconds, studio.scene_as_opened().seconds);
+        assert_eq!(studio.race().tick_hz(), studio.scene_as_opened().tick_hz);
+        assert_eq!(studio.entries()[0], studio.scene_as_opened().lanes[0]);
     }
 }

@@ -57,49 +57,49 @@ pub(super) fn min_height(instrument: Instrument) -> f32 {
 }
 
 /// Shows the tabs, `indent` points from the left, and the chosen instrument.
-pub(super) fn show(ui: &mut Ui, lab: &Studio, indent: f32, commands: &mut Vec<Command>) {
-    tabs(ui, lab, indent, commands);
+pub(super) fn show(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) {
+    tabs(ui, studio, indent, commands);
     ui.add_space(2.0);
-    show_alone(ui, lab, commands);
+    show_alone(ui, studio, commands);
 }
 
 /// Shows the chosen instrument without tabs.
-pub(super) fn show_alone(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
+pub(super) fn show_alone(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let room = ui.available_size() - vec2(10.0, 2.0);
-    match lab.display().instrument {
+    match studio.display().instrument {
         Instrument::Motion | Instrument::Error | Instrument::Energy | Instrument::Phase => {
-            let set = plot_set_of(lab, detail(ui, lab));
-            set.iter().for_each(|set| plots(ui, lab, set, commands));
+            let set = plot_set_of(studio, detail(ui, studio));
+            set.iter().for_each(|set| plots(ui, studio, set, commands));
         }
-        Instrument::Cost => cost::show(ui, lab, room, commands),
-        Instrument::StabilityMap => stability_map::show(ui, lab, room, commands),
-        Instrument::OneStep => one_step::show(ui, lab, room),
-        Instrument::Cloud => cloud::show(ui, lab, room, commands),
-        Instrument::Loop => loops::show(ui, lab, room, commands),
-        Instrument::Advice => advice::show(ui, lab, commands),
+        Instrument::Cost => cost::show(ui, studio, room, commands),
+        Instrument::StabilityMap => stability_map::show(ui, studio, room, commands),
+        Instrument::OneStep => one_step::show(ui, studio, room),
+        Instrument::Cloud => cloud::show(ui, studio, room, commands),
+        Instrument::Loop => loops::show(ui, studio, room, commands),
+        Instrument::Advice => advice::show(ui, studio, commands),
     }
 }
 
 /// How closely a person looks at the plots in all that is left of `ui`.
-fn detail(ui: &Ui, lab: &Studio) -> Detail {
+fn detail(ui: &Ui, studio: &Studio) -> Detail {
     let room = ui.available_rect_before_wrap();
-    match ui.rect_contains_pointer(room) || chart::is_zoomed(lab) {
+    match ui.rect_contains_pointer(room) || chart::is_zoomed(studio) {
         true => Detail::Samples,
         false => Detail::Columns(room.width() * ui.pixels_per_point()),
     }
 }
 
 /// The plots of the chosen instrument, if it has any.
-fn plot_set_of(lab: &Studio, detail: Detail) -> Option<PlotSet> {
-    if let Some(loops) = lab.loop_lab() {
-        return by_loop::plot_set(lab, loops, lab.display().instrument);
+fn plot_set_of(studio: &Studio, detail: Detail) -> Option<PlotSet> {
+    if let Some(loops) = studio.loop_lab() {
+        return by_loop::plot_set(studio, loops, studio.display().instrument);
     }
-    match lab.display().instrument {
-        Instrument::Motion => Some(motion::plot_set(lab, detail)),
-        Instrument::Error => Some(error::plot_set(lab)),
-        Instrument::Energy => Some(energy::plot_set(lab)),
-        Instrument::Phase => Some(phase::plot_set(lab)),
-        Instrument::Cloud => cloud::plot_set(lab),
+    match studio.display().instrument {
+        Instrument::Motion => Some(motion::plot_set(studio, detail)),
+        Instrument::Error => Some(error::plot_set(studio)),
+        Instrument::Energy => Some(energy::plot_set(studio)),
+        Instrument::Phase => Some(phase::plot_set(studio)),
+        Instrument::Cloud => cloud::plot_set(studio),
         Instrument::Cost
         | Instrument::StabilityMap
         | Instrument::OneStep
@@ -109,7 +109,7 @@ fn plot_set_of(lab: &Studio, detail: Detail) -> Option<PlotSet> {
 }
 
 /// Two rows of tabs: without their names in a narrow panel, and in one that is narrower still a menu.
-fn tabs(ui: &mut Ui, lab: &Studio, indent: f32, commands: &mut Vec<Command>) {
+fn tabs(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) {
     let room = ui.available_width() - indent;
     let usual = ui.spacing().button_padding.x;
     let fits = |padding: f32, name: f32| {
@@ -118,7 +118,7 @@ fn tabs(ui: &mut Ui, lab: &Studio, indent: f32, commands: &mut Vec<Command>) {
     let (has_names, padding) = match () {
         () if fits(usual, ROW_NAME) => (true, usual),
         () if fits(TIGHT, 0.0) => (false, TIGHT),
-        () => return tabs_menu(ui, lab, indent, commands),
+        () => return tabs_menu(ui, studio, indent, commands),
     };
     for row in InstrumentRow::ALL {
         ui.horizontal(|ui| {
@@ -132,8 +132,8 @@ fn tabs(ui: &mut Ui, lab: &Studio, indent: f32, commands: &mut Vec<Command>) {
                 ui.put(place, Label::new(name).selectable(false));
             }
             for card in cards(row) {
-                let is_chosen = lab.display().instrument == card.instrument;
-                if tab(ui, card, is_chosen, is_open(lab, card)) {
+                let is_chosen = studio.display().instrument == card.instrument;
+                if tab(ui, card, is_chosen, is_open(studio, card)) {
                     commands.push(Command::Stage(StageCommand::Instrument(card.instrument)));
                 }
             }
@@ -145,8 +145,8 @@ fn cards(row: InstrumentRow) -> impl Iterator<Item = &'static InstrumentCard> {
     INSTRUMENTS.iter().filter(move |card| card.row == row)
 }
 
-fn is_open(lab: &Studio, card: &InstrumentCard) -> bool {
-    lab.loop_lab().is_none() || card.instrument.is_in_loop_lab()
+fn is_open(studio: &Studio, card: &InstrumentCard) -> bool {
+    studio.loop_lab().is_none() || card.instrument.is_in_loop_lab()
 }
 
 /// The width of the tabs of a row, of which any may be the chosen one, with this much beside the words of each, in points.
@@ -160,11 +160,11 @@ fn row_width(ui: &Ui, row: InstrumentRow, padding: f32) -> f32 {
 }
 
 /// A menu of the instruments.
-fn tabs_menu(ui: &mut Ui, lab: &Studio, indent: f32, commands: &mut Vec<Command>) {
+fn tabs_menu(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         ui.add_space(indent);
-        let instrument = lab.display().instrument;
-        let open = INSTRUMENTS.iter().filter(|card| is_open(lab, card));
+        let instrument = studio.display().instrument;
+        let open = INSTRUMENTS.iter().filter(|card| is_open(studio, card));
         let offered =
             open.map(|card| (Command::Stage(StageCommand::Instrument(card.instrument)), card.name));
         let chosen = (Command::Stage(StageCommand::Instrument(instrument)), instrument.name());
@@ -187,18 +187,18 @@ fn tab(ui: &mut Ui, card: &InstrumentCard, is_chosen: bool, is_open: bool) -> bo
 }
 
 /// An instrument of plots, below its title, its choices and its legend.
-fn plots(ui: &mut Ui, lab: &Studio, set: &PlotSet, commands: &mut Vec<Command>) {
+fn plots(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut Vec<Command>) {
     let entries = legend_entries(set);
     let has_legend = ui.available_height() >= ROOM_FOR_LEGEND && entries.len() <= MAX_IN_LEGEND;
     let may_be_beside = has_legend
         && entries.len() <= BESIDE_TITLE
-        && lab.display().instrument == Instrument::Motion;
+        && studio.display().instrument == Instrument::Motion;
     let is_beside = ui.horizontal_wrapped(|ui| {
-        let is_error = lab.display().instrument == Instrument::Error;
+        let is_error = studio.display().instrument == Instrument::Error;
         // The metric is said by its menu.
         let title = if is_error { Instrument::Error.name() } else { &set.title };
         ui.label(RichText::new(title).font(strong_font(15.0)).color(palette(ui).text));
-        choices(ui, lab, commands);
+        choices(ui, studio, commands);
         let widths = entries.iter().map(|entry| entry.width(ui));
         let room = BEFORE_LEGEND + legend::BETWEEN * entries.len() as f32 + widths.sum::<f32>();
         let is_beside = may_be_beside && room <= ui.available_width();
@@ -213,21 +213,21 @@ fn plots(ui: &mut Ui, lab: &Studio, set: &PlotSet, commands: &mut Vec<Command>) 
         let shown = legend::show(ui, &entries);
         pick_by_legend(ui, set, (&entries, &shown), commands);
     }
-    chart::show(ui, lab, set, commands);
+    chart::show(ui, studio, set, commands);
 }
 
 /// What can be chosen in an instrument: a metric, a body.
-fn choices(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
-    let instrument = lab.display().instrument;
+fn choices(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
+    let instrument = studio.display().instrument;
     if instrument == Instrument::Error {
-        let (offered, chosen): (Vec<_>, usize) = match lab.loop_lab() {
+        let (offered, chosen): (Vec<_>, usize) = match studio.loop_lab() {
             Some(loops) => {
                 let names = FRAME_METRICS.iter().map(|metric| metric.name);
                 (names.enumerate().collect(), loops.metric())
             }
             None => {
                 let names = error::choices().map(|place| (place, METRICS[place].name));
-                (names.collect(), lab.display().metric)
+                (names.collect(), studio.display().metric)
             }
         };
         let name = offered.iter().find(|(place, _)| *place == chosen).map(|(_, name)| *name);
@@ -237,28 +237,28 @@ fn choices(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
         let chosen = (Command::Stage(StageCommand::Metric(chosen)), name.unwrap_or_default());
         choice(ui, "metric", offered, chosen, commands);
     }
-    let has_all = instrument == Instrument::Motion && lab.loop_lab().is_none();
+    let has_all = instrument == Instrument::Motion && studio.loop_lab().is_none();
     if has_all {
         let named =
             |quantity: Quantity| (Command::View(ViewCommand::Quantity(quantity)), quantity.name());
-        let chosen = named(lab.display().quantity);
+        let chosen = named(studio.display().quantity);
         choice(ui, "quantity", Quantity::ALL.into_iter().map(named), chosen, commands);
     }
-    if has_all || instrument == Instrument::Phase && lab.loop_lab().is_none() {
-        coordinate_choice(ui, lab, commands);
+    if has_all || instrument == Instrument::Phase && studio.loop_lab().is_none() {
+        coordinate_choice(ui, studio, commands);
     }
     if !has_all {
-        body_choice(ui, lab, commands);
+        body_choice(ui, studio, commands);
     }
 }
 
 /// Offers the bodies of the scene, if it has several.
-fn body_choice(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
-    if lab.scene().bodies.len() > 1 {
-        let names = lab.scene().bodies.iter().map(|body| body.name.as_str());
-        let body = lab.view().body;
+fn body_choice(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
+    if studio.scene().bodies.len() > 1 {
+        let names = studio.scene().bodies.iter().map(|body| body.name.as_str());
+        let body = studio.view().body;
         let chosen =
-            (Command::Stage(StageCommand::Body(body)), lab.scene().bodies[body].name.as_str());
+            (Command::Stage(StageCommand::Body(body)), studio.scene().bodies[body].name.as_str());
         ui.label(RichText::new("of").color(palette(ui).dim));
         choice(
             ui,
@@ -271,12 +271,12 @@ fn body_choice(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
 }
 
 /// Offers the coordinates of the displayed body, if it has several.
-fn coordinate_choice(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
-    let body = lab.view().body;
-    let coordinates = lab.race().truth().bodies()[body].coordinates();
+fn coordinate_choice(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
+    let body = studio.view().body;
+    let coordinates = studio.race().truth().bodies()[body].coordinates();
     if coordinates.len() > 1 {
         let command = |index| Command::View(ViewCommand::Coordinate { body, coordinate: index });
-        let (chosen, index) = lab.past().coordinate(lab.race(), body);
+        let (chosen, index) = studio.past().coordinate(studio.race(), body);
         ui.label(RichText::new("of").color(palette(ui).dim));
         let offered = (0..).map(command).zip(coordinates.iter().map(|of| of.name));
         choice(ui, "coordinate", offered, (command(index), &*chosen.name), commands);

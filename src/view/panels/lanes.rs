@@ -20,8 +20,8 @@ pub(super) const ROW: f32 = 26.0;
 /// Rows in sight, where the window is high enough: the lanes of a usual race. The rest is scrolled to.
 const ROWS: std::ops::RangeInclusive<usize> = 5..=8;
 
-pub(super) fn height(lab: &Studio) -> f32 {
-    height_of(lab.scene().lanes.len())
+pub(super) fn height(studio: &Studio) -> f32 {
+    height_of(studio.scene().lanes.len())
 }
 
 /// The height of a table of `rows` rows, as far as they are in sight.
@@ -30,10 +30,10 @@ pub(super) fn height_of(rows: usize) -> f32 {
 }
 
 /// Shows the table. Returns the place of the lane whose row the pointer or the keyboard's focus is on.
-pub(super) fn show(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) -> Option<usize> {
+pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) -> Option<usize> {
     let mut pointed = None;
-    table(lab).show(ui, groups(lab), commands, |row, response, commands| {
-        response.context_menu(|ui| menu(ui, lab, row.entry, commands));
+    table(studio).show(ui, groups(studio), commands, |row, response, commands| {
+        response.context_menu(|ui| menu(ui, studio, row.entry, commands));
         if response.hovered() || response.has_focus() {
             pointed = Some(row.entry);
         }
@@ -41,31 +41,36 @@ pub(super) fn show(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) -> Op
     pointed
 }
 
-fn table(lab: &Studio) -> Table<Row<'_>> {
-    let (columns, min_rest) = (columns::of(lab), columns::min_verdict);
+fn table(studio: &Studio) -> Table<Row<'_>> {
+    let (columns, min_rest) = (columns::of(studio), columns::min_verdict);
     Table { id: "lanes", columns, min_rest, row_height: ROW, head_type: TYPE }
 }
 
 /// The rows of each method.
-fn groups(lab: &Studio) -> Vec<Vec<Row<'_>>> {
-    let truth = lab.race().truth().bodies().iter().enumerate();
+fn groups(studio: &Studio) -> Vec<Vec<Row<'_>>> {
+    let truth = studio.race().truth().bodies().iter().enumerate();
     let exact = |(body, truth): (usize, &LaneBody)| {
-        let (q, _) = truth.halted().is_none().then(|| lab.shown_truth(body))?;
+        let (q, _) = truth.halted().is_none().then(|| studio.shown_truth(body))?;
         q.first().copied()
     };
     let exact: Vec<Option<f64>> = truth.map(exact).collect();
-    lab.entries().iter().enumerate().map(|method| Row::of_method(lab, method, &exact)).collect()
+    studio
+        .entries()
+        .iter()
+        .enumerate()
+        .map(|method| Row::of_method(studio, method, &exact))
+        .collect()
 }
 
 /// The menu of a row: a spring's settings in its engine, and its method as code, in each language.
-pub(super) fn menu(ui: &mut Ui, lab: &Studio, entry: usize, commands: &mut Vec<Command>) {
-    let has_joint = lab.joint_code(entry).is_some();
+pub(super) fn menu(ui: &mut Ui, studio: &Studio, entry: usize, commands: &mut Vec<Command>) {
+    let has_joint = studio.joint_code(entry).is_some();
     if has_joint && ui.button("Copy the spring's settings (Ctrl C)").clicked() {
         commands.push(Command::View(ViewCommand::CopyJoint(entry)));
         ui.close();
     }
     for language in Language::ALL {
-        let is_by_key = language == lab.viewer().language() && !has_joint;
+        let is_by_key = language == studio.viewer().language() && !has_joint;
         let key = if is_by_key { " (Ctrl C)" } else { "" };
         if ui.button(format!("Copy as {language}{key}")).clicked() {
             commands.push(Command::View(ViewCommand::CopyMethod { entry, language }));
@@ -78,7 +83,7 @@ impl TableRow for Row<'_> {
     fn spoken(&self) -> String {
         let name = [
             Some(format!("{} {}", self.entry + 1, self.method_name())),
-            self.is_of_body.then(|| self.lab.scene().bodies[self.body].name.clone()),
+            self.is_of_body.then(|| self.studio.scene().bodies[self.body].name.clone()),
             Some(self.said.whole().to_owned()),
         ];
         name.into_iter().flatten().collect::<Vec<_>>().join(", ")
@@ -90,7 +95,7 @@ impl TableRow for Row<'_> {
 
     fn colours(&self, palette: &PanelPalette) -> [Color32; 2] {
         let text = if self.flown.is_some() { palette.text } else { palette.dim };
-        [palette.style(self.lab.entries(), self.spec).0, text]
+        [palette.style(self.studio.entries(), self.spec).0, text]
     }
 
     fn command(&self) -> Option<Command> {
@@ -112,7 +117,7 @@ impl TableRow for Row<'_> {
         for line in method.formula {
             ui.label(formula::job(line, 16.0, palette(ui).text));
         }
-        ui.label(format!("At {} Hz: {}.", self.lab.clock().tick_hz(), self.said.whole()));
+        ui.label(format!("At {} Hz: {}.", self.studio.clock().tick_hz(), self.said.whole()));
         let order = match method.order == method.order_with_drag {
             true => format!("Order {}", method.order),
             false => format!("Order {}, {} with drag", method.order, method.order_with_drag),

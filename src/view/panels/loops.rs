@@ -35,10 +35,10 @@ const GAP: f32 = 10.0;
 const ABOVE_TWO: f32 = 3.0;
 
 /// Shows what each loop of the loop lab shows, or what the window's own loop does.
-pub(super) fn show(ui: &mut Ui, lab: &Studio, room: Vec2, commands: &mut Vec<Command>) {
-    match lab.loop_lab() {
+pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<Command>) {
+    match studio.loop_lab() {
         Some(loops) => show_lab(ui, loops, room, commands),
-        None => live::show(ui, lab, room),
+        None => live::show(ui, studio, room),
     }
 }
 
@@ -72,12 +72,12 @@ fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command
 
 /// The title of the charts in a room, to be saved, what names their curves, and the charts; `None` before the first frame.
 pub(super) fn layout(
-    lab: &Studio,
+    studio: &Studio,
     room: Rect,
     palette: &PanelPalette,
 ) -> Option<(&'static str, Vec<Entry>, Vec<Primitive>)> {
-    let Some(loops) = lab.loop_lab() else {
-        return Some((live::TITLE, Vec::new(), live::layout(lab, room, palette)?));
+    let Some(loops) = studio.loop_lab() else {
+        return Some((live::TITLE, Vec::new(), live::layout(studio, room, palette)?));
     };
     let lanes = on_stage(loops, palette);
     let (upper, below) = parts(room);

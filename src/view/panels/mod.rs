@@ -63,34 +63,34 @@ const INSPECTOR: f32 = 0.62;
 const MIN_INSPECTOR: f32 = 130.0;
 
 /// Shows all panels. Returns what was asked for and the rectangle left for the stage, in points.
-pub(super) fn show(ui: &mut Ui, lab: &Studio) -> (Vec<Command>, Rect) {
+pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     let mut commands = Vec::new();
     let size = ui.max_rect().size();
     if size.y >= HEIGHT_FOR_TOP_BAR {
         let panel =
             egui::Panel::top("top bar").exact_size(top_bar::HEIGHT).frame(frame(palette(ui).panel));
-        panel.show(ui, |ui| top_bar::show(ui, lab, &mut commands));
+        panel.show(ui, |ui| top_bar::show(ui, studio, &mut commands));
     }
     if size.y >= HEIGHT_FOR_FOOTER {
         let panel = egui::Panel::bottom("footer")
             .exact_size(footer::HEIGHT)
             .frame(frame(palette(ui).panel));
-        panel.show(ui, |ui| footer::show(ui, lab, &mut commands));
+        panel.show(ui, |ui| footer::show(ui, studio, &mut commands));
     }
     let mut pointed = None;
     // An instrument that is enlarged has the table's room too.
-    if size.y >= HEIGHT_FOR_LANES && !lab.display().enlarged {
-        let height = lab.loop_lab().map_or_else(|| lanes::height(lab), loops::table::height);
+    if size.y >= HEIGHT_FOR_LANES && !studio.display().enlarged {
+        let height = studio.loop_lab().map_or_else(|| lanes::height(studio), loops::table::height);
         let height = height.min(size.y * 0.4);
         // Without a margin: a row reaches from edge to edge.
         let frame = Frame::new().fill(palette(ui).panel);
         let panel = egui::Panel::bottom("lanes").exact_size(height).frame(frame);
-        panel.show(ui, |ui| match lab.loop_lab() {
+        panel.show(ui, |ui| match studio.loop_lab() {
             Some(loops) => loops::table::show(ui, loops, &mut commands),
-            None => pointed = lanes::show(ui, lab, &mut commands),
+            None => pointed = lanes::show(ui, studio, &mut commands),
         });
     }
-    if pointed != lab.viewer().pointed_lane() {
+    if pointed != studio.viewer().pointed_lane() {
         commands.push(Command::View(ViewCommand::PointAt(pointed)));
     }
     if size.y >= HEIGHT_FOR_TIMELINE {
@@ -100,14 +100,14 @@ pub(super) fn show(ui: &mut Ui, lab: &Studio) -> (Vec<Command>, Rect) {
         };
         let frame = frame(palette(ui).panel).inner_margin(Margin::symmetric(8, 1));
         let panel = egui::Panel::bottom("timeline").exact_size(height).frame(frame);
-        panel.show(ui, |ui| match lab.loop_lab() {
+        panel.show(ui, |ui| match studio.loop_lab() {
             Some(loops) => loops::slider::show(ui, loops, &mut commands),
-            None => timeline::show(ui, lab, &mut commands),
+            None => timeline::show(ui, studio, &mut commands),
         });
     }
     if size.x >= WIDTH_FOR_INSTRUMENTS {
         let beside = size.x * INSTRUMENTS;
-        let (width, indent) = match lab.display().enlarged {
+        let (width, indent) = match studio.display().enlarged {
             // The tabs stay where they are, under the pointer.
             true => (size.x, size.x - beside),
             false => (beside, 0.0),
@@ -120,23 +120,25 @@ pub(super) fn show(ui: &mut Ui, lab: &Studio) -> (Vec<Command>, Rect) {
             let room = ui.available_rect_before_wrap();
             ui.allocate_rect(room, egui::Sense::hover());
             let mut inside = ui.new_child(egui::UiBuilder::new().max_rect(room));
-            beside_the_stage(&mut inside, lab, indent, &mut commands);
+            beside_the_stage(&mut inside, studio, indent, &mut commands);
         });
     }
-    if let Some(tour) = lab.viewer().tour() {
+    if let Some(tour) = studio.viewer().tour() {
         let height = guide::HEIGHT.min(ui.available_height() * 0.6);
         let frame = Frame::new().fill(palette(ui).panel).inner_margin(Margin::symmetric(14, 8));
         let panel = egui::Panel::bottom("guide").exact_size(height).frame(frame);
         panel.show(ui, |ui| guide::show(ui, tour, &mut commands));
     }
     let stage = ui.available_rect_before_wrap();
-    if lab.display().help {
+    if studio.display().help {
         help::show(ui, &mut commands);
     }
-    if let Some(dialog) = lab.viewer().dialog() {
+    if let Some(dialog) = studio.viewer().dialog() {
         match dialog {
-            Dialog::Spring => my_spring::show(ui, lab, &mut commands),
-            Dialog::Path { refused } => opening::path(ui, lab, refused.as_deref(), &mut commands),
+            Dialog::Spring => my_spring::show(ui, studio, &mut commands),
+            Dialog::Path { refused } => {
+                opening::path(ui, studio, refused.as_deref(), &mut commands)
+            }
             Dialog::Mistakes { file, report } => opening::mistakes(ui, file, report, &mut commands),
         }
         if ui.input(|input| input.key_pressed(Key::Escape)) {
@@ -147,26 +149,26 @@ pub(super) fn show(ui: &mut Ui, lab: &Studio) -> (Vec<Command>, Rect) {
 }
 
 /// Shows the instrument alone.
-pub(super) fn show_instrument(ui: &mut Ui, lab: &Studio) {
+pub(super) fn show_instrument(ui: &mut Ui, studio: &Studio) {
     let frame = Frame::new().fill(palette(ui).background).inner_margin(Margin::symmetric(8, 4));
     let panel = egui::CentralPanel::default_margins().frame(frame);
-    panel.show(ui, |ui| instruments::show_alone(ui, lab, &mut Vec::new()));
+    panel.show(ui, |ui| instruments::show_alone(ui, studio, &mut Vec::new()));
 }
 
 /// The instruments; with the inspector open they keep the upper part, where there is room for both.
-fn beside_the_stage(ui: &mut Ui, lab: &Studio, indent: f32, commands: &mut Vec<Command>) {
-    let most = ui.available_height() - instruments::min_height(lab.display().instrument);
-    if !lab.display().inspector || lab.display().enlarged {
-        instruments::show(ui, lab, indent, commands);
+fn beside_the_stage(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) {
+    let most = ui.available_height() - instruments::min_height(studio.display().instrument);
+    if !studio.display().inspector || studio.display().enlarged {
+        instruments::show(ui, studio, indent, commands);
     } else if most < MIN_INSPECTOR {
-        inspector::show(ui, lab, commands);
+        inspector::show(ui, studio, commands);
     } else {
         let usual = (ui.available_height() * INSPECTOR).min(most);
         let panel = egui::Panel::bottom("inspector").default_size(usual);
         let panel = panel.size_range(MIN_INSPECTOR..=most).resizable(true);
         let frame = Frame::new().inner_margin(Margin { top: 6, ..Margin::ZERO });
-        panel.frame(frame).show(ui, |ui| inspector::show(ui, lab, commands));
-        instruments::show(ui, lab, indent, commands);
+        panel.frame(frame).show(ui, |ui| inspector::show(ui, studio, commands));
+        instruments::show(ui, studio, indent, commands);
     }
 }
 

@@ -44,19 +44,19 @@ const SEEN_AS: [Number; 2] = [
     }),
 ];
 
-pub(super) fn show(ui: &Ui, lab: &Studio, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let ctx = ui.ctx();
     window(TITLE).anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(ctx, |ui| {
         ui.set_width(NAME + NUMBER + 8.0);
         ui.spacing_mut().item_spacing.y = 4.0;
-        let (tick_hz, has_focus) = (lab.clock().tick_hz(), ui.memory(|m| m.focused().is_some()));
+        let (tick_hz, has_focus) = (studio.clock().tick_hz(), ui.memory(|m| m.focused().is_some()));
         let is_new = is_new(ui);
         for (i, number) in MADE_OF.iter().enumerate() {
-            line(ui, lab, number, is_new && i == 0, commands);
+            line(ui, studio, number, is_new && i == 0, commands);
         }
         ui.label(RichText::new("or by its swing").color(palette(ui).dim));
         for number in &SEEN_AS {
-            line(ui, lab, number, false, commands);
+            line(ui, studio, number, false, commands);
         }
         ui.add_space(6.0);
         ui.horizontal(|ui| {
@@ -91,12 +91,12 @@ fn is_new(ui: &Ui) -> bool {
 
 fn line(
     ui: &mut Ui,
-    lab: &Studio,
+    studio: &Studio,
     (name, unit, value, with): &Number,
     takes_focus: bool,
     commands: &mut Vec<Command>,
 ) {
-    let spring = lab.viewer().my_spring();
+    let spring = studio.viewer().my_spring();
     let id = Id::unique(("my spring", *name));
     ui.horizontal(|ui| {
         let (rect, _) = ui.allocate_exact_size(vec2(NAME, LINE), Sense::hover());

@@ -42,8 +42,8 @@ const MAX_DRAWN: usize = 12;
 /// How much wider the plot is than what it shows.
 const MARGIN: f64 = 0.16;
 
-pub(super) fn show(ui: &mut Ui, lab: &Studio, room: Vec2) {
-    let Some(step) = lab.one_step() else {
+pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
+    let Some(step) = studio.one_step() else {
         let why = "No next step: the body has halted under this method.";
         ui.label(RichText::new(why).color(palette(ui).dim));
         return;
@@ -53,31 +53,31 @@ pub(super) fn show(ui: &mut Ui, lab: &Studio, room: Vec2) {
     let height = (top + room.y - ui.cursor().top()).max(60.0);
     if room.x >= ROOM_BESIDE {
         ui.horizontal_top(|ui| {
-            plot(ui, lab, &step, vec2(room.x - TABLE, height));
+            plot(ui, studio, &step, vec2(room.x - TABLE, height));
             ui.vertical(|ui| {
-                ui.label(said(ui, lab, &step, TABLE));
-                table(ui, lab, &step);
+                ui.label(said(ui, studio, &step, TABLE));
+                table(ui, studio, &step);
             });
         });
     } else {
         // What the step does is seen whole; what the table has no room for is scrolled to.
-        let said = said(ui, lab, &step, room.x);
+        let said = said(ui, studio, &step, room.x);
         let left = height - said.size().y - ui.spacing().item_spacing.y;
         let plot_height = (left - table_height(&step)).max(PLOT * left);
-        plot(ui, lab, &step, vec2(room.x, plot_height));
+        plot(ui, studio, &step, vec2(room.x, plot_height));
         ui.label(said);
-        table(ui, lab, &step);
+        table(ui, studio, &step);
     }
 }
 
 /// [`words`] as they are painted.
-fn said(ui: &Ui, lab: &Studio, step: &OneStep, width: f32) -> Arc<Galley> {
-    let words = words(step, &shown_coordinate(lab));
+fn said(ui: &Ui, studio: &Studio, step: &OneStep, width: f32) -> Arc<Galley> {
+    let words = words(step, &shown_coordinate(studio));
     ui.painter().layout(words, FontId::proportional(TYPE), palette(ui).text, width)
 }
 
-fn shown_coordinate(lab: &Studio) -> Coordinate {
-    lab.race().truth().bodies()[lab.view().body].coordinates().at(0)
+fn shown_coordinate(studio: &Studio) -> Coordinate {
+    studio.race().truth().bodies()[studio.view().body].coordinates().at(0)
 }
 
 fn head(ui: &mut Ui, step: &OneStep) {
@@ -114,7 +114,7 @@ fn range(step: &OneStep, axis: usize) -> [f64; 2] {
     [low - MARGIN * size, high + MARGIN * size]
 }
 
-fn plot(ui: &mut Ui, lab: &Studio, step: &OneStep, size: Vec2) {
+fn plot(ui: &mut Ui, studio: &Studio, step: &OneStep, size: Vec2) {
     let (whole, response) = ui.allocate_exact_size(size, Sense::hover());
     let palette = palette(ui);
     let rect = Rect::from_min_max(
@@ -124,18 +124,19 @@ fn plot(ui: &mut Ui, lab: &Studio, step: &OneStep, size: Vec2) {
     let area = PlotArea { rect, bounds: [0, 1].map(|axis| range(step, axis)) };
     let painter = ui.painter_at(whole);
     painter.rect_filled(rect, 0.0, palette.plot);
-    let coordinate = &shown_coordinate(lab);
+    let coordinate = &shown_coordinate(studio);
     let small = FontId::proportional(11.5);
     let up = format!("velocity {}, {}", coordinate.velocity, Unit::Velocity.on(coordinate));
     painter.text(whole.left_top(), Align2::LEFT_TOP, up, small.clone(), palette.dim);
     let along = headed(&coordinate.name, coordinate.shown_unit());
     painter.text(rect.right_top(), Align2::RIGHT_BOTTOM, along, small, palette.dim);
 
-    let own = palette.style(lab.entries(), &step.spec).0;
+    let own = palette.style(studio.entries(), &step.spec).0;
     // The states with the energy of the present one, and of the landing.
     let mut curves = Vec::new();
     for (through, colour) in [(Some(step.from), palette.exact), (step.landing, own)] {
-        let lines = through.map(|through| lab.orbit(through, area.bounds[0])).unwrap_or_default();
+        let lines =
+            through.map(|through| studio.orbit(through, area.bounds[0])).unwrap_or_default();
         let style = LineStyle::solid(colour.gamma_multiply(ORBIT), 1.0);
         let thin = LineStyle { dash: [6.0, 4.0], ..style };
         curves.extend(lines.into_iter().map(|line| Curve::new(thin, line)));
@@ -282,8 +283,8 @@ fn table_height(step: &OneStep) -> f32 {
 }
 
 /// The formula, every evaluation in numbers, and where the tick ends.
-fn table(ui: &mut Ui, lab: &Studio, step: &OneStep) {
-    let coordinate = &shown_coordinate(lab);
+fn table(ui: &mut Ui, studio: &Studio, step: &OneStep) {
+    let coordinate = &shown_coordinate(studio);
     let (q, v) = (&coordinate.name, &coordinate.velocity);
     ui.spacing_mut().item_spacing.y = 1.0;
     let (figures, gap) = if ui.available_width() < ROOM_FOR_FIGURES { (3, 5.0) } else { (4, 14.0) };
@@ -313,7 +314,7 @@ fn table(ui: &mut Ui, lab: &Studio, step: &OneStep) {
                 ui.end_row();
             }
             for (name, point, colour) in [
-                ("lands at", step.landing, palette(ui).style(lab.entries(), &step.spec).0),
+                ("lands at", step.landing, palette(ui).style(studio.entries(), &step.spec).0),
                 ("exact", step.exact_landing(), palette(ui).exact),
             ] {
                 ui.label("");

@@ -12,7 +12,7 @@ const WIDTH: f32 = 460.0;
 /// A field that has the focus as long as it is there: what is typed is meant for it.
 pub(super) fn path(
     ui: &Ui,
-    lab: &Studio,
+    studio: &Studio,
     refused: Option<&[Mistake]>,
     commands: &mut Vec<Command>,
 ) {
@@ -27,7 +27,7 @@ pub(super) fn path(
             select(ctx, id, if refused.is_some() { usize::MAX } else { 0 });
             ui.memory_mut(|memory| memory.request_focus(id));
         }
-        let typed = lab.viewer().typed_path();
+        let typed = studio.viewer().typed_path();
         let mut text = typed.to_owned();
         let field = TextEdit::singleline(&mut text).id(id).desired_width(width).lock_focus(true);
         let field = field.hint_text("path of a scene or of a frame log").show(ui);
@@ -106,12 +106,12 @@ mod tests {
     use crate::view::testing::TestWindow;
 
     /// The size of the only window over the lab, in points.
-    fn size_of_dialog(lab: &Studio, title: &str) -> egui::Vec2 {
+    fn size_of_dialog(studio: &Studio, title: &str) -> egui::Vec2 {
         let mut window = TestWindow::new([800.0, 600.0]);
         for _ in 0..3 {
-            window.show(Vec::new(), |ui| match lab.viewer().dialog() {
+            window.show(Vec::new(), |ui| match studio.viewer().dialog() {
                 Some(Dialog::Path { refused }) => {
-                    path(ui, lab, refused.as_deref(), &mut Vec::new());
+                    path(ui, studio, refused.as_deref(), &mut Vec::new());
                 }
                 Some(Dialog::Mistakes { file, report }) => {
                     mistakes(ui, file, report, &mut Vec::new());
@@ -127,9 +127,9 @@ mod tests {
     fn a_long_message_is_wrapped_and_a_quoted_line_is_not() {
         let message = |words: usize| format!("a.toml:1:1: {}", "words ".repeat(words));
         let shown = |report: Mistake| {
-            let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-            lab.show_mistakes(std::path::Path::new("a.toml"), vec![report]);
-            size_of_dialog(&lab, "a.toml cannot be opened")
+            let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+            studio.show_mistakes(std::path::Path::new("a.toml"), vec![report]);
+            size_of_dialog(&studio, "a.toml cannot be opened")
         };
         let [short, long] = [8, 80].map(|words| shown(message(words).into()));
         assert!(long.x <= 800.0 && long.y > short.y + 20.0, "{short:?} {long:?}");
@@ -140,14 +140,14 @@ mod tests {
 
     #[test]
     fn the_field_shows_why_a_path_is_refused() {
-        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-        lab.apply(ViewCommand::AskForPath);
-        let before = size_of_dialog(&lab, "Open a scene or a frame log");
-        lab.refuse_typed_path(
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        studio.apply(ViewCommand::AskForPath);
+        let before = size_of_dialog(&studio, "Open a scene or a frame log");
+        studio.refuse_typed_path(
             std::path::Path::new("a.toml"),
             vec!["error: none ".repeat(40).into()],
         );
-        let after = size_of_dialog(&lab, "Open a scene or a frame log");
+        let after = size_of_dialog(&studio, "Open a scene or a frame log");
         assert!(after.y > before.y + 40.0 && after.x <= before.x + 20.0, "{before:?} {after:?}");
     }
 }

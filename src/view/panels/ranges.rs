@@ -110,31 +110,31 @@ mod tests {
     use super::*;
     use crate::lab::{METRICS, Metric, Scene, StageCommand, Studio};
 
-    fn lanes(lab: &Studio, metric: usize) -> Vec<Track> {
-        Track::of(lab, 0, |s| [s.t, s.metrics[metric]])
+    fn lanes(studio: &Studio, metric: usize) -> Vec<Track> {
+        Track::of(studio, 0, |s| [s.t, s.metrics[metric]])
     }
 
     #[test]
     fn energy_drift_is_scaled_to_the_healthy_lanes_and_without_one_to_what_is_not_lost() {
-        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-        lab.apply(StageCommand::ToggleRace);
-        (0..600).for_each(|_| lab.tick());
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        studio.apply(StageCommand::ToggleRace);
+        (0..600).for_each(|_| studio.tick());
         // Explicit Euler is some thousand per cent off, semi-implicit Euler swings by five.
-        let (low, high) = of_shares(&lanes(&lab, Metric::ENERGY_DRIFT));
+        let (low, high) = of_shares(&lanes(&studio, Metric::ENERGY_DRIFT));
         assert!((-8.0..-4.0).contains(&low) && (4.0..8.0).contains(&high), "{low} to {high} %");
-        lab.apply(StageCommand::Pick(0));
-        lab.apply(StageCommand::ToggleRace);
-        let (low, high) = of_shares(&lanes(&lab, Metric::ENERGY_DRIFT));
+        studio.apply(StageCommand::Pick(0));
+        studio.apply(StageCommand::ToggleRace);
+        let (low, high) = of_shares(&lanes(&studio, Metric::ENERGY_DRIFT));
         assert!(low < 0.0 && (200.0..400.0).contains(&high), "{low} to {high} %");
     }
 
     #[test]
     fn an_axis_takes_in_the_truth_and_what_is_near_and_nothing_that_is_far_beyond() {
-        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-        lab.apply(StageCommand::ToggleRace);
-        (0..600).for_each(|_| lab.tick());
-        let tracks = Track::of(&lab, 0, |s| [s.t, s.q]);
-        let truth = || lab.past().truth_curves()[0].samples().map(|s| s.q);
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        studio.apply(StageCommand::ToggleRace);
+        (0..600).for_each(|_| studio.tick());
+        let tracks = Track::of(&studio, 0, |s| [s.t, s.q]);
+        let truth = || studio.past().truth_curves()[0].samples().map(|s| s.q);
         let (low, high) = around_truth(truth(), &tracks, 1, 1.6);
         assert!((-2.1..-1.1).contains(&low) && (1.1..2.1).contains(&high), "{low} to {high}");
         let (low, high) = around_truth(truth(), &tracks, 1, 4.0);

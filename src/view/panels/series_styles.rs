@@ -34,34 +34,34 @@ pub(super) struct SeriesStyle {
 
 impl SeriesStyles {
     /// The methods of the run, or of the open loop lab its loops.
-    pub(super) fn of(lab: &Studio) -> Self {
-        match lab.loop_lab() {
-            Some(loops) => Self::of_loops(lab, loops),
-            None => Self::of_methods(lab),
+    pub(super) fn of(studio: &Studio) -> Self {
+        match studio.loop_lab() {
+            Some(loops) => Self::of_loops(studio, loops),
+            None => Self::of_methods(studio),
         }
     }
 
-    fn of_methods(lab: &Studio) -> Self {
-        let palette = palette_of(lab.display().theme);
-        let series = lab.entries().iter().map(|spec| {
-            let (colour, dash) = palette.style(lab.entries(), spec);
+    fn of_methods(studio: &Studio) -> Self {
+        let palette = palette_of(studio.display().theme);
+        let series = studio.entries().iter().map(|spec| {
+            let (colour, dash) = palette.style(studio.entries(), spec);
             let [id, name] = [spec.method.id, spec.method.name];
-            let [id, name] = [id, name].map(|name| spec.distinct_name(name, lab.entries()));
+            let [id, name] = [id, name].map(|name| spec.distinct_name(name, studio.entries()));
             SeriesStyle { id, name, colour, dash }
         });
         Self {
             series: series.collect(),
-            front: lab.active(),
-            is_race: lab.mode() == Mode::Race,
-            exact: lab.race().truth().bodies()[lab.view().body].truth_in_words(),
+            front: studio.active(),
+            is_race: studio.mode() == Mode::Race,
+            exact: studio.race().truth().bodies()[studio.view().body].truth_in_words(),
             exact_colour: palette.exact,
-            now_s: lab.race().t(),
-            length_s: lab.scene().seconds,
+            now_s: studio.race().t(),
+            length_s: studio.scene().seconds,
         }
     }
 
-    fn of_loops(lab: &Studio, loops: &LoopLab) -> Self {
-        let palette = palette_of(lab.display().theme);
+    fn of_loops(studio: &Studio, loops: &LoopLab) -> Self {
+        let palette = palette_of(studio.display().theme);
         let series = POLICIES.iter().enumerate().map(|(place, card)| {
             let (rgba, dash) = palette.theme.loop_style(place);
             SeriesStyle { id: card.id.into(), name: card.name.into(), colour: colour(rgba), dash }

@@ -43,18 +43,18 @@ const APART: f32 = 13.0;
 /// Half the height of the letters of a label, in points.
 const HALF_LETTER: f32 = 6.0;
 
-pub(super) fn show(ui: &mut Ui, lab: &Studio, room: Vec2, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<Command>) {
     let top = ui.cursor().top();
-    let Some(place) = lab.mapped_parameter() else {
+    let Some(place) = studio.mapped_parameter() else {
         ui.label(
             RichText::new("This body has no parameter that a map could show.")
                 .color(palette(ui).dim),
         );
         return;
     };
-    head(ui, lab, place, commands);
-    let map = lab.viewer().stability_map();
-    let wanted = (lab.view().body, place);
+    head(ui, studio, place, commands);
+    let map = studio.viewer().stability_map();
+    let wanted = (studio.view().body, place);
     let map = map.filter(|map| (map.request.body, map.request.parameter) == wanted);
     let Some(map) = map else {
         ui.label(RichText::new("Working out the map …").color(palette(ui).dim));
@@ -67,28 +67,28 @@ pub(super) fn show(ui: &mut Ui, lab: &Studio, room: Vec2, commands: &mut Vec<Com
     }
     let left = top + room.y - ui.cursor().top();
     let (words, height) = match room.y >= ROOM_FOR_WORDS {
-        true => sentence(ui, lab, map, room.x),
-        false => short_sentence(ui, lab, map, room.x),
+        true => sentence(ui, studio, map, room.x),
+        false => short_sentence(ui, studio, map, room.x),
     };
     let size = vec2(room.x, (left - height - 6.0).max(40.0));
-    plot(ui, lab, map, size, commands);
+    plot(ui, studio, map, size, commands);
     ui.add(Label::new(words)).on_hover_text(each_method(map));
 }
 
-fn parameter(lab: &Studio, place: usize) -> &Parameter {
-    &lab.scene().bodies[lab.view().body].kind.parameters[place]
+fn parameter(studio: &Studio, place: usize) -> &Parameter {
+    &studio.scene().bodies[studio.view().body].kind.parameters[place]
 }
 
 /// The title, and the menu of the parameters.
-fn head(ui: &mut Ui, lab: &Studio, place: usize, commands: &mut Vec<Command>) {
-    let body = &lab.scene().bodies[lab.view().body];
+fn head(ui: &mut Ui, studio: &Studio, place: usize, commands: &mut Vec<Command>) {
+    let body = &studio.scene().bodies[studio.view().body];
     ui.horizontal(|ui| {
         let title = RichText::new(format!("Stability: {} over", body.name));
         ui.add(Label::new(title.font(strong_font(13.0))).truncate());
-        let name = |place: usize| full_name(parameter(lab, place));
+        let name = |place: usize| full_name(parameter(studio, place));
         let menu = ComboBox::from_id_salt("mapped parameter").selected_text(name(place));
         let menu = menu.show_ui(ui, |ui| {
-            for other in lab.mappable_parameters() {
+            for other in studio.mappable_parameters() {
                 if ui.selectable_label(other == place, name(other)).clicked() {
                     commands.push(Command::Run(RunCommand::MapParameter(other)));
                 }
@@ -99,7 +99,7 @@ fn head(ui: &mut Ui, lab: &Studio, place: usize, commands: &mut Vec<Command>) {
     });
 }
 
-fn plot(ui: &mut Ui, lab: &Studio, map: &StabilityMap, size: Vec2, commands: &mut Vec<Command>) {
+fn plot(ui: &mut Ui, studio: &Studio, map: &StabilityMap, size: Vec2, commands: &mut Vec<Command>) {
     let (whole, _) = ui.allocate_exact_size(size, Sense::hover());
     let (palette, painter) = (palette(ui), ui.painter_at(whole));
     let has_names = size.y >= 150.0;
@@ -116,7 +116,7 @@ fn plot(ui: &mut Ui, lab: &Studio, map: &StabilityMap, size: Vec2, commands: &mu
     let marks = [0, 1].map(|axis| area.marks(axis, AxisScale::Log, [28.0, 22.0][axis]));
     chart::paint(&painter, &chart::axes(&area, marks, palette, whole.right()));
     if has_names {
-        let parameter = parameter(lab, map.request.parameter);
+        let parameter = parameter(studio, map.request.parameter);
         let unit =
             if parameter.unit.is_empty() { String::new() } else { format!(", {}", parameter.unit) };
         let name = format!("{}{unit}", full_name(parameter));
@@ -125,8 +125,8 @@ fn plot(ui: &mut Ui, lab: &Studio, map: &StabilityMap, size: Vec2, commands: &mu
         let below = pos2(rect.center().x, whole.bottom());
         painter.text(below, Align2::CENTER_BOTTOM, "tick rate, Hz", small, palette.dim);
     }
-    boundaries(ui, lab, map, &area);
-    cross(ui, lab, map, &area, commands);
+    boundaries(ui, studio, map, &area);
+    cross(ui, studio, map, &area, commands);
 }
 
 /// Tints the plane: deeper where more methods are stable. A method that is stable everywhere tints nothing.
@@ -154,7 +154,7 @@ fn water(ui: &Ui, map: &StabilityMap, area: &PlotArea) {
 }
 
 /// Each method's boundary in its colour with its name and its limit beside it, the selected method's last.
-fn boundaries(ui: &Ui, lab: &Studio, map: &StabilityMap, area: &PlotArea) {
+fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
     let painter = ui.painter().with_clip_rect(area.rect);
     let lines: Vec<(usize, Vec<Pos2>)> = map
         .regions
@@ -165,12 +165,12 @@ fn boundaries(ui: &Ui, lab: &Studio, map: &StabilityMap, area: &PlotArea) {
             region.boundary.iter().map(move |points| (*entry, line(points)))
         })
         .collect();
-    let is_selected = |entry: usize| entry == lab.active();
-    let style = |entry: usize| palette(ui).style(lab.entries(), &lab.entries()[entry]);
+    let is_selected = |entry: usize| entry == studio.active();
+    let style = |entry: usize| palette(ui).style(studio.entries(), &studio.entries()[entry]);
     let mut order: Vec<&(usize, Vec<Pos2>)> = lines.iter().collect();
     order.sort_by_key(|(entry, _)| is_selected(*entry));
-    let seen = seen_lines(lab, map, area);
-    let seen_colour = mixed(palette(ui).dim, style(lab.active()).0, 0.6);
+    let seen = seen_lines(studio, map, area);
+    let seen_colour = mixed(palette(ui).dim, style(studio.active()).0, 0.6);
     let curve = |style: LineStyle, points: &[Pos2]| ScreenCurve::new(style, points.to_vec());
     let thin = LineStyle::solid(seen_colour, 1.2);
     let mut curves: Vec<_> = seen.iter().map(|(_, points)| curve(thin, points)).collect();
@@ -185,19 +185,19 @@ fn boundaries(ui: &Ui, lab: &Studio, map: &StabilityMap, area: &PlotArea) {
     }
     chart::paint(&painter, &[Primitive::Curves(curves)]);
     let mut taken: Vec<Pos2> = Vec::new();
-    if let Some(at) = cross_at(lab, map, area) {
+    if let Some(at) = cross_at(studio, map, area) {
         let (chip, _) = you_are_here(ui, at, area.rect);
         let edge = |y| along(pos2(chip.center().x, y), 0.0, chip.width());
         taken.extend(edge(chip.top() + HALF_LETTER).chain(edge(chip.bottom() - HALF_LETTER)));
         taken.push(at);
     }
-    taken.extend(only_everywhere(ui, lab, map, area));
+    taken.extend(only_everywhere(ui, studio, map, area));
     let mut named: Vec<usize> = Vec::new();
     for (entry, points) in order.iter().rev() {
         if named.contains(entry) {
             continue;
         }
-        let name = numbered(*entry, &lab.lane_name(*entry));
+        let name = numbered(*entry, &studio.lane_name(*entry));
         let with_limit = limit(map, *entry).map(|limit| format!("{name}: {limit}"));
         let others =
             lines.iter().filter(|(other, _)| other != entry).flat_map(|(_, points)| points);
@@ -231,9 +231,9 @@ fn boundaries(ui: &Ui, lab: &Studio, map: &StabilityMap, area: &PlotArea) {
 }
 
 /// The lines along which a player sees the same damping ratio of the selected engine.
-fn seen_lines(lab: &Studio, map: &StabilityMap, area: &PlotArea) -> Vec<(f64, Vec<Pos2>)> {
+fn seen_lines(studio: &Studio, map: &StabilityMap, area: &PlotArea) -> Vec<(f64, Vec<Pos2>)> {
     let found = map.regions.iter().zip(&map.request.specs);
-    let selected = found.filter(|(_, (entry, _))| *entry == lab.active());
+    let selected = found.filter(|(_, (entry, _))| *entry == studio.active());
     let has_room = area.rect.height() >= ROOM_FOR_LINES;
     let is_decade = |ratio: f64| libm::log10(ratio).fract().abs() < 1e-9;
     let lines = selected.flat_map(|(region, _)| &region.seen);
@@ -299,16 +299,16 @@ fn label_place(
 }
 
 /// Names the methods that are stable everywhere. Returns the places along that.
-fn only_everywhere(ui: &Ui, lab: &Studio, map: &StabilityMap, area: &PlotArea) -> Vec<Pos2> {
+fn only_everywhere(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) -> Vec<Pos2> {
     let found = map.regions.iter().zip(&map.request.specs);
     let mut everywhere = found.filter(|(region, _)| region.coverage == Coverage::Everywhere);
     let Some((_, (entry, _))) = everywhere.next() else { return Vec::new() };
     let more = everywhere.count();
     let others = if more > 0 { format!(" and {more} more") } else { String::new() };
     let verb = if more > 0 { "are" } else { "is" };
-    let name = numbered(*entry, &lab.lane_name(*entry));
+    let name = numbered(*entry, &studio.lane_name(*entry));
     let text = format!("{name}{others} {verb} stable everywhere");
-    let (colour, _) = palette(ui).style(lab.entries(), &lab.entries()[*entry]);
+    let (colour, _) = palette(ui).style(studio.entries(), &studio.entries()[*entry]);
     let painter = ui.painter().with_clip_rect(area.rect);
     let at = area.rect.left_top() + vec2(8.0, 6.0);
     let rect = painter.text(at, Align2::LEFT_TOP, text, strong_font(12.0), colour);
@@ -316,28 +316,34 @@ fn only_everywhere(ui: &Ui, lab: &Studio, map: &StabilityMap, area: &PlotArea) -
 }
 
 /// Where the run is; a value below the map is at its lower end.
-fn cross_at(lab: &Studio, map: &StabilityMap, area: &PlotArea) -> Option<Pos2> {
-    let value = lab.race().values(map.request.body).get(map.request.parameter)?;
-    let hz = f64::from(lab.clock().tick_hz());
+fn cross_at(studio: &Studio, map: &StabilityMap, area: &PlotArea) -> Option<Pos2> {
+    let value = studio.race().values(map.request.body).get(map.request.parameter)?;
+    let hz = f64::from(studio.clock().tick_hz());
     Some(area.rect.clamp(area.at([hz, value.max(f64::MIN_POSITIVE)].map(libm::log10))))
 }
 
 /// The cross, which sets the tick rate and the parameter when it is dragged.
-fn cross(ui: &Ui, lab: &Studio, map: &StabilityMap, area: &PlotArea, commands: &mut Vec<Command>) {
-    let Some(at) = cross_at(lab, map, area) else { return };
+fn cross(
+    ui: &Ui,
+    studio: &Studio,
+    map: &StabilityMap,
+    area: &PlotArea,
+    commands: &mut Vec<Command>,
+) {
+    let Some(at) = cross_at(studio, map, area) else { return };
     let response = ui.interact(area.rect, Id::unique(CROSS_ID), Sense::click_and_drag());
     let (palette, painter) = (palette(ui), ui.painter().with_clip_rect(area.rect));
     let place = map.request.parameter;
-    let value = lab.race().values(map.request.body)[place];
+    let value = studio.race().values(map.request.body)[place];
     let here = format!(
         "you are here, arrow keys move it: {}",
-        point_in_words(lab, place, lab.clock().tick_hz(), value)
+        point_in_words(studio, place, studio.clock().tick_hz(), value)
     );
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, &here));
     // Where it is let go may be the first that is heard of the way there.
     let is_moved = response.dragged() || response.drag_stopped() || response.clicked();
     if let Some(pointer) = response.interact_pointer_pos().filter(|_| is_moved) {
-        go_to(lab, map, area.point(pointer), commands);
+        go_to(studio, map, area.point(pointer), commands);
     }
     if response.has_focus() {
         let filter = EventFilter {
@@ -346,7 +352,7 @@ fn cross(ui: &Ui, lab: &Studio, map: &StabilityMap, area: &PlotArea, commands: &
             ..EventFilter::default()
         };
         ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
-        step(ui, lab, map, commands);
+        step(ui, studio, map, commands);
     }
     let is_lit = response.hovered() || response.dragged();
     let response = response.on_hover_cursor(egui::CursorIcon::Crosshair);
@@ -389,7 +395,7 @@ fn you_are_here(ui: &Ui, at: Pos2, map: Rect) -> (Rect, Arc<Galley>) {
 }
 
 /// Moves the cross by the arrow keys: along the ladder of tick rates, and by equal factors of the parameter.
-fn step(ui: &Ui, lab: &Studio, map: &StabilityMap, commands: &mut Vec<Command>) {
+fn step(ui: &Ui, studio: &Studio, map: &StabilityMap, commands: &mut Vec<Command>) {
     let pressed = |key| ui.input(|input| input.num_presses(key));
     commands.extend(
         (0..pressed(Key::ArrowLeft))
@@ -401,27 +407,27 @@ fn step(ui: &Ui, lab: &Studio, map: &StabilityMap, commands: &mut Vec<Command>) 
     let up = pressed(Key::ArrowUp) as f64 - pressed(Key::ArrowDown) as f64;
     if up != 0.0 {
         let [low, high] = map.request.range;
-        let present = lab.race().values(map.request.body)[map.request.parameter];
+        let present = studio.race().values(map.request.body)[map.request.parameter];
         let value = present.max(low) * libm::pow(10.0, up / STEPS_OF_DECADE);
-        set(lab, map, value.clamp(low, high), commands);
+        set(studio, map, value.clamp(low, high), commands);
     }
 }
 
 /// Sets the tick rate and the parameter to a point of the map.
-fn go_to(lab: &Studio, map: &StabilityMap, [x, y]: [f64; 2], commands: &mut Vec<Command>) {
+fn go_to(studio: &Studio, map: &StabilityMap, [x, y]: [f64; 2], commands: &mut Vec<Command>) {
     let tick_hz = libm::pow(10.0, x).round().max(1.0) as u32;
-    if tick_hz != lab.clock().tick_hz() {
+    if tick_hz != studio.clock().tick_hz() {
         commands.push(Command::Stage(StageCommand::TickHz(tick_hz)));
     }
-    set(lab, map, libm::pow(10.0, y), commands);
+    set(studio, map, libm::pow(10.0, y), commands);
 }
 
 /// Sets the parameter to three digits of a value.
-fn set(lab: &Studio, map: &StabilityMap, value: f64, commands: &mut Vec<Command>) {
+fn set(studio: &Studio, map: &StabilityMap, value: f64, commands: &mut Vec<Command>) {
     let (body, parameter) = (map.request.body, map.request.parameter);
     let value = to_three_digits(value);
-    let values = lab.race().values(body);
-    let kind = &lab.scene().bodies[body].kind;
+    let values = studio.race().values(body);
+    let kind = &studio.scene().bodies[body].kind;
     if value != values[parameter] && edited_values(kind, values, parameter, value).is_ok() {
         commands.push(Command::Run(RunCommand::Act(Action::Set { body, parameter, value })));
     }

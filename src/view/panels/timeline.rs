@@ -45,44 +45,49 @@ const MIN_TICKS: f64 = 12.0;
 /// The most marks that a tooltip tells of.
 const MAX_TOLD: usize = 8;
 
-pub(super) fn show(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let room = ui.available_rect_before_wrap();
-    let Some(groove) = groove(lab, room) else { return };
+    let Some(groove) = groove(studio, room) else { return };
     let along = groove.along;
-    let events = lab.timeline().events();
-    let times = lab.timeline().times();
+    let events = studio.timeline().events();
+    let times = studio.timeline().times();
     let response = groove.interact(ui);
-    let span = viewed(ui, lab, &times, &response, along);
+    let span = viewed(ui, studio, &times, &response, along);
     let track = Track { groove, span, times: &times, palette: palette(ui) };
 
-    seek(ui, lab, &response, &track, commands);
+    seek(ui, studio, &response, &track, commands);
     let context = Context {
-        scene: lab.scene(),
-        start: lab.timeline().start(),
+        scene: studio.scene(),
+        start: studio.timeline().start(),
         times: &times,
         palette: track.palette,
     };
     let in_view = |x: f32| along.expand(1.0).contains(x);
-    let end = lab.timeline().end();
-    let end = lab.timeline().is_in_past().then(|| context.end(end));
+    let end = studio.timeline().end();
+    let end = studio.timeline().is_in_past().then(|| context.end(end));
     let marks = context.marks(&events).into_iter().chain(end).collect();
     let mut groups = grouped(marks, |mark| track.x(mark.tick), MARKS_APART);
     groups.retain(|group| in_view(group.x));
 
     let painter = ui.painter().clone();
     groove.write(&painter, span, track.palette);
-    fill(&painter, lab, &events, &track);
+    fill(&painter, studio, &events, &track);
     groups.iter().for_each(|group| draw_group(&painter, &track, group));
-    let present = track.x(lab.race().tick());
+    let present = track.x(studio.race().tick());
     if along.expand(1.0).contains(present) {
         groove.handle(&painter, present, response.has_focus(), track.palette);
     }
-    beside(ui, lab, Rect::from_min_max(pos2(along.max + MARGIN, room.top()), room.max), commands);
+    beside(
+        ui,
+        studio,
+        Rect::from_min_max(pos2(along.max + MARGIN, room.top()), room.max),
+        commands,
+    );
     tooltip(ui, response, &track, &groups);
 }
 
-fn groove(lab: &Studio, room: Rect) -> Option<Groove> {
-    Groove::new(room, if lab.timeline().undoes().is_some() { UNDO } else { 0.0 })
+fn groove(studio: &Studio, room: Rect) -> Option<Groove> {
+    Groove::new(room, if studio.timeline().undoes().is_some() { UNDO } else { 0.0 })
 }
 
 /// Where a track lies on its panel.
@@ -178,20 +183,20 @@ impl Track<'_> {
 }
 
 /// The part of the run that is in view, after what the wheel and the clicks of this frame make of it.
-fn viewed(ui: &Ui, lab: &Studio, times: &TimeScale, response: &Response, along: Rangef) -> Span {
+fn viewed(ui: &Ui, studio: &Studio, times: &TimeScale, response: &Response, along: Rangef) -> Span {
     let id = response.id;
-    let whole = Span::whole(lab.scene().seconds, times.t(lab.timeline().end()));
+    let whole = Span::whole(studio.scene().seconds, times.t(studio.timeline().end()));
     if response.double_clicked() {
         ui.data_mut(|data| data.remove::<Span>(id));
     }
     let kept = ui.data(|data| data.get_temp::<Span>(id));
     let mut span = kept.map_or(whole, |span| span.moved(0.0, whole));
-    if lab.running() && kept.is_some() {
-        span = span.following(lab.race().t(), whole);
+    if studio.running() && kept.is_some() {
+        span = span.following(studio.race().t(), whole);
     }
     if let Some(pointer) = response.hover_pos() {
         let (times, right) = wheel::turned(ui);
-        let min_s = MIN_TICKS / f64::from(lab.race().tick_hz());
+        let min_s = MIN_TICKS / f64::from(studio.race().tick_hz());
         if times != 1.0 {
             span = span.zoomed(span.t(pointer.x, along), times, min_s, whole);
         }
@@ -209,17 +214,17 @@ fn viewed(ui: &Ui, lab: &Studio, times: &TimeScale, response: &Response, along: 
 /// Goes to where the mouse is pressed; with the focus, the arrows go by ticks.
 fn seek(
     ui: &Ui,
-    lab: &Studio,
+    studio: &Studio,
     response: &Response,
     track: &Track<'_>,
     commands: &mut Vec<Command>,
 ) {
-    let present = lab.race().tick();
+    let present = studio.race().tick();
     let name = format!("timeline, at tick {present}");
-    response.widget_info(|| egui::WidgetInfo::slider(true, lab.race().t(), &name));
+    response.widget_info(|| egui::WidgetInfo::slider(true, studio.race().t(), &name));
     if let Some(x) = pressed(ui, response, track.groove.along) {
-        let tick = track.tick(x).min(lab.timeline().end());
-        if lab.running() || tick != present {
+        let tick = track.tick(x).min(studio.timeline().end());
+        if studio.running() || tick != present {
             commands.push(Command::Run(RunCommand::Seek(tick)));
         }
     }
@@ -274,24 +279,24 @@ fn numbers(
 }
 
 /// The track: what was run up to the present in the colours of the methods, what was run beyond it in grey.
-fn fill(painter: &Painter, lab: &Studio, events: &[Event], track: &Track<'_>) {
+fn fill(painter: &Painter, studio: &Studio, events: &[Event], track: &Track<'_>) {
     let round = 0.5 * THICKNESS;
     let (groove, along) = (track.groove, track.groove.along);
     painter.rect_filled(groove.piece(along.min, along.max), round, track.palette.raised);
-    let [present, end] = [lab.race().tick(), lab.timeline().end()].map(|tick| track.x(tick));
+    let [present, end] = [studio.race().tick(), studio.timeline().end()].map(|tick| track.x(tick));
     painter.rect_filled(
         groove.piece(along.min, end),
         round,
         track.palette.dim.gamma_multiply(0.45),
     );
-    let lane = lab.selected().id;
-    let colours = marks::colours(lane, events, lab.timeline().start(), track.palette);
+    let lane = studio.selected().id;
+    let colours = marks::colours(lane, events, studio.timeline().start(), track.palette);
     for (i, (from, colour)) in colours.iter().enumerate() {
         let to = colours.get(i + 1).map_or(present, |(tick, _)| track.x(*tick)).min(present);
         let piece = groove.piece(track.x(*from), to);
         if piece.width() > 0.0 {
             let corners = if i == 0 { round } else { 0.0 };
-            painter.rect_filled(piece, corners, strength(*colour, lab.mode(), track.palette));
+            painter.rect_filled(piece, corners, strength(*colour, studio.mode(), track.palette));
         }
     }
 }
@@ -347,11 +352,11 @@ fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
 }
 
 /// The *undo* button, and the memory that the past takes.
-fn beside(ui: &mut Ui, lab: &Studio, room: Rect, commands: &mut Vec<Command>) {
-    let timeline = lab.timeline();
+fn beside(ui: &mut Ui, studio: &Studio, room: Rect, commands: &mut Vec<Command>) {
+    let timeline = studio.timeline();
     let is_near = timeline.bytes() as f64 >= NEAR_THE_BOUND * timeline.limit() as f64;
     // A recording of the picture says nothing of the machine that it is made on.
-    let is_told = lab.viewer().pace.is_some() && room.width() >= MEMORY - 1.0;
+    let is_told = studio.viewer().pace.is_some() && room.width() >= MEMORY - 1.0;
     if is_told && is_near && room.height() > HEIGHT_OF_TRACK {
         let text = memory(timeline.bytes(), timeline.limit());
         let at = room.right_bottom();
@@ -363,7 +368,7 @@ fn beside(ui: &mut Ui, lab: &Studio, room: Rect, commands: &mut Vec<Command>) {
             palette(ui).dim,
         );
     }
-    if let Some(what) = lab.timeline().undoes() {
+    if let Some(what) = studio.timeline().undoes() {
         let size = vec2(UNDO - 6.0, 18.0).min(room.size());
         let rect = Rect::from_min_size(pos2(room.right() - size.x, room.top() + 1.0), size);
         let button =

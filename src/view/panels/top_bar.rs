@@ -20,29 +20,29 @@ const ROOM_FOR_BACK: f32 = 700.0;
 const ROOM_FOR_WORDS: f32 = 960.0;
 const ROOM_FOR_PACE: f32 = 1100.0;
 
-pub(super) fn show(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let width = ui.available_width();
     ui.horizontal_centered(|ui| {
-        scene_menu(ui, lab, commands);
+        scene_menu(ui, studio, commands);
         if width >= ROOM_FOR_PACE {
             let about = "a spring of your own: the recommended method, and its code (S)";
             button(ui, "My spring", about, Command::View(ViewCommand::AskForSpring), commands);
         }
-        transport(ui, lab, width >= ROOM_FOR_BACK, commands);
+        transport(ui, studio, width >= ROOM_FOR_BACK, commands);
         if width >= ROOM_FOR_MENUS {
             word(ui, width, "speed");
-            match lab.loop_lab() {
+            match studio.loop_lab() {
                 Some(loops) => controls::speed_menu(ui, loops, commands),
-                None => speed_menu(ui, lab, commands),
+                None => speed_menu(ui, studio, commands),
             }
             word(ui, width, "tick rate");
-            tick_rate_menu(ui, lab, commands);
+            tick_rate_menu(ui, studio, commands);
         }
-        modes(ui, lab, width, commands);
+        modes(ui, studio, width, commands);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             button(ui, "?", "help (H)", Command::View(ViewCommand::ToggleHelp), commands);
             let is_wide = width >= ROOM_FOR_WORDS;
-            let time = match lab.loop_lab() {
+            let time = match studio.loop_lab() {
                 Some(loops) => {
                     if width >= ROOM_FOR_PACE {
                         controls::display(ui, loops);
@@ -55,15 +55,15 @@ pub(super) fn show(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
                 }
                 None => {
                     if width >= ROOM_FOR_MENUS {
-                        inspector_button(ui, lab, commands);
+                        inspector_button(ui, studio, commands);
                     }
                     if width >= ROOM_FOR_PACE {
-                        pace(ui, lab);
+                        pace(ui, studio);
                         ui.separator();
                     }
-                    let t = lab.shown_s();
+                    let t = studio.shown_s();
                     match is_wide {
-                        true => format!("t = {t:.3} s · tick {}", lab.race().tick()),
+                        true => format!("t = {t:.3} s · tick {}", studio.race().tick()),
                         false => format!("{t:.3} s"),
                     }
                 }
@@ -80,8 +80,8 @@ fn word(ui: &mut Ui, width: f32, word: &str) {
 }
 
 /// Each scene by its name, with its title beside it.
-fn scene_menu(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
-    let name = lab.scene_name();
+fn scene_menu(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
+    let name = studio.scene_name();
     let menu = ComboBox::from_id_salt("scene").selected_text(&name).width(92.0).height(480.0);
     let response = menu.show_ui(ui, |ui| {
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
@@ -92,8 +92,8 @@ fn scene_menu(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
             commands.push(Command::View(ViewCommand::AskForSpring));
         }
         ui.separator();
-        for (place, name) in lab.scene_list().names().enumerate() {
-            let is_open = lab.scene_list().open() == Some(place);
+        for (place, name) in studio.scene_list().names().enumerate() {
+            let is_open = studio.scene_list().open() == Some(place);
             let title = SCENES.get(place).and_then(|scene| Scene::built_in(scene.name));
             let title = title.map(|scene| scene.title).unwrap_or_default();
             let mut line = egui::text::LayoutJob::default();
@@ -105,15 +105,15 @@ fn scene_menu(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
             }
         }
     });
-    let about = format!("{}\n{}", lab.scene().title, lab.scene().about);
+    let about = format!("{}\n{}", studio.scene().title, studio.scene().about);
     response.response.on_hover_ui(|ui| {
         ui.set_max_width(ui.max_rect().width().min(ui.ctx().content_rect().width() - 32.0));
         ui.label(about);
     });
 }
 
-fn transport(ui: &mut Ui, lab: &Studio, has_back: bool, commands: &mut Vec<Command>) {
-    let unit = if lab.loop_lab().is_some() { "frame" } else { "tick" };
+fn transport(ui: &mut Ui, studio: &Studio, has_back: bool, commands: &mut Vec<Command>) {
+    let unit = if studio.loop_lab().is_some() { "frame" } else { "tick" };
     button(ui, "⏮", "restart (Home)", Command::Stage(StageCommand::Restart), commands);
     if has_back {
         button(
@@ -125,7 +125,7 @@ fn transport(ui: &mut Ui, lab: &Studio, has_back: bool, commands: &mut Vec<Comma
         );
     }
     let (sign, hover) =
-        if lab.running() { ("⏸", "pause (Space)") } else { ("▶", "run (Space)") };
+        if studio.running() { ("⏸", "pause (Space)") } else { ("▶", "run (Space)") };
     button(ui, sign, hover, Command::View(ViewCommand::TogglePause), commands);
     button(
         ui,
@@ -137,16 +137,16 @@ fn transport(ui: &mut Ui, lab: &Studio, has_back: bool, commands: &mut Vec<Comma
 }
 
 /// Solo, race or loop lab: three parts of one control.
-fn modes(ui: &mut Ui, lab: &Studio, width: f32, commands: &mut Vec<Command>) {
+fn modes(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) {
     ui.add_space(4.0);
-    let is_in_loops = lab.loop_lab().is_some();
+    let is_in_loops = studio.loop_lab().is_some();
     let toggle_loops = Command::Loop(LoopCommand::ToggleLab);
     // From the loop lab, the command for a race leads to the other mode.
-    let to_mode = |mode: Mode| match is_in_loops && lab.mode() == mode {
+    let to_mode = |mode: Mode| match is_in_loops && studio.mode() == mode {
         true => toggle_loops.clone(),
         false => Command::Stage(StageCommand::ToggleRace),
     };
-    let is_in = |mode: Mode| !is_in_loops && lab.mode() == mode;
+    let is_in = |mode: Mode| !is_in_loops && studio.mode() == mode;
     let loops = if width >= ROOM_FOR_WORDS { "Loop lab" } else { "Loops" };
     let parts = [
         (
@@ -194,8 +194,8 @@ fn part(ui: &mut Ui, name: &str, about: &str, is_chosen: bool) -> bool {
     response.on_hover_text(about).clicked()
 }
 
-fn speed_menu(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
-    let percent = lab.clock().speed_percent();
+fn speed_menu(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
+    let percent = studio.clock().speed_percent();
     let text = RichText::new(format!("{}×", multiple(percent)));
     let menu = ComboBox::from_id_salt("speed").selected_text(text).width(54.0).height(400.0);
     let response = menu.show_ui(ui, |ui| {
@@ -218,8 +218,8 @@ fn multiple(percent: u32) -> String {
     }
 }
 
-fn tick_rate_menu(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
-    let tick_hz = lab.loop_lab().map_or(lab.clock().tick_hz(), |loops| loops.scene().tick_hz);
+fn tick_rate_menu(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
+    let tick_hz = studio.loop_lab().map_or(studio.clock().tick_hz(), |loops| loops.scene().tick_hz);
     let text = RichText::new(format!("{tick_hz} Hz"));
     let menu = ComboBox::from_id_salt("tick rate").selected_text(text).width(72.0).height(480.0);
     let response = menu.show_ui(ui, |ui| {
@@ -232,13 +232,13 @@ fn tick_rate_menu(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
     response.response.on_hover_text("ticks per simulated second ([ and ])");
 }
 
-fn pace(ui: &mut Ui, lab: &Studio) {
+fn pace(ui: &mut Ui, studio: &Studio) {
     // Paused, no frame is drawn but for an event, and no time goes by.
-    if !lab.running() {
+    if !studio.running() {
         ui.label(RichText::new("paused").color(palette(ui).accent));
         return;
     }
-    let text = match lab.viewer().pace {
+    let text = match studio.viewer().pace {
         Some(Pace::Measured { frames_per_second, real_time_factor }) => {
             format!("{frames_per_second:.0} fps · {real_time_factor:.2}× real time")
         }
@@ -249,8 +249,8 @@ fn pace(ui: &mut Ui, lab: &Studio) {
         .on_hover_text("frames drawn per second · simulated seconds per second");
 }
 
-fn inspector_button(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
-    let (is_open, about) = (lab.display().inspector, "inspector (E)");
+fn inspector_button(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
+    let (is_open, about) = (studio.display().inspector, "inspector (E)");
     let response = ui.add(Button::new("Edit").selected(is_open)).on_hover_text(about);
     response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, is_open, about));
     if response.clicked() {

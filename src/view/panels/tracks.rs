@@ -72,8 +72,12 @@ const RETURNED: f64 = 0.1;
 impl Track {
     /// A track for each lane, of `place` of its samples of the body; those that are not finite are left out. The one in
     /// front is the last.
-    pub(super) fn of(lab: &Studio, body: usize, place: impl Fn(&Sample) -> [f64; 2]) -> Vec<Self> {
-        Self::of_points(lab, body, |s| {
+    pub(super) fn of(
+        studio: &Studio,
+        body: usize,
+        place: impl Fn(&Sample) -> [f64; 2],
+    ) -> Vec<Self> {
+        Self::of_points(studio, body, |s| {
             let at = place(s);
             Point { t: s.t, entry: s.entry, at, swept: [at[1]; 2], jumped: s.jumped }
         })
@@ -82,13 +86,15 @@ impl Track {
     /// A track for each lane, of a quantity of the body over time; of a coordinate with all that it comes to between
     /// samples.
     pub(super) fn of_quantity(
-        lab: &Studio,
+        studio: &Studio,
         body: usize,
         quantity: Quantity,
         detail: Detail,
     ) -> Vec<Self> {
         if quantity != Quantity::Position {
-            return Self::of(lab, body, |sample| [sample.t, quantity.among([sample.q, sample.v])]);
+            return Self::of(studio, body, |sample| {
+                [sample.t, quantity.among([sample.q, sample.v])]
+            });
         }
         let point = |s: Summary| Point {
             t: s.t,
@@ -101,29 +107,29 @@ impl Track {
             Some(summaries) => finite(summaries.map(point)),
             None => finite(history.samples().map(|sample| point(Summary::of(sample)))),
         };
-        Self::of_histories(lab, body, points)
+        Self::of_histories(studio, body, points)
     }
 
-    fn of_points(lab: &Studio, body: usize, point: impl Fn(&Sample) -> Point) -> Vec<Self> {
-        Self::of_histories(lab, body, |history| finite(history.samples().map(&point)))
+    fn of_points(studio: &Studio, body: usize, point: impl Fn(&Sample) -> Point) -> Vec<Self> {
+        Self::of_histories(studio, body, |history| finite(history.samples().map(&point)))
     }
 
     fn of_histories(
-        lab: &Studio,
+        studio: &Studio,
         body: usize,
         points: impl Fn(&History) -> Vec<Point>,
     ) -> Vec<Self> {
-        let front = lab.selected().id;
+        let front = studio.selected().id;
         let track = |lane: &Entrant| Self {
-            points: points(&lab.past().histories(lane.id)[body]),
-            entry: lab.entry(lane),
+            points: points(&studio.past().histories(lane.id)[body]),
+            entry: studio.entry(lane),
             is_front: lane.id == front,
             part: "",
             dash: None,
             strength: 1.0,
             is_held: false,
         };
-        let lanes = lab.race().entrants().iter();
+        let lanes = studio.race().entrants().iter();
         let mut tracks: Vec<Self> = lanes.map(track).collect();
         tracks.sort_by_key(|track| track.is_front);
         tracks
@@ -189,8 +195,8 @@ impl Track {
 
     /// The tracks that an axis is fitted to: without what was before a body was put elsewhere or a parameter changed, but
     /// for the moments after that.
-    pub(super) fn fitted<'t>(lab: &Studio, tracks: &'t [Self]) -> Cow<'t, [Self]> {
-        let since_s = lab.past().swing_since_s(lab.race().t());
+    pub(super) fn fitted<'t>(studio: &Studio, tracks: &'t [Self]) -> Cow<'t, [Self]> {
+        let since_s = studio.past().swing_since_s(studio.race().t());
         if since_s == f64::NEG_INFINITY {
             return Cow::Borrowed(tracks);
         }

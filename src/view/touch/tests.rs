@@ -7,7 +7,7 @@ use crate::view::testing::TestWindow;
 
 /// A lab with a stage, and the pointer over it.
 struct Table {
-    lab: Studio,
+    studio: Studio,
     touch: Touch,
     window: TestWindow,
 }
@@ -16,33 +16,33 @@ const STAGE: Rect = Rect { min: pos2(40.0, 30.0), max: pos2(840.0, 530.0) };
 
 impl Table {
     fn new(scene: &str) -> Self {
-        let mut lab = Studio::new(Scene::built_in(scene).unwrap());
-        (0..9).for_each(|_| lab.tick());
+        let mut studio = Studio::new(Scene::built_in(scene).unwrap());
+        (0..9).for_each(|_| studio.tick());
         let window = TestWindow { frame_s: 0.05, ..TestWindow::new([900.0, 600.0]) };
-        let mut table = Self { lab, touch: Touch::default(), window };
+        let mut table = Self { studio, touch: Touch::default(), window };
         // A layer can be pointed at from the second frame on.
         table.frame(Vec::new());
         table
     }
 
     fn picture(&self) -> Picture {
-        compose(&self.lab, STAGE.size().into())
+        compose(&self.studio, STAGE.size().into())
     }
 
     /// Where the body of the first cell is, in points of the frame.
     fn body(&self) -> Pos2 {
         let picture = self.picture();
-        let grip = picture.cells[0].grips(&self.lab).find(|grip| grip.whose != Whose::Truth);
+        let grip = picture.cells[0].grips(&self.studio).find(|grip| grip.whose != Whose::Truth);
         Pos2::from(grip.unwrap().at) + STAGE.min.to_vec2()
     }
 
     /// A frame 50 ms after the last; what it asks for is done, as the window does it.
     fn frame(&mut self, events: Vec<Event>) -> Vec<Command> {
         let (picture, mut commands) = (self.picture(), Vec::new());
-        let Self { lab, touch, window } = self;
-        window.show(events, |ui| touch.show(ui, STAGE, &picture, lab, &mut commands));
+        let Self { studio, touch, window } = self;
+        window.show(events, |ui| touch.show(ui, STAGE, &picture, studio, &mut commands));
         for command in &commands {
-            self.lab.apply(command.clone());
+            self.studio.apply(command.clone());
         }
         commands
     }
@@ -60,7 +60,7 @@ impl Table {
     }
 
     fn held(&self) -> Option<&HeldBody> {
-        self.lab.viewer().held()
+        self.studio.viewer().held()
     }
 }
 
@@ -83,24 +83,24 @@ fn placed(commands: &[Command]) -> Option<&Action> {
 #[test]
 fn a_drag_places_the_body_once_and_at_rest() {
     let mut table = Table::new("spring");
-    let (tick, at) = (table.lab.race().tick(), table.body());
+    let (tick, at) = (table.studio.race().tick(), table.body());
     assert_eq!(placed(&table.press(at)), None);
-    assert!(table.held().is_some() && !table.lab.time_runs() && table.lab.running());
+    assert!(table.held().is_some() && !table.studio.time_runs() && table.studio.running());
     for step in 1..=6 {
         assert_eq!(placed(&table.move_to(at + vec2(-15.0 * step as f32, 4.0))), None);
-        assert_eq!(table.lab.advance(50_000_000).ticks, 0);
+        assert_eq!(table.studio.advance(50_000_000).ticks, 0);
     }
     let to = at + vec2(-90.0, 4.0);
     let x = table.held().unwrap().q[0];
     let commands = table.release(to, false);
     let action = Action::Place { body: 0, q: [x].into(), v: [0.0].into() };
     assert_eq!(placed(&commands), Some(&action));
-    assert!(table.held().is_none() && table.lab.time_runs());
-    let row = table.lab.timeline().session().journal().rows().last().unwrap();
+    assert!(table.held().is_none() && table.studio.time_runs());
+    let row = table.studio.timeline().session().journal().rows().last().unwrap();
     assert_eq!((row.tick, &row.action), (tick, &action));
     assert!((table.body().x - to.x).abs() < 0.1, "{}", table.body().x);
     for lane in
-        table.lab.race().entrants().iter().map(|e| &e.lane).chain([table.lab.race().truth()])
+        table.studio.race().entrants().iter().map(|e| &e.lane).chain([table.studio.race().truth()])
     {
         assert_eq!(lane.bodies()[0].stepper.q(), [x]);
     }
@@ -110,7 +110,7 @@ fn a_drag_places_the_body_once_and_at_rest() {
 fn with_shift_a_body_is_flung_with_the_pointers_velocity_in_simulated_time() {
     let thrown = |speed_percent| {
         let mut table = Table::new("spring");
-        table.lab.apply(RunCommand::SpeedPercent(speed_percent));
+        table.studio.apply(RunCommand::SpeedPercent(speed_percent));
         let at = table.body();
         table.press(at);
         for step in 1..=8 {
@@ -143,66 +143,66 @@ fn a_pointer_that_stopped_flings_nothing() {
 #[test]
 fn escape_lets_a_body_go_on_as_if_it_had_not_been_touched() {
     let mut table = Table::new("spring");
-    let (hash, at) = (table.lab.race().state_hash(), table.body());
+    let (hash, at) = (table.studio.race().state_hash(), table.body());
     table.press(at);
     table.move_to(at + vec2(50.0, 0.0));
-    assert_eq!(table.lab.apply(ViewCommand::Escape), None);
+    assert_eq!(table.studio.apply(ViewCommand::Escape), None);
     assert!(table.held().is_none());
     table.move_to(at + vec2(70.0, 0.0));
     assert_eq!(placed(&table.release(at + vec2(70.0, 0.0), false)), None);
     assert!(table.held().is_none());
-    assert_eq!(table.lab.race().state_hash(), hash);
-    assert!(table.lab.timeline().session().journal().rows().is_empty());
+    assert_eq!(table.studio.race().state_hash(), hash);
+    assert!(table.studio.timeline().session().journal().rows().is_empty());
 }
 
 #[test]
 fn a_click_changes_nothing_but_the_lane_that_is_selected() {
     let mut table = Table::new("spring");
-    let (hash, at) = (table.lab.race().state_hash(), table.body());
+    let (hash, at) = (table.studio.race().state_hash(), table.body());
     table.press(at);
     table.move_to(at + vec2(1.0, 1.0));
     table.release(at + vec2(1.0, 1.0), false);
-    assert_eq!(table.lab.race().state_hash(), hash);
+    assert_eq!(table.studio.race().state_hash(), hash);
     assert!(table.held().is_none());
-    table.lab.apply(StageCommand::ToggleRace);
-    table.lab.apply(StageCommand::ToggleArrangement);
+    table.studio.apply(StageCommand::ToggleRace);
+    table.studio.apply(StageCommand::ToggleArrangement);
     let third = table.picture().cells[2].clone();
     let at = Pos2::from(third.rect.min) + STAGE.min.to_vec2() + vec2(5.0, 5.0);
     table.press(at);
     table.release(at, false);
-    assert_eq!(table.lab.active(), third.entry);
+    assert_eq!(table.studio.active(), third.entry);
 }
 
 #[test]
 fn in_a_race_any_lanes_body_can_be_thrown_and_all_go_on_from_there() {
     let mut table = Table::new("orbit");
-    table.lab.apply(StageCommand::ToggleRace);
-    table.lab.apply(StageCommand::ToggleArrangement);
-    (0..40).for_each(|_| table.lab.tick());
+    table.studio.apply(StageCommand::ToggleRace);
+    table.studio.apply(StageCommand::ToggleArrangement);
+    (0..40).for_each(|_| table.studio.tick());
     let last = table.picture().cells.last().unwrap().clone();
-    let grip = last.grips(&table.lab).next().unwrap();
+    let grip = last.grips(&table.studio).next().unwrap();
     let at = Pos2::from(grip.at) + STAGE.min.to_vec2();
     table.press(at);
     table.move_to(at + vec2(12.0, 9.0));
     assert_eq!(table.held().unwrap().lane, last.lane);
     table.release(at + vec2(12.0, 9.0), false);
-    let race = table.lab.race();
+    let race = table.studio.race();
     let place = race.truth().bodies()[0].stepper.q();
     assert!(race.entrants().iter().all(|e| e.lane.bodies()[0].stepper.q() == place));
-    let row = table.lab.timeline().session().journal().rows().last().unwrap();
+    let row = table.studio.timeline().session().journal().rows().last().unwrap();
     assert!(matches!(&row.action, Action::Place { q, .. } if q[..] == *place));
 }
 
 #[test]
 fn over_each_other_a_click_on_a_lanes_body_brings_it_to_the_front() {
     let mut table = Table::new("orbit");
-    table.lab.apply(StageCommand::ToggleRace);
-    (0..40).for_each(|_| table.lab.tick());
+    table.studio.apply(StageCommand::ToggleRace);
+    (0..40).for_each(|_| table.studio.tick());
     let cell = table.picture().cells[0].clone();
-    assert_eq!((table.picture().cells.len(), cell.entry), (1, table.lab.active()));
-    let other = cell.grips(&table.lab).find_map(|grip| match grip.whose {
+    assert_eq!((table.picture().cells.len(), cell.entry), (1, table.studio.active()));
+    let other = cell.grips(&table.studio).find_map(|grip| match grip.whose {
         Whose::Lane { entry, .. } if entry != cell.entry => {
-            let found = cell.grip_at(&table.lab, grip.at);
+            let found = cell.grip_at(&table.studio, grip.at);
             (found == Some(grip)).then_some((entry, grip.at))
         }
         _ => None,
@@ -211,19 +211,19 @@ fn over_each_other_a_click_on_a_lanes_body_brings_it_to_the_front() {
     let at = Pos2::from(at) + STAGE.min.to_vec2();
     table.press(at);
     table.release(at, false);
-    assert_eq!(table.lab.active(), entry);
+    assert_eq!(table.studio.active(), entry);
     assert_eq!(table.picture().cells[0].entry, entry);
     // On the empty sea it changes nothing.
     let sea = STAGE.max - vec2(8.0, 8.0);
     table.press(sea);
     table.release(sea, false);
-    assert_eq!(table.lab.active(), entry);
+    assert_eq!(table.studio.active(), entry);
 }
 
 #[test]
 fn the_wheel_zooms_about_the_pointer_a_drag_of_the_sea_pans_and_a_double_click_fits() {
     let mut table = Table::new("pendulum");
-    table.lab.apply(ViewCommand::TogglePause);
+    table.studio.apply(ViewCommand::TogglePause);
     let at = STAGE.min + vec2(30.0, 400.0);
     let under = |table: &Table, at: Pos2| table.picture().cells[0].metres((at - STAGE.min).into());
     let before = under(&table, at);
@@ -239,7 +239,7 @@ fn the_wheel_zooms_about_the_pointer_a_drag_of_the_sea_pans_and_a_double_click_f
     ]);
     // It turns smoothly, over some frames.
     (0..40).for_each(|_| _ = table.frame(Vec::new()));
-    let zoom = table.lab.view().zoom_pan(0).zoom();
+    let zoom = table.studio.view().zoom_pan(0).zoom();
     assert!((1.1..2.0).contains(&zoom), "{zoom}");
     assert!(under(&table, at).distance(before) < 1e-4);
 
@@ -248,19 +248,19 @@ fn the_wheel_zooms_about_the_pointer_a_drag_of_the_sea_pans_and_a_double_click_f
     table.move_to(to);
     table.release(to, false);
     assert!(under(&table, to).distance(before) < 1e-4);
-    assert!(table.lab.timeline().session().journal().rows().is_empty());
+    assert!(table.studio.timeline().session().journal().rows().is_empty());
 
     for _ in 0..2 {
         table.press(to);
         table.release(to, false);
     }
-    assert_eq!(table.lab.view().zoom_pan(0), ZoomPan::default());
-    table.lab.apply(ViewCommand::ZoomPan {
+    assert_eq!(table.studio.view().zoom_pan(0), ZoomPan::default());
+    table.studio.apply(ViewCommand::ZoomPan {
         body: 0,
         zoom_pan: ZoomPan::default().zoomed(2.0, [0.0; 2]),
     });
-    table.lab.apply(StageCommand::Restart);
-    assert_eq!(table.lab.view().zoom_pan(0).zoom(), 2.0);
-    table.lab.apply(StageCommand::SceneBeside(Step::Next));
-    assert_eq!(table.lab.view().zoom_pan(0), ZoomPan::default());
+    table.studio.apply(StageCommand::Restart);
+    assert_eq!(table.studio.view().zoom_pan(0).zoom(), 2.0);
+    table.studio.apply(StageCommand::SceneBeside(Step::Next));
+    assert_eq!(table.studio.view().zoom_pan(0), ZoomPan::default());
 }

@@ -73,13 +73,13 @@ fn the_lab_goes_on_with_a_run_where_it_is() {
     let mut session = Session::racing(scene().into());
     session.act(regatta::lab::Action::Kick(2.0));
     session.run(100);
-    let mut lab = Studio::of_session(session.clone());
-    assert_eq!((lab.mode(), lab.race().tick()), (Mode::Race, 100));
-    assert_eq!(lab.race().state_hash(), session.race().state_hash());
-    lab.tick();
+    let mut studio = Studio::of_session(session.clone());
+    assert_eq!((studio.mode(), studio.race().tick()), (Mode::Race, 100));
+    assert_eq!(studio.race().state_hash(), session.race().state_hash());
+    studio.tick();
     session.tick();
-    assert_eq!(lab.race().state_hash(), session.race().state_hash());
-    assert_eq!(lab.scene_list().open(), None, "it is in no list");
+    assert_eq!(studio.race().state_hash(), session.race().state_hash());
+    assert_eq!(studio.scene_list().open(), None, "it is in no list");
 }
 
 #[test]

@@ -45,12 +45,12 @@ fn a_kick_of_the_script_reaches_the_net() {
     let text = format!(
         "title = 't'\ntick_hz = 60\nseconds = 1\n[[net]]\n{GRID}\ngravity_m_per_s2 = 0\n[[command]]\ntick = 3\nkick = 1\n"
     );
-    let mut lab = Studio::new(Scene::parse("t", &text).unwrap());
-    let velocity = |lab: &Studio| lab.race().truth().bodies()[0].stepper.v()[0];
-    (0..3).for_each(|_| lab.tick());
-    assert_eq!(velocity(&lab), 0.0);
-    lab.tick();
-    assert!(velocity(&lab) > 1.0, "{}", velocity(&lab));
+    let mut studio = Studio::new(Scene::parse("t", &text).unwrap());
+    let velocity = |studio: &Studio| studio.race().truth().bodies()[0].stepper.v()[0];
+    (0..3).for_each(|_| studio.tick());
+    assert_eq!(velocity(&studio), 0.0);
+    studio.tick();
+    assert!(velocity(&studio) > 1.0, "{}", velocity(&studio));
 }
 
 /// Whether a method gets through a built-in scene at a rate, without a coordinate running away.

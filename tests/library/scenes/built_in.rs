@@ -223,26 +223,26 @@ fn the_helm_turns_to_its_script_and_the_methods_part_there_as_its_scene_says() {
     let scene = built_in("helm");
     let rudder: Vec<_> = scene.script.iter().map(|scripted| scripted.action.clone()).collect();
     assert_eq!(rudder, [Action::Rudder(1.0), Action::Rudder(-1.0), Action::Rudder(0.0)]);
-    let mut lab = Studio::new(scene.clone());
-    lab.apply(StageCommand::ToggleRace);
-    let heading = |lab: &Studio| lab.race().truth().bodies()[0].stepper.q()[2];
-    let error = |lab: &Studio| {
-        let [lane, truth] = [&lab.race().entrants()[0].lane, lab.race().truth()];
+    let mut studio = Studio::new(scene.clone());
+    studio.apply(StageCommand::ToggleRace);
+    let heading = |studio: &Studio| studio.race().truth().bodies()[0].stepper.q()[2];
+    let error = |studio: &Studio| {
+        let [lane, truth] = [&studio.race().entrants()[0].lane, studio.race().truth()];
         (lane.bodies()[0].stepper.place() - truth.bodies()[0].stepper.place()).length()
     };
-    let run_to = |lab: &mut Studio, tick| {
-        while lab.race().tick() < tick {
-            lab.tick();
+    let run_to = |studio: &mut Studio, tick| {
+        while studio.race().tick() < tick {
+            studio.tick();
         }
     };
-    run_to(&mut lab, 15);
-    assert!(heading(&lab) == 0.0 && error(&lab) < 0.5, "{}", error(&lab));
-    run_to(&mut lab, 90);
-    let left = heading(&lab);
+    run_to(&mut studio, 15);
+    assert!(heading(&studio) == 0.0 && error(&studio) < 0.5, "{}", error(&studio));
+    run_to(&mut studio, 90);
+    let left = heading(&studio);
     assert!(left > PI, "to the left");
-    run_to(&mut lab, 170);
-    assert!(heading(&lab) < left - PI / 2.0, "to the right");
-    assert!(error(&lab) > 2.0, "{}", error(&lab));
+    run_to(&mut studio, 170);
+    assert!(heading(&studio) < left - PI / 2.0, "to the right");
+    assert!(error(&studio) > 2.0, "{}", error(&studio));
 }
 
 /// The half-life in milliseconds under a method at a rate, by the verdict.

@@ -176,11 +176,11 @@ fn a_scene_without_lanes_races_the_methods_that_step_all_its_bodies() {
 
 #[test]
 fn a_method_that_does_not_fit_is_not_taken_up_and_the_reason_is_told() {
-    let mut lab = Studio::new(built_in("spring"));
-    let before = lab.active();
-    lab.apply(StageCommand::Method(method("smooth-damp").unwrap()));
-    assert_eq!(lab.active(), before);
-    let notice = lab.viewer().notice.as_deref().unwrap_or_default();
+    let mut studio = Studio::new(built_in("spring"));
+    let before = studio.active();
+    studio.apply(StageCommand::Method(method("smooth-damp").unwrap()));
+    assert_eq!(studio.active(), before);
+    let notice = studio.viewer().notice.as_deref().unwrap_or_default();
     assert!(notice.contains("smooth-damp does not step the body \"spring\""), "{notice}");
 }
 

@@ -167,23 +167,23 @@ fn frames_and_marks_are_those_of_the_run() {
 
     let mut scene = Scene::built_in("harbour").unwrap();
     scene.tick_hz = 49;
-    let mut lab = Studio::new(scene);
-    lab.apply(StageCommand::ToggleRace);
+    let mut studio = Studio::new(scene);
+    studio.apply(StageCommand::ToggleRace);
     for mark in &manifest.marks {
-        while lab.race().tick() < mark.tick {
-            lab.tick();
+        while studio.race().tick() < mark.tick {
+            studio.tick();
         }
-        let hashes = lab.race().lane_hashes().map(|hash| format!("{hash:016x}"));
+        let hashes = studio.race().lane_hashes().map(|hash| format!("{hash:016x}"));
         assert!(hashes.eq(mark.lanes.iter().map(|lane| lane.hash.clone())));
-        for (lane, entrant) in mark.lanes.iter().zip(lab.race().entrants()) {
+        for (lane, entrant) in mark.lanes.iter().zip(studio.race().entrants()) {
             let q = entrant.lane.bodies().iter().map(|body| body.stepper.q().to_vec());
             assert!(q.eq(lane.q.iter().cloned()), "coordinates to the bit");
         }
     }
-    let exact = lab.race().truth();
-    for (lane, entrant) in manifest.lanes.iter().zip(lab.race().entrants()) {
+    let exact = studio.race().truth();
+    for (lane, entrant) in manifest.lanes.iter().zip(studio.race().entrants()) {
         for (n, body) in lane.bodies.iter().enumerate() {
-            assert_eq!(body["name"], lab.scene().bodies[n].name);
+            assert_eq!(body["name"], studio.scene().bodies[n].name);
             for metric in METRICS {
                 let value = (metric.measure)(&entrant.lane.bodies()[n], &exact.bodies()[n]);
                 assert_eq!(body[metric.id], Value::from(value), "{}", metric.id);

@@ -76,20 +76,20 @@ fn a_verdict_at_another_rate_stands_until_it_is_computed_again() {
 #[test]
 fn a_map_keeps_its_regions_while_its_cross_is_moved() {
     use crate::lab::{Instrument, RunCommand, StageCommand, Studio};
-    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-    lab.apply(StageCommand::Instrument(Instrument::StabilityMap));
-    let mut worker = AnalysisWorker::new(lab.analysis_request());
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    studio.apply(StageCommand::Instrument(Instrument::StabilityMap));
+    let mut worker = AnalysisWorker::new(studio.analysis_request());
     while worker.work() {}
     let found = worker.findings().map.expect("a map");
     assert_eq!(found.regions.len(), found.request.specs.len());
     let [damping, stiffness] = ["damping", "stiffness"].map(|name| {
-        let parameters = &lab.scene().bodies[0].kind.parameters;
+        let parameters = &studio.scene().bodies[0].kind.parameters;
         parameters.iter().position(|parameter| parameter.key.starts_with(name)).unwrap()
     });
     let mut moved = |parameter: usize, value: f64| {
-        lab.apply(StageCommand::TickHz(24));
-        lab.apply(RunCommand::Act(Action::Set { body: 0, parameter, value }));
-        worker.set_request(lab.analysis_request());
+        studio.apply(StageCommand::TickHz(24));
+        studio.apply(RunCommand::Act(Action::Set { body: 0, parameter, value }));
+        worker.set_request(studio.analysis_request());
         worker.findings().map.map(|map| (map.regions, map.here.len()))
     };
     assert_eq!(moved(stiffness, 580.0), Some((found.regions, 0)));

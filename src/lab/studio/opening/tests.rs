@@ -15,27 +15,27 @@ fn scene(text: &str) -> Scene {
 const PATH: &str = "boat/ship.toml";
 
 /// A lab that runs the file's scene.
-fn lab(text: &str) -> Studio {
-    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-    lab.open_file(Path::new(PATH), scene(text));
-    lab
+fn studio(text: &str) -> Studio {
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    studio.open_file(Path::new(PATH), scene(text));
+    studio
 }
 
 #[test]
 fn a_file_stays_on_the_list_and_does_not_pass_for_a_built_in_scene() {
-    let mut lab = lab(text("ship"));
-    assert!(lab.title().starts_with("Regatta - ship.toml - "), "{}", lab.title());
-    assert_eq!(lab.scene_list().open(), Some(SCENES.len()));
-    lab.apply(StageCommand::SceneBeside(Step::Next));
-    assert!(lab.title().starts_with("Regatta - harbour - "), "{}", lab.title());
-    lab.apply(StageCommand::SceneBeside(Step::Previous));
-    assert!(lab.title().starts_with("Regatta - ship.toml - "), "{}", lab.title());
-    lab.apply(StageCommand::SceneBeside(Step::Previous));
-    assert_eq!(lab.scene_list().open(), Some(SCENES.len() - 1));
+    let mut studio = studio(text("ship"));
+    assert!(studio.title().starts_with("Regatta - ship.toml - "), "{}", studio.title());
+    assert_eq!(studio.scene_list().open(), Some(SCENES.len()));
+    studio.apply(StageCommand::SceneBeside(Step::Next));
+    assert!(studio.title().starts_with("Regatta - harbour - "), "{}", studio.title());
+    studio.apply(StageCommand::SceneBeside(Step::Previous));
+    assert!(studio.title().starts_with("Regatta - ship.toml - "), "{}", studio.title());
+    studio.apply(StageCommand::SceneBeside(Step::Previous));
+    assert_eq!(studio.scene_list().open(), Some(SCENES.len() - 1));
     for _ in 0..=SCENES.len() {
-        lab.apply(StageCommand::SceneBeside(Step::Next));
+        studio.apply(StageCommand::SceneBeside(Step::Next));
     }
-    assert_eq!(lab.scene_list().open(), Some(SCENES.len() - 1), "round");
+    assert_eq!(studio.scene_list().open(), Some(SCENES.len() - 1), "round");
 }
 
 #[test]
@@ -43,7 +43,7 @@ fn a_changed_file_with_the_same_lanes_and_bodies_is_run_again_to_the_tick() {
     let before = text("spring");
     let after = before.replacen("mass_kg = ", "mass_kg = 1", 1);
     assert_ne!(before, after);
-    let mut old = lab(before);
+    let mut old = studio(before);
     old.apply(StageCommand::ToggleRace);
     old.apply(StageCommand::Pick(2));
     old.apply(ViewCommand::ZoomPan {
@@ -63,7 +63,7 @@ fn a_changed_file_with_the_same_lanes_and_bodies_is_run_again_to_the_tick() {
     assert_eq!((old.mode(), old.active()), (Mode::Race, 2));
     assert_eq!(old.view().zoom_pan(0).zoom(), 2.0);
 
-    let mut new = lab(&after);
+    let mut new = studio(&after);
     new.apply(StageCommand::ToggleRace);
     (0..50).for_each(|_| new.tick());
     assert_eq!(old.race().state_hash(), new.race().state_hash());
@@ -73,15 +73,15 @@ fn a_changed_file_with_the_same_lanes_and_bodies_is_run_again_to_the_tick() {
 
 #[test]
 fn a_file_that_changes_in_comments_only_leaves_the_run_and_its_journal_alone() {
-    let mut lab = lab(text("spring"));
-    (0..50).for_each(|_| lab.tick());
-    lab.apply(RunCommand::Act(Action::Kick(1.0)));
-    let (hash, rows) = (lab.race().state_hash(), lab.race().journal().rows().len());
-    lab.reload_file(Path::new(PATH), scene(&format!("# A remark.\n{}", text("spring"))));
+    let mut studio = studio(text("spring"));
+    (0..50).for_each(|_| studio.tick());
+    studio.apply(RunCommand::Act(Action::Kick(1.0)));
+    let (hash, rows) = (studio.race().state_hash(), studio.race().journal().rows().len());
+    studio.reload_file(Path::new(PATH), scene(&format!("# A remark.\n{}", text("spring"))));
     let notice = "ship.toml saved; nothing that matters changed";
-    assert_eq!(lab.viewer().notice.as_deref(), Some(notice));
-    assert_eq!(lab.race().state_hash(), hash);
-    assert_eq!((lab.race().tick(), lab.race().journal().rows().len()), (50, rows));
+    assert_eq!(studio.viewer().notice.as_deref(), Some(notice));
+    assert_eq!(studio.race().state_hash(), hash);
+    assert_eq!((studio.race().tick(), studio.race().journal().rows().len()), (50, rows));
 }
 
 #[test]
@@ -91,11 +91,11 @@ fn a_changed_file_with_other_bodies_or_lanes_begins_again() {
         [text("harbour").to_owned(), before.replacen("\"rk4\", ", "", 1), text("ship").to_owned()]
     {
         assert_ne!(before, after);
-        let mut lab = lab(before);
-        (0..50).for_each(|_| lab.tick());
-        lab.reload_file(Path::new(PATH), scene(&after));
-        assert_eq!(lab.race().tick(), 0);
-        assert!(lab.viewer().notice.as_deref().unwrap().contains("from the start"));
+        let mut studio = studio(before);
+        (0..50).for_each(|_| studio.tick());
+        studio.reload_file(Path::new(PATH), scene(&after));
+        assert_eq!(studio.race().tick(), 0);
+        assert!(studio.viewer().notice.as_deref().unwrap().contains("from the start"));
     }
 }
 
@@ -105,89 +105,89 @@ fn a_rate_that_nobody_chose_follows_the_file_and_one_that_was_chosen_stays() {
     let after = before.replacen("tick_hz = 60", "tick_hz = 50", 1);
     assert_ne!(before, after);
     for (chosen, rate) in [(None, 50), (Some(120), 120)] {
-        let mut lab = lab(before);
+        let mut studio = studio(before);
         if let Some(hz) = chosen {
-            lab.apply(StageCommand::TickHz(hz));
+            studio.apply(StageCommand::TickHz(hz));
         }
-        lab.reload_file(Path::new(PATH), scene(&after));
-        assert_eq!(lab.race().tick_hz(), rate);
+        studio.reload_file(Path::new(PATH), scene(&after));
+        assert_eq!(studio.race().tick_hz(), rate);
     }
 }
 
 #[test]
 fn a_path_that_is_refused_stays_in_its_field_with_the_reason_until_it_is_edited() {
-    let mut lab = lab(text("spring"));
-    let refused = |lab: &Studio| match lab.viewer().dialog() {
+    let mut studio = studio(text("spring"));
+    let refused = |studio: &Studio| match studio.viewer().dialog() {
         Some(Dialog::Path { refused }) => refused.clone(),
         other => panic!("{other:?}"),
     };
-    lab.apply(ViewCommand::AskForPath);
-    lab.apply(ViewCommand::TypePath("boat/none.toml".into()));
+    studio.apply(ViewCommand::AskForPath);
+    studio.apply(ViewCommand::TypePath("boat/none.toml".into()));
     assert_eq!(
-        lab.apply(ViewCommand::OpenTypedPath),
+        studio.apply(ViewCommand::OpenTypedPath),
         Some(crate::lab::DriverRequest::OpenTypedPath)
     );
-    lab.refuse_typed_path(Path::new("boat/none.toml"), vec!["no such file".into()]);
-    assert_eq!(lab.viewer().typed_path(), "boat/none.toml");
-    assert_eq!(refused(&lab), Some(vec!["no such file".into()]));
-    lab.apply(ViewCommand::TypePath("boat/none.toml".into()));
-    assert!(refused(&lab).is_some());
-    lab.apply(ViewCommand::TypePath("boat/non.toml".into()));
-    assert_eq!(refused(&lab), None);
-    lab.open_file(Path::new(PATH), scene(text("ship")));
-    assert_eq!(lab.viewer().dialog(), None);
+    studio.refuse_typed_path(Path::new("boat/none.toml"), vec!["no such file".into()]);
+    assert_eq!(studio.viewer().typed_path(), "boat/none.toml");
+    assert_eq!(refused(&studio), Some(vec!["no such file".into()]));
+    studio.apply(ViewCommand::TypePath("boat/none.toml".into()));
+    assert!(refused(&studio).is_some());
+    studio.apply(ViewCommand::TypePath("boat/non.toml".into()));
+    assert_eq!(refused(&studio), None);
+    studio.open_file(Path::new(PATH), scene(text("ship")));
+    assert_eq!(studio.viewer().dialog(), None);
 }
 
 #[test]
 fn a_file_that_goes_and_comes_back_is_told_by_its_name() {
-    let mut lab = lab(text("spring"));
-    lab.file_is_gone(Path::new(PATH));
-    assert!(lab.viewer().notice.as_deref().unwrap().starts_with("ship.toml is gone: "));
-    lab.file_is_back(Path::new(PATH));
-    assert_eq!(lab.viewer().notice.as_deref(), Some("ship.toml is back, unchanged"));
+    let mut studio = studio(text("spring"));
+    studio.file_is_gone(Path::new(PATH));
+    assert!(studio.viewer().notice.as_deref().unwrap().starts_with("ship.toml is gone: "));
+    studio.file_is_back(Path::new(PATH));
+    assert_eq!(studio.viewer().notice.as_deref(), Some("ship.toml is back, unchanged"));
 }
 
 #[test]
 fn a_broken_file_shows_its_mistakes_and_the_run_goes_on() {
-    let mut lab = lab(text("spring"));
-    (0..50).for_each(|_| lab.tick());
-    let hash = lab.race().state_hash();
-    lab.reload_failed(Path::new(PATH), vec!["boat/ship.toml:1:1: no".into()]);
-    let shown = |lab: &Studio| matches!(lab.viewer().dialog(), Some(Dialog::Mistakes { .. }));
-    assert!(shown(&lab) && lab.race().state_hash() == hash);
-    assert_eq!(lab.apply(ViewCommand::Escape), None);
-    assert!(!shown(&lab));
+    let mut studio = studio(text("spring"));
+    (0..50).for_each(|_| studio.tick());
+    let hash = studio.race().state_hash();
+    studio.reload_failed(Path::new(PATH), vec!["boat/ship.toml:1:1: no".into()]);
+    let shown = |studio: &Studio| matches!(studio.viewer().dialog(), Some(Dialog::Mistakes { .. }));
+    assert!(shown(&studio) && studio.race().state_hash() == hash);
+    assert_eq!(studio.apply(ViewCommand::Escape), None);
+    assert!(!shown(&studio));
     // Whoever comes back to it is told again.
-    lab.apply(StageCommand::SceneBeside(Step::Next));
-    assert!(!shown(&lab));
-    lab.apply(StageCommand::SceneBeside(Step::Previous));
-    assert!(shown(&lab));
-    lab.reload_file(Path::new(PATH), scene(text("spring")));
-    assert!(!shown(&lab));
+    studio.apply(StageCommand::SceneBeside(Step::Next));
+    assert!(!shown(&studio));
+    studio.apply(StageCommand::SceneBeside(Step::Previous));
+    assert!(shown(&studio));
+    studio.reload_file(Path::new(PATH), scene(text("spring")));
+    assert!(!shown(&studio));
     // Of a file that is not open, nothing is shown yet.
-    lab.apply(StageCommand::SceneBeside(Step::Next));
-    lab.reload_failed(Path::new(PATH), vec!["boat/ship.toml:1:1: no".into()]);
-    assert!(!shown(&lab));
+    studio.apply(StageCommand::SceneBeside(Step::Next));
+    studio.reload_failed(Path::new(PATH), vec!["boat/ship.toml:1:1: no".into()]);
+    assert!(!shown(&studio));
 }
 
 #[test]
 fn the_memory_for_rewinding_is_that_of_every_scene_that_is_opened() {
-    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-    lab.set_rewind_bytes(1 << 20);
-    lab.apply(StageCommand::SceneBeside(Step::Next));
-    assert_eq!(lab.timeline().limit(), 1 << 20);
-    lab.open_file(Path::new(PATH), scene(text("stiff")));
-    assert_eq!(lab.timeline().limit(), 1 << 20);
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    studio.set_rewind_bytes(1 << 20);
+    studio.apply(StageCommand::SceneBeside(Step::Next));
+    assert_eq!(studio.timeline().limit(), 1 << 20);
+    studio.open_file(Path::new(PATH), scene(text("stiff")));
+    assert_eq!(studio.timeline().limit(), 1 << 20);
     for _ in 0..20_000 {
-        lab.tick();
-        assert!(lab.timeline().bytes() <= 1 << 20, "{}", lab.timeline().bytes());
+        studio.tick();
+        assert!(studio.timeline().bytes() <= 1 << 20, "{}", studio.timeline().bytes());
     }
 }
 
 #[test]
 fn what_a_person_prefers_survives_a_scene_and_where_they_look_does_not() {
-    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-    let chosen = lab.viewer().preferences.clone();
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    let chosen = studio.viewer().preferences.clone();
     for command in [
         Command::Stage(StageCommand::Body(1)),
         Command::Run(RunCommand::MapParameter(0)),
@@ -197,12 +197,12 @@ fn what_a_person_prefers_survives_a_scene_and_where_they_look_does_not() {
         Command::View(ViewCommand::Scale(Step::Next)),
         Command::View(ViewCommand::TypePath("boat.toml".into())),
     ] {
-        lab.apply(command);
+        studio.apply(command);
     }
-    let (preferences, view) = (format!("{:?}", lab.viewer().preferences), lab.view().clone());
+    let (preferences, view) = (format!("{:?}", studio.viewer().preferences), studio.view().clone());
     assert!(preferences != format!("{chosen:?}") && view != View::default());
-    lab.apply(StageCommand::SceneBeside(Step::Next));
-    assert_eq!(format!("{:?}", lab.viewer().preferences), preferences);
-    assert_eq!(lab.viewer().language(), Language::GdScript);
-    assert_eq!(*lab.view(), View::default());
+    studio.apply(StageCommand::SceneBeside(Step::Next));
+    assert_eq!(format!("{:?}", studio.viewer().preferences), preferences);
+    assert_eq!(studio.viewer().language(), Language::GdScript);
+    assert_eq!(*studio.view(), View::default());
 }

@@ -9,13 +9,13 @@ use crate::lab::port::Setup;
 use crate::lab::{Command, RunCommand, Studio};
 
 /// Shows the numbers of a body that is a spring as the engine has them that is chosen; nothing of any other body.
-pub(super) fn show(ui: &mut Ui, lab: &Studio, body: usize, commands: &mut Vec<Command>) {
-    let Some(spring) = lab.spring_joint(body) else { return };
+pub(super) fn show(ui: &mut Ui, studio: &Studio, body: usize, commands: &mut Vec<Command>) {
+    let Some(spring) = studio.spring_joint(body) else { return };
     let header = CollapsingHeader::new(RichText::new("as in engine…").color(palette(ui).dim));
     header.id_salt(("engine", body)).show_unindented(ui, |ui| {
-        let setups = lab.joint_setups();
+        let setups = studio.joint_setups();
         let id = ui.scope_id().with("mode");
-        let selected = lab.selected().spec.method;
+        let selected = studio.selected().spec.method;
         let of_lane = setups.iter().position(|setup| setup.method == selected).unwrap_or(0);
         let chosen = ui.data(|data| data.get_temp::<usize>(id)).unwrap_or(of_lane);
         let name = |setup: &Setup| format!("{}, {}", setup.method.name, setup.mode.id);
@@ -54,7 +54,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Studio, body: usize, commands: &mut Vec<Co
             });
             NumberField::show_fault(field.id, ui);
         }
-        let lane = lab.entries().iter().find(|spec| spec.method == setup.method);
+        let lane = studio.entries().iter().find(|spec| spec.method == setup.method);
         let substeps = lane.map_or(setup.substeps, |spec| spec.substeps);
         let seen = Setup { substeps, ..setup }.sees(spring.joint);
         let seen = seen.map_or("a player sees no swing".to_owned(), |seen| {

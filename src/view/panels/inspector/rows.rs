@@ -35,9 +35,9 @@ impl Values {
 }
 
 /// The parameters of a body: those that act at once, then those that act from the next start.
-pub(super) fn rows<'l>(lab: &'l Studio, body: usize) -> Vec<Row<'l>> {
-    let opened = &lab.scene_as_opened().bodies[body];
-    let (present, next) = (lab.race().values(body), &lab.scene().bodies[body].values);
+pub(super) fn rows<'l>(studio: &'l Studio, body: usize) -> Vec<Row<'l>> {
+    let opened = &studio.scene_as_opened().bodies[body];
+    let (present, next) = (studio.race().values(body), &studio.scene().bodies[body].values);
     let row = |(place, parameter): (usize, &'l Parameter)| {
         let is_number = !matches!(parameter.range, Range::Curve { .. });
         let values = is_number.then(|| Values {
@@ -109,9 +109,9 @@ mod tests {
     fn every_parameter_of_every_kind_of_body_has_one_row() {
         let mut kinds = Vec::new();
         for scene in SCENES {
-            let lab = Studio::new(Scene::built_in(scene.name).unwrap());
-            for (index, body) in lab.scene().bodies.iter().enumerate() {
-                let rows = rows(&lab, index);
+            let studio = Studio::new(Scene::built_in(scene.name).unwrap());
+            for (index, body) in studio.scene().bodies.iter().enumerate() {
+                let rows = rows(&studio, index);
                 let mut places: Vec<usize> = rows.iter().map(|row| row.place).collect();
                 places.sort_unstable();
                 assert_eq!(places, (0..body.kind.parameters.len()).collect::<Vec<_>>());

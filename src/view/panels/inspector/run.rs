@@ -16,24 +16,30 @@ const SUBSTEPS: f32 = 44.0;
 const TOLERANCE: f32 = 64.0;
 const LANE: f32 = 16.0;
 
-pub(super) fn show_lanes(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
-    for entrant in lab.race().entrants() {
-        let fields = ui.horizontal(|ui| show_lane(ui, lab, entrant, commands)).inner;
+pub(super) fn show_lanes(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
+    for entrant in studio.race().entrants() {
+        let fields = ui.horizontal(|ui| show_lane(ui, studio, entrant, commands)).inner;
         fields.iter().for_each(|id| NumberField::show_fault(*id, ui));
     }
 }
 
 /// A lane's line. Returns its fields.
-fn show_lane(ui: &mut Ui, lab: &Studio, entrant: &Entrant, commands: &mut Vec<Command>) -> [Id; 2] {
+fn show_lane(
+    ui: &mut Ui,
+    studio: &Studio,
+    entrant: &Entrant,
+    commands: &mut Vec<Command>,
+) -> [Id; 2] {
     let lane = entrant.id;
     let spec = entrant.spec;
     let ids = ["substeps", "tolerance"].map(|field| ui.scope_id().with((lane, field)));
-    let number = number(lab, entrant);
-    let digits = RichText::new(number.to_string()).color(palette(ui).style(lab.entries(), &spec).0);
+    let number = number(studio, entrant);
+    let digits =
+        RichText::new(number.to_string()).color(palette(ui).style(studio.entries(), &spec).0);
     ui.add_sized([LANE, LINE], egui::Label::new(digits.strong()));
     let gap = ui.spacing().item_spacing.x;
     let width = ui.available_width() - SUBSTEPS - TOLERANCE - RESTORE - 4.0 * gap;
-    show_methods(ui, lab, entrant, width.max(60.0), commands);
+    show_methods(ui, studio, entrant, width.max(60.0), commands);
     let substeps = NumberField {
         id: ids[0],
         value: f64::from(spec.substeps),
@@ -63,7 +69,7 @@ fn show_lane(ui: &mut Ui, lab: &Studio, entrant: &Entrant, commands: &mut Vec<Co
         }
         None => drop(ui.allocate_exact_size(vec2(TOLERANCE, LINE), egui::Sense::hover())),
     }
-    let opened = opened(lab, entrant);
+    let opened = opened(studio, entrant);
     let about = format!("back to {}", opened.method.name);
     restore(ui, spec != opened, &about, &format!("lane {number}"), || {
         commands.push(act(Action::Lane { lane, spec: opened }));
@@ -72,30 +78,30 @@ fn show_lane(ui: &mut Ui, lab: &Studio, entrant: &Entrant, commands: &mut Vec<Co
 }
 
 /// The number that a lane goes by: in solo that of the method's key, which follows every switch.
-fn number(lab: &Studio, entrant: &Entrant) -> usize {
-    match lab.mode() {
-        Mode::Solo => lab.entry(entrant) + 1,
+fn number(studio: &Studio, entrant: &Entrant) -> usize {
+    match studio.mode() {
+        Mode::Solo => studio.entry(entrant) + 1,
         Mode::Race => entrant.id.0,
     }
 }
 
 fn show_methods(
     ui: &mut Ui,
-    lab: &Studio,
+    studio: &Studio,
     entrant: &Entrant,
     width: f32,
     commands: &mut Vec<Command>,
 ) {
     let present = entrant.spec;
     let menu = ComboBox::from_id_salt(("method", entrant.id)).width(width).truncate();
-    let name = |spec: &LaneSpec| spec.distinct_name(spec.method.name, lab.entries());
+    let name = |spec: &LaneSpec| spec.distinct_name(spec.method.name, studio.entries());
     let menu = menu.selected_text(RichText::new(name(&present)).color(palette(ui).text));
     menu.show_ui(ui, |ui| {
-        for (entry, spec) in lab.entries().iter().enumerate() {
-            let is_present = entry == lab.entry(entrant);
+        for (entry, spec) in studio.entries().iter().enumerate() {
+            let is_present = entry == studio.entry(entrant);
             let label = ui.selectable_label(is_present, name(spec));
             if label.on_hover_text(spec.method.about).clicked() && !is_present {
-                commands.push(match lab.mode() {
+                commands.push(match studio.mode() {
                     Mode::Solo => Command::Stage(StageCommand::Pick(entry)),
                     Mode::Race => Command::Run(RunCommand::Act(Action::Lane {
                         lane: entrant.id,
@@ -108,20 +114,20 @@ fn show_methods(
 }
 
 /// What a lane is under in the scene as it was opened; in solo, the method that it is under now as the scene has it.
-fn opened(lab: &Studio, entrant: &Entrant) -> LaneSpec {
+fn opened(studio: &Studio, entrant: &Entrant) -> LaneSpec {
     let present = entrant.spec;
-    let list = lab.scene_as_opened().method_list();
+    let list = studio.scene_as_opened().method_list();
     let lane = list
         .get(entrant.id.index())
-        .filter(|_| lab.mode() == Mode::Race)
-        .filter(|_| entrant.id.index() < lab.scene_as_opened().lanes.len());
+        .filter(|_| studio.mode() == Mode::Race)
+        .filter(|_| entrant.id.index() < studio.scene_as_opened().lanes.len());
     let listed = || list.iter().find(|spec| spec.method == present.method);
     *lane.or_else(listed).unwrap_or(&present)
 }
 
-pub(super) fn show_time(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
-    let opened = lab.scene_as_opened();
-    let tick_hz = lab.race().tick_hz();
+pub(super) fn show_time(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
+    let opened = studio.scene_as_opened();
+    let tick_hz = studio.race().tick_hz();
     let rate = NumberField {
         id: ui.scope_id().with("tick rate"),
         value: f64::from(tick_hz),
@@ -141,7 +147,7 @@ pub(super) fn show_time(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) 
         });
     });
     NumberField::show_fault(rate.id, ui);
-    let seconds = lab.scene().seconds;
+    let seconds = studio.scene().seconds;
     let length = NumberField {
         id: ui.scope_id().with("length"),
         value: seconds,
@@ -169,16 +175,16 @@ pub(super) fn show_time(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) 
 }
 
 /// What makes lanes and time as the scene has them: nothing, where they are so.
-pub(super) fn restoring(lab: &Studio) -> impl Iterator<Item = Command> {
-    let lanes = lab.race().entrants().iter().filter_map(|entrant| {
-        let (lane, spec) = (entrant.id, opened(lab, entrant));
+pub(super) fn restoring(studio: &Studio) -> impl Iterator<Item = Command> {
+    let lanes = studio.race().entrants().iter().filter_map(|entrant| {
+        let (lane, spec) = (entrant.id, opened(studio, entrant));
         let is_changed = entrant.spec != spec;
         is_changed.then_some(Command::Run(RunCommand::Act(Action::Lane { lane, spec })))
     });
-    let opened = lab.scene_as_opened();
-    let rate = (lab.race().tick_hz() != opened.tick_hz)
+    let opened = studio.scene_as_opened();
+    let rate = (studio.race().tick_hz() != opened.tick_hz)
         .then_some(Command::Stage(StageCommand::TickHz(opened.tick_hz)));
-    let length = (lab.scene().seconds != opened.seconds)
+    let length = (studio.scene().seconds != opened.seconds)
         .then_some(Command::Run(RunCommand::Seconds(opened.seconds)));
     lanes.chain(rate).chain(length)
 }
@@ -201,14 +207,14 @@ mod tests {
 
     #[test]
     fn in_solo_the_number_beside_the_method_follows_a_switch() {
-        let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-        lab.apply(StageCommand::Pick(2));
-        assert_eq!(number(&lab, lab.selected()), 3);
-        lab.apply(StageCommand::Method(lab.entries()[7].method));
-        assert_eq!(number(&lab, lab.selected()), 8);
-        lab.apply(StageCommand::ToggleRace);
-        let is_of_lane = |entrant: &Entrant| number(&lab, entrant) == entrant.id.0;
-        assert!(lab.race().entrants().iter().all(is_of_lane));
+        let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+        studio.apply(StageCommand::Pick(2));
+        assert_eq!(number(&studio, studio.selected()), 3);
+        studio.apply(StageCommand::Method(studio.entries()[7].method));
+        assert_eq!(number(&studio, studio.selected()), 8);
+        studio.apply(StageCommand::ToggleRace);
+        let is_of_lane = |entrant: &Entrant| number(&studio, entrant) == entrant.id.0;
+        assert!(studio.race().entrants().iter().all(is_of_lane));
     }
 
     #[test]

@@ -24,8 +24,12 @@ const STEPPED: &str = "as stepped";
 const NO_ERROR: &str = "No error: every loop on the stage shows the exact place.";
 
 /// The instrument's plots; `None` if it has none in the loop lab.
-pub(super) fn plot_set(lab: &Studio, loops: &LoopLab, instrument: Instrument) -> Option<PlotSet> {
-    let plots = Plots { lab, loops };
+pub(super) fn plot_set(
+    studio: &Studio,
+    loops: &LoopLab,
+    instrument: Instrument,
+) -> Option<PlotSet> {
+    let plots = Plots { studio, loops };
     let (title, mut plot) = match instrument {
         Instrument::Motion => ("Motion", plots.motion()),
         Instrument::Error => ("Error", plots.metric()),
@@ -41,12 +45,12 @@ pub(super) fn plot_set(lab: &Studio, loops: &LoopLab, instrument: Instrument) ->
     if let Some(waiting) = loops.waiting() {
         plot.nothing = Some(waiting.into());
     }
-    Some(PlotSet { styles: SeriesStyles::of(lab), title: title.into(), plots: vec![plot] })
+    Some(PlotSet { styles: SeriesStyles::of(studio), title: title.into(), plots: vec![plot] })
 }
 
 #[derive(Clone, Copy)]
 struct Plots<'a> {
-    lab: &'a Studio,
+    studio: &'a Studio,
     loops: &'a LoopLab,
 }
 
@@ -89,7 +93,7 @@ impl Plots<'_> {
         let is_empty = exact.times.is_empty();
         let view = self.time_in_view();
         let plot = self.over_time("energy by loop", up, tracks, Some(exact), (view, y));
-        let truth = &self.lab.race().truth().bodies()[self.lab.view().body];
+        let truth = &self.studio.race().truth().bodies()[self.studio.view().body];
         let why = is_empty.then(|| METRICS[Metric::ENERGY_DRIFT].absent_on(truth).to_owned());
         PlotModel { title: self.title(STEPPED), nothing: why, ..plot }
     }
@@ -125,7 +129,7 @@ impl Plots<'_> {
 
     /// A plot of the body as `shown` in which nothing is drawn yet.
     fn plot(self, id: &str, shown: &str, axes: [PlotAxis; 2], fit: Bounds) -> PlotModel {
-        PlotModel::new(self.lab.view().body, id.into(), self.title(shown), axes, fit)
+        PlotModel::new(self.studio.view().body, id.into(), self.title(shown), axes, fit)
     }
 
     fn title(self, what: &str) -> String {
@@ -164,7 +168,7 @@ impl Plots<'_> {
     /// The exact solution at the frames of the selected loop so far, and at the next, by which it is known now.
     fn exact(self, place: impl Fn(f64, &LoopFrame) -> [f64; 2]) -> ExactLine {
         let lane = &self.loops.lanes()[self.loops.selected()];
-        ExactLine::of_places(self.lab, self.frames(lane, 2, &place))
+        ExactLine::of_places(self.studio, self.frames(lane, 2, &place))
     }
 
     /// The frames up to so many after the last one before the present.
@@ -189,32 +193,32 @@ mod tests {
     use crate::view::panels::instruments::{csv, svg};
 
     fn lab_at(scene: &str, now_ns: i64) -> Studio {
-        let mut lab = Studio::new(Scene::built_in(scene).unwrap());
-        lab.apply(Command::Loop(LoopCommand::ToggleLab));
-        lab.run_loops();
-        lab.apply(Command::Loop(LoopCommand::Seek(now_ns)));
-        lab
+        let mut studio = Studio::new(Scene::built_in(scene).unwrap());
+        studio.apply(Command::Loop(LoopCommand::ToggleLab));
+        studio.run_loops();
+        studio.apply(Command::Loop(LoopCommand::Seek(now_ns)));
+        studio
     }
 
-    fn plot(lab: &Studio, instrument: Instrument) -> PlotModel {
-        plot_set(lab, lab.loop_lab().unwrap(), instrument).unwrap().plots.remove(0)
+    fn plot(studio: &Studio, instrument: Instrument) -> PlotModel {
+        plot_set(studio, studio.loop_lab().unwrap(), instrument).unwrap().plots.remove(0)
     }
 
     #[test]
     fn every_instrument_of_the_loop_lab_has_a_curve_for_each_loop_on_the_stage_and_can_be_saved() {
         for scene in ["spring", "harbour", "orbit"] {
-            let mut lab = lab_at(scene, 3_000_000_000);
-            lab.apply(StageCommand::Pick(1));
+            let mut studio = lab_at(scene, 3_000_000_000);
+            studio.apply(StageCommand::Pick(1));
             for instrument in Instrument::all().filter(|one| one.is_in_loop_lab()) {
-                lab.apply(StageCommand::Instrument(instrument));
-                assert_eq!(lab.display().instrument, instrument);
-                let table = csv(&lab).unwrap().concat();
+                studio.apply(StageCommand::Instrument(instrument));
+                assert_eq!(studio.display().instrument, instrument);
+                let table = csv(&studio).unwrap().concat();
                 let names = ["lockstep", "fixed", "whole-refresh"];
-                let drawing = svg(&lab);
+                let drawing = svg(&studio);
                 let lines = drawing.as_ref().map(|text| text.matches("<polyline").count());
                 assert!(lines.is_some_and(|lines| lines > 10), "{scene} {instrument:?}");
                 let has_values = table.lines().count() > 100;
-                let Some(set) = plot_set(&lab, lab.loop_lab().unwrap(), instrument) else {
+                let Some(set) = plot_set(&studio, studio.loop_lab().unwrap(), instrument) else {
                     continue;
                 };
                 assert_eq!(has_values, set.plots[0].nothing.is_none(), "{scene} {instrument:?}");
@@ -223,16 +227,16 @@ mod tests {
                     assert!(!drawing.unwrap().contains("NaN"), "{scene} {instrument:?}");
                 }
             }
-            lab.apply(StageCommand::Instrument(Instrument::StabilityMap));
-            assert_eq!(lab.display().instrument, Instrument::Loop, "the map is of the run");
+            studio.apply(StageCommand::Instrument(Instrument::StabilityMap));
+            assert_eq!(studio.display().instrument, Instrument::Loop, "the map is of the run");
         }
     }
 
     #[test]
     fn a_display_holds_what_a_loop_shows_until_the_next_frame() {
-        let lab = lab_at("spring", 900_000_000);
-        let motion = plot(&lab, Instrument::Motion);
-        let loops = lab.loop_lab().unwrap();
+        let studio = lab_at("spring", 900_000_000);
+        let motion = plot(&studio, Instrument::Motion);
+        let loops = studio.loop_lab().unwrap();
         let frames = loops.lanes()[loops.selected()].frames();
         let [one, next] = [&frames[20], &frames[21]];
         let between = (one.displayed_ns + next.displayed_ns) as f64 / 2e9;
@@ -249,14 +253,14 @@ mod tests {
 
     #[test]
     fn every_measure_of_a_frame_can_be_looked_at() {
-        let mut lab = lab_at("spring", 2_000_000_000);
-        lab.apply(StageCommand::Instrument(Instrument::Error));
+        let mut studio = lab_at("spring", 2_000_000_000);
+        studio.apply(StageCommand::Instrument(Instrument::Error));
         for (place, metric) in FRAME_METRICS.iter().enumerate() {
-            lab.apply(StageCommand::Metric(place));
-            let plot = plot(&lab, Instrument::Error);
+            studio.apply(StageCommand::Metric(place));
+            let plot = plot(&studio, Instrument::Error);
             assert!(plot.axes[1].name().starts_with(metric.name) && plot.nothing.is_none());
             let raw = plot.tracks.last().unwrap().at(1.5).unwrap().1[1];
-            let loops = lab.loop_lab().unwrap();
+            let loops = studio.loop_lab().unwrap();
             let fixed = &loops.lanes()[loops.selected()];
             let frame = &fixed.frames()[fixed.frame_at(1_500_000_000).unwrap()];
             assert_eq!(plot.axes[1].scale.place((metric.measure)(frame)), raw, "{}", metric.id);

@@ -61,11 +61,11 @@ impl Views {
 }
 
 /// Shows a set in all that is left of `ui`.
-pub(super) fn show(ui: &mut Ui, lab: &Studio, set: &PlotSet, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut Vec<Command>) {
     let room = ui.available_rect_before_wrap();
     ui.allocate_rect(room, Sense::hover());
-    let body = lab.view().body;
-    let mut views = Views(lab.view().plot_ranges.clone());
+    let body = studio.view().body;
+    let mut views = Views(studio.view().plot_ranges.clone());
     // The heights of plots do not depend on the room beside them.
     let left = room_for_numbers(ui, &cells(set, room, LEFT, body), &views);
     let cells = cells(set, room, left, body);
@@ -91,7 +91,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Studio, set: &PlotSet, commands: &mut Vec<
     }
     for (place, cell) in cells.iter().enumerate() {
         let area = views.area(cell);
-        show_plot(ui, lab, &set.styles, (cell, &area), commands);
+        show_plot(ui, studio, &set.styles, (cell, &area), commands);
         if cell.plot.nothing.is_none() {
             let at = pointer.filter(|(over, _)| *over == place || cell.plot.is_over_time());
             let t = at.and_then(|(over, at)| {
@@ -101,14 +101,14 @@ pub(super) fn show(ui: &mut Ui, lab: &Studio, set: &PlotSet, commands: &mut Vec<
         }
     }
     focused.into_iter().for_each(|rect| ring(ui, rect));
-    if views.0 != lab.view().plot_ranges {
+    if views.0 != studio.view().plot_ranges {
         commands.push(Command::View(ViewCommand::PlotRanges(views.0)));
     }
 }
 
 /// Whether a person has zoomed or panned.
-pub(super) fn is_zoomed(lab: &Studio) -> bool {
-    !lab.view().plot_ranges.is_empty()
+pub(super) fn is_zoomed(studio: &Studio) -> bool {
+    !studio.view().plot_ranges.is_empty()
 }
 
 /// The room that the numbers of all plots take, in points.
@@ -179,7 +179,7 @@ fn distance_to(at: Pos2, [from, to]: [Pos2; 2]) -> f32 {
 /// Shows a plot with its axes and its title.
 fn show_plot(
     ui: &mut Ui,
-    lab: &Studio,
+    studio: &Studio,
     styles: &SeriesStyles,
     (cell, area): (&Cell<'_>, &PlotArea),
     commands: &mut Vec<Command>,
@@ -192,7 +192,7 @@ fn show_plot(
     let name = painter.layout_no_wrap(plot.axes[1].name(), name, palette.dim).size().x;
     let edge = pos2(cell.left, area.rect.top() - ABOVE / 2.0);
     let title = pos2(area.rect.left().max(edge.x + name + 12.0), edge.y);
-    let is_chosen = lab.view().body == plot.body;
+    let is_chosen = studio.view().body == plot.body;
     let font = if is_chosen { strong_font(NAME) } else { FontId::proportional(NAME) };
     // Up to the values beside the plot.
     let (words, is_whole) = short(ui, &plot.title, font, area.rect.right() - title.x, palette.text);
@@ -203,7 +203,7 @@ fn show_plot(
         Sense::click(),
     );
     painter.galley(at, words, palette.text);
-    chart::paint(&painter, &layout(lab, styles, (cell, area), palette, (columns, right)));
+    chart::paint(&painter, &layout(studio, styles, (cell, area), palette, (columns, right)));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &plot.title));
     focus_ring(ui, &response);
     let about = "show this body large, and in the other instruments";
@@ -215,7 +215,7 @@ fn show_plot(
 
 /// A plot with its axes and without its title, on so many columns of pixels. No number along goes on beyond `right`.
 pub(super) fn layout(
-    lab: &Studio,
+    studio: &Studio,
     styles: &SeriesStyles,
     (cell, area): (&Cell<'_>, &PlotArea),
     palette: &PanelPalette,
@@ -236,7 +236,7 @@ pub(super) fn layout(
     } else {
         across.iter_mut().for_each(|(_, text)| text.clear());
     }
-    let drawing = plot.drawing(lab, styles, &area.bounds, columns);
+    let drawing = plot.drawing(studio, styles, &area.bounds, columns);
     all.extend(chart::plot(area, [across, upwards], &drawing, palette, right));
     all
 }

@@ -56,21 +56,21 @@ const MIN_DECADES: f64 = 0.31;
 const BEHIND_S: f64 = 0.25;
 
 /// The areas of all clouds over time; `None` while there are none.
-pub(super) fn plot_set(lab: &Studio) -> Option<PlotSet> {
-    let picture = lab.cloud()?.picture.as_ref().ok()?;
-    let body = lab.view().body;
+pub(super) fn plot_set(studio: &Studio) -> Option<PlotSet> {
+    let picture = studio.cloud()?.picture.as_ref().ok()?;
+    let body = studio.view().body;
     let scale = AxisScale::Log;
     let place = |[t, area]: [f64; 2]| (t, [t, scale.place(area)]);
     let track = |lane: &LaneCloud| {
         let places = lane.areas.iter().copied().map(place);
-        Track::of_places(lane.entry, lane.entry == lab.active(), places)
+        Track::of_places(lane.entry, lane.entry == studio.active(), places)
     };
     if picture.section.is_some() {
         return None;
     }
     let mut tracks: Vec<Track> = picture.lanes.iter().map(track).collect();
     tracks.sort_by_key(|track| track.is_front);
-    let exact = ExactLine::of_places(lab, picture.exact.iter().copied().map(place));
+    let exact = ExactLine::of_places(studio, picture.exact.iter().copied().map(place));
     let values = tracks.iter().flat_map(|track| track.along(1)).chain(exact.values(1));
     let near = values.filter(|place| place.abs() <= MAX_DECADES);
     let (low, high) = near.fold((-MIN_DECADES, MIN_DECADES), |(low, high), place| {
@@ -78,28 +78,28 @@ pub(super) fn plot_set(lab: &Studio) -> Option<PlotSet> {
     });
     let pad = 0.08 * (high - low);
     let id = format!("area of the cloud of {body}");
-    let title = capitalised(&lab.scene().bodies[body].name);
+    let title = capitalised(&studio.scene().bodies[body].name);
     let axes = [PlotAxis::time("time t"), PlotAxis::new("area / start", "", scale)];
-    let plot = PlotModel::new(body, id, title, axes, over_time(lab, (low - pad, high + pad)));
+    let plot = PlotModel::new(body, id, title, axes, over_time(studio, (low - pad, high + pad)));
     let plot = PlotModel { tracks, exact: vec![exact], ..plot };
     Some(PlotSet {
-        styles: SeriesStyles::of(lab),
+        styles: SeriesStyles::of(studio),
         title: "Area of the cloud".into(),
         plots: vec![plot],
     })
 }
 
 /// Shows the clouds, and below them their areas where there is room.
-pub(super) fn show(ui: &mut Ui, lab: &Studio, room: Vec2, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<Command>) {
     let bottom = ui.cursor().top() + room.y;
-    head(ui, lab, commands);
+    head(ui, studio, commands);
     let say = |ui: &mut Ui, words: String| {
         ui.add(Label::new(RichText::new(words).color(palette(ui).dim)).wrap());
     };
-    if let Some(why) = lab.cloud_refusal() {
+    if let Some(why) = studio.cloud_refusal() {
         return say(ui, capitalised(&format!("{why}.")));
     }
-    let picture = match lab.cloud().map(|found| &found.picture) {
+    let picture = match studio.cloud().map(|found| &found.picture) {
         None => return say(ui, "Stepping the points …".into()),
         Some(Err(why)) => return say(ui, capitalised(&format!("{why}."))),
         Some(Ok(picture)) => picture,
@@ -111,21 +111,21 @@ pub(super) fn show(ui: &mut Ui, lab: &Studio, room: Vec2, commands: &mut Vec<Com
         0.0
     };
     let (clouds, _) = ui.allocate_exact_size(vec2(room.x, left - for_areas), Sense::hover());
-    side_by_side(ui, lab, picture, clouds, commands);
+    side_by_side(ui, studio, picture, clouds, commands);
     if for_areas > 0.0
-        && let Some(set) = plot_set(lab)
+        && let Some(set) = plot_set(studio)
     {
         let below = Rect::from_min_max(pos2(clouds.left(), clouds.bottom() + 4.0), clouds.max)
             .with_max_y(bottom);
         let mut ui = ui.new_child(UiBuilder::new().max_rect(below));
-        chart::show(&mut ui, lab, &set, commands);
+        chart::show(&mut ui, studio, &set, commands);
     }
 }
 
 /// The title, and what can be chosen.
-fn head(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
-    let chosen = lab.display().cloud;
-    let picture = lab.cloud().and_then(|found| found.picture.as_ref().ok());
+fn head(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
+    let chosen = studio.display().cloud;
+    let picture = studio.cloud().and_then(|found| found.picture.as_ref().ok());
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("Cloud").font(strong_font(15.0)).color(palette(ui).text));
         let kind = |kind: CloudKind| {
@@ -142,9 +142,9 @@ fn head(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
             let offered = POINTS.into_iter().map(command).zip(counts.iter().map(String::as_str));
             choice(ui, "points of the cloud", offered, (command(chosen.points), &now), commands);
         }
-        body_choice(ui, lab, commands);
+        body_choice(ui, studio, commands);
         let told = picture.and_then(|picture| picture.section.clone());
-        let behind = || behind_s(lab).map(|s| format!("{} s behind", significant(s, 2)));
+        let behind = || behind_s(studio).map(|s| format!("{} s behind", significant(s, 2)));
         if let Some(words) = told.or_else(behind) {
             ui.label(RichText::new(words).color(palette(ui).dim));
         }
@@ -152,9 +152,9 @@ fn head(ui: &mut Ui, lab: &Studio, commands: &mut Vec<Command>) {
 }
 
 /// How far the clouds are behind the run, in seconds, if it is far enough to be seen.
-fn behind_s(lab: &Studio) -> Option<f64> {
-    let picture = lab.cloud()?.picture.as_ref().ok()?;
-    Some(lab.cloud_request()?.behind_s(picture)).filter(|behind| *behind > BEHIND_S)
+fn behind_s(studio: &Studio) -> Option<f64> {
+    let picture = studio.cloud()?.picture.as_ref().ok()?;
+    Some(studio.cloud_request()?.behind_s(picture)).filter(|behind| *behind > BEHIND_S)
 }
 
 /// How much is told above each cloud; a hover tells the rest.
@@ -180,14 +180,14 @@ struct Captions<'p> {
 }
 
 impl<'p> Captions<'p> {
-    fn new(ui: &Ui, lab: &Studio, lanes: &'p [LaneCloud], told: Told) -> Self {
+    fn new(ui: &Ui, studio: &Studio, lanes: &'p [LaneCloud], told: Told) -> Self {
         let text = |lane: &LaneCloud| {
             let words = match (told, lane.area_ratio) {
                 (Told::Name, _) => String::new(),
-                (Told::Numbers, Some(_)) => format!("\n{}", parts(lab, lane, told).join("\n")),
-                _ => format!("\n{}", words(lab, lane)),
+                (Told::Numbers, Some(_)) => format!("\n{}", parts(studio, lane, told).join("\n")),
+                _ => format!("\n{}", words(studio, lane)),
             };
-            [lab.lane_name(lane.entry), words]
+            [studio.lane_name(lane.entry), words]
         };
         let texts: Vec<[String; 2]> = lanes.iter().map(text).collect();
         let colour = palette(ui).text;
@@ -200,7 +200,7 @@ impl<'p> Captions<'p> {
     }
 
     /// All of this width and in one size; `None` if a word would break.
-    fn laid_out(&self, ui: &Ui, lab: &Studio, width: f32) -> Option<Vec<Arc<Galley>>> {
+    fn laid_out(&self, ui: &Ui, studio: &Studio, width: f32) -> Option<Vec<Arc<Galley>>> {
         let longest = self.longest.max(width);
         let size = (WORDS * width / longest).max(MIN_WORDS);
         let is_name = self.told == Told::Name;
@@ -209,8 +209,8 @@ impl<'p> Captions<'p> {
         }
         let palette = palette(ui);
         let caption = |(lane, [name, words]): (&LaneCloud, &[String; 2])| {
-            let (colour, _) = palette.style(lab.entries(), &lab.entries()[lane.entry]);
-            let is_front = lane.entry == lab.active();
+            let (colour, _) = palette.style(studio.entries(), &studio.entries()[lane.entry]);
+            let is_front = lane.entry == studio.active();
             let font = if is_front { strong_font(size) } else { FontId::proportional(size) };
             let mut job = LayoutJob::default();
             job.wrap.max_width = width;
@@ -228,23 +228,23 @@ impl<'p> Captions<'p> {
 }
 
 /// What has become of a cloud.
-fn words(lab: &Studio, lane: &LaneCloud) -> String {
-    parts(lab, lane, Told::Words).join(", ")
+fn words(studio: &Studio, lane: &LaneCloud) -> String {
+    parts(studio, lane, Told::Words).join(", ")
 }
 
 /// What is told of a cloud: its area, in words too if these are asked for, and the points that are not seen.
-fn parts(lab: &Studio, lane: &LaneCloud, told: Told) -> Vec<String> {
+fn parts(studio: &Studio, lane: &LaneCloud, told: Told) -> Vec<String> {
     let area = lane.area_ratio.map(|ratio| format!("×{}", significant(ratio, 3)));
     let words = (told == Told::Words).then(|| lane.words.clone());
     let lost = (lane.lost > 0).then(|| format!("{} blew up", grouped(lane.lost as u64)));
-    let hidden = hidden_in_words(lane.hidden, lab.display().cloud.points);
+    let hidden = hidden_in_words(lane.hidden, studio.display().cloud.points);
     [area, words, lost, hidden].into_iter().flatten().collect()
 }
 
 /// The clouds in as many columns as make them largest.
 fn side_by_side(
     ui: &Ui,
-    lab: &Studio,
+    studio: &Studio,
     picture: &CloudPicture,
     room: Rect,
     commands: &mut Vec<Command>,
@@ -263,7 +263,7 @@ fn side_by_side(
         let rows = lanes.len().div_ceil(columns);
         let gaps = GAP * (columns - 1) as f32;
         let width = (inner.width() - gaps) / columns as f32;
-        let captions = captions.laid_out(ui, lab, width)?;
+        let captions = captions.laid_out(ui, studio, width)?;
         let above = captions.iter().map(|words| words.size().y).fold(0.0, f32::max) + 3.0;
         let height = inner.height() / rows as f32 - above - GAP / 2.0;
         let size = vec2(width.min(MAX_ASPECT * height), height);
@@ -271,7 +271,7 @@ fn side_by_side(
     };
     let area = |size: Vec2| size.x * size.y;
     let largest = |(told, least): (Told, f32)| {
-        let captions = Captions::new(ui, lab, lanes, told);
+        let captions = Captions::new(ui, studio, lanes, told);
         let layouts = (1..=lanes.len()).filter_map(|columns| layout(columns, &captions, least));
         layouts.max_by(|a, b| area(a.1).total_cmp(&area(b.1)))
     };
@@ -285,9 +285,9 @@ fn side_by_side(
         let corner = pos2(inner.left() + column as f32 * (size.x + GAP), top);
         ui.painter().galley(corner, words, palette(ui).text);
         let rect = Rect::from_min_size(corner + vec2(0.0, above), size);
-        cloud(ui, lab, picture, lane, (rect, place), [column == 0, is_lowest], commands);
+        cloud(ui, studio, picture, lane, (rect, place), [column == 0, is_lowest], commands);
     }
-    let coordinate = &lab.race().truth().bodies()[lab.view().body].coordinates().at(0);
+    let coordinate = &studio.race().truth().bodies()[studio.view().body].coordinates().at(0);
     let names = PlotAxis::of_phase(coordinate).map(|axis| axis.name());
     let at = pos2(room.left(), room.bottom());
     let names = format!("across: {}; up: {}", names[0], names[1]);
@@ -298,7 +298,7 @@ fn side_by_side(
 /// A cloud, with numbers at the left and below where it `has` them.
 fn cloud(
     ui: &Ui,
-    lab: &Studio,
+    studio: &Studio,
     picture: &CloudPicture,
     lane: &LaneCloud,
     (rect, place): (Rect, usize),
@@ -318,7 +318,7 @@ fn cloud(
         pixels.div_ceil(pixels.div_ceil(MAX_TEXELS))
     };
     let size_px = [pixels(rect.width()), pixels(rect.height())];
-    let (colour, _) = palette.theme.lane_style(lab.entries(), &lab.entries()[lane.entry]);
+    let (colour, _) = palette.theme.lane_style(studio.entries(), &studio.entries()[lane.entry]);
     let texture = image(ui, place, &lane.density, (size_px, palette.theme, colour));
     let all = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
     let view = picture.view;
@@ -343,16 +343,16 @@ fn cloud(
     let mut over =
         vec![Primitive::Clip(rect, vec![Primitive::Curves(outline(picture, rect, palette))])];
     let response = ui.interact(rect, ui.scope_id().with(("cloud", place)), Sense::click());
-    if lab.mode() == Mode::Race && lane.entry == lab.active() {
+    if studio.mode() == Mode::Race && lane.entry == studio.active() {
         let rim = Stroke::new(1.6, Color32::from_rgb(colour[0], colour[1], colour[2]));
         over.push(Primitive::Edge(rect, rim));
     }
     charts::paint(ui.painter(), &over);
-    let about = format!("cloud of {}: {}", lab.lane_name(lane.entry), words(lab, lane));
+    let about = format!("cloud of {}: {}", studio.lane_name(lane.entry), words(studio, lane));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &about));
     focus_ring(ui, &response);
     let told = format!("{about} ({})", lane.measured);
-    if response.on_hover_text(told).clicked() && lab.mode() == Mode::Race {
+    if response.on_hover_text(told).clicked() && studio.mode() == Mode::Race {
         commands.push(Command::Stage(StageCommand::Pick(lane.entry)));
     }
 }

@@ -20,34 +20,35 @@ const PARTS: [Part; 3] = [
     ("total", [1.0, 0.0], 1.0, |energies| energies.total_j),
 ];
 
-pub(super) fn plot_set(lab: &Studio) -> PlotSet {
-    let body = lab.view().body;
+pub(super) fn plot_set(studio: &Studio) -> PlotSet {
+    let body = studio.view().body;
     let title = "share of the swing's energy";
-    let drift = error::plot(lab, body, Metric::ENERGY_DRIFT, title.into());
-    let energies = energies(lab, body);
+    let drift = error::plot(studio, body, Metric::ENERGY_DRIFT, title.into());
+    let energies = energies(studio, body);
     let conserves = !energies.exact.iter().all(|line| line.times.is_empty());
     // Why there is no drift is said only where there is no energy either.
     let drift = Some(drift).filter(|plot| plot.nothing.is_none() || !conserves);
     let plots = conserves.then_some(energies).into_iter().chain(drift).collect();
-    PlotSet { styles: SeriesStyles::of(lab), title: "Energy".into(), plots }
+    PlotSet { styles: SeriesStyles::of(studio), title: "Energy".into(), plots }
 }
 
-fn energies(lab: &Studio, body: usize) -> PlotModel {
+fn energies(studio: &Studio, body: usize) -> PlotModel {
     let energy = |(part, dash, strength, of): Part| {
-        let tracks = Track::of(lab, body, |s| [s.t, s.energies.map_or(f64::NAN, of)]);
+        let tracks = Track::of(studio, body, |s| [s.t, s.energies.map_or(f64::NAN, of)]);
         tracks
             .into_iter()
             .filter(|track| track.is_front)
             .map(move |t| t.into_part(part, dash, strength))
     };
     let exact = PARTS.map(|(part, dash, strength, of)| {
-        ExactLine::of(lab, body, |s| Some([s.t, of(s.energies?)])).into_part(part, dash, strength)
+        ExactLine::of(studio, body, |s| Some([s.t, of(s.energies?)]))
+            .into_part(part, dash, strength)
     });
     let tracks: Vec<Track> = PARTS.into_iter().flat_map(energy).collect();
-    let range = exact.iter().flat_map(|line| line.fitted(lab, 1));
-    let y = ranges::around_truth(range, &Track::fitted(lab, &tracks), 1, healthy(lab));
+    let range = exact.iter().flat_map(|line| line.fitted(studio, 1));
+    let y = ranges::around_truth(range, &Track::fitted(studio, &tracks), 1, healthy(studio));
     let (id, title) = (format!("energies of {body}"), "kinetic dashed, potential dotted".into());
     let axes = [PlotAxis::time("time t"), PlotAxis::new("energy", "J", AxisScale::Linear)];
-    let plot = PlotModel::new(body, id, title, axes, over_time(lab, y));
+    let plot = PlotModel::new(body, id, title, axes, over_time(studio, y));
     PlotModel { tracks, exact: exact.into(), ..plot }
 }

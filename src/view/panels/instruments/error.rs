@@ -16,29 +16,29 @@ pub(super) fn choices() -> impl Iterator<Item = usize> {
     (0..METRICS.len()).filter(|&place| !METRICS[place].is_of_energy)
 }
 
-pub(super) fn plot_set(lab: &Studio) -> PlotSet {
-    let (body, place) = (lab.view().body, lab.display().metric);
+pub(super) fn plot_set(studio: &Studio) -> PlotSet {
+    let (body, place) = (studio.view().body, studio.display().metric);
     let metric = &METRICS[place];
-    let name = capitalised(&lab.scene().bodies[body].name);
+    let name = capitalised(&studio.scene().bodies[body].name);
     PlotSet {
-        styles: SeriesStyles::of(lab),
+        styles: SeriesStyles::of(studio),
         title: capitalised(metric.name),
-        plots: vec![plot(lab, body, place, name)],
+        plots: vec![plot(studio, body, place, name)],
     }
 }
 
 /// A plot of a metric of a body.
-pub(super) fn plot(lab: &Studio, body: usize, place: usize, title: String) -> PlotModel {
+pub(super) fn plot(studio: &Studio, body: usize, place: usize, title: String) -> PlotModel {
     let metric = &METRICS[place];
-    let truth = &lab.race().truth().bodies()[body];
+    let truth = &studio.race().truth().bodies()[body];
     let unit = metric.unit.on(&truth.coordinates().at(0));
-    let values = Track::of(lab, body, |s| [s.t, s.metrics[place]]);
+    let values = Track::of(studio, body, |s| [s.t, s.metrics[place]]);
     let scale = scale(metric, &values);
-    let tracks = Track::of(lab, body, |s| [s.t, scale.place(s.metrics[place])]);
-    let fitted = Track::fitted(lab, &tracks);
+    let tracks = Track::of(studio, body, |s| [s.t, scale.place(s.metrics[place])]);
+    let fitted = Track::fitted(studio, &tracks);
     let y = match (metric.scale, metric.unit) {
         (Scale::Log, _) => {
-            let truth = lab.past().truth_curves()[body].samples();
+            let truth = studio.past().truth_curves()[body].samples();
             let size = truth.map(|s| s.q.abs().max(s.v.abs()));
             ranges::of_decades(&fitted, size.fold(0.0, f64::max))
         }
@@ -54,7 +54,7 @@ pub(super) fn plot(lab: &Studio, body: usize, place: usize, title: String) -> Pl
     let nothing = is_empty.then(|| nothing.to_owned());
     let axes = [PlotAxis::time("time t"), PlotAxis::new(metric.name, &unit, scale)];
     let id = format!("{} of {body}", metric.id);
-    let plot = PlotModel::new(body, id, title, axes, over_time(lab, y));
+    let plot = PlotModel::new(body, id, title, axes, over_time(studio, y));
     PlotModel { tracks, dots: Dots::SparseAlongX, nothing, ..plot }
 }
 

@@ -18,12 +18,12 @@ const HEAD: f32 = 62.0;
 const LEFT: f32 = 64.0;
 /// The values of the chosen instrument as comma-separated text, a line for each sample of each curve; `None` if it has no
 /// plots.
-pub(in crate::view) fn csv(lab: &Studio) -> Option<Vec<String>> {
-    if lab.display().instrument == Instrument::Loop {
-        return Some(loops::csv(lab));
+pub(in crate::view) fn csv(studio: &Studio) -> Option<Vec<String>> {
+    if studio.display().instrument == Instrument::Loop {
+        return Some(loops::csv(studio));
     }
     let mut lines = vec!["plot,quantity,unit,curve,t_s,value\n".to_owned()];
-    let set = plot_set_of(lab, Detail::Samples)?;
+    let set = plot_set_of(studio, Detail::Samples)?;
     for plot in &set.plots {
         let mut add = |curve: &str, t: f64, at: [f64; 2]| {
             let values = plot.axes.iter().zip(at).skip(usize::from(plot.is_over_time()));
@@ -49,19 +49,19 @@ pub(in crate::view) fn csv(lab: &Studio) -> Option<Vec<String>> {
 }
 
 /// The plots of the chosen instrument as an SVG file; `None` if it has none.
-pub(in crate::view) fn svg(lab: &Studio) -> Option<String> {
-    let palette = palette_of(lab.display().theme);
+pub(in crate::view) fn svg(studio: &Studio) -> Option<String> {
+    let palette = palette_of(studio.display().theme);
     let all = Rect::from_min_size(Pos2::ZERO, SIZE.into());
     let room = Rect::from_min_max(pos2(MARGIN, HEAD), all.max - vec2(MARGIN, MARGIN / 2.0));
-    let (title, entries, plots) = if lab.display().instrument == Instrument::Loop {
-        let (title, entries, plots) = loops::layout(lab, room, palette)?;
+    let (title, entries, plots) = if studio.display().instrument == Instrument::Loop {
+        let (title, entries, plots) = loops::layout(studio, room, palette)?;
         (title.to_owned(), entries, plots)
     } else {
-        let set = plot_set_of(lab, Detail::Samples)?;
-        let plots = layout(lab, &set, room, all.right(), palette);
+        let set = plot_set_of(studio, Detail::Samples)?;
+        let plots = layout(studio, &set, room, all.right(), palette);
         (set.title.clone(), super::legend_entries(&set), plots)
     };
-    let head = format!("{}: {title}", lab.scene_name());
+    let head = format!("{}: {title}", studio.scene_name());
     let head = Text::new(pos2(MARGIN, MARGIN + 2.0), Align2::LEFT_CENTER, head, 17.0, palette.text);
     let mut drawing = vec![Primitive::Area(all, palette.background), head.into()];
     drawing.extend(legend::layout(&entries, pos2(MARGIN, MARGIN + 26.0), palette));
@@ -71,17 +71,17 @@ pub(in crate::view) fn svg(lab: &Studio) -> Option<String> {
 
 /// The plots of a set with their titles.
 fn layout(
-    lab: &Studio,
+    studio: &Studio,
     set: &PlotSet,
     room: Rect,
     right: f32,
     palette: &PanelPalette,
 ) -> Vec<Primitive> {
     let mut all = Vec::new();
-    for cell in &cells(set, room, LEFT, lab.view().body) {
-        let area = cell.area(&lab.view().plot_ranges);
+    for cell in &cells(set, room, LEFT, studio.view().body) {
+        let area = cell.area(&studio.view().plot_ranges);
         let room = (area.rect.width(), right);
-        all.extend(chart::layout(lab, &set.styles, (cell, &area), palette, room));
+        all.extend(chart::layout(studio, &set.styles, (cell, &area), palette, room));
         let title = pos2(area.rect.center().x, area.rect.top() - ABOVE / 2.0);
         let title = Text::new(title, Align2::CENTER_CENTER, &*cell.plot.title, NAME, palette.text);
         all.push(title.into());
@@ -95,19 +95,19 @@ mod tests {
     use crate::lab::{Instrument, Scene, StageCommand};
 
     fn race() -> Studio {
-        let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-        lab.apply(StageCommand::ToggleRace);
-        (0..300).for_each(|_| lab.tick());
-        lab
+        let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+        studio.apply(StageCommand::ToggleRace);
+        (0..300).for_each(|_| studio.tick());
+        studio
     }
 
     #[test]
     fn every_value_of_every_curve_is_in_the_table() {
-        let mut lab = race();
+        let mut studio = race();
         for instrument in [Instrument::Motion, Instrument::Error, Instrument::Phase] {
-            lab.apply(StageCommand::Instrument(instrument));
-            let text = csv(&lab).unwrap().concat();
-            let set = plot_set_of(&lab, Detail::Samples).unwrap();
+            studio.apply(StageCommand::Instrument(instrument));
+            let text = csv(&studio).unwrap().concat();
+            let set = plot_set_of(&studio, Detail::Samples).unwrap();
             let rows = |plot: &super::super::plot_set::PlotModel| {
                 let lanes: usize = plot.tracks.iter().map(|track| track.places().count()).sum();
                 let exact: usize = plot.exact.iter().map(|line| line.times.len()).sum();
@@ -116,20 +116,20 @@ mod tests {
             assert_eq!(text.lines().count(), 1 + set.plots.iter().map(rows).sum::<usize>());
             assert!(text.lines().all(|line| line.split(',').count() == 6), "{instrument:?}");
         }
-        lab.apply(StageCommand::Instrument(Instrument::Advice));
-        assert!(csv(&lab).is_none() && svg(&lab).is_none());
+        studio.apply(StageCommand::Instrument(Instrument::Advice));
+        assert!(csv(&studio).is_none() && svg(&studio).is_none());
     }
 
     #[test]
     fn a_drawing_has_every_curve_and_its_tags_are_closed() {
-        let mut lab = race();
-        lab.apply(StageCommand::Instrument(Instrument::Loop));
-        assert!(svg(&lab).is_none(), "the window has made no frame");
-        (0..30).for_each(|_| _ = lab.advance(16_666_667));
-        assert!(svg(&lab).is_some_and(|text| text.contains("frame time, ms")));
+        let mut studio = race();
+        studio.apply(StageCommand::Instrument(Instrument::Loop));
+        assert!(svg(&studio).is_none(), "the window has made no frame");
+        (0..30).for_each(|_| _ = studio.advance(16_666_667));
+        assert!(svg(&studio).is_some_and(|text| text.contains("frame time, ms")));
         for instrument in Instrument::all() {
-            lab.apply(StageCommand::Instrument(instrument));
-            let Some(text) = svg(&lab) else { continue };
+            studio.apply(StageCommand::Instrument(instrument));
+            let Some(text) = svg(&studio) else { continue };
             let count = |what: &str| text.matches(what).count();
             assert!(count("<polyline") > 10 && !text.contains("NaN"), "{instrument:?}");
             for tag in ["svg", "g", "text", "clipPath"] {

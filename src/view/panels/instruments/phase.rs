@@ -12,22 +12,23 @@ use crate::view::chart::Dots;
 /// Samples in a phase portrait: a few turns, and each still to be told from the next.
 pub(super) const SAMPLES: usize = 360;
 
-pub(super) fn plot_set(lab: &Studio) -> PlotSet {
-    let body = lab.view().body;
-    let mut tracks = Track::of(lab, body, |s| [s.q, s.v]);
+pub(super) fn plot_set(studio: &Studio) -> PlotSet {
+    let body = studio.view().body;
+    let mut tracks = Track::of(studio, body, |s| [s.q, s.v]);
     tracks.iter_mut().for_each(|lane| lane.keep_latest(SAMPLES));
     // As much of the exact solution as of the lanes that still move.
     let newest = tracks.iter().filter_map(Track::times).max_by(|a, b| a.1.total_cmp(&b.1));
     let since_s = newest.map_or(f64::NEG_INFINITY, |(first, _)| first);
-    let exact = ExactLine::of(lab, body, |s| (s.t >= since_s).then_some([s.q, s.v]));
-    let fitted = Track::fitted(lab, &tracks);
-    let [x, y] = [0, 1]
-        .map(|axis| ranges::around_orbit(exact.fitted(lab, axis), &fitted, axis, healthy(lab)));
-    let (coordinate, _) = lab.past().coordinate(lab.race(), body);
+    let exact = ExactLine::of(studio, body, |s| (s.t >= since_s).then_some([s.q, s.v]));
+    let fitted = Track::fitted(studio, &tracks);
+    let [x, y] = [0, 1].map(|axis| {
+        ranges::around_orbit(exact.fitted(studio, axis), &fitted, axis, healthy(studio))
+    });
+    let (coordinate, _) = studio.past().coordinate(studio.race(), body);
     let id = format!("phase portrait of {} of {body}", coordinate.name);
-    let title = capitalised(&lab.scene().bodies[body].name);
+    let title = capitalised(&studio.scene().bodies[body].name);
     let axes = PlotAxis::of_phase(&coordinate);
     let plot = PlotModel::new(body, id, title, axes, [x.into(), y.into()]);
     let plot = PlotModel { tracks, dots: Dots::Sparse, exact: vec![exact], ..plot };
-    PlotSet { styles: SeriesStyles::of(lab), title: "Phase portrait".into(), plots: vec![plot] }
+    PlotSet { styles: SeriesStyles::of(studio), title: "Phase portrait".into(), plots: vec![plot] }
 }

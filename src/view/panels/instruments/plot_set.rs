@@ -131,15 +131,15 @@ impl PlotAxis {
 impl ExactLine {
     /// The exact solution of a body at the times for which `place` finds a point.
     pub(super) fn of(
-        lab: &Studio,
+        studio: &Studio,
         body: usize,
         place: impl Fn(&TruthSample) -> Option<[f64; 2]>,
     ) -> Self {
-        Self::of_samples(lab, samples(lab, body), place)
+        Self::of_samples(studio, samples(studio, body), place)
     }
 
     fn of_samples(
-        lab: &Studio,
+        studio: &Studio,
         samples: impl Iterator<Item = TruthSample>,
         place: impl Fn(&TruthSample) -> Option<[f64; 2]>,
     ) -> Self {
@@ -156,28 +156,31 @@ impl ExactLine {
             times.push(sample.t);
             points.push(at);
         }
-        Self::through(lab, times, points, jumps)
+        Self::through(studio, times, points, jumps)
     }
 
     /// The exact solution at these times (s) and places; those that are not finite are left out.
-    pub(super) fn of_places(lab: &Studio, places: impl Iterator<Item = (f64, [f64; 2])>) -> Self {
+    pub(super) fn of_places(
+        studio: &Studio,
+        places: impl Iterator<Item = (f64, [f64; 2])>,
+    ) -> Self {
         let known = places.filter(|(_, at)| at.iter().all(|x| x.is_finite()));
         let (times, points) = known.unzip();
-        Self::through(lab, times, points, Vec::new())
+        Self::through(studio, times, points, Vec::new())
     }
 
-    fn through(lab: &Studio, times: Vec<f64>, points: Vec<[f64; 2]>, jumps: Vec<usize>) -> Self {
-        let style = LineStyle::solid(palette_of(lab.display().theme).exact, EXACT);
+    fn through(studio: &Studio, times: Vec<f64>, points: Vec<[f64; 2]>, jumps: Vec<usize>) -> Self {
+        let style = LineStyle::solid(palette_of(studio.display().theme).exact, EXACT);
         let curve = Curve::new(style, points);
         Self { curve, times, part: "", jumps, known: None, samples: Vec::new() }
     }
 
     /// A quantity of a body over time.
-    pub(super) fn of_quantity(lab: &Studio, body: usize, quantity: Quantity) -> Self {
+    pub(super) fn of_quantity(studio: &Studio, body: usize, quantity: Quantity) -> Self {
         let value = |s: &TruthSample| quantity.among([s.q, s.v]);
-        let finite = samples(lab, body).filter(|s| s.t.is_finite() && value(s).is_finite());
+        let finite = samples(studio, body).filter(|s| s.t.is_finite() && value(s).is_finite());
         let samples: Vec<TruthSample> = finite.collect();
-        let line = Self::of_samples(lab, samples.iter().copied(), |s| Some([s.t, value(s)]));
+        let line = Self::of_samples(studio, samples.iter().copied(), |s| Some([s.t, value(s)]));
         let swept = match quantity {
             Quantity::Position => samples.iter().map(|sample| sample.swept.ends()).collect(),
             Quantity::Velocity => Vec::new(),
@@ -227,8 +230,8 @@ impl ExactLine {
 
     /// The values along an axis that it is fitted to, with those between samples: since a body was put elsewhere or a
     /// parameter changed, but for the moments after that.
-    pub(super) fn fitted(&self, lab: &Studio, axis: usize) -> impl Iterator<Item = f64> + Clone {
-        let since_s = lab.past().swing_since_s(lab.race().t());
+    pub(super) fn fitted(&self, studio: &Studio, axis: usize) -> impl Iterator<Item = f64> + Clone {
+        let since_s = studio.past().swing_since_s(studio.race().t());
         let later = self.times.partition_point(|&t| t < since_s);
         let put = self.jumps.iter().rfind(|&&jump| self.times[jump] == since_s);
         let first = put.copied().unwrap_or(later);
@@ -254,9 +257,9 @@ impl ExactLine {
 }
 
 /// The recent past of the exact solution of a body, up to now.
-fn samples(lab: &Studio, body: usize) -> impl Iterator<Item = TruthSample> {
-    let (curve, t) = (&lab.past().truth_curves()[body], lab.race().t());
-    let truth = &lab.race().truth().bodies()[body];
+fn samples(studio: &Studio, body: usize) -> impl Iterator<Item = TruthSample> {
+    let (curve, t) = (&studio.past().truth_curves()[body], studio.race().t());
+    let truth = &studio.race().truth().bodies()[body];
     let goes_on = truth.halted().is_none() && curve.samples().next_back().is_some_and(|s| s.t < t);
     let present = goes_on.then(|| curve.present(truth, t));
     curve.samples().copied().chain(present)
@@ -295,7 +298,7 @@ impl PlotModel {
     /// Everything in the plot with `bounds` in view on this number of pixel columns.
     pub(super) fn drawing(
         &self,
-        lab: &Studio,
+        studio: &Studio,
         styles: &SeriesStyles,
         bounds: &Bounds,
         columns: f32,
@@ -309,7 +312,7 @@ impl PlotModel {
         if !style.is_over_time {
             drawing.switch_mark = SwitchMark::Ring;
         }
-        let truth = &lab.race().truth().bodies()[self.body];
+        let truth = &studio.race().truth().bodies()[self.body];
         let curves = self.exact.iter().flat_map(|line| line.curves(truth, bounds[0], columns));
         drawing.truth = curves.collect();
         if self.is_over_time() {
@@ -370,8 +373,8 @@ impl PlotSet {
 }
 
 /// The time in view and the given range of values.
-pub(super) fn over_time(lab: &Studio, (low, high): (f64, f64)) -> Bounds {
-    let [from, to] = time_in_view(lab.scene().seconds, lab.race().t());
+pub(super) fn over_time(studio: &Studio, (low, high): (f64, f64)) -> Bounds {
+    let [from, to] = time_in_view(studio.scene().seconds, studio.race().t());
     [[from, to], [low, high]]
 }
 

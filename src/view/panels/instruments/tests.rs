@@ -13,8 +13,8 @@ use crate::view::testing::{TestWindow, button};
 mod shown;
 
 /// Every text that can be seen in a frame of this size, with its place.
-fn texts(lab: &Studio, size: Vec2) -> Vec<(Rect, String)> {
-    TestWindow::new(size).panels(lab, Vec::new()).1.whole()
+fn texts(studio: &Studio, size: Vec2) -> Vec<(Rect, String)> {
+    TestWindow::new(size).panels(studio, Vec::new()).1.whole()
 }
 
 fn is_number(text: &str) -> bool {
@@ -22,16 +22,16 @@ fn is_number(text: &str) -> bool {
     digits.starts_with(|c: char| c.is_ascii_digit()) && !text.contains(' ')
 }
 
-fn assert_legible(lab: &Studio, what: &str) {
+fn assert_legible(studio: &Studio, what: &str) {
     const SIZE: Vec2 = vec2(1280.0, 720.0);
     let left = (1.0 - panels::INSTRUMENTS) * SIZE.x;
-    let texts = texts(lab, SIZE);
+    let texts = texts(studio, SIZE);
     let here: Vec<_> = texts.iter().filter(|(rect, _)| rect.left() > left).collect();
     let place = |wanted: &str| here.iter().find(|(_, text)| text == wanted).map(|(rect, _)| rect);
     for card in INSTRUMENTS {
         assert!(place(card.name).is_some(), "{what}: no tab {}", card.name);
     }
-    let Some(set) = plot_set_of(lab, Detail::Samples) else {
+    let Some(set) = plot_set_of(studio, Detail::Samples) else {
         let words = here.iter().filter(|(_, text)| text.len() > 10).count();
         assert!(words > 3, "{what}: {here:?}");
         return;
@@ -69,34 +69,34 @@ fn assert_legible(lab: &Studio, what: &str) {
 #[test]
 fn every_axis_of_every_instrument_is_named_and_has_three_marks() {
     SCENES.par_iter().for_each(|scene| {
-        let mut lab = Studio::new(Scene::built_in(scene.name).unwrap());
+        let mut studio = Studio::new(Scene::built_in(scene.name).unwrap());
         for mode in ["solo", "race"] {
             for seconds in [0, 3] {
                 for _ in 0..60 * seconds {
-                    lab.advance(16_666_667);
+                    studio.advance(16_666_667);
                 }
                 for instrument in Instrument::all() {
-                    lab.apply(StageCommand::Instrument(instrument));
-                    for body in 0..lab.scene().bodies.len() {
-                        lab.apply(StageCommand::Body(body));
+                    studio.apply(StageCommand::Instrument(instrument));
+                    for body in 0..studio.scene().bodies.len() {
+                        studio.apply(StageCommand::Body(body));
                         let (scene, name) = (scene.name, instrument.name());
                         let what = format!("{scene}, {mode}, {name}, {body}, {seconds} s");
-                        assert_legible(&lab, &what);
+                        assert_legible(&studio, &what);
                     }
                 }
             }
-            lab.apply(StageCommand::ToggleRace);
+            studio.apply(StageCommand::ToggleRace);
         }
     });
 }
 
 #[test]
 fn in_a_low_window_a_plot_has_the_room_of_its_legend() {
-    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-    lab.apply(StageCommand::ToggleRace);
-    (0..240).for_each(|_| lab.tick());
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    studio.apply(StageCommand::ToggleRace);
+    (0..240).for_each(|_| studio.tick());
     for size in [vec2(800.0, 450.0), vec2(960.0, 540.0)] {
-        let texts = texts(&lab, size);
+        let texts = texts(&studio, size);
         let beside = |rect: &Rect| rect.left() > (1.0 - panels::INSTRUMENTS) * size.x;
         let is_nought = |(rect, text): &&(Rect, String)| text == "0" && beside(rect);
         // Of the times, and between 1 m and −1 m.
@@ -108,13 +108,13 @@ fn in_a_low_window_a_plot_has_the_room_of_its_legend() {
 fn every_metric_can_be_looked_at() {
     let offered = error::choices().count();
     assert_eq!(offered + 1, METRICS.len(), "and the energy drift");
-    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-    lab.apply(StageCommand::ToggleRace);
-    (0..60).for_each(|_| lab.tick());
-    lab.apply(StageCommand::Instrument(Instrument::Error));
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    studio.apply(StageCommand::ToggleRace);
+    (0..60).for_each(|_| studio.tick());
+    studio.apply(StageCommand::Instrument(Instrument::Error));
     for place in error::choices() {
-        lab.apply(StageCommand::Metric(place));
-        assert_legible(&lab, METRICS[place].name);
+        studio.apply(StageCommand::Metric(place));
+        assert_legible(&studio, METRICS[place].name);
     }
 }
 
@@ -122,13 +122,13 @@ fn every_metric_can_be_looked_at() {
 fn a_truth_that_halted_is_not_said_to_be_shown() {
     let text = "title = 'x'\ntick_hz = 60\nseconds = 1\nmethods = ['rk4']\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\nkick_n_s = 1e15\n";
-    let mut lab = Studio::new(Scene::parse("kicked.toml", text).unwrap());
-    let says = |lab: &Studio, words: &str| {
-        texts(lab, vec2(1280.0, 720.0)).iter().any(|(_, text)| text.contains(words))
+    let mut studio = Studio::new(Scene::parse("kicked.toml", text).unwrap());
+    let says = |studio: &Studio, words: &str| {
+        texts(studio, vec2(1280.0, 720.0)).iter().any(|(_, text)| text.contains(words))
     };
-    assert!(!says(&lab, "no exact solution"));
-    lab.apply(RunCommand::Act(Action::Kick(1e30)));
-    assert!(says(&lab, "no exact solution"));
+    assert!(!says(&studio, "no exact solution"));
+    studio.apply(RunCommand::Act(Action::Kick(1e30)));
+    assert!(says(&studio, "no exact solution"));
 }
 
 /// A person at the plots of an instrument, which fill a frame.
@@ -142,55 +142,55 @@ impl Person {
     }
 
     /// Shows a frame after these events. Returns every text in it and what was asked for.
-    fn frame(&mut self, lab: &Studio, events: Vec<Event>) -> (Vec<String>, Vec<Command>) {
-        let set = plot_set_of(lab, Detail::Samples).unwrap();
+    fn frame(&mut self, studio: &Studio, events: Vec<Event>) -> (Vec<String>, Vec<Command>) {
+        let set = plot_set_of(studio, Detail::Samples).unwrap();
         let mut commands = Vec::new();
-        let (_, shown) = self.0.show(events, |ui| chart::show(ui, lab, &set, &mut commands));
+        let (_, shown) = self.0.show(events, |ui| chart::show(ui, studio, &set, &mut commands));
         (shown.whole().into_iter().map(|(_, text)| text).collect(), commands)
     }
 
     /// Shows a frame after these events, and does what was asked for. Returns every number in it.
-    fn numbers(&mut self, lab: &mut Studio, events: Vec<Event>) -> Vec<String> {
-        let (texts, commands) = self.frame(lab, events);
+    fn numbers(&mut self, studio: &mut Studio, events: Vec<Event>) -> Vec<String> {
+        let (texts, commands) = self.frame(studio, events);
         for command in commands {
-            lab.apply(command);
+            studio.apply(command);
         }
         texts.into_iter().filter(|text| is_number(text)).collect()
     }
 
-    fn click(&mut self, lab: &Studio, at: Pos2) -> Vec<Command> {
-        self.frame(lab, vec![Event::PointerMoved(at)]);
-        let mut commands = self.frame(lab, vec![button(at, true)]).1;
-        commands.extend(self.frame(lab, vec![button(at, false)]).1);
+    fn click(&mut self, studio: &Studio, at: Pos2) -> Vec<Command> {
+        self.frame(studio, vec![Event::PointerMoved(at)]);
+        let mut commands = self.frame(studio, vec![button(at, true)]).1;
+        commands.extend(self.frame(studio, vec![button(at, false)]).1);
         commands
     }
 }
 
 fn race_of_springs() -> Studio {
-    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-    lab.apply(StageCommand::ToggleRace);
-    (0..240).for_each(|_| lab.tick());
-    lab
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    studio.apply(StageCommand::ToggleRace);
+    (0..240).for_each(|_| studio.tick());
+    studio
 }
 
 #[test]
 fn a_pointer_reads_off_every_curve_at_its_time() {
-    let (lab, mut person) = (race_of_springs(), Person::new());
-    let (before, _) = person.frame(&lab, Vec::new());
+    let (studio, mut person) = (race_of_springs(), Person::new());
+    let (before, _) = person.frame(&studio, Vec::new());
     assert!(!before.iter().any(|text| text.starts_with("t = ")), "{before:?}");
-    person.frame(&lab, vec![Event::PointerMoved(FRAME.to_pos2() / 2.0)]);
-    let (over, _) = person.frame(&lab, Vec::new());
+    person.frame(&studio, vec![Event::PointerMoved(FRAME.to_pos2() / 2.0)]);
+    let (over, _) = person.frame(&studio, Vec::new());
     assert!(over.iter().any(|text| text.starts_with("t = ")), "{over:?}");
     let values = over.iter().filter(|text| text.ends_with(" m") && !text.contains(',')).count();
-    assert_eq!(values, lab.race().entrants().len() + 1, "{over:?}");
+    assert_eq!(values, studio.race().entrants().len() + 1, "{over:?}");
 }
 
 #[test]
 fn a_wheel_zooms_a_drag_pans_and_a_double_click_fits() {
-    let (mut lab, mut person) = (race_of_springs(), Person::new());
+    let (mut studio, mut person) = (race_of_springs(), Person::new());
     let at = FRAME.to_pos2() / 2.0;
-    person.numbers(&mut lab, vec![Event::PointerMoved(at)]);
-    let fitted = person.numbers(&mut lab, Vec::new());
+    person.numbers(&mut studio, vec![Event::PointerMoved(at)]);
+    let fitted = person.numbers(&mut studio, Vec::new());
     let wheel = Event::MouseWheel {
         unit: MouseWheelUnit::Point,
         source: egui::MouseWheelSource::Unknown,
@@ -198,34 +198,34 @@ fn a_wheel_zooms_a_drag_pans_and_a_double_click_fits() {
         phase: TouchPhase::Move,
         modifiers: Modifiers::NONE,
     };
-    let drawn_whole = svg(&lab).unwrap();
-    person.numbers(&mut lab, vec![wheel]);
-    (0..40).for_each(|_| drop(person.numbers(&mut lab, Vec::new())));
-    let zoomed = person.numbers(&mut lab, Vec::new());
+    let drawn_whole = svg(&studio).unwrap();
+    person.numbers(&mut studio, vec![wheel]);
+    (0..40).for_each(|_| drop(person.numbers(&mut studio, Vec::new())));
+    let zoomed = person.numbers(&mut studio, Vec::new());
     assert_ne!(zoomed, fitted);
-    assert_ne!(svg(&lab).unwrap(), drawn_whole, "what is saved is what is seen");
+    assert_ne!(svg(&studio).unwrap(), drawn_whole, "what is saved is what is seen");
     let to = at + vec2(-150.0, 0.0);
-    person.numbers(&mut lab, vec![button(at, true)]);
-    person.numbers(&mut lab, vec![Event::PointerMoved(to)]);
-    person.numbers(&mut lab, vec![button(to, false)]);
-    let panned = person.numbers(&mut lab, Vec::new());
+    person.numbers(&mut studio, vec![button(at, true)]);
+    person.numbers(&mut studio, vec![Event::PointerMoved(to)]);
+    person.numbers(&mut studio, vec![button(to, false)]);
+    let panned = person.numbers(&mut studio, Vec::new());
     assert_ne!(panned, zoomed);
     person.0.time_s += 1.0;
     for _ in 0..2 {
-        let asked = person.click(&lab, to);
+        let asked = person.click(&studio, to);
         for command in asked {
-            lab.apply(command);
+            studio.apply(command);
         }
     }
-    person.numbers(&mut lab, vec![Event::PointerMoved(at)]);
-    assert_eq!(person.numbers(&mut lab, Vec::new()), fitted);
-    assert_eq!(svg(&lab).unwrap(), drawn_whole);
+    person.numbers(&mut studio, vec![Event::PointerMoved(at)]);
+    assert_eq!(person.numbers(&mut studio, Vec::new()), fitted);
+    assert_eq!(svg(&studio).unwrap(), drawn_whole);
 }
 
 #[test]
 fn a_click_on_a_curve_selects_its_lane() {
-    let (lab, mut person) = (race_of_springs(), Person::new());
-    let set = plot_set_of(&lab, Detail::Samples).unwrap();
+    let (studio, mut person) = (race_of_springs(), Person::new());
+    let set = plot_set_of(&studio, Detail::Samples).unwrap();
     let room = Rect::from_min_size(Pos2::ZERO, FRAME);
     let cell = &layout::cells(&set, room, 40.0, 0)[0];
     // Explicit Euler swings wider than all others.
@@ -234,77 +234,78 @@ fn a_click_on_a_curve_selects_its_lane() {
     let (_, _, at) = track.places().find(|(t, _, [_, y])| *t > 0.9 && *y > 1.2).unwrap();
     let at = PlotArea { rect: cell.frame, bounds: cell.plot.fit }.at(at);
     let is_pick = |command: &Command| *command == Command::Stage(StageCommand::Pick(widest));
-    assert!(person.click(&lab, at).iter().any(is_pick));
-    assert!(person.click(&lab, cell.frame.right_bottom() - vec2(9.0, 9.0)).is_empty());
+    assert!(person.click(&studio, at).iter().any(is_pick));
+    assert!(person.click(&studio, cell.frame.right_bottom() - vec2(9.0, 9.0)).is_empty());
 }
 
 #[test]
 fn after_a_placement_the_axis_fits_the_new_swing_and_the_exact_line_is_broken() {
-    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-    lab.apply(StageCommand::Pick(3));
-    (0..120).for_each(|_| lab.tick());
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    studio.apply(StageCommand::Pick(3));
+    (0..120).for_each(|_| studio.tick());
     let place = |q: f64| {
         Command::Run(RunCommand::Act(Action::Place { body: 0, q: [q].into(), v: [0.0].into() }))
     };
-    lab.apply(place(8.0));
-    (0..300).for_each(|_| lab.tick());
-    let top = |lab: &Studio| plot_set_of(lab, Detail::Samples).unwrap().plots[0].fit[1][1];
-    assert!((8.0..12.0).contains(&top(&lab)), "{}", top(&lab));
-    lab.apply(place(0.5));
-    (0..10).for_each(|_| lab.tick());
-    assert!(top(&lab) > 8.0, "the new swing has only begun");
-    (0..120).for_each(|_| lab.tick());
-    assert!((0.5..1.0).contains(&top(&lab)), "{}", top(&lab));
-    let set = plot_set_of(&lab, Detail::Samples).unwrap();
+    studio.apply(place(8.0));
+    (0..300).for_each(|_| studio.tick());
+    let top = |studio: &Studio| plot_set_of(studio, Detail::Samples).unwrap().plots[0].fit[1][1];
+    assert!((8.0..12.0).contains(&top(&studio)), "{}", top(&studio));
+    studio.apply(place(0.5));
+    (0..10).for_each(|_| studio.tick());
+    assert!(top(&studio) > 8.0, "the new swing has only begun");
+    (0..120).for_each(|_| studio.tick());
+    assert!((0.5..1.0).contains(&top(&studio)), "{}", top(&studio));
+    let set = plot_set_of(&studio, Detail::Samples).unwrap();
     let plot = &set.plots[0];
-    let pieces = plot.drawing(&lab, &set.styles, &plot.fit, 400.0).truth;
+    let pieces = plot.drawing(&studio, &set.styles, &plot.fit, 400.0).truth;
     let starts: Vec<[f64; 2]> = pieces.iter().map(|curve| curve.points[0]).collect();
     assert_eq!(starts, [[0.0, 1.0], [2.0, 8.0], [7.0, 0.5]]);
     // Where the exact line is out of view, arrows say so.
     let white = set.styles.exact_colour;
-    let arrows = plot.drawing(&lab, &set.styles, &plot.fit, 400.0).arrows;
+    let arrows = plot.drawing(&studio, &set.styles, &plot.fit, 400.0).arrows;
     assert!(arrows.iter().any(|arrow| arrow.colour == white && arrow.from[0] < 7.0));
     // A parameter that is changed begins a new swing too, without a jump.
-    lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value: 4.0 }));
-    let before = lab.past().changed_s();
-    assert_eq!(before, lab.race().t());
-    lab.apply(RunCommand::Seek(60));
-    assert_eq!(lab.past().changed_s(), f64::NEG_INFINITY, "not done yet");
+    studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value: 4.0 }));
+    let before = studio.past().changed_s();
+    assert_eq!(before, studio.race().t());
+    studio.apply(RunCommand::Seek(60));
+    assert_eq!(studio.past().changed_s(), f64::NEG_INFINITY, "not done yet");
 }
 
 #[test]
 fn a_reference_that_has_no_error_yet_is_not_said_to_have_one() {
     for scene in ["helm", "pendulum"] {
-        let mut lab = Studio::new(Scene::built_in(scene).unwrap());
-        let words = |lab: &Studio| lab.race().truth().bodies()[0].truth_in_words();
-        let at_start = words(&lab);
+        let mut studio = Studio::new(Scene::built_in(scene).unwrap());
+        let words = |studio: &Studio| studio.race().truth().bodies()[0].truth_in_words();
+        let at_start = words(&studio);
         assert!(at_start == "reference" || at_start.contains("10⁻¹"), "{scene}: {at_start}");
-        (0..60).for_each(|_| lab.tick());
-        assert!(words(&lab).starts_with("reference to 10⁻¹"), "{scene}: {}", words(&lab));
+        (0..60).for_each(|_| studio.tick());
+        assert!(words(&studio).starts_with("reference to 10⁻¹"), "{scene}: {}", words(&studio));
     }
 }
 
 #[test]
 fn the_cloud_tells_what_becomes_of_the_area_and_why_a_body_has_none() {
     const SIZE: Vec2 = vec2(1280.0, 720.0);
-    let said =
-        |lab: &Studio, wanted: &str| texts(lab, SIZE).iter().any(|(_, text)| text.contains(wanted));
-    let lab_of = |scene: &str| {
-        let mut lab = Studio::new(Scene::built_in(scene).unwrap());
-        lab.apply(StageCommand::ToggleRace);
-        lab.apply(StageCommand::Instrument(Instrument::Cloud));
-        lab.apply(RunCommand::Cloud(CloudChoice { points: 1200, ..CloudChoice::default() }));
-        (0..12).for_each(|_| lab.tick());
-        lab
+    let said = |studio: &Studio, wanted: &str| {
+        texts(studio, SIZE).iter().any(|(_, text)| text.contains(wanted))
     };
-    let mut lab = lab_of("liouville");
-    assert!(said(&lab, "Stepping the points") && csv(&lab).is_none());
-    lab.complete_clouds(&mut CloudWorker::default(), || false);
+    let lab_of = |scene: &str| {
+        let mut studio = Studio::new(Scene::built_in(scene).unwrap());
+        studio.apply(StageCommand::ToggleRace);
+        studio.apply(StageCommand::Instrument(Instrument::Cloud));
+        studio.apply(RunCommand::Cloud(CloudChoice { points: 1200, ..CloudChoice::default() }));
+        (0..12).for_each(|_| studio.tick());
+        studio
+    };
+    let mut studio = lab_of("liouville");
+    assert!(said(&studio, "Stepping the points") && csv(&studio).is_none());
+    studio.complete_clouds(&mut CloudWorker::default(), || false);
     for wanted in ["Explicit Euler\n×1.", "grows ×2 in", "keeps area", "shrinks ×½ in"] {
-        assert!(said(&lab, wanted), "{wanted}");
+        assert!(said(&studio, wanted), "{wanted}");
     }
-    let table = csv(&lab).unwrap().concat();
+    let table = csv(&studio).unwrap().concat();
     assert!(table.contains(",area / start,,implicit-euler,1,0.") && table.contains(",exact,1,"));
-    assert!(svg(&lab).unwrap().contains("<polyline"));
+    assert!(svg(&studio).unwrap().contains("<polyline"));
     assert!(said(&lab_of("orbit"), "has 2 coordinates"));
 }

@@ -17,14 +17,14 @@ pub(super) fn min_verdict(priority: u8) -> f32 {
 }
 
 /// The columns of a run.
-pub(super) fn of<'a>(lab: &Studio) -> Vec<Column<Row<'a>>> {
-    let is_solo = lab.mode() == Mode::Solo;
-    let mut truths = lab.race().truth().bodies().iter();
+pub(super) fn of<'a>(studio: &Studio) -> Vec<Column<Row<'a>>> {
+    let is_solo = studio.mode() == Mode::Solo;
+    let mut truths = studio.race().truth().bodies().iter();
     let mut columns = marks();
-    if is_solo && lab.scene().bodies.len() > 1 {
+    if is_solo && studio.scene().bodies.len() > 1 {
         columns.push(Column { priority: 1, ..body() });
     }
-    columns.push(verdict(lab));
+    columns.push(verdict(studio));
     columns.push(position());
     if is_solo {
         columns.push(exact());
@@ -47,7 +47,7 @@ fn marks<'a>() -> Vec<Column<Row<'a>>> {
     let key = Column::key(about, place);
     let about = "the line of this method in the plots and on the stage";
     let line = Column::line(about, place, |row: &Row<'a>, palette| {
-        let (strong, dash) = palette.style(row.lab.entries(), row.spec);
+        let (strong, dash) = palette.style(row.studio.entries(), row.spec);
         (if row.flown.is_some() { strong } else { strong.gamma_multiply(0.7) }, dash)
     });
     let about = "the integrator of this lane; × is its substeps, a small number its tolerance";
@@ -57,7 +57,7 @@ fn marks<'a>() -> Vec<Column<Row<'a>>> {
         about,
         |ui, row: &Row<'a>, rect, _| {
             if row.is_first {
-                let is_strong = row.entry == row.lab.active();
+                let is_strong = row.entry == row.studio.active();
                 show_words(ui, rect, &row.method_name(), is_strong, row.text(ui));
             }
         },
@@ -81,12 +81,12 @@ fn body<'a>() -> Column<Row<'a>> {
 }
 
 /// The verdicts, with the body in their head that all of them are about, and in a race the body of the numbers.
-fn verdict<'a>(lab: &Studio) -> Column<Row<'a>> {
+fn verdict<'a>(studio: &Studio) -> Column<Row<'a>> {
     let about = "what this method does to the scene at this tick rate: its worst body, judged in a run of its own; a click sorts from best to worst";
-    let bodies = &lab.scene().bodies;
-    let whose = row::judged_body(lab).map(|body| format!(" ({})", bodies[body].name));
-    let head = format!("Verdict at {} Hz{}", lab.clock().tick_hz(), whose.unwrap_or_default());
-    let has_numbers_of_one = lab.mode() == Mode::Race && bodies.len() > 1;
+    let bodies = &studio.scene().bodies;
+    let whose = row::judged_body(studio).map(|body| format!(" ({})", bodies[body].name));
+    let head = format!("Verdict at {} Hz{}", studio.clock().tick_hz(), whose.unwrap_or_default());
+    let has_numbers_of_one = studio.mode() == Mode::Race && bodies.len() > 1;
     let column = Column::shown(
         "Verdict",
         0.0,
@@ -94,7 +94,7 @@ fn verdict<'a>(lab: &Studio) -> Column<Row<'a>> {
         |ui, row: &Row<'a>, rect, _| row.said.show(ui, rect, row.text(ui)),
         |row| row.said.rank.into(),
     );
-    let beside_head = has_numbers_of_one.then(|| format!("{}:", bodies[lab.view().body].name));
+    let beside_head = has_numbers_of_one.then(|| format!("{}:", bodies[studio.view().body].name));
     Column { beside_head, ..column.headed(head) }
 }
 
@@ -174,9 +174,9 @@ mod tests {
 
     #[test]
     fn what_the_stage_shows_too_has_a_column_only_where_there_is_room_for_it() {
-        let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-        lab.apply(StageCommand::ToggleRace);
-        let table = lanes::table(&lab);
+        let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+        studio.apply(StageCommand::ToggleRace);
+        let table = lanes::table(&studio);
         let names = |width: f32| -> Vec<&str> {
             table.fitting(width).iter().map(|(column, ..)| column.name).collect()
         };

@@ -7,7 +7,7 @@ use crate::view::panels::verdict::VerdictText;
 
 /// A method, or a body of the lane that is flown solo.
 pub(super) struct Row<'a> {
-    pub(super) lab: &'a Studio,
+    pub(super) studio: &'a Studio,
     /// The method's index on the list.
     pub(super) entry: usize,
     pub(super) spec: &'a LaneSpec,
@@ -29,26 +29,26 @@ pub(super) struct Row<'a> {
 impl<'a> Row<'a> {
     /// The rows of the method on this index of the list. `exact` holds where each exact body is.
     pub(super) fn of_method(
-        lab: &'a Studio,
+        studio: &'a Studio,
         (entry, spec): (usize, &'a LaneSpec),
         exact: &[Option<f64>],
     ) -> Vec<Self> {
-        let flown = lab.flown(entry);
-        let shown = lab.view().body;
-        let count = lab.scene().bodies.len();
-        let is_active = entry == lab.active();
-        let is_of_body = lab.mode() == Mode::Solo && flown.is_some() && count > 1;
+        let flown = studio.flown(entry);
+        let shown = studio.view().body;
+        let count = studio.scene().bodies.len();
+        let is_active = entry == studio.active();
+        let is_of_body = studio.mode() == Mode::Solo && flown.is_some() && count > 1;
         // A method that is not flown names the judged body in the column of bodies.
-        let is_named_beside = lab.mode() == Mode::Solo && count > 1;
-        let judged = lab.viewer().verdict(entry);
+        let is_named_beside = studio.mode() == Mode::Solo && count > 1;
+        let judged = studio.viewer().verdict(entry);
         let named_body = |body: usize| match (is_of_body, is_named_beside) {
             (true, _) => Some(body),
             (false, true) => judged.map(|verdict| verdict.body),
             (false, false) => None,
         };
-        let named_above = judged_body(lab);
+        let named_above = judged_body(studio);
         let row = |body: usize| Row {
-            lab,
+            studio,
             entry,
             spec,
             flown,
@@ -57,7 +57,7 @@ impl<'a> Row<'a> {
             is_first: !is_of_body || body == 0,
             is_selected: is_active && (!is_of_body || body == shown),
             exact: exact[body],
-            said: verdict::text_of(lab, entry, flown, named_body(body), named_above),
+            said: verdict::text_of(studio, entry, flown, named_body(body), named_above),
         };
         match is_of_body {
             true => (0..count).map(row).collect(),
@@ -66,18 +66,18 @@ impl<'a> Row<'a> {
     }
     /// The body of the row, or else the one that the verdict is about.
     pub(super) fn body_name(&self) -> Option<&'a str> {
-        let bodies = &self.lab.scene().bodies;
+        let bodies = &self.studio.scene().bodies;
         if self.is_of_body {
             return Some(&bodies[self.body].name);
         }
-        let verdict = self.lab.viewer().verdict(self.entry)?;
+        let verdict = self.studio.viewer().verdict(self.entry)?;
         Some(&bodies.get(verdict.body)?.name)
     }
 
     /// The method's name with its substeps and its tolerance.
     pub(super) fn method_name(&self) -> String {
         let within = self.spec.tolerance.map(|tolerance| format!(" {tolerance:e}"));
-        self.spec.name_with_substeps(self.lab.entries()) + &within.unwrap_or_default()
+        self.spec.name_with_substeps(self.studio.entries()) + &within.unwrap_or_default()
     }
 
     fn flown_body(&self) -> Option<&'a LaneBody> {
@@ -85,7 +85,7 @@ impl<'a> Row<'a> {
     }
 
     fn truth(&self) -> &'a LaneBody {
-        &self.lab.race().truth().bodies()[self.body]
+        &self.studio.race().truth().bodies()[self.body]
     }
 
     /// A value with the unit of the body's first coordinate.
@@ -95,7 +95,7 @@ impl<'a> Row<'a> {
     }
 
     pub(super) fn position(&self) -> Option<f64> {
-        let (q, _) = self.lab.shown_state(self.flown_body()?);
+        let (q, _) = self.studio.shown_state(self.flown_body()?);
         q.first().copied()
     }
 
@@ -132,7 +132,7 @@ impl<'a> Row<'a> {
     }
 
     fn chase(&self) -> Option<&'a ChaseFinding> {
-        self.lab.viewer().verdict(self.entry)?.of_bodies.get(self.body)?.chase.as_ref()
+        self.studio.viewer().verdict(self.entry)?.of_bodies.get(self.body)?.chase.as_ref()
     }
 
     pub(super) fn evaluations(&self) -> Option<u64> {
@@ -154,12 +154,12 @@ impl<'a> Row<'a> {
 
 /// The body that the verdicts on all methods of a race are about, if there are several bodies and it is one: it is
 /// named once, above them.
-pub(super) fn judged_body(lab: &Studio) -> Option<usize> {
-    if lab.mode() == Mode::Solo || lab.scene().bodies.len() < 2 {
+pub(super) fn judged_body(studio: &Studio) -> Option<usize> {
+    if studio.mode() == Mode::Solo || studio.scene().bodies.len() < 2 {
         return None;
     }
-    let lanes = lab.race().entrants().iter();
-    let mut bodies = lanes.map(|lane| Some(lab.viewer().verdict(lab.entry(lane))?.body));
+    let lanes = studio.race().entrants().iter();
+    let mut bodies = lanes.map(|lane| Some(studio.viewer().verdict(studio.entry(lane))?.body));
     let first = bodies.next()??;
     bodies.all(|body| body == Some(first)).then_some(first)
 }

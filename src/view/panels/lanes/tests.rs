@@ -6,34 +6,34 @@ use crate::view::panels::table::{Order, SortKey};
 use crate::view::testing::TestWindow;
 
 fn race() -> Studio {
-    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-    lab.apply(StageCommand::ToggleRace);
-    (0..60).for_each(|_| lab.tick());
-    lab.analyse();
-    lab
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    studio.apply(StageCommand::ToggleRace);
+    (0..60).for_each(|_| studio.tick());
+    studio.analyse();
+    studio
 }
 
-fn sorted(lab: &Studio, order: Order) -> Vec<Row<'_>> {
-    table(lab).sorted(groups(lab), order).into_iter().flatten().collect()
+fn sorted(studio: &Studio, order: Order) -> Vec<Row<'_>> {
+    table(studio).sorted(groups(studio), order).into_iter().flatten().collect()
 }
 
-fn entries(lab: &Studio, order: Order) -> Vec<usize> {
-    sorted(lab, order).iter().map(|row| row.entry).collect()
+fn entries(studio: &Studio, order: Order) -> Vec<usize> {
+    sorted(studio, order).iter().map(|row| row.entry).collect()
 }
 
 #[test]
 fn without_an_order_rows_are_in_that_of_the_keys() {
-    let lab = race();
-    assert!(entries(&lab, None).into_iter().eq(0..lab.entries().len()));
+    let studio = race();
+    assert!(entries(&studio, None).into_iter().eq(0..studio.entries().len()));
 }
 
 #[test]
 fn every_column_sorts_all_rows_both_ways_and_those_without_a_value_last() {
-    let lab = race();
-    let all: Vec<usize> = (0..lab.entries().len()).collect();
-    for column in &table(&lab).columns {
+    let studio = race();
+    let all: Vec<usize> = (0..studio.entries().len()).collect();
+    for column in &table(&studio).columns {
         for is_reversed in [false, true] {
-            let rows = sorted(&lab, Some((column.name, is_reversed)));
+            let rows = sorted(&studio, Some((column.name, is_reversed)));
             let mut found: Vec<usize> = rows.iter().map(|row| row.entry).collect();
             found.sort_unstable();
             assert_eq!(found, all, "{}", column.name);
@@ -48,93 +48,94 @@ fn every_column_sorts_all_rows_both_ways_and_those_without_a_value_last() {
             assert!(ranked.windows(2).all(is_in_order), "{}: {ranked:?}", column.name);
         }
     }
-    let by_error = entries(&lab, Some(("error", false)));
-    assert_ne!(by_error, entries(&lab, None), "some lane is worse than the next");
+    let by_error = entries(&studio, Some(("error", false)));
+    assert_ne!(by_error, entries(&studio, None), "some lane is worse than the next");
 }
 
 #[test]
 fn in_solo_the_rows_of_the_bodies_stay_together_under_every_order() {
-    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-    lab.apply(StageCommand::Pick(1));
-    lab.tick();
-    let bodies = lab.scene().bodies.len();
-    for column in &table(&lab).columns {
-        let rows = sorted(&lab, Some((column.name, true)));
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    studio.apply(StageCommand::Pick(1));
+    studio.tick();
+    let bodies = studio.scene().bodies.len();
+    for column in &table(&studio).columns {
+        let rows = sorted(&studio, Some((column.name, true)));
         let first = rows.iter().position(|row| row.is_of_body).expect("the flown lane");
         let of_lane = rows[first..first + bodies].iter();
         assert!(of_lane.map(|row| row.body).eq(0..bodies), "{}", column.name);
     }
 }
 
-fn said(lab: &Studio) -> Vec<String> {
-    sorted(lab, None).iter().map(|row| row.said.whole().to_owned()).collect()
+fn said(studio: &Studio) -> Vec<String> {
+    sorted(studio, None).iter().map(|row| row.said.whole().to_owned()).collect()
 }
 
 #[test]
 fn a_method_is_being_judged_until_it_is() {
-    let mut lab = Studio::new(Scene::built_in("harbour").unwrap());
-    assert!(said(&lab).iter().all(|said| said == "judging…"), "{:?}", said(&lab));
-    lab.analyse();
-    assert!(said(&lab).iter().all(|said| said != "judging…"), "{:?}", said(&lab));
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    assert!(said(&studio).iter().all(|said| said == "judging…"), "{:?}", said(&studio));
+    studio.analyse();
+    assert!(said(&studio).iter().all(|said| said != "judging…"), "{:?}", said(&studio));
 }
 
 #[test]
 fn a_verdict_tells_what_will_be_and_a_halt_what_was() {
-    let mut lab = Studio::new(Scene::built_in("stiff").unwrap());
-    lab.apply(StageCommand::ToggleRace);
-    lab.apply(StageCommand::TickHz(49));
-    lab.analyse();
-    let euler = lab.entries().iter().position(|spec| spec.method.id == "semi-implicit-euler");
+    let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
+    studio.apply(StageCommand::ToggleRace);
+    studio.apply(StageCommand::TickHz(49));
+    studio.analyse();
+    let euler = studio.entries().iter().position(|spec| spec.method.id == "semi-implicit-euler");
     let euler = euler.unwrap();
-    assert_eq!(said(&lab)[euler], "will blow up at 4.14 s, if run from the start");
-    while !lab
+    assert_eq!(said(&studio)[euler], "will blow up at 4.14 s, if run from the start");
+    while !studio
         .race()
         .entrants()
         .iter()
-        .any(|lane| lab.entry(lane) == euler && lane.lane.halted().is_some())
+        .any(|lane| studio.entry(lane) == euler && lane.lane.halted().is_some())
     {
-        lab.tick();
+        studio.tick();
     }
-    assert!(said(&lab)[euler].contains(" blew up at 4.1"), "{:?}", said(&lab));
+    assert!(said(&studio)[euler].contains(" blew up at 4.1"), "{:?}", said(&studio));
 }
 
 #[test]
 fn the_body_that_every_verdict_is_about_is_named_once() {
-    let mut lab = race();
-    let flown: Vec<usize> = lab.race().entrants().iter().map(|lane| lab.entry(lane)).collect();
-    let names = |lab: &Studio| {
-        let said = said(lab);
+    let mut studio = race();
+    let flown: Vec<usize> =
+        studio.race().entrants().iter().map(|lane| studio.entry(lane)).collect();
+    let names = |studio: &Studio| {
+        let said = said(studio);
         flown.iter().filter(|&&entry| said[entry].contains("free spring")).count()
     };
     assert_eq!(
-        row::judged_body(&lab).map(|body| &*lab.scene().bodies[body].name),
+        row::judged_body(&studio).map(|body| &*studio.scene().bodies[body].name),
         Some("free spring")
     );
-    assert_eq!(names(&lab), 0, "{:?}", said(&lab));
+    assert_eq!(names(&studio), 0, "{:?}", said(&studio));
     // At a low rate the stiffest body of some lanes is another.
-    lab.apply(StageCommand::TickHz(2));
-    lab.analyse();
-    assert_eq!(row::judged_body(&lab), None, "{:?}", said(&lab));
-    assert!(names(&lab) > 0, "{:?}", said(&lab));
+    studio.apply(StageCommand::TickHz(2));
+    studio.analyse();
+    assert_eq!(row::judged_body(&studio), None, "{:?}", said(&studio));
+    assert!(names(&studio) > 0, "{:?}", said(&studio));
 }
 
 #[test]
 fn the_cost_is_that_of_a_tick_now() {
-    let mut lab = race();
-    let costs = |lab: &Studio| -> Vec<Option<f64>> {
-        let flown = lab.race().entrants().iter().map(|lane| lab.entry(lane));
-        let exact = vec![None; lab.scene().bodies.len()];
-        let rows = |entry: usize| Row::of_method(lab, (entry, &lab.entries()[entry]), &exact);
+    let mut studio = race();
+    let costs = |studio: &Studio| -> Vec<Option<f64>> {
+        let flown = studio.race().entrants().iter().map(|lane| studio.entry(lane));
+        let exact = vec![None; studio.scene().bodies.len()];
+        let rows = |entry: usize| Row::of_method(studio, (entry, &studio.entries()[entry]), &exact);
         flown.map(|entry| rows(entry)[0].cost()).collect()
     };
-    let before = costs(&lab);
+    let before = costs(&studio);
     assert_eq!(before[..4], [1.0, 1.0, 2.0, 4.0].map(Some), "{before:?}");
-    lab.apply(RunCommand::ToggleEqualCost);
+    studio.apply(RunCommand::ToggleEqualCost);
     for _ in 0..3 {
-        let now = costs(&lab);
+        let now = costs(&studio);
         let dearest = now.iter().flatten().fold(0.0, |most: f64, &cost| most.max(cost));
         assert!(now[..4].iter().all(|cost| *cost > Some(0.75 * dearest)), "{now:?}");
-        lab.tick();
+        studio.tick();
     }
 }
 
@@ -142,8 +143,8 @@ fn the_cost_is_that_of_a_tick_now() {
 fn who_hears_a_row_hears_its_numbers() {
     let mut window = TestWindow::new([1600.0, 600.0]);
     window.context.enable_accesskit();
-    let lab = race();
-    let (_, shown) = window.show(Vec::new(), |ui| show(ui, &lab, &mut Vec::new()));
+    let studio = race();
+    let (_, shown) = window.show(Vec::new(), |ui| show(ui, &studio, &mut Vec::new()));
     let row =
         shown.heard.iter().find(|name| name.starts_with("4 Runge-Kutta 4, ")).expect("its row");
     for head in ["error ", "energy ", "cost 4 ×"] {

@@ -6,7 +6,7 @@ use crate::view::panels::verdict::{Sign, VerdictText};
 /// What is said of the method on this index of the list, and of the lane under it if there is one. The judged body is
 /// named, unless the row is the body's own or it is the one `named_above`.
 pub(super) fn text_of(
-    lab: &Studio,
+    studio: &Studio,
     entry: usize,
     flown: Option<&Entrant>,
     body: Option<usize>,
@@ -15,17 +15,17 @@ pub(super) fn text_of(
     let halts = flown.into_iter().flat_map(|entrant| entrant.lane.halts());
     let mut halts: Vec<_> = halts.filter(|halt| body.is_none_or(|b| b == halt.body)).collect();
     // The displayed body first: of several, not all may fit.
-    halts.sort_by_key(|halt| halt.body != lab.view().body);
+    halts.sort_by_key(|halt| halt.body != studio.view().body);
     if let Some(first) = halts.first() {
         let did = first.how();
-        let several = lab.scene().bodies.len() > 1 && body.is_none();
+        let several = studio.scene().bodies.len() > 1 && body.is_none();
         let name = |body: usize| match several && named_above != Some(body) {
-            true => format!(" ({})", lab.scene().bodies[body].name),
+            true => format!(" ({})", studio.scene().bodies[body].name),
             false => String::new(),
         };
         let bodies = flown.map_or(&[][..], |entrant| entrant.lane.bodies());
         let all = halts.iter().map(|halt| {
-            let name = &lab.scene().bodies[halt.body].name;
+            let name = &studio.scene().bodies[halt.body].name;
             format!("{name} {}", bodies[halt.body].fate().unwrap_or_default())
         });
         let short = format!("{}{}", first.fate(), name(first.body));
@@ -34,7 +34,7 @@ pub(super) fn text_of(
         let wordings = vec![all.join("; "), short, did.into()];
         return text(outcome, wordings);
     }
-    let verdict = lab.viewer().verdict(entry);
+    let verdict = studio.viewer().verdict(entry);
     let verdict = match body {
         Some(body) => verdict.and_then(|verdict| verdict.of_bodies.get(body)),
         None => verdict,

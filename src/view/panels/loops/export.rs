@@ -5,10 +5,10 @@ use std::iter;
 use crate::lab::{LoopLab, Studio, csv_row};
 
 /// All frames of the loops on the stage, or the last frames of the window's own loop, as comma-separated text.
-pub(in crate::view::panels) fn csv(lab: &Studio) -> Vec<String> {
-    match lab.loop_lab() {
+pub(in crate::view::panels) fn csv(studio: &Studio) -> Vec<String> {
+    match studio.loop_lab() {
         Some(loops) => of_lab(loops),
-        None => of_window(lab),
+        None => of_window(studio),
     }
 }
 
@@ -31,8 +31,8 @@ fn of_lab(loops: &LoopLab) -> Vec<String> {
     iter::once(head).chain(frames).collect()
 }
 
-fn of_window(lab: &Studio) -> Vec<String> {
-    let frames = lab.viewer().live.frames().enumerate().map(|(number, frame)| {
+fn of_window(studio: &Studio) -> Vec<String> {
+    let frames = studio.viewer().live.frames().enumerate().map(|(number, frame)| {
         let time_ms = frame.duration_ns as f64 / 1e6;
         csv_row(&[&number, &time_ms, &frame.ticks, &frame.dropped, &frame.animation_error_ms])
     });

@@ -57,9 +57,9 @@ fn time_ms(frame: &LiveFrame) -> f64 {
     frame.duration_ns as f64 / 1e6
 }
 
-pub(super) fn show(ui: &mut Ui, lab: &Studio, room: Vec2) {
+pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
     let top = ui.cursor().top();
-    let frames = lab.viewer().live.frames();
+    let frames = studio.viewer().live.frames();
     ui.label(RichText::new(TITLE).font(strong_font(15.0)).color(palette(ui).text));
     let Some(summary) = Summary::of(frames) else {
         let words = "No frame yet: run it with Space, and its frames show here. \
@@ -88,19 +88,25 @@ pub(super) fn show(ui: &mut Ui, lab: &Studio, room: Vec2) {
         egui::WidgetInfo::labeled(egui::Role::Image, true, "frame times of this window")
     });
     let (upper, below) = parts(room);
-    chart::paint(&ui.painter_at(upper), &frame_times(lab, upper, &summary, palette(ui)));
+    chart::paint(&ui.painter_at(upper), &frame_times(studio, upper, &summary, palette(ui)));
     if let Some(below) = below {
-        counts::show(ui, below, &[series(lab, palette(ui))]);
+        counts::show(ui, below, &[series(studio, palette(ui))]);
     }
 }
 
 /// The charts in a room, to be saved; `None` before the first frame.
-pub(super) fn layout(lab: &Studio, room: Rect, palette: &PanelPalette) -> Option<Vec<Primitive>> {
-    let summary = Summary::of(lab.viewer().live.frames())?;
+pub(super) fn layout(
+    studio: &Studio,
+    room: Rect,
+    palette: &PanelPalette,
+) -> Option<Vec<Primitive>> {
+    let summary = Summary::of(studio.viewer().live.frames())?;
     let (upper, below) = parts(room);
-    let mut all = frame_times(lab, upper, &summary, palette);
+    let mut all = frame_times(studio, upper, &summary, palette);
     all.extend(
-        below.into_iter().flat_map(|below| counts::layout(below, &[series(lab, palette)], palette)),
+        below
+            .into_iter()
+            .flat_map(|below| counts::layout(below, &[series(studio, palette)], palette)),
     );
     Some(all)
 }
@@ -114,13 +120,13 @@ fn parts(room: Rect) -> (Rect, Option<Rect>) {
     (upper, Some(below.with_min_y(below.top() + 6.0)))
 }
 
-fn series(lab: &Studio, palette: &PanelPalette) -> Series {
-    Series::new(own_colour(palette), lab.viewer().live.frames().map(|frame| frame.ticks))
+fn series(studio: &Studio, palette: &PanelPalette) -> Series {
+    Series::new(own_colour(palette), studio.viewer().live.frames().map(|frame| frame.ticks))
 }
 
 /// The chart of the frame times against real time up to the last frame, in a room.
 fn frame_times(
-    lab: &Studio,
+    studio: &Studio,
     room: Rect,
     summary: &Summary,
     palette: &PanelPalette,
@@ -133,7 +139,7 @@ fn frame_times(
     let area = PlotArea { rect, bounds: [[-LENGTH_S, 0.0], [0.0, reach]] };
     let marks = [0, 1].map(|axis| area.marks(axis, AxisScale::Linear, [56.0, 24.0][axis]));
     let mut all = vec![Primitive::Area(rect, palette.plot)];
-    let times_ms = lab.viewer().live.frames().map(time_ms);
+    let times_ms = studio.viewer().live.frames().map(time_ms);
     let mut ago_s = times_ms.clone().sum::<f64>() / 1000.0;
     let moment = |time_ms: f64| {
         ago_s -= time_ms / 1000.0;

@@ -58,27 +58,27 @@ mod tests {
 
     #[test]
     fn a_press_on_the_track_goes_to_the_moment_there_and_a_row_and_its_eye_select_and_show() {
-        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-        lab.apply(Command::Loop(LoopCommand::ToggleLab));
-        lab.run_loops();
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        studio.apply(Command::Loop(LoopCommand::ToggleLab));
+        studio.run_loops();
         let mut window = TestWindow::new(SIZE);
-        let loops = lab.loop_lab().unwrap();
+        let loops = studio.loop_lab().unwrap();
         let bottom = SIZE.y - panels::footer::HEIGHT;
         let table = bottom - panels::loops::table::height(loops);
         let along = Rangef::new(8.0 + NAME, SIZE.x - 8.0 - MEMORY - MARGIN);
         let middle = pos2(along.center(), table - HEIGHT + TRACK_Y);
         let half_ns = loops.end_ns() / 2;
-        window.panels(&lab, Vec::new());
-        let sought = window.click(&lab, middle);
+        window.panels(&studio, Vec::new());
+        let sought = window.click(&studio, middle);
         let is_half = |command: &Command| match command {
             Command::Loop(LoopCommand::Seek(ns)) => (ns - half_ns).abs() < 10_000_000,
             _ => false,
         };
         assert!(!sought.is_empty() && sought.iter().all(is_half), "{sought:?}, not {half_ns}");
         let third = table + 3.5 * panels::lanes::ROW;
-        let commands = window.click(&lab, pos2(300.0, third));
+        let commands = window.click(&studio, pos2(300.0, third));
         assert_eq!(commands, [Command::Loop(LoopCommand::Select(2))]);
-        let commands = window.click(&lab, pos2(50.0, third));
+        let commands = window.click(&studio, pos2(50.0, third));
         assert_eq!(commands, [Command::Loop(LoopCommand::ToggleOnStage(2))]);
     }
 }

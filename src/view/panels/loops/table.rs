@@ -37,10 +37,10 @@ mod tests {
 
     #[test]
     fn rows_are_sorted_by_their_verdicts_and_back() {
-        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-        lab.apply(Command::Loop(LoopCommand::ToggleLab));
-        lab.run_loops();
-        let loops = lab.loop_lab().unwrap();
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        studio.apply(Command::Loop(LoopCommand::ToggleLab));
+        studio.run_loops();
+        let loops = studio.loop_lab().unwrap();
         let ranks = |order| -> Vec<Option<f64>> {
             let rows = table(loops).sorted(groups(loops), order).into_iter().flatten();
             rows.map(|row| row.verdict.rank).collect()

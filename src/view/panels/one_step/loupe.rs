@@ -71,12 +71,12 @@ mod tests {
 
     /// What the loupes in a frame are labelled with, under the method at this place of the spring's list.
     fn labels(entry: usize) -> Vec<String> {
-        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-        lab.apply(StageCommand::Pick(entry));
-        lab.apply(StageCommand::Instrument(Instrument::OneStep));
-        lab.apply(ViewCommand::ToggleEnlarged);
-        (0..20).for_each(|_| lab.tick());
-        let (_, shown) = TestWindow::new([1280.0, 720.0]).panels(&lab, Vec::new());
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        studio.apply(StageCommand::Pick(entry));
+        studio.apply(StageCommand::Instrument(Instrument::OneStep));
+        studio.apply(ViewCommand::ToggleEnlarged);
+        (0..20).for_each(|_| studio.tick());
+        let (_, shown) = TestWindow::new([1280.0, 720.0]).panels(&studio, Vec::new());
         shown.words().into_iter().filter(|text| text.starts_with('×')).collect()
     }
 

@@ -5,11 +5,11 @@ use super::*;
 use crate::lab::{Instrument, RunCommand, Scene, StageCommand, Step};
 use crate::view::testing::{TestWindow, button};
 
-fn lab(scene: &str) -> Studio {
-    let mut lab = Studio::new(Scene::built_in(scene).unwrap());
-    lab.apply(StageCommand::Instrument(Instrument::StabilityMap));
-    lab.analyse();
-    lab
+fn studio(scene: &str) -> Studio {
+    let mut studio = Studio::new(Scene::built_in(scene).unwrap());
+    studio.apply(StageCommand::Instrument(Instrument::StabilityMap));
+    studio.analyse();
+    studio
 }
 
 fn window() -> TestWindow {
@@ -18,16 +18,16 @@ fn window() -> TestWindow {
 
 #[test]
 fn the_cross_sets_rate_and_parameter_where_it_is_dragged_to() {
-    let mut lab = lab("stiff");
+    let mut studio = studio("stiff");
     let mut window = window();
-    let (commands, shown) = window.panels(&lab, Vec::new());
+    let (commands, shown) = window.panels(&studio, Vec::new());
     assert_eq!(commands, []);
     let all = shown.all();
     let chip = all.iter().find(|(_, text)| text == "you are here").expect("a chip").0;
     let at = chip.center() + vec2(0.0, 15.0);
-    window.panels(&lab, vec![Event::PointerMoved(at), button(at, true)]);
+    window.panels(&studio, vec![Event::PointerMoved(at), button(at, true)]);
     let to = at + vec2(30.0, -35.0);
-    let (commands, _) = window.panels(&lab, vec![Event::PointerMoved(to)]);
+    let (commands, _) = window.panels(&studio, vec![Event::PointerMoved(to)]);
     let [
         Command::Stage(StageCommand::TickHz(hz)),
         Command::Run(RunCommand::Act(Action::Set { body: 0, parameter: 1, value })),
@@ -37,18 +37,18 @@ fn the_cross_sets_rate_and_parameter_where_it_is_dragged_to() {
     };
     assert!((61..1000).contains(hz) && *value > 1e4, "{hz} Hz, {value} N/m");
     for command in commands {
-        lab.apply(command);
+        studio.apply(command);
     }
     // Where it is now, nothing changes.
-    let (commands, _) = window.panels(&lab, vec![]);
+    let (commands, _) = window.panels(&studio, vec![]);
     assert_eq!(commands, []);
-    window.panels(&lab, vec![button(to, false)]);
+    window.panels(&studio, vec![button(to, false)]);
 }
 
 #[test]
 fn the_sentence_counts_the_stable_methods() {
-    let lab = lab("stiff");
-    let map = lab.viewer().stability_map().unwrap();
+    let studio = studio("stiff");
+    let map = studio.viewer().stability_map().unwrap();
     assert_eq!(
         counted(map).split(" Explicit").next().unwrap(),
         // At 60 Hz ω h is 1.67.
@@ -56,33 +56,33 @@ fn the_sentence_counts_the_stable_methods() {
     );
     assert!(notes(map).contains("Explicit Euler, Improved Euler are stable nowhere on this map."));
     assert!(notes(map).contains("Adaptive Euler picks its own steps"));
-    assert_eq!(point_in_words(&lab, 1, 20, 90.0), "20 Hz, k = 90 N/m");
+    assert_eq!(point_in_words(&studio, 1, 20, 90.0), "20 Hz, k = 90 N/m");
 }
 
 #[test]
 fn a_body_without_a_map_says_why() {
     let mut window = window();
-    let texts = window.panels(&lab("orbit"), Vec::new()).1.words();
+    let texts = window.panels(&studio("orbit"), Vec::new()).1.words();
     assert!(texts.iter().any(|text| text.starts_with("No stability map")), "{texts:?}");
 }
 
 #[test]
 fn arrow_keys_move_the_focused_cross_by_rates_and_by_factors_of_the_parameter() {
-    let mut lab = lab("stiff");
+    let mut studio = studio("stiff");
     let mut window = window();
-    window.panels(&lab, Vec::new());
+    window.panels(&studio, Vec::new());
     window.context.memory_mut(|memory| memory.request_focus(Id::unique(CROSS_ID)));
-    window.panels(&lab, Vec::new());
-    let (commands, _) = window.panels(&lab, vec![press(Key::ArrowUp)]);
+    window.panels(&studio, Vec::new());
+    let (commands, _) = window.panels(&studio, vec![press(Key::ArrowUp)]);
     let [Command::Run(RunCommand::Act(Action::Set { value, .. }))] = &commands[..] else {
         panic!("{commands:?}")
     };
-    let before = lab.race().values(0)[1];
+    let before = studio.race().values(0)[1];
     assert!((value / before / 1.122 - 1.0).abs() < 5e-3, "{before} to {value}");
     for command in commands {
-        lab.apply(command);
+        studio.apply(command);
     }
-    let (commands, _) = window.panels(&lab, vec![press(Key::ArrowRight)]);
+    let (commands, _) = window.panels(&studio, vec![press(Key::ArrowRight)]);
     assert_eq!(commands, [Command::Stage(StageCommand::TickRate(Step::Next))]);
 }
 
@@ -93,7 +93,7 @@ fn press(key: Key) -> Event {
 #[test]
 fn a_boundary_is_labelled_with_its_limit_where_nothing_is_damped() {
     let mut window = window();
-    let texts = window.panels(&lab("spring"), Vec::new()).1.words();
+    let texts = window.panels(&studio("spring"), Vec::new()).1.words();
     assert!(texts.iter().any(|text| text.ends_with(": ω h < 2")), "{texts:?}");
     let mut damped = Studio::new(Scene::built_in("harbour").unwrap());
     damped.apply(StageCommand::Instrument(Instrument::StabilityMap));
@@ -106,13 +106,13 @@ fn a_boundary_is_labelled_with_its_limit_where_nothing_is_damped() {
 #[test]
 fn the_lines_of_equal_damping_of_the_selected_engine_are_labelled_and_explained() {
     let mut window = window();
-    let mut lab = lab("engines");
-    let mut words = |lab: &Studio| window.panels(lab, Vec::new()).1.words().join("\n");
-    let shown = words(&lab);
+    let mut studio = studio("engines");
+    let mut words = |studio: &Studio| window.panels(studio, Vec::new()).1.words().join("\n");
+    let shown = words(&studio);
     for part in ["damping 0.05", "damping 0.1", "the damping ratio that a player sees of Box2D"] {
         assert!(shown.contains(part), "{part}: {shown}");
     }
     // An undamped spring of Bullet is seen undamped.
-    lab.apply(StageCommand::Pick(6));
-    assert!(!words(&lab).contains("damping 0."));
+    studio.apply(StageCommand::Pick(6));
+    assert!(!words(&studio).contains("damping 0."));
 }

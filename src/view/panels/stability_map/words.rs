@@ -22,8 +22,8 @@ pub(super) fn full_name(parameter: &Parameter) -> String {
 }
 
 /// A point of the map: `20 Hz, k = 90 N/m`.
-pub(super) fn point_in_words(lab: &Studio, place: usize, tick_hz: u32, value: f64) -> String {
-    let parameter = super::parameter(lab, place);
+pub(super) fn point_in_words(studio: &Studio, place: usize, tick_hz: u32, value: f64) -> String {
+    let parameter = super::parameter(studio, place);
     let text =
         format!("{tick_hz} Hz, {} = {} {}", letter(parameter), round(value, 3), parameter.unit);
     text.trim_end().to_owned()
@@ -33,29 +33,29 @@ pub(super) fn point_in_words(lab: &Studio, place: usize, tick_hz: u32, value: f6
 /// for that, in points: it does not change while the cross is moved.
 pub(super) fn sentence(
     ui: &Ui,
-    lab: &Studio,
+    studio: &Studio,
     map: &StabilityMap,
     width: f32,
 ) -> (Arc<Galley>, f32) {
-    let seen = seen_note(lab, map);
+    let seen = seen_note(studio, map);
     let notes = " Drag the cross to change both values at once.".to_owned() + &seen + &notes(map);
-    wrapped(ui, lab, map, width, (13.0, &notes))
+    wrapped(ui, studio, map, width, (13.0, &notes))
 }
 
 /// The same with the thin lines alone of what is drawn and what is not.
 pub(super) fn short_sentence(
     ui: &Ui,
-    lab: &Studio,
+    studio: &Studio,
     map: &StabilityMap,
     width: f32,
 ) -> (Arc<Galley>, f32) {
-    wrapped(ui, lab, map, width, (12.0, &seen_note(lab, map)))
+    wrapped(ui, studio, map, width, (12.0, &seen_note(studio, map)))
 }
 
 /// What the methods do at the present point in type of this size, and the notes, wrapped to a width.
 fn wrapped(
     ui: &Ui,
-    lab: &Studio,
+    studio: &Studio,
     map: &StabilityMap,
     width: f32,
     (size, notes): (f32, &str),
@@ -65,15 +65,15 @@ fn wrapped(
         job.wrap.max_width = width;
         ui.painter().layout_job(job)
     };
-    let words = wrapped(counted_job(ui, lab, map, size));
-    let room = wrapped(job(ui, &longest(lab, map), size)).size().y;
+    let words = wrapped(counted_job(ui, studio, map, size));
+    let room = wrapped(job(ui, &longest(studio, map), size)).size().y;
     let height = room.max(words.size().y);
     (words, height)
 }
 
-fn counted_job(ui: &Ui, lab: &Studio, map: &StabilityMap, size: f32) -> LayoutJob {
+fn counted_job(ui: &Ui, studio: &Studio, map: &StabilityMap, size: f32) -> LayoutJob {
     let MapRequest { parameter, tick_hz, .. } = &map.request;
-    let here = point_in_words(lab, *parameter, *tick_hz, map.request.value());
+    let here = point_in_words(studio, *parameter, *tick_hz, map.request.value());
     let does = if map.here.is_empty() { "judging …".to_owned() } else { counted(map) };
     job(ui, &[here, does], size)
 }
@@ -87,10 +87,10 @@ fn job(ui: &Ui, [here, does]: &[String; 2], size: f32) -> LayoutJob {
 }
 
 /// The longest that the words about a point of this map become.
-fn longest(lab: &Studio, map: &StabilityMap) -> [String; 2] {
+fn longest(studio: &Studio, map: &StabilityMap) -> [String; 2] {
     let MapRequest { parameter, rates_hz, range, specs, .. } = &map.request;
     let names = names(map);
-    let here = range.map(|value| point_in_words(lab, *parameter, rates_hz[1] as u32, value));
+    let here = range.map(|value| point_in_words(studio, *parameter, rates_hz[1] as u32, value));
     let name = names.into_iter().max_by_key(|name| name.chars().count()).unwrap_or_default();
     let all = specs.len();
     let does = format!("{all} of {all} methods are stable. {name} {}.", growth(0.001_23));
@@ -167,13 +167,13 @@ pub(super) fn no_map(why: NoSmallMotion) -> String {
 }
 
 /// What the thin lines are, if there are any.
-fn seen_note(lab: &Studio, map: &StabilityMap) -> String {
+fn seen_note(studio: &Studio, map: &StabilityMap) -> String {
     let found = map.regions.iter().zip(&map.request.specs);
-    let mut selected = found.filter(|(_, (entry, _))| *entry == lab.active());
+    let mut selected = found.filter(|(_, (entry, _))| *entry == studio.active());
     match selected.any(|(region, _)| !region.seen.is_empty()) {
         true => format!(
             " Thin lines: the damping ratio that a player sees of {}.",
-            lab.lane_name(lab.active())
+            studio.lane_name(studio.active())
         ),
         false => String::new(),
     }

@@ -146,24 +146,24 @@ mod tests {
     use crate::lab::{RunCommand, StageCommand, Studio};
     use crate::view::theme::palette_of;
 
-    fn marks(lab: &Studio) -> Vec<Mark> {
-        let timeline = lab.timeline();
+    fn marks(studio: &Studio) -> Vec<Mark> {
+        let timeline = studio.timeline();
         let (start, times) = (timeline.start(), &timeline.times());
-        let palette = palette_of(lab.display().theme);
-        Context { scene: lab.scene(), start, times, palette }.marks(&timeline.events())
+        let palette = palette_of(studio.display().theme);
+        Context { scene: studio.scene(), start, times, palette }.marks(&timeline.events())
     }
 
-    fn texts(lab: &Studio) -> Vec<String> {
-        marks(lab).into_iter().map(|mark| mark.text).collect()
+    fn texts(studio: &Studio) -> Vec<String> {
+        marks(studio).into_iter().map(|mark| mark.text).collect()
     }
 
-    fn found_colours(lab: &Studio, lane: LaneId) -> Vec<(u64, Color32)> {
-        let timeline = lab.timeline();
-        colours(lane, &timeline.events(), timeline.start(), palette_of(lab.display().theme))
+    fn found_colours(studio: &Studio, lane: LaneId) -> Vec<(u64, Color32)> {
+        let timeline = studio.timeline();
+        colours(lane, &timeline.events(), timeline.start(), palette_of(studio.display().theme))
     }
 
-    fn run(lab: &mut Studio, ticks: u32) {
-        (0..ticks).for_each(|_| lab.tick());
+    fn run(studio: &mut Studio, ticks: u32) {
+        (0..ticks).for_each(|_| studio.tick());
     }
 
     #[test]
@@ -171,17 +171,17 @@ mod tests {
         let text = "title = 'x'\ntick_hz = 60\nseconds = 5\nmethods = ['explicit-euler']\n\
                     [[spring]]\nname = 'buoy'\nmass_kg = 1\nstiffness_n_per_m = 40\nkick_n_s = 1\n\
                     [[command]]\ntick = 12\nmethod = 'rk4'\n";
-        let mut lab = Studio::new(Scene::parse("marked.toml", text).unwrap());
-        run(&mut lab, 30);
-        lab.apply(RunCommand::Act(Action::Kick(1.0)));
-        lab.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value: 90.0 }));
-        lab.apply(StageCommand::TickHz(20));
-        run(&mut lab, 10);
-        lab.apply(RunCommand::Act(Action::Substeps { lane: LaneId(1), substeps: 4 }));
-        lab.apply(RunCommand::Act(Action::Kick(-2.5)));
-        run(&mut lab, 1);
+        let mut studio = Studio::new(Scene::parse("marked.toml", text).unwrap());
+        run(&mut studio, 30);
+        studio.apply(RunCommand::Act(Action::Kick(1.0)));
+        studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: 1, value: 90.0 }));
+        studio.apply(StageCommand::TickHz(20));
+        run(&mut studio, 10);
+        studio.apply(RunCommand::Act(Action::Substeps { lane: LaneId(1), substeps: 4 }));
+        studio.apply(RunCommand::Act(Action::Kick(-2.5)));
+        run(&mut studio, 1);
         assert_eq!(
-            texts(&lab),
+            texts(&studio),
             [
                 "tick 12 (0.200 s): rk4 in lane 1, by the script",
                 "tick 30 (0.500 s): kick, by hand",
@@ -191,30 +191,30 @@ mod tests {
                 "tick 40 (1.000 s): kick ×\u{2212}2.5, by hand",
             ]
         );
-        let signs: Vec<Sign> = marks(&lab).iter().map(|mark| mark.sign).collect();
+        let signs: Vec<Sign> = marks(&studio).iter().map(|mark| mark.sign).collect();
         use Sign::*;
         assert_eq!(signs, [Switch, Kick, Edit, Rate, Edit, Kick]);
     }
 
     #[test]
     fn a_method_after_the_race_is_in_the_lane_that_went_on() {
-        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-        lab.apply(StageCommand::ToggleRace);
-        run(&mut lab, 20);
-        lab.apply(RunCommand::Act(Action::Solo { lane: LaneId(3) }));
-        lab.apply(StageCommand::Pick(0));
-        let text = texts(&lab).pop().unwrap();
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        studio.apply(StageCommand::ToggleRace);
+        run(&mut studio, 20);
+        studio.apply(RunCommand::Act(Action::Solo { lane: LaneId(3) }));
+        studio.apply(StageCommand::Pick(0));
+        let text = texts(&studio).pop().unwrap();
         assert!(text.ends_with("explicit-euler in lane 3, by hand"), "{text}");
-        assert_eq!(found_colours(&lab, LaneId(3)).len(), 2);
+        assert_eq!(found_colours(&studio, LaneId(3)).len(), 2);
     }
 
     #[test]
     fn a_body_that_blows_up_is_marked_with_its_lane() {
-        let mut lab = Studio::new(Scene::built_in("stiff").unwrap());
-        lab.apply(StageCommand::ToggleRace);
-        run(&mut lab, 300);
+        let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
+        studio.apply(StageCommand::ToggleRace);
+        run(&mut studio, 300);
         let halts: Vec<Mark> =
-            marks(&lab).into_iter().filter(|mark| mark.sign == Sign::Halt).collect();
+            marks(&studio).into_iter().filter(|mark| mark.sign == Sign::Halt).collect();
         assert!(!halts.is_empty());
         assert!(halts[0].text.ends_with(" in lane 1 blew up"), "{}", halts[0].text);
     }
@@ -238,13 +238,13 @@ mod tests {
 
     #[test]
     fn the_track_has_the_colours_of_the_methods_in_force() {
-        let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-        let of = |lab: &Studio, entry: usize| {
-            palette_of(lab.display().theme).style(lab.entries(), &lab.entries()[entry]).0
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        let of = |studio: &Studio, entry: usize| {
+            palette_of(studio.display().theme).style(studio.entries(), &studio.entries()[entry]).0
         };
-        run(&mut lab, 20);
-        lab.apply(StageCommand::Pick(3));
-        run(&mut lab, 20);
-        assert_eq!(found_colours(&lab, LaneId(1)), [(0, of(&lab, 0)), (20, of(&lab, 3))]);
+        run(&mut studio, 20);
+        studio.apply(StageCommand::Pick(3));
+        run(&mut studio, 20);
+        assert_eq!(found_colours(&studio, LaneId(1)), [(0, of(&studio, 0)), (20, of(&studio, 3))]);
     }
 }

@@ -9,60 +9,62 @@ const SIZE: Vec2 = vec2(1280.0, 720.0);
 
 #[test]
 fn a_press_on_the_track_goes_to_the_tick_there_and_a_drag_follows() {
-    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-    (0..600).for_each(|_| lab.tick());
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    (0..600).for_each(|_| studio.tick());
     let mut window = TestWindow::new(SIZE);
-    let mut frame = |lab: &Studio, event: Input| window.panels(lab, vec![event]).0;
-    let height = SIZE.y - panels::footer::HEIGHT - panels::lanes::height(&lab) - HEIGHT + TRACK_Y;
+    let mut frame = |studio: &Studio, event: Input| window.panels(studio, vec![event]).0;
+    let height =
+        SIZE.y - panels::footer::HEIGHT - panels::lanes::height(&studio) - HEIGHT + TRACK_Y;
     let along = Rangef::new(8.0 + NAME, SIZE.x - 8.0 - MEMORY - MARGIN);
-    let whole = Span::whole(lab.scene().seconds, 10.0);
+    let whole = Span::whole(studio.scene().seconds, 10.0);
     let at = |seconds: f64| pos2(whole.x(seconds, along), height);
-    frame(&lab, Input::PointerMoved(at(2.5)));
-    let pressed = frame(&lab, button(at(2.5), true));
+    frame(&studio, Input::PointerMoved(at(2.5)));
+    let pressed = frame(&studio, button(at(2.5), true));
     assert_eq!(pressed, [Command::Run(RunCommand::Seek(150))]);
-    let dragged = frame(&lab, Input::PointerMoved(at(4.0)));
+    let dragged = frame(&studio, Input::PointerMoved(at(4.0)));
     assert_eq!(dragged, [Command::Run(RunCommand::Seek(240))]);
     // Nothing was run beyond its end.
-    let dragged = frame(&lab, Input::PointerMoved(at(19.0)));
+    let dragged = frame(&studio, Input::PointerMoved(at(19.0)));
     assert_eq!(dragged, [Command::Run(RunCommand::Seek(600))]);
-    lab.apply(RunCommand::Seek(600));
-    assert_eq!(frame(&lab, button(at(19.0), false)), []);
+    studio.apply(RunCommand::Seek(600));
+    assert_eq!(frame(&studio, button(at(19.0), false)), []);
 }
 
 #[test]
 fn letting_go_of_the_track_does_not_undo_the_step_of_a_key() {
-    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-    (0..600).for_each(|_| lab.tick());
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    (0..600).for_each(|_| studio.tick());
     let mut window = TestWindow::new(SIZE);
-    let mut frame = |lab: &Studio, event: Input| window.panels(lab, vec![event]).0;
-    let height = SIZE.y - panels::footer::HEIGHT - panels::lanes::height(&lab) - HEIGHT + TRACK_Y;
+    let mut frame = |studio: &Studio, event: Input| window.panels(studio, vec![event]).0;
+    let height =
+        SIZE.y - panels::footer::HEIGHT - panels::lanes::height(&studio) - HEIGHT + TRACK_Y;
     let at = |x: f32| pos2(x, height);
-    frame(&lab, Input::PointerMoved(at(300.0)));
-    let mut asked = frame(&lab, button(at(300.0), true));
-    asked.extend(frame(&lab, Input::PointerMoved(at(340.0))));
+    frame(&studio, Input::PointerMoved(at(300.0)));
+    let mut asked = frame(&studio, button(at(300.0), true));
+    asked.extend(frame(&studio, Input::PointerMoved(at(340.0))));
     assert!(asked.len() >= 2, "{asked:?}");
     for command in asked {
-        lab.apply(command);
+        studio.apply(command);
     }
-    lab.apply(StageCommand::Tick(Step::Next));
-    assert_eq!(frame(&lab, button(at(340.0), false)), []);
+    studio.apply(StageCommand::Tick(Step::Next));
+    assert_eq!(frame(&studio, button(at(340.0), false)), []);
 }
 
 #[test]
 fn an_undo_is_offered_once_something_was_changed() {
-    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     let room = Rect::from_min_size(Pos2::ZERO, vec2(400.0, HEIGHT));
-    let beside = |lab: &Studio| room.right() - groove(lab, room).unwrap().along.max;
-    assert_eq!((lab.timeline().undoes(), beside(&lab)), (None, MARGIN));
-    (0..60).for_each(|_| lab.tick());
-    lab.apply(RunCommand::Act(Action::Kick(1.0)));
-    lab.apply(StageCommand::Restart);
-    assert_eq!(lab.timeline().undoes(), Some("the restart"));
-    assert_eq!(beside(&lab), UNDO + MARGIN);
-    (0..60).for_each(|_| lab.tick());
-    lab.apply(RunCommand::Seek(30));
-    lab.apply(RunCommand::Act(Action::Kick(1.0)));
-    assert_eq!(lab.timeline().undoes(), Some("the kick at tick 30"));
+    let beside = |studio: &Studio| room.right() - groove(studio, room).unwrap().along.max;
+    assert_eq!((studio.timeline().undoes(), beside(&studio)), (None, MARGIN));
+    (0..60).for_each(|_| studio.tick());
+    studio.apply(RunCommand::Act(Action::Kick(1.0)));
+    studio.apply(StageCommand::Restart);
+    assert_eq!(studio.timeline().undoes(), Some("the restart"));
+    assert_eq!(beside(&studio), UNDO + MARGIN);
+    (0..60).for_each(|_| studio.tick());
+    studio.apply(RunCommand::Seek(30));
+    studio.apply(RunCommand::Act(Action::Kick(1.0)));
+    assert_eq!(studio.timeline().undoes(), Some("the kick at tick 30"));
 }
 
 #[test]

@@ -4,32 +4,32 @@ use crate::view::panels::palette_of;
 
 const STYLE: TrackStyle = TrackStyle { dots: Dots::None, is_over_time: true };
 
-fn colour_of(lab: &Studio, entry: usize) -> egui::Color32 {
-    palette_of(lab.display().theme).style(lab.entries(), &lab.entries()[entry]).0
+fn colour_of(studio: &Studio, entry: usize) -> egui::Color32 {
+    palette_of(studio.display().theme).style(studio.entries(), &studio.entries()[entry]).0
 }
 
-fn drawn(lab: &Studio, low: f64, high: f64) -> Drawing {
+fn drawn(studio: &Studio, low: f64, high: f64) -> Drawing {
     let bounds = [[0.0, 20.0], [low, high]];
-    drawing(&SeriesStyles::of(lab), &Track::of(lab, 0, |s| [s.t, s.q]), &bounds, STYLE)
+    drawing(&SeriesStyles::of(studio), &Track::of(studio, 0, |s| [s.t, s.q]), &bounds, STYLE)
 }
 
-fn tick(lab: &mut Studio, ticks: u32) {
-    (0..ticks).for_each(|_| lab.tick());
+fn tick(studio: &mut Studio, ticks: u32) {
+    (0..ticks).for_each(|_| studio.tick());
 }
 
 #[test]
 fn the_past_keeps_the_colour_of_the_method_that_flew_it_and_a_switch_has_a_mark() {
-    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     let flown = [(3, 60), (1, 90), (4, 30)];
     for (entry, ticks) in flown {
-        lab.apply(StageCommand::Pick(entry));
-        tick(&mut lab, ticks);
+        studio.apply(StageCommand::Pick(entry));
+        tick(&mut studio, ticks);
     }
-    let Drawing { curves, arrows, switches, .. } = drawn(&lab, -2.0, 2.0);
+    let Drawing { curves, arrows, switches, .. } = drawn(&studio, -2.0, 2.0);
     let colours: Vec<_> = curves.iter().map(|curve| curve.style.colour).collect();
-    assert_eq!(colours, flown.map(|(entry, _)| colour_of(&lab, entry)));
+    assert_eq!(colours, flown.map(|(entry, _)| colour_of(&studio, entry)));
     let dashes = flown.map(|(entry, _)| {
-        palette_of(lab.display().theme).style(lab.entries(), &lab.entries()[entry]).1
+        palette_of(studio.display().theme).style(studio.entries(), &studio.entries()[entry]).1
     });
     assert!(curves.iter().map(|curve| curve.style.dash).eq(dashes));
     for (before, after) in curves.iter().zip(&curves[1..]) {
@@ -37,32 +37,33 @@ fn the_past_keeps_the_colour_of_the_method_that_flew_it_and_a_switch_has_a_mark(
     }
     assert!(arrows.is_empty());
     let marks: Vec<_> = switches.iter().map(|switch| (switch.at[0], switch.colour)).collect();
-    assert_eq!(marks, [(1.0, colour_of(&lab, 1)), (2.5, colour_of(&lab, 4))]);
+    assert_eq!(marks, [(1.0, colour_of(&studio, 1)), (2.5, colour_of(&studio, 4))]);
 }
 
 #[test]
 fn a_switch_after_a_halt_is_marked_where_the_other_method_took_over() {
-    let mut lab = Studio::new(Scene::built_in("stiff").unwrap());
-    lab.apply(StageCommand::Pick(0));
-    while lab.race().entrants()[0].lane.halted().is_none() {
-        lab.tick();
-        assert!(lab.race().tick() < 1000);
+    let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
+    studio.apply(StageCommand::Pick(0));
+    while studio.race().entrants()[0].lane.halted().is_none() {
+        studio.tick();
+        assert!(studio.race().tick() < 1000);
     }
-    tick(&mut lab, 30);
-    let taken_over = lab.race().t();
-    lab.apply(StageCommand::Pick(3));
-    tick(&mut lab, 30);
-    let marks: Vec<_> = drawn(&lab, -2.0, 2.0).switches.iter().map(|switch| switch.at[0]).collect();
+    tick(&mut studio, 30);
+    let taken_over = studio.race().t();
+    studio.apply(StageCommand::Pick(3));
+    tick(&mut studio, 30);
+    let marks: Vec<_> =
+        drawn(&studio, -2.0, 2.0).switches.iter().map(|switch| switch.at[0]).collect();
     assert_eq!(marks, [taken_over]);
 }
 
 #[test]
 fn a_lane_that_grows_out_of_the_plot_ends_there_with_an_arrow() {
-    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-    lab.apply(StageCommand::Pick(0));
-    lab.apply(StageCommand::Restart);
-    tick(&mut lab, 900);
-    let Drawing { curves, arrows, .. } = drawn(&lab, -1.5, 1.5);
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    studio.apply(StageCommand::Pick(0));
+    studio.apply(StageCommand::Restart);
+    tick(&mut studio, 900);
+    let Drawing { curves, arrows, .. } = drawn(&studio, -1.5, 1.5);
     assert_eq!((curves.len(), arrows.len()), (1, 1));
     let points = &curves[0].points;
     let (last, inside) = points.split_last().unwrap();
@@ -86,26 +87,26 @@ fn a_lane_that_comes_back_to_stay_is_drawn_again() {
 
 #[test]
 fn no_stroke_leads_to_where_a_body_was_put() {
-    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-    tick(&mut lab, 60);
-    lab.apply(RunCommand::Act(Action::Place { body: 0, q: [0.5].into(), v: [0.0].into() }));
-    tick(&mut lab, 60);
-    let Drawing { curves, arrows, switches, .. } = drawn(&lab, -2.0, 2.0);
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    tick(&mut studio, 60);
+    studio.apply(RunCommand::Act(Action::Place { body: 0, q: [0.5].into(), v: [0.0].into() }));
+    tick(&mut studio, 60);
+    let Drawing { curves, arrows, switches, .. } = drawn(&studio, -2.0, 2.0);
     assert_eq!((curves.len(), arrows.len(), switches.len()), (2, 0, 0));
     assert_eq!(curves[0].points.last().map(|at| at[0]), Some(1.0));
     assert_eq!(curves[1].points[0], [1.0, 0.5]);
-    let since = Track::of(&lab, 0, |s| [s.t, s.q])[0].since(1.0);
+    let since = Track::of(&studio, 0, |s| [s.t, s.q])[0].since(1.0);
     assert_eq!(since.points[0].at, [1.0, 0.5], "where it was before is not of it");
 }
 
 #[test]
 fn a_method_that_flies_outside_all_along_has_an_arrow_of_its_own() {
-    let mut lab = Studio::new(Scene::built_in("spring").unwrap());
-    lab.apply(StageCommand::Pick(0));
-    tick(&mut lab, 600);
-    lab.apply(StageCommand::Pick(1));
-    tick(&mut lab, 100);
-    let Drawing { arrows, .. } = drawn(&lab, -1.5, 1.5);
-    assert!(arrows.iter().any(|arrow| arrow.colour == colour_of(&lab, 0)));
-    assert!(arrows.iter().any(|arrow| arrow.colour == colour_of(&lab, 1)));
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    studio.apply(StageCommand::Pick(0));
+    tick(&mut studio, 600);
+    studio.apply(StageCommand::Pick(1));
+    tick(&mut studio, 100);
+    let Drawing { arrows, .. } = drawn(&studio, -1.5, 1.5);
+    assert!(arrows.iter().any(|arrow| arrow.colour == colour_of(&studio, 0)));
+    assert!(arrows.iter().any(|arrow| arrow.colour == colour_of(&studio, 1)));
 }
