@@ -4,6 +4,7 @@
 //! alpha. Everything in a [`Picture`] is finite and within [`FAR`] of the stage, whatever the lanes do.
 
 mod body;
+mod breakpoints;
 mod captions;
 mod chart;
 mod coil;

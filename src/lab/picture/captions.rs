@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::breakpoints;
 use super::moment::DrawContext;
 use super::sketch::{Camera, SOLID, fill, line, path, ring, rounded};
 use super::{Align, Label, Picture, Rect, Rgba};
@@ -11,16 +12,8 @@ use crate::lab::{Halt, LaneBody, Severity, Studio};
 use crate::sim::bodies::Coordinate;
 use crate::sim::number::{round, significant};
 
-/// The least height of a cell, in points, that marks along its bottom do not crowd.
-const ROOM_FOR_BAR: f32 = 64.0;
 /// Room that a scale bar may take at the right of a cell, in points.
 const BAR_MARGIN: f32 = 130.0;
-/// The least width of a cell, in points, that distance marks do not crowd.
-const ROOM_FOR_MARKS: f32 = 330.0;
-/// The least size of a cell, in points, that its caption does not crowd.
-const ROOM_FOR_CAPTION: [f32; 2] = [70.0, 30.0];
-/// The least height of a cell, in points, that a chip does not crowd.
-const ROOM_FOR_CHIP: f32 = 90.0;
 /// The height of a chip, in points.
 const CHIP: f32 = 27.0;
 /// At least the mean width of a letter of a body's name, of a verdict, and of other words at a cell's head, in points.
@@ -29,15 +22,12 @@ const VERDICT_LETTER: f32 = 7.6;
 const LETTER: f32 = 6.7;
 /// The column of lane names at the left of a race, in points: at least so wide where names fit, and where only numbers do.
 const LANES: (f32, f32) = (124.0, 18.0);
-/// From this width of the stage on, in points, lane names fit, and the part of it that they may take.
-const ROOM_FOR_LANES: f32 = 520.0;
+/// The part of the stage that they may take.
 const MAX_FOR_LANES: f32 = 0.28;
 /// How far the name of a lane keeps from the left edge of its column, in points.
 const LANE_INSET: f32 = 8.0;
-/// Room for a word at the ghost, in points.
-const ROOM_FOR_EXACT: f32 = 52.0;
-/// From this width of a cell on, in points, numbers fit beside its caption.
-const ROOM_FOR_NUMBERS: f32 = 330.0;
+/// The width of the word at the ghost, in points.
+const EXACT: f32 = 52.0;
 /// How far captions keep from the left edge of a wide cell, in points.
 const WIDE_INSET: f32 = 62.0;
 
@@ -63,7 +53,7 @@ pub(super) fn lanes_width(studio: &Studio, entrants: &[&Entrant], stage: f32) ->
     let width =
         |lane: &&Entrant| LANE_INSET + LETTER * lane_name(studio, lane).chars().count() as f32;
     let widest = entrants.iter().map(width).fold(LANES.0, f32::max);
-    if stage >= ROOM_FOR_LANES { widest.min(MAX_FOR_LANES * stage) } else { LANES.1 }
+    if stage >= breakpoints::LANE_NAMES { widest.min(MAX_FOR_LANES * stage) } else { LANES.1 }
 }
 
 /// Names a lane at the left of its row, with a bar where it is selected.
@@ -86,7 +76,7 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, 
         picture.labels.push(text(moment.palette, at, Align::Left, size, colour, words));
     };
     let mut name = lane_name(studio, entrant);
-    if right - left < ROOM_FOR_CAPTION[0] {
+    if right - left < breakpoints::CAPTION[0] {
         write(middle, colour, format!("{}", entry + 1));
         return;
     }
@@ -129,7 +119,7 @@ pub(super) fn halts<'h>(
     palette: &Palette,
 ) {
     let width = rect.max[0] - rect.min[0];
-    if width < ROOM_FOR_CAPTION[0] {
+    if width < breakpoints::CAPTION[0] {
         return;
     }
     let of_bodies = bodies.map(|(lane, halt)| match lane {
@@ -151,7 +141,7 @@ pub(super) fn halts<'h>(
 
 /// How far captions keep from the left edge of a wide cell: there the quay may be.
 fn inset(rect: Rect) -> f32 {
-    let is_wide = rect.max[0] - rect.min[0] > ROOM_FOR_NUMBERS;
+    let is_wide = rect.max[0] - rect.min[0] > breakpoints::NUMBERS;
     if is_wide { (WIDE_INSET - rect.min[0]).max(6.0) } else { 0.0 }
 }
 
@@ -193,7 +183,7 @@ pub(super) fn head(
     let (coordinate, _) = moment.studio.past().coordinate(moment.studio.race(), index);
     let right = left + LETTER * widest_state(&coordinate) as f32 + 14.0;
     let chip =
-        Chip::of(moment, index, entrant).filter(|_| rect.max[1] - rect.min[1] >= ROOM_FOR_CHIP);
+        Chip::of(moment, index, entrant).filter(|_| rect.max[1] - rect.min[1] >= breakpoints::CHIP);
     let room_for = |from: f32| rect.max[0] - 10.0 - from;
     let beside_both = chip.as_ref().and_then(|chip| chip.within(room_for(right)));
     let alone = chip.as_ref().and_then(|chip| chip.within(room_for(left)));
@@ -233,7 +223,7 @@ fn state(
     let palette = moment.palette;
     if let Some(halt) = body.halted() {
         picture.labels.push(text(palette, at, Align::Left, 12.5, palette.bad, halt.fate()));
-    } else if rect.max[0] - rect.min[0] > ROOM_FOR_NUMBERS {
+    } else if rect.max[0] - rect.min[0] > breakpoints::NUMBERS {
         let held = moment.studio.viewer().held().filter(|held| held.body == index);
         let (q, v) = match held {
             Some(held) => (held.q.to_vec(), held.v.to_vec()),
@@ -254,7 +244,7 @@ fn state(
 }
 
 fn caption_place(rect: Rect) -> Option<[f32; 2]> {
-    let fits = (0..2).all(|axis| rect.max[axis] - rect.min[axis] >= ROOM_FOR_CAPTION[axis]);
+    let fits = (0..2).all(|axis| rect.max[axis] - rect.min[axis] >= breakpoints::CAPTION[axis]);
     fits.then_some([rect.min[0] + 9.0 + inset(rect), rect.min[1] + 13.0])
 }
 
@@ -363,16 +353,15 @@ pub(super) fn exact(
 ) {
     let Rect { min, max } = camera.rect;
     let [x, y] = camera.points(ghost);
-    if max[1] - min[1] < ROOM_FOR_CHIP || !camera.rect.contains([x, y]) {
+    if max[1] - min[1] < breakpoints::CHIP || !camera.rect.contains([x, y]) {
         return;
     }
-    let is_left = x + beside + ROOM_FOR_EXACT > max[0];
+    let is_left = x + beside + EXACT > max[0];
     let (way, align) = if is_left { (-1.0, Align::Right) } else { (1.0, Align::Left) };
     let [below, above] = [(y + beside + 6.0).min(max[1] - 8.0), y - beside - 6.0];
     let left = x + way * (beside + 8.0);
-    let is_taken = |label: &Label| {
-        (label.at[1] - below).abs() < CHIP && (label.at[0] - left).abs() < ROOM_FOR_EXACT
-    };
+    let is_taken =
+        |label: &Label| (label.at[1] - below).abs() < CHIP && (label.at[0] - left).abs() < EXACT;
     let is_above = picture.labels.iter().any(is_taken);
     if is_above && above <= min[1] + CHIP {
         return;
@@ -390,7 +379,7 @@ pub(super) fn course(picture: &mut Picture, camera: &Camera, palette: &Palette) 
     let y = camera.points(DVec2::new(0.0, camera.centre_m.y))[1];
     let chart = faded(palette.chart, 0.45);
     picture.shapes.push(path([[min[0], y], [max[0], y]], 1.0, chart, [8.0, 5.0], camera.rect));
-    if max[0] - min[0] < ROOM_FOR_MARKS || max[1] - min[1] < ROOM_FOR_BAR {
+    if max[0] - min[0] < breakpoints::MARKS || max[1] - min[1] < breakpoints::SCALE_BAR {
         return;
     }
     let step_m = camera.round_length_m(96.0);
@@ -418,7 +407,7 @@ pub(super) fn course(picture: &mut Picture, camera: &Camera, palette: &Palette) 
 /// How long a round number of metres is.
 pub(super) fn scale_bar(picture: &mut Picture, camera: &Camera, palette: &Palette) {
     let Rect { min, max } = camera.rect;
-    if max[0] - min[0] < BAR_MARGIN || max[1] - min[1] < ROOM_FOR_BAR {
+    if max[0] - min[0] < BAR_MARGIN || max[1] - min[1] < breakpoints::SCALE_BAR {
         return;
     }
     let length_m = camera.round_length_m(40.0);

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::body::OutlineView;
+use super::breakpoints;
 use super::flags::{Flag, Lost, badges, flags, row_width};
 use super::framed::{BodyView, on_one_stage, quay_width};
 use super::ghost::Ghost;
@@ -25,8 +26,6 @@ const MAX_NUMBERED: usize = 9;
 const CAPTION: f32 = 32.0;
 /// Where badges begin at the earliest, in points below the top of a cell.
 const BADGES: f32 = 30.0;
-/// From this height of the stage on, in points, a ruler fits above it.
-const ROOM_FOR_RULER: f32 = 260.0;
 /// How much is seen of a body where it was taken from, while it is held.
 const LEFT_BEHIND: f32 = 0.35;
 /// Widths of trails in points.
@@ -77,7 +76,7 @@ fn overlay(
     let alone = (moment.studio.mode() == Mode::Solo).then_some(front);
     let views = on_one_stage(moment, ghosts.iter().map(|ghost| ghost.view).collect(), alone);
     // A ship on a straight course has its own marks.
-    let has_ruler = stage.max[1] - stage.min[1] >= ROOM_FOR_RULER
+    let has_ruler = stage.max[1] - stage.min[1] >= breakpoints::RULER
         && (!matches!(views[0].framing, Framing::Follow { .. }) || views[0].turns);
     let top = stage.min[1] + if has_ruler { chart::RULER } else { 0.0 };
     let room = Rect { min: [stage.min[0], top], ..stage };

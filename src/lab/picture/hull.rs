@@ -2,6 +2,7 @@
 
 use std::f32::consts::FRAC_PI_2;
 
+use super::breakpoints;
 use super::mass::LaneStyle;
 use super::sketch::{SOLID, disc, fill, line, path, ring, rounded, shaded};
 use super::{Rect, Rgba, Shape};
@@ -12,8 +13,6 @@ const DECK: [Rgba; 2] = [[236, 220, 184, 255], [206, 186, 146, 255]];
 const HATCH: Rgba = [138, 160, 112, 255];
 /// The beam of a ship as a part of its length.
 const BEAM: f32 = 0.26;
-/// Hulls shorter than this, in points, are drawn without a house.
-const ROOM_FOR_HOUSE: f32 = 70.0;
 
 /// Where a ship is and how it lies, in points.
 #[derive(Clone, Copy)]
@@ -87,7 +86,7 @@ pub(super) fn ship(
     let hull = berth.hull(0.0);
     shapes.push(fill(&hull, mixed(colour, BLACK, 0.08), clip));
     shapes.push(ring(&hull, (1.6 * part).max(0.8), mixed(colour, BLACK, 0.5), SOLID, clip));
-    if berth.length < ROOM_FOR_HOUSE {
+    if berth.length < breakpoints::HOUSE {
         return;
     }
     let deck = berth.hull(5.5 * part);

@@ -4,6 +4,7 @@
 use glam::DVec2;
 
 use super::body::OutlineView;
+use super::breakpoints;
 use super::mass::LaneStyle;
 use super::sketch::{Camera, SOLID, line, path};
 use super::{Align, Framing, Label, Look, Outline, Picture, Rect, Rgba, chart};
@@ -12,15 +13,6 @@ use crate::lab::palette::{Palette, faded};
 use crate::lab::{LoopLab, Severity, Studio};
 use crate::sim::number::round;
 
-/// From this height of the stage on, in points, a ruler fits above it.
-const ROOM_FOR_RULER: f32 = 260.0;
-/// From this height of a band on, in points, the path of the frames fits below the body.
-const ROOM_FOR_PATH: f32 = 90.0;
-/// From this width of the stage on, and this height of a band, in points, words fit beside bodies.
-const ROOM_FOR_WORDS: f32 = 420.0;
-const MIN_FOR_WORDS: f32 = 46.0;
-/// From this width of the stage on, in points, the method fits beside the loop's name.
-const ROOM_FOR_METHOD: f32 = 620.0;
 /// How many frames before the present one are seen.
 const FRAMES_BEFORE: usize = 14;
 /// How strong the first of them is, and the last.
@@ -28,8 +20,8 @@ const STRENGTHS: (f32, f32) = (0.5, 0.06);
 /// The side of a block, as a part of the band's height, at most in points.
 const BLOCK: f32 = 0.27;
 const MAX_BLOCK_POINTS: f32 = 44.0;
-/// The room that the words on a frame's latency take, in points.
-const ROOM_FOR_LATENESS: f32 = 112.0;
+/// The width of the words on a frame's latency, in points.
+const LATENESS: f32 = 112.0;
 /// The foot of a band, in which its loop is named, in points.
 const FOOT: f32 = 30.0;
 /// The height of a line where several loops are named below each other, in points.
@@ -45,7 +37,7 @@ pub(super) fn compose(studio: &Studio, loops: &LoopLab, size: [f32; 2]) -> Pictu
     let mut picture = Picture::default();
     let stage = Rect { min: [0.0; 2], max: size };
     chart::sea(&mut picture, stage, palette);
-    let has_ruler = size[1] >= ROOM_FOR_RULER;
+    let has_ruler = size[1] >= breakpoints::RULER;
     let top = if has_ruler { chart::RULER } else { 0.0 };
     let ground = Rect { min: [0.0, top], max: size };
     let ruled = match loops.is_overlaid() {
@@ -238,7 +230,7 @@ impl<'a> Band<'a> {
     }
 
     fn has_path(&self) -> bool {
-        self.is_recorded() && self.size()[1] >= ROOM_FOR_PATH
+        self.is_recorded() && self.size()[1] >= breakpoints::PATH
     }
 
     /// Draws the band. Returns its camera, if that stays where it is.
@@ -327,7 +319,7 @@ impl<'a> Band<'a> {
         let name = self.label([left, y], Align::Left, 14.5, name.into());
         picture.labels.push(Label { is_strong: true, ..name });
         let [width, height] = self.size();
-        if width < ROOM_FOR_WORDS || height < MIN_FOR_WORDS {
+        if width < breakpoints::WORDS_BESIDE_BODIES || height < breakpoints::LINE_OF_WORDS {
             return;
         }
         let verdict = self.lane.verdict(self.loops.scene().tick_hz);
@@ -347,7 +339,7 @@ impl<'a> Band<'a> {
             let [top, bottom] = [self.rect.min[1] + 4.0, self.rect.max[1] - 4.0];
             picture.shapes.push(line([2.5, top], [2.5, bottom], 3.0, self.colour, self.rect));
         }
-        let name = match self.size()[0] >= ROOM_FOR_METHOD {
+        let name = match self.size()[0] >= breakpoints::METHOD_BESIDE_LOOP {
             true => format!("{} · {}", self.lane.card().name, self.loops.method().name),
             false => self.lane.card().name.to_owned(),
         };
@@ -359,13 +351,14 @@ impl<'a> Band<'a> {
         self.title(picture);
         let [drawn, exact] = at.map(|at| camera.points(at));
         let above = drawn[1] - 0.5 * camera.block - 9.0;
-        let has_room = width >= ROOM_FOR_WORDS && height >= MIN_FOR_WORDS;
+        let has_room =
+            width >= breakpoints::WORDS_BESIDE_BODIES && height >= breakpoints::LINE_OF_WORDS;
         if has_room && above > self.rect.min[1] + 6.0 {
             let (accent, rect) = (self.palette.accent, self.rect);
             let ends = [drawn[0], exact[0]].map(|x| [x, above]);
             picture.shapes.push(line(ends[0], ends[1], 1.2, accent, rect));
             let right = drawn[0].max(exact[0]) + 8.0;
-            let (x, align) = match right + ROOM_FOR_LATENESS <= width {
+            let (x, align) = match right + LATENESS <= width {
                 true => (right.max(60.0), Align::Left),
                 false => (drawn[0].min(exact[0]).min(width) - 8.0, Align::Right),
             };

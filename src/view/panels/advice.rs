@@ -3,6 +3,7 @@
 
 use egui::{Align, Color32, FontId, Label, Layout, Rect, Response, RichText, Ui, UiBuilder, vec2};
 
+use super::breakpoints;
 use super::table::{Column, GAP, MARGIN, SortKey, Table, TableRow, show_words};
 use super::{palette, strong_font, tone};
 use crate::lab::number::significant;
@@ -25,8 +26,6 @@ const APART: f32 = 6.0;
 const MIN_NAME: f32 = 120.0;
 /// The width of a criterion's name before its answer, in points.
 const CRITERION: f32 = 76.0;
-/// From this width of an answer on, in points, the whole name of its button fits.
-const ROOM_FOR_COPY_CODE: f32 = 240.0;
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.y = 2.0;
@@ -150,7 +149,7 @@ fn copy_button(ui: &mut Ui, studio: &Studio, spec: LaneSpec, commands: &mut Vec<
     };
     let language = studio.viewer().language();
     let about = format!("copy {} as {language}; other languages: right click", spec.method.name);
-    let word = if ui.available_width() < ROOM_FOR_COPY_CODE { "Copy" } else { "Copy code" };
+    let word = if ui.available_width() < breakpoints::COPY_CODE { "Copy" } else { "Copy code" };
     let response = ui.button(RichText::new(word).size(SMALL)).on_hover_text(&about);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &about));
     if response.clicked() {

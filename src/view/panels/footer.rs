@@ -2,6 +2,7 @@
 
 use egui::{Align, Layout, RichText, Sense, Ui, vec2};
 
+use super::breakpoints;
 use super::{keycap, loops, palette, short};
 use crate::lab::number::round;
 use crate::lab::{Command, LoopCommand, Mode, RunCommand, StageCommand, Step, Studio, ViewCommand};
@@ -9,8 +10,6 @@ use crate::view::theme::TYPE;
 
 pub(super) const HEIGHT: f32 = 32.0;
 
-/// From this width on, in points, there are keys beside the hint.
-const ROOM_FOR_KEYS: f32 = 560.0;
 /// The size of the count of dropped ticks, in points.
 const DROPPED: f32 = 11.0;
 /// The room between two hints, in points.
@@ -34,7 +33,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
             let response = ui.label(text.color(palette(ui).bad)).on_hover_text(&about);
             response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &about));
         }
-        if width >= ROOM_FOR_KEYS {
+        if width >= breakpoints::KEYS_BESIDE_HINT {
             // From the right: the first are the last to go.
             for hint in key_hints(studio) {
                 if ui.available_width() - width_of(ui, &hint) < room_for_hint {

@@ -2,14 +2,13 @@
 
 use egui::{Align, Button, Layout, RichText, ScrollArea, Ui, vec2};
 
+use super::breakpoints;
 use super::{keycap, palette};
 use crate::lab::guide::{STOPS, Tour};
 use crate::lab::{Command, Step, ViewCommand};
 use crate::view::theme::strong_font;
 
 pub(super) const HEIGHT: f32 = 172.0;
-/// From this width on, in points, the buttons name their keys, and the title stands beside them.
-const ROOM_FOR_KEYS: f32 = 600.0;
 
 pub(super) fn show(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing = vec2(6.0, 5.0);
@@ -34,7 +33,7 @@ pub(super) fn show(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
 fn head(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
     let place = tour.place();
     let count = STOPS.len();
-    let is_wide = ui.available_width() >= ROOM_FOR_KEYS;
+    let is_wide = ui.available_width() >= breakpoints::KEYS_OF_GUIDE;
     let title = RichText::new(format!("{}. {}", place + 1, tour.stop().title));
     let title = title.font(strong_font(15.0));
     let show_title = |ui: &mut Ui| ui.add(egui::Label::new(title.clone()).truncate());

@@ -3,12 +3,11 @@
 use egui::scroll_area::ScrollBarVisibility;
 use egui::{Align2, FontId, Order, RichText, ScrollArea, Ui, Vec2, Window, pos2, vec2};
 
+use super::breakpoints;
 use super::{keycap, palette, short};
 use crate::lab::{Command, GESTURES, KEYS, ViewCommand};
 use crate::view::theme::TYPE;
 
-/// From this width on, in points, the keys stand in two columns.
-const ROOM_FOR_TWO: f32 = 860.0;
 /// The width of a column, and of the keys in it.
 const COLUMN: f32 = 560.0;
 const KEY: f32 = 128.0;
@@ -17,7 +16,7 @@ const AROUND: Vec2 = vec2(48.0, 110.0);
 
 pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
     let screen = ui.ctx().content_rect().size();
-    let columns = if screen.x >= ROOM_FOR_TWO { 2 } else { 1 };
+    let columns = if screen.x >= breakpoints::HELP_IN_TWO_COLUMNS { 2 } else { 1 };
     let width = (COLUMN * columns as f32).min(screen.x - AROUND.x).max(0.0);
     let window =
         Window::new("Keys and mouse").order(Order::Foreground).collapsible(false).resizable(false);

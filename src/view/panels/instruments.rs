@@ -5,6 +5,7 @@
 
 use egui::{Button, Color32, ComboBox, Label, Rect, Response, RichText, Sense, Stroke, Ui, vec2};
 
+use super::breakpoints;
 use super::series_styles::{SeriesStyle, SeriesStyles};
 use super::tracks::Detail;
 use super::{advice, cost, focus_ring, loops, one_step, palette, stability_map};
@@ -37,8 +38,6 @@ const ROW_NAME: f32 = 52.0;
 /// The room between two tabs, and beside the words of a tab where the panel is narrow, in points.
 const BETWEEN_TABS: f32 = 2.0;
 const TIGHT: f32 = 2.5;
-/// Below this height, in points, there is no legend.
-const ROOM_FOR_LEGEND: f32 = 170.0;
 /// With more lines than this there is no legend either: the table below has the names, and the plots need the room.
 const MAX_IN_LEGEND: usize = 12;
 /// The most lines of a legend beside the title.
@@ -189,7 +188,7 @@ fn tab(ui: &mut Ui, card: &InstrumentCard, is_chosen: bool, is_open: bool) -> bo
 /// An instrument of plots, below its title, its choices and its legend.
 fn plots(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut Vec<Command>) {
     let entries = legend_entries(set);
-    let has_legend = ui.available_height() >= ROOM_FOR_LEGEND && entries.len() <= MAX_IN_LEGEND;
+    let has_legend = ui.available_height() >= breakpoints::LEGEND && entries.len() <= MAX_IN_LEGEND;
     let may_be_beside = has_legend
         && entries.len() <= BESIDE_TITLE
         && studio.display().instrument == Instrument::Motion;

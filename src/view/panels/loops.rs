@@ -2,6 +2,7 @@
 
 use egui::{Color32, Rect, RichText, Sense, Ui, Vec2, vec2};
 
+use super::breakpoints;
 use super::{palette, strong_font};
 use crate::lab::loop_lab::LoopLane;
 use crate::lab::{Command, LoopLab, Studio};
@@ -25,10 +26,7 @@ pub(super) use export::csv;
 
 /// What the charts of the loop lab show.
 const TITLE: &str = "Moment shown against moment of display";
-/// From this width on, in points, the title is whole.
-const ROOM_FOR_TITLE: f32 = 340.0;
-/// From this height on, in points, there are two small plots below, and the part of the height that they take.
-const ROOM_FOR_TWO: f32 = 230.0;
+/// The part of the height that the two small plots take.
 const TWO: f32 = 0.4;
 /// Between the two, and between them and the moments, in points.
 const GAP: f32 = 10.0;
@@ -46,7 +44,7 @@ fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command
     let top = ui.cursor().top();
     let lanes = on_stage(loops, palette(ui));
     ui.horizontal(|ui| {
-        let title = match room.x >= ROOM_FOR_TITLE {
+        let title = match room.x >= breakpoints::TITLE_OF_LOOP_LAB {
             true => TITLE,
             false => "Moments shown",
         };
@@ -93,7 +91,7 @@ pub(super) fn layout(
 
 /// The room of the moments, and with enough room two more below.
 fn parts(room: Rect) -> (Rect, Option<[Rect; 2]>) {
-    if room.height() < ROOM_FOR_TWO {
+    if room.height() < breakpoints::TWO_PLOTS_BELOW {
         return (room.with_max_y(room.bottom() - ABOVE_TWO), None);
     }
     let (upper, below) = room.split_top_bottom_at_fraction(1.0 - TWO);

@@ -10,6 +10,7 @@ use crate::lab::{Command, Dialog, Outcome, Severity, Studio, ViewCommand};
 
 mod advice;
 mod annotations;
+mod breakpoints;
 mod cost;
 mod dialog;
 mod footer;
@@ -47,14 +48,6 @@ pub enum Panels {
     Instrument,
 }
 
-/// Below these sizes, in points, a panel gives its room to the stage.
-const WIDTH_FOR_INSTRUMENTS: f32 = 420.0;
-const HEIGHT_FOR_TOP_BAR: f32 = 120.0;
-const HEIGHT_FOR_LANES: f32 = 260.0;
-const HEIGHT_FOR_FOOTER: f32 = 200.0;
-const HEIGHT_FOR_TIMELINE: f32 = 420.0;
-const HEIGHT_FOR_TIMES: f32 = 560.0;
-
 /// The part of the width that the instruments take.
 pub(super) const INSTRUMENTS: f32 = 0.38;
 
@@ -66,12 +59,12 @@ const MIN_INSPECTOR: f32 = 130.0;
 pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     let mut commands = Vec::new();
     let size = ui.max_rect().size();
-    if size.y >= HEIGHT_FOR_TOP_BAR {
+    if size.y >= breakpoints::TOP_BAR {
         let panel =
             egui::Panel::top("top bar").exact_size(top_bar::HEIGHT).frame(frame(palette(ui).panel));
         panel.show(ui, |ui| top_bar::show(ui, studio, &mut commands));
     }
-    if size.y >= HEIGHT_FOR_FOOTER {
+    if size.y >= breakpoints::FOOTER {
         let panel = egui::Panel::bottom("footer")
             .exact_size(footer::HEIGHT)
             .frame(frame(palette(ui).panel));
@@ -79,7 +72,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     }
     let mut pointed = None;
     // An instrument that is enlarged has the table's room too.
-    if size.y >= HEIGHT_FOR_LANES && !studio.display().enlarged {
+    if size.y >= breakpoints::LANES && !studio.display().enlarged {
         let height = studio.loop_lab().map_or_else(|| lanes::height(studio), loops::table::height);
         let height = height.min(size.y * 0.4);
         // Without a margin: a row reaches from edge to edge.
@@ -93,8 +86,8 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     if pointed != studio.viewer().pointed_lane() {
         commands.push(Command::View(ViewCommand::PointAt(pointed)));
     }
-    if size.y >= HEIGHT_FOR_TIMELINE {
-        let height = match size.y >= HEIGHT_FOR_TIMES {
+    if size.y >= breakpoints::TIMELINE {
+        let height = match size.y >= breakpoints::TIMES_OF_TIMELINE {
             true => timeline::HEIGHT,
             false => timeline::HEIGHT_OF_TRACK,
         };
@@ -105,7 +98,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
             None => timeline::show(ui, studio, &mut commands),
         });
     }
-    if size.x >= WIDTH_FOR_INSTRUMENTS {
+    if size.x >= breakpoints::INSTRUMENTS {
         let beside = size.x * INSTRUMENTS;
         let (width, indent) = match studio.display().enlarged {
             // The tabs stay where they are, under the pointer.

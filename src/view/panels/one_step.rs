@@ -8,6 +8,7 @@ use egui::{
 };
 
 use super::annotations::{arrow, label};
+use super::breakpoints;
 use super::{colour, formula, palette, strong_font};
 use crate::lab::number::{round, significant};
 use crate::lab::{Coordinate, OneStep, Slope, Studio, Unit};
@@ -25,8 +26,6 @@ const ROOM_BESIDE: f32 = 700.0;
 const TABLE: f32 = 380.0;
 /// The least part of the height that the plot takes above the table.
 const PLOT: f32 = 0.42;
-/// Below this width, in points, the table has three figures of a number, and less room between its columns.
-const ROOM_FOR_FIGURES: f32 = 330.0;
 /// The height of a row of the table and of a line of the formula, in points.
 const ROW: f32 = 20.0;
 const FORMULA: f32 = 20.0;
@@ -287,7 +286,8 @@ fn table(ui: &mut Ui, studio: &Studio, step: &OneStep) {
     let coordinate = &shown_coordinate(studio);
     let (q, v) = (&coordinate.name, &coordinate.velocity);
     ui.spacing_mut().item_spacing.y = 1.0;
-    let (figures, gap) = if ui.available_width() < ROOM_FOR_FIGURES { (3, 5.0) } else { (4, 14.0) };
+    let (figures, gap) =
+        if ui.available_width() < breakpoints::FOUR_FIGURES { (3, 5.0) } else { (4, 14.0) };
     ScrollArea::vertical().id_salt("one step").auto_shrink(false).show(ui, |ui| {
         for line in step.spec.method.formula {
             ui.label(formula::job(line, 16.0, palette(ui).text));

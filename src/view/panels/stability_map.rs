@@ -9,6 +9,7 @@ use egui::{
 };
 
 use super::annotations::{label, mixed, polygon};
+use super::breakpoints;
 use super::{colour, palette, strong_font};
 use crate::lab::number::round;
 use crate::lab::{
@@ -25,10 +26,6 @@ const LEFT: f32 = 58.0;
 /// Room for the numbers below, and for an axis's name, in points.
 const BELOW: f32 = 18.0;
 const NAME: f32 = 19.0;
-/// From this height on, in points, there is room for all words.
-const ROOM_FOR_WORDS: f32 = 260.0;
-/// From this height of the plot on, in points, there is room for all lines of equal damping, and not only for powers of ten.
-const ROOM_FOR_LINES: f32 = 130.0;
 /// How opaque the water is where every method is stable.
 const DEEPEST: f32 = 0.7;
 /// What the cross is known by.
@@ -66,7 +63,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
         return;
     }
     let left = top + room.y - ui.cursor().top();
-    let (words, height) = match room.y >= ROOM_FOR_WORDS {
+    let (words, height) = match room.y >= breakpoints::WORDS_OF_MAP {
         true => sentence(ui, studio, map, room.x),
         false => short_sentence(ui, studio, map, room.x),
     };
@@ -234,7 +231,7 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
 fn seen_lines(studio: &Studio, map: &StabilityMap, area: &PlotArea) -> Vec<(f64, Vec<Pos2>)> {
     let found = map.regions.iter().zip(&map.request.specs);
     let selected = found.filter(|(_, (entry, _))| *entry == studio.active());
-    let has_room = area.rect.height() >= ROOM_FOR_LINES;
+    let has_room = area.rect.height() >= breakpoints::ALL_LINES_OF_MAP;
     let is_decade = |ratio: f64| libm::log10(ratio).fract().abs() < 1e-9;
     let lines = selected.flat_map(|(region, _)| &region.seen);
     let lines = lines.filter(|line| has_room || is_decade(line.damping_ratio));

@@ -10,6 +10,7 @@ use egui::{
 
 use self::marks::{Context, Group, Sign, grouped};
 pub(super) use self::span::Span;
+use super::breakpoints;
 use super::{PanelPalette, palette};
 use crate::lab::{Command, Event, Mode, RunCommand, StageCommand, Step, Studio, TimeScale};
 use crate::view::chart::AxisScale;
@@ -28,8 +29,6 @@ pub(super) const TRACK_Y: f32 = 16.0;
 const TRACK_Y_ALONE: f32 = 12.0;
 /// Its least length, in points.
 const MIN_LENGTH: f32 = 40.0;
-/// From this width on, in points, there is room for a name at the left and for the memory at the right.
-const ROOM_FOR_WORDS: f32 = 700.0;
 pub(super) const NAME: f32 = 72.0;
 pub(super) const MEMORY: f32 = 104.0;
 /// What the ends of the track keep free for half a number, and for the *undo* button where nothing else is there.
@@ -102,7 +101,7 @@ pub(super) struct Groove {
 impl Groove {
     /// With so much room at the right, in points, where there is none for words; `None` if the track would be too short.
     pub(super) fn new(room: Rect, beside: f32) -> Option<Self> {
-        let has_words = room.width() >= ROOM_FOR_WORDS;
+        let has_words = room.width() >= breakpoints::WORDS_BESIDE_TIMELINE;
         let [left, right] = if has_words { [NAME, MEMORY] } else { [MARGIN, beside] };
         let along = Rangef::new(room.left() + left, room.right() - right - MARGIN);
         let y = room.top() + if is_tall(room) { TRACK_Y } else { TRACK_Y_ALONE };
@@ -137,7 +136,7 @@ impl Groove {
         words: &str,
         palette: &PanelPalette,
     ) {
-        if self.room.width() >= ROOM_FOR_WORDS {
+        if self.room.width() >= breakpoints::WORDS_BESIDE_TIMELINE {
             let at = pos2(end.pos_in_rect(&self.room).x, self.y);
             painter.text(at, end, words, FontId::proportional(11.5), palette.dim);
         }

@@ -4,6 +4,7 @@ use egui::{
     Align, Button, ComboBox, Frame, Label, Layout, RichText, Sense, TextWrapMode, Ui, vec2,
 };
 
+use super::breakpoints;
 use super::loops::controls;
 use super::palette;
 use crate::lab::{
@@ -14,22 +15,16 @@ use crate::view::theme::{TYPE, strong_font};
 
 pub(super) const HEIGHT: f32 = 40.0;
 
-/// Widths of the bar, in points, at which more of it fits.
-const ROOM_FOR_MENUS: f32 = 600.0;
-const ROOM_FOR_BACK: f32 = 700.0;
-const ROOM_FOR_WORDS: f32 = 960.0;
-const ROOM_FOR_PACE: f32 = 1100.0;
-
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let width = ui.available_width();
     ui.horizontal_centered(|ui| {
         scene_menu(ui, studio, commands);
-        if width >= ROOM_FOR_PACE {
+        if width >= breakpoints::PACE {
             let about = "a spring of your own: the recommended method, and its code (S)";
             button(ui, "My spring", about, Command::View(ViewCommand::AskForSpring), commands);
         }
-        transport(ui, studio, width >= ROOM_FOR_BACK, commands);
-        if width >= ROOM_FOR_MENUS {
+        transport(ui, studio, width >= breakpoints::TICK_BACK, commands);
+        if width >= breakpoints::MENUS {
             word(ui, width, "speed");
             match studio.loop_lab() {
                 Some(loops) => controls::speed_menu(ui, loops, commands),
@@ -41,10 +36,10 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         modes(ui, studio, width, commands);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             button(ui, "?", "help (H)", Command::View(ViewCommand::ToggleHelp), commands);
-            let is_wide = width >= ROOM_FOR_WORDS;
+            let is_wide = width >= breakpoints::WORDS_IN_TOP_BAR;
             let time = match studio.loop_lab() {
                 Some(loops) => {
-                    if width >= ROOM_FOR_PACE {
+                    if width >= breakpoints::PACE {
                         controls::display(ui, loops);
                     }
                     if controls::has_trace_menu_above(ui) {
@@ -54,10 +49,10 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
                     controls::moment(loops, is_wide)
                 }
                 None => {
-                    if width >= ROOM_FOR_MENUS {
+                    if width >= breakpoints::MENUS {
                         inspector_button(ui, studio, commands);
                     }
-                    if width >= ROOM_FOR_PACE {
+                    if width >= breakpoints::PACE {
                         pace(ui, studio);
                         ui.separator();
                     }
@@ -74,7 +69,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
 }
 
 fn word(ui: &mut Ui, width: f32, word: &str) {
-    if width >= ROOM_FOR_WORDS {
+    if width >= breakpoints::WORDS_IN_TOP_BAR {
         ui.label(RichText::new(format!("  {word}")).color(palette(ui).dim));
     }
 }
@@ -147,7 +142,7 @@ fn modes(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) 
         false => Command::Stage(StageCommand::ToggleRace),
     };
     let is_in = |mode: Mode| !is_in_loops && studio.mode() == mode;
-    let loops = if width >= ROOM_FOR_WORDS { "Loop lab" } else { "Loops" };
+    let loops = if width >= breakpoints::WORDS_IN_TOP_BAR { "Loop lab" } else { "Loops" };
     let parts = [
         (
             "Solo",

@@ -87,7 +87,7 @@ fn what_is_no_cloud_is_said_in_one_line() {
         ("--scene spring --points 1000000000", "1000000000 points do not fit into memory"),
         (
             "--scene spring --section 70 --out a.png",
-            "more pictures than there are ticks, 60 a second",
+            "more pictures than there are ticks, 60 per second",
         ),
         ("--scene spring --section 0.01 --out a.png", "no crossing within"),
         ("--scene spring --section 0.01", "no crossing within"),

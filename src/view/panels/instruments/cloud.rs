@@ -22,6 +22,7 @@ use crate::lab::number::{grouped, significant};
 use crate::lab::palette::{Rgba, Theme};
 use crate::lab::{Command, Mode, RunCommand, StageCommand, Studio};
 use crate::view::chart::{self as charts, AxisScale, LineStyle, PlotArea, Primitive, ScreenCurve};
+use crate::view::panels::breakpoints;
 
 /// The least room for the numbers of the axes at the left, and what these need besides their width; the room for those
 /// below, and for the axes' names, in points.
@@ -33,8 +34,7 @@ const NAMES: f32 = 17.0;
 const UP_APART: f64 = 24.0;
 /// Between two clouds, in points.
 const GAP: f32 = 10.0;
-/// From this height on, in points, the areas are drawn over time, on this part of it, of at least this height.
-const ROOM_FOR_AREAS: f32 = 330.0;
+/// The part of the height that the areas over time take, and the least height that they have, in points.
 const AREAS: f32 = 0.3;
 const MIN_AREAS: f32 = 110.0;
 /// How many times wider than high a cloud is at most.
@@ -105,7 +105,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
         Some(Ok(picture)) => picture,
     };
     let left = (bottom - ui.cursor().top()).max(MIN_SIDE);
-    let for_areas = if left >= ROOM_FOR_AREAS && picture.section.is_none() {
+    let for_areas = if left >= breakpoints::AREAS_OVER_TIME && picture.section.is_none() {
         (AREAS * left).max(MIN_AREAS)
     } else {
         0.0

@@ -6,14 +6,13 @@ use egui::{Rect, pos2};
 
 use super::plot_set::{PlotModel, PlotSet};
 use crate::view::chart::{ABOVE, Mark, NAMES, NUMBERS, PlotArea};
+use crate::view::panels::breakpoints;
 
 /// The least distance between marks along and up, in points, as long as three fit.
 const MARKS_APART: [f64; 2] = [56.0, 24.0];
 /// Room at the right for values, in points, and for those that have names.
 const RIGHT: f32 = 92.0;
 const RIGHT_OF_PARTS: f32 = 156.0;
-/// The least width of a plot that has values beside it, in points.
-const ROOM_FOR_VALUES: f32 = 170.0;
 /// Between plots, in points.
 const GAP: f32 = 5.0;
 /// The least height of a plot, in points: with less there are fewer plots.
@@ -59,7 +58,7 @@ pub(super) fn cells(set: &PlotSet, room: Rect, left: f32, body: usize) -> Vec<Ce
     let spare = height - count as f32 * (ABOVE + MIN_HEIGHT) - (count - 1) as f32 * GAP;
     let has_parts = shown.iter().any(|plot| plot.tracks.iter().any(|track| !track.part.is_empty()));
     let for_values = if has_parts { RIGHT_OF_PARTS } else { RIGHT };
-    let has_values = room.width() - left - for_values >= ROOM_FOR_VALUES;
+    let has_values = room.width() - left - for_values >= breakpoints::PLOT_BESIDE_VALUES;
     let beside = if has_values { for_values } else { 10.0 };
     let mut top = room.top();
     let cell = |(i, plot): (usize, &'_ PlotModel)| {

@@ -6,10 +6,8 @@ use crate::lab::loop_lab::SLOWNESS;
 use crate::lab::number::round;
 use crate::lab::pacing::TRACES;
 use crate::lab::{Command, LoopCommand, LoopLab};
+use crate::view::panels::breakpoints;
 use crate::view::panels::palette;
-
-/// From this width of the window on, in points, the top bar has the menu of traces; else the instrument has it.
-const ROOM_FOR_TRACES: f32 = 1180.0;
 
 /// The most characters of a trace's name in the closed menu.
 const MAX_CHARS: usize = 18;
@@ -18,7 +16,7 @@ const LONG_NAME: usize = 14;
 
 /// Whether the top bar has the menu of traces.
 pub(in crate::view::panels) fn has_trace_menu_above(ui: &Ui) -> bool {
-    ui.ctx().content_rect().width() >= ROOM_FOR_TRACES
+    ui.ctx().content_rect().width() >= breakpoints::MENU_OF_TRACES
 }
 
 /// The speed of a slow motion.

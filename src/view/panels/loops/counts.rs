@@ -5,6 +5,7 @@ use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 use super::ShownLane;
 use crate::lab::number::round;
 use crate::view::chart::{self, AxisScale, PlotArea, Primitive, Text};
+use crate::view::panels::breakpoints;
 use crate::view::panels::palette;
 use crate::view::theme::PanelPalette;
 
@@ -19,8 +20,6 @@ pub(super) const NAME: f32 = 15.0;
 const ABOVE: f32 = 17.0;
 /// The part of a group's width that its bars take.
 const BARS: f32 = 0.78;
-/// From this width on, in points, every bar has its number.
-const ROOM_FOR_NUMBER: f32 = 30.0;
 /// The least height of a bar in points: that of a share of nothing.
 const MIN_HEIGHT: f32 = 1.5;
 
@@ -94,7 +93,7 @@ pub(super) fn layout(room: Rect, series: &[Series], palette: &PanelPalette) -> V
     all.extend(chart::axes(&area, [Vec::new(), marks], palette, room.right()));
     let group = rect.width() / NAMES.len() as f32;
     let width = group * BARS / series.len().max(1) as f32;
-    let has_room = width >= ROOM_FOR_NUMBER;
+    let has_room = width >= breakpoints::NUMBER_ON_BAR;
     // Without room for all numbers only that of the first, over the bar that it is of.
     let first = series.iter().position(|series| series.is_first);
     for (count, name) in NAMES.iter().enumerate() {

@@ -7,6 +7,7 @@ use super::counts::{self, LEFT, Series};
 use super::errors::round_up;
 use crate::lab::{LiveFrame, Studio, Unit};
 use crate::view::chart::{self, Arrow, AxisScale, Curve, Drawing, LineStyle, PlotArea, Primitive};
+use crate::view::panels::breakpoints;
 use crate::view::panels::{palette, strong_font};
 use crate::view::theme::{PanelPalette, colour};
 
@@ -15,8 +16,7 @@ pub(super) const TITLE: &str = "This window's own loop";
 const LENGTH_S: f64 = 10.0;
 /// The plot reaches to this many times the frame time that 99 in 100 frames keep.
 const REACH: f64 = 1.6;
-/// From this height on, in points, there is a histogram, and the part of the height that it takes.
-const ROOM_FOR_COUNTS: f32 = 210.0;
+/// The part of the height that the histogram takes.
 const COUNTS: f32 = 0.4;
 
 /// What is said of the frames, in milliseconds.
@@ -113,7 +113,7 @@ pub(super) fn layout(
 
 /// The room of the frame times, and with enough room that of a histogram.
 fn parts(room: Rect) -> (Rect, Option<Rect>) {
-    if room.height() < ROOM_FOR_COUNTS {
+    if room.height() < breakpoints::HISTOGRAM {
         return (room, None);
     }
     let (upper, below) = room.split_top_bottom_at_fraction(1.0 - COUNTS);

@@ -1,0 +1,27 @@
+//! From which width or height on, in points, there is room for what on the stage: with less it is left out, or laid out closer.
+
+// Widths of the stage.
+pub(super) const LANE_NAMES: f32 = 520.0;
+/// Words beside the bodies of the loop lab.
+pub(super) const WORDS_BESIDE_BODIES: f32 = 420.0;
+pub(super) const METHOD_BESIDE_LOOP: f32 = 620.0;
+
+// Heights of the stage.
+pub(super) const RULER: f32 = 260.0;
+
+// Widths of a cell.
+pub(super) const NUMBERS: f32 = 330.0;
+/// Distance marks along the bottom.
+pub(super) const MARKS: f32 = 330.0;
+
+// Heights of a cell, or of a band of the loop lab.
+pub(super) const CHIP: f32 = 90.0;
+/// The path of the frames below the body.
+pub(super) const PATH: f32 = 90.0;
+pub(super) const SCALE_BAR: f32 = 64.0;
+pub(super) const LINE_OF_WORDS: f32 = 46.0;
+
+/// The width and the height of a cell.
+pub(super) const CAPTION: [f32; 2] = [70.0, 30.0];
+/// The length of a hull.
+pub(super) const HOUSE: f32 = 70.0;
