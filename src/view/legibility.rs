@@ -112,9 +112,13 @@ fn moved(scene: Scene, race: bool) -> Studio {
     if race {
         studio.apply(StageCommand::ToggleRace);
     }
+    move_on(&mut studio);
+    studio
+}
+
+fn move_on(studio: &mut Studio) {
     let ticks = 4 * studio.race().tick_hz();
     (0..ticks).for_each(|_| studio.tick());
-    studio
 }
 
 #[track_caller]
@@ -131,9 +135,13 @@ fn assert_legible(studio: &Studio, what: &str) {
 #[test]
 fn every_text_of_every_scene_can_be_read_alone_and_racing() {
     SCENES.par_iter().for_each(|scene| {
-        for race in [false, true] {
-            assert_legible(&run(scene.name, race), &format!("{}, race {race}", scene.name));
-        }
+        let mut studio = run(scene.name, true);
+        assert_legible(&studio, &format!("{}, racing", scene.name));
+        // With the verdicts of the race: those of a net take seconds.
+        studio.apply(StageCommand::ToggleRace);
+        move_on(&mut studio);
+        assert!(studio.unanswered_request().is_none());
+        assert_legible(&studio, &format!("{}, alone", scene.name));
     });
 }
 
