@@ -1,5 +1,5 @@
 //! The window: drives a [`Studio`] in real time, by keys and mouse, and shows it. No other code reads a wall clock to
-//! drive a lab.
+//! drive a studio.
 //!
 //! A frame is drawn when something has changed: always while time runs, and after an event while it is paused. A
 //! hidden window draws nothing and continues to simulate.
@@ -141,7 +141,7 @@ struct App {
     held: Modifiers,
     /// When the last frame began; `None` if time did not run.
     last_frame: Option<Instant>,
-    /// When the lab was last simulated, whether time ran or not.
+    /// When the studio was last simulated, whether time ran or not.
     simulated: Instant,
     /// Whether a redraw was requested and the window system has not asked for it yet.
     redraw_owed: bool,

@@ -84,7 +84,7 @@ fn mark(studio: &Studio) -> Mark {
     (studio.race().tick(), studio.race().lane_hashes().collect())
 }
 
-/// Runs a lab from frames of these lengths in nanoseconds, and marks the first frame at which each of
+/// Runs a studio from frames of these lengths in nanoseconds, and marks the first frame at which each of
 /// ten parts of `ticks` ticks is reached.
 fn paced(mut studio: Studio, ticks: u64, mut frames: impl FnMut() -> i64) -> Vec<Mark> {
     let mut marks = Vec::new();
@@ -118,7 +118,7 @@ fn ragged(seed: u64) -> impl FnMut() -> i64 {
     }
 }
 
-/// Ticks a lab one by one to the last of `ticks`, compares it on the way with what pacings have marked, and returns
+/// Ticks a studio one by one to the last of `ticks`, compares it on the way with what pacings have marked, and returns
 /// the hashes at `ticks`.
 fn compare(
     mut studio: Studio,

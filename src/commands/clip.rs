@@ -16,7 +16,7 @@ use super::terminal::{print_status, report_left_alone};
 use crate::lab::Studio;
 use crate::view::png;
 
-/// Draws a run into `folder` and reports on standard error what it wrote. Returns the lab at its end.
+/// Draws a run into `folder` and reports on standard error what it wrote. Returns the studio at its end.
 pub(super) fn record(
     experiment: &Experiment,
     capture: CaptureSettings,

@@ -1,4 +1,4 @@
-//! The options that every run has in common, and the lab that they set up.
+//! The options that every run has in common, and the studio that they set up.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};

@@ -14,10 +14,11 @@ use super::frame_folder::FrameFolder;
 use super::output::{Destination, Output};
 use super::preferences::{self, Preferences};
 use super::schedule::{FPS, Schedule, frames_in};
-use super::terminal::{counted, print_status};
+use super::terminal::print_status;
 use super::unfinished::{self, UnfinishedRecording};
 use super::{clip, scene_file, state_log};
 use crate::atomic_file::IfExists;
+use crate::lab::number::counted;
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
 use crate::lab::{Motion, Studio};
@@ -196,7 +197,7 @@ fn ticks(studio: &Studio) -> String {
     counted(studio.timeline().end(), "tick")
 }
 
-/// Draws the first seconds into a folder, and returns the lab as it then is.
+/// Draws the first seconds into a folder, and returns the studio as it then is.
 fn without_display(
     args: &PlayArgs,
     experiment: &Experiment,

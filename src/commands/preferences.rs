@@ -122,7 +122,7 @@ impl Preferences {
     }
 }
 
-/// The open scene of a lab, as it is remembered: a name, or an absolute path.
+/// The open scene of a studio, as it is remembered: a name, or an absolute path.
 pub(super) fn scene_of(studio: &Studio) -> Option<PathBuf> {
     match studio.scene_list().open_path() {
         Some(path) => path.canonicalize().ok(),

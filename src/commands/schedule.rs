@@ -1,4 +1,4 @@
-//! The times of a recording's frames, and how a lab is advanced from one to the next. Time is computed, never
+//! The times of a recording's frames, and how a studio is advanced from one to the next. Time is computed, never
 //! read from a clock.
 
 use super::error::Error;
@@ -39,12 +39,12 @@ impl Schedule {
         (u64::from(frame) * SECOND_NS).div_ceil(u64::from(self.fps))
     }
 
-    /// The tick nearest to the last frame, for a lab that stands at the start.
+    /// The tick nearest to the last frame, for a studio that stands at the start.
     pub(super) fn ticks(self, studio: &Studio) -> u64 {
         studio.nearest_tick(f64::from(self.frames.saturating_sub(1)) / f64::from(self.fps))
     }
 
-    /// Advances a lab that stands at the frame before `frame`, or at the start, to `frame`, before the eyes of an
+    /// Advances a studio that stands at the frame before `frame`, or at the start, to `frame`, before the eyes of an
     /// observer.
     pub(super) fn advance(self, studio: &mut Studio, frame: u32, observer: &mut impl Observer) {
         let Some(before) = frame.checked_sub(1) else { return };

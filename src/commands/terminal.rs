@@ -14,12 +14,6 @@ pub fn print_status(line: &str) {
     let _ = writeln!(io::stderr(), "{line}");
 }
 
-/// A number of things, such as `1 row` and `2 rows`.
-pub(super) fn counted(number: impl TryInto<u64>, thing: &str) -> String {
-    let number = number.try_into().unwrap_or(u64::MAX);
-    format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
-}
-
 /// Tells which entries of a folder no command made.
 #[cfg(feature = "view")]
 pub(super) fn report_left_alone(folder: &Path, others: &[OsString]) {

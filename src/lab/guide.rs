@@ -74,7 +74,7 @@ pub enum Goal {
     Interpolation(Interpolation),
 }
 
-/// What a lab is doing, as far as a goal asks.
+/// What a studio is doing, as far as a goal asks.
 pub(super) struct Situation<'a> {
     pub(super) race: &'a Race,
     pub(super) method: &'static str,

@@ -3,6 +3,8 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+use super::number::counted;
+
 /// The most nodes of a net: of a grid with shear two cores make a few hundred evaluations a second, so that a few lanes of
 /// explicit methods race at the rate of a display.
 pub const MAX_NODES: usize = 100_000;
@@ -188,7 +190,7 @@ fn fault_of_count(nodes: usize) -> Option<NetFault> {
     if (2..=MAX_NODES).contains(&nodes) {
         return None;
     }
-    let what = format!("the net has {nodes} node{}", if nodes == 1 { "" } else { "s" });
+    let what = format!("the net has {}", counted(nodes, "node"));
     Some(NetFault { part: NetPart::Nodes, what, remedy: format!("give it 2 to {MAX_NODES}") })
 }
 

@@ -41,6 +41,12 @@ pub fn enlargement(distance: f64, room: f64) -> Option<f64> {
     (2.0..=MAX).contains(&times).then_some(times)
 }
 
+/// A number of things, such as `1 row` and `2 rows`.
+pub fn counted(number: impl TryInto<u64>, thing: &str) -> String {
+    let number = number.try_into().unwrap_or(u64::MAX);
+    format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
+}
+
 /// A whole number with its thousands apart, between which no line breaks.
 pub fn grouped(number: u64) -> String {
     match number {

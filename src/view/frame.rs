@@ -76,7 +76,7 @@ impl FrameRenderer {
         &self.context
     }
 
-    /// Makes the commands that draw the lab on all of `target`, which has `size_px` pixels, `scale` of
+    /// Makes the commands that draw the studio on all of `target`, which has `size_px` pixels, `scale` of
     /// them to a point. Returns what the panels were asked for too. The size fields of `input` are filled
     /// in here.
     pub fn draw(

@@ -3,7 +3,7 @@
 use super::{Figure, FrameRenderer, Gpu, GpuError, Offscreen, Panels, Readback, ReadbackError};
 use crate::lab::Studio;
 
-/// Draws a lab into memory.
+/// Draws a studio into memory.
 pub struct OffscreenRenderer {
     gpu: Gpu,
     renderer: FrameRenderer,

@@ -1,5 +1,5 @@
 //! The pointer over the stage: it takes hold of bodies, and zooms and pans what is seen of them. As panels do, it reads
-//! the lab and returns commands.
+//! the studio and returns commands.
 
 use std::collections::VecDeque;
 

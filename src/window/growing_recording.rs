@@ -13,7 +13,7 @@ use crate::lab::session::{Recorder, RunToRecord};
 /// The time between two recordings: what is lost at most.
 const EVERY: Duration = Duration::from_secs(2);
 
-/// Keeps the recording of a lab's run up to date.
+/// Keeps the recording of a studio's run up to date.
 pub(super) struct GrowingRecording {
     thread: WorkThread<Keeper>,
     asked: Option<Instant>,

@@ -1,4 +1,4 @@
-//! Saves a picture of the lab in the size of the window. It is drawn to a texture of its own, because a surface may
+//! Saves a picture of the studio in the size of the window. It is drawn to a texture of its own, because a surface may
 //! not be readable.
 
 use std::path::PathBuf;

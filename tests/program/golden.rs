@@ -31,7 +31,7 @@ fn gpu_or_skip(test: &str) -> Option<Gpu> {
         .ok()
 }
 
-/// The lab of a built-in scene, in solo or racing, after [`FRAMES`] at 60 a second.
+/// The studio of a built-in scene, in solo or racing, after [`FRAMES`] at 60 a second.
 fn sailed(scene: &str, race: bool, mut each_frame: impl FnMut(&Studio)) -> Studio {
     let mut studio = Studio::new(Scene::built_in(scene).unwrap());
     if race {
@@ -83,7 +83,7 @@ fn the_comparison_sees_one_pixel_and_one_level() {
     assert_eq!(difference(&black, &other), (200, 2));
 }
 
-/// What an renderer for pictures of `size_px` makes of a lab.
+/// What a renderer for pictures of `size_px` makes of a studio.
 fn drawn(renderer: &mut OffscreenRenderer, size_px: [u32; 2], studio: &Studio) -> RgbaImage {
     let mut rgba = Vec::new();
     renderer.draw(studio, &mut rgba).unwrap();

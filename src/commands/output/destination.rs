@@ -141,7 +141,7 @@ impl Output {
         };
         let asked = file.path().to_owned();
         match file.commit(if_exists) {
-            // A link's own name stays the one to print_status, unless the file is another.
+            // A link's own name stays the one that is told, unless the file is another.
             Ok(written) if written == asked => Ok(name),
             Ok(written) => Ok(written.display().to_string()),
             // Somebody else made a file of that name in the meantime.

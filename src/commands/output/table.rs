@@ -9,8 +9,8 @@ use serde_json::{Map, Value};
 
 use super::Output;
 use crate::commands::error::Error;
-use crate::commands::terminal::counted;
 use crate::lab::csv_row;
+use crate::lab::number::counted;
 
 /// How data is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

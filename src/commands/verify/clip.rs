@@ -20,9 +20,10 @@ use crate::commands::frame_names::is_pending;
 use crate::commands::manifest::{self, FILE_NAME, Manifest, SCHEMA};
 use crate::commands::output::DirectoryLock;
 use crate::commands::state_log::StateLog;
-use crate::commands::terminal::{counted, print_status};
+use crate::commands::terminal::print_status;
 use crate::commands::{scene_file, settings};
 use crate::lab::Studio;
+use crate::lab::number::counted;
 use crate::regular_file::{self, Unreadable};
 
 /// The error of a capture in `dir` that cannot be judged, for this reason.

@@ -76,7 +76,7 @@ fn difference(a: &[u8], b: &[u8]) -> Difference {
     difference
 }
 
-/// Draws every frame of the capture again and compares it with its file. Returns the lab at the end and the log of its
+/// Draws every frame of the capture again and compares it with its file. Returns the studio at the end and the log of its
 /// states too.
 pub(super) fn judge(
     args: &VerifyArgs,

@@ -9,7 +9,8 @@ use crate::atomic_file::IfExists;
 use crate::commands::error::Error;
 use crate::commands::output::Destination;
 use crate::commands::scene_file;
-use crate::commands::terminal::{counted, print_status};
+use crate::commands::terminal::print_status;
+use crate::lab::number::counted;
 use crate::lab::{Action, Check, Observer, Race, Resumed, Scene, Session, Studio};
 
 /// The most ticks that a race is run for its checks: a day at 1000 Hz and more, which takes a body minutes.

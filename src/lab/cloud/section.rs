@@ -17,7 +17,7 @@ const PARTS: u64 = 40;
 /// How far the starts reach, in swings; on an angle all around.
 const REACH: f64 = 1.5;
 /// The longest period of a drive that is looked for, in seconds, and the most periods that are tried.
-const LONGEST_PERIOD_S: f64 = 60.0;
+const MAX_PERIOD_S: f64 = 60.0;
 const MAX_TRIED: f64 = 20_000.0;
 /// The moments at which forces are compared, and the share of their change that is rounding.
 const MOMENTS: u64 = 48;
@@ -144,7 +144,7 @@ impl SectionRun {
 /// The period of the force on a body at rest in a state, in seconds; `None` if the force does not depend on time, or does
 /// not come back within so many seconds.
 fn period(body: &dyn Stepper, [q, v]: [f64; 2], seconds: f64, tick_hz: u32) -> Option<f64> {
-    let (h, seconds) = (1.0 / f64::from(tick_hz), seconds.min(LONGEST_PERIOD_S));
+    let (h, seconds) = (1.0 / f64::from(tick_hz), seconds.min(MAX_PERIOD_S));
     let apart = (h / 2.0).max(seconds / MAX_TRIED);
     let force = |t: f64| {
         let mut a = [0.0];

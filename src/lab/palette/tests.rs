@@ -54,7 +54,7 @@ fn lanes_of_one_method_differ_in_colour_and_the_first_has_the_methods() {
             assert!(is_new, "{id}: {styles:?}");
         }
     }
-    // The list of a lab goes on with every other method.
+    // The list of a studio goes on with every other method.
     let mut list = vec![lane("held-force", 1), lane("held-force", 4), lane("held-force", 8)];
     list.extend(METHODS.iter().map(LaneSpec::plain));
     let colours: Vec<Rgba> =

@@ -41,7 +41,7 @@ const FAINT: f32 = 0.45;
 /// How far a trail may be drawn from the true one, in points: less than anybody sees.
 const TOLERANCE: f64 = 0.15;
 
-/// The picture of the lab on a stage of `size` points.
+/// The picture of the studio on a stage of `size` points.
 pub fn compose(studio: &Studio, size: [f32; 2]) -> Picture {
     if let Some(loops) = studio.loop_lab() {
         return loop_stage::compose(studio, loops, size);

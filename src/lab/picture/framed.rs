@@ -14,7 +14,7 @@ use crate::lab::race::Entrant;
 const HEAD: f64 = 36.0;
 /// How wide the quay is that springs are moored to, as a part of the cell, and at most in points.
 const QUAY: f32 = 0.07;
-const WIDEST_QUAY: f32 = 56.0;
+const MAX_QUAY: f32 = 56.0;
 /// The side of a block as a part of its cell's height, its least and its greatest in points, and the part of the height
 /// that it never exceeds.
 const BLOCK: f32 = 0.31;
@@ -154,7 +154,7 @@ impl BodyView {
 
 /// The width of the quay at the left of a cell, in points.
 pub(super) fn quay_width(cell: Rect) -> f32 {
-    (QUAY * cell.size()[0] as f32).min(WIDEST_QUAY)
+    (QUAY * cell.size()[0] as f32).min(MAX_QUAY)
 }
 
 impl DrawContext<'_> {

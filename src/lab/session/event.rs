@@ -4,7 +4,7 @@ use crate::lab::action::Action;
 use crate::lab::journal::Source;
 use crate::lab::lane_id::LaneId;
 use crate::lab::scene::Scene;
-use crate::sim::number::round;
+use crate::sim::number::{counted, round};
 
 /// Something that happened in a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,8 +80,7 @@ fn what_was_done(action: &Action, solo: Option<LaneId>, scene: &Scene) -> String
         }
         Action::Solo { lane } => format!("lane {lane} goes on without the others"),
         Action::Substeps { lane, substeps } => {
-            let s = if substeps == 1 { "" } else { "s" };
-            format!("{substeps} substep{s} in lane {lane}")
+            format!("{} in lane {lane}", counted(substeps, "substep"))
         }
         Action::Tolerance { lane, tolerance } => {
             format!("tolerance {} in lane {lane}", round(tolerance, 3))

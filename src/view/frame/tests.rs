@@ -144,7 +144,7 @@ fn the_first_frame_of_any_size_is_laid_out_like_the_next() {
             let input = egui::RawInput::default();
             let (_, mut layout) = renderer.lay_out(&gpu, size_px, 1.0, input, &studio);
             layout.panels.textures_delta.clear();
-            layout.stage.expect("a lab has a stage").rect
+            layout.stage.expect("a studio has a stage").rect
         });
         assert_eq!(first, second, "{size_px:?}");
         assert!(first.width() > 300.0 && first.right() < 1280.0 * 1.75, "{first}");

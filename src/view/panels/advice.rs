@@ -6,7 +6,7 @@ use egui::{Align, Color32, FontId, Label, Layout, Rect, Response, RichText, Ui, 
 use super::breakpoints;
 use super::table::{Column, GAP, MARGIN, SortKey, Table, TableRow, show_words};
 use super::{palette, strong_font, tone};
-use crate::lab::number::significant;
+use crate::lab::number::{counted, significant};
 use crate::lab::{
     Advice, AdvisedBodies, CRITERIA, Command, Criterion, CriterionMet, CriterionResult, LaneSpec,
     MAX_ADVISED_SUBSTEPS, MethodAdvice, RunCommand, Studio, ViewCommand, recommended,
@@ -298,9 +298,8 @@ fn cell_text(met: &CriterionMet, has_rates: bool) -> String {
 /// What is behind a cell.
 fn told_of(met: &CriterionMet) -> String {
     format!(
-        "{} substep{} a tick, {} evaluations per simulated second; {}",
-        met.substeps,
-        if met.substeps == 1 { "" } else { "s" },
+        "{} a tick, {} evaluations per simulated second; {}",
+        counted(met.substeps, "substep"),
         whole(met.evaluations_per_s),
         met.margins(),
     )

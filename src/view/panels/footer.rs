@@ -2,8 +2,7 @@
 
 use egui::{Align, Layout, RichText, Sense, Ui, vec2};
 
-use super::breakpoints;
-use super::{keycap, loops, palette, short};
+use super::{breakpoints, keycap, loops, palette, short};
 use crate::lab::number::round;
 use crate::lab::{Command, LoopCommand, Mode, RunCommand, StageCommand, Step, Studio, ViewCommand};
 use crate::view::theme::TYPE;

@@ -2,8 +2,7 @@
 
 use egui::{Align, Button, Layout, RichText, ScrollArea, Ui, vec2};
 
-use super::breakpoints;
-use super::{keycap, palette};
+use super::{breakpoints, keycap, palette};
 use crate::lab::guide::{STOPS, Tour};
 use crate::lab::{Command, Step, ViewCommand};
 use crate::view::theme::strong_font;

@@ -2,8 +2,7 @@
 
 use egui::{Color32, Rect, RichText, Sense, Ui, Vec2, vec2};
 
-use super::breakpoints;
-use super::{palette, strong_font};
+use super::{breakpoints, palette, strong_font};
 use crate::lab::loop_lab::LoopLane;
 use crate::lab::{Command, LoopLab, Studio};
 use crate::view::chart::Primitive;

@@ -1,4 +1,4 @@
-//! The panels round the stage: they read the lab and return commands, and touch nothing.
+//! The panels round the stage: they read the studio and return commands, and touch nothing.
 
 use std::sync::Arc;
 

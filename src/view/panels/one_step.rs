@@ -8,8 +8,7 @@ use egui::{
 };
 
 use super::annotations::{arrow, label};
-use super::breakpoints;
-use super::{colour, formula, palette, strong_font};
+use super::{breakpoints, colour, formula, palette, strong_font};
 use crate::lab::number::{round, significant};
 use crate::lab::{Coordinate, OneStep, Slope, Studio, Unit};
 use crate::view::chart::{self, AxisScale, Curve, Drawing, LineStyle, PlotArea};

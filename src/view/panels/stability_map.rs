@@ -9,8 +9,7 @@ use egui::{
 };
 
 use super::annotations::{label, mixed, polygon};
-use super::breakpoints;
-use super::{colour, palette, strong_font};
+use super::{breakpoints, colour, palette, strong_font};
 use crate::lab::number::round;
 use crate::lab::{
     Action, Command, Coverage, MapRequest, Parameter, RunCommand, SeenLine, StabilityMap,

@@ -10,8 +10,7 @@ use egui::{
 
 use self::marks::{Context, Group, Sign, grouped};
 pub(super) use self::span::Span;
-use super::breakpoints;
-use super::{PanelPalette, palette};
+use super::{PanelPalette, breakpoints, palette};
 use crate::lab::{Command, Event, Mode, RunCommand, StageCommand, Step, Studio, TimeScale};
 use crate::view::chart::AxisScale;
 use crate::view::wheel;

@@ -259,9 +259,9 @@ fn add(
     let is_dim = styles.is_race && !track.is_front;
     let is_thin = is_dim || track.strength < 1.0;
     let width = if is_thin { FRONT - THINNER } else { FRONT };
-    let runner = |point: &Point| &styles.series[point.entry];
+    let series = |point: &Point| &styles.series[point.entry];
     let strength = if is_dim { DIM } else { track.strength };
-    let rgba = |point: &Point| runner(point).colour.gamma_multiply(strength);
+    let rgba = |point: &Point| series(point).colour.gamma_multiply(strength);
     // A body that had halted has no samples from there to the switch.
     for pair in points.windows(2).filter(|pair| pair[0].entry != pair[1].entry) {
         drawing.switches.push(Switch { at: pair[1].at, colour: rgba(&pair[1]) });
@@ -285,7 +285,7 @@ fn add(
         is_drawn[piece.clone()].fill(true);
         drawing.curves.extend(runs(&points[piece]).map(|run| {
             let newest = &run[run.len() - 1];
-            let dash = track.dash.unwrap_or(runner(newest).dash);
+            let dash = track.dash.unwrap_or(series(newest).dash);
             Curve {
                 style: LineStyle { colour: rgba(newest), width, dash, dots: style.dots },
                 points: if track.is_held { staircase(run) } else { places(run) },

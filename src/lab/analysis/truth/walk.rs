@@ -35,15 +35,16 @@ impl BodyTruth {
         most: usize,
         see: impl FnMut(&TruthNode, &TruthNode),
     ) -> Result<(), StepFailure> {
-        let mut fare = Fare { solver, of_moment: self.work_of_moment(), moments: 0, counted: 0 };
-        let walked = self.pay_as_it_walks(&mut fare, body, seconds, most, see).await;
-        self.meter.count(fare.due(body)).await;
+        let mut work =
+            WalkWork { solver, of_moment: self.work_of_moment(), moments: 0, counted: 0 };
+        let walked = self.walk_counting(&mut work, body, seconds, most, see).await;
+        self.meter.count(work.newly_done(body)).await;
         walked
     }
 
-    async fn pay_as_it_walks(
+    async fn walk_counting(
         &self,
-        fare: &mut Fare,
+        work: &mut WalkWork,
         body: &mut dyn Stepper,
         seconds: f64,
         most: usize,
@@ -54,7 +55,7 @@ impl BodyTruth {
         let mut here = TruthNode::of(body, 0.0);
         let mut step = FIRST_STEP * seconds;
         let kept = most / KEPT;
-        while here.t < seconds && fare.moments + kept < most {
+        while here.t < seconds && work.moments + kept < most {
             if let Some((next, rest)) = inputs.split_first()
                 && next.t <= here.t
             {
@@ -67,12 +68,12 @@ impl BodyTruth {
             let end = if here.t + 1.001 * step < seconds { here.t + step } else { seconds };
             let check = TruthNode::of_advanced(body, here.t, here.t + CHECKED_AT * (end - here.t))?;
             let there = TruthNode::of_advanced(body, check.t, end)?;
-            fare.moments += 2;
+            work.moments += 2;
             ranges.take_in(&here, &check);
             ranges.take_in(&check, &there);
             see(&here, &check);
             see(&check, &there);
-            self.meter.count(fare.due(body)).await;
+            self.meter.count(work.newly_done(body)).await;
             let part = (check.t - here.t) / (there.t - here.t);
             let off = worst_chord(&here, &check, &there, part, &ranges);
             let factor = libm::sqrt(libm::sqrt(CHORD / off));
@@ -95,9 +96,9 @@ impl BodyTruth {
                     inputs = rest;
                 }
                 let there = TruthNode::of_advanced(body, here.t, t)?;
-                fare.moments += 1;
+                work.moments += 1;
                 see(&there, &there);
-                self.meter.count(fare.due(body)).await;
+                self.meter.count(work.newly_done(body)).await;
                 here = there;
             }
         }
@@ -105,24 +106,25 @@ impl BodyTruth {
     }
 }
 
-/// The work of a walk, as it is counted.
-struct Fare {
+/// The work of a walk, in evaluations of one coordinate.
+struct WalkWork {
     solver: Solver,
     /// That of a moment of the truth.
     of_moment: u64,
     /// The moments that were seen.
     moments: usize,
+    /// What the meter has counted of it.
     counted: u64,
 }
 
-impl Fare {
-    /// The work that is not counted yet.
-    fn due(&mut self, body: &dyn Stepper) -> u64 {
-        let work = match self.solver {
+impl WalkWork {
+    /// The work since this was last asked.
+    fn newly_done(&mut self, body: &dyn Stepper) -> u64 {
+        let all = match self.solver {
             Solver::Truth => self.moments as u64 * self.of_moment,
             _ => body.evaluations() * body.q().len() as u64,
         };
-        work - std::mem::replace(&mut self.counted, work)
+        all - std::mem::replace(&mut self.counted, all)
     }
 }
 

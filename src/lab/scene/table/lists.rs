@@ -9,6 +9,7 @@ use super::{Table, integer, number};
 use crate::lab::scene::MAX_COORDINATE;
 use crate::lab::scene::wanted::{Field, Wanted};
 use crate::sim::bodies::{LARGEST, MAX_NODES, MAX_POINTS, Range};
+use crate::sim::number::counted;
 
 impl Table<'_> {
     /// The points of a curve, in rising order of their first numbers. At most [`MAX_POINTS`] are read.
@@ -17,7 +18,7 @@ impl Table<'_> {
         let Field { key, wanted, .. } = field;
         let found = entries.len();
         if !(2..=MAX_POINTS).contains(&found) {
-            let what = format!("`{key}` has {found} point{}", if found == 1 { "" } else { "s" });
+            let what = format!("`{key}` has {}", counted(found, "point"));
             self.complain(value.span(), what, wanted.remedy());
         }
         let mut points: Vec<[f64; 2]> = Vec::new();
@@ -111,7 +112,7 @@ impl Table<'_> {
         };
         if field.wanted != Wanted::Numbers(numbers.len()) {
             let (key, found) = (field.key, numbers.len());
-            let what = format!("`{key}` has {found} number{}", if found == 1 { "" } else { "s" });
+            let what = format!("`{key}` has {}", counted(found, "number"));
             self.complain(value.span(), what, field.wanted.remedy());
             return None;
         }

@@ -67,7 +67,7 @@ pub(super) struct ExactLine {
 
 /// The value of one curve at a moment.
 pub(super) struct Readout {
-    /// Its place on the styles; `None` for the exact solution.
+    /// Its index among the styles; `None` for the exact solution.
     pub(super) entry: Option<usize>,
     pub(super) colour: Color32,
     pub(super) is_front: bool,
@@ -361,7 +361,7 @@ fn joined(key: &str, part: &str) -> String {
 }
 
 impl PlotSet {
-    /// Those whose curves the plots show, with their places on the styles.
+    /// Those whose curves the plots show, with their indices among the styles.
     pub(super) fn shown(&self) -> impl Iterator<Item = (usize, &SeriesStyle)> {
         let tracks = self.plots.iter().flat_map(|plot| &plot.tracks);
         let mut shown: Vec<usize> =

@@ -6,8 +6,7 @@ use crate::lab::loop_lab::SLOWNESS;
 use crate::lab::number::round;
 use crate::lab::pacing::TRACES;
 use crate::lab::{Command, LoopCommand, LoopLab};
-use crate::view::panels::breakpoints;
-use crate::view::panels::palette;
+use crate::view::panels::{breakpoints, palette};
 
 /// The most characters of a trace's name in the closed menu.
 const MAX_CHARS: usize = 18;

@@ -5,8 +5,7 @@ use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 use super::ShownLane;
 use crate::lab::number::round;
 use crate::view::chart::{self, AxisScale, PlotArea, Primitive, Text};
-use crate::view::panels::breakpoints;
-use crate::view::panels::palette;
+use crate::view::panels::{breakpoints, palette};
 use crate::view::theme::PanelPalette;
 
 /// What a frame can have: the last is that or more.

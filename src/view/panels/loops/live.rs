@@ -7,8 +7,7 @@ use super::counts::{self, LEFT, Series};
 use super::errors::round_up;
 use crate::lab::{LiveFrame, Studio, Unit};
 use crate::view::chart::{self, Arrow, AxisScale, Curve, Drawing, LineStyle, PlotArea, Primitive};
-use crate::view::panels::breakpoints;
-use crate::view::panels::{palette, strong_font};
+use crate::view::panels::{breakpoints, palette, strong_font};
 use crate::view::theme::{PanelPalette, colour};
 
 pub(super) const TITLE: &str = "This window's own loop";
