@@ -85,7 +85,7 @@ fn stages(panels: Panels) -> Result<(f64, f64), String> {
     let renderer = OffscreenRenderer::new(gpu, SIZE_PX, 1.0).map_err(|error| error.to_string())?;
     let mut renderer = renderer.with_panels(panels);
     let mut studio = Studio::new(Scene::built_in("harbour").expect("a built-in scene"));
-    studio.apply(lab::StageCommand::ToggleRace);
+    studio.apply(lab::studio::StageCommand::ToggleRace);
     studio.analyse();
     // All frames first drawn and then encoded: the system counts processor time too coarsely for one frame.
     let mut frames = Vec::new();

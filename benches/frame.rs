@@ -4,7 +4,8 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use regatta::lab::{LaneSpec, RunCommand, Scene, StageCommand, Studio, picture};
+use regatta::lab::studio::{RunCommand, StageCommand, Studio};
+use regatta::lab::{LaneSpec, Scene, picture};
 use regatta::sim::integrators::GENERAL_METHODS;
 use regatta::view::{
     AdapterPreference, FrameRenderer, Gpu, Offscreen, OffscreenRenderer, Panels, Readback, png,

@@ -10,16 +10,16 @@
 //!   pixels. RK4's formula is in `sim/integrators/rk4.rs`. [`sim::stability`] finds the map of a step of a
 //!   method on a body's [small motions](sim::stability::SmallMotion) and [normal modes](sim::stability::NormalMode).
 //! - [`lab`] is the experiment: a [`Scene`](lab::Scene) is read from text and written as text, a
-//!   [`Clock`](lab::Clock) turns frames into ticks, a [`Race`](lab::Race) steps its [`Lane`](lab::Lane)s and the
+//!   [`Clock`](sim::Clock) turns frames into ticks, a [`Race`](lab::Race) steps its [`Lane`](lab::Lane)s and the
 //!   truth, and a [`Picture`](lab::picture::Picture) says what to draw. A run is a value, a
 //!   [`Session`](lab::Session): it changes by [`Action`](lab::Action)s and ticks only. Its [`Journal`](lab::Journal) holds
 //!   all of them, those of a script, a person, a recording or a test. A
 //!   [`Timeline`](lab::Timeline) keeps snapshots of it and goes to any tick. What is drawn of earlier ticks is in a
-//!   [`Past`](lab::past::Past), which watches the race as an [`Observer`](lab::Observer), and what a person looks at in a
-//!   [`Viewer`](lab::Viewer): neither is part of a run. A lane is one method on its own copy of the
+//!   [`Past`](lab::past::Past), which watches the race as an [`Observer`](lab::race::Observer), and what a person looks at in a
+//!   [`Viewer`](lab::studio::Viewer): neither is part of a run. A lane is one method on its own copy of the
 //!   scene's bodies, known by its [`LaneId`](lab::LaneId), and a [`Follow`](lab::Follow) ticks one outside a run; a [`Judge`](lab::Judge) measures how far one strays, an
 //!   [`Adviser`](lab::Adviser) searches for the substeps that meet a [`Criterion`](lab::Criterion), and an
-//!   [`AnalysisWorker`](lab::AnalysisWorker) runs both, and the stability map, beside the race, as a
+//!   [`AnalysisWorker`](lab::analysis::AnalysisWorker) runs both, and the stability map, beside the race, as a
 //!   [`CloudWorker`](lab::cloud::CloudWorker) steps a [`Cloud`](lab::cloud::Cloud) of starts under each lane. The truth is a
 //!   lane whose solver is the exact flow, or a [reference](sim::REFERENCE_ACCURACY) for a body that has none. The layer knows no GPU and no wall clock: time comes in as
 //!   integers, text as `&str`.
@@ -27,7 +27,7 @@
 //!   move a spring alike.
 //!   Game loops are in [`lab::pacing`]: a [`Policy`](lab::pacing::Policy) decides each frame which steps are made, a
 //!   [`FrameTrace`](lab::pacing::FrameTrace) says when frames begin and are displayed, and a
-//!   [`LoopRun`](lab::pacing::LoopRun) measures what a viewer sees. The [`LoopLab`](lab::LoopLab) has every frame of every
+//!   [`LoopRun`](lab::pacing::LoopRun) measures what a viewer sees. The [`LoopLab`](lab::loop_lab::LoopLab) has every frame of every
 //!   loop ready to be looked up.
 //! - `view` is pixels: a graphics device, the sea and the shapes on the stage, panels in egui, and
 //!   `FrameRenderer::draw`, the only code that draws a frame. Window, screenshot and capture call it
@@ -46,8 +46,8 @@
 //!
 //! # A frame
 //!
-//! events → [`Command`](lab::Command)s → [`Action`](lab::Action)s → [`Session::act`](lab::Session::act) →
-//! [`Clock::advance`](lab::Clock::advance) → as many [`Session::tick`](lab::Session::tick)s as are due →
+//! events → [`Command`](lab::studio::Command)s → [`Action`](lab::Action)s → [`Session::act`](lab::Session::act) →
+//! [`Clock::advance`](sim::Clock::advance) → as many [`Session::tick`](lab::Session::tick)s as are due →
 //! [`picture::compose`](lab::picture::compose) → `FrameRenderer::draw` → submit → present or read back.
 //!
 //! # What holds
@@ -63,7 +63,7 @@
 //! - **A body that blows up is data.** It halts, keeps its last good state and says why; other bodies
 //!   and lanes go on, unchanged to the bit. Under another method it resumes from the truth.
 //! - **One table each** for [methods](sim::integrators::METHODS), [bodies](sim::bodies::BODIES),
-//!   [metrics](lab::METRICS), [scenes](lab::SCENES), [keys](lab::KEYS), the [stops](lab::guide::STOPS) of the guide,
+//!   [metrics](lab::METRICS), [scenes](lab::SCENES), [keys](lab::studio::KEYS), the [stops](lab::studio::guide::STOPS) of the guide,
 //!   [game loops](lab::pacing::POLICIES) with their [metrics](lab::pacing::PACING_METRICS), and [traces](lab::pacing::TRACES):
 //!   menus, help, command line and tests loop over them.
 //! - Who may import whom is enforced by `tests/library/tidy`.
@@ -86,7 +86,7 @@
 //! - **A scene**: add a file to `assets/scenes` and its line to [`SCENES`](lab::SCENES).
 //! - **A game loop**: a file beside `lab/pacing/policies/whole_refresh.rs` if it has a memory, a card in
 //!   [`POLICIES`](lab::pacing::POLICIES), and its source in `assets/loops`. `tests/library/pacing_policies.rs` runs it for a day.
-//! - **A metric**: one entry of [`METRICS`](lab::METRICS). **A key**: one entry of [`KEYS`](lab::KEYS).
+//! - **A metric**: one entry of [`METRICS`](lab::METRICS). **A key**: one entry of [`KEYS`](lab::studio::KEYS).
 //!
 //! # In your own game loop
 //!

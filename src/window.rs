@@ -12,9 +12,10 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Fullscreen, WindowId};
 
+use crate::lab::analysis::AnalysisWorker;
 use crate::lab::cloud::CloudWorker;
 use crate::lab::loop_lab::LoopWorker;
-use crate::lab::{AnalysisWorker, Command, DriverRequest, Studio, ViewCommand};
+use crate::lab::studio::{Command, DriverRequest, Studio, ViewCommand};
 
 mod canvas;
 mod clipboard;

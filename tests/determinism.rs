@@ -8,10 +8,9 @@
 
 use std::path::PathBuf;
 
-use regatta::lab::scene::Scripted;
-use regatta::lab::{
-    Action, BuiltIn, LaneSpec, Race, RunCommand, SCENES, Scene, SceneBody, StageCommand, Studio,
-};
+use regatta::lab::scene::{BuiltIn, SCENES, Scene, SceneBody, Scripted};
+use regatta::lab::studio::{RunCommand, StageCommand, Studio};
+use regatta::lab::{Action, LaneSpec, Race};
 use regatta::sim::integrators::{GENERAL_METHODS, Method, method};
 
 /// Ticks after which the hash is taken: 28 minutes at 60 Hz. For a scene of many coordinates fewer, so

@@ -8,12 +8,12 @@ use clap::Args;
 use super::error::Error;
 use super::experiment::{ExperimentArgs, Lineup, one_of};
 use super::interrupt::watch_for_interrupt;
-use super::jobs;
 use super::output::print;
 use super::output::table::TableFormat;
-use super::scene_file;
+use super::{jobs, scene_file};
+use crate::lab::scene::{Scene, nearest};
 use crate::lab::source_code::Language;
-use crate::lab::{Adviser, LaneSpec, Scene, nearest};
+use crate::lab::{Adviser, LaneSpec};
 use crate::sim::integrators::{Family, METHODS};
 
 mod judged;

@@ -18,10 +18,10 @@ use super::output::{Destination, Output};
 use super::schedule::{FPS, MAX_FPS, Schedule, frames_in};
 use super::{clip, sheet, state_log};
 use crate::atomic_file::IfExists;
-use crate::lab::Instrument;
 use crate::lab::cloud::CloudKind;
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
+use crate::lab::studio::Instrument;
 
 const EXAMPLES: &str = "\
 Frame i shows the run at i / fps seconds. The same command makes the same bytes. manifest.json,

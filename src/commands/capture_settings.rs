@@ -4,7 +4,7 @@ use super::experiment::Experiment;
 use super::schedule::Schedule;
 use crate::lab::cloud::{CloudChoice, CloudKind};
 use crate::lab::palette::Theme;
-use crate::lab::{Instrument, Motion, RunCommand, Studio};
+use crate::lab::studio::{Instrument, Motion, RunCommand, Studio};
 
 /// How a run is drawn: its frames, their size and what they show.
 #[derive(Clone, Copy, Debug)]

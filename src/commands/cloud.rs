@@ -19,13 +19,15 @@ use super::output::table::{Column, RowFormat, write_rows};
 use super::output::{Destination, Output, STDOUT};
 use super::terminal::print_status;
 use crate::atomic_file::IfExists;
+use crate::lab::analysis::Unit;
 use crate::lab::cloud::{
     Cloud, CloudAxes, CloudBorder, CloudMeasure, CloudShape, CloudStart, Density, NoCloud,
     PlaneView, Section, ShownTicks, USUAL_POINTS, hidden_in_words,
 };
-use crate::lab::number::{round, significant};
 use crate::lab::palette::{Rgba, Theme};
-use crate::lab::{Coordinate, LaneSpec, Scene, SceneBody, Unit};
+use crate::lab::{LaneSpec, Scene, SceneBody};
+use crate::sim::bodies::Coordinate;
+use crate::sim::number::{round, significant};
 use crate::view::{Lettering, png};
 
 const ABOUT: &str = "\

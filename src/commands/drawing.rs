@@ -4,7 +4,7 @@ use super::capture_settings::CaptureSettings;
 use super::error::Error;
 use super::manifest::Adapter;
 use super::schedule::Schedule;
-use crate::lab::number::counted;
+use crate::sim::number::counted;
 use crate::view::{AdapterPreference, Gpu, OffscreenRenderer, Panels};
 
 /// The most pixels of a whole capture: hours of drawing and about a hundred gigabytes of files. More is

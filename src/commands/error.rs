@@ -6,7 +6,7 @@ use std::path::Path;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
-use crate::lab::{Mistake, SceneErrors};
+use crate::lab::scene::{Mistake, SceneErrors};
 #[cfg(feature = "view")]
 use crate::view::{GpuError, ReadbackError};
 

@@ -9,13 +9,14 @@ use clap::{Args, ValueEnum};
 use super::error::Error;
 use super::scene_file;
 use super::spring::SpringArgs;
+use crate::lab::LaneSpec;
 use crate::lab::cloud::CloudKind;
 use crate::lab::pacing::{POLICIES, PolicyCard, TRACES, TraceCard, policy, trace_card};
 use crate::lab::palette::Theme;
-use crate::lab::{
-    Clock, Instrument, LaneSpec, MANY_LANES, MAX_SECONDS, SCENES, Scene, StageCommand, Studio,
-    lanes_that_race, nearest,
-};
+use crate::lab::race::lanes_that_race;
+use crate::lab::scene::{MAX_SECONDS, SCENES, Scene, nearest};
+use crate::lab::studio::{Instrument, MANY_LANES, StageCommand, Studio};
+use crate::sim::Clock;
 use crate::sim::integrators::{METHODS, Method, method};
 
 /// The options that choose a scene, its methods and its tick rate.

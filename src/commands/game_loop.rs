@@ -21,7 +21,8 @@ use super::scene_file;
 use super::trace_source::traces;
 use crate::atomic_file::IfExists;
 use crate::lab::pacing::{FrameTrace, MIN_RUN_S, POLICIES, PolicyCard, RefreshRate, trace_card};
-use crate::lab::{Clock, LaneSpec, Scene};
+use crate::lab::{LaneSpec, Scene};
+use crate::sim::Clock;
 use crate::sim::integrators::Method;
 
 mod advice;

@@ -4,7 +4,7 @@ use clap::{Args, Command};
 
 use super::error::Error;
 use super::output::print;
-use crate::lab::nearest;
+use crate::lab::scene::nearest;
 use crate::manual::{CHAPTERS, chapter};
 
 const EXAMPLES: &str = "\

@@ -211,7 +211,8 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use crate::lab::{Scene, StageCommand};
+    use crate::lab::Scene;
+    use crate::lab::studio::StageCommand;
     use crate::view::{AdapterPreference, Gpu};
 
     /// More frames than there are buffers.

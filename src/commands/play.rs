@@ -18,10 +18,10 @@ use super::terminal::print_status;
 use super::unfinished::{self, UnfinishedRecording};
 use super::{clip, scene_file, state_log};
 use crate::atomic_file::IfExists;
-use crate::lab::number::counted;
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
-use crate::lab::{Motion, Studio};
+use crate::lab::studio::{Motion, Studio};
+use crate::sim::number::counted;
 use crate::window::{self, Closed, SceneFiles, WindowError, WindowSettings};
 
 const EXAMPLES: &str = "\

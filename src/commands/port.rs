@@ -9,7 +9,8 @@ use super::numbers::{number, positive};
 use super::output::print;
 use super::output::table::TableFormat;
 use crate::lab::port::{DriveLimits, Ported, Setup, Wish, drive_limits, followers, setups};
-use crate::lab::{MAX_SUBSTEPS, identify, nearest, port};
+use crate::lab::scene::{MAX_SUBSTEPS, nearest};
+use crate::lab::{identify, port};
 use crate::sim::integrators::{METHODS, Method};
 
 mod from;

@@ -11,7 +11,8 @@ use toml::de::{DeTable, DeValue};
 use super::terminal::print_status;
 use crate::atomic_file::{IfExists, write_file};
 use crate::lab::palette::Theme;
-use crate::lab::{MAX_FILE_BYTES, SCALE_LADDER, Studio};
+use crate::lab::scene::MAX_FILE_BYTES;
+use crate::lab::studio::{SCALE_LADDER, Studio};
 use crate::regular_file;
 
 /// The name of the file.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::error::Error;
-use crate::lab::{BuiltIn, MAX_FILE_BYTES, SCENES, Scene, SceneErrors, nearest};
+use crate::lab::scene::{BuiltIn, MAX_FILE_BYTES, SCENES, Scene, SceneErrors, nearest};
 use crate::regular_file::{self, Unreadable};
 use crate::sim::integrators::Method;
 

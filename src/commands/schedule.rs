@@ -3,8 +3,9 @@
 
 use super::error::Error;
 use super::frame_names::MAX_FRAMES;
+use crate::lab::Studio;
 use crate::lab::pacing::LONGEST_FRAME_MS;
-use crate::lab::{Observer, Studio};
+use crate::lab::race::Observer;
 
 /// The usual frames per simulated second: smooth enough for every scene, at half the files and half the time of 60.
 pub(super) const FPS: u32 = 30;

@@ -6,8 +6,11 @@ use super::fingerprint::fingerprint;
 use super::frame_names::{MAX_FRAMES, frame_name};
 use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings};
 use super::schedule::{MAX_FPS, Schedule};
+use crate::lab::LaneSpec;
 use crate::lab::palette::Theme;
-use crate::lab::{Clock, Instrument, LaneSpec, MAX_LANES, MAX_SUBSTEPS, Scene, TOLERANCES};
+use crate::lab::scene::{MAX_LANES, MAX_SUBSTEPS, Scene, TOLERANCES};
+use crate::lab::studio::Instrument;
+use crate::sim::Clock;
 use crate::sim::integrators::method;
 
 /// The light theme in a manifest; the dark one is not written.

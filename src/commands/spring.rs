@@ -4,7 +4,8 @@ use clap::Args;
 
 use super::error::Error;
 use super::numbers::{number, positive};
-use crate::lab::{MySpring, Scene};
+use crate::lab::Scene;
+use crate::lab::studio::MySpring;
 
 /// The options that describe a spring.
 #[derive(Clone, Copy, Debug, Default, Args)]

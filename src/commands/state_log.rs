@@ -3,7 +3,8 @@
 use serde_json::{Map, Value};
 
 use super::manifest::{LaneEnd, LaneMark, Mark};
-use crate::lab::{METRICS, Observer, Race, Studio};
+use crate::lab::race::{Observer, Race};
+use crate::lab::{METRICS, Studio};
 use crate::sim::Solver;
 
 /// The default number of marks in a run. They locate a difference to within a few ticks, and the manifest of a race stays
@@ -60,7 +61,7 @@ fn mark(race: &Race) -> Mark {
 /// Each lane at the end, with its metrics against the truth.
 pub(super) fn ends(studio: &Studio) -> Vec<LaneEnd> {
     let race = studio.race();
-    let end = |(entrant, hash): (&crate::lab::Entrant, u64)| {
+    let end = |(entrant, hash): (&crate::lab::race::Entrant, u64)| {
         let lane = &entrant.lane;
         let bodies = lane.bodies().iter().zip(race.truth().bodies()).zip(&studio.scene().bodies);
         let bodies = bodies.map(|((body, truth), named)| {

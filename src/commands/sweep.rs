@@ -16,7 +16,8 @@ use super::plot::Plot;
 use super::scene_file;
 use super::spring::SpringArgs;
 use crate::atomic_file::IfExists;
-use crate::lab::{Clock, SCENES, Scene, SceneBody};
+use crate::lab::{SCENES, Scene, SceneBody};
+use crate::sim::Clock;
 use crate::sim::bodies::incompatibility;
 use crate::sim::integrators::{METHODS, Method};
 

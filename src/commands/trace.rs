@@ -10,7 +10,8 @@ use super::experiment::{self, ExperimentArgs, Lineup};
 use super::output::Output;
 use super::output::table::{RowFormat, RowWriter};
 use super::terminal::print_status;
-use crate::lab::{Lane, LaneBody, METRICS, SceneBody, Studio};
+use crate::lab::race::{Lane, LaneBody};
+use crate::lab::{METRICS, SceneBody, Studio};
 use crate::sim::Solver;
 use crate::sim::bodies::Truth;
 

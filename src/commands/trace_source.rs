@@ -3,9 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::error::Error;
-use crate::lab::nearest;
-use crate::lab::pacing::trace_file;
-use crate::lab::pacing::{FrameTrace, RefreshRate, TRACES, steady_trace, trace_card};
+use crate::lab::pacing::{FrameTrace, RefreshRate, TRACES, steady_trace, trace_card, trace_file};
+use crate::lab::scene::nearest;
 use crate::regular_file::{self, MAX_TABLE_BYTES};
 
 /// The refresh rate of a trace that any display will do for.

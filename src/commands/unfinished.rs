@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::preferences;
 use crate::atomic_file::{IfExists, write_file};
-use crate::lab::MAX_FILE_BYTES;
+use crate::lab::scene::MAX_FILE_BYTES;
 use crate::regular_file;
 use crate::window::KeepRecording;
 

@@ -24,14 +24,14 @@ pub enum Action {
     Substeps {
         /// The lane.
         lane: LaneId,
-        /// Steps per tick, 1 to [`MAX_SUBSTEPS`](super::MAX_SUBSTEPS).
+        /// Steps per tick, 1 to [`MAX_SUBSTEPS`](super::scene::MAX_SUBSTEPS).
         substeps: u32,
     },
     /// Sets the tolerance of a lane under an adaptive method.
     Tolerance {
         /// The lane.
         lane: LaneId,
-        /// Within [`TOLERANCES`](super::TOLERANCES).
+        /// Within [`TOLERANCES`](super::scene::TOLERANCES).
         tolerance: f64,
     },
     /// Sets the tick rate in Hz.

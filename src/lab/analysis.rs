@@ -1,5 +1,8 @@
-//! Verdicts on methods on a scene, and advice on which method to choose. Both are pure functions of a scene, measured on
-//! runs of it.
+//! Measurements: metrics of a lane beside the truth, verdicts on methods on a scene, and advice on which method to choose.
+//!
+//! [`METRICS`] are read at every tick of a run. A [`Judge`] runs a scene under a method and gives a [`Verdict`], and an
+//! [`Adviser`] searches for the fewest substeps that meet a [`Criterion`]: both are pure functions of the scene.
+//! [`advise`] reports on a custom body. An [`AnalysisWorker`] does it all beside a run, in parts.
 
 mod advice;
 mod amplitude;
@@ -13,9 +16,11 @@ mod energy_finding;
 mod frequency;
 mod judge;
 mod limits;
+mod metrics;
 mod modes;
 mod outcome;
 mod peaks;
+mod report;
 mod run;
 mod searches;
 mod slices;
@@ -34,7 +39,9 @@ pub use criterion::{CRITERIA, Criterion};
 pub use energy_finding::EnergyFinding;
 pub use judge::{Judge, MAX_HORIZON_S};
 pub use limits::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
+pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use outcome::{Outcome, Severity};
+pub use report::{Criteria, MethodReport, Recommendation, Report, advise};
 pub use run::MAX_WORK;
 pub use stability_map::{Coverage, Here, MapRequest, Region, SeenLine, StabilityMap};
 pub use truth::LONG_RUN;

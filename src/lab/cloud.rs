@@ -31,9 +31,8 @@ pub use running::CloudWorker;
 pub use section::Section;
 pub use shape::CloudShape;
 
-use super::lane::ESCAPE;
 use super::lane_spec::LaneSpec;
-use super::race::Fnv;
+use super::race::{ESCAPE, Fnv};
 
 /// The points of a cloud that does not say how many.
 pub const USUAL_POINTS: usize = 100_000;

@@ -3,12 +3,7 @@
 use std::fmt::{Display, Write};
 
 /// A line of comma-separated values with its end. Those with commas, quotes or ends of lines are quoted.
-///
-/// ```
-/// # use regatta::lab::csv_row;
-/// assert_eq!(csv_row(&[&"error, m", &7, &0.25]), "\"error, m\",7,0.25\n");
-/// ```
-pub fn csv_row(values: &[&dyn Display]) -> String {
+pub(crate) fn csv_row(values: &[&dyn Display]) -> String {
     let mut row = String::new();
     for (place, value) in values.iter().enumerate() {
         let start = row.len() + usize::from(place > 0);

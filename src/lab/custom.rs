@@ -4,13 +4,11 @@ use std::any::Any;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::appearance::{Appearance, Drawing};
 use super::lane_spec::LaneSpec;
-use super::outline::Mark;
 use super::race::Race;
 use super::scene::{
-    MAX_LANES, MAX_NAME_CHARS, MAX_SECONDS, MAX_TICK_HZ, MIN_SECONDS, Scene, SceneBody,
-    claim_horizon,
+    Appearance, Drawing, MAX_LANES, MAX_NAME_CHARS, MAX_SECONDS, MAX_TICK_HZ, MIN_SECONDS, Mark,
+    Scene, SceneBody, claim_horizon,
 };
 use crate::sim::bodies::{CustomFault, Extras, custom_kind, incompatibility};
 use crate::sim::integrators::{METHODS, Method};

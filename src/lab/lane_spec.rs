@@ -4,15 +4,15 @@ use crate::sim::integrators::{Method, Override};
 use crate::sim::number::round;
 use crate::sim::{Range, Solver};
 
-/// A lane of the race.
+/// The method of a lane, with its substeps and its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LaneSpec {
     /// The method of its bodies.
     pub method: &'static Method,
-    /// Equal steps per tick, 1 to [`MAX_SUBSTEPS`](super::MAX_SUBSTEPS).
+    /// Equal steps per tick, 1 to [`MAX_SUBSTEPS`](super::scene::MAX_SUBSTEPS).
     pub substeps: u32,
     /// Overrides the absolute and the relative tolerance of an adaptive method's card, within
-    /// [`TOLERANCES`](super::TOLERANCES); `None` keeps the card's tolerance, and is the only value for other methods.
+    /// [`TOLERANCES`](super::scene::TOLERANCES); `None` keeps the card's tolerance, and is the only value for other methods.
     pub tolerance: Option<f64>,
     /// The frequency in hertz and the damping ratio that an engine is told of every spring, in place of the body's own;
     /// `None` is the only value for methods without a joint.

@@ -5,8 +5,8 @@
 
 use std::sync::Arc;
 
-use super::lane::LaneBody;
 use super::pacing::{FrameTrace, POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
+use super::race::LaneBody;
 use super::scene::Scene;
 use crate::sim::Solver;
 use crate::sim::integrators::Method;

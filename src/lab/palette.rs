@@ -297,7 +297,7 @@ pub fn mixed(from: Rgba, to: Rgba, part: f32) -> Rgba {
 }
 
 /// The same colour, less opaque.
-pub fn faded([r, g, b, a]: Rgba, part: f32) -> Rgba {
+pub(super) fn faded([r, g, b, a]: Rgba, part: f32) -> Rgba {
     [r, g, b, (f32::from(a) * part.clamp(0.0, 1.0)) as u8]
 }
 

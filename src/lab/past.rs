@@ -1,18 +1,18 @@
 //! The recorded past of a race for drawing: the recent samples of every body in every lane, and the truth as a curve.
 //!
 //! It observes a race and is not part of it: a copy of the race has none. A race that goes back in time is drawn from it
-//! as it was drawn then.
+//! as it was drawn then. It follows the lanes through their switches of methods by its [`Menu`].
 
 use super::action::Action;
-use super::lane::{Resumed, ResumedFrom};
 use super::lane_id::LaneId;
-use super::menu::Menu;
-use super::race::{Entrant, Observer, Race};
+use super::race::{Entrant, Observer, Race, Resumed, ResumedFrom};
 use crate::sim::bodies::Coordinate;
 use history::HistoryMark;
 
 mod energies;
 mod history;
+mod menu;
+mod quantity;
 mod sample;
 mod summary;
 mod swept_range;
@@ -21,6 +21,8 @@ mod windowed_log;
 
 pub use energies::Energies;
 pub use history::{History, Samples};
+pub use menu::Menu;
+pub use quantity::Quantity;
 pub use sample::{CAPACITY, Sample};
 pub use summary::Summary;
 pub use swept_range::SweptRange;

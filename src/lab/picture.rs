@@ -24,7 +24,7 @@ mod outgrown;
 mod sketch;
 mod trails;
 
-pub use super::outline::{Mark, Outline};
+pub use super::scene::{Mark, Outline};
 pub use compose::compose;
 pub use grasp::{Cell, Grasp, Grip, Whose};
 pub use look::{Framing, Handle, Look, Pull};

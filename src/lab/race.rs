@@ -1,22 +1,43 @@
 //! All lanes and the truth, stepped tick by tick in integer time, with the actions on them.
+//!
+//! A [`Race`] ticks its [`Entrant`]s and performs the actions of its [`Journal`]; an [`Observer`] sees both. A [`Lane`] is
+//! one method on its own copy of the scene's bodies. Outside a run a [`Follow`] ticks one. An [`Interpolation`] draws a body
+//! between two ticks.
 
 use std::sync::Arc;
 
-use super::equal_cost;
-use super::journal::Journal;
-use super::lane::{Halt, Lane};
 use super::lane_id::LaneId;
 use super::lane_spec::LaneSpec;
 use super::scene::{Scene, Scripted};
-use super::time_scale::Piece;
 use crate::sim::Solver;
+use time_scale::Piece;
 
+pub use chase::Chase;
+pub use equal_cost::{equal_cost, lanes_that_race};
+pub(super) use extent::Extent;
+pub use follow::{Follow, StopReason, Ticked};
 pub(super) use hash::Fnv;
+pub use interpolation::Interpolation;
+pub(super) use interpolation::{hermite, slope};
+pub(super) use intervention::Interventions;
+pub use journal::{Journal, JournalRow, Source};
+pub(super) use lane::advance_checked;
+pub use lane::{ESCAPE, Halt, Lane, LaneBody, Resumed, ResumedFrom};
+pub use time_scale::TimeScale;
 
 mod acting;
+mod chase;
+mod equal_cost;
+mod extent;
+mod follow;
 mod hash;
+mod interpolation;
+mod intervention;
+mod journal;
+mod lane;
 mod observer;
 mod run_start;
+mod time_scale;
 
 pub(super) use acting::ActionResult;
 pub use observer::Observer;
@@ -40,7 +61,7 @@ pub(super) struct LastTick {
     pub(super) to_s: f64,
 }
 
-/// A lane in a race.
+/// A lane in a race, with its identity and its method.
 #[derive(Clone)]
 pub struct Entrant {
     /// Which lane it is, from the race's start on.
@@ -93,7 +114,7 @@ impl Race {
     /// }
     /// ```
     pub fn of_scene(scene: &Scene) -> Self {
-        let lanes = equal_cost::lanes_that_race(scene);
+        let lanes = lanes_that_race(scene);
         Self::new(scene, lanes).with_script(&scene.script)
     }
 

@@ -8,12 +8,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::action::Action;
-use super::appearance::Appearance;
 use super::lane_id::LaneId;
 use super::lane_spec::LaneSpec;
 use crate::sim::bodies::{ClaimHorizon, Kind, Origin};
 use crate::sim::integrators::Method;
 
+mod appearance;
 pub(super) mod clip;
 mod described;
 mod document;
@@ -26,6 +26,7 @@ mod known;
 mod law;
 mod nearest;
 mod net;
+mod outline;
 mod refusal;
 mod saved;
 
@@ -35,10 +36,14 @@ mod table;
 mod wanted;
 mod writer;
 
+pub use appearance::Appearance;
+pub(super) use appearance::{Drawing, Preview};
 pub use edit::{EditError, edited_values};
 pub use errors::{MAX_SHOWN, Mistake, SceneError, SceneErrors};
 pub use known::{SceneKey, scene_tables};
 pub use nearest::nearest;
+pub(super) use outline::Thread;
+pub use outline::{Mark, Outline};
 pub use refusal::Refusal;
 pub(in crate::lab) use saved::AuthorText;
 
@@ -81,7 +86,7 @@ pub const MAX_SUBSTEPS: u32 = 1_000;
 pub const TOLERANCES: (f64, f64) = (1e-14, 1.0);
 
 /// The largest magnitude of a coordinate that a body can be placed at. Beyond it bodies halt; see
-/// [`ESCAPE`](super::ESCAPE).
+/// [`ESCAPE`](super::race::ESCAPE).
 const MAX_COORDINATE: f64 = 1e38;
 
 /// The most characters in a body's name: it stands in one line beside its cell.

@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use super::action::Action;
-use super::journal::Journal;
-use super::race::{ActionResult, Mode, Observer, Race};
+use super::race::{ActionResult, Journal, Mode, Observer, Race};
 use super::scene::Scene;
 
 mod event;

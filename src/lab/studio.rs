@@ -1,42 +1,76 @@
-//! The studio: a run with its past, the clock that drives it, and its display. Commands come in; state goes out.
+//! A person at a run: the studio, with the run and its past, the clock that drives it, and its display. Commands come in;
+//! state goes out.
+//!
+//! A [`Studio`] obeys [`Command`]s, to which [`KEYS`] and [`GESTURES`] lead. What it cannot do itself is a
+//! [`DriverRequest`]. What a person looks at is in its [`Viewer`]: the [`Preferences`], which survive the scene, and the
+//! [`View`], which does not. [`INSTRUMENTS`] stand beside the stage, and the [`guide`] leads through the scenes.
 
-use super::display::{Display, View};
 use super::lane_spec::LaneSpec;
 use super::loop_lab::LoopLab;
 use super::past::Past;
 use super::race::{Entrant, Mode, Race};
 use super::scene::Scene;
-use super::scene_list::SceneList;
 use super::session::{RecordingError, RunToRecord, Session, StartSettings, Timeline};
-use super::viewer::Viewer;
 use crate::sim::Clock;
 
 mod apply;
 mod clouding;
+mod command;
+mod display;
 mod driving;
 mod findings;
+mod gesture;
+pub mod guide;
 mod guiding;
+mod held;
+mod instrument;
 mod joint;
+mod key;
+mod live_loop;
 mod looping;
+mod my_spring;
+mod notice;
+mod notices;
+mod one_step;
 mod opening;
 mod plotting;
 mod restarting;
 mod resting;
+mod scene_list;
 mod showing;
+mod step;
+mod viewer;
+mod zoom_pan;
 
+pub use command::{
+    Command, RunCommand, SCALE_LADDER, SPEED_LADDER, StageCommand, TICK_LADDER, ViewCommand,
+};
+pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, View};
 pub use findings::MANY_LANES;
+pub use gesture::{GESTURES, Gesture};
+pub use held::HeldBody;
+pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow};
 pub use joint::SpringJoint;
+pub use key::{Binding, KEYS, Key, command_for};
+pub use live_loop::{LiveFrame, LiveLoop};
 use looping::Activity;
+pub use my_spring::MySpring;
+pub use notice::Notice;
+pub use one_step::{OneStep, Slope};
+pub use scene_list::SceneList;
+pub use step::Step;
+pub use viewer::{Dialog, Preferences, Viewer};
+pub use zoom_pan::ZoomPan;
 
 /// A scene being run and looked at.
 pub struct Studio {
-    pub(super) scene_list: SceneList,
-    pub(super) start: StartSettings,
-    pub(super) timeline: Timeline,
-    pub(super) clock: Clock,
-    pub(super) running: bool,
-    pub(super) dropped: u64,
-    pub(super) viewer: Viewer,
+    scene_list: SceneList,
+    start: StartSettings,
+    timeline: Timeline,
+    clock: Clock,
+    running: bool,
+    dropped: u64,
+    viewer: Viewer,
     /// What the stage shows.
     activity: Activity,
 }
@@ -93,7 +127,7 @@ impl Studio {
     pub fn past(&self) -> &Past {
         self.timeline.past()
     }
-    /// The methods that digits and rows refer to: those of the [menu](super::Menu).
+    /// The methods that digits and rows refer to: those of the [menu](super::past::Menu).
     pub fn entries(&self) -> &[LaneSpec] {
         self.past().menu().specs()
     }

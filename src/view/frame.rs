@@ -13,7 +13,7 @@ use super::textures::{Start, pass};
 use super::theme::{self, auto_zoom, colour};
 use super::touch::Touch;
 use crate::lab::picture::{self, Align, Label};
-use crate::lab::{Command, Studio, ViewCommand};
+use crate::lab::studio::{Command, Studio, ViewCommand};
 
 /// Where the copies of a label lie that make its halo, in points.
 const HALO: [[f32; 2]; 4] = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];

@@ -8,13 +8,15 @@ use super::frame::write;
 use super::testing::{ShownText, TestWindow};
 use super::{panels, theme};
 use crate::lab::cloud::{CloudChoice, CloudKind, CloudWorker};
-use crate::lab::guide::STOPS;
+use crate::lab::loop_lab::LoopCommand;
 use crate::lab::palette::Theme;
 use crate::lab::picture::compose;
-use crate::lab::{
-    Arrangement, Command, Instrument, LoopCommand, RunCommand, SCALE_LADDER, SCENES, Scene,
-    StageCommand, Step, Studio, ViewCommand,
+use crate::lab::studio::guide::STOPS;
+use crate::lab::studio::{
+    Arrangement, Command, Instrument, RunCommand, SCALE_LADDER, StageCommand, Step, Studio,
+    ViewCommand,
 };
+use crate::lab::{SCENES, Scene};
 
 /// Sizes of windows in points: the first is the least, the last has four times the usual pixels.
 const SIZES: [Vec2; 4] =

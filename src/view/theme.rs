@@ -5,9 +5,10 @@ use std::sync::LazyLock;
 use egui::{Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Stroke, Ui};
 
 use super::missing_glyph;
+use crate::lab::LaneSpec;
 use crate::lab::palette::{Palette, Theme};
 use crate::lab::picture::Rgba;
-use crate::lab::{Display, LaneSpec};
+use crate::lab::studio::Display;
 
 /// The colours of panels, as egui wants them.
 #[derive(Debug)]
@@ -233,7 +234,7 @@ fn dress_style(style: &mut egui::Style, palette: &PanelPalette) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::METHODS;
+    use crate::prelude::METHODS;
 
     #[test]
     fn type_grows_with_the_window_and_never_shrinks() {

@@ -7,8 +7,10 @@ use egui::{CursorIcon, Event, PointerButton, Pos2, Rect, Stroke, Ui, Vec2, vec2}
 
 use super::theme::palette;
 use super::wheel;
+use crate::lab::Action;
 use crate::lab::picture::{Cell, Grasp, Picture, Whose};
-use crate::lab::{Action, Command, Mode, RunCommand, StageCommand, Studio, ViewCommand, ZoomPan};
+use crate::lab::race::Mode;
+use crate::lab::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand, ZoomPan};
 
 /// From this distance on, in points, a press is a drag: less is a hand that trembles.
 const DRAG: f32 = 3.0;

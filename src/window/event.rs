@@ -7,10 +7,11 @@ use winit::event_loop::ActiveEventLoop;
 use super::App;
 #[cfg(feature = "accessibility")]
 use super::screen_reader::{self, Request};
+use crate::lab::LaneSpec;
 use crate::lab::analysis::Findings;
 use crate::lab::cloud::FoundCloud;
 use crate::lab::loop_lab::FoundLoop;
-use crate::lab::{LaneSpec, Mistake, Scene};
+use crate::lab::scene::{Mistake, Scene};
 
 /// An event from the program's own threads or from a screen reader.
 pub(super) enum Event {

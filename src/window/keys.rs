@@ -4,7 +4,7 @@ use winit::event::{ElementState, KeyEvent};
 use winit::keyboard::{Key as Logical, KeyCode, ModifiersState, NamedKey, PhysicalKey};
 
 use super::App;
-use crate::lab::{Command, Dialog, Key, ViewCommand, command_for};
+use crate::lab::studio::{Command, Dialog, Key, ViewCommand, command_for};
 
 /// The modifier keys that are held down.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -212,7 +212,7 @@ fn digit(code: KeyCode) -> Option<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{KEYS, StageCommand};
+    use crate::lab::studio::{KEYS, StageCommand};
 
     fn pressed(code: KeyCode, text: &str, shift: bool) -> Option<Key> {
         held(code, text, Modifiers { shift, ..Modifiers::default() })

@@ -4,7 +4,8 @@ use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use std::sync::Arc;
 
 use crate::lab::pacing::trace_file;
-use crate::lab::{Mistake, SCENES, Scene, StageCommand, Studio, ViewCommand};
+use crate::lab::scene::{Mistake, SCENES, Scene};
+use crate::lab::studio::{StageCommand, Studio, ViewCommand};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
 
 /// Reads a scene file and returns its scene and its text, or what the command line would print of its mistakes.
@@ -140,7 +141,7 @@ pub(super) fn completed(typed: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::Dialog;
+    use crate::lab::studio::Dialog;
 
     /// Reads scene files without the command line's options.
     fn read() -> ReadScene {

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-use crate::lab::{Pace, Studio};
+use crate::lab::studio::{Pace, Studio};
 
 /// The shortest span to measure over: long enough for a steady figure, short enough to follow a change.
 const SPAN: Duration = Duration::from_secs(1);
@@ -65,7 +65,8 @@ impl Meter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Command, RunCommand, Scene, StageCommand, Step, ViewCommand};
+    use crate::lab::Scene;
+    use crate::lab::studio::{Command, RunCommand, StageCommand, Step, ViewCommand};
 
     /// A lab at this tick rate, its meter, and when the last frame began.
     struct Run(Studio, Meter, Instant);

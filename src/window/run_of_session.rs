@@ -4,7 +4,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::{Closed, SceneFiles, WindowError, WindowSettings, run};
-use crate::lab::{MAX_FILE_BYTES, Scene, Session, Studio};
+use crate::lab::scene::{MAX_FILE_BYTES, Scene};
+use crate::lab::{Session, Studio};
 use crate::regular_file;
 
 /// The window of the program.

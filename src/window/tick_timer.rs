@@ -9,7 +9,8 @@ use std::time::{Duration, Instant};
 use winit::event_loop::EventLoopProxy;
 
 use super::Event;
-use crate::lab::{Follow, Instrument, Lane, LaneSpec, Studio};
+use crate::lab::studio::{Instrument, Studio};
+use crate::lab::{Follow, Lane, LaneSpec};
 
 /// The time between two measurements.
 const PERIOD: Duration = Duration::from_secs(1);
@@ -96,7 +97,8 @@ mod tests {
     use super::*;
     use std::cell::Cell;
 
-    use crate::lab::{Scene, StageCommand};
+    use crate::lab::Scene;
+    use crate::lab::studio::StageCommand;
     use crate::sim::Solver;
     use crate::sim::integrators::method;
 

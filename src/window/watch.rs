@@ -9,7 +9,7 @@ use winit::event_loop::EventLoopProxy;
 
 use super::Event;
 use super::opening::ReadScene;
-use crate::lab::MAX_FILE_BYTES;
+use crate::lab::scene::MAX_FILE_BYTES;
 use crate::regular_file::{self, Unreadable};
 
 /// The time between two looks at the files: short enough for a change to seem immediate.

@@ -9,8 +9,7 @@ use std::thread;
 use winit::event_loop::EventLoopProxy;
 
 use super::Event;
-use crate::lab::AnalysisWorker;
-use crate::lab::analysis::AnalysisRequest;
+use crate::lab::analysis::{AnalysisRequest, AnalysisWorker};
 use crate::lab::cloud::{CloudRequest, CloudWorker};
 use crate::lab::loop_lab::{LoopRequest, LoopWorker};
 

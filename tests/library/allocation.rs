@@ -5,7 +5,8 @@ use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
 use std::cell::Cell;
 
 use regatta::lab::past::Past;
-use regatta::lab::{Action, Options, Race, SCENES, Scene, StageCommand, Studio};
+use regatta::lab::studio::{StageCommand, Studio};
+use regatta::lab::{Action, Options, Race, SCENES, Scene};
 use regatta::sim::bodies::{Follow, Form, Grid, NetPlan, Pin, Ship, Spring, net_kind};
 use regatta::sim::integrators::{
     GENERAL_METHODS, ImplicitMidpoint, Integrator, METHODS, Method, Rk4, StepFailure,

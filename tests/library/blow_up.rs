@@ -1,10 +1,10 @@
 //! A method that blows up hurts nobody else: it halts, once, and says when and why.
 
 use regatta::lab::past::Past;
-use regatta::lab::{
-    Action, Clock, ESCAPE, LaneBody, LaneId, LaneSpec, Mode, Race, RunCommand, Scene, StageCommand,
-    Studio,
-};
+use regatta::lab::race::{ESCAPE, LaneBody, Mode, Race};
+use regatta::lab::studio::{RunCommand, StageCommand, Studio};
+use regatta::lab::{Action, LaneId, LaneSpec, Scene};
+use regatta::sim::Clock;
 use regatta::sim::integrators::{GENERAL_METHODS, StepFailure, method};
 
 /// Ticks of the long race: 83 min at 60 Hz.

@@ -8,10 +8,9 @@ use regatta::lab::cloud::{
     Density, NoCloud, PlaneView,
 };
 use regatta::lab::palette::Theme;
-use regatta::lab::scene::Scripted;
-use regatta::lab::{
-    Action, Command, Instrument, LaneSpec, RunCommand, Scene, StageCommand, Studio,
-};
+use regatta::lab::scene::{Scene, Scripted};
+use regatta::lab::studio::{Command, Instrument, RunCommand, StageCommand, Studio};
+use regatta::lab::{Action, LaneSpec};
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, Stepper};
 

@@ -1,8 +1,8 @@
 //! Edits during a run: they are in the journal, and a restart keeps them.
 
-use regatta::lab::{
-    Action, LaneId, LaneSpec, Mode, RunCommand, Scene, Session, StageCommand, Studio, ViewCommand,
-};
+use regatta::lab::race::Mode;
+use regatta::lab::studio::{RunCommand, StageCommand, Studio, ViewCommand};
+use regatta::lab::{Action, LaneId, LaneSpec, Scene, Session};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 
 fn stiffness(value: f64) -> Action {

@@ -4,7 +4,9 @@ use std::f64::consts::TAU;
 
 use regatta::lab::past::{Past, TruthSample};
 use regatta::lab::picture::{Grip, Picture, Whose, compose};
-use regatta::lab::{Action, Interpolation, Race, RunCommand, Scene, StageCommand, Studio};
+use regatta::lab::race::{Interpolation, Race};
+use regatta::lab::studio::{RunCommand, StageCommand, Studio};
+use regatta::lab::{Action, Scene};
 
 fn open(scene: &str, tick_hz: u32) -> Studio {
     let mut studio = Studio::new(Scene::built_in(scene).unwrap());

@@ -1,13 +1,15 @@
 //! The guide: every stop is done by its keys and by nothing less, and what it claims is so.
 
+use regatta::lab::analysis::{Judge, METRICS, Outcome, Verdict};
 use regatta::lab::cloud::{CloudChoice, CloudKind, CloudWorker};
-use regatta::lab::guide::{Goal, STOPS};
+use regatta::lab::loop_lab::{LoopCommand, LoopLab};
+use regatta::lab::past::Quantity;
 use regatta::lab::port::{Wish, setups};
-use regatta::lab::{
-    Command, Instrument, Judge, LaneSpec, LoopCommand, LoopLab, METRICS, OneStep, Outcome,
-    Quantity, Race, RunCommand, SCENES, Scene, StageCommand, Step, Studio, Verdict, ViewCommand,
-    command_for, port,
+use regatta::lab::studio::guide::{Goal, STOPS};
+use regatta::lab::studio::{
+    Command, Instrument, OneStep, RunCommand, StageCommand, Step, Studio, ViewCommand, command_for,
 };
+use regatta::lab::{LaneSpec, Race, SCENES, Scene, port};
 use regatta::sim::integrators::method;
 
 fn lab_at(stop: usize) -> Studio {

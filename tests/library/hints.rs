@@ -1,10 +1,11 @@
 //! The built-in scenes open on the method that makes their point, and what their hints promise comes about
 //! when the keys are pressed as they say.
 
-use regatta::lab::{
-    Action, Command, Key, Mode, RunCommand, SCENES, Scene, StageCommand, Step, Studio, ViewCommand,
-    command_for,
+use regatta::lab::race::Mode;
+use regatta::lab::studio::{
+    Command, Key, RunCommand, StageCommand, Step, Studio, ViewCommand, command_for,
 };
+use regatta::lab::{Action, SCENES, Scene};
 use regatta::sim::integrators::GENERAL_METHODS;
 
 const C: Key = Key::Sign('c');

@@ -1,7 +1,8 @@
 //! Verdicts are of the run on the stage: of the scene as it is edited, and from where a person last moved a body.
 
-use regatta::lab::scene::Scripted;
-use regatta::lab::{Action, Judge, RunCommand, Scene, StageCommand, Step, Studio, Verdict};
+use regatta::lab::scene::{Scene, Scripted};
+use regatta::lab::studio::{RunCommand, StageCommand, Step, Studio};
+use regatta::lab::{Action, Judge, Verdict};
 
 fn opened(name: &str) -> Studio {
     Studio::new(Scene::built_in(name).unwrap())

@@ -1,6 +1,7 @@
 //! What keys do to a run, as the title tells. That the window knows every key is tested with one.
 
-use regatta::lab::{KEYS, Key, SCENES, Scene, StageCommand, Studio, TICK_LADDER};
+use regatta::lab::studio::{KEYS, Key, StageCommand, Studio, TICK_LADDER};
+use regatta::lab::{SCENES, Scene};
 
 /// Does what the table says of a key.
 fn press(studio: &mut Studio, key: Key) {

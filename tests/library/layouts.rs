@@ -1,8 +1,8 @@
 //! Solo and race: which lanes there are, what they are under, and what a restart keeps of it.
 
-use regatta::lab::{
-    Action, Command, Lane, LaneSpec, Mode, RunCommand, Scene, StageCommand, Step, Studio,
-};
+use regatta::lab::race::{Lane, Mode};
+use regatta::lab::studio::{Command, RunCommand, StageCommand, Step, Studio};
+use regatta::lab::{Action, LaneSpec, Scene};
 use regatta::sim::Solver;
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 

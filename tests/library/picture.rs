@@ -1,11 +1,11 @@
 //! What reaches the stage: finite, within reach of an f32, and where the bodies are.
 
+use regatta::lab::loop_lab::LoopCommand;
 use regatta::lab::palette::Theme;
 use regatta::lab::picture::{FAR, Picture, Shape, Whose, compose};
-use regatta::lab::{
-    Action, Command, ESCAPE, LoopCommand, Mode, RunCommand, SCENES, Scene, StageCommand, Studio,
-    ViewCommand,
-};
+use regatta::lab::race::{ESCAPE, Mode};
+use regatta::lab::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand};
+use regatta::lab::{Action, SCENES, Scene};
 
 fn assert_drawable(picture: &Picture, what: &str) {
     let finite = |values: &[f32]| values.iter().all(|x| x.is_finite() && x.abs() <= 2.0 * FAR);

@@ -1,11 +1,10 @@
 //! A run as a scene file: it is read back unchanged, repeats the run to the bit, and contains its actions.
 
-use regatta::lab::scene::Scripted;
-use regatta::lab::session::RecordingError;
-use regatta::lab::{
-    Action, LaneId, LaneSpec, Mode, RunCommand, SCENES, Scene, Session, StageCommand, Studio,
-    equal_cost, lanes_that_race,
-};
+use regatta::lab::race::{Mode, equal_cost, lanes_that_race};
+use regatta::lab::scene::{SCENES, Scene, Scripted};
+use regatta::lab::session::{RecordingError, Session};
+use regatta::lab::studio::{RunCommand, StageCommand, Studio};
+use regatta::lab::{Action, LaneId, LaneSpec};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 
 fn built_in(name: &str) -> Scene {

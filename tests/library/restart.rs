@@ -1,6 +1,7 @@
 //! A restart goes back to the start line, and keeps what a person chose and nothing of what the script did.
 
-use regatta::lab::{Action, RunCommand, SCENES, Scene, StageCommand, Studio};
+use regatta::lab::studio::{RunCommand, StageCommand, Studio};
+use regatta::lab::{Action, SCENES, Scene};
 
 /// The ship, whose script changes method and tick rate.
 fn scripted() -> Studio {

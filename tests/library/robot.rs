@@ -4,7 +4,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use regatta::lab::identify::{Columns, Log};
 use regatta::lab::pacing::trace_file;
-use regatta::lab::{Action, Race, RunCommand, SCENES, Scene, Studio};
+use regatta::lab::studio::{RunCommand, Studio};
+use regatta::lab::{Action, Race, SCENES, Scene};
 
 use super::bad_scenes::check_places;
 use super::dice::Dice;

@@ -5,11 +5,9 @@ use std::sync::Arc;
 
 use crate::dice::Dice;
 use regatta::lab::past::{Past, TruthSample};
-use regatta::lab::session::{EventKind, SNAPSHOT_BYTES};
-use regatta::lab::{
-    Action, Command, Event, LaneId, LaneSpec, RunCommand, Scene, Session, StageCommand, Studio,
-    Timeline,
-};
+use regatta::lab::session::{Event, EventKind, SNAPSHOT_BYTES, Session, Timeline};
+use regatta::lab::studio::{Command, RunCommand, StageCommand, Studio};
+use regatta::lab::{Action, LaneId, LaneSpec, Scene};
 use regatta::sim::bodies::BODIES;
 use regatta::sim::integrators::GENERAL_METHODS;
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use regatta::lab::{Criteria, CriterionMet, MethodReport, Recommendation};
+use regatta::lab::analysis::{Criteria, CriterionMet, MethodReport, Recommendation};
 use regatta::prelude::*;
 
 /// Every name that the prelude brings where all features are on.

@@ -2,10 +2,9 @@
 //! left it.
 
 use regatta::lab::past::Past;
-use regatta::lab::{
-    Action, Command, Lane, LaneBody, LaneId, LaneSpec, Observer, Race, Resumed, ResumedFrom,
-    RunCommand, Scene, SceneBody, StageCommand, Step, Studio,
-};
+use regatta::lab::race::{Lane, LaneBody, Observer, Race, Resumed, ResumedFrom};
+use regatta::lab::studio::{Command, RunCommand, StageCommand, Step, Studio};
+use regatta::lab::{Action, LaneId, LaneSpec, Scene, SceneBody};
 use regatta::sim::bodies::{Body, Ship, Spring};
 use regatta::sim::integrators::{GENERAL_METHODS, Method, method};
 use regatta::sim::{Solver, State};

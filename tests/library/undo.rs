@@ -1,6 +1,7 @@
 //! Whatever a person changes can be undone and done again, in one order.
 
-use regatta::lab::{Action, Command, RunCommand, Scene, StageCommand, Studio, ViewCommand};
+use regatta::lab::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand};
+use regatta::lab::{Action, Scene};
 
 use crate::dice::Dice;
 

@@ -1,9 +1,10 @@
 //! What verdicts say, word by word.
 
 use regatta::lab::analysis::{
-    Change, Comparison, Finding, LongTerm, NoTruth, NotJudged, RunFailure, TOLERANCE,
+    Change, Comparison, Finding, LongTerm, NoTruth, NotJudged, Outcome, RunFailure, Severity,
+    TOLERANCE, Verdict,
 };
-use regatta::lab::{KEYS, Outcome, Severity, Verdict};
+use regatta::lab::studio::KEYS;
 use regatta::manual::chapter;
 use regatta::sim::integrators::StepFailure;
 

@@ -2,8 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use regatta::lab::{
-    Command, KEYS, Key, LoopCommand, RunCommand, Scene, StageCommand, Step, Studio, ViewCommand,
+use regatta::lab::Scene;
+use regatta::lab::loop_lab::LoopCommand;
+use regatta::lab::studio::{
+    Command, KEYS, Key, RunCommand, StageCommand, Step, Studio, ViewCommand,
 };
 
 use crate::desk::Desk;

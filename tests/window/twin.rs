@@ -3,7 +3,7 @@
 use egui::accesskit::{Action, Node, Role};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect};
 use image::RgbaImage;
-use regatta::lab::{Command, Pace, Studio};
+use regatta::lab::studio::{Command, Pace, Studio};
 use regatta::view::{AdapterPreference, FrameOutput, FrameRenderer, Gpu, Offscreen, Readback};
 
 use crate::desk::Desk;

@@ -1,7 +1,8 @@
 //! Every kind of widget worked by the mouse, in the window and in its twin: both come to the same run, and look alike.
 
-use regatta::lab::{
-    INSTRUMENTS, Instrument, MySpring, Scene, StageCommand, Step, Studio, ViewCommand,
+use regatta::lab::Scene;
+use regatta::lab::studio::{
+    INSTRUMENTS, Instrument, MySpring, StageCommand, Step, Studio, ViewCommand,
 };
 
 use crate::desk::Desk;

@@ -9,8 +9,9 @@ use rayon::ThreadPool;
 use crate::commands::jobs;
 use crate::commands::stopwatch::{self, Timing};
 use crate::commands::terminal::{print_status, progress};
-use crate::lab::number::significant;
-use crate::lab::{Adviser, CRITERIA, CriterionMet, LaneSpec, MethodAdvice, Scene, recommended};
+use crate::lab::analysis::{Adviser, CRITERIA, CriterionMet, MethodAdvice, recommended};
+use crate::lab::{LaneSpec, Scene};
+use crate::sim::number::significant;
 
 /// A method judged, and its measured costs.
 pub(super) struct Row {

@@ -4,12 +4,13 @@ use serde_json::{Map, Value, json};
 
 use super::judged::{Row, recommended_row};
 use crate::commands::output::table::{self, Column};
-use crate::lab::number::round;
-use crate::lab::source_code::{Language, Precision};
-use crate::lab::{
+use crate::lab::analysis::{
     Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS,
-    Recommendation, Scene, source_code,
+    Recommendation,
 };
+use crate::lab::source_code::{Language, Precision};
+use crate::lab::{Scene, source_code};
+use crate::sim::number::round;
 
 /// The answer as text: the recommendations, the recommended method in this language if there is one, the verdicts, and
 /// the methods that meet each criterion with their costs.

@@ -3,9 +3,9 @@
 use std::fmt::Write;
 
 use super::run::{exactly, scene};
-use crate::lab::number::significant;
 use crate::sim::bodies::{Body, Ship};
 use crate::sim::integrators::{AdaptiveEuler, AdaptiveEulerAsPrinted, Integrator, Tolerance};
+use crate::sim::number::significant;
 use crate::sim::{Counted, Counts, State};
 
 /// The chapter's tolerances of the speed, in m/s.

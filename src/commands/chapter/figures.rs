@@ -165,7 +165,7 @@ fn parameters(scene: &Scene) -> String {
     let body = &scene.bodies[0];
     let shown = body.kind.parameters.iter().zip(&body.values).filter_map(|(parameter, value)| {
         let (symbol, unit) = (parameter.symbol?, &parameter.unit);
-        Some(format!("{symbol} = {} {unit}", crate::lab::number::round(*value, 5)))
+        Some(format!("{symbol} = {} {unit}", crate::sim::number::round(*value, 5)))
     });
     shown.collect::<Vec<_>>().join(", ")
 }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::printed::{AVERAGES, TABLE_7_1, marked, percent, seven_digits};
 use super::run::{Moment, by_method, exactly, method_of, scene};
-use crate::lab::number::significant;
+use crate::sim::number::significant;
 
 /// The time of the table's last row, in seconds.
 const END_S: f64 = 8.5;

@@ -2,8 +2,8 @@
 
 use super::measured::Measured;
 use crate::commands::terminal::print_status;
-use crate::lab::number::round;
 use crate::lab::pacing::{PacingReport, PolicyCard, advised_loop};
+use crate::sim::number::round;
 
 /// A difference of the motion that is worth a word, in amplitudes.
 const NOTED: f64 = 1e-9;

@@ -2,8 +2,8 @@
 
 use super::measured::Measured;
 use crate::lab::Scene;
-use crate::lab::number::round;
 use crate::lab::palette::Theme;
+use crate::sim::number::round;
 use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
 
 /// The most traces of which a picture has charts.

@@ -3,8 +3,8 @@
 use serde_json::{Value, json};
 
 use crate::lab::identify::{Candidate, Conclusion, Effective, Fitted, Identification, Log};
-use crate::lab::number::significant;
 use crate::sim::integrators::Method;
+use crate::sim::number::significant;
 
 /// A residual beyond which no method is named as the nearest.
 const FAR: f64 = 0.1;
@@ -192,7 +192,7 @@ pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::METHODS;
+    use crate::sim::integrators::METHODS;
 
     #[test]
     fn the_first_line_names_a_joint_before_a_held_force_and_all_whose_map_is_the_same() {

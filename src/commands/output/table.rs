@@ -10,7 +10,7 @@ use serde_json::{Map, Value};
 use super::Output;
 use crate::commands::error::Error;
 use crate::lab::csv_row;
-use crate::lab::number::counted;
+use crate::sim::number::counted;
 
 /// How data is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use super::engine;
-use crate::lab::MAX_SUBSTEPS;
 use crate::lab::port::{Approach, Setup, Wish};
+use crate::lab::scene::MAX_SUBSTEPS;
 use crate::sim::integrators::{JointMode, Method, Setting};
 
 /// Where a wish comes from.

@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 use super::grid::{Row, Swept};
 use super::round_off::{self, ErrorCurve, Width};
 use crate::commands::plot::columns;
-use crate::lab::number::round;
 use crate::lab::palette::Theme;
 use crate::sim::integrators::Method;
+use crate::sim::number::round;
 use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
 
 /// Errors beyond this many amplitudes are cut off: the method has failed.

@@ -6,10 +6,11 @@ use std::time::Duration;
 
 use super::varied::Varied;
 use crate::commands::error::Error;
-use crate::commands::jobs;
-use crate::commands::stopwatch;
 use crate::commands::terminal::progress;
-use crate::lab::{Clock, Judge, LaneSpec, MAX_HORIZON_S, Scene, SceneBody, Verdict};
+use crate::commands::{jobs, stopwatch};
+use crate::lab::analysis::{Judge, MAX_HORIZON_S, Verdict};
+use crate::lab::{LaneSpec, Scene, SceneBody};
+use crate::sim::Clock;
 use crate::sim::bodies::Text;
 use crate::sim::integrators::Method;
 

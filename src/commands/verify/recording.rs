@@ -10,8 +10,10 @@ use crate::commands::error::Error;
 use crate::commands::output::Destination;
 use crate::commands::scene_file;
 use crate::commands::terminal::print_status;
-use crate::lab::number::counted;
-use crate::lab::{Action, Check, Observer, Race, Resumed, Scene, Session, Studio};
+use crate::lab::race::{Observer, Race, Resumed};
+use crate::lab::scene::{Check, Scene};
+use crate::lab::{Action, Session, Studio};
+use crate::sim::number::counted;
 
 /// The most ticks that a race is run for its checks: a day at 1000 Hz and more, which takes a body minutes.
 const MAX_TICKS: u64 = 100_000_000;

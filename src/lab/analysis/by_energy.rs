@@ -9,8 +9,8 @@ use super::energy_finding::EnergyFinding;
 use super::limits::VISIBLE;
 use super::truth::{BodyTruth, FollowedBody, ticks};
 use super::verdict::RunFailure;
-use crate::lab::follow::StopReason;
 use crate::lab::lane_spec::LaneSpec;
+use crate::lab::race::StopReason;
 use crate::sim::stability::{PowerIteration, Tick};
 
 /// The part of the work of a run that the spectral radius may take too.

@@ -4,8 +4,8 @@ use std::fmt;
 
 use super::truth::BodyTruth;
 use crate::lab::bisection::bisect;
-use crate::lab::chase::Chase;
 use crate::lab::lane_spec::LaneSpec;
+use crate::lab::race::Chase;
 use crate::sim::Solver;
 use crate::sim::number::{round, significant};
 

@@ -19,7 +19,7 @@ pub enum Outcome {
     GainsEnergy,
     /// The method's solver failed.
     GaveUp,
-    /// A value left the range of [`ESCAPE`](crate::lab::ESCAPE) or was not finite.
+    /// A value left the range of [`ESCAPE`](crate::lab::race::ESCAPE) or was not finite.
     BlewUp,
 }
 

@@ -7,9 +7,8 @@ use super::energy::Energy;
 use super::peaks::Peaks;
 use super::truth::{BodyTruth, FollowedBody, LONG_RUN, TruthSeries, ticks};
 use super::verdict::RunFailure;
-use crate::lab::chase::Chase;
-use crate::lab::follow::StopReason;
 use crate::lab::lane_spec::LaneSpec;
+use crate::lab::race::{Chase, StopReason};
 use crate::sim::Stepper;
 use crate::sim::integrators::StepFailure;
 

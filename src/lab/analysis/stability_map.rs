@@ -36,7 +36,7 @@ const FEWER_CORNERS: [usize; 2] = [19, 17];
 /// From this many coupled coordinates on.
 const MANY_COUPLED: usize = 9;
 
-/// A map that is wanted.
+/// A stability map that is wanted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapRequest {
     /// The body's index in the scene.
@@ -146,7 +146,7 @@ pub enum Here {
     OwnSteps,
 }
 
-/// A map, as far as it has been found.
+/// The stability map of a body, as far as it has been found.
 #[derive(Clone, Debug)]
 pub struct StabilityMap {
     /// What it is a map of.

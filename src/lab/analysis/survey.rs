@@ -1,7 +1,7 @@
 //! The moments of the true motion of one body, and the range of each component.
 
 use crate::lab::action::Action;
-use crate::lab::interpolation::hermite;
+use crate::lab::race::hermite;
 use crate::sim::Stepper;
 use crate::sim::integrators::StepFailure;
 

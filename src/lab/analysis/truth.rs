@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::slices::Meter;
 use super::survey::{Ranges, TimedInput, TruthNode};
 use crate::lab::action::Action;
-use crate::lab::extent::Extent;
+use crate::lab::race::Extent;
 use crate::lab::scene::SceneBody;
 use crate::sim::bodies::{Coordinates, Input, Truth};
 use crate::sim::integrators::{GENERAL_METHODS, Override, StepFailure};
@@ -27,7 +27,7 @@ pub(super) use series::TruthSeries;
 use series::TruthSeriesByRate;
 pub(super) use swing::Swing;
 
-/// The long run of a nonlinear body in horizons.
+/// How many horizons the long run of a nonlinear body takes.
 pub const LONG_RUN: f64 = 20.0;
 
 /// Limits of [`BodyTruth::walk`], in moments and in products of the exact flow, n² for a chain of n masses.

@@ -5,7 +5,7 @@ use super::chase_finding::ChaseFinding;
 use super::energy_finding::EnergyFinding;
 use super::limits::TOLERANCE;
 use super::outcome::Outcome;
-use crate::lab::follow::StopReason;
+use crate::lab::race::StopReason;
 use crate::sim::bodies::Truth;
 use crate::sim::integrators::StepFailure;
 

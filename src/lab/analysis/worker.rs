@@ -9,8 +9,8 @@ use super::run::MAX_WORK;
 use super::slices::{Meter, Sliced};
 use super::stability_map::{MapRequest, MapWork, StabilityMap};
 use super::verdict::Verdict;
-use crate::lab::intervention::Interventions;
 use crate::lab::lane_spec::LaneSpec;
+use crate::lab::race::Interventions;
 use crate::lab::scene::Scene;
 use crate::sim::integrators::Method;
 

@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 
 use rayon::prelude::*;
 
-use crate::lab::lane::ESCAPE;
 use crate::lab::palette::{Rgba, Theme, mixed};
+use crate::lab::race::ESCAPE;
 
 /// The part of the phase plane that a picture shows.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::{CloudShape, Density, NoCloud, PlaneView, USUAL_POINTS};
-use crate::lab::intervention::Interventions;
 use crate::lab::lane_spec::LaneSpec;
+use crate::lab::race::Interventions;
 use crate::lab::scene::Scene;
 use crate::sim::Stepper;
 use crate::sim::integrators::steps_in_blocks;

@@ -1,7 +1,7 @@
 //! What is measured of every frame that a loop displays.
 
 use super::lane::LoopFrame;
-use crate::lab::metrics::{Scale, Unit};
+use crate::lab::analysis::{Scale, Unit};
 
 /// A measure of a displayed frame.
 #[derive(Debug)]

@@ -1,9 +1,9 @@
 //! The body in one loop, frame by frame.
 
-use crate::lab::lane::LaneBody;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::pacing::{FrameTrace, LoopRun, MIN_RUN_S, PacingReport, PolicyCard};
 use crate::lab::past::Energies;
+use crate::lab::race::LaneBody;
 use crate::lab::scene::Scene;
 use crate::sim::integrators::Method;
 

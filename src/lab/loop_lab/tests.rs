@@ -1,6 +1,7 @@
 use super::*;
+use crate::lab::Action;
 use crate::lab::pacing::policy;
-use crate::lab::{Action, Command, RunCommand, StageCommand, Step, Studio};
+use crate::lab::studio::{Command, RunCommand, StageCommand, Step, Studio};
 use crate::sim::integrators::method;
 
 fn studio() -> LoopLab {

@@ -9,8 +9,8 @@ use super::scripted_truth::{Furthest, ScriptedTruth};
 use super::time_base::TimeBase;
 use super::timed_script::TimedScript;
 use super::trace::{FrameTrace, Frames};
-use crate::lab::lane::{Lane, LaneBody};
 use crate::lab::lane_spec::LaneSpec;
+use crate::lab::race::{Lane, LaneBody};
 use crate::lab::scene::Scene;
 
 /// Default minimum length, in seconds: every one-off event of a built-in trace lies before it.

@@ -3,7 +3,7 @@
 use super::frame::Frame;
 use super::pacer::Pacer;
 use super::policy::Steps;
-use crate::lab::metrics::Unit;
+use crate::lab::analysis::Unit;
 
 /// By how much a frame may miss a double step and count as one: the nanoseconds of a trace are rounded.
 const LEEWAY_NS: i64 = 1000;

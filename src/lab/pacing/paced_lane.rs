@@ -2,7 +2,7 @@
 
 use super::pacer::Pacer;
 use super::policy::Steps;
-use crate::lab::lane::Lane;
+use crate::lab::race::Lane;
 
 /// A lane in a game loop.
 #[derive(Clone)]

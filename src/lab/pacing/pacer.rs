@@ -2,7 +2,7 @@
 
 use super::policy::{Policy, PolicyCard, Steps};
 use super::time_base::TimeBase;
-use crate::lab::interpolation::Interpolation;
+use crate::lab::race::Interpolation;
 
 /// A game loop: frames go in, steps and the moment to show come out. Times are in the unit of its [`TimeBase`].
 #[derive(Clone)]

@@ -1,7 +1,7 @@
 //! The table of rules.
 
 use super::policy::{PolicyCard, Snippet};
-use crate::lab::interpolation::Interpolation;
+use crate::lab::race::Interpolation;
 use fixed::Fixed;
 use hysteresis::Hysteresis;
 use lockstep::Lockstep;

@@ -1,7 +1,7 @@
 //! What a game loop decides each frame, and what is known of the rule by which it does.
 
 use super::time_base::TimeBase;
-use crate::lab::interpolation::Interpolation;
+use crate::lab::race::Interpolation;
 
 /// The steps of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use super::paced_lane::PacedLane;
 use super::timed_script::TimedScript;
-use crate::lab::lane::{Lane, LaneBody};
+use crate::lab::race::{Lane, LaneBody};
 use crate::lab::scene::Scene;
 use crate::sim::Solver;
 

@@ -181,7 +181,7 @@ mod tests {
     use glam::DVec2;
 
     use super::*;
-    use crate::lab::metrics::METRICS;
+    use crate::lab::analysis::METRICS;
     use crate::lab::past::sample::CAPACITY;
 
     fn sample(t: f64, entry: usize) -> Sample {

@@ -4,8 +4,8 @@ use glam::DVec2;
 
 use super::energies::Energies;
 use super::swept_range::SweptRange;
-use crate::lab::lane::LaneBody;
-use crate::lab::metrics::METRICS;
+use crate::lab::analysis::METRICS;
+use crate::lab::race::LaneBody;
 
 /// The most samples shown: every tick of 30 s at 60 Hz, and more than a plot has pixels.
 pub const CAPACITY: usize = 2048;
@@ -25,7 +25,7 @@ pub struct Sample {
     pub at: DVec2,
     /// Its energies, if it conserves energy.
     pub energies: Option<Energies>,
-    /// The index of the lane's method on the [menu](super::super::Menu) at that moment: a trail changes colour at a switch.
+    /// The index of the lane's method on the [menu](super::Menu) at that moment: a trail changes colour at a switch.
     pub entry: usize,
     /// One value for each of [`METRICS`]; NaN where it has no meaning.
     pub metrics: [f64; METRICS.len()],

@@ -19,7 +19,7 @@ pub struct Summary {
     pub q: f64,
     /// The range of that coordinate since the summary before.
     pub swept: SweptRange,
-    /// The index of the lane's method on the [menu](super::super::Menu).
+    /// The index of the lane's method on the [menu](super::Menu).
     pub entry: usize,
     /// Whether the body was put where they begin, so that no path leads from the summary before.
     pub jumped: bool,

@@ -7,12 +7,10 @@ use std::mem::discriminant;
 use glam::DVec2;
 
 use super::energies::Energies;
+use super::quantity::Quantity;
 use super::swept_range::SweptRange;
 use super::windowed_log::WindowedLog;
-use crate::lab::interpolation::{hermite, slope};
-use crate::lab::lane::LaneBody;
-use crate::lab::quantity::Quantity;
-use crate::lab::race::LastTick;
+use crate::lab::race::{LaneBody, LastTick, hermite, slope};
 use crate::sim::bodies::Input;
 use crate::sim::{Solver, Stepper};
 

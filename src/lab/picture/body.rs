@@ -5,8 +5,8 @@ use super::hull::{self, ShipPose};
 use super::mass::{self, LaneStyle};
 use super::sketch::{Camera, SOLID, line, path};
 use super::{Align, Label, Mark, Outline, Picture, Shape};
-use crate::lab::outline::Thread;
 use crate::lab::palette::{Palette, Rgba, faded, is_bright, mixed};
+use crate::lab::scene::Thread;
 
 /// The width of a thread of a net in front, in points: of the border, and within it.
 const BORDER: f32 = 2.2;

@@ -2,13 +2,13 @@
 
 use glam::DVec2;
 
-use super::breakpoints;
 use super::moment::DrawContext;
 use super::sketch::{Camera, SOLID, fill, line, path, ring, rounded};
-use super::{Align, Label, Picture, Rect, Rgba};
+use super::{Align, Label, Picture, Rect, Rgba, breakpoints};
+use crate::lab::Studio;
+use crate::lab::analysis::Severity;
 use crate::lab::palette::{Palette, faded};
-use crate::lab::race::Entrant;
-use crate::lab::{Halt, LaneBody, Severity, Studio};
+use crate::lab::race::{Entrant, Halt, LaneBody};
 use crate::sim::bodies::Coordinate;
 use crate::sim::number::{round, significant};
 
@@ -431,8 +431,9 @@ pub(super) fn scale_bar(picture: &mut Picture, camera: &Camera, palette: &Palett
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::Scene;
     use crate::lab::picture::compose;
-    use crate::lab::{Scene, StageCommand, Step};
+    use crate::lab::studio::{StageCommand, Step};
 
     #[test]
     fn the_numbers_beside_a_name_end_before_the_chip_however_far_the_body_is() {

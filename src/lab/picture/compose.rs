@@ -3,7 +3,6 @@
 use glam::DVec2;
 
 use super::body::OutlineView;
-use super::breakpoints;
 use super::flags::{Flag, Lost, badges, flags, row_width};
 use super::framed::{BodyView, on_one_stage, quay_width};
 use super::ghost::Ghost;
@@ -13,11 +12,12 @@ use super::mass::LaneStyle;
 use super::moment::DrawContext;
 use super::sketch::{Camera, line, path};
 use super::{
-    Cell, Framing, Look, Mark, Picture, Rect, Rgba, Whose, captions, chart, loop_stage, loupe,
+    Cell, Framing, Look, Mark, Picture, Rect, Rgba, Whose, breakpoints, captions, chart,
+    loop_stage, loupe,
 };
 use crate::lab::palette::faded;
-use crate::lab::race::Entrant;
-use crate::lab::{Arrangement, Mode, Studio, ZoomPan};
+use crate::lab::race::{Entrant, Mode};
+use crate::lab::studio::{Arrangement, Studio, ZoomPan};
 
 /// The most lanes of which each body has its number on it.
 const MAX_NUMBERED: usize = 9;

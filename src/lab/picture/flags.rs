@@ -319,8 +319,9 @@ pub(super) fn badges(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::Scene;
     use crate::lab::picture::compose;
-    use crate::lab::{Scene, StageCommand, Studio};
+    use crate::lab::studio::{StageCommand, Studio};
 
     /// What is told of a body that was at these places in a cell that shows 5 m to each side, and whether at the right.
     fn told(places: &[[f64; 2]]) -> Option<(String, bool)> {

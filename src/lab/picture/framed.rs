@@ -7,8 +7,8 @@ use super::moment::{DrawContext, turns};
 use super::outgrown::{Room, strayed_m};
 use super::sketch::Camera;
 use super::{Framing, Rect};
-use crate::lab::Motion;
 use crate::lab::race::Entrant;
+use crate::lab::studio::Motion;
 
 /// The head of a cell that a body with a fixed camera leaves to the caption, in points.
 const HEAD: f64 = 36.0;
@@ -233,8 +233,9 @@ impl DrawContext<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::Scene;
     use crate::lab::picture::compose;
-    use crate::lab::{Scene, StageCommand, Studio, ViewCommand};
+    use crate::lab::studio::{StageCommand, Studio, ViewCommand};
 
     #[test]
     fn an_orbit_that_leaves_the_true_one_is_followed_in_solo() {

@@ -4,7 +4,8 @@ use glam::DVec2;
 
 use super::sketch::Camera;
 use super::{Look, Pull, Rect};
-use crate::lab::{HeldBody, LaneId, Studio};
+use crate::lab::LaneId;
+use crate::lab::studio::{HeldBody, Studio};
 
 /// How close to the middle of a small handle a hand can take hold of it, in points: as close as people aim.
 const MIN_RADIUS: f32 = 14.0;

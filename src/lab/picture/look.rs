@@ -6,7 +6,7 @@ use std::any::Any;
 use glam::DVec2;
 
 use super::{Mark, Outline};
-use crate::lab::LaneBody;
+use crate::lab::race::LaneBody;
 use crate::sim::bodies::{
     Body, Chain, Custom, Follow, Helm, Kind, Law, Net, Orbit, Origin, Pendulum, Ship, Spring,
 };

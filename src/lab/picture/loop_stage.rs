@@ -4,13 +4,13 @@
 use glam::DVec2;
 
 use super::body::OutlineView;
-use super::breakpoints;
 use super::mass::LaneStyle;
 use super::sketch::{Camera, SOLID, line, path};
-use super::{Align, Framing, Label, Look, Outline, Picture, Rect, Rgba, chart};
-use crate::lab::loop_lab::{LoopFrame, LoopLane};
+use super::{Align, Framing, Label, Look, Outline, Picture, Rect, Rgba, breakpoints, chart};
+use crate::lab::Studio;
+use crate::lab::analysis::Severity;
+use crate::lab::loop_lab::{LoopFrame, LoopLab, LoopLane};
 use crate::lab::palette::{Palette, faded};
-use crate::lab::{LoopLab, Severity, Studio};
 use crate::sim::number::round;
 
 /// How many frames before the present one are seen.

@@ -104,8 +104,9 @@ pub(super) fn draw(
 
 #[cfg(test)]
 mod tests {
+    use crate::lab::Scene;
     use crate::lab::picture::compose;
-    use crate::lab::{Scene, StageCommand, Studio};
+    use crate::lab::studio::{StageCommand, Studio};
 
     /// What the loupes on the stage are labelled with after some seconds of a race of the methods with these ids.
     fn labels(scene: &str, methods: &[&str], seconds: u32) -> Vec<String> {

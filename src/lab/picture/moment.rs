@@ -1,9 +1,10 @@
 //! The moment that is drawn: where every body is between two ticks.
 
 use super::Rgba;
+use crate::lab::Studio;
 use crate::lab::palette::Palette;
-use crate::lab::race::Entrant;
-use crate::lab::{History, LaneBody, Studio};
+use crate::lab::past::History;
+use crate::lab::race::{Entrant, LaneBody};
 
 /// The part of a scene's duration that a chart recorder's paper holds: three swings of the harbour's
 /// 1 Hz spring, and no more of a faster one than can be told apart.
@@ -50,8 +51,10 @@ pub(super) fn turns(body: &LaneBody) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use crate::lab::Scene;
     use crate::lab::picture::{Whose, compose};
-    use crate::lab::{Interpolation, RunCommand, Scene, StageCommand, Step, Studio, ViewCommand};
+    use crate::lab::race::Interpolation;
+    use crate::lab::studio::{RunCommand, StageCommand, Step, Studio, ViewCommand};
     use crate::sim::number::significant;
 
     /// A spring under RK4 at a rate at which a tick can be seen.

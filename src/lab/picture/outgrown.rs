@@ -6,8 +6,10 @@ use glam::DVec2;
 
 use super::moment::DrawContext;
 use super::{Framing, Look, Outline};
-use crate::lab::race::Entrant;
-use crate::lab::{History, Metric, Mode, Motion, Studio};
+use crate::lab::Metric;
+use crate::lab::past::History;
+use crate::lab::race::{Entrant, Mode};
+use crate::lab::studio::{Motion, Studio};
 
 /// For how long the zoom is evened out, in seconds: a swing of the harbour's spring; and in how many parts.
 const EVENED_S: f64 = 1.0;
@@ -135,8 +137,9 @@ fn decades_per_s(history: &History, base_m: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::Scene;
     use crate::lab::picture::{Whose, compose};
-    use crate::lab::{Scene, StageCommand};
+    use crate::lab::studio::StageCommand;
 
     const SIZE: [f32; 2] = [780.0, 500.0];
 

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::{FAR, Fill, Path, PathPoint, Rect, Rgba, Shape};
-use crate::lab::ZoomPan;
+use crate::lab::studio::ZoomPan;
 
 /// Looks at one body's world through one cell of the stage.
 #[derive(Clone, Copy, Debug, PartialEq)]

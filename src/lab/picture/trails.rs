@@ -8,7 +8,8 @@ use super::moment::DrawContext;
 use super::sketch::{Camera, SOLID, demote, disc, taper};
 use super::{Framing, Path, PathPoint, Picture, Rect, Rgba, Shape};
 use crate::lab::palette::{faded, mixed};
-use crate::lab::{History, Motion, Sample};
+use crate::lab::past::{History, Sample};
+use crate::lab::studio::Motion;
 
 /// The most points in a lane's trail: more would not show.
 const TRAIL_POINTS: usize = 720;

@@ -1,14 +1,14 @@
 //! The actions on a race, from its journal and by hand.
 
+use super::journal::Source;
+use super::lane::Resumed;
 use super::observer::Observer;
+use super::time_scale::Piece;
 use super::{Mode, Race};
 use crate::lab::action::{Action, Control};
-use crate::lab::journal::Source;
-use crate::lab::lane::Resumed;
 use crate::lab::lane_id::LaneId;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::edited_values;
-use crate::lab::time_scale::Piece;
 use crate::sim::bodies::Acts;
 
 /// The effect of an action.

@@ -1,6 +1,6 @@
 //! A hash of a lane's state to the bit: 64-bit FNV-1a over little-endian words, with -0 as 0.
 
-use crate::lab::lane::Lane;
+use super::lane::Lane;
 use crate::sim::Stepper;
 
 /// The hash so far.

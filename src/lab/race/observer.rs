@@ -1,8 +1,8 @@
 //! Observers of a race: one tick loop serves all who need to know what happens in it.
 
 use super::Race;
+use super::lane::Resumed;
 use crate::lab::action::Action;
-use crate::lab::lane::Resumed;
 
 /// Receives what happens in a race, and does not change it.
 pub trait Observer {

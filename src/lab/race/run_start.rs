@@ -4,8 +4,8 @@
 use std::sync::Arc;
 
 use super::Race;
+use super::journal::Source;
 use crate::lab::action::Action;
-use crate::lab::journal::Source;
 
 /// The true state of a race right after an action on its bodies.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! What happened in a run, as data and in words.
 
 use crate::lab::action::Action;
-use crate::lab::journal::Source;
 use crate::lab::lane_id::LaneId;
+use crate::lab::race::Source;
 use crate::lab::scene::Scene;
 use crate::sim::number::{counted, round};
 

@@ -4,9 +4,8 @@ use std::sync::Arc;
 
 use super::Session;
 use crate::lab::action::Action;
-use crate::lab::journal::Journal;
 use crate::lab::lane_id::LaneId;
-use crate::lab::race::{Mode, Observer, Race};
+use crate::lab::race::{Journal, Mode, Observer, Race};
 use crate::lab::scene::{AuthorText, Check, MAX_FILE_BYTES, MIN_SECONDS, Scene, Scripted};
 
 /// The most checks of a recording, so that its file is not too large to read. A long run has fewer than one per second.

@@ -1,9 +1,8 @@
 //! A run as far as it was reached: its present, its drawn past, its snapshots and what happened in it.
 
 use super::{Event, Session};
-use crate::lab::journal::Journal;
 use crate::lab::past::{Past, PastMark};
-use crate::lab::race::Race;
+use crate::lab::race::{Journal, Race};
 
 /// A run as far as it was reached, wherever it is now.
 pub(super) struct RunWithPast {

@@ -4,11 +4,10 @@ use std::sync::Arc;
 
 use super::Session;
 use crate::lab::action::Action;
-use crate::lab::equal_cost;
 use crate::lab::lane_id::LaneId;
 use crate::lab::lane_spec::LaneSpec;
-use crate::lab::menu::Menu;
-use crate::lab::race::{Mode, Race};
+use crate::lab::past::Menu;
+use crate::lab::race::{Mode, Race, lanes_that_race};
 use crate::lab::scene::{MAX_SECONDS, MIN_SECONDS, Scene, SceneBody, edited_values};
 
 /// The settings of the next restart. They include a person's choices, and no effects of a script.
@@ -33,8 +32,7 @@ pub(in crate::lab) struct StartSettings {
 impl StartSettings {
     /// The settings of an unedited scene: solo, under its opening method.
     pub(in crate::lab) fn of(scene: Scene) -> Self {
-        let scene =
-            Scene { lanes: equal_cost::lanes_that_race(&scene), equal_cost: false, ..scene };
+        let scene = Scene { lanes: lanes_that_race(&scene), equal_cost: false, ..scene };
         let opens_with = |spec: &LaneSpec| Some(spec.method) == scene.opening_method;
         let entry = scene.lanes.iter().position(opens_with).unwrap_or(0);
         let scene = Arc::new(scene);

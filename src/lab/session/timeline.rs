@@ -6,10 +6,8 @@ use super::start::StartSettings;
 use super::undo::{Change, Exchanged, Future, Other, UndoStack};
 use super::{Event, EventKind, Session};
 use crate::lab::action::Action;
-use crate::lab::journal::Journal;
 use crate::lab::past::Past;
-use crate::lab::race::{ActionResult, Mode, Observer, Race};
-use crate::lab::time_scale::TimeScale;
+use crate::lab::race::{ActionResult, Journal, Mode, Observer, Race, TimeScale};
 
 /// The memory that snapshots and the drawn pasts of kept runs may take unless it is set, in bytes.
 pub const SNAPSHOT_BYTES: usize = 64 << 20;

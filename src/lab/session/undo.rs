@@ -3,7 +3,7 @@
 use super::Event;
 use super::run_with_past::{RunWithPast, Snapshot};
 use super::start::StartSettings;
-use crate::lab::journal::Journal;
+use crate::lab::race::Journal;
 
 /// The most changes that can be undone.
 const MAX_CHANGES: usize = 200;

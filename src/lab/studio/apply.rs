@@ -3,22 +3,21 @@
 use std::mem::take;
 
 use super::Studio;
-use super::looping::Activity;
-use crate::lab::action::Action;
-use crate::lab::command::{
+use super::command::{
     Command, RunCommand, SCALE_LADDER, SPEED_LADDER, StageCommand, TICK_LADDER,
     USUAL_SCALE_PERCENT, ViewCommand,
 };
-use crate::lab::display::DriverRequest;
-use crate::lab::equal_cost::equal_cost;
+use super::display::DriverRequest;
+use super::looping::Activity;
+use super::step::Step;
+use super::viewer::Dialog;
+use crate::lab::action::Action;
+use crate::lab::analysis::METRICS;
 use crate::lab::lane_id::LaneId;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::loop_lab::LoopCommand;
-use crate::lab::metrics::METRICS;
-use crate::lab::race::{ActionResult, Mode};
+use crate::lab::race::{ActionResult, Mode, equal_cost};
 use crate::lab::session::StartSettings;
-use crate::lab::step::Step;
-use crate::lab::viewer::Dialog;
 use crate::sim::bodies::Acts;
 
 impl Studio {

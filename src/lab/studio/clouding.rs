@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use super::Studio;
+use super::instrument::Instrument;
 use crate::lab::cloud::{CloudKind, CloudRequest, CloudWorker, FoundCloud, MAX_CLOUDS, NoCloud};
-use crate::lab::instrument::Instrument;
-use crate::lab::intervention::Interventions;
+use crate::lab::race::Interventions;
 
 impl Studio {
     /// The clouds that the studio wants at present, for a [`CloudWorker`]: those of its lanes, about the start of the run or where

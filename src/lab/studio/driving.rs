@@ -1,15 +1,14 @@
 //! Time in a studio: for each frame it makes the ticks that are due.
 
 use super::Studio;
+use super::live_loop::LiveFrame;
 use super::looping::Activity;
+use super::notices::Notices;
 use crate::lab::action::Action;
-use crate::lab::live_loop::LiveFrame;
-use crate::lab::notices::Notices;
 use crate::lab::pacing::Due;
 use crate::lab::picture::slow_motion_percent;
-use crate::lab::race::{Mode, Observer};
+use crate::lab::race::{Mode, Observer, TimeScale};
 use crate::lab::session::Timeline;
-use crate::lab::time_scale::TimeScale;
 
 impl Studio {
     /// The fractional tick at which `seconds` of simulated time have passed, if only the script changes the tick rate from

@@ -3,10 +3,9 @@
 use std::sync::Arc;
 
 use super::Studio;
+use super::instrument::Instrument;
 use crate::lab::analysis::{AdvisedBodies, AnalysisRequest, AnalysisWorker, Findings, MapRequest};
-use crate::lab::instrument::Instrument;
-use crate::lab::intervention::Interventions;
-use crate::lab::race::{Entrant, Mode};
+use crate::lab::race::{Entrant, Interventions, Mode};
 use crate::lab::scene::SceneBody;
 use crate::sim::bodies::{Acts, Parameter, Range};
 
@@ -148,7 +147,8 @@ impl Studio {
 
 #[cfg(test)]
 mod tests {
-    use crate::lab::{Scene, StageCommand, Studio};
+    use crate::lab::Scene;
+    use crate::lab::studio::{StageCommand, Studio};
 
     #[test]
     fn of_many_lanes_the_best_is_selected_unless_somebody_has_selected_one() {

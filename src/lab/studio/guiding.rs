@@ -1,15 +1,13 @@
 //! The guide and the hints of a studio: how a stop is opened, and when its task is done.
 
 use super::Studio;
-use crate::lab::command::{Command, StageCommand};
-use crate::lab::guide::{Chosen, Goal, Hints, STOPS, Situation, Stop, Tour, suits_race};
-use crate::lab::interpolation::Interpolation;
-use crate::lab::journal::Source;
-use crate::lab::metrics::Metric;
-use crate::lab::quantity::Quantity;
-use crate::lab::race::Mode;
+use super::command::{Command, StageCommand};
+use super::guide::{Chosen, Goal, Hints, STOPS, Situation, Stop, Tour, suits_race};
+use super::step::Step;
+use crate::lab::analysis::Metric;
+use crate::lab::past::Quantity;
+use crate::lab::race::{Interpolation, Mode, Source};
 use crate::lab::scene::SCENES;
-use crate::lab::step::Step;
 
 impl Studio {
     /// What to try next: the scene's own hint, then what follows on it. Keys stand between backticks.
@@ -135,9 +133,9 @@ fn error_of(quantity: Quantity) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::METRICS;
-    use crate::lab::command::{RunCommand, ViewCommand};
-    use crate::lab::{Key, Scene, command_for};
+    use crate::lab::studio::command::{RunCommand, ViewCommand};
+    use crate::lab::studio::{Key, command_for};
+    use crate::lab::{METRICS, Scene};
 
     #[test]
     fn what_a_stop_sets_without_saying_so_is_undone_when_the_guide_is_left() {

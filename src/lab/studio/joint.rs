@@ -2,9 +2,9 @@
 
 use super::Studio;
 use crate::lab::action::Action;
-use crate::lab::lane::LaneBody;
 use crate::lab::lane_spec::joint_per_mass;
 use crate::lab::port::{Setup, setups};
+use crate::lab::race::LaneBody;
 
 /// A spring, by the indices and the values of its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,7 +65,8 @@ impl Studio {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{DriverRequest, RunCommand, Scene, StageCommand, ViewCommand};
+    use crate::lab::Scene;
+    use crate::lab::studio::{DriverRequest, RunCommand, StageCommand, ViewCommand};
 
     #[test]
     fn a_setting_of_an_engine_sets_the_spring_and_control_c_on_the_engine_copies_it() {

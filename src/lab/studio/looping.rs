@@ -4,13 +4,13 @@ use std::mem::take;
 use std::sync::Arc;
 
 use super::Studio;
-use crate::lab::command::{StageCommand, TICK_LADDER};
-use crate::lab::guide::Goal;
-use crate::lab::instrument::Instrument;
+use super::command::{StageCommand, TICK_LADDER};
+use super::guide::Goal;
+use super::instrument::Instrument;
+use super::step::Step;
 use crate::lab::loop_lab::{FoundLoop, LoopCommand, LoopLab, LoopRequest, LoopWorker, SLOWNESS};
 use crate::lab::pacing::FrameTrace;
 use crate::lab::scene::SceneBody;
-use crate::lab::step::Step;
 use crate::sim::integrators::{Method, method};
 
 /// What a person is at: what the stage shows, and what its commands act on.

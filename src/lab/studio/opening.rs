@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use super::Studio;
+use super::instrument::Instrument;
 use super::restarting::is_by_hand;
-use crate::lab::instrument::Instrument;
+use super::scene_list::SceneList;
+use super::step::Step;
+use super::viewer::Dialog;
 use crate::lab::race::Mode;
 use crate::lab::scene::{Mistake, Scene};
-use crate::lab::scene_list::SceneList;
-use crate::lab::step::Step;
-use crate::lab::viewer::Dialog;
 
 /// The name of a custom spring on the list of scenes.
 const MY_SPRING: &str = "my spring";

@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use super::Studio;
-use crate::lab::journal::Source;
-use crate::lab::race::Mode;
+use crate::lab::race::{Mode, Source};
 use crate::lab::session::{Exchanged, Timeline};
 
 impl Studio {

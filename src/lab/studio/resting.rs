@@ -2,11 +2,9 @@
 //! again.
 
 use super::Studio;
+use super::display::Motion;
 use crate::lab::action::Action;
-use crate::lab::display::Motion;
-use crate::lab::journal::Source;
-use crate::lab::lane::Halt;
-use crate::lab::race::Mode;
+use crate::lab::race::{Halt, Mode, Source};
 use crate::sim::number::{round, significant};
 
 /// How long before it was over a blow-up is watched again, in seconds, and at least in ticks.
@@ -91,8 +89,9 @@ impl Studio {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::Scene;
     use crate::lab::picture::slow_motion_percent;
-    use crate::lab::{RunCommand, Scene, StageCommand, Studio, ViewCommand};
+    use crate::lab::studio::{RunCommand, StageCommand, Studio, ViewCommand};
 
     /// A lab that somebody watches.
     fn watched(scene: &str) -> Studio {

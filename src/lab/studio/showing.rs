@@ -1,8 +1,7 @@
 //! The moment that is shown: at rest that of the tick reached, and while time runs one between ticks.
 
 use super::Studio;
-use crate::lab::interpolation::Interpolation;
-use crate::lab::lane::LaneBody;
+use crate::lab::race::{Interpolation, LaneBody};
 
 impl Studio {
     /// How bodies are drawn now: at rest as they are at the tick, however they are drawn between ticks.

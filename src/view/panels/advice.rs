@@ -3,14 +3,15 @@
 
 use egui::{Align, Color32, FontId, Label, Layout, Rect, Response, RichText, Ui, UiBuilder, vec2};
 
-use super::breakpoints;
 use super::table::{Column, GAP, MARGIN, SortKey, Table, TableRow, show_words};
-use super::{palette, strong_font, tone};
-use crate::lab::number::{counted, significant};
-use crate::lab::{
-    Advice, AdvisedBodies, CRITERIA, Command, Criterion, CriterionMet, CriterionResult, LaneSpec,
-    MAX_ADVISED_SUBSTEPS, MethodAdvice, RunCommand, Studio, ViewCommand, recommended,
+use super::{breakpoints, palette, strong_font, tone};
+use crate::lab::LaneSpec;
+use crate::lab::analysis::{
+    Advice, AdvisedBodies, CRITERIA, Criterion, CriterionMet, CriterionResult,
+    MAX_ADVISED_SUBSTEPS, MethodAdvice, recommended,
 };
+use crate::lab::number::{counted, significant};
+use crate::lab::studio::{Command, RunCommand, Studio, ViewCommand};
 use crate::view::theme::{PanelPalette, TYPE};
 
 /// What is written in a cell, where there is room for it and where there is not.
@@ -315,7 +316,9 @@ mod tests {
     use egui::{Pos2, Rect};
 
     use super::*;
-    use crate::lab::{AnalysisWorker, Instrument, Scene, StageCommand};
+    use crate::lab::Scene;
+    use crate::lab::analysis::AnalysisWorker;
+    use crate::lab::studio::{Instrument, StageCommand};
     use crate::view::panels;
     use crate::view::testing::TestWindow;
 

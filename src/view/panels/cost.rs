@@ -5,8 +5,10 @@ use egui::{Color32, Label, Rect, RichText, Ui, Vec2, vec2};
 
 use super::table::{Column, SortKey, Table, TableRow, show_words};
 use super::{palette, strong_font};
+use crate::lab::LaneSpec;
 use crate::lab::number::significant;
-use crate::lab::{Command, Entrant, LaneSpec, StageCommand, Studio};
+use crate::lab::race::Entrant;
+use crate::lab::studio::{Command, StageCommand, Studio};
 use crate::view::theme::PanelPalette;
 
 /// The height of a row and the size of type in the heads, in points.

@@ -3,8 +3,10 @@
 use egui::{Align, Layout, RichText, Sense, Ui, vec2};
 
 use super::{breakpoints, keycap, loops, palette, short};
+use crate::lab::loop_lab::LoopCommand;
 use crate::lab::number::round;
-use crate::lab::{Command, LoopCommand, Mode, RunCommand, StageCommand, Step, Studio, ViewCommand};
+use crate::lab::race::Mode;
+use crate::lab::studio::{Command, RunCommand, StageCommand, Step, Studio, ViewCommand};
 use crate::view::theme::TYPE;
 
 pub(super) const HEIGHT: f32 = 32.0;

@@ -26,7 +26,7 @@ fn is_letter(sign: char) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::METHODS;
+    use crate::prelude::METHODS;
 
     fn quantities(line: &str) -> Vec<String> {
         let job = job(line, 13.0, Color32::WHITE);

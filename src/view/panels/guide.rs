@@ -3,8 +3,8 @@
 use egui::{Align, Button, Layout, RichText, ScrollArea, Ui, vec2};
 
 use super::{breakpoints, keycap, palette};
-use crate::lab::guide::{STOPS, Tour};
-use crate::lab::{Command, Step, ViewCommand};
+use crate::lab::studio::guide::{STOPS, Tour};
+use crate::lab::studio::{Command, Step, ViewCommand};
 use crate::view::theme::strong_font;
 
 pub(super) const HEIGHT: f32 = 172.0;

@@ -4,7 +4,7 @@ use egui::scroll_area::ScrollBarVisibility;
 use egui::{Align2, FontId, Order, RichText, ScrollArea, Ui, Vec2, Window, pos2, vec2};
 
 use super::{breakpoints, keycap, palette, short};
-use crate::lab::{Command, GESTURES, KEYS, ViewCommand};
+use crate::lab::studio::{Command, GESTURES, KEYS, ViewCommand};
 use crate::view::theme::TYPE;
 
 /// The width of a column, and of the keys in it.

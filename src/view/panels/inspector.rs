@@ -8,7 +8,9 @@ use egui::{
 pub(super) use self::number::NumberField;
 use self::rows::{Reach, Row, Spacing, Values, rows};
 use super::palette;
-use crate::lab::{Action, Acts, Command, RunCommand, Studio, edited_values};
+use crate::lab::scene::edited_values;
+use crate::lab::studio::{Command, RunCommand, Studio};
+use crate::lab::{Action, Acts};
 
 mod engine;
 mod number;
@@ -219,7 +221,8 @@ fn restoring(studio: &Studio) -> Vec<Command> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{LaneId, SCENES, Scene, StageCommand};
+    use crate::lab::studio::StageCommand;
+    use crate::lab::{LaneId, SCENES, Scene};
     use crate::view::testing::TestWindow;
 
     /// Every text that is seen in a frame that is high enough for all of the inspector.

@@ -5,14 +5,15 @@
 
 use egui::{Button, Color32, ComboBox, Label, Rect, Response, RichText, Sense, Stroke, Ui, vec2};
 
-use super::breakpoints;
 use super::series_styles::{SeriesStyle, SeriesStyles};
 use super::tracks::Detail;
-use super::{advice, cost, focus_ring, loops, one_step, palette, stability_map};
+use super::{advice, breakpoints, cost, focus_ring, loops, one_step, palette, stability_map};
+use crate::lab::METRICS;
 use crate::lab::loop_lab::FRAME_METRICS;
-use crate::lab::{
-    Command, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow, METRICS, Quantity,
-    StageCommand, Studio, ViewCommand,
+use crate::lab::past::Quantity;
+use crate::lab::studio::{
+    Command, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow, StageCommand, Studio,
+    ViewCommand,
 };
 use crate::view::chart::legend::{self, Entry};
 use crate::view::theme::{TYPE, strong_font};

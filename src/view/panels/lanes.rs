@@ -4,8 +4,9 @@ use egui::{Color32, RichText, Ui};
 
 use super::table::{Table, TableRow};
 use super::{formula, palette};
+use crate::lab::race::LaneBody;
 use crate::lab::source_code::Language;
-use crate::lab::{Command, LaneBody, StageCommand, Studio, ViewCommand};
+use crate::lab::studio::{Command, StageCommand, Studio, ViewCommand};
 use crate::view::theme::{PanelPalette, TYPE, strong_font};
 
 use row::Row;

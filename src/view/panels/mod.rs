@@ -6,7 +6,8 @@ use egui::text::{LayoutJob, TextWrapping};
 use egui::{Color32, FontId, Frame, Galley, Key, Margin, Rect, TextFormat, Ui};
 
 use super::theme::{PanelPalette, colour, palette, palette_of, strong_font};
-use crate::lab::{Command, Dialog, Outcome, Severity, Studio, ViewCommand};
+use crate::lab::analysis::{Outcome, Severity};
+use crate::lab::studio::{Command, Dialog, Studio, ViewCommand};
 
 mod advice;
 mod annotations;

@@ -5,7 +5,7 @@ use egui::{Align2, Button, FontId, Id, RichText, Sense, Ui, vec2};
 use super::dialog::{select, window};
 use super::inspector::NumberField;
 use super::palette;
-use crate::lab::{Command, MySpring, StageCommand, Studio, ViewCommand};
+use crate::lab::studio::{Command, MySpring, StageCommand, Studio, ViewCommand};
 use crate::view::theme::TYPE;
 
 const TITLE: &str = "My spring";

@@ -4,7 +4,8 @@ use egui::{Align2, Id, Key, Label, RichText, ScrollArea, TextEdit, TextStyle, Te
 
 use super::dialog::{select, window};
 use super::palette;
-use crate::lab::{Command, Mistake, Studio, ViewCommand};
+use crate::lab::scene::Mistake;
+use crate::lab::studio::{Command, Studio, ViewCommand};
 
 /// The width of a path that can be read without scrolling, in points.
 const WIDTH: f32 = 460.0;
@@ -102,7 +103,8 @@ fn report_within(ui: &mut Ui, report: &[Mistake], room: egui::Vec2) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Dialog, Scene};
+    use crate::lab::Scene;
+    use crate::lab::studio::Dialog;
     use crate::view::testing::TestWindow;
 
     /// The size of the only window over the lab, in points.

@@ -3,8 +3,10 @@
 use egui::Color32;
 
 use super::palette_of;
+use crate::lab::Studio;
+use crate::lab::loop_lab::LoopLab;
 use crate::lab::pacing::POLICIES;
-use crate::lab::{LoopLab, Mode, Studio};
+use crate::lab::race::Mode;
 use crate::view::theme::colour;
 
 /// Whose curves the plots show.

@@ -10,11 +10,11 @@ use egui::{
 
 use super::annotations::{label, mixed, polygon};
 use super::{breakpoints, colour, palette, strong_font};
+use crate::lab::analysis::{Coverage, MapRequest, SeenLine, StabilityMap};
 use crate::lab::number::round;
-use crate::lab::{
-    Action, Command, Coverage, MapRequest, Parameter, RunCommand, SeenLine, StabilityMap,
-    StageCommand, Step, Studio, edited_values,
-};
+use crate::lab::scene::edited_values;
+use crate::lab::studio::{Command, RunCommand, StageCommand, Step, Studio};
+use crate::lab::{Action, Parameter};
 use crate::view::chart::{self, AxisScale, LineStyle, PlotArea, Primitive, ScreenCurve};
 use words::{each_method, full_name, no_map, point_in_words, sentence, short_sentence};
 

@@ -4,8 +4,9 @@
 use egui::{Align2, Color32, FontId, Id, Rect, Response, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
 
 use super::{focus_ring, keycap, palette, short};
-use crate::lab::Command;
-use crate::view::chart::{self, legend::swatch};
+use crate::lab::studio::Command;
+use crate::view::chart;
+use crate::view::chart::legend::swatch;
 use crate::view::theme::{PanelPalette, TYPE, strong_font};
 
 /// The width of the bar at the left of the selected row, and of the margin that it stands in, in points.

@@ -11,7 +11,9 @@ use egui::{
 use self::marks::{Context, Group, Sign, grouped};
 pub(super) use self::span::Span;
 use super::{PanelPalette, breakpoints, palette};
-use crate::lab::{Command, Event, Mode, RunCommand, StageCommand, Step, Studio, TimeScale};
+use crate::lab::race::{Mode, TimeScale};
+use crate::lab::session::Event;
+use crate::lab::studio::{Command, RunCommand, StageCommand, Step, Studio};
 use crate::view::chart::AxisScale;
 use crate::view::wheel;
 

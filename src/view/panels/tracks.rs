@@ -5,8 +5,9 @@ use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
 use super::series_styles::SeriesStyles;
-use crate::lab::past::Summary;
-use crate::lab::{Entrant, History, Quantity, Sample, Studio};
+use crate::lab::Studio;
+use crate::lab::past::{History, Quantity, Sample, Summary};
+use crate::lab::race::Entrant;
 use crate::view::chart::{Arrow, Bounds, Curve, Dots, Drawing, LineStyle, Switch};
 
 /// A sample of a lane in a plot.

@@ -4,7 +4,7 @@ use egui::epaint::PathShape;
 use egui::{Color32, FontId, Pos2, Rect, Stroke, Ui, pos2, vec2};
 
 use super::{palette, severity_tone, short};
-use crate::lab::{Outcome, Severity};
+use crate::lab::analysis::{Outcome, Severity};
 use crate::view::theme::TYPE;
 
 /// Half the size of a sign, and the room that it takes, in points.

@@ -1,8 +1,9 @@
 use egui::{Modifiers, pos2};
 
 use super::*;
+use crate::lab::Scene;
 use crate::lab::picture::{Whose, compose};
-use crate::lab::{HeldBody, RunCommand, Scene, StageCommand, Step, ViewCommand};
+use crate::lab::studio::{HeldBody, RunCommand, StageCommand, Step, ViewCommand};
 use crate::view::testing::TestWindow;
 
 /// A lab with a stage, and the pointer over it.

@@ -1,7 +1,7 @@
 //! Options that cannot be are refused with the field and the remedy.
 
 use glam::DVec2;
-use regatta::lab::OptionsError;
+use regatta::lab::custom::OptionsError;
 use regatta::prelude::{Extras, Options, ParameterOf, Range, Scene, State, System};
 use regatta::sim::integrators::{Family, Method, Rk4, custom_integrator, method};
 

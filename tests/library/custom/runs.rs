@@ -2,8 +2,9 @@
 
 use glam::DVec2;
 use regatta::lab::picture::{Look, Mark, Outline};
+use regatta::lab::race::{Lane, Mode};
 use regatta::lab::session::RecordingError;
-use regatta::lab::{Adviser, CRITERIA, Lane, LaneSpec, Mode, Report, Studio};
+use regatta::lab::{Adviser, CRITERIA, LaneSpec, Report, Studio};
 use regatta::prelude::{Options, Scene, Session, State};
 use regatta::sim::Solver;
 use regatta::sim::integrators::method;

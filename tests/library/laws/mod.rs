@@ -1,6 +1,7 @@
 //! Equations of motion that a scene writes itself.
 
-use regatta::lab::{Judge, LaneSpec, Scene, SceneBody, TICK_LADDER};
+use regatta::lab::studio::TICK_LADDER;
+use regatta::lab::{Judge, LaneSpec, Scene, SceneBody};
 use regatta::sim::bodies::kind;
 use regatta::sim::integrators::METHODS;
 use regatta::sim::{Solver, Stepper};

@@ -1,8 +1,9 @@
 //! What is said of a net that has no reference solution.
 
-use regatta::lab::{
-    Adviser, Criterion, CriterionResult, Judge, LaneSpec, Outcome, Race, Scene, Severity, Verdict,
+use regatta::lab::analysis::{
+    Adviser, Criterion, CriterionResult, Judge, Outcome, Severity, Verdict,
 };
+use regatta::lab::{LaneSpec, Race, Scene};
 use regatta::sim::integrators::{StepFailure, method};
 
 fn scene(stiffness: f64, more: &str) -> Scene {

@@ -1,10 +1,11 @@
 //! What a scene file may say, and what it then means.
 
-use regatta::lab::scene::{LAST_TICK, MAX_BODIES, MAX_TICK_HZ};
-use regatta::lab::{
-    Action, LaneId, LaneSpec, MAX_LANES, MAX_SECONDS, Race, Scene, SceneBody, SceneKey,
-    StageCommand, Studio, scene_tables,
+use regatta::lab::scene::{
+    LAST_TICK, MAX_BODIES, MAX_LANES, MAX_SECONDS, MAX_TICK_HZ, Scene, SceneBody, SceneKey,
+    scene_tables,
 };
+use regatta::lab::studio::{StageCommand, Studio};
+use regatta::lab::{Action, LaneId, LaneSpec, Race};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 
 use super::built_in;

@@ -94,12 +94,12 @@ const CONCEPTS: [Concept; 32] = [
     },
     Concept {
         name: "times at several tick rates",
-        file: "src/lab/time_scale.rs",
+        file: "src/lab/race/time_scale.rs",
         marks: &["(tick - self.tick) as f64 /"],
     },
     Concept {
         name: "cubic between two states",
-        file: "src/lab/interpolation.rs",
+        file: "src/lab/race/interpolation.rs",
         marks: &["b * b * (1.0 + 2.0 * a)"],
     },
     Concept {
@@ -191,15 +191,15 @@ fn a_second_and_a_lost_implementation_are_seen() {
 /// Who steps a body or a lane of the lab by a length of time. A loop of ticks is [`Follow`](regatta::lab::Follow)'s, or
 /// that of the run.
 const STEPPERS: [(&str, &str); 10] = [
-    ("src/lab/lane.rs", "a tick of a body, which may fail"),
-    ("src/lab/follow.rs", "the loop of ticks outside the run"),
+    ("src/lab/race/lane.rs", "a tick of a body, which may fail"),
+    ("src/lab/race/follow.rs", "the loop of ticks outside the run"),
     ("src/lab/race.rs", "the tick of the run"),
     ("src/lab/pacing/paced_lane.rs", "the steps of a game loop"),
     ("src/lab/pacing/scripted_truth.rs", "the truth at the moments of display"),
     ("src/lab/past/truth_curve.rs", "the true curve between ticks"),
     ("src/lab/analysis/survey.rs", "a step of the true motion"),
     ("src/lab/analysis/truth.rs", "the truth from input to input"),
-    ("src/lab/one_step.rs", "the anatomy of the next tick"),
+    ("src/lab/studio/one_step.rs", "the anatomy of the next tick"),
     ("src/lab/analysis/chase_finding.rs", "the truth at the half-life"),
 ];
 

@@ -209,7 +209,7 @@ fn trespasses_are_seen() {
     }
     let good = [
         ("src/sim/rk5.rs", "use std::cell::Cell; use glam::DVec2; use super::{State, System};"),
-        ("src/sim/rk5.rs", "//! See [`crate::lab::ESCAPE`].\nlet text = \"std::fs\";"),
+        ("src/sim/rk5.rs", "//! See [`crate::lab::race::ESCAPE`].\nlet text = \"std::fs\";"),
         ("src/lab/scene.rs", "use crate::sim::State; use toml::Table; use serde::Deserialize;"),
         ("src/view/sea.rs", "use std::time::Duration; use crate::lab::picture::Sea;"),
         ("src/window.rs", "use std::time::Instant; use crate::view::Gpu;"),

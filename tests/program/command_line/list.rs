@@ -1,6 +1,7 @@
 //! `list` and `completions`.
 
-use regatta::lab::{KEYS, METRICS, SCENES};
+use regatta::lab::studio::KEYS;
+use regatta::lab::{METRICS, SCENES};
 use regatta::sim::bodies::{BODIES, Body, Net, kind, stepped_kinds};
 use regatta::sim::integrators::{METHODS, SpinMap};
 use regatta::sim::law::{UNITS, functions, operators, values};

@@ -5,7 +5,8 @@ use std::fs;
 use std::process::Output;
 
 use regatta::commands::manifest::{Manifest, SCHEMA};
-use regatta::lab::{METRICS, Scene, StageCommand, Studio};
+use regatta::lab::studio::{StageCommand, Studio};
+use regatta::lab::{METRICS, Scene};
 use regatta::sim::integrators::METHODS;
 use serde_json::Value;
 

@@ -5,7 +5,7 @@ use super::contour::contour;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::port::Setup;
 
-/// A line of equal damping.
+/// A line of equal damping ratio on a stability map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeenLine {
     /// The damping ratio that a player sees.

@@ -4,8 +4,7 @@ use std::ops::ControlFlow;
 
 use super::BodyTruth;
 use crate::lab::action::Action;
-use crate::lab::follow::{Follow, StopReason, Ticked};
-use crate::lab::lane::advance_checked;
+use crate::lab::race::{Follow, StopReason, Ticked, advance_checked};
 use crate::lab::scene::Scripted;
 use crate::sim::bodies::Coordinates;
 use crate::sim::integrators::{Family, StepFailure};

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 
 use super::{BodyTruth, FollowedBody, ticks};
 use crate::lab::analysis::slices::Once;
-use crate::lab::follow::StopReason;
+use crate::lab::race::StopReason;
 use crate::sim::Solver;
 use crate::sim::integrators::StepFailure;
 

@@ -75,7 +75,7 @@ fn a_verdict_at_another_rate_stands_until_it_is_computed_again() {
 
 #[test]
 fn a_map_keeps_its_regions_while_its_cross_is_moved() {
-    use crate::lab::{Instrument, RunCommand, StageCommand, Studio};
+    use crate::lab::studio::{Instrument, RunCommand, StageCommand, Studio};
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     studio.apply(StageCommand::Instrument(Instrument::StabilityMap));
     let mut worker = AnalysisWorker::new(studio.analysis_request());

@@ -1,6 +1,7 @@
 use super::*;
+use crate::lab::Scene;
 use crate::lab::picture::{Picture, compose};
-use crate::lab::{RunCommand, Scene, ViewCommand};
+use crate::lab::studio::{RunCommand, ViewCommand};
 use crate::sim::bodies::BODIES;
 
 const SIZE: [f32; 2] = [800.0, 500.0];

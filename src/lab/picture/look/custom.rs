@@ -2,7 +2,7 @@
 
 use super::beads::Beads;
 use super::{BodyPicture, Framing, Handle, Outline, Pull, typed};
-use crate::lab::LaneBody;
+use crate::lab::race::LaneBody;
 use crate::sim::State;
 use crate::sim::bodies::Custom;
 

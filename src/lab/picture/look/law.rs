@@ -3,7 +3,7 @@
 
 use super::beads::Beads;
 use super::{BodyPicture, typed};
-use crate::lab::LaneBody;
+use crate::lab::race::LaneBody;
 use crate::sim::State;
 use crate::sim::bodies::Law;
 use crate::sim::law::Layout;

@@ -5,9 +5,8 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull, typed};
-use crate::lab::LaneBody;
-use crate::lab::appearance::Preview;
-use crate::lab::outline::Thread;
+use crate::lab::race::LaneBody;
+use crate::lab::scene::{Preview, Thread};
 use crate::sim::State;
 use crate::sim::bodies::Net;
 

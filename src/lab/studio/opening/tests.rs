@@ -1,8 +1,8 @@
 use super::*;
+use crate::lab::race::Mode;
 use crate::lab::source_code::Language;
-use crate::lab::{
-    Action, Command, Mode, RunCommand, SCENES, StageCommand, Step, View, ViewCommand,
-};
+use crate::lab::studio::{Command, RunCommand, StageCommand, Step, View, ViewCommand};
+use crate::lab::{Action, SCENES};
 
 fn text(name: &str) -> &'static str {
     SCENES.iter().find(|scene| scene.name == name).unwrap().text
@@ -48,7 +48,7 @@ fn a_changed_file_with_the_same_lanes_and_bodies_is_run_again_to_the_tick() {
     old.apply(StageCommand::Pick(2));
     old.apply(ViewCommand::ZoomPan {
         body: 0,
-        zoom_pan: crate::lab::ZoomPan::default().zoomed(2.0, [0.0; 2]),
+        zoom_pan: crate::lab::studio::ZoomPan::default().zoomed(2.0, [0.0; 2]),
     });
     (0..50).for_each(|_| old.tick());
     old.apply(RunCommand::Act(Action::Kick(1.0)));
@@ -125,7 +125,7 @@ fn a_path_that_is_refused_stays_in_its_field_with_the_reason_until_it_is_edited(
     studio.apply(ViewCommand::TypePath("boat/none.toml".into()));
     assert_eq!(
         studio.apply(ViewCommand::OpenTypedPath),
-        Some(crate::lab::DriverRequest::OpenTypedPath)
+        Some(crate::lab::studio::DriverRequest::OpenTypedPath)
     );
     studio.refuse_typed_path(Path::new("boat/none.toml"), vec!["no such file".into()]);
     assert_eq!(studio.viewer().typed_path(), "boat/none.toml");

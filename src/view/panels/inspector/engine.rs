@@ -6,7 +6,7 @@ use super::super::palette;
 use super::{LINE, NumberField, line};
 use crate::lab::number::significant;
 use crate::lab::port::Setup;
-use crate::lab::{Command, RunCommand, Studio};
+use crate::lab::studio::{Command, RunCommand, Studio};
 
 /// Shows the numbers of a body that is a spring as the engine has them that is chosen; nothing of any other body.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, body: usize, commands: &mut Vec<Command>) {

@@ -4,11 +4,10 @@ use egui::{ComboBox, Id, RichText, Ui, vec2};
 
 use super::number::NumberField;
 use super::{LINE, RESTORE, line, restore};
-use crate::lab::scene::{MAX_TICK_HZ, MIN_SECONDS};
-use crate::lab::{
-    Action, Command, Entrant, LaneSpec, MAX_SECONDS, MAX_SUBSTEPS, Mode, RunCommand, StageCommand,
-    Studio, TOLERANCES,
-};
+use crate::lab::race::{Entrant, Mode};
+use crate::lab::scene::{MAX_SECONDS, MAX_SUBSTEPS, MAX_TICK_HZ, MIN_SECONDS, TOLERANCES};
+use crate::lab::studio::{Command, RunCommand, StageCommand, Studio};
+use crate::lab::{Action, LaneSpec};
 use crate::view::panels::palette;
 
 /// The widths of the fields of a lane, in points.

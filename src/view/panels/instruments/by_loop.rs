@@ -6,9 +6,10 @@ use super::super::tracks::Track;
 use super::error::capitalised;
 use super::phase::SAMPLES;
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, time_in_view};
-use crate::lab::loop_lab::{FRAME_METRICS, LoopFrame, LoopLane};
+use crate::lab::analysis::{METRICS, Metric, Scale};
+use crate::lab::loop_lab::{FRAME_METRICS, LoopFrame, LoopLab, LoopLane};
 use crate::lab::past::Energies;
-use crate::lab::{Instrument, LoopLab, METRICS, Metric, Scale, Studio};
+use crate::lab::studio::{Instrument, Studio};
 use crate::view::chart::{AxisScale, Bounds, Dots};
 
 /// The seconds in view where every frame shows.
@@ -189,7 +190,9 @@ impl Plots<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Command, LoopCommand, Scene, StageCommand};
+    use crate::lab::Scene;
+    use crate::lab::loop_lab::LoopCommand;
+    use crate::lab::studio::{Command, StageCommand};
     use crate::view::panels::instruments::{csv, svg};
 
     fn lab_at(scene: &str, now_ns: i64) -> Studio {

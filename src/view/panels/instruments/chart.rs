@@ -9,7 +9,7 @@ use super::super::{focus_ring, palette, ring, short};
 use super::hover;
 use super::layout::{Cell, cells};
 use super::plot_set::PlotSet;
-use crate::lab::{Command, StageCommand, Studio, ViewCommand};
+use crate::lab::studio::{Command, StageCommand, Studio, ViewCommand};
 use crate::view::chart::{self, ABOVE, NAME, NUMBER, PlotArea, Primitive, Text};
 use crate::view::theme::{PanelPalette, strong_font};
 use crate::view::wheel;

@@ -20,7 +20,8 @@ use crate::lab::cloud::{
 };
 use crate::lab::number::{grouped, significant};
 use crate::lab::palette::{Rgba, Theme};
-use crate::lab::{Command, Mode, RunCommand, StageCommand, Studio};
+use crate::lab::race::Mode;
+use crate::lab::studio::{Command, RunCommand, StageCommand, Studio};
 use crate::view::chart::{self as charts, AxisScale, LineStyle, PlotArea, Primitive, ScreenCurve};
 use crate::view::panels::breakpoints;
 

@@ -7,7 +7,8 @@ use super::super::{loops, palette_of};
 use super::layout::cells;
 use super::plot_set::{PlotAxis, PlotSet};
 use super::{chart, plot_set_of};
-use crate::lab::{Instrument, Studio, csv_row};
+use crate::lab::csv_row;
+use crate::lab::studio::{Instrument, Studio};
 use crate::view::chart::{ABOVE, NAME, Primitive, Text, legend, svg};
 use crate::view::theme::PanelPalette;
 
@@ -92,7 +93,8 @@ fn layout(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Instrument, Scene, StageCommand};
+    use crate::lab::Scene;
+    use crate::lab::studio::{Instrument, StageCommand};
 
     fn race() -> Studio {
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());

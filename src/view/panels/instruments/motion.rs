@@ -5,7 +5,8 @@ use super::super::series_styles::SeriesStyles;
 use super::super::tracks::{Detail, Track};
 use super::error::capitalised;
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, over_time};
-use crate::lab::{Mode, Studio};
+use crate::lab::Studio;
+use crate::lab::race::Mode;
 use crate::view::chart::Dots;
 
 /// A lane this many times further out than the truth no longer stretches the axes; and where it is alone,

@@ -7,9 +7,11 @@ use std::ops::Range;
 use super::super::palette_of;
 use super::super::series_styles::{SeriesStyle, SeriesStyles};
 use super::super::tracks::{self, Track, TrackStyle};
+use crate::lab::analysis::Unit;
 use crate::lab::number::significant;
-use crate::lab::past::{TruthCurve, TruthSample};
-use crate::lab::{Coordinate, LaneBody, Quantity, Studio, Unit};
+use crate::lab::past::{Quantity, TruthCurve, TruthSample};
+use crate::lab::race::LaneBody;
+use crate::lab::{Coordinate, Studio};
 use crate::view::chart::{Arrow, AxisScale, Bounds, Curve, Dots, Drawing, LineStyle, SwitchMark};
 use egui::Color32;
 

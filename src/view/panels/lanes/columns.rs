@@ -2,7 +2,8 @@
 
 use super::row::{self, Row};
 use crate::lab::number::{round, significant};
-use crate::lab::{Metric, Mode, Studio};
+use crate::lab::race::Mode;
+use crate::lab::{Metric, Studio};
 use crate::view::panels::table::{Column, SortKey, TableRow, show_words};
 
 /// The least width of the verdict, in points, and the one that it keeps beside columns of what the stage or an instrument
@@ -169,7 +170,8 @@ fn work<'a>() -> [Column<Row<'a>>; 2] {
 
 #[cfg(test)]
 mod tests {
-    use crate::lab::{Scene, StageCommand, Studio};
+    use crate::lab::Scene;
+    use crate::lab::studio::{StageCommand, Studio};
     use crate::view::panels::lanes;
 
     #[test]

@@ -1,8 +1,10 @@
 //! A row of the table, and its numbers.
 
 use super::verdict;
+use crate::lab::analysis::{ChaseFinding, METRICS, Metric};
 use crate::lab::number::significant;
-use crate::lab::{ChaseFinding, Entrant, LaneBody, LaneSpec, METRICS, Metric, Mode, Studio};
+use crate::lab::race::{Entrant, LaneBody, Mode};
+use crate::lab::{LaneSpec, Studio};
 use crate::view::panels::verdict::VerdictText;
 
 /// A method, or a body of the lane that is flown solo.

@@ -1,7 +1,8 @@
 //! The table of lanes: its rows, their order, and what is said in them.
 
 use super::*;
-use crate::lab::{RunCommand, Scene, StageCommand};
+use crate::lab::Scene;
+use crate::lab::studio::{RunCommand, StageCommand};
 use crate::view::panels::table::{Order, SortKey};
 use crate::view::testing::TestWindow;
 

@@ -2,10 +2,10 @@
 
 use egui::{ComboBox, RichText, TextWrapMode, Ui};
 
-use crate::lab::loop_lab::SLOWNESS;
+use crate::lab::loop_lab::{LoopCommand, LoopLab, SLOWNESS};
 use crate::lab::number::round;
 use crate::lab::pacing::TRACES;
-use crate::lab::{Command, LoopCommand, LoopLab};
+use crate::lab::studio::Command;
 use crate::view::panels::{breakpoints, palette};
 
 /// The most characters of a trace's name in the closed menu.

@@ -2,7 +2,8 @@
 
 use std::iter;
 
-use crate::lab::{LoopLab, Studio, csv_row};
+use crate::lab::loop_lab::LoopLab;
+use crate::lab::{Studio, csv_row};
 
 /// All frames of the loops on the stage, or the last frames of the window's own loop, as comma-separated text.
 pub(in crate::view::panels) fn csv(studio: &Studio) -> Vec<String> {

@@ -1,6 +1,6 @@
 //! What to try next in the loop lab.
 
-use crate::lab::LoopLab;
+use crate::lab::loop_lab::LoopLab;
 use crate::lab::number::round;
 use crate::lab::pacing::POLICIES;
 

@@ -2,8 +2,9 @@
 
 use egui::{Color32, Rect, RichText, Sense, Shape, Stroke, Ui, vec2};
 
-use crate::lab::loop_lab::LoopLane;
-use crate::lab::{Command, LoopCommand, LoopLab, Severity};
+use crate::lab::analysis::Severity;
+use crate::lab::loop_lab::{LoopCommand, LoopLab, LoopLane};
+use crate::lab::studio::Command;
 use crate::view::panels::table::TableRow;
 use crate::view::panels::verdict::{Sign, VerdictText};
 use crate::view::panels::{palette, strong_font};

@@ -2,7 +2,8 @@
 
 use egui::{Align2, Rangef, Response, Ui};
 
-use crate::lab::{Command, LoopCommand, LoopLab};
+use crate::lab::loop_lab::{LoopCommand, LoopLab};
+use crate::lab::studio::Command;
 use crate::view::panels::palette;
 use crate::view::panels::timeline::{Groove, Span, THICKNESS, pressed, step};
 

@@ -2,7 +2,8 @@ use egui::{Event, Modifiers};
 
 use super::words::{counted, notes};
 use super::*;
-use crate::lab::{Instrument, RunCommand, Scene, StageCommand, Step};
+use crate::lab::Scene;
+use crate::lab::studio::{Instrument, RunCommand, StageCommand, Step};
 use crate::view::testing::{TestWindow, button};
 
 fn studio(scene: &str) -> Studio {

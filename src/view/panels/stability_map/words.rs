@@ -5,9 +5,9 @@ use std::sync::Arc;
 use egui::text::LayoutJob;
 use egui::{Color32, FontId, Galley, TextFormat, Ui};
 
-use crate::lab::analysis::{Here, duration};
+use crate::lab::analysis::{Coverage, Here, MapRequest, StabilityMap, duration};
 use crate::lab::number::round;
-use crate::lab::{Coverage, LaneSpec, MapRequest, NoSmallMotion, Parameter, StabilityMap, Studio};
+use crate::lab::{LaneSpec, NoSmallMotion, Parameter, Studio};
 use crate::view::panels::{palette, strong_font};
 
 /// The letter of a parameter in the equation of motion, or else its name.

@@ -3,8 +3,9 @@
 use egui::Color32;
 
 use super::super::PanelPalette;
-use crate::lab::session::EventKind;
-use crate::lab::{Action, Event, LaneId, LaneSpec, Race, Scene, TimeScale};
+use crate::lab::race::{Race, TimeScale};
+use crate::lab::session::{Event, EventKind};
+use crate::lab::{Action, LaneId, LaneSpec, Scene};
 
 /// The sign of a mark. Of several in one place the last of this list is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -143,7 +144,7 @@ pub(super) fn colours(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{RunCommand, StageCommand, Studio};
+    use crate::lab::studio::{RunCommand, StageCommand, Studio};
     use crate::view::theme::palette_of;
 
     fn marks(studio: &Studio) -> Vec<Mark> {

@@ -1,7 +1,8 @@
 use egui::Event as Input;
 
 use super::*;
-use crate::lab::{Action, RunCommand, Scene, StageCommand, Step};
+use crate::lab::studio::{RunCommand, StageCommand, Step};
+use crate::lab::{Action, Scene};
 use crate::view::panels;
 use crate::view::testing::{TestWindow, button};
 

@@ -1,5 +1,6 @@
 use super::*;
-use crate::lab::{Action, RunCommand, Scene, StageCommand};
+use crate::lab::studio::{RunCommand, StageCommand};
+use crate::lab::{Action, Scene};
 use crate::view::panels::palette_of;
 
 const STYLE: TrackStyle = TrackStyle { dots: Dots::None, is_over_time: true };

@@ -1,7 +1,7 @@
 //! Which quantity an instrument shows, and what of it is seen, copied and saved.
 
 use super::*;
-use crate::lab::{RunCommand, StageCommand, ViewCommand};
+use crate::lab::studio::{RunCommand, StageCommand, ViewCommand};
 
 #[test]
 fn motion_shows_the_chosen_quantity_and_its_table_follows() {

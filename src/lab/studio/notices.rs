@@ -1,11 +1,10 @@
 //! Notices about bodies that halt and bodies that resume.
 
-use super::action::Action;
-use super::analysis::duration;
-use super::lane::{Halt, LaneBody, Resumed, ResumedFrom};
-use super::lane_spec::LaneSpec;
-use super::race::{Observer, Race};
-use super::scene::Scene;
+use crate::lab::action::Action;
+use crate::lab::analysis::duration;
+use crate::lab::lane_spec::LaneSpec;
+use crate::lab::race::{Halt, LaneBody, Observer, Race, Resumed, ResumedFrom};
+use crate::lab::scene::Scene;
 use crate::sim::bodies::FalseClaims;
 use crate::sim::integrators::StepFailure;
 use crate::sim::number::superscript;
@@ -143,7 +142,8 @@ fn of_claims(scene: &Scene, race: &Race, action: &Action) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{METRICS, Metric, RunCommand, StageCommand, Studio};
+    use crate::lab::studio::{RunCommand, StageCommand, Studio};
+    use crate::lab::{METRICS, Metric};
 
     #[test]
     fn what_goes_on_is_told_with_what_became_of_it_and_where_it_begins() {

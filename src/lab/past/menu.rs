@@ -1,8 +1,8 @@
 //! The menu of methods from which a person picks.
 
-use super::lane_id::LaneId;
-use super::lane_spec::LaneSpec;
-use super::race::Race;
+use crate::lab::lane_id::LaneId;
+use crate::lab::lane_spec::LaneSpec;
+use crate::lab::race::Race;
 
 /// The methods that digits, rows and colours refer to by their index: the scene's lanes, then all other methods that fit
 /// its bodies, each with the substeps and the tolerance with which a lane flies it now or flew it last. It follows the
@@ -16,7 +16,7 @@ pub struct Menu {
 
 impl Menu {
     /// The menu of a race at its start.
-    pub(super) fn new(race: &Race) -> Self {
+    pub(in crate::lab) fn new(race: &Race) -> Self {
         let mut menu = Self { specs: race.methods().to_vec(), flown: Vec::new() };
         for entrant in race.entrants() {
             // Of lanes that are alike each has an entry of its own, as far as there are any.

@@ -1,10 +1,10 @@
 //! The anatomy of the selected method's next tick: where it evaluates the force, what it finds there, where it lands, and
 //! where the true motion from the same state lands. It is taken on copies, so that the run is not disturbed.
 
-use super::bisection::bisect;
-use super::lane::LaneBody;
-use super::lane_spec::LaneSpec;
-use super::studio::Studio;
+use super::Studio;
+use crate::lab::bisection::bisect;
+use crate::lab::lane_spec::LaneSpec;
+use crate::lab::race::LaneBody;
 use crate::sim::Solver;
 use crate::sim::stability::Tick;
 

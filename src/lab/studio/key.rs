@@ -3,12 +3,12 @@
 
 use std::fmt;
 
-use super::action::Action;
 use super::command::{Command, RunCommand, StageCommand, ViewCommand};
-use super::loop_lab::LoopCommand;
 use super::step::Step;
+use crate::lab::action::Action;
+use crate::lab::loop_lab::LoopCommand;
 
-/// A key as this layer knows it.
+/// A key that a command can be bound to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Key {
     /// A digit by its place on the keyboard, so that it works unshifted on every layout.
@@ -82,7 +82,7 @@ pub struct Binding {
     pub repeats: bool,
 }
 
-/// Every key.
+/// Every key and its command.
 pub static KEYS: &[Binding] = &[
     Binding {
         shown: "1 … 9, 0",

@@ -5,10 +5,9 @@
 
 use super::display::Display;
 use super::instrument::Instrument;
-use super::interpolation::Interpolation;
 use super::key::Key;
-use super::quantity::Quantity;
-use super::race::{Mode, Race};
+use crate::lab::past::Quantity;
+use crate::lab::race::{Interpolation, Mode, Race};
 
 mod hints;
 mod stops;

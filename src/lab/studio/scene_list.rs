@@ -3,7 +3,7 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use super::scene::{BuiltIn, Mistake, SCENES, Scene};
+use crate::lab::scene::{BuiltIn, Mistake, SCENES, Scene};
 
 /// The list of scenes, and which of them is open.
 #[derive(Clone, Debug)]

@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use super::follow::{Follow, StopReason};
 use super::lane::Lane;
-use super::lane_spec::LaneSpec;
-use super::scene::{MAX_SUBSTEPS, Scene};
+use crate::lab::lane_spec::LaneSpec;
+use crate::lab::scene::{MAX_SUBSTEPS, Scene};
 
 /// The fewest ticks over which a cost is counted, and how many are counted after the script's last action: a second of
 /// most scenes, and enough for step sizes to settle.

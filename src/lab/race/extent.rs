@@ -9,7 +9,7 @@ const AT_REST: f64 = 0.01;
 
 /// The range of a body's true motion since its start.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Extent {
+pub(in crate::lab) struct Extent {
     largest_speed: f64,
     kinetic: Option<Kinetic>,
 }
@@ -29,7 +29,7 @@ struct Kinetic {
 
 impl Extent {
     /// Adds a moment: the speed and, if the body conserves its energy, the kinetic energy (J).
-    pub(super) fn cover(&mut self, speed: f64, kinetic_j: Option<f64>) {
+    pub(in crate::lab) fn cover(&mut self, speed: f64, kinetic_j: Option<f64>) {
         self.largest_speed = self.largest_speed.max(speed);
         if let Some(now) = kinetic_j {
             self.kinetic.get_or_insert_with(|| Kinetic::from(now)).cover(now);
@@ -37,14 +37,14 @@ impl Extent {
     }
 
     /// The largest speed so far; 0 if the body has not moved.
-    pub(super) fn largest_speed(&self) -> f64 {
+    pub(in crate::lab) fn largest_speed(&self) -> f64 {
         self.largest_speed
     }
 
     /// The energy that the motion of `truth` exchanges, in joules: the range of its kinetic energy, and for a linear body at
     /// least its total energy, all of which its modes exchange in time. `None` if energy is not conserved or exchanged, and
     /// before both ends of the range have been reached: a part of the range would exaggerate the drift.
-    pub(super) fn exchanged_j(&self, truth: &dyn Stepper) -> Option<f64> {
+    pub(in crate::lab) fn exchanged_j(&self, truth: &dyn Stepper) -> Option<f64> {
         let whole = truth.energy().filter(|_| truth.is_linear());
         Some(self.range_j()?.max(whole.unwrap_or(0.0)))
     }

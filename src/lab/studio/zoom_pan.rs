@@ -1,7 +1,7 @@
 //! The zoom and the pan of a body's cell of the stage.
 
 /// The least and the greatest zoom: from a body that has left the frame far behind, to its last pixels.
-pub const ZOOMS: (f64, f64) = (1.0 / 8.0, 64.0);
+const ZOOMS: (f64, f64) = (1.0 / 8.0, 64.0);
 
 /// The largest distance of the view's middle from the middle of the fitted frame, in frames: the extent of the view at
 /// the least zoom, so that everything visible can be zoomed in on.
@@ -26,7 +26,7 @@ impl Default for ZoomPan {
 }
 
 impl ZoomPan {
-    /// How many times larger than fitted.
+    /// How many times larger than fitted, 1/8 to 64.
     pub fn zoom(&self) -> f64 {
         self.zoom
     }

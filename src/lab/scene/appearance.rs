@@ -17,13 +17,13 @@ mod node_lines;
 pub(super) use node_lines::NodeLine;
 
 /// Draws a system of a type known to its author, at these coordinates.
-pub(super) type Drawing = dyn Fn(&dyn Any, &[f64]) -> Vec<Mark> + Send + Sync;
+pub(in crate::lab) type Drawing = dyn Fn(&dyn Any, &[f64]) -> Vec<Mark> + Send + Sync;
 
 /// How a body of a scene is drawn. The default is the usual look of its kind.
 #[derive(Default)]
 pub struct Appearance {
     /// How the author of a custom body draws it; `None` for the usual look.
-    pub(super) drawing: Option<Box<Drawing>>,
+    pub(in crate::lab) drawing: Option<Box<Drawing>>,
     /// The last preview, and the values of the parameters that it is of.
     preview: Mutex<Option<(Vec<f64>, Arc<Preview>)>>,
 }
@@ -36,26 +36,26 @@ impl fmt::Debug for Appearance {
 
 /// Where a body goes in its first seconds, found by a short run.
 #[derive(Debug)]
-pub(super) struct Preview {
+pub(in crate::lab) struct Preview {
     /// The least and the largest value of each coordinate; of a net none are kept.
-    pub(super) ranges: Vec<(f64, f64)>,
+    pub(in crate::lab) ranges: Vec<(f64, f64)>,
     /// The index of the coordinate that moves farthest.
-    pub(super) farthest: usize,
+    pub(in crate::lab) farthest: usize,
     /// The lower left and the upper right corner of the rectangle that holds the nodes of a net, or the places of a law.
-    pub(super) corners: [DVec2; 2],
+    pub(in crate::lab) corners: [DVec2; 2],
     /// The springs of a net; of other bodies none.
-    pub(super) springs: Springs,
+    pub(in crate::lab) springs: Springs,
 }
 
 /// The springs of a net, as they are drawn.
 #[derive(Debug, Default)]
-pub(super) struct Springs {
+pub(in crate::lab) struct Springs {
     /// Lines through the nodes.
-    pub(super) lines: Vec<NodeLine>,
+    pub(in crate::lab) lines: Vec<NodeLine>,
     /// Where the fixed nodes are.
-    pub(super) fixed: Vec<DVec2>,
+    pub(in crate::lab) fixed: Vec<DVec2>,
     /// The length of the shortest at the start, in metres.
-    pub(super) shortest: f64,
+    pub(in crate::lab) shortest: f64,
 }
 
 /// A coordinate has moved farther than another if by more than this part: nodes that mirror each other differ by
@@ -64,7 +64,7 @@ const FARTHER: f64 = 1e-6;
 
 impl Appearance {
     /// Of a custom body that its author draws.
-    pub(super) fn drawn(drawing: Option<Box<Drawing>>) -> Self {
+    pub(in crate::lab) fn drawn(drawing: Option<Box<Drawing>>) -> Self {
         Self { drawing, preview: Mutex::default() }
     }
 
@@ -73,7 +73,7 @@ impl Appearance {
     ///
     /// # Panics
     /// If the kind is in the table of bodies.
-    pub(super) fn preview(&self, kind: &Kind, body: &dyn Any) -> Arc<Preview> {
+    pub(in crate::lab) fn preview(&self, kind: &Kind, body: &dyn Any) -> Arc<Preview> {
         let (law, custom) = (body.downcast_ref::<Law>(), body.downcast_ref::<Custom>());
         let values = law.map(Law::values).or(custom.map(Custom::values)).unwrap_or_default();
         // Not held while the motion is followed: a large net waits for other threads, which may want a preview too.
@@ -190,7 +190,7 @@ const RUNAWAY: f64 = 1e4;
 #[cfg(test)]
 mod tests {
     use crate::lab::Scene;
-    use crate::lab::lane::Lane;
+    use crate::lab::race::Lane;
     use crate::sim::Solver;
 
     fn ranges(scene: &Scene) -> Vec<(f64, f64)> {

@@ -1,22 +1,22 @@
 //! What a person looks at. It does not change a run and is not part of one.
 
-use super::analysis::{Advice, Findings, StabilityMap, Verdict};
-use super::cloud::{CloudChoice, FoundCloud};
 use super::command::{SCALE_LADDER, USUAL_SCALE_PERCENT};
 use super::display::{Arrangement, Display, Motion, Pace, View};
 use super::guide::{Hints, Tour};
 use super::held::HeldBody;
 use super::instrument::Instrument;
-use super::interpolation::Interpolation;
-use super::lane_id::LaneId;
-use super::lane_spec::LaneSpec;
 use super::live_loop::LiveLoop;
 use super::my_spring::MySpring;
 use super::notice::Notice;
-use super::palette::Theme;
-use super::quantity::Quantity;
-use super::scene::Mistake;
-use super::source_code::Language;
+use crate::lab::analysis::{Advice, Findings, StabilityMap, Verdict};
+use crate::lab::cloud::{CloudChoice, FoundCloud};
+use crate::lab::lane_id::LaneId;
+use crate::lab::lane_spec::LaneSpec;
+use crate::lab::palette::Theme;
+use crate::lab::past::Quantity;
+use crate::lab::race::Interpolation;
+use crate::lab::scene::Mistake;
+use crate::lab::source_code::Language;
 
 /// A dialog over the window.
 #[derive(Clone, Debug, PartialEq, Eq)]

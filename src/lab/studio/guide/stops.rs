@@ -1,11 +1,10 @@
 //! The stops, in the order of the chapter.
 
 use super::{Goal, Stop};
-use crate::lab::instrument::Instrument;
-use crate::lab::interpolation::Interpolation;
-use crate::lab::key::Key;
-use crate::lab::quantity::Quantity;
-use crate::lab::race::Mode;
+use crate::lab::past::Quantity;
+use crate::lab::race::{Interpolation, Mode};
+use crate::lab::studio::instrument::Instrument;
+use crate::lab::studio::key::Key;
 
 /// Every stop.
 pub static STOPS: &[Stop] = &[

@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-use super::chase::Chase;
-use super::lane::LaneBody;
+use crate::lab::race::{Chase, LaneBody};
 use crate::sim::bodies::{Coordinate, Truth};
 
 /// How a metric is plotted.
@@ -59,7 +58,7 @@ impl fmt::Display for Unit {
     }
 }
 
-/// A metric.
+/// A metric of a body in a lane, compared with the same body in truth.
 #[derive(Debug)]
 pub struct Metric {
     /// Name in output, `snake_case`.
@@ -255,8 +254,8 @@ fn largest_difference(a: impl Iterator<Item = f64>, b: impl Iterator<Item = f64>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::scene::SceneBody;
-    use crate::lab::{Action, Lane, Race, Scene};
+    use crate::lab::scene::{Scene, SceneBody};
+    use crate::lab::{Action, Lane, Race};
     use crate::sim::Solver;
     use crate::sim::bodies::{Input, kind};
     use crate::sim::integrators::method;

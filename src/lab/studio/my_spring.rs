@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::scene::{Scene, SceneErrors, USUAL_SECONDS};
+use crate::lab::scene::{Scene, SceneErrors, USUAL_SECONDS};
 use crate::sim::number::round;
 
 /// The fewest periods in a scene of a slow spring.

@@ -1,7 +1,7 @@
 use super::*;
-use crate::lab::command::StageCommand;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::Scene;
+use crate::lab::studio::command::StageCommand;
 use crate::sim::integrators::{GENERAL_METHODS, METHODS, Method};
 
 /// A lab under a method, after some ticks.

@@ -2,9 +2,9 @@
 //! what the program can do.
 
 use crate::lab::analysis::Outcome;
-use crate::lab::command::{Command, RunCommand, StageCommand, ViewCommand};
-use crate::lab::key::KEYS;
-use crate::lab::step::Step;
+use crate::lab::studio::command::{Command, RunCommand, StageCommand, ViewCommand};
+use crate::lab::studio::key::KEYS;
+use crate::lab::studio::step::Step;
 
 /// What a hint after the scene's own asks for.
 struct Lead {

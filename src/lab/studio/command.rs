@@ -2,17 +2,17 @@
 
 use std::collections::BTreeMap;
 
-use super::action::Action;
-use super::cloud::CloudChoice;
 use super::held::HeldBody;
 use super::instrument::Instrument;
-use super::lane_spec::LaneSpec;
-use super::loop_lab::LoopCommand;
 use super::my_spring::MySpring;
-use super::quantity::Quantity;
-use super::source_code::Language;
 use super::step::Step;
 use super::zoom_pan::ZoomPan;
+use crate::lab::action::Action;
+use crate::lab::cloud::CloudChoice;
+use crate::lab::lane_spec::LaneSpec;
+use crate::lab::loop_lab::LoopCommand;
+use crate::lab::past::Quantity;
+use crate::lab::source_code::Language;
 use crate::sim::integrators::Method;
 
 /// A command of a person. A command on the run becomes an [`Action`], which states the new value rather than a change.
@@ -78,7 +78,7 @@ pub enum RunCommand {
     RudderLeft,
     /// A tenth more rudder to the right.
     RudderRight,
-    /// The next [way](super::Interpolation::ALL) of drawing between ticks.
+    /// The next [way](crate::lab::race::Interpolation::ALL) of drawing between ticks.
     NextInterpolation,
     /// Shows this parameter of the displayed body on the stability map, by its place.
     MapParameter(usize),
@@ -89,7 +89,7 @@ pub enum RunCommand {
     /// Opens or closes the inspector.
     ToggleInspector,
     /// Sets how long the scene is, in seconds, within
-    /// [`MIN_SECONDS`](super::scene::MIN_SECONDS) and [`MAX_SECONDS`](super::MAX_SECONDS): plots and verdicts cover it.
+    /// [`MIN_SECONDS`](crate::lab::scene::MIN_SECONDS) and [`MAX_SECONDS`](crate::lab::scene::MAX_SECONDS): plots and verdicts cover it.
     Seconds(f64),
     /// Saves the run to a file, as a scene.
     Record,
@@ -133,7 +133,7 @@ pub enum StageCommand {
     Instrument(Instrument),
     /// The next or the previous instrument, cyclically.
     InstrumentBeside(Step),
-    /// Shows the metric at this place of [`METRICS`](super::METRICS) in the error instrument.
+    /// Shows the metric at this place of [`METRICS`](crate::lab::METRICS) in the error instrument.
     Metric(usize),
     /// Selects the body of the plots and the lane list, by its index in the scene, from 0.
     Body(usize),
@@ -241,4 +241,4 @@ pub const SPEED_LADDER: [u32; 6] = [25, 50, 100, 200, 400, 1600];
 pub const SCALE_LADDER: [u32; 8] = [75, 90, 100, 110, 125, 150, 175, 200];
 
 /// The size of type and panels that nobody chose, in percent.
-pub const USUAL_SCALE_PERCENT: u32 = 100;
+pub(super) const USUAL_SCALE_PERCENT: u32 = 100;

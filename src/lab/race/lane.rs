@@ -5,12 +5,11 @@
 
 use std::sync::Arc;
 
-use super::action::Action;
-use super::appearance::{Appearance, Drawing, Preview};
 use super::chase::Chase;
 use super::extent::Extent;
 use super::follow::Ticked;
-use super::scene::{Scene, SceneBody};
+use crate::lab::action::Action;
+use crate::lab::scene::{Appearance, Drawing, Preview, Scene, SceneBody};
 use crate::sim::bodies::{Coordinate, Coordinates, Custom, FalseClaims, Input, Kind, Law, Truth};
 use crate::sim::integrators::StepFailure;
 use crate::sim::number::superscript;
@@ -95,7 +94,7 @@ impl LaneBody {
     }
 
     /// A body of a scene at its start, under `solver`.
-    pub(super) fn new(body: &SceneBody, solver: Solver) -> Self {
+    pub(in crate::lab) fn new(body: &SceneBody, solver: Solver) -> Self {
         let stepper = (body.kind.build)(&body.values, solver);
         let state = [stepper.q(), stepper.v()].map(<[f64]>::to_vec);
         let [previous_q, previous_v] = state.clone();
@@ -132,7 +131,7 @@ impl LaneBody {
     }
 
     /// The range of the true motion so far; `None` under a method.
-    pub(super) fn extent(&self) -> Option<&Extent> {
+    pub(in crate::lab) fn extent(&self) -> Option<&Extent> {
         self.extent.as_ref()
     }
 
@@ -143,12 +142,12 @@ impl LaneBody {
     }
 
     /// How the author of a custom body draws it, if not in the usual way.
-    pub(super) fn drawing(&self) -> Option<&Drawing> {
+    pub(in crate::lab) fn drawing(&self) -> Option<&Drawing> {
         self.appearance.drawing.as_deref()
     }
 
     /// Where a law, a net or a custom body goes in its first seconds.
-    pub(super) fn preview(&self) -> Arc<Preview> {
+    pub(in crate::lab) fn preview(&self) -> Arc<Preview> {
         self.appearance.preview(&self.kind, self.stepper.body())
     }
 
@@ -159,14 +158,14 @@ impl LaneBody {
     }
 
     /// The values whose coordinate has the same unit as the first; `values` has one per coordinate.
-    pub(super) fn like_first(&self, values: &[f64]) -> impl Iterator<Item = f64> {
+    pub(in crate::lab) fn like_first(&self, values: &[f64]) -> impl Iterator<Item = f64> {
         let units = self.kind.all_coordinates.units();
         let first = units.clone().next();
         units.zip(values).filter(move |(unit, _)| Some(*unit) == first).map(|(_, &value)| value)
     }
 
     /// The speed in the coordinates that have the unit of the first coordinate.
-    pub(super) fn speed(&self) -> f64 {
+    pub(in crate::lab) fn speed(&self) -> f64 {
         self.like_first(self.stepper.v()).fold(0.0, libm::hypot)
     }
 
@@ -303,7 +302,7 @@ impl LaneBody {
 ///
 /// # Errors
 /// If its solver fails, or if a coordinate or a velocity is not finite or is beyond [`ESCAPE`].
-pub(super) fn advance_checked(
+pub(in crate::lab) fn advance_checked(
     body: &mut dyn Stepper,
     coordinates: &Coordinates,
     (t, h): (f64, f64),
@@ -388,7 +387,7 @@ impl Lane {
 
     /// Applies the effect of an action on the bodies at time `t` (s), before tick `tick`. A placed body resumes if it
     /// had halted; if it cannot be in that state, it keeps its own and halts.
-    pub(super) fn act(&mut self, tick: u64, t: f64, action: &Action) {
+    pub(in crate::lab) fn act(&mut self, tick: u64, t: f64, action: &Action) {
         match action {
             Action::Place { body, q, v } => self.bodies[*body].place(*body, tick, t, [q, v]),
             Action::Set { body, .. } => action.apply_to(&mut *self.bodies[*body].stepper, t),

@@ -1,15 +1,15 @@
-//! What the lab's own loop did in its last frames.
+//! What the studio's own loop did in its last frames.
 
 use std::collections::VecDeque;
 
-use super::pacing::{Frame, FrameTrace, RefreshRate};
+use crate::lab::pacing::{Frame, FrameTrace, RefreshRate};
 
 /// The frames that are remembered: ten seconds at 60 Hz.
 const MAX_FRAMES: usize = 600;
 /// The fewest that make a trace.
 const MIN_FRAMES: usize = 60;
 
-/// A frame of the lab's own loop.
+/// A frame of the studio's own loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LiveFrame {
     /// How long the frame before it took, in nanoseconds.
@@ -23,7 +23,7 @@ pub struct LiveFrame {
     pub animation_error_ms: f64,
 }
 
-/// The last frames of the lab's own loop, the latest at the end.
+/// The last frames of the studio's own loop, the latest at the end.
 #[derive(Clone, Debug)]
 pub struct LiveLoop {
     frames: VecDeque<LiveFrame>,

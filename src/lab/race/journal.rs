@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::action::{Action, Control};
-use super::scene::Scripted;
+use crate::lab::action::{Action, Control};
+use crate::lab::scene::Scripted;
 
 /// Who performs an action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

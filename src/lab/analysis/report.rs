@@ -2,12 +2,12 @@
 
 use std::fmt;
 
-use super::analysis::{
+use super::{
     Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS,
     MethodAdvice, Verdict, recommended,
 };
-use super::custom::{Options, scene};
-use super::scene::Scene;
+use crate::lab::custom::{Options, scene};
+use crate::lab::scene::Scene;
 use crate::sim::{State, System, Vector};
 
 /// One value for each [`Criterion`].

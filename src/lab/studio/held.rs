@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::lane_id::LaneId;
+use crate::lab::lane_id::LaneId;
 
 /// A body that the pointer holds in a place. Time stands still until it is released: otherwise the body would move on
 /// meanwhile, and the lanes of a race would diverge before they start from the new state.

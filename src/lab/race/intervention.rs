@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use super::action::Action;
 use super::journal::{JournalRow, Source};
-use super::race::{BodyStart, Race, RunStart};
-use super::scene::{Scene, Scripted};
+use super::{BodyStart, Race, RunStart};
+use crate::lab::action::Action;
+use crate::lab::scene::{Scene, Scripted};
 
 /// What a person and the script have changed in a run by its present tick.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Interventions {
+pub(in crate::lab) struct Interventions {
     /// From where the run is told, unless it is from its start.
     start: Option<Arc<RunStart>>,
     /// The last action on the throttle, on the rudder and on each parameter.
@@ -19,7 +19,7 @@ pub(super) struct Interventions {
 impl Interventions {
     /// The changes in `race` by which it is judged. A parameter that the script has set is in force like one that a person has
     /// set; what the script does to throttle, rudder and state is part of the motion that is judged.
-    pub(super) fn in_race(race: &Race) -> Self {
+    pub(in crate::lab) fn in_race(race: &Race) -> Self {
         let mut settings: Vec<Action> = Vec::new();
         let is_in_force = |row: &&JournalRow| {
             row.source == Source::Hand || matches!(row.action, Action::Set { .. })
@@ -36,19 +36,19 @@ impl Interventions {
     }
 
     /// All changes in `race`: the run is told from right after the last one on.
-    pub(super) fn all_in_race(race: &Race) -> Self {
+    pub(in crate::lab) fn all_in_race(race: &Race) -> Self {
         Self { start: race.cloud_start().cloned(), settings: Vec::new() }
     }
 
     /// The time of the run at which the scene begins that it is [applied to](Self::applied_to), in seconds.
-    pub(super) fn starts_at_s(&self) -> f64 {
+    pub(in crate::lab) fn starts_at_s(&self) -> f64 {
         self.start.as_ref().map_or(0.0, |start| start.t)
     }
 
     /// The run as a scene of its own, from where it is told.
     /// Parameters that have been set, and a throttle and a rudder that were set by hand, have their last values from the
     /// beginning, and the script does not set them.
-    pub(super) fn applied_to(&self, scene: &Scene) -> Scene {
+    pub(in crate::lab) fn applied_to(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         let mut at_start = Vec::new();
         if let Some(start) = &self.start {

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use super::cloud::CloudChoice;
 use super::instrument::Instrument;
-use super::interpolation::Interpolation;
-use super::palette::Theme;
-use super::quantity::Quantity;
 use super::zoom_pan::ZoomPan;
+use crate::lab::cloud::CloudChoice;
+use crate::lab::palette::Theme;
+use crate::lab::past::Quantity;
+use crate::lab::race::Interpolation;
 
 /// How the lanes of a race share the stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -44,7 +44,7 @@ pub struct Display {
     pub enlarged: bool,
     /// What the motion instrument shows of every body.
     pub quantity: Quantity,
-    /// The metric of the error instrument, by its place in [`METRICS`](super::METRICS).
+    /// The metric of the error instrument, by its place in [`METRICS`](crate::lab::METRICS).
     pub metric: usize,
     /// Whether the advice is about the [displayed body](View::body) alone, and not about all.
     pub advises_on_one_body: bool,
@@ -70,7 +70,7 @@ pub struct View {
     /// The body of the plots and the lane list, by its index in the scene.
     pub body: usize,
     /// The coordinate of each body that a person has chosen for the plots, by its index; a body beyond the end has the
-    /// [usual one](super::LaneBody::plotted_coordinate).
+    /// [usual one](crate::lab::race::LaneBody::plotted_coordinate).
     pub coordinates: Vec<Option<usize>>,
     /// The body and its parameter that a person has chosen for the stability map, by their places.
     pub mapped_parameter: Option<(usize, usize)>,

@@ -1,7 +1,7 @@
 //! The times of ticks whose rate changes.
 
-use super::action::Action;
-use super::scene::Scene;
+use crate::lab::action::Action;
+use crate::lab::scene::Scene;
 
 /// The tolerance, in ticks, by which a tie between two ticks goes to the later one: a time may be off by its last bit.
 const TIE: f64 = 1e-6;
@@ -31,7 +31,7 @@ impl Piece {
 impl TimeScale {
     /// The times from tick `tick`, at `t` seconds, on: at `tick_hz`, and from each tick of `changes`, in order, at the rate
     /// beside it.
-    pub(super) fn new(
+    pub(in crate::lab) fn new(
         (tick, t): (u64, f64),
         tick_hz: u32,
         changes: impl IntoIterator<Item = (u64, u32)>,
@@ -77,7 +77,7 @@ impl Scene {
     }
 
     /// The actions of the script with their times in seconds, in order.
-    pub(super) fn timed_script(&self) -> impl Iterator<Item = (f64, &Action)> {
+    pub(in crate::lab) fn timed_script(&self) -> impl Iterator<Item = (f64, &Action)> {
         let times = TimeScale::new((0, 0.0), self.tick_hz, self.rates_from(0));
         self.script.iter().map(move |row| (times.t(row.tick), &row.action))
     }

@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 use std::ops::ControlFlow;
 
-use super::action::Action;
-use super::scene::Scripted;
+use crate::lab::action::Action;
+use crate::lab::scene::Scripted;
 use crate::sim::integrators::StepFailure;
 
 /// What a [`Follow`] ticks.
@@ -26,7 +26,8 @@ pub trait Ticked {
 ///
 /// ```
 /// use std::ops::ControlFlow;
-/// use regatta::lab::{Follow, Lane, Scene, StopReason};
+/// use regatta::lab::race::{Follow, Lane, StopReason};
+/// use regatta::lab::Scene;
 /// use regatta::sim::{Solver, integrators::method};
 ///
 /// let scene = Scene::built_in("spring").expect("a built-in scene");
