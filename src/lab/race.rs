@@ -41,7 +41,7 @@ mod time_scale;
 
 pub(super) use acting::ActionResult;
 pub use observer::Observer;
-pub(super) use run_start::{BodyStart, RunStart};
+use run_start::{BodyStart, RunStart};
 
 /// One method at a time, or all of them at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

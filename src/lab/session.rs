@@ -105,11 +105,7 @@ impl Session {
         self.act_seen(action, &mut ()) != ActionResult::Nothing
     }
 
-    pub(super) fn act_seen(
-        &mut self,
-        action: Action,
-        observer: &mut impl Observer,
-    ) -> ActionResult {
+    fn act_seen(&mut self, action: Action, observer: &mut impl Observer) -> ActionResult {
         self.race.act(action, observer)
     }
 

@@ -62,6 +62,12 @@ fn the_prelude_brings_what_is_promised_and_nothing_else() {
     assert_eq!(names, BTreeSet::from(PRELUDE), "a change for everybody who imports the prelude");
 }
 
+#[test]
+fn few_names_of_the_lab_stand_outside_its_rooms() {
+    let names = exported(include_str!("../../src/lab/mod.rs"));
+    assert!((20..=40).contains(&names.len()), "{names:?}");
+}
+
 /// Patterns without `..`: a field that is added, renamed or taken away does not compile here.
 #[test]
 fn a_report_has_the_fields_that_are_promised() {

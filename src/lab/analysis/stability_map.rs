@@ -48,7 +48,7 @@ pub struct MapRequest {
     /// The present tick rate.
     pub tick_hz: u32,
     /// The present parameters of the body.
-    pub(in crate::lab) values: Vec<f64>,
+    pub(super) values: Vec<f64>,
     /// The rates at the left and at the right end, in Hz.
     pub rates_hz: [f64; 2],
     /// The values of the parameter at the lower and at the upper end.

@@ -77,7 +77,7 @@ pub struct Findings {
     pub(in crate::lab) advice: Option<Advice>,
     pub(in crate::lab) map: Option<StabilityMap>,
     /// Whether the request is answered in full.
-    pub(in crate::lab) complete: bool,
+    pub(super) complete: bool,
 }
 
 impl Findings {

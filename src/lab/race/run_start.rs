@@ -9,24 +9,24 @@ use crate::lab::action::Action;
 
 /// The true state of a race right after an action on its bodies.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::lab) struct RunStart {
-    pub(in crate::lab) tick: u64,
+pub(super) struct RunStart {
+    pub(super) tick: u64,
     /// The time of the tick in seconds.
-    pub(in crate::lab) t: f64,
-    pub(in crate::lab) tick_hz: u32,
-    pub(in crate::lab) throttle: f64,
-    pub(in crate::lab) rudder: f64,
+    pub(super) t: f64,
+    pub(super) tick_hz: u32,
+    pub(super) throttle: f64,
+    pub(super) rudder: f64,
     /// In scene order.
-    pub(in crate::lab) bodies: Vec<BodyStart>,
+    pub(super) bodies: Vec<BodyStart>,
 }
 
 /// The true state of one body.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::lab) struct BodyStart {
+pub(super) struct BodyStart {
     /// Its parameters, as its kind [takes](crate::sim::bodies::Kind::build) them.
-    pub(in crate::lab) values: Vec<f64>,
-    pub(in crate::lab) q: Box<[f64]>,
-    pub(in crate::lab) v: Box<[f64]>,
+    pub(super) values: Vec<f64>,
+    pub(super) q: Box<[f64]>,
+    pub(super) v: Box<[f64]>,
 }
 
 impl RunStart {
@@ -44,12 +44,12 @@ impl RunStart {
 
 impl Race {
     /// The state right after a person last placed or kicked a body; `None` if nobody has.
-    pub(in crate::lab) fn judged_start(&self) -> Option<&Arc<RunStart>> {
+    pub(super) fn judged_start(&self) -> Option<&Arc<RunStart>> {
         self.judged_start.as_ref()
     }
 
     /// The state right after a person or the script last acted on a body; `None` if neither has.
-    pub(in crate::lab) fn cloud_start(&self) -> Option<&Arc<RunStart>> {
+    pub(super) fn cloud_start(&self) -> Option<&Arc<RunStart>> {
         self.cloud_start.as_ref()
     }
 

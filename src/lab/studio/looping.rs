@@ -15,7 +15,7 @@ use crate::sim::integrators::{Method, method};
 
 /// What a person is at: what the stage shows, and what its commands act on.
 #[derive(Default)]
-pub(in crate::lab) enum Activity {
+pub(super) enum Activity {
     /// The run.
     #[default]
     Run,

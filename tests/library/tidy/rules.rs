@@ -192,7 +192,7 @@ fn trespasses_are_seen() {
         ("src/sim/rk5.rs", "fn f() { std::thread::spawn(g); }"),
         ("src/sim/rk5.rs", "use toml::Table;"),
         ("src/sim/rk5.rs", "use crate::lab::Studio;"),
-        ("src/sim/bodies/raft.rs", "use super::super::super::lab::{ESCAPE, Studio};"),
+        ("src/sim/bodies/raft.rs", "use super::super::super::lab::{Scene, Studio};"),
         ("src/lab/studio.rs", "use wgpu::Device;"),
         ("src/lab/studio.rs", "fn f() -> std::time::Duration { g() }"),
         ("src/lab/studio.rs", "use std::{fs, mem};"),

@@ -66,7 +66,7 @@ static LEADS: [Lead; 6] = [
 
 /// Which hints a person has followed.
 #[derive(Clone, Debug, Default)]
-pub(in crate::lab) struct Hints {
+pub(in crate::lab::studio) struct Hints {
     /// That of the open scene.
     scene: bool,
     leads: [bool; LEADS.len()],
@@ -74,12 +74,12 @@ pub(in crate::lab) struct Hints {
 
 impl Hints {
     /// For a scene that has just been opened.
-    pub(in crate::lab) fn of_next_scene(&self) -> Self {
+    pub(in crate::lab::studio) fn of_next_scene(&self) -> Self {
         Self { scene: false, leads: self.leads }
     }
 
     /// Marks the hints that this command fulfils. `hint` is the scene's.
-    pub(in crate::lab) fn see(&mut self, command: &Command, hint: Option<&str>) {
+    pub(in crate::lab::studio) fn see(&mut self, command: &Command, hint: Option<&str>) {
         self.scene |= hint.and_then(asked).is_some_and(|asked| asked.contains(&command));
         for (done, lead) in self.leads.iter_mut().zip(&LEADS) {
             *done |= (lead.is_done_by)(command);
@@ -88,7 +88,7 @@ impl Hints {
 
     /// The present hint: the scene's, or else the first that was not followed. `flown` is the name of the method and the
     /// outcome of its verdict. Only a run that was changed on its way is worth another look from the start.
-    pub(in crate::lab) fn text(
+    pub(in crate::lab::studio) fn text(
         &self,
         hint: Option<&str>,
         (method, outcome): (&str, Option<Outcome>),
@@ -107,7 +107,7 @@ impl Hints {
 }
 
 /// Whether what a hint asks for makes sense in a race: there a digit switches nothing, and `C` has been pressed.
-pub(in crate::lab) fn suits_race(hint: &str) -> bool {
+pub(in crate::lab::studio) fn suits_race(hint: &str) -> bool {
     let is_of_solo = |command: &&Command| {
         use StageCommand::{Method, MethodBeside, Pick, ToggleRace};
         matches!(command, Command::Stage(Pick(_) | Method(_) | MethodBeside(_) | ToggleRace))
