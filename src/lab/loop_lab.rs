@@ -54,7 +54,7 @@ pub enum LoopCommand {
     Seek(i64),
 }
 
-/// A body in every loop.
+/// A body under one method in every loop, and where a person is in its frames.
 pub struct LoopLab {
     /// With one body.
     scene: Arc<Scene>,

@@ -108,7 +108,7 @@ const MAX_WORK_OF_ALL: u64 = MAX_WORK;
 /// About the work of one step: some milliseconds.
 const WORK_OF_STEP: u64 = 1_000_000;
 
-/// Works on one request at a time.
+/// Works on one [`AnalysisRequest`] at a time, beside the run.
 pub struct AnalysisWorker {
     /// The most work on all verdicts.
     max_work: u64,

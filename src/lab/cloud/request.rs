@@ -126,7 +126,7 @@ impl CloudRequest {
     }
 }
 
-/// What was found: the clouds, or why there are none.
+/// The answer to a [`CloudRequest`]: the clouds, or why there are none.
 #[derive(Clone, Debug)]
 pub struct FoundCloud {
     /// What they were asked for.

@@ -25,7 +25,7 @@ const SPREAD: f64 = 10.0;
 /// About how many evaluations are made before a picture is shown on the way.
 const WORK: u64 = 4_000_000;
 
-/// Works on one request at a time.
+/// Steps the clouds of one [`CloudRequest`] at a time, beside the run.
 #[derive(Default)]
 pub struct CloudWorker {
     request: Option<Arc<CloudRequest>>,

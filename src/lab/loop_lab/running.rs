@@ -28,7 +28,7 @@ impl LoopRequest {
     }
 }
 
-/// A loop that was run.
+/// The answer to a [`LoopRequest`] for one loop.
 pub struct FoundLoop {
     pub(super) request: Arc<LoopRequest>,
     /// Its place in [`POLICIES`].
@@ -36,7 +36,7 @@ pub struct FoundLoop {
     pub(super) lane: LoopLane,
 }
 
-/// Works on one request at a time.
+/// Runs the loops of one [`LoopRequest`] at a time, beside the window.
 #[derive(Default)]
 pub struct LoopWorker {
     request: Option<Arc<LoopRequest>>,
