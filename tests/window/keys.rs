@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use regatta::lab::Scene;
 use regatta::lab::loop_lab::LoopCommand;
 use regatta::lab::studio::{
-    Command, KEYS, Key, RunCommand, StageCommand, Step, Studio, ViewCommand,
+    Command, DriverRequest, KEYS, Key, StageCommand, Step, Studio, ViewCommand,
 };
 
 use crate::desk::Desk;
@@ -57,11 +57,11 @@ fn every_key_of_the_table_does_what_the_table_says() {
     for (key, command) in KEYS.iter().flat_map(|binding| binding.keys) {
         // Where a path or a number is typed, keys are text.
         let others = [
-            Command::View(ViewCommand::Screenshot),
-            Command::Run(RunCommand::Record),
+            Command::Ask(DriverRequest::Screenshot),
+            Command::Ask(DriverRequest::Record),
             Command::View(ViewCommand::Copy),
-            Command::View(ViewCommand::ExportInstrument),
-            Command::View(ViewCommand::ToggleFullScreen),
+            Command::Ask(DriverRequest::ExportInstrument),
+            Command::Ask(DriverRequest::ToggleFullScreen),
             Command::View(ViewCommand::AskForPath),
             Command::View(ViewCommand::AskForSpring),
             // It opens a scene, and lets time run.

@@ -38,12 +38,14 @@ impl Studio {
     }
 
     pub(super) fn carry_out(&mut self, command: Command) -> Option<DriverRequest> {
-        if self.loop_lab().is_some() && !matches!(command, Command::View(_)) {
+        if self.loop_lab().is_some() && !matches!(command, Command::View(_) | Command::Ask(_)) {
             self.viewer.notice = None;
         }
         match (command, &self.activity) {
             (Command::View(command), _) => return self.carry_out_on_view(command),
-            (Command::Run(command), Activity::Run) => return self.carry_out_on_run(command),
+            (Command::Ask(DriverRequest::Record), Activity::Loops(_)) => self.refuse_in_loop_lab(),
+            (Command::Ask(request), _) => return self.possible(request),
+            (Command::Run(command), Activity::Run) => self.carry_out_on_run(command),
             (Command::Run(_), Activity::Loops(_)) => self.refuse_in_loop_lab(),
             (Command::Stage(command), Activity::Run) => self.carry_out_on_stage(command),
             (Command::Stage(command), Activity::Loops(_)) => self.carry_out_in_loop_lab(command),
@@ -54,7 +56,7 @@ impl Studio {
         None
     }
 
-    fn carry_out_on_run(&mut self, command: RunCommand) -> Option<DriverRequest> {
+    fn carry_out_on_run(&mut self, command: RunCommand) {
         let race = self.race();
         match command {
             RunCommand::Act(action) => self.act(action),
@@ -85,10 +87,8 @@ impl Studio {
                 self.set_start("the length", |start| start.set_seconds(seconds));
             }
             RunCommand::Hold(held) => self.viewer.held = Some(held),
-            RunCommand::Record => return Some(DriverRequest::Record),
             RunCommand::ToggleEqualCost => self.toggle_equal_cost(),
         }
-        None
     }
 
     pub(super) fn carry_out_on_stage(&mut self, command: StageCommand) {
@@ -177,24 +177,18 @@ impl Studio {
             ViewCommand::PlotRanges(ranges) => self.viewer.view.plot_ranges = ranges,
             ViewCommand::ToggleEnlarged => display.enlarged = !display.enlarged,
             ViewCommand::Copy => {
-                let pointed = self.viewer.pointed.filter(|entry| *entry < self.entries().len());
-                let copy = pointed.map(|entry| match self.joint_code(entry) {
-                    Some(_) => DriverRequest::CopyJoint(entry),
-                    None => DriverRequest::CopyMethod(entry),
-                });
-                return Some(copy.unwrap_or(DriverRequest::CopyInstrument));
+                let of_lane =
+                    |entry| [DriverRequest::CopyJoint(entry), DriverRequest::CopyMethod(entry)];
+                let pointed = self.viewer.pointed.map(of_lane);
+                let mut copies =
+                    pointed.into_iter().flatten().chain([DriverRequest::CopyInstrument]);
+                return copies.find_map(|copy| self.possible(copy));
             }
-            ViewCommand::CopyInstrument => return Some(DriverRequest::CopyInstrument),
             ViewCommand::CopyMethod { entry, language } => {
                 self.viewer.preferences.language = language;
-                let known = entry < self.entries().len();
-                return known.then_some(DriverRequest::CopyMethod(entry));
-            }
-            ViewCommand::CopyJoint(entry) => {
-                return self.joint_code(entry).map(|_| DriverRequest::CopyJoint(entry));
+                return self.possible(DriverRequest::CopyMethod(entry));
             }
             ViewCommand::PointAt(entry) => self.viewer.pointed = entry,
-            ViewCommand::ExportInstrument => return Some(DriverRequest::ExportInstrument),
             ViewCommand::AdviseOnOneBody(is_one) => display.advises_on_one_body = is_one,
             ViewCommand::ToggleHelp => display.help = !display.help,
             ViewCommand::LetGo => self.viewer.held = None,
@@ -203,8 +197,6 @@ impl Studio {
             }
             ViewCommand::AskForPath => self.viewer.dialog = Some(Dialog::Path { refused: None }),
             ViewCommand::TypePath(path) => self.type_path(path),
-            ViewCommand::CompletePath => return Some(DriverRequest::CompletePath),
-            ViewCommand::OpenTypedPath => return Some(DriverRequest::OpenTypedPath),
             ViewCommand::AskForSpring => self.viewer.dialog = Some(Dialog::Spring),
             ViewCommand::DescribeSpring(spring) => self.viewer.preferences.my_spring = spring,
             ViewCommand::CloseDialog => self.viewer.dialog = None,
@@ -215,10 +207,17 @@ impl Studio {
                 self.viewer.tour.iter_mut().for_each(|tour| tour.predict(choice));
             }
             ViewCommand::Escape => return (!self.escape()).then_some(DriverRequest::Quit),
-            ViewCommand::Screenshot => return Some(DriverRequest::Screenshot),
-            ViewCommand::ToggleFullScreen => return Some(DriverRequest::ToggleFullScreen),
         }
         None
+    }
+
+    /// The request, unless there is nothing for the driver to copy.
+    fn possible(&self, request: DriverRequest) -> Option<DriverRequest> {
+        match request {
+            DriverRequest::CopyMethod(entry) => self.entries().get(entry).map(|_| request),
+            DriverRequest::CopyJoint(entry) => self.joint_code(entry).map(|_| request),
+            _ => Some(request),
+        }
     }
 
     /// Closes the foremost of what is open. Returns whether anything was.

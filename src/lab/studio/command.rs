@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::display::DriverRequest;
 use super::held::HeldBody;
 use super::instrument::Instrument;
 use super::my_spring::MySpring;
@@ -26,6 +27,8 @@ pub enum Command {
     Loop(LoopCommand),
     /// Acts on the window around the stage, and on the whole program.
     View(ViewCommand),
+    /// Asks the driver. The loop lab has no run to record.
+    Ask(DriverRequest),
 }
 
 impl From<RunCommand> for Command {
@@ -49,6 +52,12 @@ impl From<LoopCommand> for Command {
 impl From<ViewCommand> for Command {
     fn from(command: ViewCommand) -> Self {
         Self::View(command)
+    }
+}
+
+impl From<DriverRequest> for Command {
+    fn from(request: DriverRequest) -> Self {
+        Self::Ask(request)
     }
 }
 
@@ -91,8 +100,6 @@ pub enum RunCommand {
     /// Sets how long the scene is, in seconds, within
     /// [`MIN_SECONDS`](crate::lab::scene::MIN_SECONDS) and [`MAX_SECONDS`](crate::lab::scene::MAX_SECONDS): plots and verdicts cover it.
     Seconds(f64),
-    /// Saves the run to a file, as a scene.
-    Record,
     /// Switches equal cost on or off: each lane has as many substeps as bring its cost nearest to the dearest lane's.
     ToggleEqualCost,
 }
@@ -150,10 +157,6 @@ pub enum ViewCommand {
     AskForPath,
     /// Sets the text of that field.
     TypePath(String),
-    /// Completes the typed path as far as it is unambiguous.
-    CompletePath,
-    /// Opens the file at that path.
-    OpenTypedPath,
     /// Opens a dialog with the numbers of a custom spring.
     AskForSpring,
     /// Sets those numbers.
@@ -184,21 +187,15 @@ pub enum ViewCommand {
     /// Copies the method of the lane that is [pointed at](ViewCommand::PointAt) as source code in the language of the last
     /// copy; of an engine's the lines that tell it the displayed spring; or else the instrument's values.
     Copy,
-    /// Copies the instrument's values.
-    CopyInstrument,
     /// Copies a method as source code.
     CopyMethod {
-        /// Its place in the list of lanes.
+        /// Its index in the list of lanes.
         entry: usize,
         /// The language.
         language: Language,
     },
-    /// Copies the lines of code that tell the engine at this index of the list of lanes the displayed spring.
-    CopyJoint(usize),
     /// The pointer or the keyboard's focus comes to the lane at this index of the list, or leaves the list.
     PointAt(Option<usize>),
-    /// Saves the instrument to files.
-    ExportInstrument,
     /// Has the advice be about the displayed body alone, or about all bodies.
     AdviseOnOneBody(bool),
     /// Releases the held body, which goes on from where it was grabbed.
@@ -212,10 +209,6 @@ pub enum ViewCommand {
     },
     /// Opens or closes the help overlay.
     ToggleHelp,
-    /// Saves what the window shows to a file.
-    Screenshot,
-    /// Enters or leaves full screen.
-    ToggleFullScreen,
     /// Opens the guide where it was left, or closes it.
     ToggleGuide,
     /// Opens this stop of the guide, from 0.

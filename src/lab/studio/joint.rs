@@ -89,7 +89,7 @@ mod tests {
         let code = studio.joint_code(entry).unwrap();
         assert!(code.contains("def.hertz = 3.0;\n"), "{code}");
         assert_eq!(
-            studio.apply(ViewCommand::CopyJoint(entry)),
+            studio.apply(DriverRequest::CopyJoint(entry)),
             Some(DriverRequest::CopyJoint(entry))
         );
         studio.apply(ViewCommand::PointAt(Some(entry)));
@@ -100,7 +100,7 @@ mod tests {
         studio.apply(StageCommand::Body(ship));
         studio.apply(ViewCommand::PointAt(Some(entry)));
         assert_eq!(studio.apply(ViewCommand::Copy), Some(DriverRequest::CopyMethod(entry)));
-        assert_eq!(studio.apply(ViewCommand::CopyJoint(entry)), None);
+        assert_eq!(studio.apply(DriverRequest::CopyJoint(entry)), None);
         // An engine that is told other numbers has those.
         let alike = Studio::new(Scene::built_in("alike").unwrap());
         let told = [0, 3].map(|entry| alike.joint_code(entry).unwrap());

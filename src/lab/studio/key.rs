@@ -4,6 +4,7 @@
 use std::fmt;
 
 use super::command::{Command, RunCommand, StageCommand, ViewCommand};
+use super::display::DriverRequest;
 use super::step::Step;
 use crate::lab::action::Action;
 use crate::lab::loop_lab::LoopCommand;
@@ -286,7 +287,7 @@ pub static KEYS: &[Binding] = &[
         about: "copy the instrument's values, or on a lane its method, or an engine's settings, as code; save as PNG, SVG and CSV",
         keys: &[
             (Key::ControlSign('c'), Command::View(ViewCommand::Copy)),
-            (Key::ControlSign('e'), Command::View(ViewCommand::ExportInstrument)),
+            (Key::ControlSign('e'), Command::Ask(DriverRequest::ExportInstrument)),
         ],
         repeats: false,
     },
@@ -300,8 +301,8 @@ pub static KEYS: &[Binding] = &[
         shown: "P, F12",
         about: "screenshot; the file's name is shown",
         keys: &[
-            (Key::Sign('p'), Command::View(ViewCommand::Screenshot)),
-            (Key::Function(12), Command::View(ViewCommand::Screenshot)),
+            (Key::Sign('p'), Command::Ask(DriverRequest::Screenshot)),
+            (Key::Function(12), Command::Ask(DriverRequest::Screenshot)),
         ],
         repeats: false,
     },
@@ -309,8 +310,8 @@ pub static KEYS: &[Binding] = &[
         shown: "F5, Ctrl S",
         about: "save the run as a scene file; its name is shown",
         keys: &[
-            (Key::Function(5), Command::Run(RunCommand::Record)),
-            (Key::ControlSign('s'), Command::Run(RunCommand::Record)),
+            (Key::Function(5), Command::Ask(DriverRequest::Record)),
+            (Key::ControlSign('s'), Command::Ask(DriverRequest::Record)),
         ],
         repeats: false,
     },
@@ -323,7 +324,7 @@ pub static KEYS: &[Binding] = &[
     Binding {
         shown: "F11",
         about: "full screen",
-        keys: &[(Key::Function(11), Command::View(ViewCommand::ToggleFullScreen))],
+        keys: &[(Key::Function(11), Command::Ask(DriverRequest::ToggleFullScreen))],
         repeats: false,
     },
     Binding {

@@ -6,7 +6,7 @@ use super::table::{Table, TableRow};
 use super::{formula, palette};
 use crate::lab::race::LaneBody;
 use crate::lab::source_code::Language;
-use crate::lab::studio::{Command, StageCommand, Studio, ViewCommand};
+use crate::lab::studio::{Command, DriverRequest, StageCommand, Studio, ViewCommand};
 use crate::view::theme::{PanelPalette, TYPE, strong_font};
 
 use row::Row;
@@ -67,7 +67,7 @@ fn groups(studio: &Studio) -> Vec<Vec<Row<'_>>> {
 pub(super) fn menu(ui: &mut Ui, studio: &Studio, entry: usize, commands: &mut Vec<Command>) {
     let has_joint = studio.joint_code(entry).is_some();
     if has_joint && ui.button("Copy the spring's settings (Ctrl C)").clicked() {
-        commands.push(Command::View(ViewCommand::CopyJoint(entry)));
+        commands.push(Command::Ask(DriverRequest::CopyJoint(entry)));
         ui.close();
     }
     for language in Language::ALL {

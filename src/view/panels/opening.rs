@@ -5,7 +5,7 @@ use egui::{Align2, Id, Key, Label, RichText, ScrollArea, TextEdit, TextStyle, Te
 use super::dialog::{select, window};
 use super::palette;
 use crate::lab::scene::Mistake;
-use crate::lab::studio::{Command, Studio, ViewCommand};
+use crate::lab::studio::{Command, DriverRequest, Studio, ViewCommand};
 
 /// The width of a path that can be read without scrolling, in points.
 const WIDTH: f32 = 460.0;
@@ -43,11 +43,11 @@ pub(super) fn path(
             commands.push(Command::View(ViewCommand::TypePath(text)));
         }
         if ui.input(|input| input.key_pressed(Key::Tab)) {
-            commands.push(Command::View(ViewCommand::CompletePath));
+            commands.push(Command::Ask(DriverRequest::CompletePath));
             select(ctx, id, usize::MAX);
         }
         if ui.input(|input| input.key_pressed(Key::Enter)) {
-            commands.push(Command::View(ViewCommand::OpenTypedPath));
+            commands.push(Command::Ask(DriverRequest::OpenTypedPath));
         }
         let keys = "Enter opens, Tab completes, Esc closes. Or drop a file onto the window.";
         ui.label(RichText::new(keys).color(palette(ui).dim));

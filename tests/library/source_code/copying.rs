@@ -11,7 +11,7 @@ fn the_method_is_copied_while_a_lane_is_pointed_at_and_else_the_instrument() {
     assert_eq!(studio.apply(ViewCommand::Copy), instrument);
     studio.apply(ViewCommand::PointAt(Some(3)));
     assert_eq!(studio.apply(ViewCommand::Copy), Some(DriverRequest::CopyMethod(3)));
-    assert_eq!(studio.apply(ViewCommand::CopyInstrument), instrument);
+    assert_eq!(studio.apply(DriverRequest::CopyInstrument), instrument);
     studio.apply(ViewCommand::PointAt(None));
     assert_eq!(studio.apply(ViewCommand::Copy), instrument);
     // A place of a longer list.

@@ -1,7 +1,9 @@
 use super::*;
 use crate::lab::race::Mode;
 use crate::lab::source_code::Language;
-use crate::lab::studio::{Command, RunCommand, StageCommand, Step, View, ViewCommand};
+use crate::lab::studio::{
+    Command, DriverRequest, RunCommand, StageCommand, Step, View, ViewCommand,
+};
 use crate::lab::{Action, SCENES};
 
 fn text(name: &str) -> &'static str {
@@ -123,10 +125,7 @@ fn a_path_that_is_refused_stays_in_its_field_with_the_reason_until_it_is_edited(
     };
     studio.apply(ViewCommand::AskForPath);
     studio.apply(ViewCommand::TypePath("boat/none.toml".into()));
-    assert_eq!(
-        studio.apply(ViewCommand::OpenTypedPath),
-        Some(crate::lab::studio::DriverRequest::OpenTypedPath)
-    );
+    assert_eq!(studio.apply(DriverRequest::OpenTypedPath), Some(DriverRequest::OpenTypedPath));
     studio.refuse_typed_path(Path::new("boat/none.toml"), vec!["no such file".into()]);
     assert_eq!(studio.viewer().typed_path(), "boat/none.toml");
     assert_eq!(refused(&studio), Some(vec!["no such file".into()]));

@@ -9,7 +9,7 @@ use super::super::{focus_ring, palette, ring, short};
 use super::hover;
 use super::layout::{Cell, cells};
 use super::plot_set::PlotSet;
-use crate::lab::studio::{Command, StageCommand, Studio, ViewCommand};
+use crate::lab::studio::{Command, DriverRequest, StageCommand, Studio, ViewCommand};
 use crate::view::chart::{self, ABOVE, NAME, NUMBER, PlotArea, Primitive, Text};
 use crate::view::theme::{PanelPalette, strong_font};
 use crate::view::wheel;
@@ -138,8 +138,8 @@ fn menu(ui: &mut Ui, cell: &Cell<'_>, views: &mut Views, commands: &mut Vec<Comm
     }
     for (text, command) in [
         ("Enlarge (Enter)", Command::View(ViewCommand::ToggleEnlarged)),
-        ("Copy the values (Ctrl C)", Command::View(ViewCommand::CopyInstrument)),
-        ("Save as PNG, SVG and CSV (Ctrl E)", Command::View(ViewCommand::ExportInstrument)),
+        ("Copy the values (Ctrl C)", Command::Ask(DriverRequest::CopyInstrument)),
+        ("Save as PNG, SVG and CSV (Ctrl E)", Command::Ask(DriverRequest::ExportInstrument)),
     ] {
         if ui.button(text).clicked() {
             commands.push(command);
