@@ -43,7 +43,7 @@ pub use opening::{KeepRecording, ReadScene, SceneFiles};
 pub use run_of_session::Window;
 pub use settings::{Closed, WindowSettings};
 
-use canvas::{Canvas, Drawn};
+use canvas::{Canvas, FrameOutcome};
 use clipboard::Clipboard;
 use error::reason;
 use event::Event;
@@ -181,7 +181,7 @@ impl App {
         let drawn = canvas.draw(&self.studio, &mut self.clipboard);
         canvas.put_back(early);
         match drawn {
-            Ok(Drawn::Shown { commands, repaint_after }) => {
+            Ok(FrameOutcome::Shown { commands, repaint_after }) => {
                 if self.meter.first_frame() {
                     log::info!("first frame after {} ms", self.started.elapsed().as_millis());
                     self.stand_still();
@@ -204,7 +204,7 @@ impl App {
                 };
                 self.schedule(event_loop, now, after);
             }
-            Ok(Drawn::Skipped) => {
+            Ok(FrameOutcome::Skipped) => {
                 event_loop.set_control_flow(ControlFlow::WaitUntil(now + MAX_WAIT));
             }
             Err(error) => self.end(event_loop, Err(error)),

@@ -9,7 +9,7 @@ use super::frame_folder::FrameFolder;
 use super::frame_names::frame_name;
 use super::interrupt::watch_for_interrupt;
 use super::manifest::{FrameEntry, Manifest, SCHEMA};
-use super::pipeline::{Drawn, Run};
+use super::pipeline::{DrawnFrame, Pipeline};
 use super::settings;
 use super::state_log::{self, StateLog};
 use super::terminal::{print_status, report_left_alone};
@@ -31,15 +31,20 @@ pub(super) fn record(
     let mut studio = capture.studio(experiment);
     let mut state_log = StateLog::new(capture.mark_every, studio.race());
     let mut entries = Vec::new();
-    let run =
-        Run { renderer: &mut renderer, studio: &mut studio, state_log: &mut state_log, schedule };
-    let encode = |drawn: &Drawn| (png::encode(size_px, &drawn.rgba), fingerprint(&drawn.rgba));
-    let drawn = run.draw_all(&interrupted, encode, |&Drawn { tick, alpha, .. }, (file, pixels)| {
-        folder.push(&file)?;
-        let file = frame_name(entries.len() as u32);
-        entries.push(FrameEntry { file, tick, alpha: [alpha.0, alpha.1], pixels });
-        Ok(())
-    });
+    let run = Pipeline {
+        renderer: &mut renderer,
+        studio: &mut studio,
+        state_log: &mut state_log,
+        schedule,
+    };
+    let encode = |drawn: &DrawnFrame| (png::encode(size_px, &drawn.rgba), fingerprint(&drawn.rgba));
+    let drawn =
+        run.draw_all(&interrupted, encode, |&DrawnFrame { tick, alpha, .. }, (file, pixels)| {
+            folder.push(&file)?;
+            let file = frame_name(entries.len() as u32);
+            entries.push(FrameEntry { file, tick, alpha: [alpha.0, alpha.1], pixels });
+            Ok(())
+        });
     let (done, frames, whole) = (drawn?, schedule.frames, folder.range());
     if done < frames && !folder.takes_a_part() {
         return Err(interrupted_after(done, frames, "the old frames"));

@@ -167,7 +167,7 @@ const MAX_SCOUTED_S: u64 = 30;
 const LOOKED_EVERY: Duration = Duration::from_millis(50);
 
 /// A method's cloud while it is stepped.
-struct Run {
+struct MethodCloud {
     spec: LaneSpec,
     cloud: Cloud,
     stepping: Duration,
@@ -178,7 +178,7 @@ struct Run {
     areas: Vec<f64>,
 }
 
-impl Run {
+impl MethodCloud {
     /// What the area has become.
     fn words(&self, area_ratio: Option<f64>) -> String {
         self.cloud.in_words(area_ratio, self.areas.iter().copied())
@@ -303,7 +303,7 @@ fn make(
     Cloud::find_room(points, specs).map_err(no_cloud)?;
     let cloud = |spec: &LaneSpec| {
         let cloud = Cloud::new(name, &*body, spec, start, points, scene.tick_hz);
-        cloud.map(|cloud| Run {
+        cloud.map(|cloud| MethodCloud {
             spec: *spec,
             cloud,
             stepping: Duration::ZERO,
@@ -410,14 +410,14 @@ struct Paper {
 
 impl Paper {
     /// The clouds side by side at this time in seconds, each below its method and what has become of it.
-    fn picture(&self, runs: &[Run], t: f64, lines: &[Vec<[f64; 2]>]) -> Vec<u8> {
+    fn picture(&self, runs: &[MethodCloud], t: f64, lines: &[Vec<[f64; 2]>]) -> Vec<u8> {
         let Self { lettering, view, size_px: [width, height], what, axes } = self;
         let (theme, width) = (Theme::default(), *width);
         let palette = theme.palette();
         let mut pixels: Vec<Rgba> = vec![palette.background; width * height];
         let specs: Vec<LaneSpec> = runs.iter().map(|run| run.spec).collect();
         for (place, run) in runs.iter().enumerate() {
-            let Run { spec, cloud, section, .. } = run;
+            let MethodCloud { spec, cloud, section, .. } = run;
             let density = match section {
                 Some(section) => section.density().clone(),
                 None => {
@@ -461,8 +461,8 @@ impl Paper {
 }
 
 /// A method's row; tells what has become of its area in words.
-fn row(run: &Run, specs: &[LaneSpec], points: usize, ticks: u64, form: Form) -> Row {
-    let Run { spec, cloud, stepping, .. } = run;
+fn row(run: &MethodCloud, specs: &[LaneSpec], points: usize, ticks: u64, form: Form) -> Row {
+    let MethodCloud { spec, cloud, stepping, .. } = run;
     let measure = cloud.measure();
     let method = spec.distinct_name(spec.method.id, specs);
     let lost = points - measure.points;

@@ -8,7 +8,7 @@ use super::error::Error;
 use super::numbers::{number, number_that, positive};
 use super::output::print;
 use super::output::table::TableFormat;
-use crate::lab::identify::{Columns, Log, LogError, LogSetting, LoggedBody, identify};
+use crate::lab::identify::{ColumnNames, Log, LogError, LogSetting, LoggedBody, identify};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
 
 mod findings;
@@ -142,7 +142,7 @@ impl LogArgs {
             Error::mistake(format!("cannot read the log {}: {error}", path.display()))
         })?;
         let text = String::from_utf8_lossy(&bytes);
-        let columns = Columns {
+        let columns = ColumnNames {
             tick: self.tick_column.clone(),
             t: self.t_column.clone(),
             x: self.x_column.clone(),

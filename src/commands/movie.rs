@@ -11,7 +11,7 @@ use super::error::Error;
 use super::experiment::Experiment;
 use super::interrupt::watch_for_interrupt;
 use super::output::Output;
-use super::pipeline::{Drawn, Run};
+use super::pipeline::{DrawnFrame, Pipeline};
 use super::schedule::Schedule;
 use super::state_log::StateLog;
 use super::terminal::print_status;
@@ -46,7 +46,7 @@ pub(super) fn record(
     let interrupted = watch_for_interrupt();
     let mut studio = capture.studio(experiment);
     let mut state_log = StateLog::new(u64::MAX, studio.race());
-    let run = Run {
+    let run = Pipeline {
         renderer: &mut renderer,
         studio: &mut studio,
         state_log: &mut state_log,
@@ -105,7 +105,7 @@ impl<'a> Movie<'a> {
         })
     }
 
-    fn push(&mut self, Drawn { frame, rgba, .. }: &Drawn) -> Result<(), Error> {
+    fn push(&mut self, DrawnFrame { frame, rgba, .. }: &DrawnFrame) -> Result<(), Error> {
         match self {
             Movie::Apng(writer) => writer.write_image_data(rgba).map_err(of_png)?,
             Movie::Gif { gif, fps } => gif.push(rgba.clone(), shown_cs(*frame, *fps))?,

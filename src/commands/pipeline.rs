@@ -30,7 +30,7 @@ const MAX_ENCODERS: usize = 4;
 const SPARE_BUFFERS: usize = 2;
 
 /// A frame as it comes from the device.
-pub(super) struct Drawn {
+pub(super) struct DrawnFrame {
     /// Counted from 0.
     pub(super) frame: u32,
     /// The tick reached.
@@ -42,10 +42,10 @@ pub(super) struct Drawn {
 }
 
 /// A frame with what its encoder returned, or the panic of its encoder.
-type Encoded<T> = (Drawn, thread::Result<T>);
+type Encoded<T> = (DrawnFrame, thread::Result<T>);
 
 /// A run to be drawn.
-pub(super) struct Run<'a> {
+pub(super) struct Pipeline<'a> {
     pub(super) renderer: &'a mut OffscreenRenderer,
     /// At tick 0.
     pub(super) studio: &'a mut Studio,
@@ -53,18 +53,18 @@ pub(super) struct Run<'a> {
     pub(super) schedule: Schedule,
 }
 
-impl Run<'_> {
+impl Pipeline<'_> {
     /// Draws the frames in order and passes each to `take` with what `encode` returned for it. Several
     /// frames are encoded at once if there are processors for it. Returns how many frames were drawn. Once
     /// `interrupted` is set, no further frame is drawn; those drawn already are still passed on.
     pub(super) fn draw_all<T: Send>(
         self,
         interrupted: &AtomicBool,
-        encode: impl Fn(&Drawn) -> T + Sync,
-        mut take: impl FnMut(&Drawn, T) -> Result<(), Error> + Send,
+        encode: impl Fn(&DrawnFrame) -> T + Sync,
+        mut take: impl FnMut(&DrawnFrame, T) -> Result<(), Error> + Send,
     ) -> Result<u32, Error> {
         let progress = progress(self.schedule.frames, "frames");
-        let take = |drawn: &Drawn, encoded| {
+        let take = |drawn: &DrawnFrame, encoded| {
             progress.inc(1);
             take(drawn, encoded)
         };
@@ -81,8 +81,8 @@ impl Run<'_> {
         self,
         encoders: usize,
         interrupted: &AtomicBool,
-        encode: impl Fn(&Drawn) -> T + Sync,
-        take: impl FnMut(&Drawn, T) -> Result<(), Error> + Send,
+        encode: impl Fn(&DrawnFrame) -> T + Sync,
+        take: impl FnMut(&DrawnFrame, T) -> Result<(), Error> + Send,
     ) -> Result<u32, Error> {
         let pool = jobs::pool(encoders)?;
         let (results, encoded) = mpsc::channel();
@@ -116,7 +116,7 @@ impl Run<'_> {
         self,
         buffers: &Receiver<Vec<u8>>,
         interrupted: &AtomicBool,
-        mut hand_on: impl FnMut(Drawn),
+        mut hand_on: impl FnMut(DrawnFrame),
     ) -> Result<u32, ReadbackError> {
         let Self { renderer, studio, state_log, schedule } = self;
         let (mut moments, mut clouds) = (VecDeque::new(), CloudWorker::default());
@@ -136,7 +136,7 @@ impl Run<'_> {
                 let Some((tick, alpha)) = moments.pop_front() else { return Ok(drawn) };
                 let Ok(mut rgba) = buffers.recv() else { return Ok(drawn) };
                 renderer.collect(&mut rgba)?;
-                hand_on(Drawn { frame: drawn, tick, alpha, rgba });
+                hand_on(DrawnFrame { frame: drawn, tick, alpha, rgba });
                 drawn += 1;
             }
         }
@@ -148,7 +148,7 @@ impl Run<'_> {
 fn take_in_order<T>(
     encoded: &Receiver<Encoded<T>>,
     emptied: &Sender<Vec<u8>>,
-    mut take: impl FnMut(&Drawn, T) -> Result<(), Error>,
+    mut take: impl FnMut(&DrawnFrame, T) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let mut window = ReorderingWindow::default();
     for (drawn, made) in encoded {
@@ -236,14 +236,14 @@ mod tests {
     fn piped(
         renderer: &mut OffscreenRenderer,
         interrupted: &AtomicBool,
-        mut take: impl FnMut(&Drawn) -> Result<(), Error> + Send,
+        mut take: impl FnMut(&DrawnFrame) -> Result<(), Error> + Send,
     ) -> Result<u32, Error> {
         let mut studio = race();
         let mut state_log = StateLog::new(1, studio.race());
         let (studio, state_log) = (&mut studio, &mut state_log);
-        let run = Run { renderer, studio, state_log, schedule: SCHEDULE };
+        let run = Pipeline { renderer, studio, state_log, schedule: SCHEDULE };
         // The first of every two takes longer than the second.
-        let encode = |drawn: &Drawn| {
+        let encode = |drawn: &DrawnFrame| {
             thread::sleep(Duration::from_millis(if drawn.frame.is_multiple_of(2) { 5 } else { 0 }));
             drawn.frame
         };
@@ -271,13 +271,13 @@ mod tests {
         let Some(mut renderer) = renderer_or_skip(test) else { return };
         let mut studio = race();
         let mut state_log = StateLog::new(1, studio.race());
-        let run = Run {
+        let run = Pipeline {
             renderer: &mut renderer,
             studio: &mut studio,
             state_log: &mut state_log,
             schedule: SCHEDULE,
         };
-        let encode = |drawn: &Drawn| assert_ne!(drawn.frame, 4, "a bug");
+        let encode = |drawn: &DrawnFrame| assert_ne!(drawn.frame, 4, "a bug");
         let run = || run.draw_beside(3, &AtomicBool::new(false), encode, |_, ()| Ok(()));
         assert!(panic::catch_unwind(AssertUnwindSafe(run)).is_err());
     }
@@ -288,14 +288,14 @@ mod tests {
         let Some(mut renderer) = renderer_or_skip(test) else { return };
         let mut studio = race();
         let mut state_log = StateLog::new(1, studio.race());
-        let run = Run {
+        let run = Pipeline {
             renderer: &mut renderer,
             studio: &mut studio,
             state_log: &mut state_log,
             schedule: SCHEDULE,
         };
         let [on_their_way, most] = [0, 0].map(AtomicUsize::new);
-        let encode = |drawn: &Drawn| {
+        let encode = |drawn: &DrawnFrame| {
             most.fetch_max(on_their_way.fetch_add(1, Ordering::SeqCst) + 1, Ordering::SeqCst);
             // The first is held back until all buffers are in use, and a little longer.
             while drawn.frame == 0 && most.load(Ordering::SeqCst) < 3 + SPARE_BUFFERS {

@@ -12,7 +12,7 @@ use super::error::Error;
 use super::experiment::{self, Experiment, ExperimentArgs, Lineup, ThemeName, known_trace};
 use super::frame_folder::FrameFolder;
 use super::output::{Destination, Output};
-use super::preferences::{self, Preferences};
+use super::preferences::{self, SavedPreferences};
 use super::schedule::{FPS, Schedule, frames_in};
 use super::terminal::print_status;
 use super::unfinished::{self, UnfinishedRecording};
@@ -87,7 +87,7 @@ const SIZE_PX: [u32; 2] = [1280, 720];
 
 pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     let lineup = if args.race { Lineup::Everyone } else { Lineup::Solo };
-    let preferences = Preferences::load();
+    let preferences = SavedPreferences::load();
     // A run of a given length is a script's, and is the same everywhere.
     let last_scene = preferences.scene.as_deref().filter(|_| args.seconds.is_none());
     let again = last_scene.map(|scene| args.experiment.or_scene(scene));
@@ -143,7 +143,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
             let scene = if is_own { preferences.scene } else { preferences::scene_of(&studio) };
             let (theme, size) = (theme.or(preferences.theme), size.or(preferences.size));
             let scale_percent = Some(studio.display().scale_percent);
-            Preferences { scene, theme, scale_percent, size }.save();
+            SavedPreferences { scene, theme, scale_percent, size }.save();
             (studio, interrupted)
         }
     };

@@ -20,7 +20,7 @@ const FILE_NAME: &str = "window.toml";
 
 /// What is remembered.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Preferences {
+pub(super) struct SavedPreferences {
     /// The scene that was open last: a built-in one's name, or a file's path.
     pub(super) scene: Option<PathBuf>,
     /// The theme that a person has chosen.
@@ -31,7 +31,7 @@ pub(super) struct Preferences {
     pub(super) size: Option<[u32; 2]>,
 }
 
-impl Preferences {
+impl SavedPreferences {
     /// What the file says; nothing where there is none.
     pub(super) fn load() -> Self {
         let Some(path) = path() else { return Self::default() };
@@ -147,16 +147,16 @@ mod tests {
     #[test]
     fn what_is_remembered_is_read_as_it_was_written() {
         for preferences in [
-            Preferences::default(),
-            Preferences { size: Some([800, 600]), ..Preferences::default() },
-            Preferences {
+            SavedPreferences::default(),
+            SavedPreferences { size: Some([800, 600]), ..SavedPreferences::default() },
+            SavedPreferences {
                 scene: Some("C:\\a \"b\"\\c.toml".into()),
                 theme: Some(Theme::Light),
                 scale_percent: Some(125),
                 size: Some([1920, 1080]),
             },
         ] {
-            assert_eq!(Preferences::parse(&preferences.to_text()), Ok(preferences));
+            assert_eq!(SavedPreferences::parse(&preferences.to_text()), Ok(preferences));
         }
     }
 
@@ -164,10 +164,10 @@ mod tests {
     fn a_file_that_is_not_there_is_nothing_to_remember_and_one_that_is_no_text_is_told() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(FILE_NAME);
-        assert_eq!(Preferences::read(&path), Ok(Preferences::default()));
+        assert_eq!(SavedPreferences::read(&path), Ok(SavedPreferences::default()));
         std::fs::write(&path, [0xff, 0xfe, 0x00]).unwrap();
-        assert_eq!(Preferences::read(&path), Err("it is not text".into()));
-        assert!(Preferences::read(folder.path()).is_err());
+        assert_eq!(SavedPreferences::read(&path), Err("it is not text".into()));
+        assert!(SavedPreferences::read(folder.path()).is_err());
     }
 
     #[test]
@@ -180,10 +180,10 @@ mod tests {
             ("scale_percent = 1.5", "its scale_percent cannot be understood"),
             ("height = 0", "its height cannot be understood"),
         ] {
-            assert_eq!(Preferences::parse(text), Err(why.into()), "{text}");
+            assert_eq!(SavedPreferences::parse(text), Err(why.into()), "{text}");
         }
-        assert!(Preferences::parse("scene = ").is_err());
-        let known = Preferences { theme: Some(Theme::Dark), ..Preferences::default() };
-        assert_eq!(Preferences::parse("theme = 'dark'\nvolume = 2"), Ok(known));
+        assert!(SavedPreferences::parse("scene = ").is_err());
+        let known = SavedPreferences { theme: Some(Theme::Dark), ..SavedPreferences::default() };
+        assert_eq!(SavedPreferences::parse("theme = 'dark'\nvolume = 2"), Ok(known));
     }
 }

@@ -20,7 +20,7 @@ use decision::{Decision, decide};
 pub use effective::Effective;
 pub(super) use effective::SLOW;
 use fit::Fit;
-pub use logged::{Columns, Log, LogError, LogRow, LogSetting};
+pub use logged::{ColumnNames, Log, LogError, LogRow, LogSetting};
 pub use logged_body::LoggedBody;
 pub(super) use motion::run;
 use nearest::nearest;

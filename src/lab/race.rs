@@ -20,7 +20,7 @@ pub(super) use hash::Fnv;
 pub use interpolation::Interpolation;
 pub(super) use interpolation::{hermite, slope};
 pub(super) use intervention::Interventions;
-pub use journal::{Journal, JournalRow, Source};
+pub use journal::{Author, Journal, JournalRow};
 pub(super) use lane::advance_checked;
 pub use lane::{ESCAPE, Halt, Lane, LaneBody, Resumed, ResumedFrom};
 pub use time_scale::TimeScale;

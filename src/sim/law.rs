@@ -16,13 +16,13 @@ use tape::Tape;
 mod compile;
 mod diagnosis;
 mod expression;
+mod fault;
 mod form;
 mod function;
 mod jet;
 mod lanes;
 mod op;
 mod power;
-mod refusal;
 mod registers;
 mod switch;
 mod tape;
@@ -30,8 +30,8 @@ mod text;
 mod token;
 
 pub use expression::{MAX_BYTES, MAX_DEPTH};
+pub use fault::{LawFault, Part, Remedy};
 pub(in crate::sim) use lanes::LawLanes;
-pub use refusal::{Part, Refusal, Remedy};
 pub use registers::Registers;
 pub use tape::MAX_OPERATIONS;
 pub use text::{CoordinateText, LawText, Layout};
@@ -93,7 +93,7 @@ impl Equations {
     ///
     /// # Errors
     /// All faults of the text, each with its place.
-    pub fn new(text: LawText) -> Result<Self, Vec<Refusal>> {
+    pub fn new(text: LawText) -> Result<Self, Vec<LawFault>> {
         let mut refusals = check_names(&text);
         let compiler = Compiler { text: &text };
         let motion = compiler.motion();

@@ -27,7 +27,7 @@ pub(super) struct Canvas {
 }
 
 /// The outcome of drawing a frame.
-pub(super) enum Drawn {
+pub(super) enum FrameOutcome {
     /// It is on the screen.
     Shown {
         /// The commands that were given on the panels.
@@ -94,11 +94,11 @@ impl Canvas {
         &mut self,
         studio: &Studio,
         clipboard: &mut Clipboard,
-    ) -> Result<Drawn, WindowError> {
+    ) -> Result<FrameOutcome, WindowError> {
         if self.surface_is_lost || self.gpu.is_lost() {
             self.renew()?;
         }
-        let Some((texture, reconfigure)) = self.acquire() else { return Ok(Drawn::Skipped) };
+        let Some((texture, reconfigure)) = self.acquire() else { return Ok(FrameOutcome::Skipped) };
         let size_px = [texture.texture.width(), texture.texture.height()];
         let view = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let input = self.egui.take_egui_input(&self.window);
@@ -115,7 +115,7 @@ impl Canvas {
         if reconfigure {
             self.configure();
         }
-        Ok(Drawn::Shown { commands, repaint_after: output.repaint_delay })
+        Ok(FrameOutcome::Shown { commands, repaint_after: output.repaint_delay })
     }
 
     /// Removes and returns the events that the panels have not handled yet.

@@ -2,7 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use regatta::lab::identify::{Columns, Log};
+use regatta::lab::identify::{ColumnNames, Log};
 use regatta::lab::pacing::trace_file;
 use regatta::lab::studio::{RunCommand, Studio};
 use regatta::lab::{Action, Race, SCENES, Scene};
@@ -72,7 +72,7 @@ fn targets() -> Vec<Target> {
             files: logs.map(first_lines).into(),
             read: |bytes, _| {
                 let text = String::from_utf8_lossy(bytes);
-                Log::parse("log.csv", &text, &Columns::default(), 60.0).is_ok()
+                Log::parse("log.csv", &text, &ColumnNames::default(), 60.0).is_ok()
             },
             refused_per_mille: 50..990,
         },

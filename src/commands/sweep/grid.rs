@@ -47,7 +47,7 @@ impl Subject {
 }
 
 /// A run to be made.
-struct Cell {
+struct PlannedRun {
     subject: usize,
     spec: LaneSpec,
     tick_hz: u32,
@@ -57,7 +57,7 @@ struct Cell {
 pub(super) struct Grid {
     subjects: Vec<Subject>,
     /// In the order of the rows.
-    cells: Vec<Cell>,
+    runs: Vec<PlannedRun>,
 }
 
 /// A finished run.
@@ -89,7 +89,7 @@ impl Row {
 impl Grid {
     /// The runs that were asked for.
     pub(super) fn new(swept: &Swept) -> Self {
-        let mut grid = Self { subjects: Vec::new(), cells: Vec::new() };
+        let mut grid = Self { subjects: Vec::new(), runs: Vec::new() };
         for (name, scene) in &swept.scenes {
             let horizon_s = swept.seconds.unwrap_or(scene.seconds.min(MAX_HORIZON_S));
             let own = octaves(scene.tick_hz);
@@ -99,7 +99,7 @@ impl Grid {
                 let alone = Scene { bodies: vec![body], ..scene.clone() };
                 let fits = |method: &&&Method| alone.refusal(method).is_none();
                 for method in swept.methods.iter().filter(fits) {
-                    grid.cells.extend(rates.iter().map(|&tick_hz| Cell {
+                    grid.runs.extend(rates.iter().map(|&tick_hz| PlannedRun {
                         subject: grid.subjects.len(),
                         spec: LaneSpec::plain(method),
                         tick_hz,
@@ -126,22 +126,22 @@ impl Grid {
     ) -> Result<Vec<Row>, Error> {
         let grid = Arc::new(self);
         let verdicts = judge_all(&grid, threads, interrupted)?;
-        let progress = progress(grid.cells.len() as u32, "runs timed");
-        let effort = effort(grid.cells.len());
-        let rows = grid.cells.iter().zip(verdicts).map(|(cell, verdict)| {
+        let progress = progress(grid.runs.len() as u32, "runs timed");
+        let effort = effort(grid.runs.len());
+        let rows = grid.runs.iter().zip(verdicts).map(|(run, verdict)| {
             if interrupted.load(Ordering::Relaxed) {
                 return Err(Error::nothing_written());
             }
             progress.inc(1);
-            Ok(grid.row(cell, verdict, effort))
+            Ok(grid.row(run, verdict, effort))
         });
         let rows = rows.collect();
         progress.finish_and_clear();
         rows
     }
 
-    fn row(&self, cell: &Cell, verdict: Verdict, effort: Duration) -> Row {
-        let &Cell { subject, spec, tick_hz } = cell;
+    fn row(&self, run: &PlannedRun, verdict: Verdict, effort: Duration) -> Row {
+        let &PlannedRun { subject, spec, tick_hz } = run;
         let Subject { scene_name, alone, varied, .. } = &self.subjects[subject];
         let mut row = Row {
             scene: scene_name.clone(),
@@ -191,10 +191,10 @@ fn judge_all(
     interrupted: &AtomicBool,
 ) -> Result<Vec<Verdict>, Error> {
     let pool = jobs::pool(threads.unwrap_or_default())?;
-    let runs = grid.cells.len();
+    let runs = grid.runs.len();
     let worked_on = Arc::clone(grid);
-    let judge = move |cell: usize| {
-        let Cell { subject, spec, tick_hz } = worked_on.cells[cell];
+    let judge = move |run: usize| {
+        let PlannedRun { subject, spec, tick_hz } = worked_on.runs[run];
         worked_on.subjects[subject].judge().verdict(spec, tick_hz)
     };
     let verdicts = jobs::results(&pool, runs, &progress(runs as u32, "runs"), interrupted, judge);

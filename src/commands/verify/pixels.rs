@@ -12,7 +12,7 @@ use crate::commands::frame_folder::not_ours;
 use crate::commands::frame_names::{frames_claimed, is_marked};
 use crate::commands::interrupt::watch_for_interrupt;
 use crate::commands::manifest::{Adapter, FILE_NAME, FrameEntry, Manifest};
-use crate::commands::pipeline::{Drawn, Run};
+use crate::commands::pipeline::{DrawnFrame, Pipeline};
 use crate::commands::schedule::Schedule;
 use crate::commands::state_log::StateLog;
 use crate::commands::terminal::print_status;
@@ -90,14 +90,14 @@ pub(super) fn judge(
     let frames = manifest.frames.len() as u32;
     let interrupted = watch_for_interrupt();
     let (mut studio, mut state_log) = rerun.begin();
-    let run = Run {
+    let run = Pipeline {
         renderer: &mut renderer,
         studio: &mut studio,
         state_log: &mut state_log,
         schedule: Schedule { frames, ..capture.schedule },
     };
     let mut differences = Vec::new();
-    let compare = |drawn: &Drawn| {
+    let compare = |drawn: &DrawnFrame| {
         let entry = &manifest.frames[drawn.frame as usize];
         compare(entry, capture.size_px, &drawn.rgba, limits, args)
     };

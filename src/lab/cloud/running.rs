@@ -109,15 +109,15 @@ impl Running {
 }
 
 /// A cloud on its way, with its area at each sampled tick so far.
-struct Run<C> {
+struct SampledCloud<C> {
     cloud: C,
     areas: Vec<Option<f64>>,
 }
 
 /// The clouds of all lanes on their way.
 struct CloudRun {
-    lanes: Vec<(usize, Run<Cloud>)>,
-    exact: Run<CloudBorder>,
+    lanes: Vec<(usize, SampledCloud<Cloud>)>,
+    exact: SampledCloud<CloudBorder>,
     axes: CloudAxes,
     start: CloudStart,
     tick_hz: u32,
@@ -136,7 +136,7 @@ impl CloudRun {
         Cloud::find_room(points, lanes.iter().map(|(_, spec)| spec))?;
         let new = |(entry, spec): &(usize, LaneSpec)| {
             let cloud = Cloud::new(name, body, spec, start, points, tick_hz)?.rewindable();
-            Ok((*entry, Run { cloud, areas: Vec::new() }))
+            Ok((*entry, SampledCloud { cloud, areas: Vec::new() }))
         };
         let runs = lanes.iter().map(new).collect::<Result<Vec<_>, NoCloud>>()?;
         let border = CloudBorder::exact(name, body, start, tick_hz)?.rewindable();
@@ -148,7 +148,7 @@ impl CloudRun {
         let work: u64 = specs.iter().map(cost).sum();
         let mut run = Self {
             lanes: runs,
-            exact: Run { cloud: border, areas: Vec::new() },
+            exact: SampledCloud { cloud: border, areas: Vec::new() },
             axes,
             start,
             tick_hz,
@@ -189,7 +189,7 @@ impl CloudRun {
     fn picture(&self) -> CloudPicture {
         let border = self.exact.cloud.lines();
         let view = self.axes.around(&border);
-        let lane = |(entry, Run { cloud, areas }): &(usize, Run<Cloud>)| {
+        let lane = |(entry, SampledCloud { cloud, areas }): &(usize, SampledCloud<Cloud>)| {
             let mut density = Density::new([GRID; 2], view);
             density.add(cloud.q(), cloud.v());
             let area_ratio = cloud.area_ratio();

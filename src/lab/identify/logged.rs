@@ -23,7 +23,7 @@ pub struct Log {
 
 /// The names of a log's columns.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Columns {
+pub struct ColumnNames {
     /// The number of the tick; it may be absent if there are times.
     pub tick: String,
     /// The time in seconds; it may be absent if there are ticks.
@@ -34,7 +34,7 @@ pub struct Columns {
     pub v: String,
 }
 
-impl Default for Columns {
+impl Default for ColumnNames {
     fn default() -> Self {
         let [tick, t, x, v] = ["tick", "t", "x", "v"].map(str::to_owned);
         Self { tick, t, x, v }
@@ -57,15 +57,15 @@ pub struct LogError {
 /// What [`Log::parse`] is told of a log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LogSetting {
-    /// [`Columns::tick`].
+    /// [`ColumnNames::tick`].
     TickColumn,
-    /// [`Columns::t`].
+    /// [`ColumnNames::t`].
     TimeColumn,
-    /// [`Columns::tick`] or [`Columns::t`].
+    /// [`ColumnNames::tick`] or [`ColumnNames::t`].
     TickOrTimeColumn,
-    /// [`Columns::x`].
+    /// [`ColumnNames::x`].
     CoordinateColumn,
-    /// [`Columns::v`].
+    /// [`ColumnNames::v`].
     VelocityColumn,
     /// The tick rate.
     TickRate,
@@ -89,7 +89,12 @@ impl Log {
     ///
     /// # Errors
     /// The first fault of the text.
-    pub fn parse(name: &str, text: &str, columns: &Columns, tick_hz: f64) -> Result<Log, LogError> {
+    pub fn parse(
+        name: &str,
+        text: &str,
+        columns: &ColumnNames,
+        tick_hz: f64,
+    ) -> Result<Log, LogError> {
         let error = |line: u64, fault: String| LogError {
             name: name.to_owned(),
             line,
@@ -124,7 +129,7 @@ impl Log {
             return Err(absent(&format!("{:?}", columns.x), LogSetting::CoordinateColumn));
         };
         let (tick, t, v) = (place(&columns.tick), place(&columns.t), place(&columns.v));
-        let usual = Columns::default();
+        let usual = ColumnNames::default();
         for (wanted, usual, setting) in [
             (&columns.tick, &usual.tick, LogSetting::TickColumn),
             (&columns.t, &usual.t, LogSetting::TimeColumn),

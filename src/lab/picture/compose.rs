@@ -93,7 +93,7 @@ fn overlay(
     }
     for (index, ((ghost, view), cell)) in ghosts.iter().zip(&views).zip(&cells).enumerate() {
         let camera = moment.camera(*cell, index, view);
-        let of_body = Band { moment, index, ghost, view, camera, lanes: entrants, front };
+        let of_body = BodyCell { moment, index, ghost, view, camera, lanes: entrants, front };
         of_body.draw(picture);
         captions::name(picture, *cell, moment, index);
         if moment.studio.mode() == Mode::Solo {
@@ -135,7 +135,7 @@ fn side_by_side(
         if view.recorded_m().is_some() {
             chart::quay(&mut picture.shapes, &camera, moment.palette);
         }
-        Band { moment, index, ghost, view, camera, lanes, front: entrant }.draw(picture);
+        BodyCell { moment, index, ghost, view, camera, lanes, front: entrant }.draw(picture);
         frame(picture, cell, faded(moment.palette.chart, 0.3));
         if entrant.id == entrants[entrants.len() - 1].id {
             captions::scale_bar(picture, &camera, moment.palette);
@@ -174,7 +174,7 @@ fn frame(picture: &mut Picture, Rect { min, max }: Rect, colour: Rgba) {
 }
 
 /// One body of the scene in one cell: its ghost, and some lanes' bodies.
-struct Band<'a> {
+struct BodyCell<'a> {
     moment: &'a DrawContext<'a>,
     index: usize,
     ghost: &'a Ghost,
@@ -185,7 +185,7 @@ struct Band<'a> {
     front: &'a Entrant,
 }
 
-impl Band<'_> {
+impl BodyCell<'_> {
     fn draw(&self, picture: &mut Picture) {
         let Self { moment, index, ghost, view, ref camera, .. } = *self;
         let (studio, framing, palette) = (moment.studio, view.framing, moment.palette);

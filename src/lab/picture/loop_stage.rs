@@ -70,7 +70,7 @@ fn side_by_side(
             let edge = line(ends[0], ends[1], 1.0, faded(palette.chart, 0.35), rect);
             picture.shapes.push(edge);
         }
-        let band = Band::new(studio, loops, place, rect, FOOT);
+        let band = LoopBand::new(studio, loops, place, rect, FOOT);
         ruled = ruled.or(band.draw(picture, studio.display().ghost));
     }
     ruled
@@ -89,9 +89,9 @@ fn overlay(
     let foot = FOOT + LINE * (on_stage.len() - 1) as f32;
     let mut back_to_front = on_stage.to_vec();
     back_to_front.sort_by_key(|&place| is_selected(place));
-    let bands: Vec<Band<'_>> = back_to_front
+    let bands: Vec<LoopBand<'_>> = back_to_front
         .into_iter()
-        .map(|place| Band::new(studio, loops, place, ground, foot))
+        .map(|place| LoopBand::new(studio, loops, place, ground, foot))
         .collect();
     let front = bands.last()?;
     let exact = front.exact(front.frames()?.last()?);
@@ -142,7 +142,7 @@ fn lateness(loops: &LoopLab, frame: &LoopFrame) -> String {
 }
 
 /// The band of one loop.
-struct Band<'a> {
+struct LoopBand<'a> {
     loops: &'a LoopLab,
     lane: &'a LoopLane,
     place: usize,
@@ -153,7 +153,7 @@ struct Band<'a> {
     palette: &'static Palette,
 }
 
-impl<'a> Band<'a> {
+impl<'a> LoopBand<'a> {
     fn new(studio: &Studio, loops: &'a LoopLab, place: usize, rect: Rect, foot: f32) -> Self {
         let theme = studio.display().theme;
         let (lane, colour) = (&loops.lanes()[place], theme.loop_style(place).0);

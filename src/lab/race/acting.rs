@@ -1,6 +1,6 @@
 //! The actions on a race, from its journal and by hand.
 
-use super::journal::Source;
+use super::journal::Author;
 use super::lane::Resumed;
 use super::observer::Observer;
 use super::time_scale::Piece;
@@ -30,7 +30,7 @@ impl Race {
         while let Some(row) = journal.rows().get(self.done).filter(|row| row.tick <= self.tick) {
             self.done += 1;
             self.perform(&row.action, observer);
-            self.note_start(&row.action, row.source);
+            self.note_start(&row.action, row.author);
         }
     }
 
@@ -50,7 +50,7 @@ impl Race {
         let (done, released) = self.journal.insert(self.done, self.tick, action.clone());
         self.done = done;
         self.perform(&action, observer);
-        self.note_start(&action, Source::Hand);
+        self.note_start(&action, Author::Person);
         ActionResult::Done { released }
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::journal::{JournalRow, Source};
+use super::journal::{Author, JournalRow};
 use super::{BodyStart, Race, RunStart};
 use crate::lab::action::Action;
 use crate::lab::scene::{Scene, Scripted};
@@ -22,7 +22,7 @@ impl Interventions {
     pub(in crate::lab) fn in_race(race: &Race) -> Self {
         let mut settings: Vec<Action> = Vec::new();
         let is_in_force = |row: &&JournalRow| {
-            row.source == Source::Hand || matches!(row.action, Action::Set { .. })
+            row.author == Author::Person || matches!(row.action, Action::Set { .. })
         };
         for row in race.journal().rows()[..race.done()].iter().filter(is_in_force).rev() {
             let acts_on_bodies =

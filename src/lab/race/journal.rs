@@ -7,11 +7,11 @@ use crate::lab::scene::Scripted;
 
 /// Who performs an action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Source {
+pub enum Author {
     /// The scene's script.
     Script,
     /// A person, or a program that acts for one.
-    Hand,
+    Person,
 }
 
 /// An action at a tick.
@@ -22,7 +22,7 @@ pub struct JournalRow {
     /// The action.
     pub action: Action,
     /// Who performs it.
-    pub source: Source,
+    pub author: Author,
 }
 
 /// The performed and the pending actions of a run, in order. Cheap to clone.
@@ -37,7 +37,7 @@ impl Journal {
         let row = |Scripted { tick, action }: &Scripted| JournalRow {
             tick: *tick,
             action: action.clone(),
-            source: Source::Script,
+            author: Author::Script,
         };
         Self { rows: Arc::new(script.iter().map(row).collect()) }
     }
@@ -60,14 +60,14 @@ impl Journal {
         let rows = Arc::make_mut(&mut self.rows);
         let mut released = None;
         let later = rows.split_off(done);
-        let row = JournalRow { tick, action, source: Source::Hand };
+        let row = JournalRow { tick, action, author: Author::Person };
         if is_intermediate(rows, &row) {
             rows.pop();
         }
         rows.push(row);
         let done = rows.len();
         for row in later {
-            let of_script = row.source == Source::Script;
+            let of_script = row.author == Author::Script;
             let is_taken = control.is_some() && row.action.control() == control;
             match (of_script, is_taken) {
                 (true, false) => rows.push(row),
@@ -81,7 +81,7 @@ impl Journal {
     /// Whether the script acts on this control after the first `done` rows.
     pub(super) fn script_acts_on(&self, control: Option<Control>, done: usize) -> bool {
         let works = |row: &JournalRow| {
-            row.source == Source::Script && control.is_some() && row.action.control() == control
+            row.author == Author::Script && control.is_some() && row.action.control() == control
         };
         self.rows[done..].iter().any(works)
     }
@@ -93,7 +93,7 @@ impl Journal {
 fn is_intermediate(done: &[JournalRow], next: &JournalRow) -> bool {
     let control = next.action.control();
     let is_alike = |row: &&JournalRow| {
-        row.tick == next.tick && row.source == next.source && row.action.control() == control
+        row.tick == next.tick && row.author == next.author && row.action.control() == control
     };
     if !matches!(control, Some(Control::Parameter { .. })) {
         return false;

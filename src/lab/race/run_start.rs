@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::Race;
-use super::journal::Source;
+use super::journal::Author;
 use crate::lab::action::Action;
 
 /// The true state of a race right after an action on its bodies.
@@ -55,7 +55,7 @@ impl Race {
 
     /// Keeps the present state if `action` acted on a body: clouds start from it, and verdicts too if a person placed or
     /// kicked a body.
-    pub(super) fn note_start(&mut self, action: &Action, source: Source) {
+    pub(super) fn note_start(&mut self, action: &Action, author: Author) {
         if !(0..self.values.len()).any(|body| action.acts_on(body)) {
             return;
         }
@@ -74,7 +74,7 @@ impl Race {
             rudder: self.rudder,
             bodies: bodies.collect(),
         });
-        if is_placed && source == Source::Hand {
+        if is_placed && author == Author::Person {
             self.judged_start = Some(Arc::clone(&start));
         }
         self.cloud_start = Some(start);

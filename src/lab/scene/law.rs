@@ -10,7 +10,7 @@ use super::table::{Named, Table, Written};
 use super::wanted::{Field, Wanted};
 use crate::sim::bodies::{ClaimHorizon, Kind, Range, check_law, law_kind};
 use crate::sim::law::{
-    CoordinateText, LawText, Layout, MAX_CONSTANTS, MAX_COORDINATES, Part, Refusal, Remedy, UNITS,
+    CoordinateText, LawFault, LawText, Layout, MAX_CONSTANTS, MAX_COORDINATES, Part, Remedy, UNITS,
 };
 
 /// The name of the table array.
@@ -383,8 +383,8 @@ impl WrittenLaw {
     }
 
     /// Reports what is wrong with a part of the law at its place in the file.
-    fn complain(&self, row: &mut Table<'_>, refusal: Refusal) {
-        let Refusal { part, span, what, remedy } = refusal;
+    fn complain(&self, row: &mut Table<'_>, refusal: LawFault) {
+        let LawFault { part, span, what, remedy } = refusal;
         let within = |written: &Option<Written>| {
             written.as_ref().map_or(row.header.clone(), |written| written.within(&span))
         };

@@ -2,7 +2,7 @@
 
 use crate::lab::action::Action;
 use crate::lab::lane_id::LaneId;
-use crate::lab::race::Source;
+use crate::lab::race::Author;
 use crate::lab::scene::Scene;
 use crate::sim::number::{counted, round};
 
@@ -23,7 +23,7 @@ pub enum EventKind {
         /// The action.
         action: Action,
         /// Who did it.
-        source: Source,
+        author: Author,
         /// The only lane of the run; `None` in a race.
         solo: Option<LaneId>,
     },
@@ -42,10 +42,10 @@ impl EventKind {
     /// What happened in this scene and by whom, for people: `stiffness of buoy = 90 N/m, by hand`.
     pub fn words(&self, scene: &Scene) -> String {
         match self {
-            Self::Done { action, source, solo } => {
-                let whose = match source {
-                    Source::Script => "by the script",
-                    Source::Hand => "by hand",
+            Self::Done { action, author, solo } => {
+                let whose = match author {
+                    Author::Script => "by the script",
+                    Author::Person => "by hand",
                 };
                 format!("{}, {whose}", what_was_done(action, *solo, scene))
             }

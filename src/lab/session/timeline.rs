@@ -103,8 +103,8 @@ impl Timeline {
             if let Action::Solo { lane } = row.action {
                 solo = Some(lane);
             }
-            let (action, source) = (row.action.clone(), row.source);
-            Event { tick: row.tick, kind: EventKind::Done { action, source, solo } }
+            let (action, author) = (row.action.clone(), row.author);
+            Event { tick: row.tick, kind: EventKind::Done { action, author, solo } }
         });
         let mut events: Vec<Event> = done.chain(self.run.halts.iter().cloned()).collect();
         events.sort_by_key(|event| event.tick);

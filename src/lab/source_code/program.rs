@@ -17,7 +17,7 @@ pub struct MethodInput<'a> {
 
 /// A number that is carried from step to step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Field<'a> {
+pub(super) struct StateVariable<'a> {
     pub(super) name: &'a str,
     /// Its value before the first step.
     pub(super) start: &'a str,
@@ -75,7 +75,7 @@ pub(super) struct Program<'a> {
     /// The ids of languages, empty for all, and the reason.
     refusals: Vec<(&'a str, &'a str)>,
     pub(super) inputs: Vec<MethodInput<'a>>,
-    pub(super) memory: Vec<Field<'a>>,
+    pub(super) memory: Vec<StateVariable<'a>>,
     pub(super) functions: Vec<Function<'a>>,
     pub(super) body: Vec<Line<'a>>,
 }
@@ -120,7 +120,7 @@ impl<'a> Program<'a> {
                 }
                 "memory" => {
                     let (name, start) = rest.split_once(" = ").expect("a field has a start");
-                    program.memory.push(Field { name, start });
+                    program.memory.push(StateVariable { name, start });
                 }
                 "use" => {
                     let shared = SHARED.iter().find(|(name, _)| *name == rest);

@@ -6,7 +6,7 @@ use super::guide::{Chosen, Goal, Hints, STOPS, Situation, Stop, Tour, suits_race
 use super::step::Step;
 use crate::lab::analysis::Metric;
 use crate::lab::past::Quantity;
-use crate::lab::race::{Interpolation, Mode, Source};
+use crate::lab::race::{Author, Interpolation, Mode};
 use crate::lab::scene::SCENES;
 
 impl Studio {
@@ -40,7 +40,7 @@ impl Studio {
     pub(in crate::lab) fn was_changed_on_the_way(&self) -> bool {
         let race = self.race();
         let rows = &race.journal().rows()[..race.done()];
-        rows.iter().any(|row| row.tick > 0 && row.source == Source::Hand)
+        rows.iter().any(|row| row.tick > 0 && row.author == Author::Person)
     }
 
     /// Shows the hints from the first one again: for a driver that has set up the studio by commands.

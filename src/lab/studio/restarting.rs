@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::Studio;
-use crate::lab::race::{Mode, Source};
+use crate::lab::race::{Author, Mode};
 use crate::lab::session::{Exchanged, Timeline};
 
 impl Studio {
@@ -96,5 +96,5 @@ impl Studio {
 
 /// Whether a person has acted on a run.
 pub(super) fn is_by_hand(timeline: &Timeline) -> bool {
-    timeline.session().journal().rows().iter().any(|row| row.source == Source::Hand)
+    timeline.session().journal().rows().iter().any(|row| row.author == Author::Person)
 }

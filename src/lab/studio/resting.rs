@@ -4,7 +4,7 @@
 use super::Studio;
 use super::display::Motion;
 use crate::lab::action::Action;
-use crate::lab::race::{Halt, Mode, Source};
+use crate::lab::race::{Author, Halt, Mode};
 use crate::sim::number::{round, significant};
 
 /// How long before it was over a blow-up is watched again, in seconds, and at least in ticks.
@@ -27,7 +27,7 @@ impl Studio {
         self.display().motion == Motion::Live
             && self.mode() == Mode::Solo
             && self.viewer.tour.is_none()
-            && !rows.iter().any(|row| row.source == Source::Hand && is_touched(&row.action))
+            && !rows.iter().any(|row| row.author == Author::Person && is_touched(&row.action))
     }
 
     /// Whether the scene's length is over.

@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use super::expression::{Expression, Scope, parse};
+use super::fault::{ExpressionFault, LawFault, Part, Remedy};
 use super::function::Function;
 use super::op::is_word;
-use super::refusal::{ExpressionFault, Part, Refusal, Remedy};
 use super::tape::{MAX_OPERATIONS, MAX_SWITCHES, Tape};
 use super::token::is_name_start;
 use super::{FIRST_COORDINATE, LawText, RUDDER, T, THROTTLE, inputs};
@@ -98,20 +98,20 @@ impl Scope for PartScope<'_> {
 
 impl Compiler<'_> {
     /// The tape of the accelerations.
-    pub(super) fn motion(&self) -> Result<Tape, Vec<Refusal>> {
+    pub(super) fn motion(&self) -> Result<Tape, Vec<LawFault>> {
         let rows = self.text.coordinates.iter().enumerate();
         self.tape(rows.map(|(i, row)| (Part::Acceleration(i), &*row.acceleration)).collect())
     }
 
-    pub(super) fn energy(&self) -> Result<Tape, Vec<Refusal>> {
+    pub(super) fn energy(&self) -> Result<Tape, Vec<LawFault>> {
         self.tape(self.text.energy.iter().map(|text| (Part::Energy, &**text)).collect())
     }
 
     /// The tape of the exact solution, which every coordinate must have.
-    pub(super) fn exact(&self) -> Result<Tape, Vec<Refusal>> {
+    pub(super) fn exact(&self) -> Result<Tape, Vec<LawFault>> {
         let rows = self.text.coordinates.iter().enumerate();
         let missing = rows.clone().filter(|(_, row)| row.exact.is_none());
-        let missing: Vec<Refusal> = missing
+        let missing: Vec<LawFault> = missing
             .map(|(i, row)| {
                 let what = format!("`{}` has no `exact`, and another coordinate has", row.name);
                 let remedy = "give it one, or remove the others";
@@ -127,7 +127,7 @@ impl Compiler<'_> {
     }
 
     /// The tape of the places: x and y of each coordinate that has one.
-    pub(super) fn places(&self) -> Result<Tape, Vec<Refusal>> {
+    pub(super) fn places(&self) -> Result<Tape, Vec<LawFault>> {
         let rows = self.text.coordinates.iter().enumerate();
         let placed = rows.filter_map(|(i, row)| Some((i, row.at.as_ref()?)));
         let parts =
@@ -135,7 +135,7 @@ impl Compiler<'_> {
         self.tape(parts.collect())
     }
 
-    fn tape(&self, parts: Vec<(Part, &str)>) -> Result<Tape, Vec<Refusal>> {
+    fn tape(&self, parts: Vec<(Part, &str)>) -> Result<Tape, Vec<LawFault>> {
         let mut refusals = Vec::new();
         let mut expressions: Vec<(Part, Expression)> = Vec::new();
         for (part, text) in &parts {
@@ -165,7 +165,7 @@ impl Compiler<'_> {
 }
 
 /// The faults of the names of constants and coordinates.
-pub(super) fn check_names(text: &LawText) -> Vec<Refusal> {
+pub(super) fn check_names(text: &LawText) -> Vec<LawFault> {
     let constants = text.constants.iter().enumerate().map(|(i, name)| (Part::Constant(i), name));
     let coordinates = text.coordinates.iter().map(|coordinate| &coordinate.name);
     let coordinates = coordinates.enumerate().map(|(i, name)| (Part::Coordinate(i), name));
@@ -175,13 +175,13 @@ pub(super) fn check_names(text: &LawText) -> Vec<Refusal> {
         let mut refuse = |what: String, remedy: &str| {
             let span: Range<usize> = 0..name.len();
             let remedy = Remedy::Words(remedy.into());
-            refusals.push(Refusal { part, span, what, remedy });
+            refusals.push(LawFault { part, span, what, remedy });
         };
         let mut meanings = vec![(name.clone(), format!("`{name}`"))];
         if let Part::Coordinate(_) = part {
             meanings.push((format!("v{name}"), format!("the velocity of `{name}`")));
         }
-        let shown = super::refusal::quoted(name);
+        let shown = super::fault::quoted(name);
         if !is_name(name) {
             let remedy = "write letters, digits and `_`, beginning with a letter";
             refuse(format!("`{}` cannot be a name", shown.escape_debug()), remedy);

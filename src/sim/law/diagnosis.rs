@@ -1,13 +1,13 @@
 //! Finds the operation by which an acceleration is not finite.
 
+use super::fault::{ExpressionFault, LawFault, quoted};
 use super::op::Op;
-use super::refusal::{ExpressionFault, Refusal, quoted};
 use super::{Equations, Registers};
 
 impl Equations {
     /// The fault of the first operation that makes an acceleration infinite or undefined in the last
     /// evaluation; `None` if all accelerations are finite.
-    pub(in crate::sim) fn not_finite(&self, registers: &Registers) -> Option<Refusal> {
+    pub(in crate::sim) fn not_finite(&self, registers: &Registers) -> Option<LawFault> {
         let value = |slot: u16| registers.motion[slot as usize];
         let mut slot = *self.motion.outputs.iter().find(|&&slot| !value(slot).is_finite())?;
         loop {

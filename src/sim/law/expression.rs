@@ -4,9 +4,9 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
+use super::fault::{ExpressionFault, Parsed, Remedy, fault, quoted};
 use super::function::{FUNCTIONS, Function};
 use super::op::{INFIXES, Infix, Level, Op, is_word};
-use super::refusal::{ExpressionFault, Parsed, Remedy, fault, quoted};
 use super::token::{Token, tokens};
 use crate::sim::curve::Curve;
 

@@ -168,7 +168,7 @@ impl Function {
 mod tests {
     use super::*;
     use crate::sim::law::expression::{Scope, parse};
-    use crate::sim::law::refusal::Part;
+    use crate::sim::law::fault::Part;
     use crate::sim::law::tape::Tape;
 
     struct Plane;

@@ -8,10 +8,10 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use super::expression::{Expression, Node};
+use super::fault::Part;
 use super::jet::{self, Jet};
 use super::op::Op;
 use super::power::powers;
-use super::refusal::Part;
 use super::switch::Switch;
 use crate::sim::curve::Curve;
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::refusal::{Parsed, fault};
+use super::fault::{Parsed, fault};
 
 /// One token.
 #[derive(Clone, Copy, Debug, PartialEq)]

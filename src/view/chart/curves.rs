@@ -111,7 +111,7 @@ const HIDDEN: f32 = 2.0;
 const MAX_HIDDEN: f32 = 1.0 / 16.0;
 
 /// How a curve is drawn.
-pub(super) enum Drawn {
+pub(super) enum CurveDrawing {
     /// What shows of its line, and its dash.
     Line(Vec<Vec<Joint>>, [f32; 2]),
     /// The band of swings that are too narrow to be told apart.
@@ -124,18 +124,18 @@ pub(super) enum Drawn {
 pub(super) fn drawn(
     ScreenCurve { style, points, swept }: &ScreenCurve,
     (seen, column): (Rect, f32),
-) -> Drawn {
+) -> CurveDrawing {
     let LineStyle { colour, width, dash: [drawn, gap], .. } = *style;
     let joints = points.iter().map(|&at| Joint { at, radius: width / 2.0, colour });
     let runs = shown(joints, seen.expand(width));
     let is_crowded = is_crowded(&runs, width);
     if hides(points, swept) || is_crowded && beats(points) {
         return match points.is_sorted_by(|a, b| a.x <= b.x) {
-            true => Drawn::Bands(bands::of(points, swept, width, (seen, column))),
-            false => Drawn::Scattered,
+            true => CurveDrawing::Bands(bands::of(points, swept, width, (seen, column))),
+            false => CurveDrawing::Scattered,
         };
     }
-    Drawn::Line(runs, [drawn, if is_crowded { 0.0 } else { gap }])
+    CurveDrawing::Line(runs, [drawn, if is_crowded { 0.0 } else { gap }])
 }
 
 /// Draws a curve as far as the painter's clip shows it, in the way of [`drawn`]. What the painter gets for a line is a
@@ -149,14 +149,14 @@ pub(super) fn paint(painter: &Painter, curve: &ScreenCurve) -> bool {
         painter.add(PaintCallback { rect: seen, callback: Arc::new(mesh) });
     };
     match drawn(curve, (seen, 1.0 / px_per_point)) {
-        Drawn::Line(runs, dash) => stroke(runs, dash),
-        Drawn::Bands(all) => {
+        CurveDrawing::Line(runs, dash) => stroke(runs, dash),
+        CurveDrawing::Bands(all) => {
             for band in all {
                 painter.add(Shape::mesh(band.fill(colour)));
                 stroke(band.edges(colour, seen), [1.0, 0.0]);
             }
         }
-        Drawn::Scattered => return false,
+        CurveDrawing::Scattered => return false,
     }
     true
 }

@@ -2,7 +2,7 @@
 
 use egui::{Align, Color32, Pos2, Rect, Stroke};
 
-use super::curves::{Dots, Drawn, ScreenCurve, dots, drawn};
+use super::curves::{CurveDrawing, Dots, ScreenCurve, dots, drawn};
 use super::primitive::{BEFORE_TAIL, Text};
 use super::{Primitive, SCATTERED, text_width};
 use crate::view::lines::Joint;
@@ -117,18 +117,18 @@ impl Svg {
     fn curve(&mut self, curve: &ScreenCurve, seen: Rect) -> Dots {
         let style = curve.style;
         match drawn(curve, (seen, 1.0)) {
-            Drawn::Line(runs, [_, 0.0]) => self.runs(&runs, ""),
-            Drawn::Line(runs, [drawn, gap]) => {
+            CurveDrawing::Line(runs, [_, 0.0]) => self.runs(&runs, ""),
+            CurveDrawing::Line(runs, [drawn, gap]) => {
                 self.runs(&runs, &format!(r#" stroke-dasharray="{drawn} {gap}""#));
             }
-            Drawn::Bands(bands) => {
+            CurveDrawing::Bands(bands) => {
                 for band in bands {
                     let (corners, fill) = band.outline(style.colour);
                     self.polygon(&corners, fill);
                     self.runs(&band.edges(style.colour, seen), "");
                 }
             }
-            Drawn::Scattered => return Dots::Each(SCATTERED),
+            CurveDrawing::Scattered => return Dots::Each(SCATTERED),
         }
         style.dots
     }

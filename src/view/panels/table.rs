@@ -62,7 +62,7 @@ type NumberText<R> = Box<dyn Fn(&R) -> Option<String>>;
 type ShowCell<R> = Box<dyn Fn(&mut Ui, &R, Rect, &mut Vec<Command>)>;
 
 /// What a cell shows.
-pub(super) enum Cell<R> {
+pub(super) enum CellContent<R> {
     /// A number, at the right.
     Number(NumberText<R>),
     Shown(ShowCell<R>),
@@ -81,7 +81,7 @@ pub(super) struct Column<R> {
     pub(super) width: f32,
     /// The order in which columns are taken in while there is room, from 0; those with 0 are always there.
     pub(super) priority: u8,
-    pub(super) cell: Cell<R>,
+    pub(super) cell: CellContent<R>,
     pub(super) sort_key: Box<dyn Fn(&R) -> SortKey>,
 }
 
@@ -101,7 +101,7 @@ impl<R> Column<R> {
             about: about.into(),
             width,
             priority: 0,
-            cell: Cell::Shown(Box::new(show)),
+            cell: CellContent::Shown(Box::new(show)),
             sort_key: Box::new(sort_key),
         }
     }
@@ -114,7 +114,7 @@ impl<R> Column<R> {
         text: impl Fn(&R) -> Option<String> + 'static,
         value: impl Fn(&R) -> Option<f64> + 'static,
     ) -> Self {
-        let cell = Cell::Number(Box::new(text));
+        let cell = CellContent::Number(Box::new(text));
         let sort_key = move |row: &R| value(row).into();
         let column = Self::shown(name, width, about, |_, _, _, _| {}, sort_key);
         Self { priority, cell, ..column }
@@ -126,7 +126,7 @@ impl<R> Column<R> {
     }
 
     fn is_number(&self) -> bool {
-        matches!(self.cell, Cell::Number(_))
+        matches!(self.cell, CellContent::Number(_))
     }
 }
 
@@ -322,8 +322,8 @@ impl<R: TableRow> Table<R> {
         let numbers: Vec<Option<String>> = columns
             .iter()
             .map(|(column, ..)| match &column.cell {
-                Cell::Number(text) => text(row),
-                Cell::Shown(_) => None,
+                CellContent::Number(text) => text(row),
+                CellContent::Shown(_) => None,
             })
             .collect();
         let is_selected = row.is_selected();
@@ -354,8 +354,8 @@ impl<R: TableRow> Table<R> {
             let from = pos2(rect.left() + MARGIN + left, rect.top());
             let cell = Rect::from_min_size(from, vec2(own, self.row_height));
             match &column.cell {
-                Cell::Shown(show) => show(ui, row, cell, commands),
-                Cell::Number(_) => {
+                CellContent::Shown(show) => show(ui, row, cell, commands),
+                CellContent::Number(_) => {
                     let (at, font) = (cell.right_center(), FontId::proportional(TYPE));
                     let words = number.unwrap_or_default();
                     ui.painter().text(at, Align2::RIGHT_CENTER, words, font, text);

@@ -1,7 +1,7 @@
 //! The engine that made a log is found by its motion alone.
 
 use regatta::lab::identify::{
-    Columns, Conclusion, Identification, Log as Text, LoggedBody, identify,
+    ColumnNames, Conclusion, Identification, Log as Text, LoggedBody, identify,
 };
 
 use super::log::{Log, Row};
@@ -17,7 +17,7 @@ fn identified(log: &Log, rows: &[Row], has_velocity: bool) -> Identification {
         }
     }
     let tick_hz = (1.0 / log.tick_s).round();
-    let text = Text::parse(&log.file, &text, &Columns::default(), tick_hz).unwrap();
+    let text = Text::parse(&log.file, &text, &ColumnNames::default(), tick_hz).unwrap();
     let body =
         LoggedBody { spring: Some(log.body.spring), drag: log.body.drag, push: log.body.push };
     identify(&text, &body, tick_hz).unwrap_or_else(|| panic!("{}: nothing runs", log.file))
@@ -107,7 +107,7 @@ fn a_spring_that_is_not_known_is_fitted_and_the_engine_cannot_be_told() {
     for Row { tick, x, v } in &log.rows {
         text += &format!("{tick},{x:e},{v:e}\n");
     }
-    let text = Text::parse("log", &text, &Columns::default(), 60.0).unwrap();
+    let text = Text::parse("log", &text, &ColumnNames::default(), 60.0).unwrap();
     let body = LoggedBody { spring: None, drag: 0.0, push: 0.0 };
     let found = identify(&text, &body, 60.0).unwrap();
     assert_eq!(found.conclusion, Conclusion::CannotTell, "{}", found.best.candidate);
@@ -144,7 +144,7 @@ fn a_log_in_double_precision_is_not_explained_by_a_method_that_is_off_by_more_th
             v *= kept;
             text += &format!("{tick},{x:e},{v:e}\n");
         }
-        let text = Text::parse("log", &text, &Columns::default(), 60.0).unwrap();
+        let text = Text::parse("log", &text, &ColumnNames::default(), 60.0).unwrap();
         let body = LoggedBody { spring: Some([40.0, c]), drag: 0.0, push: 0.0 };
         identify(&text, &body, 60.0).unwrap()
     };

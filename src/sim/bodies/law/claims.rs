@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::Law;
 use crate::sim::bodies::claims::{self, Checked, ClaimHorizon, Claimant};
 use crate::sim::body::Body;
-use crate::sim::law::{CoordinateText, Equations, Part, Refusal, Remedy};
+use crate::sim::law::{CoordinateText, Equations, LawFault, Part, Remedy};
 use crate::sim::state::State;
 use crate::sim::system::System;
 
@@ -58,18 +58,18 @@ pub fn check_law(
     equations: &Arc<Equations>,
     values: &[f64],
     horizon: ClaimHorizon,
-) -> Result<(), Refusal> {
+) -> Result<(), LawFault> {
     let law = Law::new(equations.clone(), values);
     check_start(&law)?;
     claims::check(&law, horizon).map_err(|found| {
         let part = found.coordinate.map_or(Part::Energy, Part::Exact);
         let span = 0..equations.part(part).len();
-        Refusal { part, span, what: found.what, remedy: Remedy::Words(found.remedy.into()) }
+        LawFault { part, span, what: found.what, remedy: Remedy::Words(found.remedy.into()) }
     })
 }
 
 /// Checks that the accelerations are finite at the start.
-pub(super) fn check_start(law: &Law) -> Result<(), Refusal> {
+pub(super) fn check_start(law: &Law) -> Result<(), LawFault> {
     let State { q, v } = law.start();
     let mut a = v.clone();
     law.acceleration(0.0, &q, &v, &mut a);

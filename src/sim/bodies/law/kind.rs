@@ -7,7 +7,7 @@ use super::claims::{check_start, first_key};
 use crate::sim::bodies::kind::{Coordinate, Kind, Origin};
 use crate::sim::body::Body;
 use crate::sim::difference::quotient;
-use crate::sim::law::{CoordinateText, Equations, LawText, Refusal};
+use crate::sim::law::{CoordinateText, Equations, LawFault, LawText};
 use crate::sim::parameter::{Acts, Fault, Parameter, Range, Text};
 use crate::sim::system::System;
 
@@ -16,7 +16,7 @@ use crate::sim::system::System;
 ///
 /// # Errors
 /// All faults of the text.
-pub fn law_kind(text: LawText) -> Result<Arc<Kind>, Vec<Refusal>> {
+pub fn law_kind(text: LawText) -> Result<Arc<Kind>, Vec<LawFault>> {
     let equations = Arc::new(Equations::new(text)?);
     let text = equations.text();
     let coordinate =

@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use super::Parser;
 use crate::sim::curve::Curve;
+use crate::sim::law::fault::{Parsed, fault};
 use crate::sim::law::function::{Function, Meaning};
 use crate::sim::law::op::Op;
-use crate::sim::law::refusal::{Parsed, fault};
 use crate::sim::law::switch::{Pieces, Switch, Value};
 use crate::sim::law::token::Token;
 use crate::sim::parameter::MAX_POINTS;

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::{Node, Parser};
+use crate::sim::law::fault::{Parsed, fault, quoted};
 use crate::sim::law::op::Op;
-use crate::sim::law::refusal::{Parsed, fault, quoted};
 
 impl Parser<'_> {
     pub(super) fn push(&mut self, op: Op, arguments: &[usize], span: Range<usize>) -> usize {

@@ -21,7 +21,7 @@ pub enum Part {
 
 /// A fault of a law's text. Messages are in lower case.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Refusal {
+pub struct LawFault {
     /// The part at fault.
     pub part: Part,
     /// The bytes of that part at fault, within its text.
@@ -64,9 +64,9 @@ impl ExpressionFault {
     }
 
     /// The fault of this part of a law.
-    pub(super) fn of(self, part: Part) -> Refusal {
+    pub(super) fn of(self, part: Part) -> LawFault {
         let Self { span, what, remedy } = self;
-        Refusal { part, span, what, remedy }
+        LawFault { part, span, what, remedy }
     }
 }
 
