@@ -4,7 +4,7 @@
 use super::error::Error;
 use super::frame_names::MAX_FRAMES;
 use crate::lab::Studio;
-use crate::lab::pacing::LONGEST_FRAME_MS;
+use crate::lab::pacing::MAX_FRAME_MS;
 use crate::lab::race::Observer;
 
 /// The usual frames per simulated second: smooth enough for every scene, at half the files and half the time of 60.
@@ -49,7 +49,7 @@ impl Schedule {
     /// observer.
     pub(super) fn advance(self, studio: &mut Studio, frame: u32, observer: &mut impl Observer) {
         let Some(before) = frame.checked_sub(1) else { return };
-        let longest = u64::from(LONGEST_FRAME_MS) * 1_000_000;
+        let longest = u64::from(MAX_FRAME_MS) * 1_000_000;
         let mut left = self.time_ns(frame) - self.time_ns(before);
         // In stretches that the clock accepts without dropping ticks.
         while left > 0 {

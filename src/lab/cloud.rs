@@ -21,7 +21,7 @@ mod shape;
 pub use axes::{CloudAxes, ShownTicks};
 pub use border::CloudBorder;
 use course::{Course, Memory};
-pub use density::{Density, LONGEST_LINE, PlaneView};
+pub use density::{Density, MAX_LINE_PART, PlaneView};
 use lozenges::Lozenges;
 pub(super) use request::MAX_CLOUDS;
 pub use request::{

@@ -20,7 +20,7 @@ mod timed_script;
 mod trace;
 pub mod trace_file;
 
-pub use crate::sim::{Accumulator, Due, LONGEST_FRAME_MS};
+pub use crate::sim::{Accumulator, Due, MAX_FRAME_MS};
 pub use advice::advised_loop;
 pub use frame::Frame;
 pub use loop_run::{LoopRun, MIN_RUN_S};

@@ -2,7 +2,7 @@
 
 /// The longest real time for which one frame catches up, in milliseconds: 15 ticks at 60 Hz. With a longer one a slow
 /// machine falls further behind each frame; with a shorter one a hitch shows as slow motion.
-pub const LONGEST_FRAME_MS: u32 = 250;
+pub const MAX_FRAME_MS: u32 = 250;
 
 /// The ticks that a frame has to simulate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -4,7 +4,7 @@
 //! percentage of real time divides it without a remainder being rounded away: a day at 60 Hz is
 //! 5 184 000 ticks however the day is cut into frames.
 
-use super::accumulator::{Accumulator, Due, LONGEST_FRAME_MS, max_ticks};
+use super::accumulator::{Accumulator, Due, MAX_FRAME_MS, max_ticks};
 
 /// One tick in nanoseconds × hertz × percent.
 const TICK: i128 = 1_000_000_000 * 100;
@@ -57,7 +57,7 @@ impl Clock {
 
     /// The most ticks per frame: those of 250 ms, and at least one.
     pub fn max_ticks(&self) -> u32 {
-        max_ticks(u64::from(self.tick_hz) * u64::from(self.speed_percent), LONGEST_FRAME_MS)
+        max_ticks(u64::from(self.tick_hz) * u64::from(self.speed_percent), MAX_FRAME_MS)
     }
 
     /// Adds a frame of `frame_ns` nanoseconds and returns the ticks that are due. A negative duration counts as 0.

@@ -94,7 +94,7 @@ impl Equations {
     /// # Errors
     /// All faults of the text, each with its place.
     pub fn new(text: LawText) -> Result<Self, Vec<LawFault>> {
-        let mut refusals = check_names(&text);
+        let mut faults = check_names(&text);
         let compiler = Compiler { text: &text };
         let motion = compiler.motion();
         let energy = text.energy.as_ref().map(|_| compiler.energy()).transpose();
@@ -103,7 +103,7 @@ impl Equations {
         let is_placed = text.coordinates.iter().any(|coordinate| coordinate.at.is_some());
         let places = is_placed.then(|| compiler.places()).transpose();
         match (motion, energy, exact, places) {
-            (Ok(motion), Ok(energy), Ok(exact), Ok(places)) if refusals.is_empty() => {
+            (Ok(motion), Ok(energy), Ok(exact), Ok(places)) if faults.is_empty() => {
                 let n = text.coordinates.len();
                 let inputs = inputs(&text);
                 let moves = FIRST_COORDINATE..FIRST_COORDINATE + 2 * n;
@@ -129,8 +129,8 @@ impl Equations {
             }
             (motion, energy, exact, places) => {
                 let found = [motion.err(), energy.err(), exact.err(), places.err()];
-                refusals.extend(found.into_iter().flatten().flatten());
-                Err(refusals)
+                faults.extend(found.into_iter().flatten().flatten());
+                Err(faults)
             }
         }
     }

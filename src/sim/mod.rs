@@ -45,7 +45,7 @@ mod xor_shift;
 
 #[cfg(feature = "lab")]
 pub(crate) use accumulator::max_ticks;
-pub use accumulator::{Accumulator, Due, LONGEST_FRAME_MS};
+pub use accumulator::{Accumulator, Due, MAX_FRAME_MS};
 #[cfg(feature = "batch")]
 pub use body::MakeBatch;
 pub use body::{Body, Input};
@@ -53,7 +53,7 @@ pub use body_stepper::stepper;
 pub use clock::Clock;
 #[cfg(feature = "lab")]
 pub use least_squares::least_squares;
-pub use parameter::{Acts, Fault, LARGEST, MAX_POINTS, Parameter, ParameterOf, Range, Text};
+pub use parameter::{Acts, Fault, MAX_POINTS, MAX_VALUE, Parameter, ParameterOf, Range, Text};
 pub use piece::{Distances, MAX_SWITCHES, NO_BOUNDARIES, Piece};
 pub use reference::{MAX_REFERENCE_WORK, REFERENCE_ACCURACY};
 pub use solver::Solver;

@@ -12,7 +12,7 @@ use std::fmt;
 pub type Text = Cow<'static, str>;
 
 /// The largest magnitude of a body's parameter; products in the force laws overflow beyond it.
-pub const LARGEST: f64 = 1e15;
+pub const MAX_VALUE: f64 = 1e15;
 
 /// The largest number of points of a curve, enough for one typed by hand.
 pub const MAX_POINTS: usize = 64;
@@ -80,7 +80,7 @@ pub enum Range {
     /// Whole numbers from 1 to this.
     Count(u32),
     /// A curve of 2 to [`MAX_POINTS`] points `[x, y]` with rising x, each number from minus
-    /// [`LARGEST`] to that. Only a kind's last parameter can be one.
+    /// [`MAX_VALUE`] to that. Only a kind's last parameter can be one.
     Curve {
         /// The unit of x.
         x: &'static str,
@@ -93,11 +93,11 @@ pub enum Range {
 
 impl Range {
     /// Greater than 0.
-    pub const POSITIVE: Self = Self::Positive(LARGEST);
+    pub const POSITIVE: Self = Self::Positive(MAX_VALUE);
     /// 0 or more.
-    pub const NON_NEGATIVE: Self = Self::NonNegative(LARGEST);
+    pub const NON_NEGATIVE: Self = Self::NonNegative(MAX_VALUE);
     /// Any sign, or 0.
-    pub const ANY: Self = Self::Within(LARGEST);
+    pub const ANY: Self = Self::Within(MAX_VALUE);
 
     /// Whether `value` is in the range; for a curve, whether it can be a coordinate of a point.
     pub fn contains(self, value: f64) -> bool {
@@ -106,7 +106,7 @@ impl Range {
             Range::NonNegative(most) => value >= 0.0 && value <= most,
             Range::Within(most) => value >= -most && value <= most,
             Range::Count(most) => value >= 1.0 && value <= f64::from(most) && value.fract() == 0.0,
-            Range::Curve { .. } => Range::Within(LARGEST).contains(value),
+            Range::Curve { .. } => Range::Within(MAX_VALUE).contains(value),
             Range::Between(least, most) => value >= least && value <= most,
         }
     }

@@ -17,10 +17,10 @@ const SIZE_PX: [u32; 2] = [400, 225];
 const SCALE: f32 = 0.5;
 /// What the frames of one driver differ by from another's, and a little more: a channel by at most 2,
 /// and at most one pixel in ten thousand by more than 1.
-const LARGEST_DIFFERENCE: u8 = 2;
+const MAX_DIFFERENCE: u8 = 2;
 const PIXELS_OFF: f64 = 1e-4;
 /// A golden picture that is larger holds more than a frame of ours should.
-const LARGEST_FILE: usize = 64 * 1024;
+const MAX_FILE_BYTES: usize = 64 * 1024;
 
 /// Just long enough for explicit Euler to halt on the stiff spring; longer trails make larger files.
 const FRAMES: u64 = 130;
@@ -104,7 +104,7 @@ fn wrong(name: &str, drawn: &RgbaImage) -> Option<String> {
     let bytes = std::fs::metadata(&path).unwrap().len() as usize;
     let (most, off) = difference(&golden, drawn);
     let allowed = (PIXELS_OFF * f64::from(drawn.width() * drawn.height())) as usize;
-    if most <= LARGEST_DIFFERENCE && off <= allowed && bytes <= LARGEST_FILE {
+    if most <= MAX_DIFFERENCE && off <= allowed && bytes <= MAX_FILE_BYTES {
         return None;
     }
     let kept = std::env::temp_dir().join(format!("regatta-{name}"));

@@ -35,7 +35,7 @@ pub struct ShownTicks {
 
 impl ShownTicks {
     /// The longest run through which axes are found, in seconds.
-    pub(super) const LONGEST_S: f64 = 30.0;
+    pub(super) const MAX_S: f64 = 30.0;
 }
 
 impl From<u64> for ShownTicks {

@@ -116,7 +116,7 @@ fn spread(counts: &[f32], stride: usize, places: usize) -> Vec<f32> {
 }
 
 /// The longest line between two points of a border that is drawn, as a part of the picture's longer side.
-pub const LONGEST_LINE: f64 = 0.1;
+pub const MAX_LINE_PART: f64 = 0.1;
 
 /// The fewest points for which a thread has counts of its own, which are added up in the end.
 const GRAIN: usize = 1 << 17;
@@ -210,7 +210,7 @@ impl Density {
         let [dx, dy] = [(to[0] - from[0]) * width, (to[1] - from[1]) * height];
         let steps = dx.abs().max(dy.abs()).ceil();
         // A long line goes around the back of an angle or to infinity, or joins points too far apart to tell the way.
-        if !steps.is_finite() || steps > LONGEST_LINE * width.max(height) {
+        if !steps.is_finite() || steps > MAX_LINE_PART * width.max(height) {
             return;
         }
         for step in 0..=steps as usize {

@@ -142,7 +142,7 @@ impl CloudRun {
         let border = CloudBorder::exact(name, body, start, tick_hz)?.rewindable();
         let ticks = |seconds: f64| ((seconds * f64::from(tick_hz)) as u64).max(1);
         let specs: Vec<LaneSpec> = lanes.iter().map(|(_, spec)| *spec).collect();
-        let long = ticks(seconds.min(ShownTicks::LONGEST_S));
+        let long = ticks(seconds.min(ShownTicks::MAX_S));
         let shown = ShownTicks { spread: SPREAD, ..long.into() };
         let axes = CloudAxes::of_run(name, body, start, &specs, tick_hz, shown)?;
         let work: u64 = specs.iter().map(cost).sum();

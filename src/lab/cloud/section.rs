@@ -85,7 +85,7 @@ impl SectionRun {
         let usual = if swing > 0.0 { REACH * swing } else { REACH };
         let reach = if body.is_angle(0) { std::f64::consts::PI } else { usual };
         let start = CloudStart { t, reach: plain.reach.map(|unit| unit * reach), ..plain };
-        let shown = ((seconds.min(ShownTicks::LONGEST_S) * f64::from(tick_hz)) as u64).max(1);
+        let shown = ((seconds.min(ShownTicks::MAX_S) * f64::from(tick_hz)) as u64).max(1);
         let specs: Vec<_> = lanes.iter().map(|(_, spec)| *spec).collect();
         let axes = CloudAxes::of_run(name, body, start, &specs, tick_hz, shown.into())?;
         let drive = period(body, start.middle, seconds, tick_hz);

@@ -17,9 +17,9 @@ const PARTS: u32 = 12;
 /// How much more room than it takes an even growth gets.
 const MARGIN: f64 = 1.15;
 /// The fastest zoom that can be watched, in powers of ten per second of real time.
-const FASTEST: f64 = 6.0;
+const MAX_ZOOM: f64 = 6.0;
 /// The least part of its speed to which time slows down, in percent.
-const SLOWEST: u32 = 6;
+const MIN_PERCENT: u32 = 6;
 /// No cubic between two ticks goes further than a line between its ends does that is so many times ahead, from where each
 /// end is with so much of a tick's motion more.
 const AHEAD: f64 = 1.125;
@@ -119,7 +119,7 @@ pub(in crate::lab) fn slow_motion_percent(studio: &Studio) -> u32 {
     });
     let speed = f64::from(studio.clock().speed_percent()) / 100.0;
     let fastest = speed * decades.fold(0.0, f64::max);
-    if fastest <= FASTEST { 100 } else { ((100.0 * FASTEST / fastest) as u32).max(SLOWEST) }
+    if fastest <= MAX_ZOOM { 100 } else { ((100.0 * MAX_ZOOM / fastest) as u32).max(MIN_PERCENT) }
 }
 
 /// How fast a body goes beyond this distance and beyond where it has been, in powers of ten per simulated second.

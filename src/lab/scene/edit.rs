@@ -58,7 +58,7 @@ fn written(value: f64) -> String {
 mod tests {
     use super::*;
     use crate::lab::Scene;
-    use crate::sim::bodies::{BODIES, LARGEST, kind};
+    use crate::sim::bodies::{BODIES, MAX_VALUE, kind};
 
     /// The values of the only body of a scene with this table, or what is wrong with it.
     fn parsed(table: &str) -> Result<Vec<f64>, String> {
@@ -93,7 +93,7 @@ mod tests {
                 let values: &[f64] = match parameter.range {
                     Range::Curve { .. } => &[],
                     Range::Count(_) => &[-1.0, 0.0, 1.0, 2.0, 8.0, 9.0, 256.0, 257.0],
-                    _ => &[-2e15, -1.0, 0.0, 1e-300, 0.1, 2.0, LARGEST, 1.1 * LARGEST, 1e300],
+                    _ => &[-2e15, -1.0, 0.0, 1e-300, 0.1, 2.0, MAX_VALUE, 1.1 * MAX_VALUE, 1e300],
                 };
                 for &value in values {
                     let parsed = parsed(&table(kind, Some((place, value))));

@@ -16,7 +16,7 @@ use crate::lab::action::Action;
 use crate::lab::lane_id::LaneId;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::edit::edited_values;
-use crate::sim::bodies::{Acts, BODIES, LARGEST, Parameter, Range};
+use crate::sim::bodies::{Acts, BODIES, MAX_VALUE, Parameter, Range};
 use crate::sim::integrators::Method;
 
 /// The name of the table array of a script.
@@ -126,7 +126,7 @@ pub(super) static COMMAND_KEYS: [CommandKey; 10] = [
     input(
         "kick",
         "an impulse for every body, of this many times its own kick",
-        Range::Within(LARGEST),
+        Range::Within(MAX_VALUE),
         |_, row, field| row.number(field).map(Action::Kick),
         |_, action| if let Action::Kick(times) = action { Some(number(*times)) } else { None },
     ),

@@ -42,7 +42,9 @@ pub use super::curve::Curve;
 pub use super::net_plan::{
     Form, Grid, Lists, MAX_NODES, MAX_SPRINGS, NetFault, NetPart, NetPlan, Pin, PlannedSpring,
 };
-pub use super::parameter::{Acts, Fault, LARGEST, MAX_POINTS, Parameter, ParameterOf, Range, Text};
+pub use super::parameter::{
+    Acts, Fault, MAX_POINTS, MAX_VALUE, Parameter, ParameterOf, Range, Text,
+};
 pub use super::piece::{Distances, MAX_SWITCHES, NO_BOUNDARIES, Piece};
 
 /// Every kind of body, in menu order.

@@ -18,7 +18,7 @@ fn halvings(order: u32) -> usize {
 }
 
 /// Steps to begin with.
-const COARSEST: u32 = 8;
+const MIN_STEPS: u32 = 8;
 /// Steps with which every method gets through.
 const FINE_ENOUGH: u32 = 128;
 
@@ -111,7 +111,7 @@ fn measure<V: Vector>(
     let mut table = Vec::new();
     let more = if expected == 0 { MORE_IF_NO_ORDER } else { 0 };
     for times in 0..course.times + more {
-        let errors = errors(method, course, COARSEST << times)?;
+        let errors = errors(method, course, MIN_STEPS << times)?;
         if errors.iter().all(|&error| error <= 1.0) {
             break;
         }

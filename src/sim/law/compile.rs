@@ -136,16 +136,16 @@ impl Compiler<'_> {
     }
 
     fn tape(&self, parts: Vec<(Part, &str)>) -> Result<Tape, Vec<LawFault>> {
-        let mut refusals = Vec::new();
+        let mut faults = Vec::new();
         let mut expressions: Vec<(Part, Expression)> = Vec::new();
         for (part, text) in &parts {
             match parse(text, &PartScope { text: self.text, part: *part }) {
                 Ok(expression) => expressions.push((*part, expression)),
-                Err(fault) => refusals.push(fault.of(*part)),
+                Err(fault) => faults.push(fault.of(*part)),
             }
         }
-        if !refusals.is_empty() {
-            return Err(refusals);
+        if !faults.is_empty() {
+            return Err(faults);
         }
         let n = self.text.coordinates.len();
         let first_constant = FIRST_COORDINATE + 2 * n;
@@ -170,12 +170,12 @@ pub(super) fn check_names(text: &LawText) -> Vec<LawFault> {
     let coordinates = text.coordinates.iter().map(|coordinate| &coordinate.name);
     let coordinates = coordinates.enumerate().map(|(i, name)| (Part::Coordinate(i), name));
     let mut taken: Vec<(String, String)> = Vec::new();
-    let mut refusals = Vec::new();
+    let mut faults = Vec::new();
     for (part, name) in coordinates.chain(constants) {
         let mut refuse = |what: String, remedy: &str| {
             let span: Range<usize> = 0..name.len();
             let remedy = Remedy::Words(remedy.into());
-            refusals.push(LawFault { part, span, what, remedy });
+            faults.push(LawFault { part, span, what, remedy });
         };
         let mut meanings = vec![(name.clone(), format!("`{name}`"))];
         if let Part::Coordinate(_) = part {
@@ -202,7 +202,7 @@ pub(super) fn check_names(text: &LawText) -> Vec<LawFault> {
         }
         taken.extend(meanings);
     }
-    refusals
+    faults
 }
 
 fn is_name(name: &str) -> bool {

@@ -2,7 +2,7 @@
 //! the start.
 
 use regatta::lab::Scene;
-use regatta::sim::bodies::{Acts, BODIES, Input, Kind, LARGEST, Range, kind};
+use regatta::sim::bodies::{Acts, BODIES, Input, Kind, MAX_VALUE, Range, kind};
 use regatta::sim::integrators::GENERAL_METHODS;
 use regatta::sim::{Solver, Stepper};
 
@@ -115,7 +115,7 @@ fn a_value_at_the_end_of_its_range_panics_nowhere() {
         let values = values(kind);
         for place in acting(kind, Acts::AtOnce) {
             let range = kind.parameters[place].range;
-            for value in [-LARGEST, 0.0, f64::MIN_POSITIVE, LARGEST] {
+            for value in [-MAX_VALUE, 0.0, f64::MIN_POSITIVE, MAX_VALUE] {
                 if !range.contains(value) {
                     continue;
                 }

@@ -2,7 +2,7 @@
 
 use crate::lab::pacing::policy::{Policy, Steps};
 use crate::lab::pacing::time_base::TimeBase;
-use crate::sim::{Accumulator, LONGEST_FRAME_MS, max_ticks};
+use crate::sim::{Accumulator, MAX_FRAME_MS, max_ticks};
 
 /// An accumulator that gives whole ticks.
 #[derive(Clone, Copy)]
@@ -13,9 +13,9 @@ pub(super) struct Fixed {
 }
 
 impl Fixed {
-    /// At most the ticks of [`LONGEST_FRAME_MS`] in a frame.
+    /// At most the ticks of [`MAX_FRAME_MS`] in a frame.
     pub(super) fn new(base: TimeBase) -> Self {
-        let most = max_ticks(100 * u64::from(base.tick_hz()), LONGEST_FRAME_MS);
+        let most = max_ticks(100 * u64::from(base.tick_hz()), MAX_FRAME_MS);
         Self::with_max_ticks(base, most)
     }
 

@@ -8,7 +8,7 @@ use toml::de::DeValue;
 use super::{Table, integer, number};
 use crate::lab::scene::MAX_COORDINATE;
 use crate::lab::scene::wanted::{Field, Wanted};
-use crate::sim::bodies::{LARGEST, MAX_NODES, MAX_POINTS, Range};
+use crate::sim::bodies::{MAX_NODES, MAX_POINTS, MAX_VALUE, Range};
 use crate::sim::number::counted;
 
 impl Table<'_> {
@@ -47,7 +47,7 @@ impl Table<'_> {
         pair: [&Spanned<DeValue<'_>>; 2],
         numbers: [f64; 2],
     ) -> Option<[f64; 2]> {
-        let range = Range::Within(LARGEST);
+        let range = Range::Within(MAX_VALUE);
         match pair.into_iter().zip(numbers).find(|(_, number)| !range.contains(*number)) {
             Some((value, _)) => self.out_of_range(subject, value, &Wanted::Number(range)),
             None => Some(numbers),

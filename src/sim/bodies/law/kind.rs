@@ -44,9 +44,9 @@ pub fn law_kind(text: LawText) -> Result<Arc<Kind>, Vec<LawFault>> {
         origin: Origin::Law(equations.clone()),
         ..Kind::checked(template, move |mut law, values| {
             law.write(values);
-            check_start(&law).map_err(|refusal| Fault {
+            check_start(&law).map_err(|fault| Fault {
                 key: first_key.clone(),
-                what: refusal.what,
+                what: fault.what,
                 remedy: "give it another start or other constants".into(),
             })
         })

@@ -16,7 +16,8 @@ use super::error::capitalised;
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, over_time};
 use super::{body_choice, chart, choice};
 use crate::lab::cloud::{
-    CloudChoice, CloudKind, CloudPicture, Density, LONGEST_LINE, LaneCloud, POINTS, hidden_in_words,
+    CloudChoice, CloudKind, CloudPicture, Density, LaneCloud, MAX_LINE_PART, POINTS,
+    hidden_in_words,
 };
 use crate::lab::number::{grouped, significant};
 use crate::lab::palette::{Rgba, Theme};
@@ -363,7 +364,7 @@ fn outline(picture: &CloudPicture, rect: Rect, palette: &PanelPalette) -> Vec<Sc
     let area = PlotArea { rect, bounds: [[0.0, 1.0]; 2] };
     let style = LineStyle::solid(palette.exact, OUTLINE);
     // An angle goes on at the other side, and what is between points far apart is not known.
-    let longest = LONGEST_LINE as f32 * rect.size().max_elem();
+    let longest = MAX_LINE_PART as f32 * rect.size().max_elem();
     let goes_on = |a: &Pos2, b: &Pos2| a.distance(*b) <= longest;
     let mut curves = Vec::new();
     for line in &picture.border {
