@@ -18,7 +18,7 @@ pub(super) struct TooMuch;
 const ENVELOPE_MOMENTS: u32 = 256;
 
 /// The steps from which a mode's map is computed: three from each of two states.
-const STEPS_PER_MODE: u64 = 6;
+pub(super) const STEPS_PER_MODE: u64 = 6;
 
 /// The normal modes of a linear body, and their stability under a method of equal steps.
 pub(super) struct Modes<'a> {

@@ -10,6 +10,9 @@ use contour::{Corners, contour};
 pub use seen::SeenLine;
 use seen::seen_lines;
 
+use super::modes::STEPS_PER_MODE;
+use super::slices::{Meter, Sliced};
+use super::truth::work_of;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::SceneBody;
 use crate::sim::bodies::{Follow, Kind, Ship, Spring};
@@ -20,6 +23,7 @@ use crate::sim::{EngineSettings, Solver, Stepper, stepper};
 
 mod contour;
 mod seen;
+mod words;
 
 /// The tick rates of a map in Hz: those of the keys. A present rate outside widens the map.
 const RATES_HZ: [f64; 2] = [2.0, 1000.0];
@@ -35,6 +39,8 @@ const CORNERS: [usize; 2] = [37, 33];
 const FEWER_CORNERS: [usize; 2] = [19, 17];
 /// From this many coupled coordinates on.
 const MANY_COUPLED: usize = 9;
+/// The work of the eigenvalues of a motion, in evaluations of one coordinate, by the cube of its coordinates.
+const ROOTS_PER_CUBE: u64 = 50;
 
 /// A stability map that is wanted.
 #[derive(Clone, Debug, PartialEq)]
@@ -220,6 +226,19 @@ impl Motion {
         self.under(spec, hz).all(|found| found.is_some_and(|stability| stability.is_bounded()))
     }
 
+    /// About the work of a point under a method: steps from each of two states a coordinate, and the roots of their map.
+    fn work(&self, spec: &LaneSpec) -> u64 {
+        let steps = |n: u64| {
+            let evaluations = u64::from(spec.method.evaluations.unwrap_or(n as u32));
+            let evaluations = STEPS_PER_MODE * n * evaluations * u64::from(spec.substeps);
+            work_of(evaluations, n, spec.solver()) + work_of_roots(n)
+        };
+        match self {
+            Self::Uncoupled(Uncoupled { modes, .. }) => modes.len() as u64 * steps(1),
+            Self::Coupled(coupled) => steps(coupled.coordinates() as u64),
+        }
+    }
+
     fn is_undamped(&self) -> bool {
         matches!(self, Self::Uncoupled(Uncoupled { modes, .. }) if modes.iter().all(NormalMode::is_conserved))
     }
@@ -230,14 +249,101 @@ impl Motion {
     }
 }
 
-/// A map being computed, method by method.
-pub(super) struct MapWork {
+/// What the points of a map are tried on.
+struct Plane {
     kind: Arc<Kind>,
+    values: Vec<f64>,
+    parameter: usize,
+    corners: Corners,
+    meter: Arc<Meter>,
+}
+
+impl Plane {
+    /// The motion of the body with this value of the mapped parameter.
+    fn motion_at(&self, value: f64) -> Option<Motion> {
+        Motion::of(&*self.body_at(value)).ok()
+    }
+
+    fn body_at(&self, value: f64) -> Box<dyn Stepper> {
+        let mut values = self.values.clone();
+        values[self.parameter] = value;
+        (self.kind.build)(&values, Solver::Truth)
+    }
+
+    /// About the work of finding a motion.
+    fn work_of_motion(&self) -> u64 {
+        work_of_roots(self.kind.coordinates(&self.values).len() as u64)
+    }
+
+    /// What each method does at a value and a rate, and whether the true motion grows there.
+    async fn here(&self, specs: &[(usize, LaneSpec)], value: f64, hz: f64) -> (Vec<Here>, bool) {
+        let motion = self.motion_at(value);
+        self.meter.pass(self.work_of_motion()).await;
+        let mut found = Vec::with_capacity(specs.len());
+        for (_, spec) in specs {
+            found.push(here(spec, motion.as_ref(), hz));
+            self.meter.pass(motion.as_ref().map_or(0, |motion| motion.work(spec))).await;
+        }
+        (found, motion.is_some_and(|motion| motion.grows()))
+    }
+
+    /// The motion at each row of the map; `None` where the body cannot be linearised.
+    async fn rows(&self) -> Rows {
+        let mut rows = Vec::new();
+        for j in 0..self.corners.counts()[1] {
+            rows.push(self.motion_at(libm::pow(10.0, self.corners.at([0, j])[1])));
+            self.meter.pass(self.work_of_motion()).await;
+        }
+        rows
+    }
+
+    async fn region(&self, spec: LaneSpec, rows: &Rows) -> Region {
+        if chooses_steps(&spec) {
+            let coverage = Coverage::OwnSteps;
+            return Region {
+                coverage,
+                pieces: vec![],
+                boundary: vec![],
+                limit: None,
+                seen: vec![],
+            };
+        }
+        let stable = |motion: Option<&Motion>, x: f64| {
+            motion.is_some_and(|motion| motion.is_stable(&spec, libm::pow(10.0, x)))
+        };
+        let of_point = rows.iter().flatten().map(|motion| motion.work(&spec)).max().unwrap_or(0);
+        let region = contour(
+            &self.corners,
+            |[i, j]| stable(rows[j].as_ref(), self.corners.at([i, j])[0]),
+            |x, j| stable(rows[j].as_ref(), x),
+            |[x, y]| stable(self.motion_at(libm::pow(10.0, y)).as_ref(), x),
+            (&self.meter, [of_point, of_point + self.work_of_motion()]),
+        )
+        .await;
+        let is_undamped = rows.iter().flatten().all(Motion::is_undamped);
+        let of_step = spec.method.stability_limit.filter(|limit| is_undamped && *limit > 0.0);
+        let limit = of_step.map(|limit| limit * f64::from(spec.substeps));
+        let joint_at = |value| self.kind.joint(&*self.body_at(value));
+        let seen = seen_lines(&spec, &self.corners, joint_at, &self.meter).await;
+        Region { limit, seen, ..region }
+    }
+}
+
+type Rows = Vec<Option<Motion>>;
+
+/// A map being computed: what the methods do at the present point, and then region by region.
+pub(super) struct MapWork {
+    plane: Arc<Plane>,
     map: StabilityMap,
-    /// How many points are tried along the rates and along the values.
-    corners: [usize; 2],
-    /// The motion at each value along the map; `None` where the body cannot be linearised.
-    rows: Vec<Option<Motion>>,
+    rows: Option<Arc<Rows>>,
+    /// What is being found of the present point, and of the regions.
+    here: Option<Sliced<(Vec<Here>, bool)>>,
+    part: Option<Sliced<Part>>,
+}
+
+enum Part {
+    Rows(Rows),
+    Region(Region),
 }
 
 impl MapWork {
@@ -245,6 +351,15 @@ impl MapWork {
         let body = (kind.build)(&request.values, Solver::Truth);
         let found = Motion::of(&*body);
         let is_slow = matches!(found, Ok(Motion::Coupled(_))) && body.q().len() >= MANY_COUPLED;
+        let counts = if is_slow { FEWER_CORNERS } else { CORNERS };
+        let ends = [request.rates_hz, request.range].map(|ends| ends.map(libm::log10));
+        let plane = Plane {
+            kind,
+            values: request.values.clone(),
+            parameter: request.parameter,
+            corners: Corners::new(counts, ends),
+            meter: Arc::default(),
+        };
         let map = StabilityMap {
             regions: Vec::new(),
             here: Vec::new(),
@@ -253,22 +368,23 @@ impl MapWork {
             is_linear: body.is_linear(),
             request,
         };
-        Self { kind, map, corners: if is_slow { FEWER_CORNERS } else { CORNERS }, rows: Vec::new() }
+        Self { plane: Arc::new(plane), map, rows: None, here: None, part: None }
     }
 
-    /// Replaces the request. Regions that answer the new one too are kept.
+    /// Replaces the request. Regions that answer the new one too are kept, also one that is being found.
     pub(super) fn set_request(&mut self, request: MapRequest) {
         if !request.has_regions_of(&self.map.request) {
-            *self = Self::new(self.kind.clone(), request);
+            *self = Self::new(self.plane.kind.clone(), request);
         } else if request != self.map.request {
             self.map.request = request;
             self.map.here.clear();
+            self.here = None;
         }
     }
 
     /// Whether it maps the body of `request`, which is of this kind.
     pub(super) fn is_of(&self, kind: &Arc<Kind>, request: &MapRequest) -> bool {
-        Arc::ptr_eq(&self.kind, kind) && self.map.request.body == request.body
+        Arc::ptr_eq(&self.plane.kind, kind) && self.map.request.body == request.body
     }
 
     pub(super) fn map(&self) -> StabilityMap {
@@ -281,65 +397,61 @@ impl MapWork {
             || self.map.here.len() == wanted && self.map.regions.len() == wanted
     }
 
-    /// Finds what each method does at the present point, or else the next region.
-    pub(super) fn advance(&mut self) {
+    /// Whether it is within a part: what each method does at the present point, or a region.
+    pub(super) fn is_within_a_part(&self) -> bool {
+        self.here.is_some() || self.part.is_some()
+    }
+
+    /// What counts the work on it.
+    #[cfg(test)]
+    pub(super) fn meter(&self) -> &Arc<Meter> {
+        &self.plane.meter
+    }
+
+    /// Goes on for about this much work, in evaluations of one coordinate.
+    pub(super) fn advance(&mut self, work: u64) {
         let request = &self.map.request;
         if self.is_done() {
             return;
         }
         if self.map.here.len() < request.specs.len() {
-            let motion = self.motion_at(request.value());
-            let hz = f64::from(request.tick_hz);
-            self.map.here =
-                request.specs.iter().map(|(_, spec)| here(spec, motion.as_ref(), hz)).collect();
-            self.map.truth_grows = motion.is_some_and(|motion| motion.grows());
-        } else if let Some((_, spec)) = request.specs.get(self.map.regions.len()) {
-            let spec = *spec;
-            let region = if chooses_steps(&spec) {
-                let coverage = Coverage::OwnSteps;
-                Region { coverage, pieces: vec![], boundary: vec![], limit: None, seen: vec![] }
-            } else {
-                self.region(&spec)
+            let new = || {
+                let (plane, specs) = (self.plane.clone(), request.specs.clone());
+                let (value, hz) = (request.value(), f64::from(request.tick_hz));
+                let find = async move { plane.here(&specs, value, hz).await };
+                Sliced::new(self.plane.meter.clone(), find)
             };
-            self.map.regions.push(region);
+            let mut finding = self.here.take().unwrap_or_else(new);
+            match finding.go_on(work) {
+                Some((here, grows)) => (self.map.here, self.map.truth_grows) = (here, grows),
+                None => self.here = Some(finding),
+            }
+            return;
+        }
+        let mut part = self.part.take().unwrap_or_else(|| self.next_part());
+        match part.go_on(work) {
+            Some(Part::Rows(rows)) => self.rows = Some(rows.into()),
+            Some(Part::Region(region)) => self.map.regions.push(region),
+            None => self.part = Some(part),
         }
     }
 
-    fn region(&mut self, spec: &LaneSpec) -> Region {
-        let MapRequest { rates_hz, range, .. } = &self.map.request;
-        let corners =
-            Corners::new(self.corners, [rates_hz, range].map(|ends| ends.map(libm::log10)));
-        if self.rows.is_empty() {
-            let row = |j| self.motion_at(libm::pow(10.0, corners.at([0, j])[1]));
-            self.rows = (0..self.corners[1]).map(row).collect();
+    /// What the next region needs, or that.
+    fn next_part(&self) -> Sliced<Part> {
+        let (plane, meter) = (self.plane.clone(), self.plane.meter.clone());
+        let (_, spec) = self.map.request.specs[self.map.regions.len()];
+        match self.rows.clone() {
+            Some(rows) => {
+                Sliced::new(meter, async move { Part::Region(plane.region(spec, &rows).await) })
+            }
+            None => Sliced::new(meter, async move { Part::Rows(plane.rows().await) }),
         }
-        let stable = |motion: Option<&Motion>, x: f64| {
-            motion.is_some_and(|motion| motion.is_stable(spec, libm::pow(10.0, x)))
-        };
-        let region = contour(
-            &corners,
-            |[i, j]| stable(self.rows[j].as_ref(), corners.at([i, j])[0]),
-            |x, j| stable(self.rows[j].as_ref(), x),
-            |[x, y]| stable(self.motion_at(libm::pow(10.0, y)).as_ref(), x),
-        );
-        let is_undamped = self.rows.iter().flatten().all(Motion::is_undamped);
-        let of_step = spec.method.stability_limit.filter(|limit| is_undamped && *limit > 0.0);
-        let limit = of_step.map(|limit| limit * f64::from(spec.substeps));
-        let seen = seen_lines(spec, &corners, |value| self.kind.joint(&*self.body_at(value)));
-        Region { limit, seen, ..region }
     }
+}
 
-    /// The motion of the body with this value of the mapped parameter.
-    fn motion_at(&self, value: f64) -> Option<Motion> {
-        Motion::of(&*self.body_at(value)).ok()
-    }
-
-    fn body_at(&self, value: f64) -> Box<dyn Stepper> {
-        let MapRequest { values, parameter, .. } = &self.map.request;
-        let mut values = values.clone();
-        values[*parameter] = value;
-        (self.kind.build)(&values, Solver::Truth)
-    }
+/// The work of the eigenvalues of two values for each of `n` coordinates.
+fn work_of_roots(n: u64) -> u64 {
+    ROOTS_PER_CUBE * n * n * n
 }
 
 fn chooses_steps(spec: &LaneSpec) -> bool {

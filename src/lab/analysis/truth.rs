@@ -126,7 +126,7 @@ impl BodyTruth {
     }
 
     /// The true state after the last input, or after the last that could be reached.
-    fn after_inputs(&self) -> Box<dyn Stepper> {
+    async fn after_inputs(&self) -> Box<dyn Stepper> {
         let mut body = self.start(Solver::Truth);
         let mut t = 0.0;
         for input in &self.inputs {
@@ -135,6 +135,7 @@ impl BodyTruth {
             }
             t = input.t;
             input.action.apply_to(&mut *body, t);
+            self.meter.pass(self.work_of_moment()).await;
         }
         body
     }
@@ -168,7 +169,7 @@ impl BodyTruth {
             Truth::Reference => MAX_REFERENCE_MOMENTS,
         };
         let most = (MAX_PRODUCTS / (n * n)).clamp(MIN_MOMENTS, max_moments);
-        let after_inputs = self.after_inputs();
+        let after_inputs = self.after_inputs().await;
         self.modes = normal_modes(&*after_inputs).map(|modes| shares(&*after_inputs, modes));
         let mut there = self.start(Solver::Truth);
         let mut reach = ReachSoFar::new(Ranges::at(&*body), &self.body);

@@ -250,8 +250,8 @@ impl AnalysisWorker {
         }
     }
 
-    /// Does one step: finds a region of the map or goes on for a slice with the next part of the answer: the truths, a
-    /// missing verdict or, if none is missing, a method or a margin of the advice. Returns whether there is more to do.
+    /// Does one step: goes on for a slice with the map or, if that is found, with the next part of the answer: the truths,
+    /// a missing verdict or, if none is missing, a method or a margin of the advice. Returns whether there is more to do.
     pub fn work(&mut self) -> bool {
         if let Some(wanted) = &self.request.map
             && !self.is_mapped()
@@ -259,7 +259,7 @@ impl AnalysisWorker {
             // Before the verdicts, because it takes less time than one of them may.
             let kind = &self.request.scene.bodies[wanted.body].kind;
             let new = || MapWork::new(kind.clone(), wanted.clone());
-            self.mapping.get_or_insert_with(new).advance();
+            self.mapping.get_or_insert_with(new).advance(WORK_OF_STEP);
         } else if let Some(mut part) = self.part.take().or_else(|| self.next_part()) {
             match part.go_on(WORK_OF_STEP) {
                 Some(found) => self.accept(found),
@@ -319,7 +319,8 @@ impl AnalysisWorker {
 
     /// Whether it is within a part of the answer: its findings are those of some steps ago.
     pub fn is_within_a_part(&self) -> bool {
-        self.part.is_some()
+        let mapping = self.mapping.as_ref().filter(|_| self.request.map.is_some());
+        self.part.is_some() || mapping.is_some_and(MapWork::is_within_a_part)
     }
 
     /// Does all steps.

@@ -1,6 +1,8 @@
 //! Small motions of a body about rest, all coordinates together: also of a body that has no normal modes,
 //! because its damping couples them.
 
+use std::fmt;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::comparison::{Mode, Motion, Stability};
@@ -39,6 +41,25 @@ pub enum NoSmallMotion {
     NotFinite,
     /// It has more coordinates that act on each other than are taken together.
     TooManyCoordinates,
+}
+
+/// A clause: `the stiffness or the damping of this body changes in time`.
+impl fmt::Display for NoSmallMotion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NoRest => {
+                "small motions are about rest, and this body rests neither at its origin nor near its start"
+            }
+            Self::Corner => {
+                "the force has a corner or a jump where this body rests, so that it does not behave as a spring there"
+            }
+            Self::Unsteady => "the stiffness or the damping of this body changes in time",
+            Self::TooManyCoordinates => "too many coordinates of this body act on each other",
+            Self::NotFinite => {
+                "the force or its slope is not a finite number where this body rests"
+            }
+        })
+    }
 }
 
 /// The most coordinates that are stepped together: the work for a point grows as their cube.
@@ -103,6 +124,11 @@ pub fn normal_modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
 }
 
 impl CoupledMotion {
+    /// How many coordinates there are.
+    pub fn coordinates(&self) -> usize {
+        self.jacobian.nrows()
+    }
+
     /// Whether the true motion grows without bound.
     pub fn grows(&self) -> bool {
         self.motion.truth.iter().any(|mode| mode.growth_per_s > 0.0)

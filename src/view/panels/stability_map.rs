@@ -16,7 +16,7 @@ use crate::lab::scene::edited_values;
 use crate::lab::studio::{Command, RunCommand, StageCommand, Step, Studio};
 use crate::lab::{Action, Parameter};
 use crate::view::chart::{self, AxisScale, LineStyle, PlotArea, Primitive, ScreenCurve};
-use words::{each_method, full_name, no_map, point_in_words, sentence, short_sentence};
+use words::{full_name, point_in_words, sentence, short_sentence};
 
 mod words;
 
@@ -57,7 +57,9 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
         return;
     };
     if let Some(why) = map.refused {
-        let why = no_map(why);
+        let why = format!(
+            "No stability map: {why}. The lanes below say how each method does on the motion itself."
+        );
         ui.add(Label::new(RichText::new(why).color(palette(ui).dim)).wrap());
         return;
     }
@@ -68,7 +70,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
     };
     let size = vec2(room.x, (left - height - 6.0).max(40.0));
     plot(ui, studio, map, size, commands);
-    ui.add(Label::new(words)).on_hover_text(each_method(map));
+    ui.add(Label::new(words)).on_hover_text(map.each_here());
 }
 
 fn parameter(studio: &Studio, place: usize) -> &Parameter {

@@ -1,8 +1,9 @@
 //! The region of a plane in which a condition holds, from a grid of points and bisection between them: marching squares.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
-use super::{Coverage, Region};
+use super::{Coverage, Meter, Region};
 use crate::lab::bisection::bisect;
 
 /// Halvings of the distance between two points of the grid: a boundary is found to a five-hundredth of it, which is
@@ -39,31 +40,34 @@ impl Corners {
 type Side = ([usize; 2], usize);
 
 /// The region in which a condition holds: at the corners of the grid by `at_corner`, on a row of it by `on_row`, which
-/// is told x and the row, and anywhere by `anywhere`.
-pub(super) fn contour(
+/// is told x and the row, and anywhere by `anywhere`. The meter counts the work of a point on a row, or of one anywhere.
+pub(super) async fn contour(
     corners: &Corners,
     at_corner: impl Fn([usize; 2]) -> bool,
     on_row: impl Fn(f64, usize) -> bool,
     anywhere: impl Fn([f64; 2]) -> bool,
+    (meter, [of_row, of_any]): (&Meter, [u64; 2]),
 ) -> Region {
     let [columns, rows] = corners.counts;
-    let holds: Vec<Vec<bool>> =
-        (0..rows).map(|j| (0..columns).map(|i| at_corner([i, j])).collect()).collect();
+    let mut holds = vec![Vec::with_capacity(columns); rows];
+    for (j, row) in holds.iter_mut().enumerate() {
+        for i in 0..columns {
+            row.push(at_corner([i, j]));
+            meter.pass(of_row).await;
+        }
+    }
     let inside = |[i, j]: [usize; 2]| holds[j][i];
-    let mut crossings: BTreeMap<Side, [f64; 2]> = BTreeMap::new();
-    let mut crossing = |side: Side| {
-        *crossings.entry(side).or_insert_with(|| {
-            let ([i, j], axis) = side;
-            let end = if axis == 0 { [i + 1, j] } else { [i, j + 1] };
-            let [from, to] = [[i, j], end].map(|corner| corners.at(corner)[axis]);
-            let [x, y] = corners.at([i, j]);
-            if axis == 0 {
-                [between(from, to, inside([i, j]), |x| on_row(x, j)), y]
-            } else {
-                [x, between(from, to, inside([i, j]), |y| anywhere([x, y]))]
-            }
-        })
+    let crossing = |([i, j], axis): Side| {
+        let end = if axis == 0 { [i + 1, j] } else { [i, j + 1] };
+        let [from, to] = [[i, j], end].map(|corner| corners.at(corner)[axis]);
+        let [x, y] = corners.at([i, j]);
+        if axis == 0 {
+            [between(from, to, inside([i, j]), |x| on_row(x, j)), y]
+        } else {
+            [x, between(from, to, inside([i, j]), |y| anywhere([x, y]))]
+        }
     };
+    let mut crossings: BTreeMap<Side, [f64; 2]> = BTreeMap::new();
 
     let (mut pieces, mut segments) = (Vec::new(), Vec::new());
     for j in 0..rows - 1 {
@@ -90,8 +94,14 @@ pub(super) fn contour(
                     piece.push(corners.at(round[k]));
                 }
                 if inside(round[k]) != inside(round[(k + 1) % 4]) {
-                    piece.push(crossing(sides[k]));
-                    crossed.push(sides[k]);
+                    let side = sides[k];
+                    if let Entry::Vacant(unknown) = crossings.entry(side) {
+                        unknown.insert(crossing(side));
+                        let work = if side.1 == 0 { of_row } else { of_any };
+                        meter.pass(u64::from(HALVINGS) * work).await;
+                    }
+                    piece.push(crossings[&side]);
+                    crossed.push(side);
                 }
             }
             pieces.push(piece);
@@ -140,17 +150,19 @@ fn chains(mut segments: Vec<[Side; 2]>) -> Vec<Vec<Side>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::analysis::slices::at_once;
 
     #[test]
     fn a_disc_has_one_round_boundary_and_its_own_area() {
         let corners = Corners::new([21, 17], [[-2.0, 2.0], [-1.5, 1.5]]);
         let holds = |[x, y]: [f64; 2]| x * x + y * y < 1.0;
-        let region = contour(
+        let region = at_once(contour(
             &corners,
             |place| holds(corners.at(place)),
             |x, j| holds([x, corners.at([0, j])[1]]),
             holds,
-        );
+            (&Meter::default(), [1; 2]),
+        ));
         assert_eq!(region.coverage, Coverage::Part);
         assert_eq!(region.boundary.len(), 1);
         let line = &region.boundary[0];
@@ -173,7 +185,8 @@ mod tests {
         for (holds, coverage, pieces) in
             [(true, Coverage::Everywhere, 3), (false, Coverage::Nowhere, 0)]
         {
-            let region = contour(&corners, |_| holds, |_, _| holds, |_| holds);
+            let effort = (&Meter::default(), [1; 2]);
+            let region = at_once(contour(&corners, |_| holds, |_, _| holds, |_| holds, effort));
             assert_eq!((region.coverage, region.pieces.len()), (coverage, pieces));
             assert!(region.boundary.is_empty());
         }

@@ -16,7 +16,7 @@ fn map(values: [f64; 6], parameter: usize, specs: Vec<LaneSpec>) -> StabilityMap
     let request = MapRequest::new((0, parameter), &opened, &values, 20, specs);
     let mut work = MapWork::new(kind.clone(), request);
     while !work.is_done() {
-        work.advance();
+        work.advance(u64::MAX);
     }
     work.map()
 }
@@ -180,7 +180,7 @@ fn the_present_point_changes_no_region() {
     };
     let mut work = MapWork::new(opened.kind.clone(), request(90.0, 1.0, 20));
     while !work.is_done() {
-        work.advance();
+        work.advance(u64::MAX);
     }
     work.set_request(request(700.0, 1.0, 60));
     assert_eq!((work.map.regions.len(), work.map.here.len()), (1, 0));
@@ -191,6 +191,41 @@ fn the_present_point_changes_no_region() {
     assert_eq!(range(0.0, 0.0), FROM_NOTHING);
 }
 
+#[test]
+fn a_map_found_in_slices_is_that_of_one_go_and_a_moved_point_keeps_what_is_found_of_a_region() {
+    const SLICE: u64 = 50_000;
+    let scene = quarter_car();
+    let body = &scene.bodies[0];
+    let (place, _) = body.kind.parameter("k").unwrap();
+    let specs = ["rk4", "implicit-midpoint"].map(|id| LaneSpec::plain(method(id).unwrap()));
+    let request = |tick_hz| {
+        let specs = specs.into_iter().enumerate().collect();
+        MapRequest::new((0, place), body, &body.values, tick_hz, specs)
+    };
+    let found = |slice: u64, moves: bool| {
+        let mut work = MapWork::new(body.kind.clone(), request(60));
+        let mut slices = Vec::new();
+        while !work.is_done() {
+            let before = work.meter().passed();
+            work.advance(slice);
+            slices.push(work.meter().passed() - before);
+            if moves && work.part.is_some() && slices.len() % 9 == 0 {
+                work.set_request(request(if work.map.request.tick_hz == 60 { 30 } else { 60 }));
+                assert!(work.part.is_some() && work.here.is_none() && work.map.here.is_empty());
+            }
+        }
+        work.set_request(request(60));
+        while !work.is_done() {
+            work.advance(slice);
+        }
+        ((work.map.regions, work.map.here), slices)
+    };
+    let ((whole, once), (sliced, slices)) = (found(u64::MAX, false), found(SLICE, false));
+    assert!(sliced == whole && once.len() == 4, "{once:?}");
+    assert!(slices.len() > 20 && slices.iter().all(|&work| work < 2 * SLICE), "{slices:?}");
+    assert!(found(SLICE, true).0 == whole);
+}
+
 /// The map of the first body of a scene over the parameter with this key.
 fn map_of(scene: &Scene, key: &str, tick_hz: u32, ids: &[&str]) -> StabilityMap {
     let body = &scene.bodies[0];
@@ -199,7 +234,7 @@ fn map_of(scene: &Scene, key: &str, tick_hz: u32, ids: &[&str]) -> StabilityMap 
     let request = MapRequest::new((0, place), body, &body.values, tick_hz, specs);
     let mut work = MapWork::new(body.kind.clone(), request);
     while !work.is_done() {
-        work.advance();
+        work.advance(u64::MAX);
     }
     work.map()
 }
@@ -346,7 +381,7 @@ fn a_body_without_rest_has_no_map_and_a_pendulum_has_that_of_its_small_swings() 
         let request = MapRequest::new((0, place), body, &body.values, 60, specs);
         let mut work = MapWork::new(body.kind.clone(), request);
         while !work.is_done() {
-            work.advance();
+            work.advance(u64::MAX);
         }
         assert_eq!(work.map.refused.is_none(), is_possible, "{name}");
         assert_eq!(work.map.regions.len(), usize::from(is_possible), "{name}");
@@ -362,7 +397,7 @@ fn a_follower_is_mapped_on_a_body_of_its_rate() {
         let request = MapRequest::new((0, 1), body, &body.values, tick_hz, specs);
         let mut work = MapWork::new(body.kind.clone(), request);
         while !work.is_done() {
-            work.advance();
+            work.advance(u64::MAX);
         }
         let map = work.map();
         let [per_frame, by_dt, exact, euler] = map.here[..] else { panic!("{:?}", map.here) };

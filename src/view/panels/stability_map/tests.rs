@@ -1,6 +1,5 @@
 use egui::{Event, Modifiers};
 
-use super::words::{counted, notes};
 use super::*;
 use crate::lab::Scene;
 use crate::lab::studio::{Instrument, RunCommand, StageCommand, Step};
@@ -51,12 +50,14 @@ fn the_sentence_counts_the_stable_methods() {
     let studio = studio("stiff");
     let map = studio.viewer().stability_map().unwrap();
     assert_eq!(
-        counted(map).split(" Explicit").next().unwrap(),
+        map.stable_here().split(" Explicit").next().unwrap(),
         // At 60 Hz ω h is 1.67.
         "2 of 4 methods are stable."
     );
-    assert!(notes(map).contains("Explicit Euler, Improved Euler are stable nowhere on this map."));
-    assert!(notes(map).contains("Adaptive Euler picks its own steps"));
+    assert!(
+        map.not_drawn().contains("Explicit Euler, Improved Euler are stable nowhere on this map.")
+    );
+    assert!(map.not_drawn().contains("Adaptive Euler picks its own steps"));
     assert_eq!(point_in_words(&studio, 1, 20, 90.0), "20 Hz, k = 90 N/m");
 }
 
