@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
 use clap::Args;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::error::Error;
 use super::experiment::{
@@ -13,17 +13,22 @@ use super::experiment::{
 use super::file_names::{check_picture_name, row_format, same_file_path};
 use super::interrupt::watch_for_interrupt;
 use super::numbers::number_that;
-use super::output::table::{Column, RowFormat, RowWriter, write_rows};
-use super::output::{Destination, STDOUT, print};
+use super::output::table::{RowFormat, RowWriter};
+use super::output::{Destination, Output, STDOUT, print};
 #[cfg(feature = "view")]
 use super::plot::Plot;
 use super::scene_file;
 use super::trace_source::traces;
 use crate::atomic_file::IfExists;
-use crate::lab::pacing::{FrameTrace, MIN_RUN_S, POLICIES, PolicyCard, RefreshRate, trace_card};
+use crate::lab::analysis::Unit;
+use crate::lab::pacing::{
+    FrameTrace, MIN_RUN_S, PACING_METRICS, POLICIES, PacingMetric, PolicyCard, RefreshRate,
+    trace_card,
+};
 use crate::lab::{LaneSpec, Scene};
 use crate::sim::Clock;
 use crate::sim::integrators::Method;
+use crate::sim::number::counted;
 
 mod advice;
 #[cfg(feature = "view")]
@@ -201,7 +206,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
         }
         advice::tell_of(&rows[from..], args.latency_ms);
     }
-    write_rows(out, format, COLUMNS, &rows)?;
+    write_measured(out, format, &rows)?;
     if let Some(frames) = frames {
         frames.end()?.finish("the frames")?;
     }
@@ -255,24 +260,24 @@ fn snippet(card: &'static PolicyCard, language: &str) -> Result<&'static str, Er
     })
 }
 
-/// The columns of the rows; the measured ones are those of the table of metrics.
-const COLUMNS: &[Column<Measured>] = &[
-    Column::new("policy", |row| json!(row.card.id)),
-    Column::new("trace", |row| json!(row.trace)),
-    Column::new("tick_hz", |row| json!(row.tick_hz)),
-    Column::new("frames", |row| json!(row.report.frames)),
-    Column::new("animation_error_rms_ms", |row| json!(row.report.animation_error_rms_ms)),
-    Column::new("animation_error_max_ms", |row| json!(row.report.animation_error_max_ms)),
-    Column::new("repeated_percent", |row| json!(row.report.repeated_percent)),
-    Column::new("double_percent", |row| json!(row.report.double_percent)),
-    Column::new("latency_mean_ms", |row| json!(row.report.latency_mean_ms)),
-    Column::new("latency_max_ms", |row| json!(row.report.latency_max_ms)),
-    Column::new("dropped_ms", |row| json!(row.report.dropped_ms)),
-    Column::new("owed_max_ms", |row| json!(row.report.owed_max_ms)),
-    Column::new("position_error_rms", |row| json!(row.report.position_error_rms)),
-    Column::new("ticks", |row| json!(row.report.ticks)),
-    Column::new("evaluations", |row| json!(row.report.evaluations)),
-];
+/// What is measured of a single run. The last takes a second one.
+fn metrics() -> impl Iterator<Item = &'static PacingMetric> {
+    PACING_METRICS.iter().filter(|metric| metric.id != "state_difference")
+}
+
+fn write_measured(out: Output, format: RowFormat, rows: &[Measured]) -> Result<(), Error> {
+    let keys = ["policy", "trace", "tick_hz"].into_iter().chain(metrics().map(|metric| metric.id));
+    let mut writer = RowWriter::begin(out, format, keys)?;
+    for Measured { card, trace, tick_hz, report, .. } in rows {
+        let value = |metric: &PacingMetric| match ((metric.measure)(report), metric.unit) {
+            (Some(count), Unit::One) => json!(count as u64),
+            (value, _) => json!(value),
+        };
+        let of = [json!(card.id), json!(trace), json!(tick_hz)];
+        writer.row(&of.into_iter().chain(metrics().map(value)).collect::<Vec<Value>>())?;
+    }
+    writer.end()?.finish(&counted(rows.len(), "row"))
+}
 
 /// The columns of `--frames`.
 const FRAME_COLUMNS: [&str; 9] = [
@@ -289,18 +294,4 @@ const FRAME_COLUMNS: [&str; 9] = [
 
 fn latency(written: &str) -> Result<f64, String> {
     number_that(written, |ms| (0.0..=10_000.0).contains(&ms), "0 to 10000 ms")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::lab::pacing::PACING_METRICS;
-
-    #[test]
-    fn the_columns_are_the_metrics_of_a_single_run_in_their_order() {
-        let columns = COLUMNS.iter().skip(3).map(|column| column.key);
-        let metrics = PACING_METRICS.iter().map(|metric| metric.id);
-        // It takes a second run.
-        assert!(columns.eq(metrics.filter(|id| *id != "state_difference")));
-    }
 }
