@@ -319,23 +319,25 @@ impl<R: TableRow> Table<R> {
         let command = row.command();
         let sense = if command.is_some() { Sense::click() } else { Sense::hover() };
         let (rect, response) = ui.allocate_exact_size(vec2(width, self.row_height), sense);
-        let numbers: Vec<Option<String>> = columns
-            .iter()
-            .map(|(column, ..)| match &column.cell {
-                CellContent::Number(text) => text(row),
-                CellContent::Shown(_) => None,
-            })
-            .collect();
         let is_selected = row.is_selected();
         response.widget_info(|| {
-            let heard = columns.iter().zip(&numbers).filter_map(|((column, ..), number)| {
-                Some(format!(", {} {}", column.name, number.as_ref()?))
+            let heard = columns.iter().filter_map(|(column, ..)| match &column.cell {
+                CellContent::Number(text) => Some(format!(", {} {}", column.name, text(row)?)),
+                CellContent::Shown(_) => None,
             });
             let name = row.spoken() + &heard.collect::<String>();
             egui::WidgetInfo::selected(egui::Role::Button, true, is_selected, name)
         });
+        let can_be_clicked = command.is_some();
+        if response.clicked() {
+            commands.extend(command);
+        }
+        // It is there to be heard and to be gone to, and nothing of it shows.
+        if !ui.is_rect_visible(rect) {
+            return response;
+        }
         let [own, text] = row.colours(palette(ui));
-        if is_selected || command.is_some() && response.hovered() {
+        if is_selected || can_be_clicked && response.hovered() {
             let fill = palette(ui).raised.gamma_multiply(if is_selected { 1.0 } else { 0.6 });
             ui.painter().rect_filled(rect, 3.0, fill);
         }
@@ -346,18 +348,15 @@ impl<R: TableRow> Table<R> {
             ui.painter().rect_filled(bar, 2.0, own);
         }
         let response = response.on_hover_ui(|ui| row.tooltip(ui));
-        if response.clicked() {
-            commands.extend(command);
-        }
         // Over the row: what can be clicked in a cell takes the click.
-        for (&(column, left, own), number) in columns.iter().zip(numbers) {
+        for &(column, left, own) in columns {
             let from = pos2(rect.left() + MARGIN + left, rect.top());
             let cell = Rect::from_min_size(from, vec2(own, self.row_height));
             match &column.cell {
                 CellContent::Shown(show) => show(ui, row, cell, commands),
-                CellContent::Number(_) => {
+                CellContent::Number(words) => {
                     let (at, font) = (cell.right_center(), FontId::proportional(TYPE));
-                    let words = number.unwrap_or_default();
+                    let words = words(row).unwrap_or_default();
                     ui.painter().text(at, Align2::RIGHT_CENTER, words, font, text);
                 }
             }
