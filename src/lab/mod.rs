@@ -42,7 +42,6 @@ pub mod studio;
 pub(crate) use crate::sim::{
     bodies::{Acts, Coordinate, Parameter, Range},
     number,
-    stability::NoSmallMotion,
 };
 pub use action::Action;
 pub use analysis::{Adviser, CRITERIA, Criterion, Judge, METRICS, Metric, Report, Verdict, advise};
