@@ -70,8 +70,6 @@ pub struct Identification {
     pub unusual: Vec<Candidate>,
     /// The best candidate that does something else; `None` if all do the same.
     pub runner_up: Option<Fitted>,
-    /// The body, with what was fitted of it.
-    pub body: LoggedBody,
     /// Whether its spring was fitted.
     pub is_spring_fitted: bool,
     /// What a player sees; `None` if it is nothing like a damped spring or a body that comes to its
@@ -115,7 +113,6 @@ pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identifica
         also: of(&same[1..]),
         unusual: of(&unusual),
         runner_up: rival.map(fitted),
-        body,
         is_spring_fitted,
         effective,
         exact,

@@ -174,16 +174,6 @@ impl Equations {
         self.places.is_some()
     }
 
-    /// Whether the law gives an exact solution.
-    pub fn has_exact(&self) -> bool {
-        self.exact.is_some()
-    }
-
-    /// How many operations are evaluated for an acceleration.
-    pub fn operations(&self) -> usize {
-        self.motion.operations().count()
-    }
-
     /// How many parts of the accelerations have a corner or a jump.
     pub fn switches(&self) -> usize {
         self.motion.switches()

@@ -53,9 +53,13 @@ const RATES: [Rates; 3] = [
 ];
 
 impl Rates {
-    fn base(self) -> TimeBase {
+    fn refresh(self) -> RefreshRate {
         let [numerator, denominator] = self.refresh_hz;
-        TimeBase::new(self.tick_hz, RefreshRate::new(numerator, denominator))
+        RefreshRate::new(numerator, denominator)
+    }
+
+    fn base(self) -> TimeBase {
+        TimeBase::new(self.tick_hz, self.refresh())
     }
 
     fn tick_s(self) -> f64 {
@@ -75,7 +79,7 @@ struct Answer {
 
 /// The durations of three traces: a steady display with a noisy timer, one with hitches, and frames of any length.
 fn traces(rates: Rates) -> [Vec<i64>; 3] {
-    let refresh = rates.base().refresh_rate();
+    let refresh = rates.refresh();
     let mut seed = 0x9E37_79B9_7F4A_7C15_u64;
     let mut within = move |least: i64, most: i64| {
         seed ^= seed << 13;

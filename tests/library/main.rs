@@ -1,7 +1,6 @@
 //! What a game that uses the library relies on: the mathematics, the experiment, and the words of both.
 #![cfg(feature = "lab")]
 
-mod advice_work;
 mod allocation;
 mod as_printed;
 mod bad_scenes;

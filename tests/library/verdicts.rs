@@ -293,7 +293,7 @@ fn what_is_accurate_looks_right_and_what_rushes_does_not() {
         ),
     ] {
         let adviser = Adviser::new(&scene(5.0, body), 1.0, hz);
-        assert!(adviser.verdict(spec(id)).is_accurate(), "{body}");
+        assert!(adviser.verdict(spec(id)).outcome() <= Outcome::Accurate, "{body}");
         let meets = adviser.meets(spec(id), CRITERIA[looks_right]);
         assert_eq!(meets.met().map(|met| met.substeps), Some(1), "{body}: {meets:?}");
     }

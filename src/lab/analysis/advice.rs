@@ -109,12 +109,6 @@ impl Adviser {
         self.judge.verdict(spec, self.tick_hz)
     }
 
-    /// The work done so far, the truths' included, in evaluations of the acceleration of one coordinate. What is found by
-    /// modes is not counted.
-    pub fn work_done(&self) -> u64 {
-        self.judge.meter().counted()
-    }
-
     /// Whether a method meets a criterion, with how many substeps, and its margins. The substeps of `spec` are ignored.
     pub fn meets(&self, spec: LaneSpec, criterion: Criterion) -> CriterionResult {
         let mut result = at_once(self.fewest_substeps(spec, criterion));
@@ -329,72 +323,4 @@ pub fn recommended(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::sim::integrators::method;
-
-    fn met(slowest_hz: Option<u32>, stiffness_factor: Option<f64>) -> CriterionMet {
-        let limited_by = stiffness_factor.map(|_| "stiffness".into());
-        CriterionMet {
-            substeps: 1,
-            evaluations_per_s: 60.0,
-            are_margins_searched: true,
-            slowest_hz,
-            stiffness_factor,
-            limited_by,
-        }
-    }
-
-    #[test]
-    fn margins_are_told_as_far_as_they_are_known() {
-        for (slowest_hz, stiffness_factor, told) in [
-            (Some(50), Some(1.4), "holds down to 50 Hz, or 1.4 × stiffness"),
-            (Some(50), Some(1e4), "holds down to 50 Hz, or more than 10000 × stiffness"),
-            (Some(50), None, "holds down to 50 Hz; how much stiffer, is not known"),
-            (None, Some(1.4), "holds up to 1.4 × stiffness; how much slower, is not known"),
-            (None, None, "how much slower or stiffer, is not known"),
-        ] {
-            assert_eq!(met(slowest_hz, stiffness_factor).margins(), told);
-        }
-    }
-
-    #[test]
-    fn evaluations_decide_between_similar_costs_and_listings_as_printed_are_left_out() {
-        let judge = Judge::new(&Scene::built_in("spring").unwrap(), 1.0);
-        let advised = |id: &str, evaluations_per_s: f64| {
-            let spec = LaneSpec::plain(method(id).unwrap());
-            let met = CriterionMet { evaluations_per_s, ..met(Some(60), Some(1.0)) };
-            let met = [CriterionResult::With(met), CriterionResult::No, CriterionResult::Unknown];
-            MethodAdvice { spec, verdict: judge.verdict(spec, 60), met }
-        };
-        let all = [
-            advised("rk4", 240.0),
-            advised("velocity-verlet", 60.0),
-            advised("midpoint", 120.0),
-            advised("rk4-as-printed", 30.0),
-        ];
-        let with = |costs: [f64; 4], blur: f64| {
-            recommended(&all, 0, blur, |advised, _| {
-                costs[all.iter().position(|one| one.spec == advised.spec).unwrap()]
-            })
-        };
-        assert_eq!(with([10.0, 20.0, 30.0, 1.0], 1.2), Some(0));
-        assert_eq!(with([10.0, 11.9, 11.9, 1.0], 1.2), Some(1));
-        assert_eq!(with([10.0, 12.1, 11.9, 1.0], 1.2), Some(2));
-        assert!((1..3).all(|criterion| recommended(&all, criterion, 1.2, |_, _| 1.0).is_none()));
-    }
-
-    #[test]
-    fn a_scene_is_made_no_stiffer_than_a_scene_may_be() {
-        let text = |stiffness: f64| {
-            let head = "title = 't'\ntick_hz = 60\nseconds = 1\n[[spring]]\nmass_kg = 1";
-            format!("{head}\nstiffness_n_per_m = {stiffness}\n")
-        };
-        let spring = |stiffness: f64| Scene::parse("t", &text(stiffness));
-        let most = (0..40).map(|i| libm::exp10(f64::from(i))).rfind(|&most| spring(most).is_ok());
-        let most = most.unwrap();
-        let adviser = Adviser::new(&spring(most / 2.0).unwrap(), 1.0, 60);
-        assert!(adviser.stiffen(1.9).is_some());
-        assert!(adviser.stiffen(2.1).is_none());
-    }
-}
+mod tests;

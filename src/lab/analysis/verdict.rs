@@ -209,11 +209,6 @@ impl Verdict {
         }
     }
 
-    /// Whether the error stays within the tolerance over the horizon.
-    pub fn is_accurate(&self) -> bool {
-        self.outcome() <= Outcome::Accurate
-    }
-
     /// What it lacks, if it rests on the energy for want of a reference solution: `no reference`.
     pub fn missing_truth(&self) -> Option<&'static str> {
         self.by_energy().map(|_| Truth::Reference.missing())

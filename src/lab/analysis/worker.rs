@@ -94,8 +94,6 @@ pub struct Advice {
     pub bodies: AdvisedBodies,
     /// The requested rate in Hz.
     pub tick_hz: u32,
-    /// The horizon in simulated seconds.
-    pub horizon_s: f64,
     /// The number of methods to judge.
     pub wanted: usize,
     /// The advice on the methods judged so far.
@@ -347,7 +345,6 @@ impl AnalysisWorker {
             advice.map(|AdviceInProgress { bodies, adviser, methods, advised, .. }| Advice {
                 bodies: *bodies,
                 tick_hz: adviser.tick_hz(),
-                horizon_s: adviser.judge().horizon_s(),
                 wanted: methods.len(),
                 advised: advised.clone(),
             });

@@ -100,10 +100,6 @@ impl TimeBase {
     pub fn tick_hz(&self) -> u32 {
         self.tick_hz
     }
-    /// The display's nominal rate.
-    pub fn refresh_rate(&self) -> RefreshRate {
-        self.refresh
-    }
     /// The length of a tick.
     pub fn tick(&self) -> i128 {
         SECOND_NS * i128::from(self.refresh.numerator)

@@ -11,21 +11,12 @@ use crate::lab::race::{Mode, Observer, TimeScale};
 use crate::lab::session::Timeline;
 
 impl Studio {
-    /// The fractional tick at which `seconds` of simulated time have passed, if only the script changes the tick rate from
-    /// now on; the present tick if they have passed already.
-    pub fn tick_at(&self, seconds: f64) -> f64 {
-        self.times_from_now().tick_at(seconds)
-    }
-
-    /// The tick nearest to `seconds` of simulated time, by [`Studio::tick_at`].
+    /// The tick nearest to `seconds` of simulated time, if only the script changes the tick rate from now on; the present
+    /// tick if they have passed already.
     pub fn nearest_tick(&self, seconds: f64) -> u64 {
-        self.times_from_now().nearest_tick(seconds)
-    }
-
-    fn times_from_now(&self) -> TimeScale {
         let race = self.race();
         let changes = self.scene().rates_from(race.tick());
-        TimeScale::new((race.tick(), race.t()), race.tick_hz(), changes)
+        TimeScale::new((race.tick(), race.t()), race.tick_hz(), changes).nearest_tick(seconds)
     }
 
     /// Adds a frame of `frame_ns` nanoseconds of real time, and makes the ticks that are due.
