@@ -416,7 +416,7 @@ impl Paper {
         let palette = theme.palette();
         let mut pixels: Vec<Rgba> = vec![palette.background; width * height];
         let specs: Vec<LaneSpec> = runs.iter().map(|run| run.spec).collect();
-        for (place, run) in runs.iter().enumerate() {
+        for (column, run) in runs.iter().enumerate() {
             let MethodCloud { spec, cloud, section, .. } = run;
             let density = match section {
                 Some(section) => section.density().clone(),
@@ -428,7 +428,7 @@ impl Paper {
             };
             let (colour, _) = theme.style(spec.method);
             let picture = density.picture(theme, colour, lines);
-            let left = place * (SIDE_PX + GAP_PX);
+            let left = column * (SIDE_PX + GAP_PX);
             for (y, row) in picture.chunks_exact(SIDE_PX).enumerate() {
                 let at = (HEAD_PX + y) * width + left;
                 pixels[at..at + SIDE_PX].copy_from_slice(row);

@@ -46,7 +46,7 @@ pub enum Action {
     Set {
         /// The body's index in the scene.
         body: usize,
-        /// The parameter's place among those of its kind.
+        /// The parameter's index among those of its kind.
         parameter: usize,
         /// Its value.
         value: f64,

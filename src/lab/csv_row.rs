@@ -5,9 +5,9 @@ use std::fmt::{Display, Write};
 /// A line of comma-separated values with its end. Those with commas, quotes or ends of lines are quoted.
 pub(crate) fn csv_row(values: &[&dyn Display]) -> String {
     let mut row = String::new();
-    for (place, value) in values.iter().enumerate() {
-        let start = row.len() + usize::from(place > 0);
-        let comma = if place > 0 { "," } else { "" };
+    for (column, value) in values.iter().enumerate() {
+        let start = row.len() + usize::from(column > 0);
+        let comma = if column > 0 { "," } else { "" };
         write!(row, "{comma}{value}").expect("a string takes everything");
         if row[start..].contains([',', '"', '\n', '\r']) {
             let quoted = row[start..].replace('"', "\"\"");

@@ -42,11 +42,11 @@ const DISPLAY: RefreshRate = RefreshRate::new(60, 1);
 pub enum LoopCommand {
     /// Opens it, or leaves it.
     ToggleLab,
-    /// Selects the loop at this place of [`POLICIES`], and brings it on the stage.
+    /// Selects the loop with this index in [`POLICIES`], and brings it on the stage.
     Select(usize),
-    /// Takes the loop at this place off the stage, or brings it on.
+    /// Takes the loop with this index off the stage, or brings it on.
     ToggleOnStage(usize),
-    /// Chooses the trace at this place.
+    /// Chooses the trace with this index.
     Trace(usize),
     /// Plays this many times slower than real time.
     Slowness(u32),
@@ -75,7 +75,7 @@ pub struct LoopLab {
     is_stage_chosen: bool,
     /// Whether it goes on by itself to the second trace of the opening.
     plays_opening: bool,
-    /// The place of the metric in [`FRAME_METRICS`].
+    /// The index of the metric in [`FRAME_METRICS`].
     metric: usize,
     is_overlaid: bool,
     selected: usize,
@@ -87,7 +87,7 @@ pub struct LoopLab {
 }
 
 impl LoopLab {
-    /// The body at this place of a scene under a method, at the start. No loop was [run](Self::request) yet.
+    /// The body with this index in a scene under a method, at the start. No loop was [run](Self::request) yet.
     pub fn new(scene: &Scene, body: usize, method: &'static Method) -> Self {
         let mut cards: Vec<&TraceCard> = TRACES.iter().collect();
         cards.sort_by_key(|card| {
@@ -132,7 +132,7 @@ impl LoopLab {
         self.plays_opening = false;
     }
 
-    /// Shows the body at this place of another scene, from its start.
+    /// Shows the body with this index in another scene, from its start.
     pub(super) fn show(&mut self, scene: &Scene, body: usize) {
         self.original = Arc::new(scene.clone().of_one_body(body));
         self.scene = self.original.clone();
@@ -165,7 +165,7 @@ impl LoopLab {
 
     /// Shows a loop that was run, unless it was asked for before the last choice.
     pub(super) fn accept(&mut self, found: FoundLoop) {
-        let FoundLoop { request, place, lane } = found;
+        let FoundLoop { request, index, lane } = found;
         if !Arc::ptr_eq(&request, &self.request) {
             return;
         }
@@ -173,7 +173,7 @@ impl LoopLab {
         self.end_ns = self.end_ns.max(end_ns.unwrap_or_default());
         let exact = lane.frames().iter().map(|frame| frame.exact[0]);
         self.range = exact.fold(self.range, |[least, most], q| [least.min(q), most.max(q)]);
-        self.lanes[place] = lane;
+        self.lanes[index] = lane;
         if self.is_complete() {
             self.now_ns = self.now_ns.min(self.end_ns);
         }
@@ -186,7 +186,7 @@ impl LoopLab {
 
     /// Whether every loop on the stage was run.
     pub fn is_stage_complete(&self) -> bool {
-        self.on_stage.iter().all(|&place| self.lanes[place].was_run())
+        self.on_stage.iter().all(|&index| self.lanes[index].was_run())
     }
 
     /// The scene, with the one body.
@@ -209,7 +209,7 @@ impl LoopLab {
     pub fn traces(&self) -> &[FrameTrace] {
         &self.traces
     }
-    /// The place of the chosen trace.
+    /// The index of the chosen trace.
     pub fn trace(&self) -> usize {
         self.trace
     }
@@ -217,7 +217,7 @@ impl LoopLab {
     pub fn lanes(&self) -> &[LoopLane] {
         &self.lanes
     }
-    /// The places of the lanes on the stage, from top to bottom.
+    /// The indices of the lanes on the stage, from top to bottom.
     pub fn on_stage(&self) -> &[usize] {
         &self.on_stage
     }
@@ -225,7 +225,7 @@ impl LoopLab {
     pub fn is_overlaid(&self) -> bool {
         self.is_overlaid
     }
-    /// The place of the selected lane.
+    /// The index of the selected lane.
     pub fn selected(&self) -> usize {
         self.selected
     }
@@ -249,25 +249,25 @@ impl LoopLab {
         self.slowness
     }
 
-    /// The place of the metric that the error instrument shows in [`FRAME_METRICS`].
+    /// The index of the metric that the error instrument shows in [`FRAME_METRICS`].
     pub fn metric(&self) -> usize {
         self.metric
     }
 
-    /// Shows the metric at this place of [`FRAME_METRICS`] in the error instrument.
-    pub(super) fn set_metric(&mut self, place: usize) {
-        self.metric = place.min(FRAME_METRICS.len() - 1);
+    /// Shows the metric with this index in [`FRAME_METRICS`] in the error instrument.
+    pub(super) fn set_metric(&mut self, index: usize) {
+        self.metric = index.min(FRAME_METRICS.len() - 1);
     }
 
-    /// Chooses the trace at this place; the moment stays, if the trace reaches it. A trace of the opening brings its
+    /// Chooses the trace with this index; the moment stays, if the trace reaches it. A trace of the opening brings its
     /// policies on the stage, unless a person chose others.
-    pub fn choose_trace(&mut self, place: usize) {
-        self.trace = place.min(self.traces.len() - 1);
+    pub fn choose_trace(&mut self, index: usize) {
+        self.trace = index.min(self.traces.len() - 1);
         let name = self.traces[self.trace].name();
         let opening = OPENING.iter().find(|(id, _)| *id == name && !self.is_stage_chosen);
         if let Some((_, ids)) = opening {
-            let place = |id: &&str| POLICIES.iter().position(|card| card.id == *id);
-            self.on_stage = ids.iter().filter_map(place).collect();
+            let index = |id: &&str| POLICIES.iter().position(|card| card.id == *id);
+            self.on_stage = ids.iter().filter_map(index).collect();
             self.selected = self.on_stage[0];
         }
         self.ask();
@@ -280,9 +280,9 @@ impl LoopLab {
 
     /// Adds traces, and chooses the first of them.
     pub fn add_traces(&mut self, traces: Vec<FrameTrace>) {
-        let place = self.traces.len();
+        let index = self.traces.len();
         self.traces.extend(traces);
-        self.choose_trace(place);
+        self.choose_trace(index);
     }
 
     /// Chooses the tick rate, in Hz. The script keeps its times, to the nearest tick.
@@ -313,32 +313,32 @@ impl LoopLab {
         self.is_overlaid = !self.is_overlaid;
     }
 
-    /// Selects the lane at this place, and brings it on the stage.
-    pub fn select(&mut self, place: usize) {
-        if place >= self.lanes.len() {
+    /// Selects the lane with this index, and brings it on the stage.
+    pub fn select(&mut self, index: usize) {
+        if index >= self.lanes.len() {
             return;
         }
-        self.selected = place;
+        self.selected = index;
         self.is_stage_chosen = true;
-        if !self.on_stage.contains(&place) {
+        if !self.on_stage.contains(&index) {
             if self.on_stage.len() == MAX_ON_STAGE {
                 self.on_stage.remove(0);
             }
-            self.on_stage.push(place);
+            self.on_stage.push(index);
             self.on_stage.sort_unstable();
         }
     }
 
-    /// Takes the lane at this place off the stage, or brings it on; one stays.
-    pub fn toggle(&mut self, place: usize) {
+    /// Takes the lane with this index off the stage, or brings it on; one stays.
+    pub fn toggle(&mut self, index: usize) {
         self.is_stage_chosen = true;
-        match self.on_stage.iter().position(|&shown| shown == place) {
+        match self.on_stage.iter().position(|&shown| shown == index) {
             Some(_) if self.on_stage.len() == 1 => {}
             Some(shown) => {
                 self.on_stage.remove(shown);
                 self.selected = self.on_stage[0];
             }
-            None => self.select(place),
+            None => self.select(index),
         }
     }
 
@@ -368,8 +368,8 @@ impl LoopLab {
     pub fn step(&mut self, frames: i64) {
         let frames_of = self.lanes[self.selected].frames();
         let at = self.lanes[self.selected].frame_at(self.now_ns).unwrap_or_default() as i64;
-        let place = (at + frames).clamp(0, frames_of.len().max(1) as i64 - 1);
-        if let Some(frame) = frames_of.get(place as usize) {
+        let index = (at + frames).clamp(0, frames_of.len().max(1) as i64 - 1);
+        if let Some(frame) = frames_of.get(index as usize) {
             self.now_ns = frame.displayed_ns;
         }
     }

@@ -50,7 +50,7 @@ impl Theme {
     /// The colour of a method, and its dash pattern as the second cue: drawn length and gap in points, a
     /// gap of 0 being solid.
     pub fn style(self, method: &Method) -> (Rgba, [f32; 2]) {
-        self.drawn(method, places(method))
+        self.drawn(method, indices(method))
     }
 
     /// The colour and the dash pattern of a lane among `lanes`: its method's. Of several lanes of one method the first has
@@ -63,11 +63,11 @@ impl Theme {
         (self.palette().methods[colour], dashes(method)[dash])
     }
 
-    /// The colour and the dash pattern of the game loop at this place of [`POLICIES`](super::pacing::POLICIES): seven
+    /// The colour and the dash pattern of the game loop with this index in [`POLICIES`](super::pacing::POLICIES): seven
     /// neighbours differ in colour.
-    pub fn loop_style(self, place: usize) -> (Rgba, [f32; 2]) {
-        let colour = LOOPS[place % LOOPS.len()];
-        (self.palette().methods[colour], DASHES[place % FIRST_DASHES])
+    pub fn loop_style(self, index: usize) -> (Rgba, [f32; 2]) {
+        let colour = LOOPS[index % LOOPS.len()];
+        (self.palette().methods[colour], DASHES[index % FIRST_DASHES])
     }
 }
 
@@ -195,10 +195,10 @@ const FIRST_DASHES: usize = 5;
 /// The dashes of engines, which race among themselves.
 const ENGINE_DASHES: [[f32; 2]; 3] = [[1.0, 0.0], [12.0, 2.5], [4.0, 2.5]];
 
-/// The places of the colours of game loops. No two warm ones are beside each other.
+/// The indices of the colours of game loops. No two warm ones are beside each other.
 const LOOPS: [usize; 7] = [2, 5, 4, 6, 0, 1, 3];
 
-/// The methods that the chapter and its scenes race, with the places of their colours and dashes.
+/// The methods that the chapter and its scenes race, with the indices of their colours and dashes.
 const CLASSICS: [(&str, usize, usize); 6] = [
     ("explicit-euler", 0, 0),
     ("semi-implicit-euler", 1, 1),
@@ -208,7 +208,7 @@ const CLASSICS: [(&str, usize, usize); 6] = [
     ("adaptive-euler", 5, 0),
 ];
 
-/// The places of the warm colours, which are much alike on the light chart.
+/// The indices of the warm colours, which are much alike on the light chart.
 const WARM: [usize; 3] = [0, 3, 5];
 
 /// Whether two colours could be taken for each other.
@@ -220,23 +220,23 @@ fn dashes(method: &Method) -> &'static [[f32; 2]] {
     if method.is_engine() { &ENGINE_DASHES } else { &DASHES }
 }
 
-/// The places of the colour and the dash of a method.
-fn places(method: &Method) -> (usize, usize) {
+/// The indices of the colour and the dash of a method.
+fn indices(method: &Method) -> (usize, usize) {
     let listed = METHODS.iter().position(|listed| listed == method);
-    listed.map_or_else(|| own_style(method), |place| STYLES[place])
+    listed.map_or_else(|| own_style(method), |index| STYLES[index])
 }
 
-/// The places of the colour and the dash of a lane. A lane after the first of its method has a colour unlike that of any
+/// The indices of the colour and the dash of a lane. A lane after the first of its method has a colour unlike that of any
 /// lane before it, as long as there is one, and then at least a pair of its own.
 fn lane_places(lanes: &[LaneSpec], lane: &LaneSpec) -> (usize, usize) {
     let is_first = |end: usize| lanes[..end].iter().all(|other| other.method != lanes[end].method);
     let end = match lanes.iter().position(|other| other == lane) {
         Some(end) if !is_first(end) => end,
-        _ => return places(lane.method),
+        _ => return indices(lane.method),
     };
     let mut taken: Vec<(usize, usize)> = Vec::new();
     for (i, next) in lanes[..=end].iter().enumerate() {
-        let (colour, dash) = places(next.method);
+        let (colour, dash) = indices(next.method);
         if is_first(i) {
             taken.push((colour, dash));
             continue;
@@ -251,14 +251,14 @@ fn lane_places(lanes: &[LaneSpec], lane: &LaneSpec) -> (usize, usize) {
     taken[end]
 }
 
-/// The places of the colour and the dash of a method that is not in the table: always the same, by its id, and no
+/// The indices of the colour and the dash of a method that is not in the table: always the same, by its id, and no
 /// solid line, which those that people know best have.
 fn own_style(method: &Method) -> (usize, usize) {
     let sum = method.id.bytes().fold(0, |sum: usize, byte| (31 * sum + usize::from(byte)) % 9973);
     (sum % DARK.methods.len(), 1 + sum % (FIRST_DASHES - 1))
 }
 
-/// The places of each method's colour and dash. No method has a colour like that of a neighbour in the table.
+/// The indices of each method's colour and dash. No method has a colour like that of a neighbour in the table.
 static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
     let classic = |method: &Method| {
         let found = CLASSICS.iter().find(|(id, ..)| *id == method.id);
@@ -280,8 +280,8 @@ static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
         };
         let style = classic(method).unwrap_or_else(|| {
             let free = if method.is_engine() { &mut of_engines } else { &mut free };
-            let place = free.iter().position(differs).unwrap_or(0);
-            free.remove(place)
+            let index = free.iter().position(differs).unwrap_or(0);
+            free.remove(index)
         });
         styles.push(style);
     }

@@ -142,7 +142,7 @@ impl Past {
         self.truth_curves.iter().map(TruthCurve::coordinate)
     }
 
-    /// The recorded coordinate of the body at this index of the scene, and its index.
+    /// The recorded coordinate of the body with this index in the scene, and its index.
     pub fn coordinate(&self, race: &Race, body: usize) -> (Coordinate, usize) {
         let index = self.truth_curves[body].coordinate();
         (race.truth().bodies()[body].coordinates().at(index), index)
@@ -160,7 +160,7 @@ impl Past {
         if has_begun { f64::NEG_INFINITY } else { self.changed_s }
     }
 
-    /// The true coordinates and velocities of the body at this index of the scene within the last tick of `race`, in which
+    /// The true coordinates and velocities of the body with this index in the scene within the last tick of `race`, in which
     /// `part` goes from 0 to 1, or beyond it.
     pub fn truth_between(&self, race: &Race, body: usize, part: f64) -> (Vec<f64>, Vec<f64>) {
         self.truth_curves[body].state(&race.truth().bodies()[body], race.last_tick(), part)
@@ -303,11 +303,11 @@ impl Observer for Past {
                 }
             }
         }
-        if let Some(place) = race.switched_by(action) {
-            let Entrant { id, lane, .. } = &race.entrants()[place];
+        if let Some(index) = race.switched_by(action) {
+            let Entrant { id, lane, .. } = &race.entrants()[index];
             let entry = self.menu.entry(*id);
             let bodies = lane.bodies().iter().zip(race.truth().bodies());
-            let curves = self.histories[place].1.iter_mut().zip(&self.truth_curves);
+            let curves = self.histories[index].1.iter_mut().zip(&self.truth_curves);
             for ((body, truth), (history, curve)) in bodies.zip(curves) {
                 if body.halted().is_none() {
                     let sample = Sample::new(race.t(), entry, curve.coordinate(), [body, truth]);
@@ -344,12 +344,12 @@ impl Observer for Past {
             Action::Solo { .. } => self.leave_with(race),
             _ => {}
         }
-        let Some(place) = race.switched_by(action) else { return };
-        let Entrant { id, spec, lane } = &race.entrants()[place];
+        let Some(index) = race.switched_by(action) else { return };
+        let Entrant { id, spec, lane } = &race.entrants()[index];
         self.menu.switch(*id, *spec);
         let entry = self.menu.entry(*id);
         let bodies = lane.bodies().iter().zip(race.truth().bodies()).enumerate();
-        let curves = self.histories[place].1.iter_mut().zip(&self.truth_curves);
+        let curves = self.histories[index].1.iter_mut().zip(&self.truth_curves);
         for ((index, (body, truth)), (history, curve)) in bodies.zip(curves) {
             let from_truth = |it: &&Resumed| it.halt.body == index && it.from == ResumedFrom::Truth;
             let jumped = resumed.iter().any(|it| from_truth(&it));

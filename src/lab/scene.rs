@@ -203,13 +203,13 @@ impl Scene {
         self.lanes.iter().copied().chain(others.map(LaneSpec::plain)).collect()
     }
 
-    /// The scene with the body at this place alone. It has no checks: they are of all bodies.
-    pub(super) fn of_one_body(mut self, place: usize) -> Scene {
-        self.bodies = vec![self.bodies.swap_remove(place)];
+    /// The scene with the body at this index alone. It has no checks: they are of all bodies.
+    pub(super) fn of_one_body(mut self, index: usize) -> Scene {
+        self.bodies = vec![self.bodies.swap_remove(index)];
         self.checks.clear();
         self.script.retain_mut(|scripted| match &mut scripted.action {
             Action::Set { body, .. } | Action::Place { body, .. } => {
-                std::mem::replace(body, 0) == place
+                std::mem::replace(body, 0) == index
             }
             _ => true,
         });

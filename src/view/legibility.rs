@@ -298,16 +298,16 @@ fn every_text_of_the_loop_lab_can_be_read_with_every_loop_and_on_every_display()
     studio.apply(Command::Loop(LoopCommand::ToggleLab));
     studio.run_loops();
     let loops = studio.loop_lab().expect("it is open");
-    let (traces, places) = (loops.traces().len(), loops.lanes().len());
+    let (traces, lanes) = (loops.traces().len(), loops.lanes().len());
     for trace in 0..traces {
         studio.apply(Command::Loop(LoopCommand::Trace(trace)));
         studio.run_loops();
         studio.apply(Command::Loop(LoopCommand::Seek(5_000_000_000)));
         assert_legible(&studio, &format!("trace {trace}"));
     }
-    for place in 0..places {
-        studio.apply(Command::Loop(LoopCommand::Select(place)));
-        assert_legible(&studio, &format!("loop {place} selected"));
+    for index in 0..lanes {
+        studio.apply(Command::Loop(LoopCommand::Select(index)));
+        assert_legible(&studio, &format!("loop {index} selected"));
     }
 }
 

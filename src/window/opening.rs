@@ -71,8 +71,8 @@ fn open_listed(studio: &mut Studio, read: &ReadScene, path: &Path) -> Result<Str
 pub(super) fn open_typed(studio: &mut Studio, read: &ReadScene) -> Option<(PathBuf, String)> {
     let typed = studio.viewer().typed_path().trim().to_owned();
     match SCENES.iter().position(|scene| scene.name == typed) {
-        Some(place) => {
-            studio.apply(StageCommand::Scene(place));
+        Some(index) => {
+            studio.apply(StageCommand::Scene(index));
             None
         }
         None => {

@@ -24,10 +24,10 @@ fn is_done(studio: &Studio) -> bool {
 
 #[test]
 fn every_stop_opens_as_it_says_and_is_done_by_its_last_key_at_the_latest() {
-    for (place, stop) in STOPS.iter().enumerate() {
-        let mut studio = lab_at(place);
+    for (index, stop) in STOPS.iter().enumerate() {
+        let mut studio = lab_at(index);
         let tour = studio.viewer().tour().unwrap();
-        assert_eq!((tour.place(), tour.guess(), tour.is_done()), (place, None, false));
+        assert_eq!((tour.index(), tour.guess(), tour.is_done()), (index, None, false));
         assert_eq!(studio.scene().name, stop.scene, "{}", stop.title);
         assert_eq!(studio.entries()[studio.active()].method.id, stop.method, "{}", stop.title);
         assert_eq!((studio.clock().tick_hz(), studio.mode()), (stop.tick_hz, stop.mode));
@@ -80,10 +80,10 @@ fn the_guide_closes_with_escape_and_opens_where_it_was_left() {
     assert_eq!(studio.apply(ViewCommand::Escape), None);
     assert!(studio.viewer().tour().is_none());
     studio.apply(ViewCommand::ToggleGuide);
-    assert_eq!(studio.viewer().tour().unwrap().place(), 3);
+    assert_eq!(studio.viewer().tour().unwrap().index(), 3);
     assert_eq!(studio.scene().name, STOPS[3].scene);
     studio.apply(ViewCommand::GoToStop(usize::MAX));
-    assert_eq!(studio.viewer().tour().unwrap().place(), STOPS.len() - 1);
+    assert_eq!(studio.viewer().tour().unwrap().index(), STOPS.len() - 1);
 }
 
 fn place_of(goal: Goal) -> usize {
@@ -92,21 +92,21 @@ fn place_of(goal: Goal) -> usize {
 
 #[test]
 fn what_a_stop_says_never_stays_over_another_scene_or_mode() {
-    let place = place_of(Goal::Race);
+    let index = place_of(Goal::Race);
     for elsewhere in [
         Command::Stage(StageCommand::SceneBeside(Step::Next)),
         Command::Stage(StageCommand::SceneBeside(Step::Previous)),
         Command::Stage(StageCommand::Scene(0)),
         Command::Loop(LoopCommand::ToggleLab),
     ] {
-        let mut studio = lab_at(place);
+        let mut studio = lab_at(index);
         studio.apply(elsewhere.clone());
         assert!(studio.viewer().tour().is_none(), "{elsewhere:?}");
         let notice = studio.viewer().notice.as_deref().expect("the way back");
         assert!(notice.contains("F2"), "{notice}");
         studio.apply(ViewCommand::ToggleGuide);
-        assert_eq!(studio.viewer().tour().map(|tour| tour.place()), Some(place));
-        assert_eq!(studio.scene().name, STOPS[place].scene);
+        assert_eq!(studio.viewer().tour().map(|tour| tour.index()), Some(index));
+        assert_eq!(studio.scene().name, STOPS[index].scene);
         assert!(studio.loop_lab().is_none());
     }
     // The loop lab is what this stop is about; another scene in it is not.
@@ -320,8 +320,8 @@ fn a_spring_4_times_as_stiff_needs_2_times_the_tick_rate() {
         let mut scene = Scene::built_in("stiff").unwrap();
         let body = &mut scene.bodies[0];
         let key = "stiffness_n_per_m";
-        let place = body.kind.parameters.iter().position(|it| it.key == key).unwrap();
-        body.values[place] *= stiffness;
+        let index = body.kind.parameters.iter().position(|it| it.key == key).unwrap();
+        body.values[index] *= stiffness;
         let spec = LaneSpec::plain(method("semi-implicit-euler").unwrap());
         Judge::new(&scene, 1.0).verdict(spec, hz).long_term.is_bounded
     };
@@ -339,7 +339,7 @@ fn the_fixed_loop_judders_by_12_ms_and_the_one_that_counts_refreshes_does_not() 
     let shown: Vec<(&str, f64)> = loops
         .on_stage()
         .iter()
-        .map(|&place| &loops.lanes()[place])
+        .map(|&index| &loops.lanes()[index])
         .map(|lane| (lane.card().id, lane.report().unwrap().animation_error_rms_ms.unwrap()))
         .collect();
     let [("fixed", fixed), ("whole-refresh", whole)] = shown[..] else { panic!("{shown:?}") };

@@ -58,8 +58,8 @@ pub(super) fn search_margins(
     margins.dedup();
     let progress = progress(margins.len() as u32, "margins searched");
     let (wanted, adviser) = (margins.clone(), Arc::clone(adviser));
-    let search = move |place: usize| {
-        let (row, criterion) = wanted[place];
+    let search = move |index: usize| {
+        let (row, criterion) = wanted[index];
         let mut searched = advised[row].clone();
         searched.search_margins(&adviser, criterion);
         searched.met[criterion].clone()
@@ -120,7 +120,7 @@ pub(super) fn warn_of_load(rows: &[Row]) {
     }
 }
 
-/// The place of the recommended row for a criterion.
+/// The index of the recommended row for a criterion.
 pub(super) fn best(rows: &[Row], criterion: usize) -> Option<usize> {
     let advised: Vec<MethodAdvice> = rows.iter().map(|row| row.advised.clone()).collect();
     let cost = |advised: &MethodAdvice, _: &CriterionMet| {

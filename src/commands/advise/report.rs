@@ -78,10 +78,10 @@ fn recommendations(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
 
 /// The method recommended for what looks right, or else for what is bounded, as a function with how often to call it.
 fn code(adviser: &Adviser, rows: &[Row], language: Language) -> Option<String> {
-    let place = |criterion| CRITERIA.iter().position(|one| *one == criterion);
+    let index = |criterion| CRITERIA.iter().position(|one| *one == criterion);
     let wanted = [Criterion::LooksRight, Criterion::Bounded];
     let (row, met) =
-        wanted.into_iter().find_map(|criterion| recommended_row(rows, place(criterion)?))?;
+        wanted.into_iter().find_map(|criterion| recommended_row(rows, index(criterion)?))?;
     let code = source_code(row.advised.spec.method, language, Precision::Double).ok()?;
     let (steps, hz) = (met.substeps, u64::from(adviser.tick_hz()) * u64::from(met.substeps));
     let times = if steps == 1 { "once".into() } else { format!("{steps} times") };

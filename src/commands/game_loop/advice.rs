@@ -20,7 +20,7 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
     let origin_ms =
         if first.has_one_clock { 0.0 } else { latencies.reduce(f64::min).unwrap_or(0.0) };
     match advised_loop(&measured, origin_ms + latency_ms) {
-        Some(place) => print_status(&format!("{trace}: take {}", words(&rows[place], origin_ms))),
+        Some(index) => print_status(&format!("{trace}: take {}", words(&rows[index], origin_ms))),
         None if rows.iter().all(|row| row.report.animation_error_rms_ms.is_none()) => {
             print_status(&format!(
                 "{trace}: fewer than two frames were displayed, too few to measure"

@@ -43,8 +43,8 @@ pub(super) fn figure(scene: &Scene, rows: &[Measured]) -> Figure {
     Figure { title, note, columns: 2, charts: charts.collect() }
 }
 
-fn curve(place: usize, row: &Measured, dots: f32, points: Vec<[f64; 2]>) -> FigureCurve {
-    let (colour, dash) = Theme::Dark.loop_style(place);
+fn curve(index: usize, row: &Measured, dots: f32, points: Vec<[f64; 2]>) -> FigureCurve {
+    let (colour, dash) = Theme::Dark.loop_style(index);
     FigureCurve { name: row.card.id.into(), colour, dash, dots, points }
 }
 

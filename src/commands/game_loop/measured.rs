@@ -98,5 +98,5 @@ pub(super) fn drawn_from_ns(trace: &FrameTrace, until_ns: i64) -> i64 {
     let long = gaps.filter(|(_, gap)| *gap as f64 > LONG * refresh_ns);
     // The first of those that are as long.
     let longest = long.min_by_key(|(_, gap)| -gap);
-    longest.map_or(0, |(place, _)| displayed[place.saturating_sub(BEFORE)])
+    longest.map_or(0, |(index, _)| displayed[index.saturating_sub(BEFORE)])
 }

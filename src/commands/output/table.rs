@@ -103,8 +103,8 @@ impl<W: Write> RowWriter<W> {
             return out.write_all(csv_row(&cells.collect::<Vec<_>>()).as_bytes());
         }
         out.write_all(if mem::take(is_first) { b"\n{" } else { b",\n{" })?;
-        for (place, (key, cell)) in keys.iter().zip(cells).enumerate() {
-            write!(out, "{}\"{key}\":", if place == 0 { "" } else { "," })?;
+        for (column, (key, cell)) in keys.iter().zip(cells).enumerate() {
+            write!(out, "{}\"{key}\":", if column == 0 { "" } else { "," })?;
             serde_json::to_writer(&mut *out, cell)?;
         }
         out.write_all(b"}")

@@ -161,13 +161,13 @@ impl Grid {
 /// A body with each value of the parameter that is varied, or as it is.
 fn variants(body: &SceneBody, varied: &Option<Varied>) -> Vec<(SceneBody, Option<(Text, f64)>)> {
     let found = varied.as_ref().and_then(|varied| {
-        let (place, parameter) = body.kind.parameter(&varied.key)?;
-        Some((place, &parameter.key, &varied.values))
+        let (index, parameter) = body.kind.parameter(&varied.key)?;
+        Some((index, &parameter.key, &varied.values))
     });
-    let Some((place, key, values)) = found else { return vec![(body.clone(), None)] };
+    let Some((index, key, values)) = found else { return vec![(body.clone(), None)] };
     let variant = |&value: &f64| {
         let mut body = body.clone();
-        body.values[place] = value;
+        body.values[index] = value;
         (body, Some((key.clone(), value)))
     };
     values.iter().map(variant).collect()

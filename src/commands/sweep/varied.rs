@@ -29,10 +29,10 @@ impl Varied {
     pub(super) fn check(&self, scenes: &[(String, Scene)]) -> Result<(), Error> {
         let mut is_known = false;
         for body in scenes.iter().flat_map(|(_, scene)| &scene.bodies) {
-            let Some((place, _)) = body.kind.parameter(&self.key) else { continue };
+            let Some((index, _)) = body.kind.parameter(&self.key) else { continue };
             is_known = true;
             for &value in &self.values {
-                edited_values(&body.kind, &body.values, place, value).map_err(|error| {
+                edited_values(&body.kind, &body.values, index, value).map_err(|error| {
                     let (key, body) = (&self.key, &body.name);
                     Error::mistake(format!("--vary {key}={value} on {body:?}: {error}"))
                 })?;

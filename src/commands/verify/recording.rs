@@ -210,7 +210,7 @@ impl Observer for MethodsSeen {
 
 /// A check, and the state of its lane as the race reached it.
 struct Reached {
-    /// Its place among the scene's checks.
+    /// Its index among the scene's checks.
     row: usize,
     /// The simulated time, in seconds.
     t: f64,

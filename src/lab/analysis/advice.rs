@@ -41,7 +41,7 @@ pub struct MethodAdvice {
 }
 
 impl MethodAdvice {
-    /// Searches the margins of the criterion at this place, if the method meets it.
+    /// Searches the margins of the criterion with this index, if the method meets it.
     pub fn search_margins(&mut self, adviser: &Adviser, criterion: usize) {
         at_once(adviser.search_margins(self, criterion));
     }
@@ -74,7 +74,7 @@ pub struct Adviser {
     scene: Scene,
     judge: Judge,
     tick_hz: u32,
-    /// Judges of the scene made stiffer, by the place of their factor; `None` if no scene can be so stiff.
+    /// Judges of the scene made stiffer, by the index of their factor; `None` if no scene can be so stiff.
     stiffer: [Once<Option<Judge>>; FACTORS.len()],
 }
 
@@ -133,7 +133,7 @@ impl Adviser {
         MethodAdvice { spec, verdict, met }
     }
 
-    /// The margins that are worth a search: each the place of a method in `advised` and of a criterion that it meets. With a
+    /// The margins that are worth a search: each the index of a method in `advised` and of a criterion that it meets. With a
     /// body of more than eight coordinates they are those of the methods that need at most four times the evaluations of
     /// the cheapest.
     pub fn worth_margins(&self, advised: &[MethodAdvice]) -> Vec<(usize, usize)> {
@@ -148,11 +148,11 @@ impl Adviser {
             let all = advised.iter().filter_map(|advised| evaluations(advised, criterion));
             all.fold(f64::INFINITY, f64::min)
         });
-        let places = (0..advised.len()).flat_map(|row| (0..CRITERIA.len()).map(move |i| (row, i)));
+        let margins = (0..advised.len()).flat_map(|row| (0..CRITERIA.len()).map(move |i| (row, i)));
         let is_worth = |&(row, i): &(usize, usize)| {
             evaluations(&advised[row], i).is_some_and(|cost| cost <= most * cheapest[i])
         };
-        places.filter(is_worth).collect()
+        margins.filter(is_worth).collect()
     }
 
     /// As [`MethodAdvice::search_margins`].
@@ -262,7 +262,7 @@ impl Adviser {
         Some((FACTORS[held], self.stiffness_name(culprit.unwrap_or(0))))
     }
 
-    /// Each body with the place of its leading parameter.
+    /// Each body with the index of its leading parameter.
     fn stiff_bodies(&self) -> impl Iterator<Item = (usize, usize)> {
         self.scene.bodies.iter().enumerate().filter_map(|(body, of)| {
             let (leads, _) = of.kind.parameter(&of.kind.leading)?;
@@ -282,15 +282,15 @@ impl Adviser {
         }
     }
 
-    /// The judge of the scene with every body stiffer by the factor at this place.
-    async fn stiffer(&self, place: usize) -> Option<&Judge> {
+    /// The judge of the scene with every body stiffer by the factor with this index.
+    async fn stiffer(&self, index: usize) -> Option<&Judge> {
         let find = async {
-            let scene = self.stiffen(FACTORS[place])?;
+            let scene = self.stiffen(FACTORS[index])?;
             let (throttle, horizon_s) = (self.judge.throttle(), self.judge.horizon_s());
             let judge = Judge::find(&scene, throttle, horizon_s, self.judge.meter().clone()).await;
             Some(judge.within(WORK_WHEN_STIFFER))
         };
-        self.stiffer[place].get(find).await.as_ref()
+        self.stiffer[index].get(find).await.as_ref()
     }
 
     fn stiffen(&self, factor: f64) -> Option<Scene> {
@@ -304,7 +304,7 @@ impl Adviser {
     }
 }
 
-/// The recommended method for a criterion, by its place in `advised`: the method with the least `cost` that meets it,
+/// The recommended method for a criterion, by its index in `advised`: the method with the least `cost` that meets it,
 /// without the listings as printed. Costs within a factor `blur` count as equal; among them the fewest evaluations win.
 pub fn recommended(
     advised: &[MethodAdvice],

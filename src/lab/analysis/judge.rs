@@ -41,7 +41,7 @@ pub(super) fn horizon_s(scene: &Scene) -> f64 {
     scene.seconds.min(MAX_HORIZON_S)
 }
 
-/// The script's actions on the body at this index of the scene.
+/// The script's actions on the body with this index in the scene.
 fn inputs_of(scene: &Scene, body: usize) -> Vec<TimedInput> {
     let actions = scene.timed_script().filter(|(_, action)| action.acts_on(body));
     actions.map(|(t, action)| TimedInput { t, action: action.clone() }).collect()
@@ -67,8 +67,8 @@ impl Judge {
         meter: Arc<Meter>,
     ) -> Self {
         let mut truths = Vec::with_capacity(scene.bodies.len());
-        for (place, body) in scene.bodies.iter().enumerate() {
-            let (inputs, meter) = (inputs_of(scene, place), meter.clone());
+        for (index, body) in scene.bodies.iter().enumerate() {
+            let (inputs, meter) = (inputs_of(scene, index), meter.clone());
             truths.push(BodyTruth::find(body, &inputs, throttle, horizon_s, meter).await);
         }
         Self { horizon_s, throttle, max_work: MAX_WORK, truths, meter }

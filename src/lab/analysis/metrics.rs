@@ -83,15 +83,15 @@ pub struct Metric {
 }
 
 impl Metric {
-    /// The place of the position error in [`METRICS`].
+    /// The index of the position error in [`METRICS`].
     pub const POSITION_ERROR: usize = place_of("position_error");
-    /// The place of the velocity error.
+    /// The index of the velocity error.
     pub const VELOCITY_ERROR: usize = place_of("velocity_error");
-    /// The place of the energy drift.
+    /// The index of the energy drift.
     pub const ENERGY_DRIFT: usize = place_of("energy_drift");
-    /// The place of the half-life.
+    /// The index of the half-life.
     pub const HALF_LIFE: usize = place_of("half_life");
-    /// The place of the overshoot.
+    /// The index of the overshoot.
     pub const OVERSHOOT: usize = place_of("overshoot");
 
     /// The text shown if no lane has a value on this body, which is the one in truth.
@@ -111,13 +111,13 @@ impl Metric {
     }
 }
 
-/// The place of the metric with this id.
+/// The index of the metric with this id.
 const fn place_of(id: &str) -> usize {
-    let mut place = 0;
-    while !is_same(METRICS[place].id.as_bytes(), id.as_bytes()) {
-        place += 1;
+    let mut index = 0;
+    while !is_same(METRICS[index].id.as_bytes(), id.as_bytes()) {
+        index += 1;
     }
-    place
+    index
 }
 
 const fn is_same(a: &[u8], b: &[u8]) -> bool {

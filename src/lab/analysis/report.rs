@@ -132,33 +132,33 @@ impl Report {
         for (row, i) in adviser.worth_margins(&judged) {
             judged[row].search_margins(&adviser, i);
         }
-        let place = |criterion| CRITERIA.iter().position(|one| *one == criterion).unwrap_or(0);
+        let index = |criterion| CRITERIA.iter().position(|one| *one == criterion).unwrap_or(0);
         Self {
             name: scene.name.clone(),
             tick_hz: adviser.tick_hz(),
             horizon_s: adviser.judge().horizon_s(),
             recommended: Criteria::of(|criterion| {
                 let cost = |_: &MethodAdvice, met: &CriterionMet| met.evaluations_per_s;
-                let advice = &judged[recommended(&judged, place(criterion), BLUR, cost)?];
-                let with = advice.met[place(criterion)].met()?.clone();
+                let advice = &judged[recommended(&judged, index(criterion), BLUR, cost)?];
+                let with = advice.met[index(criterion)].met()?.clone();
                 Some(Recommendation { method: advice.spec.method.id, with })
             }),
             not_known: Criteria::of(|criterion| {
                 let is_open = |advice: &&MethodAdvice| {
-                    advice.met[place(criterion)] == CriterionResult::Unknown
+                    advice.met[index(criterion)] == CriterionResult::Unknown
                 };
                 judged.iter().filter(is_open).map(|advice| advice.spec.method.id).collect()
             }),
-            methods: judged.iter().map(|advice| method(advice, &place)).collect(),
+            methods: judged.iter().map(|advice| method(advice, &index)).collect(),
         }
     }
 }
 
-fn method(advice: &MethodAdvice, place: &dyn Fn(Criterion) -> usize) -> MethodReport {
+fn method(advice: &MethodAdvice, index: &dyn Fn(Criterion) -> usize) -> MethodReport {
     MethodReport {
         method: advice.spec.method.id,
         verdict: advice.verdict.clone(),
-        criteria: Criteria::of(|criterion| advice.met[place(criterion)].met().cloned()),
+        criteria: Criteria::of(|criterion| advice.met[index(criterion)].met().cloned()),
     }
 }
 

@@ -2,9 +2,9 @@
 
 use super::criterion_met::MAX_STIFFER;
 
-/// The number of substeps tried at this place of the sequence 1, 2, 3, 4, 6, 8, 12 … 64.
-pub(super) fn tried_substeps(place: u32) -> u32 {
-    match place {
+/// The number of substeps with this index in the sequence 1, 2, 3, 4, 6, 8, 12 … 64.
+pub(super) fn tried_substeps(index: u32) -> u32 {
+    match index {
         0 => 1,
         odd if odd % 2 == 1 => 2 << (odd / 2),
         even => 3 << (even / 2 - 1),

@@ -47,7 +47,7 @@ const ROOTS_PER_CUBE: u64 = 50;
 pub struct MapRequest {
     /// The body's index in the scene.
     pub body: usize,
-    /// The place of the mapped parameter among those of the body's kind.
+    /// The index of the mapped parameter among those of the body's kind.
     pub parameter: usize,
     /// The methods, with their indices on the list.
     pub specs: Vec<(usize, LaneSpec)>,

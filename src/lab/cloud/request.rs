@@ -82,7 +82,7 @@ pub struct CloudRequest {
     pub(in crate::lab) changes: Interventions,
     /// The body, by its index in the scene.
     pub(in crate::lab) body: usize,
-    /// The lanes, by their places on the list.
+    /// The lanes, by their indices on the list.
     pub(in crate::lab) lanes: Vec<(usize, LaneSpec)>,
     pub(in crate::lab) tick_hz: u32,
     pub(in crate::lab) choice: CloudChoice,
@@ -155,7 +155,7 @@ pub struct CloudPicture {
 /// The cloud of a lane.
 #[derive(Clone, Debug)]
 pub struct LaneCloud {
-    /// The place of the lane's method on the list.
+    /// The index of the lane's method on the list.
     pub entry: usize,
     /// Where its points are.
     pub density: Arc<Density>,

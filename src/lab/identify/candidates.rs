@@ -72,8 +72,8 @@ impl Candidate {
     pub(super) fn preference(&self) -> (bool, bool, bool, bool, u32, Option<usize>) {
         let is_as_set = self.method.is_engine() && self.is_as_set();
         let has_held = !self.held().is_empty();
-        let place = METHODS.iter().position(|method| method.id == self.method.id);
-        (!is_as_set, !self.is_usual(), has_held, !self.method.is_engine(), self.substeps, place)
+        let index = METHODS.iter().position(|method| method.id == self.method.id);
+        (!is_as_set, !self.is_usual(), has_held, !self.method.is_engine(), self.substeps, index)
     }
 }
 

@@ -107,9 +107,9 @@ impl Effective {
         let mut states: Vec<(u64, [f64; 2])> =
             rows.iter().map(|row| (row.tick, [row.x, row.v.unwrap_or(0.0)])).collect();
         if rows[0].v.is_none() {
-            for place in 1..states.len() {
-                let (before, now) = (states[place - 1], states[place]);
-                states[place].1[1] =
+            for index in 1..states.len() {
+                let (before, now) = (states[index - 1], states[index]);
+                states[index].1[1] =
                     (now.1[0] - before.1[0]) / ((now.0 - before.0) as f64 * tick_s);
             }
         }
@@ -182,7 +182,7 @@ fn halves_s(rate: f64) -> Option<f64> {
 
 /// The least squares solution of equations in the first `unknowns` unknowns.
 fn solve<const N: usize>(rows: &[([f64; N], f64)], unknowns: usize) -> Option<Vec<f64>> {
-    let column = |place: usize| rows.iter().map(|(row, _)| row[place]).collect();
+    let column = |index: usize| rows.iter().map(|(row, _)| row[index]).collect();
     let columns: Vec<Vec<f64>> = (0..unknowns).map(column).collect();
     let right: Vec<f64> = rows.iter().map(|(_, right)| *right).collect();
     least_squares(&columns, &right)

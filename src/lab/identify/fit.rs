@@ -86,9 +86,9 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
     for _ in 0..iterations {
         let unit = start_unit(scale, &body, tick_s);
         let mut columns = Vec::new();
-        for (place, unit) in unit.iter().enumerate().take(fitted) {
+        for (index, unit) in unit.iter().enumerate().take(fitted) {
             let (mut there, mut other) = (start, body.clone());
-            displace(place, displacement * unit, &mut there, &mut other);
+            displace(index, displacement * unit, &mut there, &mut other);
             columns.push(go(&other, there)?);
         }
         let residual = residuals(log, &now, scale).concat();
@@ -105,8 +105,8 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
         let nearer = (0..=halvings).find_map(|halving| {
             let part = 0.5_f64.powi(halving as i32);
             let (mut there, mut other) = (start, body.clone());
-            for (place, change) in change.iter().enumerate() {
-                displace(place, part * change * unit[place], &mut there, &mut other);
+            for (index, change) in change.iter().enumerate() {
+                displace(index, part * change * unit[index], &mut there, &mut other);
             }
             let reached = go(&other, there)?;
             (worth(&reached) < before).then_some((there, other, reached))
@@ -124,11 +124,11 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
     is_finite.then_some(Fit { body, run: now, precise, residuals })
 }
 
-/// Adds `by` to what is fitted at this place: coordinate, velocity, stiffness and damping.
-fn displace(place: usize, by: f64, start: &mut [f64; 2], body: &mut LoggedBody) {
-    match (place, &mut body.spring) {
-        (0 | 1, _) => start[place] += by,
-        (_, Some(spring)) => spring[place - 2] += by,
+/// Adds `by` to the fitted number with this index: coordinate, velocity, stiffness and damping.
+fn displace(index: usize, by: f64, start: &mut [f64; 2], body: &mut LoggedBody) {
+    match (index, &mut body.spring) {
+        (0 | 1, _) => start[index] += by,
+        (_, Some(spring)) => spring[index - 2] += by,
         (_, None) => {}
     }
 }

@@ -109,7 +109,7 @@ impl Log {
             error(line, format!("the row cannot be read: {e}; give each row the header's cells"))
         };
         let header = reader.headers().map_err(|e| broken(&e))?.clone();
-        let place = |wanted: &str| header.iter().position(|known| known == wanted);
+        let column = |wanted: &str| header.iter().position(|known| known == wanted);
         let found = || {
             let names: Vec<String> = header.iter().map(|name| format!("\"{name}\"")).collect();
             let listed = clip_list(names.iter().map(String::as_str));
@@ -125,17 +125,17 @@ impl Log {
             mistaken: Some(setting),
             ..error(1, format!("no column {what}; here are {}", found()))
         };
-        let Some(x) = place(&columns.x) else {
+        let Some(x) = column(&columns.x) else {
             return Err(absent(&format!("{:?}", columns.x), LogSetting::CoordinateColumn));
         };
-        let (tick, t, v) = (place(&columns.tick), place(&columns.t), place(&columns.v));
+        let (tick, t, v) = (column(&columns.tick), column(&columns.t), column(&columns.v));
         let usual = ColumnNames::default();
         for (wanted, usual, setting) in [
             (&columns.tick, &usual.tick, LogSetting::TickColumn),
             (&columns.t, &usual.t, LogSetting::TimeColumn),
             (&columns.v, &usual.v, LogSetting::VelocityColumn),
         ] {
-            if wanted != usual && place(wanted).is_none() {
+            if wanted != usual && column(wanted).is_none() {
                 return Err(absent(&format!("{wanted:?}"), setting));
             }
         }
@@ -147,11 +147,11 @@ impl Log {
         for record in reader.records() {
             let record = record.map_err(|e| broken(&e))?;
             let line = record.position().map_or(1, csv::Position::line);
-            let number = |place: usize| -> Result<f64, LogError> {
-                let cell = &record[place];
+            let number = |index: usize| -> Result<f64, LogError> {
+                let cell = &record[index];
                 let found = cell.parse::<f64>().ok().filter(|number| number.is_finite());
                 found.ok_or_else(|| {
-                    let [column, cell] = [&header[place], cell].map(clip);
+                    let [column, cell] = [&header[index], cell].map(clip);
                     error(line, format!("column \"{column}\": \"{cell}\" is no number; write one, or cut the log before it"))
                 })
             };

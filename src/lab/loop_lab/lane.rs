@@ -114,7 +114,7 @@ impl LoopLane {
     pub fn report(&self) -> Option<&PacingReport> {
         self.report.as_ref()
     }
-    /// The place of the frame that the display holds at `now_ns`.
+    /// The index of the frame that the display holds at `now_ns`.
     pub fn frame_at(&self, now_ns: i64) -> Option<usize> {
         self.frames.partition_point(|frame| frame.displayed_ns <= now_ns).checked_sub(1)
     }

@@ -15,14 +15,14 @@ pub struct LoopRequest {
     pub(super) scene: Arc<Scene>,
     pub(super) method: &'static Method,
     pub(super) trace: FrameTrace,
-    /// The places of the loops in [`POLICIES`] that are run before the others.
+    /// The indices of the loops in [`POLICIES`] that are run before the others.
     pub(super) first: Vec<usize>,
 }
 
 impl LoopRequest {
-    /// The places of all loops, in the order in which they are run.
-    fn places(&self) -> VecDeque<usize> {
-        let is_first = |place: &usize| self.first.contains(place);
+    /// The indices of all loops, in the order in which they are run.
+    fn indices(&self) -> VecDeque<usize> {
+        let is_first = |index: &usize| self.first.contains(index);
         let (first, others): (VecDeque<_>, VecDeque<_>) = (0..POLICIES.len()).partition(is_first);
         first.into_iter().chain(others).collect()
     }
@@ -31,8 +31,8 @@ impl LoopRequest {
 /// The answer to a [`LoopRequest`] for one loop.
 pub struct FoundLoop {
     pub(super) request: Arc<LoopRequest>,
-    /// Its place in [`POLICIES`].
-    pub(super) place: usize,
+    /// Its index in [`POLICIES`].
+    pub(super) index: usize,
     pub(super) lane: LoopLane,
 }
 
@@ -40,14 +40,14 @@ pub struct FoundLoop {
 #[derive(Default)]
 pub struct LoopWorker {
     request: Option<Arc<LoopRequest>>,
-    /// The places of the loops that are still to be run.
+    /// The indices of the loops that are still to be run.
     left: VecDeque<usize>,
 }
 
 impl LoopWorker {
     /// Replaces the request; `None` asks for nothing.
     pub fn set_request(&mut self, request: Option<Arc<LoopRequest>>) {
-        self.left = request.as_ref().map(|request| request.places()).unwrap_or_default();
+        self.left = request.as_ref().map(|request| request.indices()).unwrap_or_default();
         self.request = request;
     }
 
@@ -59,13 +59,13 @@ impl LoopWorker {
     /// Runs one more loop. Returns `None` if there is none, or if `stop` ends it early: the loop is then run again by
     /// the next call.
     pub fn work(&mut self, stop: &dyn Fn() -> bool) -> Option<FoundLoop> {
-        let (request, place) = (self.request.as_ref()?, *self.left.front()?);
+        let (request, index) = (self.request.as_ref()?, *self.left.front()?);
         let LoopRequest { scene, method, trace, .. } = &**request;
-        let lane = LoopLane::run(scene, method, &POLICIES[place], trace, stop);
+        let lane = LoopLane::run(scene, method, &POLICIES[index], trace, stop);
         if stop() {
             return None;
         }
         self.left.pop_front();
-        Some(FoundLoop { request: Arc::clone(request), place, lane })
+        Some(FoundLoop { request: Arc::clone(request), index, lane })
     }
 }

@@ -38,7 +38,7 @@ fn it_opens_where_raw_ticks_judder_and_whole_refreshes_do_not() {
 }
 
 fn on_stage(studio: &LoopLab) -> Vec<&'static str> {
-    studio.on_stage().iter().map(|&place| studio.lanes()[place].card().id).collect()
+    studio.on_stage().iter().map(|&index| studio.lanes()[index].card().id).collect()
 }
 
 #[test]
@@ -92,8 +92,8 @@ fn a_display_holds_a_frame_until_the_next() {
 #[test]
 fn a_frame_that_stands_still_is_further_and_further_behind() {
     let mut studio = studio();
-    let place = studio.traces().iter().position(|trace| trace.name() == "alt-tab-5s").unwrap();
-    studio.choose_trace(place);
+    let index = studio.traces().iter().position(|trace| trace.name() == "alt-tab-5s").unwrap();
+    studio.choose_trace(index);
     run(&mut studio);
     let frames = studio.lanes()[studio.selected()].frames();
     let longest = frames.windows(2).max_by_key(|pair| pair[1].displayed_ns - pair[0].displayed_ns);
@@ -118,14 +118,14 @@ fn it_plays_slowly_and_begins_again_at_its_end() {
 #[test]
 fn the_stage_holds_one_to_four_lanes_in_the_order_of_the_table() {
     let mut studio = studio();
-    for place in [0, 1, 2, 99] {
-        studio.select(place);
+    for index in [0, 1, 2, 99] {
+        studio.select(index);
     }
     assert_eq!(studio.on_stage().len(), MAX_ON_STAGE);
     assert!(studio.on_stage().is_sorted() && studio.on_stage().contains(&studio.selected()));
-    for place in 0..POLICIES.len() {
-        if studio.on_stage().contains(&place) {
-            studio.toggle(place);
+    for index in 0..POLICIES.len() {
+        if studio.on_stage().contains(&index) {
+            studio.toggle(index);
         }
     }
     assert_eq!(studio.on_stage().len(), 1);
@@ -182,8 +182,8 @@ fn a_loop_that_is_stopped_is_run_again() {
     let mut worker = LoopWorker::default();
     worker.set_request(Some(studio.request().clone()));
     assert!(worker.work(&|| true).is_none() && !worker.is_done());
-    let place = worker.work(&|| false).map(|found| found.place);
-    assert_eq!(place, Some(studio.on_stage()[0]));
+    let index = worker.work(&|| false).map(|found| found.index);
+    assert_eq!(index, Some(studio.on_stage()[0]));
 }
 
 #[test]

@@ -13,7 +13,7 @@ const BLOWN_UP: f64 = 4.0;
 
 /// The loop with the least animation error among loops whose speed does not depend on the frame rate, whose motion stays
 /// bounded, and whose mean latency is at most `latency_ms`. Ties go to the fixed tick, then to the smaller position error.
-/// Returns its place in `measured`.
+/// Returns its index in `measured`.
 pub fn advised_loop(
     measured: &[(&'static PolicyCard, PacingReport)],
     latency_ms: f64,
@@ -29,9 +29,9 @@ pub fn advised_loop(
         Some((error, !card.has_fixed_tick, distance))
     };
     let fitting = measured.iter().enumerate().filter(|(_, (_, report))| fits(report));
-    let ranked = fitting.filter_map(|(place, (card, report))| Some((rank(card, report)?, place)));
+    let ranked = fitting.filter_map(|(index, (card, report))| Some((rank(card, report)?, index)));
     let best = ranked.min_by(|((e, v, d), _), ((error, is_variable, distance), _)| {
         e.total_cmp(error).then(v.cmp(is_variable)).then(d.total_cmp(distance))
     });
-    best.map(|(_, place)| place)
+    best.map(|(_, index)| index)
 }

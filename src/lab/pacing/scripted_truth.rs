@@ -56,12 +56,12 @@ impl ScriptedTruth {
             self.lane.act(0, at, &action);
         }
         self.advance(t);
-        for (place, (body, error)) in self.lane.bodies().iter().zip(&mut self.errors).enumerate() {
+        for (index, (body, error)) in self.lane.bodies().iter().zip(&mut self.errors).enumerate() {
             if body.halted().is_some() {
                 continue;
             }
             let exact = body.stepper.q();
-            let largest = distance(body, exact, &paced.drawn(place));
+            let largest = distance(body, exact, &paced.drawn(index));
             error.squares += largest * largest;
             error.count += 1;
             error.range = [error.range[0].min(exact[0]), error.range[1].max(exact[0])];

@@ -99,7 +99,7 @@ impl Race {
             | Action::Substeps { .. }
             | Action::Tolerance { .. } => self
                 .switch_asked(action)
-                .is_some_and(|(place, spec)| self.entrants[place].spec != spec),
+                .is_some_and(|(index, spec)| self.entrants[index].spec != spec),
         }
     }
 
@@ -108,15 +108,15 @@ impl Race {
         self.truth.bodies().iter().any(|body| body.kind.inputs.contains(&input))
     }
 
-    /// The place of the lane whose method, substeps or tolerance an action sets.
+    /// The index of the lane whose method, substeps or tolerance an action sets.
     pub(in crate::lab) fn switched_by(&self, action: &Action) -> Option<usize> {
         Some(self.switch_asked(action)?.0)
     }
 
-    /// The place of the lane that an action switches, and its new method, substeps and tolerance.
+    /// The index of the lane that an action switches, and its new method, substeps and tolerance.
     pub(in crate::lab) fn switch_asked(&self, action: &Action) -> Option<(usize, LaneSpec)> {
         let of_id = |lane: LaneId| self.entrants.iter().position(|e| e.id == lane);
-        let present = |place: usize| self.entrants[place].spec;
+        let present = |index: usize| self.entrants[index].spec;
         match *action {
             Action::Method(method) => {
                 let spec = self.methods.iter().find(|spec| spec.method == method)?;
@@ -124,14 +124,14 @@ impl Race {
             }
             Action::Lane { lane, spec } => Some((of_id(lane)?, spec)),
             Action::Substeps { lane, substeps } => {
-                let place = of_id(lane)?;
-                Some((place, LaneSpec { substeps, ..present(place) }))
+                let index = of_id(lane)?;
+                Some((index, LaneSpec { substeps, ..present(index) }))
             }
             Action::Tolerance { lane, tolerance } => {
-                let place = of_id(lane)?;
-                let takes_one = present(place).method.tolerance.is_some();
-                let spec = LaneSpec { tolerance: Some(tolerance), ..present(place) };
-                takes_one.then_some((place, spec))
+                let index = of_id(lane)?;
+                let takes_one = present(index).method.tolerance.is_some();
+                let spec = LaneSpec { tolerance: Some(tolerance), ..present(index) };
+                takes_one.then_some((index, spec))
             }
             _ => None,
         }
@@ -163,8 +163,8 @@ impl Race {
             | Action::Lane { .. }
             | Action::Substeps { .. }
             | Action::Tolerance { .. } => {
-                let (place, spec) = self.switch_asked(action).expect("it changes something");
-                let entrant = &mut self.entrants[place];
+                let (index, spec) = self.switch_asked(action).expect("it changes something");
+                let entrant = &mut self.entrants[index];
                 entrant.spec = spec;
                 resumed = entrant.lane.switch(spec.solver(), spec.substeps, t, &self.truth);
             }

@@ -38,8 +38,8 @@ impl Interpolation {
 
     /// The way after this one, and after the last the first.
     pub fn next(self) -> Self {
-        let place = Self::ALL.iter().position(|&way| way == self).expect("all are listed");
-        Self::ALL[(place + 1) % Self::ALL.len()]
+        let index = Self::ALL.iter().position(|&way| way == self).expect("all are listed");
+        Self::ALL[(index + 1) % Self::ALL.len()]
     }
 
     /// The moment that is shown, in ticks from the last one, at the part `alpha` of the next.

@@ -319,9 +319,9 @@ fn check(body: &dyn Stepper, coordinates: &Coordinates) -> Result<(), StepFailur
         return Ok(());
     }
     let (q, v) = (body.q().iter().map(|q| (q, false)), body.v().iter().map(|v| (v, true)));
-    let mut places = (0..body.q().len()).chain(0..body.v().len()).zip(q.chain(v));
+    let mut values = (0..body.q().len()).chain(0..body.v().len()).zip(q.chain(v));
     let (index, (&value, is_velocity)) =
-        places.find(|(_, (value, _))| !is_fine(value)).expect("one is not fine");
+        values.find(|(_, (value, _))| !is_fine(value)).expect("one is not fine");
     let Coordinate { name, velocity, .. } = coordinates.at(index);
     let coordinate = if is_velocity { velocity } else { name };
     Err(match value.is_finite() {
@@ -372,16 +372,16 @@ impl Lane {
 
     /// Steps every body from `t` by `h` (s), from tick `tick` to the next. A body that fails keeps its state and halts.
     pub fn tick(&mut self, tick: u64, t: f64, h: f64) {
-        for (place, body) in self.bodies.iter_mut().enumerate() {
-            body.tick(place, tick, (t, h), self.substeps);
+        for (index, body) in self.bodies.iter_mut().enumerate() {
+            body.tick(index, tick, (t, h), self.substeps);
         }
     }
 
     /// Applies an input at time `t` (s), before tick `tick`, to every body that takes it. A body that fails under it
     /// keeps its state and halts. A halted body ignores a kick, and keeps the throttle and the rudder.
     pub fn input(&mut self, tick: u64, t: f64, input: Input) {
-        for (place, body) in self.bodies.iter_mut().enumerate() {
-            body.input(place, tick, t, input);
+        for (index, body) in self.bodies.iter_mut().enumerate() {
+            body.input(index, tick, t, input);
         }
     }
 

@@ -20,20 +20,20 @@ impl EditError {
 }
 
 /// The `values` of a body of `kind`, as [`SceneBody::values`](super::SceneBody::values) has them, with `value` for
-/// the parameter in this place.
+/// the parameter with this index.
 ///
 /// # Errors
 /// If the value is out of the parameter's range or does not go with the others, or if the parameter is a curve.
 ///
 /// # Panics
-/// If the kind has no parameter in this place.
+/// If the kind has no parameter with this index.
 pub fn edited_values(
     kind: &Kind,
     values: &[f64],
-    place: usize,
+    index: usize,
     value: f64,
 ) -> Result<Vec<f64>, EditError> {
-    let Parameter { key, range, .. } = &kind.parameters[place];
+    let Parameter { key, range, .. } = &kind.parameters[index];
     let (wanted, written) = (Wanted::of(*range), written(value));
     if let Range::Curve { .. } = range {
         let found = format!("the number {written}");
@@ -43,7 +43,7 @@ pub fn edited_values(
         return Err(SceneFault::out_of_range(&format!("`{key}`"), &written, &wanted).into());
     }
     let mut edited = values.to_vec();
-    edited[place] = value;
+    edited[index] = value;
     (kind.check)(&edited).map_err(SceneFault::from)?;
     Ok(edited)
 }
@@ -67,12 +67,12 @@ mod tests {
         Ok(scene.bodies[0].values.clone())
     }
 
-    /// A table with what must be given, every number 1; with `value` for the parameter in a place.
+    /// A table with what must be given, every number 1; with `value` for the parameter in an index.
     fn table(kind: &Kind, edit: Option<(usize, f64)>) -> String {
-        let row = |(place, parameter): (usize, &Parameter)| {
+        let row = |(index, parameter): (usize, &Parameter)| {
             let Parameter { key, default, range, .. } = parameter;
             match (edit, range) {
-                (Some((edited, value)), _) if edited == place => {
+                (Some((edited, value)), _) if edited == index => {
                     format!("{key} = {}\n", written(value))
                 }
                 (_, Range::Curve { .. }) => format!("{key} = [[0, 1], [1, 1]]\n"),
@@ -89,15 +89,15 @@ mod tests {
         let (mut taken, mut refused) = (0, 0);
         for kind in BODIES.iter() {
             let begun = parsed(&table(kind, None)).unwrap();
-            for (place, parameter) in kind.parameters.iter().enumerate() {
+            for (index, parameter) in kind.parameters.iter().enumerate() {
                 let values: &[f64] = match parameter.range {
                     Range::Curve { .. } => &[],
                     Range::Count(_) => &[-1.0, 0.0, 1.0, 2.0, 8.0, 9.0, 256.0, 257.0],
                     _ => &[-2e15, -1.0, 0.0, 1e-300, 0.1, 2.0, MAX_VALUE, 1.1 * MAX_VALUE, 1e300],
                 };
                 for &value in values {
-                    let parsed = parsed(&table(kind, Some((place, value))));
-                    match edited_values(kind, &begun, place, value) {
+                    let parsed = parsed(&table(kind, Some((index, value))));
+                    match edited_values(kind, &begun, index, value) {
                         Ok(values) => {
                             taken += 1;
                             assert_eq!(Ok(values), parsed);
@@ -116,9 +116,9 @@ mod tests {
 
     #[test]
     fn what_is_refused_is_named_with_a_remedy() {
-        let refusal = |id: &str, place: usize, value: f64| {
+        let refusal = |id: &str, index: usize, value: f64| {
             let kind = kind(id).unwrap();
-            edited_values(kind, &parsed(&table(kind, None)).unwrap(), place, value)
+            edited_values(kind, &parsed(&table(kind, None)).unwrap(), index, value)
                 .unwrap_err()
                 .to_string()
         };

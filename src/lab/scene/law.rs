@@ -58,7 +58,7 @@ pub(super) static LAW_KEYS: [Key<WrittenLaw, SceneBody>; 5] = [
         read: |law, row, field| law.plane = read_plane(row, field, law.coordinates.as_deref()),
         write: |body| {
             let LawText { plane, coordinates, .. } = body.kind.law()?.text();
-            Some(list(plane.as_ref()?.iter().map(|&place| quoted(&coordinates[place].name))))
+            Some(list(plane.as_ref()?.iter().map(|&index| quoted(&coordinates[index].name))))
         },
     },
     Key {
@@ -274,10 +274,10 @@ fn read_plane(
     };
     let names = row.names(field)?;
     let known: Vec<&str> = coordinates.iter().map(|coordinate| &*coordinate.name).collect();
-    let mut places = Vec::new();
+    let mut indices = Vec::new();
     for (span, name) in &names {
         match known.iter().position(|known| known == name) {
-            Some(place) => places.push(place),
+            Some(index) => indices.push(index),
             None => {
                 let what = format!("no coordinate is called {name:?}");
                 row.complain(span.clone(), what, offer(name, &known));
@@ -285,7 +285,7 @@ fn read_plane(
             }
         }
     }
-    match places[..] {
+    match indices[..] {
         [x, y] if x != y => Some([x, y]),
         _ => {
             let what = "`plane` does not name two coordinates";

@@ -210,9 +210,9 @@ fn complain(row: &mut Table<'_>, spans: &Spans, are_lists: bool, fault: NetFault
         NetPart::Spacing => row.span(SPACING.key),
         NetPart::Springs if are_lists => row.span(SPRINGS.key),
         NetPart::Springs => row.span(COLUMNS.key),
-        NetPart::Fixed(place) => spans.fixed.get(place).cloned().unwrap_or(row.span(PIN.key)),
-        NetPart::Spring(place) => {
-            spans.springs.get(place).cloned().unwrap_or(row.span(COLUMNS.key))
+        NetPart::Fixed(index) => spans.fixed.get(index).cloned().unwrap_or(row.span(PIN.key)),
+        NetPart::Spring(index) => {
+            spans.springs.get(index).cloned().unwrap_or(row.span(COLUMNS.key))
         }
         NetPart::Kicked => row.span(KICKED.key),
     };

@@ -379,21 +379,21 @@ fn read_body<'d>(
 ) -> Option<(usize, &'d BodyDraft)> {
     let name = table.text(&BODY)?;
     let is_called = |body: &BodyDraft| body.name.as_ref() == Some(&name);
-    let Some(place) = context.bodies.iter().position(is_called) else {
+    let Some(index) = context.bodies.iter().position(is_called) else {
         let known = context.bodies.iter().filter_map(|body| body.name.as_deref());
         let remedy = format!("write one of {}", listed(&known.collect::<Vec<_>>(), '"', ", "));
         let what = format!("no body of this scene is called {:?}", clip(&name));
         table.complain(table.span(BODY.key), what, remedy);
         return None;
     };
-    Some((place, &context.bodies[place]))
+    Some((index, &context.bodies[index]))
 }
 
 fn read_set(context: &SceneContext<'_>, set: &mut Table<'_>) -> Option<Action> {
     let body = read_body(context, set);
     let key = set.text(&KEY);
     set.knows(VALUE.key);
-    let (place, BodyDraft { kind, values, .. }) = body?;
+    let (index, BodyDraft { kind, values, .. }) = body?;
     let (key, kind) = (key?, kind.as_ref()?);
     let Some((parameter, Parameter { key: known, range, acts, .. })) = kind.parameter(&key) else {
         let known: Vec<&str> = kind.parameters.iter().map(|parameter| &*parameter.key).collect();
@@ -425,7 +425,7 @@ fn read_set(context: &SceneContext<'_>, set: &mut Table<'_>) -> Option<Action> {
     {
         set.complain_of(set.span(VALUE.key), fault.into());
     }
-    Some(Action::Set { body: place, parameter, value })
+    Some(Action::Set { body: index, parameter, value })
 }
 
 fn read_place(context: &SceneContext<'_>, place: &mut Table<'_>) -> Option<Action> {

@@ -78,11 +78,11 @@ fn body_table(body: &SceneBody) -> String {
     }
     let mut text = head;
     text.extend(kind.net().map(|plan| net_lines(plan)));
-    for (parameter, place) in kind.parameters.iter().zip(0..) {
+    for (parameter, index) in kind.parameters.iter().zip(0..) {
         let value = match parameter.range {
             // A curve is the last parameter, and takes all remaining values.
-            Range::Curve { .. } => list(values[place..].chunks_exact(2).map(numbers)),
-            range => parameter_value(range, values[place]),
+            Range::Curve { .. } => list(values[index..].chunks_exact(2).map(numbers)),
+            range => parameter_value(range, values[index]),
         };
         text += &format!("{} = {value}\n", parameter.key);
     }

@@ -221,8 +221,8 @@ impl ScriptRecorder {
 impl Observer for ScriptRecorder {
     fn before(&mut self, race: &Race, action: &Action) {
         let action = match (race.switch_asked(action), action) {
-            (Some((place, spec)), _) => {
-                Action::Lane { lane: self.lane(race.entrants()[place].id), spec }
+            (Some((index, spec)), _) => {
+                Action::Lane { lane: self.lane(race.entrants()[index].id), spec }
             }
             (None, Action::Solo { lane }) => Action::Solo { lane: self.lane(*lane) },
             (None, other) => other.clone(),

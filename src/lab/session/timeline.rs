@@ -364,11 +364,11 @@ impl Timeline {
     /// Adds a snapshot of the present if there is none, and thins the snapshots to their memory limit.
     fn take_snapshot(&mut self) {
         let tick = self.run.session.race.tick();
-        let place = self.run.snapshots.partition_point(|snapshot| snapshot.race.tick() < tick);
-        if self.run.snapshots.get(place).is_some_and(|snapshot| snapshot.race.tick() == tick) {
+        let index = self.run.snapshots.partition_point(|snapshot| snapshot.race.tick() < tick);
+        if self.run.snapshots.get(index).is_some_and(|snapshot| snapshot.race.tick() == tick) {
             return;
         }
-        self.run.snapshots.insert(place, self.run.snapshot());
+        self.run.snapshots.insert(index, self.run.snapshot());
         self.fit();
     }
 

@@ -137,7 +137,7 @@ impl Studio {
                     self.viewer.set_notice("restarted: Ctrl Z brings the run back");
                 }
             }
-            StageCommand::Scene(place) => self.open(place),
+            StageCommand::Scene(index) => self.open(index),
             StageCommand::SceneBeside(step) => self.open_beside(step),
             StageCommand::ToggleArrangement => self.viewer.toggle_arrangement(),
             StageCommand::Instrument(instrument) => {
@@ -147,8 +147,8 @@ impl Studio {
                 let instrument = &mut self.viewer.preferences.display.instrument;
                 *instrument = instrument.beside(step);
             }
-            StageCommand::Metric(place) => {
-                self.viewer.preferences.display.metric = place.min(METRICS.len() - 1)
+            StageCommand::Metric(index) => {
+                self.viewer.preferences.display.metric = index.min(METRICS.len() - 1)
             }
             StageCommand::Body(body) => {
                 self.viewer.view.body = body.min(self.scene().bodies.len() - 1);
@@ -201,7 +201,7 @@ impl Studio {
             ViewCommand::DescribeSpring(spring) => self.viewer.preferences.my_spring = spring,
             ViewCommand::CloseDialog => self.viewer.dialog = None,
             ViewCommand::ToggleGuide => self.toggle_guide(),
-            ViewCommand::GoToStop(place) => self.go_to_stop(place),
+            ViewCommand::GoToStop(index) => self.go_to_stop(index),
             ViewCommand::StopBeside(step) => self.go_to_stop_beside(step),
             ViewCommand::Predict(choice) => {
                 self.viewer.tour.iter_mut().for_each(|tour| tour.predict(choice));

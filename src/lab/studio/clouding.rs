@@ -33,13 +33,13 @@ impl Studio {
         })
     }
 
-    /// The places on the list of the lanes that have a cloud: all, or the first and the selected one of very many.
+    /// The indices on the list of the lanes that have a cloud: all, or the first and the selected one of very many.
     fn clouded_lanes(&self) -> impl Iterator<Item = usize> {
         let lanes = self.race().entrants();
         let selected = lanes.iter().position(|lane| self.entry(lane) == self.active()).unwrap_or(0);
         let last = selected.max(MAX_CLOUDS - 1);
-        let is_shown = move |place: &usize| *place + 1 < MAX_CLOUDS || *place == last;
-        (0..lanes.len()).filter(is_shown).map(|place| self.entry(&lanes[place]))
+        let is_shown = move |index: &usize| *index + 1 < MAX_CLOUDS || *index == last;
+        (0..lanes.len()).filter(is_shown).map(|index| self.entry(&lanes[index]))
     }
 
     /// Why the displayed body has no cloud, if it has several coordinates.

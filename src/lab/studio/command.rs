@@ -89,7 +89,7 @@ pub enum RunCommand {
     RudderRight,
     /// The next [way](crate::lab::race::Interpolation::ALL) of drawing between ticks.
     NextInterpolation,
-    /// Shows this parameter of the displayed body on the stability map, by its place.
+    /// Shows this parameter of the displayed body on the stability map, by its index.
     MapParameter(usize),
     /// Chooses the clouds of the cloud instrument.
     Cloud(CloudChoice),
@@ -109,7 +109,7 @@ pub enum RunCommand {
 pub enum StageCommand {
     /// Solo: switches the bodies to this method in flight. Race: selects its lane.
     Method(&'static Method),
-    /// Solo: switches to the method at this place of the lane list, from 0. Race: selects that lane.
+    /// Solo: switches to the method with this index in the lane list, from 0. Race: selects that lane.
     Pick(usize),
     /// The next or the previous method or lane on the list, cyclically.
     MethodBeside(Step),
@@ -140,7 +140,7 @@ pub enum StageCommand {
     Instrument(Instrument),
     /// The next or the previous instrument, cyclically.
     InstrumentBeside(Step),
-    /// Shows the metric at this place of [`METRICS`](crate::lab::METRICS) in the error instrument.
+    /// Shows the metric with this index in [`METRICS`](crate::lab::METRICS) in the error instrument.
     Metric(usize),
     /// Selects the body of the plots and the lane list, by its index in the scene, from 0.
     Body(usize),

@@ -44,7 +44,7 @@ pub struct Display {
     pub enlarged: bool,
     /// What the motion instrument shows of every body.
     pub quantity: Quantity,
-    /// The metric of the error instrument, by its place in [`METRICS`](crate::lab::METRICS).
+    /// The metric of the error instrument, by its index in [`METRICS`](crate::lab::METRICS).
     pub metric: usize,
     /// Whether the advice is about the [displayed body](View::body) alone, and not about all.
     pub advises_on_one_body: bool,
@@ -72,7 +72,7 @@ pub struct View {
     /// The coordinate of each body that a person has chosen for the plots, by its index; a body beyond the end has the
     /// [usual one](crate::lab::race::LaneBody::plotted_coordinate).
     pub coordinates: Vec<Option<usize>>,
-    /// The body and its parameter that a person has chosen for the stability map, by their places.
+    /// The body and its parameter that a person has chosen for the stability map, by their indices.
     pub mapped_parameter: Option<(usize, usize)>,
     /// What a person has zoomed and panned the plots to: a range of each axis, by its name. An axis without a range is
     /// fitted.
@@ -82,7 +82,7 @@ pub struct View {
 }
 
 impl View {
-    /// The zoom and the pan of the body at this index of the scene.
+    /// The zoom and the pan of the body with this index in the scene.
     pub fn zoom_pan(&self, body: usize) -> ZoomPan {
         self.zoom_pans.get(body).copied().unwrap_or_default()
     }
@@ -125,10 +125,10 @@ pub enum DriverRequest {
     Record,
     /// Copy the instrument's values to the clipboard.
     CopyInstrument,
-    /// Copy the method at this index of the list to the clipboard, as source code in the viewer's
+    /// Copy the method with this index in the list to the clipboard, as source code in the viewer's
     /// [language](super::Viewer::language).
     CopyMethod(usize),
-    /// Copy the lines of code that tell the engine at this index of the list the displayed body's spring.
+    /// Copy the lines of code that tell the engine with this index in the list the displayed body's spring.
     CopyJoint(usize),
     /// Save the instrument as a picture, a drawing and a table.
     ExportInstrument,

@@ -52,19 +52,19 @@ impl Studio {
         Some(MapRequest::new((body, parameter), opened, values, self.clock.tick_hz(), specs))
     }
 
-    /// The parameters of the displayed body that a stability map can show, by their places: those that act at once and
+    /// The parameters of the displayed body that a stability map can show, by their indices: those that act at once and
     /// are not negative, so that they have a logarithmic scale.
     pub fn mappable_parameters(&self) -> impl Iterator<Item = usize> {
         let SceneBody { kind, values, .. } = &self.scene().bodies[self.view().body];
         let parameters = kind.parameters.iter();
-        let is_mappable = |(place, parameter): &(usize, &Parameter)| {
+        let is_mappable = |(index, parameter): &(usize, &Parameter)| {
             // The constants of a law may have any sign.
-            let is_constant = kind.law().is_some_and(|law| *place < law.text().constants.len());
-            let is_signless = is_constant && values[*place] > 0.0
+            let is_constant = kind.law().is_some_and(|law| *index < law.text().constants.len());
+            let is_signless = is_constant && values[*index] > 0.0
                 || matches!(parameter.range, Range::Positive(_) | Range::NonNegative(_));
             parameter.acts == Acts::AtOnce && is_signless
         };
-        parameters.enumerate().filter(is_mappable).map(|(place, _)| place)
+        parameters.enumerate().filter(is_mappable).map(|(index, _)| index)
     }
 
     /// The parameter that the stability map shows: the one chosen for the displayed body, or else the one that makes it
@@ -73,13 +73,13 @@ impl Studio {
         let body = self.view().body;
         let chosen = self.view().mapped_parameter.filter(|(of, _)| *of == body);
         let kind = &self.scene().bodies[body].kind;
-        let leading = kind.parameter(&kind.leading).map(|(place, _)| place);
-        let mut places = self.mappable_parameters();
-        let wanted = chosen.map(|(_, place)| place).or(leading);
-        let first = places.next()?;
+        let leading = kind.parameter(&kind.leading).map(|(index, _)| index);
+        let mut indices = self.mappable_parameters();
+        let wanted = chosen.map(|(_, index)| index).or(leading);
+        let first = indices.next()?;
         Some(
             wanted
-                .filter(|&wanted| wanted == first || places.any(|at| at == wanted))
+                .filter(|&wanted| wanted == first || indices.any(|at| at == wanted))
                 .unwrap_or(first),
         )
     }

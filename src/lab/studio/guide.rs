@@ -36,7 +36,7 @@ pub struct Stop {
     pub question: &'static str,
     /// The predictions to choose from.
     pub choices: &'static [&'static str],
-    /// The right one, by its place.
+    /// The right one, by its index.
     pub right: usize,
     /// Which key to press.
     pub task: &'static str,
@@ -146,11 +146,11 @@ impl Tour {
     pub fn stop(&self) -> &'static Stop {
         &STOPS[self.stop]
     }
-    /// The stop's place, from 0.
-    pub fn place(&self) -> usize {
+    /// The stop's index, from 0.
+    pub fn index(&self) -> usize {
         self.stop
     }
-    /// The prediction, by its place among the choices.
+    /// The prediction, by its index among the choices.
     pub fn guess(&self) -> Option<usize> {
         self.guess
     }

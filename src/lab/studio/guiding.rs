@@ -13,7 +13,7 @@ impl Studio {
     /// What to try next: the scene's own hint, then what follows on it. Keys stand between backticks.
     pub fn hint(&self) -> Option<String> {
         if let Some(tour) = &self.viewer.tour {
-            let is_last = tour.place() + 1 == STOPS.len();
+            let is_last = tour.index() + 1 == STOPS.len();
             let next = match (tour.is_done(), is_last) {
                 (true, true) => "That was the last stop. Press `Esc` to close the guide.",
                 (true, false) => {
@@ -69,7 +69,7 @@ impl Studio {
     /// Returns whether the guide was open.
     pub(super) fn close_guide(&mut self) -> bool {
         let Some(tour) = self.viewer.tour.take() else { return false };
-        self.viewer.preferences.left_at = tour.place();
+        self.viewer.preferences.left_at = tour.index();
         tour.before().restore(&mut self.viewer.preferences.display);
         true
     }
@@ -77,19 +77,19 @@ impl Studio {
     /// Opens the stop this many further on, if the guide is open and has one.
     pub(super) fn go_to_stop_beside(&mut self, step: Step) {
         let Some(tour) = &self.viewer.tour else { return };
-        let place = tour
-            .place()
+        let index = tour
+            .index()
             .checked_add_signed(step.sign() as isize)
-            .filter(|place| *place < STOPS.len());
-        place.into_iter().for_each(|place| self.go_to_stop(place));
+            .filter(|index| *index < STOPS.len());
+        index.into_iter().for_each(|index| self.go_to_stop(index));
     }
 
     /// Opens this stop of the guide: its scene from the start under its method and rate, and its instrument. Time runs,
     /// unless a person is to step.
-    pub(super) fn go_to_stop(&mut self, place: usize) {
+    pub(super) fn go_to_stop(&mut self, index: usize) {
         let display = &self.viewer.preferences.display;
         let before = self.viewer.tour.take().map_or_else(|| Chosen::of(display), |t| t.before());
-        let tour = Tour::at(place, before);
+        let tour = Tour::at(index, before);
         let Stop { scene, method, tick_hz, mode, instrument, quantity, goal, .. } = *tour.stop();
         let listed = SCENES.iter().position(|built_in| built_in.name == scene);
         self.open(listed.expect("a stop names a built-in scene"));
@@ -122,7 +122,7 @@ impl Studio {
     }
 }
 
-/// The place of the metric that compares this quantity with the truth's.
+/// The index of the metric that compares this quantity with the truth's.
 fn error_of(quantity: Quantity) -> usize {
     match quantity {
         Quantity::Position => Metric::POSITION_ERROR,
@@ -170,13 +170,13 @@ mod tests {
         assert!(studio.viewer.tour.is_none(), "the guide is closed");
         studio.apply(ViewCommand::ToggleGuide);
         let last = STOPS.len() - 1;
-        for (command, places) in [
+        for (command, indices) in [
             (next, (1..=last).chain([last]).collect::<Vec<_>>()),
             (back, (0..last).rev().chain([0]).collect()),
         ] {
-            for place in places {
+            for index in indices {
                 studio.apply(command.clone());
-                assert_eq!(studio.viewer.tour.as_ref().map(Tour::place), Some(place));
+                assert_eq!(studio.viewer.tour.as_ref().map(Tour::index), Some(index));
             }
         }
     }

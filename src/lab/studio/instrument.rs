@@ -174,8 +174,8 @@ impl Instrument {
 
     /// The instrument of the tab beside, cyclically.
     pub(super) fn beside(self, step: Step) -> Self {
-        let place = Self::all().position(|instrument| instrument == self).unwrap_or(0);
-        INSTRUMENTS[step.around(place, INSTRUMENTS.len())].instrument
+        let index = Self::all().position(|instrument| instrument == self).unwrap_or(0);
+        INSTRUMENTS[step.around(index, INSTRUMENTS.len())].instrument
     }
 }
 

@@ -71,9 +71,9 @@ impl Studio {
     pub fn open_loop_lab_on(&mut self, trace: &str) {
         self.open_loop_lab();
         if let Activity::Loops(loops) = &mut self.activity
-            && let Some(place) = loops.traces().iter().position(|known| known.name() == trace)
+            && let Some(index) = loops.traces().iter().position(|known| known.name() == trace)
         {
-            loops.choose_trace(place);
+            loops.choose_trace(index);
             loops.end_opening();
         }
     }
@@ -123,7 +123,7 @@ impl Studio {
                 self.leave_loop_lab();
                 return self.carry_out_on_stage(command);
             }
-            StageCommand::Pick(place) => loops.select(place),
+            StageCommand::Pick(index) => loops.select(index),
             StageCommand::ToggleArrangement => loops.toggle_overlay(),
             StageCommand::InstrumentBeside(step) => {
                 loops.choose_trace(step.around(loops.trace(), loops.traces().len()));
@@ -159,7 +159,7 @@ impl Studio {
                     loops.show(&scene, body);
                 }
             }
-            StageCommand::Metric(place) => loops.set_metric(place),
+            StageCommand::Metric(index) => loops.set_metric(index),
             StageCommand::Instrument(instrument) if instrument.is_in_loop_lab() => {
                 self.viewer.preferences.display.instrument = instrument;
                 return;
@@ -188,9 +188,9 @@ impl Studio {
         let Activity::Loops(loops) = &mut self.activity else { return };
         match command {
             LoopCommand::ToggleLab => self.leave_loop_lab(),
-            LoopCommand::Select(place) => loops.select(place),
-            LoopCommand::ToggleOnStage(place) => loops.toggle(place),
-            LoopCommand::Trace(place) => loops.choose_trace(place),
+            LoopCommand::Select(index) => loops.select(index),
+            LoopCommand::ToggleOnStage(index) => loops.toggle(index),
+            LoopCommand::Trace(index) => loops.choose_trace(index),
             LoopCommand::Slowness(slowness) => loops.set_slowness(slowness),
             LoopCommand::Seek(now_ns) => {
                 loops.seek(now_ns);
@@ -233,6 +233,6 @@ impl Studio {
 
 fn method_beside(loops: &LoopLab, step: Step) -> &'static Method {
     let methods: Vec<_> = loops.scene().fitting_methods().collect();
-    let place = methods.iter().position(|method| *method == loops.method()).unwrap_or(0);
-    methods[step.around(place, methods.len())]
+    let index = methods.iter().position(|method| *method == loops.method()).unwrap_or(0);
+    methods[step.around(index, methods.len())]
 }

@@ -77,9 +77,9 @@ impl Studio {
         }
     }
 
-    /// The evaluations in the next tick of the lane at this place among the entrants.
-    pub fn evaluations_of_next_tick(&self, place: usize) -> u64 {
-        let (race, mut lane) = (self.race(), self.race().entrants()[place].lane.clone());
+    /// The evaluations in the next tick of the lane with this index among the entrants.
+    pub fn evaluations_of_next_tick(&self, index: usize) -> u64 {
+        let (race, mut lane) = (self.race(), self.race().entrants()[index].lane.clone());
         let before = lane.evaluations();
         lane.tick(race.tick(), race.t(), 1.0 / f64::from(race.tick_hz()));
         lane.evaluations() - before

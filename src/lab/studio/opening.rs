@@ -24,20 +24,20 @@ impl Studio {
 
     /// The open scene's name on the list.
     pub fn scene_name(&self) -> String {
-        let listed = self.scene_list.open().and_then(|place| self.scene_list.names().nth(place));
+        let listed = self.scene_list.open().and_then(|index| self.scene_list.names().nth(index));
         listed.unwrap_or_else(|| self.scene().name.clone())
     }
 
     /// Lists the open scene as the file at `path`.
     pub fn list_as_file(&mut self, path: &Path) {
-        let place = self.scene_list.put(path, self.scene().clone());
-        self.scene_list.set_open(place);
+        let index = self.scene_list.put(path, self.scene().clone());
+        self.scene_list.set_open(index);
     }
 
     /// Opens a scene that was read from the file at `path`, and puts it on the list.
     pub fn open_file(&mut self, path: &Path, scene: Scene) {
-        let place = self.scene_list.put(path, scene);
-        self.open(place);
+        let index = self.scene_list.put(path, scene);
+        self.open(index);
     }
 
     /// Opens the spring that a person has described, alone, at the present tick rate, and advises on it. It is on the list
@@ -63,10 +63,10 @@ impl Studio {
     pub fn reload_file(&mut self, path: &Path, scene: Scene) {
         let is_open = self.scene_list.open_path() == Some(path);
         let tick = self.race().tick();
-        let before = self.scene_list.open().map(|place| self.scene_list.scene(place));
+        let before = self.scene_list.open().map(|index| self.scene_list.scene(index));
         let is_equal = before.as_ref().is_some_and(|before| before.to_toml() == scene.to_toml());
         let keeps = before.is_some_and(|before| is_alike(&before, &scene));
-        let place = self.scene_list.put(path, scene);
+        let index = self.scene_list.put(path, scene);
         if !is_open {
             return;
         }
@@ -77,13 +77,13 @@ impl Studio {
         }
         let is_by_hand = is_by_hand(&self.timeline);
         let told = if !keeps {
-            self.open(place);
+            self.open(index);
             "reloaded from the start, with other lanes or bodies".into()
         } else if tick > MAX_RERUN {
-            self.run_again(place, 0);
+            self.run_again(index, 0);
             format!("reloaded from the start: tick {tick} is too far to rerun")
         } else {
-            self.run_again(place, tick);
+            self.run_again(index, tick);
             format!("reloaded and rerun to tick {tick}")
         };
         let left_out = match (is_by_hand, keeps) {
@@ -142,10 +142,10 @@ impl Studio {
         }
     }
 
-    /// Runs the open scene at this place, which has changed, to a tick: with the methods, the rate and the display that a
+    /// Runs the open scene with this index, which has changed, to a tick: with the methods, the rate and the display that a
     /// person has chosen, and without actions by hand.
-    fn run_again(&mut self, place: usize, tick: u64) {
-        let scene = self.scene_list.scene(place);
+    fn run_again(&mut self, index: usize, tick: u64) {
+        let scene = self.scene_list.scene(index);
         self.keep_run("the change of the file");
         // Without a choice the scene's rate applies.
         if self.start.tick_hz == self.start.scene.tick_hz {
@@ -165,20 +165,20 @@ impl Studio {
         self.open(self.scene_list.open().map_or(0, |here| step.around(here, count)));
     }
 
-    /// Opens the scene at this index of the list, modulo its length, under the scene's opening method, and closes the
+    /// Opens the scene with this index in the list, modulo its length, under the scene's opening method, and closes the
     /// guide, which is about another. The preferences stay, and so does the mode, unless the scene opens as a race.
-    pub(super) fn open(&mut self, place: usize) {
-        let place = place % self.scene_list.count();
-        let mut studio = Studio::new(self.scene_list.scene(place));
+    pub(super) fn open(&mut self, index: usize) {
+        let index = index % self.scene_list.count();
+        let mut studio = Studio::new(self.scene_list.scene(index));
         studio.scene_list = self.scene_list.clone();
-        studio.scene_list.set_open(place);
+        studio.scene_list.set_open(index);
         studio.start.mode = if studio.scene().opens_as_race { Mode::Race } else { self.mode() };
         studio.viewer = self.viewer.before_next_scene(studio.viewer.selected);
         studio.clock.set_speed_percent(self.clock.speed_percent());
         studio.running = self.running;
         studio.timeline.set_limit(self.timeline.limit());
         studio.restart();
-        let file = studio.scene_list.file(place);
+        let file = studio.scene_list.file(index);
         let mistakes = file.and_then(|file| Some((file.name(), file.mistakes.clone()?)));
         studio.viewer.dialog = mistakes.map(|(file, report)| Dialog::Mistakes { file, report });
         studio.leave_guide();

@@ -19,9 +19,9 @@ impl Studio {
     /// Records the coordinates that a person has chosen, and of other bodies the usual ones. Returns whether it could.
     pub(super) fn record_chosen_coordinates(&mut self) -> bool {
         let chosen = &self.viewer.view.coordinates;
-        let coordinate = |(place, usual): (usize, usize)| {
-            let count = self.race().truth().bodies()[place].coordinates().len();
-            let chosen = chosen.get(place).copied().flatten();
+        let coordinate = |(index, usual): (usize, usize)| {
+            let count = self.race().truth().bodies()[index].coordinates().len();
+            let chosen = chosen.get(index).copied().flatten();
             chosen.filter(|&index| index < count).unwrap_or(usual)
         };
         let bodies = self.race().truth().bodies().iter();

@@ -9,7 +9,7 @@ use crate::lab::scene::{BuiltIn, Mistake, SCENES, Scene};
 #[derive(Clone, Debug)]
 pub struct SceneList {
     files: Vec<SceneFile>,
-    /// The place of the open scene; `None` if it is not on the list.
+    /// The index of the open scene; `None` if it is not on the list.
     open: Option<usize>,
 }
 
@@ -44,7 +44,7 @@ impl SceneList {
         SCENES.len() + self.files.len()
     }
 
-    /// The place of the open scene, if it is in the list.
+    /// The index of the open scene, if it is in the list.
     pub fn open(&self) -> Option<usize> {
         self.open
     }
@@ -76,27 +76,27 @@ impl SceneList {
         self.files.iter().map(|file| &*file.path)
     }
 
-    pub(super) fn file(&self, place: usize) -> Option<&SceneFile> {
-        self.files.get(place.checked_sub(SCENES.len())?)
+    pub(super) fn file(&self, index: usize) -> Option<&SceneFile> {
+        self.files.get(index.checked_sub(SCENES.len())?)
     }
 
-    /// The scene at this place, as its file has it.
-    pub(super) fn scene(&self, place: usize) -> Scene {
-        let built_in = || Scene::built_in(SCENES[place].name).expect("a name of SCENES");
-        self.file(place).map_or_else(built_in, |file| file.scene.clone())
+    /// The scene with this index, as its file has it.
+    pub(super) fn scene(&self, index: usize) -> Scene {
+        let built_in = || Scene::built_in(SCENES[index].name).expect("a name of SCENES");
+        self.file(index).map_or_else(built_in, |file| file.scene.clone())
     }
 
-    pub(super) fn set_open(&mut self, place: usize) {
-        self.open = Some(place);
+    pub(super) fn set_open(&mut self, index: usize) {
+        self.open = Some(index);
     }
 
-    /// Puts the scene of a file on the list, or replaces the file's earlier scene. Returns its place.
+    /// Puts the scene of a file on the list, or replaces the file's earlier scene. Returns its index.
     pub(super) fn put(&mut self, path: &Path, scene: Scene) -> usize {
         let file = SceneFile { path: path.to_owned(), scene, mistakes: None };
         match self.files.iter().position(|known| known.path == path) {
-            Some(place) => {
-                self.files[place] = file;
-                SCENES.len() + place
+            Some(index) => {
+                self.files[index] = file;
+                SCENES.len() + index
             }
             None => {
                 self.files.push(file);
@@ -126,15 +126,15 @@ mod tests {
         let ship = Scene::built_in("ship").unwrap();
         let mut scene_list = SceneList::of(&ship);
         assert_eq!(scene_list.names().nth(scene_list.open().unwrap()).unwrap(), "ship");
-        let place = scene_list.put(Path::new("a/ship.toml"), ship.clone());
-        assert_eq!(scene_list.names().nth(place).unwrap(), "ship.toml");
-        assert_eq!(place, SCENES.len());
+        let index = scene_list.put(Path::new("a/ship.toml"), ship.clone());
+        assert_eq!(scene_list.names().nth(index).unwrap(), "ship.toml");
+        assert_eq!(index, SCENES.len());
         let other = scene_list.put(Path::new("b/ship.toml"), ship.clone());
         let bare = scene_list.put(Path::new("c/ship"), ship.clone());
         let names: Vec<String> = scene_list.names().skip(SCENES.len()).collect();
         assert_eq!(names, ["a/ship.toml", "b/ship.toml", "c/ship"]);
-        assert_eq!((other, bare), (place + 1, place + 2));
-        assert_eq!(scene_list.put(Path::new("a/ship.toml"), ship), place, "it keeps its place");
+        assert_eq!((other, bare), (index + 1, index + 2));
+        assert_eq!(scene_list.put(Path::new("a/ship.toml"), ship), index, "it keeps its index");
         assert_eq!(scene_list.count(), SCENES.len() + 3);
     }
 }

@@ -117,7 +117,7 @@ pub struct Viewer {
     pub(super) selected: LaneId,
     /// Whether a person, a script or a verdict has selected it.
     pub(super) is_selected: bool,
-    /// The place of the lane that the pointer or the keyboard's focus is on.
+    /// The index of the lane that the pointer or the keyboard's focus is on.
     pub(super) pointed: Option<usize>,
     /// The driver's pace while time runs; `None` without real time, as in a capture.
     pub pace: Option<Pace>,
@@ -174,7 +174,7 @@ impl Viewer {
         }
     }
 
-    /// The place in the list of the lane that the pointer or the keyboard's focus is on, if it is on one.
+    /// The index in the list of the lane that the pointer or the keyboard's focus is on, if it is on one.
     pub fn pointed_lane(&self) -> Option<usize> {
         self.pointed
     }
@@ -214,7 +214,7 @@ impl Viewer {
         self.held.as_ref()
     }
 
-    /// The verdict on the method at this index of the list, of the run that [`Studio::analysis_request`](super::Studio::analysis_request)
+    /// The verdict on the method with this index in the list, of the run that [`Studio::analysis_request`](super::Studio::analysis_request)
     /// describes; `None` until it has been [found](super::Studio::accept_findings).
     pub fn verdict(&self, entry: usize) -> Option<&Verdict> {
         self.findings.as_ref()?.verdicts.get(entry)?.as_ref()

@@ -24,7 +24,7 @@ const NOT_MEASURED: &str = "Time is measured in the window.";
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<Command>) {
     let lanes = studio.race().entrants().iter().enumerate();
-    let rows: Vec<Row<'_>> = lanes.map(|(place, lane)| Row::new(studio, place, lane)).collect();
+    let rows: Vec<Row<'_>> = lanes.map(|(index, lane)| Row::new(studio, index, lane)).collect();
     let most = rows.iter().map(|row| row.evaluations).max().unwrap_or(0).max(1);
     let has_times = rows.iter().any(|row| row.ns.is_some());
     ui.label(RichText::new("Cost of the next tick, all bodies").font(strong_font(13.0)));
@@ -119,14 +119,14 @@ struct Row<'a> {
 }
 
 impl<'a> Row<'a> {
-    fn new(studio: &'a Studio, place: usize, lane: &Entrant) -> Self {
+    fn new(studio: &'a Studio, index: usize, lane: &Entrant) -> Self {
         let spec = lane.spec;
         let mut times = studio.viewer().tick_times.iter();
         Self {
             studio,
             entry: studio.entry(lane),
             spec,
-            evaluations: studio.evaluations_of_next_tick(place),
+            evaluations: studio.evaluations_of_next_tick(index),
             is_halted: lane.lane.halted().is_some(),
             ns: times.find(|(of, _)| *of == spec).and_then(|(_, ns)| *ns),
         }

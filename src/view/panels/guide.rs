@@ -30,10 +30,10 @@ pub(super) fn show(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
 }
 
 fn head(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
-    let place = tour.place();
+    let index = tour.index();
     let count = STOPS.len();
     let is_wide = ui.available_width() >= breakpoints::KEYS_OF_GUIDE;
-    let title = RichText::new(format!("{}. {}", place + 1, tour.stop().title));
+    let title = RichText::new(format!("{}. {}", index + 1, tour.stop().title));
     let title = title.font(strong_font(15.0));
     let show_title = |ui: &mut Ui| ui.add(egui::Label::new(title.clone()).truncate());
     ui.horizontal(|ui| {
@@ -48,24 +48,24 @@ fn head(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
             };
             let next = named("Next", "Page Down");
             let next = if tour.is_done() { next.selected(true) } else { next };
-            let next = ui.add_enabled(place + 1 < count, next);
+            let next = ui.add_enabled(index + 1 < count, next);
             next.widget_info(|| {
-                egui::WidgetInfo::labeled(egui::Role::Button, place + 1 < count, "Next (Page Down)")
+                egui::WidgetInfo::labeled(egui::Role::Button, index + 1 < count, "Next (Page Down)")
             });
             if next.clicked() {
                 commands.push(Command::View(ViewCommand::StopBeside(Step::Next)));
             }
-            let back = ui.add_enabled(place > 0, named("Back", "Page Up"));
+            let back = ui.add_enabled(index > 0, named("Back", "Page Up"));
             back.widget_info(|| {
-                egui::WidgetInfo::labeled(egui::Role::Button, place > 0, "Back (Page Up)")
+                egui::WidgetInfo::labeled(egui::Role::Button, index > 0, "Back (Page Up)")
             });
             if back.clicked() {
                 commands.push(Command::View(ViewCommand::StopBeside(Step::Previous)));
             }
             if ui.button("⏮").on_hover_text("show this stop again").clicked() {
-                commands.push(Command::View(ViewCommand::GoToStop(place)));
+                commands.push(Command::View(ViewCommand::GoToStop(index)));
             }
-            ui.label(RichText::new(format!("{} of {count}", place + 1)).color(palette(ui).dim));
+            ui.label(RichText::new(format!("{} of {count}", index + 1)).color(palette(ui).dim));
             if is_wide {
                 ui.with_layout(Layout::left_to_right(Align::Center), show_title);
             }
@@ -81,9 +81,9 @@ fn choices(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
     let stop = tour.stop();
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("Your prediction:").color(palette(ui).dim));
-        for (place, choice) in stop.choices.iter().enumerate() {
-            let is_guess = tour.guess() == Some(place);
-            let is_right = tour.is_done() && place == stop.right;
+        for (index, choice) in stop.choices.iter().enumerate() {
+            let is_guess = tour.guess() == Some(index);
+            let is_right = tour.is_done() && index == stop.right;
             let words = if is_right { format!("✓ {choice}") } else { (*choice).to_owned() };
             let colour = if is_right { palette(ui).good } else { palette(ui).text };
             let button = Button::new(RichText::new(words).color(colour)).selected(is_guess);
@@ -91,7 +91,7 @@ fn choices(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
             let role = egui::Role::RadioButton;
             response.widget_info(|| egui::WidgetInfo::selected(role, true, is_guess, *choice));
             if response.clicked() {
-                commands.push(Command::View(ViewCommand::Predict(place)));
+                commands.push(Command::View(ViewCommand::Predict(index)));
             }
         }
     });

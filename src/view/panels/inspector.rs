@@ -88,15 +88,15 @@ fn show_body(ui: &mut Ui, studio: &Studio, body: usize, commands: &mut Vec<Comma
 }
 
 fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>) {
-    let Row { body, place, parameter, values } = row;
+    let Row { body, index, parameter, values } = row;
     let kind = &studio.scene().bodies[*body].kind;
     let set = |value| {
-        Command::Run(RunCommand::Act(Action::Set { body: *body, parameter: *place, value }))
+        Command::Run(RunCommand::Act(Action::Set { body: *body, parameter: *index, value }))
     };
     let about = format!("{}\n{}, {}", parameter.described(), parameter.key, parameter.range);
     let Some(values) = *values else {
         line(ui, &parameter.quantity(), &about, |ui, _| {
-            let points = (studio.race().values(*body).len() - place) / 2;
+            let points = (studio.race().values(*body).len() - index) / 2;
             let text = RichText::new(format!("{points} points")).color(palette(ui).dim);
             ui.label(text).on_hover_text("as the scene has them");
         });
@@ -104,7 +104,7 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
     };
     let name = format!("{} of {}", parameter.quantity(), studio.scene().bodies[*body].name);
     let field = NumberField {
-        id: ui.scope_id().with((body, place)),
+        id: ui.scope_id().with((body, index)),
         value: values.present,
         unit: &parameter.unit,
         name: &name,
@@ -118,7 +118,7 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
             Acts::AtOnce => studio.race().values(*body),
             Acts::AtStart => &studio.scene().bodies[*body].values,
         };
-        let checked = edited_values(kind, values, *place, value);
+        let checked = edited_values(kind, values, *index, value);
         checked.map(drop).map_err(|error| error.to_string())
     };
     line(ui, &parameter.quantity(), &about, |ui, [room, number]| {
@@ -136,7 +136,7 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
 
 /// A slider that reaches round the value that the scene has. Returns what it was moved to.
 fn show_slider(ui: &mut Ui, row: &Row, values: Values, name: &str, size: Vec2) -> Option<f64> {
-    let id = ui.scope_id().with((row.body, row.place, "reach"));
+    let id = ui.scope_id().with((row.body, row.index, "reach"));
     let fresh = Reach::of(row.parameter.range, values)?;
     // Under the mouse it stays, though the value that it sets brings its end nearer.
     let held = ui.data(|data| data.get_temp::<Reach>(id));
@@ -206,7 +206,7 @@ fn restoring(studio: &Studio) -> Vec<Command> {
             let opened = row.values.filter(|values| values.differ())?.opened;
             Some(Command::Run(RunCommand::Act(Action::Set {
                 body,
-                parameter: row.place,
+                parameter: row.index,
                 value: opened,
             })))
         };
@@ -272,8 +272,8 @@ mod tests {
         let mut studio = Studio::new(Scene::built_in("chain").unwrap());
         studio.apply(StageCommand::ToggleRace);
         assert_eq!(restoring(&studio), []);
-        let place = |key| studio.scene().bodies[0].kind.parameter(key).unwrap().0;
-        let (masses, plucked) = (place("masses"), place("plucked_mass"));
+        let index = |key| studio.scene().bodies[0].kind.parameter(key).unwrap().0;
+        let (masses, plucked) = (index("masses"), index("plucked_mass"));
         let most = studio.scene().bodies[0].values[masses];
         assert!(studio.scene().bodies[0].values[plucked] > 1.0);
         for (parameter, value) in [(plucked, 1.0), (masses, 2.0), (0, 3.0), (plucked, 2.0)] {

@@ -30,7 +30,7 @@ pub(super) fn height_of(rows: usize) -> f32 {
     ROW * (rows.clamp(*ROWS.start(), *ROWS.end()) + 1) as f32
 }
 
-/// Shows the table. Returns the place of the lane whose row the pointer or the keyboard's focus is on.
+/// Shows the table. Returns the index of the lane whose row the pointer or the keyboard's focus is on.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) -> Option<usize> {
     let mut pointed = None;
     table(studio).show(ui, groups(studio), commands, |row, response, commands| {

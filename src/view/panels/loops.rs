@@ -106,7 +106,7 @@ fn series(lanes: &[ShownLane<'_>]) -> Vec<counts::Series> {
 
 /// A lane on the stage, and how it is drawn.
 struct ShownLane<'a> {
-    place: usize,
+    index: usize,
     lane: &'a LoopLane,
     colour: Color32,
     dash: [f32; 2],
@@ -115,10 +115,10 @@ struct ShownLane<'a> {
 
 /// The lanes on the stage, from top to bottom.
 fn on_stage<'a>(loops: &'a LoopLab, palette: &PanelPalette) -> Vec<ShownLane<'a>> {
-    let lane = |&place: &usize| {
-        let (rgba, dash) = palette.theme.loop_style(place);
-        let (lane, is_selected) = (&loops.lanes()[place], place == loops.selected());
-        ShownLane { place, lane, colour: colour(rgba), dash, is_selected }
+    let lane = |&index: &usize| {
+        let (rgba, dash) = palette.theme.loop_style(index);
+        let (lane, is_selected) = (&loops.lanes()[index], index == loops.selected());
+        ShownLane { index, lane, colour: colour(rgba), dash, is_selected }
     };
     loops.on_stage().iter().map(lane).collect()
 }
@@ -126,7 +126,7 @@ fn on_stage<'a>(loops: &'a LoopLab, palette: &PanelPalette) -> Vec<ShownLane<'a>
 /// The names of the lines.
 fn legend_entries(loops: &LoopLab, lanes: &[ShownLane<'_>], palette: &PanelPalette) -> Vec<Entry> {
     let entry = |lane: &ShownLane<'_>| {
-        let name = format!("{} {}", lane.place + 1, lane.lane.card().name);
+        let name = format!("{} {}", lane.index + 1, lane.lane.card().name);
         let off = moments::off_the_plot(loops, lane.lane);
         let name = name + &off.map(|words| format!(" ({words})")).unwrap_or_default();
         Entry { name, colour: lane.colour, dash: lane.dash, is_front: lane.is_selected }

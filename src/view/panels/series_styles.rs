@@ -11,9 +11,9 @@ use crate::view::theme::colour;
 
 /// Whose curves the plots show.
 pub(super) struct SeriesStyles {
-    /// By the place that a track calls its entry.
+    /// By the index that a track calls its entry.
     pub(super) series: Vec<SeriesStyle>,
-    /// The place of the one in front.
+    /// The index of the one in front.
     pub(super) front: usize,
     /// Whether there are several at a time, which are told apart by their digits.
     pub(super) is_race: bool,
@@ -64,8 +64,8 @@ impl SeriesStyles {
 
     fn of_loops(studio: &Studio, loops: &LoopLab) -> Self {
         let palette = palette_of(studio.display().theme);
-        let series = POLICIES.iter().enumerate().map(|(place, card)| {
-            let (rgba, dash) = palette.theme.loop_style(place);
+        let series = POLICIES.iter().enumerate().map(|(index, card)| {
+            let (rgba, dash) = palette.theme.loop_style(index);
             SeriesStyle { id: card.id.into(), name: card.name.into(), colour: colour(rgba), dash }
         });
         Self {

@@ -41,16 +41,16 @@ const HALF_LETTER: f32 = 6.0;
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<Command>) {
     let top = ui.cursor().top();
-    let Some(place) = studio.mapped_parameter() else {
+    let Some(index) = studio.mapped_parameter() else {
         ui.label(
             RichText::new("This body has no parameter that a map could show.")
                 .color(palette(ui).dim),
         );
         return;
     };
-    head(ui, studio, place, commands);
+    head(ui, studio, index, commands);
     let map = studio.viewer().stability_map();
-    let wanted = (studio.view().body, place);
+    let wanted = (studio.view().body, index);
     let map = map.filter(|map| (map.request.body, map.request.parameter) == wanted);
     let Some(map) = map else {
         ui.label(RichText::new("Working out the map …").color(palette(ui).dim));
@@ -73,26 +73,26 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
     ui.add(Label::new(words)).on_hover_text(map.each_here());
 }
 
-fn parameter(studio: &Studio, place: usize) -> &Parameter {
-    &studio.scene().bodies[studio.view().body].kind.parameters[place]
+fn parameter(studio: &Studio, index: usize) -> &Parameter {
+    &studio.scene().bodies[studio.view().body].kind.parameters[index]
 }
 
 /// The title, and the menu of the parameters.
-fn head(ui: &mut Ui, studio: &Studio, place: usize, commands: &mut Vec<Command>) {
+fn head(ui: &mut Ui, studio: &Studio, index: usize, commands: &mut Vec<Command>) {
     let body = &studio.scene().bodies[studio.view().body];
     ui.horizontal(|ui| {
         let title = RichText::new(format!("Stability: {} over", body.name));
         ui.add(Label::new(title.font(strong_font(13.0))).truncate());
-        let name = |place: usize| full_name(parameter(studio, place));
-        let menu = ComboBox::from_id_salt("mapped parameter").selected_text(name(place));
+        let name = |index: usize| full_name(parameter(studio, index));
+        let menu = ComboBox::from_id_salt("mapped parameter").selected_text(name(index));
         let menu = menu.show_ui(ui, |ui| {
             for other in studio.mappable_parameters() {
-                if ui.selectable_label(other == place, name(other)).clicked() {
+                if ui.selectable_label(other == index, name(other)).clicked() {
                     commands.push(Command::Run(RunCommand::MapParameter(other)));
                 }
             }
         });
-        let about = format!("parameter of the stability map: {}", name(place));
+        let about = format!("parameter of the stability map: {}", name(index));
         menu.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &about));
     });
 }
@@ -244,8 +244,8 @@ fn seen_lines(studio: &Studio, map: &StabilityMap, area: &PlotArea) -> Vec<(f64,
 
 /// The limit of a method on the map, as a formula: `ω h < 2`.
 fn limit(map: &StabilityMap, entry: usize) -> Option<String> {
-    let place = map.request.specs.iter().position(|(listed, _)| *listed == entry)?;
-    Some(format!("ω h < {}", round(map.regions.get(place)?.limit?, 4)))
+    let index = map.request.specs.iter().position(|(listed, _)| *listed == entry)?;
+    Some(format!("ω h < {}", round(map.regions.get(index)?.limit?, 4)))
 }
 
 /// The name of a method after the digit that picks it, if there is one.
@@ -331,11 +331,11 @@ fn cross(
     let Some(at) = cross_at(studio, map, area) else { return };
     let response = ui.interact(area.rect, Id::unique(CROSS_ID), Sense::click_and_drag());
     let (palette, painter) = (palette(ui), ui.painter().with_clip_rect(area.rect));
-    let place = map.request.parameter;
-    let value = studio.race().values(map.request.body)[place];
+    let index = map.request.parameter;
+    let value = studio.race().values(map.request.body)[index];
     let here = format!(
         "you are here, arrow keys move it: {}",
-        point_in_words(studio, place, studio.clock().tick_hz(), value)
+        point_in_words(studio, index, studio.clock().tick_hz(), value)
     );
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, &here));
     // Where it is let go may be the first that is heard of the way there.

@@ -131,39 +131,39 @@ impl<R> Column<R> {
 }
 
 impl<R: TableRow> Column<R> {
-    /// The keys that select the first ten places; a row without a place has none.
-    pub(super) fn key(about: &str, place: impl Fn(&R) -> Option<usize> + Copy + 'static) -> Self {
+    /// The keys that select the first ten indices; a row without an index has none.
+    pub(super) fn key(about: &str, index: impl Fn(&R) -> Option<usize> + Copy + 'static) -> Self {
         let show = move |ui: &mut Ui, row: &R, rect: Rect, _: &mut Vec<Command>| {
-            let Some(place) = place(row).filter(|place| *place < 10) else { return };
+            let Some(index) = index(row).filter(|index| *index < 10) else { return };
             let colour = match row.is_selected() {
                 true => palette(ui).accent,
                 false => row.text(ui),
             };
-            let (at, key) = (rect.left_center(), format!("{}", (place + 1) % 10));
+            let (at, key) = (rect.left_center(), format!("{}", (index + 1) % 10));
             keycap::paint(ui, at.x, at.y, &key, colour);
         };
-        Self::shown("Key", 26.0, about, show, move |row| by_place(place(row)))
+        Self::shown("Key", 26.0, about, show, move |row| by_index(index(row)))
     }
 
-    /// The lines of rows in the plots: colour and dash. A row without a place has none.
+    /// The lines of rows in the plots: colour and dash. A row without an index has none.
     pub(super) fn line(
         about: &str,
-        place: impl Fn(&R) -> Option<usize> + Copy + 'static,
+        index: impl Fn(&R) -> Option<usize> + Copy + 'static,
         style: impl Fn(&R, &PanelPalette) -> (Color32, [f32; 2]) + 'static,
     ) -> Self {
         let show = move |ui: &mut Ui, row: &R, rect: Rect, _: &mut Vec<Command>| {
-            if place(row).is_some() {
+            if index(row).is_some() {
                 let (colour, dash) = style(row, palette(ui));
                 let line = swatch(rect.left_center(), rect.width() - 4.0, dash, colour);
                 chart::paint(ui.painter(), &line);
             }
         };
-        Self::shown("line", 36.0, about, show, move |row| by_place(place(row))).headed("")
+        Self::shown("line", 36.0, about, show, move |row| by_index(index(row))).headed("")
     }
 }
 
-fn by_place(place: Option<usize>) -> SortKey {
-    place.map(|place| place as f64).into()
+fn by_index(index: Option<usize>) -> SortKey {
+    index.map(|index| index as f64).into()
 }
 
 /// A table.

@@ -88,16 +88,16 @@ fn scene_menu(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
             commands.push(Command::View(ViewCommand::AskForSpring));
         }
         ui.separator();
-        for (place, name) in studio.scene_list().names().enumerate() {
-            let is_open = studio.scene_list().open() == Some(place);
-            let title = SCENES.get(place).and_then(|scene| Scene::built_in(scene.name));
+        for (index, name) in studio.scene_list().names().enumerate() {
+            let is_open = studio.scene_list().open() == Some(index);
+            let title = SCENES.get(index).and_then(|scene| Scene::built_in(scene.name));
             let title = title.map(|scene| scene.title).unwrap_or_default();
             let mut line = egui::text::LayoutJob::default();
             let part = |font, colour| egui::TextFormat::simple(font, colour);
             line.append(&name, 0.0, part(strong_font(TYPE), palette(ui).text));
             line.append(&title, 12.0, part(egui::FontId::proportional(TYPE), palette(ui).dim));
             if ui.selectable_label(is_open, line).clicked() {
-                commands.push(Command::Stage(StageCommand::Scene(place)));
+                commands.push(Command::Stage(StageCommand::Scene(index)));
             }
         }
     });

@@ -27,11 +27,11 @@ impl Corners {
         self.counts
     }
 
-    /// The place of a point.
-    pub(super) fn at(&self, place: [usize; 2]) -> [f64; 2] {
+    /// The place of the point with these indices.
+    pub(super) fn at(&self, index: [usize; 2]) -> [f64; 2] {
         std::array::from_fn(|axis| {
             let [low, high] = self.ends[axis];
-            low + (high - low) * place[axis] as f64 / (self.counts[axis] - 1) as f64
+            low + (high - low) * index[axis] as f64 / (self.counts[axis] - 1) as f64
         })
     }
 }
@@ -133,8 +133,8 @@ fn chains(mut segments: Vec<[Side; 2]>) -> Vec<Vec<Side>> {
         loop {
             let (front, back) = (line[0], line[line.len() - 1]);
             let touches = |segment: &[Side; 2]| segment.contains(&front) || segment.contains(&back);
-            let Some(place) = segments.iter().position(touches) else { break };
-            let [a, b] = segments.swap_remove(place);
+            let Some(index) = segments.iter().position(touches) else { break };
+            let [a, b] = segments.swap_remove(index);
             match () {
                 () if a == back => line.push_back(b),
                 () if b == back => line.push_back(a),
@@ -158,7 +158,7 @@ mod tests {
         let holds = |[x, y]: [f64; 2]| x * x + y * y < 1.0;
         let region = at_once(contour(
             &corners,
-            |place| holds(corners.at(place)),
+            |index| holds(corners.at(index)),
             |x, j| holds([x, corners.at([0, j])[1]]),
             holds,
             (&Meter::default(), [1; 2]),

@@ -196,11 +196,11 @@ fn a_map_found_in_slices_is_that_of_one_go_and_a_moved_point_keeps_what_is_found
     const SLICE: u64 = 50_000;
     let scene = quarter_car();
     let body = &scene.bodies[0];
-    let (place, _) = body.kind.parameter("k").unwrap();
+    let (index, _) = body.kind.parameter("k").unwrap();
     let specs = ["rk4", "implicit-midpoint"].map(|id| LaneSpec::plain(method(id).unwrap()));
     let request = |tick_hz| {
         let specs = specs.into_iter().enumerate().collect();
-        MapRequest::new((0, place), body, &body.values, tick_hz, specs)
+        MapRequest::new((0, index), body, &body.values, tick_hz, specs)
     };
     let found = |slice: u64, moves: bool| {
         let mut work = MapWork::new(body.kind.clone(), request(60));
@@ -229,9 +229,9 @@ fn a_map_found_in_slices_is_that_of_one_go_and_a_moved_point_keeps_what_is_found
 /// The map of the first body of a scene over the parameter with this key.
 fn map_of(scene: &Scene, key: &str, tick_hz: u32, ids: &[&str]) -> StabilityMap {
     let body = &scene.bodies[0];
-    let (place, _) = body.kind.parameter(key).unwrap();
+    let (index, _) = body.kind.parameter(key).unwrap();
     let specs = ids.iter().map(|id| LaneSpec::plain(method(id).unwrap())).enumerate().collect();
-    let request = MapRequest::new((0, place), body, &body.values, tick_hz, specs);
+    let request = MapRequest::new((0, index), body, &body.values, tick_hz, specs);
     let mut work = MapWork::new(body.kind.clone(), request);
     while !work.is_done() {
         work.advance(u64::MAX);
@@ -376,9 +376,9 @@ fn a_body_without_rest_has_no_map_and_a_pendulum_has_that_of_its_small_swings() 
     for (name, is_possible) in [("orbit", false), ("pendulum", true), ("chain", true)] {
         let scene = Scene::built_in(name).unwrap();
         let body = &scene.bodies[0];
-        let (place, _) = body.kind.parameter(&body.kind.leading).unwrap();
+        let (index, _) = body.kind.parameter(&body.kind.leading).unwrap();
         let specs = vec![(0, LaneSpec::plain(method("semi-implicit-euler").unwrap()))];
-        let request = MapRequest::new((0, place), body, &body.values, 60, specs);
+        let request = MapRequest::new((0, index), body, &body.values, 60, specs);
         let mut work = MapWork::new(body.kind.clone(), request);
         while !work.is_done() {
             work.advance(u64::MAX);

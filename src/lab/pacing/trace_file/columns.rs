@@ -41,7 +41,7 @@ pub(super) struct Columns {
 }
 
 struct Column {
-    place: usize,
+    index: usize,
     name: String,
 }
 
@@ -66,15 +66,15 @@ pub(super) struct Cells<'a> {
 impl Columns {
     /// Finds the columns by the header, whatever the case of its letters.
     pub(super) fn find(header: &StringRecord) -> Result<Self, Fault> {
-        let place = |name: &str| header.iter().position(|h| h.trim().eq_ignore_ascii_case(name));
+        let index = |name: &str| header.iter().position(|h| h.trim().eq_ignore_ascii_case(name));
         let column = |name: &str| {
-            let place = place(name).or_else(|| place(name.strip_prefix("Ms")?))?;
-            Some(Column { place, name: header[place].trim().to_owned() })
+            let index = index(name).or_else(|| index(name.strip_prefix("Ms")?))?;
+            Some(Column { index, name: header[index].trim().to_owned() })
         };
         let times = |&(span, began, displayed): &(Span, &str, Option<&str>)| {
             let displayed = match displayed {
                 Some(name) => Some(column(name)?),
-                None => place(BESIDE_FRAMETIME).map(|_| None)?,
+                None => index(BESIDE_FRAMETIME).map(|_| None)?,
             };
             Some((span, column(began)?, displayed))
         };
@@ -87,10 +87,10 @@ impl Columns {
             began,
             displayed,
             dropped: column("Dropped"),
-            frame_type: place("FrameType"),
-            application: place("Application"),
-            process: place("ProcessID"),
-            swap_chain: place("SwapChainAddress"),
+            frame_type: index("FrameType"),
+            application: index("Application"),
+            process: index("ProcessID"),
+            swap_chain: index("SwapChainAddress"),
             count: header.len(),
         })
     }
@@ -103,7 +103,7 @@ impl Columns {
         } else if cells > header {
             return Err(Fault::ManyCells { cells, header });
         }
-        let text = |place: Option<usize>| place.map_or("", |place| row[place].trim());
+        let text = |index: Option<usize>| index.map_or("", |index| row[index].trim());
         let dropped = self.dropped.as_ref().map(|column| column.flag(row)).transpose()?;
         let began_ns = self.began.time(row)?;
         let displayed_ns = match &self.displayed {
@@ -126,12 +126,12 @@ impl Columns {
 
 impl Column {
     fn time(&self, row: &StringRecord) -> Result<Option<i64>, Fault> {
-        milliseconds::nanoseconds(&row[self.place])
+        milliseconds::nanoseconds(&row[self.index])
             .map_err(|fault| Fault::Cell { column: self.name.clone(), fault })
     }
 
     fn flag(&self, row: &StringRecord) -> Result<bool, Fault> {
-        match row[self.place].trim() {
+        match row[self.index].trim() {
             "1" => Ok(true),
             "0" => Ok(false),
             cell => Err(Fault::NotAFlag { column: self.name.clone(), cell: clip(cell) }),

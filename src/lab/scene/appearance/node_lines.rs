@@ -52,8 +52,8 @@ fn of_grid(Grid { columns, rows, .. }: Grid) -> Vec<NodeLine> {
 fn of_lists(lists: &Lists) -> Vec<NodeLine> {
     let drawn: Vec<usize> = some(lists.springs.len(), MAX_SPRINGS).collect();
     let mut at_node = vec![Vec::new(); lists.nodes.len()];
-    for &place in drawn.iter().rev() {
-        lists.springs[place].between.iter().for_each(|&end| at_node[end].push(place));
+    for &index in drawn.iter().rev() {
+        lists.springs[index].between.iter().for_each(|&end| at_node[end].push(index));
     }
     let mut is_drawn = vec![false; lists.springs.len()];
     let mut lines = Vec::new();

@@ -15,8 +15,8 @@ const MIN_REACH: f64 = 16.0;
 pub(super) struct Row<'l> {
     /// The body's index in the scene.
     pub(super) body: usize,
-    /// The parameter's place among those of its kind.
-    pub(super) place: usize,
+    /// The parameter's index among those of its kind.
+    pub(super) index: usize,
     pub(super) parameter: &'l Parameter,
     /// Its value now, and in the scene as it was opened; `None` of a curve, which is no number.
     pub(super) values: Option<Values>,
@@ -38,13 +38,13 @@ impl Values {
 pub(super) fn rows<'l>(studio: &'l Studio, body: usize) -> Vec<Row<'l>> {
     let opened = &studio.scene_as_opened().bodies[body];
     let (present, next) = (studio.race().values(body), &studio.scene().bodies[body].values);
-    let row = |(place, parameter): (usize, &'l Parameter)| {
+    let row = |(index, parameter): (usize, &'l Parameter)| {
         let is_number = !matches!(parameter.range, Range::Curve { .. });
         let values = is_number.then(|| Values {
-            present: if parameter.acts == Acts::AtStart { next[place] } else { present[place] },
-            opened: opened.values[place],
+            present: if parameter.acts == Acts::AtStart { next[index] } else { present[index] },
+            opened: opened.values[index],
         });
-        Row { body, place, parameter, values }
+        Row { body, index, parameter, values }
     };
     let mut rows: Vec<Row<'l>> = opened.kind.parameters.iter().enumerate().map(row).collect();
     rows.sort_by_key(|row| row.parameter.acts == Acts::AtStart);
@@ -112,15 +112,15 @@ mod tests {
             let studio = Studio::new(Scene::built_in(scene.name).unwrap());
             for (index, body) in studio.scene().bodies.iter().enumerate() {
                 let rows = rows(&studio, index);
-                let mut places: Vec<usize> = rows.iter().map(|row| row.place).collect();
-                places.sort_unstable();
-                assert_eq!(places, (0..body.kind.parameters.len()).collect::<Vec<_>>());
+                let mut indices: Vec<usize> = rows.iter().map(|row| row.index).collect();
+                indices.sort_unstable();
+                assert_eq!(indices, (0..body.kind.parameters.len()).collect::<Vec<_>>());
                 for row in &rows {
-                    assert_eq!(row.parameter, &body.kind.parameters[row.place]);
+                    assert_eq!(row.parameter, &body.kind.parameters[row.index]);
                     let is_curve = matches!(row.parameter.range, Range::Curve { .. });
                     assert_eq!(row.values.is_none(), is_curve, "{}", row.parameter.key);
                     let Some(values) = row.values else { continue };
-                    assert!(!values.differ() && values.present == body.values[row.place]);
+                    assert!(!values.differ() && values.present == body.values[row.index]);
                 }
                 let at_start = |row: &Row| row.parameter.acts == Acts::AtStart;
                 assert!(rows.is_sorted_by_key(at_start));

@@ -43,11 +43,11 @@ pub(super) fn of<'a>(studio: &Studio) -> Vec<Column<Row<'a>>> {
 
 /// Key, line and method.
 fn marks<'a>() -> Vec<Column<Row<'a>>> {
-    let place = |row: &Row<'a>| row.is_first.then_some(row.entry);
+    let index = |row: &Row<'a>| row.is_first.then_some(row.entry);
     let about = "the key that switches to this method, or selects its lane in a race";
-    let key = Column::key(about, place);
+    let key = Column::key(about, index);
     let about = "the line of this method in the plots and on the stage";
-    let line = Column::line(about, place, |row: &Row<'a>, palette| {
+    let line = Column::line(about, index, |row: &Row<'a>, palette| {
         let (strong, dash) = palette.style(row.studio.entries(), row.spec);
         (if row.flown.is_some() { strong } else { strong.gamma_multiply(0.7) }, dash)
     });

@@ -116,7 +116,7 @@ impl<'a> Row<'a> {
         self.flown_body().is_some_and(|body| body.stepper.energy().is_some())
     }
 
-    /// The metric at this place of [`METRICS`], of the body, if it is flown.
+    /// The metric with this index in [`METRICS`], of the body, if it is flown.
     pub(super) fn measure(&self, metric: usize) -> Option<f64> {
         (METRICS[metric].measure)(self.flown_body()?, self.truth())
     }

@@ -49,6 +49,6 @@ pub(super) fn text_of(
 }
 
 fn text(outcome: Outcome, wordings: Vec<String>) -> VerdictText {
-    let rank = Outcome::ALL.iter().position(|known| *known == outcome).map(|place| place as f64);
+    let rank = Outcome::ALL.iter().position(|known| *known == outcome).map(|index| index as f64);
     VerdictText { sign: Some((Sign::of(outcome), outcome.severity())), wordings, rank }
 }

@@ -26,8 +26,8 @@ const METRICS: [MetricColumn; 8] = [
 
 /// Every column, from left to right.
 pub(super) fn of<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
-    let place = |row: &Row<'a>| Some(row.place);
-    let key = Column::key("the key that selects this loop and brings it on the stage", place);
+    let index = |row: &Row<'a>| Some(row.index);
+    let key = Column::key("the key that selects this loop and brings it on the stage", index);
     let on_stage = Column::shown(
         "on the stage",
         22.0,
@@ -36,7 +36,7 @@ pub(super) fn of<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
         |row| SortKey::Number(if row.is_on_stage { 0.0 } else { 1.0 }),
     );
     let about = "the line of this loop in the plots and on the stage";
-    let line = Column::line(about, place, |row: &Row<'a>, palette| {
+    let line = Column::line(about, index, |row: &Row<'a>, palette| {
         let (strong, dash) = row.style(palette);
         (if row.is_on_stage { strong } else { strong.gamma_multiply(0.7) }, dash)
     });
@@ -47,7 +47,7 @@ pub(super) fn of<'a>(loops: &LoopLab) -> Vec<Column<Row<'a>>> {
         |ui, row: &Row<'a>, rect, _| {
             show_words(ui, rect, row.lane.card().name, row.is_selected(), row.text(ui));
         },
-        |row| SortKey::Number(row.place as f64),
+        |row| SortKey::Number(row.index as f64),
     );
     let about = "what this loop does to motion at this tick rate on this display; sorted from best to worst";
     let display = loops.traces()[loops.trace()].name();

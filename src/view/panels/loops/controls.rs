@@ -75,11 +75,11 @@ pub(in crate::view::panels) fn trace_menu(
     let menu = menu.height(480.0);
     let response = menu.show_ui(ui, |ui| {
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
-        for (place, trace) in loops.traces().iter().enumerate() {
-            let is_chosen = place == loops.trace();
+        for (index, trace) in loops.traces().iter().enumerate() {
+            let is_chosen = index == loops.trace();
             let label = ui.selectable_label(is_chosen, trace.name());
             if label.on_hover_text(about_trace(trace.name())).clicked() {
-                commands.push(Command::Loop(LoopCommand::Trace(place)));
+                commands.push(Command::Loop(LoopCommand::Trace(index)));
             }
         }
     });

@@ -27,7 +27,7 @@ pub(super) fn round_up(value: f64) -> f64 {
 
 /// The errors of the last frames of a lane in milliseconds, from the present frame back.
 fn errors_ms(loops: &LoopLab, lane: &ShownLane<'_>) -> impl Iterator<Item = f64> {
-    let until = lane.lane.frame_at(loops.now_ns()).map_or(0, |place| place + 1);
+    let until = lane.lane.frame_at(loops.now_ns()).map_or(0, |index| index + 1);
     let frames = lane.lane.frames()[..until].iter().rev().take(FRAMES);
     frames.map(|frame| frame.animation_error_ms)
 }

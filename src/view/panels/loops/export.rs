@@ -14,7 +14,7 @@ pub(in crate::view::panels) fn csv(studio: &Studio) -> Vec<String> {
 }
 
 fn of_lab(loops: &LoopLab) -> Vec<String> {
-    let lanes = loops.on_stage().iter().map(|&place| &loops.lanes()[place]);
+    let lanes = loops.on_stage().iter().map(|&index| &loops.lanes()[index]);
     let frames = lanes.flat_map(|lane| {
         lane.frames().iter().enumerate().map(move |(number, frame)| {
             let displayed_ms = frame.displayed_ns as f64 / 1e6;

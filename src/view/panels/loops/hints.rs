@@ -14,10 +14,10 @@ const MANY_PERCENT: f64 = 1.0;
 
 /// What is to be seen, and what to do next. Keys stand between backticks.
 pub(in crate::view::panels) fn parts(loops: &LoopLab) -> [String; 2] {
-    let place = |id: &str| POLICIES.iter().position(|card| card.id == id).unwrap_or_default();
+    let index = |id: &str| POLICIES.iter().position(|card| card.id == id).unwrap_or_default();
     let hz = |trace: usize| round(loops.traces()[trace].refresh().hz(), 4);
     let next = (loops.trace() + 1) % loops.traces().len();
-    let (raw, smooth) = (place(RAW), place(SMOOTH));
+    let (raw, smooth) = (index(RAW), index(SMOOTH));
     let is_new = loops.selected() == raw;
     if is_new && loops.traces()[loops.trace()].name() == EDGE {
         let next = hz(next);

@@ -186,7 +186,7 @@ fn hover(
         ui.label(egui::RichText::new(when).font(strong_font(12.5)));
         for lane in lanes {
             let frames = lane.lane.frames();
-            let Some(frame) = lane.lane.frame_at(at_ns).map(|place| &frames[place]) else {
+            let Some(frame) = lane.lane.frame_at(at_ns).map(|index| &frames[index]) else {
                 continue;
             };
             let late_ms = at_ns as f64 / 1e6 - frame.shown_ms;

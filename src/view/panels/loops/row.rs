@@ -13,15 +13,15 @@ use crate::view::theme::{PanelPalette, TYPE, colour};
 /// A loop as a row.
 pub(super) struct Row<'a> {
     loops: &'a LoopLab,
-    pub(super) place: usize,
+    pub(super) index: usize,
     pub(super) lane: &'a LoopLane,
     pub(super) is_on_stage: bool,
     pub(super) verdict: VerdictText,
 }
 
 impl<'a> Row<'a> {
-    pub(super) fn of(loops: &'a LoopLab, place: usize) -> Self {
-        let lane = &loops.lanes()[place];
+    pub(super) fn of(loops: &'a LoopLab, index: usize) -> Self {
+        let lane = &loops.lanes()[index];
         let verdict = lane.verdict(loops.scene().tick_hz);
         let rank = match verdict.severity {
             Severity::Fine => Some(0.0),
@@ -31,19 +31,19 @@ impl<'a> Row<'a> {
         };
         let sign = Some((Sign::of_severity(verdict.severity), verdict.severity));
         let verdict = VerdictText { sign, wordings: verdict.wordings(), rank };
-        let is_on_stage = loops.on_stage().contains(&place);
-        Self { loops, place, lane, is_on_stage, verdict }
+        let is_on_stage = loops.on_stage().contains(&index);
+        Self { loops, index, lane, is_on_stage, verdict }
     }
 
     /// Its colour and dash in the plots.
     pub(super) fn style(&self, palette: &PanelPalette) -> (Color32, [f32; 2]) {
-        let (rgba, dash) = palette.theme.loop_style(self.place);
+        let (rgba, dash) = palette.theme.loop_style(self.index);
         (colour(rgba), dash)
     }
 
     /// Shows whether the loop is on the stage. A click changes it.
     pub(super) fn eye(&self, ui: &Ui, rect: Rect, commands: &mut Vec<Command>) {
-        let id = egui::Id::unique(("loop on the stage", self.place));
+        let id = egui::Id::unique(("loop on the stage", self.index));
         let response = ui.interact(rect, id, Sense::click());
         let name = format!("{} on the stage", self.lane.card().name);
         let is_on = self.is_on_stage;
@@ -67,18 +67,18 @@ impl<'a> Row<'a> {
         }
         let about = if is_on { "take it off the stage" } else { "bring it on the stage" };
         if response.on_hover_text(about).clicked() {
-            commands.push(Command::Loop(LoopCommand::ToggleOnStage(self.place)));
+            commands.push(Command::Loop(LoopCommand::ToggleOnStage(self.index)));
         }
     }
 }
 
 impl TableRow for Row<'_> {
     fn spoken(&self) -> String {
-        format!("{} {}, {}", self.place + 1, self.lane.card().name, self.verdict.whole())
+        format!("{} {}, {}", self.index + 1, self.lane.card().name, self.verdict.whole())
     }
 
     fn is_selected(&self) -> bool {
-        self.place == self.loops.selected()
+        self.index == self.loops.selected()
     }
 
     fn colours(&self, palette: &PanelPalette) -> [Color32; 2] {
@@ -86,7 +86,7 @@ impl TableRow for Row<'_> {
     }
 
     fn command(&self) -> Option<Command> {
-        Some(Command::Loop(LoopCommand::Select(self.place)))
+        Some(Command::Loop(LoopCommand::Select(self.index)))
     }
 
     /// The loop's card and its verdict.

@@ -22,8 +22,8 @@ pub(super) fn full_name(parameter: &Parameter) -> String {
 }
 
 /// A point of the map: `20 Hz, k = 90 N/m`.
-pub(super) fn point_in_words(studio: &Studio, place: usize, tick_hz: u32, value: f64) -> String {
-    let parameter = super::parameter(studio, place);
+pub(super) fn point_in_words(studio: &Studio, index: usize, tick_hz: u32, value: f64) -> String {
+    let parameter = super::parameter(studio, index);
     let text =
         format!("{tick_hz} Hz, {} = {} {}", letter(parameter), round(value, 3), parameter.unit);
     text.trim_end().to_owned()
