@@ -12,7 +12,7 @@ use crate::view::{GpuError, ReadbackError};
 
 /// What the exit code tells of an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum ExitReason {
     /// The run failed.
     Failed,
     /// The request cannot be met as it was made.
@@ -27,41 +27,41 @@ enum Kind {
 #[derive(Debug, thiserror::Error)]
 #[error("{message}")]
 pub struct Error {
-    kind: Kind,
+    kind: ExitReason,
     message: String,
     /// The mistakes of a scene file, which are reported with its lines.
     scene: Option<SceneErrors>,
 }
 
 impl Error {
-    fn new(kind: Kind, message: impl Display) -> Self {
+    fn new(kind: ExitReason, message: impl Display) -> Self {
         Self { kind, message: message.to_string(), scene: None }
     }
 
     /// A run that failed.
     pub(super) fn failed(message: impl Display) -> Self {
-        Self::new(Kind::Failed, message)
+        Self::new(ExitReason::Failed, message)
     }
 
     /// A mistake in the request. The message ends with a remedy.
     pub(super) fn mistake(message: impl Display) -> Self {
-        Self::new(Kind::Mistake, message)
+        Self::new(ExitReason::Mistake, message)
     }
 
     /// An interrupt after part of the work, such as `3 of 10 frames`.
     pub(super) fn interrupted_after(done: impl Display) -> Self {
-        Self::new(Kind::Interrupted, format!("interrupted after {done}"))
+        Self::new(ExitReason::Interrupted, format!("interrupted after {done}"))
     }
 
     /// An interrupt of work whose result is written whole or not at all.
     pub(super) fn nothing_written() -> Self {
-        Self::new(Kind::Interrupted, "interrupted; nothing was written")
+        Self::new(ExitReason::Interrupted, "interrupted; nothing was written")
     }
 
     /// A failed write, with this message.
     pub(super) fn unwritten(error: &io::Error, message: impl Display) -> Self {
         let is_closed = error.kind() == io::ErrorKind::BrokenPipe;
-        Self::new(if is_closed { Kind::ClosedPipe } else { Kind::Failed }, message)
+        Self::new(if is_closed { ExitReason::ClosedPipe } else { ExitReason::Failed }, message)
     }
 
     /// A conversion of the system's errors while `doing`, such as `write`, the file or the directory at `path`, which
@@ -90,26 +90,27 @@ impl Error {
 
     /// The same error as a mistake, unless it is an interrupt.
     pub(super) fn or_mistake(self) -> Self {
-        let kind = if self.kind == Kind::Interrupted { self.kind } else { Kind::Mistake };
+        let kind =
+            if self.kind == ExitReason::Interrupted { self.kind } else { ExitReason::Mistake };
         Self { kind, ..self }
     }
 
     pub(super) fn is_mistake(&self) -> bool {
-        self.kind == Kind::Mistake
+        self.kind == ExitReason::Mistake
     }
 
     /// Whether the reader of the command's output closed the pipe.
     pub(super) fn is_closed_pipe(&self) -> bool {
-        self.kind == Kind::ClosedPipe
+        self.kind == ExitReason::ClosedPipe
     }
 
     /// The exit code of the process: 1 for a run that failed, 2 for a mistake in the request, 130 for an
     /// interrupt.
     pub fn exit_code(&self) -> u8 {
         match self.kind {
-            Kind::Failed | Kind::ClosedPipe => 1,
-            Kind::Mistake => 2,
-            Kind::Interrupted => 130,
+            ExitReason::Failed | ExitReason::ClosedPipe => 1,
+            ExitReason::Mistake => 2,
+            ExitReason::Interrupted => 130,
         }
     }
 
@@ -152,7 +153,7 @@ fn remedy(error: &io::Error, option: &str) -> String {
 
 impl From<SceneErrors> for Error {
     fn from(errors: SceneErrors) -> Self {
-        Self { kind: Kind::Mistake, message: errors.to_string(), scene: Some(errors) }
+        Self { kind: ExitReason::Mistake, message: errors.to_string(), scene: Some(errors) }
     }
 }
 

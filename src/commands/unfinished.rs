@@ -20,10 +20,10 @@ const NOTES: &str = "recordings";
 
 /// A recording that grows.
 pub(super) struct UnfinishedRecording {
-    state: Arc<Mutex<State>>,
+    state: Arc<Mutex<RecordingState>>,
 }
 
-enum State {
+enum RecordingState {
     /// Nothing was written yet. The file will be at this path, or at a free one beside it.
     Wanted(PathBuf),
     /// It is in this file, of which a note says where it is, where one can be made.
@@ -41,7 +41,7 @@ impl UnfinishedRecording {
         };
         let mut name = stem.unwrap_or(OsStr::new("regatta")).to_owned();
         name.push(".unfinished.toml");
-        let state = State::Wanted(recording.with_file_name(name));
+        let state = RecordingState::Wanted(recording.with_file_name(name));
         Self { state: Arc::new(Mutex::new(state)) }
     }
 
@@ -57,7 +57,9 @@ impl UnfinishedRecording {
     /// Removes the file: the recording is whole.
     pub(super) fn finish(self) {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        if let State::Growing { path, note } = std::mem::replace(&mut *state, State::Finished) {
+        if let RecordingState::Growing { path, note } =
+            std::mem::replace(&mut *state, RecordingState::Finished)
+        {
             let gone = fs::remove_file(&path).and_then(|()| note.map_or(Ok(()), Note::remove));
             if let Err(error) = gone {
                 log::info!("cannot remove {}: {error}", path.display());
@@ -66,20 +68,20 @@ impl UnfinishedRecording {
     }
 }
 
-impl State {
+impl RecordingState {
     fn keep(&mut self, text: &str) -> io::Result<()> {
         match self {
-            State::Wanted(path) => {
+            RecordingState::Wanted(path) => {
                 let path = write_file(path, text.as_bytes(), IfExists::Beside)?;
                 let note = notes().and_then(|folder| Note::new(&folder, &path));
                 let note = note.inspect_err(|error| log::info!("no note of it: {error}")).ok();
-                *self = State::Growing { path, note };
+                *self = RecordingState::Growing { path, note };
                 Ok(())
             }
-            State::Growing { path, .. } => {
+            RecordingState::Growing { path, .. } => {
                 write_file(path, text.as_bytes(), IfExists::Replace).map(drop)
             }
-            State::Finished => Ok(()),
+            RecordingState::Finished => Ok(()),
         }
     }
 }
@@ -138,7 +140,7 @@ mod tests {
         let [older, file] =
             ["run.unfinished.toml", "run.unfinished-2.toml"].map(|name| folder.path().join(name));
         fs::write(&older, "kept").unwrap();
-        let mut state = State::Wanted(older.clone());
+        let mut state = RecordingState::Wanted(older.clone());
         for text in ["some", "some more"] {
             state.keep(text).unwrap();
             assert_eq!(fs::read_to_string(&file).unwrap(), text);
@@ -174,7 +176,7 @@ mod tests {
         ] {
             let unfinished = UnfinishedRecording::beside(Path::new(recording));
             let state = unfinished.state.lock().unwrap();
-            assert!(matches!(&*state, State::Wanted(path) if path == Path::new(name)));
+            assert!(matches!(&*state, RecordingState::Wanted(path) if path == Path::new(name)));
         }
     }
 }

@@ -33,7 +33,7 @@ mod worker;
 pub use advice::{
     Adviser, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS, MethodAdvice, recommended,
 };
-pub use amplitude::Change;
+pub use amplitude::Trend;
 pub use chase_finding::ChaseFinding;
 pub use criterion::{CRITERIA, Criterion};
 pub use energy_finding::EnergyFinding;

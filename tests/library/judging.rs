@@ -353,7 +353,7 @@ fn the_body_that_fares_worst_speaks_and_all_are_counted() {
     let stiff = "[[spring]]\nname = \"stiff\"\nmass_kg = 1\nstiffness_n_per_m = 1e6";
     let ship = "[[ship]]\nname = \"ship\"\nthrust_n = 2000\ndrag_n_s_per_m = 100\nmass_kg = 1000";
     let of = |bodies: &[&str]| scene(20.0, &bodies.join("\n"));
-    for (bodies, id, place, is_bounded) in [
+    for (bodies, id, index, is_bounded) in [
         (&[free, stiff, ship][..], "explicit-euler", 1, false),
         (&[ship, free], "explicit-euler", 1, false),
         (&[free, ship], "explicit-euler", 0, false),
@@ -363,14 +363,14 @@ fn the_body_that_fares_worst_speaks_and_all_are_counted() {
         let scene = of(bodies);
         let judge = Judge::new(&scene, 1.0);
         let found = judge.verdict(spec(id), 60);
-        assert_eq!(found.body_name, scene.bodies[place].name, "{found}");
-        assert_eq!((found.body, found.long_term.is_bounded), (place, Some(is_bounded)), "{found}");
+        assert_eq!(found.body_name, scene.bodies[index].name, "{found}");
+        assert_eq!((found.body, found.long_term.is_bounded), (index, Some(is_bounded)), "{found}");
         let alone: Vec<Verdict> =
             bodies.iter().map(|body| Judge::new(&of(&[body]), 1.0).verdict(spec(id), 60)).collect();
         assert_eq!(found.evaluations, alone.iter().map(|v| v.evaluations).sum::<u64>());
-        assert_eq!(found.finding, alone[place].finding);
+        assert_eq!(found.finding, alone[index].finding);
         assert!(found.to_string().contains(&found.body_name));
-        assert!(!alone[place].to_string().contains(&found.body_name));
+        assert!(!alone[index].to_string().contains(&found.body_name));
     }
 }
 

@@ -194,8 +194,8 @@ struct Shown {
 fn shown(timeline: &Timeline) -> Shown {
     let race = timeline.session().race();
     let past: &Past = timeline.past();
-    let samples = |place: usize| {
-        let histories = past.histories(race.entrants()[place].id).iter();
+    let samples = |index: usize| {
+        let histories = past.histories(race.entrants()[index].id).iter();
         histories.map(|history| format!("{:?}", history.samples().collect::<Vec<_>>())).collect()
     };
     Shown {

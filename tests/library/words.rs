@@ -1,8 +1,8 @@
 //! What verdicts say, word by word.
 
 use regatta::lab::analysis::{
-    Change, Comparison, Finding, LongTerm, NoTruth, NotJudged, Outcome, RunFailure, Severity,
-    TOLERANCE, Verdict,
+    Comparison, Finding, LongTerm, NoTruth, NotJudged, Outcome, RunFailure, Severity, TOLERANCE,
+    Trend, Verdict,
 };
 use regatta::lab::studio::KEYS;
 use regatta::manual::chapter;
@@ -13,7 +13,7 @@ const COMPARED: Comparison = Comparison {
     error_at_s: 3.0,
     last_error: 0.2,
     truth_error: 0.0,
-    change: Change::None,
+    change: Trend::None,
     energy_change: None,
     energy_drift_percent: None,
     frequency_error: None,
@@ -93,7 +93,7 @@ fn a_verdict_says_the_number_that_its_outcome_is_about() {
         "stable, out of phase by 25 % after 20 s; grows slowly: swing ×2 in 90 s; a faint mode grows: ×2 in 7 s",
     );
 
-    let gains = Comparison { frequency_error: Some(0.02), change: Change::Grows, ..COMPARED };
+    let gains = Comparison { frequency_error: Some(0.02), change: Trend::Grows, ..COMPARED };
     let of_energy = Comparison { energy_change: Some(0.5), ..gains };
     is(compared(gains), "grows: off by 25 % in 20 s");
     is(compared(of_energy), "gains energy: +50 % in 20 s");
@@ -101,7 +101,7 @@ fn a_verdict_says_the_number_that_its_outcome_is_about() {
         Verdict { long_term: LongTerm { swings: false, ..doubling }, ..compared(of_energy) },
         "gains energy: deviation ×2 in 90 s",
     );
-    let loses = Comparison { energy_change: Some(-0.5), change: Change::Dies, ..COMPARED };
+    let loses = Comparison { energy_change: Some(-0.5), change: Trend::Dies, ..COMPARED };
     is(compared(loses), "loses energy: −50 % in 20 s");
     let all = Comparison { energy_change: Some(-0.998), ..loses };
     is(compared(all), "loses energy: all of it in 20 s");

@@ -48,7 +48,7 @@ impl Limits {
         }
     }
 
-    fn allow(self, difference: &Difference) -> bool {
+    fn allow(self, difference: &PixelDifference) -> bool {
         let percent = 100.0 * difference.off_by_more_than_one as f64 / difference.pixels as f64;
         difference.worst <= self.max_channel && percent <= self.max_pixels_percent
     }
@@ -56,15 +56,15 @@ impl Limits {
 
 /// The difference of two pictures of the same size.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Difference {
+struct PixelDifference {
     pixels: usize,
     off: usize,
     off_by_more_than_one: usize,
     worst: u8,
 }
 
-fn difference(a: &[u8], b: &[u8]) -> Difference {
-    let mut difference = Difference { pixels: a.len() / 4, ..Difference::default() };
+fn difference(a: &[u8], b: &[u8]) -> PixelDifference {
+    let mut difference = PixelDifference { pixels: a.len() / 4, ..PixelDifference::default() };
     if a != b {
         for (a, b) in a.chunks_exact(4).zip(b.chunks_exact(4)) {
             let worst = a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0);
@@ -207,7 +207,10 @@ mod tests {
     fn one_pixel_and_one_level_are_seen() {
         let black = vec![0; 4 * 200];
         let mut other = black.clone();
-        assert_eq!(difference(&black, &other), Difference { pixels: 200, ..Default::default() });
+        assert_eq!(
+            difference(&black, &other),
+            PixelDifference { pixels: 200, ..Default::default() }
+        );
         other[7] = 1;
         let one = difference(&black, &other);
         assert_eq!((one.off, one.off_by_more_than_one, one.worst), (1, 0, 1));

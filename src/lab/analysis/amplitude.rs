@@ -7,7 +7,7 @@ const LEAP: f64 = 1.5;
 
 /// The change of the amplitude within the horizon.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Change {
+pub enum Trend {
     /// Less than can be seen.
     None,
     /// It grows.
@@ -16,24 +16,24 @@ pub enum Change {
     Dies,
 }
 
-impl Change {
+impl Trend {
     /// The change of a swing whose amplitude has changed by this factor.
     pub(super) fn of(amplitude: f64) -> Self {
         match amplitude {
-            a if a >= 1.0 + VISIBLE => Change::Grows,
-            a if a <= 1.0 - VISIBLE => Change::Dies,
-            _ => Change::None,
+            a if a >= 1.0 + VISIBLE => Trend::Grows,
+            a if a <= 1.0 - VISIBLE => Trend::Dies,
+            _ => Trend::None,
         }
     }
 
     /// The change of a swing whose amplitude, in units of the initial one, is `first` in the first quarter and `last` in
     /// the last. A change that happens at once and then stops does not count, unless it is a [leap](LEAP).
     pub(super) fn between(first: f64, last: f64) -> Self {
-        let trend = Change::of(last / first);
-        match Change::of(last) {
-            Change::Grows if trend == Change::Grows || last >= LEAP => Change::Grows,
-            Change::Dies if trend == Change::Dies || last * LEAP <= 1.0 => Change::Dies,
-            _ => Change::None,
+        let trend = Trend::of(last / first);
+        match Trend::of(last) {
+            Trend::Grows if trend == Trend::Grows || last >= LEAP => Trend::Grows,
+            Trend::Dies if trend == Trend::Dies || last * LEAP <= 1.0 => Trend::Dies,
+            _ => Trend::None,
         }
     }
 }
@@ -50,20 +50,20 @@ mod tests {
     #[test]
     fn a_change_goes_on_or_is_a_leap() {
         for (first, last, change) in [
-            (1.0, 1.06, Change::Grows),
-            (1.04, 1.06, Change::None),
-            (1.0, 1.04, Change::None),
-            (1.45, 1.49, Change::None),
-            (1.45, 1.51, Change::Grows),
-            (1.0, 0.94, Change::Dies),
-            (0.96, 0.94, Change::None),
-            (1.0, 0.96, Change::None),
-            (0.69, 0.67, Change::None),
-            (0.69, 0.66, Change::Dies),
+            (1.0, 1.06, Trend::Grows),
+            (1.04, 1.06, Trend::None),
+            (1.0, 1.04, Trend::None),
+            (1.45, 1.49, Trend::None),
+            (1.45, 1.51, Trend::Grows),
+            (1.0, 0.94, Trend::Dies),
+            (0.96, 0.94, Trend::None),
+            (1.0, 0.96, Trend::None),
+            (0.69, 0.67, Trend::None),
+            (0.69, 0.66, Trend::Dies),
             // What grows first and then dies has not grown.
-            (2.0, 1.2, Change::None),
+            (2.0, 1.2, Trend::None),
         ] {
-            assert_eq!(Change::between(first, last), change, "{first} to {last}");
+            assert_eq!(Trend::between(first, last), change, "{first} to {last}");
         }
     }
 }

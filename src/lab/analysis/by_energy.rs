@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use super::amplitude::{Change, amplitude};
+use super::amplitude::{Trend, amplitude};
 use super::energy::Means;
 use super::energy_finding::EnergyFinding;
 use super::limits::VISIBLE;
@@ -59,7 +59,7 @@ pub(super) async fn follow_energy(
     let stop = truth.go_on(&mut followed, horizon, see).await;
     let mut finding = EnergyFinding {
         change: 0.0,
-        trend: Change::None,
+        trend: Trend::None,
         drift_percent: None,
         is_conserved,
         spectral_radius,
@@ -71,11 +71,11 @@ pub(super) async fn follow_energy(
         let drift = if gained > lost { gained } else { -lost };
         finding.drift_percent = is_conserved.then_some(100.0 * drift / scale);
         finding.trend = if is_conserved {
-            Change::between(amplitude(first), amplitude(last))
+            Trend::between(amplitude(first), amplitude(last))
         } else if last > first.max(0.0) + 2.0 * VISIBLE {
-            Change::Grows
+            Trend::Grows
         } else {
-            Change::None
+            Trend::None
         };
     }
     EnergyRun {

@@ -1,6 +1,6 @@
 //! The change of a body's amplitude, within the horizon and in the long run, from a run.
 
-use super::amplitude::{Change, amplitude};
+use super::amplitude::{Trend, amplitude};
 use super::frequency::{FrequencyError, frequency_error};
 use super::run::Run;
 use super::truth::{BodyTruth, Swing};
@@ -17,7 +17,7 @@ const STEADY: f64 = 0.5;
 pub(super) struct MotionChange {
     pub(super) long_term: LongTerm,
     /// The change of the amplitude within the horizon.
-    pub(super) within: Change,
+    pub(super) within: Trend,
     pub(super) energy_change: Option<f64>,
     pub(super) frequency_error: Option<f64>,
 }
@@ -41,9 +41,9 @@ impl MotionChange {
         let conserves = truth.energy_scale.is_some();
         let rushes = !conserves && has_in_time(run.velocity_doubled_at);
         let within = match conserves {
-            _ if rushes || has_in_time(run.doubled_at) => Change::Grows,
-            true => Change::between(first, last),
-            false => Change::None,
+            _ if rushes || has_in_time(run.doubled_at) => Trend::Grows,
+            true => Trend::between(first, last),
+            false => Trend::None,
         };
         let frequency_error = frequency_error(truth, run).filter(FrequencyError::is_steady);
         Self {
@@ -157,17 +157,17 @@ mod tests {
     fn what_grows_after_the_horizon_has_not_grown_within_it() {
         let (mut truth, run) = followed();
         let tell = |run: &Run, truth: &BodyTruth| MotionChange::of_run(truth, run, 10.0).within;
-        for (at, change) in [(9.0, Change::Grows), (11.0, Change::None)] {
+        for (at, change) in [(9.0, Trend::Grows), (11.0, Trend::None)] {
             let doubled = Run { doubled_at: Some(at), ..run.clone() };
             assert_eq!(tell(&doubled, &truth), change, "doubled at {at} s");
         }
         truth.energy_scale = None;
-        for (at, change) in [(9.0, Change::Grows), (11.0, Change::None)] {
+        for (at, change) in [(9.0, Trend::Grows), (11.0, Trend::None)] {
             let doubled = Run { doubled_at: Some(at), ..run.clone() };
             assert_eq!(tell(&doubled, &truth), change, "doubled at {at} s");
             let rushed = Run { velocity_doubled_at: Some(at), ..run.clone() };
             assert_eq!(tell(&rushed, &truth), change, "rushed at {at} s");
         }
-        assert_eq!(tell(&run, &truth), Change::None);
+        assert_eq!(tell(&run, &truth), Trend::None);
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::amplitude::Change;
+use super::amplitude::Trend;
 use super::outcome::Outcome;
 use crate::sim::bodies::Truth;
 use crate::sim::number::round;
@@ -17,7 +17,7 @@ pub struct EnergyFinding {
     /// largest kinetic energy or of the most that was lost. What an input brings does not count.
     pub change: f64,
     /// How the energy changes.
-    pub trend: Change,
+    pub trend: Trend,
     /// The change of a conserved energy of largest magnitude, in percent of the unit of `change`.
     pub drift_percent: Option<f64>,
     /// Whether the body conserves its energy, so that a loss is the method's too.
@@ -30,15 +30,15 @@ pub struct EnergyFinding {
 impl EnergyFinding {
     pub(super) fn outcome(&self) -> Outcome {
         match self.trend {
-            Change::Grows => Outcome::GainsEnergy,
-            Change::Dies => Outcome::LosesEnergy,
-            Change::None => Outcome::NoTruth,
+            Trend::Grows => Outcome::GainsEnergy,
+            Trend::Dies => Outcome::LosesEnergy,
+            Trend::None => Outcome::NoTruth,
         }
     }
 
     /// Whether neither the energy nor a small deviation grows.
     pub(super) fn is_bounded(&self) -> bool {
-        self.trend != Change::Grows && !self.has_growing_deviations()
+        self.trend != Trend::Grows && !self.has_growing_deviations()
     }
 
     /// Whether a small deviation grows, as far as the radius is known.

@@ -1,6 +1,6 @@
 //! The long-term motion of a linear body under a method of equal steps, from its normal modes.
 
-use super::amplitude::Change;
+use super::amplitude::Trend;
 use super::change::MotionChange;
 use super::limits::VISIBLE;
 use super::run::MAX_WORK;
@@ -143,7 +143,7 @@ impl<'a> Modes<'a> {
                     .filter(|&worst| doubles_in_s.is_none_or(|all| worst < all / 2.0)),
                 is_bounded: Some(self.are_bounded()),
             },
-            within: Change::of(amplitude),
+            within: Trend::of(amplitude),
             energy_change: is_conserved.then_some(amplitude * amplitude - 1.0),
             frequency_error: self.frequency_error(),
         }

@@ -170,7 +170,7 @@ pub struct StabilityMap {
 }
 
 /// What a method is tried on.
-enum Motion {
+enum TestProblem {
     /// The normal modes, the fastest first.
     Uncoupled(Uncoupled),
     /// All coordinates together: damping couples the modes, or one grows.
@@ -186,7 +186,7 @@ struct Uncoupled {
     held: Option<CoupledMotion>,
 }
 
-impl Motion {
+impl TestProblem {
     fn of(body: &dyn Stepper) -> Result<Self, NoSmallMotion> {
         let small = SmallMotion::of(body)?;
         if let Some(mut modes) = small.normal_modes() {
@@ -260,8 +260,8 @@ struct Plane {
 
 impl Plane {
     /// The motion of the body with this value of the mapped parameter.
-    fn motion_at(&self, value: f64) -> Option<Motion> {
-        Motion::of(&*self.body_at(value)).ok()
+    fn motion_at(&self, value: f64) -> Option<TestProblem> {
+        TestProblem::of(&*self.body_at(value)).ok()
     }
 
     fn body_at(&self, value: f64) -> Box<dyn Stepper> {
@@ -308,7 +308,7 @@ impl Plane {
                 seen: vec![],
             };
         }
-        let stable = |motion: Option<&Motion>, x: f64| {
+        let stable = |motion: Option<&TestProblem>, x: f64| {
             motion.is_some_and(|motion| motion.is_stable(&spec, libm::pow(10.0, x)))
         };
         let of_point = rows.iter().flatten().map(|motion| motion.work(&spec)).max().unwrap_or(0);
@@ -320,7 +320,7 @@ impl Plane {
             (&self.meter, [of_point, of_point + self.work_of_motion()]),
         )
         .await;
-        let is_undamped = rows.iter().flatten().all(Motion::is_undamped);
+        let is_undamped = rows.iter().flatten().all(TestProblem::is_undamped);
         let of_step = spec.method.stability_limit.filter(|limit| is_undamped && *limit > 0.0);
         let limit = of_step.map(|limit| limit * f64::from(spec.substeps));
         let joint_at = |value| self.kind.joint(&*self.body_at(value));
@@ -329,7 +329,7 @@ impl Plane {
     }
 }
 
-type Rows = Vec<Option<Motion>>;
+type Rows = Vec<Option<TestProblem>>;
 
 /// A map being computed: what the methods do at the present point, and then region by region.
 pub(super) struct MapWork {
@@ -349,8 +349,9 @@ enum Part {
 impl MapWork {
     pub(super) fn new(kind: Arc<Kind>, request: MapRequest) -> Self {
         let body = (kind.build)(&request.values, Solver::Truth);
-        let found = Motion::of(&*body);
-        let is_slow = matches!(found, Ok(Motion::Coupled(_))) && body.q().len() >= MANY_COUPLED;
+        let found = TestProblem::of(&*body);
+        let is_slow =
+            matches!(found, Ok(TestProblem::Coupled(_))) && body.q().len() >= MANY_COUPLED;
         let counts = if is_slow { FEWER_CORNERS } else { CORNERS };
         let ends = [request.rates_hz, request.range].map(|ends| ends.map(libm::log10));
         let plane = Plane {
@@ -363,7 +364,7 @@ impl MapWork {
         let map = StabilityMap {
             regions: Vec::new(),
             here: Vec::new(),
-            truth_grows: found.as_ref().is_ok_and(Motion::grows),
+            truth_grows: found.as_ref().is_ok_and(TestProblem::grows),
             refused: found.err(),
             is_linear: body.is_linear(),
             request,
@@ -480,7 +481,7 @@ fn stability(spec: &LaneSpec, has_joint: bool, mode: &NormalMode, hz: f64) -> Op
     NormalMode { shape: vec![1.0], ..*mode }.stability_of_small(&*body, spec.solver(), tick).ok()
 }
 
-fn here(spec: &LaneSpec, motion: Option<&Motion>, hz: f64) -> Here {
+fn here(spec: &LaneSpec, motion: Option<&TestProblem>, hz: f64) -> Here {
     if chooses_steps(spec) {
         return Here::OwnSteps;
     }

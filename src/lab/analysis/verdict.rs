@@ -1,6 +1,6 @@
 //! The verdict on a method on a scene: its outcome and the numbers behind it.
 
-use super::amplitude::Change;
+use super::amplitude::Trend;
 use super::chase_finding::ChaseFinding;
 use super::energy_finding::EnergyFinding;
 use super::limits::TOLERANCE;
@@ -94,7 +94,7 @@ pub struct Comparison {
     /// The largest error of the truth itself.
     pub truth_error: f64,
     /// The change of the amplitude.
-    pub change: Change,
+    pub change: Trend,
     /// The change of the energy, in units of the largest true kinetic energy; `None` if energy is not conserved.
     pub energy_change: Option<f64>,
     /// The energy drift of largest magnitude, in percent of the energy that the motion exchanges; `None` if energy is not
@@ -110,9 +110,9 @@ impl Comparison {
         match self.change {
             _ if self.error.max(self.truth_error) <= ROUNDING => Outcome::Rounding,
             _ if self.error <= TOLERANCE => Outcome::Accurate,
-            Change::Grows => Outcome::GainsEnergy,
-            Change::Dies => Outcome::LosesEnergy,
-            Change::None => Outcome::OutOfPhase,
+            Trend::Grows => Outcome::GainsEnergy,
+            Trend::Dies => Outcome::LosesEnergy,
+            Trend::None => Outcome::OutOfPhase,
         }
     }
 }

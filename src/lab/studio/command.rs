@@ -31,34 +31,17 @@ pub enum Command {
     Ask(DriverRequest),
 }
 
-impl From<RunCommand> for Command {
-    fn from(command: RunCommand) -> Self {
-        Self::Run(command)
-    }
+macro_rules! from_each {
+    ($($receiver:ident: $command:ty),*) => {$(
+        impl From<$command> for Command {
+            fn from(command: $command) -> Self {
+                Self::$receiver(command)
+            }
+        }
+    )*};
 }
-
-impl From<StageCommand> for Command {
-    fn from(command: StageCommand) -> Self {
-        Self::Stage(command)
-    }
-}
-
-impl From<LoopCommand> for Command {
-    fn from(command: LoopCommand) -> Self {
-        Self::Loop(command)
-    }
-}
-
-impl From<ViewCommand> for Command {
-    fn from(command: ViewCommand) -> Self {
-        Self::View(command)
-    }
-}
-
-impl From<DriverRequest> for Command {
-    fn from(request: DriverRequest) -> Self {
-        Self::Ask(request)
-    }
+from_each! {
+    Run: RunCommand, Stage: StageCommand, Loop: LoopCommand, View: ViewCommand, Ask: DriverRequest
 }
 
 /// What acts on the run, or on what shows it alone.

@@ -222,8 +222,8 @@ fn a_leftover_that_follows_from_row_to_row_is_no_fit_however_small() {
     let mut log = log_of("box2d__spring_1hz_z0_60hz.csv");
     (log.substeps, log.body.spring) = (32, [0.4, 0.0]);
     log.tick_s = 1.0 / 60.0;
-    for (place, row) in log.rows.iter_mut().enumerate() {
-        row.tick = place as u64;
+    for (index, row) in log.rows.iter_mut().enumerate() {
+        row.tick = index as u64;
     }
     log.rows = log.run().unwrap();
     let found = identified(&log, &log.rows, true);

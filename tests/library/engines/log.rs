@@ -196,10 +196,10 @@ pub(crate) fn columns<const N: usize>(file: &str, wanted: [&str; N]) -> Vec<[f64
     let text = fs::read_to_string(folder().join(file)).unwrap_or_else(|e| panic!("{file}: {e}"));
     let mut lines = text.lines();
     let keys: Vec<&str> = lines.next().expect("a heading").split(',').collect();
-    let places = wanted.map(|key| keys.iter().position(|known| *known == key).expect("a column"));
+    let indices = wanted.map(|key| keys.iter().position(|known| *known == key).expect("a column"));
     let row = |line: &str| {
         let cells: Vec<&str> = line.split(',').collect();
-        places.map(|place| cells[place].parse::<f64>().expect("a number"))
+        indices.map(|index| cells[index].parse::<f64>().expect("a number"))
     };
     lines.map(row).collect()
 }

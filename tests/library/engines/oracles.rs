@@ -104,10 +104,10 @@ fn the_figures_that_engines_are_known_for_come_out_to_their_digits() {
         ];
         // Engines that compute in single precision round in the last digits.
         let digit = if is_f64 { 0.51e-6 } else { 2.5e-6 };
-        for (place, (found, wanted)) in found.into_iter().zip(wanted).enumerate() {
+        for (index, (found, wanted)) in found.into_iter().zip(wanted).enumerate() {
             let most = digit * wanted.abs().max(1.0);
             let off = (found - wanted).abs();
-            assert!(off <= most, "{id}, figure {place}: {found:.7}, not {wanted}");
+            assert!(off <= most, "{id}, figure {index}: {found:.7}, not {wanted}");
         }
     }
 }

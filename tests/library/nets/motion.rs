@@ -166,8 +166,8 @@ fn a_spring_keeps_what_it_has_of_its_own_when_the_net_is_edited() {
     };
     // Node 2 comes first. Its spring is stretched by half a metre; the other is at rest.
     assert_eq!(pulls(&*net), [0.0, -0.5 * 50.0 / 0.02, 0.0, 0.0]);
-    for (place, value) in [(1, 400.0), (5, 0.75)] {
-        assert!(net.set_parameter(0.0, place, value));
+    for (index, value) in [(1, 400.0), (5, 0.75)] {
+        assert!(net.set_parameter(0.0, index, value));
     }
     assert_eq!(pulls(&*net), [0.0, -0.5 * 50.0 / 0.02, -0.25 * 400.0 / 0.02, 0.0]);
     assert!(net.set_parameter(0.0, 0, 0.04));

@@ -123,8 +123,8 @@ fn the_harbours_springs_grow_under_explicit_euler_within_ten_seconds_and_stay_un
 #[test]
 fn the_stiff_spring_is_bounded_at_60_hz_and_explodes_two_presses_lower_as_its_scene_says() {
     let scene = built_in("stiff");
-    let place = TICK_LADDER.iter().position(|hz| *hz == scene.tick_hz).unwrap();
-    assert_eq!((TICK_LADDER[place], TICK_LADDER[place - 2]), (60, 49));
+    let index = TICK_LADDER.iter().position(|hz| *hz == scene.tick_hz).unwrap();
+    assert_eq!((TICK_LADDER[index], TICK_LADDER[index - 2]), (60, 49));
     let largest = |hz| run(&scene.bodies[0], with("semi-implicit-euler"), hz, 5 * hz).1;
     assert!(largest(60) < 2.0);
     assert!(largest(49) > 1e6);
@@ -172,8 +172,8 @@ fn the_chain_is_lost_as_its_scene_says() {
     // 2 / ω of the fastest mode is between these two rates.
     assert!(largest("semi-implicit-euler", 30, 20) < 2.0);
     assert!(largest("semi-implicit-euler", 20, 5) > 1e3);
-    let place = |hz| TICK_LADDER.iter().position(|rung| *rung == hz).unwrap();
-    assert_eq!(place(60) - place(20), 4, "four presses");
+    let index = |hz| TICK_LADDER.iter().position(|rung| *rung == hz).unwrap();
+    assert_eq!(index(60) - index(20), 4, "four presses");
 }
 
 #[test]
@@ -273,6 +273,6 @@ fn the_cameras_are_as_early_and_late_as_their_scenes_say() {
             ["lerp-dt", "explicit-euler"].map(|id| half_life_ms(&scene, id, tick_hz));
         assert!((lerp - euler).abs() < 1e-9, "{lerp} ms, {euler} ms");
     }
-    let place = |hz| TICK_LADDER.iter().position(|rung| *rung == hz).unwrap();
-    assert_eq!(place(60) - place(scene.tick_hz), 3, "three presses");
+    let index = |hz| TICK_LADDER.iter().position(|rung| *rung == hz).unwrap();
+    assert_eq!(index(60) - index(scene.tick_hz), 3, "three presses");
 }

@@ -272,7 +272,7 @@ pub fn duration(seconds: f64) -> String {
 mod tests {
     use super::super::RunFailure;
     use super::*;
-    use crate::lab::analysis::amplitude::Change;
+    use crate::lab::analysis::amplitude::Trend;
     use crate::lab::{Judge, LaneSpec, Scene};
     use crate::sim::integrators::{StepFailure, method};
 
@@ -359,7 +359,7 @@ mod tests {
         let Finding::Compared(compared) = found.finding else { panic!("{found}") };
         let by_energy = EnergyFinding {
             change: 0.5,
-            trend: Change::None,
+            trend: Trend::None,
             drift_percent: None,
             is_conserved: true,
             spectral_radius: None,
@@ -375,12 +375,12 @@ mod tests {
         for finding in [
             Finding::Compared(Comparison { error: 1e-12, ..compared }),
             Finding::Compared(Comparison { error: 1e-3, ..compared }),
-            of_change(Change::None),
-            of_change(Change::Grows),
-            of_change(Change::Dies),
-            of_trend(Change::None),
-            of_trend(Change::Grows),
-            of_trend(Change::Dies),
+            of_change(Trend::None),
+            of_change(Trend::Grows),
+            of_change(Trend::Dies),
+            of_trend(Trend::None),
+            of_trend(Trend::Grows),
+            of_trend(Trend::Dies),
             failed(&escaped, None),
             failed(&escaped, Some(by_energy)),
             failed(&stopped, None),
@@ -412,7 +412,7 @@ mod tests {
         let blows_up = verdict("stiff", "semi-implicit-euler", 49);
         let found = EnergyFinding {
             change: 0.5,
-            trend: Change::None,
+            trend: Trend::None,
             drift_percent: None,
             is_conserved: true,
             spectral_radius: None,

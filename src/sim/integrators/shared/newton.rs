@@ -13,7 +13,7 @@ use super::stages::{Stages, largest_of};
 use crate::sim::integrators::failure::{StepFailure, Stepped};
 use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::{Coupling, System};
-use continuation::Curve;
+use continuation::SolutionCurve;
 
 mod continuation;
 mod sparse;
@@ -54,7 +54,7 @@ pub(in crate::sim::integrators) struct Newton<V, const S: usize> {
     /// The scale of the rounding error of `evaluated`, in units of round-off; empty without a matrix.
     rounding_scale: Vec<f64>,
     /// For steps at which the iteration alone fails.
-    curve: Curve<V, S>,
+    curve: SolutionCurve<V, S>,
 }
 
 /// How an iteration converges.
@@ -132,7 +132,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
             linearisation,
             residual: zeros.clone(),
             correction: zeros.clone(),
-            curve: Curve::new(like, zeros.len()),
+            curve: SolutionCurve::new(like, zeros.len()),
             kept: zeros,
         }
     }

@@ -33,7 +33,7 @@ const LAMBDA_DIFFERENCE: f64 = 1e-6;
 
 /// The current point on the curve of solutions, and its tangent.
 #[derive(Clone, Debug)]
-pub(super) struct Curve<V, const S: usize> {
+pub(super) struct SolutionCurve<V, const S: usize> {
     lambda: f64,
     /// The unit of accelerations: the largest force found on the curve.
     scale: f64,
@@ -46,7 +46,7 @@ pub(super) struct Curve<V, const S: usize> {
     tangent_lambda: f64,
 }
 
-impl<V: Vector, const S: usize> Curve<V, S> {
+impl<V: Vector, const S: usize> SolutionCurve<V, S> {
     pub(super) fn new(like: &V, size: usize) -> Self {
         Self {
             lambda: 0.0,
@@ -131,7 +131,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     /// Computes the tangent at the current point, in the direction of travel.
     fn update_tangent(&mut self, system: &dyn System<Vector = V>, stages: &Stages<S>) {
         self.linearise_on_curve(system, stages);
-        let Curve { scale, slope_by_lambda, tangent, tangent_lambda, .. } = &mut self.curve;
+        let SolutionCurve { scale, slope_by_lambda, tangent, tangent_lambda, .. } = &mut self.curve;
         let along = dot(slope_by_lambda, tangent) / (*scale * *scale) + *tangent_lambda;
         let length = (dot(slope_by_lambda, slope_by_lambda) / (*scale * *scale) + 1.0)
             .sqrt()
@@ -163,7 +163,8 @@ impl<V: Vector, const S: usize> Newton<V, S> {
             self.correction.copy_from_slice(&self.residual);
             self.linearisation.solve(&mut self.correction);
             let Self { a, correction: residual, curve, .. } = self;
-            let Curve { lambda, scale, slope_by_lambda, tangent, tangent_lambda, .. } = curve;
+            let SolutionCurve { lambda, scale, slope_by_lambda, tangent, tangent_lambda, .. } =
+                curve;
             let unit = *scale * *scale;
             let across = dot(tangent, slope_by_lambda) / unit + *tangent_lambda;
             let more = -dot(tangent, residual) / unit / across;
@@ -196,7 +197,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         self.evaluate(system, &here);
         self.factor(system, &here, stages);
         let Self { base, a, evaluated, linearisation, curve, .. } = self;
-        let Curve { scale, further, slope_by_lambda, .. } = curve;
+        let SolutionCurve { scale, further, slope_by_lambda, .. } = curve;
         *scale = scale.max(largest_of(evaluated));
         let there = stages.scaled(lambda + LAMBDA_DIFFERENCE);
         there.evaluate(system, base, a, &mut linearisation.at, further);
