@@ -3,14 +3,11 @@
 
 use super::gpu::Gpu;
 use super::screen_transform::ScreenTransform;
-use super::textures::texture;
+use super::textures::{takes_copies, texture};
 use crate::lab::picture::{Picture, Sea, Shape};
 
 /// The texture is drawn again once this many more shapes have been still for this many frames.
 const WORTH_DRAWING: (usize, u32) = (16, 8);
-
-/// Larger targets have no backdrop: it would take as much memory again.
-const MAX_PIXELS: u64 = 4096 * 4096;
 
 /// Finds what of a picture stays the same, and keeps it as a texture.
 #[derive(Debug)]
@@ -69,7 +66,7 @@ impl Backdrop {
         picture: &Picture,
     ) -> Covered {
         let alike = self.last.as_ref().and_then(|last| last.alike(transform, picture));
-        let Some(alike) = alike.filter(|_| self.can_be_copied_to(target)) else {
+        let Some(alike) = alike.filter(|_| takes_copies(target, self.format)) else {
             self.drawn = None;
             return Covered::Nothing;
         };
@@ -96,15 +93,6 @@ impl Backdrop {
         Picture { sea, shapes, .. }: Picture,
     ) {
         self.last = sea.map(|sea| Scenery { transform, sea, shapes });
-    }
-
-    fn can_be_copied_to(&self, target: &wgpu::Texture) -> bool {
-        let pixels = u64::from(target.width()) * u64::from(target.height());
-        let is_plain = target.depth_or_array_layers() == 1
-            && target.mip_level_count() == 1
-            && target.sample_count() == 1;
-        let usage = target.usage().contains(wgpu::TextureUsages::COPY_DST);
-        usage && is_plain && target.format() == self.format && pixels <= MAX_PIXELS
     }
 
     /// What to draw the backdrop on.

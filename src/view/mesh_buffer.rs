@@ -36,9 +36,25 @@ impl<V: bytemuck::Pod> MeshBuffer<V> {
 
     /// Adds a mesh, and says which indices it got.
     pub(super) fn add(&mut self, vertices: &[V], indices: &[u32]) -> Range<u32> {
-        let (first_vertex, first) = (self.vertices.len() as u32, self.indices.len() as u32);
+        let first_vertex = self.add_vertices(vertices);
+        self.add_indices(first_vertex, indices.iter().copied())
+    }
+
+    /// Adds vertices alone, and says which the first of them is.
+    pub(super) fn add_vertices(&mut self, vertices: &[V]) -> u32 {
+        let first = self.vertices.len() as u32;
         self.vertices.extend_from_slice(vertices);
-        self.indices.extend(indices.iter().map(|index| first_vertex + index));
+        first
+    }
+
+    /// Adds the corners of triangles, counted from a vertex that was added, and says which indices they got.
+    pub(super) fn add_indices(
+        &mut self,
+        first_vertex: u32,
+        indices: impl Iterator<Item = u32>,
+    ) -> Range<u32> {
+        let first = self.indices.len() as u32;
+        self.indices.extend(indices.map(|index| first_vertex + index));
         first..self.indices.len() as u32
     }
 
@@ -47,10 +63,15 @@ impl<V: bytemuck::Pod> MeshBuffer<V> {
         write(gpu, self.label, &mut self.index_buffer, bytemuck::cast_slice(&self.indices));
     }
 
-    /// Draws some of what was uploaded, with the pipeline that is set.
-    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, indices: Range<u32>) {
+    /// Has the draws that follow be of what was uploaded.
+    pub(super) fn bind(&self, pass: &mut wgpu::RenderPass<'_>) {
         pass.set_vertex_buffer(0, self.vertex_buffer.slice(..));
         pass.set_index_buffer(self.index_buffer.slice(..), wgpu::IndexFormat::Uint32);
+    }
+
+    /// Draws some of what was uploaded, with the pipeline that is set.
+    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, indices: Range<u32>) {
+        self.bind(pass);
         pass.draw_indexed(indices, 0, 0..1);
     }
 }

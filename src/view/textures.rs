@@ -22,6 +22,19 @@ pub(super) fn texture(
     })
 }
 
+/// For larger targets nothing is kept to be copied to them: it would take as much memory again.
+const MAX_PIXELS: u64 = 4096 * 4096;
+
+/// Whether a texture of this format and of the target's size can be copied to the target.
+pub(super) fn takes_copies(target: &wgpu::Texture, format: wgpu::TextureFormat) -> bool {
+    let pixels = u64::from(target.width()) * u64::from(target.height());
+    let is_plain = target.depth_or_array_layers() == 1
+        && target.mip_level_count() == 1
+        && target.sample_count() == 1;
+    let usage = target.usage().contains(wgpu::TextureUsages::COPY_DST);
+    usage && is_plain && target.format() == format && pixels <= MAX_PIXELS
+}
+
 /// What a pass begins with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Start {

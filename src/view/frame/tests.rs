@@ -1,8 +1,10 @@
 use super::*;
 use crate::lab::Scene;
 use crate::lab::picture::{Fill, Picture, Shape};
+use crate::lab::studio::StageCommand;
 use crate::view::chart::{self, LineStyle, Primitive, ScreenCurve};
 use crate::view::testing::{EVERYWHERE, Pixels, gpu_or_skip, read};
+use crate::view::textures::texture;
 use crate::view::{AdapterPreference, Offscreen};
 
 fn red_everywhere() -> Picture {
@@ -148,5 +150,66 @@ fn the_first_frame_of_any_size_is_laid_out_like_the_next() {
         });
         assert_eq!(first, second, "{size_px:?}");
         assert!(first.width() > 300.0 && first.right() < 1280.0 * 1.75, "{first}");
+    }
+}
+
+/// Two targets with a renderer each: nothing can be copied to the second, so that all of it is drawn at every frame.
+fn with_and_without_copies(gpu: &Gpu, size_px: [u32; 2]) -> [(FrameRenderer, Offscreen); 2] {
+    let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
+    let texture = texture(gpu, "plain", size_px, Offscreen::FORMAT, usage);
+    let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+    let plain = Offscreen { texture, view, size_px };
+    [Offscreen::new(gpu, size_px).unwrap(), plain]
+        .map(|target| (FrameRenderer::new(gpu, Offscreen::FORMAT), target))
+}
+
+#[test]
+fn what_is_kept_of_the_panels_changes_no_pixel() {
+    let Some(gpu) = gpu_or_skip("what_is_kept_of_the_panels_changes_no_pixel") else { return };
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    studio.apply(StageCommand::ToggleRace);
+    let size_px = [640, 400];
+    let mut renderers = with_and_without_copies(&gpu, size_px);
+    for n in 0..30 {
+        match n {
+            8 => _ = studio.apply(ViewCommand::ToggleTheme),
+            14 | 19 => _ = studio.apply(ViewCommand::ToggleHelp),
+            22 => _ = studio.apply(StageCommand::ToggleRace),
+            _ => {}
+        }
+        studio.advance(if n % 3 == 0 { 0 } else { 40_000_000 });
+        let [kept, drawn] = renderers.each_mut().map(|(renderer, target)| {
+            let input = egui::RawInput { time: Some(0.1 * f64::from(n)), ..Default::default() };
+            if n % 7 == 5 {
+                // Somebody paints a frame, and never shows it.
+                let (_, layout) = renderer.lay_out(&gpu, size_px, 1.0, input.clone(), &studio);
+                _ = renderer.paint(&gpu, &target.view, size_px, layout);
+            }
+            let (_, output) = renderer.draw(&gpu, &target.view, size_px, 1.0, input, &studio);
+            read(&gpu, output.drawing, target)
+        });
+        assert!(kept.rows == drawn.rows, "frame {n}");
+    }
+}
+
+#[test]
+fn a_kept_tile_shows_nothing_of_what_it_showed_before() {
+    let Some(gpu) = gpu_or_skip("a_kept_tile_shows_nothing_of_what_it_showed_before") else {
+        return;
+    };
+    let size_px = [100, 70];
+    let mut renderers = with_and_without_copies(&gpu, size_px);
+    for n in 0..20 {
+        let [kept, drawn] = renderers.each_mut().map(|(renderer, target)| {
+            let input = egui::RawInput::default();
+            let layout = renderer.lay_out_with(&gpu, size_px, 1.0, input, |ui| {
+                let fill = egui::Color32::from_rgba_unmultiplied(90, 200, 40 * (n / 7), 120);
+                ui.painter().rect_filled(ui.max_rect(), 0.0, fill);
+                None
+            });
+            let output = renderer.paint(&gpu, &target.view, size_px, layout);
+            read(&gpu, output.drawing, target)
+        });
+        assert!(kept.rows == drawn.rows, "frame {n}");
     }
 }
