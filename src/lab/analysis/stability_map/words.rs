@@ -5,7 +5,7 @@ use std::fmt;
 use super::{Coverage, Here, StabilityMap};
 use crate::lab::analysis::duration;
 use crate::lab::lane_spec::LaneSpec;
-use crate::lab::number::counted;
+use crate::sim::number::counted;
 
 /// `stable`, `grows ×2 in 3.1 s`, `fails at once`.
 impl fmt::Display for Here {
