@@ -295,3 +295,14 @@ const FRAME_COLUMNS: [&str; 9] = [
 fn latency(written: &str) -> Result<f64, String> {
     number_that(written, |ms| (0.0..=10_000.0).contains(&ms), "0 to 10000 ms")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_has_no_unit_is_a_count_and_is_written_as_a_whole_number() {
+        let counts = metrics().filter(|metric| metric.unit == Unit::One).map(|metric| metric.id);
+        assert!(counts.eq(["frames", "ticks", "evaluations"]));
+    }
+}

@@ -199,19 +199,24 @@ impl TestProblem {
         small.coupled().map(Self::Coupled)
     }
 
+    /// What a method is tried on: each of these modes, or all coordinates together.
+    fn tried(&self, spec: &LaneSpec) -> (&[NormalMode], Option<&CoupledMotion>) {
+        match self {
+            Self::Uncoupled(Uncoupled { held: Some(held), .. }) if spec.method.is_engine() => {
+                (&[], Some(held))
+            }
+            Self::Uncoupled(Uncoupled { modes, .. }) => (modes, None),
+            Self::Coupled(coupled) => (&[], Some(coupled)),
+        }
+    }
+
     /// The stability of a method on each mode, or on all together. `None` where the method fails.
     fn under<'a>(
         &'a self,
         spec: &'a LaneSpec,
         hz: f64,
     ) -> impl Iterator<Item = Option<Stability>> + 'a {
-        let (modes, coupled): (&[NormalMode], _) = match self {
-            Self::Uncoupled(Uncoupled { held: Some(held), .. }) if spec.method.is_engine() => {
-                (&[], Some(held))
-            }
-            Self::Uncoupled(Uncoupled { modes, .. }) => (modes, None),
-            Self::Coupled(coupled) => (&[], Some(coupled)),
-        };
+        let (modes, coupled) = self.tried(spec);
         let has_joint = match self {
             Self::Uncoupled(Uncoupled { settings, .. }) => settings.has_spring(),
             Self::Coupled(_) => false,
@@ -233,10 +238,9 @@ impl TestProblem {
             let evaluations = STEPS_PER_MODE * n * evaluations * u64::from(spec.substeps);
             work_of(evaluations, n, spec.solver()) + work_of_roots(n)
         };
-        match self {
-            Self::Uncoupled(Uncoupled { modes, .. }) => modes.len() as u64 * steps(1),
-            Self::Coupled(coupled) => steps(coupled.coordinates() as u64),
-        }
+        let (modes, coupled) = self.tried(spec);
+        let together = coupled.map_or(0, |coupled| steps(coupled.coordinates() as u64));
+        modes.len() as u64 * steps(1) + together
     }
 
     fn is_undamped(&self) -> bool {
@@ -339,6 +343,8 @@ pub(super) struct MapWork {
     /// What is being found of the present point, and of the regions.
     here: Option<Sliced<(Vec<Here>, bool)>>,
     part: Option<Sliced<Part>>,
+    /// Whether the last slice found nothing yet.
+    is_within_a_part: bool,
 }
 
 enum Part {
@@ -369,7 +375,8 @@ impl MapWork {
             is_linear: body.is_linear(),
             request,
         };
-        Self { plane: Arc::new(plane), map, rows: None, here: None, part: None }
+        let plane = Arc::new(plane);
+        Self { plane, map, rows: None, here: None, part: None, is_within_a_part: false }
     }
 
     /// Replaces the request. Regions that answer the new one too are kept, also one that is being found.
@@ -398,9 +405,9 @@ impl MapWork {
             || self.map.here.len() == wanted && self.map.regions.len() == wanted
     }
 
-    /// Whether it is within a part: what each method does at the present point, or a region.
+    /// Whether the last slice was within a part, so that nothing more is known than before.
     pub(super) fn is_within_a_part(&self) -> bool {
-        self.here.is_some() || self.part.is_some()
+        self.is_within_a_part
     }
 
     /// What counts the work on it.
@@ -427,6 +434,7 @@ impl MapWork {
                 Some((here, grows)) => (self.map.here, self.map.truth_grows) = (here, grows),
                 None => self.here = Some(finding),
             }
+            self.is_within_a_part = self.here.is_some();
             return;
         }
         let mut part = self.part.take().unwrap_or_else(|| self.next_part());
@@ -435,6 +443,7 @@ impl MapWork {
             Some(Part::Region(region)) => self.map.regions.push(region),
             None => self.part = Some(part),
         }
+        self.is_within_a_part = self.part.is_some();
     }
 
     /// What the next region needs, or that.

@@ -212,6 +212,9 @@ fn a_map_found_in_slices_is_that_of_one_go_and_a_moved_point_keeps_what_is_found
             if moves && work.part.is_some() && slices.len() % 9 == 0 {
                 work.set_request(request(if work.map.request.tick_hz == 60 { 30 } else { 60 }));
                 assert!(work.part.is_some() && work.here.is_none() && work.map.here.is_empty());
+                // What is found of the new point is told although a region is in progress.
+                work.advance(u64::MAX);
+                assert!(work.map.here.len() == 2 && !work.is_within_a_part());
             }
         }
         work.set_request(request(60));

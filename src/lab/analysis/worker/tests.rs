@@ -172,7 +172,8 @@ fn meters(worker: &AnalysisWorker) -> Vec<Arc<Meter>> {
     let part = worker.part.as_ref().map(Sliced::meter);
     let judge = worker.judge.as_ref().map(|judge| judge.meter());
     let adviser = worker.advising.as_ref().map(|advising| advising.adviser.judge().meter());
-    let mut meters: Vec<_> = [part, judge, adviser].into_iter().flatten().cloned().collect();
+    let map = worker.mapping.as_ref().map(MapWork::meter);
+    let mut meters: Vec<_> = [part, judge, adviser, map].into_iter().flatten().cloned().collect();
     meters.sort_by_key(Arc::as_ptr);
     meters.dedup_by_key(|meter| Arc::as_ptr(meter));
     meters
