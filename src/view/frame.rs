@@ -238,8 +238,8 @@ impl FrameRenderer {
             let start = stage_of.prepare(gpu, &mut encoder, target.texture(), stage, px_per_point);
             (start, stage_of.scissor_px())
         });
-        let places = (target.texture(), size_px, stage_px);
-        self.panels.prepare(gpu, &meshes, places, px_per_point);
+        let on = (target.texture(), size_px, stage_px);
+        self.panels.prepare(gpu, &meshes, on, px_per_point);
         let start = self.panels.copy_still(&mut encoder, target, start);
         {
             let mut pass = pass(&mut encoder, "frame", target, start);

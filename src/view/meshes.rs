@@ -57,6 +57,8 @@ pub(super) struct MeshRenderer {
     pipelines: [wgpu::RenderPipeline; 2],
     atlas_layout: wgpu::BindGroupLayout,
     atlases: HashMap<TextureId, (wgpu::Texture, wgpu::BindGroup)>,
+    /// How often each texture has changed.
+    versions: HashMap<TextureId, u64>,
     screen: ScreenBindGroup,
     triangles: MeshBuffer<Vertex>,
     strokes: StrokePipeline,
@@ -118,6 +120,7 @@ impl MeshRenderer {
             pipelines,
             atlas_layout,
             atlases: HashMap::new(),
+            versions: HashMap::new(),
             strokes: StrokePipeline::new(gpu, &layout(&[Some(&screen.layout)]), format),
             screen,
             triangles: MeshBuffer::new(gpu, "panels"),
@@ -131,8 +134,11 @@ impl MeshRenderer {
     pub(super) fn set_texture(&mut self, gpu: &Gpu, id: TextureId, delta: &epaint::ImageDelta) {
         let ImageData::Color(image) = &delta.image;
         let [width, height] = image.size.map(|side| side as u32);
+        // What is added to the font's atlas changes nothing of what was in it.
+        if delta.pos.is_none() || id != TextureId::default() {
+            *self.versions.entry(id).or_default() += 1;
+        }
         if delta.pos.is_none() {
-            self.still.forget();
             let usage = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST;
             let format = wgpu::TextureFormat::Rgba8Unorm;
             let texture = texture(gpu, "panels", [width, height], format, usage);
@@ -166,6 +172,7 @@ impl MeshRenderer {
 
     pub(super) fn free_texture(&mut self, id: TextureId) {
         self.atlases.remove(&id);
+        self.versions.remove(&id);
     }
 
     /// Uploads what the next [`Self::paint`] is to draw on a target of this size, on which the stage has this left, top, width
@@ -226,12 +233,15 @@ impl MeshRenderer {
         }
         let what = match primitive {
             Primitive::Mesh(mesh) => {
-                let all = egui::util::hash((scissor_px, px_per_point.to_bits(), mesh.texture_id));
+                let version = self.versions.get(&mesh.texture_id);
+                let all = (scissor_px, px_per_point.to_bits(), mesh.texture_id, version);
+                let all = egui::util::hash(all);
                 let touched = mesh.indices.as_chunks().0.iter().map(|corners: &[u32; 3]| {
                     let vertices = corners.map(|corner| mesh.vertices[corner as usize]);
                     let bounds = egui::Rect::from_points(&vertices.map(|vertex| vertex.pos));
-                    let touched = TileRect::touched(bounds * px_per_point, scissor_px);
-                    self.still.take_in(touched, (all, bytemuck::bytes_of(&vertices)));
+                    let of_vertices = (all, bytemuck::bytes_of(&vertices));
+                    let touched =
+                        self.still.take_in(bounds * px_per_point, scissor_px, of_vertices);
                     (touched, kind(mesh, corners, px_per_point))
                 });
                 let triangles = touched.collect();
@@ -241,8 +251,8 @@ impl MeshRenderer {
             // Of callbacks, only the curves of plots are ours.
             Primitive::Callback(callback) => {
                 let mesh = callback.callback.downcast_ref::<StrokeMesh>()?;
-                let touched = TileRect::touched(mesh.bounds() * px_per_point, scissor_px);
-                self.still.take_in(touched, (scissor_px, px_per_point.to_bits(), mesh));
+                let all = (scissor_px, px_per_point.to_bits(), mesh);
+                let touched = self.still.take_in(mesh.bounds() * px_per_point, scissor_px, all);
                 Touched::Strokes { touched, indices: self.strokes.add(mesh) }
             }
         };

@@ -72,7 +72,7 @@ impl Screen {
     pub fn configure(&self, gpu: &Gpu, size_px: [u32; 2]) {
         let [width, height] = size_px.map(|side| side.clamp(1, gpu.max_texture_side_px));
         let configuration = wgpu::SurfaceConfiguration {
-            // Not all can be copied to, which a backdrop wants.
+            // Not all can be copied to, which a backdrop and kept panels want.
             usage: self.surface.get_capabilities(&gpu.adapter).usages
                 & wgpu::TextureUsages::COPY_DST
                 | wgpu::TextureUsages::RENDER_ATTACHMENT,

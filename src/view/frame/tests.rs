@@ -213,3 +213,34 @@ fn a_kept_tile_shows_nothing_of_what_it_showed_before() {
         assert!(kept.rows == drawn.rows, "frame {n}");
     }
 }
+
+#[test]
+fn a_texture_that_changes_under_a_quad_that_does_not_is_drawn_again() {
+    let test = "a_texture_that_changes_under_a_quad_that_does_not_is_drawn_again";
+    let Some(gpu) = gpu_or_skip(test) else { return };
+    let size_px = [100, 70];
+    let mut renderers = with_and_without_copies(&gpu, size_px);
+    let mut handles: [Option<egui::TextureHandle>; 2] = [None, None];
+    for n in 0..20 {
+        let shade = egui::ColorImage::filled([4, 4], egui::Color32::from_gray(40 * (n / 7)));
+        let mut of = renderers.iter_mut().zip(&mut handles).map(|((renderer, target), handle)| {
+            let input = egui::RawInput::default();
+            let layout = renderer.lay_out_with(&gpu, size_px, 1.0, input, |ui| {
+                let options = egui::TextureOptions::NEAREST;
+                match handle {
+                    Some(known) if n % 7 == 0 => known.set_partial([0, 0], shade.clone(), options),
+                    Some(_) => {}
+                    None => *handle = Some(ui.ctx().load_texture("t", shade.clone(), options)),
+                }
+                let id = handle.as_ref().expect("it was loaded").id();
+                let uv = egui::Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+                ui.painter().image(id, ui.max_rect(), uv, egui::Color32::WHITE);
+                None
+            });
+            let output = renderer.paint(&gpu, &target.view, size_px, layout);
+            read(&gpu, output.drawing, target)
+        });
+        let [kept, drawn] = [of.next(), of.next()].map(Option::unwrap);
+        assert!(kept.rows == drawn.rows && kept.at(50, 30)[0] == 40 * (n / 7), "frame {n}");
+    }
+}

@@ -328,16 +328,8 @@ impl<R: TableRow> Table<R> {
             let name = row.spoken() + &heard.collect::<String>();
             egui::WidgetInfo::selected(egui::Role::Button, true, is_selected, name)
         });
-        let can_be_clicked = command.is_some();
-        if response.clicked() {
-            commands.extend(command);
-        }
-        // It is there to be heard and to be gone to, and nothing of it shows.
-        if !ui.is_rect_visible(rect) {
-            return response;
-        }
         let [own, text] = row.colours(palette(ui));
-        if is_selected || can_be_clicked && response.hovered() {
+        if is_selected || command.is_some() && response.hovered() {
             let fill = palette(ui).raised.gamma_multiply(if is_selected { 1.0 } else { 0.6 });
             ui.painter().rect_filled(rect, 3.0, fill);
         }
@@ -348,12 +340,18 @@ impl<R: TableRow> Table<R> {
             ui.painter().rect_filled(bar, 2.0, own);
         }
         let response = response.on_hover_ui(|ui| row.tooltip(ui));
+        if response.clicked() {
+            commands.extend(command);
+        }
+        let is_in_sight = ui.is_rect_visible(rect);
         // Over the row: what can be clicked in a cell takes the click.
         for &(column, left, own) in columns {
             let from = pos2(rect.left() + MARGIN + left, rect.top());
             let cell = Rect::from_min_size(from, vec2(own, self.row_height));
             match &column.cell {
                 CellContent::Shown(show) => show(ui, row, cell, commands),
+                // What can be clicked and gone to is in cells of the other kind.
+                CellContent::Number(_) if !is_in_sight => {}
                 CellContent::Number(words) => {
                     let (at, font) = (cell.right_center(), FontId::proportional(TYPE));
                     let words = words(row).unwrap_or_default();
