@@ -90,6 +90,7 @@ impl Stranger {
             .current_dir(&self.folder)
             .env("CARGO_TARGET_DIR", &self.target)
             .env_remove("RUSTFLAGS")
+            .env_remove("RUSTC_WORKSPACE_WRAPPER")
             .output()
             .expect("cargo runs this test too")
     }

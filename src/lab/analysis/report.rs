@@ -96,6 +96,7 @@ const BLUR: f64 = 1.0;
 ///
 /// ```
 /// use regatta::prelude::*;
+/// use regatta::sim::integrators::method;
 ///
 /// #[derive(Clone)]
 /// struct Spring;
@@ -108,7 +109,9 @@ const BLUR: f64 = 1.0;
 /// }
 ///
 /// let start = State { q: 1.0, v: 0.0 };
-/// let report = regatta::advise(&Spring, start, Options { tick_hz: 60, ..Options::default() });
+/// let methods = ["semi-implicit-euler", "velocity-verlet", "rk4"].map(|id| method(id).unwrap());
+/// let options = Options { seconds: 5.0, methods: methods.to_vec(), ..Options::default() };
+/// let report = regatta::advise(&Spring, start, options);
 /// println!("{report}");
 /// let bounded = report.recommended.bounded.expect("some method is bounded");
 /// assert_eq!(bounded.with.substeps, 1);

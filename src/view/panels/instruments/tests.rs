@@ -67,18 +67,20 @@ fn assert_legible(studio: &Studio, what: &str) {
     }
 }
 
+/// Each instrument and each body at the start and later, alone and racing, of which each pair is met.
 #[test]
 fn every_axis_of_every_instrument_is_named_and_has_three_marks() {
     SCENES.par_iter().for_each(|scene| {
         let mut studio = Studio::new(Scene::built_in(scene.name).unwrap());
-        for mode in ["solo", "race"] {
-            for seconds in [0, 3] {
+        for (run, mode) in ["solo", "race"].into_iter().enumerate() {
+            for (time, seconds) in [0, 3].into_iter().enumerate() {
                 for _ in 0..60 * seconds {
                     studio.advance(16_666_667);
                 }
-                for instrument in Instrument::all() {
+                for (i, instrument) in Instrument::all().enumerate() {
                     studio.apply(StageCommand::Instrument(instrument));
-                    for body in 0..studio.scene().bodies.len() {
+                    let bodies = 0..studio.scene().bodies.len();
+                    for body in bodies.filter(|body| (i + body + run + time) % 2 == 0) {
                         studio.apply(StageCommand::Body(body));
                         let (scene, name) = (scene.name, instrument.name());
                         let what = format!("{scene}, {mode}, {name}, {body}, {seconds} s");
