@@ -79,13 +79,9 @@ impl History {
 
     /// The samples from time `t` (s) on, oldest first; where the body was put elsewhere at that time, from there.
     pub fn since(&self, t: f64) -> Samples<'_> {
-        let mut is_put = false;
-        let later = self.samples().rev().take_while(|sample| {
-            let is_later = sample.t >= t && !is_put;
-            is_put |= sample.t == t && sample.jumped;
-            is_later
-        });
-        self.after(self.samples().count() - later.count())
+        let skipped = self.samples.count_before(t, |sample| (sample.t, sample.jumped));
+        let is_over = self.present.as_ref().is_some_and(|present| present.t < t);
+        self.after(skipped + usize::from(is_over))
     }
 
     /// Adds a tick at which no sample is due.

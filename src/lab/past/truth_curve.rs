@@ -39,6 +39,9 @@ const FOLLOWS: f64 = 1e-9;
 /// Further grid points that are kept for going back without a repetition.
 const SPARE: usize = GRID / 2;
 
+/// The samples of a block, of which it is known how far they reach: about as many as there are blocks.
+const BLOCK: usize = 64;
+
 /// One moment of the true motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TruthSample {
@@ -84,6 +87,8 @@ pub struct TruthCurve {
     /// The index of the recorded coordinate.
     coordinate: usize,
     samples: WindowedLog<TruthSample>,
+    /// The least and the greatest place in each block of samples, along x and up.
+    extents: WindowedLog<[DVec2; 2]>,
     /// The range of that coordinate at ticks since the newest sample.
     since: SweptRange,
 }
@@ -106,6 +111,7 @@ impl TruthCurve {
             spacing_s: span_s / GRID as f64,
             coordinate,
             samples: WindowedLog::new(GRID + OFF_GRID, SPARE),
+            extents: WindowedLog::new((GRID + OFF_GRID) / BLOCK + 1, SPARE / BLOCK + 1),
             since: SweptRange::NOTHING,
         };
         curve.keep(0.0, truth);
@@ -114,7 +120,7 @@ impl TruthCurve {
 
     /// Its heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
-        self.between.bytes() + self.samples.heap_bytes()
+        self.between.bytes() + self.samples.heap_bytes() + self.extents.heap_bytes()
     }
 
     /// The samples, oldest first: at every point of the grid, and on both sides of an input.
@@ -124,13 +130,23 @@ impl TruthCurve {
 
     /// The samples from time `t` (s) on, oldest first; where the body was put elsewhere at that time, from there.
     pub fn since(&self, t: f64) -> vec_deque::Iter<'_, TruthSample> {
-        let mut is_put = false;
-        let later = self.samples().rev().take_while(|sample| {
-            let is_later = sample.t >= t && !is_put;
-            is_put |= sample.t == t && sample.jumped;
-            is_later
-        });
-        self.samples.range(self.samples.len() - later.count())
+        let skipped = self.samples.count_before(t, |sample| (sample.t, sample.jumped));
+        self.samples.range(skipped)
+    }
+
+    /// How far the body has gone from `centre_m` [since](Self::since) `t` (s), along x and up, in metres.
+    pub fn reach_m(&self, centre_m: DVec2, t: f64) -> DVec2 {
+        let (since, end) = (self.since(t), self.samples.mark() as usize);
+        let (first, last) = ((end - since.len()).div_ceil(BLOCK), end / BLOCK);
+        let blocks = last.saturating_sub(first);
+        let (before, after) = match blocks {
+            0 => (since.len(), 0),
+            _ => (since.len() - (end - first * BLOCK), end - last * BLOCK),
+        };
+        let samples = since.clone().take(before).chain(since.rev().take(after));
+        let extents = self.extents.range(self.extents.len() - blocks).flatten();
+        let places = samples.map(|sample| &sample.at).chain(extents);
+        places.map(|at| (at - centre_m).abs()).fold(DVec2::ZERO, DVec2::max)
     }
 
     /// The present of the true body `truth`, at time `t` (s): the curve's end, wherever the grid is.
@@ -279,6 +295,15 @@ impl TruthCurve {
             let swept = self.since.and(sample.q);
             self.since = SweptRange::NOTHING;
             self.samples.push(TruthSample { swept, ..sample });
+            if self.samples.mark().is_multiple_of(BLOCK as u64) {
+                let block = self.samples.range(self.samples.len().saturating_sub(BLOCK));
+                let places = block.map(|sample| sample.at);
+                let extent = [
+                    places.clone().fold(DVec2::INFINITY, DVec2::min),
+                    places.fold(DVec2::NEG_INFINITY, DVec2::max),
+                ];
+                self.extents.push(extent);
+            }
         }
     }
 
@@ -295,6 +320,7 @@ impl TruthCurve {
     /// Goes back to a mark, or forward to one of the future that is kept.
     pub(super) fn rewind(&mut self, mark: TruthMark) {
         self.samples.rewind(mark.samples);
+        self.extents.rewind(mark.samples / BLOCK as u64);
         self.since = mark.since;
         self.pending.clear();
         self.is_stale = true;
@@ -303,6 +329,7 @@ impl TruthCurve {
     /// Forgets the future: another one begins.
     pub(super) fn forget_future(&mut self) {
         self.samples.forget_future();
+        self.extents.forget_future();
     }
 }
 
@@ -348,6 +375,32 @@ mod tests {
         let [q, v] = cubic(&samples[0], &samples[1], 0.5);
         assert!((q - libm::cos(tau * 0.05)).abs() < 1e-3, "{q}");
         assert!((v + tau * libm::sin(tau * 0.05)).abs() < 1e-2, "{v}");
+    }
+
+    #[test]
+    fn the_reach_is_that_of_all_samples_wherever_a_run_has_gone_back_to() {
+        let mut race = Race::of_scene(&Scene::built_in("harbour").unwrap());
+        let mut curve = TruthCurve::new(&race.truth().bodies()[1], 0, 5.0);
+        let check = |curve: &TruthCurve, t: f64| {
+            for since_s in [f64::NEG_INFINITY, t - 3.3, t - 0.05] {
+                let centre_m = DVec2::new(0.25, -1.0);
+                let places = curve.since(since_s).map(|s| (s.at - centre_m).abs());
+                let reach_m = places.fold(DVec2::ZERO, DVec2::max);
+                assert_eq!(curve.reach_m(centre_m, since_s), reach_m, "since {since_s} at {t}");
+            }
+        };
+        let mut marks = Vec::new();
+        for _ in 0..800 {
+            race.step();
+            curve.extend(&race.truth().bodies()[1], race.last_tick());
+            check(&curve, race.t());
+            marks.push((curve.mark(), race.t()));
+        }
+        for place in [790, 700, 650, 799, 100] {
+            let (mark, t) = marks[place];
+            curve.rewind(mark);
+            check(&curve, t);
+        }
     }
 
     #[test]

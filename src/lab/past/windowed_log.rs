@@ -47,6 +47,17 @@ impl<T: PartialEq> WindowedLog<T> {
         self.kept.range(end - self.len() + skipped..end)
     }
 
+    /// How many of the records shown are before time `t` (s), where `moment` tells the time of a record and whether a body
+    /// was put elsewhere then: of those at `t`, the ones before the last at which it was.
+    pub(super) fn count_before(&self, t: f64, moment: impl Fn(&T) -> (f64, bool)) -> usize {
+        let end = (self.end - self.first) as usize;
+        let oldest = end - self.len();
+        let first = self.kept.partition_point(|record| moment(record).0 < t).clamp(oldest, end);
+        let at_once = self.kept.range(first..end).map(moment).take_while(|(time, _)| *time == t);
+        let put = at_once.enumerate().filter(|(_, (_, is_put))| *is_put).last();
+        first - oldest + put.map_or(0, |(place, _)| place)
+    }
+
     /// The newest record shown.
     pub(super) fn newest(&self) -> Option<&T> {
         self.shown().next_back()

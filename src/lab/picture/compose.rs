@@ -196,7 +196,7 @@ impl BodyCell<'_> {
         let behind = self.lanes.iter().filter(|lane| !self.is_front(lane));
         let mut flagged: Vec<Flag> = Vec::new();
         let mut lost: Vec<Lost> = Vec::new();
-        let mut near: Vec<LoupeLane> = Vec::new();
+        let mut near: Vec<LoupeLane<'_>> = Vec::new();
         let mut cell = Cell {
             rect: camera.rect,
             lane: self.front.id,

@@ -199,6 +199,9 @@ impl Lost {
             let at = camera.points(place);
             [0, 1].map(|i| i32::from(at[i] > room.max[i]) - i32::from(at[i] < room.min[i]))
         };
+        if places.clone().all(|place| side(place) == [0; 2]) {
+            return None;
+        }
         let sides: Vec<[i32; 2]> = places.clone().map(side).collect();
         let oldest = sides.iter().rposition(|side| *side != [0; 2])?;
         let told = if sides[0] == [0; 2] { sides[oldest] } else { sides[0] };

@@ -41,8 +41,7 @@ impl Ghost {
             Framing::Fixed { centre_m, .. } => centre_m,
         };
         let since_s = remembered.swing_since_s(race.t());
-        let reach_m = curve.since(since_s).map(|s| (s.at - centre_m).abs());
-        let reach_m = reach_m.fold(DVec2::ZERO, DVec2::max);
+        let reach_m = curve.reach_m(centre_m, since_s);
         let (followed, turns) = (outline.at, turns(body));
         let view = BodyView { framing, followed, reach_m, turns, zoomed_as: index, grown: 1.0 };
         Self { view, q, outline }

@@ -1,6 +1,7 @@
 //! A ship from above: a hull with a deck, hatches and a house.
 
 use std::f32::consts::FRAC_PI_2;
+use std::sync::LazyLock;
 
 use super::breakpoints;
 use super::mass::LaneStyle;
@@ -23,6 +24,18 @@ pub(super) struct ShipPose {
     pub(super) length: f32,
 }
 
+/// Places along a hull from its stern, in parts of its length, and half its width there, in lengths.
+static WIDTHS: LazyLock<[[f32; 2]; 23]> = LazyLock::new(|| {
+    std::array::from_fn(|i| {
+        let part = i as f32 / 22.0;
+        let stern = (part / 0.1).min(1.0);
+        let bow = ((part - 0.5) / 0.5).max(0.0);
+        let fullness = libm::powf(libm::sinf(stern * FRAC_PI_2), 0.5);
+        let stern = BEAM / 2.0 * (0.55 + 0.45 * fullness) * fullness.max(0.4);
+        [part, stern * (1.0 - libm::powf(bow, 2.1))]
+    })
+});
+
 impl ShipPose {
     /// A place on the ship: so far from its middle to the bow and to starboard, in lengths.
     fn place(self, ahead: f32, aside: f32) -> [f32; 2] {
@@ -33,20 +46,11 @@ impl ShipPose {
 
     /// The corners of the hull, drawn in by this many points.
     fn hull(self, inset: f32) -> Vec<[f32; 2]> {
-        const PIECES: u8 = 22;
         let inset = inset / self.length;
-        let half = BEAM / 2.0;
-        let width = |part: f32| {
-            let stern = (part / 0.1).min(1.0);
-            let bow = ((part - 0.5) / 0.5).max(0.0);
-            let fullness = libm::powf(libm::sinf(stern * FRAC_PI_2), 0.5);
-            half * (0.55 + 0.45 * fullness) * fullness.max(0.4) * (1.0 - libm::powf(bow, 2.1))
-        };
         let side = |sign: f32| {
-            (0..=PIECES).map(move |i| {
-                let part = f32::from(i) / f32::from(PIECES);
+            WIDTHS.iter().map(move |[part, width]| {
                 let ahead = (part - 0.5) * (1.0 - 2.0 * inset);
-                (ahead, sign * (width(part) - inset).max(0.0))
+                (ahead, sign * (width - inset).max(0.0))
             })
         };
         let corners = side(-1.0).chain(side(1.0).rev());

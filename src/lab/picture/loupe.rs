@@ -7,6 +7,7 @@ use super::sketch::{Camera, SOLID, circle, demote, disc, fill, line, ring};
 use super::{Align, Label, Picture, Rect, Rgba};
 use crate::lab::Metric;
 use crate::lab::palette::faded;
+use crate::lab::past::History;
 use crate::lab::race::Entrant;
 use crate::sim::number::{enlargement, round};
 
@@ -31,22 +32,24 @@ const ROUND: u8 = 48;
 
 /// A lane under the loupe.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LoupeLane {
+pub(super) struct LoupeLane<'h> {
     /// How far it is from the truth at the present tick, in metres.
-    pub(super) off_m: DVec2,
-    /// The furthest that it was in the last second, in metres.
-    pub(super) lately_m: f64,
-    pub(super) colour: Rgba,
+    off_m: DVec2,
+    history: &'h History,
+    colour: Rgba,
 }
 
-impl LoupeLane {
-    pub(super) fn of(moment: &DrawContext<'_>, lane: &Entrant, body: usize, colour: Rgba) -> Self {
-        let race = moment.studio.race();
-        let [place, truth] =
-            [&lane.lane, race.truth()].map(|lane| lane.bodies()[body].stepper.place());
-        let lately = moment.history(lane, body).since(race.t() - LATELY_S);
-        let errors = lately.map(|sample| sample.metrics[Metric::POSITION_ERROR]);
-        Self { off_m: place - truth, lately_m: errors.fold(0.0, f64::max), colour }
+impl<'h> LoupeLane<'h> {
+    pub(super) fn of(moment: &DrawContext<'h>, lane: &Entrant, body: usize, colour: Rgba) -> Self {
+        let [place, truth] = [&lane.lane, moment.studio.race().truth()]
+            .map(|lane| lane.bodies()[body].stepper.place());
+        Self { off_m: place - truth, history: moment.history(lane, body), colour }
+    }
+
+    /// The furthest that it was from the truth since `t` (s), in metres.
+    fn furthest_m(&self, t: f64) -> f64 {
+        let errors = self.history.since(t).map(|sample| sample.metrics[Metric::POSITION_ERROR]);
+        errors.fold(self.off_m.length(), f64::max)
     }
 }
 
@@ -57,15 +60,18 @@ pub(super) fn draw(
     picture: &mut Picture,
     moment: &DrawContext<'_>,
     camera: &Camera,
-    (lanes, reach_m): (&[LoupeLane], f64),
+    (lanes, reach_m): (&[LoupeLane<'_>], f64),
     (room, busy): (Rect, Rect),
 ) {
-    let furthest_m = lanes.iter().map(|lane| lane.lately_m.max(lane.off_m.length()));
-    let furthest_m = furthest_m.fold(0.0, f64::max);
-    let furthest = camera.points_per_metre * furthest_m;
+    let t = moment.studio.race().t();
     let has_room = (0..2).all(|axis| room.max[axis] - room.min[axis] >= ROOM[axis]);
-    let is_apart = furthest <= SEEN && furthest_m >= ROUNDING * reach_m;
-    if lanes.len() < 2 || !has_room || !is_apart || moment.studio.race().t() < LATELY_S {
+    let is_seen = |lane: &LoupeLane<'_>| camera.points_per_metre * lane.off_m.length() > SEEN;
+    if lanes.len() < 2 || !has_room || t < LATELY_S || lanes.iter().any(is_seen) {
+        return;
+    }
+    let furthest_m = lanes.iter().map(|lane| lane.furthest_m(t - LATELY_S)).fold(0.0, f64::max);
+    let furthest = camera.points_per_metre * furthest_m;
+    if furthest > SEEN || furthest_m < ROUNDING * reach_m {
         return;
     }
     let Some(times) = enlargement(furthest, REACH * f64::from(RADIUS)) else { return };

@@ -1,5 +1,7 @@
 //! From metres to points: the camera of one cell, and the marks of a body as lines and fills.
 
+use std::sync::LazyLock;
+
 use glam::DVec2;
 
 use super::{FAR, Fill, Path, PathPoint, Rect, Rgba, Shape};
@@ -164,10 +166,19 @@ pub(super) fn circle([x, y]: [f32; 2], radius: f32, corners: u8) -> Vec<[f32; 2]
     (0..corners).map(corner).collect()
 }
 
+/// The cosines and the sines of four pieces of each quarter of a turn.
+static QUARTERS: LazyLock<[[[f32; 2]; 5]; 4]> = LazyLock::new(|| {
+    std::array::from_fn(|turn| {
+        std::array::from_fn(|piece| {
+            let quarters = turn as f32 - 1.0 + piece as f32 / 4.0;
+            let angle = quarters * std::f32::consts::FRAC_PI_2;
+            [libm::cosf(angle), libm::sinf(angle)]
+        })
+    })
+});
+
 /// The outline of an upright rectangle with round corners.
 pub(super) fn rounded(min: [f32; 2], max: [f32; 2], radius: f32) -> Vec<[f32; 2]> {
-    /// Pieces of a quarter of a turn.
-    const PIECES: u8 = 4;
     let radius = radius.min((max[0] - min[0]) / 2.0).min((max[1] - min[1]) / 2.0).max(0.0);
     let centres = [
         [max[0] - radius, min[1] + radius],
@@ -175,12 +186,8 @@ pub(super) fn rounded(min: [f32; 2], max: [f32; 2], radius: f32) -> Vec<[f32; 2]
         [min[0] + radius, max[1] - radius],
         [min[0] + radius, min[1] + radius],
     ];
-    let corner = |(turn, [x, y]): (u8, [f32; 2])| {
-        (0..=PIECES).map(move |piece| {
-            let quarters = f32::from(turn) - 1.0 + f32::from(piece) / f32::from(PIECES);
-            let angle = quarters * std::f32::consts::FRAC_PI_2;
-            [x + radius * libm::cosf(angle), y + radius * libm::sinf(angle)]
-        })
-    };
-    (0..4).zip(centres).flat_map(corner).collect()
+    let corners = centres.iter().zip(&*QUARTERS).flat_map(|([x, y], quarter)| {
+        quarter.iter().map(move |[cos, sin]| [x + radius * cos, y + radius * sin])
+    });
+    corners.collect()
 }

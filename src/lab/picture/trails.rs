@@ -1,7 +1,5 @@
 //! Where bodies have been: the trace of a mass, the wake of a ship.
 
-use std::iter;
-
 use glam::{DVec2, Vec2};
 
 use super::moment::DrawContext;
@@ -45,13 +43,9 @@ fn trail(places: &[Place], clip: Rect, point: impl FnMut(&Place) -> PathPoint) -
 }
 
 impl DrawContext<'_> {
-    /// The samples of the last `trail_s` seconds before the moment drawn, newest first, thinned to
-    /// what shows, each with its age.
-    fn recent<'h>(
-        &self,
-        history: &'h History,
-        trail_s: f64,
-    ) -> impl Iterator<Item = (f64, &'h Sample)> {
+    /// The last `trail_s` seconds of a body that is now at `from`, newest first, thinned to what shows and cut where its
+    /// method was switched, each part beginning where the one before ends.
+    pub(super) fn legs(&self, from: DVec2, history: &History, trail_s: f64) -> Vec<Vec<Place>> {
         let shown = self.t;
         // A body that was put elsewhere did not move there.
         let mut has_jumped = false;
@@ -61,25 +55,21 @@ impl DrawContext<'_> {
             goes_on
         };
         let newest_first = history.samples().rev().take_while(recent);
-        let every = newest_first.clone().count().div_ceil(TRAIL_POINTS).max(1);
-        let newest_first = newest_first.step_by(every);
-        newest_first.filter(move |s| s.t < shown).map(move |s| (shown - s.t, s))
-    }
-
-    /// The past of a body that is now at `from`, newest first, cut where its method was switched, each
-    /// part beginning where the one before ends.
-    pub(super) fn legs(&self, from: DVec2, history: &History, trail_s: f64) -> Vec<Vec<Place>> {
-        let past: Vec<(f64, &Sample)> = self.recent(history, trail_s).collect();
-        let (mut age, mut at) = (0.0, from);
-        let legs = past.chunk_by(|(_, new), (_, old)| new.entry == old.entry).map(|flown| {
-            let colour = self.style(flown[0].1.entry).0;
-            let first = Place { age, at, colour };
-            let rest = flown.iter().map(|&(age, sample)| Place { age, at: sample.at, colour });
-            let leg: Vec<Place> = iter::once(first).chain(rest).collect();
-            (age, at) = leg.last().map_or((age, at), |last| (last.age, last.at));
-            leg
+        let has_more = history.samples().rev().nth(TRAIL_POINTS).filter(|s| shown - s.t < trail_s);
+        let every = has_more.map_or(1, |_| newest_first.clone().count().div_ceil(TRAIL_POINTS));
+        let mut legs: Vec<Vec<Place>> = Vec::new();
+        let (mut flown, mut newer) = (None, Place { age: 0.0, at: from, colour: [0; 4] });
+        newest_first.step_by(every).filter(|s| s.t < shown).for_each(|sample| {
+            if flown.replace(sample.entry) != Some(sample.entry) {
+                newer.colour = self.style(sample.entry).0;
+                let mut leg = Vec::with_capacity(TRAIL_POINTS + 1);
+                leg.push(newer);
+                legs.push(leg);
+            }
+            newer = Place { age: shown - sample.t, at: sample.at, ..newer };
+            legs.last_mut().expect("one has begun").push(newer);
         });
-        legs.collect()
+        legs
     }
 
     fn fade(&self, age: f64, trail_s: f64) -> f32 {
@@ -142,10 +132,11 @@ impl DrawContext<'_> {
             Framing::Recorder { .. } => self.on_paper(camera, place),
             Framing::Follow { .. } | Framing::Fixed { .. } => camera.points(place.at),
         };
-        for ends in leg.windows(2) {
-            let [newer, older] = [0, 1].map(|i| Vec2::from(at(&ends[i])));
-            if newer.distance(older) >= SPARSE {
-                let colour = faded(ends[1].colour, self.fade(ends[1].age, trail_s));
+        let mut newer = None;
+        for place in leg {
+            let older = Vec2::from(at(place));
+            if newer.replace(older).is_some_and(|newer| newer.distance(older) >= SPARSE) {
+                let colour = faded(place.colour, self.fade(place.age, trail_s));
                 picture.shapes.push(disc(older.into(), DOT_RADIUS, colour, camera.rect));
             }
         }
