@@ -26,15 +26,10 @@ impl Joint {
     }
 }
 
-/// What shows of a line within a window, cut off at its edges, with fewer joints.
+/// What shows of a line within a window, in runs cut off at its edges, with as few joints as pass nowhere further than the
+/// tolerances from those left out.
 pub(super) fn shown(joints: impl Iterator<Item = Joint>, window: Rect) -> Vec<Vec<Joint>> {
-    visible(joints, window).iter().map(|run| simple(run)).collect()
-}
-
-/// The runs of a line within a window, cut off at its edges.
-fn visible(joints: impl Iterator<Item = Joint>, window: Rect) -> Vec<Vec<Joint>> {
-    let most = joints.size_hint().0.max(2);
-    let mut runs: Vec<Vec<Joint>> = Vec::new();
+    let mut runs: Vec<Run> = Vec::new();
     let mut last: Option<(Joint, bool)> = None;
     for joint in joints {
         let is_inside = window.contains(joint.at);
@@ -43,18 +38,14 @@ fn visible(joints: impl Iterator<Item = Joint>, window: Rect) -> Vec<Vec<Joint>>
             let seen = if whole { Some([last, joint]) } else { cut([last, joint], window) };
             if let Some([from, to]) = seen {
                 match runs.last_mut() {
-                    Some(run) if run.last() == Some(&from) => run.push(to),
-                    _ => {
-                        let mut run = Vec::with_capacity(most);
-                        run.extend([from, to]);
-                        runs.push(run);
-                    }
+                    Some(run) if run.end == from => run.go_on(to),
+                    _ => runs.push(Run::between(from, to)),
                 }
             }
         }
         last = Some((joint, is_inside));
     }
-    runs
+    runs.into_iter().map(Run::ended).collect()
 }
 
 /// The part of a line within a window (Liang and Barsky).
@@ -82,20 +73,35 @@ fn cut([from, to]: [Joint; 2], window: Rect) -> Option<[Joint; 2]> {
     (first <= last).then(|| [at(first), at(last)])
 }
 
-/// The same line with fewer joints, nowhere further than the tolerances from those left out.
-fn simple(line: &[Joint]) -> Vec<Joint> {
-    let Some(&first) = line.first() else { return Vec::new() };
-    let mut kept = vec![first];
-    let mut piece = Piece::from(first);
-    for ends in line.windows(2) {
-        if !piece.reaches(ends[1]) {
-            kept.push(ends[0]);
-            piece = Piece::from(ends[0]);
-            piece.reaches(ends[1]);
-        }
+/// A run that is being made longer.
+struct Run {
+    /// All but its end.
+    kept: Vec<Joint>,
+    /// From the last that is kept to the end.
+    piece: Piece,
+    end: Joint,
+}
+
+impl Run {
+    fn between(from: Joint, to: Joint) -> Self {
+        let mut run = Self { kept: vec![from], piece: Piece::from(from), end: from };
+        run.go_on(to);
+        run
     }
-    kept.extend(line[1..].last());
-    kept
+
+    fn go_on(&mut self, to: Joint) {
+        if !self.piece.reaches(to) {
+            self.kept.push(self.end);
+            self.piece = Piece::from(self.end);
+            self.piece.reaches(to);
+        }
+        self.end = to;
+    }
+
+    fn ended(mut self) -> Vec<Joint> {
+        self.kept.push(self.end);
+        self.kept
+    }
 }
 
 /// What changes along a line: how far it lies to the side, its radius and the channels of its colour.
@@ -109,6 +115,8 @@ struct Piece {
     from: Joint,
     /// Whether it has no joint beyond its start yet.
     is_new: bool,
+    /// Whether it has the width and the colour of its start so far.
+    is_even: bool,
     /// Its direction, that of the first joint out of the tolerance round its start.
     axis: Option<Vec2>,
     /// How far along it the last joint lies, in points; the next is no nearer.
@@ -120,7 +128,7 @@ struct Piece {
 impl Piece {
     fn from(from: Joint) -> Self {
         let (least, most) = ([f32::NEG_INFINITY; 6], [f32::INFINITY; 6]);
-        Self { from, is_new: true, axis: None, reach: 0.0, least, most }
+        Self { from, is_new: true, is_even: true, axis: None, reach: 0.0, least, most }
     }
 
     /// Has the piece end at a joint, and stand for it from then on, if it can. A new piece reaches any.
@@ -129,7 +137,11 @@ impl Piece {
         let offset = joint.at - self.from.at;
         let tint = |i: usize| f32::from(joint.colour[i]) - f32::from(self.from.colour[i]);
         let radius = joint.radius - self.from.radius;
-        let mut values = [0.0, radius, tint(0), tint(1), tint(2), tint(3)];
+        let is_like_all = self.is_even && radius == 0.0 && joint.colour == self.from.colour;
+        let mut values = match is_like_all {
+            true => [0.0; 6],
+            false => [0.0, radius, tint(0), tint(1), tint(2), tint(3)],
+        };
         if self.axis.is_none() && offset.length_sq() <= TOLERANCE * TOLERANCE {
             let is_like_start = (1..6).all(|i| values[i].abs() <= TOLERANCES[i] / 2.0);
             // Where the colour leaps without a way for it, nothing beyond is reached.
@@ -140,12 +152,22 @@ impl Piece {
         let axis = *self.axis.get_or_insert_with(|| offset.normalized());
         let along = axis.dot(offset);
         values[0] = axis.x * offset.y - axis.y * offset.x;
+        if self.is_even && !is_like_all {
+            // What did not change had to stay within the tolerance up to the last joint.
+            let per_point = 1.0 / self.reach;
+            for (i, tolerance) in TOLERANCES.iter().enumerate().skip(1) {
+                self.least[i] = -tolerance * per_point;
+                self.most[i] = tolerance * per_point;
+            }
+            self.is_even = false;
+        }
+        let changing = if self.is_even { 1 } else { values.len() };
         let is_between =
             |i: usize| self.least[i] * along <= values[i] && values[i] <= self.most[i] * along;
-        let reaches = is_new || along >= self.reach && (0..6).all(is_between);
+        let reaches = is_new || along >= self.reach && (0..changing).all(is_between);
         self.reach = along;
         let per_point = 1.0 / along;
-        for i in 0..6 {
+        for i in 0..changing {
             self.least[i] = self.least[i].max((values[i] - TOLERANCES[i]) * per_point);
             self.most[i] = self.most[i].min((values[i] + TOLERANCES[i]) * per_point);
         }
@@ -175,9 +197,9 @@ mod tests {
             line([[1.0, 5.0], [2.0, 5.0], [2.0, 10.0]]),
             line([[4.0, 10.0], [4.0, 5.0], [10.0, 5.0]]),
         ];
-        assert_eq!(visible(there_and_back.into_iter(), window), expected);
+        assert_eq!(shown(there_and_back.into_iter(), window), expected);
         let outside = line([[-5.0, -5.0], [-1.0, 20.0], [20.0, 40.0]]);
-        assert!(visible(outside.into_iter(), window).is_empty());
+        assert!(shown(outside.into_iter(), window).is_empty());
     }
 
     #[test]
@@ -186,7 +208,11 @@ mod tests {
         let from = Joint { radius: 1.0, colour: Color32::from_gray(200), ..joint([5.0, 5.0]) };
         let to = Joint { radius: 3.0, colour: Color32::from_gray(100), ..joint([15.0, 5.0]) };
         let half = Joint { radius: 2.0, colour: Color32::from_gray(150), ..joint([10.0, 5.0]) };
-        assert_eq!(visible([from, to].into_iter(), window), [[from, half]]);
+        assert_eq!(shown([from, to].into_iter(), window), [[from, half]]);
+    }
+
+    fn simple(line: &[Joint]) -> Vec<Joint> {
+        shown(line.iter().copied(), Rect::EVERYTHING).concat()
     }
 
     /// Whether a straight piece shows what it would with one more joint.
@@ -229,8 +255,7 @@ mod tests {
         }
         assert!(simple(&wave).contains(&wave[200]));
         let still = [joint([5.0, 5.0]); 9];
-        assert_eq!(simple(&still).len(), 2);
-        assert_eq!((simple(&still[..1]).len(), simple(&[]).len()), (1, 0));
+        assert_eq!([9, 1, 0].map(|count| simple(&still[..count]).len()), [2, 0, 0]);
     }
 
     #[test]

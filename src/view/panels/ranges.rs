@@ -99,10 +99,11 @@ fn padded(values: Option<(f64, f64)>) -> (f64, f64) {
 }
 
 fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
-    values.fold(None, |range, y| {
-        let (low, high) = range.unwrap_or((y, y));
-        Some((low.min(y), high.max(y)))
-    })
+    let nothing = (f64::INFINITY, f64::NEG_INFINITY);
+    let (low, high) = values.fold(nothing, |(low, high), y| {
+        (if y < low { y } else { low }, if y > high { y } else { high })
+    });
+    (low <= high).then_some((low, high))
 }
 
 #[cfg(test)]

@@ -44,7 +44,8 @@ impl Detail {
 
 fn finite(points: impl Iterator<Item = Point>) -> Vec<Point> {
     let mut kept = Vec::with_capacity(points.size_hint().0);
-    kept.extend(points.filter(|point| point.at.iter().all(|x| x.is_finite())));
+    let finite = points.filter(|point| point.at.iter().all(|x| x.is_finite()));
+    finite.for_each(|point| kept.push(point));
     kept
 }
 

@@ -10,7 +10,6 @@ use super::super::tracks::{self, Track, TrackStyle};
 use crate::lab::analysis::Unit;
 use crate::lab::number::significant;
 use crate::lab::past::{Quantity, TruthCurve, TruthSample};
-use crate::lab::race::LaneBody;
 use crate::lab::{Coordinate, Studio};
 use crate::view::chart::{Arrow, AxisScale, Bounds, Curve, Dots, Drawing, LineStyle, SwitchMark};
 use egui::Color32;
@@ -64,7 +63,6 @@ pub(super) struct ExactLine {
     jumps: Vec<usize>,
     /// What it is of the samples over time, where it is known between the points too.
     known: Option<Quantity>,
-    samples: Vec<TruthSample>,
 }
 
 /// The value of one curve at a moment.
@@ -135,29 +133,22 @@ impl ExactLine {
     pub(super) fn of(
         studio: &Studio,
         body: usize,
-        place: impl Fn(&TruthSample) -> Option<[f64; 2]>,
+        mut place: impl FnMut(&TruthSample) -> Option<[f64; 2]>,
     ) -> Self {
-        Self::of_samples(studio, samples(studio, body), place)
-    }
-
-    fn of_samples(
-        studio: &Studio,
-        samples: impl Iterator<Item = TruthSample>,
-        place: impl Fn(&TruthSample) -> Option<[f64; 2]>,
-    ) -> Self {
+        let samples = samples(studio, body);
         let most = samples.size_hint().0;
         let (mut times, mut points) = (Vec::with_capacity(most), Vec::with_capacity(most));
         let (mut jumps, mut has_jumped) = (Vec::new(), false);
-        for sample in samples {
+        samples.for_each(|sample| {
             has_jumped |= sample.jumped;
             let at = place(&sample).filter(|at| at.iter().all(|x| x.is_finite()));
-            let Some(at) = at else { continue };
+            let Some(at) = at else { return };
             if std::mem::take(&mut has_jumped) {
                 jumps.push(points.len());
             }
             times.push(sample.t);
             points.push(at);
-        }
+        });
         Self::through(studio, times, points, jumps)
     }
 
@@ -174,20 +165,22 @@ impl ExactLine {
     fn through(studio: &Studio, times: Vec<f64>, points: Vec<[f64; 2]>, jumps: Vec<usize>) -> Self {
         let style = LineStyle::solid(palette_of(studio.display().theme).exact, EXACT);
         let curve = Curve::new(style, points);
-        Self { curve, times, part: "", jumps, known: None, samples: Vec::new() }
+        Self { curve, times, part: "", jumps, known: None }
     }
 
     /// A quantity of a body over time.
     pub(super) fn of_quantity(studio: &Studio, body: usize, quantity: Quantity) -> Self {
-        let value = |s: &TruthSample| quantity.among([s.q, s.v]);
-        let finite = samples(studio, body).filter(|s| s.t.is_finite() && value(s).is_finite());
-        let samples: Vec<TruthSample> = finite.collect();
-        let line = Self::of_samples(studio, samples.iter().copied(), |s| Some([s.t, value(s)]));
-        let swept = match quantity {
-            Quantity::Position => samples.iter().map(|sample| sample.swept.ends()).collect(),
-            Quantity::Velocity => Vec::new(),
-        };
-        Self { curve: Curve { swept, ..line.curve }, known: Some(quantity), samples, ..line }
+        let most = samples(studio, body).size_hint().0;
+        let mut swept = Vec::with_capacity(most);
+        let line = Self::of(studio, body, |s| {
+            let at = known(quantity, s)?;
+            swept.push(s.swept.ends());
+            Some(at)
+        });
+        if quantity != Quantity::Position {
+            swept.clear();
+        }
+        Self { curve: Curve { swept, ..line.curve }, known: Some(quantity), ..line }
     }
 
     /// The same line as a part of the solution, with a dash of its own, and so much of its colour.
@@ -198,14 +191,18 @@ impl ExactLine {
     }
 
     /// The curve from jump to jump, for a plot with these times in view on this number of pixel columns.
-    fn curves(&self, truth: &LaneBody, view: [f64; 2], columns: f32) -> Vec<Curve> {
+    fn curves(
+        &self,
+        studio: &Studio,
+        body: usize,
+        view: [f64; 2],
+        columns: f32,
+    ) -> impl Iterator<Item = Curve> {
         let starts = [0].iter().chain(&self.jumps);
         let ends = self.jumps.iter().copied().chain([self.curve.points.len()]);
         let pieces = starts.zip(ends).map(|(&start, end)| start..end);
-        pieces
-            .filter(|piece| !piece.is_empty())
-            .map(|piece| self.piece(piece, truth, view, columns))
-            .collect()
+        let pieces = pieces.filter(|piece| !piece.is_empty());
+        pieces.map(move |piece| self.piece(piece, (studio, body), view, columns))
     }
 
     /// A piece of the curve without a jump, with a point of its own in every column where columns are narrower than
@@ -213,20 +210,24 @@ impl ExactLine {
     fn piece(
         &self,
         piece: Range<usize>,
-        truth: &LaneBody,
+        (studio, body): (&Studio, usize),
         [from, to]: [f64; 2],
         columns: f32,
     ) -> Curve {
-        let samples = self.samples.get(piece.clone()).unwrap_or_default();
-        let in_view = samples.iter().filter(|s| (from..=to).contains(&s.t)).count();
-        let Some(quantity) = self.known.filter(|_| in_view as f32 <= columns) else {
+        let times = &self.times[piece.clone()];
+        let first = times.partition_point(|&t| t < from);
+        let end = times.partition_point(|&t| t <= to);
+        let in_view = (end - first) as f32;
+        let Some(quantity) = self.known.filter(|_| in_view <= columns) else {
             let swept = self.curve.swept.get(piece.clone()).unwrap_or_default().to_vec();
             return Curve { points: self.curve.points[piece].to_vec(), swept, ..self.curve };
         };
         let wide = (to - from) / f64::from(columns.max(1.0));
-        let first = samples.partition_point(|s| s.t < from).saturating_sub(1);
-        let last = (samples.partition_point(|s| s.t <= to) + 1).min(samples.len());
-        let points = TruthCurve::finer(truth, quantity, &samples[first..last], wide);
+        let (first, end) = (first.saturating_sub(1), (end + 1).min(times.len()));
+        let samples = samples(studio, body).filter(|sample| known(quantity, sample).is_some());
+        let samples: Vec<_> = samples.skip(piece.start + first).take(end - first).collect();
+        let truth = &studio.race().truth().bodies()[body];
+        let points = TruthCurve::finer(truth, quantity, &samples, wide);
         Curve { points, swept: Vec::new(), ..self.curve }
     }
 
@@ -265,6 +266,12 @@ fn samples(studio: &Studio, body: usize) -> impl Iterator<Item = TruthSample> {
     let goes_on = truth.halted().is_none() && curve.samples().next_back().is_some_and(|s| s.t < t);
     let present = goes_on.then(|| curve.present(truth, t));
     curve.samples().copied().chain(present)
+}
+
+/// A quantity over time at a sample, where it is known.
+fn known(quantity: Quantity, sample: &TruthSample) -> Option<[f64; 2]> {
+    let at = [sample.t, quantity.among([sample.q, sample.v])];
+    at.iter().all(|x| x.is_finite()).then_some(at)
 }
 
 impl PlotModel {
@@ -314,9 +321,8 @@ impl PlotModel {
         if !style.is_over_time {
             drawing.switch_mark = SwitchMark::Ring;
         }
-        let truth = &studio.race().truth().bodies()[self.body];
-        let curves = self.exact.iter().flat_map(|line| line.curves(truth, bounds[0], columns));
-        drawing.truth = curves.collect();
+        let curves = |line| ExactLine::curves(line, studio, self.body, bounds[0], columns);
+        drawing.truth = self.exact.iter().flat_map(curves).collect();
         if self.is_over_time() {
             let left = drawing.truth.iter().filter_map(|curve| departure(curve, bounds));
             drawing.arrows.extend(left.collect::<Vec<_>>());
@@ -346,16 +352,15 @@ fn departure(curve: &Curve, bounds: &Bounds) -> Option<Arrow> {
         let [low, high] = bounds[axis];
         (low..=high).contains(&at[axis])
     };
-    let is_at_hand = |at: &&[f64; 2]| is_in_view(0, at);
-    let points: Vec<[f64; 2]> = curve.points.iter().filter(is_at_hand).copied().collect();
-    let is_seen = |at: &[f64; 2]| is_in_view(1, at);
-    let leaves = points.windows(2).find(|ends| is_seen(&ends[0]) && !is_seen(&ends[1]));
-    let [from, to] = match leaves {
-        Some(ends) => [ends[0], ends[1]],
-        None if points.iter().any(is_seen) => return None,
-        None => [*points.last()?; 2],
-    };
-    Some(Arrow { from, to, colour: curve.style.colour })
+    let mut at_hand = curve.points.iter().filter(|at| is_in_view(0, at));
+    let mut from = at_hand.next()?;
+    let left = at_hand.find(|to| {
+        let leaves = is_in_view(1, from) && !is_in_view(1, to);
+        from = if leaves { from } else { to };
+        leaves
+    });
+    let to = left.or((!is_in_view(1, from)).then_some(from))?;
+    Some(Arrow { from: *from, to: *to, colour: curve.style.colour })
 }
 
 fn joined(key: &str, part: &str) -> String {
