@@ -55,11 +55,12 @@ fn groups(studio: &Studio) -> Vec<Vec<Row<'_>>> {
         q.first().copied()
     };
     let exact: Vec<Option<f64>> = truth.map(exact).collect();
+    let judged = row::judged_body(studio);
     studio
         .entries()
         .iter()
         .enumerate()
-        .map(|method| Row::of_method(studio, method, &exact))
+        .map(|method| Row::of_method(studio, method, &exact, judged))
         .collect()
 }
 
@@ -85,7 +86,7 @@ impl TableRow for Row<'_> {
         let name = [
             Some(format!("{} {}", self.entry + 1, self.method_name())),
             self.is_of_body.then(|| self.studio.scene().bodies[self.body].name.clone()),
-            Some(self.said.whole().to_owned()),
+            Some(self.said().whole().to_owned()),
         ];
         name.into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
@@ -118,7 +119,7 @@ impl TableRow for Row<'_> {
         for line in method.formula {
             ui.label(formula::job(line, 16.0, palette(ui).text));
         }
-        ui.label(format!("At {} Hz: {}.", self.studio.clock().tick_hz(), self.said.whole()));
+        ui.label(format!("At {} Hz: {}.", self.studio.clock().tick_hz(), self.said().whole()));
         let order = match method.order == method.order_with_drag {
             true => format!("Order {}", method.order),
             false => format!("Order {}, {} with drag", method.order, method.order_with_drag),

@@ -57,6 +57,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
 
     seek(ui, studio, &response, &track, commands);
     let context = Context {
+        events: &events,
         scene: studio.scene(),
         start: studio.timeline().start(),
         times: &times,
@@ -65,8 +66,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let in_view = |x: f32| along.expand(1.0).contains(x);
     let end = studio.timeline().end();
     let end = studio.timeline().is_in_past().then(|| context.end(end));
-    let marks = context.marks(&events).into_iter().chain(end).collect();
-    let mut groups = grouped(marks, |mark| track.x(mark.tick), MARKS_APART);
+    let mut groups = grouped(context.marks().chain(end), |mark| track.x(mark.tick), MARKS_APART);
     groups.retain(|group| in_view(group.x));
 
     let painter = ui.painter().clone();
@@ -83,7 +83,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         Rect::from_min_max(pos2(along.max + MARGIN, room.top()), room.max),
         commands,
     );
-    tooltip(ui, response, &track, &groups);
+    tooltip(ui, response, &track, (&context, &groups));
 }
 
 fn groove(studio: &Studio, room: Rect) -> Option<Groove> {
@@ -388,7 +388,12 @@ fn memory(bytes: usize, limit: usize) -> String {
 }
 
 /// What happened under the pointer; where nothing did, the moment.
-fn tooltip(ui: &Ui, response: Response, track: &Track<'_>, groups: &[Group]) {
+fn tooltip(
+    ui: &Ui,
+    response: Response,
+    track: &Track<'_>,
+    (context, groups): (&Context<'_>, &[Group]),
+) {
     let Some(Pos2 { x, .. }) = response.hover_pos() else { return };
     let x = track.groove.along.clamp(x);
     let line = Stroke::new(1.0, palette(ui).text.gamma_multiply(0.5));
@@ -399,7 +404,7 @@ fn tooltip(ui: &Ui, response: Response, track: &Track<'_>, groups: &[Group]) {
             ui.label(track.times.moment(track.tick(x)));
             return;
         };
-        group.marks.iter().take(MAX_TOLD).for_each(|mark| drop(ui.label(&mark.text)));
+        group.marks.iter().take(MAX_TOLD).for_each(|mark| drop(ui.label(context.text(mark))));
         if group.marks.len() > MAX_TOLD {
             ui.label(format!("and {} more", group.marks.len() - MAX_TOLD));
         }

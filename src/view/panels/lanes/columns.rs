@@ -92,8 +92,12 @@ fn verdict<'a>(studio: &Studio) -> Column<Row<'a>> {
         "Verdict",
         0.0,
         about,
-        |ui, row: &Row<'a>, rect, _| row.said.show(ui, rect, row.text(ui)),
-        |row| row.said.rank.into(),
+        |ui, row: &Row<'a>, rect, _| {
+            if ui.is_rect_visible(rect) {
+                row.said().show(ui, rect, row.text(ui));
+            }
+        },
+        |row| row.said().rank.into(),
     );
     let beside_head = has_numbers_of_one.then(|| format!("{}:", bodies[studio.view().body].name));
     Column { beside_head, ..column.headed(head) }

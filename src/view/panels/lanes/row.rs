@@ -24,16 +24,19 @@ pub(super) struct Row<'a> {
     pub(super) is_selected: bool,
     /// The first coordinate of the exact body at the moment shown, while there is one.
     exact: Option<f64>,
-    /// What is said of it.
-    pub(super) said: VerdictText,
+    /// The bodies that name the judged one beside it and above all rows, if they do.
+    named_beside: Option<usize>,
+    named_above: Option<usize>,
 }
 
 impl<'a> Row<'a> {
-    /// The rows of the method on this index of the list. `exact` holds where each exact body is.
+    /// The rows of the method on this index of the list. `exact` holds where each exact body is; `named_above` is
+    /// the [judged body](judged_body) of all.
     pub(super) fn of_method(
         studio: &'a Studio,
         (entry, spec): (usize, &'a LaneSpec),
         exact: &[Option<f64>],
+        named_above: Option<usize>,
     ) -> Vec<Self> {
         let flown = studio.flown(entry);
         let shown = studio.view().body;
@@ -48,7 +51,6 @@ impl<'a> Row<'a> {
             (false, true) => judged.map(|verdict| verdict.body),
             (false, false) => None,
         };
-        let named_above = judged_body(studio);
         let row = |body: usize| Row {
             studio,
             entry,
@@ -59,13 +61,21 @@ impl<'a> Row<'a> {
             is_first: !is_of_body || body == 0,
             is_selected: is_active && (!is_of_body || body == shown),
             exact: exact[body],
-            said: verdict::text_of(studio, entry, flown, named_body(body), named_above),
+            named_beside: named_body(body),
+            named_above,
         };
         match is_of_body {
             true => (0..count).map(row).collect(),
             false => vec![row(shown)],
         }
     }
+
+    /// What is said of it.
+    pub(super) fn said(&self) -> VerdictText {
+        let named = (self.named_beside, self.named_above);
+        verdict::text_of(self.studio, self.entry, self.flown, named)
+    }
+
     /// The body of the row, or else the one that the verdict is about.
     pub(super) fn body_name(&self) -> Option<&'a str> {
         let bodies = &self.studio.scene().bodies;

@@ -68,7 +68,7 @@ fn in_solo_the_rows_of_the_bodies_stay_together_under_every_order() {
 }
 
 fn said(studio: &Studio) -> Vec<String> {
-    sorted(studio, None).iter().map(|row| row.said.whole().to_owned()).collect()
+    sorted(studio, None).iter().map(|row| row.said().whole().to_owned()).collect()
 }
 
 #[test]
@@ -126,7 +126,14 @@ fn the_cost_is_that_of_a_tick_now() {
     let costs = |studio: &Studio| -> Vec<Option<f64>> {
         let flown = studio.race().entrants().iter().map(|lane| studio.entry(lane));
         let exact = vec![None; studio.scene().bodies.len()];
-        let rows = |entry: usize| Row::of_method(studio, (entry, &studio.entries()[entry]), &exact);
+        let rows = |entry: usize| {
+            Row::of_method(
+                studio,
+                (entry, &studio.entries()[entry]),
+                &exact,
+                row::judged_body(studio),
+            )
+        };
         flown.map(|entry| rows(entry)[0].cost()).collect()
     };
     let before = costs(&studio);

@@ -11,8 +11,7 @@ pub(super) fn text_of(
     studio: &Studio,
     entry: usize,
     flown: Option<&Entrant>,
-    body: Option<usize>,
-    named_above: Option<usize>,
+    (body, named_above): (Option<usize>, Option<usize>),
 ) -> VerdictText {
     let halts = flown.into_iter().flat_map(|entrant| entrant.lane.halts());
     let mut halts: Vec<_> = halts.filter(|halt| body.is_none_or(|b| b == halt.body)).collect();

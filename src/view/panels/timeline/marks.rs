@@ -29,13 +29,13 @@ pub(super) enum Sign {
 }
 
 /// Something that happened.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Mark {
     pub(super) tick: u64,
     pub(super) sign: Sign,
     pub(super) colour: Color32,
-    /// When, what and by whom.
-    pub(super) text: String,
+    /// The index of its event; `None` at the end of what was run.
+    event: Option<usize>,
 }
 
 /// Marks that are drawn as one.
@@ -54,8 +54,9 @@ impl Group {
     }
 }
 
-/// What the marks of a run depend on besides its events.
+/// What the marks of a run depend on.
 pub(super) struct Context<'a> {
+    pub(super) events: &'a [Event],
     pub(super) scene: &'a Scene,
     /// The race as it started.
     pub(super) start: &'a Race,
@@ -64,25 +65,29 @@ pub(super) struct Context<'a> {
 }
 
 impl Context<'_> {
-    /// The marks of these events, by tick.
-    pub(super) fn marks(&self, events: &[Event]) -> Vec<Mark> {
-        let mark = |Event { tick, kind }: &Event| {
+    /// The marks of the events, by tick.
+    pub(super) fn marks(&self) -> impl Iterator<Item = Mark> {
+        self.events.iter().enumerate().map(|(i, Event { tick, kind })| {
             let (sign, colour) = match kind {
                 EventKind::Done { action, .. } => self.of_action(action),
                 EventKind::Halted { .. } => (Sign::Halt, self.palette.bad),
             };
-            self.mark(*tick, (sign, colour), &kind.words(self.scene))
-        };
-        events.iter().map(mark).collect()
+            Mark { tick: *tick, sign, colour, event: Some(i) }
+        })
     }
 
     /// The mark of the last tick that was reached.
     pub(super) fn end(&self, tick: u64) -> Mark {
-        self.mark(tick, (Sign::End, self.palette.text), "the run has not gone further")
+        Mark { tick, sign: Sign::End, colour: self.palette.text, event: None }
     }
 
-    fn mark(&self, tick: u64, (sign, colour): (Sign, Color32), what: &str) -> Mark {
-        Mark { tick, sign, colour, text: format!("{}: {what}", self.times.moment(tick)) }
+    /// When it happened, what and by whom.
+    pub(super) fn text(&self, mark: &Mark) -> String {
+        let what = match mark.event {
+            Some(event) => self.events[event].kind.words(self.scene),
+            None => "the run has not gone further".into(),
+        };
+        format!("{}: {what}", self.times.moment(mark.tick))
     }
 
     fn of_action(&self, action: &Action) -> (Sign, Color32) {
@@ -103,7 +108,11 @@ impl Context<'_> {
 }
 
 /// Marks in order, those less than `apart` points from the first of a group merged into it.
-pub(super) fn grouped(marks: Vec<Mark>, x: impl Fn(&Mark) -> f32, apart: f32) -> Vec<Group> {
+pub(super) fn grouped(
+    marks: impl Iterator<Item = Mark>,
+    x: impl Fn(&Mark) -> f32,
+    apart: f32,
+) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     for mark in marks {
         let x = x(&mark);
@@ -147,15 +156,16 @@ mod tests {
     use crate::lab::studio::{RunCommand, StageCommand, Studio};
     use crate::view::theme::palette_of;
 
-    fn marks(studio: &Studio) -> Vec<Mark> {
+    fn marks(studio: &Studio) -> Vec<(Sign, String)> {
         let timeline = studio.timeline();
-        let (start, times) = (timeline.start(), &timeline.times());
+        let (events, start, times) = (&timeline.events(), timeline.start(), &timeline.times());
         let palette = palette_of(studio.display().theme);
-        Context { scene: studio.scene(), start, times, palette }.marks(&timeline.events())
+        let context = Context { events, scene: studio.scene(), start, times, palette };
+        context.marks().map(|mark| (mark.sign, context.text(&mark))).collect()
     }
 
     fn texts(studio: &Studio) -> Vec<String> {
-        marks(studio).into_iter().map(|mark| mark.text).collect()
+        marks(studio).into_iter().map(|(_, text)| text).collect()
     }
 
     fn found_colours(studio: &Studio, lane: LaneId) -> Vec<(u64, Color32)> {
@@ -192,7 +202,7 @@ mod tests {
                 "tick 40 (1.000 s): kick ×\u{2212}2.5, by hand",
             ]
         );
-        let signs: Vec<Sign> = marks(&studio).iter().map(|mark| mark.sign).collect();
+        let signs: Vec<Sign> = marks(&studio).iter().map(|(sign, _)| *sign).collect();
         use Sign::*;
         assert_eq!(signs, [Switch, Kick, Edit, Rate, Edit, Kick]);
     }
@@ -214,15 +224,13 @@ mod tests {
         let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
         studio.apply(StageCommand::ToggleRace);
         run(&mut studio, 300);
-        let halts: Vec<Mark> =
-            marks(&studio).into_iter().filter(|mark| mark.sign == Sign::Halt).collect();
-        assert!(!halts.is_empty());
-        assert!(halts[0].text.ends_with(" in lane 1 blew up"), "{}", halts[0].text);
+        let (_, text) = marks(&studio).into_iter().find(|(sign, _)| *sign == Sign::Halt).unwrap();
+        assert!(text.ends_with(" in lane 1 blew up"), "{text}");
     }
 
     #[test]
     fn marks_that_would_touch_are_one_with_the_sign_that_matters_most() {
-        let mark = |tick, sign| Mark { tick, sign, colour: Color32::WHITE, text: tick.to_string() };
+        let mark = |tick, sign| Mark { tick, sign, colour: Color32::WHITE, event: None };
         let marks = vec![
             mark(0, Sign::Kick),
             mark(3, Sign::Halt),
@@ -230,11 +238,11 @@ mod tests {
             mark(10, Sign::Edit),
             mark(30, Sign::Input),
         ];
-        let groups = grouped(marks, |mark| mark.tick as f32, 10.0);
+        let groups = grouped(marks.into_iter(), |mark| mark.tick as f32, 10.0);
         let found: Vec<_> =
             groups.iter().map(|group| (group.x, group.marks.len(), group.shown().tick)).collect();
         assert_eq!(found, [(0.0, 3, 3), (10.0, 1, 10), (30.0, 1, 30)]);
-        assert!(grouped(Vec::new(), |_| 0.0, 10.0).is_empty());
+        assert!(grouped(std::iter::empty(), |_| 0.0, 10.0).is_empty());
     }
 
     #[test]
