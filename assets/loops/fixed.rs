@@ -12,7 +12,7 @@
 const SECOND_NS: i64 = 1_000_000_000;
 
 /// What is longer is not caught up: a machine that is too slow would have ever more to do.
-const LONGEST_FRAME_MS: i64 = 250;
+const MAX_FRAME_MS: i64 = 250;
 
 /// The loop. Its time is counted in nanoseconds times ticks per second, in which a tick is whole: nothing is rounded.
 pub struct GameLoop {
@@ -33,7 +33,7 @@ impl GameLoop {
         self.owed += duration_ns.max(0) * self.tick_hz;
         let due = self.owed / SECOND_NS;
         self.owed %= SECOND_NS;
-        let most = (self.tick_hz * LONGEST_FRAME_MS + 999) / 1000;
+        let most = (self.tick_hz * MAX_FRAME_MS + 999) / 1000;
         due.min(most)
     }
 }

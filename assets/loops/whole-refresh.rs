@@ -14,7 +14,7 @@
 const SECOND_NS: i64 = 1_000_000_000;
 
 /// What is longer is not caught up: a machine that is too slow would have ever more to do.
-const LONGEST_FRAME_MS: i64 = 250;
+const MAX_FRAME_MS: i64 = 250;
 
 /// The loop. Its time is counted in nanoseconds times ticks per second times the numerator of the refresh rate, in
 /// which a tick and a refresh are whole: nothing is rounded.
@@ -38,7 +38,7 @@ impl GameLoop {
             nanosecond: tick_hz * numerator,
             tick: SECOND_NS * numerator,
             refresh: SECOND_NS * denominator * tick_hz,
-            most_ticks: (tick_hz * LONGEST_FRAME_MS + 999) / 1000,
+            most_ticks: (tick_hz * MAX_FRAME_MS + 999) / 1000,
             debt: 0,
             owed: 0,
         }

@@ -77,6 +77,105 @@ const LOST_IN_SINGLE: f64 = 8e-9;
 /// A time may be off its tick by this part of a tick.
 const OFF_TICK: f64 = 0.05;
 
+/// A fault, before its place is known.
+struct Fault {
+    mistaken: Option<LogSetting>,
+    what: String,
+}
+
+impl From<String> for Fault {
+    fn from(what: String) -> Self {
+        Fault { mistaken: None, what }
+    }
+}
+
+/// Where a log has which column, from 0.
+struct Columns<'a> {
+    header: &'a csv::StringRecord,
+    time: TimeColumn,
+    x: usize,
+    v: Option<usize>,
+}
+
+enum TimeColumn {
+    Ticks(usize),
+    Seconds(usize),
+}
+
+impl<'a> Columns<'a> {
+    fn find(header: &'a csv::StringRecord, names: &ColumnNames) -> Result<Self, Fault> {
+        let column = |wanted: &str| header.iter().position(|known| known == wanted);
+        let absent = |what: &str, setting: LogSetting| Fault {
+            mistaken: Some(setting),
+            what: format!("no column {what}; here are {}", listed(header)),
+        };
+        let Some(x) = column(&names.x) else {
+            return Err(absent(&format!("{:?}", names.x), LogSetting::CoordinateColumn));
+        };
+        let (tick, t, v) = (column(&names.tick), column(&names.t), column(&names.v));
+        let usual = ColumnNames::default();
+        for (wanted, usual, found, setting) in [
+            (&names.tick, &usual.tick, tick, LogSetting::TickColumn),
+            (&names.t, &usual.t, t, LogSetting::TimeColumn),
+            (&names.v, &usual.v, v, LogSetting::VelocityColumn),
+        ] {
+            if wanted != usual && found.is_none() {
+                return Err(absent(&format!("{wanted:?}"), setting));
+            }
+        }
+        let time = tick.map(TimeColumn::Ticks).or(t.map(TimeColumn::Seconds)).ok_or_else(|| {
+            let both = format!("{:?} and none {:?}", names.tick, names.t);
+            absent(&both, LogSetting::TickOrTimeColumn)
+        })?;
+        Ok(Self { header, time, x, v })
+    }
+
+    /// How many ticks a row lies after the first, which lies at `first` by the log's own count.
+    fn tick(
+        &self,
+        record: &csv::StringRecord,
+        tick_hz: f64,
+        first: &mut Option<f64>,
+    ) -> Result<u64, Fault> {
+        let at = match self.time {
+            TimeColumn::Ticks(tick) => self.number(record, tick)?,
+            TimeColumn::Seconds(t) => self.number(record, t)? * tick_hz,
+        };
+        let since = at - *first.get_or_insert(at);
+        let tick = since.round();
+        if tick < 0.0 || (since - tick).abs() > OFF_TICK {
+            let what = format!(
+                "the row is {since:.3} ticks of {tick_hz} Hz after the first; rows are at whole ticks"
+            );
+            return Err(Fault { mistaken: Some(LogSetting::TickRate), what });
+        }
+        Ok(tick as u64)
+    }
+
+    fn number(&self, record: &csv::StringRecord, column: usize) -> Result<f64, Fault> {
+        let cell = &record[column];
+        let found = cell.parse::<f64>().ok().filter(|number| number.is_finite());
+        found.ok_or_else(|| {
+            let [column, cell] = [&self.header[column], cell].map(clip);
+            format!(
+                "column \"{column}\": \"{cell}\" is no number; write one, or cut the log before it"
+            )
+            .into()
+        })
+    }
+}
+
+/// The columns that there are, for a message.
+fn listed(header: &csv::StringRecord) -> String {
+    let names: Vec<String> = header.iter().map(|name| format!("\"{name}\"")).collect();
+    let listed = clip_list(names.iter().map(String::as_str));
+    match &names[..] {
+        [] => "no columns".to_owned(),
+        [one] if one.contains([';', '\t']) => format!("{listed}, without a comma between columns"),
+        _ => listed,
+    }
+}
+
 impl Log {
     /// The fewest rows with velocities: two numbers more than a start has.
     const MIN_ROWS: usize = 2;
@@ -95,100 +194,50 @@ impl Log {
         columns: &ColumnNames,
         tick_hz: f64,
     ) -> Result<Log, LogError> {
-        let error = |line: u64, fault: String| LogError {
-            name: name.to_owned(),
-            line,
-            mistaken: None,
-            fault,
+        let at = |line: u64| {
+            move |Fault { mistaken, what }: Fault| {
+                let name = name.to_owned();
+                LogError { name, line, mistaken, fault: what }
+            }
+        };
+        let broken = |e: csv::Error| {
+            let line = e.position().map_or(1, csv::Position::line);
+            let what = format!("the row cannot be read: {e}; give each row the header's cells");
+            at(line)(what.into())
         };
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut reader =
             csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
-        let broken = |e: &csv::Error| {
-            let line = e.position().map_or(1, csv::Position::line);
-            error(line, format!("the row cannot be read: {e}; give each row the header's cells"))
-        };
-        let header = reader.headers().map_err(|e| broken(&e))?.clone();
-        let column = |wanted: &str| header.iter().position(|known| known == wanted);
-        let found = || {
-            let names: Vec<String> = header.iter().map(|name| format!("\"{name}\"")).collect();
-            let listed = clip_list(names.iter().map(String::as_str));
-            match &names[..] {
-                [] => "no columns".to_owned(),
-                [one] if one.contains([';', '\t']) => {
-                    format!("{listed}, without a comma between columns")
-                }
-                _ => listed,
-            }
-        };
-        let absent = |what: &str, setting: LogSetting| LogError {
-            mistaken: Some(setting),
-            ..error(1, format!("no column {what}; here are {}", found()))
-        };
-        let Some(x) = column(&columns.x) else {
-            return Err(absent(&format!("{:?}", columns.x), LogSetting::CoordinateColumn));
-        };
-        let (tick, t, v) = (column(&columns.tick), column(&columns.t), column(&columns.v));
-        let usual = ColumnNames::default();
-        for (wanted, usual, setting) in [
-            (&columns.tick, &usual.tick, LogSetting::TickColumn),
-            (&columns.t, &usual.t, LogSetting::TimeColumn),
-            (&columns.v, &usual.v, LogSetting::VelocityColumn),
-        ] {
-            if wanted != usual && column(wanted).is_none() {
-                return Err(absent(&format!("{wanted:?}"), setting));
-            }
-        }
-        if tick.is_none() && t.is_none() {
-            let both = format!("{:?} and none {:?}", columns.tick, columns.t);
-            return Err(absent(&both, LogSetting::TickOrTimeColumn));
-        }
+        let header = reader.headers().map_err(broken)?.clone();
+        let columns = Columns::find(&header, columns).map_err(at(1))?;
         let (mut rows, mut first): (Vec<LogRow>, Option<f64>) = (Vec::new(), None);
         for record in reader.records() {
-            let record = record.map_err(|e| broken(&e))?;
+            let record = record.map_err(broken)?;
             let line = record.position().map_or(1, csv::Position::line);
-            let number = |index: usize| -> Result<f64, LogError> {
-                let cell = &record[index];
-                let found = cell.parse::<f64>().ok().filter(|number| number.is_finite());
-                found.ok_or_else(|| {
-                    let [column, cell] = [&header[index], cell].map(clip);
-                    error(line, format!("column \"{column}\": \"{cell}\" is no number; write one, or cut the log before it"))
-                })
-            };
-            let at = match (tick, t) {
-                (Some(tick), _) => number(tick)?,
-                (None, Some(t)) => number(t)? * tick_hz,
-                (None, None) => unreachable!("one of them is there"),
-            };
-            let since = at - *first.get_or_insert(at);
-            let tick = since.round();
-            if tick < 0.0 || (since - tick).abs() > OFF_TICK {
-                let fault = format!(
-                    "the row is {since:.3} ticks of {tick_hz} Hz after the first; rows are at whole ticks"
-                );
-                let mistaken = Some(LogSetting::TickRate);
-                return Err(LogError { mistaken, ..error(line, fault) });
-            }
-            let tick = tick as u64;
+            let tick = columns.tick(&record, tick_hz, &mut first).map_err(at(line))?;
             if rows.last().is_some_and(|before| before.tick >= tick) {
-                let fault =
-                    format!("tick {tick} does not follow the row before; put rows in order");
-                return Err(error(line, fault));
+                let what = format!("tick {tick} does not follow the row before; put rows in order");
+                return Err(at(line)(what.into()));
             }
             if tick > Self::MAX_TICKS {
                 break;
             }
-            rows.push(LogRow { tick, x: number(x)?, v: v.map(number).transpose()? });
+            let number = |column| columns.number(&record, column).map_err(at(line));
+            rows.push(LogRow {
+                tick,
+                x: number(columns.x)?,
+                v: columns.v.map(number).transpose()?,
+            });
         }
-        let least = if v.is_some() { Self::MIN_ROWS } else { Self::MIN_ROWS_WITHOUT_VELOCITY };
+        let has_velocities = columns.v.is_some();
+        let least = if has_velocities { Self::MIN_ROWS } else { Self::MIN_ROWS_WITHOUT_VELOCITY };
         if rows.len() < least {
-            let fault =
+            let what =
                 format!("a log of {} rows says too little; log at least {least}", rows.len());
-            return Err(error(1, fault));
+            return Err(at(1)(what.into()));
         }
-        let is_still = rows.iter().all(|row| row.x == rows[0].x && row.v.unwrap_or(0.0) == 0.0);
-        if is_still {
-            return Err(error(2, "nothing moves; log a motion".to_owned()));
+        if rows.iter().all(|row| row.x == rows[0].x && row.v.unwrap_or(0.0) == 0.0) {
+            return Err(at(2)("nothing moves; log a motion".to_owned().into()));
         }
         let largest = |numbers: &mut dyn Iterator<Item = f64>| {
             let largest = numbers.map(f64::abs).fold(0.0, f64::max);
