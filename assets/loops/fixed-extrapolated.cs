@@ -14,7 +14,7 @@ using System;
 public class GameLoop
 {
     const long SecondNs = 1000000000;
-    const long LongestFrameMs = 250;
+    const long MaxFrameMs = 250;
 
     readonly long tickHz;
     long owed; // The time since the last tick.
@@ -31,7 +31,7 @@ public class GameLoop
         long due = owed / SecondNs;
         owed %= SecondNs;
         // More is not caught up: a machine that is too slow would have ever more to do.
-        return (int)Math.Min(due, (tickHz * LongestFrameMs + 999) / 1000);
+        return (int)Math.Min(due, (tickHz * MaxFrameMs + 999) / 1000);
     }
 
     // A coordinate to draw, from that at the last tick and the velocity per second there.

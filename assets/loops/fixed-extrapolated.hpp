@@ -22,8 +22,8 @@ public:
         const int due = static_cast<int>(owed / second_ns);
         owed %= second_ns;
         // More is not caught up: a machine that is too slow would have ever more to do.
-        const int longest_frame_ms = 250;
-        return std::min(due, (tick_hz * longest_frame_ms + 999) / 1000);
+        const int max_frame_ms = 250;
+        return std::min(due, (tick_hz * max_frame_ms + 999) / 1000);
     }
 
     // A coordinate to draw, from that at the last tick and the velocity per second there.

@@ -15,7 +15,7 @@ using System;
 public class GameLoop
 {
     const long SecondNs = 1000000000;
-    const long LongestFrameMs = 250;
+    const long MaxFrameMs = 250;
 
     readonly long tickHz;
     long owed; // The time since the last tick.
@@ -32,7 +32,7 @@ public class GameLoop
         long due = owed / SecondNs;
         owed %= SecondNs;
         // More is not caught up: a machine that is too slow would have ever more to do.
-        return (int)Math.Min(due, (tickHz * LongestFrameMs + 999) / 1000);
+        return (int)Math.Min(due, (tickHz * MaxFrameMs + 999) / 1000);
     }
 
     // How far it is from the last tick to the next, from 0 to 1.

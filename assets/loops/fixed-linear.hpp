@@ -23,8 +23,8 @@ public:
         const int due = static_cast<int>(owed / second_ns);
         owed %= second_ns;
         // More is not caught up: a machine that is too slow would have ever more to do.
-        const int longest_frame_ms = 250;
-        return std::min(due, (tick_hz * longest_frame_ms + 999) / 1000);
+        const int max_frame_ms = 250;
+        return std::min(due, (tick_hz * max_frame_ms + 999) / 1000);
     }
 
     // How far it is from the last tick to the next, from 0 to 1.

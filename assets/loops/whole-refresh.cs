@@ -17,7 +17,7 @@ using System;
 public class GameLoop
 {
     const long SecondNs = 1000000000;
-    const long LongestFrameMs = 250;
+    const long MaxFrameMs = 250;
 
     readonly long nanosecond, tick, refresh, mostTicks;
     long debt; // The time that has not been counted yet; negative where more has been.
@@ -29,7 +29,7 @@ public class GameLoop
         nanosecond = (long)tickHz * refreshNumerator;
         tick = SecondNs * refreshNumerator;
         refresh = SecondNs * refreshDenominator * tickHz;
-        mostTicks = (tickHz * LongestFrameMs + 999) / 1000;
+        mostTicks = (tickHz * MaxFrameMs + 999) / 1000;
     }
 
     // The ticks to make now. A clock that went back counts as no time.
