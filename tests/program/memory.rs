@@ -43,7 +43,9 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-const SIZE_PX: [u32; 2] = [1280, 720];
+/// The panels of a window of 1280 by 720 points, with a quarter of its pixels to draw.
+const SIZE_PX: [u32; 2] = [640, 360];
+const SCALE: f32 = 0.5;
 const EVENTS: usize = 1200;
 /// The memory for rewinding, in MB: small enough to be full at each rest.
 const REWIND_MB: usize = 1;
@@ -67,7 +69,7 @@ impl Program {
         *time_s += 1.0 / 60.0;
         studio.advance(16_666_667);
         let input = RawInput { time: Some(*time_s), events, ..RawInput::default() };
-        let (commands, output) = renderer.draw(gpu, &canvas.view, SIZE_PX, 1.0, input, studio);
+        let (commands, output) = renderer.draw(gpu, &canvas.view, SIZE_PX, SCALE, input, studio);
         gpu.queue.submit(output.drawing);
         let wait = wgpu::PollType::Wait { submission_index: None, timeout: None };
         gpu.device.poll(wait).expect("the device is there");
@@ -138,7 +140,7 @@ fn a_thousand_random_events_leave_no_more_memory_held_than_a_few_megabytes() {
     };
     let mut studio = Studio::new(Scene::built_in("harbour").expect("a built-in scene"));
     studio.set_rewind_bytes(REWIND_MB << 20);
-    let canvas = Offscreen::new(&gpu, SIZE_PX).expect("1280x720 is within any limit");
+    let canvas = Offscreen::new(&gpu, SIZE_PX).expect("640x360 is within any limit");
     let renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
     let mut program = Program { studio, gpu, canvas, renderer, time_s: 0.0 };
     let mut dice = Dice::new(12);

@@ -2,6 +2,8 @@
 //! and exit code out.
 #![cfg(all(feature = "desktop", target_os = "linux"))]
 
+// By its name the first to run: it takes longest, and the others run beside it.
+mod at_random;
 mod clipboard;
 mod copying;
 mod desk;
@@ -14,7 +16,6 @@ mod life;
 mod mouse;
 mod opening;
 mod program;
-mod random;
 mod shape;
 mod time_travel;
 mod touch;

@@ -61,7 +61,7 @@ const EVENTS: usize = 350;
 /// Events that one call of xdotool makes.
 const BATCH: usize = 25;
 /// How much more memory the program may use at rest after the second half of the events than after the first, in MB.
-/// What the program holds does not grow, as `tests/memory.rs` counts; its process grows by up to 7, and no more after some
+/// What the program holds does not grow, as `tests/program/memory.rs` counts; its process grows by up to 7, and no more after some
 /// 4000 events, since what is freed comes back in pieces. A leak of 20 KB an event adds 30.
 const MAX_GROWTH_MB: f64 = 20.0;
 /// How long the program's memory is read at a rest.
