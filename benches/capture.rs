@@ -1,7 +1,7 @@
 //! Frames per second of a capture, as the program is used, and the processor time that a frame takes, against
 //! that of its stages alone: drawing, each frame read back before the next is begun, and encoding. All take
-//! turns; the figures are medians over the rounds. How the stages share two processors is the machine's doing,
-//! and no aim.
+//! turns; the figures are medians over the rounds. How many frames that is in a second, and how the stages share two
+//! processors, is the machine's doing, and no aim.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -18,13 +18,14 @@ const FEW: u32 = 2;
 const SIZE_PX: [u32; 2] = [1280, 720];
 /// Frames in a second of the run, for the program and for its stages alone: a later moment has more to draw.
 const FPS: u32 = 30;
-/// The aims, in frames a second and as a ratio, on two cores with a software adapter.
-const MIN_WITH_PANELS: f64 = 100.0;
-const MIN_WITHOUT: f64 = 170.0;
-const MAX_OF_STAGES: f64 = 1.1;
+/// The aims, with a software adapter: drawing with panels and without, in times of encoding, and the whole in times of its
+/// stages.
+const MAX_WITH_PANELS: f64 = 9.0;
+const MAX_WITHOUT: f64 = 7.0;
+const MAX_OF_STAGES: f64 = 1.2;
 
 fn main() {
-    for (panels, least) in [(Panels::Shown, MIN_WITH_PANELS), (Panels::Off, MIN_WITHOUT)] {
+    for (panels, most) in [(Panels::Shown, MAX_WITH_PANELS), (Panels::Off, MAX_WITHOUT)] {
         let rounds: Result<Vec<Round>, String> = (0..ROUNDS).map(|_| round(panels)).collect();
         let rounds = match rounds {
             Ok(rounds) => rounds,
@@ -40,11 +41,12 @@ fn main() {
             1e3 * of(|round| round.encoding_cpu_s),
         );
         let ratio = of(|round| round.whole.cpu_s / (round.drawing_cpu_s + round.encoding_cpu_s));
+        let drawing = of(|round| round.drawing_cpu_s / round.encoding_cpu_s);
         let holds = |held: bool| if held { "holds" } else { "MISSED" };
         println!(
-            "aims: {least} frames per second {}; processor time {ratio:.2} of the stages' together, at \
-             most {MAX_OF_STAGES}, {}",
-            holds(fps >= least),
+            "aims: drawing takes {drawing:.1} times encoding, at most {most}, {}; processor time {ratio:.2} of the \
+             stages' together, at most {MAX_OF_STAGES}, {}",
+            holds(drawing <= most),
             holds(ratio <= MAX_OF_STAGES)
         );
     }
