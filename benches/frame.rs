@@ -93,7 +93,7 @@ struct Row {
 
 const ROWS: [Row; 9] = [
     Row { name: "simulation", stages: &[0], aim: None },
-    Row { name: "events to picture", stages: &[0, 1], aim: Some(|lanes| 0.05 * lanes) },
+    Row { name: "events to picture", stages: &[0, 1], aim: Some(|lanes| 0.06 * lanes) },
     Row { name: "panels and picture laid out", stages: &[2], aim: None },
     Row { name: "simulation, and all laid out", stages: &[0, 2], aim: Some(|_| 2.5) },
     Row { name: "what is laid out to commands", stages: &[3], aim: None },
