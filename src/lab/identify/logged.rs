@@ -131,7 +131,7 @@ impl<'a> Columns<'a> {
     }
 
     /// How many ticks a row lies after the first, which lies at `first` by the log's own count.
-    fn tick(
+    fn tick_of(
         &self,
         record: &csv::StringRecord,
         tick_hz: f64,
@@ -214,7 +214,7 @@ impl Log {
         for record in reader.records() {
             let record = record.map_err(broken)?;
             let line = record.position().map_or(1, csv::Position::line);
-            let tick = columns.tick(&record, tick_hz, &mut first).map_err(at(line))?;
+            let tick = columns.tick_of(&record, tick_hz, &mut first).map_err(at(line))?;
             if rows.last().is_some_and(|before| before.tick >= tick) {
                 let what = format!("tick {tick} does not follow the row before; put rows in order");
                 return Err(at(line)(what.into()));
