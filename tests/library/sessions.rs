@@ -210,7 +210,7 @@ fn shown(timeline: &Timeline) -> Shown {
 #[test]
 fn a_seek_from_any_tick_gives_the_state_of_a_run_to_that_tick() {
     let mut dice = Dice::new(2);
-    for n in 0..24 {
+    for n in 0..16 {
         let mut timeline = Timeline::new(start(&mut dice, n));
         let mut at = ticks_of_actions(&mut dice, 4000).into_iter().peekable();
         let wanted: Vec<u64> = (0..12).map(|_| dice.below(4000) as u64).collect();
