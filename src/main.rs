@@ -44,6 +44,13 @@ fn run() -> ExitCode {
 }
 
 fn report_bug(panic: &PanicHookInfo<'_>) {
+    // What the libraries below us do where the system starts no thread for them is no bug of ours.
+    let said = panic.payload_as_str().unwrap_or_default();
+    if ["failed to spawn thread", "ThreadPoolBuildError"].iter().any(|what| said.contains(what)) {
+        return commands::print_status(
+            "error: the system starts no more threads for this program; let it (ulimit -u, ulimit -v)",
+        );
+    }
     // Not `eprintln!`, which panics in its turn where standard error is closed.
     let _ = writeln!(
         io::stderr(),

@@ -58,6 +58,12 @@ impl Error {
         Self::new(ExitReason::Interrupted, "interrupted; nothing was written")
     }
 
+    /// An interrupt while the other end of the stream `name` stood still.
+    pub(super) fn interrupted_while_waiting_for(name: &str) -> Self {
+        let message = format!("interrupted while nothing was reading {name}");
+        Self::new(ExitReason::Interrupted, message)
+    }
+
     /// A failed write, with this message.
     pub(super) fn unwritten(error: &io::Error, message: impl Display) -> Self {
         let is_closed = error.kind() == io::ErrorKind::BrokenPipe;

@@ -1,5 +1,6 @@
 //! Runs jobs on other threads until all are done or Ctrl-C is pressed.
 
+use std::fmt::Display;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
@@ -23,10 +24,15 @@ const BETWEEN_LINES: Duration = Duration::from_secs(10);
 /// # Errors
 /// If the system does not start them.
 pub(super) fn pool(threads: usize) -> Result<ThreadPool, Error> {
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-    pool.map_err(|why| {
-        Error::failed(format!("cannot start the threads: {why}; give fewer --threads, where a command takes them, or let the system start more"))
-    })
+    ThreadPoolBuilder::new().num_threads(threads).build().map_err(no_threads)
+}
+
+/// The error of threads that the system does not start.
+pub(super) fn no_threads(why: impl Display) -> Error {
+    Error::failed(format!(
+        "cannot start the threads: {why}; give fewer --threads, where a command takes them, or let the \
+         system start more (ulimit -u, ulimit -v)"
+    ))
 }
 
 /// The results of `work` for the jobs 0 to `number` - 1, in order; `None` for a job that was not done when
@@ -68,10 +74,20 @@ pub(super) fn result<R: Send + 'static>(
     interrupted: &AtomicBool,
     work: impl FnOnce() -> R + Send + 'static,
 ) -> Option<R> {
+    result_within(Duration::ZERO, interrupted, work)
+}
+
+/// The same, which is waited for so long after an interrupt.
+pub(super) fn result_within<R: Send + 'static>(
+    grace: Duration,
+    interrupted: &AtomicBool,
+    work: impl FnOnce() -> R + Send + 'static,
+) -> Option<R> {
     let (sender, receiver) = mpsc::channel();
     // After an interrupt the receiver is gone.
     let thread = thread::spawn(move || _ = sender.send(work()));
     let found = next(&receiver, interrupted, || ());
+    let found = found.or_else(|| receiver.recv_timeout(grace).ok());
     if found.is_none() && !interrupted.load(Ordering::Relaxed) {
         panic::resume_unwind(thread.join().expect_err("a thread that sends nothing has panicked"));
     }

@@ -91,7 +91,9 @@ impl Pipeline<'_> {
             emptied.send(Vec::new()).expect("its receiver is here");
         }
         thread::scope(|threads| {
-            let taker = threads.spawn(move || take_in_order(&encoded, &emptied, take));
+            let taker = thread::Builder::new()
+                .spawn_scoped(threads, move || take_in_order(&encoded, &emptied, take))
+                .map_err(jobs::no_threads)?;
             let drawn = pool.in_place_scope_fifo(|jobs| {
                 self.draw(&buffers, interrupted, |drawn| {
                     let (results, encode) = (results.clone(), &encode);

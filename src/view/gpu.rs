@@ -39,6 +39,15 @@ pub enum GpuError {
     /// The window system gave nothing to draw on.
     #[error("no surface to draw on: {0}; try WGPU_BACKEND=gl, or capture without a window")]
     NoSurface(#[from] wgpu::CreateSurfaceError),
+    /// The process may not have the memory that a driver takes.
+    #[error(
+        "no room for a graphics driver, which takes up to {mib} MiB of address space; raise the limit \
+         of memory (ulimit -v), or take a command that does not draw"
+    )]
+    NoRoom {
+        /// What a software driver takes, in MiB.
+        mib: usize,
+    },
     /// A texture of this size is more than the adapter can make.
     #[error(
         "frame size {width}x{height} is beyond this adapter's limit of {limit}; \
@@ -69,6 +78,10 @@ pub enum GpuError {
         height: u32,
     },
 }
+
+/// What a software driver with its threads, and a frame of usual size, take of a process' address space, in MiB: without it
+/// drivers end the process.
+const DRIVER_MIB: usize = 640;
 
 /// A device, its queue, and the adapter they came from. A clone is the same device.
 #[derive(Clone, Debug)]
@@ -104,6 +117,8 @@ impl Gpu {
         surface: Option<&wgpu::Surface<'_>>,
         preference: AdapterPreference,
     ) -> Result<Self, GpuError> {
+        let room = Vec::<u8>::new().try_reserve_exact(DRIVER_MIB << 20);
+        room.map_err(|_| GpuError::NoRoom { mib: DRIVER_MIB })?;
         let mut unfit = Vec::new();
         let mut candidates = Vec::new();
         for adapter in instance.enumerate_adapters(wgpu::Backends::all()).await {

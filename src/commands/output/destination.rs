@@ -4,9 +4,11 @@
 use std::fs::{self, File};
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::atomic_file::{AtomicFile, IfExists};
 use crate::commands::error::Error;
+use crate::commands::interrupt;
 use crate::commands::terminal::print_status;
 
 /// The path that means standard output.
@@ -45,7 +47,7 @@ impl Destination<'_> {
     pub(crate) fn open_for_text(self) -> Result<Output, Error> {
         let Self { path, option, if_exists } = self;
         if path == Path::new(STDOUT) {
-            return Ok(self.output(Target::Stdout(io::stdout())));
+            return Ok(self.output(Target::Stdout));
         }
         match fs::metadata(path) {
             Ok(entry) if entry.is_dir() => {
@@ -53,9 +55,12 @@ impl Destination<'_> {
                 Err(Error::mistake(format!("{path} is a directory; give {option} a file")))
             }
             Ok(entry) if !entry.is_file() || OPEN_ALREADY.iter().any(|o| path.starts_with(o)) => {
-                let device = File::options().append(true).open(path);
-                Ok(self
-                    .output(Target::Device(device.map_err(Error::of_file("write", path, option))?)))
+                // A pipe is open once something reads it.
+                let (name, device) = (path.display().to_string(), path.to_owned());
+                let open = move || File::options().append(true).open(device);
+                let device = interrupt::wait_for(&name, open)
+                    .map_err(explain(Error::of_file("write", path, option)))?;
+                Ok(self.output(Target::Device(Arc::new(device))))
             }
             // A link that leads nowhere yet is taken too.
             _ if if_exists != IfExists::Replace && fs::symlink_metadata(path).is_ok() => {
@@ -87,7 +92,8 @@ impl Destination<'_> {
     }
 
     fn output(self, target: Target) -> Output {
-        let sink = Sink { target, path: self.path.to_owned(), option: self.option };
+        let sink =
+            Sink { target, path: self.path.to_owned(), option: self.option, is_stuck: false };
         Output(BufWriter::new(sink))
     }
 }
@@ -99,12 +105,14 @@ struct Sink {
     target: Target,
     path: PathBuf,
     option: &'static str,
+    /// Whether it was given up at an interrupt: whoever drops it must not wait again.
+    is_stuck: bool,
 }
 
 enum Target {
-    Stdout(io::Stdout),
+    Stdout,
     /// A device or a pipe, which is written to and not replaced.
-    Device(File),
+    Device(Arc<File>),
     File(AtomicFile, IfExists),
 }
 
@@ -113,16 +121,12 @@ impl Output {
     pub(crate) fn stdout() -> Self {
         let place =
             Destination { path: Path::new(STDOUT), option: "--out", if_exists: IfExists::Keep };
-        place.output(Target::Stdout(io::stdout()))
+        place.output(Target::Stdout)
     }
 
     /// Its name in messages.
     pub(crate) fn name(&self) -> String {
-        let Sink { target, path, .. } = self.0.get_ref();
-        match target {
-            Target::Stdout(_) => "standard output".into(),
-            Target::Device(_) | Target::File(..) => path.display().to_string(),
-        }
+        self.0.get_ref().name()
     }
 
     /// The path of the file, if it is one.
@@ -136,7 +140,7 @@ impl Output {
         self.flush()?;
         let name = self.name();
         let sink = self.0.into_inner().map_err(io::IntoInnerError::into_error)?;
-        let Sink { target: Target::File(file, if_exists), path, option } = sink else {
+        let Sink { target: Target::File(file, if_exists), path, option, .. } = sink else {
             return Ok(name);
         };
         let asked = file.path().to_owned();
@@ -176,12 +180,37 @@ impl Write for Output {
 }
 
 impl Sink {
-    fn stream(&mut self) -> &mut dyn Write {
-        match &mut self.target {
-            Target::Stdout(out) => out,
-            Target::Device(device) => device,
-            Target::File(file, _) => file,
+    fn name(&self) -> String {
+        match self.target {
+            Target::Stdout => "standard output".into(),
+            Target::Device(_) | Target::File(..) => self.path.display().to_string(),
         }
+    }
+
+    /// Does something with the stream. What another program reads may be full, and wait until that goes on.
+    fn with_stream<T: Send + 'static>(
+        &mut self,
+        bytes: &[u8],
+        act: impl FnOnce(&mut dyn Write, &[u8]) -> io::Result<T> + Send + 'static,
+    ) -> io::Result<T> {
+        let name = self.name();
+        if self.is_stuck {
+            return Err(io::Error::other(Error::interrupted_while_waiting_for(&name)));
+        }
+        let done = match &mut self.target {
+            Target::File(file, _) => act(file, bytes),
+            Target::Stdout => {
+                let bytes = bytes.to_owned();
+                interrupt::wait_for(&name, move || act(&mut io::stdout(), &bytes))
+            }
+            Target::Device(device) => {
+                let (device, bytes) = (Arc::clone(device), bytes.to_owned());
+                interrupt::wait_for(&name, move || act(&mut &*device, &bytes))
+            }
+        };
+        let is_ours = |error: &io::Error| error.get_ref().is_some_and(|inner| inner.is::<Error>());
+        self.is_stuck = done.as_ref().err().is_some_and(is_ours);
+        self.explained(done)
     }
 
     /// The result with the message of the command in its error. The kind stays, by which writers know what to try again.
@@ -189,8 +218,10 @@ impl Sink {
         result.map_err(|error| {
             let kind = error.kind();
             let explained = match self.target {
-                Target::Stdout(_) => error.into(),
-                Target::Device(_) => Error::of_file("write", &self.path, self.option)(error),
+                Target::Stdout => error.into(),
+                Target::Device(_) => {
+                    explain(Error::of_file("write", &self.path, self.option))(error)
+                }
                 Target::File(..) => unfinished(&self.path, self.option, error),
             };
             io::Error::new(kind, explained)
@@ -200,14 +231,17 @@ impl Sink {
 
 impl Write for Sink {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let written = self.stream().write(bytes);
-        self.explained(written)
+        self.with_stream(bytes, |stream, bytes| stream.write(bytes))
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        let flushed = self.stream().flush();
-        self.explained(flushed)
+        self.with_stream(&[], |stream, _| stream.flush())
     }
+}
+
+/// The command's own error if it is one already, as an interrupt is, or else what `explain` makes of the system's.
+fn explain(explain: impl Fn(io::Error) -> Error) -> impl Fn(io::Error) -> Error {
+    move |error| error.downcast::<Error>().unwrap_or_else(&explain)
 }
 
 /// Writes to standard output.

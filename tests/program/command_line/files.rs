@@ -182,3 +182,39 @@ fn a_pipe_with_a_name_is_written_into_and_not_replaced() {
     assert!(read == fs::read(folder.path().join("run.rgba")).unwrap());
     assert_eq!(names(folder.path()), ["pipe", "run.rgba"]);
 }
+
+#[cfg(unix)]
+#[test]
+fn a_request_to_end_is_heeded_while_nothing_reads_a_pipe() {
+    let folder = tempfile::tempdir().unwrap();
+    let test = "a_request_to_end_is_heeded_while_nothing_reads_a_pipe";
+    let pipe = folder.path().join("pipe");
+    if !Command::new("mkfifo").arg(&pipe).status().is_ok_and(|status| status.success()) {
+        let _ = writeln!(std::io::stderr(), "SKIPPED {test}: there is no mkfifo");
+        return;
+    }
+    let sweep = "sweep --scene spring --method rk4 --tick-hz 60";
+    let game_loop = "loop --trace steady-144 --out rows.csv --frames";
+    // The one waits for a reader; of the other a reader takes nothing, and it has more than a pipe holds.
+    for (arguments, has_reader) in [
+        (format!("{sweep} --out pipe"), false),
+        (format!("{game_loop} pipe"), false),
+        (format!("{game_loop} pipe"), true),
+    ] {
+        let reader =
+            has_reader.then(|| File::options().read(true).write(true).open(&pipe).unwrap());
+        let child = start(folder.path(), &arguments);
+        std::thread::sleep(Duration::from_millis(1500));
+        let sent = Command::new("kill").arg(child.id().to_string()).status();
+        assert!(sent.unwrap().success());
+        let asked = std::time::Instant::now();
+        let output = child.wait_with_output().unwrap();
+        let said = stderr(&output);
+        // Far more than 0.2 s, which is promised of a machine that does nothing else.
+        assert!(asked.elapsed() < Duration::from_secs(3), "{arguments}: {:?}", asked.elapsed());
+        assert_eq!(output.status.code(), Some(130), "{arguments}: {said}");
+        assert_eq!(said, "error: interrupted while nothing was reading pipe\n", "{arguments}");
+        drop(reader);
+        assert_eq!(names(folder.path()), ["pipe"], "{arguments}");
+    }
+}

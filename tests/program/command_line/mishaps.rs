@@ -71,6 +71,25 @@ fn draw_again(folder: &Path) {
     assert!(clip.unwrap() == whole.unwrap(), "another manifest");
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_limit_of_memory_ends_in_a_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    for kib in [400_000, 600_000, 800_000] {
+        let limited = format!("ulimit -v {kib}; exec \"$0\" \"$@\"");
+        let capture = format!("capture --scene spring --frames 1 --size 64x36 --out of-{kib}");
+        let mut command = Command::new("sh");
+        command.args(["-c", &limited]).arg(regatta().get_program()).args(capture.split(' '));
+        let output = command.current_dir(folder.path()).output().unwrap();
+        let said = stderr(&output);
+        assert!(!said.contains("has a bug"), "{kib}: {said}");
+        // How much a driver takes depends on the machine.
+        let is_drawn = output.status.code() == Some(0) && kib == 800_000;
+        let is_told = output.status.code() == Some(1) && said.contains("ulimit -v");
+        assert!(is_drawn || is_told, "{kib}: {:?} {said}", output.status);
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn killed_at_any_moment_it_leaves_whole_frames_in_order_and_can_be_drawn_again() {
