@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-/// The ending of temporary names.
+/// What stands before the random characters of a temporary name, and behind them.
+const MARK: &str = ".regatta-";
 const ENDING: &str = ".part";
 
 /// Random characters in a temporary name.
@@ -39,7 +40,7 @@ impl AtomicFile {
     pub(crate) fn create(path: &Path) -> io::Result<Self> {
         let name = path.file_name().filter(|name| name.len() <= MAX_STEM).unwrap_or_default();
         let mut prefix = name.to_owned();
-        prefix.push(".");
+        prefix.push(MARK);
         let mut builder = tempfile::Builder::new();
         builder.prefix(&prefix).suffix(ENDING).rand_bytes(RANDOM_CHARS);
         // Made as any new file is: the crate's own are for nobody but their owner.
@@ -110,10 +111,13 @@ pub(crate) fn write_file(path: &Path, bytes: &[u8], if_exists: IfExists) -> io::
 
 /// The final name of the file with the temporary name `name`; `None` if that is not a temporary name.
 pub(crate) fn final_name(name: &str) -> Option<&str> {
-    let (whole, random) = name.strip_suffix(ENDING)?.rsplit_once('.')?;
-    let is_random =
-        random.len() == RANDOM_CHARS && random.bytes().all(|b| b.is_ascii_alphanumeric());
-    is_random.then_some(whole)
+    let (whole, random) = name.strip_suffix(ENDING)?.rsplit_once(MARK)?;
+    is_random(random).then_some(whole)
+}
+
+/// Whether these can be the random characters of a temporary name.
+pub(crate) fn is_random(characters: &str) -> bool {
+    characters.len() == RANDOM_CHARS && characters.bytes().all(|b| b.is_ascii_alphanumeric())
 }
 
 /// Makes the names in a directory survive a loss of power, if the system offers a way.
@@ -234,7 +238,7 @@ mod tests {
 
     #[test]
     fn a_name_under_way_is_told_from_others() {
-        assert_eq!(final_name("frame-000001.png.aB3dE6.part"), Some("frame-000001.png"));
+        assert_eq!(final_name("frame-000001.png.regatta-aB3dE6.part"), Some("frame-000001.png"));
         for other in ["frame-000001.png.part", "x.part", "x.aB3dE6", "x.aB3d_6.part", "x.aB3.part"]
         {
             assert_eq!(final_name(other), None, "{other}");

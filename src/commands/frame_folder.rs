@@ -16,9 +16,9 @@ mod entries;
 #[cfg(test)]
 mod tests;
 
-use super::frame_names::{frame_name, is_pending};
+use super::frame_names::{frame_name, in_the_way, is_a_captures, is_pending};
 use blessing::Blessing;
-use entries::{Entries, is_a_captures};
+use entries::Entries;
 
 /// What may become of the frames that a folder holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,15 +114,15 @@ impl FrameFolder {
         if let Some(path) = entries.foreign {
             return Err(not_ours(&path, option));
         }
+        if self.existing == FolderPolicy::Bless
+            && let Some(path) = in_the_way(path)
+        {
+            return Err(not_ours(&path, option));
+        }
         if self.existing != FolderPolicy::Refuse && is_pending(path) {
             let fail = Error::of_file("finish the --bless in", path, option);
             blessing::complete(path).map_err(fail)?;
             entries = read()?;
-        }
-        if self.existing == FolderPolicy::Bless
-            && let Some(path) = blessing::in_the_way(path)
-        {
-            return Err(not_ours(&path, option));
         }
         self.entries = entries;
         Ok(())

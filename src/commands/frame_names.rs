@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
+use crate::atomic_file::final_name;
 use crate::commands::manifest;
 use crate::picture_note::{NOTED_WITHIN, is_encoded_here};
 use crate::regular_file;
@@ -35,6 +36,31 @@ pub(crate) fn is_marked(path: &Path) -> bool {
     start.is_ok_and(|start| is_encoded_here(&start))
 }
 
+/// Whether this is the name of a frame or a manifest.
+pub(crate) fn is_a_captures(name: &str) -> bool {
+    name == manifest::FILE_NAME || frame_number(name).is_some()
+}
+
+/// Whether the file at `path` is a frame or a manifest of a capture, by its name and by what is in it.
+pub(crate) fn is_ours(path: &Path) -> bool {
+    name_of(path).is_some_and(is_a_captures) && is_of_ours(path)
+}
+
+/// Whether a capture that was killed left the file at `path`: by its name, and by what is in it, if anything is.
+pub(crate) fn is_left_over(path: &Path) -> bool {
+    name_of(path).and_then(final_name).is_some_and(is_a_captures)
+        && (fs::symlink_metadata(path).is_ok_and(|entry| entry.is_file() && entry.len() == 0)
+            || is_of_ours(path))
+}
+
+fn name_of(path: &Path) -> Option<&str> {
+    path.file_name()?.to_str()
+}
+
+fn is_of_ours(path: &Path) -> bool {
+    is_marked(path) || frames_claimed(path).is_some()
+}
+
 /// The files listed in the manifest at `path`, of any schema; `None` if a capture did not write it.
 pub(crate) fn frames_claimed(path: &Path) -> Option<BTreeSet<String>> {
     let bytes = regular_file::read(path, manifest::MAX_BYTES).ok()?;
@@ -56,18 +82,33 @@ pub(crate) fn is_pending(clip: &Path) -> bool {
         && frames_claimed(&ready.join(manifest::FILE_NAME)).is_some()
 }
 
+/// What keeps a `--bless` of `clip` from replacing its frames: something at the place of its new frames that no `--bless`
+/// made.
+pub(crate) fn in_the_way(clip: &Path) -> Option<PathBuf> {
+    let ready = clip.join(READY);
+    if !fs::symlink_metadata(&ready).ok()?.is_dir() {
+        return Some(ready);
+    }
+    let claimed = frames_claimed(&ready.join(manifest::FILE_NAME));
+    let is_listed = |name: &str| {
+        claimed.as_ref().is_some_and(|files| name == manifest::FILE_NAME || files.contains(name))
+    };
+    let Ok(mut entries) = fs::read_dir(&ready) else { return Some(ready) };
+    entries.find_map(|entry| {
+        let path = entry.ok()?.path();
+        (!name_of(&path).is_some_and(is_listed)).then_some(path)
+    })
+}
+
 /// Whether `path` is the place of the manifest or of a frame in `clip`, existing or not, or a file that any
 /// capture made.
 pub(crate) fn is_of_a_capture(path: &Path, clip: &Path) -> bool {
     let resolved = resolved(path);
-    let name = resolved.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let name = name_of(&resolved).unwrap_or_default();
     let is_in_clip = resolved
         .parent()
         .is_some_and(|parent| fs::canonicalize(clip).is_ok_and(|clip| clip == parent));
-    if is_in_clip && (name == manifest::FILE_NAME || frame_number(name).is_some()) {
-        return true;
-    }
-    is_marked(&resolved) || frames_claimed(&resolved).is_some()
+    is_in_clip && is_a_captures(name) || is_of_ours(&resolved)
 }
 
 /// The path without links, as far as it exists.

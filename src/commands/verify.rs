@@ -97,7 +97,7 @@ pub(super) fn run(args: &VerifyArgs) -> Result<(), Error> {
         _ => {}
     }
     let report = if is_recording { recording::judge(&args.dir) } else { clip::judge(args) }?;
-    files.iter().try_for_each(|file| file.write(&report))?;
+    files.into_iter().try_for_each(|file| file.write(&report))?;
     report.outcome()
 }
 
@@ -106,10 +106,10 @@ fn is_scene_file(path: &Path) -> bool {
     !path.is_dir() && (path.exists() || path.extension().is_some_and(|ending| ending == "toml"))
 }
 
-/// The files that `--report` names, each with its format. None of them may be a file of a capture, or the recording that
+/// The files that `--report` names, opened. None of them may be a file of a capture, or the recording that
 /// is judged.
-fn report_files(args: &VerifyArgs) -> Result<Vec<ReportFile<'_>>, Error> {
-    let mut files: Vec<ReportFile<'_>> = Vec::new();
+fn report_files(args: &VerifyArgs) -> Result<Vec<ReportFile>, Error> {
+    let mut files: Vec<(ReportFormat, &Path)> = Vec::new();
     for words in args.report.as_deref().unwrap_or_default().chunks_exact(2) {
         let (format, path) = (&words[0], Path::new(&words[1]));
         let refused = |why| Err(Error::mistake(format!("{} {why}", path.display())));
@@ -118,7 +118,7 @@ fn report_files(args: &VerifyArgs) -> Result<Vec<ReportFile<'_>>, Error> {
                 "no report format is called {format:?}; give junit or json"
             )));
         };
-        if files.iter().any(|other| other.path == path) {
+        if files.iter().any(|(_, other)| *other == path) {
             return Err(Error::mistake(format!(
                 "two reports would go to {}; give each a file of its own",
                 path.display()
@@ -131,9 +131,9 @@ fn report_files(args: &VerifyArgs) -> Result<Vec<ReportFile<'_>>, Error> {
         if judged.is_some_and(|judged| path.canonicalize().is_ok_and(|path| path == judged)) {
             return refused("is the recording that is judged; give another --report");
         }
-        files.push(ReportFile { format, path });
+        files.push((format, path));
     }
-    Ok(files)
+    files.into_iter().map(|(format, path)| ReportFile::open(format, path)).collect()
 }
 
 fn percent(written: &str) -> Result<f64, String> {

@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
-use crate::atomic_file::sync_directory;
-use crate::commands::frame_names::{READY, frame_number, frames_claimed, is_marked};
+use crate::atomic_file::{is_random, sync_directory};
+use crate::commands::frame_names::{self, READY, frame_number, frames_claimed, is_marked};
 use crate::commands::manifest;
 
 /// The prefix of directories in which frames are drawn.
@@ -38,7 +38,10 @@ impl Blessing {
 
     /// Replaces the clip's frames and manifest by the new ones, which must be synced.
     pub(crate) fn swap(self) -> io::Result<()> {
-        fs::rename(self.place.path(), self.clip.join(READY))?;
+        let ready = self.clip.join(READY);
+        // What an earlier swap leaves is empty, and in the way on some systems.
+        _ = fs::remove_dir(&ready);
+        fs::rename(self.place.path(), ready)?;
         // The directory has another name now and must not be removed.
         let _ = self.place.keep();
         sync_directory(&self.clip)?;
@@ -46,9 +49,17 @@ impl Blessing {
     }
 }
 
-/// Whether this is the name of a directory that an interrupted blessing left.
-pub(crate) fn is_left_over(name: &str) -> bool {
-    name.starts_with(UNDER_WAY)
+/// Whether the directory at `path` is one that an interrupted blessing left: by its name, and by all that is in it.
+pub(crate) fn is_left_over(path: &Path) -> io::Result<bool> {
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    if !name.strip_prefix(UNDER_WAY).is_some_and(is_random) {
+        return Ok(false);
+    }
+    let mut entries = fs::read_dir(path)?;
+    entries.try_fold(true, |all, entry| {
+        let path = entry?.path();
+        Ok(all && (frame_names::is_ours(&path) || frame_names::is_left_over(&path)))
+    })
 }
 
 /// Finishes a [pending](crate::commands::frame_names::is_pending) swap: moves the frames that the new manifest lists, and no other file. Every step can
@@ -81,17 +92,10 @@ pub(crate) fn complete(clip: &Path) -> io::Result<()> {
     sync_directory(clip)
 }
 
-/// The place of the new frames, if something that no swap made is there. What a swap leaves, an empty directory, goes.
-pub(crate) fn in_the_way(clip: &Path) -> Option<PathBuf> {
-    let ready = clip.join(READY);
-    _ = fs::remove_dir(&ready);
-    fs::symlink_metadata(&ready).is_ok().then_some(ready)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::commands::frame_names::is_pending;
+    use crate::commands::frame_names::{in_the_way, is_pending};
 
     const FRAMES: [&str; 3] = ["frame-000000.png", "frame-000001.png", "frame-000002.png"];
 
@@ -158,6 +162,7 @@ mod tests {
                 complete(clip.path()).unwrap();
             }
             assert_eq!(in_the_way(clip.path()), None);
+            _ = fs::remove_dir(&ready);
             let expected = [
                 (FRAMES[0], "new".to_owned()),
                 (FRAMES[1], "new".to_owned()),

@@ -7,8 +7,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::blessing;
-use crate::atomic_file::final_name;
-use crate::commands::frame_names::{frame_number, frames_claimed, is_marked};
+use crate::commands::frame_names::{
+    frame_number, frames_claimed, is_a_captures, is_left_over, is_marked,
+};
 use crate::commands::manifest;
 use crate::commands::output::is_lock;
 
@@ -37,7 +38,6 @@ impl Entries {
             let is_directory = entry.file_type()?.is_dir();
             let name = entry.file_name();
             let text = name.to_str().unwrap_or_default();
-            let is_under_way = final_name(text).is_some_and(is_a_captures);
             match (is_a_captures(text), is_directory) {
                 (true, true) => {
                     entries.in_the_way = Some(entry.path());
@@ -54,8 +54,10 @@ impl Entries {
                         entries.foreign = Some(entry.path());
                     }
                 }
-                (false, true) if blessing::is_left_over(text) => entries.our_directories.push(name),
-                (false, false) if is_under_way => drop(entries.ours.insert(name)),
+                (false, true) if blessing::is_left_over(&entry.path())? => {
+                    entries.our_directories.push(name);
+                }
+                (false, false) if is_left_over(&entry.path()) => drop(entries.ours.insert(name)),
                 (false, false) if is_lock(text) => {}
                 (false, _) => entries.others.push(name),
             }
@@ -70,9 +72,4 @@ impl Entries {
             && self.others.is_empty()
             && self.foreign.is_none()
     }
-}
-
-/// Whether this is the name of a frame or a manifest.
-pub(super) fn is_a_captures(name: &str) -> bool {
-    name == manifest::FILE_NAME || frame_number(name).is_some()
 }

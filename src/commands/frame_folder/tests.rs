@@ -35,7 +35,7 @@ fn a_folder_in_use_is_refused_and_left_as_it_is() {
 fn frames_replace_frames_and_nothing_else() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str| folder.path().join(name);
-    for name in ["frame-000000.png", "frame-000001.png", "frame-000001.png.a1B2c3.part"] {
+    for name in ["frame-000000.png", "frame-000001.png", "frame-000001.png.regatta-a1B2c3.part"] {
         fs::write(file(name), frame(0)).unwrap();
     }
     for name in ["frame-000001.png.part", "manifest.json.part", "notes.txt"] {
@@ -53,6 +53,47 @@ fn frames_replace_frames_and_nothing_else() {
     for name in others {
         assert_eq!(fs::read(file(name)).unwrap(), b"mine", "{name}");
     }
+}
+
+#[test]
+fn what_a_killed_capture_left_makes_way_and_what_only_looks_like_it_does_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        path
+    };
+    for name in [
+        "frame-000001.png.regatta-a1B2c3.part",
+        ".regatta-bless-a1B2c3/frame-000000.png",
+        ".regatta-bless-a1B2c3/frame-000001.png.regatta-d4E5f6.part",
+    ] {
+        fs::write(at(name), frame(0)).unwrap();
+    }
+    fs::write(at("manifest.json.regatta-a1B2c3.part"), "").unwrap();
+    let kept = [
+        ".regatta-bless-backup/thesis.txt",
+        ".regatta-bless-mine/thesis.txt",
+        "frame-000000.png.backup.part",
+        "frame-000002.png.regatta-backup.part",
+        "manifest.json.backup.part",
+    ];
+    for name in kept {
+        fs::write(at(name), "mine").unwrap();
+    }
+    // A copy of a frame of ours.
+    fs::write(at(kept[2]), frame(0)).unwrap();
+    let mut frames = inspect(folder.path(), FolderPolicy::Replace).unwrap();
+    frames.clear().unwrap();
+    frames.finish("{}").unwrap();
+    for name in kept {
+        let expected = if name == kept[2] { frame(0) } else { b"mine".to_vec() };
+        assert_eq!(fs::read(folder.path().join(name)).unwrap(), expected, "{name}");
+    }
+    let mut left = kept.map(|name| OsString::from(name.split('/').next().unwrap())).to_vec();
+    left.push("manifest.json".into());
+    left.sort();
+    assert_eq!(names(folder.path()), left);
 }
 
 #[test]

@@ -16,7 +16,7 @@ use crate::commands::clip::record;
 use crate::commands::error::Error;
 #[cfg(feature = "view")]
 use crate::commands::frame_folder::{FolderPolicy, FrameFolder};
-use crate::commands::frame_names::is_pending;
+use crate::commands::frame_names::{in_the_way, is_pending};
 use crate::commands::manifest::{self, FILE_NAME, Manifest, SCHEMA};
 use crate::commands::output::DirectoryLock;
 use crate::commands::state_log::StateLog;
@@ -89,7 +89,14 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
         (true, _) => "physics and pixels",
         (false, _) => "pixels",
     };
-    report.if_different(format!("{what} differ from {}", dir.join(FILE_NAME).display()));
+    let remedy = match in_the_way(dir) {
+        None => "if that is meant, --bless".into(),
+        Some(path) => format!(
+            "if that is meant, move {} away, which regatta did not make, and --bless",
+            path.display()
+        ),
+    };
+    report.if_different(format!("{what} differ from {}; {remedy}", dir.join(FILE_NAME).display()));
     Ok(report)
 }
 
@@ -169,8 +176,13 @@ fn lock(dir: &Path) -> Result<Option<DirectoryLock>, String> {
         Err(error) => return Err(format!("it cannot be locked: {error}")),
     };
     if is_pending(dir) {
-        let reason = "a --bless was interrupted while it replaced the frames; --bless completes it";
-        return Err(reason.into());
+        let remedy = in_the_way(dir).map_or("--bless completes it".into(), |path| {
+            format!(
+                "move {} away, which regatta did not make, and --bless completes it",
+                path.display()
+            )
+        });
+        return Err(format!("a --bless was interrupted while it replaced the frames; {remedy}"));
     }
     Ok(Some(lock))
 }

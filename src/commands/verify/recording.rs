@@ -1,5 +1,6 @@
 //! Judges a scene file by its own checks: runs its race again, without graphics, and compares hashes.
 
+use std::fmt::Display;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -28,6 +29,8 @@ struct JudgedLane {
     checks: usize,
     last_tick: u64,
     difference: Option<Difference>,
+    /// The tick of the first check that names it after it has left the race.
+    left_at: Option<u64>,
 }
 
 /// The first check that fails.
@@ -119,12 +122,26 @@ pub(super) fn judge(path: &Path) -> Result<Report, Error> {
         report.judged(lane.name(), lane.difference.as_ref().map(Difference::line));
     }
     report.field("lanes", lanes.iter().map(JudgedLane::object).collect());
-    let (path, count) = (path.display(), report.differing());
-    report.if_different(match count {
-        1 => format!("1 lane of {path} differs"),
-        _ => format!("{count} lanes of {path} differ"),
-    });
+    let (shown, count) = (path.display(), report.differing());
+    let differ = match count {
+        1 => format!("1 lane of {shown} differs"),
+        _ => format!("{count} lanes of {shown} differ"),
+    };
+    let remedy = match lanes.iter().find_map(|lane| Some((lane.number, lane.left_at?))) {
+        None => "if that is meant, --bless".to_owned(),
+        Some((lane, tick)) => of_no_lane(path, lane, tick),
+    };
+    report.if_different(format!("{differ}; {remedy}"));
     Ok(report)
+}
+
+/// What is wrong with a check that no run meets and no `--bless` mends.
+fn of_no_lane(path: &Path, lane: impl Display, tick: u64) -> String {
+    format!(
+        "lane {lane} of {} has left the race at tick {tick}, where a [[check]] names it; \
+         take that check out, or the `solo` that removes the lane",
+        path.display()
+    )
 }
 
 /// Says that checks lie beyond the scene's end, if some do: they are judged all the same, which can take longer than
@@ -167,11 +184,7 @@ pub(super) fn bless(path: &Path) -> Result<(), Error> {
         for Reached { row, hash, .. } in replay(&scene, &mut ()) {
             let Check { tick, lane, .. } = scene.checks[row];
             hashes[row] = hash.ok_or_else(|| {
-                Error::mistake(format!(
-                    "not blessed: lane {lane} of {} has left the race at tick {tick}, where a [[check]] names it; \
-                     take that check out, or the `solo` that removes the lane",
-                    path.display()
-                ))
+                Error::mistake(format!("not blessed: {}", of_no_lane(path, lane, tick)))
             })?;
         }
         Scene::with_hashes(&text, &hashes)
@@ -242,6 +255,7 @@ fn compare(scene: &Scene) -> Vec<JudgedLane> {
         checks: 0,
         last_tick: 0,
         difference: None,
+        left_at: None,
     });
     let mut lanes: Vec<JudgedLane> = lanes.collect();
     for Reached { row, t, hash: is } in all_reached {
@@ -251,6 +265,7 @@ fn compare(scene: &Scene) -> Vec<JudgedLane> {
             let same_at = (lane.checks > 0).then_some(lane.last_tick);
             lane.difference = Some(Difference { tick, t, was, is, same_at });
         }
+        lane.left_at = lane.left_at.or(is.is_none().then_some(tick));
         lane.checks += 1;
         lane.last_tick = tick;
     }

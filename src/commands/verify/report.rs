@@ -1,6 +1,6 @@
 //! The result of `regatta verify`, of a capture or of a recording, as text, as JSON and as JUnit's XML.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 
 use crate::atomic_file::IfExists;
 use crate::commands::error::Error;
-use crate::commands::output::Destination;
+use crate::commands::output::{Destination, Output, print};
 
 /// The format of a file that holds the result.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -18,19 +18,25 @@ pub(super) enum ReportFormat {
 }
 
 /// A file that is to hold the result.
-pub(super) struct ReportFile<'a> {
-    pub(super) format: ReportFormat,
-    pub(super) path: &'a Path,
+pub(super) struct ReportFile {
+    format: ReportFormat,
+    output: Output,
 }
 
-impl ReportFile<'_> {
-    pub(super) fn write(&self, report: &Report) -> Result<(), Error> {
+impl ReportFile {
+    /// Opens it, before the work: a refusal should not come after that.
+    pub(super) fn open(format: ReportFormat, path: &Path) -> Result<Self, Error> {
+        let to = Destination { path, option: "--report", if_exists: IfExists::Replace };
+        Ok(Self { format, output: to.open_for_text()? })
+    }
+
+    pub(super) fn write(mut self, report: &Report) -> Result<(), Error> {
         let text = match self.format {
             ReportFormat::Junit => report.to_junit(),
             ReportFormat::Json => report.to_json(),
         };
-        Destination { path: self.path, option: "--report", if_exists: IfExists::Replace }
-            .write(&text)
+        self.output.write_all(text.as_bytes())?;
+        self.output.close().map(drop)
     }
 }
 
@@ -65,7 +71,7 @@ impl Report {
         self.fields.insert(key.to_owned(), value);
     }
 
-    /// Sets the message with which the command ends if something differs.
+    /// Sets the message with which the command ends if something differs: what, and the remedy.
     pub(super) fn if_different(&mut self, message: String) {
         self.differs = message;
     }
@@ -79,7 +85,7 @@ impl Report {
     pub(super) fn outcome(self) -> Result<(), Error> {
         match self.differing() {
             0 => Ok(()),
-            _ => Err(Error::failed(format!("{}; if that is meant, --bless", self.differs))),
+            _ => Err(Error::failed(self.differs)),
         }
     }
 
@@ -119,10 +125,10 @@ impl Report {
 
 /// Prints a line to standard output.
 pub(super) fn print_line(line: &str) -> Result<(), Error> {
-    match writeln!(io::stdout(), "{line}") {
+    match print(format!("{line}\n")) {
         // Whoever listens no more still gets the exit code.
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.into()),
-        _ => Ok(()),
+        Err(error) if error.is_closed_pipe() => Ok(()),
+        printed => printed,
     }
 }
 

@@ -155,7 +155,7 @@ fn a_file_in_the_directory_of_a_swap_never_replaces_another() {
     fs::write(stray.join("notes.txt"), "not mine").unwrap();
     let mut expected = new.clone();
     expected.insert(".regatta-blessed".into(), Vec::new());
-    // Without a manifest there is no swap to complete; with one, it is of the frames alone.
+    // Without a manifest there is no swap to complete; with one, nothing strange may be in its way.
     for (has_manifest, judged) in [(false, 0), (true, 2)] {
         if has_manifest {
             fs::write(stray.join("manifest.json"), &new["manifest.json"]).unwrap();
@@ -165,8 +165,11 @@ fn a_file_in_the_directory_of_a_swap_never_replaces_another() {
             let said = stderr(&output);
             assert_eq!(output.status.code(), Some(code), "{command}: {said}");
             assert!(content(folder) == expected, "{command}: {:?}", content(folder).keys());
-            let is_told = said.contains("clip/.regatta-blessed was not made by regatta");
+            let strange = "clip/.regatta-blessed/notes.txt";
+            let is_told = said.contains(&format!("{strange} was not made by regatta"));
             assert_eq!(is_told, command.ends_with("--bless"), "{said}");
+            let is_advised = said.contains(&format!("move {strange} away"));
+            assert_eq!(is_advised, (command, code) == ("verify clip", 2), "{said}");
         }
         assert_eq!(fs::read(stray.join("notes.txt")).unwrap(), b"not mine");
     }

@@ -46,8 +46,11 @@ fn a_report_that_cannot_be_written_names_its_own_option() {
     let Some(folder) = clip_or_skip("a_report_that_cannot_be_written_names_its_own_option") else {
         return;
     };
-    let (code, _, stderr) = verify(folder.path(), "--physics-only --report json no/x");
-    assert_eq!(code, Some(1), "{stderr}");
+    let (code, stdout, stderr) = verify(folder.path(), "--physics-only --report json no/x");
+    assert_eq!((code, &*stdout), (Some(1), ""), "the place is looked at first: {stderr}");
+    let (in_a_folder, findings, why) = verify(folder.path(), "--physics-only --report junit clip");
+    assert_eq!((in_a_folder, &*findings), (Some(2), ""), "{why}");
+    assert!(why.contains("clip is a directory; give --report a file"), "{why}");
     let remedy = "; give another --report, in a directory that is there\n";
     assert!(stderr.ends_with(remedy), "{stderr}");
 }
