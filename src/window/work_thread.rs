@@ -68,7 +68,10 @@ impl Work for CloudWorker {
 
     fn is_same(one: &Self::Request, other: &Self::Request) -> bool {
         match (one, other) {
-            (Some(one), Some(other)) => one.is_alike(other) && one.tick() == other.tick(),
+            (Some(one), Some(other)) => {
+                one.is_alike(other)
+                    && (one.tick(), one.in_time()) == (other.tick(), other.in_time())
+            }
             (one, other) => one.is_none() && other.is_none(),
         }
     }

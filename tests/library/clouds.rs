@@ -1,6 +1,8 @@
 //! What a method does to an area, and what a cloud says of it.
 
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use rayon::ThreadPoolBuilder;
 use regatta::lab::cloud::{
@@ -9,7 +11,7 @@ use regatta::lab::cloud::{
 };
 use regatta::lab::palette::Theme;
 use regatta::lab::scene::{Scene, Scripted};
-use regatta::lab::studio::{Command, Instrument, RunCommand, StageCommand, Studio};
+use regatta::lab::studio::{Command, Instrument, RunCommand, StageCommand, Studio, ViewCommand};
 use regatta::lab::{Action, LaneSpec};
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, Stepper};
@@ -249,6 +251,50 @@ fn a_cloud_is_the_same_whichever_way_a_tick_was_come_to() {
     assert!(shown(picture(&mut studio, &mut worker)) == early, "back");
     studio.apply(RunCommand::Seek(70));
     assert!(shown(picture(&mut studio, &mut worker)) == late, "and forth");
+}
+
+#[test]
+fn clouds_that_fall_behind_go_on_with_fewer_points_and_have_all_again_once_time_stands_still() {
+    let mut studio = race_of("liouville", &["rk4", "midpoint"], CloudKind::default());
+    studio.apply(RunCommand::Cloud(CloudChoice { points: 10_000, ..CloudChoice::default() }));
+    let mut worker = CloudWorker::default();
+    let mut points = BTreeSet::new();
+    // Two ticks go by for each that is stepped.
+    for _ in 0..20 {
+        worker.set_request(studio.cloud_request().map(Arc::new));
+        worker.work().into_iter().for_each(|found| studio.accept_cloud(found));
+        points.insert(studio.cloud().unwrap().picture.as_ref().unwrap().points);
+        (0..2).for_each(|_| studio.tick());
+    }
+    assert_eq!(Vec::from_iter(points), [1_000, 10_000], "and no fewer");
+    assert_eq!(picture(&mut studio, &mut worker).points, 1_000, "it runs");
+    studio.apply(ViewCommand::TogglePause);
+    let whole = shown(picture(&mut studio, &mut worker));
+    assert_eq!(studio.cloud().unwrap().picture.as_ref().unwrap().points, 10_000);
+    assert!(whole == shown(picture(&mut studio, &mut CloudWorker::default())));
+}
+
+#[test]
+fn the_clouds_fill_their_axes() {
+    let mut studio = race_of(
+        "liouville",
+        &["explicit-euler", "implicit-euler", "semi-implicit-euler", "rk4"],
+        CloudKind::default(),
+    );
+    let mut worker = CloudWorker::default();
+    for _ in 0..7 {
+        let CloudPicture { view, border, .. } = picture(&mut studio, &mut worker);
+        let places: Vec<[f64; 2]> =
+            border.iter().flatten().map(|&[q, v]| view.place(q, v)).collect();
+        let wide = [0, 1].map(|axis| {
+            let along = || places.iter().map(|place| place[axis]);
+            along().fold(f64::MIN, f64::max) - along().fold(f64::MAX, f64::min)
+        });
+        let t = studio.race().t();
+        println!("{t} {wide:?}");
+        assert!(wide.iter().all(|part| (0.2..=0.95).contains(part)), "{t} s: {wide:?}");
+        (0..10).for_each(|_| studio.tick());
+    }
 }
 
 #[test]

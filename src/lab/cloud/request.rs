@@ -88,6 +88,8 @@ pub struct CloudRequest {
     pub(in crate::lab) choice: CloudChoice,
     /// Ticks since the clouds started.
     pub(in crate::lab) tick: u64,
+    /// Whether the run goes on in time, so that the clouds have to keep up.
+    pub(in crate::lab) in_time: bool,
 }
 
 /// A request as it is worked on.
@@ -120,6 +122,16 @@ impl CloudRequest {
         self.tick
     }
 
+    /// Whether the run goes on in time.
+    pub fn in_time(&self) -> bool {
+        self.in_time
+    }
+
+    /// The time of a picture in the run, in seconds.
+    pub fn t_s(&self, picture: &CloudPicture) -> f64 {
+        self.changes.starts_at_s() + picture.tick as f64 / f64::from(self.tick_hz)
+    }
+
     /// How many seconds of the run there are between the request and a picture.
     pub fn behind_s(&self, picture: &CloudPicture) -> f64 {
         (self.tick as f64 - picture.tick as f64).abs() / f64::from(self.tick_hz)
@@ -140,6 +152,8 @@ pub struct FoundCloud {
 pub struct CloudPicture {
     /// Ticks since the start of the clouds; 0 of a section.
     pub tick: u64,
+    /// The points of each cloud, fewer than were chosen where these did not keep up; 0 of a section.
+    pub points: usize,
     /// Of a section, when its points are taken.
     pub section: Option<String>,
     /// What part of the plane the density images show.

@@ -22,30 +22,73 @@ const REACH: f64 = 2.0;
 /// The axes show the exact cloud until it is this many times as wide as at the start, which would then be a speck.
 const SPREAD: f64 = 10.0;
 
+/// The most points of a cloud to which the axes are fitted.
+const FITTED: usize = 500;
+
+/// A run that is further behind than this, in seconds, and does not catch up soon, goes on with a tenth of its points; not
+/// with fewer than this.
+const BEHIND_S: f64 = 0.125;
+const LEAST_POINTS: usize = 1_000;
+
 /// About how many evaluations are made before a picture is shown on the way.
 const WORK: u64 = 4_000_000;
 
 /// Steps the clouds of one [`CloudRequest`] at a time, beside the run.
-#[derive(Default)]
 pub struct CloudWorker {
     request: Option<Arc<CloudRequest>>,
     /// The run of the last request.
     run: Option<Result<Running, NoCloud>>,
     is_done: bool,
+    /// One of so many points is stepped.
+    thinned: usize,
+    /// The ticks that were asked for and reached when it was last looked whether the run keeps up.
+    looked: Option<[u64; 2]>,
+}
+
+impl Default for CloudWorker {
+    fn default() -> Self {
+        Self { request: None, run: None, is_done: false, thinned: 1, looked: None }
+    }
 }
 
 impl CloudWorker {
-    /// Replaces the request; `None` asks for nothing. The clouds of a run go on from where they are.
+    /// Replaces the request; `None` asks for nothing. The clouds of a run go on from where they are, with fewer points where
+    /// they fall behind a run in time, and with all once that stands still.
     pub fn set_request(&mut self, request: Option<Arc<CloudRequest>>) {
-        let goes_on = match (&self.request, &request) {
-            (Some(old), Some(new)) => old.is_alike(new),
-            _ => false,
-        };
-        if !goes_on {
-            self.run = None;
+        match (&self.request, &request) {
+            (Some(old), Some(new)) if old.is_alike(new) => {
+                let thinned = self.thinned_for(old.tick, new);
+                if thinned != self.thinned {
+                    (self.run, self.looked, self.thinned) = (None, None, thinned);
+                }
+            }
+            _ => (self.run, self.looked, self.thinned) = (None, None, 1),
         }
         self.is_done = request.is_none();
         self.request = request;
+    }
+
+    /// One of how many points is to be stepped on, now that `new` is asked for after the tick `old`.
+    fn thinned_for(&mut self, old: u64, new: &CloudRequest) -> usize {
+        let Some(Ok(Running::Clouds(run))) = &self.run else { return self.thinned };
+        if !new.in_time {
+            self.looked = None;
+            return 1;
+        }
+        let part = (BEHIND_S * f64::from(new.tick_hz)) as u64;
+        let now = [old, run.tick];
+        let [asked, reached] = *self.looked.get_or_insert(now);
+        if (asked..=asked + part).contains(&old) {
+            return self.thinned;
+        }
+        self.looked = Some(now);
+        let behind = old.saturating_sub(run.tick);
+        let gained = (run.tick.saturating_sub(reached)).saturating_sub(old.saturating_sub(asked));
+        let keeps_up = behind <= part || 2 * gained >= behind;
+        match new.choice.points / (10 * self.thinned) >= LEAST_POINTS {
+            true if !keeps_up => 10 * self.thinned,
+            _ => self.thinned,
+        }
     }
 
     /// Whether there is nothing more to do.
@@ -56,7 +99,7 @@ impl CloudWorker {
     /// Goes some ticks nearer to the one that was asked for. Returns what is to be shown then.
     pub fn work(&mut self) -> Option<FoundCloud> {
         let request = self.request.as_ref().filter(|_| !self.is_done)?;
-        let run = self.run.get_or_insert_with(|| Running::new(request));
+        let run = self.run.get_or_insert_with(|| Running::new(request, self.thinned));
         let picture = match run {
             Ok(Running::Section(run)) => {
                 run.work();
@@ -85,7 +128,7 @@ enum Running {
 }
 
 impl Running {
-    fn new(request: &CloudRequest) -> Result<Self, NoCloud> {
+    fn new(request: &CloudRequest, thinned: usize) -> Result<Self, NoCloud> {
         let &CloudRequest { ref scene, ref changes, body, ref lanes, tick_hz, choice, .. } =
             request;
         let scene = changes.applied_to(scene).of_one_body(body);
@@ -101,7 +144,8 @@ impl Running {
         };
         match choice.kind {
             CloudKind::Shape(shape) => {
-                CloudRun::new(request, shape, choice.points).map(|run| Self::Clouds(Box::new(run)))
+                let points = choice.points / thinned;
+                CloudRun::new(request, shape, points).map(|run| Self::Clouds(Box::new(run)))
             }
             CloudKind::Section => SectionRun::new(request).map(Self::Section),
         }
@@ -120,6 +164,7 @@ struct CloudRun {
     exact: SampledCloud<CloudBorder>,
     axes: CloudAxes,
     start: CloudStart,
+    points: usize,
     tick_hz: u32,
     tick: u64,
     /// Ticks between two samples.
@@ -151,6 +196,7 @@ impl CloudRun {
             exact: SampledCloud { cloud: border, areas: Vec::new() },
             axes,
             start,
+            points,
             tick_hz,
             tick: 0,
             sampled_every: ticks(seconds).div_ceil(SAMPLES),
@@ -188,7 +234,13 @@ impl CloudRun {
 
     fn picture(&self) -> CloudPicture {
         let border = self.exact.cloud.lines();
-        let view = self.axes.around(&border);
+        let some = |lane: &SampledCloud<Cloud>| {
+            let (q, v) = (lane.cloud.q(), lane.cloud.v());
+            let every = q.len().div_ceil(FITTED);
+            q.iter().zip(v).step_by(every).map(|(&q, &v)| [q, v]).collect::<Vec<_>>()
+        };
+        let points: Vec<_> = self.lanes.iter().flat_map(|(_, lane)| some(lane)).collect();
+        let view = self.axes.around(&border, &points);
         let lane = |(entry, SampledCloud { cloud, areas }): &(usize, SampledCloud<Cloud>)| {
             let mut density = Density::new([GRID; 2], view);
             density.add(cloud.q(), cloud.v());
@@ -207,6 +259,7 @@ impl CloudRun {
         };
         CloudPicture {
             tick: self.tick,
+            points: self.points,
             section: None,
             view,
             exact: self.samples(&self.exact.areas, self.exact.cloud.area_ratio()),

@@ -133,6 +133,7 @@ impl SectionRun {
         CloudPicture {
             tick: 0,
             section: Some(self.strobe.clone()),
+            points: 0,
             view: self.axes.whole,
             border: Vec::new(),
             exact: Vec::new(),

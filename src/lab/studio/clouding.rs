@@ -29,6 +29,7 @@ impl Studio {
                 CloudKind::Shape(_) => (seconds * f64::from(tick_hz)).round() as u64,
                 CloudKind::Section => 0,
             },
+            in_time: self.running(),
             changes,
         })
     }

@@ -11,7 +11,7 @@ use egui::{
 
 use super::super::series_styles::SeriesStyles;
 use super::super::tracks::Track;
-use super::super::{PanelPalette, focus_ring, palette, strong_font};
+use super::super::{PanelPalette, palette, strong_font};
 use super::error::capitalised;
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, over_time};
 use super::{body_choice, chart, choice};
@@ -54,7 +54,7 @@ const OUTLINE: f32 = 1.1;
 /// this much on both sides of 1: half of it and twice.
 const MAX_DECADES: f64 = 3.0;
 const MIN_DECADES: f64 = 0.31;
-/// A cloud that is this far behind the run says so, in seconds.
+/// Clouds that are this far behind the run say so, in seconds.
 const BEHIND_S: f64 = 0.25;
 
 /// The areas of all clouds over time; `None` while there are none.
@@ -145,18 +145,28 @@ fn head(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
             choice(ui, "points of the cloud", offered, (command(chosen.points), &now), commands);
         }
         body_choice(ui, studio, commands);
-        let told = picture.and_then(|picture| picture.section.clone());
-        let behind = || behind_s(studio).map(|s| format!("{} s behind", significant(s, 2)));
-        if let Some(words) = told.or_else(behind) {
+        let told = picture.map(|picture| match &picture.section {
+            Some(section) => section.clone(),
+            None => moment(studio, picture),
+        });
+        if let Some(words) = told {
             ui.label(RichText::new(words).color(palette(ui).dim));
         }
     });
 }
 
-/// How far the clouds are behind the run, in seconds, if it is far enough to be seen.
-fn behind_s(studio: &Studio) -> Option<f64> {
-    let picture = studio.cloud()?.picture.as_ref().ok()?;
-    Some(studio.cloud_request()?.behind_s(picture)).filter(|behind| *behind > BEHIND_S)
+/// The time of the pictures, how far they are behind the run if that can be seen, and how many points keep up with it.
+fn moment(studio: &Studio, picture: &CloudPicture) -> String {
+    let Some(request) = studio.cloud_request() else { return String::new() };
+    let mut words = format!("t = {:.2} s", request.t_s(picture));
+    let behind = request.behind_s(picture);
+    if behind > BEHIND_S {
+        words += &format!(", {} s behind", significant(behind, 2));
+    }
+    if picture.points < studio.display().cloud.points {
+        words += &format!("; {} keep up", grouped(picture.points as u64));
+    }
+    words
 }
 
 /// How much is told above each cloud; a hover tells the rest.
@@ -182,12 +192,13 @@ struct Captions<'p> {
 }
 
 impl<'p> Captions<'p> {
-    fn new(ui: &Ui, studio: &Studio, lanes: &'p [LaneCloud], told: Told) -> Self {
+    fn new(ui: &Ui, studio: &Studio, picture: &'p CloudPicture, told: Told) -> Self {
+        let CloudPicture { lanes, points, .. } = picture;
         let text = |lane: &LaneCloud| {
             let words = match (told, lane.area_ratio) {
                 (Told::Name, _) => String::new(),
-                (Told::Numbers, Some(_)) => format!("\n{}", parts(studio, lane, told).join("\n")),
-                _ => format!("\n{}", words(studio, lane)),
+                (Told::Numbers, Some(_)) => format!("\n{}", parts(*points, lane, told).join("\n")),
+                _ => format!("\n{}", words(*points, lane)),
             };
             [studio.lane_name(lane.entry), words]
         };
@@ -230,16 +241,16 @@ impl<'p> Captions<'p> {
 }
 
 /// What has become of a cloud.
-fn words(studio: &Studio, lane: &LaneCloud) -> String {
-    parts(studio, lane, Told::Words).join(", ")
+fn words(points: usize, lane: &LaneCloud) -> String {
+    parts(points, lane, Told::Words).join(", ")
 }
 
 /// What is told of a cloud: its area, in words too if these are asked for, and the points that are not seen.
-fn parts(studio: &Studio, lane: &LaneCloud, told: Told) -> Vec<String> {
+fn parts(points: usize, lane: &LaneCloud, told: Told) -> Vec<String> {
     let area = lane.area_ratio.map(|ratio| format!("×{}", significant(ratio, 3)));
     let words = (told == Told::Words).then(|| lane.words.clone());
     let lost = (lane.lost > 0).then(|| format!("{} blew up", grouped(lane.lost as u64)));
-    let hidden = hidden_in_words(lane.hidden, studio.display().cloud.points);
+    let hidden = hidden_in_words(lane.hidden, points);
     [area, words, lost, hidden].into_iter().flatten().collect()
 }
 
@@ -266,14 +277,14 @@ fn side_by_side(
         let gaps = GAP * (columns - 1) as f32;
         let width = (inner.width() - gaps) / columns as f32;
         let captions = captions.laid_out(ui, studio, width)?;
-        let above = captions.iter().map(|words| words.size().y).fold(0.0, f32::max) + 3.0;
+        let above = captions.iter().map(|words| words.size().y).fold(0.0, f32::max) + 5.0;
         let height = inner.height() / rows as f32 - above - GAP / 2.0;
         let size = vec2(width.min(MAX_ASPECT * height), height);
         (size.min_elem() >= least).then_some((columns, size, captions, above))
     };
     let area = |size: Vec2| size.x * size.y;
     let largest = |(told, least): (Told, f32)| {
-        let captions = Captions::new(ui, studio, lanes, told);
+        let captions = Captions::new(ui, studio, picture, told);
         let layouts = (1..=lanes.len()).filter_map(|columns| layout(columns, &captions, least));
         layouts.max_by(|a, b| area(a.1).total_cmp(&area(b.1)))
     };
@@ -350,9 +361,9 @@ fn cloud(
         over.push(Primitive::Edge(rect, rim));
     }
     charts::paint(ui.painter(), &over);
-    let about = format!("cloud of {}: {}", studio.lane_name(lane.entry), words(studio, lane));
+    let about =
+        format!("cloud of {}: {}", studio.lane_name(lane.entry), words(picture.points, lane));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &about));
-    focus_ring(ui, &response);
     let told = format!("{about} ({})", lane.measured);
     if response.on_hover_text(told).clicked() && studio.mode() == Mode::Race {
         commands.push(Command::Stage(StageCommand::Pick(lane.entry)));
