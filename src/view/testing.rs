@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use egui::epaint::TextShape;
 use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Ui, Vec2};
 
+use super::panels::RING;
 use super::stage::Stage;
 use super::{AdapterPreference, Gpu, Offscreen, Readback, panels, theme};
 use crate::lab::picture::{Picture, Rect};
@@ -111,9 +112,9 @@ impl TestWindow {
         let mut made = None;
         let mut output = self.context.run_ui(input, |ui| made = Some(layout(ui)));
         output.textures_delta.clear();
-        let mut shown = Shown { texts: Vec::new(), heard: Vec::new() };
+        let mut shown = Shown { texts: Vec::new(), rings: Vec::new(), heard: Vec::new() };
         for clipped in output.shapes {
-            collect(clipped.shape, clipped.clip_rect, &mut shown.texts);
+            collect(clipped.shape, clipped.clip_rect, &mut shown);
         }
         let update = output.platform_output.accesskit_update.take();
         let nodes = update.into_iter().flat_map(|update| update.nodes);
@@ -143,6 +144,8 @@ pub(super) fn button(pos: Pos2, pressed: bool) -> Event {
 /// The texts of a frame, and what a screen reader hears if the window's context has it enabled.
 pub(super) struct Shown {
     pub(super) texts: Vec<ShownText>,
+    /// The rings round what has the keyboard's focus, as far as they are not clipped.
+    pub(super) rings: Vec<egui::Rect>,
     pub(super) heard: Vec<String>,
 }
 
@@ -178,10 +181,13 @@ impl Shown {
     }
 }
 
-fn collect(shape: egui::Shape, clip: egui::Rect, texts: &mut Vec<ShownText>) {
+fn collect(shape: egui::Shape, clip: egui::Rect, shown: &mut Shown) {
     match shape {
-        egui::Shape::Vec(all) => all.into_iter().for_each(|shape| collect(shape, clip, texts)),
-        egui::Shape::Text(shape) => texts.push(ShownText { shape, clip }),
+        egui::Shape::Vec(all) => all.into_iter().for_each(|shape| collect(shape, clip, shown)),
+        egui::Shape::Text(shape) => shown.texts.push(ShownText { shape, clip }),
+        egui::Shape::Rect(shape) if shape.stroke.width == RING => {
+            shown.rings.push(shape.rect.intersect(clip));
+        }
         _ => {}
     }
 }

@@ -34,7 +34,9 @@ const MIN_SIZE: [u32; 2] = [320, 240];
 /// The attributes of a window of this size.
 pub(super) fn attributes(size: Option<[u32; 2]>) -> WindowAttributes {
     let size = size.unwrap_or(USUAL_SIZE);
-    Window::default_attributes().with_inner_size(LogicalSize::<u32>::from(size))
+    Window::default_attributes()
+        .with_inner_size(LogicalSize::<u32>::from(size))
+        .with_min_inner_size(LogicalSize::<u32>::from(MIN_SIZE))
 }
 
 /// The size to remember of a window that has this size in pixels: none if it fills the screen, or can hardly be seen.

@@ -2,7 +2,7 @@
 
 use egui::{Align, Button, Layout, RichText, ScrollArea, Ui, vec2};
 
-use super::{breakpoints, keycap, palette};
+use super::{breakpoints, focus, keycap, palette};
 use crate::lab::studio::guide::{STOPS, Tour};
 use crate::lab::studio::{Command, Step, ViewCommand};
 use crate::view::theme::strong_font;
@@ -26,6 +26,7 @@ pub(super) fn show(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
         } else {
             keycap::paragraph(ui, stop.task, palette(ui).text);
         }
+        focus::follow(ui);
     });
 }
 

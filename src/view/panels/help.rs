@@ -12,6 +12,8 @@ const COLUMN: f32 = 560.0;
 const KEY: f32 = 128.0;
 /// What a window has around its content.
 const AROUND: Vec2 = vec2(48.0, 110.0);
+/// The least height of the list: a scroll bar that is shorter than its handle makes egui panic where it is pressed.
+const MIN_LIST: f32 = 32.0;
 
 pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
     let screen = ui.ctx().content_rect().size();
@@ -23,7 +25,7 @@ pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
         ui.set_width(width);
         // A bar that is there whenever there is more to see.
         ui.spacing_mut().scroll = egui::style::ScrollStyle::solid();
-        let height = (screen.y - AROUND.y).max(0.0);
+        let height = (screen.y - AROUND.y).max(MIN_LIST);
         let list = ScrollArea::vertical()
             .max_height(height)
             // At once: the window would else grow to it over frames, and paused there are no more.
@@ -77,4 +79,28 @@ fn row(ui: &mut Ui, (shown, about, is_key): (&str, &str, bool), width: f32) {
             ui.add(egui::Label::new(about).wrap());
         });
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::Pos2;
+
+    use super::*;
+    use crate::lab::Scene;
+    use crate::lab::studio::Studio;
+    use crate::view::testing::TestWindow;
+
+    #[test]
+    fn a_click_into_the_help_of_a_window_of_any_size_does_not_panic() {
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        studio.apply(ViewCommand::ToggleHelp);
+        let sizes = [[1.0, 1.0], [95.0, 300.0], [200.0, 63.0], [200.0, 64.0], [320.0, 122.0]];
+        for [width, height] in sizes {
+            let mut window = TestWindow::new([width, height]);
+            // Over the bar of the list too, wherever it lies.
+            for x in (0..width as u32).step_by(5) {
+                window.click(&studio, Pos2::new(x as f32, 0.5 * (height - 1.0)));
+            }
+        }
+    }
 }

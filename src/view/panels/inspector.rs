@@ -7,7 +7,7 @@ use egui::{
 
 pub(super) use self::number::NumberField;
 use self::rows::{Reach, Row, Spacing, Values, rows};
-use super::palette;
+use super::{focus, palette};
 use crate::lab::scene::edited_values;
 use crate::lab::studio::{Command, RunCommand, Studio};
 use crate::lab::{Action, Acts};
@@ -66,6 +66,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         let lanes = if studio.race().entrants().len() > 1 { "Lanes" } else { "Method" };
         section(ui, lanes, |ui| run::show_lanes(ui, studio, commands));
         section(ui, "Time", |ui| run::show_time(ui, studio, commands));
+        focus::follow(ui);
     });
 }
 

@@ -7,7 +7,7 @@ use egui::{Button, Color32, ComboBox, Label, Rect, Response, RichText, Sense, St
 
 use super::series_styles::{SeriesStyle, SeriesStyles};
 use super::tracks::Detail;
-use super::{advice, breakpoints, cost, focus_ring, loops, one_step, palette, stability_map};
+use super::{advice, breakpoints, cost, loops, one_step, palette, stability_map};
 use crate::lab::METRICS;
 use crate::lab::loop_lab::FRAME_METRICS;
 use crate::lab::past::Quantity;
@@ -43,6 +43,8 @@ const TIGHT: f32 = 2.5;
 const MAX_IN_LEGEND: usize = 12;
 /// The most lines of a legend beside the title.
 const BESIDE_TITLE: usize = 2;
+/// The height of a line of the title or the legend, in points.
+const HEAD: f32 = 22.0;
 /// The room before a legend that is beside the title, in points.
 const BEFORE_LEGEND: f32 = 8.0;
 
@@ -193,25 +195,34 @@ fn plots(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut Vec<Command
     let may_be_beside = has_legend
         && entries.len() <= BESIDE_TITLE
         && studio.display().instrument == Instrument::Motion;
+    let for_plots = ui.available_height() - HEAD * (1.0 + f32::from(u8::from(has_legend)));
     let is_beside = ui.horizontal_wrapped(|ui| {
         let is_error = studio.display().instrument == Instrument::Error;
         // The metric is said by its menu.
         let title = if is_error { Instrument::Error.name() } else { &set.title };
         ui.label(RichText::new(title).font(strong_font(15.0)).color(palette(ui).text));
         choices(ui, studio, commands);
+        if !layout::all_fit(set.plots.len(), for_plots) {
+            // Else the menu is there already.
+            if studio.display().instrument == Instrument::Motion {
+                body_choice(ui, studio, commands);
+            }
+            let hidden = RichText::new("not all plots fit").color(palette(ui).dim);
+            ui.label(hidden).on_hover_text("choose a body here, or enlarge the instrument");
+        }
         let widths = entries.iter().map(|entry| entry.width(ui));
         let room = BEFORE_LEGEND + legend::BETWEEN * entries.len() as f32 + widths.sum::<f32>();
         let is_beside = may_be_beside && room <= ui.available_width();
         if is_beside {
             ui.add_space(BEFORE_LEGEND);
             let shown = legend::show_here(ui, &entries, 0.0);
-            pick_by_legend(ui, set, (&entries, &shown), commands);
+            pick_by_legend(set, (&entries, &shown), commands);
         }
         is_beside
     });
     if has_legend && !is_beside.inner {
         let shown = legend::show(ui, &entries);
-        pick_by_legend(ui, set, (&entries, &shown), commands);
+        pick_by_legend(set, (&entries, &shown), commands);
     }
     chart::show(ui, studio, set, commands);
 }
@@ -328,14 +339,12 @@ fn legend_entries(set: &PlotSet) -> Vec<Entry> {
 
 /// Picks the lane of a race whose entry of the legend was clicked.
 fn pick_by_legend(
-    ui: &Ui,
     set: &PlotSet,
     (entries, shown): (&[Entry], &[Response]),
     commands: &mut Vec<Command>,
 ) {
     for (Entry { name, .. }, response) in entries.iter().zip(shown) {
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
-        focus_ring(ui, response);
     }
     let clicked = set.shown().zip(shown).filter(|(_, entry)| entry.clicked());
     let picks = clicked.map(|((place, _), _)| Command::Stage(StageCommand::Pick(place)));

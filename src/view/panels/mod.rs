@@ -14,6 +14,7 @@ mod annotations;
 mod breakpoints;
 mod cost;
 mod dialog;
+mod focus;
 mod footer;
 mod formula;
 mod guide;
@@ -35,6 +36,8 @@ mod top_bar;
 mod tracks;
 mod verdict;
 
+#[cfg(test)]
+pub(super) use focus::RING;
 pub(super) use instruments::{csv, svg};
 
 /// What a frame shows beside the stage.
@@ -60,6 +63,9 @@ const MIN_INSPECTOR: f32 = 130.0;
 pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     let mut commands = Vec::new();
     let size = ui.max_rect().size();
+    if size.x < breakpoints::PANELS[0] || size.y < breakpoints::PANELS[1] {
+        return (commands, ui.max_rect());
+    }
     if size.y >= breakpoints::TOP_BAR {
         let panel =
             egui::Panel::top("top bar").exact_size(top_bar::HEIGHT).frame(frame(palette(ui).panel));
@@ -139,6 +145,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
             commands.push(Command::View(ViewCommand::CloseDialog));
         }
     }
+    focus::show(ui);
     (commands, stage)
 }
 
@@ -164,19 +171,6 @@ fn beside_the_stage(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Ve
         panel.frame(frame).show(ui, |ui| inspector::show(ui, studio, commands));
         instruments::show(ui, studio, indent, commands);
     }
-}
-
-/// Draws a ring round a widget that has the keyboard's focus and draws none of its own.
-fn focus_ring(ui: &Ui, response: &egui::Response) {
-    if response.has_focus() {
-        ring(ui, response.rect);
-    }
-}
-
-/// Draws the ring of the keyboard's focus.
-fn ring(ui: &Ui, rect: Rect) {
-    let stroke = egui::Stroke::new(1.6, palette(ui).accent);
-    ui.painter().rect_stroke(rect, 3.0, stroke, egui::StrokeKind::Inside);
 }
 
 fn frame(fill: Color32) -> Frame {

@@ -353,15 +353,7 @@ fn cross(
         step(ui, studio, map, commands);
     }
     let is_lit = response.hovered() || response.dragged();
-    let response = response.on_hover_cursor(egui::CursorIcon::Crosshair);
-    if response.has_focus() {
-        painter.rect_stroke(
-            area.rect,
-            0.0,
-            Stroke::new(1.0, palette.accent),
-            egui::StrokeKind::Inside,
-        );
-    }
+    response.on_hover_cursor(egui::CursorIcon::Crosshair);
     let thin = Stroke::new(1.0, palette.accent.gamma_multiply(0.45));
     for ends in [
         [pos2(area.rect.left(), at.y), pos2(area.rect.right(), at.y)],

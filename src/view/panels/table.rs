@@ -3,7 +3,7 @@
 
 use egui::{Align2, Color32, FontId, Id, Rect, Response, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
 
-use super::{focus_ring, keycap, palette, short};
+use super::{focus, keycap, palette, short};
 use crate::lab::studio::Command;
 use crate::view::chart;
 use crate::view::chart::legend::swatch;
@@ -233,6 +233,7 @@ impl<R: TableRow> Table<R> {
                 let response = self.show_row(ui, row, &columns, width, commands);
                 each(row, &response, commands);
             }
+            focus::follow(ui);
         });
     }
 
@@ -333,7 +334,6 @@ impl<R: TableRow> Table<R> {
             let fill = palette(ui).raised.gamma_multiply(if is_selected { 1.0 } else { 0.6 });
             ui.painter().rect_filled(rect, 3.0, fill);
         }
-        focus_ring(ui, &response);
         if is_selected {
             let bar = vec2(BAR, self.row_height - 2.0);
             let bar = Rect::from_min_size(rect.min + vec2(0.0, 1.0), bar);

@@ -20,9 +20,11 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let width = ui.available_width();
     ui.horizontal_centered(|ui| {
         scene_menu(ui, studio, commands);
-        if width >= breakpoints::PACE {
+        // Below that the menu of scenes has it.
+        if width >= breakpoints::SPRING {
             let about = "a spring of your own: the recommended method, and its code (S)";
-            button(ui, "My spring", about, Command::View(ViewCommand::AskForSpring), commands);
+            let words = if width >= breakpoints::MY_SPRING { "My spring" } else { "Spring" };
+            button(ui, words, about, Command::View(ViewCommand::AskForSpring), commands);
         }
         transport(ui, studio, width >= breakpoints::TICK_BACK, commands);
         if width >= breakpoints::MENUS {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use egui::{Align2, FontId, Pos2, Rect, Response, Sense, Ui, Vec2, pos2, vec2};
 
 use super::super::series_styles::SeriesStyles;
-use super::super::{focus_ring, palette, ring, short};
+use super::super::{palette, short};
 use super::hover;
 use super::layout::{Cell, cells};
 use super::plot_set::PlotSet;
@@ -69,7 +69,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut V
     // The heights of plots do not depend on the room beside them.
     let left = room_for_numbers(ui, &cells(set, room, LEFT, body), &views);
     let cells = cells(set, room, left, body);
-    let (mut pointer, mut focused) = (None, None);
+    let mut pointer = None;
     for (place, cell) in cells.iter().enumerate().filter(|(_, cell)| cell.plot.nothing.is_none()) {
         let response =
             ui.interact(cell.frame, ui.scope_id().with(&cell.plot.id), Sense::click_and_drag());
@@ -86,7 +86,6 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut V
         } else if response.dragged() {
             views.pan(cell, response.drag_delta());
         }
-        focused = focused.or(response.has_focus().then_some(response.rect));
         response.context_menu(|ui| menu(ui, cell, &mut views, commands));
     }
     for (place, cell) in cells.iter().enumerate() {
@@ -100,7 +99,6 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut V
             hover::show(ui, &set.styles, (cell, &area), t, place == 0);
         }
     }
-    focused.into_iter().for_each(|rect| ring(ui, rect));
     if views.0 != studio.view().plot_ranges {
         commands.push(Command::View(ViewCommand::PlotRanges(views.0)));
     }
@@ -205,7 +203,6 @@ fn show_plot(
     painter.galley(at, words, palette.text);
     chart::paint(&painter, &layout(studio, styles, (cell, area), palette, (columns, right)));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &plot.title));
-    focus_ring(ui, &response);
     let about = "show this body large, and in the other instruments";
     let about = if is_whole { about.into() } else { format!("{}\n{about}", plot.title) };
     if response.on_hover_text(about).clicked() {

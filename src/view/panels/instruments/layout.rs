@@ -15,8 +15,9 @@ const RIGHT: f32 = 92.0;
 const RIGHT_OF_PARTS: f32 = 156.0;
 /// Between plots, in points.
 const GAP: f32 = 5.0;
-/// The least height of a plot, in points: with less there are fewer plots.
+/// The least height of a plot, in points, and to what it shrinks where all fit then. Else there are fewer plots.
 const MIN_HEIGHT: f32 = 44.0;
+const SHRUNK: f32 = 20.0;
 /// How many times higher the plot of the chosen body is than the others.
 const CHOSEN: f32 = 2.0;
 
@@ -44,25 +45,37 @@ impl Cell<'_> {
     }
 }
 
+/// How many plots of so many fit into a height, and the least height of each.
+fn fit(plots: usize, height: f32) -> (usize, f32) {
+    let height = (height - NUMBERS - NAMES).max(1.0);
+    let of_least = |least: f32| ((height + GAP) / (ABOVE + least + GAP)).floor().max(1.0) as usize;
+    let least = [MIN_HEIGHT, SHRUNK].into_iter().find(|least| of_least(*least) >= plots);
+    let least = least.unwrap_or(MIN_HEIGHT);
+    (plots.min(of_least(least)), least)
+}
+
+/// Whether so many plots all fit into a height.
+pub(super) fn all_fit(plots: usize, height: f32) -> bool {
+    fit(plots, height).0 == plots
+}
+
 /// The plots that fit into `room`, that of `body` among them, with `left` points for the numbers of their axes.
 pub(super) fn cells(set: &PlotSet, room: Rect, left: f32, body: usize) -> Vec<Cell<'_>> {
-    let below = NUMBERS + NAMES;
-    let height = (room.height() - below).max(1.0);
-    let fit = ((height + GAP) / (ABOVE + MIN_HEIGHT + GAP)).floor().max(1.0) as usize;
-    let count = set.plots.len().min(fit);
+    let height = (room.height() - NUMBERS - NAMES).max(1.0);
+    let (count, least) = fit(set.plots.len(), room.height());
     let chosen = set.plots.iter().position(|plot| plot.body == body).unwrap_or(0);
     let first = chosen.min(set.plots.len() - count);
     let shown = &set.plots[first..first + count];
     let weight = |plot: &PlotModel| if plot.body == body { CHOSEN } else { 1.0 };
     let weights: f32 = shown.iter().map(weight).sum();
-    let spare = height - count as f32 * (ABOVE + MIN_HEIGHT) - (count - 1) as f32 * GAP;
+    let spare = height - count as f32 * (ABOVE + least) - (count - 1) as f32 * GAP;
     let has_parts = shown.iter().any(|plot| plot.tracks.iter().any(|track| !track.part.is_empty()));
     let for_values = if has_parts { RIGHT_OF_PARTS } else { RIGHT };
     let has_values = room.width() - left - for_values >= breakpoints::PLOT_BESIDE_VALUES;
     let beside = if has_values { for_values } else { 10.0 };
     let mut top = room.top();
     let cell = |(i, plot): (usize, &'_ PlotModel)| {
-        let tall = (MIN_HEIGHT + spare * weight(plot) / weights).max(1.0);
+        let tall = (least + spare * weight(plot) / weights).max(1.0);
         let frame = Rect::from_min_max(
             pos2(room.left() + left, top + ABOVE),
             pos2((room.right() - beside).max(room.left() + left + 1.0), top + ABOVE + tall),

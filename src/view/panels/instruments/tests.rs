@@ -2,7 +2,7 @@ use egui::{Event, Modifiers, MouseWheelUnit, Pos2, Rect, TouchPhase, Vec2, vec2}
 use rayon::prelude::*;
 
 use super::super::tracks::Detail;
-use super::error::NO_ERROR;
+use super::error::{NO_ERROR, capitalised};
 use super::*;
 use crate::lab::cloud::{CloudChoice, CloudWorker};
 use crate::lab::studio::{RunCommand, StageCommand};
@@ -304,11 +304,45 @@ fn the_cloud_tells_what_becomes_of_the_area_and_why_a_body_has_none() {
     let mut studio = lab_of("liouville");
     assert!(said(&studio, "Stepping the points") && csv(&studio).is_none());
     studio.complete_clouds(&mut CloudWorker::default(), || false);
-    for wanted in ["Explicit Euler\n×1.", "grows ×2 in", "keeps area", "shrinks ×½ in"] {
+    for wanted in
+        ["Explicit Euler\n×1.", "grows ×2 in", "keeps area", "shrinks ×½ in", "t = 1.00 s"]
+    {
         assert!(said(&studio, wanted), "{wanted}");
     }
     let table = csv(&studio).unwrap().concat();
     assert!(table.contains(",area / start,,implicit-euler,1,0.") && table.contains(",exact,1,"));
     assert!(svg(&studio).unwrap().contains("<polyline"));
     assert!(said(&lab_of("orbit"), "has 2 coordinates"));
+}
+
+#[test]
+fn where_the_scale_leaves_little_room_nothing_vanishes_in_silence() {
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    (0..60).for_each(|_| studio.tick());
+    // A window of 1280 × 720 at 125 and 175 %, one of 2560 × 1440 at 175 %, and a small one.
+    for (size, all, spring) in [
+        ([1024.0, 576.0], true, "My spring"),
+        ([731.0, 411.0], false, "Spring"),
+        ([1462.0, 822.0], true, "My spring"),
+        ([800.0, 600.0], true, "My spring"),
+    ] {
+        let texts = texts(&studio, size.into());
+        let is_there = |wanted: &str, left: f32| {
+            texts.iter().any(|(rect, text)| text == wanted && rect.left() >= left)
+        };
+        let left = (1.0 - panels::INSTRUMENTS) * size[0];
+        let plots =
+            studio.scene().bodies.iter().filter(|body| is_there(&capitalised(&body.name), left));
+        let plots = plots.count();
+        let has_all = plots == studio.scene().bodies.len();
+        assert_eq!(has_all, all, "{size:?}: {plots}");
+        assert_eq!(is_there("not all plots fit", left), !all, "{size:?}");
+        assert!(is_there(spring, 0.0), "{size:?}");
+        // The top bar does not run into itself.
+        let top: Vec<_> = texts.iter().filter(|(rect, _)| rect.bottom() < 40.0).collect();
+        for (at, (rect, text)) in top.iter().enumerate() {
+            let over = top[at + 1..].iter().find(|(other, _)| other.shrink(1.0).intersects(*rect));
+            assert!(over.is_none(), "{size:?}: {text} and {over:?}");
+        }
+    }
 }

@@ -1,0 +1,86 @@
+//! What has the keyboard's focus: a ring round it, whatever it is, and lists that scroll to it.
+
+use egui::style::ScrollAnimation;
+use egui::{Id, Response, Stroke, StrokeKind, Ui};
+
+use super::palette;
+
+/// The width of the ring, in points.
+pub(in crate::view) const RING: f32 = 1.6;
+
+/// Draws a ring round what has the keyboard's focus, over all of it.
+pub(super) fn show(ui: &Ui) {
+    let Some(focused) = widget(ui) else { return };
+    let painter = ui.ctx().layer_painter(focused.layer_id);
+    let stroke = Stroke::new(RING, palette(ui).accent);
+    painter.rect_stroke(focused.interact_rect, 3.0, stroke, StrokeKind::Inside);
+}
+
+/// Scrolls the list that `ui` is the content of to what has got the keyboard's focus, if that is in the list.
+pub(super) fn follow(ui: &Ui) {
+    let known = ui.scope_id().with("focus");
+    let focused = widget(ui).filter(|focused| {
+        focused.layer_id == ui.layer_id() && ui.min_rect().contains(focused.rect.center())
+    });
+    let id = focused.as_ref().map(|focused| focused.id);
+    let before = ui.data_mut(|data| {
+        let before = data.get_temp::<Option<Id>>(known).flatten();
+        data.insert_temp(known, id);
+        before
+    });
+    if let Some(focused) = focused.filter(|focused| Some(focused.id) != before) {
+        ui.scroll_to_rect_animation(focused.rect, None, ScrollAnimation::none());
+    }
+}
+
+/// What has the keyboard's focus.
+fn widget(ui: &Ui) -> Option<Response> {
+    let id = ui.memory(|memory| memory.focused())?;
+    ui.ctx().read_response(id)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use egui::{Event, Key, Modifiers, Rect};
+
+    use crate::lab::Scene;
+    use crate::lab::studio::{StageCommand, Studio};
+    use crate::view::testing::TestWindow;
+
+    #[test]
+    fn after_each_press_of_tab_a_ring_shows_what_has_the_focus() {
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        studio.apply(StageCommand::ToggleRace);
+        let mut window = TestWindow::new([1280.0, 720.0]);
+        let screen = Rect::from_min_size(egui::Pos2::ZERO, window.size);
+        let tab = Event::Key {
+            key: Key::Tab,
+            physical_key: None,
+            pressed: true,
+            repeat: false,
+            modifiers: Modifiers::NONE,
+        };
+        window.panels(&studio, Vec::new());
+        let mut found = BTreeSet::new();
+        for press in 0..80 {
+            window.panels(&studio, vec![tab.clone()]);
+            // What scrolls has scrolled a frame later.
+            window.panels(&studio, Vec::new());
+            let shown = window.panels(&studio, Vec::new()).1;
+            let id = window.context.memory(|memory| memory.focused());
+            let id = id.unwrap_or_else(|| panic!("press {press}: nothing has the focus"));
+            let focused = window.context.read_response(id).unwrap();
+            let [ring] = shown.rings[..] else {
+                panic!("press {press}: {:?} around {:?}", shown.rings, focused.rect)
+            };
+            let of = focused.rect;
+            assert!(screen.contains_rect(ring) && ring.width() > 4.0, "press {press}: {ring:?}");
+            let seen = ring.area() / of.area();
+            assert!((0.8..=1.01).contains(&seen), "press {press}: {ring:?} of {of:?}");
+            found.insert(format!("{id:?}"));
+        }
+        assert!(found.len() > 60, "{} widgets have had the focus", found.len());
+    }
+}
