@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::error::Error;
+use super::terminal::print_status;
 use crate::lab::scene::{BuiltIn, MAX_FILE_BYTES, SCENES, Scene, SceneErrors, nearest};
 use crate::regular_file::{self, Unreadable};
 use crate::sim::integrators::Method;
@@ -14,6 +15,8 @@ pub(super) fn load(path: &Path) -> Result<(Scene, String), Error> {
     }
     let bytes = read(path)?;
     let scene = Scene::from_bytes(&path.display().to_string(), &bytes)?;
+    let outdated = scene.outdated.iter().flat_map(|outdated| outdated.messages());
+    outdated.for_each(|message| print_status(&format!("warning: {message}")));
     Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
 }
 

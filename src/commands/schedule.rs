@@ -61,10 +61,11 @@ impl Schedule {
     }
 }
 
-/// Nanoseconds, rounded up, until the tick is reached at which the script sets the next tick rate.
+/// Nanoseconds, rounded up, until the tick is reached at which the tick rate changes next.
 fn until_rate_changes(studio: &Studio) -> u64 {
     let (tick, clock) = (studio.race().tick(), studio.clock());
-    let Some((next, _)) = studio.scene().rates_from(tick + 1).next() else { return u64::MAX };
+    let mut rates = studio.race().rates_to_come();
+    let Some((next, _)) = rates.find(|(at, _)| *at > tick) else { return u64::MAX };
     // The clock counts in nanoseconds × hertz × percent.
     let (owed, whole) = clock.alpha_fraction();
     let due = u128::from(next - tick) * u128::from(whole) - u128::from(owed);
@@ -80,14 +81,14 @@ mod tests {
     #[test]
     fn a_frame_shows_its_moment_whatever_tick_rates_a_script_sets() {
         let text = "title = 'x'\ntick_hz = 1\nseconds = 9\n[[spring]]\nmass_kg = 1\n\
-                    stiffness_n_per_m = 1\n[[command]]\ntick = 5\ntick_hz = 1000\n\
-                    [[command]]\ntick = 1505\ntick_hz = 8\n";
+                    stiffness_n_per_m = 1\n[[command]]\nat_s = 5\ntick_hz = 1000\n\
+                    [[command]]\nat_s = 6.5\ntick_hz = 8\n";
         let mut studio = Studio::new(Scene::parse("x.toml", text).unwrap());
         let schedule = Schedule { frames: 301, fps: 30 };
         for frame in 0..schedule.frames {
             schedule.advance(&mut studio, frame, &mut ());
             let present = studio.race().t();
-            let next_hz = studio.scene().rates_from(studio.race().tick()).next();
+            let next_hz = studio.race().rates_to_come().next();
             let next_hz = next_hz.filter(|(tick, _)| *tick == studio.race().tick());
             let hz = next_hz.map_or(studio.clock().tick_hz(), |(_, hz)| hz);
             let shown = present + studio.clock().alpha() / f64::from(hz);

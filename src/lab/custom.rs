@@ -143,6 +143,7 @@ impl Scene {
             opens_as_race: methods.len() != 1,
             bodies: vec![SceneBody { appearance, ..SceneBody::new(name, kind, values) }],
             script: Vec::new(),
+            outdated: None,
             checks: Vec::new(),
         })
     }

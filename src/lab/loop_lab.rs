@@ -58,8 +58,6 @@ pub enum LoopCommand {
 pub struct LoopLab {
     /// With one body.
     scene: Arc<Scene>,
-    /// The same at its own tick rate.
-    original: Arc<Scene>,
     method: &'static Method,
     /// The body at its start, for how it looks.
     body: LaneBody,
@@ -99,7 +97,6 @@ impl LoopLab {
         let trace = traces[0].clone();
         let mut studio = Self {
             body: at_start(&scene),
-            original: scene.clone(),
             request: Arc::new(LoopRequest { scene: scene.clone(), method, trace, first: vec![] }),
             scene,
             method,
@@ -134,8 +131,7 @@ impl LoopLab {
 
     /// Shows the body with this index in another scene, from its start.
     pub(super) fn show(&mut self, scene: &Scene, body: usize) {
-        self.original = Arc::new(scene.clone().of_one_body(body));
-        self.scene = self.original.clone();
+        self.scene = Arc::new(scene.clone().of_one_body(body));
         if self.scene.refusal(self.method).is_some() {
             let mut fitting = self.scene.fitting_methods();
             self.method = fitting.next().expect("some methods step every body");
@@ -285,15 +281,9 @@ impl LoopLab {
         self.choose_trace(index);
     }
 
-    /// Chooses the tick rate, in Hz. The script keeps its times, to the nearest tick.
+    /// Chooses the tick rate, in Hz.
     pub fn set_tick_hz(&mut self, tick_hz: u32) {
-        let mut scene = Scene { tick_hz, ..(*self.original).clone() };
-        let [to, from] = [tick_hz, self.original.tick_hz].map(u128::from);
-        for row in &mut scene.script {
-            let tick = (u128::from(row.tick) * to + from / 2) / from;
-            row.tick = u64::try_from(tick).unwrap_or(u64::MAX);
-        }
-        self.scene = Arc::new(scene);
+        Arc::make_mut(&mut self.scene).tick_hz = tick_hz;
         self.ask();
     }
 

@@ -36,6 +36,7 @@ pub mod scene;
 pub mod session;
 pub mod source_code;
 pub mod studio;
+mod time_scale;
 
 // What the view, which sees nothing of `sim`, names of it.
 #[cfg(feature = "view")]

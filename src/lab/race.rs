@@ -9,9 +9,10 @@ use std::sync::Arc;
 use super::lane_id::LaneId;
 use super::lane_spec::LaneSpec;
 use super::scene::{Scene, Scripted};
+use super::time_scale::Piece;
 use crate::sim::Solver;
-use time_scale::Piece;
 
+pub use super::time_scale::TimeScale;
 pub use chase::Chase;
 pub use equal_cost::{equal_cost, lanes_that_race};
 pub(super) use extent::Extent;
@@ -23,7 +24,6 @@ pub(super) use intervention::Interventions;
 pub use journal::{Author, Journal, JournalRow};
 pub(super) use lane::advance_checked;
 pub use lane::{ESCAPE, Halt, Lane, LaneBody, Resumed, ResumedFrom};
-pub use time_scale::TimeScale;
 
 mod acting;
 mod chase;
@@ -37,7 +37,6 @@ mod journal;
 mod lane;
 mod observer;
 mod run_start;
-mod time_scale;
 
 pub(super) use acting::ActionResult;
 pub use observer::Observer;
@@ -118,9 +117,9 @@ impl Race {
         Self::new(scene, lanes).with_script(&scene.script)
     }
 
-    /// The same race at its start, with this script.
+    /// The same race at its start, with this script at the present tick rate.
     pub(super) fn with_script(self, script: &[Scripted]) -> Self {
-        Self { journal: Journal::of_script(script), ..self }
+        Self { journal: Journal::of_script(script, self.tick_hz()), ..self }
     }
 
     /// The scene at its start without its script, with these lanes.
@@ -148,7 +147,7 @@ impl Race {
             throttle: 1.0,
             rudder: 0.0,
             tick: 0,
-            piece: Piece { tick: 0, t: 0.0, tick_hz: scene.tick_hz },
+            piece: Piece::first(scene.tick_hz),
             last_step_s: 0.0,
             journal: Journal::default(),
             done: 0,
@@ -157,11 +156,11 @@ impl Race {
         }
     }
 
-    /// The scene at its start with one lane, which its script may put under other methods: that with this index among
-    /// `methods`, which begin with the scene's lanes.
+    /// The scene at its start without its script, with one lane: that with this index among `methods`, which begin with the
+    /// scene's lanes.
     pub(super) fn solo(scene: &Scene, methods: Vec<LaneSpec>, index: usize) -> Self {
         let spec = methods[index];
-        let mut race = Self::with_methods(scene, methods, [spec]).with_script(&scene.script);
+        let mut race = Self::with_methods(scene, methods, [spec]);
         race.mode = Mode::Solo;
         // The number that the lane has in a race, if it is in one.
         if index < scene.lanes.len() {
@@ -170,9 +169,9 @@ impl Race {
         race
     }
 
-    /// The same race at its start, at this tick rate.
+    /// The same race at its start, without its script, at this tick rate.
     pub(super) fn at_rate(self, tick_hz: u32) -> Self {
-        Self { piece: Piece { tick_hz, ..self.piece }, ..self }
+        Self { piece: Piece::first(tick_hz), journal: Journal::default(), ..self }
     }
 
     /// Whether there is one lane, which is switched from method to method, or one for each method.
@@ -245,6 +244,12 @@ impl Race {
     /// The number of rows of the journal that have been performed.
     pub(super) fn done(&self) -> usize {
         self.done
+    }
+
+    /// The changes of the tick rate that are still to come: each with its tick, and the new rate in Hz.
+    pub fn rates_to_come(&self) -> impl Iterator<Item = (u64, u32)> {
+        let pending = self.journal.rows()[self.done..].iter();
+        pending.filter_map(|row| Some((row.tick, row.action.tick_hz()?)))
     }
 
     /// Replaces the journal by one in which as many rows have been performed.

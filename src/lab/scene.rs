@@ -10,6 +10,7 @@ use std::sync::Arc;
 use super::action::Action;
 use super::lane_id::LaneId;
 use super::lane_spec::LaneSpec;
+use super::time_scale::Piece;
 use crate::sim::bodies::{ClaimHorizon, Kind, Origin};
 use crate::sim::integrators::Method;
 
@@ -119,10 +120,13 @@ pub struct Scene {
     pub opens_as_race: bool,
     /// The bodies in the order of the file, 1 to [`MAX_BODIES`], no two of one name.
     pub bodies: Vec<SceneBody>,
-    /// The scripted commands by tick, and within a tick in the order of the file.
+    /// The scripted commands by time, and those of one time in the order of the file.
     pub script: Vec<Scripted>,
-    /// States that a race of the scene must reproduce, in the order of the file.
+    /// States that a race of the scene must reproduce, in the order of the file. A scene that has some is a recording, whose
+    /// file tells its script in ticks.
     pub checks: Vec<Check>,
+    /// What its file says in a way that will not be read for long, with the remedies; `None` if there is nothing.
+    pub outdated: Option<Arc<SceneErrors>>,
 }
 
 /// A body of a scene.
@@ -149,10 +153,25 @@ impl SceneBody {
 /// A command of a scene's script.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scripted {
-    /// The tick before which it is applied, at most [`LAST_TICK`].
-    pub tick: u64,
+    /// When it is done, in seconds, at most [`MAX_SECONDS`]: before the nearest tick at the rate in force, in every lane and
+    /// in the truth.
+    pub at_s: f64,
     /// What is done.
     pub action: Action,
+}
+
+impl Scripted {
+    /// A script that is told in ticks, as a recording tells it: at this rate in Hz, and from a change of the rate on at the
+    /// new one. The ticks are in order.
+    pub fn of_ticks(tick_hz: u32, rows: impl IntoIterator<Item = (u64, Action)>) -> Vec<Self> {
+        let mut piece = Piece::first(tick_hz);
+        let scripted = |(tick, action): (u64, Action)| {
+            let at_s = piece.t(tick);
+            action.tick_hz().into_iter().for_each(|tick_hz| piece = piece.then(tick, tick_hz));
+            Self { at_s, action }
+        };
+        rows.into_iter().map(scripted).collect()
+    }
 }
 
 /// The state that a lane must reach in a race of the scene.
@@ -192,8 +211,24 @@ impl Scene {
         // Some editors begin a file with a byte order mark, and none of them counts it as a column.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let stem = Path::new(file).file_stem().and_then(|stem| stem.to_str());
-        document::read(stem.unwrap_or(file), text)
-            .map_err(|errors| SceneErrors::new(file, text, errors))
+        let (mut scene, outdated) = document::read(stem.unwrap_or(file), text)
+            .map_err(|errors| SceneErrors::new(file, text, errors))?;
+        if !outdated.is_empty() {
+            scene.outdated = Some(SceneErrors::new(file, text, outdated).into());
+        }
+        Ok(scene)
+    }
+
+    /// The script on the ticks of a run at the scene's rate: for each command its tick, and the time of that in seconds.
+    pub(in crate::lab) fn script_on_ticks(&self) -> impl Iterator<Item = (u64, f64)> {
+        let script = self.script.iter().map(|row| (row.at_s, &row.action));
+        Piece::first(self.tick_hz).put_on_ticks(script)
+    }
+
+    /// The actions of the script with the times of their ticks in seconds, in order.
+    pub(in crate::lab) fn timed_script(&self) -> impl Iterator<Item = (f64, &Action)> {
+        let actions = self.script.iter().map(|row| &row.action);
+        self.script_on_ticks().map(|(_, t)| t).zip(actions)
     }
 
     /// The methods that digits and lanes refer to: the scene's lanes, then all others that step its bodies.

@@ -61,7 +61,7 @@ impl Session {
     /// The scene at its start with one lane, under the method at place `entry` of the scene's [list](Scene::method_list).
     /// The scene's script may switch it.
     pub fn solo(scene: Arc<Scene>, entry: usize) -> Self {
-        let race = Race::solo(&scene, scene.method_list(), entry);
+        let race = Race::solo(&scene, scene.method_list(), entry).with_script(&scene.script);
         Self::new(scene, race)
     }
 

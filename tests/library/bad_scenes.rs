@@ -183,22 +183,22 @@ fn a_tolerance_is_accepted_wherever_the_lane_may_have_an_adaptive_method() {
     let head = "title = 'x'\ntick_hz = 60\nseconds = 10\nmethods = ['rk4', 'midpoint']\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
     let command = |words: &str| format!("[[command]]\n{words}\n");
-    let tolerance = command("tick = 9\nlane = 2\ntolerance = 1e-6");
+    let tolerance = command("at_s = 9\nlane = 2\ntolerance = 1e-6");
     let adaptive = "method = 'dormand-prince-54'";
     for before in [
         // Only where the lane is flown solo.
-        command(&format!("tick = 3\n{adaptive}")),
-        command(&format!("tick = 3\nlane = 2\n{adaptive}")),
-        command("tick = 3\nsolo = 2") + &command(&format!("tick = 4\n{adaptive}")),
+        command(&format!("at_s = 3\n{adaptive}")),
+        command(&format!("at_s = 3\nlane = 2\n{adaptive}")),
+        command("at_s = 3\nsolo = 2") + &command(&format!("at_s = 4\n{adaptive}")),
     ] {
-        // Whatever the order in the file: the ticks decide.
+        // Whatever the order in the file: the times decide.
         for text in [before.clone() + &tolerance, tolerance.clone() + &before] {
             Scene::parse("good.toml", &(head.to_owned() + &text)).unwrap();
         }
     }
-    let late = tolerance + &command(&format!("tick = 10\nlane = 2\n{adaptive}"));
+    let late = tolerance + &command(&format!("at_s = 10\nlane = 2\n{adaptive}"));
     let refused = Scene::parse("bad.toml", &(head.to_owned() + &late)).unwrap_err();
-    assert!(refused.to_string().contains("at tick 9 its method is \"midpoint\""), "{refused}");
+    assert!(refused.to_string().contains("at 9 s its method is \"midpoint\""), "{refused}");
 }
 
 #[test]

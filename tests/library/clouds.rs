@@ -365,7 +365,7 @@ fn clouds_that_blow_up_right_after_they_start_anew_are_drawn_without_them() {
     let law = "title = \"it\"\nabout = \"it\"\ntick_hz = 60\nseconds = 9\nmethods = [\"explicit-euler\"]\n\
          [[law]]\ncoordinates = { x = { start = 1.0, acceleration = \"-x*x*x\" } }\n";
     let place = Action::Place { body: 0, q: [1e9].into(), v: [0.0].into() };
-    let script = vec![Scripted { tick: 3, action: place }];
+    let script = vec![Scripted { at_s: 0.05, action: place }];
     let mut studio = Studio::new(Scene { script, ..Scene::parse("it.toml", law).unwrap() });
     studio.apply(StageCommand::Instrument(Instrument::Cloud));
     studio.apply(RunCommand::Cloud(CloudChoice { points: 500, ..CloudChoice::default() }));
@@ -384,8 +384,7 @@ fn the_exact_cloud_goes_with_the_exact_body_through_kicks_and_other_parameters()
     let length =
         scene.bodies[0].kind.parameters.iter().position(|it| it.key == "length_m").unwrap();
     let set = |value: f64| Action::Set { body: 0, parameter: length, value };
-    let scripted = |tick: u64, action: Action| Scripted { tick, action };
-    let script = vec![scripted(10, Action::Kick(1.0)), scripted(20, set(2.0))];
+    let script = Scripted::of_ticks(scene.tick_hz, [(10, Action::Kick(1.0)), (20, set(2.0))]);
     let mut studio = Studio::new(Scene { script, ..scene });
     studio.apply(StageCommand::Instrument(Instrument::Cloud));
     let disc = CloudKind::Shape(CloudShape::Disc);

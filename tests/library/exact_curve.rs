@@ -66,12 +66,9 @@ fn the_grid_reaches_back_as_long_as_the_scene_lasts_and_does_not_depend_on_the_t
             assert!(samples[0].t <= studio.race().t() - seconds, "{scene}");
             samples
         });
-        if scene != "helm" {
-            // The helm's script counts ticks.
-            for (a, b) in coarse.iter().rev().zip(fine.iter().rev()) {
-                assert!((a.t - b.t).abs() < 1e-9, "{scene}: {} and {} s", a.t, b.t);
-                assert!((a.q - b.q).abs() < 1e-6, "{scene}: {} and {} at {} s", a.q, b.q, a.t);
-            }
+        for (a, b) in coarse.iter().rev().zip(fine.iter().rev()) {
+            assert!((a.t - b.t).abs() < 1e-9, "{scene}: {} and {} s", a.t, b.t);
+            assert!((a.q - b.q).abs() < 1e-6, "{scene}: {} and {} at {} s", a.q, b.q, a.t);
         }
     }
 }

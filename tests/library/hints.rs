@@ -233,10 +233,16 @@ fn the_arrows_steer_the_helm_from_the_first_press_on() {
 
 /// The helm's script with a method and a tick rate in it.
 fn scripted() -> Studio {
-    let more = "[[command]]\ntick = 20\nmethod = \"rk4\"\n[[command]]\ntick = 30\ntick_hz = 10\n\
-                [[command]]\ntick = 40\nthrottle = 0.5\n";
+    let more = "[[command]]\nat_s = 4\nmethod = \"rk4\"\n[[command]]\nat_s = 6\ntick_hz = 10\n\
+                [[command]]\nat_s = 7\nthrottle = 0.5\n";
     let text = SCENES.iter().find(|scene| scene.name == "helm").unwrap().text;
     Studio::new(Scene::parse("helm.toml", &format!("{text}{more}")).unwrap())
+}
+
+fn run_to(studio: &mut Studio, seconds: f64) {
+    while studio.race().t() < seconds {
+        studio.tick();
+    }
 }
 
 fn controls(studio: &Studio) -> (&'static str, u32, f64, f64) {
@@ -266,11 +272,11 @@ fn what_a_person_takes_in_hand_the_script_leaves_alone_until_a_restart_and_says_
         studio.apply(command.clone());
         let said = format!("you have the {name} now: the script leaves it alone until a restart");
         assert_eq!(studio.viewer().notice.as_deref(), Some(&*said), "{command:?}");
-        (0..60).for_each(|_| studio.tick());
+        run_to(&mut studio, 8.5);
         assert_eq!(controls(&studio), expected, "{command:?}");
 
         studio.apply(StageCommand::Restart);
-        (0..60).for_each(|_| studio.tick());
+        run_to(&mut studio, 8.5);
         assert_eq!(controls(&studio), ("rk4", 10, 0.5, 1.0), "the script has all in hand again");
     }
 }
@@ -309,7 +315,7 @@ fn where_no_script_is_to_come_there_is_nothing_to_tell() {
 #[test]
 fn a_throttle_by_hand_changes_the_analysis_request_and_one_of_the_script_does_not() {
     let text = SCENES.iter().find(|scene| scene.name == "ship").unwrap().text;
-    let script = "[[command]]\ntick = 3\nthrottle = 0.5\n";
+    let script = "[[command]]\nat_s = 1.5\nthrottle = 0.5\n";
     let mut studio = Studio::new(Scene::parse("ship.toml", &format!("{text}{script}")).unwrap());
     let asked = studio.analysis_request();
     (0..10).for_each(|_| studio.tick());

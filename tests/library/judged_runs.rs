@@ -69,7 +69,7 @@ fn a_parameter_set_by_hand_is_judged_without_the_scripts_changes_to_it() {
     let mut scene = Scene::built_in("spring").unwrap();
     let parameter = parameter(&scene, "stiffness_n_per_m");
     let set = |value| Action::Set { body: 0, parameter, value };
-    scene.script.push(Scripted { tick: 300, action: set(4.0) });
+    scene.script.push(Scripted { at_s: 5.0, action: set(4.0) });
     let mut studio = Studio::new(scene.clone());
     studio.apply(RunCommand::Act(set(90.0)));
     scene.script.clear();
@@ -77,12 +77,12 @@ fn a_parameter_set_by_hand_is_judged_without_the_scripts_changes_to_it() {
     assert_eq!(verdicts(&mut studio), verdicts_on(&edited));
 }
 
-/// A spring whose damping the script sets from 4 to 60 at tick 60.
+/// A spring whose damping the script sets from 4 to 60 after a second.
 fn damped_by_script() -> Scene {
     let mut scene = with(Scene::built_in("spring").unwrap(), &[("damping_n_s_per_m", 4.0)]);
     let parameter = parameter(&scene, "damping_n_s_per_m");
     let action = Action::Set { body: 0, parameter, value: 60.0 };
-    scene.script = vec![Scripted { tick: 60, action }];
+    scene.script = vec![Scripted { at_s: 1.0, action }];
     scene
 }
 
@@ -166,20 +166,20 @@ fn a_kicked_body_is_judged_from_its_true_state_after_the_kick() {
 
 #[test]
 fn a_run_judged_from_a_placement_keeps_its_throttle_and_the_rest_of_the_script() {
-    let scripted = |ticks: &[(u64, f64)]| {
-        let row = |&(tick, part)| Scripted { tick, action: Action::Throttle(part) };
-        let script = ticks.iter().map(row).collect();
+    let scripted = |times: &[(f64, f64)]| {
+        let row = |&(at_s, part)| Scripted { at_s, action: Action::Throttle(part) };
+        let script = times.iter().map(row).collect();
         Scene { script, ..Scene::built_in("ship").unwrap() }
     };
     let hz = u64::from(scripted(&[]).tick_hz);
-    let mut studio = Studio::new(scripted(&[(hz, 0.5), (9 * hz, -0.25)]));
+    let mut studio = Studio::new(scripted(&[(1.0, 0.5), (9.0, -0.25)]));
     (0..2 * hz).for_each(|_| studio.tick());
     studio.apply(RunCommand::Act(Action::Place { body: 0, q: [10.0].into(), v: [3.0].into() }));
-    let rest = scripted(&[(0, 0.5), (7 * hz, -0.25)]);
+    let rest = scripted(&[(0.0, 0.5), (7.0, -0.25)]);
     let rest = with(rest, &[("s0_m", 10.0), ("v0_m_per_s", 3.0)]);
     assert_eq!(verdicts(&mut studio), verdicts_on(&rest));
     // A throttle by hand holds from there on, and what the script had to come for it is gone.
     studio.apply(RunCommand::Act(Action::Throttle(0.8)));
-    let by_hand = with(scripted(&[(0, 0.8)]), &[("s0_m", 10.0), ("v0_m_per_s", 3.0)]);
+    let by_hand = with(scripted(&[(0.0, 0.8)]), &[("s0_m", 10.0), ("v0_m_per_s", 3.0)]);
     assert_eq!(verdicts(&mut studio), verdicts_on(&by_hand));
 }

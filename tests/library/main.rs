@@ -18,6 +18,7 @@ mod custom;
 mod dice;
 mod editing;
 mod engines;
+mod events;
 mod exact_curve;
 mod exact_flows;
 mod formulas;

@@ -4,7 +4,7 @@ use regatta::lab::race::{Mode, equal_cost, lanes_that_race};
 use regatta::lab::scene::{SCENES, Scene, Scripted};
 use regatta::lab::session::{RecordingError, Session};
 use regatta::lab::studio::{RunCommand, StageCommand, Studio};
-use regatta::lab::{Action, LaneId, LaneSpec};
+use regatta::lab::{Action, Journal, LaneId, LaneSpec};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 
 fn built_in(name: &str) -> Scene {
@@ -71,7 +71,7 @@ methods = [
 ]
 
 [[command]]   # at half a second
-tick = 30
+at_s = 0.5
 kick = 1
 
 # The heavy one comes first.
@@ -131,10 +131,16 @@ fn a_recording_of_a_scene_with_comments_keeps_them_and_repeats_its_run() {
     let text = studio.recording().unwrap();
     assert_eq!(
         other_lines(BY_HAND, &text),
-        ["seconds   = 5   # a short one", "stiffness_n_per_m = 4e1 # soft"]
+        [
+            "seconds   = 5   # a short one",
+            "[[command]]   # at half a second",
+            "at_s = 0.5",
+            "kick = 1",
+            "stiffness_n_per_m = 4e1 # soft"
+        ]
     );
     let new = other_lines(&text, BY_HAND);
-    assert_eq!(new[..3], ["seconds   = 1.5   # a short one", "[[command]]", "tick = 45"], "{text}");
+    assert_eq!(new[..3], ["seconds   = 1.5   # a short one", "[[command]]", "tick = 30"], "{text}");
     let scene = parsed(&text);
     assert_eq!((scene.script.len(), scene.bodies[0].values[1]), (2, 55.5));
     assert!(wrong_lanes(&scene).is_empty());
@@ -182,12 +188,17 @@ fn flown() -> Studio {
     studio
 }
 
+/// The ticks of a scene's script.
+fn ticks(scene: &Scene) -> Vec<u64> {
+    let journal = Journal::of_script(&scene.script, scene.tick_hz);
+    journal.rows().iter().map(|row| row.tick).collect()
+}
+
 #[test]
 fn a_recording_has_all_actions_and_repeats_the_run_to_the_bit() {
     let studio = flown();
     let scene = parsed(&studio.recording().unwrap());
-    let ticks: Vec<u64> = scene.script.iter().map(|row| row.tick).collect();
-    assert_eq!(ticks, (1..=9).map(|n| 25 * n).collect::<Vec<_>>());
+    assert_eq!(ticks(&scene), (1..=9).map(|n| 25 * n).collect::<Vec<_>>());
     assert_eq!(scene.bodies[0].values, built_in("harbour").bodies[0].values, "as at the start");
     assert_eq!((scene.lanes.len(), scene.tick_hz), (1, 60));
     assert!((scene.seconds - studio.race().t()).abs() < 1e-12);
@@ -259,7 +270,7 @@ fn a_recorded_race_opens_as_a_race_and_a_recorded_solo_run_does_not() {
 #[test]
 fn a_restart_keeps_the_settings_of_a_person_and_not_those_of_a_script() {
     let text = format!(
-        "{}\n[[command]]\ntick = 5\nset = {{ body = \"ship\", key = \"mass_kg\", value = 5.0 }}\n",
+        "{}\n[[command]]\nat_s = 2.5\nset = {{ body = \"ship\", key = \"mass_kg\", value = 5.0 }}\n",
         built_in("ship").to_toml()
     );
     let mut studio = Studio::new(parsed(&text));
@@ -323,7 +334,7 @@ fn equal_cost_includes_the_effect_of_the_script_on_the_cost() {
     let plain = built_in("spring");
     let parameter = plain.bodies[0].kind.parameter("stiffness_n_per_m").unwrap().0;
     let action = Action::Set { body: 0, parameter, value: 1e6 };
-    let script = vec![Scripted { tick: 200, action }];
+    let script = vec![Scripted { at_s: 200.0 / 60.0, action }];
     let stiffened = Scene { script, ..plain.clone() };
     let lanes = ["rk4", "dormand-prince-54"].map(|id| LaneSpec::plain(method(id).unwrap()));
     let substeps = |scene: &Scene| equal_cost(scene, &lanes, 60)[0].substeps;
@@ -415,7 +426,7 @@ fn an_action_at_the_last_tick_is_in_the_recording() {
     (0..10).for_each(|_| studio.tick());
     studio.apply(RunCommand::Act(Action::Kick(1.0)));
     let recorded = parsed(&studio.recording().unwrap());
-    assert_eq!(recorded.script.iter().map(|row| row.tick).collect::<Vec<_>>(), [0, 10]);
+    assert_eq!(ticks(&recorded), [0, 10]);
     assert!(wrong_lanes(&recorded).is_empty());
 }
 

@@ -6,7 +6,8 @@ use regatta::lab::{Action, SCENES, Scene};
 /// The ship, whose script changes method and tick rate.
 fn scripted() -> Studio {
     let text = SCENES.iter().find(|scene| scene.name == "ship").unwrap().text;
-    let script = "[[command]]\ntick = 3\ntick_hz = 100\n[[command]]\ntick = 4\nmethod = \"rk4\"\n";
+    let script =
+        "[[command]]\nat_s = 1.5\ntick_hz = 100\n[[command]]\nat_s = 1.51\nmethod = \"rk4\"\n";
     Studio::new(Scene::parse("ship.toml", &format!("{text}{script}")).unwrap())
 }
 

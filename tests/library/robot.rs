@@ -105,7 +105,7 @@ fn read_scene(bytes: &[u8], round: usize) -> bool {
 }
 
 /// What is put in: parts of files, and what is hard on a parser.
-const MORSELS: [&str; 28] = [
+const MORSELS: [&str; 29] = [
     "[[ship]]\n",
     "[[spring]]\n",
     "[[lane]]\n",
@@ -132,6 +132,7 @@ const MORSELS: [&str; 28] = [
     "nan",
     "-1e999",
     "tick = 3\n",
+    "at_s = 0.05\n",
     "methods = [\"rk4\", \"rk4\"]\n",
     "99999999999999999999",
 ];

@@ -244,7 +244,7 @@ fn the_recommended_lanes_meet_their_criterion_in_a_race() {
 #[test]
 fn a_scene_is_judged_with_the_inputs_of_its_script() {
     let text = "title = \"t\"\ntick_hz = 60\nseconds = 20\n[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 400\n\
-                x0_m = 0\n[[command]]\ntick = 60\nkick = 1.0\n";
+                x0_m = 0\n[[command]]\nat_s = 1\nkick = 1.0\n";
     let kicked = Scene::parse("t", text).unwrap();
     let found = verdict(&kicked, "explicit-euler", 60);
     assert!(matches!(found.outcome(), Outcome::GainsEnergy | Outcome::BlewUp), "{found}");

@@ -14,11 +14,10 @@ use super::limits::TOLERANCE;
 use super::modes::Modes;
 use super::run::{MAX_WORK, Run, Until, follow};
 use super::slices::{Meter, at_once};
-use super::survey::TimedInput;
 use super::truth::{BodyTruth, ticks};
 use super::verdict::{Comparison, Finding, LongTerm, NoTruth, NotJudged, Verdict};
 use crate::lab::lane_spec::LaneSpec;
-use crate::lab::scene::Scene;
+use crate::lab::scene::{Scene, Scripted};
 
 mod criteria;
 
@@ -42,9 +41,8 @@ pub(super) fn horizon_s(scene: &Scene) -> f64 {
 }
 
 /// The script's actions on the body with this index in the scene.
-fn inputs_of(scene: &Scene, body: usize) -> Vec<TimedInput> {
-    let actions = scene.timed_script().filter(|(_, action)| action.acts_on(body));
-    actions.map(|(t, action)| TimedInput { t, action: action.clone() }).collect()
+fn inputs_of(scene: &Scene, body: usize) -> Vec<Scripted> {
+    scene.script.iter().filter(|row| row.action.acts_on(body)).cloned().collect()
 }
 
 impl Judge {

@@ -109,7 +109,7 @@ pub(super) async fn follow(
     let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).within(max_work);
     let stepper = &*followed.body.stepper;
     let mut measured = Measured {
-        chased_s: truth.inputs.first().map_or(truth.horizon_s, |input| input.t),
+        chased_s: truth.inputs.first().map_or(truth.horizon_s, |input| input.at_s),
         energy: Energy::of(stepper, truth, horizon, end),
         peaks: Peaks::new(truth, stepper),
         run: Run { chase: Chase::new(stepper, 0.0), ..Run::new(horizon as f64 / hz) },

@@ -1,6 +1,5 @@
 //! The moments of the true motion of one body, and the range of each component.
 
-use crate::lab::action::Action;
 use crate::lab::race::hermite;
 use crate::sim::Stepper;
 use crate::sim::integrators::StepFailure;
@@ -81,11 +80,4 @@ impl Ranges {
             }
         }
     }
-}
-
-/// A script's action on a body, and its time in seconds.
-#[derive(Clone, Debug)]
-pub(super) struct TimedInput {
-    pub(super) t: f64,
-    pub(super) action: Action,
 }

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::slices::Meter;
-use super::survey::{Ranges, TimedInput, TruthNode};
+use super::survey::{Ranges, TruthNode};
 use crate::lab::action::Action;
 use crate::lab::race::Extent;
-use crate::lab::scene::SceneBody;
+use crate::lab::scene::{SceneBody, Scripted};
 use crate::sim::bodies::{Coordinates, Input, Truth};
 use crate::sim::integrators::{GENERAL_METHODS, Override, StepFailure};
 use crate::sim::stability::{NormalMode, normal_modes};
@@ -49,10 +49,10 @@ const PRODUCTS_PER_EVALUATION: u64 = 4;
 pub(super) struct BodyTruth {
     pub(super) body: SceneBody,
     pub(super) throttle: f64,
-    /// The script's actions on the body at tick 0, in order. The motion begins after them.
+    /// The script's actions on the body at the start, in order. The motion begins after them.
     at_start: Vec<Action>,
     /// The script's later actions on the body within the horizon, in order.
-    pub(super) inputs: Vec<TimedInput>,
+    pub(super) inputs: Vec<Scripted>,
     pub(super) horizon_s: f64,
     /// The amplitude of each component of the state, coordinates first.
     pub(super) amplitudes: Vec<f64>,
@@ -83,13 +83,13 @@ impl BodyTruth {
     /// range. The amplitude of a constant component is its value.
     pub(super) async fn find(
         body: &SceneBody,
-        inputs: &[TimedInput],
+        inputs: &[Scripted],
         throttle: f64,
         horizon_s: f64,
         meter: Arc<Meter>,
     ) -> Self {
-        let (at_start, later) = inputs.iter().partition::<Vec<_>, _>(|input| input.t <= 0.0);
-        let later = later.into_iter().filter(|input| input.t < horizon_s);
+        let (at_start, later) = inputs.iter().partition::<Vec<_>, _>(|input| input.at_s <= 0.0);
+        let later = later.into_iter().filter(|input| input.at_s < horizon_s);
         let mut truth = Self {
             body: body.clone(),
             throttle,
@@ -112,7 +112,7 @@ impl BodyTruth {
         truth
     }
 
-    /// The body under `solver` at its start, after the script's actions at tick 0.
+    /// The body under `solver` at its start, after the script's actions at the start.
     pub(super) fn start(&self, solver: Solver) -> Box<dyn Stepper> {
         let mut stepper = (self.body.kind.build)(&self.body.values, solver);
         stepper.input(0.0, Input::Throttle(self.throttle));
@@ -122,7 +122,7 @@ impl BodyTruth {
 
     /// When the last input comes, in seconds; 0 without one.
     pub(super) fn last_input_s(&self) -> f64 {
-        self.inputs.last().map_or(0.0, |input| input.t)
+        self.inputs.last().map_or(0.0, |input| input.at_s)
     }
 
     /// The true state after the last input, or after the last that could be reached.
@@ -130,10 +130,10 @@ impl BodyTruth {
         let mut body = self.start(Solver::Truth);
         let mut t = 0.0;
         for input in &self.inputs {
-            if body.advance(t, input.t - t, 1).is_err() {
+            if body.advance(t, input.at_s - t, 1).is_err() {
                 break;
             }
-            t = input.t;
+            t = input.at_s;
             input.action.apply_to(&mut *body, t);
             self.meter.pass(self.work_of_moment()).await;
         }
@@ -143,8 +143,11 @@ impl BodyTruth {
     /// The body in its initial state, with the parameters that are in force after the last input.
     pub(super) fn with_last_parameters(&self) -> Box<dyn Stepper> {
         let mut body = self.start(Solver::Truth);
-        let is_parameter = |input: &&TimedInput| matches!(input.action, Action::Set { .. });
-        self.inputs.iter().filter(is_parameter).for_each(|it| it.action.apply_to(&mut *body, it.t));
+        let is_parameter = |input: &&Scripted| matches!(input.action, Action::Set { .. });
+        self.inputs
+            .iter()
+            .filter(is_parameter)
+            .for_each(|it| it.action.apply_to(&mut *body, it.at_s));
         body
     }
 

@@ -3,7 +3,6 @@
 use super::journal::Author;
 use super::lane::Resumed;
 use super::observer::Observer;
-use super::time_scale::Piece;
 use super::{Mode, Race};
 use crate::lab::action::{Action, Control};
 use crate::lab::lane_id::LaneId;
@@ -47,9 +46,12 @@ impl Race {
         if !self.changes(&action) && !self.journal.script_acts_on(control, self.done) {
             return ActionResult::Nothing;
         }
-        let (done, released) = self.journal.insert(self.done, self.tick, action.clone());
+        let (done, released) =
+            self.journal.insert(self.done, (self.tick, self.t()), action.clone());
         self.done = done;
         self.perform(&action, observer);
+        // The rate is another now, or a change of it that was to come is none.
+        self.journal.put_on_ticks(self.done, self.piece);
         self.note_start(&action, Author::Person);
         ActionResult::Done { released }
     }
@@ -150,7 +152,7 @@ impl Race {
             Action::Throttle(part) => self.throttle = part.clamp(-1.0, 1.0),
             Action::Rudder(part) => self.rudder = part.clamp(-1.0, 1.0),
             &Action::TickHz(tick_hz) => {
-                self.piece = Piece { tick: self.tick, t: self.t(), tick_hz };
+                self.piece = self.piece.then(self.tick, tick_hz);
             }
             Action::Set { body, parameter, value } => {
                 self.values[*body][*parameter] = *value;

@@ -6,6 +6,7 @@ use super::follow::{Follow, StopReason};
 use super::lane::Lane;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::{MAX_SUBSTEPS, Scene};
+use crate::lab::time_scale::nearest_tick;
 
 /// The fewest ticks over which a cost is counted, and how many are counted after the script's last action: a second of
 /// most scenes, and enough for step sizes to settle.
@@ -59,7 +60,7 @@ fn nearest(wanted: f64, spec: LaneSpec, cost: impl Fn(&LaneSpec, f64) -> f64) ->
 
 /// The mean cost of a tick; infinite where it is more than `most`.
 fn evaluations_per_tick(scene: &Scene, spec: &LaneSpec, tick_hz: u32, most: f64) -> f64 {
-    let over = scene.script.last().map_or(0, |last| last.tick);
+    let over = scene.script.last().map_or(0, |last| nearest_tick(last.at_s, tick_hz.into()));
     let end = over.saturating_add(SETTLING_TICKS).min(MAX_COUNTED_TICKS);
     let lane = Lane::new(scene, spec.solver(), spec.substeps);
     let mut follow =

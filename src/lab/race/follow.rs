@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 
 use crate::lab::action::Action;
 use crate::lab::scene::Scripted;
+use crate::lab::time_scale::nearest_tick;
 use crate::sim::integrators::StepFailure;
 
 /// What a [`Follow`] ticks.
@@ -81,7 +82,7 @@ impl<'a, B: Ticked> Follow<'a, B> {
         }
     }
 
-    /// With these actions, by tick in order, each before its tick.
+    /// With these actions, in order, each before the tick that is nearest to its time.
     pub fn with_script(self, script: impl Into<Cow<'a, [Scripted]>>) -> Self {
         Self { script: script.into(), ..self }
     }
@@ -129,7 +130,8 @@ impl<'a, B: Ticked> Follow<'a, B> {
     /// Makes a tick, after the actions of the script that are due.
     fn tick(&mut self) -> Result<(), StepFailure> {
         let (tick, t) = (self.ticks, self.t());
-        while let Some(row) = self.script.get(self.done).filter(|row| row.tick <= tick) {
+        let is_due = |row: &&Scripted| nearest_tick(row.at_s - self.start_s, self.tick_hz) <= tick;
+        while let Some(row) = self.script.get(self.done).filter(is_due) {
             self.body.act(tick, t, &row.action);
             self.done += 1;
         }
@@ -164,7 +166,8 @@ mod tests {
     }
 
     fn script() -> [Scripted; 2] {
-        [(0, 0.5), (2, 1.0)].map(|(tick, part)| Scripted { tick, action: Action::Throttle(part) })
+        let row = |(at_s, part)| Scripted { at_s, action: Action::Throttle(part) };
+        [(10.0, 0.5), (10.4, 1.0)].map(row)
     }
 
     #[test]

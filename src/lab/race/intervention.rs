@@ -6,6 +6,7 @@ use super::journal::{Author, JournalRow};
 use super::{BodyStart, Race, RunStart};
 use crate::lab::action::Action;
 use crate::lab::scene::{Scene, Scripted};
+use crate::lab::time_scale::nearest_tick;
 
 /// What a person and the script have changed in a run by its present tick.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -53,8 +54,8 @@ impl Interventions {
         let mut at_start = Vec::new();
         if let Some(start) = &self.start {
             scene.tick_hz = start.tick_hz;
-            scene.script.retain(|scripted| scripted.tick > start.tick);
-            scene.script.iter_mut().for_each(|scripted| scripted.tick -= start.tick);
+            scene.script.iter_mut().for_each(|scripted| scripted.at_s -= start.t);
+            scene.script.retain(|to_come| nearest_tick(to_come.at_s, start.tick_hz.into()) > 0);
             at_start.push(Action::Throttle(start.throttle));
             at_start.push(Action::Rudder(start.rudder));
             for (body, BodyStart { values, q, v }) in start.bodies.iter().enumerate() {
@@ -71,7 +72,7 @@ impl Interventions {
                 _ => at_start.push(setting.clone()),
             }
         }
-        let at_start = at_start.into_iter().map(|action| Scripted { tick: 0, action });
+        let at_start = at_start.into_iter().map(|action| Scripted { at_s: 0.0, action });
         scene.script.splice(0..0, at_start);
         scene
     }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::lab::action::{Action, Control};
 use crate::lab::scene::Scripted;
+use crate::lab::time_scale::Piece;
 
 /// Who performs an action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +20,8 @@ pub enum Author {
 pub struct JournalRow {
     /// The tick before which the action is performed.
     pub tick: u64,
+    /// When it is to be, in seconds: of a person the time of the tick, of a script what that says.
+    pub at_s: f64,
     /// The action.
     pub action: Action,
     /// Who performs it.
@@ -32,14 +35,27 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// The journal of a script, with all actions pending.
-    pub fn of_script(script: &[Scripted]) -> Self {
-        let row = |Scripted { tick, action }: &Scripted| JournalRow {
-            tick: *tick,
+    /// The journal of a script, with all actions pending, for a run at this rate in Hz.
+    pub fn of_script(script: &[Scripted], tick_hz: u32) -> Self {
+        let row = |&Scripted { at_s, ref action }: &Scripted| JournalRow {
+            tick: 0,
+            at_s,
             action: action.clone(),
             author: Author::Script,
         };
-        Self { rows: Arc::new(script.iter().map(row).collect()) }
+        let mut journal = Self { rows: Arc::new(script.iter().map(row).collect()) };
+        journal.put_on_ticks(0, Piece::first(tick_hz));
+        journal
+    }
+
+    /// Puts what comes after the first `done` rows, which is a script's, on the ticks that are nearest to its times now.
+    pub(super) fn put_on_ticks(&mut self, done: usize, present: Piece) {
+        let script = self.rows[done..].iter().map(|row| (row.at_s, &row.action));
+        let ticks: Vec<u64> = present.put_on_ticks(script).map(|(tick, _)| tick).collect();
+        if !ticks.is_empty() {
+            let rows = &mut Arc::make_mut(&mut self.rows)[done..];
+            rows.iter_mut().zip(ticks).for_each(|(row, tick)| row.tick = tick);
+        }
     }
 
     /// All rows: by tick, and within a tick in the order in which they are performed.
@@ -47,20 +63,20 @@ impl Journal {
         &self.rows
     }
 
-    /// Adds a person's action at `tick`, after the first `done` rows, and returns the number of rows up to and including
-    /// it. Removes the person's later actions, and the script's later actions on the same control, which is returned if
+    /// Adds a person's action at `tick`, whose time is `at_s`, after the first `done` rows, and returns the number of rows up
+    /// to and including it. Removes the person's later actions, and the script's later actions on the same control, which is returned if
     /// there are any.
     pub(super) fn insert(
         &mut self,
         done: usize,
-        tick: u64,
+        (tick, at_s): (u64, f64),
         action: Action,
     ) -> (usize, Option<Control>) {
         let control = action.control();
         let rows = Arc::make_mut(&mut self.rows);
         let mut released = None;
         let later = rows.split_off(done);
-        let row = JournalRow { tick, action, author: Author::Person };
+        let row = JournalRow { tick, at_s, action, author: Author::Person };
         if is_intermediate(rows, &row) {
             rows.pop();
         }

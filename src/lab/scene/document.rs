@@ -133,11 +133,11 @@ fn at_top(key: &str) -> Option<&'static str> {
     TOP.iter().map(|it| it.field.key).find(|it| *it == key)
 }
 
-/// Reads the scene called `name`.
+/// Reads the scene called `name`. Returns with it what its text says in a way that will not be read for long.
 ///
 /// # Errors
 /// Everything that is wrong with its text, in no particular order.
-pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
+pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), Vec<SceneError>> {
     let (document, errors) = DeTable::parse_recoverable(text);
     let mut errors = syntax::errors(text, errors);
     // After a duplicate key the rest of the file can be read; after other syntax errors it cannot.
@@ -167,6 +167,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
         bodies: Vec::new(),
         script: Vec::new(),
         checks: Vec::new(),
+        outdated: None,
     };
     let mut draft = Draft { scene, listed: None };
     Key::read_all(&TOP, &mut draft, &mut top);
@@ -180,8 +181,9 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
         Key::read_all(&RACE, &mut scene, &mut race);
         top.adopt(race);
     }
-    let context = SceneContext { bodies: &bodies, lanes: &scene.lanes };
-    scene.script = script::read(&context, &mut top);
+    let context = SceneContext { bodies: &bodies, lanes: &scene.lanes, tick_hz: scene.tick_hz };
+    let (script, outdated) = script::read(&context, &mut top);
+    scene.script = script;
     scene.checks = script::read_checks(&context, &mut top);
     errors.extend(top.finish());
     let may_mean_a_body = |error: &SceneError| error.fault.kind == FaultKind::NoTable;
@@ -196,7 +198,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
         return Err(errors);
     }
     scene.bodies = finish_bodies(bodies);
-    Ok(scene)
+    Ok((scene, outdated))
 }
 
 fn read_lanes(

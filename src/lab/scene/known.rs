@@ -5,7 +5,9 @@ use super::document::{LANE, RACE, RACE_TABLE, TOP};
 use super::keys::{Key, SPEC};
 use super::law::{COORDINATE_KEYS, LAW, LAW_KEYS};
 use super::net::{GRID_KEYS, KICKED, LIST_KEYS, NET, SPRING_KEYS};
-use super::script::{CHECK, CHECKS, COMMAND, COMMAND_KEYS, LANE as LANE_NUMBER, OF_A_BODY, TICK};
+use super::script::{
+    AT_S, CHECK, CHECKS, COMMAND, COMMAND_KEYS, LANE as LANE_NUMBER, OF_A_BODY, TICK,
+};
 use super::wanted::Field;
 use crate::sim::bodies::Net;
 
@@ -39,7 +41,7 @@ pub fn scene_tables() -> Vec<(String, Vec<SceneKey>)> {
         (format!("[{LAW}.coordinates.x]"), fields(&COORDINATE_KEYS)),
         (array(NET), of_nets),
         ("a spring of `springs`".to_owned(), fields(&SPRING_KEYS)),
-        (array(COMMAND), [TICK, LANE_NUMBER].into_iter().chain(of_commands).collect()),
+        (array(COMMAND), [AT_S, TICK, LANE_NUMBER].into_iter().chain(of_commands).collect()),
         set,
         place,
         (array(CHECKS), fields(&CHECK)),

@@ -27,7 +27,12 @@ impl AuthorText {
     pub(in crate::lab) fn of(scene: &Scene) -> Self {
         let documents = scene.source.as_deref().and_then(|source| {
             let source = source.replace("\r\n", "\n");
-            Some([read(&source)?, read(&Scene::parse("", &source).ok()?.to_toml())?])
+            let scene = Scene::parse("", &source).ok()?;
+            let mut documents = [read(&source)?, read(&scene.to_toml())?];
+            if scene.outdated.is_some() {
+                documents.iter_mut().for_each(|document| _ = document.remove(COMMAND));
+            }
+            Some(documents)
         });
         Self { documents }
     }

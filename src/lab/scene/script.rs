@@ -1,7 +1,10 @@
 //! Reads a scene's script and the hashes that its race has to reproduce: `[[command]]` and `[[check]]`.
 
+use std::ops::Range as Span;
+
 use super::clip::clip;
 use super::described::BodyDraft;
+use super::errors::SceneError;
 use super::fault::{FaultKind, SceneFault};
 use super::fitting::check_method;
 use super::keys::{
@@ -11,7 +14,9 @@ use super::keys::{
 use super::nearest::{listed, nearest, offer};
 use super::table::Table;
 use super::wanted::{Field, Wanted};
-use super::{Check, LAST_TICK, MAX_LANES, MAX_NAME_CHARS, MAX_TICK_HZ, Scene, Scripted};
+use super::{
+    Check, LAST_TICK, MAX_LANES, MAX_NAME_CHARS, MAX_SECONDS, MAX_TICK_HZ, Scene, Scripted,
+};
 use crate::lab::action::Action;
 use crate::lab::lane_id::LaneId;
 use crate::lab::lane_spec::LaneSpec;
@@ -28,8 +33,16 @@ pub(super) const CHECKS: &str = "check";
 const LANE_NUMBER: Wanted = Wanted::Whole(1..=MAX_LANES as u64);
 const NAME: Wanted = Wanted::Text(MAX_NAME_CHARS);
 
-pub(super) const TICK: Field =
-    Field::required("tick", "the tick before which it is done", Wanted::Whole(0..=LAST_TICK));
+pub(super) const AT_S: Field = Field::required(
+    "at_s",
+    "when it is done, in seconds: before the nearest tick, whatever the tick rate",
+    Wanted::Number(Range::Between(0.0, MAX_SECONDS)),
+);
+pub(super) const TICK: Field = Field::optional(
+    "tick",
+    "of a recording, in place of `at_s`: the tick before which it is done",
+    Wanted::Whole(0..=LAST_TICK),
+);
 pub(super) const LANE: Field =
     Field::optional("lane", "the lane whose method, substeps or tolerance it sets", LANE_NUMBER);
 
@@ -65,11 +78,12 @@ pub(super) static CHECK: [Key<(Check, usize), Check>; 3] = [
     },
 ];
 
-/// The bodies and lanes that a script can refer to.
+/// The bodies and lanes that a script can refer to, and the rate by which its ticks are counted.
 pub(super) struct SceneContext<'d> {
     /// Each with a name.
     pub(super) bodies: &'d [BodyDraft],
     pub(super) lanes: &'d [LaneSpec],
+    pub(super) tick_hz: u32,
 }
 
 type Read = fn(&SceneContext<'_>, &mut Table<'_>, &Field) -> Option<Action>;
@@ -213,9 +227,20 @@ pub(super) fn parameter_value(range: Range, value: f64) -> String {
     }
 }
 
-/// The table of a command of `scene`.
-pub(super) fn command_table(scene: &Scene, Scripted { tick, action }: &Scripted) -> String {
-    let mut text = format!("\n[[{COMMAND}]]\n{} = {tick}\n", TICK.key);
+/// The tables of the commands of `scene`: told in ticks if it is a recording, else in seconds.
+pub(super) fn command_tables(scene: &Scene) -> impl Iterator<Item = String> {
+    let is_recording = !scene.checks.is_empty();
+    scene.script.iter().zip(scene.script_on_ticks()).map(move |(row, (tick, _))| {
+        let when = match is_recording {
+            true => format!("{} = {tick}", TICK.key),
+            false => format!("{} = {}", AT_S.key, number(row.at_s)),
+        };
+        command_table(scene, &when, &row.action)
+    })
+}
+
+fn command_table(scene: &Scene, when: &str, action: &Action) -> String {
+    let mut text = format!("\n[[{COMMAND}]]\n{when}\n");
     if let Action::Lane { lane, .. }
     | Action::Substeps { lane, .. }
     | Action::Tolerance { lane, .. } = action
@@ -232,37 +257,109 @@ pub(super) fn command_table(scene: &Scene, Scripted { tick, action }: &Scripted)
     text
 }
 
-/// The scripted commands by tick, and within a tick in the order of the file.
-pub(super) fn read(context: &SceneContext<'_>, top: &mut Table<'_>) -> Vec<Scripted> {
-    let mut script = Vec::new();
-    for mut row in top.rows(COMMAND) {
-        let tick = row.whole(&TICK);
-        let action = read_action(context, &mut row);
-        let span = row.span(TOLERANCE.key);
-        let scripted = tick.zip(action).map(|(tick, action)| (Scripted { tick, action }, span));
-        script.extend(scripted);
-        top.adopt(row);
-    }
-    script.sort_by_key(|(scripted, _)| scripted.tick);
-    // If a lane or a command could not be read, the methods in force are unknown.
-    if top.is_faultless() {
-        check_tolerances(context.lanes, &script, top);
-    }
-    script.into_iter().map(|(scripted, _)| scripted).collect()
+/// When a command is done, as its table says it.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum When {
+    Second(f64),
+    Tick(u64),
 }
 
-/// Complains of every tolerance for a lane whose method takes none at that tick, whether the lane races or is flown
+/// A command as it is read.
+struct Command {
+    when: When,
+    action: Action,
+    /// The bytes of what says when.
+    when_span: Span<usize>,
+    tolerance_span: Span<usize>,
+}
+
+/// The scripted commands by time, and those of one time in the order of the file; with what a scene should not say of ticks.
+pub(super) fn read(
+    context: &SceneContext<'_>,
+    top: &mut Table<'_>,
+) -> (Vec<Scripted>, Vec<SceneError>) {
+    let mut commands: Vec<Command> = Vec::new();
+    let rows = top.rows(COMMAND);
+    let is_mixed = [AT_S.key, TICK.key].iter().all(|key| rows.iter().any(|row| row.has(key)));
+    for mut row in rows {
+        let when = read_when(&mut row, is_mixed);
+        let action = read_action(context, &mut row);
+        let [tick, at_s, tolerance_span] =
+            [TICK.key, AT_S.key, TOLERANCE.key].map(|key| row.span(key));
+        let when_span = if row.has(TICK.key) { tick } else { at_s };
+        let command = when.zip(action);
+        commands.extend(command.map(|(when, action)| Command {
+            when,
+            action,
+            when_span,
+            tolerance_span,
+        }));
+        top.adopt(row);
+    }
+    let order = |a: &When, b: &When| a.partial_cmp(b).expect("numbers of scenes are finite");
+    commands.sort_by(|a, b| order(&a.when, &b.when));
+    let told_in_ticks = |command: &Command| match command.when {
+        When::Tick(tick) => Some((tick, command.action.clone())),
+        When::Second(_) => None,
+    };
+    let told_in_seconds = |command: &Command| match command.when {
+        When::Second(at_s) => Some(Scripted { at_s, action: command.action.clone() }),
+        When::Tick(_) => None,
+    };
+    let in_ticks = commands.iter().filter_map(told_in_ticks);
+    let mut script = Scripted::of_ticks(context.tick_hz, in_ticks);
+    let mut warnings = Vec::new();
+    if !top.has(CHECKS) {
+        // No scene is longer.
+        script.iter_mut().for_each(|row| row.at_s = row.at_s.min(MAX_SECONDS));
+        warnings = script.iter().zip(&commands).map(outdated).collect();
+    }
+    script.extend(commands.iter().filter_map(told_in_seconds));
+    // If a lane or a command could not be read, the methods in force are unknown.
+    if top.is_faultless() {
+        let spans = commands.into_iter().map(|command| command.tolerance_span);
+        check_tolerances(context.lanes, script.iter().zip(spans), top);
+    }
+    (script, warnings)
+}
+
+/// When a command is done. Complains of a tick where `is_mixed` says that others are told in seconds.
+fn read_when(row: &mut Table<'_>, is_mixed: bool) -> Option<When> {
+    [AT_S, TICK].iter().for_each(|field| row.knows(field.key));
+    if is_mixed && row.has(TICK.key) {
+        let (tick, at_s) = (TICK.key, AT_S.key);
+        let what = format!("`{tick}` tells when, and other commands have `{at_s}`");
+        row.complain(row.span(tick), what, format!("write `{at_s} = …` in its place: seconds"));
+        return None;
+    }
+    match row.has(TICK.key) {
+        true => row.whole(&TICK).map(When::Tick),
+        false => row.number(&AT_S).map(When::Second),
+    }
+}
+
+/// What is wrong with a scene's command that is told in ticks, whose time is known.
+fn outdated((Scripted { at_s, .. }, command): (&Scripted, &Command)) -> SceneError {
+    let (tick, at_s) = (TICK.key, format!("`{} = {}`", AT_S.key, number(*at_s)));
+    let what = format!(
+        "`{tick}` in a scene is read for this release only: another tick rate would be another motion"
+    );
+    let fault = SceneFault::new(what, format!("write {at_s} in its place"));
+    SceneError { span: command.when_span.clone(), fault }
+}
+
+/// Complains of every tolerance for a lane whose method takes none at that time, whether the lane races or is flown
 /// solo. The span of a command is that of its `tolerance`.
-fn check_tolerances(
+fn check_tolerances<'s>(
     lanes: &[LaneSpec],
-    script: &[(Scripted, std::ops::Range<usize>)],
+    script: impl Iterator<Item = (&'s Scripted, Span<usize>)>,
     top: &mut Table<'_>,
 ) {
     let mut in_race: Vec<&Method> = lanes.iter().map(|spec| spec.method).collect();
     let mut in_solo = in_race.clone();
     // A method given without a lane changes nothing while several race.
     let mut race_is_over = false;
-    for (Scripted { tick, action }, span) in script {
+    for (Scripted { at_s, action }, span) in script {
         match *action {
             Action::Method(method) => {
                 in_solo.fill(method);
@@ -279,12 +376,12 @@ fn check_tolerances(
                 if methods.iter().all(|method| method.tolerance.is_none()) {
                     let method = methods[0].id;
                     let what = format!(
-                        "`tolerance` does not apply to lane {lane}: at tick {tick} its method is {method:?}"
+                        "`tolerance` does not apply to lane {lane}: at {at_s} s its method is {method:?}"
                     );
                     let those = adaptive_methods();
                     let remedy =
                         format!("remove it, or give it with an adaptive `method`: {those}");
-                    top.complain(span.clone(), what, remedy);
+                    top.complain(span, what, remedy);
                 }
             }
             _ => {}
@@ -335,7 +432,7 @@ fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
         1 => {}
         many => {
             let what = format!("the command does {many} things: {}", listed(&found, '`', " and "));
-            row.complain(header, what, "write a `[[command]]` with the same `tick` for each");
+            row.complain(header, what, "write a `[[command]]` with the same `at_s` for each");
         }
     }
     action

@@ -7,7 +7,7 @@ use super::document::{LANE, RACE, TOP};
 use super::keys::{Key, SPEC, list, numbers, quoted};
 use super::law::{LAW, LAW_KEYS, coordinate_tables};
 use super::net::{GRID_KEYS, KICKED, LIST_KEYS};
-use super::script::{CHECK, CHECKS, command_table, parameter_value};
+use super::script::{CHECK, CHECKS, command_tables, parameter_value};
 use super::{Check, Scene, SceneBody};
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::{Form, NetPlan, Range};
@@ -50,7 +50,7 @@ impl Scene {
             text.extend(self.lanes.iter().map(row));
         }
         text.extend(self.bodies.iter().map(body_table));
-        text.extend(self.script.iter().map(|scripted| command_table(self, scripted)));
+        text.extend(command_tables(self));
         text.extend(self.checks.iter().map(Check::to_toml));
         text
     }

@@ -227,7 +227,7 @@ impl Observer for ScriptRecorder {
             (None, Action::Solo { lane }) => Action::Solo { lane: self.lane(*lane) },
             (None, other) => other.clone(),
         };
-        self.script.push(Scripted { tick: race.tick(), action });
+        self.script.push(Scripted { at_s: race.t(), action });
     }
 }
 

@@ -70,11 +70,11 @@ impl StartSettings {
                 let other = (!self.lanes.contains(&self.entry)).then_some(self.entry);
                 let lanes = self.lanes.iter().copied().chain(other);
                 let lanes = lanes.map(|entry| self.list[entry]);
-                let race = Race::with_methods(&self.scene, self.list.clone(), lanes);
-                race.with_script(&self.scene.script)
+                Race::with_methods(&self.scene, self.list.clone(), lanes)
             }
         };
-        Session::new(Arc::clone(&self.scene), race.at_rate(self.tick_hz))
+        let race = race.at_rate(self.tick_hz).with_script(&self.scene.script);
+        Session::new(Arc::clone(&self.scene), race)
     }
 
     /// Sets the scene's length in seconds, if it is in the allowed range. Returns whether that changes it.

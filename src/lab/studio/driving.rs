@@ -11,11 +11,11 @@ use crate::lab::race::{Mode, Observer, TimeScale};
 use crate::lab::session::Timeline;
 
 impl Studio {
-    /// The tick nearest to `seconds` of simulated time, if only the script changes the tick rate from now on; the present
+    /// The tick nearest to `seconds` of simulated time, by the changes of the tick rate that are known to come; the present
     /// tick if they have passed already.
     pub fn nearest_tick(&self, seconds: f64) -> u64 {
         let race = self.race();
-        let changes = self.scene().rates_from(race.tick());
+        let changes = race.rates_to_come();
         TimeScale::new((race.tick(), race.t()), race.tick_hz(), changes).nearest_tick(seconds)
     }
 

@@ -107,7 +107,7 @@ fn a_law_is_written_and_read_again_to_the_bit() {
                 [law.coordinates.x]\nstart = 0.3\nunit = 'km'\nstart_velocity = -1e-7\nacceleration = '0*x'\n\
                 exact = 'x0 + vx0*t'\n[law.coordinates.y]\nkick = 2\nacceleration = '-g'\n\
                 exact = 'y0 + vy0*t - g*t^2/2'\n\
-                [[command]]\ntick = 3\nset = { body = 'one \"two\"', key = 'g', value = 1.62 }\n";
+                [[command]]\nat_s = 0.05\nset = { body = 'one \"two\"', key = 'g', value = 1.62 }\n";
     let scene = Scene::parse("mine.toml", text).unwrap();
     let written = scene.to_toml();
     let again =

@@ -43,7 +43,7 @@ fn a_grid_has_the_nodes_springs_and_pins_that_it_says() {
 #[test]
 fn a_kick_of_the_script_reaches_the_net() {
     let text = format!(
-        "title = 't'\ntick_hz = 60\nseconds = 1\n[[net]]\n{GRID}\ngravity_m_per_s2 = 0\n[[command]]\ntick = 3\nkick = 1\n"
+        "title = 't'\ntick_hz = 60\nseconds = 1\n[[net]]\n{GRID}\ngravity_m_per_s2 = 0\n[[command]]\nat_s = 0.05\nkick = 1\n"
     );
     let mut studio = Studio::new(Scene::parse("t", &text).unwrap());
     let velocity = |studio: &Studio| studio.race().truth().bodies()[0].stepper.v()[0];

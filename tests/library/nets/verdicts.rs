@@ -82,7 +82,7 @@ fn the_drift_of_a_conserved_energy_is_told_without_a_reference_too() {
 
 #[test]
 fn a_damped_net_may_lose_energy_and_a_kick_may_bring_it() {
-    let scripted = "damping_n_s_per_m = 0.1\n[[command]]\ntick = 60\nkick = 0.3\n";
+    let scripted = "damping_n_s_per_m = 0.1\n[[command]]\nat_s = 1\nkick = 0.3\n";
     let scene = scene(1000.0, scripted);
     for id in ["implicit-midpoint", "implicit-euler"] {
         let verdict = verdict(&scene, id);

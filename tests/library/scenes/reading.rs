@@ -1,8 +1,7 @@
 //! What a scene file may say, and what it then means.
 
 use regatta::lab::scene::{
-    LAST_TICK, MAX_BODIES, MAX_LANES, MAX_SECONDS, MAX_TICK_HZ, Scene, SceneBody, SceneKey,
-    scene_tables,
+    MAX_BODIES, MAX_LANES, MAX_SECONDS, MAX_TICK_HZ, Scene, SceneBody, SceneKey, scene_tables,
 };
 use regatta::lab::studio::{StageCommand, Studio};
 use regatta::lab::{Action, LaneId, LaneSpec, Race};
@@ -100,22 +99,22 @@ fn bodies_keep_the_order_of_the_file_and_get_names_that_are_free() {
 }
 
 #[test]
-fn a_script_is_sorted_by_tick_and_keeps_the_order_of_the_file_within_one() {
+fn a_script_is_sorted_by_time_and_keeps_the_order_of_the_file_within_one() {
     let script = [
-        "tick = 120\nmethod = 'rk4'",
-        "tick = 7\nkick = -2",
-        "tick = 120\nthrottle = -1.0",
-        "tick = 0\ntick_hz = 10_000",
+        "at_s = 120\nmethod = 'rk4'",
+        "at_s = 0.75\nkick = -2",
+        "at_s = 120.0\nthrottle = -1.0",
+        "at_s = 0\ntick_hz = 10_000",
     ];
     let script: String = script.map(|command| format!("[[command]]\n{command}\n")).concat();
     let ship = "[[ship]]\nthrust_n = 1\ndrag_n_s_per_m = 0\nmass_kg = 1\n";
     let scene = parse_body(&format!("{script}{ship}"));
-    let script: Vec<_> = scene.script.iter().map(|each| (each.tick, each.action.clone())).collect();
+    let script: Vec<_> = scene.script.iter().map(|each| (each.at_s, each.action.clone())).collect();
     let expected = [
-        (0, Action::TickHz(10_000)),
-        (7, Action::Kick(-2.0)),
-        (120, Action::Method(method("rk4").unwrap())),
-        (120, Action::Throttle(-1.0)),
+        (0.0, Action::TickHz(10_000)),
+        (0.75, Action::Kick(-2.0)),
+        (120.0, Action::Method(method("rk4").unwrap())),
+        (120.0, Action::Throttle(-1.0)),
     ];
     assert_eq!(script, expected);
 }
@@ -135,13 +134,13 @@ fn each_limit_itself_is_allowed() {
         (1..=MAX_LANES).map(|n| format!("[[lane]]\nmethod = 'rk4'\nsubsteps = {n}\n")).collect();
     let scene = parse(&format!(
         "title = '{}'\ntick_hz = {MAX_TICK_HZ}\nseconds = {MAX_SECONDS}\n{lanes}{}\
-         [[command]]\ntick = {LAST_TICK}\nkick = 1\n",
+         [[command]]\nat_s = {MAX_SECONDS}\nkick = 1\n",
         "é".repeat(80),
         SPRING.repeat(MAX_BODIES),
     ));
     assert_eq!((scene.lanes.len(), scene.bodies.len()), (MAX_LANES, MAX_BODIES));
     assert_eq!((scene.tick_hz, scene.seconds), (MAX_TICK_HZ, MAX_SECONDS));
-    assert_eq!(scene.script[0].tick, LAST_TICK);
+    assert_eq!(scene.script[0].at_s, MAX_SECONDS);
 }
 
 #[test]

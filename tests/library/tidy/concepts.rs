@@ -94,7 +94,7 @@ const CONCEPTS: [Concept; 32] = [
     },
     Concept {
         name: "times at several tick rates",
-        file: "src/lab/race/time_scale.rs",
+        file: "src/lab/time_scale.rs",
         marks: &["(tick - self.tick) as f64 /"],
     },
     Concept {

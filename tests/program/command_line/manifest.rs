@@ -104,7 +104,7 @@ fn a_race_of_many_methods_names_none_of_them_as_selected() {
 fn frames_show_their_moment_across_the_rates_that_a_script_sets() {
     let test = "frames_show_their_moment_across_the_rates_that_a_script_sets";
     let scene = format!(
-        "title = 'x'\ntick_hz = 1\nseconds = 9\n{SPRING}[[command]]\ntick = 5\ntick_hz = 100\n"
+        "title = 'x'\ntick_hz = 1\nseconds = 9\n{SPRING}[[command]]\nat_s = 5\ntick_hz = 100\n"
     );
     let arguments = "--fps 2 --frames 14";
     let Some((manifest, judged)) = captured_or_skip(test, &scene, arguments) else { return };
@@ -118,7 +118,7 @@ fn a_run_of_any_values_can_be_judged() {
     let test = "a_run_of_any_values_can_be_judged";
     let scene = "title = 'x'\ntick_hz = 60\nseconds = 1\n\
                  [[spring]]\nmass_kg = 1e-300\nstiffness_n_per_m = 1e-300\n\
-                 [[command]]\ntick = 3\nkick = 1e12\n";
+                 [[command]]\nat_s = 0.05\nkick = 1e12\n";
     let Some((_, judged)) = captured_or_skip(test, scene, "--race --frames 9") else { return };
     assert_eq!(judged.status.code(), Some(0), "{}", stderr(&judged));
 }
@@ -130,7 +130,7 @@ fn a_kick_past_all_bounds_leaves_a_manifest_that_can_be_judged() {
     let scene = "title = 'x'\ntick_hz = 60\nseconds = 1\nmethods = ['rk4']\n\
                  [[spring]]\nname = 'light'\nmass_kg = 1e-300\nstiffness_n_per_m = 1\n\
                  [[spring]]\nname = 'heavy'\nmass_kg = 1\nstiffness_n_per_m = 1\nkick_n_s = 0\n\
-                 [[command]]\ntick = 0\nkick = 1e14\n";
+                 [[command]]\nat_s = 0\nkick = 1e14\n";
     fs::write(folder.path().join("light.toml"), scene).unwrap();
     let capture = "capture --scene light.toml --size 32x18 --scale 0.5 --frames 3 --out clip";
     let Some(output) = drawn_or_skip(test, folder.path(), capture) else { return };

@@ -88,7 +88,7 @@ fn a_law_that_gives_its_solution_has_an_exact_truth_up_to_its_first_input() {
     let folder = tempfile::tempdir().unwrap();
     let law = "title = 'x'\ntick_hz = 10\nseconds = 0.3\n[[law]]\nname = 'swing'\n[law.coordinates.x]\n\
                start = 1\nacceleration = '-x'\nexact = 'cos(t)'\n";
-    let kick = "[[command]]\ntick = 1\nkick = 1.0\n";
+    let kick = "[[command]]\nat_s = 0.1\nkick = 1.0\n";
     let aim = "lane 0, swing: is exact only up to its first input, edit or placing; its reference aims at 1e-10, relative, and reached ";
     for (text, methods, said) in [
         (law.to_owned(), ["exact"; 4], ""),
@@ -166,7 +166,7 @@ fn seconds_are_counted_across_the_rates_that_a_script_sets() {
     let folder = tempfile::tempdir().unwrap();
     let scene = "title = 'x'\ntick_hz = 1\nseconds = 1\n\
                  [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\n\
-                 [[command]]\ntick = 5\ntick_hz = 100\n";
+                 [[command]]\nat_s = 5\ntick_hz = 100\n";
     fs::write(folder.path().join("my.toml"), scene).unwrap();
     for (seconds, last) in
         [("4.4", ["4", "4.0"]), ("5.4", ["45", "5.4"]), ("5.996", ["105", "6.0"])]
@@ -288,7 +288,7 @@ fn a_truth_that_halts_is_told_and_nothing_is_compared_with_it() {
     let folder = tempfile::tempdir().unwrap();
     let scene = "title = 'x'\ntick_hz = 10\nseconds = 2\nmethods = ['rk4']\n\
                  [[spring]]\nname = 'light'\nmass_kg = 1e-300\nstiffness_n_per_m = 1e-300\n\
-                 [[command]]\ntick = 5\nkick = 1e14\n";
+                 [[command]]\nat_s = 0.5\nkick = 1e14\n";
     fs::write(folder.path().join("light.toml"), scene).unwrap();
     let output = run_in(folder.path(), "trace --scene light.toml --metrics");
     let said = stderr(&output);
@@ -308,7 +308,7 @@ fn a_script_switches_the_method_of_a_lane_alone_and_of_no_lane_in_a_race() {
     let folder = tempfile::tempdir().unwrap();
     let scene = "title = 'x'\ntick_hz = 10\nseconds = 1\n\
                  [[spring]]\nname = 'a, \"b\"'\nmass_kg = 1\nstiffness_n_per_m = 40\n\
-                 [[command]]\ntick = 5\nmethod = 'rk4'\n";
+                 [[command]]\nat_s = 0.5\nmethod = 'rk4'\n";
     fs::write(folder.path().join("my.toml"), scene).unwrap();
     let methods = |options: &str| {
         let output = run_in(folder.path(), &format!("trace --scene my.toml {options}"));

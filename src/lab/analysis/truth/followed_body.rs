@@ -5,7 +5,6 @@ use std::ops::ControlFlow;
 use super::BodyTruth;
 use crate::lab::action::Action;
 use crate::lab::race::{Follow, StopReason, Ticked, advance_checked};
-use crate::lab::scene::Scripted;
 use crate::sim::bodies::Coordinates;
 use crate::sim::integrators::{Family, StepFailure};
 use crate::sim::{Solver, Stepper};
@@ -63,11 +62,7 @@ impl BodyTruth {
             counted: 0,
         };
         body.base_j = body.energy();
-        let script = self.inputs.iter().map(|input| Scripted {
-            tick: tick_after(input.t, tick_hz),
-            action: input.action.clone(),
-        });
-        Follow::new(body, tick_hz).with_script(script.collect::<Vec<_>>())
+        Follow::new(body, tick_hz).with_script(self.inputs.clone())
     }
 
     /// Goes on until `end` ticks are made, or `see` breaks off.
@@ -138,15 +133,10 @@ impl Ticked for FollowedBody {
     }
 }
 
-/// The part of a tick by which an input may come late: its time is rounded.
+/// The part of a tick by which the end of a span may come early: its time is rounded.
 const ON_TIME: f64 = 1e-6;
 
 /// The number of whole ticks of this rate in `seconds`.
 pub(in crate::lab::analysis) fn ticks(seconds: f64, tick_hz: u32) -> u64 {
     (seconds * f64::from(tick_hz) + ON_TIME).floor() as u64
-}
-
-/// The first tick of this rate that does not begin before `seconds`.
-fn tick_after(seconds: f64, tick_hz: u32) -> u64 {
-    (seconds * f64::from(tick_hz) - ON_TIME).ceil().max(0.0) as u64
 }

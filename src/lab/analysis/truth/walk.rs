@@ -57,14 +57,14 @@ impl BodyTruth {
         let kept = most / KEPT;
         while here.t < seconds && work.moments + kept < most {
             if let Some((next, rest)) = inputs.split_first()
-                && next.t <= here.t
+                && next.at_s <= here.t
             {
                 next.action.apply_to(body, here.t);
                 (here, inputs) = (TruthNode::of(body, here.t), rest);
                 step = FIRST_STEP * seconds;
                 continue;
             }
-            let seconds = inputs.first().map_or(seconds, |next| next.t.min(seconds));
+            let seconds = inputs.first().map_or(seconds, |next| next.at_s.min(seconds));
             let end = if here.t + 1.001 * step < seconds { here.t + step } else { seconds };
             let check = TruthNode::of_advanced(body, here.t, here.t + CHECKED_AT * (end - here.t))?;
             let there = TruthNode::of_advanced(body, check.t, end)?;
@@ -89,9 +89,9 @@ impl BodyTruth {
             for part in parts {
                 let t = start + part * left;
                 while let Some((next, rest)) = inputs.split_first()
-                    && next.t <= t
+                    && next.at_s <= t
                 {
-                    here = TruthNode::of_advanced(body, here.t, next.t.max(here.t))?;
+                    here = TruthNode::of_advanced(body, here.t, next.at_s.max(here.t))?;
                     next.action.apply_to(body, here.t);
                     inputs = rest;
                 }

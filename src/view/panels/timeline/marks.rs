@@ -181,7 +181,7 @@ mod tests {
     fn a_mark_says_when_where_what_and_by_whom() {
         let text = "title = 'x'\ntick_hz = 60\nseconds = 5\nmethods = ['explicit-euler']\n\
                     [[spring]]\nname = 'buoy'\nmass_kg = 1\nstiffness_n_per_m = 40\nkick_n_s = 1\n\
-                    [[command]]\ntick = 12\nmethod = 'rk4'\n";
+                    [[command]]\nat_s = 0.2\nmethod = 'rk4'\n";
         let mut studio = Studio::new(Scene::parse("marked.toml", text).unwrap());
         run(&mut studio, 30);
         studio.apply(RunCommand::Act(Action::Kick(1.0)));

@@ -1,7 +1,6 @@
-//! The times of ticks whose rate changes.
+//! The times of ticks whose rate changes, and the ticks of what is told in seconds.
 
-use crate::lab::action::Action;
-use crate::lab::scene::Scene;
+use super::action::Action;
 
 /// The tolerance, in ticks, by which a tie between two ticks goes to the later one: a time may be off by its last bit.
 const TIE: f64 = 1e-6;
@@ -15,17 +14,56 @@ pub struct TimeScale {
 
 /// Consecutive ticks of one rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Piece {
-    pub(super) tick: u64,
-    pub(super) t: f64,
-    pub(super) tick_hz: u32,
+pub(in crate::lab) struct Piece {
+    pub(in crate::lab) tick: u64,
+    pub(in crate::lab) t: f64,
+    pub(in crate::lab) tick_hz: u32,
 }
 
 impl Piece {
+    /// From tick 0 on at this rate.
+    pub(in crate::lab) fn first(tick_hz: u32) -> Self {
+        Self { tick: 0, t: 0.0, tick_hz }
+    }
+
+    /// From this tick on at another rate.
+    pub(in crate::lab) fn then(self, tick: u64, tick_hz: u32) -> Self {
+        Self { tick, t: self.t(tick), tick_hz }
+    }
+
     /// The time of a tick, in seconds.
-    pub(super) fn t(self, tick: u64) -> f64 {
+    pub(in crate::lab) fn t(self, tick: u64) -> f64 {
         self.t + (tick - self.tick) as f64 / f64::from(self.tick_hz)
     }
+
+    /// The fractional tick at a time in seconds; the first for all times before it.
+    fn tick_at(self, t: f64) -> f64 {
+        self.tick as f64 + ((t - self.t) * f64::from(self.tick_hz)).max(0.0)
+    }
+
+    /// The tick nearest to a time in seconds; the first for all times before it.
+    pub(in crate::lab) fn nearest_tick(self, t: f64) -> u64 {
+        self.tick + nearest_tick(t - self.t, self.tick_hz.into())
+    }
+
+    /// For each of these actions, which are told in seconds and in order, the tick before which it is done and the time of
+    /// that tick: the nearest at the rate in force, which the actions themselves may change.
+    pub(in crate::lab) fn put_on_ticks<'a>(
+        mut self,
+        script: impl IntoIterator<Item = (f64, &'a Action)>,
+    ) -> impl Iterator<Item = (u64, f64)> {
+        script.into_iter().map(move |(at_s, action)| {
+            let tick = self.nearest_tick(at_s);
+            let t = self.t(tick);
+            action.tick_hz().into_iter().for_each(|tick_hz| self = self.then(tick, tick_hz));
+            (tick, t)
+        })
+    }
+}
+
+/// The tick nearest to `seconds` after the first, at a rate in Hz; the first for all times before it.
+pub(in crate::lab) fn nearest_tick(seconds: f64, tick_hz: f64) -> u64 {
+    (seconds * tick_hz + TIE).max(0.0).round() as u64
 }
 
 impl TimeScale {
@@ -39,7 +77,7 @@ impl TimeScale {
         let mut last = Piece { tick, t, tick_hz };
         let mut pieces = vec![last];
         for (tick, tick_hz) in changes {
-            last = Piece { tick, t: last.t(tick), tick_hz };
+            last = last.then(tick, tick_hz);
             pieces.push(last);
         }
         Self { pieces }
@@ -58,35 +96,24 @@ impl TimeScale {
 
     /// The fractional tick at a time in seconds; the first for all times before the start.
     pub fn tick_at(&self, t: f64) -> f64 {
-        let next = self.pieces.partition_point(|piece| piece.t <= t).max(1);
-        let piece = self.pieces[next - 1];
-        piece.tick as f64 + ((t - piece.t) * f64::from(piece.tick_hz)).max(0.0)
+        self.piece_at(t).tick_at(t)
     }
 
     /// The tick nearest to a time in seconds; the first for all times before the start.
     pub fn nearest_tick(&self, t: f64) -> u64 {
-        (self.tick_at(t) + TIE).round() as u64
-    }
-}
-
-impl Scene {
-    /// The ticks from `tick` on at which the script sets a tick rate, in order, with that rate in Hz.
-    pub fn rates_from(&self, tick: u64) -> impl Iterator<Item = (u64, u32)> {
-        let first = self.script.partition_point(|scripted| scripted.tick < tick);
-        self.script[first..].iter().filter_map(|row| Some((row.tick, row.action.tick_hz()?)))
+        self.piece_at(t).nearest_tick(t)
     }
 
-    /// The actions of the script with their times in seconds, in order.
-    pub(in crate::lab) fn timed_script(&self) -> impl Iterator<Item = (f64, &Action)> {
-        let times = TimeScale::new((0, 0.0), self.tick_hz, self.rates_from(0));
-        self.script.iter().map(move |row| (times.t(row.tick), &row.action))
+    fn piece_at(&self, t: f64) -> Piece {
+        let next = self.pieces.partition_point(|piece| piece.t <= t).max(1);
+        self.pieces[next - 1]
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::Studio;
+    use crate::lab::{Scene, Studio};
 
     #[test]
     fn time_goes_on_at_each_rate_from_where_the_rate_was_set() {
@@ -103,15 +130,19 @@ mod tests {
     /// 1 Hz, from tick 5 on 100 Hz, from tick 45 on 2 Hz.
     fn scene() -> Scene {
         let text = "title = 'x'\ntick_hz = 1\nseconds = 9\n[[spring]]\nmass_kg = 1\n\
-                    stiffness_n_per_m = 1\n[[command]]\ntick = 5\ntick_hz = 100\n\
-                    [[command]]\ntick = 45\ntick_hz = 2\n[[command]]\ntick = 46\nkick = 1\n";
+                    stiffness_n_per_m = 1\n[[command]]\nat_s = 5\ntick_hz = 100\n\
+                    [[command]]\nat_s = 5.4\ntick_hz = 2\n[[command]]\nat_s = 5.9\nkick = 1\n";
         Scene::parse("x.toml", text).unwrap()
     }
 
     #[test]
     fn the_actions_of_a_script_come_at_their_times_at_the_rates_that_it_sets() {
-        let times: Vec<f64> = scene().timed_script().map(|(t, _)| t).collect();
-        assert_eq!(times, [5.0, 5.4, 5.9]);
+        let scene = scene();
+        let script = || scene.script.iter().map(|row| (row.at_s, &row.action));
+        let put = |tick_hz| Piece::first(tick_hz).put_on_ticks(script()).collect::<Vec<_>>();
+        assert_eq!(put(1), [(5, 5.0), (45, 5.4), (46, 5.9)]);
+        // At another rate before the script sets its own, the actions come at the same times.
+        assert_eq!(put(3), [(15, 5.0), (55, 5.4), (56, 5.9)]);
     }
 
     #[test]

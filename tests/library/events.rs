@@ -1,0 +1,168 @@
+//! What happens in a scene happens at its time, whatever the tick rate and whoever changes it.
+
+use regatta::lab::race::{Author, Race};
+use regatta::lab::scene::{SCENES, Scene, Scripted};
+use regatta::lab::studio::{RunCommand, StageCommand, Studio};
+use regatta::lab::{Action, Journal, Judge, LaneSpec};
+use regatta::sim::integrators::method;
+
+/// The first coordinates and velocities of the truth after each tick of the scene's own rate, run at `times` that rate.
+fn truth(scene: &Scene, times: u32, ticks: u64) -> Vec<Vec<f64>> {
+    let tick_hz = times * scene.tick_hz;
+    let mut race = Race::of_scene(&Scene { tick_hz, lanes: Vec::new(), ..scene.clone() });
+    let mut curve = Vec::new();
+    for _ in 0..ticks {
+        race.run(u64::from(times));
+        let here = race.truth().bodies().iter().filter(|body| body.halted().is_none());
+        curve.push(here.flat_map(|body| [body.stepper.q()[0], body.stepper.v()[0]]).collect());
+    }
+    curve
+}
+
+#[test]
+fn at_four_tick_rates_the_truth_of_every_scene_is_one_curve() {
+    for built_in in SCENES {
+        let scene = Scene::built_in(built_in.name).unwrap();
+        let seconds = scene.script.last().map_or(1.0, |last| last.at_s + 1.0);
+        let ticks = ((seconds * f64::from(scene.tick_hz)) as u64).max(1);
+        let own = truth(&scene, 1, ticks);
+        assert!(!scene.script.is_empty() || own.len() as u64 == ticks);
+        for times in [2, 3, 7] {
+            let other = truth(&scene, times, ticks);
+            for (tick, (own, other)) in own.iter().zip(&other).enumerate() {
+                assert_eq!(own.len(), other.len(), "{} after tick {tick}", scene.name);
+                for (own, other) in own.iter().zip(other) {
+                    let off = (own - other).abs() / (1.0 + own.abs());
+                    let what = format!("{} ×{times} after tick {tick}", scene.name);
+                    assert!(off < 1e-6, "{what}: {own}, {other}");
+                }
+            }
+        }
+    }
+}
+
+/// The times of the script's actions that were performed, in seconds.
+fn done(studio: &Studio) -> Vec<f64> {
+    let (race, times) = (studio.race(), studio.timeline().times());
+    let rows = race.journal().rows().iter();
+    let done = rows.filter(|row| row.author == Author::Script && row.tick < race.tick());
+    done.map(|row| times.t(row.tick)).collect()
+}
+
+fn run_to(studio: &mut Studio, seconds: f64) {
+    while studio.race().t() < seconds {
+        studio.tick();
+    }
+}
+
+#[test]
+fn a_change_of_the_rate_in_flight_leaves_what_is_to_come_at_its_time() {
+    let mut studio = Studio::new(Scene::built_in("lerp").unwrap());
+    run_to(&mut studio, 1.0);
+    studio.apply(StageCommand::TickHz(240));
+    run_to(&mut studio, 3.0);
+    studio.apply(StageCommand::TickHz(7));
+    run_to(&mut studio, 5.0);
+    let [first, second] = done(&studio)[..] else { panic!("{:?}", done(&studio)) };
+    assert!((first - 2.0).abs() < 1e-9, "{first}");
+    assert!((second - 4.0).abs() <= 0.5 / 7.0, "{second}");
+    // Back before both changes, where something else is done, they are no more.
+    studio.apply(RunCommand::Seek(10));
+    studio.apply(RunCommand::Act(Action::Kick(0.5)));
+    run_to(&mut studio, 5.0);
+    assert_eq!((done(&studio), studio.race().tick_hz()), (vec![2.0, 4.0], 30));
+    studio.apply(RunCommand::Undo);
+    run_to(&mut studio, 5.0);
+    assert_eq!((done(&studio), studio.race().tick_hz()), (vec![first, second], 7));
+    // After a restart, at the rate that was chosen.
+    studio.apply(StageCommand::TickHz(240));
+    studio.apply(StageCommand::Restart);
+    run_to(&mut studio, 5.0);
+    assert_eq!((done(&studio), studio.race().tick_hz()), (vec![2.0, 4.0], 240));
+}
+
+#[test]
+fn a_run_judged_from_a_hand_has_the_rest_of_the_script_at_its_times() {
+    // At 30 Hz, after 1.5 s, 2 s are half a second on, however the rate was before.
+    let mut studio = Studio::new(Scene::built_in("lerp").unwrap());
+    run_to(&mut studio, 1.5);
+    studio.apply(StageCommand::TickHz(60));
+    studio.apply(RunCommand::Act(Action::Place { body: 0, q: [0.3].into(), v: [0.0].into() }));
+    let mut rest = Scene::built_in("lerp").unwrap();
+    rest.script.iter_mut().for_each(|row| row.at_s -= 1.5);
+    let place = Action::Place { body: 0, q: [0.3].into(), v: [0.0].into() };
+    rest.script.insert(0, Scripted { at_s: 0.0, action: place });
+    let entry = studio.active();
+    studio.analyse();
+    let found = studio.viewer().verdict(entry).expect("it is judged").error();
+    let wanted = Judge::new(&rest, 1.0).verdict(studio.entries()[entry], 60).error();
+    let (found, wanted) = (found.unwrap(), wanted.unwrap());
+    assert!(wanted > 0.01 && (found / wanted - 1.0).abs() < 1e-9, "{found}, {wanted}");
+}
+
+#[test]
+fn a_verdict_puts_an_event_between_ticks_on_the_tick_on_which_a_run_puts_it() {
+    let spec = LaneSpec::plain(method("lerp-per-frame").unwrap());
+    let mut scene = Scene::built_in("lerp").unwrap();
+    for (at_s, tick_hz) in [(2.03, 7), (1.96, 7), (2.49, 2), (2.497, 240)] {
+        scene.script[0].at_s = at_s;
+        let tick = Journal::of_script(&scene.script, tick_hz).rows()[0].tick;
+        let mut on_tick = scene.clone();
+        on_tick.script[0].at_s = tick as f64 / f64::from(tick_hz);
+        let [between, on] = [&scene, &on_tick].map(|scene| error(scene, spec, tick_hz));
+        let what = format!("{at_s} s at {tick_hz} Hz: {between}, and {on} on tick {tick}");
+        assert!(on > 0.1 && (between / on - 1.0).abs() < 1e-3, "{what}");
+    }
+}
+
+fn error(scene: &Scene, spec: LaneSpec, tick_hz: u32) -> f64 {
+    Judge::new(scene, 1.0).verdict(spec, tick_hz).error().expect("it comes to the end")
+}
+
+/// A spring that is kicked after 90 ticks, after 120, and after half a second more at another rate.
+const IN_TICKS: &str = "title = 'x'\ntick_hz = 60\nseconds = 9\nmethods = ['rk4']\n\
+    [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\n\
+    # Twice.\n[[command]]\ntick = 90\nkick = 1\n[[command]]\ntick = 120\ntick_hz = 10\n\
+    [[command]]\ntick = 125\nkick = 1\n";
+
+#[test]
+fn ticks_of_a_scene_are_read_with_a_warning_and_saved_as_seconds() {
+    let scene = Scene::parse("old.toml", IN_TICKS).unwrap();
+    let at_s = |scene: &Scene| scene.script.iter().map(|row| row.at_s).collect::<Vec<_>>();
+    assert_eq!(at_s(&scene), [1.5, 2.0, 2.5]);
+    let outdated = scene.outdated.as_ref().expect("it says ticks");
+    let said: Vec<String> = outdated.messages().collect();
+    assert_eq!(said.len(), 3);
+    assert_eq!(
+        said[2],
+        "old.toml:16:8: `tick` in a scene is read for this release only: another tick rate would be \
+         another motion; write `at_s = 2.5` in its place"
+    );
+    // At another rate, at the same times.
+    let journal = Journal::of_script(&scene.script, 20);
+    assert_eq!(journal.rows().iter().map(|row| row.tick).collect::<Vec<_>>(), [30, 40, 45]);
+    let faster = Scene { tick_hz: 120, ..scene };
+    for text in [faster.to_toml(), faster.to_saved_toml()] {
+        let again = Scene::parse("new.toml", &text).unwrap();
+        assert!(again.outdated.is_none() && text.contains("at_s = 2.5"), "{text}");
+        assert_eq!(at_s(&again), at_s(&faster));
+    }
+}
+
+#[test]
+fn a_recording_speaks_of_ticks_and_is_read_without_a_warning() {
+    let mut studio = Studio::new(Scene::built_in("helm").unwrap());
+    (0..12).for_each(|_| studio.tick());
+    studio.apply(StageCommand::TickHz(60));
+    (0..260).for_each(|_| studio.tick());
+    let text = studio.recording().unwrap();
+    assert!(!text.contains("at_s"), "{text}");
+    let ticks: Vec<_> = text.lines().filter(|line| line.starts_with("tick = ")).collect();
+    // The rate, and 0.6 s later, at 60 Hz, the rudder.
+    assert_eq!(ticks[..2], ["tick = 12", "tick = 48"], "{text}");
+    let scene = Scene::parse("run.toml", &text).unwrap();
+    assert!(scene.outdated.is_none());
+    assert_eq!(scene.to_saved_toml(), text);
+    let bare = text.split_once("\n[[check]]").unwrap().0;
+    assert!(Scene::parse("run.toml", bare).unwrap().outdated.is_some(), "nothing repeats it");
+}
