@@ -94,6 +94,23 @@ impl Journal {
         (done, released)
     }
 
+    /// How many rows it has in common with another, from the first on.
+    pub(in crate::lab) fn rows_in_common(&self, other: &Self) -> usize {
+        self.rows.iter().zip(&*other.rows).take_while(|(own, other)| own == other).count()
+    }
+
+    /// Replaces what comes after the first `kept` rows, and returns what was there.
+    pub(in crate::lab) fn replace_after(
+        &mut self,
+        kept: usize,
+        rows: Vec<JournalRow>,
+    ) -> Vec<JournalRow> {
+        let own = Arc::make_mut(&mut self.rows);
+        let replaced = own.split_off(kept);
+        own.extend(rows);
+        replaced
+    }
+
     /// Whether the script acts on this control after the first `done` rows.
     pub(super) fn script_acts_on(&self, control: Option<Control>, done: usize) -> bool {
         let works = |row: &JournalRow| {

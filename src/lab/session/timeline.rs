@@ -1,13 +1,15 @@
 //! A session with its past and its future: it can go to any tick that it has reached, with identical bits, and takes back
 //! what a person did.
 
+use std::mem::{replace, take};
+
 use super::run_with_past::{RunWithPast, Snapshot};
 use super::start::StartSettings;
 use super::undo::{Change, Exchanged, Future, Other, UndoStack};
 use super::{Event, EventKind, Session};
 use crate::lab::action::Action;
 use crate::lab::past::Past;
-use crate::lab::race::{ActionResult, Journal, Mode, Observer, Race, TimeScale};
+use crate::lab::race::{ActionResult, JournalRow, Mode, Observer, Race, TimeScale};
 
 /// The memory that snapshots and the drawn pasts of kept runs may take unless it is set, in bytes.
 pub const SNAPSHOT_BYTES: usize = 64 << 20;
@@ -173,7 +175,9 @@ impl Timeline {
             return acted;
         }
         self.run.past.forget_future();
-        let before = self.split_off(tick, journal, end);
+        let added = self.run.session.race.done() - 1;
+        let kept = journal.rows_in_common(self.run.session.journal()).min(added);
+        let before = self.split_off(tick, (kept, journal.rows()[kept..].to_vec()), end);
         self.run.end = tick;
         // A change that was made in the past has a future of its own to bring back.
         if was_past || !self.changes.has_future() {
@@ -183,14 +187,14 @@ impl Timeline {
         acted
     }
 
-    /// Splits off the future from `tick` on, which has this journal and reached `end`.
-    fn split_off(&mut self, tick: u64, journal: Journal, end: u64) -> Future {
+    /// Splits off the future from `tick` on, which has these rows after so many of the journal, and reached `end`.
+    fn split_off(&mut self, tick: u64, (kept, rows): (usize, Vec<JournalRow>), end: u64) -> Future {
         let RunWithPast { snapshots, halts, .. } = &mut self.run;
         // A snapshot holds the session as it reached a tick, before the actions there.
         let later = snapshots.partition_point(|snapshot| snapshot.race.tick() <= tick);
         let snapshots = snapshots.split_off(later);
         let later = halts.partition_point(|event| event.tick < tick);
-        Future { tick, journal, end, snapshots, halts: halts.split_off(later) }
+        Future { tick, kept, rows, end, snapshots, halts: halts.split_off(later) }
     }
 
     /// Keeps a change of the next start for [`Timeline::undo`]; `settings` are those before it.
@@ -204,7 +208,7 @@ impl Timeline {
     /// Keeps the run and its settings for [`Timeline::undo`] of a change for which another run takes its place.
     pub(in crate::lab) fn keep_run(&mut self, what: &str, settings: StartSettings) {
         let next = RunWithPast::new(settings.session());
-        let run = std::mem::replace(&mut self.run, next);
+        let run = replace(&mut self.run, next);
         let other = Other::Run(Box::new(run));
         self.changes.push(Change { what: what.to_owned(), settings, other });
         self.fit();
@@ -262,10 +266,10 @@ impl Timeline {
             Other::Settings => {}
             Other::Run(run) => std::mem::swap(&mut self.run, run),
             Other::Future(future) => {
-                let journal = self.run.session.journal().clone();
-                let left = self.split_off(future.tick, journal, self.run.end);
-                let Future { tick, journal, end, snapshots, halts } =
-                    std::mem::replace(future, left);
+                let mut journal = self.run.session.journal().clone();
+                let present = journal.replace_after(future.kept, take(&mut future.rows));
+                let left = self.split_off(future.tick, (future.kept, present), self.run.end);
+                let Future { tick, end, snapshots, halts, .. } = replace(future, left);
                 self.run.snapshots.extend(snapshots);
                 self.run.halts.extend(halts);
                 self.run.session.race.set_journal(journal);
@@ -386,5 +390,37 @@ impl Timeline {
                 return;
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::Scene;
+
+    #[test]
+    fn a_change_holds_what_it_has_changed_and_not_the_whole_journal() {
+        let scene = Scene::built_in("helm").unwrap();
+        let to_come = scene.script.len();
+        let mut timeline = Timeline::new(Session::racing(scene.into()));
+        for _ in 0..300 {
+            timeline.act(Action::Kick(0.01));
+        }
+        let whole = timeline.session().journal().clone();
+        assert_eq!(whole.rows().len(), to_come + 300);
+        for _ in 0..150 {
+            timeline.undo();
+        }
+        timeline.redo();
+        let changes = timeline.changes.done.iter().chain(&timeline.changes.undone);
+        let held = changes.map(|change| match &change.other {
+            Other::Future(future) => future.rows.len(),
+            _ => panic!("a kick changes the future"),
+        });
+        let held: Vec<usize> = held.collect();
+        assert_eq!(held.len(), 200);
+        assert!(held.iter().all(|rows| *rows <= to_come + 1), "{held:?}");
+        while timeline.redo() {}
+        assert!(*timeline.session().journal() == whole);
     }
 }

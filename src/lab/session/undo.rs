@@ -3,7 +3,7 @@
 use super::Event;
 use super::run_with_past::{RunWithPast, Snapshot};
 use super::start::StartSettings;
-use crate::lab::race::Journal;
+use crate::lab::race::JournalRow;
 
 /// The most changes that can be undone.
 const MAX_CHANGES: usize = 200;
@@ -41,7 +41,10 @@ pub(super) enum Other {
 pub(super) struct Future {
     /// The tick of the change. Up to it, before its actions, both futures are the same.
     pub(super) tick: u64,
-    pub(super) journal: Journal,
+    /// How many rows of the journal both futures have, and what comes after them in this one: not the whole journal, which
+    /// grows for as long as a run is steered.
+    pub(super) kept: usize,
+    pub(super) rows: Vec<JournalRow>,
     /// The last tick that was reached.
     pub(super) end: u64,
     /// Those after `tick`.
