@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::pacing::{FrameTrace, POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
 use super::race::LaneBody;
-use super::scene::Scene;
+use super::scene::{MAX_TICK_HZ, Scene};
 use crate::sim::Solver;
 use crate::sim::integrators::Method;
 
@@ -281,9 +281,9 @@ impl LoopLab {
         self.choose_trace(index);
     }
 
-    /// Chooses the tick rate, in Hz.
+    /// Chooses the tick rate in Hz, clamped to 1 to [`MAX_TICK_HZ`].
     pub fn set_tick_hz(&mut self, tick_hz: u32) {
-        Arc::make_mut(&mut self.scene).tick_hz = tick_hz;
+        Arc::make_mut(&mut self.scene).tick_hz = tick_hz.clamp(1, MAX_TICK_HZ);
         self.ask();
     }
 

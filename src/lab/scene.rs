@@ -30,6 +30,7 @@ mod net;
 mod outline;
 mod refusal;
 mod saved;
+mod sayable;
 
 mod script;
 mod syntax;

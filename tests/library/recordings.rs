@@ -3,7 +3,7 @@
 use regatta::lab::race::{Mode, equal_cost, lanes_that_race};
 use regatta::lab::scene::{SCENES, Scene, Scripted};
 use regatta::lab::session::{RecordingError, Session};
-use regatta::lab::studio::{RunCommand, StageCommand, Studio};
+use regatta::lab::studio::{Command, RunCommand, StageCommand, Studio};
 use regatta::lab::{Action, Journal, LaneId, LaneSpec};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 
@@ -437,4 +437,95 @@ fn a_recording_keeps_the_hint_and_one_without_a_tick_keeps_the_length() {
     let session = Session::racing(scene.clone().into());
     let recorded = session.recording(0);
     assert_eq!((recorded.hint, recorded.seconds), (scene.hint, scene.seconds));
+}
+
+#[test]
+fn what_no_file_could_say_is_refused_where_it_enters() {
+    let lane = LaneId(1);
+    let [rk4, adaptive] =
+        ["rk4", "dormand-prince-54"].map(|id| LaneSpec::plain(method(id).unwrap()));
+    let of_lane = |spec| Action::Lane { lane, spec };
+    let set = |value| Action::Set { body: 0, parameter: 1, value };
+    let place = |q: f64| Action::Place { body: 0, q: [q].into(), v: [0.0].into() };
+    for action in [
+        Action::TickHz(0),
+        Action::TickHz(10_897),
+        Action::Substeps { lane, substeps: 0 },
+        Action::Substeps { lane, substeps: 1001 },
+        Action::Tolerance { lane, tolerance: 0.0 },
+        Action::Tolerance { lane, tolerance: f64::NAN },
+        of_lane(LaneSpec { substeps: 0, ..rk4 }),
+        of_lane(LaneSpec { tolerance: Some(1e-6), ..rk4 }),
+        of_lane(LaneSpec { tolerance: Some(2.0), ..adaptive }),
+        of_lane(LaneSpec { joint: Some([1.0, 0.0]), ..rk4 }),
+        Action::Throttle(f64::NAN),
+        Action::Kick(f64::NAN),
+        Action::Kick(1e16),
+        set(f64::NAN),
+        set(f64::INFINITY),
+        place(1e39),
+        place(f64::NAN),
+    ] {
+        // The script has what the action would take from it.
+        let more = "[[command]]\nat_s = 0.5\ntick_hz = 30\n[[command]]\nat_s = 0.5\nthrottle = 0.5\n\
+                    [[command]]\nat_s = 0.5\nlane = 1\nmethod = 'midpoint'\n\
+                    [[command]]\nat_s = 0.5\nset = { body = 'port buoy', key = 'stiffness_n_per_m', value = 9.0 }\n";
+        let text = SCENES.iter().find(|scene| scene.name == "harbour").unwrap().text;
+        let name = &built_in("harbour").bodies[0].name;
+        let text = format!("{text}\n{}", more.replace("port buoy", name));
+        let mut studio = Studio::new(parsed(&text));
+        let journal = studio.race().journal().clone();
+        studio.apply(RunCommand::Act(action.clone()));
+        let told = studio.viewer().notice.as_deref().unwrap_or_default().to_owned();
+        assert!(told.starts_with("out of range"), "{action:?}: {told}");
+        assert!(*studio.race().journal() == journal, "{action:?}");
+        let mut session = Session::racing(parsed(&text).into());
+        assert!(!session.act(action.clone()) && *session.journal() == journal, "{action:?}");
+        (0..40).for_each(|_| studio.tick());
+        assert_eq!(studio.race().tick_hz(), 30, "{action:?}: the script goes on");
+        parsed(&studio.recording().unwrap());
+    }
+    // A mass that is below zero is refused with its range, and a throttle is clamped.
+    let mut studio = Studio::new(built_in("ship"));
+    let mass = studio.scene().bodies[0].kind.parameter("mass_kg").unwrap().0;
+    studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: mass, value: -1.0 }));
+    studio.apply(RunCommand::Act(Action::Throttle(-5.0)));
+    studio.tick();
+    let recorded = parsed(&studio.recording().unwrap());
+    assert_eq!(recorded.script[0].action, Action::Throttle(-1.0));
+    assert_eq!(recorded.script.len(), 1);
+}
+
+#[test]
+fn a_method_that_is_not_on_the_list_is_told_of_and_changes_nothing() {
+    for (scene, id, why) in [
+        ("spring", "engine-box2d", "is not on this scene's list"),
+        ("spring", "lerp-dt", "does not step the body"),
+        ("lift", "exponential-decay", "does not step the body"),
+    ] {
+        for is_race in [false, true] {
+            let spec = LaneSpec::plain(method(id).unwrap());
+            let mut studio = Studio::new(built_in(scene));
+            if is_race {
+                studio.apply(StageCommand::ToggleRace);
+            }
+            let hash = studio.race().state_hash();
+            for command in [
+                Command::Stage(StageCommand::Method(spec.method)),
+                Command::Run(RunCommand::SetLane(spec)),
+            ] {
+                studio.viewer_mut().set_notice("nothing");
+                studio.apply(command);
+                let told = studio.viewer().notice.as_deref().unwrap();
+                assert!(told.contains(why), "{id} on {scene}: {told}");
+            }
+            assert_eq!(studio.race().state_hash(), hash);
+            studio.apply(RunCommand::SetLane(LaneSpec { substeps: 0, ..studio.entries()[0] }));
+            assert!(studio.viewer().notice.as_deref().unwrap().starts_with("out of range"));
+        }
+    }
+    // An action that names one steps nothing by it, if it cannot.
+    let mut session = Session::racing(built_in("spring").into());
+    let spec = LaneSpec::plain(method("lerp-dt").unwrap());
+    assert!(!session.act(Action::Lane { lane: LaneId(1), spec }));
 }

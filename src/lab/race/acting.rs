@@ -1,14 +1,14 @@
 //! The actions on a race, from its journal and by hand.
 
 use super::journal::Author;
-use super::lane::Resumed;
+use super::lane::{LaneBody, Resumed};
 use super::observer::Observer;
 use super::{Mode, Race};
 use crate::lab::action::{Action, Control};
 use crate::lab::lane_id::LaneId;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::edited_values;
-use crate::sim::bodies::Acts;
+use crate::sim::bodies::{Acts, incompatibility};
 
 /// The effect of an action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,13 +35,16 @@ impl Race {
 
     /// Performs a person's action at the present tick, after the journal's actions at it, and adds it to the journal, from
     /// which the person's later actions are removed. An action that changes neither the present nor the script's pending
-    /// actions is ignored.
+    /// actions is ignored, and so is one that the run cannot take: see [`Action::checked`].
     pub(in crate::lab) fn act(
         &mut self,
         action: Action,
         observer: &mut impl Observer,
     ) -> ActionResult {
         self.catch_up(observer);
+        let Some(action) = action.checked().filter(|action| self.can_take(action)) else {
+            return ActionResult::Nothing;
+        };
         let control = action.control();
         if !self.changes(&action) && !self.journal.script_acts_on(control, self.done) {
             return ActionResult::Nothing;
@@ -56,38 +59,49 @@ impl Race {
         ActionResult::Done { released }
     }
 
-    /// Whether an action would change anything. One on a body that the race does not have, as of a hand that still held
-    /// it when another scene was opened, changes nothing.
-    pub fn changes(&self, action: &Action) -> bool {
+    /// Whether the race has what an action is on, with such values: no body is there of a hand that still held it when
+    /// another scene was opened.
+    fn can_take(&self, action: &Action) -> bool {
         match action {
-            Action::Set { body, .. } | Action::Place { body, .. }
-                if *body >= self.truth.bodies().len() =>
-            {
-                false
+            Action::Set { body, parameter, value } => {
+                let Some(LaneBody { kind, .. }) = self.truth.bodies().get(*body) else {
+                    return false;
+                };
+                let acts = kind.parameters.get(*parameter).map(|parameter| parameter.acts);
+                acts == Some(Acts::AtOnce)
+                    && edited_values(kind, &self.values[*body], *parameter, *value).is_ok()
             }
+            Action::Place { body, q, v } => self.truth.bodies().get(*body).is_some_and(|body| {
+                let coordinates = body.coordinates().len();
+                [q, v].iter().all(|values| {
+                    values.len() == coordinates && values.iter().all(|value| value.is_finite())
+                })
+            }),
+            Action::Lane { spec: LaneSpec { method, .. }, .. } => {
+                let mut bodies = self.truth.bodies().iter().zip(&self.values);
+                bodies.all(|(body, values)| incompatibility(method, &body.kind, values).is_none())
+            }
+            _ => true,
+        }
+    }
+
+    /// Whether an action would change anything.
+    pub fn changes(&self, action: &Action) -> bool {
+        if !self.can_take(action) {
+            return false;
+        }
+        match action {
             Action::Throttle(part) => {
                 self.takes("throttle") && self.throttle != part.clamp(-1.0, 1.0)
             }
             Action::Rudder(part) => self.takes("rudder") && self.rudder != part.clamp(-1.0, 1.0),
             Action::Kick(times) => self.takes("kick") && *times != 0.0,
             Action::TickHz(tick_hz) => self.tick_hz() != *tick_hz,
-            Action::Set { body, parameter, value } => {
-                let present = &self.values[*body];
-                let kind = &self.truth.bodies()[*body].kind;
-                let acts = kind.parameters.get(*parameter).map(|parameter| parameter.acts);
-                let is_new = present.get(*parameter).is_some_and(|present| present != value);
-                is_new
-                    && acts == Some(Acts::AtOnce)
-                    && edited_values(kind, present, *parameter, *value).is_ok()
-            }
+            Action::Set { body, parameter, value } => self.values[*body][*parameter] != *value,
             Action::Place { body, q, v } => {
                 let bodies = self.entrants.iter().map(|e| &e.lane).chain([&self.truth]);
                 let mut bodies = bodies.map(|lane| &lane.bodies()[*body]);
-                let coordinates = self.truth.bodies()[*body].coordinates().len();
-                let fits = [q, v].iter().all(|values| {
-                    values.len() == coordinates && values.iter().all(|value| value.is_finite())
-                });
-                fits && bodies.any(|at| {
+                bodies.any(|at| {
                     let is_there = at.stepper.q() == &q[..] && at.stepper.v() == &v[..];
                     !is_there || at.halted().is_some()
                 })

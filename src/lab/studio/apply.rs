@@ -19,6 +19,7 @@ use crate::lab::loop_lab::LoopCommand;
 use crate::lab::race::{ActionResult, Mode, equal_cost};
 use crate::lab::session::StartSettings;
 use crate::sim::bodies::Acts;
+use crate::sim::integrators::Method;
 
 impl Studio {
     /// Carries out a command. Returns what the driver has to do for it, if anything.
@@ -95,12 +96,7 @@ impl Studio {
         let race = self.race();
         match command {
             StageCommand::Method(method) => {
-                let listed = self.entries().iter().position(|spec| spec.method == method);
-                match (listed, self.scene().refusal(method)) {
-                    (Some(entry), _) => self.pick(entry),
-                    (None, Some(refusal)) => self.viewer.set_notice(refusal.to_string()),
-                    (None, None) => unreachable!("every method that fits is on the list"),
-                }
+                self.listed(method).into_iter().for_each(|entry| self.pick(entry));
             }
             StageCommand::Pick(entry) => self.pick(entry),
             StageCommand::MethodBeside(step) => self.pick_beside(step),
@@ -239,6 +235,9 @@ impl Studio {
             let set = |start: &mut StartSettings| start.set(body, parameter, value);
             return self.set_start("the start value", set);
         }
+        if action.clone().checked().is_none() {
+            return self.viewer.set_notice(out_of_range(action.noun()));
+        }
         let was_past = self.timeline.is_in_past();
         let before = self.start.clone();
         let (acted, mut told) =
@@ -290,11 +289,29 @@ impl Studio {
         self.start.entry = entry;
     }
 
+    /// The index of a method on the list. If it is not there, a notice says why.
+    fn listed(&mut self, method: &Method) -> Option<usize> {
+        let listed = self.entries().iter().position(|spec| spec.method == method);
+        if listed.is_none() {
+            let why = match self.scene().refusal(method) {
+                Some(refusal) => refusal.to_string(),
+                None => format!(
+                    "{} is not on this scene's list: the scene does not name it",
+                    method.name
+                ),
+            };
+            self.viewer.set_notice(why);
+        }
+        listed
+    }
+
     /// Gives a method of the list new substeps and a new tolerance, switches its lane in a race to them, and picks it. A race
     /// without the method restarts with it.
     fn set_lane(&mut self, spec: LaneSpec) {
-        let listed = self.entries().iter().position(|known| known.method == spec.method);
-        let entry = listed.expect("every method is on the list");
+        let Some(entry) = self.listed(spec.method) else { return };
+        if !spec.is_in_range() {
+            return self.viewer.set_notice(out_of_range("the switch"));
+        }
         match (self.mode(), self.flown(entry)) {
             (Mode::Race, None) => {
                 self.keep_run("the new race");
@@ -377,6 +394,11 @@ impl Studio {
         self.timeline.show_present();
         self.clock.set_tick_hz(self.race().tick_hz());
     }
+}
+
+/// What is told of an action with a number that is out of its range.
+fn out_of_range(noun: &str) -> String {
+    format!("out of range, so that nothing was changed: {noun}")
 }
 
 /// `part` plus `more` tenths, rounded to tenths, so that ten steps up and ten down end at the initial value.
