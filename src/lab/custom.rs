@@ -50,7 +50,7 @@ impl<S: System> Default for Options<S> {
 /// An invalid option, or a claim that the equation contradicts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OptionsError {
-    /// The field of [`Options`] or [`Extras`], or `start`.
+    /// The field of [`Options`] or [`Extras`], `start`, or `acceleration`.
     pub field: &'static str,
     /// What is wrong.
     pub what: String,

@@ -10,7 +10,7 @@ use super::body::Body;
 #[cfg(feature = "lab")]
 use super::cores;
 use super::exact_flow::ExactFlow;
-use super::integrators::{Construct, Integrator, Method, Stepped, construct};
+use super::integrators::{Construct, Integrator, Method, StepFailure, Stepped, construct};
 use super::propagator::{MethodPropagator, Propagator};
 use super::reference::{Reference, is_beyond_reference};
 use super::solver::Solver;
@@ -81,6 +81,7 @@ impl<B: Body, D: Propagator<B>> BodyStepper<B, D> {
 
 impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
     fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Stepped {
+        StepFailure::check_step(t, h, substeps)?;
         #[cfg(feature = "lab")]
         if B::coupling() == Coupling::Few && cores::is_large(self.placed.q().len()) {
             let mut stepped = Ok(());

@@ -4,6 +4,8 @@
 //! percentage of real time divides it without a remainder being rounded away: a day at 60 Hz is
 //! 5 184 000 ticks however the day is cut into frames.
 
+use std::fmt;
+
 use super::accumulator::{Accumulator, Due, MAX_FRAME_MS, max_ticks};
 
 /// One tick in nanoseconds × hertz × percent.
@@ -18,6 +20,19 @@ pub struct Clock {
     accumulator: Accumulator,
 }
 
+/// A tick rate in Hz that no clock runs at: it is not in [`Clock::TICK_HZ`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TickRateError(pub u32);
+
+impl fmt::Display for TickRateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (least, most) = Clock::TICK_HZ.into_inner();
+        write!(f, "a clock runs at {least} to {most} Hz; {} Hz is outside", self.0)
+    }
+}
+
+impl std::error::Error for TickRateError {}
+
 impl Clock {
     /// The tick rates a clock can run at, in Hz.
     pub const TICK_HZ: std::ops::RangeInclusive<u32> = 1..=10_000;
@@ -27,10 +42,21 @@ impl Clock {
     /// A clock at full speed that owes nothing.
     ///
     /// # Panics
-    /// If the rate is not in [`Clock::TICK_HZ`].
+    /// If the rate is not in [`Clock::TICK_HZ`]; [`Clock::try_new`] returns an error instead.
+    #[track_caller]
     pub fn new(tick_hz: u32) -> Self {
-        assert!(Self::TICK_HZ.contains(&tick_hz), "the caller checks the tick rate");
-        Self { tick_hz, speed_percent: 100, accumulator: Accumulator::default() }
+        Self::try_new(tick_hz).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// A clock at full speed that owes nothing, at a rate that a file or a person gives.
+    ///
+    /// # Errors
+    /// If the rate is not in [`Clock::TICK_HZ`].
+    pub fn try_new(tick_hz: u32) -> Result<Self, TickRateError> {
+        if !Self::TICK_HZ.contains(&tick_hz) {
+            return Err(TickRateError(tick_hz));
+        }
+        Ok(Self { tick_hz, speed_percent: 100, accumulator: Accumulator::default() })
     }
 
     /// The tick rate in Hz.
@@ -43,10 +69,13 @@ impl Clock {
         self.speed_percent
     }
 
-    /// Changes the tick rate, clamped to [`Clock::TICK_HZ`]. The owed part of a tick stays the same part, so that nothing
-    /// drawn jumps.
+    /// Changes the tick rate. The owed part of a tick stays the same part, so that nothing drawn jumps.
+    ///
+    /// # Panics
+    /// As [`Clock::new`].
+    #[track_caller]
     pub fn set_tick_hz(&mut self, tick_hz: u32) {
-        self.tick_hz = tick_hz.clamp(*Self::TICK_HZ.start(), *Self::TICK_HZ.end());
+        self.tick_hz = Self::new(tick_hz).tick_hz;
     }
 
     /// Changes the speed, clamped to [`Clock::SPEED_PERCENT`].

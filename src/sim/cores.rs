@@ -27,13 +27,37 @@ pub(super) fn join<A: Send, B: Send>(
     rayon::join(a, b)
 }
 
+/// Checks that a vector of a system has the length that the system began with.
+///
+/// # Panics
+/// If it has not.
+#[inline]
+pub(super) fn assert_length(found: usize, wanted: usize) {
+    if found != wanted {
+        other_length(found, wanted);
+    }
+}
+
+#[cold]
+fn other_length(found: usize, wanted: usize) -> ! {
+    panic!(
+        "a vector of {found} numbers meets one of {wanted}: all vectors of a system keep the length of its first state; \
+         `acceleration` overwrites the numbers of `a`, and does not replace `a` by another `Vec`"
+    )
+}
+
 /// Does `work` on equal parts of vectors of one length: of those `to` write and `from` read.
+///
+/// # Panics
+/// If their lengths differ.
 #[inline]
 pub(super) fn in_parts<const M: usize, const N: usize>(
     to: [&mut [f64]; M],
     from: [&[f64]; N],
     work: impl Fn([&mut [f64]; M], [&[f64]; N]) + Copy + Sync + Send,
 ) {
+    to.iter().for_each(|to_one| assert_length(to_one.len(), to[0].len()));
+    from.iter().for_each(|from| assert_length(from.len(), to[0].len()));
     #[cfg(feature = "batch")]
     if to[0].len() > GRAIN {
         return in_halves(to, from, work);

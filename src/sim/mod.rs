@@ -50,7 +50,7 @@ pub use accumulator::{Accumulator, Due, MAX_FRAME_MS};
 pub use body::MakeBatch;
 pub use body::{Body, Input};
 pub use body_stepper::stepper;
-pub use clock::Clock;
+pub use clock::{Clock, TickRateError};
 #[cfg(feature = "lab")]
 pub use least_squares::least_squares;
 pub use parameter::{Acts, Fault, MAX_POINTS, MAX_VALUE, Parameter, ParameterOf, Range, Text};

@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 
+use super::cores::assert_length;
 use super::state::{State, Vector};
 use super::system::{Pursuit, Question, System};
 
@@ -46,7 +47,9 @@ impl<S: System<Vector: Vector>> System for VecSystem<'_, S> {
         scratch.state(q, Some(v));
         let Scratch { state, result, .. } = scratch;
         self.system.acceleration(t, &state.q, &state.v, result);
-        a.copy_from_slice(result.components());
+        let result = result.components();
+        assert_length(result.len(), a.len());
+        a.copy_from_slice(result);
     }
 
     fn answer(&self, t: f64, question: Question<'_, Vec<f64>>) -> bool {

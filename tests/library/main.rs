@@ -33,6 +33,7 @@ mod keys;
 mod laws;
 mod layouts;
 mod loop_snippets;
+mod misuse;
 mod nets;
 mod pacing_policies;
 mod picture;

@@ -46,8 +46,22 @@ pub struct Ticks {
 
 impl Ticks {
     /// The first ticks of a run.
+    ///
+    /// # Panics
+    /// If the rate or the substeps are 0.
+    #[track_caller]
     pub fn from_start(hz: u32, substeps: u32, count: u64) -> Self {
-        Self { origin: 0.0, first: 0, count, hz, substeps }
+        Self { origin: 0.0, first: 0, count, hz, substeps }.checked()
+    }
+
+    #[track_caller]
+    fn checked(self) -> Self {
+        let Self { hz, substeps, .. } = self;
+        assert!(
+            hz > 0 && substeps > 0,
+            "ticks of {hz} Hz and {substeps} substeps take no time; give at least 1 of each"
+        );
+        self
     }
 
     /// The ticks after these.
@@ -163,7 +177,7 @@ impl Batch {
 
     /// Copies of a body of one coordinate, as its [`Body::BATCH`](super::Body::BATCH).
     #[cfg(feature = "lab")]
-    pub(in crate::sim) fn of_body<S: OneCoordinate>(
+    pub(crate) fn of_body<S: OneCoordinate>(
         body: &S,
         set: InstructionSet,
         solver: Solver,
@@ -215,8 +229,12 @@ impl Batch {
     /// Steps every copy through `ticks`. A method with memory goes on from the last run.
     ///
     /// A copy that blows up has a coordinate or a velocity that is not finite, and so has one whose method gives up.
+    ///
+    /// # Panics
+    /// As [`Ticks::from_start`].
+    #[track_caller]
     pub fn run(&mut self, ticks: Ticks) {
-        self.advance.advance(ticks, &mut self.q, &mut self.v);
+        self.advance.advance(ticks.checked(), &mut self.q, &mut self.v);
     }
 
     /// The coordinates, in the order of the starts.

@@ -40,6 +40,15 @@ pub enum StepFailure {
         /// [`MAX_REFERENCE_WORK`]: crate::sim::MAX_REFERENCE_WORK
         most: f64,
     },
+    /// The caller asked for a step that takes no time that could be counted: not finite, or in no parts.
+    InvalidStep {
+        /// The time of its beginning in seconds.
+        t: f64,
+        /// Its length in seconds.
+        h: f64,
+        /// The equal parts that it was to be made in.
+        substeps: u32,
+    },
     /// The method is not for this body; see [`Only`](super::Only).
     Refused {
         /// Why, as on the method's card.
@@ -62,6 +71,15 @@ pub enum StepFailure {
 }
 
 impl StepFailure {
+    /// Checks the times and the parts of a step before it is made.
+    #[inline]
+    pub(in crate::sim) fn check_step(t: f64, h: f64, substeps: u32) -> Stepped {
+        if (t + h).is_finite() && substeps > 0 {
+            return Ok(());
+        }
+        Err(Self::InvalidStep { t, h, substeps })
+    }
+
     /// Whether it is known before the first step, and nothing went wrong: a reference solution was not tried.
     pub fn is_foreseen(&self) -> bool {
         matches!(self, Self::ReferenceTooExpensive { .. })
@@ -100,6 +118,11 @@ impl fmt::Display for StepFailure {
                  second, and the limit is {}",
                 round(*work_per_s, 1),
                 round(*most, 1),
+            ),
+            Self::InvalidStep { t, h, substeps } => write!(
+                f,
+                "cannot be stepped from {t} s by {h} s in {substeps} parts: both times must be finite numbers, and the parts \
+                 at least one"
             ),
             Self::Refused { reason } => write!(f, "cannot be stepped by this method: {reason}"),
             Self::NotFinite { coordinate, value } => {

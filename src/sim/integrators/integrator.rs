@@ -18,7 +18,8 @@ pub trait Integrator<S: System>: Send {
     /// Advances `state` from `t` to exactly `t + h` (s), unless the card says that the method does not
     /// [keep time](super::Method::keeps_time). Never allocates.
     ///
-    /// Overflow is not reported: the caller checks the values.
+    /// Overflow is not reported: the caller checks the values. One that [`integrator`](super::integrator) built checks that
+    /// `t` and `h` are finite; for a method by itself they must be.
     ///
     /// # Errors
     /// If the method gives up or is not for the system; `state` is then undefined.

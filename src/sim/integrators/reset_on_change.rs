@@ -1,6 +1,6 @@
 //! A method that detects changes of its state by the caller.
 
-use super::failure::Stepped;
+use super::failure::{StepFailure, Stepped};
 use super::integrator::{Integrator, Override};
 use crate::sim::state::{State, Vector};
 use crate::sim::system::{StateOf, System};
@@ -42,10 +42,12 @@ impl<S: System<Vector: Vector>, I: Integrator<S>> Integrator<S> for ResetOnChang
     }
 
     fn step(&mut self, system: &S, t: f64, h: f64, state: &mut StateOf<S>) -> Stepped {
+        StepFailure::check_step(t, h, 1)?;
         self.advance::<S>(state, |method, state| method.step(system, t, h, state))
     }
 
     fn steps(&mut self, system: &S, t: f64, h: f64, n: u32, state: &mut StateOf<S>) -> Stepped {
+        StepFailure::check_step(t, h, n)?;
         self.advance::<S>(state, |method, state| method.steps(system, t, h, n, state))
     }
 

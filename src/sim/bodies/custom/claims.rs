@@ -11,7 +11,7 @@ use crate::sim::xor_shift::XorShift;
 /// A claim about a custom body that does not hold. Messages are in lower case.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CustomFault {
-    /// The field of [`Extras`](super::Extras), or `start`.
+    /// The field of [`Extras`](super::Extras), `start`, or `acceleration`.
     pub field: &'static str,
     /// What is wrong.
     pub what: String,

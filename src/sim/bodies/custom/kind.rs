@@ -35,6 +35,13 @@ where
         let what = format!("it has {n} coordinates and {velocities} velocities");
         return fault("start", what, "give it as many of both, 1 to 256");
     }
+    let mut a = start.v.clone();
+    system.acceleration(0.0, &start.q, &start.v, &mut a);
+    let given = a.components().len();
+    if given != n {
+        let what = format!("it replaces its {n} numbers by {given}");
+        return fault("acceleration", what, "overwrite the numbers of `a`, and keep its length");
+    }
     let coordinates = coordinates(&extras.coordinates, n)?;
     let plane = plane(extras.plane, &coordinates)?;
     let parameters: Vec<Parameter> = match &extras.parameters[..] {

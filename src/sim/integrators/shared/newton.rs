@@ -10,6 +10,7 @@
 
 use super::linearisation::Linearisation;
 use super::stages::{Stages, largest_of};
+use crate::sim::cores::assert_length;
 use crate::sim::integrators::failure::{StepFailure, Stepped};
 use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::{Coupling, System};
@@ -217,6 +218,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         let size = v.max(q).min(EXTREMES.1);
         let n = rounding_scale.len() / S;
         for (scales, forces) in rounding_scale.chunks_exact_mut(n).zip(evaluated.iter()) {
+            assert_length(forces.components().len(), n);
             let rows = scales.iter_mut().zip(forces.components());
             rows.for_each(|(scale, force)| *scale = force.abs());
         }

@@ -6,6 +6,7 @@
 //! order. Where it only steers an iteration it is a forward one, from the force that is known, and so short that a
 //! corner of the force is seldom within its reach.
 
+use crate::sim::cores::assert_length;
 use crate::sim::difference::quotient;
 use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::{Question, System};
@@ -59,6 +60,7 @@ impl<V: Vector> Slopes<V> {
     /// Chooses the reach of central differences for a step of `h` from `y`, where the acceleration is `a`.
     #[inline]
     pub(in crate::sim::integrators) fn reach_for(&mut self, h: f64, y: &State<V>, a: &V) {
+        assert_length(a.components().len(), y.q.components().len());
         let [q, v, a] = [&y.q, &y.v, a].map(|part| largest(part.components()));
         let change = v + h.abs() * a;
         let reach = |ahead: f64, now: f64| (PART * ahead).max(MIN_REACH * (1.0 + now));

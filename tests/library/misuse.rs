@@ -1,0 +1,124 @@
+//! What a game is told that misuses the lowest layer: never a state that is silently not a number.
+
+use std::panic::{UnwindSafe, catch_unwind};
+
+use regatta::lab::{Options, Scene};
+use regatta::sim::batch::{Batch, Ticks};
+use regatta::sim::bodies::Ship;
+use regatta::sim::integrators::{GENERAL_METHODS, StepFailure, integrator, method};
+use regatta::sim::{Clock, Solver, State, System, stepper};
+
+/// The message that `work` panics with.
+fn panic_of<T>(work: impl FnOnce() -> T + UnwindSafe) -> String {
+    let payload = catch_unwind(|| drop(work())).expect_err("a panic");
+    match payload.downcast::<String>() {
+        Ok(message) => *message,
+        Err(payload) => payload.downcast_ref::<&str>().expect("a message").to_string(),
+    }
+}
+
+#[test]
+fn a_clock_is_made_and_changed_by_one_rule() {
+    for tick_hz in [0, 10_001, u32::MAX] {
+        let told = Clock::try_new(tick_hz).expect_err("no such rate").to_string();
+        assert_eq!(told, format!("a clock runs at 1 to 10000 Hz; {tick_hz} Hz is outside"));
+        assert_eq!(panic_of(|| Clock::new(tick_hz)), told);
+        assert_eq!(panic_of(|| Clock::new(60).set_tick_hz(tick_hz)), told);
+    }
+    for tick_hz in [1, 10_000] {
+        assert_eq!(Clock::try_new(tick_hz).map(|clock| clock.tick_hz()), Ok(tick_hz));
+    }
+}
+
+#[derive(Clone)]
+struct Spring;
+
+impl System for Spring {
+    type Vector = f64;
+    fn acceleration(&self, _t: f64, q: &f64, _v: &f64, a: &mut f64) {
+        *a = -40.0 * q;
+    }
+}
+
+#[test]
+fn ticks_that_take_no_time_are_refused_where_they_are_made_and_where_they_are_run() {
+    for (hz, substeps) in [(0, 1), (60, 0)] {
+        let told = panic_of(|| Ticks::from_start(hz, substeps, 10));
+        assert!(told.contains("give at least 1 of each"), "{told}");
+        let run = move || {
+            let start = [State { q: 1.0, v: 0.0 }].into_iter();
+            let mut batch = Batch::new(&Spring, &GENERAL_METHODS[0], start).unwrap();
+            batch.run(Ticks { origin: 0.0, first: 0, count: 1, hz, substeps });
+        };
+        assert_eq!(panic_of(run), told);
+    }
+}
+
+#[test]
+fn a_step_of_no_countable_time_is_refused_by_every_method_and_leaves_the_state() {
+    let steps = [(0.0, f64::NAN, 1), (0.0, f64::INFINITY, 1), (f64::NAN, 0.1, 1), (0.0, 0.1, 0)];
+    for card in GENERAL_METHODS {
+        for (t, h, substeps) in steps {
+            let mut state = State { q: 1.0, v: 2.0 };
+            let mut built = integrator::<Spring>(card, &state.q);
+            let failure = built.steps(&Spring, t, h, substeps, &mut state).expect_err(card.id);
+            assert!(matches!(failure, StepFailure::InvalidStep { .. }), "{}: {failure}", card.id);
+            if substeps > 0 {
+                assert!(built.step(&Spring, t, h, &mut state).is_err(), "{}", card.id);
+            }
+            assert_eq!(state, State { q: 1.0, v: 2.0 }, "{}", card.id);
+
+            let mut body =
+                stepper(Ship { mass: 1.0, v0: 1.0, ..Ship::BLANK }, Solver::Method(card));
+            let before = body.q().to_vec();
+            assert!(body.advance(t, h, substeps).is_err(), "{}", card.id);
+            assert_eq!(body.q(), before, "{}", card.id);
+        }
+        // There and back is a step as good as another.
+        let mut state = State { q: 1.0, v: 0.0 };
+        assert_eq!(integrator(card, &state.q).step(&Spring, 0.0, -0.001, &mut state), Ok(()));
+    }
+}
+
+/// Two masses on springs, whose acceleration is replaced by a vector of `.0` numbers.
+#[derive(Clone)]
+struct Replaced(usize);
+
+impl System for Replaced {
+    type Vector = Vec<f64>;
+    fn acceleration(&self, _t: f64, q: &Vec<f64>, _v: &Vec<f64>, a: &mut Vec<f64>) {
+        *a = (0..self.0).map(|i| -40.0 * q.get(i).unwrap_or(&0.0)).collect();
+    }
+}
+
+#[test]
+fn a_vec_of_another_length_is_told_to_whoever_wrote_the_acceleration() {
+    let start = || State { q: vec![1.0, 2.0], v: vec![0.0, 0.0] };
+    for given in [1, 3] {
+        for card in GENERAL_METHODS {
+            let told = panic_of(|| {
+                let mut state = start();
+                let mut built = integrator::<Replaced>(card, &state.q);
+                (0..3).try_for_each(|_| built.step(&Replaced(given), 0.0, 0.01, &mut state))
+            });
+            assert!(
+                told.contains("`acceleration` overwrites the numbers of `a`"),
+                "{}: {told}",
+                card.id
+            );
+        }
+        let error = Scene::of(&Replaced(given), start(), Options::default()).expect_err("refused");
+        assert_eq!(error.field, "acceleration");
+        assert!(
+            error.to_string().contains(&format!("replaces its 2 numbers by {given}")),
+            "{error}"
+        );
+    }
+    assert!(Scene::of(&Replaced(2), start(), Options::default()).is_ok());
+    let told = panic_of(|| {
+        let mut state = State { q: vec![1.0, 2.0], v: vec![0.0] };
+        let mut rk4 = integrator::<Replaced>(method("rk4").unwrap(), &state.q);
+        rk4.step(&Replaced(2), 0.0, 0.01, &mut state)
+    });
+    assert!(told.contains("keep the length of its first state"), "{told}");
+}
