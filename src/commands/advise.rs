@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::error::Error;
 use super::experiment::{ExperimentArgs, Lineup, one_of};
+use super::help::flowing;
 use super::interrupt::watch_for_interrupt;
 use super::output::print;
 use super::output::table::TableFormat;
@@ -59,28 +60,32 @@ Examples:
   regatta advise --k 900 --c 4 --mass 12 --as csharp
   regatta advise --frequency 1.5 --damping-ratio 0.3 --tick-hz 30
   regatta advise --scene my.toml --tick-hz 50 --format json
-  regatta advise --scene spring --method rk4 --method semi-implicit-euler --rates
+  regatta advise --scene spring --method rk4 --rates
   regatta advise --scene engines --family engine";
 
 /// Recommend a method and its substeps for a scene at its tick rate
 #[derive(Debug, Args)]
-#[command(after_help = ABOUT)]
+#[command(after_long_help = flowing(ABOUT))]
 pub(super) struct AdviseArgs {
     #[command(flatten)]
     experiment: ExperimentArgs,
 
-    /// Also search, for each method in one step a tick, the slowest tick rates from 1 to 10000 Hz that
-    /// meet the criteria
+    /// Also search the slowest tick rates
+    ///
+    /// For each method in one step a tick, those from 1 to 10000 Hz that meet the criteria.
     #[arg(long)]
     rates: bool,
 
-    /// Judge the methods of this family: explicit, symplectic, adaptive, implicit, linearised,
-    /// as-printed, follower or engine; those of engines are judged only so
+    /// Judge the methods of this family
+    ///
+    /// Explicit, symplectic, adaptive, implicit, linearised, as-printed, follower or engine; those of engines are judged
+    /// only so.
     #[arg(long, value_name = "FAMILY", value_parser = known_family, conflicts_with = "methods")]
     family: Option<Family>,
 
-    /// Print the recommended method too, as a function in this language, in text [default: rust for a
-    /// spring of --k or --frequency]
+    /// Print the recommended method as code too
+    ///
+    /// As a function in this language, in text. For a spring of --k or --frequency the default is rust.
     #[arg(long = "as", value_name = "LANGUAGE", value_parser = one_of(&Language::ALL, Language::id))]
     language: Option<Language>,
 

@@ -12,6 +12,7 @@ use super::experiment::{
 };
 use super::frame_folder::{FolderPolicy, FrameFolder};
 use super::frame_names::MAX_FRAMES;
+use super::help::flowing;
 use super::movie::{self, MovieFormat};
 use super::output::picture_format::PictureFormat;
 use super::output::{Destination, Output};
@@ -29,13 +30,13 @@ written last, says what was drawn; `regatta verify` judges by it.
 
 Examples:
   regatta capture --scene spring --race --out clip
-  regatta capture --scene ship --method rk4 --frames 1 --size 1920x1080 --out still
+  regatta capture --scene ship --frames 1 --size 1920x1080 --out still
   regatta capture --scene stiff --race --format sheet --out stiff.png
-  regatta capture --race --format y4m --out - | ffmpeg -i - -pix_fmt yuv420p race.mp4";
+  regatta capture --race --format y4m --out - | ffmpeg -i - race.mp4";
 
 /// Draw a run into numbered pictures, without a window
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_long_help = flowing(EXAMPLES))]
 pub(super) struct CaptureArgs {
     #[command(flatten)]
     experiment: ExperimentArgs,
@@ -44,66 +45,89 @@ pub(super) struct CaptureArgs {
     #[arg(long)]
     race: bool,
 
-    /// Show the loop lab over this built-in trace, edge if none is named, at an eighth of real time
+    /// Show the loop lab over a trace [default: edge]
+    ///
+    /// At an eighth of real time. `regatta list traces` has the names.
     #[arg(long = "loop", value_name = "TRACE", conflicts_with = "race")]
     #[arg(num_args = 0..=1, default_missing_value = "edge", value_parser = known_trace)]
     loop_trace: Option<&'static TraceCard>,
 
-    /// The directory for frame-000000.png and so on, created if necessary; in formats other than png a
-    /// file, or - for standard output
+    /// The directory of the frames, or the file
+    ///
+    /// In the format png a directory for frame-000000.png and so on, created if necessary; in others a file, or - for
+    /// standard output.
     #[arg(long, value_name = "DIR|FILE")]
     out: PathBuf,
 
-    /// How many frames to draw, 1 to 1000000; in a sheet the number of columns [sheet: 6]
+    /// How many frames to draw
+    ///
+    /// From 1 to 1000000; in a sheet the number of columns, by default 6.
     #[arg(long, value_name = "N", conflicts_with = "seconds")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_FRAMES)))]
     frames: Option<u32>,
 
-    /// How many simulated seconds to draw [default: the scene's]
-    #[arg(long, value_name = "S", value_parser = experiment::seconds)]
+    /// Simulated seconds to draw [default: the scene's]
+    #[arg(long, value_name = "s", value_parser = experiment::seconds)]
     #[arg(allow_negative_numbers = true)]
     seconds: Option<f64>,
 
-    /// Frames per simulated second, 1 to 1000 [default: 30; sheet: 1]
+    /// Frames per simulated second [default: 30]
+    ///
+    /// From 1 to 1000; in a sheet by default 1.
     #[arg(long, value_name = "F")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_FPS)))]
     fps: Option<u32>,
 
-    /// Width and height in pixels, 1x1 to 8192x8192; in a sheet those of each cell [default: 1280x720;
-    /// sheet: 320x180]
+    /// Width and height in pixels [default: 1280x720]
+    ///
+    /// From 1x1 to 8192x8192; in a sheet those of each cell, by default 320x180.
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<[u32; 2]>,
 
-    /// Pixels per point, 0.5 to 4: the size of text and lines
-    #[arg(long, value_name = "S", default_value = "1", value_parser = scale)]
+    /// The size of text and lines
+    ///
+    /// Pixels per point, 0.5 to 4.
+    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = scale)]
     scale: f32,
 
     /// The theme: dark or light [default: dark]
     #[arg(long, value_name = "THEME", hide_possible_values = true)]
     theme: Option<ThemeName>,
 
-    /// Whether panels are shown around the stage: on or off [default: on; sheet: off]
+    /// Panels around the stage: on or off
+    ///
+    /// By default on, and off in a sheet.
     #[arg(long, value_name = "WHEN", hide_possible_values = true)]
     panels: Option<Shown>,
 
-    /// The instrument among the panels, such as energy, phase-portrait or cloud [default: motion]
+    /// The instrument [default: motion]
+    ///
+    /// That among the panels, such as energy, phase-portrait or cloud.
     #[arg(long, value_name = "NAME", value_parser = known_instrument, conflicts_with = "loop_trace")]
     instrument: Option<Instrument>,
 
-    /// What the instrument cloud shows: cat, disc, ring or section [default: cat]
+    /// What the instrument cloud shows [default: cat]
+    ///
+    /// Cat, disc, ring or section.
     #[arg(long, value_name = "SHAPE", value_parser = known_cloud, requires = "instrument")]
     shape: Option<CloudKind>,
 
-    /// Ticks between two states in the manifest [default: about 500 states in all]
+    /// Ticks between two states in the manifest
+    ///
+    /// By default there are about 500 states in all.
     #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     mark_every: Option<u64>,
 
-    /// The format: png, apng, gif, y4m, rgba or sheet [default: by the ending of FILE; png for a DIR]
+    /// The format: png, apng, gif, y4m, rgba or sheet
+    ///
+    /// By default that of the ending of FILE, and png for a DIR.
     #[arg(long, value_name = "FORMAT", hide_possible_values = true)]
     format: Option<PictureFormat>,
 
-    /// Replace the frames in DIR, where other files stay; or replace FILE
+    /// Replace the frames in DIR, or FILE
+    ///
+    /// Other files in DIR stay.
     #[arg(long)]
     force: bool,
 }

@@ -9,6 +9,7 @@ use clap::Args;
 
 use super::drawing::gpu;
 use super::error::Error;
+use super::help::flowing;
 use super::output::print;
 use super::terminal::{print_status, report_left_alone};
 use crate::view::{OffscreenRenderer, png};
@@ -33,9 +34,11 @@ Examples:
 
 /// Print the chapter's tables, and draw its Figures 7-2 to 7-8
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_long_help = flowing(EXAMPLES))]
 pub(super) struct ChapterArgs {
-    /// The directory for figure-7-2.png, figure-7-2.csv and so on; made where there is none
+    /// The directory for the figures and their data
+    ///
+    /// They are figure-7-2.png, figure-7-2.csv and so on. The directory is made where there is none.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 

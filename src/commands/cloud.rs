@@ -10,6 +10,7 @@ use serde_json::json;
 
 use super::error::Error;
 use super::experiment::{ExperimentArgs, Lineup, one_of, some_seconds};
+use super::help::flowing;
 use super::interrupt::watch_for_interrupt;
 use super::jobs;
 use super::movie::Gif;
@@ -54,12 +55,12 @@ without --size, since they are seen small.
 Examples:
   regatta cloud --scene pendulum --out pendulum.png
   regatta cloud --scene liouville --shape cat --out cat.gif
-  regatta cloud --scene spring --method explicit-euler --method rk4 --points 1000000 --out cloud.csv
-  regatta cloud --scene kicked-rotor --points 500 --size 3 --seconds 99 --section 10 --out rotor.png";
+  regatta cloud --scene spring --points 1000000 --out cloud.csv
+  regatta cloud --scene kicked-rotor --size 3 --section 10 --out rotor.png";
 
-/// Step a shape of many starts by each method and show what becomes of its area
+/// Step a shape of many starts and show what becomes of its area
 #[derive(Debug, Args)]
-#[command(after_help = ABOUT)]
+#[command(after_long_help = flowing(ABOUT))]
 pub(super) struct CloudArgs {
     #[command(flatten)]
     experiment: ExperimentArgs,
@@ -74,26 +75,35 @@ pub(super) struct CloudArgs {
     #[arg(value_parser = one_of(&CloudShape::ALL, CloudShape::id))]
     shape: CloudShape,
 
-    /// How far the shape reaches, in the unit of the coordinate [default: a quarter of the swing]
+    /// The reach of the shape
+    ///
+    /// In the unit of the coordinate. The default is a quarter of the swing.
     #[arg(long, value_name = "R", value_parser = size)]
     size: Option<f64>,
 
-    /// Length of the run in simulated seconds, to the nearest tick [default: the scene's, 60 at most]
-    #[arg(long, value_name = "S", value_parser = some_seconds)]
+    /// Simulated seconds of the run
+    ///
+    /// To the nearest tick. The default is the scene's, 60 at most.
+    #[arg(long, value_name = "s", value_parser = some_seconds)]
     #[arg(allow_negative_numbers = true)]
     seconds: Option<f64>,
 
-    /// Draw the points at this frequency only, in hertz: that of a drive
-    #[arg(long, value_name = "HZ", value_parser = reach)]
+    /// Draw the points at this frequency only
+    ///
+    /// That of a drive.
+    #[arg(long, value_name = "Hz", value_parser = reach)]
     section: Option<f64>,
 
-    /// Threads that step, 1 to 256 [default: one for each core, or RAYON_NUM_THREADS]
+    /// Threads, 1 to 256 [default: one for each core]
+    ///
+    /// Or RAYON_NUM_THREADS, where that is set.
     #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
 
-    /// The file: FILE.png for the end, FILE.gif for the way there, FILE.csv for the rows, or - for
-    /// the rows on standard output
+    /// FILE.png, FILE.gif, FILE.csv, or - for the rows
+    ///
+    /// A PNG shows the end and a GIF the way there. CSV has the rows, and so has standard output.
     #[arg(long, value_name = "FILE", default_value = STDOUT)]
     out: PathBuf,
 

@@ -4,6 +4,7 @@ use clap::{Args, Command};
 use clap_complete::Shell;
 
 use super::error::Error;
+use super::help::flowing;
 use super::output::print;
 
 const EXAMPLES: &str = "\
@@ -14,7 +15,7 @@ Examples:
 
 /// Print a completion script for a shell
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_long_help = flowing(EXAMPLES))]
 pub(super) struct CompletionsArgs {
     /// The shell
     shell: Shell,

@@ -22,8 +22,9 @@ use crate::sim::integrators::{METHODS, Method, method};
 /// The options that choose a scene, its methods and its tick rate.
 #[derive(Clone, Debug, Args)]
 pub(super) struct ExperimentArgs {
-    /// A built-in scene (`regatta list scenes`), or else the path of a scene file
-    /// [default: harbour]
+    /// A scene or the file of one [default: harbour]
+    ///
+    /// `regatta list scenes` has the names. What is no name is the path of a file.
     #[arg(long, value_name = "NAME|FILE")]
     #[arg(value_parser = PathOrName(scene_names), hide_possible_values = true)]
     #[arg(conflicts_with = "spring")]
@@ -32,12 +33,16 @@ pub(super) struct ExperimentArgs {
     #[command(flatten)]
     spring: SpringArgs,
 
-    /// An integrator (`regatta list methods`); give several to race them
+    /// A method (`regatta list methods`), or several
+    ///
+    /// Give the option again for each, to race them.
     #[arg(long = "method", value_name = "ID", value_parser = METHOD)]
     #[arg(hide_possible_values = true)]
     methods: Vec<&'static Method>,
 
-    /// Ticks per second, 1 to 10000 [default: the scene's]
+    /// Ticks per second [default: the scene's]
+    ///
+    /// From 1 to 10000.
     #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u32).range(range_of(Clock::TICK_HZ)))]
     tick_hz: Option<u32>,

@@ -11,6 +11,7 @@ use super::experiment::{
     METHOD, PathOrName, known_policy, range_of, scene_names, some_seconds, trace_names,
 };
 use super::file_names::{check_picture_name, row_format, same_file_path};
+use super::help::flowing;
 use super::interrupt::watch_for_interrupt;
 use super::numbers::number_that;
 use super::output::table::{RowFormat, RowWriter};
@@ -41,14 +42,13 @@ const ABOUT: &str = "\
 One row for each trace and policy, in the order asked for:
   policy, trace, tick_hz
   frames                  frames made, displayed or not
-  animation_error_rms_ms  change of the moment shown minus change of the moment of display, from
-  animation_error_max_ms  frame to frame: judder (PresentMon's term)
+  animation_error_rms_ms, animation_error_max_ms  change of the moment shown minus change of the
+                          moment of display, from frame to frame: judder (PresentMon's term)
   repeated_percent        displayed frames that show the same moment again
   double_percent          displayed frames that show two ticks or more at once, half a tick or
                           more ahead
-  latency_mean_ms         moment of display minus moment shown; of a file up to a constant, as the
-                          clocks of its two columns have no common origin
-  latency_max_ms
+  latency_mean_ms, latency_max_ms  moment of display minus moment shown; of a file up to a
+                          constant, as the clocks of its two columns have no common origin
   dropped_ms              real time given up
   owed_max_ms             the most real time neither simulated nor given up
   position_error_rms      distance from the exact solution at the moment of display, in amplitudes
@@ -71,61 +71,81 @@ Examples:
 
 /// Measure what game loops do to motion on a display
 #[derive(Debug, Args)]
-#[command(after_help = ABOUT)]
+#[command(after_long_help = flowing(ABOUT))]
 pub(super) struct LoopArgs {
-    /// A policy (`regatta list policies`); give several to compare them [default: all]
+    /// A policy, or several [default: all]
+    ///
+    /// `regatta list policies` has them. Give the option again for each, to compare them.
     #[arg(long = "policy", value_name = "ID", value_parser = known_policy)]
     policies: Vec<&'static PolicyCard>,
 
-    /// A built-in trace (`regatta list traces`), or else a CSV file of PresentMon, OCAT, CapFrameX,
-    /// FrameView or MangoHud; give several to go through them [default: all built-in traces]
+    /// A trace, or several [default: all built-in ones]
+    ///
+    /// `regatta list traces` has the names. What is no name is a CSV file of PresentMon, OCAT, CapFrameX, FrameView or
+    /// MangoHud. Give the option again for each.
     #[arg(long = "trace", value_name = "ID|FILE", value_parser = PathOrName(trace_names))]
     #[arg(hide_possible_values = true)]
     traces: Vec<PathBuf>,
 
-    /// Ticks per second, 1 to 10000 [default: the scene's]
+    /// Ticks per second [default: the scene's]
+    ///
+    /// From 1 to 10000.
     #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u32).range(range_of(Clock::TICK_HZ)))]
     tick_hz: Option<u32>,
 
-    /// The refresh rate of the display in Hz, 1 to 1000 [default: the trace's; without --trace, an even
-    /// display of this rate]
+    /// The refresh rate [default: the trace's]
+    ///
+    /// In Hz, 1 to 1000. Without --trace there is an even display of this rate.
     #[arg(long, value_name = "N")]
     display_hz: Option<RefreshRate>,
 
-    /// A built-in scene (`regatta list scenes`), or else the path of a scene file
+    /// A scene or the file of one
+    ///
+    /// `regatta list scenes` has the names. What is no name is the path of a file.
     #[arg(long, value_name = "NAME|FILE", default_value = "spring", value_parser = PathOrName(scene_names))]
     #[arg(hide_possible_values = true)]
     scene: PathBuf,
 
-    /// The integrator of the bodies (`regatta list methods`)
+    /// The method of the bodies
+    ///
+    /// `regatta list methods` has them.
     #[arg(long, value_name = "ID", default_value = "rk4", value_parser = METHOD)]
     #[arg(hide_possible_values = true)]
     method: &'static Method,
 
-    /// Length of each run in seconds of real time; a trace from a file may end before [default: the
-    /// scene's, but at least 10, and the whole of a file]
-    #[arg(long, value_name = "S", value_parser = some_seconds, allow_negative_numbers = true)]
+    /// Seconds of real time of each run
+    ///
+    /// A trace from a file may end before. The default is the scene's, but at least 10, and the whole of a file.
+    #[arg(long, value_name = "s", value_parser = some_seconds, allow_negative_numbers = true)]
     seconds: Option<f64>,
 
-    /// The largest mean latency in ms of the policy that is advised; on a trace from a file, above the least
-    #[arg(long, value_name = "MS", default_value_t = 20.0, value_parser = latency)]
+    /// The most mean latency of what is advised
+    ///
+    /// On a trace from a file, above the least.
+    #[arg(long, value_name = "ms", default_value_t = 20.0, value_parser = latency)]
     #[arg(allow_negative_numbers = true)]
     latency_ms: f64,
 
-    /// How to write the rows: csv or json [default: by the ending of --out, else csv]
+    /// How to write the rows: csv or json
+    ///
+    /// By default as the ending of --out says, else csv.
     #[arg(long, value_name = "FORMAT", hide_possible_values = true)]
     format: Option<RowFormat>,
 
-    /// The file to write the rows to, or - for standard output
+    /// The file of the rows, or - for standard output
     #[arg(long, value_name = "FILE", default_value = STDOUT)]
     out: PathBuf,
 
-    /// Write a line of CSV for each frame into FILE, or - for standard output
+    /// Write a line of CSV for each frame into FILE
+    ///
+    /// - is standard output.
     #[arg(long, value_name = "FILE")]
     frames: Option<PathBuf>,
 
-    /// Draw the moment shown against the moment of display, and what each loop costs, on up to four traces, as PNG into FILE
+    /// Draw what each loop shows as PNG into FILE
+    ///
+    /// The moment shown against the moment of display, and what each loop costs, on up to four traces.
     #[cfg(feature = "view")]
     #[arg(long, value_name = "FILE", conflicts_with = "show")]
     plot: Option<PathBuf>,
@@ -134,7 +154,9 @@ pub(super) struct LoopArgs {
     #[arg(long)]
     force: bool,
 
-    /// Print this policy as source, to be taken into a game, and do nothing else
+    /// Print this policy as source
+    ///
+    /// To be taken into a game. Nothing else is done.
     #[arg(long, value_name = "ID", value_parser = known_policy)]
     #[arg(conflicts_with_all = [
         "policies", "traces", "tick_hz", "display_hz", "scene", "method", "seconds", "latency_ms", "format", "out",

@@ -12,16 +12,51 @@ Examples:
   regatta help capture
   regatta help scenes | less";
 
+/// The columns that every help fits.
+pub(super) const COLUMNS: usize = 80;
+
+/// The blanks before a row of a list.
+const ROW_INDENT: usize = 2;
+
 /// Print this help, that of a command, or a chapter of the manual
 #[derive(Debug, Default, Args)]
-#[command(after_help = after_help())]
+#[command(after_long_help = flowing(&manual()))]
 pub(super) struct HelpArgs {
     /// A command, or a chapter of the manual
     #[arg(value_name = "COMMAND|CHAPTER")]
     topic: Option<String>,
 }
 
-fn after_help() -> String {
+/// A text for people with the lines of each paragraph joined, to be broken where the terminal ends. Of a list, whose rows are
+/// indented and begin with a term and two blanks, rows stay as they are where all of them fit; else each explanation
+/// stands below its term.
+pub(super) fn flowing(text: &str) -> String {
+    let blocks = text.split("\n\n").map(|block| {
+        let mut rows: Vec<String> = Vec::new();
+        for line in block.lines() {
+            let inner = line.trim_start();
+            let indent = line.len() - inner.len();
+            match rows.last_mut() {
+                Some(row) if indent > ROW_INDENT || indent == 0 && !row.starts_with(' ') => {
+                    *row = format!("{row} {inner}");
+                }
+                _ => rows.push(line.to_owned()),
+            }
+        }
+        let is_wide = |row: &String| row.starts_with(' ') && row.chars().count() > COLUMNS;
+        if rows.iter().any(is_wide) {
+            for row in &mut rows {
+                if let Some((term, explanation)) = row.trim_start().split_once("  ") {
+                    *row = format!("  {term}\n      {}", explanation.trim_start());
+                }
+            }
+        }
+        rows.join("\n")
+    });
+    blocks.collect::<Vec<_>>().join("\n\n")
+}
+
+fn manual() -> String {
     let lines = CHAPTERS.iter().map(|chapter| format!("\n  {:10}  {}", chapter.id, chapter.about));
     format!("{EXAMPLES}\n\nChapters:{}", lines.collect::<String>())
 }
@@ -46,5 +81,22 @@ pub(super) fn run(args: &HelpArgs, cli: Command) -> Result<(), Error> {
     match cli.try_get_matches_from(["regatta"].into_iter().chain(topic).chain(["--help"])) {
         Err(help) => Ok(help.print()?),
         Ok(_) => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::flowing;
+
+    #[test]
+    fn paragraphs_flow_and_rows_that_are_too_wide_explain_below_their_term() {
+        let long = "a word ".repeat(12);
+        let text = format!(
+            "One\ntwo:\n  a   b\n  cd  e\n\nThree\n\n  f   g\n  h   {long}\n      i\nfour\nfive"
+        );
+        let wanted = format!(
+            "One two:\n  a   b\n  cd  e\n\nThree\n\n  f\n      g\n  h\n      {long} i\nfour five"
+        );
+        assert_eq!(flowing(&text), wanted);
     }
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::error::Error;
+use super::help::flowing;
 use super::numbers::{number, number_that, positive};
 use super::output::print;
 use super::output::table::TableFormat;
@@ -42,18 +43,22 @@ applies the spring's force itself. What is not known is null.
 Examples:
   regatta identify spring.csv --tick-hz 60 --k 40 --c 0.5 --mass 2
   regatta identify drift.csv --tick-hz 50 --drag 0.1 --thrust 20000 --mass 10000
-  regatta identify log.csv --tick-hz 60 --k 40 --x-column pos.x --v-column vel.x --format json";
+  regatta identify log.csv --tick-hz 60 --k 40 --x-column pos.x --format json";
 
 /// Where no method can be run on the body.
 const NOTHING_RUNS: &str = "\
 unknown: no method can follow this log; give the body with --k or --drag, check --tick-hz, and log
 three ticks in a row\n";
 
-/// Say which engine or method, with how many substeps, made a log of a motion
+/// Say which engine or method made a log of a motion
+///
+/// And with how many substeps.
 #[derive(Debug, Args)]
-#[command(after_help = ABOUT)]
+#[command(after_long_help = flowing(ABOUT))]
 pub(super) struct IdentifyArgs {
-    /// The log: a CSV file with the columns t, x and, if there are any, v and tick
+    /// The log: a CSV file with columns t, x, v and tick
+    ///
+    /// It needs t and x.
     #[arg(value_name = "LOG.csv")]
     log: PathBuf,
 
@@ -62,7 +67,7 @@ pub(super) struct IdentifyArgs {
     tick_hz: f64,
 
     /// The mass in kg
-    #[arg(long, value_name = "KG", default_value = "1", value_parser = positive)]
+    #[arg(long, value_name = "kg", default_value = "1", value_parser = positive)]
     mass: f64,
 
     #[command(flatten)]
@@ -76,17 +81,19 @@ pub(super) struct IdentifyArgs {
 /// The options that say what a log is of, and how it is read.
 #[derive(Debug, Args)]
 pub(super) struct LogArgs {
-    /// The stiffness of the spring in N/m [default: fitted]
-    #[arg(long, value_name = "N/M", value_parser = number, allow_negative_numbers = true)]
+    /// The stiffness of the spring [default: fitted]
+    #[arg(long, value_name = "N/m", value_parser = number, allow_negative_numbers = true)]
     k: Option<f64>,
 
-    /// The damping of the spring in N s/m [default: 0 with --k, else fitted]
-    #[arg(long, value_name = "N S/M", value_parser = number, allow_negative_numbers = true)]
+    /// The damping of the spring [default: fitted]
+    ///
+    /// With --k it is 0 by default.
+    #[arg(long, value_name = "N s/m", value_parser = number, allow_negative_numbers = true)]
     #[arg(requires = "k")]
     c: Option<f64>,
 
-    /// The damping setting of the body in 1/s
-    #[arg(long, value_name = "1/S", value_parser = number, allow_negative_numbers = true)]
+    /// The damping setting of the body
+    #[arg(long, value_name = "1/s", value_parser = number, allow_negative_numbers = true)]
     drag: Option<f64>,
 
     /// A constant force in newtons

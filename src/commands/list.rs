@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
 use super::error::Error;
+use super::help::flowing;
 use super::output::print;
 use super::output::table::{self, Column, TableFormat};
 use crate::lab::analysis::{METRICS, Metric, Scale};
@@ -23,9 +24,10 @@ Examples:
   regatta list bodies                  the tables and keys of a scene file
   regatta list methods --format json   with everything on a method's card";
 
-/// List the scenes, methods, bodies, metrics, policies, traces or keys
+/// List scenes, methods, bodies, metrics, policies, traces or keys
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_long_help = flowing(EXAMPLES))]
+#[command(override_usage = "regatta list [OPTIONS] <WHAT>")]
 pub(super) struct ListArgs {
     /// What to list
     #[arg(value_name = "scenes|methods|bodies|metrics|policies|traces|keys")]

@@ -107,8 +107,8 @@ use crate::lab::clip as shortened;
 
 const EXAMPLES: &str = "\
 Examples:
-  regatta                                          open the harbour under explicit Euler
-  regatta --scene stiff --race                     race all methods on a stiff spring
+  regatta                              open the harbour under explicit Euler
+  regatta --scene stiff --race         race all methods on a stiff spring
   regatta --scene ship --method explicit-euler --tick-hz 2
   regatta trace --scene ship --method rk4 > ship.csv
   regatta capture --scene spring --race --out clip
@@ -117,8 +117,8 @@ Examples:
   regatta cloud --scene liouville --shape cat --out cat.png
   regatta loop --trace steady-144 --policy fixed --policy fixed-linear
   regatta identify spring.csv --tick-hz 60 --k 40
-  regatta port --want 2.5Hz --zeta 0.3             the settings of every engine for a spring
-  regatta show rk4 --as csharp                     the method's code, for your game
+  regatta port --want 2.5Hz --zeta 0.3 the settings of every engine for a spring
+  regatta show rk4 --as csharp         the method's code, for your game
   regatta chapter --out figures
   regatta verify clip
   regatta list methods
@@ -126,11 +126,14 @@ Examples:
 In the window, H shows the keys. `regatta help COMMAND` explains a command;
 `regatta help help` lists the chapters of the manual.";
 
-/// Race numerical integrators on ships, springs, chains, pendulums and orbits against the exact solution
+/// Race numerical integrators against the exact solution
+///
+/// Ships, springs, chains, pendulums and orbits are stepped by every method at once, at the tick rate that you choose.
 #[derive(Debug, Parser)]
 #[command(name = "regatta", version, args_conflicts_with_subcommands = true)]
 #[command(disable_help_subcommand = true)]
-#[command(after_help = EXAMPLES, subcommand_help_heading = "Commands", max_term_width = 100)]
+#[command(after_long_help = help::flowing(EXAMPLES), subcommand_help_heading = "Commands")]
+#[command(max_term_width = help::COLUMNS)]
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,

@@ -11,6 +11,7 @@ use super::capture_settings::CaptureSettings;
 use super::error::Error;
 use super::experiment::{self, Experiment, ExperimentArgs, Lineup, ThemeName, known_trace};
 use super::frame_folder::FrameFolder;
+use super::help::flowing;
 use super::output::{Destination, Output};
 use super::preferences::{self, SavedPreferences};
 use super::schedule::{FPS, Schedule, frames_in};
@@ -36,7 +37,7 @@ In the window, H shows the keys. Without a display the first seconds are drawn i
 
 /// Open the window (also without `play`)
 #[derive(Clone, Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_long_help = flowing(EXAMPLES))]
 pub(super) struct PlayArgs {
     #[command(flatten)]
     experiment: ExperimentArgs,
@@ -45,18 +46,24 @@ pub(super) struct PlayArgs {
     #[arg(long)]
     race: bool,
 
-    /// Open the loop lab on this built-in trace, edge if none is named
+    /// Open the loop lab on a trace [default: edge]
+    ///
+    /// `regatta list traces` has the names.
     #[arg(long = "loop", value_name = "TRACE", conflicts_with = "race")]
     #[arg(num_args = 0..=1, default_missing_value = "edge", value_parser = known_trace)]
     loop_trace: Option<&'static TraceCard>,
 
-    /// Close at the tick nearest to this many simulated seconds [default: never]
-    #[arg(long, value_name = "S", value_parser = experiment::seconds)]
+    /// Close after these simulated seconds
+    ///
+    /// At the nearest tick. The default is never.
+    #[arg(long, value_name = "s", value_parser = experiment::seconds)]
     #[arg(allow_negative_numbers = true)]
     seconds: Option<f64>,
 
-    /// Write the run to FILE as a scene when the window is closed or Ctrl-C is pressed; until then it grows beside it, in
-    /// FILE.unfinished.toml
+    /// Write the run to FILE as a scene
+    ///
+    /// It is written when the window is closed or Ctrl-C is pressed. Until then it grows beside it, in
+    /// FILE.unfinished.toml.
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
 
@@ -64,16 +71,20 @@ pub(super) struct PlayArgs {
     #[arg(long, requires = "record")]
     force: bool,
 
-    /// The theme: dark or light [default: the one chosen last, else the system's]
+    /// The theme: dark or light
+    ///
+    /// The default is the one chosen last, else the system's.
     #[arg(long, value_name = "THEME", hide_possible_values = true)]
     theme: Option<ThemeName>,
 
-    /// Memory for rewinding a run: less makes long jumps slower [default: 64]
-    #[arg(long, value_name = "MB", value_parser = clap::value_parser!(u16).range(1..))]
+    /// Memory for rewinding a run [default: 64]
+    ///
+    /// Less makes long jumps slower.
+    #[arg(long, hide_short_help = true, value_name = "MB", value_parser = clap::value_parser!(u16).range(1..))]
     rewind_mb: Option<u16>,
 
     /// Trails do not fade, and the camera does not glide
-    #[arg(long)]
+    #[arg(long, hide_short_help = true)]
     reduced_motion: bool,
 }
 

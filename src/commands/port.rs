@@ -4,6 +4,7 @@ use clap::builder::RangedU64ValueParser;
 use clap::{ArgGroup, Args};
 
 use super::error::Error;
+use super::help::flowing;
 use super::identify::{LogArgs, rate};
 use super::numbers::{number, positive};
 use super::output::print;
@@ -53,32 +54,36 @@ substeps, word, settings, sees, floor, own_force and code, or with --drive drive
 Examples:
   regatta port --want 2.5Hz --zeta 0.3 --mass 80
   regatta port --want 1Hz --to engine-box2d,engine-jolt --tick-hz 50
-  regatta port --from engine-godot:stiffness=1000,damping=80 --mass 80 --to engine-jolt
+  regatta port --from engine-godot:stiffness=1000,damping=80 --to engine-jolt
   regatta port --from spring.csv --tick-hz 60 --format json
-  regatta port --want 5Hz --zeta 1 --drive --decimation 4 --tick-hz 500 --to engine-mujoco
+  regatta port --want 5Hz --zeta 1 --drive --decimation 4 --tick-hz 500
   regatta port --from lerp:0.1@60fps";
 
-/// Say the settings with which a spring moves the same in every engine
+/// Say with what settings a spring moves alike in all engines
 #[derive(Debug, Args)]
-#[command(after_help = ABOUT)]
+#[command(after_long_help = flowing(ABOUT))]
 #[command(group = ArgGroup::new("wish").required(true))]
 pub(super) struct PortArgs {
-    /// The frequency in Hz that a player is to see
-    #[arg(long, value_name = "HZ", group = "wish", allow_hyphen_values = true)]
+    /// The frequency that a player is to see
+    #[arg(long, value_name = "Hz", group = "wish", allow_hyphen_values = true)]
     #[arg(value_parser = |written: &str| with_unit(written, "Hz"))]
     want: Option<f64>,
 
-    /// The damping ratio that a player is to see, 1 where it just swings no more [default: 0]
+    /// The damping ratio to be seen [default: 0]
+    ///
+    /// At 1 it just swings no more.
     #[arg(long, value_name = "RATIO", value_parser = number, allow_negative_numbers = true)]
     #[arg(requires = "want")]
     zeta: Option<f64>,
 
-    /// The settings of an engine, a log, or how a value chases its target
-    #[arg(long, value_name = "ENGINE:KEY=VALUE,…|LOG.csv|CHASE", group = "wish")]
+    /// An engine's settings, a log, or a chase
+    ///
+    /// ENGINE:KEY=VALUE,…, LOG.csv, or how a value chases its target.
+    #[arg(long, value_name = "SOURCE", group = "wish")]
     from: Option<String>,
 
     /// The mass on the spring in kg
-    #[arg(long, value_name = "KG", default_value = "1", value_parser = positive)]
+    #[arg(long, value_name = "kg", default_value = "1", value_parser = positive)]
     #[arg(allow_negative_numbers = true)]
     mass: f64,
 

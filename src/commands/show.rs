@@ -4,6 +4,7 @@ use clap::Args;
 
 use super::error::Error;
 use super::experiment::{Offered, known_method, one_of};
+use super::help::flowing;
 use super::output::print;
 use super::terminal::print_status;
 use crate::lab::source_code::{Language, Precision, source_code};
@@ -24,9 +25,11 @@ Examples:
 
 /// Print a method as a function in Rust, C, C# or GDScript
 #[derive(Debug, Args)]
-#[command(after_help = ABOUT)]
+#[command(after_long_help = flowing(ABOUT))]
 pub(super) struct ShowArgs {
-    /// The method (`regatta list methods`), by its id or by another name of it there
+    /// The method, by its id or another name of it
+    ///
+    /// `regatta list methods` has both.
     #[arg(value_name = "METHOD", value_parser = ASKED, hide_possible_values = true)]
     asked: Asked,
 

@@ -10,28 +10,30 @@ use crate::lab::studio::MySpring;
 /// The options that describe a spring.
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub(super) struct SpringArgs {
-    /// In the place of a scene, a spring of this stiffness in N/m; with --c and --mass
-    #[arg(long, value_name = "N/M", value_parser = positive, allow_negative_numbers = true)]
+    /// A spring of this stiffness in place of a scene
+    #[arg(long, value_name = "N/m", value_parser = positive, allow_negative_numbers = true)]
     #[arg(group = "spring")]
     k: Option<f64>,
 
-    /// The damping of that spring in N s/m [default: 0]
-    #[arg(long, value_name = "N S/M", value_parser = number, allow_negative_numbers = true)]
+    /// The damping of the spring of --k [default: 0]
+    #[arg(long, value_name = "N s/m", value_parser = number, allow_negative_numbers = true)]
     #[arg(requires = "k")]
     c: Option<f64>,
 
-    /// In the place of a scene, a spring that swings at this frequency in Hz; with --damping-ratio
-    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    /// A spring of this frequency in place of a scene
+    #[arg(long, value_name = "Hz", value_parser = positive, allow_negative_numbers = true)]
     #[arg(group = "spring")]
     frequency: Option<f64>,
 
-    /// The damping of that spring, 1 where it just swings no more [default: 0]
+    /// The damping of that spring [default: 0]
+    ///
+    /// At 1 it just swings no more.
     #[arg(long, value_name = "RATIO", value_parser = number, allow_negative_numbers = true)]
     #[arg(requires = "frequency")]
     damping_ratio: Option<f64>,
 
-    /// The mass on the spring of --k or --frequency in kg [default: 1]
-    #[arg(long, value_name = "KG", value_parser = positive, allow_negative_numbers = true)]
+    /// The mass on the spring [default: 1]
+    #[arg(long, value_name = "kg", value_parser = positive, allow_negative_numbers = true)]
     #[arg(requires = "spring")]
     mass: Option<f64>,
 }

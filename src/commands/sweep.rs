@@ -8,6 +8,7 @@ use serde_json::json;
 use super::error::Error;
 use super::experiment::{METHOD, PathOrName, range_of, scene_names, some_seconds};
 use super::file_names::{check_picture_name, row_format};
+use super::help::flowing;
 use super::interrupt::watch_for_interrupt;
 use super::output::table::{Column, RowFormat, write_rows};
 use super::output::{Destination, STDOUT};
@@ -58,15 +59,16 @@ are a quarter, half, 1, 2, 4 and 8 times the scene's own rate, rounded down.
 
 Examples:
   regatta sweep > sweep.csv
-  regatta sweep --scene spring --method rk4 --method velocity-verlet --tick-hz 30,60,120
+  regatta sweep --scene spring --method rk4 --tick-hz 30,60,120
   regatta sweep --scene my.toml --seconds 5 --out sweep.json --plot sweep.png";
 
-/// Run every method at every tick rate on every scene and write one row per run
+/// Run every method at every tick rate on every scene, a row each
 #[derive(Debug, Args)]
-#[command(after_help = ABOUT)]
+#[command(after_long_help = flowing(ABOUT))]
 pub(super) struct SweepArgs {
-    /// A built-in scene (`regatta list scenes`), or else the path of a scene file; give several to sweep
-    /// them [default: all built-in scenes]
+    /// A scene, or several [default: all built-in ones]
+    ///
+    /// `regatta list scenes` has the names. What is no name is the path of a file. Give the option again for each.
     #[arg(long = "scene", value_name = "NAME|FILE", value_parser = PathOrName(scene_names))]
     #[arg(hide_possible_values = true, conflicts_with = "spring")]
     scenes: Vec<PathBuf>,
@@ -74,42 +76,51 @@ pub(super) struct SweepArgs {
     #[command(flatten)]
     spring: SpringArgs,
 
-    /// An integrator (`regatta list methods`); give several to sweep them [default: all]
+    /// A method, or several [default: all]
+    ///
+    /// `regatta list methods` has them. Give the option again for each.
     #[arg(long = "method", value_name = "ID", value_parser = METHOD)]
     #[arg(hide_possible_values = true)]
     methods: Vec<&'static Method>,
 
-    /// Tick rates in Hz, 1 to 10000, separated by commas [default: octaves about the scene's own]
+    /// Tick rates in Hz, separated by commas
+    ///
+    /// From 1 to 10000; by default octaves about the scene's own.
     #[arg(long, value_name = "N", value_delimiter = ',')]
     #[arg(value_parser = clap::value_parser!(u32).range(range_of(Clock::TICK_HZ)))]
     tick_hz: Vec<u32>,
 
-    /// Values of a parameter, of every body that has it (`regatta list bodies`), or of a constant of a law:
-    /// a row for each
+    /// Values of a parameter: a row for each
+    ///
+    /// Of every body that has it (`regatta list bodies`), or of a constant of a law.
     #[arg(long, value_name = "KEY=V,V,...", value_parser = varied)]
     vary: Option<Varied>,
 
-    /// Length of each run in simulated seconds, to the nearest tick, one at least [default: the
-    /// scene's, 60 at most]
-    #[arg(long, value_name = "S", value_parser = some_seconds)]
+    /// Simulated seconds of each run
+    ///
+    /// To the nearest tick, one at least. The default is the scene's, 60 at most.
+    #[arg(long, value_name = "s", value_parser = some_seconds)]
     #[arg(allow_negative_numbers = true)]
     seconds: Option<f64>,
 
-    /// How to write it: csv or json [default: by the ending of --out, else csv]
+    /// How to write it: csv or json
+    ///
+    /// By default as the ending of --out says, else csv.
     #[arg(long, value_name = "FORMAT", hide_possible_values = true)]
     format: Option<RowFormat>,
 
-    /// Threads that make the runs, 1 to 256 [default: one for each core]
+    /// Threads, 1 to 256 [default: one for each core]
     #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
 
-    /// The file to write the rows to, or - for standard output
+    /// The file of the rows, or - for standard output
     #[arg(long, value_name = "FILE", default_value = STDOUT)]
     out: PathBuf,
 
-    /// Draw work-precision diagrams of the rows, and the round-off of f32 and f64 on the chapter's ship,
-    /// as PNG into FILE, or - for standard output
+    /// Draw work-precision diagrams as PNG into FILE
+    ///
+    /// Of the rows, and the round-off of f32 and f64 on the chapter's ship; - is standard output.
     #[cfg(feature = "view")]
     #[arg(long, value_name = "FILE", conflicts_with = "vary")]
     plot: Option<PathBuf>,

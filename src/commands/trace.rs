@@ -7,6 +7,7 @@ use serde_json::Value;
 
 use super::error::Error;
 use super::experiment::{self, ExperimentArgs, Lineup};
+use super::help::flowing;
 use super::output::Output;
 use super::output::table::{RowFormat, RowWriter};
 use super::terminal::print_status;
@@ -18,6 +19,7 @@ use crate::sim::bodies::Truth;
 const EXAMPLES: &str = "\
 One row for each tick, lane, body and coordinate:
   tick,t,lane,method,body,coordinate,q,v
+
 Lane 0 is the truth: `exact`, or `reference`, whose aim is stated, for a body without a closed
 form and for a law with `exact` from its first input, edit or placing on. q is in metres or
 radians, v in the same unit per second, t in seconds. With --metrics a row for each metric follows,
@@ -29,17 +31,21 @@ keeps its own.
 Examples:
   regatta trace --scene ship --method explicit-euler --seconds 8.5
   regatta trace --scene spring --every 60 --metrics --format json
-  regatta trace --scene my.toml --method rk4 --method semi-implicit-euler > run.csv";
+  regatta trace --scene my.toml --method rk4 > run.csv";
 
-/// Write the truth and every lane's numbers, tick by tick, to standard output
+/// Write the truth and every lane's numbers, tick by tick
+///
+/// To standard output.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_long_help = flowing(EXAMPLES))]
 pub(super) struct TraceArgs {
     #[command(flatten)]
     experiment: ExperimentArgs,
 
-    /// Length of the run in simulated seconds, to the nearest tick [default: the scene's]
-    #[arg(long, value_name = "S", value_parser = experiment::seconds)]
+    /// Simulated seconds [default: the scene's]
+    ///
+    /// To the nearest tick.
+    #[arg(long, value_name = "s", value_parser = experiment::seconds)]
     #[arg(allow_negative_numbers = true)]
     seconds: Option<f64>,
 

@@ -9,6 +9,7 @@ use clap::{Args, ValueEnum};
 
 use super::error::Error;
 use super::frame_names::is_of_a_capture;
+use super::help::flowing;
 use super::numbers::number_that;
 
 mod clip;
@@ -38,9 +39,11 @@ Examples:
   regatta verify clip --bless
   regatta verify recording.toml";
 
-/// Run a capture or a recording again and report whether physics or pixels have changed
+/// Run a capture or a recording again and say what has changed
+///
+/// Physics or pixels.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_long_help = flowing(EXAMPLES))]
 pub(super) struct VerifyArgs {
     /// The directory that `regatta capture` filled, or a scene file with checks
     #[arg(value_name = "DIR|FILE.toml")]
@@ -50,24 +53,31 @@ pub(super) struct VerifyArgs {
     #[arg(long)]
     physics_only: bool,
 
-    /// Also write the result to FILE, as junit or json; repeat the option for both
+    /// Also write the result to FILE, as junit or json
+    ///
+    /// Give the option again for both.
     #[arg(long, num_args = 2, value_names = ["FORMAT", "FILE"])]
     report: Option<Vec<String>>,
 
-    /// For each frame that differs, write a picture of the difference into DIR
+    /// Draw the difference of each such frame into DIR
     #[arg(long, value_name = "DIR", conflicts_with = "physics_only")]
     diff: Option<PathBuf>,
 
-    /// The largest allowed difference of a channel, 0 to 255 [default: 0, or 2 on another driver]
+    /// The largest allowed difference of a channel, 0 to 255
+    ///
+    /// The default is 0, or 2 on another driver.
     #[arg(long, value_name = "N")]
     max_channel: Option<u8>,
 
-    /// The largest allowed percentage of pixels off by more than 1 [default: 0, or 0.01 on another driver]
-    #[arg(long, value_name = "P", value_parser = percent)]
+    /// The largest allowed percentage of pixels off by more than 1
+    ///
+    /// The default is 0, or 0.01 on another driver.
+    #[arg(long, value_name = "PERCENT", value_parser = percent)]
     max_pixels: Option<f64>,
 
-    /// Accept the present results: replace all frames, or all checks of a recording. The old frames stay
-    /// until all new ones are drawn
+    /// Accept the present results
+    ///
+    /// All frames are replaced, or all checks of a recording. The old frames stay until all new ones are drawn.
     #[arg(long, conflicts_with_all = ["physics_only", "report", "diff"])]
     bless: bool,
 }

@@ -9,9 +9,10 @@ fn every_chapter_of_the_manual_is_printed_as_it_stands() {
     for chapter in CHAPTERS {
         assert_eq!(stdout_of(&format!("help {}", chapter.id)), chapter.text);
     }
-    let list = stdout_of("help help");
+    // Lines break where the terminal ends.
+    let list = stdout_of("help help").split_whitespace().collect::<Vec<_>>().join(" ");
     for chapter in CHAPTERS {
-        assert!(list.contains(&format!("\n  {:10}  {}", chapter.id, chapter.about)), "{list}");
+        assert!(list.contains(&format!(" {} {}", chapter.id, chapter.about)), "{list}");
     }
 }
 

@@ -259,22 +259,59 @@ fn the_first_example_names_the_method_that_the_harbour_opens_with() {
 }
 
 #[test]
-fn every_help_fits_a_hundred_columns_and_breaks_lines_where_it_is_written_to() {
+fn short_help_is_options_on_a_screen_and_long_help_flows_and_has_whole_examples() {
     let cli = Cli::command();
     for command in [&cli].into_iter().chain(cli.get_subcommands()) {
         let name = command.get_name();
         let called: &[&str] = if name == cli.get_name() { &[] } else { &[name] };
-        for (help, columns) in [("-h", None), ("--help", None), ("--help", Some("200"))] {
-            let mut program = regatta();
-            program.args(called).arg(help);
-            columns.map(|columns| program.env("COLUMNS", columns));
-            let said = String::from_utf8(program.output().unwrap().stdout).unwrap();
-            let widest = said.lines().map(|line| line.chars().count()).max();
-            assert!(widest <= Some(100), "{name} {help}: {widest:?} columns");
-            assert!(said.contains("Examples:\n  regatta"), "{name} {help}: {said}");
-            let after = command.get_after_help().unwrap().to_string();
-            let broken = after.lines().find(|line| !said.lines().any(|shown| shown == *line));
-            assert_eq!(broken, None, "{name} {help}");
+        let [short, long] = [("-h", "80"), ("--help", "200")].map(|(help, columns)| {
+            let said = regatta().args(called).arg(help).env("COLUMNS", columns).output().unwrap();
+            String::from_utf8(said.stdout).unwrap()
+        });
+        for said in [&short, &long] {
+            let widest = said.lines().max_by_key(|line| line.chars().count()).unwrap();
+            assert!((20..=80).contains(&widest.chars().count()), "{name}: {widest}");
+        }
+        let lines = short.lines().count();
+        assert!((5..=40).contains(&lines), "{name} -h has {lines} lines:\n{short}");
+        assert!(!short.contains("Examples:"), "{name}");
+
+        assert!(long.contains("\n\nExamples:\n  regatta"), "{name}: {long}");
+        let after = command.get_after_long_help().unwrap().to_string();
+        for example in after.lines().filter(|line| line.starts_with("  regatta")) {
+            assert!(long.lines().any(|line| line == example), "{name} breaks {example}");
+        }
+        let lines: Vec<&str> = long.lines().collect();
+        for pair in lines.windows(2) {
+            let [indent, next] = [0, 1].map(|i| pair[i].len() - pair[i].trim_start().len());
+            let begins = pair[1].trim_start().starts_with(['[', '-']);
+            let is_in_a_paragraph = indent == next && [0, 6, 10].contains(&indent) && !begins;
+            if let (true, Some(word)) = (is_in_a_paragraph, pair[1].split_whitespace().next()) {
+                let joined = pair[0].chars().count() + 1 + word.chars().count();
+                assert!(
+                    joined > 80 || pair[0].trim().is_empty(),
+                    "{name} breaks after {:?}",
+                    pair[0]
+                );
+            }
         }
     }
+}
+
+#[test]
+fn units_that_stand_for_values_keep_their_case() {
+    const UNITS: [&str; 7] = ["Hz", "kg", "N/m", "N s/m", "1/s", "ms", "s"];
+    let cli = Cli::command();
+    let mut found = std::collections::BTreeSet::new();
+    for argument in
+        [&cli].into_iter().chain(cli.get_subcommands()).flat_map(|it| it.get_arguments())
+    {
+        for value in argument.get_value_names().unwrap_or_default() {
+            if let Some(unit) = UNITS.iter().find(|unit| unit.eq_ignore_ascii_case(value)) {
+                assert_eq!(value.as_str(), *unit, "{argument}");
+                found.insert(unit);
+            }
+        }
+    }
+    assert_eq!(found.len(), UNITS.len(), "{found:?}");
 }
