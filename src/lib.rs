@@ -106,6 +106,12 @@
 #![doc = include_str!("../examples/custom_body.rs")]
 //! ```
 //!
+//! Many starts of a body of one coordinate are a [`Cloud`](lab::cloud::Cloud), which knows what becomes of their area:
+//!
+//! ```
+#![doc = include_str!("../examples/cloud.rs")]
+//! ```
+//!
 //! A million copies of such a body are a [`Batch`](sim::batch::Batch):
 //!
 //! ```
@@ -137,6 +143,9 @@
 //! because the formulas would drown, but for one experiment on their width
 //! (`commands/sweep/round_off.rs`); and constraints, because a closed body with natural coordinates needs
 //! none.
+
+// docs.rs marks what needs a feature with its name.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 #[cfg(any(feature = "cli", feature = "window"))]
 #[cfg_attr(

@@ -3,7 +3,7 @@
 //! A method is a map of the phase plane. What it does to an area is its character: it keeps it, spreads it, shrinks it or
 //! tears it.
 
-use crate::sim::batch::{Batch, Ticks};
+use crate::sim::batch::{Batch, InstructionSet, OneCoordinate, Ticks};
 use crate::sim::integrators::Family;
 use crate::sim::number::significant;
 use crate::sim::{State, Stepper};
@@ -20,7 +20,7 @@ mod shape;
 
 pub use axes::{CloudAxes, ShownTicks};
 pub use border::CloudBorder;
-use course::{Course, Memory};
+use course::{Course, Memory, Subject, copies_of};
 pub use density::{Density, MAX_LINE_PART, PlaneView};
 use lozenges::Lozenges;
 pub(super) use request::MAX_CLOUDS;
@@ -51,7 +51,7 @@ pub enum NoCloud {
         coordinates: usize,
     },
     /// A custom body is not shared between threads.
-    #[error("{body} is a custom body, whose copies are stepped by sim::batch alone")]
+    #[error("{body} is a custom body, whose copies are stepped by sim::batch and Cloud::of alone")]
     Custom {
         /// Its name.
         body: String,
@@ -94,18 +94,28 @@ impl CloudStart {
             return Err(NoCloud::SeveralCoordinates { body: name.into(), coordinates });
         }
         let middle = [body.q()[0], body.v()[0]];
-        let near = 1e-3 * (1.0 + middle[0].abs());
         let force = |q: f64| {
             let mut a = [0.0];
             body.acceleration(0.0, &[q], &[middle[1]], &mut a);
             a[0]
         };
+        Ok(Self::around(middle, force, shape, size))
+    }
+
+    /// A cloud about a state with this force per unit mass at its velocity.
+    fn around(
+        middle: [f64; 2],
+        force: impl Fn(f64) -> f64,
+        shape: CloudShape,
+        size: Option<f64>,
+    ) -> Self {
+        let near = 1e-3 * (1.0 + middle[0].abs());
         let slope = (force(middle[0] + near) - force(middle[0] - near)) / (2.0 * near);
         let rate = if slope.abs() > 1e-12 { slope.abs().sqrt() } else { 1.0 };
         let swing = middle[0].abs().max(middle[1].abs() / rate);
         let usual = if swing > 0.0 { swing / 4.0 } else { 0.25 };
         let size = size.unwrap_or(usual);
-        Ok(Self { shape, t: 0.0, middle, reach: [size, size * rate] })
+        Self { shape, t: 0.0, middle, reach: [size, size * rate] }
     }
 
     fn state(&self, [x, y]: [f64; 2]) -> State<f64> {
@@ -187,8 +197,68 @@ impl Cloud {
         points: usize,
         tick_hz: u32,
     ) -> Result<Self, NoCloud> {
+        let copies = copies_of(body);
+        let subject = Subject::new(name, &copies);
+        Self::of_subject(subject, body.is_linear(), spec, start, points, tick_hz)
+    }
+
+    /// A cloud of `points` starts of a custom body about a start, a quarter of its swing wide.
+    ///
+    /// ```
+    /// use regatta::lab::cloud::{Cloud, CloudShape};
+    /// use regatta::prelude::*;
+    ///
+    /// #[derive(Clone)]
+    /// struct Buoy;
+    ///
+    /// impl System for Buoy {
+    ///     type Vector = f64;
+    ///     fn acceleration(&self, _t: f64, z: &f64, v: &f64, a: &mut f64) {
+    ///         *a = -9.81 * z.clamp(-1.0, 0.5) - 0.3 * v;
+    ///     }
+    /// }
+    ///
+    /// let rk4 = LaneSpec::plain(method("rk4").expect("a built-in method"));
+    /// let start = State { q: 0.8, v: 0.0 };
+    /// let mut cloud = Cloud::of(&Buoy, start, CloudShape::Cat, 1000, &rk4, 60)?;
+    /// cloud.advance(300);
+    /// // The drag takes e^(-0.3 · 5) of any area.
+    /// assert!((cloud.area_ratio().unwrap() - 0.223).abs() < 0.01);
+    /// # Ok::<(), regatta::lab::cloud::NoCloud>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`NoCloud::TooMany`] if memory does not suffice.
+    pub fn of<S: OneCoordinate>(
+        system: &S,
+        start: State<f64>,
+        shape: CloudShape,
+        points: usize,
+        spec: &LaneSpec,
+        tick_hz: u32,
+    ) -> Result<Self, NoCloud> {
+        let force = |q: f64| {
+            let mut a = 0.0;
+            system.acceleration(0.0, &q, &start.v, &mut a);
+            a
+        };
+        let around = CloudStart::around([start.q, start.v], force, shape, None);
+        let copies =
+            |solver, starts| Batch::of_body(system, InstructionSet::widest(), solver, starts);
+        let subject = Subject::new("body", &copies);
+        Self::of_subject(subject, false, spec, around, points, tick_hz)
+    }
+
+    fn of_subject(
+        subject: Subject<'_>,
+        is_linear: bool,
+        spec: &LaneSpec,
+        start: CloudStart,
+        points: usize,
+        tick_hz: u32,
+    ) -> Result<Self, NoCloud> {
         let is_adaptive = spec.method.family == Family::Adaptive;
-        let is_linear = body.is_linear() && !is_adaptive;
+        let is_linear = is_linear && !is_adaptive;
         let (samples, little) = match is_linear {
             true => (1, 1e-6),
             false => (samples(points), 2e-3),
@@ -199,9 +269,9 @@ impl Cloud {
         };
         let (solver, ticks) = (spec.solver(), start.ticks(tick_hz, spec.substeps));
         let shape = || start.shape.points(points).map(|point| start.state(point)).collect();
-        let course = Course::new((name, body), (solver, memory), ticks, points, shape)?;
+        let course = Course::new(subject, (solver, memory), ticks, points, shape)?;
         let area = if is_adaptive {
-            let border = CloudBorder::new((name, body), (solver, memory), ticks, start, points)?;
+            let border = CloudBorder::new(subject, (solver, memory), ticks, start, points)?;
             Area::Border(border)
         } else {
             let lozenges = Lozenges::new(samples, spec.method, is_linear, start.reach);
@@ -211,7 +281,7 @@ impl Cloud {
                 corners.map(|[q, v]| State { q, v }).collect()
             };
             let memory = if lozenges.is_renewed() { Memory::Dropped } else { memory };
-            let corners = Course::new((name, body), (solver, memory), ticks, points, corners)?;
+            let corners = Course::new(subject, (solver, memory), ticks, points, corners)?;
             Area::Lozenges(corners.around(lozenges))
         };
         let mut cloud = Self { course, area, start, little, spread: 0.0 };

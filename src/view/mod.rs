@@ -35,6 +35,9 @@ mod theme;
 mod touch;
 mod wheel;
 
+/// The crates of this module's signatures, in their versions.
+pub use {egui, wgpu};
+
 pub use chart::AxisScale;
 pub use chart::figure::{Axis, Chart, Figure, FigureCurve, Legend};
 pub use frame::{FrameOutput, FrameRenderer, Layout};

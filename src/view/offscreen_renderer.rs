@@ -1,6 +1,9 @@
 //! Frames without a window: the frame renderer on a texture. Captures, screenshots and tests use it.
 
-use super::{Figure, FrameRenderer, Gpu, GpuError, Offscreen, Panels, Readback, ReadbackError};
+use super::{
+    AdapterPreference, Figure, FrameRenderer, Gpu, GpuError, Offscreen, Panels, Readback,
+    ReadbackError,
+};
 use crate::lab::Studio;
 
 /// Draws a studio into memory.
@@ -21,6 +24,15 @@ impl OffscreenRenderer {
         let canvas = Offscreen::new(&gpu, size_px)?;
         let renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
         Ok(Self { gpu, renderer, canvas, readback: Readback::default(), scale })
+    }
+
+    /// As [`OffscreenRenderer::new`], on the best device that needs no display. It blocks until the device is found.
+    ///
+    /// # Errors
+    /// As [`Gpu::headless`] and [`OffscreenRenderer::new`].
+    pub fn headless(size_px: [u32; 2], scale: f32) -> Result<Self, GpuError> {
+        let gpu = pollster::block_on(Gpu::headless(AdapterPreference::Any))?;
+        Self::new(gpu, size_px, scale)
     }
 
     /// Shows or hides the panels, which are shown by default.

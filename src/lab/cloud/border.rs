@@ -1,6 +1,6 @@
 //! The border of a cloud: closed lines of points, and the area within.
 
-use super::course::{Course, Memory};
+use super::course::{Course, Memory, Subject, copies_of};
 use super::{CloudStart, NoCloud};
 use crate::sim::batch::Ticks;
 use crate::sim::integrators::{Override, method};
@@ -51,12 +51,13 @@ impl CloudBorder {
     ) -> Result<Self, NoCloud> {
         let method = method("dormand-prince-54").expect("a method of the table");
         let solver = (Solver::With(method, Override::tolerance(TOLERANCE)), Memory::Dropped);
-        Self::new((name, body), solver, start.ticks(tick_hz, 1), start, points)
+        let copies = copies_of(body);
+        Self::new(Subject::new(name, &copies), solver, start.ticks(tick_hz, 1), start, points)
     }
 
     /// The border of a cloud of so many points under a solver, at the start.
     pub(super) fn new(
-        body: (&str, &dyn Stepper),
+        subject: Subject<'_>,
         solver: (Solver, Memory),
         ticks: Ticks,
         start: CloudStart,
@@ -66,7 +67,7 @@ impl CloudBorder {
         let borders = start.shape.borders(points);
         let lengths = borders.iter().map(Vec::len).collect();
         let starts = || borders.concat().into_iter().map(|point| start.state(point)).collect();
-        let course = Course::new(body, solver, ticks, points, starts)?;
+        let course = Course::new(subject, solver, ticks, points, starts)?;
         let mut border = Self { course, lengths, start, areas_at_start: [1.0; 2] };
         border.areas_at_start = border.areas();
         Ok(border)

@@ -2,7 +2,7 @@
 
 use super::NoCloud;
 use super::lozenges::Lozenges;
-use crate::sim::batch::{Batch, InstructionSet, Ticks};
+use crate::sim::batch::{Batch, InstructionSet, NewBatch, Ticks};
 use crate::sim::{Solver, State, Stepper};
 
 /// Ticks between two states that are kept at first; they are repeated within a frame or two.
@@ -20,6 +20,31 @@ pub(super) enum Memory {
     Dropped,
     /// Something that is part of its bits: the way back leads over the start.
     Carried,
+}
+
+/// What a cloud is of.
+#[derive(Clone, Copy)]
+pub(super) struct Subject<'a> {
+    /// Its name, for people.
+    name: &'a str,
+    /// Copies from these starts; `None` if there can be none.
+    copies: &'a dyn Fn(Solver, Vec<State<f64>>) -> Option<NewBatch>,
+}
+
+impl<'a> Subject<'a> {
+    pub(super) fn new(
+        name: &'a str,
+        copies: &'a dyn Fn(Solver, Vec<State<f64>>) -> Option<NewBatch>,
+    ) -> Self {
+        Self { name, copies }
+    }
+}
+
+/// Copies of a body of a scene.
+pub(super) fn copies_of(
+    body: &dyn Stepper,
+) -> impl Fn(Solver, Vec<State<f64>>) -> Option<NewBatch> + '_ {
+    |solver, starts| body.batch(InstructionSet::widest(), solver, starts)
 }
 
 /// All copies at a tick.
@@ -45,10 +70,10 @@ pub(super) struct Course {
 }
 
 impl Course {
-    /// Copies of `body`, named `name`, from the starts, which are made only if there is memory for them. `ticks` are none, at
-    /// the start of the run.
+    /// Copies of the subject from the starts, which are made only if there is memory for them. `ticks` are none, at the start
+    /// of the run.
     pub(super) fn new(
-        (name, body): (&str, &dyn Stepper),
+        subject: Subject<'_>,
         (solver, memory): (Solver, Memory),
         ticks: Ticks,
         points: usize,
@@ -56,8 +81,8 @@ impl Course {
     ) -> Result<Self, NoCloud> {
         let too_many = |_| NoCloud::TooMany { points };
         Batch::find_room(points, [solver]).map_err(too_many)?;
-        let batch = body.batch(InstructionSet::widest(), solver, starts());
-        let batch = batch.ok_or_else(|| NoCloud::Custom { body: name.into() })?;
+        let batch = (subject.copies)(solver, starts());
+        let batch = batch.ok_or_else(|| NoCloud::Custom { body: subject.name.into() })?;
         let batch = batch.map_err(too_many)?;
         Ok(Self { batch, ticks, memory, kept: Vec::new(), spacing: SPACING, lozenges: None })
     }
