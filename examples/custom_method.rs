@@ -52,7 +52,7 @@ fn main() {
     let mut scene = Scene::built_in("spring").expect("a built-in scene");
     scene.lanes = vec![LaneSpec::plain(&RALSTON), LaneSpec::plain(method("midpoint").unwrap())];
     scene.opening_method = None;
-    let judge = Judge::new(&scene, 1.0);
+    let judge = Judge::new(&scene);
     for lane in &scene.lanes {
         println!("{}: {}", lane.method.name, judge.verdict(*lane, scene.tick_hz));
     }

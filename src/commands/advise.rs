@@ -130,7 +130,7 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     let wanted = specs.len();
     let interrupted = watch_for_interrupt();
     let advised = scene.clone();
-    let adviser = jobs::result(&interrupted, move || Adviser::new(&advised, 1.0, advised.tick_hz));
+    let adviser = jobs::result(&interrupted, move || Adviser::new(&advised, advised.tick_hz));
     let stopped =
         |judged: usize| Err(Error::interrupted_after(format!("{judged} of {wanted} methods")));
     let Some(adviser) = adviser.map(Arc::new) else { return stopped(0) };

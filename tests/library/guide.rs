@@ -154,7 +154,7 @@ fn the_area_of_a_cloud_of_pendulums_becomes_what_the_guide_says() {
 }
 
 fn verdict(scene: &str, id: &str, tick_hz: u32) -> Verdict {
-    let judge = Judge::new(&Scene::built_in(scene).unwrap(), 1.0);
+    let judge = Judge::new(&Scene::built_in(scene).unwrap());
     judge.verdict(LaneSpec::plain(method(id).unwrap()), tick_hz)
 }
 
@@ -323,7 +323,7 @@ fn a_spring_4_times_as_stiff_needs_2_times_the_tick_rate() {
         let index = body.kind.parameters.iter().position(|it| it.key == key).unwrap();
         body.values[index] *= stiffness;
         let spec = LaneSpec::plain(method("semi-implicit-euler").unwrap());
-        Judge::new(&scene, 1.0).verdict(spec, hz).long_term.is_bounded
+        Judge::new(&scene).verdict(spec, hz).long_term.is_bounded
     };
     assert_eq!([49, 50].map(|hz| is_bounded(1.0, hz)), [Some(false), Some(true)]);
     assert_eq!([99, 100].map(|hz| is_bounded(4.0, hz)), [Some(false), Some(true)]);

@@ -403,7 +403,7 @@ fn an_ellipse_that_turns_does_not_grow() {
         (&own, "rk4", 6),
     ] {
         let spec = LaneSpec::plain(regatta::sim::integrators::method(id).unwrap());
-        let found = Judge::new(scene, 1.0).verdict(spec, tick_hz);
+        let found = Judge::new(scene).verdict(spec, tick_hz);
         let wanted = !grows(scene, spec, tick_hz, &found);
         assert_eq!(found.long_term.is_bounded, Some(wanted), "{id} at {tick_hz} Hz: {found}");
     }
@@ -419,7 +419,7 @@ fn verdicts_on_random_scenes_are_true() {
         let scene = Scene::parse("random", &text).unwrap();
         let spec = LaneSpec::plain(dice.one_of(&GENERAL_METHODS.iter().collect::<Vec<_>>()));
         let tick_hz = dice.scaled(2.0, 500.0).round() as u32;
-        let verdict = Judge::new(&scene, 1.0).verdict(spec, tick_hz);
+        let verdict = Judge::new(&scene).verdict(spec, tick_hz);
         let what = format!("{} at {tick_hz} Hz on\n{text}  says: {verdict}", spec.method.id);
         match verdict.outcome() {
             Outcome::NotJudged => unknown.push(what),
@@ -446,7 +446,7 @@ fn advised_substeps_and_rates_meet_their_criterion_and_one_fewer_does_not() {
         let scene = Scene::parse("random", &text).unwrap();
         let amplitudes = amplitudes(&scene);
         let tick_hz = dice.one_of(&[20, 30, 60, 120]);
-        let adviser = Adviser::new(&scene, 1.0, tick_hz);
+        let adviser = Adviser::new(&scene, tick_hz);
         for _ in 0..3 {
             let spec = LaneSpec::plain(dice.one_of(&GENERAL_METHODS.iter().collect::<Vec<_>>()));
             let meets = adviser.meets(spec, CRITERIA[accurate]);

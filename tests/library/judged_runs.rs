@@ -26,7 +26,7 @@ fn starts_at_s(studio: &mut Studio) -> f64 {
 
 /// The judge's verdict on each method of the scene's list.
 fn verdicts_on(scene: &Scene) -> Vec<String> {
-    let judge = Judge::new(scene, 1.0);
+    let judge = Judge::new(scene);
     let specs = scene.method_list();
     specs.iter().map(|spec| judge.verdict(*spec, scene.tick_hz).to_string()).collect()
 }

@@ -20,7 +20,7 @@ fn spec(id: &str) -> LaneSpec {
 }
 
 fn verdict(scene: &Scene, id: &str, tick_hz: u32) -> Verdict {
-    Judge::new(scene, 1.0).verdict(spec(id), tick_hz)
+    Judge::new(scene).verdict(spec(id), tick_hz)
 }
 
 fn body(scene: &Scene, solver: Solver) -> Box<dyn Stepper> {
@@ -209,7 +209,7 @@ fn nothing_is_held_against_its_truth_beyond_the_end_of_its_scene() {
         let found = verdict(&scene, id, 1);
         assert_eq!(found.finding, Finding::NotJudged(NotJudged::ShorterThanATick));
         assert_eq!(found.long_term.is_bounded, None);
-        let adviser = Adviser::new(&scene, 1.0, 1);
+        let adviser = Adviser::new(&scene, 1);
         assert!(
             CRITERIA.iter().all(|&of| adviser.meets(spec(id), of) == CriterionResult::Unknown),
             "{id}"
@@ -221,7 +221,7 @@ fn nothing_is_held_against_its_truth_beyond_the_end_of_its_scene() {
 #[test]
 fn what_looks_right_is_as_wide_and_as_fast_as_the_truth() {
     let slowest = |scene: &Scene, id: &str| {
-        Adviser::new(scene, 1.0, 60).slowest(spec(id), CRITERIA[LOOKS_RIGHT]).unwrap()
+        Adviser::new(scene, 60).slowest(spec(id), CRITERIA[LOOKS_RIGHT]).unwrap()
     };
     // By its frequency: 2 asin(z/2) / z is 1.01 at z = 0.4833.
     assert_eq!(slowest(&six_radians(), "semi-implicit-euler"), 13);
@@ -250,7 +250,7 @@ fn what_does_not_swing_looks_right_within_a_twentieth_of_its_range() {
             // From 0 to 48.8 m, and from 90 to 2 m/s.
             off(|body| body.q()[0], 48.8).max(off(|body| body.v()[0], 88.0))
         };
-        let adviser = Adviser::new(&scene, 1.0, 60);
+        let adviser = Adviser::new(&scene, 60);
         let hz = adviser.slowest(spec(id), CRITERIA[LOOKS_RIGHT]).unwrap();
         assert!(hz > 1 && error(hz) <= 0.05 && error(hz - 1) > 0.05, "{id}: {hz} Hz");
     }
@@ -268,7 +268,7 @@ fn advice_is_of_the_fewest_substeps_the_slowest_rate_and_the_stiffest_spring() {
         (4, 4, 4, Some(1.6)),
         (3, 5, 3, Some(1.4)),
     ] {
-        let adviser = Adviser::new(&six_radians(), 1.0, tick_hz);
+        let adviser = Adviser::new(&six_radians(), tick_hz);
         assert_eq!(adviser.tick_hz(), tick_hz);
         let met = adviser
             .meets(spec("semi-implicit-euler"), CRITERIA[LOOKS_RIGHT])
@@ -324,7 +324,7 @@ fn a_frequency_error_is_that_of_a_step_however_often_the_body_turns_in_a_tick() 
     // 100 rad/s: a turn and a half in a tick, a fortieth of one in a step.
     let scene = scene(20.0, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 10000");
     let spec = LaneSpec { substeps: 64, ..spec("velocity-verlet") };
-    let found = Judge::new(&scene, 1.0).verdict(spec, 10);
+    let found = Judge::new(&scene).verdict(spec, 10);
     let z: f64 = 100.0 / 640.0;
     let wanted = 2.0 * libm::asin(z / 2.0) / z - 1.0;
     let error = found.comparison().unwrap().frequency_error.unwrap();
@@ -335,7 +335,7 @@ fn a_frequency_error_is_that_of_a_step_however_often_the_body_turns_in_a_tick() 
 fn advice_counts_the_evaluations_of_all_bodies_in_a_second() {
     let both = "[[ship]]\nthrust_n = 2000\ndrag_n_s_per_m = 100\nmass_kg = 1000\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 39.47841760435743";
-    let adviser = Adviser::new(&scene(20.0, both), 1.0, 60);
+    let adviser = Adviser::new(&scene(20.0, both), 60);
     for criterion in CRITERIA {
         let met = adviser.meets(spec("rk4"), criterion).met().unwrap().clone();
         // Four a step, of two bodies.
@@ -361,12 +361,12 @@ fn the_body_that_fares_worst_speaks_and_all_are_counted() {
         (&[free, ship], "velocity-verlet", 0, true),
     ] {
         let scene = of(bodies);
-        let judge = Judge::new(&scene, 1.0);
+        let judge = Judge::new(&scene);
         let found = judge.verdict(spec(id), 60);
         assert_eq!(found.body_name, scene.bodies[index].name, "{found}");
         assert_eq!((found.body, found.long_term.is_bounded), (index, Some(is_bounded)), "{found}");
         let alone: Vec<Verdict> =
-            bodies.iter().map(|body| Judge::new(&of(&[body]), 1.0).verdict(spec(id), 60)).collect();
+            bodies.iter().map(|body| Judge::new(&of(&[body])).verdict(spec(id), 60)).collect();
         assert_eq!(found.evaluations, alone.iter().map(|v| v.evaluations).sum::<u64>());
         assert_eq!(found.finding, alone[index].finding);
         assert!(found.to_string().contains(&found.body_name));
@@ -377,11 +377,11 @@ fn the_body_that_fares_worst_speaks_and_all_are_counted() {
 #[test]
 fn a_scene_is_judged_under_its_throttle_and_over_a_minute_of_it() {
     let long = scene(600.0, "[[ship]]\nthrust_n = 2000\ndrag_n_s_per_m = 100\nmass_kg = 1000");
-    let judge = Judge::new(&long, 0.3);
+    let judge = Judge::at_throttle(&long, 0.3);
     assert_eq!((judge.throttle(), judge.horizon_s()), (0.3, MAX_HORIZON_S));
     assert_eq!(judge.verdict(spec("rk4"), 10).seconds, MAX_HORIZON_S);
-    assert_eq!(Judge::new(&spring(), -1.0).horizon_s(), 20.0);
-    assert_eq!(Judge::over(&spring(), 1.0, 7.5).verdict(spec("rk4"), 10).horizon_s, 7.5);
+    assert_eq!(Judge::at_throttle(&spring(), -1.0).horizon_s(), 20.0);
+    assert_eq!(Judge::over(&spring(), 7.5).verdict(spec("rk4"), 10).horizon_s, 7.5);
 }
 
 /// The extremes of the first coordinate of a plain run, one for each half turn, interpolated between ticks.
@@ -409,21 +409,20 @@ fn a_damped_swing_looks_right_wherever_its_extremes_fall() {
         let [lane, truth] =
             [extremes(&scene, spec.solver(), 60), extremes(&scene, Solver::Truth, 6000)];
         assert!(lane.iter().zip(&truth).all(|(a, b)| (a - b).abs() < 0.05), "{stiffness}");
-        let meets = Adviser::new(&scene, 1.0, 60).meets(spec, CRITERIA[LOOKS_RIGHT]);
+        let meets = Adviser::new(&scene, 60).meets(spec, CRITERIA[LOOKS_RIGHT]);
         let met = meets.met().unwrap().clone();
         assert_eq!(met.substeps, 1, "{stiffness}: {met:?}");
         // What is told of stiffer springs is what is told of each of them.
         let factor = met.stiffness_factor.unwrap();
         for part in [0.25, 0.5, 0.75, 1.0] {
             let stiffer = damped(stiffness * (1.0 + part * (factor - 1.0)));
-            let meets = Adviser::new(&stiffer, 1.0, 60).meets(spec, CRITERIA[LOOKS_RIGHT]);
+            let meets = Adviser::new(&stiffer, 60).meets(spec, CRITERIA[LOOKS_RIGHT]);
             assert_eq!(meets.met().map(|met| met.substeps), Some(1), "{stiffness}: {factor}");
         }
     }
     // What comes to rest too soon, or too late, does not look right.
     for (id, looks_right) in [("implicit-euler", false), ("rk4", true)] {
-        let meets =
-            Adviser::new(&damped(150.0), 1.0, 60).meets(self::spec(id), CRITERIA[LOOKS_RIGHT]);
+        let meets = Adviser::new(&damped(150.0), 60).meets(self::spec(id), CRITERIA[LOOKS_RIGHT]);
         assert_eq!(meets.met().is_some_and(|met| met.substeps == 1), looks_right, "{id}");
     }
 }
@@ -432,7 +431,7 @@ fn a_damped_swing_looks_right_wherever_its_extremes_fall() {
 fn a_chain_of_many_modes_looks_right_by_the_amplitude_of_its_modes() {
     for stiffness in [400, 480] {
         let chain = format!("[[chain]]\nmasses = 64\nmass_kg = 1\nstiffness_n_per_m = {stiffness}");
-        let adviser = Adviser::new(&scene(5.0, &chain), 1.0, 60);
+        let adviser = Adviser::new(&scene(5.0, &chain), 60);
         let least = (1..=4).find(|&substeps| {
             let spec = LaneSpec { substeps, ..spec("velocity-verlet") };
             adviser.slowest(spec, CRITERIA[LOOKS_RIGHT]).is_some_and(|hz| hz <= 60)
@@ -451,13 +450,13 @@ fn no_factor_up_to_the_one_that_is_told_fails() {
         scene(10.0, &text)
     };
     for (id, tick_hz) in [("semi-implicit-euler", 12), ("velocity-verlet", 9)] {
-        let adviser = Adviser::new(&scaled(1.0), 1.0, tick_hz);
+        let adviser = Adviser::new(&scaled(1.0), tick_hz);
         let meets = adviser.meets(spec(id), CRITERIA[0]);
         let met = meets.met().unwrap();
         let factor = met.stiffness_factor.unwrap();
         for tenth in (11..).map(f64::from).take_while(|tenth| tenth / 10.0 <= factor.min(2.0)) {
             let lane = LaneSpec { substeps: met.substeps, ..spec(id) };
-            let found = Judge::new(&scaled(tenth / 10.0), 1.0).verdict(lane, tick_hz);
+            let found = Judge::new(&scaled(tenth / 10.0)).verdict(lane, tick_hz);
             assert_eq!(found.long_term.is_bounded, Some(true), "{id}: {tenth} tenths of {factor}");
         }
     }
@@ -476,7 +475,7 @@ fn an_adaptive_method_on_an_oscillator_is_judged_by_how_it_goes_on() {
         ("dormand-prince-54", 1),
     ] {
         let spec = LaneSpec { substeps, ..spec(id) };
-        let found = Judge::new(&scene, 1.0).verdict(spec, 135);
+        let found = Judge::new(&scene).verdict(spec, 135);
         // The mean energy of the first and of the last 50 s of a long run.
         let mut lane = body(&scene, spec.solver());
         let (ticks, window, mut sums) = (135 * 1000, 135 * 50, [0.0; 2]);

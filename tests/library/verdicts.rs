@@ -15,7 +15,7 @@ fn spec(id: &str) -> LaneSpec {
 }
 
 fn verdict(scene: &Scene, id: &str, tick_hz: u32) -> Verdict {
-    Judge::over(scene, 1.0, scene.seconds).verdict(spec(id), tick_hz)
+    Judge::over(scene, scene.seconds).verdict(spec(id), tick_hz)
 }
 
 fn built_in(name: &str) -> Scene {
@@ -32,7 +32,7 @@ fn a_truth_that_fails_is_no_agreement() {
         "[[pendulum]]\nlength_m = 1\ndamping_n_m_s = 1e5",
     ] {
         let scene = scene(2.0, body);
-        let judge = Judge::new(&scene, 1.0);
+        let judge = Judge::new(&scene);
         for method in GENERAL_METHODS {
             let found = judge.verdict(LaneSpec::plain(method), 60);
             let mut lane =
@@ -132,7 +132,7 @@ fn an_orbit_is_bounded_only_where_it_stays() {
 
 #[test]
 fn adams_bashforth_is_bounded_from_the_rate_at_which_it_takes_a_year_to_double() {
-    let adviser = Adviser::new(&built_in("spring"), 1.0, 60);
+    let adviser = Adviser::new(&built_in("spring"), 60);
     let slowest = adviser.slowest(spec("adams-bashforth-2"), CRITERIA[BOUNDED]).unwrap();
     // |λ| = 1 + z⁴/4 a tick, and ln 2 in a year.
     let growth = |hz: f64| (std::f64::consts::TAU / hz).powi(4) / 4.0 * hz * 365.0 * 86_400.0;
@@ -210,7 +210,7 @@ fn the_recommended_lanes_meet_their_criterion_in_a_race() {
     use regatta::lab::analysis::{TOLERANCE, recommended};
     for name in ["spring", "stiff", "ship", "harbour", "orbit"] {
         let scene = built_in(name);
-        let adviser = Adviser::new(&scene, 1.0, scene.tick_hz);
+        let adviser = Adviser::new(&scene, scene.tick_hz);
         let accurate = 2;
         let advised: Vec<_> = ["rk4", "velocity-verlet", "pefrl", "position-verlet"]
             .map(|id| regatta::lab::analysis::MethodAdvice {
@@ -253,7 +253,7 @@ fn a_scene_is_judged_with_the_inputs_of_its_script() {
     let helm = built_in("helm");
     let found = verdict(&helm, "explicit-euler", helm.tick_hz);
     assert!(found.error().unwrap() > 0.03, "{found}");
-    let adviser = Adviser::new(&helm, 1.0, helm.tick_hz);
+    let adviser = Adviser::new(&helm, helm.tick_hz);
     let met = adviser.meets(spec("explicit-euler"), CRITERIA[BOUNDED]);
     let factor = met.met().unwrap().stiffness_factor.expect("it is known");
     assert!((1.0..10.0).contains(&factor), "{factor} times the side drag");
@@ -292,12 +292,12 @@ fn what_is_accurate_looks_right_and_what_rushes_does_not() {
             "dormand-prince-54",
         ),
     ] {
-        let adviser = Adviser::new(&scene(5.0, body), 1.0, hz);
+        let adviser = Adviser::new(&scene(5.0, body), hz);
         assert!(adviser.verdict(spec(id)).outcome() <= Outcome::Accurate, "{body}");
         let meets = adviser.meets(spec(id), CRITERIA[looks_right]);
         assert_eq!(meets.met().map(|met| met.substeps), Some(1), "{body}: {meets:?}");
     }
-    let surge = Adviser::new(&built_in("surge"), 1.0, 1);
+    let surge = Adviser::new(&built_in("surge"), 1);
     let meets = surge.meets(spec("position-verlet"), CRITERIA[looks_right]);
     assert!(meets.met().is_none_or(|met| met.substeps > 1), "{meets:?}");
 }

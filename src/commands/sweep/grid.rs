@@ -42,7 +42,7 @@ struct Subject {
 
 impl Subject {
     fn judge(&self) -> &Judge {
-        self.judge.get_or_init(|| Judge::over(&self.alone, 1.0, self.horizon_s))
+        self.judge.get_or_init(|| Judge::over(&self.alone, self.horizon_s))
     }
 }
 

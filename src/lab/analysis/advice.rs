@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::criterion::{CRITERIA, Criterion};
 pub use super::criterion_met::CriterionMet;
-use super::judge::{CriterionFinding, Judge, horizon_s};
+use super::judge::{CriterionFinding, FULL_THROTTLE, Judge, horizon_s};
 use super::run::MAX_WORK;
 use super::searches::{FACTORS, RatesDown, tried_substeps};
 use super::slices::{Meter, Once, at_once};
@@ -79,9 +79,9 @@ pub struct Adviser {
 }
 
 impl Adviser {
-    /// An adviser for `scene` under this throttle at this rate.
-    pub fn new(scene: &Scene, throttle: f64, tick_hz: u32) -> Self {
-        at_once(Self::find(scene.clone(), throttle, tick_hz, Arc::default()))
+    /// An adviser for `scene` under full throttle at this rate.
+    pub fn new(scene: &Scene, tick_hz: u32) -> Self {
+        at_once(Self::find(scene.clone(), FULL_THROTTLE, tick_hz, Arc::default()))
     }
 
     /// As [`Self::new`], with its work counted by `meter`.

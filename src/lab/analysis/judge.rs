@@ -35,6 +35,9 @@ pub struct Judge {
     meter: Arc<Meter>,
 }
 
+/// What a scene is judged under, unless another throttle is asked for.
+pub(super) const FULL_THROTTLE: f64 = 1.0;
+
 /// The horizon of a scene in simulated seconds.
 pub(super) fn horizon_s(scene: &Scene) -> f64 {
     scene.seconds.min(MAX_HORIZON_S)
@@ -46,15 +49,24 @@ fn inputs_of(scene: &Scene, body: usize) -> Vec<Scripted> {
 }
 
 impl Judge {
-    /// A judge of `scene` under this throttle, -1 to 1, over its length but at most [`MAX_HORIZON_S`].
-    pub fn new(scene: &Scene, throttle: f64) -> Self {
-        Self::over(scene, throttle, horizon_s(scene))
+    /// A judge of `scene` under full throttle, over its length but at most [`MAX_HORIZON_S`].
+    pub fn new(scene: &Scene) -> Self {
+        Self::over(scene, horizon_s(scene))
     }
 
-    /// A judge of `scene` under this throttle over `horizon_s` simulated seconds, which is positive and may exceed the
-    /// scene's length.
-    pub fn over(scene: &Scene, throttle: f64, horizon_s: f64) -> Self {
-        at_once(Self::find(scene, throttle, horizon_s, Arc::default()))
+    /// As [`Judge::new`], over `horizon_s` simulated seconds, which is positive and may exceed the scene's length.
+    pub fn over(scene: &Scene, horizon_s: f64) -> Self {
+        at_once(Self::find(scene, FULL_THROTTLE, horizon_s, Arc::default()))
+    }
+
+    /// As [`Judge::new`], under a throttle for the bodies that have one.
+    ///
+    /// # Panics
+    /// If the throttle is not in -1 to 1.
+    #[track_caller]
+    pub fn at_throttle(scene: &Scene, throttle: f64) -> Self {
+        assert!((-1.0..=1.0).contains(&throttle), "the throttle is {throttle}; give -1 to 1");
+        at_once(Self::find(scene, throttle, horizon_s(scene), Arc::default()))
     }
 
     /// As [`Self::over`], with its work counted by `meter`.

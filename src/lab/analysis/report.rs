@@ -129,7 +129,7 @@ where
 impl Report {
     /// The advice on the methods of a scene's lanes at its tick rate, under full throttle.
     pub fn of_scene(scene: &Scene) -> Self {
-        let adviser = Adviser::new(scene, 1.0, scene.tick_hz);
+        let adviser = Adviser::new(scene, scene.tick_hz);
         let mut judged: Vec<MethodAdvice> =
             scene.lanes.iter().map(|&spec| adviser.judged(spec)).collect();
         for (row, i) in adviser.worth_margins(&judged) {

@@ -48,8 +48,8 @@ fn a_copy_of_a_built_in_method_has_its_bits_on_every_kind_of_vector() {
 #[test]
 fn a_copy_is_judged_and_advised_as_its_original() {
     let scene = with_copies("spring");
-    let judge = Judge::new(&scene, 1.0);
-    let adviser = Adviser::new(&scene, 1.0, 60);
+    let judge = Judge::new(&scene);
+    let adviser = Adviser::new(&scene, 60);
     for pair in scene.lanes.chunks(2) {
         let [a, b] = [pair[0], pair[1]].map(|lane| judge.verdict(lane, 60).to_string());
         assert_eq!(a, b, "{}", pair[1].method.id);

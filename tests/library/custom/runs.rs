@@ -24,7 +24,7 @@ fn scene() -> Scene {
 fn a_report_says_what_the_adviser_finds() {
     let scene = scene();
     let report = Report::of_scene(&scene);
-    let adviser = Adviser::new(&scene, 1.0, 30);
+    let adviser = Adviser::new(&scene, 30);
     assert_eq!((report.tick_hz, report.horizon_s, report.methods.len()), (30, 20.0, 3));
     for (lane, row) in scene.lanes.iter().zip(&report.methods) {
         assert_eq!(row.method, lane.method.id);

@@ -87,7 +87,7 @@ fn verdicts_on_the_built_in_bodies_as_laws_are_equal_to_the_last_printed_digit()
         let mut scene = parse(TWINS[0].0).unwrap();
         let name = "twin".to_owned();
         scene.bodies = vec![SceneBody { name, ..body.clone() }];
-        let judge = Judge::new(&scene, 1.0);
+        let judge = Judge::new(&scene);
         let methods = METHODS.iter().filter(|method| !method.is_engine());
         let verdicts = methods.map(|method| judge.verdict(LaneSpec::plain(method), 60));
         verdicts.map(|verdict| verdict.to_string()).collect()

@@ -221,7 +221,7 @@ fn a_jump_lowers_the_measured_order_and_the_verdict_claims_no_more() {
     let scene = parse("[[law]]\n[law.coordinates.x]\nstart = 0.7\nacceleration = '-x - 2*sign(x)'")
         .unwrap();
     let rk4 = METHODS.iter().find(|method| method.id == "rk4").unwrap();
-    let verdict = Judge::new(&scene, 1.0).verdict(LaneSpec::plain(rk4), 25);
+    let verdict = Judge::new(&scene).verdict(LaneSpec::plain(rk4), 25);
     assert!(verdict.error().unwrap() > 1e-4, "{verdict}");
 }
 
@@ -231,7 +231,7 @@ fn under_dry_friction_at_rest_there_is_no_truth_and_the_verdict_says_so() {
         parse("[[law]]\n[law.coordinates.x]\nstart = 1\nacceleration = '-x - 0.3*sign(vx)'")
             .unwrap();
     let rk4 = METHODS.iter().find(|method| method.id == "rk4").unwrap();
-    let verdict = Judge::new(&scene, 1.0).verdict(LaneSpec::plain(rk4), 60);
+    let verdict = Judge::new(&scene).verdict(LaneSpec::plain(rk4), 60);
     let said = verdict.to_string();
     assert!(said.starts_with("no truth: the true motion is not known: it sticks where"), "{said}");
     assert!(said.contains("dry friction") && said.contains("tanh(v/0.01)"), "{said}");

@@ -16,7 +16,7 @@ fn scene(stiffness: f64, more: &str) -> Scene {
 }
 
 fn verdict(scene: &Scene, id: &str) -> Verdict {
-    Judge::new(scene, 1.0).verdict(LaneSpec::plain(method(id).unwrap()), 60)
+    Judge::new(scene).verdict(LaneSpec::plain(method(id).unwrap()), 60)
 }
 
 #[test]
@@ -56,7 +56,7 @@ fn velocity_verlet_on_a_damped_net_has_no_radius_of_a_net_that_stays() {
     };
     let velocity_verlet = LaneSpec::plain(method("velocity-verlet").unwrap());
     let radius = |tick_hz: u32| {
-        let verdict = Judge::new(&scene(tick_hz), 1.0).verdict(velocity_verlet, tick_hz);
+        let verdict = Judge::new(&scene(tick_hz)).verdict(velocity_verlet, tick_hz);
         let found = verdict.by_energy().expect("no truth tells").spectral_radius;
         (verdict.outcome(), found.expect("it is explicit"))
     };
@@ -119,7 +119,7 @@ fn the_race_goes_on_without_a_truth() {
 #[test]
 fn advice_without_a_truth_is_on_stability_only() {
     let scene = scene(1000.0, "");
-    let adviser = Adviser::new(&scene, 1.0, 60);
+    let adviser = Adviser::new(&scene, 60);
     let plain = |id: &str| LaneSpec::plain(method(id).unwrap());
     for id in ["semi-implicit-euler", "implicit-euler"] {
         for criterion in [Criterion::Accurate, Criterion::LooksRight] {

@@ -246,7 +246,7 @@ fn the_helm_turns_to_its_script_and_the_methods_part_there_as_its_scene_says() {
 
 /// The half-life in milliseconds under a method at a rate, by the verdict.
 fn half_life_ms(scene: &Scene, id: &str, tick_hz: u32) -> f64 {
-    let verdict = Judge::new(scene, 1.0).verdict(LaneSpec::plain(method(id).unwrap()), tick_hz);
+    let verdict = Judge::new(scene).verdict(LaneSpec::plain(method(id).unwrap()), tick_hz);
     1e3 * verdict.chase.expect("a target that stays").half_life_s.expect("it comes half-way")
 }
 

@@ -29,7 +29,7 @@ fn margins_are_told_as_far_as_they_are_known() {
 
 #[test]
 fn evaluations_decide_between_similar_costs_and_listings_as_printed_are_left_out() {
-    let judge = Judge::new(&Scene::built_in("spring").unwrap(), 1.0);
+    let judge = Judge::new(&Scene::built_in("spring").unwrap());
     let advised = |id: &str, evaluations_per_s: f64| {
         let spec = LaneSpec::plain(method(id).unwrap());
         let met = CriterionMet { evaluations_per_s, ..met(Some(60), Some(1.0)) };
@@ -62,7 +62,7 @@ fn a_scene_is_made_no_stiffer_than_a_scene_may_be() {
     let spring = |stiffness: f64| Scene::parse("t", &text(stiffness));
     let most = (0..40).map(|i| libm::exp10(f64::from(i))).rfind(|&most| spring(most).is_ok());
     let most = most.unwrap();
-    let adviser = Adviser::new(&spring(most / 2.0).unwrap(), 1.0, 60);
+    let adviser = Adviser::new(&spring(most / 2.0).unwrap(), 60);
     assert!(adviser.stiffen(1.9).is_some());
     assert!(adviser.stiffen(2.1).is_none());
 }
@@ -110,7 +110,7 @@ fn the_work_of_advice_on_each_built_in_scene_is_what_it_was() {
             continue;
         }
         let scene = Scene::built_in(name).unwrap();
-        let adviser = Adviser::new(&scene, 1.0, scene.tick_hz);
+        let adviser = Adviser::new(&scene, scene.tick_hz);
         let specs = scene.non_engine_methods().map(LaneSpec::plain);
         let mut advised: Vec<_> = specs.map(|spec| adviser.judged(spec)).collect();
         for (row, criterion) in adviser.worth_margins(&advised) {

@@ -277,7 +277,7 @@ mod tests {
     use crate::sim::integrators::{StepFailure, method};
 
     fn verdict(scene: &str, id: &str, tick_hz: u32) -> Verdict {
-        let judge = Judge::new(&Scene::built_in(scene).unwrap(), 1.0);
+        let judge = Judge::new(&Scene::built_in(scene).unwrap());
         judge.verdict(LaneSpec::plain(method(id).unwrap()), tick_hz)
     }
 

@@ -185,7 +185,7 @@ fn no_step_does_twice_its_work_and_a_new_request_drops_the_part_in_progress() {
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 100\n";
     let spec = LaneSpec { substeps: 16, ..LaneSpec::plain(method("rk4").unwrap()) };
     let scene = Arc::new(Scene::parse("t", text).unwrap());
-    let whole = |tick_hz: u32| Judge::new(&scene, 1.0).verdict(spec, tick_hz);
+    let whole = |tick_hz: u32| Judge::new(&scene).verdict(spec, tick_hz);
     let fine = AnalysisRequest { scene: scene.clone(), entries: vec![spec], ..request("spring") };
     let advised = AnalysisRequest { advice: Some(AdvisedBodies::All), ..fine.clone() };
     let mut worker = AnalysisWorker::new(advised);
