@@ -56,6 +56,6 @@ fn the_pages_and_completions_of_a_package_are_those_of_the_command_line() {
 fn the_icon_is_square_and_the_version_that_of_the_package() {
     let icon = image::open(folder().join("regatta.png")).unwrap();
     assert_eq!((icon.width(), icon.height()), (256, 256));
-    let about = fs::read_to_string(folder().join("regatta.metainfo.xml")).unwrap();
+    let about = fs::read_to_string(folder().join("org.example.regatta.metainfo.xml")).unwrap();
     assert!(about.contains(&format!("version=\"{}\"", env!("CARGO_PKG_VERSION"))));
 }
