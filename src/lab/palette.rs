@@ -50,17 +50,18 @@ impl Theme {
     /// The colour of a method, and its dash pattern as the second cue: drawn length and gap in points, a
     /// gap of 0 being solid.
     pub fn style(self, method: &Method) -> (Rgba, [f32; 2]) {
-        self.drawn(method, indices(method))
+        self.drawn(indices(method))
     }
 
     /// The colour and the dash pattern of a lane among `lanes`: its method's. Of several lanes of one method the first has
-    /// them, and each of the others another colour and another dash.
+    /// them, and each of the others another colour and another dash. Of the first nine no two share their dash and a colour
+    /// that some people cannot tell apart.
     pub fn lane_style(self, lanes: &[LaneSpec], lane: &LaneSpec) -> (Rgba, [f32; 2]) {
-        self.drawn(lane.method, lane_places(lanes, lane))
+        self.drawn(lane_places(lanes, lane))
     }
 
-    fn drawn(self, method: &Method, (colour, dash): (usize, usize)) -> (Rgba, [f32; 2]) {
-        (self.palette().methods[colour], dashes(method)[dash])
+    fn drawn(self, (colour, dash): (usize, usize)) -> (Rgba, [f32; 2]) {
+        (self.palette().methods[colour], DASHES[dash])
     }
 
     /// The colour and the dash pattern of the game loop with this index in [`POLICIES`](super::pacing::POLICIES): seven
@@ -192,8 +193,14 @@ const DASHES: [[f32; 2]; 6] =
 /// The patterns that are given first; the others are more alike.
 const FIRST_DASHES: usize = 5;
 
-/// The dashes of engines, which race among themselves.
-const ENGINE_DASHES: [[f32; 2]; 3] = [[1.0, 0.0], [12.0, 2.5], [4.0, 2.5]];
+/// The indices of the dashes of engines, which race among themselves.
+const ENGINE_DASHES: [usize; 3] = [4, 1, 2];
+
+/// The hues that a deuteranope sees the colours in, yellow, blue and grey, by the indices of the colours.
+const HUES: [usize; 7] = [0, 1, 2, 0, 2, 0, 1];
+
+/// The first lanes of a list, which have keys: of these no two share hue and dash.
+const TOLD_APART: usize = 9;
 
 /// The indices of the colours of game loops. No two warm ones are beside each other.
 const LOOPS: [usize; 7] = [2, 5, 4, 6, 0, 1, 3];
@@ -216,10 +223,6 @@ fn are_alike(a: usize, b: usize) -> bool {
     a == b || WARM.contains(&a) && WARM.contains(&b)
 }
 
-fn dashes(method: &Method) -> &'static [[f32; 2]] {
-    if method.is_engine() { &ENGINE_DASHES } else { &DASHES }
-}
-
 /// The indices of the colour and the dash of a method.
 fn indices(method: &Method) -> (usize, usize) {
     let listed = METHODS.iter().position(|listed| listed == method);
@@ -231,22 +234,26 @@ fn indices(method: &Method) -> (usize, usize) {
 fn lane_places(lanes: &[LaneSpec], lane: &LaneSpec) -> (usize, usize) {
     let is_first = |end: usize| lanes[..end].iter().all(|other| other.method != lanes[end].method);
     let end = match lanes.iter().position(|other| other == lane) {
-        Some(end) if !is_first(end) => end,
+        Some(end) if end < TOLD_APART || !is_first(end) => end,
         _ => return indices(lane.method),
     };
+    let (colours, dashes) = (DARK.methods.len(), DASHES.len());
     let mut taken: Vec<(usize, usize)> = Vec::new();
     for (i, next) in lanes[..=end].iter().enumerate() {
         let (colour, dash) = indices(next.method);
-        if is_first(i) {
-            taken.push((colour, dash));
-            continue;
-        }
-        let (colours, dashes) = (DARK.methods.len(), dashes(next.method).len());
         let pairs = (1..colours * dashes).map(|n| ((colour + n) % colours, (dash + n) % dashes));
         let unlike = |pair: &(usize, usize)| taken.iter().all(|other| !are_alike(other.0, pair.0));
         let unused = |pair: &(usize, usize)| !taken.contains(pair);
-        let pair = pairs.clone().find(unlike).or_else(|| pairs.clone().find(unused));
-        taken.push(pair.unwrap_or((colour, dash)));
+        let other = || pairs.clone().find(unlike).or_else(|| pairs.clone().find(unused));
+        let wanted = if is_first(i) { None } else { other() }.unwrap_or((colour, dash));
+        // With another dash, or else in another colour too.
+        let dashed = (0..dashes).map(|n| (wanted.0, (wanted.1 + n) % dashes));
+        let is_told = |pair: &(usize, usize)| {
+            let looks = |of: (usize, usize)| (HUES[of.0], of.1);
+            taken.iter().all(|other| looks(*other) != looks(*pair))
+        };
+        let told = dashed.chain(pairs.clone()).find(is_told).filter(|_| i < TOLD_APART);
+        taken.push(told.unwrap_or(wanted));
     }
     taken[end]
 }
@@ -268,8 +275,8 @@ static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
     let first = (0..colours * FIRST_DASHES).map(|n| (n % colours, n % FIRST_DASHES));
     let more = (FIRST_DASHES..DASHES.len()).flat_map(|dash| (0..colours).map(move |n| (n, dash)));
     let mut free: Vec<(usize, usize)> = first.chain(more).collect();
-    let of_engines =
-        (0..colours * ENGINE_DASHES.len()).map(|n| (n % colours, n % ENGINE_DASHES.len()));
+    let of_engines = (0..colours * ENGINE_DASHES.len())
+        .map(|n| (n % colours, ENGINE_DASHES[n % ENGINE_DASHES.len()]));
     let mut of_engines: Vec<(usize, usize)> = of_engines.collect();
     free.retain(|style| !METHODS.iter().filter_map(classic).any(|taken| taken == *style));
     let mut styles: Vec<(usize, usize)> = Vec::new();

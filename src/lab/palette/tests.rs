@@ -39,6 +39,69 @@ fn text_stands_out_from_what_it_is_written_on_in_both_themes() {
     assert!((contrast(rgb(0xFFFFFF), rgb(0)) - 21.0).abs() < 1e-9);
 }
 
+/// A colour as a deuteranope sees it, by Machado, Oliveira and Fernandes (2009), in CIE L*a*b*.
+fn seen_by_a_deuteranope(colour: Rgba) -> [f64; 3] {
+    let linear = |i: usize| {
+        let part = f64::from(colour[i]) / 255.0;
+        if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) }
+    };
+    let through = |rows: [[f64; 3]; 3], of: [f64; 3]| {
+        rows.map(|row| row.iter().zip(of).map(|(part, of)| part * of).sum::<f64>())
+    };
+    let seen = through(
+        [
+            [0.367322, 0.860646, -0.227968],
+            [0.280085, 0.672501, 0.047413],
+            [-0.011820, 0.042940, 0.968881],
+        ],
+        [0, 1, 2].map(linear),
+    );
+    let xyz = through(
+        [
+            [0.433953, 0.376219, 0.189828],
+            [0.212673, 0.715152, 0.072175],
+            [0.017757, 0.109477, 0.872765],
+        ],
+        seen.map(|part| part.clamp(0.0, 1.0)),
+    );
+    let [x, y, z] =
+        xyz.map(|part| if part > 0.008856 { part.cbrt() } else { 7.787 * part + 16.0 / 116.0 });
+    [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+}
+
+#[test]
+fn a_deuteranope_tells_the_first_nine_lanes_apart_by_hue_or_by_dash() {
+    /// Below this distance colours are one to somebody who looks from curve to legend.
+    const ALIKE: f64 = 25.5;
+    let distance = |a: Rgba, b: Rgba| {
+        let (a, b) = (seen_by_a_deuteranope(a), seen_by_a_deuteranope(b));
+        (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
+    };
+    let white = seen_by_a_deuteranope([255; 4]);
+    assert!((white[0] - 100.0).abs() < 0.1 && white[1].hypot(white[2]) < 1.0, "{white:?}");
+    let engines = METHODS.iter().filter(|method| method.is_engine());
+    let mut lists: Vec<(String, Vec<LaneSpec>)> = vec![
+        ("methods".into(), METHODS.iter().map(LaneSpec::plain).collect()),
+        ("engines".into(), engines.map(LaneSpec::plain).collect()),
+    ];
+    for scene in crate::lab::SCENES {
+        let lanes = crate::lab::Scene::built_in(scene.name).unwrap().lanes;
+        lists.push((scene.name.into(), lanes));
+    }
+    for theme in [Theme::Dark, Theme::Light] {
+        for (name, lanes) in &lists {
+            let styles = lanes.iter().take(9).map(|lane| theme.lane_style(lanes, lane));
+            let styles: Vec<_> = styles.collect();
+            for (i, a) in styles.iter().enumerate() {
+                for (k, b) in styles[..i].iter().enumerate() {
+                    let is_told = a.1 != b.1 || distance(a.0, b.0) > ALIKE;
+                    assert!(is_told, "{name}, {theme:?}: lanes {} and {}: {a:?}", k + 1, i + 1);
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn lanes_of_one_method_differ_in_colour_and_the_first_has_the_methods() {
     let lane = |id, substeps| {
