@@ -15,9 +15,12 @@ use crate::lab::pacing::{POLICIES, PolicyCard, TRACES, TraceCard, policy, trace_
 use crate::lab::palette::Theme;
 use crate::lab::race::lanes_that_race;
 use crate::lab::scene::{MAX_SECONDS, SCENES, Scene, nearest};
-use crate::lab::studio::{Instrument, MANY_LANES, StageCommand, Studio};
+use crate::lab::studio::{Instrument, StageCommand, Studio};
 use crate::sim::Clock;
 use crate::sim::integrators::{METHODS, Method, method};
+
+/// With so many methods named, none of them is selected.
+const MANY_LANES: usize = 10;
 
 /// The options that choose a scene, its methods and its tick rate.
 #[derive(Clone, Debug, Args)]
@@ -83,7 +86,6 @@ impl ExperimentArgs {
             0 | 1 => lineup,
             _ => Lineup::Everyone,
         };
-        // With many methods named, none of them is selected.
         let selected = self.methods.first().filter(|_| self.methods.len() < MANY_LANES).copied();
         Ok(Experiment { scene, text, selected, lineup, loop_trace: None })
     }
@@ -177,10 +179,9 @@ impl Experiment {
         self.selected.unwrap_or_else(|| opening_lane(&self.scene).method)
     }
 
-    /// Whether many lanes race and none was named, so that their verdicts select one.
+    /// Whether lanes race and none was named, so that their verdicts select one.
     pub(super) fn leaves_selection(&self) -> bool {
-        let is_race = self.lineup == Lineup::Everyone;
-        is_race && self.selected.is_none() && self.scene.lanes.len() >= MANY_LANES
+        self.lineup == Lineup::Everyone && self.selected.is_none()
     }
 
     /// The lab at tick 0. A single lane is shown solo.
@@ -389,5 +390,15 @@ mod tests {
             assert_ne!(outcome(0), best);
             assert_eq!(outcome(studio.active()) == best, is_best, "{count}");
         }
+    }
+
+    #[test]
+    fn a_race_of_a_scene_selects_the_lane_that_its_verdicts_put_first() {
+        let line = <Line as clap::Parser>::parse_from(["", "--scene", "spring"]);
+        let mut studio = line.experiment.load(Lineup::Everyone).unwrap().studio();
+        studio.analyse();
+        let outcome = |entry: usize| studio.viewer().verdict(entry).unwrap().outcome();
+        let best = (0..studio.race().entrants().len()).map(outcome).min().unwrap();
+        assert!(outcome(studio.active()) == best && outcome(0) != best);
     }
 }

@@ -46,7 +46,6 @@ pub use command::{
     Command, RunCommand, SCALE_LADDER, SPEED_LADDER, StageCommand, TICK_LADDER, ViewCommand,
 };
 pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, View};
-pub use findings::MANY_LANES;
 pub use gesture::{GESTURES, Gesture};
 pub use held::HeldBody;
 pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow};

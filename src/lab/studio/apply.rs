@@ -114,6 +114,7 @@ impl Studio {
                     self.keep_run("the race");
                     self.start.mode = Mode::Race;
                     self.restart();
+                    self.select_best();
                 }
                 Mode::Race => {
                     let lane = self.selected().id;

@@ -9,9 +9,6 @@ use crate::lab::race::{Entrant, Interventions, Mode};
 use crate::lab::scene::SceneBody;
 use crate::sim::bodies::{Acts, Parameter, Range};
 
-/// From so many lanes on the best is selected: fewer are told apart whichever is in front.
-pub const MANY_LANES: usize = 10;
-
 impl Studio {
     /// The verdicts and the advice that the studio wants at present, for a [`AnalysisWorker`]: a verdict on each method of the
     /// list at the present tick rate, and advice while it is shown.
@@ -92,17 +89,19 @@ impl Studio {
         }
     }
 
-    /// Leaves the selection among many lanes to their verdicts, as if nobody had selected one: for a driver that has set up
+    /// Leaves the selection in a race to the verdicts, as if nobody had selected one: for a driver that has set up
     /// the studio by commands.
     pub fn leave_selection(&mut self) {
         self.viewer.is_selected = false;
     }
 
-    /// Selects the best of many lanes once all are judged, if nobody has selected one: the first may be the first that
-    /// leaves the stage.
-    fn select_best(&mut self) {
+    /// Selects the best lane of a race once all are judged, if nobody has selected one, nor the scene that opens as a race:
+    /// the first may be the first that leaves the stage.
+    pub(super) fn select_best(&mut self) {
         let lanes = self.race().entrants();
-        if self.viewer.is_selected || self.mode() == Mode::Solo || lanes.len() < MANY_LANES {
+        let scene = self.scene();
+        let is_of_scene = scene.opens_as_race && scene.opening_method.is_some();
+        if self.viewer.is_selected || is_of_scene || self.mode() == Mode::Solo {
             return;
         }
         let judged = |lane: &Entrant| {
@@ -151,8 +150,8 @@ mod tests {
     use crate::lab::studio::{StageCommand, Studio};
 
     #[test]
-    fn of_many_lanes_the_best_is_selected_unless_somebody_has_selected_one() {
-        for (lanes, picks, is_best) in [(10, false, true), (10, true, false), (5, false, false)] {
+    fn of_a_race_the_best_lane_is_selected_unless_somebody_has_selected_one() {
+        for (lanes, picks, is_best) in [(10, false, true), (10, true, false), (5, false, true)] {
             let scene = Scene { seconds: 2.0, ..Scene::built_in("spring").unwrap() };
             let all = Studio::new(scene.clone()).entries()[..lanes].to_vec();
             let mut studio = Studio::new(Scene { lanes: all, ..scene });
@@ -171,5 +170,24 @@ mod tests {
             studio.apply(StageCommand::Restart);
             assert_eq!(studio.active(), selected);
         }
+    }
+
+    #[test]
+    fn a_race_that_is_entered_from_solo_has_a_lane_that_stays_in_front_and_one_that_a_scene_names_its_own()
+     {
+        let brief = |name| Scene { seconds: 2.0, ..Scene::built_in(name).unwrap() };
+        let mut studio = Studio::new(brief("spring"));
+        studio.analyse();
+        assert_eq!(studio.active(), 0, "alone it is what is opened");
+        studio.apply(StageCommand::ToggleRace);
+        let verdict = studio.viewer().verdict(studio.active()).expect("it is judged");
+        assert!(verdict.outcome() <= studio.viewer().verdict(1).unwrap().outcome());
+        assert_ne!(studio.active(), 0, "explicit Euler leaves the stage");
+        let mut studio = Studio::new(brief("lerp"));
+        studio.apply(StageCommand::ToggleRace);
+        studio.leave_selection();
+        let named = studio.active();
+        studio.analyse();
+        assert_eq!(studio.active(), named);
     }
 }
