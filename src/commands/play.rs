@@ -83,7 +83,7 @@ pub(super) struct PlayArgs {
     #[arg(long, hide_short_help = true, value_name = "MB", value_parser = clap::value_parser!(u16).range(1..))]
     rewind_mb: Option<u16>,
 
-    /// Trails do not fade, and the camera does not glide
+    /// Trails do not fade, and the camera zooms out in steps
     #[arg(long, hide_short_help = true)]
     reduced_motion: bool,
 }

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::look::drawn_unit;
 use super::moment::{DrawContext, turns};
-use super::outgrown::{Room, strayed_m};
+use super::outgrown::{Room, in_steps, strayed_m};
 use super::sketch::Camera;
 use super::{Framing, Rect};
 use crate::lab::race::Entrant;
@@ -64,7 +64,7 @@ pub(super) fn on_one_stage(
     }
     share(&mut views, &is_alike);
     for (view, before_m) in views.iter_mut().zip(before) {
-        if moment.studio.display().motion == Motion::Live {
+        if moment.studio.display().motion != Motion::Recorded {
             view.grown = view.half_m() / before_m;
         }
         if let Framing::Recorder { .. } = view.framing {
@@ -106,7 +106,7 @@ impl BodyView {
     /// Makes room for how far a lane goes, which is alone on the stage: some times further than the truth, or for a person
     /// who watches as far as it goes.
     fn widened(mut self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> Self {
-        if moment.studio.display().motion == Motion::Live {
+        if moment.studio.display().motion != Motion::Recorded {
             return self.outgrown(moment, lane, body);
         }
         let since_s = moment.studio.past().swing_since_s(moment.studio.race().t());
@@ -129,22 +129,28 @@ impl BodyView {
         self
     }
 
-    /// Makes room for all of a lane's motion.
+    /// Makes room for all of a lane's motion, in steps where little is to move.
     fn outgrown(mut self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> Self {
+        let is_stepped = moment.studio.display().motion == Motion::Reduced;
+        let taken = |room: Room| match is_stepped {
+            true => room.taken_in_steps(moment, lane, body),
+            false => room.taken(moment, lane, body),
+        };
         match &mut self.framing {
             Framing::Recorder { half_width_m } => {
                 let base_m = DVec2::new(half_width_m.max(1.1 * self.reach_m.x) / 1.1, f64::MAX);
                 let room = Room { centre_m: DVec2::ZERO, base_m, window_s: moment.paper_s };
-                self.reach_m.x = room.taken(moment, lane, body).x;
+                self.reach_m.x = taken(room).x;
             }
             Framing::Fixed { centre_m, half_m, trail_s } => {
                 let base_m = half_m.max(1.05 * self.reach_m) / 1.05;
                 let room = Room { centre_m: *centre_m, base_m, window_s: *trail_s };
-                self.reach_m = room.taken(moment, lane, body);
+                self.reach_m = taken(room);
             }
             Framing::Follow { width_m, height_m, .. } => {
                 let wide = if self.turns { width_m.min(*height_m) } else { *width_m };
                 let times = (strayed_m(moment, lane, body) / (STRAYED * wide)).max(1.0);
+                let times = if is_stepped { in_steps(times) } else { times };
                 (*width_m, *height_m) = (times * *width_m, times * *height_m);
             }
         }

@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::moment::DrawContext;
 use super::{Framing, Look, Outline};
 use crate::lab::Metric;
-use crate::lab::past::History;
+use crate::lab::past::{History, Sample};
 use crate::lab::race::{Entrant, Mode};
 use crate::lab::studio::{Motion, Studio};
 
@@ -54,6 +54,31 @@ impl Room {
         evened.max(furthest(moment.t)).max(self.present(moment, lane, body))
     }
 
+    /// The same in steps that double it, and back to its base with the next swing only: between two steps the stage rests.
+    pub(super) fn taken_in_steps(
+        &self,
+        moment: &DrawContext<'_>,
+        lane: &Entrant,
+        body: usize,
+    ) -> DVec2 {
+        let since_s = moment.studio.past().swing_since_s(moment.studio.race().t());
+        let is_alone = lane.lane.bodies()[body].coordinates().len() == 1;
+        // With what it went over between samples: else the stage would shrink when a peak is between two.
+        let reach = |sample: &Sample| {
+            let place = sample.at - self.centre_m;
+            let [low, high] = sample.swept.ends().map(|q| (q - sample.q).abs());
+            let beyond = |x: f64| if x < 0.0 { low } else { high };
+            let swept = DVec2::new(beyond(place.x), beyond(place.y));
+            let swept = if is_alone && swept.is_finite() { swept } else { DVec2::ZERO };
+            place.abs() + swept
+        };
+        let reaches = moment.history(lane, body).since(since_s).map(reach);
+        let furthest = reaches.filter(|reach| reach.is_finite()).fold(DVec2::ZERO, DVec2::max);
+        let taken = (MARGIN * furthest).max(self.present(moment, lane, body)).max(self.base_m);
+        let times = taken / self.base_m;
+        self.base_m * DVec2::new(in_steps(times.x), in_steps(times.y))
+    }
+
     /// How far a body went within a time in seconds.
     fn furthest(&self, history: &History, [from, to]: [f64; 2]) -> DVec2 {
         let samples = history.samples().rev().skip_while(|sample| sample.t > to);
@@ -84,6 +109,11 @@ impl Room {
     }
 }
 
+/// The next power of two that is not below `times`.
+pub(super) fn in_steps(times: f64) -> f64 {
+    libm::exp2(libm::ceil(libm::log2(times.max(1.0))))
+}
+
 /// The places of what moves of a body.
 fn parts(outline: &Outline) -> impl Iterator<Item = DVec2> {
     use super::Mark::Disc;
@@ -104,7 +134,7 @@ pub(super) fn strayed_m(moment: &DrawContext<'_>, lane: &Entrant, body: usize) -
 
 /// How fast time runs so that a lane which outgrows the stage can be watched, in percent of the speed that is set.
 pub(in crate::lab) fn slow_motion_percent(studio: &Studio) -> u32 {
-    if studio.display().motion != Motion::Live || studio.mode() != Mode::Solo {
+    if studio.display().motion == Motion::Recorded || studio.mode() != Mode::Solo {
         return 100;
     }
     let decades =
@@ -181,14 +211,48 @@ mod tests {
     }
 
     #[test]
-    fn what_is_recorded_or_shown_with_reduced_motion_keeps_its_stage() {
-        for motion in [Motion::Recorded, Motion::Reduced] {
-            let mut studio = watched("harbour");
-            studio.viewer_mut().preferences.display.motion = motion;
-            (0..15 * 60).for_each(|_| studio.tick());
-            let (_, scale) = hero(&studio);
+    fn what_is_recorded_keeps_its_stage() {
+        let mut studio = watched("harbour");
+        studio.viewer_mut().preferences.display.motion = Motion::Recorded;
+        (0..15 * 60).for_each(|_| studio.tick());
+        let (_, scale) = hero(&studio);
+        studio.viewer_mut().preferences.display.motion = Motion::Live;
+        assert!(hero(&studio).1 < scale / 8.0);
+    }
+
+    #[test]
+    fn with_reduced_motion_the_stage_zooms_out_as_far_but_in_few_steps_and_the_trail_is_there() {
+        for scene in ["harbour", "spring"] {
+            let mut studio = watched(scene);
+            studio.viewer_mut().preferences.display.motion = Motion::Reduced;
+            studio.apply(StageCommand::Restart);
+            let (_, first) = hero(&studio);
+            let (mut last, mut steps) = (first, 0);
+            for frame in 0..15 * 60 {
+                studio.advance(16_666_667);
+                let (is_seen, scale) = hero(&studio);
+                assert!(is_seen, "{scene} at frame {frame}");
+                let ratio = scale / last;
+                assert!((ratio - 1.0).abs() < 0.05 || (0.2..0.55).contains(&ratio), "{ratio}");
+                steps += u32::from(ratio < 0.9);
+                last = scale;
+            }
+            assert!((3..9).contains(&steps), "{scene}: {steps} steps");
+            let stepped = hero(&studio).1;
             studio.viewer_mut().preferences.display.motion = Motion::Live;
-            assert!(hero(&studio).1 < scale / 8.0, "{motion:?}");
+            let even = hero(&studio).1;
+            assert!((0.3..1.1).contains(&(stepped / even)), "{scene}: {stepped} and {even}");
+            studio.viewer_mut().preferences.display.motion = Motion::Reduced;
+            let explicit =
+                studio.display().theme.lane_style(studio.entries(), &studio.entries()[0]);
+            let has_trail = |shape: &crate::lab::picture::Shape| match shape {
+                crate::lab::picture::Shape::Path(path) => {
+                    let is_own = path.points.iter().all(|at| at.colour[..3] == explicit.0[..3]);
+                    path.points.len() > 60 && is_own
+                }
+                _ => false,
+            };
+            assert!(compose(&studio, SIZE).shapes.iter().any(has_trail), "{scene}");
         }
     }
 

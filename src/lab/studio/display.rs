@@ -22,12 +22,13 @@ pub enum Arrangement {
 /// What moves on a stage besides the bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
-    /// Nothing.
+    /// As little as can be, for a person who watches: trails do not fade, the camera turns pages, and the stage zooms out
+    /// after a lane that outgrows it in steps.
     Reduced,
     /// Trails fade, and the camera follows bodies smoothly.
     Recorded,
-    /// The stage also zooms out after a lane that outgrows it, while time slows down, and a run rests where the scene or its
-    /// bodies end: for a person who watches.
+    /// The stage also zooms out evenly after a lane that outgrows it, while time slows down, and a run rests where the scene
+    /// or its bodies end: for a person who watches.
     Live,
 }
 
