@@ -32,7 +32,7 @@ const EXACT: f32 = 52.0;
 const WIDE_INSET: f32 = 62.0;
 
 /// Text on the water.
-fn text(
+pub(super) fn text(
     palette: &Palette,
     at: [f32; 2],
     align: Align,
@@ -231,11 +231,13 @@ fn state(
         };
         let (coordinate, plotted) = moment.studio.past().coordinate(moment.studio.race(), index);
         let place = format!("{} {}", brief(q[plotted]), coordinate.shown_unit());
+        let names = [&*coordinate.name, &*coordinate.velocity];
+        let of_node = names.map(|name| body.kind.node(name));
+        let whose = of_node[0].map_or(String::new(), |(_, node)| format!("node {node}: "));
+        let [name, velocity] = [0, 1].map(|it| of_node[it].map_or(names[it], |(symbol, _)| symbol));
         let words = format!(
-            "{} = {}   {} = {} {}/s",
-            coordinate.name,
+            "{whose}{name} = {}   {velocity} = {} {}/s",
             place.trim_end(),
-            coordinate.velocity,
             brief(v[plotted]),
             coordinate.unit,
         );

@@ -70,10 +70,11 @@ impl LaneBody {
         let several = coordinates.len() > 1;
         let velocity = coordinates.iter().find(|coordinate| *coordinate.velocity == *name);
         let of = velocity.clone().or_else(|| coordinates.iter().find(|it| *it.name == *name));
-        let quantity = match velocity {
-            _ if several => name,
-            Some(_) => "speed",
-            None => "position",
+        let plain = if velocity.is_some() { "speed" } else { "position" };
+        let quantity = match self.kind.node(name) {
+            Some((_, node)) => format!("{plain} of node {node}"),
+            None if several => name.to_owned(),
+            None => plain.to_owned(),
         };
         let unit = match (of.map_or("1", |coordinate| coordinate.unit), velocity.is_some()) {
             ("1", false) => String::new(),
@@ -81,7 +82,7 @@ impl LaneBody {
             (unit, false) => format!(" {unit}"),
             (unit, true) => format!(" {unit}/s"),
         };
-        (quantity.to_owned(), unit)
+        (quantity, unit)
     }
 }
 
@@ -185,6 +186,25 @@ mod tests {
         assert_eq!(fate, format!("{when} (speed 10³⁹ m/s)"));
         let notice = studio.viewer.notice.take().unwrap().to_string();
         assert_eq!(notice, format!("Explicit Euler: stiff spring {fate}"));
+    }
+
+    #[test]
+    fn what_blew_up_of_a_net_is_a_node_and_no_letters() {
+        let mut studio = Studio::new(Scene::built_in("bridge").unwrap());
+        let method = crate::sim::integrators::method("explicit-euler").unwrap();
+        studio.apply(StageCommand::Method(method));
+        studio.apply(StageCommand::TickHz(20));
+        for _ in 0..2000 {
+            studio.tick();
+            if let Some(halt) = studio.selected().lane.halted() {
+                let fate = studio.selected().lane.bodies()[halt.body].fate().unwrap();
+                let (_, node) = fate.split_once(" of node ").unwrap_or_else(|| panic!("{fate}"));
+                let number = node.split(' ').next().unwrap();
+                assert!(number.parse::<u32>().is_ok(), "{fate}");
+                return;
+            }
+        }
+        panic!("it did not blow up");
     }
 
     #[test]

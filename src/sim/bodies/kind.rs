@@ -191,6 +191,13 @@ impl Kind {
         if let Origin::Net(plan) = &self.origin { Some(plan) } else { None }
     }
 
+    /// The symbol and the node, as a number, of what a net calls by this name: `vx` and `11` of `vx11`. `None` of other
+    /// kinds.
+    pub fn node<'n>(&self, name: &'n str) -> Option<(&'n str, &'n str)> {
+        let symbol = name.trim_end_matches(|letter: char| letter.is_ascii_digit());
+        self.net().map(|_| name.split_at(symbol.len()))
+    }
+
     /// Stiffness in 1/s² and damping in 1/s, each per unit of mass, of the joint that a body of this kind is in an engine;
     /// `None` if there is more to its motion, or no spring.
     pub fn joint(&self, body: &dyn Stepper) -> Option<[f64; 2]> {

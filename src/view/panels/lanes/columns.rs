@@ -21,16 +21,20 @@ pub(super) fn min_verdict(priority: u8) -> f32 {
 pub(super) fn of<'a>(studio: &Studio) -> Vec<Column<Row<'a>>> {
     let is_solo = studio.mode() == Mode::Solo;
     let mut truths = studio.race().truth().bodies().iter();
+    // Where there is nothing to compare with, the stage says so once.
+    let has_truth = truths.clone().any(|body| body.halted().is_none());
     let mut columns = marks();
     if is_solo && studio.scene().bodies.len() > 1 {
         columns.push(Column { priority: 1, ..body() });
     }
     columns.push(verdict(studio));
     columns.push(position());
-    if is_solo {
+    if is_solo && has_truth {
         columns.push(exact());
     }
-    columns.push(error());
+    if has_truth {
+        columns.push(error());
+    }
     if truths.clone().any(|body| body.chase().is_some()) {
         columns.extend(chase());
     }
@@ -117,7 +121,7 @@ fn exact<'a>() -> Column<Row<'a>> {
 
 fn error<'a>() -> Column<Row<'a>> {
     let error = |row: &Row<'a>| row.measure(Metric::POSITION_ERROR);
-    let text = move |row: &Row<'a>| error(row).map_or_else(|| row.no_truth(), |it| row.in_unit(it));
+    let text = move |row: &Row<'a>| row.in_unit(error(row)?);
     let about = "largest difference from the exact solution in a coordinate";
     Column::number("error", (88.0, 2), about, text, error)
 }
@@ -144,9 +148,7 @@ fn chase<'a>() -> [Column<Row<'a>>; 2] {
 fn energy<'a>() -> Column<Row<'a>> {
     let drift = |row: &Row<'a>| row.measure(Metric::ENERGY_DRIFT);
     let text = move |row: &Row<'a>| {
-        let Some(drift) = drift(row) else {
-            return row.no_truth().filter(|_| row.conserves_energy());
-        };
+        let drift = drift(row)?;
         let sign = if drift > 0.0 { "+" } else { "" };
         Some(format!("{sign}{} %", significant(drift, 3)))
     };
@@ -177,6 +179,23 @@ mod tests {
     use crate::lab::Scene;
     use crate::lab::studio::{StageCommand, Studio};
     use crate::view::panels::lanes;
+    use crate::view::testing::TestWindow;
+
+    #[test]
+    fn where_there_is_no_truth_the_stage_says_so_once_and_no_cell_repeats_it() {
+        let mut studio = Studio::new(Scene::built_in("cloth").unwrap());
+        studio.apply(StageCommand::ToggleRace);
+        studio.tick();
+        assert!(studio.race().truth().bodies()[0].halted().is_some());
+        let names: Vec<_> =
+            lanes::table(&studio).fitting(1264.0).iter().map(|it| it.0.name).collect();
+        assert!(!names.contains(&"error") && names.contains(&"Verdict"), "{names:?}");
+        let (_, shown) = TestWindow::new([1280.0, 720.0]).panels(&studio, Vec::new());
+        assert!(!shown.words().iter().any(|text| text == "no truth"));
+        let picture = crate::lab::picture::compose(&studio, [780.0, 440.0]);
+        let said = picture.labels.iter().filter(|it| it.text.starts_with("Too many springs"));
+        assert_eq!(said.count(), 1);
+    }
 
     #[test]
     fn what_the_stage_shows_too_has_a_column_only_where_there_is_room_for_it() {

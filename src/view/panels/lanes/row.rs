@@ -115,17 +115,6 @@ impl<'a> Row<'a> {
         self.flown_body().and(self.exact)
     }
 
-    /// What stands for an error where there is nothing to compare with.
-    pub(super) fn no_truth(&self) -> Option<String> {
-        let is_lost = self.flown.is_some() && self.truth().halted().is_some();
-        is_lost.then(|| "no truth".into())
-    }
-
-    /// Whether the body conserves its energy, if it is flown.
-    pub(super) fn conserves_energy(&self) -> bool {
-        self.flown_body().is_some_and(|body| body.stepper.energy().is_some())
-    }
-
     /// The metric with this index in [`METRICS`], of the body, if it is flown.
     pub(super) fn measure(&self, metric: usize) -> Option<f64> {
         (METRICS[metric].measure)(self.flown_body()?, self.truth())
