@@ -3,6 +3,7 @@
 //! Lengths are logical points from the stage's top left corner, y down; colours are straight sRGB with
 //! alpha. Everything in a [`Picture`] is finite and within [`FAR`] of the stage, whatever the lanes do.
 
+mod apex;
 mod body;
 mod breakpoints;
 mod captions;

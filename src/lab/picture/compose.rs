@@ -12,7 +12,7 @@ use super::mass::LaneStyle;
 use super::moment::DrawContext;
 use super::sketch::{Camera, line, path};
 use super::{
-    Cell, Framing, Look, Mark, Picture, Rect, Rgba, Whose, breakpoints, captions, chart,
+    Cell, Framing, Look, Mark, Picture, Rect, Rgba, Whose, apex, breakpoints, captions, chart,
     loop_stage, loupe,
 };
 use crate::lab::palette::faded;
@@ -270,6 +270,9 @@ impl BodyCell<'_> {
         let room = badges(picture, camera, &lost, [below, BADGES], palette);
         let name = captions::name_room(camera.rect, moment, index);
         flags(picture, &flagged, lift, palette, (room, camera.rect, name));
+        if Look::of(truth).has_ground() && truth.halted().is_none() {
+            apex::draw(picture, camera, moment, self.front, index);
+        }
         if shows_ghost {
             let half = row_width(flagged.len()) / 2.0 + camera.block;
             let [x, y] = camera.points(ghost.outline.at);

@@ -107,6 +107,9 @@ trait BodyPicture {
     }
     fn handles(&self, q: &[f64]) -> Vec<Handle>;
     fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull);
+    fn has_ground(&self) -> bool {
+        false
+    }
 }
 
 /// The picture of a body whose type says it all.
@@ -227,6 +230,11 @@ impl<'a> Look<'a> {
     /// The closed course that the body goes along in this state, if it does.
     pub fn course(&self, q: &[f64], v: &[f64]) -> Vec<DVec2> {
         self.picture.course(q, v)
+    }
+
+    /// Whether it is one body over a ground, on which it comes down again.
+    pub fn has_ground(&self) -> bool {
+        self.picture.has_ground()
     }
 
     /// Where a hand can take hold of the body at the coordinates `q`.

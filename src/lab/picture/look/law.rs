@@ -34,7 +34,7 @@ pub(super) fn picture(body: &LaneBody) -> Box<dyn BodyPicture + '_> {
             Box::new(Beads { coordinates, ranges: preview.ranges.clone(), plane: text.plane })
         }
         Layout::Vertical => Box::new(Vertical { ranges }),
-        Layout::Carriage => Box::new(Carriage::new(&ranges)),
+        Layout::Carriage => Box::new(Carriage::new(law, &ranges)),
         Layout::Follower => Box::new(Follower { ranges }),
     }
 }

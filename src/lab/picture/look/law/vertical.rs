@@ -63,6 +63,11 @@ impl BodyPicture for Vertical {
         heights.map(|(n, &height)| Handle { at: self.at(n, height), radius }).collect()
     }
 
+    fn has_ground(&self) -> bool {
+        let [low, high] = reach(&self.ranges);
+        self.ranges.len() == 1 && low + high >= 0.0
+    }
+
     fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
         lift(state, pull.handle, pull.to.y, pull.velocity.y);
     }
