@@ -23,5 +23,6 @@ pub(super) const LINE_OF_WORDS: f32 = 46.0;
 
 /// The width and the height of a cell.
 pub(super) const CAPTION: [f32; 2] = [70.0, 30.0];
-/// The length of a hull.
-pub(super) const HOUSE: f32 = 70.0;
+/// The length of a hull with a deck and a house, and of one whose planks are seen.
+pub(super) const DECK: f32 = 22.0;
+pub(super) const PLANKS: f32 = 70.0;

@@ -187,6 +187,16 @@ pub(super) struct Lost {
 }
 
 impl Lost {
+    fn words(&self) -> &str {
+        &self.words
+    }
+
+    /// What is told of it from its number on.
+    fn figure(&self) -> &str {
+        let begins = |letter: char| letter.is_ascii_digit() || ['±', '−'].contains(&letter);
+        self.words.find(begins).map_or(&self.words, |from| &self.words[from..])
+    }
+
     /// A body that was at these places, newest first, if at any of them it was outside `room`.
     pub(super) fn of(
         flag: Flag,
@@ -268,10 +278,19 @@ pub(super) fn badges(
         let top = if of_side.len() <= rows(tops[0]) { tops[0] } else { tops[1] };
         let top = top.min(height - high);
         let rows = rows(top);
-        let letters = of_side.iter().map(|badge| badge.words.chars().count()).max().unwrap_or(0);
-        let widest = (BESIDE_WORDS + LETTER * letters as f32).max(WIDE_BADGE);
-        let is_wide = of_side.len() <= rows && width > 3.0 * widest;
-        let wide = if is_wide { widest } else { NARROW_BADGE };
+        let widest = |words: fn(&Lost) -> &str| {
+            let letters = of_side.iter().map(|badge| words(badge).chars().count()).max();
+            (BESIDE_WORDS + LETTER * letters.unwrap_or(0) as f32).max(WIDE_BADGE)
+        };
+        // In a narrow cell a badge has its number alone.
+        let worded: [(fn(&Lost) -> &str, f32); 2] = [(Lost::words, 3.0), (Lost::figure, 1.6)];
+        let worded = worded.map(|(words, times)| (words, widest(words), times));
+        let worded = worded
+            .into_iter()
+            .find(|(_, widest, times)| width > times * widest)
+            .filter(|_| of_side.len() <= rows);
+        let is_wide = worded.is_some();
+        let wide = worded.map_or(NARROW_BADGE, |(_, widest, _)| widest);
         let taken = of_side.len().div_ceil(rows) as f32 * (wide + 8.0);
         match is_right {
             true => free.max[0] -= taken,
@@ -310,9 +329,9 @@ pub(super) fn badges(
                 });
             };
             write(at, 12.0 * scale, dark, number);
-            if is_wide {
+            if let Some((words, ..)) = worded {
                 let middle_of_text = (far - inwards * 24.0 + shoulder) / 2.0;
-                write([middle_of_text, middle], 12.5 * scale, palette.text, badge.words.clone());
+                write([middle_of_text, middle], 12.5 * scale, palette.text, words(badge).into());
             }
         }
     }
@@ -347,6 +366,20 @@ mod tests {
 
     fn told_along(places: &[f64]) -> Option<(String, bool)> {
         told(&places.iter().map(|x| [*x, 0.0]).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn a_badge_says_how_far_in_a_cell_of_a_lane_of_its_own_too() {
+        let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+        studio.apply(StageCommand::ToggleRace);
+        studio.viewer_mut().preferences.display.arrangement =
+            crate::lab::studio::Arrangement::SideBySide;
+        (0..10 * studio.race().tick_hz()).for_each(|_| studio.tick());
+        for width in [780.0, 490.0] {
+            let picture = compose(&studio, [width, 440.0]);
+            let told = picture.labels.iter().filter(|label| label.text.starts_with('±'));
+            assert!(told.count() >= 1, "at {width} points");
+        }
     }
 
     #[test]

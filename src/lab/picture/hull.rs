@@ -90,7 +90,7 @@ pub(super) fn ship(
     let hull = berth.hull(0.0);
     shapes.push(fill(&hull, mixed(colour, BLACK, 0.08), clip));
     shapes.push(ring(&hull, (1.6 * part).max(0.8), mixed(colour, BLACK, 0.5), SOLID, clip));
-    if berth.length < breakpoints::HOUSE {
+    if berth.length < breakpoints::DECK {
         return;
     }
     let deck = berth.hull(5.5 * part);
@@ -99,18 +99,8 @@ pub(super) fn ship(
         mixed(DECK[0], DECK[1], low)
     };
     shapes.push(shaded(&deck, plank, clip));
-    for seam in -4..=4_i8 {
-        let aside = f32::from(seam) * 0.022;
-        let ends = 0.42 - 0.06 * libm::fabsf(f32::from(seam)) - 0.02;
-        let ends = (-0.43, ends.max(0.1));
-        let seam = [berth.place(ends.0, aside), berth.place(ends.1, aside)];
-        shapes.push(line(seam[0], seam[1], 0.6 * part, faded(BLACK, 0.16), clip));
-    }
-    shapes.push(ring(&deck, 1.0 * part, faded(BLACK, 0.35), SOLID, clip));
-    for from in [0.03, 0.135] {
-        let hatch = berth.block((from, from + 0.085), 0.05, 0.008);
-        shapes.push(fill(&hatch, HATCH, clip));
-        shapes.push(ring(&hatch, 1.0 * part, mixed(HATCH, BLACK, 0.5), SOLID, clip));
+    if berth.length >= breakpoints::PLANKS {
+        planks(shapes, berth, &deck, clip);
     }
     let house = berth.block((-0.36, -0.1), 0.078, 0.02);
     shapes.push(fill(&berth.block((-0.35, -0.075), 0.085, 0.02), faded(BLACK, 0.25), clip));
@@ -125,6 +115,24 @@ pub(super) fn ship(
     shapes.push(disc(funnel, 0.015 * berth.length, [20, 24, 30, 255], clip));
     let stem = [berth.place(0.33, 0.0), berth.place(0.45, 0.0)];
     shapes.push(line(stem[0], stem[1], 1.2 * part, faded(WHITE, 0.6), clip));
+}
+
+/// The seams of the deck, its rail and its hatches.
+fn planks(shapes: &mut Vec<Shape>, berth: ShipPose, deck: &[[f32; 2]], clip: Rect) {
+    let part = (berth.length / 150.0).clamp(0.2, 2.0);
+    for seam in -4..=4_i8 {
+        let aside = f32::from(seam) * 0.022;
+        let ends = 0.42 - 0.06 * libm::fabsf(f32::from(seam)) - 0.02;
+        let ends = (-0.43, ends.max(0.1));
+        let seam = [berth.place(ends.0, aside), berth.place(ends.1, aside)];
+        shapes.push(line(seam[0], seam[1], 0.6 * part, faded(BLACK, 0.16), clip));
+    }
+    shapes.push(ring(deck, 1.0 * part, faded(BLACK, 0.35), SOLID, clip));
+    for from in [0.03, 0.135] {
+        let hatch = berth.block((from, from + 0.085), 0.05, 0.008);
+        shapes.push(fill(&hatch, HATCH, clip));
+        shapes.push(ring(&hatch, 1.0 * part, mixed(HATCH, BLACK, 0.5), SOLID, clip));
+    }
 }
 
 /// The outline of a ship of a lane behind.
