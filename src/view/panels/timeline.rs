@@ -398,7 +398,11 @@ fn tooltip(
     let x = track.groove.along.clamp(x);
     let line = Stroke::new(1.0, palette(ui).text.gamma_multiply(0.5));
     ui.painter().vline(x, Rangef::new(track.groove.y - 12.0, track.groove.y + 4.0), line);
-    response.on_hover_ui_at_pointer(|ui| {
+    // Above the pointer: below are the heads of the table.
+    let mut above = egui::Tooltip::for_enabled(&response).at_pointer().gap(12.0);
+    above.popup = above.popup.align(egui::RectAlign::TOP);
+    above.show(|ui| {
+        ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
         let near = |group: &&Group| (-6.0..=MARKS_APART - 6.0).contains(&(x - group.x));
         let Some(group) = groups.iter().rfind(near) else {
             ui.label(track.times.moment(track.tick(x)));

@@ -65,15 +65,48 @@ pub(super) struct Context<'a> {
 }
 
 impl Context<'_> {
-    /// The marks of the events, by tick.
+    /// The marks of the events, by tick: of what was done to the bodies, and of nothing that was undone at once.
     pub(super) fn marks(&self) -> impl Iterator<Item = Mark> {
-        self.events.iter().enumerate().map(|(i, Event { tick, kind })| {
+        let events = self.events.iter().enumerate().zip(self.lasting());
+        events.filter(|(_, lasts)| *lasts).map(|((i, Event { tick, kind }), _)| {
             let (sign, colour) = match kind {
                 EventKind::Done { action, .. } => self.of_action(action),
                 EventKind::Halted { .. } => (Sign::Halt, self.palette.bad),
             };
             Mark { tick: *tick, sign, colour, event: Some(i) }
         })
+    }
+
+    /// Of each event, whether it does something to a body that lasts beyond its tick: a lane that has its old settings again
+    /// moves on as before, unless that takes up its bodies where they had halted.
+    fn lasting(&self) -> Vec<bool> {
+        let lanes = self.start.entrants().iter();
+        let mut specs: Vec<(LaneId, LaneSpec)> = lanes.map(|it| (it.id, it.spec)).collect();
+        let mut halted: Vec<LaneId> = Vec::new();
+        let mut lasting = Vec::with_capacity(self.events.len());
+        for at_once in self.events.chunk_by(|a, b| a.tick == b.tick) {
+            let before = specs.clone();
+            for event in at_once {
+                if let EventKind::Halted { lane: Some(lane), .. } = event.kind {
+                    halted.push(lane);
+                }
+                let Some((lane, set)) = setting(event) else { continue };
+                let known = specs.iter_mut().find(|(id, _)| *id == lane);
+                known.into_iter().for_each(|(_, spec)| set(spec));
+            }
+            let lasts = |event: &Event| match (&event.kind, setting(event)) {
+                (EventKind::Done { action: Action::Solo { .. }, .. }, _) => false,
+                (_, Some((lane, _))) => {
+                    let of = |specs: &[(LaneId, LaneSpec)]| {
+                        specs.iter().find(|(id, _)| *id == lane).map(|(_, spec)| *spec)
+                    };
+                    halted.contains(&lane) || of(&before) != of(&specs)
+                }
+                _ => true,
+            };
+            lasting.extend(at_once.iter().map(lasts));
+        }
+        lasting
     }
 
     /// The mark of the last tick that was reached.
@@ -105,6 +138,23 @@ impl Context<'_> {
             Action::Place { .. } => (Sign::Place, self.palette.good),
         }
     }
+}
+
+/// The lane whose settings an event changes, and how.
+fn setting(event: &Event) -> Option<(LaneId, impl Fn(&mut LaneSpec) + use<>)> {
+    let EventKind::Done { action, .. } = &event.kind else { return None };
+    let (lane, whole, substeps, tolerance) = match *action {
+        Action::Lane { lane, spec } => (lane, Some(spec), None, None),
+        Action::Substeps { lane, substeps } => (lane, None, Some(substeps), None),
+        Action::Tolerance { lane, tolerance } => (lane, None, None, Some(tolerance)),
+        _ => return None,
+    };
+    let set = move |spec: &mut LaneSpec| {
+        *spec = whole.unwrap_or(*spec);
+        spec.substeps = substeps.unwrap_or(spec.substeps);
+        spec.tolerance = tolerance.or(spec.tolerance);
+    };
+    Some((lane, set))
 }
 
 /// Marks in order, those less than `apart` points from the first of a group merged into it.
@@ -205,6 +255,25 @@ mod tests {
         let signs: Vec<Sign> = marks(&studio).iter().map(|(sign, _)| *sign).collect();
         use Sign::*;
         assert_eq!(signs, [Switch, Kick, Edit, Rate, Edit, Kick]);
+    }
+
+    #[test]
+    fn what_is_undone_at_once_and_what_is_done_to_no_body_leaves_no_mark() {
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        studio.apply(StageCommand::ToggleRace);
+        run(&mut studio, 20);
+        studio.apply(RunCommand::ToggleEqualCost);
+        let on = marks(&studio).len();
+        assert!((1..6).contains(&on), "{on} lanes have other substeps now");
+        studio.apply(RunCommand::ToggleEqualCost);
+        assert_eq!(texts(&studio), [""; 0]);
+        run(&mut studio, 20);
+        studio.apply(RunCommand::ToggleEqualCost);
+        run(&mut studio, 5);
+        studio.apply(RunCommand::ToggleEqualCost);
+        assert_eq!(marks(&studio).len(), 2 * on, "each for some time");
+        studio.apply(StageCommand::ToggleRace);
+        assert_eq!(marks(&studio).len(), 2 * on, "that lanes leave is done to no body");
     }
 
     #[test]

@@ -73,3 +73,24 @@ fn memory_is_told_in_megabytes() {
     assert_eq!(memory(13_002_342, 64 << 20), "12.4 of 64 MB");
     assert_eq!(memory(0, 1 << 20), "0.0 of 1 MB");
 }
+
+#[test]
+fn the_moment_under_the_pointer_is_told_above_the_track_on_one_line() {
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    (0..600).for_each(|_| studio.tick());
+    let mut window = TestWindow::new(SIZE);
+    let height =
+        SIZE.y - panels::footer::HEIGHT - panels::lanes::height(&studio) - HEIGHT + TRACK_Y;
+    for x in [400.0, SIZE.x - MEMORY - MARGIN - 20.0] {
+        window.panels(&studio, vec![Input::PointerMoved(pos2(x, height))]);
+        let mut told = None;
+        for _ in 0..8 {
+            window.time_s += 0.4;
+            let shown = window.panels(&studio, Vec::new()).1.all();
+            let moment = shown.into_iter().find(|(_, text)| text.starts_with("tick "));
+            told = moment.map(|(rect, _)| rect).or(told);
+        }
+        let rect = told.expect("the moment is told");
+        assert!(rect.bottom() < height && rect.height() < 24.0, "{rect} above {height}");
+    }
+}
