@@ -3,8 +3,8 @@
 
 use egui::{Align, Color32, FontId, Label, Layout, Rect, Response, RichText, Ui, UiBuilder, vec2};
 
-use super::table::{Column, GAP, MARGIN, SortKey, Table, TableRow, show_words};
-use super::{breakpoints, palette, strong_font, tone};
+use super::table::{Column, GAP, MARGIN, SortKey, Table, TableRow, show_name};
+use super::{breakpoints, is_picture, palette, strong_font, tone};
 use crate::lab::LaneSpec;
 use crate::lab::analysis::{
     Advice, AdvisedBodies, CRITERIA, Criterion, CriterionMet, CriterionResult,
@@ -48,7 +48,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
 /// The choice between all bodies and the selected one, if there are several.
 fn which_bodies(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let bodies = &studio.scene().bodies;
-    if bodies.len() < 2 {
+    if bodies.len() < 2 || is_picture(ui) {
         return;
     }
     let display = studio.display();
@@ -145,9 +145,8 @@ fn taken_line(ui: &mut Ui, name: &str, met: &CriterionMet) {
 
 /// A button that copies a method as source code.
 fn copy_button(ui: &mut Ui, studio: &Studio, spec: LaneSpec, commands: &mut Vec<Command>) {
-    let Some(entry) = studio.entries().iter().position(|entry| entry.method == spec.method) else {
-        return;
-    };
+    let place = studio.entries().iter().position(|entry| entry.method == spec.method);
+    let Some(entry) = place.filter(|_| !is_picture(ui)) else { return };
     let language = studio.viewer().language();
     let about = format!("copy {} as {language}; other languages: right click", spec.method.name);
     let word = if ui.available_width() < breakpoints::COPY_CODE { "Copy" } else { "Copy code" };
@@ -196,7 +195,7 @@ fn table(
         "the row's verdict is in its tooltip",
         |ui, row: &Row<'_>, rect, _| {
             let MethodAdvice { spec, verdict, .. } = row.advised;
-            show_words(ui, rect, spec.method.name, false, tone(ui, verdict.outcome()));
+            show_name(ui, rect, spec.method.name, tone(ui, verdict.outcome()));
         },
         |row| SortKey::Words(row.advised.spec.method.name.into()),
     );

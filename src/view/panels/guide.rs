@@ -7,7 +7,15 @@ use crate::lab::studio::guide::{STOPS, Tour};
 use crate::lab::studio::{Command, Step, ViewCommand};
 use crate::view::theme::strong_font;
 
-pub(super) const HEIGHT: f32 = 172.0;
+/// The usual height, the least, and what is left for the stage where that is possible, in points.
+const HEIGHT: f32 = 172.0;
+const MIN_HEIGHT: f32 = 96.0;
+const FOR_STAGE: f32 = 150.0;
+
+/// The height of the guide above which there is so much room, in points, for it and the stage: a low one is scrolled.
+pub(super) fn height(room: f32) -> f32 {
+    HEIGHT.min((room - FOR_STAGE).max(MIN_HEIGHT)).min(0.6 * room)
+}
 
 pub(super) fn show(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing = vec2(6.0, 5.0);

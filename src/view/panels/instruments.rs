@@ -7,7 +7,7 @@ use egui::{Button, Color32, ComboBox, Label, Rect, Response, RichText, Sense, St
 
 use super::series_styles::{SeriesStyle, SeriesStyles};
 use super::tracks::Detail;
-use super::{advice, breakpoints, cost, loops, one_step, palette, stability_map};
+use super::{advice, breakpoints, cost, is_picture, loops, one_step, palette, stability_map};
 use crate::lab::METRICS;
 use crate::lab::loop_lab::FRAME_METRICS;
 use crate::lab::past::Quantity;
@@ -302,6 +302,10 @@ fn choice<N: AsRef<str>>(
     chosen: (Command, &str),
     commands: &mut Vec<Command>,
 ) {
+    if is_picture(ui) {
+        ui.label(chosen.1);
+        return;
+    }
     let menu = ComboBox::from_id_salt(id).selected_text(chosen.1).width(0.0).show_ui(ui, |ui| {
         let mut height = None;
         for (command, name) in offered {

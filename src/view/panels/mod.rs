@@ -124,7 +124,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         });
     }
     if let Some(tour) = studio.viewer().tour() {
-        let height = guide::HEIGHT.min(ui.available_height() * 0.6);
+        let height = guide::height(ui.available_height());
         let frame = Frame::new().fill(palette(ui).panel).inner_margin(Margin::symmetric(14, 8));
         let panel = egui::Panel::bottom("guide").exact_size(height).frame(frame);
         panel.show(ui, |ui| guide::show(ui, tour, &mut commands));
@@ -149,11 +149,25 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     (commands, stage)
 }
 
-/// Shows the instrument alone.
+/// What marks the panel of a picture of an instrument.
+const PICTURE: &str = "picture of an instrument";
+
+/// Shows the instrument alone, for a picture in which nothing can be clicked.
 pub(super) fn show_instrument(ui: &mut Ui, studio: &Studio) {
     let frame = Frame::new().fill(palette(ui).background).inner_margin(Margin::symmetric(8, 4));
     let panel = egui::CentralPanel::default_margins().frame(frame);
-    panel.show(ui, |ui| instruments::show_alone(ui, studio, &mut Vec::new()));
+    panel.show(ui, |ui| {
+        let mark = egui::UiStackInfo::default().with_tag(PICTURE);
+        ui.scope_builder(egui::UiBuilder::new().ui_stack_info(mark), |ui| {
+            ui.visuals_mut().button_frame = false;
+            instruments::show_alone(ui, studio, &mut Vec::new());
+        });
+    });
+}
+
+/// Whether this is part of a picture, which has words where a window has buttons and menus.
+fn is_picture(ui: &Ui) -> bool {
+    ui.stack().iter().any(|part| part.tags().contains(PICTURE))
 }
 
 /// The instruments; with the inspector open they keep the upper part, where there is room for both.

@@ -25,8 +25,9 @@ const NAME: f32 = 21.0;
 /// From this width on, in points, the table stands beside the plot; and the table's width there.
 const ROOM_BESIDE: f32 = 700.0;
 const TABLE: f32 = 380.0;
-/// The least part of the height that the plot takes above the table.
+/// The least part of the height that the plot takes above the table, and its least height in points.
 const PLOT: f32 = 0.42;
+const MIN_PLOT: f32 = 132.0;
 /// The height of a row of the table and of a line of the formula, in points.
 const ROW: f32 = 20.0;
 const FORMULA: f32 = 20.0;
@@ -56,7 +57,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
             plot(ui, studio, &step, vec2(room.x - TABLE, height));
             ui.vertical(|ui| {
                 ui.label(said(ui, studio, &step, TABLE));
-                table(ui, studio, &step);
+                table(ui, studio, &step, None);
             });
         });
     } else {
@@ -64,9 +65,15 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
         let said = said(ui, studio, &step, room.x);
         let left = height - said.size().y - ui.spacing().item_spacing.y;
         let plot_height = (left - table_height(&step)).max(PLOT * left);
-        plot(ui, studio, &step, vec2(room.x, plot_height));
-        ui.label(said);
-        table(ui, studio, &step);
+        plot(ui, studio, &step, vec2(room.x, plot_height.max(MIN_PLOT.min(0.7 * height))));
+        // Where there is hardly room for the plot, the words are scrolled too.
+        let scrolled = if plot_height < MIN_PLOT {
+            Some(said)
+        } else {
+            ui.label(said);
+            None
+        };
+        table(ui, studio, &step, scrolled);
     }
 }
 
@@ -283,13 +290,14 @@ fn table_height(step: &OneStep) -> f32 {
 }
 
 /// The formula, every evaluation in numbers, and where the tick ends.
-fn table(ui: &mut Ui, studio: &Studio, step: &OneStep) {
+fn table(ui: &mut Ui, studio: &Studio, step: &OneStep, said: Option<Arc<Galley>>) {
     let coordinate = &shown_coordinate(studio);
     let (q, v) = (&coordinate.name, &coordinate.velocity);
     ui.spacing_mut().item_spacing.y = 1.0;
     let (figures, gap) =
         if ui.available_width() < breakpoints::FOUR_FIGURES { (3, 5.0) } else { (4, 14.0) };
     ScrollArea::vertical().id_salt("one step").auto_shrink(false).show(ui, |ui| {
+        said.into_iter().for_each(|said| drop(ui.label(said)));
         for line in step.spec.method.formula {
             ui.label(formula::job(line, 16.0, palette(ui).text));
         }

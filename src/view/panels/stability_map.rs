@@ -9,7 +9,7 @@ use egui::{
 };
 
 use super::annotations::{label, mixed, polygon};
-use super::{breakpoints, colour, palette, strong_font};
+use super::{breakpoints, colour, is_picture, palette, strong_font};
 use crate::lab::analysis::{Coverage, MapRequest, SeenLine, StabilityMap};
 use crate::lab::number::round;
 use crate::lab::scene::edited_values;
@@ -84,6 +84,10 @@ fn head(ui: &mut Ui, studio: &Studio, index: usize, commands: &mut Vec<Command>)
         let title = RichText::new(format!("Stability: {} over", body.name));
         ui.add(Label::new(title.font(strong_font(13.0))).truncate());
         let name = |index: usize| full_name(parameter(studio, index));
+        if is_picture(ui) {
+            ui.label(name(index));
+            return;
+        }
         let menu = ComboBox::from_id_salt("mapped parameter").selected_text(name(index));
         let menu = menu.show_ui(ui, |ui| {
             for other in studio.mappable_parameters() {
@@ -200,16 +204,24 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
         let others =
             lines.iter().filter(|(other, _)| other != entry).flat_map(|(_, points)| points);
         let others: Vec<Pos2> = others.copied().collect();
-        // The name alone where there is no room for both.
-        for text in with_limit.into_iter().chain([name]) {
+        // The name alone where there is no room for both, and the number where it would lie at another's boundary.
+        let number = (*entry < 9).then(|| format!("{}", entry + 1));
+        let texts: Vec<String> = with_limit.into_iter().chain([name]).chain(number).collect();
+        let placed = |text: &String, is_at_all: bool| {
             let width = 7.0 * text.chars().count() as f32;
-            if let Some((at, angle)) = label_place(points, width, area.rect, &taken, &others) {
-                let land = palette(ui).plot.gamma_multiply(0.8);
-                label(&painter, (at, angle), &text, [style(*entry).0, land]);
-                taken.extend(along(at, angle, width));
-                named.push(*entry);
-                break;
-            }
+            let places = label_places(points, width, area.rect, &taken);
+            let place =
+                places.into_iter().find(|place| is_at_all || is_clear(place, width, &others));
+            place.map(|place| (place, width, text.clone()))
+        };
+        // Boundaries that lie on each other share their names.
+        let found = texts.iter().find_map(|text| placed(text, false));
+        let found = found.or_else(|| texts.last().and_then(|text| placed(text, true)));
+        if let Some(((at, angle), width, text)) = found {
+            let land = palette(ui).plot.gamma_multiply(0.8);
+            label(&painter, (at, angle), &text, [style(*entry).0, land]);
+            taken.extend(along(at, angle, width));
+            named.push(*entry);
         }
     }
     let land = palette(ui).plot.gamma_multiply(0.8);
@@ -219,7 +231,9 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
         let others: Vec<Pos2> = others.copied().collect();
         for text in [format!("damping {ratio}"), ratio.to_string()] {
             let width = 7.0 * text.chars().count() as f32;
-            if let Some((at, angle)) = label_place(points, width, area.rect, &taken, &others) {
+            let places = label_places(points, width, area.rect, &taken);
+            let clear = places.iter().find(|place| is_clear(place, width, &others));
+            if let Some(&(at, angle)) = clear.or(places.first()) {
                 label(&painter, (at, angle), &text, [seen_colour, land]);
                 taken.extend(along(at, angle, width));
                 break;
@@ -258,15 +272,8 @@ fn along(at: Pos2, angle: f32, width: f32) -> impl Iterator<Item = Pos2> {
     (-4..=4).map(move |i| at + Vec2::angled(angle) * (width * i as f32 / 8.0))
 }
 
-/// Where the label of a boundary stands: beside it, within `rect`, off the places that are `taken` and if possible off
-/// the `others`.
-fn label_place(
-    points: &[Pos2],
-    width: f32,
-    rect: Rect,
-    taken: &[Pos2],
-    others: &[Pos2],
-) -> Option<(Pos2, f32)> {
+/// Where the label of a boundary can stand, at which angle: beside it, within `rect`, off the places that are `taken`.
+fn label_places(points: &[Pos2], width: f32, rect: Rect, taken: &[Pos2]) -> Vec<(Pos2, f32)> {
     let inside: Vec<Pos2> = points.iter().copied().filter(|at| rect.contains(*at)).collect();
     let candidates = [0.5, 0.62, 0.38, 0.74, 0.26, 0.85, 0.15].into_iter().flat_map(|part| {
         let middle = (part * inside.len() as f32) as usize;
@@ -282,18 +289,19 @@ fn label_place(
             [-1.0, 1.0].map(|side| (at + Vec2::angled(angle).rot90() * (side * BESIDE), angle))
         })
     });
-    let places: Vec<(Pos2, f32)> = candidates
+    candidates
         .filter(|(at, angle)| {
             along(*at, *angle, width).all(|at| {
                 rect.shrink(7.0).contains(at)
                     && taken.iter().all(|other| other.distance(at) >= APART)
             })
         })
-        .collect();
-    let is_clear = |(at, angle): &&(Pos2, f32)| {
-        along(*at, *angle, width).all(|at| others.iter().all(|other| other.distance(at) >= BESIDE))
-    };
-    places.iter().find(is_clear).or(places.first()).copied()
+        .collect()
+}
+
+/// Whether a label lies at no boundary of `others`, so that nobody takes it for theirs.
+fn is_clear((at, angle): &(Pos2, f32), width: f32, others: &[Pos2]) -> bool {
+    along(*at, *angle, width).all(|at| others.iter().all(|other| other.distance(at) >= BESIDE))
 }
 
 /// Names the methods that are stable everywhere. Returns the places along that.

@@ -16,6 +16,9 @@ pub(super) const MARGIN: f32 = 8.0;
 pub(super) const GAP: f32 = 8.0;
 /// The smallest type of a cell, in points.
 const MIN_TYPE: f32 = 9.0;
+/// In a column narrower than this, in points, names have this size.
+const NARROW: f32 = 140.0;
+const NARROW_TYPE: f32 = 10.5;
 /// The room between the words of a head and those at its right end, in points.
 const BESIDE_HEAD: f32 = 30.0;
 
@@ -391,6 +394,14 @@ pub(super) fn show_words(ui: &Ui, rect: Rect, words: &str, is_strong: bool, colo
         }
         size -= 0.5;
     };
+    let at = rect.left_center() - vec2(0.0, galley.size().y / 2.0);
+    ui.painter().galley(at, galley, colour);
+}
+
+/// Writes a name into a cell of a column in which all names have one size, and cuts one that is too long.
+pub(super) fn show_name(ui: &Ui, rect: Rect, name: &str, colour: Color32) {
+    let size = if rect.width() < NARROW { NARROW_TYPE } else { TYPE };
+    let (galley, _) = short(ui, name, FontId::proportional(size), rect.width(), colour);
     let at = rect.left_center() - vec2(0.0, galley.size().y / 2.0);
     ui.painter().galley(at, galley, colour);
 }

@@ -165,11 +165,13 @@ impl Track {
             let last = self.points.partition_point(|point| point.t <= t).checked_sub(1)?;
             return Some((self.points[last].entry, [t, self.points[last].at[1]]));
         }
-        let after = self.points.partition_point(|point| point.t < t);
+        // Where the body was put at that time, it is there.
+        let after = self.points.partition_point(|point| point.t <= t);
+        let from = self.points[after.checked_sub(1)?];
+        if from.t == t {
+            return Some((from.entry, from.at));
+        }
         let to = self.points.get(after)?;
-        let Some(from) = after.checked_sub(1).map(|before| self.points[before]) else {
-            return (to.t == t).then_some((to.entry, to.at));
-        };
         let part = if to.t > from.t { (t - from.t) / (to.t - from.t) } else { 1.0 };
         Some((to.entry, [0, 1].map(|axis| from.at[axis] + part * (to.at[axis] - from.at[axis]))))
     }
@@ -184,6 +186,12 @@ impl Track {
         self.points.chunk_by(|a, b| a.entry == b.entry).map(|run| run[0].entry)
     }
 
+    /// Goes on at a place where the body is put at time `t` (s).
+    pub(super) fn put(&mut self, t: f64, at: [f64; 2]) {
+        let entry = self.points.last().map_or(self.entry, |last| last.entry);
+        self.points.push(Point { t, entry, at, swept: [at[1]; 2], jumped: true });
+    }
+
     /// Keeps the last `count` samples.
     pub(super) fn keep_latest(&mut self, count: usize) {
         self.points.drain(..self.points.len().saturating_sub(count));
@@ -193,6 +201,12 @@ impl Track {
     pub(super) fn along(&self, axis: usize) -> impl Iterator<Item = f64> + Clone {
         let ends = move |point: &Point| if axis == 1 { point.swept } else { [point.at[axis]; 2] };
         self.points.iter().flat_map(ends)
+    }
+
+    /// The heights from time `t` (s) on, with those between samples.
+    pub(super) fn along_since(&self, t: f64) -> impl Iterator<Item = f64> {
+        let later = self.points.partition_point(|point| point.t < t);
+        self.points[later..].iter().flat_map(|point| point.swept).filter(|y| y.is_finite())
     }
 
     /// The tracks that an axis is fitted to: without what was before a body was put elsewhere or a parameter changed, but

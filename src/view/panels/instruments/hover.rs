@@ -12,6 +12,8 @@ use crate::view::theme::strong_font;
 /// The width of the crosshair and the radius of the dots on the curves, in points.
 const CROSSHAIR: f32 = 1.4;
 const DOT: f32 = 3.6;
+/// The least room between the number of a lane and its value, in points.
+const BETWEEN: f32 = 5.0;
 /// The height of a value beside the plot, in points.
 const LINE: f32 = 15.5;
 
@@ -101,10 +103,10 @@ fn time_tag(ui: &Ui, frame: Rect, x: f32, text: &str) {
 /// Writes the values beside the plot, in an order that stays: the exact solution, then the lanes by their numbers.
 fn values(ui: &Ui, cell: &Cell<'_>, mut readouts: Vec<Readout>) {
     let frame = cell.frame;
-    let lines = |readout: &Readout| -> Vec<String> {
+    let lines = |readout: &Readout| -> Vec<[String; 2]> {
         let axes = cell.plot.axes.iter().zip(readout.at);
         let shown = axes.skip(usize::from(cell.plot.is_over_time()));
-        shown.map(|(axis, place)| axis.number(place)).collect()
+        shown.map(|(axis, place)| [axis.with_unit(place), axis.number(place)]).collect()
     };
     let most = ((frame.height() + 10.0) / LINE).floor().max(1.0) as usize;
     // Those in front, where not all fit.
@@ -121,12 +123,18 @@ fn values(ui: &Ui, cell: &Cell<'_>, mut readouts: Vec<Readout>) {
         };
         let name = pos2(frame.right() + 8.0, y);
         let write = |at: Pos2, align: Align2, text: &str| {
-            ui.painter().text(at, align, text, font.clone(), readout.colour);
+            ui.painter().text(at, align, text, font.clone(), readout.colour)
         };
-        write(name, Align2::LEFT_CENTER, &readout.name);
-        for (line, text) in (0..).zip(lines(readout)) {
+        let named = write(name, Align2::LEFT_CENTER, &readout.name);
+        let width = |text: &String| {
+            ui.painter().layout_no_wrap(text.clone(), font.clone(), readout.colour).size().x
+        };
+        for (line, texts) in (0..).zip(lines(readout)) {
             let at = pos2(cell.right, y + LINE * line as f32);
-            write(at, Align2::RIGHT_CENTER, &text);
+            // The axis says the unit too.
+            let beside = if line == 0 { named.right() + BETWEEN } else { frame.right() };
+            let has_room = beside + width(&texts[0]) <= cell.right;
+            write(at, Align2::RIGHT_CENTER, &texts[usize::from(!has_room)]);
         }
     }
 }

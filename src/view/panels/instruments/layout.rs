@@ -30,6 +30,7 @@ pub(super) struct Cell<'s> {
     pub(super) left: f32,
     /// The right edge of what is written beside it; that of the frame where there is no room.
     pub(super) right: f32,
+    /// Whether no plot below has its axis along.
     pub(super) is_lowest: bool,
 }
 
@@ -61,8 +62,16 @@ pub(super) fn all_fit(plots: usize, height: f32) -> bool {
 
 /// The plots that fit into `room`, that of `body` among them, with `left` points for the numbers of their axes.
 pub(super) fn cells(set: &PlotSet, room: Rect, left: f32, body: usize) -> Vec<Cell<'_>> {
-    let height = (room.height() - NUMBERS - NAMES).max(1.0);
-    let (count, least) = fit(set.plots.len(), room.height());
+    let below = NUMBERS + NAMES;
+    // A plot over another axis than the one below it has numbers of its own.
+    let is_last_of_axis = |plots: &[PlotModel], i: usize| {
+        let below = plots.get(i + 1).map(PlotModel::is_over_time);
+        below != Some(plots[i].is_over_time())
+    };
+    let axes = (0..set.plots.len()).filter(|&i| is_last_of_axis(&set.plots, i)).count().max(1);
+    let room_of_one_axis = room.height() - (axes - 1) as f32 * below;
+    let height = (room_of_one_axis - below).max(1.0);
+    let (count, least) = fit(set.plots.len(), room_of_one_axis);
     let chosen = set.plots.iter().position(|plot| plot.body == body).unwrap_or(0);
     let first = chosen.min(set.plots.len() - count);
     let shown = &set.plots[first..first + count];
@@ -80,7 +89,7 @@ pub(super) fn cells(set: &PlotSet, room: Rect, left: f32, body: usize) -> Vec<Ce
             pos2(room.left() + left, top + ABOVE),
             pos2((room.right() - beside).max(room.left() + left + 1.0), top + ABOVE + tall),
         );
-        top = frame.bottom() + GAP;
+        top = frame.bottom() + GAP + if is_last_of_axis(shown, i) { below } else { 0.0 };
         let right = if has_values { room.right() } else { frame.right() };
         (i, frame, right)
     };
@@ -90,7 +99,7 @@ pub(super) fn cells(set: &PlotSet, room: Rect, left: f32, body: usize) -> Vec<Ce
         frame,
         left: room.left(),
         right,
-        is_lowest: i + 1 == count,
+        is_lowest: is_last_of_axis(shown, i),
     });
     cells.collect()
 }

@@ -4,13 +4,14 @@ use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
 use super::super::tracks::{Detail, Track};
 use super::error::capitalised;
-use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, over_time};
-use crate::lab::Studio;
+use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, origin, over_time, time_in_view};
+use crate::lab::picture::{Framing, Look};
 use crate::lab::race::Mode;
+use crate::lab::{Coordinate, Studio};
 use crate::view::chart::Dots;
 
-/// A lane this many times further out than the truth no longer stretches the axes; and where it is alone,
-/// squeezes nothing but the truth, and is looked at for how it grows.
+/// A lane this many times further out than the truth no longer stretches the axes, and here than the selected lane; and
+/// where it is alone, squeezes nothing but the truth, and is looked at for how it grows.
 const HEALTHY: f64 = 1.6;
 const HEALTHY_ALONE: f64 = 4.0;
 
@@ -20,25 +21,53 @@ pub(super) fn plot_set(studio: &Studio, detail: Detail) -> PlotSet {
     PlotSet {
         styles: SeriesStyles::of(studio),
         title: title.into(),
-        plots: bodies.map(|body| plot(studio, body, detail)).collect(),
+        plots: bodies
+            .flat_map(|body| track(studio, body).into_iter().chain([plot(studio, body, detail)]))
+            .collect(),
     }
+}
+
+/// The track of a body that is steered across a plane, which says more than its coordinates over time.
+fn track(studio: &Studio, body: usize) -> Option<PlotModel> {
+    let truth = &studio.race().truth().bodies()[body];
+    let is_steered = matches!(Look::of(truth).framing(), Framing::Follow { .. });
+    if !is_steered || truth.coordinates().len() < 2 {
+        return None;
+    }
+    let mut tracks = Track::of(studio, body, |sample| sample.at.into());
+    let held = studio.viewer().held().filter(|held| held.body == body);
+    for (track, held) in tracks.iter_mut().filter(|track| track.is_front).zip(held) {
+        track.put(studio.race().t(), [held.q[0], held.q[1]]);
+    }
+    let exact = ExactLine::of(studio, body, |sample| Some(sample.at.into()));
+    let lanes = Track::fitted(studio, &tracks);
+    let range = |axis: usize| {
+        let front = lanes.iter().filter(|lane| lane.is_front).flat_map(|lane| lane.along(axis));
+        let seen = front.chain(exact.fitted(studio, axis)).chain(origin(studio));
+        ranges::around_truth(seen, &lanes, axis, HEALTHY)
+    };
+    let fit = [range(0).into(), range(1).into()];
+    let axes = [0, 1].map(|axis| PlotAxis::of(&truth.coordinates().at(axis)));
+    let title = format!("{}, track", capitalised(&studio.scene().bodies[body].name));
+    let plot = PlotModel::new(body, format!("track of {body}"), title, axes, fit);
+    Some(PlotModel { tracks, dots: Dots::Sparse, exact: vec![exact], ..plot })
 }
 
 fn plot(studio: &Studio, body: usize, detail: Detail) -> PlotModel {
     let truth = &studio.race().truth().bodies()[body];
     let (coordinate, _) = studio.past().coordinate(studio.race(), body);
     let quantity = studio.display().quantity;
-    let tracks = Track::of_quantity(studio, body, quantity, detail);
+    let mut tracks = Track::of_quantity(studio, body, quantity, detail);
+    put_in_hand(studio, body, &mut tracks, |t, [q, v]| [t, quantity.among([q, v])]);
     let exact = ExactLine::of_quantity(studio, body, quantity);
     let lanes = Track::fitted(studio, &tracks);
-    // Where the truth has ended, what the selected lane does is looked at.
-    let selected = lanes
-        .iter()
-        .filter(|lane| lane.is_front && truth.halted().is_some())
-        .flat_map(|lane| lane.along(1));
-    let y =
-        ranges::around_truth(exact.fitted(studio, 1).chain(selected), &lanes, 1, healthy(studio));
-    let name = capitalised(&studio.scene().bodies[body].name);
+    // What is looked at is the selected lane: beside one that has grown the truth may be a flat line.
+    let [from_s, _] = time_in_view(studio.scene().seconds, studio.race().t());
+    let selected = lanes.iter().filter(|lane| lane.is_front);
+    let seen = selected.flat_map(|lane| lane.along_since(from_s)).chain(exact.fitted(studio, 1));
+    let seen = seen.chain(origin(studio));
+    let y = ranges::around_truth(seen, &lanes, 1, HEALTHY);
+    let name = name_of_plotted(studio, body, &coordinate);
     let title = match truth.halted() {
         Some(_) => format!("{name}, {}", truth.truth().missing()),
         None => name,
@@ -47,6 +76,28 @@ fn plot(studio: &Studio, body: usize, detail: Detail) -> PlotModel {
     let axes = [PlotAxis::time("time t"), PlotAxis::of_quantity(quantity, &coordinate)];
     let plot = PlotModel::new(body, id, title, axes, over_time(studio, y));
     PlotModel { tracks, dots: Dots::SparseAlongX, exact: vec![exact], ..plot }
+}
+
+/// The name of a body, and of a net which node it is that its plot shows.
+pub(super) fn name_of_plotted(studio: &Studio, body: usize, coordinate: &Coordinate) -> String {
+    let plotted = &studio.scene().bodies[body];
+    let name = capitalised(&plotted.name);
+    let node = plotted.kind.node(&coordinate.name);
+    node.map_or(name.clone(), |(_, node)| format!("{name}, node {node}"))
+}
+
+/// Goes on in the selected lane at the place where a body that is held would be let go, which the stage shows too.
+pub(super) fn put_in_hand(
+    studio: &Studio,
+    body: usize,
+    tracks: &mut [Track],
+    place: impl Fn(f64, [f64; 2]) -> [f64; 2],
+) {
+    let Some(held) = studio.viewer().held().filter(|held| held.body == body) else { return };
+    let (_, plotted) = studio.past().coordinate(studio.race(), body);
+    let (q, v) = (held.q[plotted], held.v[plotted]);
+    let front = tracks.iter_mut().filter(|track| track.is_front);
+    front.for_each(|track| track.put(studio.race().t(), place(studio.race().t(), [q, v])));
 }
 
 /// How many times further out than the truth a lane still stretches the axes.

@@ -3,9 +3,8 @@
 use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
 use super::super::tracks::Track;
-use super::error::capitalised;
-use super::motion::healthy;
-use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet};
+use super::motion::{healthy, name_of_plotted, put_in_hand};
+use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, origin};
 use crate::lab::Studio;
 use crate::view::chart::Dots;
 
@@ -16,17 +15,19 @@ pub(super) fn plot_set(studio: &Studio) -> PlotSet {
     let body = studio.view().body;
     let mut tracks = Track::of(studio, body, |s| [s.q, s.v]);
     tracks.iter_mut().for_each(|lane| lane.keep_latest(SAMPLES));
+    put_in_hand(studio, body, &mut tracks, |_, place| place);
     // As much of the exact solution as of the lanes that still move.
     let newest = tracks.iter().filter_map(Track::times).max_by(|a, b| a.1.total_cmp(&b.1));
     let since_s = newest.map_or(f64::NEG_INFINITY, |(first, _)| first);
     let exact = ExactLine::of(studio, body, |s| (s.t >= since_s).then_some([s.q, s.v]));
     let fitted = Track::fitted(studio, &tracks);
     let [x, y] = [0, 1].map(|axis| {
-        ranges::around_orbit(exact.fitted(studio, axis), &fitted, axis, healthy(studio))
+        let truth = exact.fitted(studio, axis).chain(origin(studio));
+        ranges::around_orbit(truth, &fitted, axis, healthy(studio))
     });
     let (coordinate, _) = studio.past().coordinate(studio.race(), body);
     let id = format!("phase portrait of {} of {body}", coordinate.name);
-    let title = capitalised(&studio.scene().bodies[body].name);
+    let title = name_of_plotted(studio, body, &coordinate);
     let axes = PlotAxis::of_phase(&coordinate);
     let plot = PlotModel::new(body, id, title, axes, [x.into(), y.into()]);
     let plot = PlotModel { tracks, dots: Dots::Sparse, exact: vec![exact], ..plot };

@@ -117,14 +117,19 @@ impl PlotAxis {
     }
 
     /// The value at a place, with its unit.
+    pub(super) fn with_unit(&self, place: f64) -> String {
+        let number = self.number(place);
+        if self.unit.is_empty() { number } else { format!("{number} {}", self.unit) }
+    }
+
+    /// The value at a place.
     pub(super) fn number(&self, place: f64) -> String {
         /// A longer number is told less precisely.
         const MAX_CHARS: usize = 7;
         let value = self.scale.value(place);
         let number = significant(value, 3);
         let is_long = number.chars().count() > MAX_CHARS;
-        let number = if is_long { significant(value, 1) } else { number };
-        if self.unit.is_empty() { number } else { format!("{number} {}", self.unit) }
+        if is_long { significant(value, 1) } else { number }
     }
 }
 
@@ -250,10 +255,13 @@ impl ExactLine {
 
     /// Where it was at time `t` (s), on the line between samples.
     pub(super) fn at(&self, t: f64) -> Option<[f64; 2]> {
-        let after = self.times.partition_point(|&time| time < t);
-        let (&to_s, to) = self.times.get(after).zip(self.curve.points.get(after))?;
-        let Some(before) = after.checked_sub(1) else { return (to_s == t).then_some(*to) };
+        let after = self.times.partition_point(|&time| time <= t);
+        let before = after.checked_sub(1)?;
         let (from_s, from) = (self.times[before], self.curve.points[before]);
+        if from_s == t {
+            return Some(from);
+        }
+        let (&to_s, to) = self.times.get(after).zip(self.curve.points.get(after))?;
         let part = if to_s > from_s { (t - from_s) / (to_s - from_s) } else { 1.0 };
         Some([0, 1].map(|axis| from[axis] + part * (to[axis] - from[axis])))
     }
@@ -383,6 +391,13 @@ impl PlotSet {
 pub(super) fn over_time(studio: &Studio, (low, high): (f64, f64)) -> Bounds {
     let [from, to] = time_in_view(studio.scene().seconds, studio.race().t());
     [[from, to], [low, high]]
+}
+
+/// The zero that an axis shows while all time in view is the first of a run: a body that has hardly moved is not seen as
+/// through a microscope.
+pub(super) fn origin(studio: &Studio) -> Option<f64> {
+    let [_, to_s] = time_in_view(studio.scene().seconds, 0.0);
+    (studio.race().t() <= to_s).then_some(0.0)
 }
 
 /// The time in view of a run of this length, in seconds: at first a quarter of it, then half of it, then all that has

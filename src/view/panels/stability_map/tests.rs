@@ -106,6 +106,19 @@ fn a_boundary_is_labelled_with_its_limit_where_nothing_is_damped() {
 }
 
 #[test]
+fn a_label_stands_at_its_own_boundary_and_not_at_one_beside_it() {
+    let rect = Rect::from_min_max(pos2(0.0, 0.0), pos2(400.0, 300.0));
+    let line = |y: f32| (0..=100).map(|i| pos2(4.0 * i as f32, y)).collect::<Vec<Pos2>>();
+    for (own, other) in [(100.0, 112.0), (112.0, 100.0), (150.0, 158.0)] {
+        let places = label_places(&line(own), 60.0, rect, &[]);
+        let clear = places.iter().filter(|place| is_clear(place, 60.0, &line(other)));
+        let heights: Vec<f32> = clear.map(|(at, _)| at.y).collect();
+        assert!(!heights.is_empty(), "{own} beside {other}");
+        assert!(heights.iter().all(|y| (y - own).abs() < (y - other).abs()), "{heights:?}");
+    }
+}
+
+#[test]
 fn the_lines_of_equal_damping_of_the_selected_engine_are_labelled_and_explained() {
     let mut window = window();
     let mut studio = studio("engines");

@@ -1,7 +1,7 @@
 //! Which quantity an instrument shows, and what of it is seen, copied and saved.
 
 use super::*;
-use crate::lab::studio::{RunCommand, StageCommand, ViewCommand};
+use crate::lab::studio::{HeldBody, RunCommand, StageCommand, ViewCommand};
 
 #[test]
 fn motion_shows_the_chosen_quantity_and_its_table_follows() {
@@ -73,6 +73,84 @@ fn the_values_beside_a_plot_keep_their_places_while_the_curves_cross() {
 }
 
 #[test]
+fn while_a_body_is_held_and_when_it_was_let_go_the_plot_says_what_the_stage_says() {
+    let mut studio = race_of_springs();
+    let front = |studio: &Studio| {
+        let set = plot_set_of(studio, Detail::Samples).unwrap();
+        let readouts = set.plots[0].readouts(&set.styles, studio.race().t());
+        let of = |entry: Option<usize>| readouts.iter().find(|it| it.entry == entry).unwrap().at[1];
+        [of(Some(studio.active())), of(None)]
+    };
+    let before = front(&studio);
+    let lane = studio.selected().id;
+    let at = glam::DVec2::new(1.648, 0.0);
+    let (q, v) = ([1.648].into(), [0.0].into());
+    studio.apply(RunCommand::Hold(HeldBody { lane, body: 0, q, v, hand: at, handle: at }));
+    assert_eq!(front(&studio), [1.648, before[1]]);
+    studio.apply(ViewCommand::LetGo);
+    let place = Action::Place { body: 0, q: [-0.13].into(), v: [0.0].into() };
+    studio.apply(RunCommand::Act(place));
+    assert_eq!(front(&studio), [-0.13; 2]);
+    studio.apply(StageCommand::Restart);
+    let place = Action::Place { body: 0, q: [0.7].into(), v: [0.0].into() };
+    studio.apply(RunCommand::Act(place));
+    assert_eq!(front(&studio), [0.7; 2], "at the first tick");
+}
+
+#[test]
+fn the_number_of_a_lane_and_its_value_do_not_run_together() {
+    let mut studio = race_of_springs();
+    for q in [0.001_92, -0.000_192, -123.4, 1.92e-7, -1.92e-7, 8.5e30] {
+        let place = Action::Place { body: 0, q: [q].into(), v: [q].into() };
+        studio.apply(RunCommand::Act(place));
+        for quantity in Quantity::ALL {
+            studio.apply(ViewCommand::Quantity(quantity));
+            for size in [vec2(1280.0, 720.0), vec2(1000.0, 640.0)] {
+                let shown = texts(&studio, size);
+                let keys = shown.iter().filter(|(rect, text)| {
+                    text.len() == 1 && is_number(text) && rect.left() > 0.7 * size.x
+                });
+                for (key, number) in keys {
+                    let beside = |(rect, _): &&(Rect, String)| {
+                        rect.left() > key.left() && (rect.center().y - key.center().y).abs() < 3.0
+                    };
+                    for (rect, text) in shown.iter().filter(beside) {
+                        assert!(rect.left() > key.right() + 2.0, "{size}: {number}, {text}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_saved_picture_has_nothing_to_click() {
+    let studio = race_of_springs();
+    for is_picture in [true, false] {
+        let mut window = TestWindow::new([960.0, 600.0]);
+        let mut after = |events: Vec<Event>| {
+            let shown = window.show(events, |ui| match is_picture {
+                true => panels::show_instrument(ui, &studio),
+                false => show_alone(ui, &studio, &mut Vec::new()),
+            });
+            shown.1.whole()
+        };
+        after(Vec::new());
+        let before = after(Vec::new());
+        let chosen = before.iter().find(|(_, text)| text == Quantity::Position.name());
+        let at = chosen.expect("what is plotted is said").0.center();
+        after(vec![Event::PointerMoved(at)]);
+        after(vec![button(at, true)]);
+        after(vec![button(at, false)]);
+        let offers = |texts: &[(Rect, String)]| {
+            texts.iter().filter(|(_, text)| text == Quantity::Velocity.name()).count()
+        };
+        let opened = offers(&after(Vec::new())) > offers(&before);
+        assert_eq!(opened, !is_picture);
+    }
+}
+
+#[test]
 fn a_saved_picture_has_no_tabs_and_an_enlarged_instrument_has_the_room_of_the_table() {
     let mut studio = race_of_springs();
     let has_tabs = |texts: &[(Rect, String)]| texts.iter().any(|(_, text)| text == "Explain");
@@ -99,4 +177,89 @@ fn a_pure_number_has_no_unit() {
     let shown = texts(&studio, vec2(1280.0, 720.0));
     let of_one = shown.iter().find(|(_, text)| text.ends_with(" 1") || text.ends_with(", 1"));
     assert!(of_one.is_none(), "{of_one:?}");
+}
+
+#[test]
+fn motion_shows_all_of_the_selected_lane_however_far_it_goes_and_the_truth() {
+    let scenes = ["harbour", "stiff", "held-force", "orbit"];
+    for (scene, is_race) in scenes.into_iter().flat_map(|scene| [(scene, false), (scene, true)]) {
+        let mut studio = Studio::new(Scene::built_in(scene).unwrap());
+        if is_race {
+            studio.apply(StageCommand::ToggleRace);
+        }
+        let mut widest = 0.0_f64;
+        for seconds in [0, 3, 9, 12] {
+            (0..seconds * studio.race().tick_hz()).for_each(|_| studio.tick());
+            let lanes = if is_race { studio.race().entrants().len() } else { 1 };
+            for lane in 0..lanes {
+                studio.apply(StageCommand::Pick(lane));
+                let set = plot_set_of(&studio, Detail::Samples).unwrap();
+                for plot in &set.plots {
+                    let what = format!("{scene}, lane {lane} at {} s", studio.race().t());
+                    let [[from, to], [low, high]] = plot.fit;
+                    assert!(low.is_finite() && high.is_finite() && low < high, "{what}");
+                    let track = plot.tracks.iter().find(|track| track.is_front).unwrap();
+                    let places = track.places().map(|(t, _, [_, y])| (t, y));
+                    let truth = plot.exact[0].times.iter().copied().zip(plot.exact[0].values(1));
+                    let seen = places.chain(truth).filter(|(t, _)| (from..=to).contains(t));
+                    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+                    for (t, y) in seen {
+                        assert!(low < y && y < high, "{what}: {y} at {t} s, {low} to {high}");
+                        (least, most) = (least.min(y), most.max(y));
+                    }
+                    let zero = if studio.race().t() < from + 5.0 { 0.0 } else { least };
+                    let room = (most.max(zero) - least.min(zero)).max(0.02 * most.abs());
+                    let is_close = (high - low) < 4.0 * room || lanes > 1 || room == 0.0;
+                    assert!(is_close, "{what}: {low} to {high} for {least} to {most}");
+                    widest = widest.max(high - low);
+                }
+                if !is_race {
+                    break;
+                }
+            }
+        }
+        assert!(widest > 6.0 || scene != "harbour", "{scene}: {widest}");
+    }
+}
+
+#[test]
+fn a_body_that_has_not_moved_is_not_seen_through_a_microscope() {
+    for scene in ["harbour", "spring", "pendulum", "orbit"] {
+        let mut studio = Studio::new(Scene::built_in(scene).unwrap());
+        for instrument in [Instrument::Motion, Instrument::Phase] {
+            studio.apply(StageCommand::Instrument(instrument));
+            for _ in 0..2 {
+                for plot in plot_set_of(&studio, Detail::Samples).unwrap().plots {
+                    let [low, high] = plot.fit[1];
+                    assert!(
+                        low <= 0.0 && high >= 0.0 && high - low > 0.0,
+                        "{scene}: {low}, {high}"
+                    );
+                }
+                (0..5).for_each(|_| studio.tick());
+            }
+        }
+    }
+}
+
+#[test]
+fn the_helm_plots_its_track() {
+    let mut studio = Studio::new(Scene::built_in("helm").unwrap());
+    (0..150).for_each(|_| studio.tick());
+    let set = plot_set_of(&studio, Detail::Samples).unwrap();
+    let track = &set.plots[0];
+    assert!(!track.is_over_time() && set.plots[1].is_over_time() && set.plots.len() == 2);
+    let here = studio.selected().lane.bodies()[0].stepper.place();
+    let front = track.tracks.iter().find(|track| track.is_front).unwrap();
+    assert_eq!(front.places().last().unwrap().2, [here.x, here.y]);
+    for (_, _, at) in front.places() {
+        let [[left, right], [low, high]] = track.fit;
+        assert!((left..right).contains(&at[0]) && (low..high).contains(&at[1]), "{at:?}");
+    }
+    for size in [vec2(1280.0, 720.0), vec2(800.0, 600.0)] {
+        let shown = texts(&studio, size);
+        assert!(shown.iter().any(|(_, text)| text == "Helm, track"), "{size}");
+        assert!(shown.iter().any(|(_, text)| text == "y, m"), "{size}");
+    }
+    assert_legible(&studio, "the track of the helm");
 }
