@@ -95,7 +95,7 @@ fn a_run_judged_from_a_hand_has_the_rest_of_the_script_at_its_times() {
     let entry = studio.active();
     studio.analyse();
     let found = studio.viewer().verdict(entry).expect("it is judged").error();
-    let wanted = Judge::new(&rest, 1.0).verdict(studio.entries()[entry], 60).error();
+    let wanted = Judge::new(&rest).verdict(studio.entries()[entry], 60).error();
     let (found, wanted) = (found.unwrap(), wanted.unwrap());
     assert!(wanted > 0.01 && (found / wanted - 1.0).abs() < 1e-9, "{found}, {wanted}");
 }
@@ -116,7 +116,7 @@ fn a_verdict_puts_an_event_between_ticks_on_the_tick_on_which_a_run_puts_it() {
 }
 
 fn error(scene: &Scene, spec: LaneSpec, tick_hz: u32) -> f64 {
-    Judge::new(scene, 1.0).verdict(spec, tick_hz).error().expect("it comes to the end")
+    Judge::new(scene).verdict(spec, tick_hz).error().expect("it comes to the end")
 }
 
 /// A spring that is kicked after 90 ticks, after 120, and after half a second more at another rate.
