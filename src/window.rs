@@ -5,6 +5,7 @@
 //! hidden window draws nothing and continues to simulate.
 
 use std::sync::Arc;
+use std::thread;
 use std::time::{Duration, Instant};
 
 use winit::application::ApplicationHandler;
@@ -15,7 +16,7 @@ use winit::window::{Fullscreen, WindowId};
 use crate::lab::analysis::AnalysisWorker;
 use crate::lab::cloud::CloudWorker;
 use crate::lab::loop_lab::LoopWorker;
-use crate::lab::studio::{Command, DriverRequest, Studio, ViewCommand};
+use crate::lab::studio::{Command, DriverRequest, SceneList, Studio, ViewCommand};
 
 mod canvas;
 mod clipboard;
@@ -103,6 +104,7 @@ pub fn run(
         canvas: None,
         clipboard: Clipboard::default(),
         asked: Vec::new(),
+        opened: false,
         held: Modifiers::default(),
         last_frame: None,
         redraw_owed: false,
@@ -139,6 +141,8 @@ struct App {
     clipboard: Clipboard,
     /// Commands that the next frame applies before it simulates.
     asked: Vec<Command>,
+    /// Whether a command has just opened a scene, of which nothing is drawn yet.
+    opened: bool,
     held: Modifiers,
     /// When the last frame began; `None` if time did not run.
     last_frame: Option<Instant>,
@@ -185,6 +189,10 @@ impl App {
                 if self.meter.first_frame() {
                     log::info!("first frame after {} ms", self.started.elapsed().as_millis());
                     self.stand_still();
+                    _ = thread::Builder::new().spawn(SceneList::prepare);
+                }
+                if std::mem::take(&mut self.opened) {
+                    self.stand_still();
                 }
                 self.meter.frame(now, &self.studio);
                 let again = self.studio.running()
@@ -218,6 +226,7 @@ impl App {
 
     /// Applies the commands and steps the ticks that are due.
     fn simulate(&mut self, event_loop: &ActiveEventLoop, now: Instant) {
+        let scene = std::ptr::from_ref(self.studio.scene());
         for command in std::mem::take(&mut self.asked) {
             match self.studio.apply(command) {
                 Some(DriverRequest::Quit) => self.end(event_loop, Ok(())),
@@ -242,6 +251,10 @@ impl App {
                 }
                 None => {}
             }
+        }
+        // What it takes to build another scene and to draw it first is not time in its run.
+        if scene != std::ptr::from_ref(self.studio.scene()) {
+            (self.opened, self.last_frame) = (true, None);
         }
         self.analysis.ask(self.studio.analysis_request());
         self.loops.ask(self.studio.loop_request());

@@ -5,7 +5,7 @@
 //! reported at once, each with its place and its remedy; a [`Scene`] has none.
 
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock, OnceLock};
 
 use super::action::Action;
 use super::lane_id::LaneId;
@@ -262,11 +262,14 @@ impl Scene {
         body.or_else(|| lanes.next().map(|lane| lane.method.id))
     }
 
-    /// The scene of [`SCENES`] with this name.
+    /// The scene of [`SCENES`] with this name. It is read once, and what is found out for drawing it is shared by all copies.
     pub fn built_in(name: &str) -> Option<Scene> {
-        let BuiltIn { name, text } = SCENES.iter().find(|scene| scene.name == name)?;
-        let scene = Scene::parse(name, text);
-        Some(scene.expect("tests/library/scenes parses every built-in scene"))
+        static READ: LazyLock<Vec<OnceLock<Scene>>> =
+            LazyLock::new(|| SCENES.iter().map(|_| OnceLock::new()).collect());
+        let index = SCENES.iter().position(|scene| scene.name == name)?;
+        let BuiltIn { name, text } = SCENES[index];
+        let read = || Scene::parse(name, text).expect("tests/library/scenes parses them all");
+        Some(READ[index].get_or_init(read).clone())
     }
 }
 

@@ -189,6 +189,8 @@ const RUNAWAY: f64 = 1e4;
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use crate::lab::Scene;
     use crate::lab::race::Lane;
     use crate::sim::Solver;
@@ -196,6 +198,17 @@ mod tests {
     fn ranges(scene: &Scene) -> Vec<(f64, f64)> {
         let lane = Lane::new(scene, Solver::Truth, 1);
         lane.bodies()[0].preview().ranges.clone()
+    }
+
+    #[test]
+    fn where_a_body_of_a_built_in_scene_goes_is_found_once_for_all_copies() {
+        for name in ["rope", "jump"] {
+            let preview = || {
+                let scene = Scene::built_in(name).unwrap();
+                Lane::new(&scene, Solver::Truth, 1).bodies()[0].preview()
+            };
+            assert!(Arc::ptr_eq(&preview(), &preview()), "{name}");
+        }
     }
 
     #[test]

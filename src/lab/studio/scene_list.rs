@@ -3,7 +3,10 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
+use crate::lab::race::{Lane, LaneBody};
 use crate::lab::scene::{BuiltIn, Mistake, SCENES, Scene};
+use crate::sim::Solver;
+use crate::sim::bodies::Origin;
 
 /// The list of scenes, and which of them is open.
 #[derive(Clone, Debug)]
@@ -37,6 +40,16 @@ impl SceneList {
         let is_open = |built_in: &BuiltIn| built_in.name == scene.name && scene.in_rust().is_none();
         let open = SCENES.iter().position(is_open);
         Self { files: Vec::new(), open }
+    }
+
+    /// Reads every built-in scene, and follows bodies that are drawn by where they go, so that none of it is waited for
+    /// where one of them opens.
+    pub fn prepare() {
+        for scene in SCENES.iter().filter_map(|scene| Scene::built_in(scene.name)) {
+            let truth = Lane::new(&scene, Solver::Truth, 1);
+            let is_followed = |body: &&LaneBody| !matches!(body.kind.origin, Origin::Table);
+            truth.bodies().iter().filter(is_followed).for_each(|body| drop(body.preview()));
+        }
     }
 
     /// The number of scenes.
