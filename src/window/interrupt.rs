@@ -1,6 +1,5 @@
 //! Ctrl-C in the terminal that the window was opened from, and a request of the system to end.
 
-use std::process;
 use std::sync::Mutex;
 
 use winit::event_loop::EventLoopProxy;
@@ -11,9 +10,9 @@ use super::Event;
 pub(super) fn send_interrupts(window: EventLoopProxy<Event>) {
     let window = Mutex::new(window);
     let tell = move || {
-        // Once the window is closed, what is left may wait for another program: a recording that goes to a pipe.
-        if window.lock().is_ok_and(|window| window.send_event(Event::Interrupted).is_err()) {
-            process::exit(130);
+        // A closed window needs no event.
+        if let Ok(window) = window.lock() {
+            let _ = window.send_event(Event::Interrupted);
         }
     };
     if let Err(error) = ctrlc::set_handler(tell) {

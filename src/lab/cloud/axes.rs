@@ -9,11 +9,9 @@ const SCOUTS: usize = 100;
 const BORDER_SCOUTS: usize = 90;
 
 /// An axis along which the exact cloud goes this many times further than it is wide follows it.
-const FAR: f64 = 2.2;
+const FAR: f64 = 12.0;
 /// How many times wider than the exact cloud at its widest an axis is that follows it.
-const ROOM: f64 = 1.3;
-/// How far the clouds of the methods stretch such an axis, each way, in its own width.
-const STRETCH: f64 = 0.6;
+const ROOM: f64 = 1.8;
 
 /// The moments through which the axes of a studio are found.
 const MOMENTS: u64 = 60;
@@ -48,7 +46,7 @@ impl From<u64> for ShownTicks {
     }
 }
 
-/// The axes of a run of clouds, which do not move but to follow clouds that go far.
+/// The axes of a run of clouds, which do not move but to follow a cloud that goes far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloudAxes {
     /// Where the exact cloud comes, and the others near it.
@@ -101,20 +99,14 @@ impl CloudAxes {
         Ok(Self { whole, follows })
     }
 
-    /// The part of the plane that is shown while the exact border, and the points of the methods, are there.
-    pub fn around(&self, border: &[Vec<[f64; 2]>], points: &[[f64; 2]]) -> PlaneView {
+    /// The part of the plane that is shown while the exact border is there.
+    pub fn around(&self, border: &[Vec<[f64; 2]>]) -> PlaneView {
         let mut view = self.whole;
         for (i, range) in [&mut view.q, &mut view.v].into_iter().enumerate() {
             let Some(width) = self.follows[i] else { continue };
             let [low, high] = PlaneView::range(border.iter().flatten(), i);
             let middle = (low + high) / 2.0;
-            let [low, high] = [middle - width / 2.0, middle + width / 2.0];
-            let (others, most) = (PlaneView::range(points, i), STRETCH * width);
-            let margin = 0.04 * width;
-            *range = [
-                (others[0] - margin).clamp(low - most, low),
-                (others[1] + margin).clamp(high, high + most),
-            ];
+            *range = [middle - width / 2.0, middle + width / 2.0];
         }
         view
     }

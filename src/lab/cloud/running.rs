@@ -22,9 +22,6 @@ const REACH: f64 = 2.0;
 /// The axes show the exact cloud until it is this many times as wide as at the start, which would then be a speck.
 const SPREAD: f64 = 10.0;
 
-/// The most points of a cloud to which the axes are fitted.
-const FITTED: usize = 500;
-
 /// A run that is further behind than this, in seconds, and does not catch up soon, goes on with a tenth of its points; not
 /// with fewer than this.
 const BEHIND_S: f64 = 0.125;
@@ -234,13 +231,7 @@ impl CloudRun {
 
     fn picture(&self) -> CloudPicture {
         let border = self.exact.cloud.lines();
-        let some = |lane: &SampledCloud<Cloud>| {
-            let (q, v) = (lane.cloud.q(), lane.cloud.v());
-            let every = q.len().div_ceil(FITTED);
-            q.iter().zip(v).step_by(every).map(|(&q, &v)| [q, v]).collect::<Vec<_>>()
-        };
-        let points: Vec<_> = self.lanes.iter().flat_map(|(_, lane)| some(lane)).collect();
-        let view = self.axes.around(&border, &points);
+        let view = self.axes.around(&border);
         let lane = |(entry, SampledCloud { cloud, areas }): &(usize, SampledCloud<Cloud>)| {
             let mut density = Density::new([GRID; 2], view);
             density.add(cloud.q(), cloud.v());
