@@ -74,6 +74,7 @@ mod tests {
             labels.map(|label| label.text).filter(|text| text.contains(" m high")).collect()
         };
         assert_eq!(said(&studio).len(), 0);
+        studio.apply(StageCommand::ToggleRace);
         (0..45).for_each(|_| studio.tick());
         for (entry, way, percent) in [(0, "below", 6.7), (1, "above", 6.8), (2, "as high", 0.0)] {
             studio.apply(StageCommand::Pick(entry));

@@ -109,9 +109,10 @@ impl Room {
     }
 }
 
-/// The next power of two that is not below `times`.
+/// The next power of two that is below `times` by no more than rounding.
 pub(super) fn in_steps(times: f64) -> f64 {
-    libm::exp2(libm::ceil(libm::log2(times.max(1.0))))
+    const ROUNDING: f64 = 1e-9;
+    libm::exp2(libm::ceil(libm::log2(times.max(1.0)) - ROUNDING))
 }
 
 /// The places of what moves of a body.
