@@ -173,6 +173,6 @@ pub mod view;
 pub mod window;
 
 #[cfg(feature = "lab")]
-pub use lab::advise;
+pub use lab::{advise, try_advise};
 #[cfg(feature = "lab")]
 pub use sim::conformance;

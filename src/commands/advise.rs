@@ -37,17 +37,20 @@ tick, 1 to 64, are sought:
   accurate     over the scene no coordinate or velocity is off by more than 1 % of its amplitude
 
 What fails with 8 substeps and with 64 is not searched in between. A scene longer than a minute is
-judged over its first minute. Costs are those of all bodies per simulated second: evaluations of
-the acceleration, and time measured on this machine, the best of several runs. The recommended
-method is the cheapest; between times within a fifth of each other, evaluations decide.
+judged over its first minute. Costs are those of all bodies per simulated second: EVALS/S are
+evaluations of the acceleration, and COST/S are these times what one costs with its share of the
+equations that the method solves: 1 where it solves none, 4 where it iterates, 2 to 3 where it is
+linearised. The recommended method has the least COST/S, of equal ones the fewest substeps, and of
+these it is the first of the table: the same on every machine, in the window and in the library.
+NS/S is measured now, on this machine, the best of several runs, and decides nothing.
 
 HOLDS DOWN TO is the slowest whole tick rate, at or below the one judged, at which the criterion
 still holds with the same substeps: rates are tried downwards, each lower by a sixtieth, for a net
 by a sixth, until one fails. HOLDS UP TO is the factor by which the named parameter may grow:
-factors are tried upwards, each higher by a tenth, until one fails, 10 at most. Neither is known
-where the next run has no truth or takes too much work. With a body of more than eight coordinates
-they are searched for what is recommended and for each method that needs at most four times the
-evaluations of the cheapest.
+factors are tried upwards, each higher by a tenth, until one fails, 10 at most. What already fails
+at the next has no reserve. Neither is known where the next run has no truth or takes too much
+work. With a body of more than eight coordinates they are searched for what is recommended and for
+each method that costs at most four times as much.
 
 In JSON a criterion that is not met has only met, which is false; one that cannot be told is null.
 Where nothing is recommended, none says why.
@@ -122,9 +125,7 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     let scene = &experiment.scene;
     let specs: Vec<LaneSpec> = match args.family {
         Some(family) => of_family(scene, family)?,
-        None if args.experiment.names_no_method() => {
-            scene.non_engine_methods().map(LaneSpec::plain).collect()
-        }
+        None if args.experiment.names_no_method() => scene.advised_lanes(),
         None => args.experiment.lanes_named(scene),
     };
     let wanted = specs.len();

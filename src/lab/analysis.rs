@@ -41,7 +41,7 @@ pub use judge::{Judge, MAX_HORIZON_S};
 pub use limits::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use outcome::{Outcome, Severity};
-pub use report::{Criteria, MethodReport, Recommendation, Report, advise};
+pub use report::{Criteria, MethodReport, Recommendation, Report, advise, try_advise};
 pub use run::MAX_WORK;
 pub use stability_map::{Coverage, Here, MapRequest, Region, SeenLine, StabilityMap};
 pub use truth::LONG_RUN;

@@ -28,6 +28,10 @@ pub struct Options<S: System> {
     pub seconds: f64,
     /// The methods, at most [`MAX_LANES`], from [`METHODS`] or custom ones. Empty: all that step such a body.
     pub methods: Vec<&'static Method>,
+    /// The most work of [advice](crate::advise), in evaluations of one coordinate, counted and therefore the same on every
+    /// machine: what it does not reach is not known. [`MAX_WORK`](crate::lab::analysis::MAX_WORK) takes a second or two. The
+    /// default is no limit.
+    pub max_work: u64,
     /// What is known of the body beyond its equation.
     pub extras: Extras<S>,
     /// Draws the body. `None`: a bead in the plane, or one on a rail for each coordinate.
@@ -41,6 +45,7 @@ impl<S: System> Default for Options<S> {
             tick_hz: 60,
             seconds: 20.0,
             methods: Vec::new(),
+            max_work: u64::MAX,
             extras: Extras::default(),
             draw: None,
         }
@@ -91,7 +96,7 @@ impl Scene {
     where
         S: System<Vector: Vector> + Clone + Send + 'static,
     {
-        let Options { name, tick_hz, seconds, methods, extras, draw } = options;
+        let Options { name, tick_hz, seconds, methods, max_work: _, extras, draw } = options;
         if name.is_empty() || name.chars().count() > MAX_NAME_CHARS {
             let what = format!("{name:?} has {} characters", name.chars().count());
             return Err(error("name", what, format!("give it 1 to {MAX_NAME_CHARS}")));

@@ -45,7 +45,9 @@ pub(crate) use crate::sim::{
     number,
 };
 pub use action::Action;
-pub use analysis::{Adviser, CRITERIA, Criterion, Judge, METRICS, Metric, Report, Verdict, advise};
+pub use analysis::{
+    Adviser, CRITERIA, Criterion, Judge, METRICS, Metric, Report, Verdict, advise, try_advise,
+};
 #[cfg(any(feature = "cli", feature = "view"))]
 pub(crate) use csv_row::csv_row;
 pub use custom::Options;

@@ -79,10 +79,11 @@ fn a_report_has_the_fields_that_are_promised() {
             *a = -40.0 * q;
         }
     }
-    let Options { name, tick_hz, seconds: _, methods: _, extras, draw } = Options::default();
+    let Options { name, tick_hz, seconds: _, methods: _, max_work, extras, draw } =
+        Options::default();
     let two = ["semi-implicit-euler", "rk4"];
     let methods = two.map(|id| method(id).expect("a method of the table")).to_vec();
-    let options = Options { name, tick_hz, seconds: 3.0, methods, extras, draw };
+    let options = Options { name, tick_hz, seconds: 3.0, methods, max_work, extras, draw };
     let report = regatta::advise(&Spring, State { q: 1.0, v: 0.0 }, options);
 
     let Report { name, tick_hz, horizon_s, methods, recommended, not_known } = report;
@@ -92,14 +93,17 @@ fn a_report_has_the_fields_that_are_promised() {
         let Recommendation { method, with } = recommendation.expect("one of the two does");
         assert!(two.contains(&method));
         let CriterionMet {
+            tick_hz,
             substeps,
             evaluations_per_s,
+            cost_per_s,
             are_margins_searched,
             slowest_hz,
             stiffness_factor,
             limited_by,
         } = with;
         assert!(are_margins_searched);
+        assert_eq!((tick_hz, cost_per_s), (60, evaluations_per_s));
         assert_eq!(evaluations_per_s % f64::from(60 * substeps), 0.0);
         assert!(slowest_hz.is_some_and(|hz| (1..=60).contains(&hz)));
         assert!(stiffness_factor.is_some_and(|factor| (1.0..=10.0).contains(&factor)));

@@ -219,7 +219,7 @@ fn the_recommended_lanes_meet_their_criterion_in_a_race() {
                 met: CRITERIA.map(|criterion| adviser.meets(spec(id), criterion)),
             })
             .into();
-        let taken = recommended(&advised, accurate, 1.0, |_, met| met.evaluations_per_s).unwrap();
+        let taken = recommended(&advised, accurate).unwrap();
         let substeps = advised[taken].met[accurate].met().unwrap().substeps;
         let lane = LaneSpec { substeps, ..advised[taken].spec };
         let mut race = Race::new(&scene, [lane]);

@@ -1,4 +1,4 @@
-//! Judges and times the methods, and recommends one for each criterion.
+//! Judges and times the methods.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -25,8 +25,8 @@ pub(super) struct Row {
 /// How long each measurement takes: short enough that six dozen of them are no long wait.
 const EFFORT: Duration = Duration::from_millis(5);
 
-/// Costs that differ by less than this factor are equal.
-const BLUR: f64 = 1.2;
+/// The part by which times may vary from run to run until a warning says so.
+const NOISE: f64 = 0.2;
 
 /// The methods judged, in the order given, without margins; after an interrupt those judged by then.
 pub(super) fn judge_all(
@@ -43,7 +43,7 @@ pub(super) fn judge_all(
     rows.into_iter().flatten().collect()
 }
 
-/// Searches the margins of what is recommended and of what else is worth it; after an interrupt the others are missing.
+/// Searches the margins that are worth it; after an interrupt the others are missing.
 pub(super) fn search_margins(
     pool: &ThreadPool,
     adviser: &Arc<Adviser>,
@@ -51,11 +51,7 @@ pub(super) fn search_margins(
     interrupted: &AtomicBool,
 ) {
     let advised: Vec<MethodAdvice> = rows.iter().map(|row| row.advised.clone()).collect();
-    let mut margins = adviser.worth_margins(&advised);
-    let taken = (0..CRITERIA.len()).filter_map(|i| Some((best(rows, i)?, i)));
-    margins.extend(taken.collect::<Vec<_>>());
-    margins.sort_unstable();
-    margins.dedup();
+    let margins = adviser.worth_margins(&advised);
     let progress = progress(margins.len() as u32, "margins searched");
     let (wanted, adviser) = (margins.clone(), Arc::clone(adviser));
     let search = move |index: usize| {
@@ -111,27 +107,18 @@ pub(super) fn warn_of_load(rows: &[Row]) {
     let mut spreads: Vec<f64> = timings.map(|timing| timing.spread).collect();
     spreads.sort_by(f64::total_cmp);
     if let Some(&middle) = spreads.get(spreads.len() / 2)
-        && middle > BLUR - 1.0
+        && middle > NOISE
     {
         print_status(&format!(
-            "warning: the machine is busy: costs in ns vary by {} % from run to run",
+            "warning: the machine is busy: costs in ns vary by {} % from run to run; what is recommended does not",
             significant(100.0 * middle, 2)
         ));
     }
 }
 
-/// The index of the recommended row for a criterion.
-pub(super) fn best(rows: &[Row], criterion: usize) -> Option<usize> {
-    let advised: Vec<MethodAdvice> = rows.iter().map(|row| row.advised.clone()).collect();
-    let cost = |advised: &MethodAdvice, _: &CriterionMet| {
-        let row = rows.iter().find(|row| row.advised.spec == advised.spec);
-        row.and_then(|row| row.ns_per_s(criterion)).unwrap_or(f64::INFINITY)
-    };
-    recommended(&advised, criterion, BLUR, cost)
-}
-
 /// The recommended row for a criterion, and how it meets it.
 pub(super) fn recommended_row(rows: &[Row], criterion: usize) -> Option<(&Row, &CriterionMet)> {
-    let row = &rows[best(rows, criterion)?];
+    let advised: Vec<MethodAdvice> = rows.iter().map(|row| row.advised.clone()).collect();
+    let row = &rows[recommended(&advised, criterion)?];
     Some((row, row.advised.met[criterion].met()?))
 }

@@ -109,9 +109,7 @@ pub(super) fn object(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usi
         let take = match recommended_row(rows, i) {
             Some((row, met)) => {
                 let method = row.advised.spec.method.id;
-                let mut take = json!(Recommendation { method, with: met.clone() });
-                take["tick_hz"] = adviser.tick_hz().into();
-                take
+                json!(Recommendation { method, with: met.clone() })
             }
             None => json!({ "none": why_none(scene, rows, i) }),
         };
@@ -195,16 +193,14 @@ const METS: &[Column<MetRow>] = &[
     Column::shown("evaluations_per_s", "EVALS/S", |row| {
         json!(row.met.evaluations_per_s.round() as u64)
     }),
-    Column::shown("ns_per_s", "NS/S", |row| json!(row.ns_per_s.map(|ns| ns.round() as u64))),
+    Column::shown("cost_per_s", "COST/S", |row| json!(row.met.cost_per_s.round() as u64)),
+    Column::shown("ns_per_s", "NS/S MEASURED NOW", |row| {
+        json!(row.ns_per_s.map(|ns| ns.round() as u64))
+    }),
     Column::shown("slowest_hz", "HOLDS DOWN TO", |row| {
-        let hz = row.met.slowest_hz.map(|hz| format!("{hz} Hz"));
-        json!(hz.unwrap_or_else(|| unknown(&row.met).into()))
+        json!(row.met.slower().unwrap_or_else(|| unknown(&row.met).into()))
     }),
     Column::shown("stiffness_factor", "HOLDS UP TO", |row| {
-        let CriterionMet { stiffness_factor, limited_by, .. } = &row.met;
-        json!(match (stiffness_factor, limited_by) {
-            (Some(factor), Some(parameter)) => format!("{} × {parameter}", round(*factor, 3)),
-            _ => unknown(&row.met).into(),
-        })
+        json!(row.met.stiffer().unwrap_or_else(|| unknown(&row.met).into()))
     }),
 ];

@@ -12,6 +12,7 @@ use super::slices::{Meter, Once, at_once};
 use super::verdict::Verdict;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::{Scene, SceneBody, edited_values};
+use crate::sim::integrators::METHODS;
 use crate::sim::stability::RateSearch;
 
 /// The most substeps per tick that are tried.
@@ -26,7 +27,7 @@ const WORK_WHEN_STIFFER: u64 = 10_000_000;
 /// A body of more coordinates has its margins searched for methods of about the least cost only: its runs are dear.
 const MANY_COORDINATES: usize = 8;
 
-/// The most times the evaluations of the cheapest method that one of about the least cost needs.
+/// The most times the cost of the recommended method that one of about the least cost has.
 const MAX_TIMES_CHEAPEST: f64 = 4.0;
 
 /// The advice on one method on a scene.
@@ -81,7 +82,18 @@ pub struct Adviser {
 impl Adviser {
     /// An adviser for `scene` under full throttle at this rate.
     pub fn new(scene: &Scene, tick_hz: u32) -> Self {
-        at_once(Self::find(scene.clone(), FULL_THROTTLE, tick_hz, Arc::default()))
+        Self::within(u64::MAX, scene, tick_hz)
+    }
+
+    /// As [`Self::new`], and with this work in all, in the unit of [`MAX_WORK`]: what it does not reach is not known.
+    pub(super) fn within(max_work: u64, scene: &Scene, tick_hz: u32) -> Self {
+        let meter = Meter::within(max_work).into();
+        at_once(Self::find(scene.clone(), FULL_THROTTLE, tick_hz, meter))
+    }
+
+    /// Whether no work is left.
+    fn is_spent(&self) -> bool {
+        self.judge.meter().budget_left() == 0
     }
 
     /// As [`Self::new`], with its work counted by `meter`.
@@ -134,25 +146,19 @@ impl Adviser {
     }
 
     /// The margins that are worth a search: each the index of a method in `advised` and of a criterion that it meets. With a
-    /// body of more than eight coordinates they are those of the methods that need at most four times the evaluations of
-    /// the cheapest.
+    /// body of more than eight coordinates they are those of the methods that cost at most four times what is
+    /// [`recommended`].
     pub fn worth_margins(&self, advised: &[MethodAdvice]) -> Vec<(usize, usize)> {
         let is_dear =
             |body: &SceneBody| body.kind.coordinates(&body.values).len() > MANY_COORDINATES;
-        let most =
-            if self.scene.bodies.iter().any(is_dear) { MAX_TIMES_CHEAPEST } else { f64::INFINITY };
-        let evaluations = |advised: &MethodAdvice, criterion: usize| {
-            advised.met[criterion].met().map(|met| met.evaluations_per_s)
-        };
-        let cheapest: [f64; CRITERIA.len()] = std::array::from_fn(|criterion| {
-            let all = advised.iter().filter_map(|advised| evaluations(advised, criterion));
-            all.fold(f64::INFINITY, f64::min)
+        let has_dear = self.scene.bodies.iter().any(is_dear);
+        let cost = |row: usize, i: usize| advised[row].met[i].met().map(|met| met.cost_per_s);
+        let most = [0, 1, 2].map(|i| {
+            let least = recommended(advised, i).and_then(|row| cost(row, i)).filter(|_| has_dear);
+            least.map_or(f64::INFINITY, |least| MAX_TIMES_CHEAPEST * least)
         });
         let margins = (0..advised.len()).flat_map(|row| (0..CRITERIA.len()).map(move |i| (row, i)));
-        let is_worth = |&(row, i): &(usize, usize)| {
-            evaluations(&advised[row], i).is_some_and(|cost| cost <= most * cheapest[i])
-        };
-        margins.filter(is_worth).collect()
+        margins.filter(|&(row, i)| cost(row, i).is_some_and(|cost| cost <= most[i])).collect()
     }
 
     /// As [`MethodAdvice::search_margins`].
@@ -165,6 +171,9 @@ impl Adviser {
     /// Searches the margins of a method that meets a criterion.
     async fn add_margins(&self, spec: LaneSpec, criterion: Criterion, met: &mut CriterionMet) {
         let spec = LaneSpec { substeps: met.substeps, ..spec };
+        if self.is_spent() {
+            return;
+        }
         (met.stiffness_factor, met.limited_by) = self.stiffest(spec, criterion).await.unzip();
         met.slowest_hz = self.slowest_down(spec, criterion).await;
         met.are_margins_searched = true;
@@ -208,8 +217,10 @@ impl Adviser {
             }
         }
         CriterionResult::With(CriterionMet {
+            tick_hz: self.tick_hz,
             substeps,
             evaluations_per_s,
+            cost_per_s: evaluations_per_s * f64::from(spec.method.evaluation_cost),
             are_margins_searched: false,
             slowest_hz: None,
             stiffness_factor: None,
@@ -249,6 +260,7 @@ impl Adviser {
         let (mut held, mut last_miss) = (0, None);
         while held + 1 < FACTORS.len()
             && last_miss.is_none()
+            && !self.is_spent()
             && let Some(judge) = self.stiffer(held + 1).await
         {
             last_miss = judge.misses(criterion, spec, self.tick_hz).await;
@@ -256,6 +268,7 @@ impl Adviser {
         }
         let culprit = match last_miss {
             Some(CriterionFinding::Unknown) => return None,
+            None if self.is_spent() => return None,
             Some(CriterionFinding::Fails { body }) => Some(body),
             _ => self.stiff_bodies().next().map(|(body, _)| body),
         };
@@ -304,22 +317,18 @@ impl Adviser {
     }
 }
 
-/// The recommended method for a criterion, by its index in `advised`: the method with the least `cost` that meets it,
-/// without the listings as printed. Costs within a factor `blur` count as equal; among them the fewest evaluations win.
-pub fn recommended(
-    advised: &[MethodAdvice],
-    criterion: usize,
-    blur: f64,
-    cost: impl Fn(&MethodAdvice, &CriterionMet) -> f64,
-) -> Option<usize> {
-    let met = |(i, advised): (usize, &MethodAdvice)| {
-        let met = advised.met[criterion].met().filter(|_| !advised.spec.method.is_as_printed())?;
-        Some((i, cost(advised, met), met.evaluations_per_s))
+/// The recommended method for a criterion, by its index in `advised`, whoever asks and in whatever order they stand: of
+/// those that meet it, without the listings as printed, the one of the least [cost](CriterionMet::cost_per_s); of equal
+/// costs the one of the fewest substeps, and of these the first of the table of methods.
+pub fn recommended(advised: &[MethodAdvice], criterion: usize) -> Option<usize> {
+    let place = |advice: &MethodAdvice| METHODS.iter().position(|one| one == advice.spec.method);
+    let rank = |(i, advice): (usize, &MethodAdvice)| {
+        let met = advice.met[criterion].met().filter(|_| !advice.spec.method.is_as_printed())?;
+        Some((i, met.cost_per_s, (met.substeps, place(advice).unwrap_or(METHODS.len()))))
     };
-    let all: Vec<(usize, f64, f64)> = advised.iter().enumerate().filter_map(met).collect();
-    let least = all.iter().map(|(_, cost, _)| *cost).fold(f64::INFINITY, f64::min);
-    let near = all.iter().filter(|(_, cost, _)| *cost <= least * blur);
-    near.min_by(|a, b| a.2.total_cmp(&b.2)).map(|(i, ..)| *i)
+    let all = advised.iter().enumerate().filter_map(rank);
+    let best = all.min_by(|a, b| a.1.total_cmp(&b.1).then(a.2.cmp(&b.2)));
+    best.map(|(i, ..)| i)
 }
 
 #[cfg(test)]

@@ -40,6 +40,7 @@ pub(super) async fn follow_energy(
     tick_hz: u32,
     max_work: u64,
 ) -> EnergyRun {
+    let max_work = max_work.min(truth.meter.budget_left());
     let (hz, horizon) = (f64::from(tick_hz), ticks(truth.horizon_s, tick_hz));
     let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).within(max_work);
     let is_conserved = followed.body.stepper.energy().is_some();

@@ -9,10 +9,14 @@ pub(super) const MAX_STIFFER: f64 = 10.0;
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct CriterionMet {
+    /// The requested tick rate in Hz, at which it meets it.
+    pub tick_hz: u32,
     /// Steps per tick.
     pub substeps: u32,
     /// Evaluations of all bodies' accelerations per simulated second.
     pub evaluations_per_s: f64,
+    /// These evaluations times [what one costs](crate::sim::integrators::Method::evaluation_cost): methods are ranked by it.
+    pub cost_per_s: f64,
     /// Whether the margins have been searched. Where that is dear, they are for methods of about the least cost only.
     #[cfg_attr(feature = "serde", serde(rename = "margins_searched"))]
     pub are_margins_searched: bool,
@@ -28,16 +32,20 @@ pub struct CriterionMet {
     pub limited_by: Option<String>,
 }
 
+/// Said of a margin that leaves nothing.
+const NO_RESERVE: &str = "(no reserve)";
+
 impl CriterionMet {
     /// Its margins, or that they are not known, as a part of a sentence.
     pub fn margins(&self) -> String {
         if !self.are_margins_searched {
             return "how much slower or stiffer, has not been searched".into();
         }
-        let slower = self.slowest_hz.map(|hz| format!("holds down to {hz} Hz"));
-        match (slower, self.stiffer()) {
-            (Some(slower), Some(stiffer)) => format!("{slower}, or {stiffer}"),
-            (Some(slower), None) => format!("{slower}; how much stiffer, is not known"),
+        match (self.slower(), self.stiffer()) {
+            (Some(slower), Some(stiffer)) => format!("holds down to {slower}, or {stiffer}"),
+            (Some(slower), None) => {
+                format!("holds down to {slower}; how much stiffer, is not known")
+            }
             (None, Some(stiffer)) => {
                 format!("holds up to {stiffer}; how much slower, is not known")
             }
@@ -45,9 +53,24 @@ impl CriterionMet {
         }
     }
 
-    fn stiffer(&self) -> Option<String> {
+    /// The rate down to which it holds, in words; `None` if it is not known.
+    pub fn slower(&self) -> Option<String> {
+        let hz = self.slowest_hz?;
+        let mark = if hz >= self.tick_hz { format!(" {NO_RESERVE}") } else { String::new() };
+        Some(format!("{hz} Hz{mark}"))
+    }
+
+    /// The factor and the parameter up to which it holds, in words; `None` if they are not known.
+    pub fn stiffer(&self) -> Option<String> {
         let factor = self.stiffness_factor?;
         let more = if factor >= MAX_STIFFER { "more than " } else { "" };
-        Some(format!("{more}{} × {}", round(factor, 3), self.limited_by.as_deref()?))
+        let mark = if factor <= 1.0 { format!(" {NO_RESERVE}") } else { String::new() };
+        Some(format!("{more}{} × {}{mark}", round(factor, 3), self.limited_by.as_deref()?))
+    }
+
+    /// Whether one of its margins leaves nothing: the next rate or the next factor that was tried fails.
+    pub fn has_no_reserve(&self) -> bool {
+        self.slowest_hz.is_some_and(|hz| hz >= self.tick_hz)
+            || self.stiffness_factor.is_some_and(|factor| factor <= 1.0)
     }
 }

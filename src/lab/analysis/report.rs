@@ -6,7 +6,7 @@ use super::{
     Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS,
     MethodAdvice, Verdict, recommended,
 };
-use crate::lab::custom::{Options, scene};
+use crate::lab::custom::{Options, OptionsError};
 use crate::lab::scene::Scene;
 use crate::sim::{State, System, Vector};
 
@@ -50,7 +50,8 @@ pub struct Report {
     pub horizon_s: f64,
     /// Every method, in the order of the table or as they were given.
     pub methods: Vec<MethodReport>,
-    /// The cheapest method that meets each criterion, by its evaluations; `None` if none does, or if it is not known.
+    /// The method of the least [cost](CriterionMet::cost_per_s) that meets each criterion; `None` if none does, or if it is
+    /// not known.
     pub recommended: Criteria<Option<Recommendation>>,
     /// Ids of the methods with an unknown result: no truth, or too much work.
     pub not_known: Criteria<Vec<&'static str>>,
@@ -88,11 +89,8 @@ impl fmt::Display for Recommendation {
     }
 }
 
-/// Costs that differ by less than this factor are equal.
-const BLUR: f64 = 1.0;
-
 /// Judges methods on a body that moves as `system` does, from `start`, and recommends one. Costs are counted in
-/// evaluations of the acceleration.
+/// evaluations of the acceleration, and so is the [work](Options::max_work) of the advice.
 ///
 /// ```
 /// use regatta::prelude::*;
@@ -118,20 +116,43 @@ const BLUR: f64 = 1.0;
 /// ```
 ///
 /// # Panics
-/// If an option cannot be; [`Scene::of`] returns an error instead, and [`Report::of_scene`] goes on from there.
+/// If an option cannot be; [`try_advise`] returns an error instead.
+#[track_caller]
 pub fn advise<S>(system: &S, start: State<S::Vector>, options: Options<S>) -> Report
 where
     S: System<Vector: Vector> + Clone + Send + 'static,
 {
-    Report::of_scene(&scene(system, start, options))
+    try_advise(system, start, options).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// As [`advise`].
+///
+/// # Errors
+/// If an option cannot be, as of [`Scene::of`].
+pub fn try_advise<S>(
+    system: &S,
+    start: State<S::Vector>,
+    options: Options<S>,
+) -> Result<Report, OptionsError>
+where
+    S: System<Vector: Vector> + Clone + Send + 'static,
+{
+    let max_work = options.max_work;
+    Ok(Report::within(max_work, &Scene::of(system, start, options)?))
 }
 
 impl Report {
-    /// The advice on the methods of a scene's lanes at its tick rate, under full throttle.
+    /// The advice on a scene at its tick rate, under full throttle: on the [lanes](Scene::advised_lanes) that command and
+    /// window judge too.
     pub fn of_scene(scene: &Scene) -> Self {
-        let adviser = Adviser::new(scene, scene.tick_hz);
+        Self::within(u64::MAX, scene)
+    }
+
+    /// As [`Self::of_scene`], with about this [work](Options::max_work) in all.
+    pub fn within(max_work: u64, scene: &Scene) -> Self {
+        let adviser = Adviser::within(max_work, scene, scene.tick_hz);
         let mut judged: Vec<MethodAdvice> =
-            scene.lanes.iter().map(|&spec| adviser.judged(spec)).collect();
+            scene.advised_lanes().into_iter().map(|spec| adviser.judged(spec)).collect();
         for (row, i) in adviser.worth_margins(&judged) {
             judged[row].search_margins(&adviser, i);
         }
@@ -141,8 +162,7 @@ impl Report {
             tick_hz: adviser.tick_hz(),
             horizon_s: adviser.judge().horizon_s(),
             recommended: Criteria::of(|criterion| {
-                let cost = |_: &MethodAdvice, met: &CriterionMet| met.evaluations_per_s;
-                let advice = &judged[recommended(&judged, index(criterion), BLUR, cost)?];
+                let advice = &judged[recommended(&judged, index(criterion))?];
                 let with = advice.met[index(criterion)].met()?.clone();
                 Some(Recommendation { method: advice.spec.method.id, with })
             }),

@@ -99,6 +99,7 @@ pub(super) async fn follow(
         Until::Grown | Until::LongRun => ticks(LONG_RUN * truth.horizon_s, tick_hz).max(horizon),
     };
     // A run that is judged without its error needs no truth.
+    let max_work = max_work.min(truth.meter.budget_left());
     let series = match until {
         Until::Grown => None,
         _ => Some(truth.series(tick_hz).await),

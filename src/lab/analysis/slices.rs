@@ -16,17 +16,29 @@ pub(super) struct Meter {
     passed: AtomicU64,
     /// What has passed at the end of the slice.
     end: AtomicU64,
+    /// The most that may be counted.
+    budget: u64,
 }
 
 impl Default for Meter {
-    /// A meter of work without slices.
+    /// A meter of work without slices and without end.
     fn default() -> Self {
-        let [counted, passed] = [AtomicU64::new(0), AtomicU64::new(0)];
-        Self { counted, passed, end: AtomicU64::new(u64::MAX) }
+        Self::within(u64::MAX)
     }
 }
 
 impl Meter {
+    /// A meter of work without slices, of which `budget` may be counted. What is under way looks at it before each run.
+    pub(super) fn within(budget: u64) -> Self {
+        let [counted, passed] = [AtomicU64::new(0), AtomicU64::new(0)];
+        Self { counted, passed, end: AtomicU64::new(u64::MAX), budget }
+    }
+
+    /// The work left of the budget.
+    pub(super) fn budget_left(&self) -> u64 {
+        self.budget.saturating_sub(self.counted())
+    }
+
     /// The work that was counted so far.
     pub(super) fn counted(&self) -> u64 {
         self.counted.load(Ordering::Relaxed)

@@ -12,7 +12,6 @@ use super::verdict::Verdict;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::race::Interventions;
 use crate::lab::scene::Scene;
-use crate::sim::integrators::Method;
 
 /// The bodies of a scene that advice is about.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -135,8 +134,8 @@ enum Part {
 struct AdviceInProgress {
     bodies: AdvisedBodies,
     adviser: Arc<Adviser>,
-    /// The methods that step the scene.
-    methods: Vec<&'static Method>,
+    /// What is advised on.
+    lanes: Vec<LaneSpec>,
     advised: Vec<MethodAdvice>,
     /// The margins that are still to be searched, the first one last; `None` until all methods are judged.
     margins: Option<Vec<(usize, usize)>>,
@@ -145,12 +144,12 @@ struct AdviceInProgress {
 impl AdviceInProgress {
     fn new(bodies: AdvisedBodies, adviser: Arc<Adviser>) -> Self {
         let scene = adviser.scene();
-        let lane_of = |method: &Method| scene.lanes.iter().position(|l| l.method == method);
-        let mut methods: Vec<_> = scene.non_engine_methods().collect();
+        let place = |spec: &LaneSpec| scene.lanes.iter().position(|l| l.method == spec.method);
+        let mut lanes = scene.advised_lanes();
         // Those that race come first: they are what a person sees.
-        methods.sort_by_key(|method| lane_of(method).unwrap_or(usize::MAX));
+        lanes.sort_by_key(|spec| place(spec).unwrap_or(usize::MAX));
         let (advised, margins) = (Vec::new(), None);
-        Self { bodies, adviser, methods, advised, margins }
+        Self { bodies, adviser, lanes, advised, margins }
     }
 
     /// The next method to judge, or else the next margin to search.
@@ -158,8 +157,7 @@ impl AdviceInProgress {
         let adviser = self.adviser.clone();
         let meter = adviser.judge().meter().clone();
         let row = self.advised.len();
-        if let Some(method) = self.methods.get(row) {
-            let spec = LaneSpec::plain(method);
+        if let Some(&spec) = self.lanes.get(row) {
             return Some(Sliced::new(meter, async move {
                 Part::Advised(row, adviser.advice_on(spec).await.into())
             }));
@@ -179,7 +177,7 @@ impl AdviceInProgress {
             return;
         }
         self.advised.push(advice);
-        if self.advised.len() == self.methods.len() {
+        if self.advised.len() == self.lanes.len() {
             let mut margins = self.adviser.worth_margins(&self.advised);
             margins.reverse();
             self.margins = Some(margins);
@@ -342,10 +340,10 @@ impl AnalysisWorker {
     pub fn findings(&self) -> Findings {
         let advice = self.advising.as_ref().filter(|_| self.request.advice.is_some());
         let advice =
-            advice.map(|AdviceInProgress { bodies, adviser, methods, advised, .. }| Advice {
+            advice.map(|AdviceInProgress { bodies, adviser, lanes, advised, .. }| Advice {
                 bodies: *bodies,
                 tick_hz: adviser.tick_hz(),
-                wanted: methods.len(),
+                wanted: lanes.len(),
                 advised: advised.clone(),
             });
         Findings {

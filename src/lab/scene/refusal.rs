@@ -2,6 +2,7 @@
 
 use super::{Scene, SceneBody};
 use crate::lab::action::Action;
+use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::incompatibility;
 use crate::sim::integrators::{Family, METHODS, Method};
 
@@ -36,6 +37,15 @@ impl Scene {
     /// The [methods that fit](Scene::fitting_methods) without those of engines: what a game can implement itself.
     pub fn non_engine_methods(&self) -> impl Iterator<Item = &'static Method> {
         self.fitting_methods().filter(|method| !method.is_engine())
+    }
+
+    /// The lanes that advice is on: those of a body that is written in Rust, and of any other scene each of the
+    /// [methods](Scene::non_engine_methods) that a game can implement, with its card's substeps.
+    pub fn advised_lanes(&self) -> Vec<LaneSpec> {
+        match self.source {
+            Some(_) => self.non_engine_methods().map(LaneSpec::plain).collect(),
+            None => self.lanes.clone(),
+        }
     }
 
     /// The methods of a family that step every body of this scene.

@@ -32,7 +32,7 @@ impl Studio {
 
     /// The bodies that advice is about.
     fn advised_bodies(&self) -> AdvisedBodies {
-        match self.display().advises_on_one_body {
+        match self.display().advises_on_one_body && self.scene().bodies.len() > 1 {
             true => AdvisedBodies::One(self.view().body),
             false => AdvisedBodies::All,
         }

@@ -88,7 +88,7 @@ impl Default for Preferences {
                 quantity: Quantity::default(),
                 enlarged: false,
                 metric: 0,
-                advises_on_one_body: false,
+                advises_on_one_body: true,
                 cloud: CloudChoice::default(),
                 arrangement: Arrangement::Overlay,
                 theme: Theme::Dark,

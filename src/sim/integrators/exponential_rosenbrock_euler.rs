@@ -10,6 +10,7 @@ pub(super) const CARD: Method = Method {
     about: "exact at any step on springs, drag and all that is linear, without damping of its own; second order elsewhere",
     order: 2,
     order_with_drag: 2,
+    evaluation_cost: 3,
     exact_if_linear: true,
     source: "Pope, An exponential method of numerical integration of ordinary differential equations (1963); Hochbruck & Ostermann, Exponential integrators (2010)",
     formula: &[

@@ -54,8 +54,8 @@ fn which_bodies(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let display = studio.display();
     ui.horizontal(|ui| {
         for (is_one, name) in [
-            (false, format!("all {} bodies", bodies.len())),
             (true, format!("{} alone", bodies[studio.view().body].name)),
+            (false, format!("all {} bodies", bodies.len())),
         ] {
             let is_chosen = display.advises_on_one_body == is_one;
             let choice = ui.selectable_label(is_chosen, RichText::new(name).size(SMALL));
@@ -68,7 +68,7 @@ fn which_bodies(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
 
 /// The method to take for a criterion.
 fn best(advice: &Advice, criterion: usize) -> Option<usize> {
-    recommended(&advice.advised, criterion, 1.0, |_, met| met.evaluations_per_s)
+    recommended(&advice.advised, criterion)
 }
 
 /// A line, which is cut off rather than to widen the panel.
@@ -129,15 +129,21 @@ fn answer(
     }
 }
 
-/// A method and its substeps, of which the name gives way to the substeps.
+/// A method and its substeps, with a mark if they leave no reserve, of which the name gives way.
 fn taken_line(ui: &mut Ui, name: &str, met: &CriterionMet) {
     let font = strong_font(TYPE);
     let strong = |words: &str| RichText::new(words).font(font.clone()).color(palette(ui).good);
-    let substeps = format!("×{}", met.substeps);
     let width = |words: &str| {
         ui.painter().layout_no_wrap(words.to_owned(), font.clone(), palette(ui).good).size().x
     };
-    let room = ui.available_width() - width(&substeps) - ui.spacing().item_spacing.x;
+    let room =
+        |substeps: &str| ui.available_width() - width(substeps) - ui.spacing().item_spacing.x;
+    let marks: &[&str] = if met.has_no_reserve() { &[", no reserve", " !"] } else { &[""] };
+    let marked = |mark: &&str| format!("×{}{mark}", met.substeps);
+    let mut substeps = marks.iter().map(marked);
+    let fits = substeps.clone().find(|substeps| width(name) <= room(substeps));
+    let substeps = fits.or_else(|| substeps.next_back()).expect("there is a mark");
+    let room = room(&substeps);
     let (name_width, name, substeps) = (width(name).min(room), strong(name), strong(&substeps));
     slot(ui, name_width, |ui| line(ui, name)).on_hover_text(told_of(met));
     line(ui, substeps).on_hover_text(told_of(met));
@@ -431,5 +437,31 @@ mod tests {
             euler.met[0].met().unwrap().evaluations_per_s
         };
         assert_eq!([counts(true), counts(false)], [60.0, 180.0]);
+        // A lane's verdict is one body's, and so is the advice until all are asked for.
+        let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+        studio.apply(StageCommand::Instrument(Instrument::Advice));
+        assert_eq!(studio.analysis_request().advice, Some(AdvisedBodies::One(0)));
+    }
+
+    #[test]
+    fn what_has_no_reserve_is_marked_in_the_answer_and_in_its_tooltip() {
+        let (mut studio, mut worker) = asked("ship", false);
+        judge(&mut studio, &mut worker, 2);
+        let mut findings = worker.findings();
+        let advice = findings.advice.as_mut().unwrap();
+        let CriterionResult::With(met) = &mut advice.advised[1].met[0] else { panic!("bounded") };
+        met.are_margins_searched = true;
+        for (slowest_hz, factor, marks) in [(20, 1.0, 1), (60, 1.4, 1), (20, 1.4, 0)] {
+            (met.slowest_hz, met.stiffness_factor) = (Some(slowest_hz), Some(factor));
+            met.limited_by = Some("drag".into());
+            (met.tick_hz, met.cost_per_s) = (60, 1.0);
+            assert_eq!(told_of(met).matches("no reserve").count(), marks, "{}", told_of(met));
+            let met = met.clone();
+            let mut window = TestWindow::new([1280.0, 720.0]);
+            let mut frame = || window.show(Vec::new(), |ui| taken_line(ui, "Euler", &met)).1;
+            drop(frame());
+            let shown = frame().whole().into_iter().filter(|(_, text)| text.contains("no reserve"));
+            assert_eq!(shown.count(), marks, "{slowest_hz} Hz, {factor}");
+        }
     }
 }

@@ -10,7 +10,7 @@ use super::{Orbit, Spring};
 const SPRING: Spring = Spring { mass: 1.0, stiffness: 40.0, damping: 0.0 };
 
 fn refused(options: Options<Spring>) -> OptionsError {
-    Scene::of(&SPRING, State { q: 1.0, v: 0.0 }, options).expect_err("a fault")
+    regatta::try_advise(&SPRING, State { q: 1.0, v: 0.0 }, options).expect_err("a fault")
 }
 
 fn refused_extras(extras: Extras<Spring>) -> OptionsError {

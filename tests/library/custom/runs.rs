@@ -44,6 +44,31 @@ fn a_report_says_what_the_adviser_finds() {
     }
 }
 
+#[test]
+fn what_a_budget_of_work_does_not_reach_is_not_known_and_the_rest_is_as_without_it() {
+    let whole = Report::of_scene(&scene());
+    let told = |max_work: u64| {
+        let report = Report::within(max_work, &scene());
+        assert_eq!(report, Report::within(max_work, &scene()), "the same work, the same report");
+        let mut margins = 0;
+        for (found, all) in report.methods.iter().zip(&whole.methods) {
+            for criterion in CRITERIA {
+                let [found, all] = [found, all].map(|row| row.criteria.get(criterion));
+                let Some(found) = found else { continue };
+                let all = all.as_ref().expect("it was met without a budget");
+                assert_eq!(found.substeps, all.substeps, "{criterion:?}");
+                margins += u32::from(found.are_margins_searched);
+            }
+        }
+        let open = CRITERIA.map(|criterion| report.not_known.get(criterion).len());
+        (open.iter().sum::<usize>(), margins)
+    };
+    assert_eq!(told(0), (9, 0));
+    let (few, some) = (told(40_000), told(u64::MAX));
+    assert!((1..9).contains(&few.0) && few.1 == 0, "{few:?}");
+    assert!(some.0 == 0 && some.1 > 4, "{some:?}");
+}
+
 #[cfg(feature = "desktop")]
 #[test]
 fn a_report_is_written_as_json_with_the_keys_of_the_command() {

@@ -5,8 +5,10 @@ use crate::sim::integrators::method;
 fn met(slowest_hz: Option<u32>, stiffness_factor: Option<f64>) -> CriterionMet {
     let limited_by = stiffness_factor.map(|_| "stiffness".into());
     CriterionMet {
+        tick_hz: 60,
         substeps: 1,
         evaluations_per_s: 60.0,
+        cost_per_s: 60.0,
         are_margins_searched: true,
         slowest_hz,
         stiffness_factor,
@@ -19,38 +21,46 @@ fn margins_are_told_as_far_as_they_are_known() {
     for (slowest_hz, stiffness_factor, told) in [
         (Some(50), Some(1.4), "holds down to 50 Hz, or 1.4 × stiffness"),
         (Some(50), Some(1e4), "holds down to 50 Hz, or more than 10000 × stiffness"),
+        (Some(59), Some(1.0), "holds down to 59 Hz, or 1 × stiffness (no reserve)"),
+        (Some(60), Some(1.1), "holds down to 60 Hz (no reserve), or 1.1 × stiffness"),
+        (Some(60), None, "holds down to 60 Hz (no reserve); how much stiffer, is not known"),
         (Some(50), None, "holds down to 50 Hz; how much stiffer, is not known"),
         (None, Some(1.4), "holds up to 1.4 × stiffness; how much slower, is not known"),
         (None, None, "how much slower or stiffer, is not known"),
     ] {
-        assert_eq!(met(slowest_hz, stiffness_factor).margins(), told);
+        let met = met(slowest_hz, stiffness_factor);
+        assert_eq!(met.margins(), told);
+        assert_eq!(met.has_no_reserve(), told.contains("no reserve"));
     }
 }
 
 #[test]
-fn evaluations_decide_between_similar_costs_and_listings_as_printed_are_left_out() {
-    let judge = Judge::new(&Scene::built_in("spring").unwrap());
-    let advised = |id: &str, evaluations_per_s: f64| {
+fn the_least_cost_decides_then_the_fewest_substeps_then_the_place_in_the_table() {
+    let judge = Judge::new(&Scene::built_in("ship").unwrap());
+    let advised = |(id, substeps, evaluations_per_s): (&str, u32, f64)| {
         let spec = LaneSpec::plain(method(id).unwrap());
-        let met = CriterionMet { evaluations_per_s, ..met(Some(60), Some(1.0)) };
+        let cost_per_s = evaluations_per_s * f64::from(spec.method.evaluation_cost);
+        let met =
+            CriterionMet { substeps, evaluations_per_s, cost_per_s, ..met(Some(60), Some(1.0)) };
         let met = [CriterionResult::With(met), CriterionResult::No, CriterionResult::Unknown];
         MethodAdvice { spec, verdict: judge.verdict(spec, 60), met }
     };
-    let all = [
-        advised("rk4", 240.0),
-        advised("velocity-verlet", 60.0),
-        advised("midpoint", 120.0),
-        advised("rk4-as-printed", 30.0),
-    ];
-    let with = |costs: [f64; 4], blur: f64| {
-        recommended(&all, 0, blur, |advised, _| {
-            costs[all.iter().position(|one| one.spec == advised.spec).unwrap()]
-        })
-    };
-    assert_eq!(with([10.0, 20.0, 30.0, 1.0], 1.2), Some(0));
-    assert_eq!(with([10.0, 11.9, 11.9, 1.0], 1.2), Some(1));
-    assert_eq!(with([10.0, 12.1, 11.9, 1.0], 1.2), Some(2));
-    assert!((1..3).all(|criterion| recommended(&all, criterion, 1.2, |_, _| 1.0).is_none()));
+    // What is named first is taken, wherever it stands.
+    for all in [
+        [("velocity-verlet", 1, 60.0), ("rk4", 1, 240.0), ("rk4-as-printed", 1, 30.0)],
+        [("pefrl", 3, 720.0), ("exponential-rosenbrock-euler", 1, 360.0), ("rk4", 8, 1920.0)],
+        [("rk4", 1, 240.0), ("implicit-midpoint", 1, 180.0), ("pefrl", 2, 480.0)],
+        [("velocity-verlet", 1, 120.0), ("explicit-euler", 2, 120.0), ("midpoint", 2, 120.0)],
+        [("improved-euler", 2, 240.0), ("pefrl", 2, 240.0), ("rk4", 2, 240.0)],
+    ] {
+        for turn in 0..3 {
+            let mut advised = all.map(advised);
+            advised.rotate_left(turn);
+            let taken = recommended(&advised, 0).map(|row| advised[row].spec.method.id);
+            assert_eq!(taken, Some(all[0].0), "{turn}");
+            assert!((1..3).all(|criterion| recommended(&advised, criterion).is_none()));
+        }
+    }
 }
 
 #[test]

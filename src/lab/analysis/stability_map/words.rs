@@ -36,9 +36,8 @@ impl StabilityMap {
 
     /// How many methods are stable at the present point, and which grows fastest.
     pub fn stable_here(&self) -> String {
-        let bounded = || self.here.iter().filter(|here| **here != Here::OwnSteps);
-        let (all, stable) =
-            (bounded().count(), bounded().filter(|here| **here == Here::Stable).count());
+        let of = |kind: Here| self.here.iter().filter(|here| **here == kind).count();
+        let (all, stable, own) = (self.here.len(), of(Here::Stable), of(Here::OwnSteps));
         if stable == all && all > 1 {
             return format!("all {all} methods are stable.");
         }
@@ -50,8 +49,13 @@ impl StabilityMap {
         });
         let fastest = growing.min_by(|a, b| a.2.total_cmp(&b.2));
         let fastest = fastest.map(|(name, here, _)| format!(" {name} {here}."));
+        let own = match own {
+            0 => String::new(),
+            1 => ", 1 picks its own steps".into(),
+            _ => format!(", {own} pick their own steps"),
+        };
         let all = counted(all, "method");
-        format!("{stable} of {all} {verb} stable.{}", fastest.unwrap_or_default())
+        format!("{stable} of {all} {verb} stable{own}.{}", fastest.unwrap_or_default())
     }
 
     /// What the map does not draw: a sentence each, with a blank before it.

@@ -77,7 +77,8 @@ impl BodyTruth {
         };
         let mut gap: f64 = 0.0;
         let ticks = ticks(self.horizon_s, tick_hz);
-        if ticks.saturating_mul((n * n) as u64) > MAX_SERIES_PRODUCTS {
+        let is_spent = self.meter.budget_left() == 0;
+        if is_spent || ticks.saturating_mul((n * n) as u64) > MAX_SERIES_PRODUCTS {
             series.is_too_much = true;
             return series;
         }

@@ -52,7 +52,7 @@ fn the_sentence_counts_the_stable_methods() {
     assert_eq!(
         map.stable_here().split(" Explicit").next().unwrap(),
         // At 60 Hz ω h is 1.67.
-        "2 of 4 methods are stable."
+        "2 of 5 methods are stable, 1 picks its own steps."
     );
     assert!(
         map.not_drawn().contains("Explicit Euler, Improved Euler are stable nowhere on this map.")

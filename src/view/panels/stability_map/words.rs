@@ -94,7 +94,10 @@ fn longest(studio: &Studio, map: &StabilityMap) -> [String; 2] {
     let here = range.map(|value| point_in_words(studio, *parameter, rates_hz[1] as u32, value));
     let name = names.into_iter().max_by_key(|name| name.chars().count()).unwrap_or_default();
     let all = specs.len();
-    let does = format!("{all} of {all} methods are stable. {name} {}.", Here::Doubles(0.001_23));
+    let does = format!(
+        "{all} of {all} methods are stable, {all} pick their own steps. {name} {}.",
+        Here::Doubles(0.001_23)
+    );
     [here.into_iter().max_by_key(|here| here.chars().count()).unwrap_or_default(), does]
 }
 
