@@ -445,18 +445,18 @@ mod tests {
 
     #[test]
     fn what_has_no_reserve_is_marked_in_the_answer_and_in_its_tooltip() {
-        let (mut studio, mut worker) = asked("ship", false);
-        judge(&mut studio, &mut worker, 2);
-        let mut findings = worker.findings();
-        let advice = findings.advice.as_mut().unwrap();
-        let CriterionResult::With(met) = &mut advice.advised[1].met[0] else { panic!("bounded") };
-        met.are_margins_searched = true;
         for (slowest_hz, factor, marks) in [(20, 1.0, 1), (60, 1.4, 1), (20, 1.4, 0)] {
-            (met.slowest_hz, met.stiffness_factor) = (Some(slowest_hz), Some(factor));
-            met.limited_by = Some("drag".into());
-            (met.tick_hz, met.cost_per_s) = (60, 1.0);
-            assert_eq!(told_of(met).matches("no reserve").count(), marks, "{}", told_of(met));
-            let met = met.clone();
+            let met = CriterionMet {
+                tick_hz: 60,
+                substeps: 1,
+                evaluations_per_s: 60.0,
+                cost_per_s: 60.0,
+                are_margins_searched: true,
+                slowest_hz: Some(slowest_hz),
+                stiffness_factor: Some(factor),
+                limited_by: Some("stiffness".into()),
+            };
+            assert_eq!(told_of(&met).matches("no reserve").count(), marks, "{}", told_of(&met));
             let mut window = TestWindow::new([1280.0, 720.0]);
             let mut frame = || window.show(Vec::new(), |ui| taken_line(ui, "Euler", &met)).1;
             drop(frame());
