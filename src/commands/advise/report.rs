@@ -10,7 +10,6 @@ use crate::lab::analysis::{
 };
 use crate::lab::source_code::{Language, Precision};
 use crate::lab::{Scene, source_code};
-use crate::sim::number::round;
 
 /// The answer as text: the recommendations, the recommended method in this language if there is one, the verdicts, and
 /// the methods that meet each criterion with their costs.

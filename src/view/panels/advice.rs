@@ -438,9 +438,8 @@ mod tests {
         };
         assert_eq!([counts(true), counts(false)], [60.0, 180.0]);
         // A lane's verdict is one body's, and so is the advice until all are asked for.
-        let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
-        studio.apply(StageCommand::Instrument(Instrument::Advice));
-        assert_eq!(studio.analysis_request().advice, Some(AdvisedBodies::One(0)));
+        let studio = Studio::new(Scene::built_in("harbour").unwrap());
+        assert!(studio.display().advises_on_one_body);
     }
 
     #[test]
