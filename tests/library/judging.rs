@@ -8,6 +8,8 @@ use regatta::lab::{LaneSpec, Scene};
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, Stepper};
 
+use crate::dice::Dice;
+
 const LOOKS_RIGHT: usize = 1;
 
 fn scene(seconds: f64, bodies: &str) -> Scene {
@@ -506,4 +508,101 @@ fn an_adaptive_method_on_an_oscillator_is_judged_by_how_it_goes_on() {
         }
     }
     assert!(grow > 0 && stay > 0, "{grow} grow, {stay} stay");
+}
+
+#[test]
+fn an_undamped_spring_that_looks_right_swings_as_wide_as_the_truth_from_any_start() {
+    let mut dice = Dice::new(44_02);
+    let (mut told, mut refused) = (0, 0);
+    for _ in 0..60 {
+        let omega = 2.0 + 18.0 * dice.part();
+        let [x0, v0] = [dice.between(0.3, 1.5), omega * dice.between(-1.5, 1.5)];
+        let tick_hz = (omega / dice.between(0.2, 0.48)).round() as u32;
+        let spring = format!(
+            "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = {}\nx0_m = {x0}\nv0_m_per_s = {v0}",
+            omega * omega
+        );
+        let scene = scene(20.0, &spring);
+        // v² + ω² x² - h ω² x v is constant, and x² is at most this over ω² (1 - z² / 4).
+        let off = |steps: u32| {
+            let h = 1.0 / f64::from(steps * tick_hz);
+            let (exact, z) = ((v0 / omega).hypot(x0), h * omega);
+            let kept = exact * exact - h * x0 * v0;
+            (kept / (1.0 - z * z / 4.0)).sqrt() / exact - 1.0
+        };
+        let adviser = Adviser::new(&scene, tick_hz);
+        let meets = adviser.meets(spec("semi-implicit-euler"), CRITERIA[LOOKS_RIGHT]);
+        let met = meets.met().unwrap();
+        let told_off = off(met.substeps);
+        assert!(told_off.is_finite() && told_off.abs() <= 0.0501, "{told_off}: {spring}");
+        told += 1;
+        if met.substeps > 1 && off(met.substeps - 1).abs() > 0.05 {
+            refused += 1;
+        }
+    }
+    assert!(told == 60 && (5..=55).contains(&refused), "{refused} are refused for their width");
+}
+
+#[test]
+fn a_damped_spring_that_looks_right_reaches_as_far_as_the_truth() {
+    let scene = scene(
+        20.0,
+        "[[spring]]\nmass_kg = 1.606\nstiffness_n_per_m = 3464\ndamping_n_s_per_m = 1.86\n\
+         x0_m = 1.238\nv0_m_per_s = -57.43",
+    );
+    let adviser = Adviser::new(&scene, 115);
+    let meets = adviser.meets(spec("semi-implicit-euler"), CRITERIA[LOOKS_RIGHT]);
+    let substeps = meets.met().unwrap().substeps;
+    let furthest = |solver: Solver, substeps: u32| {
+        let (mut body, mut furthest) = (body(&scene, solver), 0.0_f64);
+        for tick in 0..115 * 16 {
+            let h = 1.0 / (115.0 * 16.0);
+            if solver == Solver::Truth {
+                body.advance(f64::from(tick) * h, h, 1).unwrap();
+            } else if tick % 16 == 0 {
+                body.advance(f64::from(tick) * h, 16.0 * h, substeps).unwrap();
+            }
+            furthest = furthest.max(body.q()[0].abs());
+        }
+        furthest
+    };
+    let solver = spec("semi-implicit-euler").solver();
+    let (truth, lane) = (furthest(Solver::Truth, 1), furthest(solver, substeps));
+    assert!((truth - 1.684).abs() < 2e-3, "{truth}");
+    assert!((lane / truth - 1.0).abs() < 0.05, "{lane} by {substeps}, not {truth}");
+    assert!(furthest(solver, substeps - 1) / truth > 1.04, "one fewer would do");
+}
+
+#[test]
+fn a_body_that_swings_less_than_three_times_is_judged_by_its_first_swings() {
+    let pendulum = "[[pendulum]]\nlength_m = 0.3939\nmass_kg = 0.3703\ngravity_m_per_s2 = 1.782\n\
+                    theta0_rad = 2.144\nomega0_rad_per_s = 1.096";
+    let spring = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1";
+    for (body, tick_hz, lengths, substeps) in
+        [(pendulum, 4, [6.0, 10.0, 30.0], 1), (spring, 3, [8.0, 16.0, 60.0], 1)]
+    {
+        for seconds in lengths {
+            let adviser = Adviser::new(&scene(seconds, body), tick_hz);
+            let meets = adviser.meets(spec("velocity-verlet"), CRITERIA[LOOKS_RIGHT]);
+            let found = meets.met().map(|met| met.substeps);
+            assert_eq!(found, Some(substeps), "{seconds} s of {body}");
+        }
+    }
+}
+
+#[test]
+fn what_is_accurate_by_a_hair_has_no_margin() {
+    for (id, tick_hz, body) in [
+        ("midpoint", 10, "[[orbit]]\nmu_m3_per_s2 = 2.562\nx0_m = 0.4876\nvy0_m_per_s = 3.028"),
+        (
+            "velocity-verlet",
+            2,
+            "[[pendulum]]\nlength_m = 2.132\nmass_kg = 3.701\ntheta0_rad = 2.308\n\
+             omega0_rad_per_s = -0.9921",
+        ),
+    ] {
+        let adviser = Adviser::new(&scene(20.0, body), tick_hz);
+        let met = adviser.meets(spec(id), CRITERIA[2]).met().unwrap().clone();
+        assert!(met.substeps > 1 && met.stiffness_factor == Some(1.0), "{id}: {met:?}");
+    }
 }

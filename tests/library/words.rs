@@ -14,6 +14,7 @@ const COMPARED: Comparison = Comparison {
     last_error: 0.2,
     truth_error: 0.0,
     change: Trend::None,
+    leap: None,
     energy_change: None,
     energy_drift_percent: None,
     frequency_error: None,
@@ -54,6 +55,33 @@ fn of_two(verdict: Verdict) -> Verdict {
 
 fn failed(cause: &StepFailure) -> Finding {
     Finding::Failed { failure: RunFailure { t: 4.0, cause: cause.clone() }, by_energy: None }
+}
+
+#[test]
+fn a_swing_that_is_much_too_wide_is_not_called_stable() {
+    let found = Comparison {
+        change: Trend::Grows,
+        leap: Some(1.8),
+        energy_change: Some(0.0),
+        frequency_error: Some(0.18),
+        error: 2.81,
+        ..COMPARED
+    };
+    let verdict = compared(found);
+    assert_eq!(verdict.to_string(), "gains energy: swing up to ×1.8 (18 % fast)");
+    assert_eq!(verdict.outcome().severity(), Severity::Bad);
+}
+
+#[test]
+fn beside_a_run_that_was_changed_each_wording_tells_of_which_run_it_is() {
+    let found = compared(Comparison { energy_change: Some(0.0), ..COMPARED });
+    for (starts_at_s, from) in [(0.0, "from the start: "), (3.0, "from 3 s: ")] {
+        let verdict = Verdict { starts_at_s, ..found.clone() };
+        let wordings = verdict.wordings_of_another_run(true);
+        assert!(wordings.len() > 3, "{wordings:?}");
+        assert!(wordings.iter().all(|words| words.starts_with(from)), "{wordings:?}");
+        assert!(wordings[0].ends_with("stable, out of phase by 25 % after 20 s"), "{wordings:?}");
+    }
 }
 
 #[test]

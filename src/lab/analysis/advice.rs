@@ -24,6 +24,10 @@ const FEW_SUBSTEPS: u32 = 8;
 /// The most work for one run of a stiffer scene, in the unit of [`MAX_WORK`](super::MAX_WORK). There are many such runs.
 const WORK_WHEN_STIFFER: u64 = 10_000_000;
 
+/// The part of the tolerance that a stiffer scene must leave to be accurate: the error at coarse ticks has bumps between the
+/// factors that are tried.
+const SPARE_WHEN_STIFFER: f64 = 0.2;
+
 /// A body of more coordinates has its margins searched for methods of about the least cost only: its runs are dear.
 const MANY_COORDINATES: usize = 8;
 
@@ -258,6 +262,13 @@ impl Adviser {
     /// limits it; `None` if it is not known whether the criterion holds with the next.
     async fn stiffest(&self, spec: LaneSpec, criterion: Criterion) -> Option<(f64, String)> {
         let (mut held, mut last_miss) = (0, None);
+        // What is accurate by a hair may not be a hair beyond.
+        if criterion == Criterion::Accurate
+            && self.judge.has_bumps()
+            && let Some(judge) = self.stiffer(0).await
+        {
+            last_miss = judge.misses(criterion, spec, self.tick_hz).await;
+        }
         while held + 1 < FACTORS.len()
             && last_miss.is_none()
             && !self.is_spent()
@@ -301,7 +312,7 @@ impl Adviser {
             let scene = self.stiffen(FACTORS[index])?;
             let (throttle, horizon_s) = (self.judge.throttle(), self.judge.horizon_s());
             let judge = Judge::find(&scene, throttle, horizon_s, self.judge.meter().clone()).await;
-            Some(judge.within(WORK_WHEN_STIFFER))
+            Some(judge.within(WORK_WHEN_STIFFER).sparing(SPARE_WHEN_STIFFER))
         };
         self.stiffer[index].get(find).await.as_ref()
     }

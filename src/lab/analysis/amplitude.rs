@@ -17,6 +17,11 @@ pub enum Trend {
 }
 
 impl Trend {
+    /// The widest swing of a run, in units of the true one, if it is a [leap](LEAP).
+    pub(super) fn leap(widest: f64) -> Option<f64> {
+        Some(widest).filter(|&widest| widest >= LEAP)
+    }
+
     /// The change of a swing whose amplitude has changed by this factor.
     pub(super) fn of(amplitude: f64) -> Self {
         match amplitude {

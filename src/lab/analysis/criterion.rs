@@ -44,7 +44,8 @@ impl Criterion {
             }
             Criterion::LooksRight => {
                 "each swing as wide as the truth's, within 5 % of the widest, and the frequency within 1 %, of several \
-                 modes that of the one with the most energy; without a swing, within 5 % of the range"
+                 modes that of the one with the most energy, a body that swings less than three times in the scene being \
+                 followed until it has; without a swing, within 5 % of the range"
             }
             Criterion::Accurate => {
                 "no coordinate or velocity off by more than 1 % of its amplitude"

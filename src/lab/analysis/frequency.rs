@@ -4,6 +4,9 @@ use super::run::Run;
 use super::truth::{BodyTruth, Swing};
 use crate::lab::bisection::bisect;
 
+/// The fewest crossings by which a frequency is measured: those of two whole turns.
+const FEWEST_CROSSINGS: usize = 3;
+
 /// The relative frequency error of a lane, positive if it is too fast: over all its turns and over each half of them.
 pub(super) struct FrequencyError {
     pub(super) error: f64,
@@ -28,7 +31,7 @@ pub(super) fn frequency_error(truth: &BodyTruth, run: &Run) -> Option<FrequencyE
     let level = truth.centres[swing.coordinate];
     let lane = crossings(&run.series, level);
     let count = lane.len().min(swing.crossings.len());
-    if count < 3 {
+    if count < FEWEST_CROSSINGS {
         return None;
     }
     let error = |from: usize, to: usize| {
@@ -73,6 +76,11 @@ fn cubic(y: &[f64; 4], s: f64) -> f64 {
 }
 
 impl Swing {
+    /// Whether it has crossings enough for its frequency.
+    pub(super) fn has_a_frequency(&self) -> bool {
+        self.crossings.len() >= FEWEST_CROSSINGS
+    }
+
     /// The mean time from one crossing to the next, in seconds.
     pub(super) fn period(&self) -> f64 {
         let turns = self.crossings.len() - 1;

@@ -7,13 +7,14 @@
 
 use std::sync::Arc;
 
+use super::amplitude::Trend;
 use super::by_energy::{EnergyRun, follow_energy};
 use super::change::MotionChange;
 use super::chase_finding::ChaseFinding;
 use super::limits::TOLERANCE;
 use super::modes::Modes;
 use super::run::{MAX_WORK, Run, Until, follow};
-use super::slices::{Meter, at_once};
+use super::slices::{Meter, Once, at_once};
 use super::truth::{BodyTruth, ticks};
 use super::verdict::{Comparison, Finding, LongTerm, NoTruth, NotJudged, Verdict};
 use crate::lab::lane_spec::LaneSpec;
@@ -31,7 +32,11 @@ pub struct Judge {
     horizon_s: f64,
     throttle: f64,
     max_work: u64,
+    /// The part of [`TOLERANCE`] that what is accurate leaves.
+    spare: f64,
     truths: Vec<BodyTruth>,
+    /// The same of bodies that make too few swings within the horizon, over their first swings, once that is asked for.
+    of_swings: Vec<Once<BodyTruth>>,
     meter: Arc<Meter>,
 }
 
@@ -81,12 +86,25 @@ impl Judge {
             let (inputs, meter) = (inputs_of(scene, index), meter.clone());
             truths.push(BodyTruth::find(body, &inputs, throttle, horizon_s, meter).await);
         }
-        Self { horizon_s, throttle, max_work: MAX_WORK, truths, meter }
+        let of_swings = truths.iter().map(|_| Once::default()).collect();
+        Self { horizon_s, throttle, max_work: MAX_WORK, spare: 0.0, truths, of_swings, meter }
     }
 
     /// Limits the work of each run to less than [`MAX_WORK`]; what takes more is not known.
     pub(super) fn within(mut self, max_work: u64) -> Self {
         self.max_work = max_work;
+        self
+    }
+
+    /// Whether a body is not linear, so that its errors may have bumps.
+    pub(super) fn has_bumps(&self) -> bool {
+        self.truths.iter().any(|truth| truth.modes.is_none())
+    }
+
+    /// Takes nothing for accurate that does not leave this part of [`TOLERANCE`]. The errors of linear bodies need none: they
+    /// change with a parameter without bumps.
+    pub(super) fn sparing(mut self, spare: f64) -> Self {
+        self.spare = spare;
         self
     }
 
@@ -185,6 +203,7 @@ impl Judge {
         let truth = &self.truths[body];
         let MotionChange { long_term, within, energy_change, frequency_error } =
             by_modes.unwrap_or_else(|| MotionChange::of_run(truth, run, self.horizon_s));
+        let leap = Trend::leap(run.widest).filter(|_| within == Trend::None);
         let truth_error = truth.gap(run.seconds, tick_hz).await;
         let not_judged = self.not_judged(tick_hz, run.is_cut_short());
         let finding = if let Some(failure) = run.failure.clone() {
@@ -199,7 +218,8 @@ impl Judge {
                 error_at_s: run.error_at_s,
                 last_error: run.last_error,
                 truth_error,
-                change: within,
+                change: if leap.is_some() { Trend::Grows } else { within },
+                leap,
                 energy_change,
                 energy_drift_percent: run.energy_drift,
                 frequency_error,

@@ -4,11 +4,12 @@ use super::amplitude::Trend;
 use super::change::MotionChange;
 use super::limits::VISIBLE;
 use super::run::MAX_WORK;
-use super::truth::{BodyTruth, work_of};
+use super::truth::{BodyTruth, MovedMode, work_of};
 use super::verdict::LongTerm;
 use crate::lab::bisection::bisect;
 use crate::lab::lane_spec::LaneSpec;
-use crate::sim::integrators::Family;
+use crate::sim::Stepper;
+use crate::sim::integrators::{Family, StepFailure};
 use crate::sim::stability::{FOREVER_S, NormalMode, Stability, Tick, unforced};
 
 /// Finding the modes would take more work than a run may.
@@ -20,10 +21,69 @@ const ENVELOPE_MOMENTS: u32 = 256;
 /// The steps from which a mode's map is computed: three from each of two states.
 pub(super) const STEPS_PER_MODE: u64 = 6;
 
+/// The step from which its width is.
+const STEPS_PER_WIDTH: u64 = 1;
+
 /// The normal modes of a linear body, and their stability under a method of equal steps.
 pub(super) struct Modes<'a> {
-    /// Each with its share of the motion's energy.
-    modes: Vec<(&'a NormalMode, f64, Stability)>,
+    modes: Vec<SteppedMode<'a>>,
+}
+
+/// A normal mode under a method.
+struct SteppedMode<'a> {
+    moved: &'a MovedMode,
+    stability: Stability,
+    /// Its amplitude at the start under the method, in units of the true one: the curve on which its steps lie need not be
+    /// the true one.
+    width: f64,
+}
+
+impl SteppedMode<'_> {
+    fn mode(&self) -> &NormalMode {
+        &self.moved.mode
+    }
+
+    /// Its energy after `t` seconds, in units of that of the true motion at the start.
+    fn energy(&self, t: f64) -> f64 {
+        self.width * self.width * self.moved.energy(self.stability.growth_per_s, t)
+    }
+}
+
+impl MovedMode {
+    /// Its share of the energy after it has grown at this rate for `t` seconds.
+    fn energy(&self, growth_per_s: f64, t: f64) -> f64 {
+        self.share * libm::exp(2.0 * growth_per_s * t)
+    }
+
+    /// Its amplitude at the start under the method of `stepper`, in units of the true one, from one `step`: both begin in the
+    /// same state, and a curve rⁿ (q cos nθ + b sin nθ) through the first two states of the method is that of all its
+    /// states. 1 if it does not swing under both.
+    ///
+    /// # Errors
+    /// The failure of the method in the step.
+    fn width(
+        &self,
+        stepper: &mut dyn Stepper,
+        step: Tick,
+        stability: &Stability,
+    ) -> Result<f64, StepFailure> {
+        let (Some(swing), Some(error)) = (self.mode.swing(), stability.frequency_error) else {
+            return Ok(1.0);
+        };
+        let Self { q, v, .. } = *self;
+        let truth = libm::hypot(q, (v + self.mode.damping_per_s / 2.0 * q) / swing);
+        let sides = [q / truth, v / truth];
+        if sides.iter().any(|side| !side.is_finite()) {
+            return Ok(1.0);
+        }
+        let [q, v] = sides;
+        let along = |part: f64| self.mode.shape.iter().map(|x| part * x).collect::<Vec<_>>();
+        stepper.set(step.t, &along(q), &along(v));
+        stepper.advance(step.t, step.h, step.substeps)?;
+        let next = self.mode.part(stepper.q()) * libm::exp(-stability.growth_per_s * step.h);
+        let angle = (1.0 + error) * swing * step.h;
+        Ok(libm::hypot(q, (next - q * libm::cos(angle)) / libm::sin(angle)))
+    }
 }
 
 impl<'a> Modes<'a> {
@@ -44,64 +104,69 @@ impl<'a> Modes<'a> {
         let n = modes.len() as u64;
         // An implicit step takes differences of the force along every coordinate.
         let evaluations = u64::from(spec.method.evaluations.unwrap_or(modes.len() as u32));
-        let work_of_mode = work_of(STEPS_PER_MODE * evaluations, n, spec.solver());
+        let steps = STEPS_PER_MODE + STEPS_PER_WIDTH;
+        let work_of_mode = work_of(steps * evaluations, n, spec.solver());
         if work_of_mode.saturating_mul(n) > MAX_WORK {
             return Err(TooMuch);
         }
         let free = unforced(&*truth.with_last_parameters());
         let tick = Tick { t: 0.0, h: 1.0 / f64::from(tick_hz), substeps: spec.substeps };
         let mut found = Vec::with_capacity(modes.len());
-        for (mode, share) in modes {
-            let Ok(stability) = mode.stability(&*free, spec.solver(), tick) else {
+        let (step, _) = tick.repeated(Some(spec.method));
+        for moved in modes {
+            let mut stepper = free.with_solver(spec.solver(), tick.t);
+            let Ok(stability) = moved.mode.stability(&*free, spec.solver(), tick) else {
                 return Ok(None);
             };
-            found.push((mode, *share, stability));
+            let Ok(width) = moved.width(&mut *stepper, step, &stability) else {
+                return Ok(None);
+            };
+            found.push(SteppedMode { moved, stability, width });
             truth.meter.pass(work_of_mode).await;
         }
         Ok(Some(Self { modes: found }))
     }
 
     pub(super) fn are_bounded(&self) -> bool {
-        self.modes.iter().all(|(.., stability)| stability.is_bounded())
+        self.modes.iter().all(|mode| mode.stability.is_bounded())
     }
 
     /// The frequency error of the swinging mode with the most energy.
     pub(super) fn frequency_error(&self) -> Option<f64> {
-        let swinging = self.modes.iter().filter(|(mode, ..)| mode.swing().is_some());
-        swinging.max_by(|a, b| a.1.total_cmp(&b.1))?.2.frequency_error
+        let swinging = self.modes.iter().filter(|mode| mode.mode().swing().is_some());
+        let most = swinging.max_by(|a, b| a.moved.share.total_cmp(&b.moved.share));
+        most?.stability.frequency_error
     }
 
     /// Whether the amplitude stays within [`VISIBLE`] of the true one for `seconds`, as the root of the energies of all modes
-    /// tells, each with its own rate of growth or decay. `None` if no mode moves.
+    /// tells, each with its own width at the start and its own rate of growth or decay. `None` if no mode moves.
     pub(super) fn are_as_wide(&self, seconds: f64) -> Option<bool> {
-        let moving = || self.modes.iter().filter(|(_, share, _)| *share > 0.0);
+        let moving = || self.modes.iter().filter(|mode| mode.moved.share > 0.0);
         moving().next()?;
-        let wide = |t: f64, rate: fn(&NormalMode, &Stability) -> f64| {
-            let energy = |(mode, share, stability): &(&NormalMode, f64, Stability)| {
-                share * libm::exp(2.0 * rate(mode, stability) * t)
-            };
-            moving().map(energy).sum::<f64>().sqrt()
-        };
-        let moments =
-            (1..=ENVELOPE_MOMENTS).map(|i| seconds * f64::from(i) / f64::from(ENVELOPE_MOMENTS));
         let off = |t: f64| {
-            (wide(t, |_, found| found.growth_per_s) - wide(t, |mode, _| -mode.decay_per_s())).abs()
+            let own: f64 = moving().map(|mode| mode.energy(t)).sum();
+            let decay = |mode: &SteppedMode| mode.moved.energy(-mode.mode().decay_per_s(), t);
+            let exact: f64 = moving().map(decay).sum();
+            (own.sqrt() - exact.sqrt()).abs()
         };
-        Some(moments.map(off).all(|off| off <= VISIBLE))
+        let mut moments =
+            (0..=ENVELOPE_MOMENTS).map(|i| seconds * f64::from(i) / f64::from(ENVELOPE_MOMENTS));
+        Some(moments.all(|t| off(t) <= VISIBLE))
     }
 
     fn are_conserved(&self) -> bool {
-        self.modes.iter().all(|(mode, ..)| mode.is_conserved() && mode.omega_squared > 0.0)
+        let is_conserved = |mode: &NormalMode| mode.is_conserved() && mode.omega_squared > 0.0;
+        self.modes.iter().all(|mode| is_conserved(mode.mode()))
     }
 
     /// The amplitude after `t` seconds, in units of the initial one. Modes that decay in truth contribute their growth only.
     fn amplitude(&self, t: f64) -> f64 {
         let conserved = self.are_conserved();
-        let energy = self.modes.iter().map(|(_, share, stability)| {
+        let energy = self.modes.iter().map(|SteppedMode { moved, stability, .. }| {
             let growth = if stability.is_bounded() { 0.0 } else { stability.growth_per_s };
             let rate = if conserved && growth <= 0.0 { -stability.loss_per_s } else { growth };
-            if *share > 0.0 {
-                share * libm::exp(2.0 * rate.max(0.0) * t + 2.0 * rate.min(0.0) * t)
+            if moved.share > 0.0 {
+                moved.share * libm::exp(2.0 * rate.max(0.0) * t + 2.0 * rate.min(0.0) * t)
             } else {
                 0.0
             }
@@ -124,13 +189,13 @@ impl<'a> Modes<'a> {
 
     /// The change of the motion within the horizon and later.
     pub(super) fn change(&self, swings: bool, horizon_s: f64) -> MotionChange {
-        let moves = self.modes.iter().any(|(_, share, _)| *share > 0.0);
+        let moves = self.modes.iter().any(|mode| mode.moved.share > 0.0);
         let is_conserved = moves && self.are_conserved();
         let reaches = |is_wanted: bool, is_past: fn(f64) -> bool| {
             if is_wanted { self.reaches(is_past) } else { None }
         };
         let doubles_in_s = reaches(moves, |amplitude| amplitude >= 2.0);
-        let worst = self.modes.iter().filter_map(|(.., stability)| stability.doubling_s());
+        let worst = self.modes.iter().filter_map(|mode| mode.stability.doubling_s());
         let worst = worst.min_by(f64::total_cmp);
         let amplitude = if moves { self.amplitude(horizon_s) } else { 1.0 };
         MotionChange {

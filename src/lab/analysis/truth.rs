@@ -30,6 +30,9 @@ pub(super) use swing::Swing;
 /// How many horizons the long run of a nonlinear body takes.
 pub const LONG_RUN: f64 = 20.0;
 
+/// The swings over which a body is followed that makes too few for its frequency within the horizon.
+const FOLLOWED_SWINGS: u32 = 4;
+
 /// Limits of [`BodyTruth::walk`], in moments and in products of the exact flow, n² for a chain of n masses.
 const MAX_MOMENTS: usize = 100_000;
 const MAX_REFERENCE_MOMENTS: usize = 20_000;
@@ -60,15 +63,17 @@ pub(super) struct BodyTruth {
     pub(super) centres: Vec<f64>,
     /// How far it reaches over the long run, or until the truth fails.
     pub(super) reach: Reach,
-    /// The normal modes of a linear body with its last parameters, each with its share of the energy of the motion after
-    /// the last input.
-    pub(super) modes: Option<Vec<(NormalMode, f64)>>,
+    /// The normal modes of a linear body with its last parameters, and what the motion after the last input has of each.
+    pub(super) modes: Option<Vec<MovedMode>>,
     /// The largest kinetic energy in joules, which is all the energy of an oscillator. `None` if energy is not conserved
     /// or nothing moves.
     pub(super) energy_scale: Option<f64>,
     /// The energy that the motion exchanges, in joules, as the metric `energy_drift` defines it.
     pub(super) exchanged_j: Option<f64>,
     pub(super) swing: Option<Swing>,
+    /// How long it takes for its first swings, in seconds, if it makes too few for its frequency within the horizon, and
+    /// nothing disturbs them.
+    pub(super) first_swings_s: Option<f64>,
     /// Why the truth is not known over the whole horizon; `None` if it is known.
     pub(super) failure: Option<StepFailure>,
     /// Whether it fails before anything has moved: no other walk gets further, and each would pay for it again.
@@ -103,6 +108,7 @@ impl BodyTruth {
             energy_scale: None,
             exchanged_j: None,
             swing: None,
+            first_swings_s: None,
             failure: None,
             fails_at_start: false,
             series_by_rate: TruthSeriesByRate::default(),
@@ -118,6 +124,12 @@ impl BodyTruth {
         stepper.input(0.0, Input::Throttle(self.throttle));
         self.at_start.iter().for_each(|input| input.apply_to(&mut *stepper, 0.0));
         stepper
+    }
+
+    /// The script's actions on the body at the start.
+    pub(super) fn inputs_at_start(&self) -> Vec<Scripted> {
+        let input = |action: &Action| Scripted { at_s: 0.0, action: action.clone() };
+        self.at_start.iter().map(input).collect()
     }
 
     /// When the last input comes, in seconds; 0 without one.
@@ -173,7 +185,7 @@ impl BodyTruth {
         };
         let most = (MAX_PRODUCTS / (n * n)).clamp(MIN_MOMENTS, max_moments);
         let after_inputs = self.after_inputs().await;
-        self.modes = normal_modes(&*after_inputs).map(|modes| shares(&*after_inputs, modes));
+        self.modes = normal_modes(&*after_inputs).map(|modes| moved(&*after_inputs, modes));
         let mut there = self.start(Solver::Truth);
         let mut reach = ReachSoFar::new(Ranges::at(&*body), &self.body);
         let mut kinetic: f64 = body.kinetic_energy().unwrap_or(0.0);
@@ -207,6 +219,7 @@ impl BodyTruth {
             self.swing = self.watch(&self.centres, seen.as_deref(), most).await;
         }
         let returns = self.swing.as_ref().is_some_and(|swing| swing.crossings.len() > 2);
+        let mut first_swings_s = self.first_swings_of_modes_s();
         if !self.is_oscillator() && !returns && !self.fails_at_start {
             // Other motions are followed beyond the horizon, as far as the truth goes.
             let is_close = self.body.kind.truth == Truth::Reference && self.failure.is_none();
@@ -219,6 +232,7 @@ impl BodyTruth {
                 None => self.long_run(Solver::Truth, most).await.unwrap_or_else(|long| long),
             };
             reach = long.reach;
+            first_swings_s = first_swings_s.or(long.first_swings_s);
             if self.energy_scale.is_none() && !long.means.is_empty() {
                 // A motion that comes to rest swings about its place of rest.
                 self.centres = long.means;
@@ -230,6 +244,18 @@ impl BodyTruth {
             self.swing = self.watch(&self.centres, seen.as_deref(), most).await;
         }
         self.reach = reach.reach(&self.body, &self.centres, &self.amplitudes);
+        let is_short = !self.swing.as_ref().is_some_and(Swing::has_a_frequency);
+        let is_left_alone = self.inputs.is_empty() && !is_chase && self.failure.is_none();
+        self.first_swings_s =
+            first_swings_s.filter(|&s| is_short && is_left_alone && s > self.horizon_s);
+    }
+
+    /// How long the slowest mode of an undamped linear body that moves takes for its first swings, in seconds.
+    fn first_swings_of_modes_s(&self) -> Option<f64> {
+        let modes = self.modes.iter().flatten().filter(|moved| moved.share > 0.0);
+        let slowest = modes.filter_map(|moved| moved.mode.swing()).min_by(f64::total_cmp)?;
+        let period_s = std::f64::consts::TAU / slowest;
+        self.is_oscillator().then_some(f64::from(FOLLOWED_SWINGS) * period_s)
     }
 
     /// The motion over the long run under this solver.
@@ -241,8 +267,17 @@ impl BodyTruth {
         let mut reach = ReachSoFar::new(Ranges::at(&*body), &self.body);
         let mut sums = vec![0.0; body.q().len()];
         let mut seconds = 0.0;
+        let n = sums.len();
+        let mut turns = vec![0; n];
+        let mut first_swings_s = None;
         let see = |from: &TruthNode, to: &TruthNode| {
             reach.take_in(from, to);
+            for (i, turns) in turns.iter_mut().enumerate() {
+                *turns += u32::from((from.x[n + i] < 0.0) != (to.x[n + i] < 0.0));
+                if *turns >= 2 * FOLLOWED_SWINGS {
+                    first_swings_s = first_swings_s.or(Some(to.t));
+                }
+            }
             seconds += to.t - from.t;
             for (i, sum) in sums.iter_mut().enumerate() {
                 *sum += (to.t - from.t) * (from.x[i] + to.x[i]) / 2.0;
@@ -251,7 +286,7 @@ impl BodyTruth {
         let walked = self.walk(&mut *body, solver, LONG_RUN * self.horizon_s, most, see).await;
         let means =
             if seconds > 0.0 { sums.iter().map(|sum| sum / seconds).collect() } else { Vec::new() };
-        let long = LongRun { reach, means };
+        let long = LongRun { reach, means, first_swings_s };
         if walked.is_ok() { Ok(long) } else { Err(long) }
     }
 
@@ -263,7 +298,7 @@ impl BodyTruth {
     /// Whether the body is linear and all its modes are undamped oscillations.
     pub(super) fn is_oscillator(&self) -> bool {
         self.modes.as_ref().is_some_and(|modes| {
-            modes.iter().all(|(mode, _)| mode.is_conserved() && mode.omega_squared > 0.0)
+            modes.iter().all(|moved| moved.mode.is_conserved() && moved.mode.omega_squared > 0.0)
         })
     }
 }
@@ -273,6 +308,8 @@ struct LongRun {
     reach: ReachSoFar,
     /// The mean of each coordinate; empty if it was not followed.
     means: Vec<f64>,
+    /// When a coordinate has turned back twice for each of the first swings, in seconds.
+    first_swings_s: Option<f64>,
 }
 
 /// The solver of highest order among those that choose their steps, at [`LONG_RUN_TOLERANCE`]: how far a motion reaches in
@@ -296,12 +333,22 @@ fn fastest(from: &TruthNode, to: &TruthNode) -> Vec<TruthNode> {
     steps.map(at).collect()
 }
 
-/// Each mode's share of the energy of `body` about its equilibrium.
-fn shares(body: &dyn Stepper, modes: Vec<NormalMode>) -> Vec<(NormalMode, f64)> {
+/// A normal mode and what a motion has of it.
+pub(super) struct MovedMode {
+    pub(super) mode: NormalMode,
+    /// The distance from its equilibrium and the velocity at which the motion begins.
+    pub(super) q: f64,
+    pub(super) v: f64,
+    /// Its share of the energy of the motion.
+    pub(super) share: f64,
+}
+
+/// What the motion of `body` from its present state has of each of its `modes`.
+fn moved(body: &dyn Stepper, modes: Vec<NormalMode>) -> Vec<MovedMode> {
     let n = body.q().len();
     let mut push = vec![0.0; n];
     body.acceleration(0.0, &vec![0.0; n], &vec![0.0; n], &mut push);
-    let energy = |mode: &NormalMode| {
+    let moved = |mode: NormalMode| {
         let (push, omega2) = (mode.part(&push), mode.omega_squared);
         let (mut q, mut v) = (mode.part(body.q()), mode.part(body.v()));
         if omega2 > 0.0 {
@@ -309,12 +356,13 @@ fn shares(body: &dyn Stepper, modes: Vec<NormalMode>) -> Vec<(NormalMode, f64)> 
         } else if mode.damping_per_s > 0.0 {
             v -= push / mode.damping_per_s;
         }
-        v * v + omega2 * q * q
+        MovedMode { mode, q, v, share: v * v + omega2 * q * q }
     };
-    let energies: Vec<f64> = modes.iter().map(energy).collect();
-    let all: f64 = energies.iter().sum();
-    let share = |energy: f64| if all > 0.0 && all.is_finite() { energy / all } else { 0.0 };
-    modes.into_iter().zip(energies).map(|(mode, energy)| (mode, share(energy))).collect()
+    let mut modes: Vec<MovedMode> = modes.into_iter().map(moved).collect();
+    let all: f64 = modes.iter().map(|moved| moved.share).sum();
+    let is_known = all > 0.0 && all.is_finite();
+    modes.iter_mut().for_each(|moved| moved.share = if is_known { moved.share / all } else { 0.0 });
+    modes
 }
 
 #[cfg(test)]

@@ -95,6 +95,9 @@ pub struct Comparison {
     pub truth_error: f64,
     /// The change of the amplitude.
     pub change: Trend,
+    /// The widest swing in units of the true one, of a body that swings much too wide without growing further; `None` of any
+    /// other.
+    pub leap: Option<f64>,
     /// The change of the energy, in units of the largest true kinetic energy; `None` if energy is not conserved.
     pub energy_change: Option<f64>,
     /// The energy drift of largest magnitude, in percent of the energy that the motion exchanges; `None` if energy is not

@@ -289,17 +289,19 @@ impl Chip {
         let how_far =
             |reach: f64| format!("{} {unit}", significant(reach, 2)).trim_end().to_owned();
         // The run on the screen is another than the judged one.
-        let is_other = moment.studio.was_changed_on_the_way();
+        let is_other = moment.studio.is_judged_apart();
         let halt = entrant.lane.bodies()[index].halted();
         Some(Self {
             sign,
             colours: [tone, moment.style(entry).0],
             verdict: match halt {
                 Some(halt) => halt.fate(),
-                None => verdict.wordings(false)[usize::from(!is_other)].clone(),
+                None if is_other => verdict.wordings_of_another_run(false)[0].clone(),
+                None => verdict.wordings(false)[1].clone(),
             },
             brief: verdict.fails_in_brief().filter(|_| is_other && halt.is_none()),
             swing: (verdict.long_term.swings
+                && !is_other
                 && past.coordinate(moment.studio.race(), index).1 == 0)
                 .then(|| format!("{}, exact {}", how_far(lane), how_far(exact))),
         })
@@ -467,11 +469,7 @@ mod tests {
         };
         for (ticks, wide, narrow) in [
             (0, "will blow up at 4.14 s", "will blow up at 4.14 s"),
-            (
-                20,
-                "will blow up at 4.14 s, if run from the start",
-                "blows up, if run from the start",
-            ),
+            (20, "from the start: will blow up at 4.14 s", "blows up, if run from the start"),
         ] {
             let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
             (0..ticks).for_each(|_| studio.tick());

@@ -48,6 +48,13 @@ impl Race {
         self.judged_start.as_ref()
     }
 
+    /// Whether a person has changed the run since it is judged, so that verdicts are of another run.
+    pub(in crate::lab) fn was_changed_since_judged(&self) -> bool {
+        let from = self.judged_start.as_ref().map_or(0, |start| start.tick);
+        let rows = &self.journal().rows()[..self.done()];
+        rows.iter().any(|row| row.tick > from && row.author == Author::Person)
+    }
+
     /// The state right after a person or the script last acted on a body; `None` if neither has.
     pub(super) fn cloud_start(&self) -> Option<&Arc<RunStart>> {
         self.cloud_start.as_ref()

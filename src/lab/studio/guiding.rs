@@ -43,6 +43,11 @@ impl Studio {
         rows.iter().any(|row| row.tick > 0 && row.author == Author::Person)
     }
 
+    /// Whether the run on the screen is another than the judged one: a person has changed it since on its way.
+    pub fn is_judged_apart(&self) -> bool {
+        self.race().was_changed_since_judged()
+    }
+
     /// Shows the hints from the first one again: for a driver that has set up the studio by commands.
     pub fn begin_hints(&mut self) {
         self.viewer.hints = Hints::default();

@@ -59,7 +59,7 @@ impl Judge {
         for (body, truth) in self.truths.iter().enumerate() {
             let met = match criterion {
                 Criterion::Bounded => self.is_bounded(truth, spec, tick_hz).await,
-                Criterion::LooksRight => self.looks_right(truth, spec, tick_hz).await,
+                Criterion::LooksRight => self.looks_right(body, spec, tick_hz).await,
                 Criterion::Accurate => self.is_accurate(truth, spec, tick_hz).await,
             };
             match met {
@@ -141,9 +141,12 @@ impl Judge {
         }
     }
 
-    /// Whether the modes keep the true amplitude; `None` if an input changes it, or if nothing moves.
+    /// Whether the modes keep the true amplitude; `None` if an input changes it, if nothing moves, or of a damped body of
+    /// one coordinate: its swings tell.
     fn are_as_wide(&self, truth: &BodyTruth, modes: &Modes) -> Option<bool> {
-        if truth.inputs.is_empty() { modes.are_as_wide(self.horizon_s) } else { None }
+        let is_told =
+            truth.inputs.is_empty() && (truth.is_oscillator() || truth.coordinates().len() > 1);
+        if is_told { modes.are_as_wide(self.horizon_s) } else { None }
     }
 
     /// The run of a lane, of which nothing is known if the truth cannot be used for it.
@@ -162,42 +165,72 @@ impl Judge {
         without_truth(truth, &run, gap).map_or(Ok(run), |_| Err(CriterionMiss::Unknown))
     }
 
-    /// Whether a body stays within [`TOLERANCE`] of its truth.
+    /// Whether a body stays within [`TOLERANCE`] of its truth, and leaves of it what is to be spared.
     async fn is_accurate(
         &self,
         truth: &BodyTruth,
         spec: LaneSpec,
         tick_hz: u32,
     ) -> Result<f64, CriterionMiss> {
-        let run = self.beside_truth(truth, spec, tick_hz, Until::Error(TOLERANCE)).await?;
-        cost_if(run.error <= TOLERANCE, &run)
+        let spare = if truth.modes.is_none() { self.spare } else { 0.0 };
+        let most = (1.0 - spare) * TOLERANCE;
+        let run = self.beside_truth(truth, spec, tick_hz, Until::Error(most)).await?;
+        cost_if(run.error <= most, &run)
     }
 
     /// Whether a body has the true amplitude within [`VISIBLE`] and the true frequency within [`FREQUENCY_TOLERANCE`]. A
-    /// body that makes too few turns has to stay within [`VISIBLE`] of its range. What is accurate looks right.
+    /// body that makes too few swings for that is followed over its first; one that does not swing has to stay within
+    /// [`VISIBLE`] of its range. What is accurate looks right.
     async fn looks_right(
         &self,
-        truth: &BodyTruth,
+        body: usize,
         spec: LaneSpec,
         tick_hz: u32,
     ) -> Result<f64, CriterionMiss> {
+        let truth = &self.truths[body];
         let run = self.beside_truth(truth, spec, tick_hz, Until::Horizon).await?;
         if run.failure.is_some() || run.error <= TOLERANCE {
             return cost_if(run.failure.is_none(), &run);
         }
+        let Some(first_swings_s) = truth.first_swings_s else {
+            return cost_if(self.swings_alike(truth, &run, spec, tick_hz).await?, &run);
+        };
+        let inputs = truth.inputs_at_start();
+        let find = BodyTruth::find(
+            &truth.body,
+            &inputs,
+            self.throttle,
+            first_swings_s,
+            self.meter.clone(),
+        );
+        let longer = self.of_swings[body].get(find).await;
+        let longer_run = self.beside_truth(longer, spec, tick_hz, Until::Horizon).await?;
+        let is_alike = longer_run.failure.is_none()
+            && self.swings_alike(longer, &longer_run, spec, tick_hz).await?;
+        if longer_run.is_too_much { Err(CriterionMiss::Unknown) } else { cost_if(is_alike, &run) }
+    }
+
+    /// Whether a run over the horizon of `truth` swings like it, or is as near to it if that does not swing.
+    async fn swings_alike(
+        &self,
+        truth: &BodyTruth,
+        run: &Run,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> Result<bool, CriterionMiss> {
         // The range is twice the amplitude.
         let is_near = run.error <= 2.0 * VISIBLE;
-        let Some(swing) = &truth.swing else { return cost_if(is_near, &run) };
+        let Some(swing) = &truth.swing else { return Ok(is_near) };
         let modes = Modes::of(truth, spec, tick_hz).await?;
         let error = match &modes {
             Some(modes) => modes.frequency_error(),
-            None => frequency_error(truth, &run).map(|measured| measured.error),
+            None => frequency_error(truth, run).map(|measured| measured.error),
         };
-        let Some(error) = error else { return cost_if(is_near, &run) };
+        let Some(error) = error else { return Ok(is_near) };
         let is_as_wide = modes
             .and_then(|modes| self.are_as_wide(truth, &modes))
             .unwrap_or_else(|| swing.is_as_wide(&run.half_turns, tick_hz));
-        cost_if(is_as_wide && error.abs() <= FREQUENCY_TOLERANCE, &run)
+        Ok(is_as_wide && error.abs() <= FREQUENCY_TOLERANCE)
     }
 }
 

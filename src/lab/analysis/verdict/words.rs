@@ -39,7 +39,8 @@ impl Comparison {
     /// The frequency error, if there is one beyond rounding: `0.18 % fast`.
     fn pitch(&self) -> Option<String> {
         let beyond = self.frequency_error.filter(|error| error.abs() > FREQUENCY_ROUNDING);
-        beyond.filter(|_| self.outcome() == Outcome::OutOfPhase).map(|error| {
+        let is_told = self.outcome() == Outcome::OutOfPhase || self.leap.is_some();
+        beyond.filter(|_| is_told).map(|error| {
             let how = if error > 0.0 { "fast" } else { "slow" };
             format!("{} {how}", percent(error.abs()))
         })
@@ -47,7 +48,8 @@ impl Comparison {
 
     /// The frequency error where it says more than the error, which is past all phases and stays.
     fn pitch_that_tells(&self) -> Option<String> {
-        self.pitch().filter(|_| self.error > ANY_PHASE && self.last_error > TOLERANCE)
+        let tells = self.error > ANY_PHASE && self.last_error > TOLERANCE && self.leap.is_none();
+        self.pitch().filter(|_| tells)
     }
 }
 
@@ -146,6 +148,9 @@ impl Verdict {
                 let is_stable = said.is_stable && self.long_term.is_bounded == Some(true);
                 format!("{}{}", if is_stable { "stable, " } else { "" }, self.out_of_phase(found))
             }
+            (Outcome::GainsEnergy, Finding::Compared(Comparison { leap: Some(widest), .. })) => {
+                format!("gains energy: {} up to ×{}", self.what_grows(), significant(*widest, 2))
+            }
             (Outcome::GainsEnergy, _) => {
                 // Without a swing and an energy nobody can say what it gains.
                 let is_known = self.long_term.doubles_in_s.or(self.energy_change()).is_some();
@@ -196,6 +201,17 @@ impl Verdict {
             self.clauses().iter().for_each(|clause| line += &format!("; {clause}"));
         }
         line
+    }
+
+    /// The verdict in fewer and fewer words, each with where the judged run begins: for beside a run that was changed on its
+    /// way, of which it tells nothing.
+    pub fn wordings_of_another_run(&self, is_named: bool) -> Vec<String> {
+        let start = match self.starts_at_s {
+            0.0 => "the start".to_owned(),
+            seconds => duration(seconds),
+        };
+        let wordings = self.wordings(is_named).into_iter().skip(1);
+        wordings.map(|words| format!("from {start}: {words}")).collect()
     }
 
     /// The verdict in fewer and fewer words, as room is short; the first says everything. The body is named where there are
@@ -322,6 +338,7 @@ mod tests {
             ("spring", "rk4", 60, "accurate: error 0.013 % in 20 s"),
             ("spring", "rk4", 10, "loses energy: swing ½ in 171 s"),
             ("stiff", "semi-implicit-euler", 49, "will blow up at 4.14 s"),
+            ("stiff", "semi-implicit-euler", 60, "gains energy: swing up to ×1.8 (18 % fast)"),
             ("ship", "explicit-euler", 2, "stable, off by 1.9 % at 10 s, settled by 60 s"),
             // The verdict is that of the worst body.
             ("harbour", "explicit-euler", 60, "gains energy: swing ×2 in 2.12 s (free spring)"),

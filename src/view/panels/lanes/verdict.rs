@@ -44,7 +44,11 @@ pub(super) fn text_of(
         return VerdictText { sign: None, wordings: vec!["judging…".into()], rank: None };
     };
     let is_named = body.is_none() && named_above != Some(verdict.body);
-    text(verdict.outcome(), verdict.wordings(is_named))
+    let wordings = match studio.is_judged_apart() {
+        true => verdict.wordings_of_another_run(is_named),
+        false => verdict.wordings(is_named),
+    };
+    text(verdict.outcome(), wordings)
 }
 
 fn text(outcome: Outcome, wordings: Vec<String>) -> VerdictText {
