@@ -87,6 +87,7 @@ pub fn run(
         studio.list_as_file(path);
     }
     watch.watch(opened);
+    studio.viewer_mut().preferences.is_recorded = keep.is_some();
     let analysed = studio.analysis_request();
     let analysis = AnalysisWorker::new(analysed.clone());
     let mut app = App {
@@ -232,7 +233,7 @@ impl App {
                 Some(DriverRequest::Quit) => self.end(event_loop, Ok(())),
                 Some(DriverRequest::Screenshot) => self.screenshot = true,
                 Some(DriverRequest::Record) => {
-                    let notice = recording::save(&self.studio);
+                    let notice = recording::save(&mut self.studio);
                     self.studio.viewer_mut().set_notice(notice);
                     self.stand_still();
                 }

@@ -57,6 +57,7 @@ impl SpringArgs {
             mass_kg,
             stiffness_n_per_m,
             damping_n_s_per_m: self.c.unwrap_or(0.0),
+            ..MySpring::default()
         });
         let by_frequency = || {
             let ratio = self.damping_ratio.unwrap_or(0.0);

@@ -69,6 +69,9 @@ pub struct Studio {
     clock: Clock,
     running: bool,
     dropped: u64,
+    /// How often a person has changed the run or its start, and how often of that a file has.
+    deeds: u64,
+    saved_deeds: u64,
     viewer: Viewer,
     /// What the stage shows.
     activity: Activity,
@@ -87,6 +90,8 @@ impl Studio {
             clock: Clock::new(start.tick_hz),
             running: true,
             dropped: 0,
+            deeds: 0,
+            saved_deeds: 0,
             viewer: Viewer::new(timeline.session().race().entrants()[0].id),
             timeline,
             activity: Activity::Run,

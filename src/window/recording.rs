@@ -6,9 +6,12 @@ use crate::atomic_file::{IfExists, write_file};
 use crate::lab::Studio;
 
 /// Saves the run so far under a new name, and returns a notice with the name or the error.
-pub(super) fn save(studio: &Studio) -> String {
+pub(super) fn save(studio: &mut Studio) -> String {
     match try_save(studio) {
-        Ok(path) => format!("Saved {0}. Check it with: regatta verify {0}", path.display()),
+        Ok(path) => {
+            studio.note_saved();
+            format!("Saved {0}. Check it with: regatta verify {0}", path.display())
+        }
         Err(reason) => format!("no recording: {reason}"),
     }
 }

@@ -7,7 +7,8 @@ use regatta::lab::past::Quantity;
 use regatta::lab::port::{Wish, setups};
 use regatta::lab::studio::guide::{Goal, STOPS};
 use regatta::lab::studio::{
-    Command, Instrument, OneStep, RunCommand, StageCommand, Step, Studio, ViewCommand, command_for,
+    Command, Instrument, KEYS, Key, OneStep, RunCommand, StageCommand, Step, Studio, ViewCommand,
+    command_for,
 };
 use regatta::lab::{LaneSpec, Race, SCENES, Scene, port};
 use regatta::sim::integrators::method;
@@ -70,7 +71,14 @@ fn stops_name_scenes_and_methods_that_there_are_and_keys_between_pairs_of_backti
         for text in [stop.question, stop.task, stop.answer] {
             assert_eq!(text.matches('`').count() % 2, 0, "{text}");
         }
-        assert!(stop.task.contains('`'), "{} asks for no key", stop.title);
+        let asked: Vec<&str> = stop.task.split('`').skip(1).step_by(2).collect();
+        let mut keys: Vec<String> = stop.keys.iter().map(ToString::to_string).collect();
+        keys.dedup();
+        assert_eq!(asked, keys, "{}: the keys of the task do it", stop.title);
+        for key in stop.answer.split('`').skip(1).step_by(2) {
+            let mut all = KEYS.iter().flat_map(|binding| binding.keys);
+            assert!(all.any(|(known, _)| known.to_string() == key), "no key {key}");
+        }
     }
 }
 
@@ -402,4 +410,116 @@ fn engines_do_to_a_spring_what_the_guide_says() {
     let held = [1, 4, 8].map(|substeps| kept("held-force", substeps, 6, "held-force"));
     assert!((0.98..1.02).contains(&held[0]) && (1.9..2.3).contains(&held[1]), "{held:?}");
     assert!(held[2] > held[1], "{held:?}");
+}
+
+/// The lab at a stop, a tick into it, after its keys.
+fn after_its_keys(title: &str) -> Studio {
+    let at = STOPS.iter().position(|stop| stop.title == title).expect("a stop");
+    let mut studio = lab_at(at);
+    studio.tick();
+    for key in STOPS[at].keys {
+        let (command, _) = command_for(*key).expect("a key of the table");
+        studio.apply(command);
+    }
+    studio
+}
+
+#[test]
+fn what_a_stop_answers_is_what_the_verdict_beside_it_says() {
+    use Outcome::{Accurate, BlewUp, GainsEnergy, LosesEnergy, OutOfPhase, Rounding};
+    for (title, outcome) in [
+        ("The spring that Euler blows up", GainsEnergy),
+        ("The same lines in another order", OutOfPhase),
+        ("A stiff spring", BlewUp),
+        ("The stability map", OutOfPhase),
+        ("Implicit methods", LosesEnergy),
+        ("Round-off", Rounding),
+        ("Runge-Kutta", Accurate),
+    ] {
+        let studio = after_its_keys(title);
+        assert!(is_done(&studio), "{title}");
+        let spec = studio.entries()[studio.active()];
+        let judge = Judge::new(studio.scene());
+        let found = judge.verdict(spec, studio.clock().tick_hz());
+        assert_eq!(found.outcome(), outcome, "{title}: {found}");
+    }
+}
+
+#[test]
+fn a_stop_that_asks_for_home_is_done_by_a_run_from_its_start_and_not_before() {
+    let asks = |stop: &&regatta::lab::studio::guide::Stop| stop.keys.last() == Some(&Key::Home);
+    let count = STOPS.iter().filter(asks).count();
+    assert!(count >= 9, "{count}");
+    for (index, stop) in STOPS.iter().enumerate().filter(|(_, stop)| asks(stop)) {
+        let mut studio = lab_at(index);
+        studio.tick();
+        let (home, keys) = stop.keys.split_last().unwrap();
+        for key in keys {
+            studio.apply(command_for(*key).unwrap().0);
+        }
+        assert!(!is_done(&studio), "{}: its verdict is of another run", stop.title);
+        studio.apply(command_for(*home).unwrap().0);
+        assert!(is_done(&studio) && studio.race().tick() == 0, "{}", stop.title);
+    }
+}
+
+#[test]
+fn the_pendulum_of_the_phase_portrait_winds_out_for_three_half_swings_and_goes_over_in_the_fourth()
+{
+    let mut studio = lab_at(STOPS.iter().position(|s| s.instrument == Instrument::Phase).unwrap());
+    let state = |studio: &Studio| {
+        let stepper = &studio.race().entrants()[0].lane.bodies()[0].stepper;
+        (stepper.q()[0], stepper.v()[0])
+    };
+    let (mut before, mut ends) = (state(&studio), Vec::new());
+    while before.0.abs() < std::f64::consts::PI && studio.race().t() < 20.0 {
+        studio.tick();
+        let now = state(&studio);
+        if before.1 * now.1 < 0.0 {
+            ends.push(now.0.abs());
+        }
+        before = now;
+    }
+    assert!(ends.len() == 3 && ends.is_sorted() && ends[0] > 2.8, "{ends:?}");
+    assert!((9.2..9.8).contains(&studio.race().t()), "{} s", studio.race().t());
+    studio.apply(StageCommand::TickHz(60));
+    studio.apply(StageCommand::Restart);
+    while state(&studio).0.abs() < std::f64::consts::PI && studio.race().t() < 3.0 {
+        studio.tick();
+        assert!(studio.race().tick() < 2 || state(&studio).1 < 0.0, "the first half swing");
+    }
+    assert!(state(&studio).0.abs() > std::f64::consts::PI);
+}
+
+#[test]
+fn the_lanes_that_port_has_told_stay_within_8_percent_of_the_ghost_all_the_way() {
+    let scene = Scene::built_in("alike").unwrap();
+    let mut race = Race::of_scene(&scene);
+    let mut most = 0.0_f64;
+    while race.t() < scene.seconds {
+        race.run(1);
+        let truth = race.truth().bodies()[0].stepper.q()[0];
+        for entrant in &race.entrants()[3..6] {
+            most = most.max((entrant.lane.bodies()[0].stepper.q()[0] - truth).abs());
+        }
+    }
+    assert!((0.03..0.08).contains(&most), "{most} of a swing of 1 m");
+}
+
+#[test]
+fn the_area_of_the_cloud_is_never_less_than_at_its_start_under_explicit_euler() {
+    let mut studio = lab_at(STOPS.iter().position(|s| s.instrument == Instrument::Cloud).unwrap());
+    studio.apply(RunCommand::Cloud(CloudChoice { kind: CloudKind::default(), points: 10_000 }));
+    let mut worker = CloudWorker::default();
+    let mut areas = Vec::new();
+    for _ in 0..6 {
+        (0..12).for_each(|_| studio.tick());
+        studio.complete_clouds(&mut worker, || false);
+        let lanes = &studio.cloud().unwrap().picture.as_ref().unwrap().lanes;
+        areas.push(lanes[0].area_ratio.unwrap());
+    }
+    let most = areas.iter().copied().fold(0.0, f64::max);
+    // It is down again after it was up, where pendulums are over the top.
+    assert!(areas.iter().all(|area| *area > 1.0) && (1.8..2.2).contains(&most), "{areas:?}");
+    assert!(areas[5] < most, "{areas:?}");
 }

@@ -3,10 +3,11 @@
 
 use regatta::lab::race::Mode;
 use regatta::lab::studio::{
-    Command, Key, RunCommand, StageCommand, Step, Studio, ViewCommand, command_for,
+    Arrangement, Command, KEYS, Key, RunCommand, StageCommand, Step, Studio, ViewCommand,
+    command_for,
 };
 use regatta::lab::{Action, SCENES, Scene};
-use regatta::sim::integrators::GENERAL_METHODS;
+use regatta::sim::integrators::{GENERAL_METHODS, METHODS};
 
 const C: Key = Key::Sign('c');
 const LOWER_RATE: Key = Key::Sign('[');
@@ -336,4 +337,206 @@ fn a_jump_is_higher_at_a_higher_rate() {
     press(&mut fast, &[HIGHER_RATE]);
     let [low, high] = [&mut slow, &mut fast].map(|studio| largest(studio, 0, 0.8));
     assert!((low - 1.1445).abs() < 1e-9 && high > low + 0.01, "{low} {high}");
+}
+
+/// What is told of a key: what stands before it and behind it in the hint, up to the next digit.
+struct Told<'a> {
+    before: &'a str,
+    after: &'a str,
+}
+
+/// The keys that a hint names, in order, with what it does.
+fn told_keys(hint: &str) -> Vec<(Command, Told<'_>)> {
+    let parts: Vec<&str> = hint.split('`').collect();
+    let named = (1..parts.len()).step_by(2).map(|at| {
+        let all = KEYS.iter().flat_map(|binding| binding.keys);
+        let bound = all.clone().find(|(key, _)| key.to_string() == parts[at]);
+        let (_, command) = bound.unwrap_or_else(|| panic!("no key {} in {hint}", parts[at]));
+        let from: usize = parts[..=at].iter().map(|part| part.len() + 1).sum();
+        let rest = &hint[from..];
+        let next =
+            rest.find('`').filter(|at| rest[at + 1..].starts_with(|c: char| c.is_ascii_digit()));
+        let after = &rest[..next.unwrap_or(rest.len())];
+        (command.clone(), Told { before: &hint[..from], after })
+    });
+    named.collect()
+}
+
+/// The id of the first method that is named in words, where the name begins.
+fn first_named(words: &str) -> Option<(usize, &'static str)> {
+    let words = words.to_lowercase();
+    let found = METHODS.iter().filter_map(|method| {
+        let at = words.find(&method.name.to_lowercase())?;
+        Some((at, std::cmp::Reverse(method.name.len()), method.id))
+    });
+    found.min().map(|(at, _, id)| (at, id))
+}
+
+/// How often a key is to be pressed, in words that follow it, and the rate that it then leads to.
+fn presses(after: &str) -> (usize, Option<u32>) {
+    let times = [("twice", 2), ("three times", 3), ("four times", 4)];
+    let word = after.trim_start();
+    let count = times.iter().find(|(words, _)| word.starts_with(words)).map_or(1, |it| it.1);
+    let rate = word.split_once("for ").filter(|(before, _)| before.len() < 14);
+    let rate = rate.and_then(|(_, rest)| rest.split_once(" Hz")?.0.parse().ok());
+    (count, rate)
+}
+
+/// Presses what a hint asks for and holds what happens against the hint.
+fn hold(studio: &mut Studio, hint: &str, command: &Command, told: &Told<'_>) {
+    let (tick, hz, mode) = (studio.race().tick(), studio.clock().tick_hz(), studio.mode());
+    let scene = studio.scene_name();
+    let helm = (studio.race().throttle(), studio.race().rudder());
+    let rows = studio.race().journal().rows().len();
+    let asked = studio.apply(command.clone());
+    match command {
+        Command::Stage(StageCommand::Pick(entry)) => {
+            assert_eq!(studio.active(), *entry, "{hint}");
+            if let Some((_, id)) = first_named(told.after) {
+                assert_eq!(studio.entries()[*entry].method.id, id, "{hint}");
+            }
+        }
+        Command::Stage(StageCommand::ToggleRace) => {
+            assert_eq!((mode, studio.mode()), (Mode::Solo, Mode::Race), "{hint}");
+            let has_truth = studio.race().truth().halted().is_none();
+            assert!(has_truth || !hint.contains("exact"), "{hint}");
+            assert!(studio.race().entrants().len() > 1, "{hint}");
+        }
+        Command::Stage(StageCommand::TickRate(step)) => {
+            let (count, wanted) = presses(told.after);
+            (1..count).for_each(|_| _ = studio.apply(command.clone()));
+            let now = studio.clock().tick_hz();
+            assert!((now > hz) == (*step == Step::Next) && now != hz, "{hint}: {hz} to {now} Hz");
+            assert!(wanted.is_none_or(|wanted| wanted == now), "{hint}: {hz} to {now} Hz");
+        }
+        Command::Stage(StageCommand::Tick(Step::Previous)) => {
+            assert_eq!(studio.race().tick() + 1, tick, "{hint}");
+        }
+        Command::Stage(StageCommand::Restart) => assert_eq!(studio.race().tick(), 0, "{hint}"),
+        Command::Stage(StageCommand::InstrumentBeside(_)) => {
+            let seen = (0..20).any(|_| {
+                studio.apply(command.clone());
+                hint.contains(&studio.display().instrument.name().to_lowercase())
+            });
+            assert!(seen, "{hint}");
+        }
+        Command::Stage(StageCommand::ToggleArrangement) => {
+            assert_eq!(studio.display().arrangement, Arrangement::SideBySide, "{hint}");
+            assert_eq!(mode, Mode::Race, "{hint}");
+        }
+        Command::Stage(StageCommand::SceneBeside(_)) => {
+            assert_ne!(studio.scene_name(), scene, "{hint}");
+        }
+        Command::View(ViewCommand::TogglePause) => assert!(studio.running(), "{hint}"),
+        Command::View(ViewCommand::ToggleGuide) => assert!(studio.viewer().tour().is_some()),
+        Command::View(ViewCommand::Copy) => assert!(asked.is_some(), "{hint}"),
+        Command::Run(RunCommand::ToggleInspector) => assert!(studio.display().inspector, "{hint}"),
+        Command::Run(RunCommand::Act(Action::Kick(_))) => {
+            assert_eq!(studio.race().journal().rows().len(), rows + 1, "{hint}");
+        }
+        Command::Run(
+            RunCommand::ThrottleUp
+            | RunCommand::ThrottleDown
+            | RunCommand::RudderLeft
+            | RunCommand::RudderRight,
+        ) => {
+            let now = (studio.race().throttle(), studio.race().rudder());
+            assert!(now != helm || told.before.contains('↑'), "{hint}: {helm:?}");
+        }
+        other => panic!("no rule for {other:?}, which {hint} asks for"),
+    }
+}
+
+/// What nobody needs to be told: in solo, that a method other than the selected one does something.
+fn names_the_selected_method(studio: &Studio, hint: &str) -> bool {
+    let before = hint.split('`').next().unwrap_or_default();
+    first_named(before).is_none_or(|(at, id)| {
+        at > 0 || studio.race().entrants().iter().any(|lane| lane.spec.method.id == id)
+    })
+}
+
+#[test]
+fn in_every_scene_mode_and_pause_under_every_method_each_key_of_each_hint_does_what_is_told() {
+    let mut held = 0;
+    for scene in SCENES {
+        let parsed = Scene::built_in(scene.name).unwrap();
+        let is_net = parsed.bodies.iter().any(|body| body.kind.net().is_some());
+        let count = if is_net { 1 } else { parsed.lanes.len().min(5) };
+        let seconds = if is_net { 0 } else { 1 };
+        for (race, paused, entry) in (0..4 * count).map(|i| (i & 1 > 0, i & 2 > 0, i / 4)) {
+            if race && entry > 0 {
+                continue;
+            }
+            let begin = || {
+                let mut studio = Studio::new(parsed.clone());
+                if entry > 0 {
+                    studio.apply(StageCommand::Pick(entry));
+                }
+                if race {
+                    studio.apply(StageCommand::ToggleRace);
+                }
+                studio.begin_hints();
+                while studio.race().t() < f64::from(seconds) {
+                    studio.tick();
+                }
+                if paused {
+                    studio.apply(ViewCommand::TogglePause);
+                }
+                studio
+            };
+            let mut done: Vec<Command> = Vec::new();
+            let again = |done: &[Command]| {
+                let mut studio = begin();
+                done.iter().for_each(|command| _ = studio.apply(command.clone()));
+                studio
+            };
+            while let Some(hint) = Some(again(&done))
+                .filter(|it| it.viewer().tour().is_none())
+                .and_then(|it| it.hint())
+            {
+                assert!(done.len() < 20, "{}: {hint} stays", scene.name);
+                assert!(names_the_selected_method(&again(&done), &hint), "{}: {hint}", scene.name);
+                let keys = told_keys(&hint);
+                assert!(!keys.is_empty(), "{hint} asks for no key");
+                for (index, (command, told)) in keys.iter().enumerate() {
+                    let mut studio = again(&done);
+                    // What goes on from there, and what is lost as well, come after the keys before.
+                    if matches!(command, Command::View(ViewCommand::TogglePause)) {
+                        keys[..index].iter().for_each(|(key, _)| _ = studio.apply(key.clone()));
+                    }
+                    hold(&mut studio, &hint, command, told);
+                    held += 1;
+                }
+                done.push(keys[0].0.clone());
+            }
+        }
+    }
+    assert!(held > 1000, "{held}");
+}
+
+#[test]
+fn a_recording_does_not_ask_for_the_digits_of_the_scene_that_it_was_made_in() {
+    for scene in ["spring", "harbour"] {
+        let mut studio = open(scene);
+        assert!(studio.hint().unwrap().contains("`2`"));
+        (0..60).for_each(|_| studio.tick());
+        let text = studio.recording().unwrap();
+        let recorded = Studio::new(Scene::parse("recording.toml", &text).unwrap());
+        assert_ne!(recorded.entries()[1].method.id, "semi-implicit-euler", "else it may");
+        let hint = recorded.hint().expect("a lead");
+        assert!(!hint.contains("`2`") && !hint.contains("`C`"), "{hint}");
+    }
+}
+
+#[test]
+fn in_a_race_that_has_gone_on_into_the_next_scene_nobody_is_asked_to_race() {
+    let mut studio = open("jump");
+    studio.apply(StageCommand::ToggleRace);
+    studio.begin_hints();
+    for _ in SCENES {
+        assert_eq!(studio.mode(), Mode::Race);
+        let hint = studio.hint().unwrap_or_default();
+        assert!(!hint.contains("to race"), "{}: {hint}", studio.scene().name);
+        studio.apply(StageCommand::SceneBeside(Step::Next));
+    }
 }

@@ -265,10 +265,13 @@ impl Desk {
         (self.program.processor_time() - start).as_secs_f64() / span.as_secs_f64()
     }
 
-    /// Ends the program as people do.
+    /// Ends the program as people do: from the loop lab, or with something to lose, at the second press.
     #[track_caller]
-    pub(crate) fn quit(self) {
-        self.press("Escape");
+    pub(crate) fn quit(mut self) {
+        until("the end", || {
+            let _ = self.display.xdotool("key Escape");
+            self.program.ended()
+        });
         self.ends();
     }
 

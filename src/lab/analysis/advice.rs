@@ -12,7 +12,7 @@ use super::slices::{Meter, Once, at_once};
 use super::verdict::Verdict;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::{Scene, SceneBody, edited_values};
-use crate::sim::integrators::METHODS;
+use crate::sim::integrators::{METHODS, Method};
 use crate::sim::stability::RateSearch;
 
 /// The most substeps per tick that are tried.
@@ -132,6 +132,38 @@ impl Adviser {
             at_once(self.add_margins(spec, criterion, met));
         }
         result
+    }
+
+    /// The lane of `methods` that meets a criterion at the least [cost](CriterionMet::cost_per_s), with its fewest substeps; of
+    /// several the one with the fewest substeps, and of those the first. It is [`recommended`], found without judging dearer
+    /// ones.
+    pub fn cheapest(
+        &self,
+        criterion: Criterion,
+        methods: impl Iterator<Item = &'static Method>,
+    ) -> Option<LaneSpec> {
+        let least = |method: &Method| {
+            method.evaluations_per_tick(1).unwrap_or(1) * u32::from(method.evaluation_cost)
+        };
+        let mut methods: Vec<_> = methods.filter(|method| !method.is_as_printed()).collect();
+        methods.sort_by_key(|method| least(method));
+        let mut best: Option<(CriterionMet, LaneSpec)> = None;
+        for method in methods {
+            let at_least = f64::from(least(method)) * f64::from(self.tick_hz);
+            if best.as_ref().is_some_and(|(best, _)| best.cost_per_s < at_least) {
+                break;
+            }
+            let spec = LaneSpec::plain(method);
+            let CriterionResult::With(met) = at_once(self.fewest_substeps(spec, criterion)) else {
+                continue;
+            };
+            let cost = |met: &CriterionMet| (met.cost_per_s, met.substeps);
+            if best.as_ref().is_none_or(|(best, _)| cost(&met) < cost(best)) {
+                let spec = LaneSpec { substeps: met.substeps, ..spec };
+                best = Some((met, spec));
+            }
+        }
+        best.map(|(_, spec)| spec)
     }
 
     /// The verdict on a lane, and whether its method meets each criterion, with how many substeps. No margin is searched.

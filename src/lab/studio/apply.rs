@@ -20,6 +20,10 @@ use crate::lab::race::{ActionResult, Mode, equal_cost};
 use crate::lab::session::StartSettings;
 use crate::sim::bodies::Acts;
 use crate::sim::integrators::Method;
+use crate::sim::number::round;
+
+/// What is asked before a run that is not saved is lost.
+const QUIT_QUESTION: &str = "what you did in this run is not saved: F5 saves it, Esc again quits";
 
 impl Studio {
     /// Carries out a command. Returns what the driver has to do for it, if anything.
@@ -70,6 +74,7 @@ impl Studio {
             RunCommand::Seek(tick) => {
                 self.running = false;
                 self.seek(tick);
+                self.tell_of_the_future(tick);
             }
             RunCommand::WatchAgain => self.watch_again(),
             RunCommand::Undo => self.undo(),
@@ -127,8 +132,6 @@ impl Studio {
             StageCommand::Tick(step) => self.step_by(step.sign()),
             StageCommand::Second(step) => self.step_by(step.sign() * i64::from(race.tick_hz())),
             StageCommand::Restart => {
-                // A run that has come to rest by itself was not paused by anybody.
-                self.running |= self.comes_to_rest();
                 // A hint leads on; the old run is a click away on the timeline.
                 if self.restart_keeping_run() && self.hint().is_none() {
                     self.viewer.set_notice("restarted: Ctrl Z brings the run back");
@@ -181,6 +184,7 @@ impl Studio {
                     pointed.into_iter().flatten().chain([DriverRequest::CopyInstrument]);
                 return copies.find_map(|copy| self.possible(copy));
             }
+            ViewCommand::Language(language) => self.viewer.preferences.language = language,
             ViewCommand::CopyMethod { entry, language } => {
                 self.viewer.preferences.language = language;
                 return self.possible(DriverRequest::CopyMethod(entry));
@@ -203,7 +207,7 @@ impl Studio {
             ViewCommand::Predict(choice) => {
                 self.viewer.tour.iter_mut().for_each(|tour| tour.predict(choice));
             }
-            ViewCommand::Escape => return (!self.escape()).then_some(DriverRequest::Quit),
+            ViewCommand::Escape => return if self.escape() { None } else { self.quit() },
         }
         None
     }
@@ -225,6 +229,22 @@ impl Studio {
             || self.close_guide()
             || take(&mut self.viewer.preferences.display.enlarged)
             || take(&mut self.viewer.preferences.display.inspector)
+            || self.leave_loop_lab()
+    }
+
+    /// Quits; while there is something to lose, at the second time of asking.
+    fn quit(&mut self) -> Option<DriverRequest> {
+        let is_asked = self.viewer.notice.as_deref() == Some(QUIT_QUESTION);
+        if is_asked || self.deeds == self.saved_deeds || self.viewer.preferences.is_recorded {
+            return Some(DriverRequest::Quit);
+        }
+        self.viewer.set_notice(QUIT_QUESTION);
+        None
+    }
+
+    /// Notes that a file has what a person did in the run so far.
+    pub fn note_saved(&mut self) {
+        self.saved_deeds = self.deeds;
     }
 
     /// Performs an action on the run by hand.
@@ -241,9 +261,13 @@ impl Studio {
         }
         let was_past = self.timeline.is_in_past();
         let before = self.start.clone();
+        let (is_input, rests) = (action.input().is_some(), self.comes_to_rest());
         let (acted, mut told) =
             self.watched(|timeline, notices| timeline.act_seen(action.clone(), &before, notices));
         let ActionResult::Done { released } = acted else { return self.tell(told) };
+        self.deeds += 1;
+        // What a person does at rest is to be seen.
+        self.running |= is_input && rests;
         self.start.keep(&action, self.timeline.session().race(), self.timeline.past().menu());
         if let Action::Lane { .. } = action {
             self.start.entry = self.active();
@@ -266,6 +290,7 @@ impl Studio {
     fn set_start(&mut self, what: &str, set: impl FnOnce(&mut StartSettings) -> bool) {
         let before = self.start.clone();
         if set(&mut self.start) {
+            self.deeds += 1;
             self.timeline.keep_settings(what, before);
         }
     }
@@ -388,6 +413,18 @@ impl Studio {
             self.tick();
         }
         self.timeline.show_present();
+    }
+
+    /// Says how far the run has got, if that is before this tick.
+    fn tell_of_the_future(&mut self, tick: u64) {
+        let (end, times) = (self.timeline.end(), self.timeline.times());
+        if tick > end {
+            let [wanted, end] = [tick, end].map(|tick| format!("{} s", round(times.t(tick), 3)));
+            self.viewer.set_notice(vec![
+                format!("{wanted} is still to come: the run has got to {end}"),
+                "Space goes on".into(),
+            ]);
+        }
     }
 
     pub(super) fn seek(&mut self, tick: u64) {

@@ -52,7 +52,7 @@ pub enum RunCommand {
     /// Sets the substeps and the tolerance of this method of the list, and switches to it like [`StageCommand::Method`]. A lane
     /// that races keeps its state.
     SetLane(LaneSpec),
-    /// Pauses and goes to this tick, at most the last tick reached.
+    /// Pauses and goes to this tick, at most the last tick reached: a later one is told to be still to come.
     Seek(u64),
     /// Goes back to before the selected lane blew up, and runs on.
     WatchAgain,
@@ -170,6 +170,8 @@ pub enum ViewCommand {
     /// Copies the method of the lane that is [pointed at](ViewCommand::PointAt) as source code in the language of the last
     /// copy; of an engine's the lines that tell it the displayed spring; or else the instrument's values.
     Copy,
+    /// Has the next method be copied in this language.
+    Language(Language),
     /// Copies a method as source code.
     CopyMethod {
         /// Its index in the list of lanes.
@@ -201,7 +203,8 @@ pub enum ViewCommand {
     /// Predicts this choice of the guide's stop, from 0.
     Predict(usize),
     /// Releases the held body, else closes the overlay, else the guide, else shrinks the
-    /// instrument, else closes the inspector, else quits.
+    /// instrument, else closes the inspector, else leaves the loop lab, else quits: at the second time, if the run has
+    /// something to lose.
     Escape,
 }
 

@@ -34,7 +34,7 @@ pub static GESTURES: &[Gesture] = &[
         shown: "Drag the cross",
         about: "stability map: set the tick rate and the parameter",
     },
-    Gesture { shown: "Drag the timeline", about: "go to any tick" },
+    Gesture { shown: "Drag the timeline", about: "go to any tick that was run" },
     Gesture { shown: "Drop a file", about: "open a scene, or in the loop lab a frame log" },
 ];
 

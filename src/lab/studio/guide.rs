@@ -6,13 +6,16 @@
 use super::display::Display;
 use super::instrument::Instrument;
 use super::key::Key;
+use crate::lab::lane_spec::LaneSpec;
 use crate::lab::past::Quantity;
 use crate::lab::race::{Interpolation, Mode, Race};
+use crate::lab::scene::Scene;
+use crate::sim::integrators::Method;
 
 mod hints;
 mod stops;
 
-pub(super) use hints::{Hints, suits_race};
+pub(super) use hints::Hints;
 pub use stops::STOPS;
 
 /// A stop of the guide.
@@ -73,25 +76,38 @@ pub enum Goal {
     Interpolation(Interpolation),
 }
 
-/// What a studio is doing, as far as a goal asks.
+/// What a studio is doing, as far as a goal or a hint asks.
 pub(super) struct Situation<'a> {
+    pub(super) scene: &'a Scene,
     pub(super) race: &'a Race,
-    pub(super) method: &'static str,
+    /// The menu, and the index on it of the method of the selected lane.
+    pub(super) menu: &'a [LaneSpec],
+    pub(super) active: usize,
+    /// Whether the run is what it would be from its start: nobody has changed it on the way.
+    pub(super) is_from_the_start: bool,
     pub(super) speed_percent: u32,
-    pub(super) is_running: bool,
+    /// Whether a person has paused it.
+    pub(super) is_paused: bool,
     pub(super) is_in_loop_lab: bool,
     pub(super) display: &'a Display,
+}
+
+impl Situation<'_> {
+    /// The method of the selected lane.
+    fn method(&self) -> &'static Method {
+        self.menu[self.active].method
+    }
 }
 
 impl Goal {
     pub(super) fn is_met(self, now: &Situation<'_>) -> bool {
         match self {
-            Goal::Method(id) => now.method == id,
+            Goal::Method(id) => now.method().id == id,
             Goal::TickHzFrom(hz) => now.race.tick_hz() >= hz,
             Goal::TickHzTo(hz) => now.race.tick_hz() <= hz,
             Goal::SpeedFrom(percent) => now.speed_percent >= percent,
-            Goal::Paused => !now.is_running,
-            Goal::SteppedTo(tick) => !now.is_running && now.race.tick() >= tick,
+            Goal::Paused => now.is_paused,
+            Goal::SteppedTo(tick) => now.is_paused && now.race.tick() >= tick,
             Goal::Instrument(wanted) => now.display.instrument == wanted,
             Goal::LoopLab => now.is_in_loop_lab,
             Goal::Race => now.race.mode() == Mode::Race,
@@ -165,8 +181,10 @@ impl Tour {
         }
     }
 
-    /// Notes that the task is done if it is. Once done, it stays so.
+    /// Notes that the task is done if it is: of a stop that asks for `Home`, once the run has begun as it is now. Once done,
+    /// it stays so.
     pub(super) fn look(&mut self, now: &Situation<'_>) {
-        self.is_done |= self.stop().goal.is_met(now);
+        let is_begun = now.is_from_the_start || !self.stop().keys.contains(&Key::Home);
+        self.is_done |= is_begun && self.stop().goal.is_met(now);
     }
 }

@@ -1,17 +1,19 @@
 //! The guide and the hints of a studio: how a stop is opened, and when its task is done.
 
 use super::Studio;
-use super::command::{Command, StageCommand};
-use super::guide::{Chosen, Goal, Hints, STOPS, Situation, Stop, Tour, suits_race};
+use super::guide::{Chosen, Goal, Hints, STOPS, Situation, Stop, Tour};
 use super::step::Step;
 use crate::lab::analysis::Metric;
 use crate::lab::past::Quantity;
-use crate::lab::race::{Author, Interpolation, Mode};
+use crate::lab::race::{Author, Interpolation};
 use crate::lab::scene::SCENES;
 
 impl Studio {
     /// What to try next: the scene's own hint, then what follows on it. Keys stand between backticks.
     pub fn hint(&self) -> Option<String> {
+        if let Some(rest) = self.rest_hint() {
+            return Some(rest);
+        }
         if let Some(tour) = &self.viewer.tour {
             let is_last = tour.index() + 1 == STOPS.len();
             let next = match (tour.is_done(), is_last) {
@@ -25,15 +27,23 @@ impl Studio {
             };
             return Some(next.to_owned());
         }
-        if let Some(rest) = self.rest_hint() {
-            return Some(rest);
+        let outcome = self.viewer.verdict(self.active()).map(|verdict| verdict.outcome());
+        self.viewer.hints.text(&self.situation(), outcome)
+    }
+
+    /// What it is doing, as far as goals and hints ask.
+    fn situation(&self) -> Situation<'_> {
+        Situation {
+            scene: self.scene(),
+            race: self.race(),
+            menu: self.entries(),
+            active: self.active(),
+            is_from_the_start: !self.was_changed_on_the_way(),
+            speed_percent: self.clock.speed_percent(),
+            is_paused: !self.running && !self.comes_to_rest(),
+            is_in_loop_lab: self.loop_lab().is_some(),
+            display: self.display(),
         }
-        let entry = self.active();
-        let outcome = self.viewer.verdict(entry).map(|verdict| verdict.outcome());
-        let flown = (self.entries()[entry].method.name, outcome);
-        let suits = |hint: &&str| self.mode() == Mode::Solo || suits_race(hint);
-        let hint = self.scene().hint.as_deref().filter(suits);
-        self.viewer.hints.text(hint, flown, self.was_changed_on_the_way())
     }
 
     /// Whether a person has acted since the start, so that the run from the start is another.
@@ -51,9 +61,6 @@ impl Studio {
     /// Shows the hints from the first one again: for a driver that has set up the studio by commands.
     pub fn begin_hints(&mut self) {
         self.viewer.hints = Hints::default();
-        if self.mode() == Mode::Race {
-            self.viewer.hints.see(&Command::Stage(StageCommand::ToggleRace), None);
-        }
     }
 
     /// Opens the guide where it was left, or closes it.
@@ -115,14 +122,7 @@ impl Studio {
     /// Notes whether the task of the guide's stop is done.
     pub(super) fn look_at_goal(&mut self) {
         let Some(mut tour) = self.viewer.tour.take() else { return };
-        tour.look(&Situation {
-            race: self.race(),
-            method: self.entries()[self.active()].method.id,
-            speed_percent: self.clock.speed_percent(),
-            is_running: self.running,
-            is_in_loop_lab: self.loop_lab().is_some(),
-            display: self.display(),
-        });
+        tour.look(&self.situation());
         self.viewer.tour = Some(tour);
     }
 }
@@ -138,7 +138,7 @@ fn error_of(quantity: Quantity) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::studio::command::{RunCommand, ViewCommand};
+    use crate::lab::studio::command::{Command, RunCommand, StageCommand, ViewCommand};
     use crate::lab::studio::{Key, command_for};
     use crate::lab::{METRICS, Scene};
 

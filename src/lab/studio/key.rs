@@ -354,7 +354,7 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "Esc",
-        about: "let go of a body, close the overlay, the guide, the instrument, the inspector, or quit",
+        about: "let go of a body, close the overlay, the guide, the instrument, the inspector, leave the loop lab, or quit: twice where something would be lost",
         keys: &[(Key::Escape, Command::View(ViewCommand::Escape))],
         repeats: false,
     },

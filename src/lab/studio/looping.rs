@@ -57,14 +57,15 @@ impl Studio {
         self.running = true;
     }
 
-    /// Leaves the loop lab; the run goes on as it did before.
-    fn leave_loop_lab(&mut self) {
-        let Activity::Loops(loops) = take(&mut self.activity) else { return };
+    /// Leaves the loop lab; the run goes on as it did before. Returns whether it was open.
+    pub(super) fn leave_loop_lab(&mut self) -> bool {
+        let Activity::Loops(loops) = take(&mut self.activity) else { return false };
         self.running = loops.run_goes_on;
         self.viewer.notice = None;
         if self.display().instrument == Instrument::Loop {
             self.viewer.preferences.display.instrument = Instrument::Motion;
         }
+        true
     }
 
     /// Opens the loop lab on the trace of this name, if there is one.
@@ -187,7 +188,7 @@ impl Studio {
     pub(super) fn change_loop_lab(&mut self, command: LoopCommand) {
         let Activity::Loops(loops) = &mut self.activity else { return };
         match command {
-            LoopCommand::ToggleLab => self.leave_loop_lab(),
+            LoopCommand::ToggleLab => drop(self.leave_loop_lab()),
             LoopCommand::Select(index) => loops.select(index),
             LoopCommand::ToggleOnStage(index) => loops.toggle(index),
             LoopCommand::Trace(index) => loops.choose_trace(index),

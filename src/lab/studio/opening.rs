@@ -40,14 +40,16 @@ impl Studio {
         self.open(index);
     }
 
-    /// Opens the spring that a person has described, alone, at the present tick rate, and advises on it. It is on the list
-    /// of scenes under a name that is no file's.
+    /// Opens the spring that a person has described, alone and running, at the present tick rate, under what is recommended
+    /// for it, and advises on it. It is on the list of scenes under a name that is no file's.
     pub(super) fn open_spring(&mut self) {
         let path = Path::new(MY_SPRING);
-        match self.viewer.preferences.my_spring.scene(self.clock.tick_hz()) {
+        match self.viewer.preferences.my_spring.advised_scene(self.clock.tick_hz()) {
             Ok(scene) => {
-                self.start.mode = Mode::Solo;
                 self.open_file(path, scene);
+                self.start.mode = Mode::Solo;
+                self.restart();
+                self.running = true;
                 self.viewer.preferences.display.instrument = Instrument::Advice;
             }
             Err(errors) => {
@@ -157,6 +159,7 @@ impl Studio {
         self.viewer.dialog = None;
         self.restart();
         (0..tick).for_each(|_| self.tick());
+        self.running &= !self.comes_to_rest();
         self.timeline.show_present();
     }
 
@@ -175,7 +178,7 @@ impl Studio {
         studio.start.mode = if studio.scene().opens_as_race { Mode::Race } else { self.mode() };
         studio.viewer = self.viewer.before_next_scene(studio.viewer.selected);
         studio.clock.set_speed_percent(self.clock.speed_percent());
-        studio.running = self.running;
+        studio.running = self.runs_or_rests();
         studio.timeline.set_limit(self.timeline.limit());
         studio.restart();
         let file = studio.scene_list.file(index);

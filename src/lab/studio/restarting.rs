@@ -9,6 +9,7 @@ use crate::lab::session::{Exchanged, Timeline};
 impl Studio {
     /// Begins the run again with the present settings. The run so far is lost unless it was [kept](Self::keep_run).
     pub(super) fn restart(&mut self) {
+        self.running = self.runs_or_rests();
         self.timeline.restart(self.start.session());
         self.record_chosen_coordinates();
         self.viewer.selected =
@@ -35,6 +36,7 @@ impl Studio {
 
     /// Keeps a copy of the settings and the run itself for an undo of the restart that has to follow.
     pub(super) fn keep_run(&mut self, what: &str) {
+        self.running = self.runs_or_rests();
         self.timeline.keep_run(what, self.start.clone());
     }
 
@@ -42,6 +44,7 @@ impl Studio {
     /// by commands.
     pub fn forget_changes(&mut self) {
         self.timeline.forget_changes();
+        self.note_saved();
     }
 
     /// Takes back the last change.

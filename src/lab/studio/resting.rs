@@ -1,10 +1,9 @@
-//! Where a run that is watched rests: at its scene's length, and where all its bodies have blown up, which can be watched
+//! Where a run before a person rests: at its scene's length, and where all its bodies have blown up, which can be watched
 //! again.
 
 use super::Studio;
 use super::display::Motion;
-use crate::lab::action::Action;
-use crate::lab::race::{Author, Halt, Mode};
+use crate::lab::race::{Halt, Mode};
 use crate::sim::number::{round, significant};
 
 /// How long before it was over a blow-up is watched again, in seconds, and at least in ticks.
@@ -17,24 +16,16 @@ impl Studio {
         self.is_at_its_end() || self.just_lost().is_some()
     }
 
-    /// Whether a person only watches: the run of one lane whose bodies nobody steers, outside the guide.
-    fn is_watched(&self) -> bool {
-        let race = self.race();
-        let is_touched = |action: &Action| {
-            action.input().is_some() || matches!(action, Action::Place { .. } | Action::Set { .. })
-        };
-        let rows = &race.journal().rows()[..race.done()];
-        self.display().motion == Motion::Live
-            && self.mode() == Mode::Solo
-            && self.viewer.tour.is_none()
-            && !rows.iter().any(|row| row.author == Author::Person && is_touched(&row.action))
-    }
-
     /// Whether the scene's length is over.
     fn is_at_its_end(&self) -> bool {
         let race = self.race();
         let (late_s, half_s) = (race.t() - self.scene().seconds, race.last_step_s() / 2.0);
-        late_s > -half_s && late_s <= half_s && self.is_watched()
+        late_s > -half_s && late_s <= half_s && self.display().motion == Motion::Live
+    }
+
+    /// Whether time runs once another run is on the stage: also after a rest, which nobody asked for.
+    pub(super) fn runs_or_rests(&self) -> bool {
+        self.running || self.comes_to_rest()
     }
 
     /// The halt of the last body of the lane on the stage, if it has just halted.
@@ -89,9 +80,9 @@ impl Studio {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::Scene;
     use crate::lab::picture::slow_motion_percent;
-    use crate::lab::studio::{RunCommand, StageCommand, Studio, ViewCommand};
+    use crate::lab::studio::{Command, RunCommand, StageCommand, Step, Studio, ViewCommand};
+    use crate::lab::{Action, Scene};
 
     /// A lab that somebody watches.
     fn watched(scene: &str) -> Studio {
@@ -159,15 +150,103 @@ mod tests {
     }
 
     #[test]
-    fn nothing_rests_that_is_recorded_steered_or_told_how_long_to_run() {
+    fn a_run_rests_at_its_end_in_every_mode_and_in_the_guide_and_what_opens_then_runs() {
+        let race = |studio: &mut Studio| _ = studio.apply(StageCommand::ToggleRace);
+        let kick = |studio: &mut Studio| _ = studio.apply(RunCommand::Act(Action::Kick(1.0)));
+        let guide = |studio: &mut Studio| _ = studio.apply(ViewCommand::GoToStop(9));
+        let prepared: [fn(&mut Studio); 4] = [|_| {}, race, kick, guide];
+        let opened = [
+            Command::Stage(StageCommand::Restart),
+            Command::Stage(StageCommand::SceneBeside(Step::Next)),
+            Command::Stage(StageCommand::OpenSpring),
+            Command::View(ViewCommand::GoToStop(0)),
+            Command::Run(RunCommand::Act(Action::Kick(1.0))),
+        ];
+        for (prepare, open) in
+            prepared.iter().flat_map(|it| opened.iter().map(move |open| (it, open)))
+        {
+            let mut studio = watched("spring");
+            prepare(&mut studio);
+            while studio.running() && studio.race().t() < 21.0 {
+                studio.advance(16_666_667);
+            }
+            assert_eq!((studio.race().t(), studio.running()), (20.0, false), "{open:?}");
+            let hint = studio.hint().expect("what to do");
+            assert!(hint.contains("are over") && hint.contains("`Home`"), "{hint}");
+            studio.apply(open.clone());
+            assert!(studio.running(), "{open:?}");
+        }
+        let mut studio = watched("spring");
+        watch(&mut studio, 21);
+        studio.apply(StageCommand::ToggleRace);
+        assert!(studio.running() && studio.race().tick() == 0);
+    }
+
+    #[test]
+    fn escape_leaves_the_loop_lab_and_asks_before_it_quits_a_run_with_something_to_lose() {
+        use crate::lab::loop_lab::LoopCommand;
+        use crate::lab::studio::DriverRequest;
+        let escape = |studio: &mut Studio| studio.apply(ViewCommand::Escape);
+        let quits = Some(DriverRequest::Quit);
+        let mut studio = watched("spring");
+        studio.apply(LoopCommand::ToggleLab);
+        assert!(studio.loop_lab().is_some());
+        assert_eq!((escape(&mut studio), studio.loop_lab().is_none()), (None, true));
+        assert_eq!(escape(&mut studio), quits, "nobody has done anything");
+        studio.apply(StageCommand::ToggleRace);
+        assert_eq!(escape(&mut studio), quits, "a race repeats itself");
+        studio.apply(RunCommand::Act(Action::Kick(1.0)));
+        assert_eq!(escape(&mut studio), None);
+        let told = studio.viewer().notice.as_deref().unwrap_or_default();
+        assert!(told.contains("F5") && told.contains("Esc"), "{told}");
+        assert_eq!(escape(&mut studio), quits, "it was asked");
+        studio.viewer_mut().notice = None;
+        assert_eq!(escape(&mut studio), None, "the question has left");
+        studio.note_saved();
+        assert_eq!(escape(&mut studio), quits, "it is saved");
+        studio.apply(StageCommand::TickHz(30));
+        studio.viewer_mut().notice = None;
+        assert_eq!(escape(&mut studio), None, "it has changed since");
+        studio.viewer_mut().preferences.is_recorded = true;
+        assert_eq!(escape(&mut studio), quits);
+    }
+
+    #[test]
+    fn a_seek_into_the_future_stays_where_the_run_has_got_to_and_says_so() {
+        let mut studio = watched("spring");
+        (0..120).for_each(|_| studio.tick());
+        studio.apply(RunCommand::Seek(60));
+        assert_eq!((studio.race().tick(), studio.viewer().notice.as_deref()), (60, None));
+        studio.apply(RunCommand::Seek(600));
+        assert_eq!((studio.race().tick(), studio.running()), (120, false));
+        let told = studio.viewer().notice.as_deref().unwrap_or_default();
+        assert!(told.contains("10 s is still to come") && told.contains("2 s"), "{told}");
+    }
+
+    #[test]
+    fn a_rest_is_not_the_pause_that_a_stop_of_the_guide_asks_for() {
+        use crate::lab::studio::guide::{Goal, STOPS};
+        let mut studio = watched("spring");
+        let stop = STOPS.iter().position(|stop| stop.goal == Goal::Paused).unwrap();
+        studio.apply(ViewCommand::GoToStop(stop));
+        let end = studio.scene().seconds;
+        watch(&mut studio, end as u32 + 2);
+        assert!(!studio.running());
+        studio.apply(ViewCommand::ToggleGhost);
+        assert!(!studio.viewer().tour().unwrap().is_done());
+        studio.apply(ViewCommand::TogglePause);
+        watch(&mut studio, 1);
+        studio.apply(ViewCommand::TogglePause);
+        assert!(studio.viewer().tour().unwrap().is_done());
+    }
+
+    #[test]
+    fn nothing_rests_that_is_recorded_or_told_how_long_to_run() {
         let ends = |mut studio: Studio| {
             watch(&mut studio, 21);
             studio.race().t() > studio.scene().seconds
         };
         assert!(ends(Studio::new(Scene::built_in("spring").unwrap())), "nobody watches");
-        let mut steered = watched("spring");
-        steered.apply(RunCommand::Act(Action::Kick(1.0)));
-        assert!(ends(steered), "a person is at it");
         let mut told = watched("spring");
         for _ in 0..60 * 21 {
             told.advance_in_time(10_000, 16_666_667, &mut || true);

@@ -44,12 +44,14 @@ pub struct Preferences {
     pub display: Display,
     /// Whether a person chose the theme: then it no longer follows the system's.
     pub(super) theme_is_chosen: bool,
-    /// The language in which a method was copied last.
+    /// The language in which the next method is copied.
     pub(super) language: Language,
     pub(super) typed_path: String,
     pub(super) my_spring: MySpring,
     /// The stop at which the guide was closed.
     pub(super) left_at: usize,
+    /// Whether the driver keeps a recording of the run, so that the end of the program loses nothing.
+    pub is_recorded: bool,
 }
 
 impl Preferences {
@@ -102,6 +104,7 @@ impl Default for Preferences {
             typed_path: String::new(),
             my_spring: MySpring::default(),
             left_at: 0,
+            is_recorded: false,
         }
     }
 }
@@ -184,7 +187,7 @@ impl Viewer {
         self.pointer_is_down
     }
 
-    /// The language in which the next method is copied: that of the last, and Rust at first.
+    /// The language in which the next method is copied: that of the last or the one chosen since, and Rust at first.
     pub fn language(&self) -> Language {
         self.preferences.language
     }

@@ -1,7 +1,9 @@
 //! Which method to take for the scene at its tick rate: the answer as far as it is known, then what is known of every
 //! method, as a table.
 
-use egui::{Align, Color32, FontId, Label, Layout, Rect, Response, RichText, Ui, UiBuilder, vec2};
+use egui::{
+    Align, Color32, ComboBox, FontId, Label, Layout, Rect, Response, RichText, Ui, UiBuilder, vec2,
+};
 
 use super::table::{Column, GAP, MARGIN, SortKey, Table, TableRow, show_name};
 use super::{breakpoints, is_picture, palette, strong_font, tone};
@@ -11,6 +13,7 @@ use crate::lab::analysis::{
     MAX_ADVISED_SUBSTEPS, MethodAdvice, recommended,
 };
 use crate::lab::number::{counted, significant};
+use crate::lab::source_code::Language;
 use crate::lab::studio::{Command, RunCommand, Studio, ViewCommand};
 use crate::view::theme::{PanelPalette, TYPE};
 
@@ -99,7 +102,14 @@ fn answer(
         true => format!("At {} Hz, the best of {done} of {wanted} methods judged:", advice.tick_hz),
         false => format!("At {} Hz, take:", advice.tick_hz),
     };
-    line(ui, RichText::new(told).color(palette(ui).dim));
+    ui.horizontal(|ui| {
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            language_menu(ui, studio, commands);
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                line(ui, RichText::new(told).color(palette(ui).dim));
+            });
+        });
+    });
     for (i, (criterion, best)) in CRITERIA.iter().zip(best).enumerate() {
         let taken = best.and_then(|row| {
             let advised = &advice.advised[row];
@@ -149,13 +159,31 @@ fn taken_line(ui: &mut Ui, name: &str, met: &CriterionMet) {
     line(ui, substeps).on_hover_text(told_of(met));
 }
 
+/// The language in which methods are copied.
+fn language_menu(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
+    let chosen = studio.viewer().language();
+    let text = RichText::new(format!("code: {chosen}")).size(SMALL);
+    let menu = ComboBox::from_id_salt("language").selected_text(text).width(92.0);
+    let response = menu.show_ui(ui, |ui| {
+        for language in Language::ALL {
+            if ui.selectable_label(language == chosen, language.name()).clicked() {
+                commands.push(Command::View(ViewCommand::Language(language)));
+            }
+        }
+    });
+    response.response.on_hover_text("the language in which methods are copied");
+}
+
 /// A button that copies a method as source code.
 fn copy_button(ui: &mut Ui, studio: &Studio, spec: LaneSpec, commands: &mut Vec<Command>) {
     let place = studio.entries().iter().position(|entry| entry.method == spec.method);
     let Some(entry) = place.filter(|_| !is_picture(ui)) else { return };
     let language = studio.viewer().language();
-    let about = format!("copy {} as {language}; other languages: right click", spec.method.name);
-    let word = if ui.available_width() < breakpoints::COPY_CODE { "Copy" } else { "Copy code" };
+    let about = format!("copy {} as {language}", spec.method.name);
+    let word = match ui.available_width() < breakpoints::COPY_CODE {
+        true => "Copy".to_owned(),
+        false => format!("Copy {language}"),
+    };
     let response = ui.button(RichText::new(word).size(SMALL)).on_hover_text(&about);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &about));
     if response.clicked() {

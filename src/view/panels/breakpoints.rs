@@ -16,6 +16,9 @@ pub(super) const PACE: f32 = 1100.0;
 pub(super) const MENU_OF_TRACES: f32 = 1180.0;
 pub(super) const HELP_IN_TWO_COLUMNS: f32 = 860.0;
 
+/// A dialog keeps to the stage.
+pub(super) const DIALOG_ON_STAGE: f32 = 310.0;
+
 // Heights of the window.
 pub(super) const TOP_BAR: f32 = 120.0;
 pub(super) const FOOTER: f32 = 200.0;

@@ -2,14 +2,17 @@
 
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
-use egui::{Context, Id, Order, Window};
+use egui::{Align2, Context, Id, Order, Rect, Window};
 
-pub(super) fn window(title: &str) -> Window<'_> {
+/// A dialog over this part of the window.
+pub(super) fn window(title: &str, over: Rect) -> Window<'_> {
     Window::new(title)
         .id(Id::unique(title))
         .order(Order::Foreground)
         .collapsible(false)
         .resizable(false)
+        .constrain_to(over)
+        .anchor(Align2::CENTER_TOP, [0.0, 80.0_f32.min(over.height() / 8.0)])
 }
 
 /// Selects what is typed from this character on.

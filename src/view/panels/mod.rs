@@ -62,9 +62,10 @@ const MIN_INSPECTOR: f32 = 130.0;
 /// Shows all panels. Returns what was asked for and the rectangle left for the stage, in points.
 pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     let mut commands = Vec::new();
-    let size = ui.max_rect().size();
+    let whole = ui.max_rect();
+    let size = whole.size();
     if size.x < breakpoints::PANELS[0] || size.y < breakpoints::PANELS[1] {
-        return (commands, ui.max_rect());
+        return (commands, whole);
     }
     if size.y >= breakpoints::TOP_BAR {
         let panel =
@@ -134,12 +135,18 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         help::show(ui, &mut commands);
     }
     if let Some(dialog) = studio.viewer().dialog() {
+        // Beside the instruments, whose letters it would cut.
+        let is_wide = stage.width() >= breakpoints::DIALOG_ON_STAGE;
+        let along = if is_wide { stage } else { whole };
+        let over = Rect::from_x_y_ranges(along.x_range(), whole.y_range());
         match dialog {
-            Dialog::Spring => my_spring::show(ui, studio, &mut commands),
+            Dialog::Spring => my_spring::show(ui, studio, over, &mut commands),
             Dialog::Path { refused } => {
-                opening::path(ui, studio, refused.as_deref(), &mut commands)
+                opening::path(ui, studio, refused.as_deref(), over, &mut commands)
             }
-            Dialog::Mistakes { file, report } => opening::mistakes(ui, file, report, &mut commands),
+            Dialog::Mistakes { file, report } => {
+                opening::mistakes(ui, file, report, over, &mut commands)
+            }
         }
         if ui.input(|input| input.key_pressed(Key::Escape)) {
             commands.push(Command::View(ViewCommand::CloseDialog));

@@ -1,10 +1,11 @@
 //! A custom spring: its numbers, each of which can be typed, and a button that asks for advice on it.
 
-use egui::{Align2, Button, FontId, Id, RichText, Sense, Ui, vec2};
+use egui::{Align2, Button, FontId, Id, Rect, RichText, Sense, Ui, vec2};
 
 use super::dialog::{select, window};
 use super::inspector::NumberField;
 use super::palette;
+use crate::lab::source_code::Language;
 use crate::lab::studio::{Command, MySpring, StageCommand, Studio, ViewCommand};
 use crate::view::theme::TYPE;
 
@@ -37,16 +38,33 @@ const MADE_OF: [Number; 3] = [
 /// The two that describe it as well, whatever its mass.
 const SEEN_AS: [Number; 2] = [
     ("frequency", "Hz", MySpring::frequency_hz, |spring, frequency_hz| {
-        MySpring::of_frequency(spring.mass_kg, frequency_hz, spring.damping_ratio())
+        spring.swinging(frequency_hz, spring.damping_ratio())
     }),
     ("damping ratio", "", MySpring::damping_ratio, |spring, ratio| {
-        MySpring::of_frequency(spring.mass_kg, spring.frequency_hz(), ratio)
+        spring.swinging(spring.frequency_hz(), ratio)
     }),
 ];
 
-pub(super) fn show(ui: &Ui, studio: &Studio, commands: &mut Vec<Command>) {
+/// How it starts, and what pulls at it.
+const LET_GO: [Number; 3] = [
+    ("stretch at start", "m", |spring| spring.x0_m, |spring, x0_m| MySpring { x0_m, ..spring }),
+    (
+        "velocity at start",
+        "m/s",
+        |spring| spring.v0_m_per_s,
+        |spring, v0_m_per_s| MySpring { v0_m_per_s, ..spring },
+    ),
+    (
+        "gravity",
+        "m/s²",
+        |spring| spring.gravity_m_per_s2,
+        |spring, gravity_m_per_s2| MySpring { gravity_m_per_s2, ..spring },
+    ),
+];
+
+pub(super) fn show(ui: &Ui, studio: &Studio, over: Rect, commands: &mut Vec<Command>) {
     let ctx = ui.ctx();
-    window(TITLE).anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(ctx, |ui| {
+    window(TITLE, over).show(ctx, |ui| {
         ui.set_width(NAME + NUMBER + 8.0);
         ui.spacing_mut().item_spacing.y = 4.0;
         let (tick_hz, has_focus) = (studio.clock().tick_hz(), ui.memory(|m| m.focused().is_some()));
@@ -56,6 +74,10 @@ pub(super) fn show(ui: &Ui, studio: &Studio, commands: &mut Vec<Command>) {
         }
         ui.label(RichText::new("or by its swing").color(palette(ui).dim));
         for number in &SEEN_AS {
+            line(ui, studio, number, false, commands);
+        }
+        ui.label(RichText::new("let go where, and how").color(palette(ui).dim));
+        for number in &LET_GO {
             line(ui, studio, number, false, commands);
         }
         ui.add_space(6.0);
@@ -73,7 +95,11 @@ pub(super) fn show(ui: &Ui, studio: &Studio, commands: &mut Vec<Command>) {
                 commands.push(Command::View(ViewCommand::CloseDialog));
             }
         });
-        let told = "Opens it as a scene, with the recommended method and its code to copy.";
+        let [others @ .., last] = Language::ALL.map(Language::name);
+        let told = format!(
+            "Runs it under the recommended method, with its code to copy in {} or {last}.",
+            others.join(", ")
+        );
         ui.label(RichText::new(told).size(11.5).color(palette(ui).dim));
     });
 }

@@ -1,6 +1,6 @@
 //! Opening a scene file: a field for its path, and what is wrong with it.
 
-use egui::{Align2, Id, Key, Label, RichText, ScrollArea, TextEdit, TextStyle, TextWrapMode, Ui};
+use egui::{Id, Key, Label, Rect, RichText, ScrollArea, TextEdit, TextStyle, TextWrapMode, Ui};
 
 use super::dialog::{select, window};
 use super::palette;
@@ -15,11 +15,12 @@ pub(super) fn path(
     ui: &Ui,
     studio: &Studio,
     refused: Option<&[Mistake]>,
+    over: Rect,
     commands: &mut Vec<Command>,
 ) {
     let ctx = ui.ctx();
-    let width = WIDTH.min(ctx.content_rect().width() - 40.0).max(40.0);
-    window("Open a scene or a frame log").anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(ctx, |ui| {
+    let width = WIDTH.min(over.width() - 40.0).max(40.0);
+    window("Open a scene or a frame log", over).show(ctx, |ui| {
         ui.set_min_width(width);
         let id = Id::unique("path of a scene file");
         let is_new = !ui.memory(|memory| memory.has_focus(id));
@@ -60,11 +61,17 @@ pub(super) fn path(
 }
 
 /// The report, as the command line prints it, in a window of its own.
-pub(super) fn mistakes(ui: &Ui, file: &str, report: &[Mistake], commands: &mut Vec<Command>) {
+pub(super) fn mistakes(
+    ui: &Ui,
+    file: &str,
+    report: &[Mistake],
+    over: Rect,
+    commands: &mut Vec<Command>,
+) {
     let ctx = ui.ctx();
-    let room = ctx.content_rect().size() - egui::vec2(60.0, 120.0);
+    let room = over.size() - egui::vec2(40.0, 240.0);
     let title = format!("{file} cannot be opened");
-    window(&title).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(ctx, |ui| {
+    window(&title, over).show(ctx, |ui| {
         let font = TextStyle::Monospace.resolve(ui.style());
         let width = |text: &String| {
             let text = ui.painter().layout_no_wrap(text.clone(), font.clone(), palette(ui).dim);
@@ -113,10 +120,10 @@ mod tests {
         for _ in 0..3 {
             window.show(Vec::new(), |ui| match studio.viewer().dialog() {
                 Some(Dialog::Path { refused }) => {
-                    path(ui, studio, refused.as_deref(), &mut Vec::new());
+                    path(ui, studio, refused.as_deref(), ui.max_rect(), &mut Vec::new());
                 }
                 Some(Dialog::Mistakes { file, report }) => {
-                    mistakes(ui, file, report, &mut Vec::new());
+                    mistakes(ui, file, report, ui.max_rect(), &mut Vec::new());
                 }
                 _ => panic!("no dialog about a file"),
             });

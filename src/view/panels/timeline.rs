@@ -223,7 +223,7 @@ fn seek(
     let name = format!("timeline, at tick {present}");
     response.widget_info(|| egui::WidgetInfo::slider(true, studio.race().t(), &name));
     if let Some(x) = pressed(ui, response, track.groove.along) {
-        let tick = track.tick(x).min(studio.timeline().end());
+        let tick = track.tick(x);
         if studio.running() || tick != present {
             commands.push(Command::Run(RunCommand::Seek(tick)));
         }

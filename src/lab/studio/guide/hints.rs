@@ -1,31 +1,58 @@
 //! The hint under the stage. The scene's own asks for its first key; when that is pressed, the hints lead on through
-//! what the program can do.
+//! what the program can do. Only what is so here is told: in this mode, under this method, at this rate.
 
+use super::Situation;
 use crate::lab::analysis::Outcome;
-use crate::lab::studio::command::{Command, RunCommand, StageCommand, ViewCommand};
+use crate::lab::race::Mode;
+use crate::lab::studio::command::{Command, RunCommand, StageCommand, TICK_LADDER, ViewCommand};
+use crate::lab::studio::display::Arrangement;
+use crate::lab::studio::instrument::Instrument;
 use crate::lab::studio::key::KEYS;
 use crate::lab::studio::step::Step;
 
 /// What a hint after the scene's own asks for.
 struct Lead {
-    /// The sentence. Keys stand between backticks.
-    text: &'static str,
+    /// The sentence; `None` where it would not be so. Keys stand between backticks.
+    text: fn(&Situation<'_>) -> Option<&'static str>,
     is_done_by: fn(&Command) -> bool,
 }
 
-static LEADS: [Lead; 6] = [
+/// How long a run has lasted that is worth going back in, in seconds.
+const WORTH_GOING_BACK_S: f64 = 1.0;
+
+static LEADS: [Lead; 7] = [
     Lead {
-        text: "Press `Home` to see it from the start.",
+        text: |now| (!now.is_from_the_start).then_some("Press `Home` to see it from the start."),
         is_done_by: |command| {
             matches!(command, Command::Stage(StageCommand::Restart | StageCommand::ToggleRace))
         },
     },
     Lead {
-        text: "Press `C` to race all methods against the exact solution, in white.",
+        text: |now| match now.race.mode() {
+            Mode::Solo if now.scene.lanes.len() < 2 => None,
+            Mode::Solo if now.race.truth().halted().is_some() => {
+                Some("Press `C` to race all methods.")
+            }
+            Mode::Solo => {
+                Some("Press `C` to race all methods against the exact solution, in white.")
+            }
+            Mode::Race => None,
+        },
         is_done_by: |command| matches!(command, Command::Stage(StageCommand::ToggleRace)),
     },
     Lead {
-        text: "Hold `,` to go back in time, tick by tick. `Space` goes on from there.",
+        text: |now| {
+            let is_overlaid = now.display.arrangement == Arrangement::Overlay;
+            (now.race.mode() == Mode::Race && is_overlaid)
+                .then_some("Press `V` to see the lanes side by side. A digit selects one.")
+        },
+        is_done_by: |command| matches!(command, Command::Stage(StageCommand::ToggleArrangement)),
+    },
+    Lead {
+        text: |now| {
+            (now.race.t() >= WORTH_GOING_BACK_S)
+                .then_some("Hold `,` to go back in time, tick by tick. `Space` goes on from there.")
+        },
         is_done_by: |command| {
             matches!(
                 command,
@@ -36,7 +63,10 @@ static LEADS: [Lead; 6] = [
         },
     },
     Lead {
-        text: "Press `T` until the stability map is there, and drag its cross.",
+        text: |now| {
+            (now.display.instrument != Instrument::StabilityMap)
+                .then_some("Press `T` until the stability map is there, and drag its cross.")
+        },
         is_done_by: |command| {
             matches!(
                 command,
@@ -45,13 +75,20 @@ static LEADS: [Lead; 6] = [
         },
     },
     Lead {
-        text: "Press `[` and `]` to change the tick rate: who survives a coarse one?",
+        text: |now| {
+            let beside = [Step::Previous, Step::Next]
+                .map(|step| step.along(&TICK_LADDER, now.race.tick_hz()));
+            beside
+                .iter()
+                .all(Option::is_some)
+                .then_some("Press `[` and `]` to change the tick rate: who survives a coarse one?")
+        },
         is_done_by: |command| {
             matches!(command, Command::Stage(StageCommand::TickRate(_) | StageCommand::TickHz(_)))
         },
     },
     Lead {
-        text: "Press `F2` for the guide through the chapter, or `N` for the next scene.",
+        text: |_| Some("Press `F2` for the guide through the chapter, or `N` for the next scene."),
         is_done_by: |command| {
             matches!(
                 command,
@@ -86,44 +123,66 @@ impl Hints {
         }
     }
 
-    /// The present hint: the scene's, or else the first that was not followed. `flown` is the name of the method and the
-    /// outcome of its verdict. Only a run that was changed on its way is worth another look from the start.
+    /// The present hint: the scene's, or else the first that was not followed, of those that are so. `outcome` is that of
+    /// the selected lane's verdict.
     pub(in crate::lab::studio) fn text(
         &self,
-        hint: Option<&str>,
-        (method, outcome): (&str, Option<Outcome>),
-        was_changed: bool,
+        now: &Situation<'_>,
+        outcome: Option<Outcome>,
     ) -> Option<String> {
+        let hint = now.scene.hint.as_deref().filter(|hint| is_so(hint, now));
         if let Some(hint) = hint.filter(|_| !self.scene) {
             return Some(hint.to_owned());
         }
-        let first = usize::from(!was_changed);
-        let next = (first..LEADS.len()).find(|&lead| !self.leads[lead])?;
-        if next == 0 && hint.is_some() {
-            return Some(format!("{method} {}. {}", reaction(outcome), LEADS[0].text));
-        }
-        Some(LEADS[next].text.to_owned())
+        let leads = LEADS.iter().zip(self.leads).filter(|(_, done)| !done);
+        let text = leads.filter_map(|(lead, _)| (lead.text)(now)).next()?;
+        let is_asked_to_restart = self.scene && !now.is_from_the_start && !self.leads[0];
+        // A verdict is about a run from the start, and not about the one on the stage.
+        Some(match reaction(outcome).filter(|_| is_asked_to_restart) {
+            Some(reaction) => format!("From its start {} {reaction}. {text}", now.method().name),
+            None => text.to_owned(),
+        })
     }
 }
 
-/// Whether what a hint asks for makes sense in a race: there a digit switches nothing, and `C` has been pressed.
-pub(in crate::lab::studio) fn suits_race(hint: &str) -> bool {
-    let is_of_solo = |command: &&Command| {
-        use StageCommand::{Method, MethodBeside, Pick, ToggleRace};
-        matches!(command, Command::Stage(Pick(_) | Method(_) | MethodBeside(_) | ToggleRace))
-    };
-    !keys(hint).flat_map(bound_to).any(|command| is_of_solo(&command))
+/// Whether a scene's hint is so. What it says of a method is said of the scene's opening method, with the digits of the
+/// scene's own lanes, in the mode in which the scene opens, and what it says of a tick rate is counted from the scene's.
+fn is_so(hint: &str, now: &Situation<'_>) -> bool {
+    use StageCommand::{Method, MethodBeside, Pick, TickRate, ToggleArrangement, ToggleRace};
+    let asked: Vec<&StageCommand> = keys(hint)
+        .flat_map(bound_to)
+        .filter_map(|command| match command {
+            Command::Stage(asked) => Some(asked),
+            _ => None,
+        })
+        .collect();
+    let asks = |is: fn(&StageCommand) -> bool| asked.iter().any(|asked| is(asked));
+    let opens_in = if now.scene.opens_as_race { Mode::Race } else { Mode::Solo };
+    let is_of_mode = asks(|asked| {
+        matches!(asked, Pick(_) | Method(_) | MethodBeside(_) | ToggleRace | ToggleArrangement)
+    });
+    let is_of_rate = asks(|asked| matches!(asked, TickRate(_))) && hint.contains(" Hz");
+    let lanes = &now.scene.lanes;
+    let hint = hint.to_lowercase();
+    let is_of_method = asks(|asked| matches!(asked, Pick(_) | Method(_) | MethodBeside(_)))
+        || now.menu.iter().any(|spec| hint.contains(&spec.method.name.to_lowercase()));
+    let opening = now.scene.opening_method.or(lanes.first().map(|spec| spec.method));
+    let is_beyond = |asked: &&StageCommand| matches!(asked, Pick(entry) if *entry >= lanes.len());
+    (!is_of_mode || now.race.mode() == opens_in)
+        && (!is_of_rate || now.race.tick_hz() == now.scene.tick_hz)
+        && (!is_of_method || now.race.mode() == Mode::Race || Some(now.method()) == opening)
+        && !asked.iter().any(is_beyond)
 }
 
-/// What a method does, in words that follow its name.
-fn reaction(outcome: Option<Outcome>) -> &'static str {
-    match outcome {
-        Some(Outcome::Rounding | Outcome::Accurate) => "keeps to the exact motion",
-        Some(Outcome::OutOfPhase) => "stays bounded, a little out of step",
-        Some(Outcome::LosesEnergy) => "loses energy",
-        Some(Outcome::GainsEnergy) => "gains energy",
-        Some(Outcome::GaveUp | Outcome::BlewUp) => "is lost",
-        Some(Outcome::NotJudged | Outcome::NoTruth) | None => "has taken over",
+/// What a method does, in words that follow its name; `None` if that is not known.
+fn reaction(outcome: Option<Outcome>) -> Option<&'static str> {
+    match outcome? {
+        Outcome::Rounding | Outcome::Accurate => Some("keeps to the exact motion"),
+        Outcome::OutOfPhase => Some("stays bounded, a little out of step"),
+        Outcome::LosesEnergy => Some("loses energy"),
+        Outcome::GainsEnergy => Some("gains energy"),
+        Outcome::GaveUp | Outcome::BlewUp => Some("is lost"),
+        Outcome::NotJudged | Outcome::NoTruth => None,
     }
 }
 
@@ -156,27 +215,6 @@ mod tests {
             assert!(asked(&hint).is_some(), "{}: {hint}", scene.name);
             assert_eq!(hint.matches('`').count() % 2, 0, "{hint}");
         }
-        for lead in &LEADS {
-            let commands = asked(lead.text).expect("a key of the table");
-            assert!(commands.iter().any(|command| (lead.is_done_by)(command)), "{}", lead.text);
-        }
-    }
-
-    #[test]
-    fn in_a_race_no_hint_asks_for_what_only_solo_does() {
-        use crate::lab::Studio;
-        for scene in SCENES {
-            let mut studio = Studio::new(Scene::built_in(scene.name).unwrap());
-            let solo = studio.hint().expect("a hint");
-            studio.apply(StageCommand::ToggleRace);
-            studio.begin_hints();
-            let hint = studio.hint().expect("a lead");
-            assert!(suits_race(&hint), "{}: {hint}", scene.name);
-            studio.apply(StageCommand::ToggleRace);
-            assert!(studio.hint().is_some(), "{}: {solo}", scene.name);
-        }
-        assert!(suits_race("Press `[`.") && !suits_race("Press `2`."));
-        assert!(!suits_race("Steer with `←`. `C` races all methods."), "its last key counts too");
     }
 
     #[test]
@@ -198,25 +236,29 @@ mod tests {
 
     #[test]
     fn hints_lead_on_when_they_are_followed_and_in_any_order() {
-        let hint = Some("It grows. Press `2`.");
-        let mut hints = Hints::default();
-        let flown = ("Semi-implicit Euler", Some(Outcome::OutOfPhase));
-        let text = |hints: &Hints| hints.text(hint, flown, true).unwrap_or_default();
-        assert_eq!(text(&hints), "It grows. Press `2`.");
-        hints.see(&Command::Stage(StageCommand::Tick(Step::Previous)), hint);
-        assert_eq!(text(&hints), "It grows. Press `2`.");
-        hints.see(&Command::Stage(StageCommand::Pick(1)), hint);
-        assert!(text(&hints).starts_with("Semi-implicit Euler stays bounded"), "{}", text(&hints));
-        assert!(text(&hints).contains("`Home`"));
-        hints.see(&Command::Stage(StageCommand::Restart), hint);
-        assert!(text(&hints).contains("`C`"));
-        hints.see(&Command::Stage(StageCommand::ToggleRace), hint);
-        assert!(text(&hints).contains("`T`"), "going back was done before");
-        let next = hints.of_next_scene();
-        assert_eq!(text(&next), "It grows. Press `2`.");
-        hints.see(&Command::Stage(StageCommand::InstrumentBeside(Step::Next)), hint);
-        hints.see(&Command::Stage(StageCommand::TickRate(Step::Next)), hint);
-        hints.see(&Command::Stage(StageCommand::SceneBeside(Step::Next)), hint);
-        assert_eq!(hints.text(hint, flown, true), None);
+        use crate::lab::Studio;
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        let text = |studio: &Studio| studio.hint().unwrap_or_default();
+        let own = text(&studio);
+        assert!(own.contains("`2`"), "{own}");
+        (0..90).for_each(|_| studio.tick());
+        studio.apply(StageCommand::Tick(Step::Previous));
+        assert_eq!(text(&studio), own);
+        studio.apply(StageCommand::Pick(1));
+        assert!(text(&studio).contains("`Home`"));
+        studio.apply(StageCommand::Restart);
+        assert!(text(&studio).contains("`C`"));
+        studio.apply(StageCommand::ToggleRace);
+        assert!(text(&studio).contains("`V`"));
+        studio.apply(StageCommand::ToggleArrangement);
+        (0..90).for_each(|_| studio.tick());
+        assert!(text(&studio).contains("`T`"), "going back was done before");
+        studio.apply(StageCommand::InstrumentBeside(Step::Next));
+        studio.apply(StageCommand::TickRate(Step::Next));
+        assert!(text(&studio).contains("`F2`"));
+        studio.apply(StageCommand::SceneBeside(Step::Next));
+        assert_eq!(studio.hint(), None, "its digits are for solo");
+        studio.apply(StageCommand::ToggleRace);
+        assert_eq!(studio.hint(), studio.scene().hint);
     }
 }
