@@ -34,11 +34,12 @@ root mean square of the difference from the log, in units of the largest x and v
   cannot tell   methods that differ explain it equally well, or the log is too short to tell
   unknown       none explains it
 
-JSON has word, best, substeps, held, residual, also (the same on this body), unusual (would explain
-it too, but is rare), runner_up, runner_up_substeps, runner_up_residual,
+JSON has word, best, substeps, held, mode, version, logged, residual, also (the same on this body),
+unusual (would explain it too, but is rare), runner_up, runner_up_substeps, runner_up_residual,
 effective_stiffness_n_per_m, effective_frequency_hz, effective_damping_ratio, energy_halves_s,
-energy_doubles_s, exact_frequency_hz, exact_damping_ratio and recommended; held says that the game
-applies the spring's force itself. What is not known is null.
+energy_doubles_s, exact_frequency_hz, exact_damping_ratio and recommended. held says that the game
+applies the spring's force itself, mode how an engine is told the spring, as `regatta port` names
+it, and version and logged what the engine's formula is held against. What is not known is null.
 
 Examples:
   regatta identify spring.csv --tick-hz 60 --k 40 --c 0.5 --mass 2

@@ -41,7 +41,9 @@ what holds the spring rests. The word is
                that it shows at this frequency
 
 Nearest is the least sum of two distances, of the logarithms of the frequencies and of the damping
-ratios. A number of substeps that is not given is the engine's own default.
+ratios. A number of substeps that is not given is the engine's own default. Where an engine has no
+substeps, as Chipmunk and Godot, N of them are N ticks that the game makes, each of dt / N; in
+PhysX they are position iterations. The code says so.
 
 With --drive the wish is the gains of a drive, as the equation of motion has them: of the engine's
 own, and of a force of user code that is held through --decimation ticks. Told are the largest

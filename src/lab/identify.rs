@@ -15,7 +15,7 @@ mod motion;
 mod nearest;
 mod search;
 
-pub use candidates::Candidate;
+pub use candidates::{Candidate, SpringAs};
 use decision::{Decision, decide};
 pub use effective::Effective;
 pub(super) use effective::SLOW;
@@ -131,7 +131,7 @@ fn recommended(
     let mut found: Vec<_> = own
         .filter(|method| !method.is_as_printed())
         .filter_map(|method| {
-            let candidate = Candidate { method, substeps: 1, is_held: false };
+            let candidate = Candidate { method, substeps: 1, spring: SpringAs::Acceleration };
             let effective = Effective::of(candidate, body, tick_s)?;
             effective.is_near(&exact).then_some((method, effective))
         })

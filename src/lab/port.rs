@@ -198,9 +198,9 @@ pub struct Ported {
 }
 
 impl Ported {
-    /// The lines of code that set them.
+    /// The lines of code that set them, and the substeps where these are not the engine's own.
     pub fn code(&self) -> String {
-        self.setup.mode.code_with(self.values)
+        self.setup.code(self.values)
     }
 }
 

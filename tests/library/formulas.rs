@@ -118,7 +118,7 @@ fn steps(method: &Method, formula: &[&str], case: &Case) -> Vec<Step> {
     let [q, v] = case.start;
     let mut state = State { q, v };
     let mut stepper = fresh(method);
-    let has_substeps = method.engine.is_some_and(|engine| engine.has_substeps);
+    let has_substeps = method.engine.is_some_and(|engine| engine.has_substeps());
     let substeps = if has_substeps { case.substeps } else { 1 };
     let a0 = acceleration(0.0, q, v);
     let [mut before_q, mut before_v] = [q - case.h * v + case.h * case.h / 2.0 * a0, 0.0];

@@ -36,7 +36,7 @@ fn draw(dice: &mut Dice) -> (Wish, f64, u32) {
 }
 
 /// The states of a run of `ticks` ticks.
-fn run(setup: &Setup, joint: [f64; 2], start: [f64; 2], ticks: u32) -> Vec<[f64; 2]> {
+pub(crate) fn run(setup: &Setup, joint: [f64; 2], start: [f64; 2], ticks: u32) -> Vec<[f64; 2]> {
     let body = Body { spring: joint, drag: 0.0, push: 0.0, is_held: false }.problem();
     let mut state = State { q: start[0], v: start[1] };
     // A force that is read anew in every substep is the right side of an equation under semi-implicit Euler.

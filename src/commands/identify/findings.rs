@@ -2,7 +2,9 @@
 
 use serde_json::{Value, json};
 
-use crate::lab::identify::{Candidate, Conclusion, Effective, Fitted, Identification, Log};
+use crate::lab::identify::{
+    Candidate, Conclusion, Effective, Fitted, Identification, Log, SpringAs,
+};
 use crate::sim::integrators::Method;
 use crate::sim::number::significant;
 
@@ -35,7 +37,11 @@ pub(super) fn object(found: Option<&Identification>, mass: f64) -> Value {
         "word": found.map_or(Conclusion::Unknown, |found| found.conclusion).id(),
         "best": best.map(|best| best.candidate.method.id),
         "substeps": best.map(|best| best.candidate.substeps),
-        "held": best.map(|best| best.candidate.is_held),
+        "held": best.map(|best| best.candidate.is_held()),
+        "mode": best.and_then(|best| mode(&best.candidate)),
+        "version": best.and_then(|best| Some(best.candidate.method.engine?.version))
+            .filter(|version| !version.is_empty()),
+        "logged": best.and_then(|best| best.candidate.method.engine?.logged),
         "residual": best.map(|best| best.residual),
         "also": candidates(|found| &found.also),
         "unusual": candidates(|found| &found.unusual),
@@ -58,21 +64,30 @@ fn named(candidate: &Candidate) -> Value {
     json!({
         "method": candidate.method.id,
         "substeps": candidate.substeps,
-        "held": candidate.is_held,
+        "held": candidate.is_held(),
+        "mode": mode(candidate),
     })
+}
+
+/// The mode of a joint.
+fn mode(candidate: &Candidate) -> Option<&'static str> {
+    match candidate.spring {
+        SpringAs::Joint(mode) => Some(mode.id),
+        _ => None,
+    }
 }
 
 /// Each method once, with its substeps.
 fn names(candidates: &[Candidate]) -> String {
-    let mut all: Vec<(String, String, Vec<u32>)> = Vec::new();
+    let mut all: Vec<(&str, Option<&str>, Vec<u32>)> = Vec::new();
     for candidate in candidates {
-        let (id, held) = (candidate.method.id, candidate.held());
-        match all.iter_mut().find(|(known, of, _)| known == id && of == held) {
+        let (id, told) = (candidate.method.id, candidate.told());
+        match all.iter_mut().find(|(known, of, _)| *known == id && *of == told) {
             Some((.., counts)) => counts.push(candidate.substeps),
-            None => all.push((id.to_owned(), held.to_owned(), vec![candidate.substeps])),
+            None => all.push((id, told, vec![candidate.substeps])),
         }
     }
-    let named = all.iter_mut().map(|(id, held, counts)| {
+    let named = all.iter_mut().map(|(id, told, counts)| {
         counts.sort_unstable();
         let counts: Vec<String> = counts
             .chunk_by(|a, b| a + 1 == *b)
@@ -81,7 +96,8 @@ fn names(candidates: &[Candidate]) -> String {
                 few => few.iter().map(|n| format!("×{n}")).collect::<Vec<_>>().join(" "),
             })
             .collect();
-        format!("{id} {}{held}", counts.join(" "))
+        let told = told.map_or(String::new(), |told| format!(", {told}"));
+        format!("{id} {}{told}", counts.join(" "))
     });
     named.collect::<Vec<_>>().join("; ")
 }
@@ -112,21 +128,26 @@ fn seen(effective: &Effective) -> String {
 /// The largest number of methods that the first line names.
 const MAX_MAKERS: usize = 3;
 
-/// The best candidate of an identified log, with the other methods whose map is the same on this body. A joint is named
-/// before a held force.
-fn makers(best: &Candidate, also: &[Candidate]) -> String {
+/// The best candidate of an identified log and the others whose map is the same on this body, each way of a method once. A
+/// joint comes before a held force.
+fn makers<'a>(best: &'a Candidate, also: &'a [Candidate]) -> Vec<&'a Candidate> {
     let mut all: Vec<&Candidate> = Vec::new();
     for candidate in [best].into_iter().chain(also) {
         let is_alike = |known: &&Candidate| {
-            known.method == candidate.method && known.is_held == candidate.is_held
+            known.method == candidate.method && known.spring == candidate.spring
         };
         if !all.iter().any(is_alike) {
             all.push(candidate);
         }
     }
-    if best.is_held {
-        all.sort_by_key(|candidate| candidate.is_held);
+    if best.is_held() {
+        all.sort_by_key(|candidate| candidate.is_held());
     }
+    all
+}
+
+/// Makers in words.
+fn listed(all: &[&Candidate]) -> String {
     let mut named: Vec<String> = all.iter().take(MAX_MAKERS).map(ToString::to_string).collect();
     match (named.len(), all.len() - named.len()) {
         (1, _) => named.remove(0),
@@ -139,9 +160,10 @@ pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
     let Identification { conclusion, best, runner_up, effective, exact, recommended, .. } = found;
     let residual = |fitted: &Fitted| format!("residual {:.1e}", fitted.residual);
     let rival = runner_up.as_ref();
+    let makers = makers(&best.candidate, &found.also);
     let mut lines = vec![match (conclusion, rival) {
         (Conclusion::Identified, _) => {
-            format!("made by {}, {}", makers(&best.candidate, &found.also), residual(best))
+            format!("made by {}, {}", listed(&makers), residual(best))
         }
         (Conclusion::CannotTell, Some(rival)) => format!(
             "cannot tell {} from {}: {} and {:.1e}; {}",
@@ -185,6 +207,17 @@ pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
     for (method, effective) in recommended {
         lines.push(format!("under {}: {}", method.id, seen(effective)));
     }
+    let named: Vec<&Candidate> = match (conclusion, rival) {
+        (Conclusion::Identified, _) => makers.into_iter().take(MAX_MAKERS).collect(),
+        (Conclusion::CannotTell, Some(rival)) => vec![&best.candidate, &rival.candidate],
+        _ => vec![&best.candidate],
+    };
+    let mut engines: Vec<&Method> = named.iter().map(|candidate| candidate.method).collect();
+    engines.dedup();
+    lines.extend(engines.into_iter().filter_map(|method| {
+        let held = method.engine?.held_against()?;
+        Some(format!("{}: {held}", method.id))
+    }));
     lines.push(String::new());
     lines.join("\n")
 }
@@ -198,7 +231,8 @@ mod tests {
     fn the_first_line_names_a_joint_before_a_held_force_and_all_whose_map_is_the_same() {
         let candidate = |id: &str, substeps, is_held| {
             let method = METHODS.iter().find(|method| method.id == id).expect("a method");
-            Candidate { method, substeps, is_held }
+            let spring = if is_held { SpringAs::HeldForce } else { SpringAs::Acceleration };
+            Candidate { method, substeps, spring }
         };
         let held = candidate("engine-jolt", 1, true);
         let joint = candidate("engine-bullet", 1, false);
@@ -216,7 +250,7 @@ mod tests {
                 "engine-bullet ×1 or semi-implicit-euler ×1 or engine-mujoco ×1 or 1 more (the same on this body)",
             ),
         ] {
-            assert_eq!(makers(&best, &also), named);
+            assert_eq!(listed(&makers(&best, &also)), named);
         }
     }
 }

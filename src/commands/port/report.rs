@@ -41,13 +41,6 @@ fn name(setup: &Setup) -> String {
     format!("{} ×{}, {}", setup.method.id, setup.substeps, setup.mode.id)
 }
 
-/// The engine's version and the day of its logs.
-fn origin(setup: &Setup) -> Option<String> {
-    let engine = setup.method.engine.filter(|engine| !engine.version.is_empty())?;
-    let logged = engine.logged.map_or("held against no log".into(), |day| format!("logged {day}"));
-    Some(format!("version {}, {logged}", engine.version))
-}
-
 fn want(wish: &Wish, tick_hz: f64) -> String {
     let [hz, ratio] = [wish.frequency_hz, wish.damping_ratio].map(|x| significant(x, 4));
     format!("{hz} Hz, damping ratio {ratio}, {} kg, at {tick_hz} ticks per second\n", wish.mass_kg)
@@ -122,7 +115,8 @@ fn block(wish: &Wish, PortedEngine { setup, ported }: &PortedEngine) -> String {
         format!("  a force of your own reaches it: stiffness {k} N/m, damping {c} N s/m")
     }));
     lines.extend(ported.code().lines().map(|line| format!("    {line}")));
-    lines.extend(origin(setup).map(|said| format!("  {said}")));
+    let held = setup.method.engine.and_then(|engine| engine.held_against());
+    lines.extend(held.map(|said| format!("  {said}")));
     lines.join("\n") + "\n"
 }
 

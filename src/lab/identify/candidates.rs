@@ -3,7 +3,18 @@
 use std::fmt;
 
 use super::logged_body::LoggedBody;
-use crate::sim::integrators::{METHODS, Method};
+use crate::sim::integrators::{JointMode, METHODS, Method};
+
+/// How a method is told of a spring.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SpringAs {
+    /// As a part of the acceleration; also where there is no spring.
+    Acceleration,
+    /// As a joint of an engine, in this way or one that does the same.
+    Joint(&'static JointMode),
+    /// As a force of user code, which is read once a tick and held through it.
+    HeldForce,
+}
 
 /// A method with what a lane would say of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,14 +23,15 @@ pub struct Candidate {
     pub method: &'static Method,
     /// Its substeps.
     pub substeps: u32,
-    /// Whether the game applies the spring as a force of its own, and not as a joint of the engine.
-    pub is_held: bool,
+    /// How it is told of the spring.
+    pub spring: SpringAs,
 }
 
-/// Its id, its substeps, and whether the force is held where it could be a joint.
+/// Its id, its substeps, and how it is told of the spring where that is not the engine's first way.
 impl fmt::Display for Candidate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} ×{}{}", self.method.id, self.substeps, self.held())
+        write!(f, "{} ×{}", self.method.id, self.substeps)?;
+        self.told().map_or(Ok(()), |told| write!(f, ", {told}"))
     }
 }
 
@@ -46,9 +58,19 @@ impl Candidate {
         usual.contains(&self.substeps) || self.substeps == self.method.default_substeps
     }
 
-    /// Words for a force that is held where it could be a joint.
-    pub fn held(&self) -> &'static str {
-        if self.is_held && !self.method.holds_force() { ", force held" } else { "" }
+    /// How the engine is told of the spring, if not in its first way: words for a force that is held where it could be a
+    /// joint, or the mode of the joint.
+    pub fn told(&self) -> Option<&'static str> {
+        match self.spring {
+            SpringAs::HeldForce if !self.method.holds_force() => Some("force held"),
+            SpringAs::Joint(mode) if mode.is_explicit => Some(mode.id),
+            _ => None,
+        }
+    }
+
+    /// Whether the game applies the spring as a force of its own, and not as a joint of the engine.
+    pub fn is_held(&self) -> bool {
+        self.spring == SpringAs::HeldForce
     }
 
     /// Whether it has its method's default substeps, and is not a listing of the book.
@@ -58,7 +80,8 @@ impl Candidate {
 
     /// What is added to twice the logarithm of the likelihood that something else made a log.
     pub(super) fn rarity(&self) -> f64 {
-        let held = if self.held().is_empty() { 0.0 } else { HELD_RARITY };
+        let is_rare = self.is_held() && !self.method.holds_force();
+        let held = if is_rare { HELD_RARITY } else { 0.0 };
         let set = match (self.is_as_set(), self.is_usual(), self.method.is_engine()) {
             (true, ..) => 0.0,
             (false, true, true) => CHANGED_ENGINE_RARITY,
@@ -71,10 +94,25 @@ impl Candidate {
     /// Which comes first among candidates that do the same: an engine as it is set by default, then any engine.
     pub(super) fn preference(&self) -> (bool, bool, bool, bool, u32, Option<usize>) {
         let is_as_set = self.method.is_engine() && self.is_as_set();
-        let has_held = !self.held().is_empty();
+        let is_told = self.told().is_some();
         let index = METHODS.iter().position(|method| method.id == self.method.id);
-        (!is_as_set, !self.is_usual(), has_held, !self.method.is_engine(), self.substeps, index)
+        (!is_as_set, !self.is_usual(), is_told, !self.method.is_engine(), self.substeps, index)
     }
+}
+
+/// The ways of telling a method of a body's spring under which it moves differently: of an engine its joints, by the modes
+/// that `port` inverts, and a held force.
+fn ways(method: &Method, body: &LoggedBody) -> Vec<SpringAs> {
+    if method.holds_force() {
+        return vec![SpringAs::HeldForce];
+    }
+    if !method.is_engine() || !body.has_spring() {
+        return vec![SpringAs::Acceleration];
+    }
+    let modes = method.engine.map_or(&[][..], |engine| engine.modes);
+    let first = |is_explicit| modes.iter().find(|mode| mode.is_explicit == is_explicit);
+    let joints = [false, true].into_iter().filter_map(first).map(SpringAs::Joint);
+    joints.chain([SpringAs::HeldForce]).collect()
 }
 
 /// All candidates for a body; those with usual counts only where its spring is not known.
@@ -82,10 +120,8 @@ pub(super) fn candidates(body: &LoggedBody) -> Vec<Candidate> {
     let mut all = Vec::new();
     let stepped = METHODS.iter().filter(|method| method.tolerance.is_none());
     for method in stepped.filter(|method| method.only.is_none() || method.is_engine()) {
-        let is_either = method.is_engine() && body.has_spring() && !method.holds_force();
-        let is_held = if is_either { &[false, true][..] } else { &[method.holds_force()] };
-        for &is_held in is_held {
-            let of = |substeps| Candidate { method, substeps, is_held };
+        for spring in ways(method, body) {
+            let of = |substeps| Candidate { method, substeps, spring };
             all.extend((1..=MAX_SUBSTEPS).map(of));
         }
     }

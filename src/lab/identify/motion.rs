@@ -1,6 +1,6 @@
 //! The run of a log's body under a candidate.
 
-use super::candidates::Candidate;
+use super::candidates::{Candidate, SpringAs};
 use super::logged_body::LoggedBody;
 use crate::sim::integrators::{fresh, problem};
 use crate::sim::{Question, State, System};
@@ -49,20 +49,21 @@ pub(in crate::lab) fn run(
     tick_s: f64,
     ticks: impl Iterator<Item = u64>,
 ) -> Option<Vec<[f64; 2]>> {
-    let known = problem(Known {
-        spring: body.spring?,
-        drag: body.drag,
-        push: body.push,
-        is_held: candidate.is_held,
-    });
+    // An explicit joint reads its force again in each substep, as if that were a tick.
+    let (is_held, parts) = match candidate.spring {
+        SpringAs::Joint(mode) if mode.is_explicit => (true, candidate.substeps),
+        spring => (spring == SpringAs::HeldForce, 1),
+    };
+    let (step_s, substeps) = (tick_s / f64::from(parts), candidate.substeps / parts);
+    let known = problem(Known { spring: body.spring?, drag: body.drag, push: body.push, is_held });
     let mut state = State { q: start[0], v: start[1] };
     let mut stepper = fresh(candidate.method);
     let (mut now, mut states, mut first) = (0, Vec::new(), None);
     for tick in ticks {
-        let tick = tick - *first.get_or_insert(tick);
-        while now < tick {
-            let t = now as f64 * tick_s;
-            stepper.steps(&known, t, tick_s, candidate.substeps, &mut state).ok()?;
+        let steps = (tick - *first.get_or_insert(tick)) * u64::from(parts);
+        while now < steps {
+            let t = now as f64 * step_s;
+            stepper.steps(&known, t, step_s, substeps, &mut state).ok()?;
             now += 1;
             let is_there = state.q.abs() < LOST && state.v.abs() < LOST;
             is_there.then_some(())?;

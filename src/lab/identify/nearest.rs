@@ -1,6 +1,6 @@
 //! What a player sees in a log that no method explains.
 
-use super::candidates::Candidate;
+use super::candidates::{Candidate, SpringAs};
 use super::decision::NO_FIT;
 use super::effective::Effective;
 use super::fit::fit;
@@ -19,7 +19,7 @@ pub(super) fn nearest(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Effe
         Some(_) => free.spring = None,
         None => free.drag = seen.decay,
     }
-    let exact = Candidate { method: method(EXACT)?, substeps: 1, is_held: false };
+    let exact = Candidate { method: method(EXACT)?, substeps: 1, spring: SpringAs::Acceleration };
     let fit = fit(log, &free, exact, tick_hz)?;
     let is_near = fit.residual() <= NO_FIT;
     is_near.then(|| Effective::exact(&fit.body))?

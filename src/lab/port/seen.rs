@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix2, RowVector2, Vector2};
 
-use crate::lab::identify::{Candidate, Effective, LoggedBody, SLOW, run};
+use crate::lab::identify::{Candidate, Effective, LoggedBody, SLOW, SpringAs, run};
 use crate::sim::integrators::{JointMode, Method};
 
 /// How an engine is told a spring, and how often it ticks.
@@ -25,6 +25,17 @@ type Map = Matrix2<f64>;
 const ITERATIONS: u32 = 20;
 
 impl Setup {
+    /// The lines of code that set these values, and the substeps where these are not the engine's own.
+    pub fn code(&self, values: [f64; 2]) -> String {
+        let &Self { method, mode, tick_hz, substeps } = self;
+        let of_substeps = method.engine.and_then(|engine| engine.substeps_code(substeps, tick_hz));
+        [Some(mode.code_with(values)), of_substeps]
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
+            .join("\n")
+    }
+
     /// What a player sees of a joint of this stiffness in 1/s² and damping in 1/s, each per unit of mass. `None` if nothing
     /// swings or decays so: the body jumps to the other side at every tick, say.
     pub fn sees(&self, joint: [f64; 2]) -> Option<Effective> {
@@ -53,22 +64,15 @@ impl Setup {
     fn maps(&self, spring: [f64; 2], ticks: u64) -> Option<Vec<Map>> {
         let &Self { method, mode, tick_hz, substeps } = self;
         let body = LoggedBody { spring: Some(spring), drag: 0.0, push: 0.0 };
-        let (candidate, tick_s, every) = match mode.is_explicit {
-            false => (Candidate { method, substeps, is_held: false }, 1.0 / tick_hz, 1),
-            // The force is read anew in each substep, as if that were a tick.
-            true => {
-                let candidate = Candidate { method, substeps: 1, is_held: true };
-                (candidate, 1.0 / tick_hz / f64::from(substeps), u64::from(substeps))
-            }
-        };
-        let from = |start| run(candidate, &body, start, tick_s, (0..=ticks).map(|i| i * every));
+        let candidate = Candidate { method, substeps, spring: SpringAs::Joint(mode) };
+        let from = |start| run(candidate, &body, start, 1.0 / tick_hz, 0..=ticks);
         columns(&from([SLOW, 0.0])?, &from([0.0, SLOW])?)
     }
 
     /// The map of `ticks` ticks through which user code holds the spring's force.
     fn held_map(&self, [stiffness, damping]: [f64; 2], ticks: u32) -> Option<Map> {
         let &Self { method, tick_hz, substeps, .. } = self;
-        let candidate = Candidate { method, substeps, is_held: false };
+        let candidate = Candidate { method, substeps, spring: SpringAs::Acceleration };
         let after = |start, push| {
             let body = LoggedBody { spring: Some([0.0; 2]), drag: 0.0, push };
             run(candidate, &body, start, 1.0 / tick_hz, [0, u64::from(ticks)].into_iter())

@@ -56,9 +56,10 @@ impl Studio {
     pub fn joint_code(&self, entry: usize) -> Option<String> {
         let spring = self.spring_joint(self.view().body)?;
         let spec = self.entries().get(entry)?;
-        let mode = spec.method.engine?.modes.first()?;
+        let tick_hz = f64::from(self.race().tick_hz());
+        let setup = *setups(Some(&[spec.method]), tick_hz, Some(spec.substeps)).first()?;
         let joint = spec.joint.map_or(spring.joint, joint_per_mass);
-        Some(mode.code_with(mode.values(joint, spring.mass_kg)) + "\n")
+        Some(setup.code(setup.mode.values(joint, spring.mass_kg)) + "\n")
     }
 }
 

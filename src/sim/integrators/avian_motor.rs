@@ -21,7 +21,7 @@ pub(super) const CARD: Method = Method {
     engine: Some(Engine {
         tick_hz: 64,
         damping_ratio: Some(0.00813),
-        has_substeps: true,
+        substeps: Substeps::Own,
         free_spin: None,
         version: "0.8.0",
         logged: Some("2026-11-22"),

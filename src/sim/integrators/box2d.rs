@@ -14,7 +14,7 @@ const MODES: [JointMode; 1] = [mode(
 pub(super) const ENGINE: Engine = Engine {
     tick_hz: 60,
     damping_ratio: Some(0.02617),
-    has_substeps: true,
+    substeps: Substeps::Own,
     free_spin: None,
     version: "3.x main 617d32a",
     logged: Some("2026-11-21"),

@@ -19,7 +19,7 @@ pub(super) const CARD: Method = Method {
     engine: Some(Engine {
         tick_hz: 60,
         damping_ratio: Some(0.0),
-        has_substeps: true,
+        substeps: Substeps::Own,
         free_spin: Some(FreeSpin { default: SpinMap::NewtonStep, opt_in: None, per_substep: true }),
         version: "3 main 6c888f4",
         logged: Some("2026-11-21"),

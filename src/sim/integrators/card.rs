@@ -119,10 +119,10 @@ pub struct Engine {
     /// The damping ratio that a spring of 1 Hz without damping has at that rate and the card's substeps; negative if
     /// it gains energy. `None` if the engine has no spring.
     pub damping_ratio: Option<f64>,
-    /// Whether it substeps a tick by itself. If not, substeps are whole ticks that the caller makes.
-    pub has_substeps: bool,
+    /// What its substeps are.
+    pub substeps: Substeps,
     /// How it integrates torque-free rotation in 3D; `None` if unknown or planar: for engines in the plane, for
-    /// pybullet's multibody and for a held force.
+    /// pybullet's multibody, for PhysX 5.6 and for a held force.
     pub free_spin: Option<FreeSpin>,
     /// The version whose source the formula was read from; empty for a held force, which is of no engine alone.
     pub version: &'static str,
@@ -131,6 +131,46 @@ pub struct Engine {
     pub logged: Option<&'static str>,
     /// The ways to set a spring in it; empty if it has none.
     pub modes: &'static [JointMode],
+}
+
+/// What the substeps of an engine are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Substeps {
+    /// Substeps that the engine makes in a tick.
+    Own,
+    /// Position iterations of its solver.
+    Iterations,
+    /// Whole ticks that the caller makes. The line of code does so; `{n}` stands for how many, `{hz}` for all of a second.
+    Ticks(&'static str),
+}
+
+impl Engine {
+    /// Whether the engine divides a tick by itself.
+    pub fn has_substeps(&self) -> bool {
+        !matches!(self.substeps, Substeps::Ticks(_))
+    }
+
+    /// Lines of code that say what `n` substeps are where they are not the engine's own, for this rate in hertz.
+    pub fn substeps_code(&self, n: u32, tick_hz: f64) -> Option<String> {
+        match self.substeps {
+            Substeps::Own => None,
+            Substeps::Iterations => Some(format!("// {n} position iterations")),
+            Substeps::Ticks(_) if n == 1 => None,
+            Substeps::Ticks(line) => {
+                let hz = f64::from(n) * tick_hz;
+                Some(line.replace("{n}", &n.to_string()).replace("{hz}", &hz.to_string()))
+            }
+        }
+    }
+
+    /// What the formula is held against, in words: a version and the day of its logs. `None` for a held force.
+    pub fn held_against(&self) -> Option<String> {
+        match (self.version, self.logged) {
+            ("", _) => None,
+            (version, Some(day)) => Some(format!("held against version {version} on {day}")),
+            (version, None) => Some(format!("read from version {version}, held against no log")),
+        }
+    }
 }
 
 /// The part of a card that only a follower has: how a game sets its speed.
@@ -252,7 +292,7 @@ impl Method {
     /// Evaluations of the acceleration per tick of `substeps` substeps, averaged over a long run; `None` if the method
     /// decides. An engine that substeps by itself reads the force once a tick.
     pub fn evaluations_per_tick(&self, substeps: u32) -> Option<u32> {
-        let reads_once = self.engine.is_some_and(|engine| engine.has_substeps);
+        let reads_once = self.engine.is_some_and(|engine| engine.has_substeps());
         Some(self.evaluations? * if reads_once { 1 } else { substeps })
     }
 

@@ -19,7 +19,9 @@ pub(super) const CARD: Method = Method {
     engine: Some(Engine {
         tick_hz: 60,
         damping_ratio: Some(0.0),
-        has_substeps: false,
+        substeps: Substeps::Ticks(
+            "for (int i = 0; i < {n}; i++) cpSpaceStep(space, dt / {n}); // step {n} times with dt / {n}",
+        ),
         free_spin: None,
         version: "2.0.1 in pymunk 7.3.1",
         logged: Some("2026-11-21"),

@@ -71,7 +71,7 @@ impl<S: System<Vector: Vector>, R: Rule> Integrator<S> for EngineMethod<S::Vecto
 
     #[inline]
     fn steps(&mut self, system: &S, t: f64, h: f64, n: u32, state: &mut StateOf<S>) -> Stepped {
-        if R::CARD.engine.is_some_and(|engine| engine.has_substeps) {
+        if R::CARD.engine.is_some_and(|engine| engine.has_substeps()) {
             return self.tick(system, t, h, n, state);
         }
         let part = h / f64::from(n);

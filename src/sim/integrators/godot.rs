@@ -21,7 +21,9 @@ pub(super) const CARD: Method = Method {
     engine: Some(Engine {
         tick_hz: 60,
         damping_ratio: Some(0.0),
-        has_substeps: false,
+        substeps: Substeps::Ticks(
+            "Engine.physics_ticks_per_second = {hz} # step {n} times with dt / {n}: Godot has no substeps, and whole ticks",
+        ),
         // Of its bodies in space.
         free_spin: Some(FreeSpin { default: SpinMap::Constant, opt_in: None, per_substep: false }),
         version: "4.x",

@@ -21,7 +21,7 @@ pub(super) const CARD: Method = Method {
     engine: Some(Engine {
         tick_hz: 60,
         damping_ratio: Some(-0.01961),
-        has_substeps: true,
+        substeps: Substeps::Own,
         free_spin: None,
         version: "",
         logged: None,

@@ -56,6 +56,7 @@ mod newmark;
 mod pefrl;
 mod physx;
 mod physx_tgs;
+mod physx_tgs_56;
 mod position_verlet;
 mod prelude;
 #[cfg(feature = "batch")]
@@ -80,6 +81,7 @@ mod yoshida4;
 
 pub use card::{
     DAMPING_RATIOS, Engine, Family, FollowerQuantity, FollowerSetting, Method, Needs, Only,
+    Substeps,
 };
 pub use custom_method::{AnySystem, CustomIntegrator, custom_integrator};
 pub use engine::{EngineMethod, EngineTick, Rule};
@@ -235,6 +237,7 @@ methods! {
     jolt::Jolt as EngineMethod,
     physx::Physx as EngineMethod,
     physx_tgs::PhysxTgs as EngineMethod,
+    physx_tgs_56::PhysxTgs56 as EngineMethod,
     bullet::Bullet as EngineMethod,
     pybullet::Pybullet as EngineMethod,
     chipmunk::Chipmunk as EngineMethod,

@@ -37,7 +37,7 @@ pub(super) const CARD: Method = Method {
     engine: Some(Engine {
         tick_hz: 500,
         damping_ratio: Some(0.0),
-        has_substeps: true,
+        substeps: Substeps::Own,
         free_spin: Some(FreeSpin {
             default: SpinMap::Explicit,
             opt_in: Some(SpinMap::NewtonStep),

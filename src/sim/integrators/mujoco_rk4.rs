@@ -21,7 +21,7 @@ pub(super) const CARD: Method = Method {
     engine: Some(Engine {
         tick_hz: 500,
         damping_ratio: Some(0.0),
-        has_substeps: true,
+        substeps: Substeps::Own,
         free_spin: Some(FreeSpin { default: SpinMap::RungeKutta, opt_in: None, per_substep: true }),
         version: "4.0.0",
         logged: Some("2026-11-21"),

@@ -38,7 +38,7 @@ pub(super) const CARD: Method = Method {
     engine: Some(Engine {
         tick_hz: 60,
         damping_ratio: Some(0.05219),
-        has_substeps: true,
+        substeps: Substeps::Iterations,
         free_spin: Some(FreeSpin {
             default: SpinMap::Constant,
             opt_in: Some(SpinMap::ScaledMomentum),

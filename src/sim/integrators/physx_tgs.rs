@@ -1,18 +1,19 @@
-//! PhysX with its temporal Gauss-Seidel solver.
+//! PhysX 5.1 with its temporal Gauss-Seidel solver.
 
 use super::physx::DRIVES;
 use super::prelude::*;
 
 pub(super) const CARD: Method = Method {
     id: "engine-physx-tgs",
-    name: "PhysX, TGS",
-    about: "implicit Euler of a position iteration on a spring, and one iteration more that only slows it; explicit drag",
+    name: "PhysX 5.1, TGS",
+    about: "implicit Euler of a position iteration on a spring, and one iteration more that only slows it; explicit drag; \
+            5.6 has a card of its own",
     order_with_drag: 0,
     default_substeps: 4,
     engine: Some(Engine {
         tick_hz: 60,
         damping_ratio: Some(0.01636),
-        has_substeps: true,
+        substeps: Substeps::Iterations,
         free_spin: Some(FreeSpin {
             default: SpinMap::Constant,
             opt_in: Some(SpinMap::ScaledMomentum),
@@ -37,7 +38,7 @@ pub(super) const CARD: Method = Method {
 /// Its velocity iterations, q.
 const VELOCITY_ITERATIONS: u32 = 1;
 
-/// PhysX, TGS: a tick by the [formula](Method::formula) on its card. Here `n` counts position iterations.
+/// PhysX 5.1, TGS: a tick by the [formula](Method::formula) on its card. Here `n` counts position iterations.
 #[derive(Clone)]
 pub struct PhysxTgs;
 

@@ -3,6 +3,7 @@
 pub(super) use super::card::{
     ADAPTIVE, AS_PRINTED, ENGINE, EXPLICIT, Engine, FIRST_ORDER_FOLLOWER, FollowerQuantity,
     FollowerSetting, IMPLICIT, LINEARISED, Method, Needs, Only, SECOND_ORDER_FOLLOWER, SYMPLECTIC,
+    Substeps,
 };
 pub(super) use super::engine::{EngineTick, Rule, cap, each, each_with};
 pub(super) use super::failure::Stepped;

@@ -15,7 +15,9 @@ pub(super) const CARD: Method = Method {
     engine: Some(Engine {
         tick_hz: 240,
         damping_ratio: None,
-        has_substeps: false,
+        substeps: Substeps::Ticks(
+            "for _ in range({n}): p.stepSimulation()  # step {n} times with dt / {n}",
+        ),
         free_spin: None,
         version: "3.2.7",
         logged: Some("2026-11-21"),

@@ -27,7 +27,7 @@ pub(super) const CARD: Method = Method {
     engine: Some(Engine {
         tick_hz: 60,
         damping_ratio: Some(0.01309),
-        has_substeps: true,
+        substeps: Substeps::Own,
         free_spin: Some(FreeSpin {
             default: SpinMap::ScaledMomentum,
             opt_in: None,

@@ -125,7 +125,7 @@ impl TableRow for Row<'_> {
             false => format!("Order {}, {} with drag", method.order, method.order_with_drag),
         };
         let cost = match method.evaluations {
-            Some(1) if method.engine.is_some_and(|engine| engine.has_substeps) => {
+            Some(1) if method.engine.is_some_and(|engine| engine.has_substeps()) => {
                 "1 evaluation per tick, whatever the substeps".into()
             }
             Some(1) => "1 evaluation per step".into(),
@@ -133,7 +133,10 @@ impl TableRow for Row<'_> {
             None => "as many evaluations per step as it needs".into(),
         };
         ui.label(format!("{order} · {} · {cost}", method.family.id()));
-        ui.label(RichText::new(method.source).color(palette(ui).dim));
+        let held = method.engine.and_then(|engine| engine.held_against());
+        for said in [Some(method.source.to_owned()), held].into_iter().flatten() {
+            ui.label(RichText::new(said).color(palette(ui).dim));
+        }
     }
 }
 

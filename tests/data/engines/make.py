@@ -14,7 +14,8 @@ distance joint without limits, 4 m long, told hertz and damping ratio, b2World_S
 tumbling body of Box3D has the inertias 1, 2 and 3 and allowFastRotation, and its angular velocity is written in the axes of
 the body; Rapier a SpringJoint, num_solver_iterations = n; Avian a DistanceJoint of 2 m with both limits at its length,
 compliance 1 / k and JointDamping c / mass, and a PrismaticJoint with MotorModel::SpringDamper, SubstepCount(n); Jolt a
-DistanceConstraint and a slider's motor, Update(dt_s, n); PhysX a D6 joint's drive with n position iterations; Bullet a
+DistanceConstraint and a slider's motor, Update(dt_s, n); PhysX (5.6
+by npm's physx-js-webidl) a D6 joint's drive with n position iterations; Bullet a
 btGeneric6DofSpring2Constraint, stepped n times by dt_s / n. Write x and v of every tick at first and then of every 15th. When a log is made again, put its day on the card
 of the engine, as `logged`, with the version.
 """

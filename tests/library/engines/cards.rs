@@ -144,6 +144,12 @@ fn an_engine_has_the_day_of_its_logs_if_it_has_any() {
                 && parts.iter().all(|part| part.parse::<u32>().is_ok())
         };
         assert!(logged.is_none_or(is_day), "{}: {logged:?}", method.id);
+        let engine = method.engine.unwrap();
+        let said = engine.held_against().unwrap_or_default();
+        let parts = [Some(engine.version), logged];
+        assert!(parts.into_iter().flatten().all(|part| said.contains(part)), "{said}");
+        assert_eq!(said.is_empty(), method.holds_force(), "{}: {said}", method.id);
+        assert_eq!(said.starts_with("held against version"), has_logs, "{}: {said}", method.id);
     }
 }
 
@@ -203,7 +209,7 @@ fn a_tick_costs_what_its_card_says_with_and_without_substeps_of_the_engines_own(
     for method in engines() {
         for substeps in [1, 4, 7] {
             let claimed = method.evaluations_per_tick(substeps).unwrap();
-            let has_substeps = method.engine.unwrap().has_substeps;
+            let has_substeps = method.engine.unwrap().has_substeps();
             assert_eq!(claimed, if has_substeps { 1 } else { substeps }, "{}", method.id);
             assert_eq!(evaluations(method, substeps), 10 * u64::from(claimed), "{}", method.id);
         }

@@ -128,6 +128,7 @@ impl Log {
             "jolt" | "jolt-slider" => "engine-jolt",
             "physx-pgs" | "physx-pgs-acc" | "physx-pgs-distance" => "engine-physx",
             "physx-tgs" => "engine-physx-tgs",
+            "physx-tgs-56" => "engine-physx-tgs-56",
             "bullet" => "engine-bullet",
             "pybullet-multibody" => "engine-pybullet",
             "chipmunk" => "engine-chipmunk",

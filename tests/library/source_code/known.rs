@@ -117,8 +117,11 @@ pub(crate) fn steps(method: &Method, case: &Case) -> Vec<[f64; 2]> {
     (0..STEPS)
         .map(|n| {
             let h = case.length(n);
-            let substeps =
-                if method.engine.is_some_and(|engine| engine.has_substeps) { SUBSTEPS } else { 1 };
+            let substeps = if method.engine.is_some_and(|engine| engine.has_substeps()) {
+                SUBSTEPS
+            } else {
+                1
+            };
             stepper.steps(&run, f64::from(n) * h, h, substeps, &mut state).unwrap();
             [state.q, state.v]
         })

@@ -51,6 +51,40 @@ fn a_wish_has_the_settings_of_every_mode_of_every_engine_with_code_and_version()
 }
 
 #[test]
+fn what_substeps_are_is_said_where_an_engine_has_none_of_its_own_and_so_is_the_version() {
+    let text = stdout_of(
+        "port --want 2Hz --zeta 0.2 --substeps 4 --to engine-chipmunk,engine-godot,engine-physx,engine-jolt",
+    );
+    for (said, times) in [
+        (
+            "    for (int i = 0; i < 4; i++) cpSpaceStep(space, dt / 4); // step 4 times with dt / 4\n",
+            1,
+        ),
+        (
+            "    Engine.physics_ticks_per_second = 240 # step 4 times with dt / 4: Godot has no substeps",
+            1,
+        ),
+        ("    // 4 position iterations\n", 3),
+        ("  held against version 5.1.3 on 2026-11-21\n", 3),
+        ("  read from version 4.x, held against no log\n", 1),
+    ] {
+        assert_eq!(text.matches(said).count(), times, "{said}: {text}");
+    }
+    let text = stdout_of("port --want 2Hz --zeta 0.2 --to engine-chipmunk,engine-godot");
+    assert!(!text.contains("dt / "), "{text}");
+}
+
+#[test]
+fn the_tgs_of_physx_5_6_reaches_what_was_seen_in_it() {
+    // In PhysX 5.6.1 the settings of 5.1's card swing at 1.9978 Hz with a damping ratio of 0.1595.
+    let from = "engine-physx-tgs-56:mode=force-drive,stiffness=158.851359,damping=3.37567442";
+    let found = json(&format!("--from {from} --to engine-physx-tgs-56"));
+    let want = |key: &str| found["want"][key].as_f64().unwrap();
+    assert!((want("frequency_hz") - 1.9978).abs() < 1e-4, "{found}");
+    assert!((want("damping_ratio") - 0.1595).abs() < 1e-4, "{found}");
+}
+
+#[test]
 fn a_floor_says_how_low_an_engine_goes_and_what_goes_lower() {
     let text = stdout_of("port --want 1Hz --to engine-box2d,engine-physx");
     for said in [
