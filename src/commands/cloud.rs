@@ -54,7 +54,7 @@ without --size, since they are seen small.
 
 Examples:
   regatta cloud --scene pendulum --out pendulum.png
-  regatta cloud --scene liouville --shape cat --out cat.gif
+  regatta cloud --scene liouville --out cat.gif
   regatta cloud --scene spring --points 1000000 --out cloud.csv
   regatta cloud --scene kicked-rotor --size 3 --section 10 --out rotor.png";
 
@@ -70,8 +70,9 @@ pub(super) struct CloudArgs {
     #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     points: u64,
 
-    /// The shape of the starts: disc, ring or cat
-    #[arg(long, value_name = "SHAPE", default_value = "disc", hide_possible_values = true)]
+    /// The shape of the starts: cat, disc or ring
+    #[arg(long, value_name = "SHAPE", default_value = CloudShape::default().id())]
+    #[arg(hide_possible_values = true)]
     #[arg(value_parser = one_of(&CloudShape::ALL, CloudShape::id))]
     shape: CloudShape,
 

@@ -145,8 +145,6 @@ pub struct Cloud {
     course: Course,
     area: Area,
     start: CloudStart,
-    /// A change of the area, as a logarithm, that may be of its measure.
-    little: f64,
     spread: f64,
 }
 
@@ -161,6 +159,14 @@ enum Area {
 /// An area is on its way back if its change was this many times that of now and this much more, as natural logarithms.
 const BACK: f64 = 1.1;
 const LITTLE_BACK: f64 = 0.01;
+
+/// A change of the area, as a logarithm, that may be its measure: by determinants, where it may also be this many standard
+/// errors of their mean, and by a border.
+const UNKNOWN: f64 = 1e-6;
+const UNKNOWN_ERRORS: f64 = 3.0;
+const UNKNOWN_BY_BORDER: f64 = 2e-3;
+/// A change that is told as a part of the area, and not as a rate, is smaller than this.
+const SLIGHT: f64 = 1e-2;
 
 /// The mean of areas is not known if its standard error is more than this part of it: a few far points then decide it.
 const UNEVEN: f64 = 0.1;
@@ -259,10 +265,7 @@ impl Cloud {
     ) -> Result<Self, NoCloud> {
         let is_adaptive = spec.method.family == Family::Adaptive;
         let is_linear = is_linear && !is_adaptive;
-        let (samples, little) = match is_linear {
-            true => (1, 1e-6),
-            false => (samples(points), 2e-3),
-        };
+        let samples = if is_linear { 1 } else { samples(points) };
         let memory = match spec.method.restart {
             None => Memory::Absent,
             Some(_) => Memory::Carried,
@@ -284,7 +287,7 @@ impl Cloud {
             let corners = Course::new(subject, (solver, memory), ticks, points, corners)?;
             Area::Lozenges(corners.around(lozenges))
         };
-        let mut cloud = Self { course, area, start, little, spread: 0.0 };
+        let mut cloud = Self { course, area, start, spread: 0.0 };
         cloud.spread = cloud.distance().unwrap_or(0.0);
         Ok(cloud)
     }
@@ -379,10 +382,7 @@ impl Cloud {
             Area::Lozenges(corners) => {
                 let all = corners.areas();
                 let areas: Vec<f64> = all.iter().copied().flatten().collect();
-                let count = areas.len() as f64;
-                let mean = areas.iter().sum::<f64>() / count;
-                let squares = areas.iter().map(|area| (area - mean) * (area - mean));
-                let error = (squares.sum::<f64>() / (count * (count - 1.0).max(1.0))).sqrt();
+                let [mean, error] = mean_and_error(&areas);
                 let is_known = 2 * areas.len() >= all.len() && error <= UNEVEN * mean;
                 is_known.then_some(mean)
             }
@@ -412,10 +412,26 @@ impl Cloud {
         let time = || super::analysis::duration(seconds * std::f64::consts::LN_2 / change.abs());
         match change {
             _ if seconds == 0.0 => "is what it was".into(),
-            _ if change.abs() <= self.little => "keeps area".into(),
+            _ if change.abs() <= self.unknown() => "keeps area".into(),
+            _ if change.abs() < SLIGHT => {
+                let word = if change > 0.0 { "gains" } else { "loses" };
+                format!("{word} {} %", significant(100.0 * (ratio - 1.0).abs(), 2))
+            }
             _ if change > 0.0 => format!("grows ×2 in {}", time()),
             _ if change.is_finite() => format!("shrinks ×½ in {}", time()),
             _ => "shrinks to nothing".into(),
+        }
+    }
+
+    /// What of a change of the area, as a logarithm, may be its measure.
+    fn unknown(&self) -> f64 {
+        match &self.area {
+            Area::Border(_) => UNKNOWN_BY_BORDER,
+            Area::Lozenges(corners) => {
+                let areas: Vec<f64> = corners.areas().iter().copied().flatten().collect();
+                let [mean, error] = mean_and_error(&areas);
+                UNKNOWN.max(UNKNOWN_ERRORS * error / mean)
+            }
         }
     }
 
@@ -450,6 +466,14 @@ impl Cloud {
 pub fn hidden_in_words(hidden: usize, points: usize) -> Option<String> {
     let part = hidden as f64 / points as f64;
     (part >= HIDDEN).then(|| format!("{} % outside", significant(100.0 * part, 2)))
+}
+
+/// The mean of areas, and its standard error.
+fn mean_and_error(areas: &[f64]) -> [f64; 2] {
+    let count = areas.len() as f64;
+    let mean = areas.iter().sum::<f64>() / count;
+    let squares = areas.iter().map(|area| (area - mean) * (area - mean));
+    [mean, (squares.sum::<f64>() / (count * (count - 1.0).max(1.0))).sqrt()]
 }
 
 /// The sampled points of a cloud of so many.

@@ -425,3 +425,18 @@ fn a_section_has_every_start_at_every_crossing_and_does_not_depend_on_the_tick()
     (0..30).for_each(|_| studio.tick());
     assert!(shown(picture(&mut studio, &mut worker)) == first);
 }
+
+#[test]
+fn an_area_keeps_within_a_millionth_and_loses_a_told_part_beyond() {
+    for id in ["semi-implicit-euler", "velocity-verlet"] {
+        let mut kept = cloud("liouville", id, CloudShape::default(), 4000, 12);
+        kept.advance(720);
+        assert_eq!(kept.in_words(kept.area_ratio(), []), "keeps area", "{id}");
+    }
+    let mut lost = cloud("liouville", "rk4", CloudShape::default(), 4000, 12);
+    lost.advance(720);
+    let ratio = lost.area_ratio().unwrap();
+    assert!((0.9975..0.999).contains(&ratio), "{ratio}");
+    let said = lost.in_words(Some(ratio), []);
+    assert!(said.starts_with("loses 0.1") && said.ends_with(" %"), "{said}");
+}

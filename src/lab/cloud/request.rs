@@ -41,12 +41,10 @@ pub enum CloudKind {
 
 impl CloudKind {
     /// All, the usual one first.
-    pub const ALL: [Self; 4] = [
-        Self::Shape(CloudShape::Cat),
-        Self::Shape(CloudShape::Disc),
-        Self::Shape(CloudShape::Ring),
-        Self::Section,
-    ];
+    pub const ALL: [Self; 4] = {
+        let [usual, second, third] = CloudShape::ALL;
+        [Self::Shape(usual), Self::Shape(second), Self::Shape(third), Self::Section]
+    };
 
     /// Its name.
     pub fn name(self) -> &'static str {
@@ -64,7 +62,7 @@ impl CloudKind {
 
 impl Default for CloudKind {
     fn default() -> Self {
-        Self::ALL[0]
+        Self::Shape(CloudShape::default())
     }
 }
 

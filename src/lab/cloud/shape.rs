@@ -5,13 +5,13 @@ use std::f64::consts::TAU;
 /// The shape of a cloud at its start, in the square from -1 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CloudShape {
-    /// A disc.
+    /// The head of a cat, as Arnold drew it to show what a map does.
     #[default]
+    Cat,
+    /// A disc.
     Disc,
     /// A ring, a fifth of its radius wide.
     Ring,
-    /// The head of a cat, as Arnold drew it to show what a map does.
-    Cat,
 }
 
 /// The inner radius of the ring.
@@ -28,8 +28,8 @@ const EYE: ([f64; 2], f64) = ([0.3, 0.05], 0.13);
 const EVENLY: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
 
 impl CloudShape {
-    /// All, the plainest first.
-    pub const ALL: [Self; 3] = [Self::Disc, Self::Ring, Self::Cat];
+    /// All, the usual one first.
+    pub const ALL: [Self; 3] = [Self::Cat, Self::Disc, Self::Ring];
 
     /// Its name on the command line.
     pub fn id(self) -> &'static str {
