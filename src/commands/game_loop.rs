@@ -24,7 +24,7 @@ use crate::atomic_file::IfExists;
 use crate::lab::analysis::Unit;
 use crate::lab::pacing::{
     FrameTrace, MIN_RUN_S, PACING_METRICS, POLICIES, PacingMetric, PolicyCard, RefreshRate,
-    trace_card,
+    USUAL_LATENCY_MS, trace_card,
 };
 use crate::lab::{LaneSpec, Scene};
 use crate::sim::Clock;
@@ -48,7 +48,9 @@ One row for each trace and policy, in the order asked for:
   double_percent          displayed frames that show two ticks or more at once, half a tick or
                           more ahead
   latency_mean_ms, latency_max_ms  moment of display minus moment shown; of a file up to a
-                          constant, as the clocks of its two columns have no common origin
+                          constant, as the clocks of its two columns have no common origin; empty
+                          where the speed depends on the frame rate: the game runs away from the
+                          display
   dropped_ms              real time given up
   owed_max_ms             the most real time neither simulated nor given up
   position_error_rms      distance from the exact solution at the moment of display, in amplitudes
@@ -59,8 +61,13 @@ One row for each trace and policy, in the order asked for:
 --frames writes one line for each frame, policy and trace; q is the first coordinate of the
 scene's first body as the picture shows it. A trace from a file begins with its first row; a row
 that was never displayed steps the game and shows nothing. A file of several programs gives a
-trace for each. MangoHud logs no display: its frames are displayed when they begin. Frames that a
-driver generated, by the column FrameType, only let time pass.
+trace for each. Frames that a driver generated, by the column FrameType, only let time pass. Of a
+log without times of display, as MangoHud's, PresentMon's MsBetweenPresents alone, or a list of
+frame times in milliseconds, one a line, frames are displayed when they begin.
+
+Below the rows stands which loop to take: the least animation error within --latency-ms; of equals
+a fixed tick, drawn between two ticks and not beyond the last, as extrapolation overshoots at each
+kick.
 
 Examples:
   regatta loop > loops.csv
@@ -82,7 +89,7 @@ pub(super) struct LoopArgs {
     /// A trace, or several [default: all built-in ones]
     ///
     /// `regatta list traces` has the names. What is no name is a CSV file of PresentMon, OCAT, CapFrameX, FrameView or
-    /// MangoHud. Give the option again for each.
+    /// MangoHud, or a list of frame times in milliseconds, one a line. Give the option again for each.
     #[arg(long = "trace", value_name = "ID|FILE", value_parser = PathOrName(trace_names))]
     #[arg(hide_possible_values = true)]
     traces: Vec<PathBuf>,
@@ -123,7 +130,7 @@ pub(super) struct LoopArgs {
     /// The most mean latency of what is advised
     ///
     /// On a trace from a file, above the least.
-    #[arg(long, value_name = "ms", default_value_t = 20.0, value_parser = latency)]
+    #[arg(long, value_name = "ms", default_value_t = USUAL_LATENCY_MS, value_parser = latency)]
     #[arg(allow_negative_numbers = true)]
     latency_ms: f64,
 

@@ -14,7 +14,7 @@ fn remedy(path: &Path) -> String {
     let ids = TRACES.iter().map(|card| (card.id, card.id));
     match path.to_str().and_then(|id| nearest(id, ids)) {
         Some(id) => format!("did you mean {id}? `regatta list traces` names all"),
-        None => "`regatta list traces` names all; a file is a CSV of PresentMon, OCAT, CapFrameX, FrameView or MangoHud".into(),
+        None => "`regatta list traces` names all; a file is a CSV of PresentMon, OCAT, CapFrameX, FrameView or MangoHud, or a list of frame times".into(),
     }
 }
 

@@ -5,7 +5,10 @@
 
 use std::sync::Arc;
 
-use super::pacing::{FrameTrace, POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
+use super::pacing::{
+    AdvisedLoop, FrameTrace, POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard,
+    USUAL_LATENCY_MS, advised_loop, latency_origin_ms,
+};
 use super::race::LaneBody;
 use super::scene::{MAX_TICK_HZ, Scene};
 use crate::sim::Solver;
@@ -212,6 +215,20 @@ impl LoopLab {
     /// The body in every loop, in the order of [`POLICIES`].
     pub fn lanes(&self) -> &[LoopLane] {
         &self.lanes
+    }
+    /// The loop to take, by its index in [`POLICIES`]; `None` before all were run, or if none will do.
+    pub fn advised(&self) -> Option<AdvisedLoop> {
+        let measured = self.lanes.iter().map(|lane| Some((lane.card(), lane.report()?)));
+        let measured: Vec<_> = measured.collect::<Option<_>>()?;
+        let reports = measured.iter().map(|(_, report)| *report);
+        let origin_ms = latency_origin_ms(self.traces[self.trace].has_one_clock(), reports);
+        advised_loop(&measured, origin_ms + USUAL_LATENCY_MS)
+    }
+    /// The indices of the lanes as they are listed: the one to take, then all others in the order of [`POLICIES`].
+    pub fn listed(&self) -> Vec<usize> {
+        let first = self.advised().map(|advised| advised.index);
+        let others = (0..self.lanes.len()).filter(|index| Some(*index) != first);
+        first.into_iter().chain(others).collect()
     }
     /// The indices of the lanes on the stage, from top to bottom.
     pub fn on_stage(&self) -> &[usize] {

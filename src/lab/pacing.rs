@@ -21,7 +21,7 @@ mod trace;
 pub mod trace_file;
 
 pub use crate::sim::{Accumulator, Due, MAX_FRAME_MS};
-pub use advice::advised_loop;
+pub use advice::{AdvisedLoop, USUAL_LATENCY_MS, advised_loop, latency_origin_ms};
 pub use frame::Frame;
 pub use loop_run::{LoopRun, MIN_RUN_S};
 pub use metrics::{FrameRecord, PACING_METRICS, PacingMetric, PacingReport};

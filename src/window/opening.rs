@@ -47,7 +47,9 @@ pub(super) fn open(
 
 /// Whether a file's name says that it holds a trace of frames.
 fn is_trace(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"))
+    let is =
+        |known: &str| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known));
+    is("csv") || is("txt")
 }
 
 /// Opens the loop lab on the traces in a CSV file.

@@ -317,8 +317,8 @@ fn every_fault_is_named_with_its_line_and_a_remedy() {
             format!("log:2: there is a header and no frame of a program below it; {capture}"),
         ),
         (
-            "Application,msBetweenPresents\na,1\n".into(),
-            "log:1: the columns MsBetweenPresents and MsBetweenDisplayChange, FrameTime and DisplayedTime, or MangoHud's fps and frametime, are needed, and here are Application, msBetweenPresents; let the tool track the display, and write a row for each frame under a header".into(),
+            "Application,msBetweenDisplayChange\na,1\n".into(),
+            "log:1: the columns MsBetweenPresents, alone or with MsBetweenDisplayChange, FrameTime and DisplayedTime, or MangoHud's fps and frametime, are needed, and here are Application, msBetweenDisplayChange; write a row for each frame under a header, or frame times in milliseconds alone, one a line".into(),
         ),
         (row("1"), "log:3: the row has 1 of the header's 2 cells; take it out if it was cut off".into()),
         (
@@ -351,6 +351,24 @@ fn every_fault_is_named_with_its_line_and_a_remedy() {
         let error = read("log", &text).err().unwrap_or_else(|| panic!("read: {message}"));
         assert_eq!(error.to_string(), message);
     }
+}
+
+#[test]
+fn a_list_of_frame_times_and_presents_alone_take_the_times_of_frames_for_those_of_the_display() {
+    let list = "16.7\n10\n20,25\n\n15.5\n";
+    let presents = "Application,Dropped,MsBetweenPresents\na,0,16.7\na,0,10\na,0,20.25\na,0,15.5\n";
+    for text in [list, &format!("\u{feff}// mine\r\n{list}"), presents] {
+        let found = traces("log", text);
+        let [trace] = &found[..] else { panic!("{} traces", found.len()) };
+        let times = [0, 10_000_000, 30_250_000, 45_750_000];
+        let expected = times.map(|ns| Frame { began_ns: ns, displayed_ns: Some(ns) });
+        assert_eq!(frames(trace), expected, "{text}");
+        assert!(trace.has_one_clock() && trace.missing_display().is_some());
+    }
+    let both = &traces("log", PLAIN)[0];
+    assert!(!both.has_one_clock() && both.missing_display().is_none());
+    let error = read("log", "16.7\n16.6\nfast\n").err().unwrap().to_string();
+    assert!(error.starts_with("log:3: column 1: expected milliseconds, found \"fast\""), "{error}");
 }
 
 #[test]

@@ -2,25 +2,24 @@
 
 use super::measured::Measured;
 use crate::commands::terminal::print_status;
-use crate::lab::pacing::{PacingReport, PolicyCard, advised_loop};
+use crate::lab::pacing::{PacingReport, PolicyCard, advised_loop, latency_origin_ms};
 use crate::sim::number::round;
-
-/// A difference of the motion that is worth a word, in amplitudes.
-const NOTED: f64 = 1e-9;
 
 /// Tells which of the policies measured on one trace to take.
 pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
     let Some(first) = rows.first() else { return };
     let trace =
         format!("{} ({} Hz display, {} Hz ticks)", first.trace, first.refresh, first.tick_hz);
-    let measured: Vec<(&'static PolicyCard, PacingReport)> =
-        rows.iter().map(|row| (row.card, row.report.clone())).collect();
-    // Of two clocks without a common origin only differences of latencies mean something.
-    let latencies = rows.iter().filter_map(|row| row.report.latency_mean_ms);
-    let origin_ms =
-        if first.has_one_clock { 0.0 } else { latencies.reduce(f64::min).unwrap_or(0.0) };
+    let measured: Vec<(&'static PolicyCard, &PacingReport)> =
+        rows.iter().map(|row| (row.card, &row.report)).collect();
+    let origin_ms = latency_origin_ms(first.has_one_clock, rows.iter().map(|row| &row.report));
     match advised_loop(&measured, origin_ms + latency_ms) {
-        Some(index) => print_status(&format!("{trace}: take {}", words(&rows[index], origin_ms))),
+        Some(advised) => {
+            print_status(&format!("{trace}: take {}", words(&rows[advised.index], origin_ms)));
+            if let Some(why) = advised.why {
+                print_status(&format!("  {why}"));
+            }
+        }
         None if rows.iter().all(|row| row.report.animation_error_rms_ms.is_none()) => {
             print_status(&format!(
                 "{trace}: fewer than two frames were displayed, too few to measure"
@@ -31,6 +30,9 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
              of {latency_ms} ms or less; try more policies, or a larger --latency-ms"
         )),
     }
+    if let Some(missing) = first.missing_display {
+        print_status(&format!("  {missing}"));
+    }
     if !first.has_one_clock {
         print_status(
             "  the log's two clocks have no common origin: latencies here are counted from the least, and in the rows \
@@ -38,7 +40,7 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
         );
     }
     let depends = rows.iter().filter_map(|row| {
-        let difference = row.report.state_difference.filter(|difference| *difference > NOTED)?;
+        let difference = row.report.other_motion()?;
         Some(format!("{} by {}", row.card.id, round(difference, 2)))
     });
     let depends: Vec<String> = depends.collect();
@@ -58,7 +60,7 @@ fn words(row: &Measured, origin_ms: f64) -> String {
         value.map_or("unknown".into(), |ms| format!("{} ms", round(to_microseconds(ms), 3)))
     };
     let error = ms(row.report.animation_error_rms_ms);
-    let latency = ms(row.report.latency_mean_ms.map(|latency| latency - origin_ms));
+    let latency = ms(row.report.latency_mean_ms().map(|latency| latency - origin_ms));
     let constants = match row.card.constants {
         "" => String::new(),
         constants => format!("; {constants}"),

@@ -119,7 +119,7 @@ fn is_near([x, y]: [f64; 2], [other_x, other_y]: [f64; 2]) -> bool {
 
 fn point(row: &Measured) -> Option<[f64; 2]> {
     let report = &row.report;
-    Some([report.latency_mean_ms?, report.animation_error_rms_ms?.max(MIN_MS)])
+    Some([report.latency_mean_ms()?, report.animation_error_rms_ms?.max(MIN_MS)])
 }
 
 /// A title, after what comes before it.
@@ -136,7 +136,7 @@ fn note_on_several(by_trace: &[&[Measured]], left_out: usize) -> String {
     let least = by_trace.iter().filter_map(|rows| {
         let best = rows
             .iter()
-            .filter(|row| beyond_chart_ms(row).is_none())
+            .filter(|row| beyond_chart(row).is_none())
             .min_by(|one, other| error(one).total_cmp(&error(other)))?;
         Some(format!("{}: {} {}", best.trace, best.card.id, round(error(best), 3)))
     });
@@ -152,20 +152,21 @@ fn note_on_several(by_trace: &[&[Measured]], left_out: usize) -> String {
     )
 }
 
-/// The mean latency of a loop, if the charts do not show it.
-fn beyond_chart_ms(row: &Measured) -> Option<f64> {
-    row.report.latency_mean_ms.filter(|ms| ms.abs() > MAX_LATENCY_MS)
+/// Why the charts do not show a loop: its speed, or its mean latency.
+fn beyond_chart(row: &Measured) -> Option<String> {
+    if row.report.keeps_speed() == Some(false) {
+        return Some("another speed at another frame rate".into());
+    }
+    let latency_ms = row.report.latency_mean_ms().filter(|ms| ms.abs() > MAX_LATENCY_MS)?;
+    Some(format!("a latency of {} ms", round(latency_ms, 3)))
 }
 
-/// The loops whose latency is beyond the charts.
+/// The loops that the charts do not show.
 fn outside<'r>(rows: impl Iterator<Item = &'r Measured>) -> String {
-    let late = rows.filter_map(|row| {
-        let latency_ms = beyond_chart_ms(row)?;
-        Some(format!("{} {} ms", row.card.id, round(latency_ms, 3)))
-    });
-    match late.collect::<Vec<_>>().join(", ").as_str() {
+    let late = rows.filter_map(|row| Some(format!("{}, {}", row.card.id, beyond_chart(row)?)));
+    match late.collect::<Vec<_>>().join("; ").as_str() {
         "" => String::new(),
-        listed => format!(" Latencies that the charts do not show: {listed}."),
+        listed => format!(" Not in the charts: {listed}."),
     }
 }
 

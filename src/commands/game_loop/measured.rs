@@ -25,6 +25,8 @@ pub(super) struct Measured {
     pub(super) tick_hz: u32,
     /// Whether frames begin and are displayed by one clock. In the logs of tools they do not.
     pub(super) has_one_clock: bool,
+    /// What to say of a log that has no times of display.
+    pub(super) missing_display: Option<&'static str>,
     pub(super) report: PacingReport,
     /// The moments of display and the moments shown of the frames that are drawn, in milliseconds.
     pub(super) drawn: Vec<[f64; 2]>,
@@ -64,8 +66,17 @@ pub(super) fn measure(
     });
     written?;
     let (trace_name, refresh, tick_hz) = (name.to_owned(), trace.refresh(), scene.tick_hz);
-    let has_one_clock = !trace.ends();
-    Ok(Measured { card, trace: trace_name, refresh, tick_hz, has_one_clock, report, drawn })
+    let (has_one_clock, missing_display) = (trace.has_one_clock(), trace.missing_display());
+    Ok(Measured {
+        card,
+        trace: trace_name,
+        refresh,
+        tick_hz,
+        has_one_clock,
+        missing_display,
+        report,
+        drawn,
+    })
 }
 
 /// The row of a frame.

@@ -37,6 +37,31 @@ fn it_opens_where_raw_ticks_judder_and_whole_refreshes_do_not() {
     assert_eq!(studio.selected_card(), policy("fixed").unwrap());
 }
 
+#[test]
+fn the_list_begins_with_the_loop_to_take_and_a_step_of_the_frame_says_that_its_physics_changes() {
+    let mut studio = studio();
+    assert_eq!(studio.lanes()[studio.listed()[0]].card().id, "whole-refresh");
+    let trace = studio.traces().iter().position(|trace| trace.name() == "steady-144").unwrap();
+    studio.choose_trace(trace);
+    assert_eq!((studio.advised(), studio.listed()[0]), (None, 0), "not run yet");
+    run(&mut studio);
+    let listed = studio.listed();
+    let advised = studio.advised().unwrap();
+    assert_eq!((listed[0], studio.lanes()[listed[0]].card().id), (advised.index, "fixed-linear"));
+    assert!(advised.why.unwrap().contains("overshoots at each kick"));
+    let mut all = listed.clone();
+    all.sort_unstable();
+    assert!(all.iter().copied().eq(0..studio.lanes().len()) && listed[1..].is_sorted());
+    assert!(studio.verdict(listed[0]).to_string().starts_with("recommended, smooth"));
+    for (lane, index) in studio.lanes().iter().zip(0..) {
+        let verdict = studio.verdict(index);
+        let says = verdict.to_string().contains("its physics changes with the frame rate");
+        assert_eq!(says, !lane.card().has_fixed_tick, "{}: {verdict}", lane.card().id);
+        let is_green = verdict.severity == crate::lab::analysis::Severity::Fine;
+        assert!(!(says && is_green), "{}: {verdict}", lane.card().id);
+    }
+}
+
 fn on_stage(studio: &LoopLab) -> Vec<&'static str> {
     studio.on_stage().iter().map(|&index| studio.lanes()[index].card().id).collect()
 }

@@ -13,8 +13,6 @@ const SMOOTH_MS: f64 = 0.1;
 const JUDDER_MS: f64 = 2.0;
 /// A latency that is worth a word, in ticks.
 const LATE_TICKS: f64 = 0.25;
-/// Time by which a game is off at half the frame rate that shows that it runs at another speed, in ms.
-const OTHER_SPEED_MS: f64 = 100.0;
 
 /// What is said of a loop, and how bad it is.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,20 +47,45 @@ impl LoopLab {
     }
 }
 
+impl LoopLab {
+    /// What is said of the loop with this index in [`POLICIES`](crate::lab::pacing::POLICIES).
+    pub fn verdict(&self, index: usize) -> LoopVerdict {
+        let mut verdict = self.lanes()[index].verdict(self.scene().tick_hz);
+        if self.advised().is_some_and(|advised| advised.index == index) {
+            verdict.parts.insert(0, "recommended".into());
+        }
+        verdict
+    }
+}
+
 impl LoopLane {
     /// What is said of it, at this tick rate in Hz.
-    pub fn verdict(&self, tick_hz: u32) -> LoopVerdict {
+    fn verdict(&self, tick_hz: u32) -> LoopVerdict {
+        let mut verdict = self.seen(tick_hz);
+        let report = self.report().filter(|report| report.keeps_speed() != Some(false));
+        let differs = report.is_some_and(|report| report.other_motion().is_some());
+        if differs && !self.card().has_fixed_tick {
+            verdict.parts.push("its physics changes with the frame rate".into());
+            if verdict.severity == Severity::Fine {
+                verdict.severity = Severity::Doubtful;
+            }
+        }
+        verdict
+    }
+
+    /// What is seen of it.
+    fn seen(&self, tick_hz: u32) -> LoopVerdict {
         let said = |severity, words: &str| LoopVerdict::new(severity, [Some(words.into())]);
         let Some(report) = self.report() else {
             return said(Severity::Unknown, "running…");
         };
-        let (Some(error), Some(latency)) = (report.animation_error_rms_ms, report.latency_mean_ms)
-        else {
-            return said(Severity::Unknown, "nothing displayed");
-        };
-        if report.time_difference_ms.is_some_and(|ms| ms.abs() > OTHER_SPEED_MS) {
+        if report.keeps_speed() == Some(false) && report.animation_error_rms_ms.is_some() {
             return said(Severity::Bad, "speed depends on the frame rate");
         }
+        let measured = report.animation_error_rms_ms.zip(report.latency_mean_ms());
+        let Some((error, latency)) = measured else {
+            return said(Severity::Unknown, "nothing displayed");
+        };
         let late = match latency * f64::from(tick_hz) / 1000.0 {
             late if late < LATE_TICKS => None,
             late if (late - 1.0).abs() < 0.1 => Some("one tick late".into()),

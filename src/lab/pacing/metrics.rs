@@ -23,10 +23,8 @@ pub struct PacingReport {
     pub repeated_percent: Option<f64>,
     /// Displayed frames that show two ticks or more at once and run ahead of the display by half a tick or more, in percent.
     pub double_percent: Option<f64>,
-    /// The mean of the display's time minus the moment shown.
-    pub latency_mean_ms: Option<f64>,
-    /// The largest of it.
-    pub latency_max_ms: Option<f64>,
+    /// The mean and the largest of the display's time minus the moment shown, also of a game that runs ahead of it.
+    pub(super) latency_ms: [Option<f64>; 2],
     /// Real time that was given up.
     pub dropped_ms: f64,
     /// The most real time that was neither simulated nor given up.
@@ -42,6 +40,35 @@ pub struct PacingReport {
     pub state_difference: Option<f64>,
     /// The time simulated beyond that at half the frame rate; `None` where it was not measured.
     pub time_difference_ms: Option<f64>,
+}
+
+/// Time by which a game is off at half the frame rate that shows that it runs at another speed, in milliseconds: more
+/// than a few ticks.
+const OTHER_SPEED_MS: f64 = 100.0;
+/// A difference of the motion at half the frame rate that is no rounding, in amplitudes.
+const OTHER_MOTION: f64 = 1e-9;
+
+impl PacingReport {
+    /// The mean of the display's time minus the moment shown, in milliseconds. `None` before a frame was displayed, and
+    /// of a game whose speed depends on the frame rate: it runs away from the display, or falls behind for ever.
+    pub fn latency_mean_ms(&self) -> Option<f64> {
+        self.latency_ms[0].filter(|_| self.keeps_speed() != Some(false))
+    }
+
+    /// The largest of it.
+    pub fn latency_max_ms(&self) -> Option<f64> {
+        self.latency_ms[1].filter(|_| self.keeps_speed() != Some(false))
+    }
+
+    /// Whether the game runs as fast at half the frame rate; `None` where it was not measured.
+    pub fn keeps_speed(&self) -> Option<bool> {
+        self.time_difference_ms.map(|difference| difference.abs() <= OTHER_SPEED_MS)
+    }
+
+    /// The [difference of the motion](Self::state_difference) at half the frame rate, if it is more than rounding.
+    pub fn other_motion(&self) -> Option<f64> {
+        self.state_difference.filter(|difference| *difference > OTHER_MOTION)
+    }
 }
 
 /// A quantity of a [`PacingReport`].
@@ -100,15 +127,15 @@ pub const PACING_METRICS: &[PacingMetric] = &[
         id: "latency_mean_ms",
         name: "mean latency",
         unit: Unit::Milliseconds,
-        about: "mean of the moment of display minus the moment shown",
-        measure: |report| report.latency_mean_ms,
+        about: "mean of the moment of display minus the moment shown; none where the speed depends on the frame rate",
+        measure: PacingReport::latency_mean_ms,
     },
     PacingMetric {
         id: "latency_max_ms",
         name: "largest latency",
         unit: Unit::Milliseconds,
         about: "largest moment of display minus the moment shown",
-        measure: |report| report.latency_max_ms,
+        measure: PacingReport::latency_max_ms,
     },
     PacingMetric {
         id: "dropped_ms",
@@ -215,8 +242,10 @@ impl PacingMeter {
             ),
             repeated_percent: of_changes(100.0 * self.repeated as f64),
             double_percent: of_changes(100.0 * self.doubled as f64),
-            latency_mean_ms: (displayed > 0.0).then(|| base.milliseconds(self.latency) / displayed),
-            latency_max_ms: self.largest_latency.map(|latency| base.milliseconds(latency)),
+            latency_ms: [
+                (displayed > 0.0).then(|| base.milliseconds(self.latency) / displayed),
+                self.largest_latency.map(|latency| base.milliseconds(latency)),
+            ],
             dropped_ms: base.milliseconds(pacer.dropped()),
             owed_max_ms: base.milliseconds(self.max_owed),
             position_error_rms: None,

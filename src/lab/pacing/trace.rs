@@ -11,6 +11,18 @@ pub struct FrameTrace {
     name: String,
     refresh: RefreshRate,
     source: Source,
+    clocks: Clocks,
+}
+
+/// By what clocks frames begin and are displayed.
+#[derive(Clone, Copy, PartialEq)]
+enum Clocks {
+    /// One.
+    One,
+    /// Two without a common origin.
+    Two,
+    /// Only when they begin is known, and taken as when they are displayed.
+    OfFrames,
 }
 
 /// Where frames come from.
@@ -40,7 +52,12 @@ impl Clone for Box<dyn Pattern> {
 impl FrameTrace {
     /// The trace that these frames make, in order, on a display of this nominal rate.
     pub fn recorded(name: impl Into<String>, refresh: RefreshRate, frames: Vec<Frame>) -> Self {
-        Self { name: name.into(), refresh, source: Source::Recorded(frames.into()) }
+        Self {
+            name: name.into(),
+            refresh,
+            source: Source::Recorded(frames.into()),
+            clocks: Clocks::Two,
+        }
     }
 
     /// The trace of a pattern at its start.
@@ -49,7 +66,8 @@ impl FrameTrace {
         refresh: RefreshRate,
         pattern: impl Pattern + 'static,
     ) -> Self {
-        Self { name: name.into(), refresh, source: Source::Pattern(Box::new(pattern)) }
+        let source = Source::Pattern(Box::new(pattern));
+        Self { name: name.into(), refresh, source, clocks: Clocks::One }
     }
 
     /// Its name.
@@ -59,6 +77,19 @@ impl FrameTrace {
     /// The nominal rate of its display.
     pub fn refresh(&self) -> RefreshRate {
         self.refresh
+    }
+    /// The same frames, of which only the beginnings were logged.
+    pub(super) fn without_display(self) -> Self {
+        Self { clocks: Clocks::OfFrames, ..self }
+    }
+    /// Whether its frames begin and are displayed by one clock. In the logs of tools they do not.
+    pub fn has_one_clock(&self) -> bool {
+        self.clocks != Clocks::Two
+    }
+    /// What to say of a log that has no times of display; `None` of any other trace.
+    pub fn missing_display(&self) -> Option<&'static str> {
+        (self.clocks == Clocks::OfFrames)
+            .then_some("the log says nothing of the display: its frames are taken as displayed when they begin")
     }
     /// Whether it ends.
     pub fn ends(&self) -> bool {

@@ -1,10 +1,11 @@
 //! Traces from the logs of frame-time tools: PresentMon, OCAT, CapFrameX, FrameView and MangoHud write a row for each
-//! frame.
+//! frame, and a person a list of frame times in milliseconds, one a line.
 //!
 //! A log can hold several streams of frames, from several programs and windows; each is a trace of its own. The first row
 //! of a stream starts its clock. From then on a frame begins `MsBetweenPresents` after the one before, and is displayed
 //! `MsBetweenDisplayChange` after the last one displayed. The two clocks have no common origin in these columns, so that a
-//! frame's display may lie before its beginning: differences within each clock count, not their offset.
+//! frame's display may lie before its beginning: differences within each clock count, not their offset. Where a log has no
+//! times of display, frames are taken as displayed when they begin, and the trace [says so](FrameTrace::missing_display).
 
 mod columns;
 mod error;
@@ -45,10 +46,11 @@ pub fn read(name: &str, text: &str) -> Result<Vec<FrameTrace>, TraceFileError> {
     let at = |line, fault| TraceFileError { name: name.into(), line, fault };
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let (before, table) = split_remarks(text);
+    let is_list = is_list(table);
     let mut rows = csv::ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
-        .delimiter(delimiter(table))
+        .delimiter(if is_list { b';' } else { delimiter(table) })
         .from_reader(table.as_bytes());
     let mut row = StringRecord::new();
     let mut next = |row: &mut StringRecord| -> Option<u64> {
@@ -57,7 +59,8 @@ pub fn read(name: &str, text: &str) -> Result<Vec<FrameTrace>, TraceFileError> {
     };
 
     let first_line = next(&mut row).ok_or_else(|| at(1, Fault::Empty))?;
-    let (mut header_line, mut found) = (first_line, Columns::find(&row));
+    let found = if is_list { Ok(Columns::of_list()) } else { Columns::find(&row) };
+    let (mut header_line, mut found) = (first_line, found);
     // MangoHud writes a few lines about the machine first.
     let mut preamble = StringRecord::new();
     for _ in 0..MAX_PREAMBLE_ROWS {
@@ -73,7 +76,9 @@ pub fn read(name: &str, text: &str) -> Result<Vec<FrameTrace>, TraceFileError> {
 
     let (mut streams, mut numbers) = (Vec::<Stream>::new(), HashMap::<String, usize>::new());
     let mut key = String::new();
-    while let Some(line) = next(&mut row) {
+    // A list has no header.
+    let mut first = is_list.then_some(first_line);
+    while let Some(line) = first.take().or_else(|| next(&mut row)) {
         let cells = columns.read(&row).map_err(|fault| at(line, fault))?;
         key.clear();
         key.extend([cells.application, "\n", cells.process, "\n", cells.swap_chain]);
@@ -92,7 +97,18 @@ pub fn read(name: &str, text: &str) -> Result<Vec<FrameTrace>, TraceFileError> {
         return Err(at(header_line, Fault::NoRows));
     }
     let names = names(name, &streams);
-    Ok(names.into_iter().zip(streams).map(|(name, stream)| stream.into_trace(name)).collect())
+    let has_display = columns.has_display();
+    let trace = |(name, stream): (String, Stream)| match stream.into_trace(name) {
+        trace if has_display => trace,
+        trace => trace.without_display(),
+    };
+    Ok(names.into_iter().zip(streams).map(trace).collect())
+}
+
+/// Whether the table begins with a line that is a number: the times of frames in milliseconds, and nothing else.
+fn is_list(table: &str) -> bool {
+    let first = table.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
+    matches!(milliseconds::nanoseconds(first), Ok(Some(_)))
 }
 
 /// The number of lines before the table, and the table: CapFrameX writes remarks that begin with `//` first.

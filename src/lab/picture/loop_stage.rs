@@ -322,7 +322,7 @@ impl<'a> LoopBand<'a> {
         if width < breakpoints::WORDS_BESIDE_BODIES || height < breakpoints::LINE_OF_WORDS {
             return;
         }
-        let verdict = self.lane.verdict(self.loops.scene().tick_hz);
+        let verdict = self.loops.verdict(self.place);
         let colour = match verdict.severity {
             Severity::Fine => self.palette.good,
             Severity::Doubtful => self.palette.warn,

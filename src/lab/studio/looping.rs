@@ -87,8 +87,10 @@ impl Studio {
         if let Activity::Loops(loops) = &mut self.activity
             && !traces.is_empty()
         {
+            let missing = traces[0].missing_display();
             loops.add_traces(traces);
             loops.end_opening();
+            missing.into_iter().for_each(|missing| self.viewer.set_notice(missing));
         }
     }
 

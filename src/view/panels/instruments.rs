@@ -133,9 +133,9 @@ fn tabs(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) 
                 let name = RichText::new(row.name()).color(palette(ui).dim);
                 ui.put(place, Label::new(name).selectable(false));
             }
-            for card in cards(row) {
+            for card in cards(row).filter(|card| is_open(studio, card)) {
                 let is_chosen = studio.display().instrument == card.instrument;
-                if tab(ui, card, is_chosen, is_open(studio, card)) {
+                if tab(ui, card, is_chosen) {
                     commands.push(Command::Stage(StageCommand::Instrument(card.instrument)));
                 }
             }
@@ -174,16 +174,16 @@ fn tabs_menu(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Comma
     });
 }
 
-/// Shows a tab, which can be clicked if it `is_open`. Returns whether it was clicked.
-fn tab(ui: &mut Ui, card: &InstrumentCard, is_chosen: bool, is_open: bool) -> bool {
+/// Shows a tab. Returns whether it was clicked.
+fn tab(ui: &mut Ui, card: &InstrumentCard, is_chosen: bool) -> bool {
     let palette = palette(ui);
     let text = match is_chosen {
         true => RichText::new(card.name).color(palette.on_accent).font(strong_font(TYPE)),
         false => RichText::new(card.name).color(palette.text),
     };
     let fill = if is_chosen { palette.accent } else { Color32::TRANSPARENT };
-    let response = ui.add_enabled(is_open, Button::new(text).fill(fill).stroke(Stroke::NONE));
-    let info = || egui::WidgetInfo::selected(egui::Role::Tab, is_open, is_chosen, card.name);
+    let response = ui.add(Button::new(text).fill(fill).stroke(Stroke::NONE));
+    let info = || egui::WidgetInfo::selected(egui::Role::Tab, true, is_chosen, card.name);
     response.widget_info(info);
     response.on_hover_text(card.about).clicked()
 }

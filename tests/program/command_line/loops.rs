@@ -154,6 +154,41 @@ fn advice_names_a_policy_within_the_latency_with_its_constants() {
 }
 
 #[test]
+fn of_loops_as_smooth_one_that_draws_between_two_ticks_is_advised_and_why() {
+    let why = "extrapolation would be as smooth and no tick late, but it overshoots at each kick";
+    for trace in ["steady-75", "steady-144", "steady-240"] {
+        let told = stderr(&run(&format!("loop --trace {trace} --seconds 5")));
+        assert!(told.contains("take fixed-linear: animation error 0 ms"), "{told}");
+        assert!(told.contains(why), "{told}");
+    }
+    let told = stderr(&run("loop --trace steady-144 --seconds 5 --latency-ms 1"));
+    assert!(told.contains("take fixed-extrapolated") && !told.contains(why), "{told}");
+    let told = stderr(&run("loop --trace steady-60 --seconds 5"));
+    assert!(told.contains("take fixed:") && !told.contains(why), "{told}");
+}
+
+#[test]
+fn a_game_of_another_speed_has_no_latency() {
+    let rows = rows("--trace steady-144 --policy lockstep --policy fixed --seconds 5");
+    assert!(rows[0]["latency_mean_ms"].is_null() && rows[0]["latency_max_ms"].is_null());
+    let latency = number(&rows[1], "latency_mean_ms");
+    assert!((0.0..17.0).contains(&latency), "{latency}");
+}
+
+#[test]
+fn a_list_of_frame_times_is_a_trace_and_it_is_said_that_it_knows_no_display() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("mine.csv"), "16.7\n".repeat(300)).unwrap();
+    let output =
+        run_in(folder.path(), "loop --trace mine.csv --policy fixed --policy fixed-linear");
+    let told = stderr(&output);
+    assert_eq!(output.status.code(), Some(0), "{told}");
+    assert!(told.contains("mine.csv (59.88"), "{told}");
+    assert!(told.contains("its frames are taken as displayed when they begin"), "{told}");
+    assert!(!told.contains("common origin"), "{told}");
+}
+
+#[test]
 fn the_latency_on_a_log_is_counted_from_the_least_because_its_clocks_have_no_common_origin() {
     let folder = tempfile::tempdir().unwrap();
     let log = |name: &str, first_display_ms: f64| {

@@ -15,15 +15,25 @@ pub(super) enum Span {
     After,
 }
 
-/// The names of the two columns of times; each also without its `Ms`. MangoHud knows nothing of the display: its frames
-/// are taken as displayed when they begin.
-const TIMES: [(Span, &str, Option<&str>); 3] = [
-    (Span::Before, "MsBetweenPresents", Some("MsBetweenDisplayChange")),
-    (Span::After, "MsFrameTime", Some("MsDisplayedTime")),
-    (Span::Before, "frametime", None),
+/// The names of the column of frames and of one beside it; each also without its `Ms`. The one beside has the times of
+/// display, unless it is MangoHud's: that knows nothing of the display, and nor does a log of the first column alone.
+const TIMES: [(Span, &str, Beside); 4] = [
+    (Span::Before, "MsBetweenPresents", Beside::Display("MsBetweenDisplayChange")),
+    (Span::After, "MsFrameTime", Beside::Display("MsDisplayedTime")),
+    (Span::Before, "frametime", Beside::Other("fps")),
+    (Span::Before, "MsBetweenPresents", Beside::Nothing),
 ];
-/// The column that is beside the last of these: another tool's log with a column of that name lacks the display.
-const BESIDE_FRAMETIME: &str = "fps";
+
+/// What is beside a column of frames.
+enum Beside {
+    /// The column of this name, with the times of display.
+    Display(&'static str),
+    /// The column of this name: another tool's log with the same column of frames lacks the display.
+    Other(&'static str),
+    /// Any columns.
+    Nothing,
+}
+
 /// What PresentMon calls a frame of the program, or one of which it does not know. Any other was generated or repeated.
 const RENDERED: [&str; 4] = ["", "Application", "NotSet", "Unspecified"];
 
@@ -71,12 +81,13 @@ impl Columns {
             let index = index(name).or_else(|| index(name.strip_prefix("Ms")?))?;
             Some(Column { index, name: header[index].trim().to_owned() })
         };
-        let times = |&(span, began, displayed): &(Span, &str, Option<&str>)| {
-            let displayed = match displayed {
-                Some(name) => Some(column(name)?),
-                None => index(BESIDE_FRAMETIME).map(|_| None)?,
+        let times = |(span, began, beside): &(Span, &str, Beside)| {
+            let displayed = match beside {
+                Beside::Display(name) => Some(column(name)?),
+                Beside::Other(name) => index(name).map(|_| None)?,
+                Beside::Nothing => None,
             };
-            Some((span, column(began)?, displayed))
+            Some((*span, column(began)?, displayed))
         };
         let Some((span, began, displayed)) = TIMES.iter().find_map(times) else {
             let found = clip_list(header.iter().map(str::trim));
@@ -93,6 +104,27 @@ impl Columns {
             swap_chain: index("SwapChainAddress"),
             count: header.len(),
         })
+    }
+
+    /// Those of a list of frame times.
+    pub(super) fn of_list() -> Self {
+        let began = Column { index: 0, name: "1".into() };
+        Self {
+            span: Span::Before,
+            began,
+            displayed: None,
+            dropped: None,
+            frame_type: None,
+            application: None,
+            process: None,
+            swap_chain: None,
+            count: 1,
+        }
+    }
+
+    /// Whether the log says when frames are displayed.
+    pub(super) fn has_display(&self) -> bool {
+        self.displayed.is_some()
     }
 
     /// Reads a row.

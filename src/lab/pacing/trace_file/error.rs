@@ -24,7 +24,7 @@ pub(super) enum Fault {
     #[error("there is a header and no frame of a program below it; capture some frames")]
     NoRows,
     #[error(
-        "the columns MsBetweenPresents and MsBetweenDisplayChange, FrameTime and DisplayedTime, or MangoHud's fps and frametime, are needed, and here are {found}; let the tool track the display, and write a row for each frame under a header"
+        "the columns MsBetweenPresents, alone or with MsBetweenDisplayChange, FrameTime and DisplayedTime, or MangoHud's fps and frametime, are needed, and here are {found}; write a row for each frame under a header, or frame times in milliseconds alone, one a line"
     )]
     Columns { found: String },
     #[error("the row has {cells} of the header's {header} cells; take it out if it was cut off")]

@@ -4,7 +4,7 @@ use egui::{ComboBox, RichText, TextWrapMode, Ui};
 
 use crate::lab::loop_lab::{LoopCommand, LoopLab, SLOWNESS};
 use crate::lab::number::round;
-use crate::lab::pacing::TRACES;
+use crate::lab::pacing::{FrameTrace, TRACES};
 use crate::lab::studio::Command;
 use crate::view::panels::{breakpoints, palette};
 
@@ -56,13 +56,15 @@ fn short(name: &str) -> String {
     }
 }
 
-/// What happens in the trace of this name.
-fn about_trace(name: &str) -> &'static str {
-    let built_in = TRACES.iter().find(|card| card.id == name);
-    match name {
+/// What happens in a trace.
+fn about_trace(trace: &FrameTrace) -> String {
+    let built_in = TRACES.iter().find(|card| card.id == trace.name());
+    let about = match trace.name() {
         "live" => "the last frames of this window",
         _ => built_in.map_or("frames that were opened from a file", |card| card.about),
-    }
+    };
+    let missing = trace.missing_display();
+    about.to_owned() + &missing.map_or(String::new(), |missing| format!("; {missing}"))
 }
 
 pub(in crate::view::panels) fn trace_menu(
@@ -70,7 +72,8 @@ pub(in crate::view::panels) fn trace_menu(
     loops: &LoopLab,
     commands: &mut Vec<Command>,
 ) {
-    let chosen = loops.traces()[loops.trace()].name();
+    let trace = &loops.traces()[loops.trace()];
+    let chosen = trace.name();
     let menu = ComboBox::from_id_salt("trace").selected_text(short(chosen)).width(112.0);
     let menu = menu.height(480.0);
     let response = menu.show_ui(ui, |ui| {
@@ -78,13 +81,12 @@ pub(in crate::view::panels) fn trace_menu(
         for (index, trace) in loops.traces().iter().enumerate() {
             let is_chosen = index == loops.trace();
             let label = ui.selectable_label(is_chosen, trace.name());
-            if label.on_hover_text(about_trace(trace.name())).clicked() {
+            if label.on_hover_text(about_trace(trace)).clicked() {
                 commands.push(Command::Loop(LoopCommand::Trace(index)));
             }
         }
     });
-    let about =
-        format!("{chosen}, frames of the display (T for the next): {}", about_trace(chosen));
+    let about = format!("{chosen}, frames of the display (T for the next): {}", about_trace(trace));
     response.response.on_hover_text(about);
 }
 
@@ -110,6 +112,7 @@ pub(in crate::view::panels) fn display(ui: &mut Ui, loops: &LoopLab) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::pacing::{RefreshRate, trace_file};
 
     #[test]
     fn slow_motions_are_named_by_their_fraction() {
@@ -125,7 +128,11 @@ mod tests {
 
     #[test]
     fn every_trace_says_what_happens_in_it() {
-        assert!(TRACES.iter().all(|card| about_trace(card.id) == card.about));
-        assert_ne!(about_trace("live"), about_trace("my-game"));
+        let display = RefreshRate::new(60, 1);
+        assert!(TRACES.iter().all(|card| about_trace(&card.trace(display)) == card.about));
+        let opened = |name: &str| about_trace(&FrameTrace::recorded(name, display, Vec::new()));
+        assert_ne!(opened("live"), opened("my-game"));
+        let list = trace_file::read("times.txt", "16.7\n16.6\n").unwrap();
+        assert!(about_trace(&list[0]).contains("taken as displayed when they begin"));
     }
 }

@@ -22,7 +22,7 @@ pub(super) struct Row<'a> {
 impl<'a> Row<'a> {
     pub(super) fn of(loops: &'a LoopLab, index: usize) -> Self {
         let lane = &loops.lanes()[index];
-        let verdict = lane.verdict(loops.scene().tick_hz);
+        let verdict = loops.verdict(index);
         let rank = match verdict.severity {
             Severity::Fine => Some(0.0),
             Severity::Doubtful => Some(1.0),
@@ -102,6 +102,10 @@ impl TableRow for Row<'_> {
         let display = self.loops.traces()[self.loops.trace()].name();
         let tick_hz = self.loops.scene().tick_hz;
         ui.label(format!("At {tick_hz} Hz, trace {display}: {}.", self.verdict.whole()));
+        let advised = self.loops.advised().filter(|advised| advised.index == self.index);
+        if let Some(why) = advised.and_then(|advised| advised.why) {
+            ui.label(format!("Recommended: {why}."));
+        }
         ui.label(format!("Used by {}.", card.users));
         ui.label(RichText::new(card.source).color(palette(ui).dim));
     }

@@ -28,7 +28,7 @@ fn table(loops: &LoopLab) -> Table<Row<'_>> {
 }
 
 fn groups(loops: &LoopLab) -> Vec<Vec<Row<'_>>> {
-    (0..loops.lanes().len()).map(|index| vec![Row::of(loops, index)]).collect()
+    loops.listed().into_iter().map(|index| vec![Row::of(loops, index)]).collect()
 }
 
 #[cfg(test)]
