@@ -1,9 +1,10 @@
 //! The bits of what physics is made of and others have written: `libm` and `glam`.
 //!
-//! Both are pinned to a version in `Cargo.toml`, because the same inputs are to give the same bits for ever.
+//! The bits are promised for the versions in `Cargo.lock`. A game may have later patches, with bits of their own.
 //! If one of these hashes changes, so do states, and hashes that users have committed.
 
 use glam::{DVec2, DVec3};
+use regatta::lab::{Race, Scene};
 
 /// 64-bit FNV-1a over little-endian words. NaNs, of which there are many, are one.
 struct Fnv(u64);
@@ -152,11 +153,26 @@ fn the_vectors_of_glam_keep_their_bits() {
 }
 
 #[test]
-fn both_are_pinned_to_a_version() {
+fn a_game_may_have_both_newer_and_the_manual_says_for_which_the_bits_are_promised() {
     let manifest = include_str!("../../Cargo.toml");
-    for name in ["glam", "libm"] {
-        let line = manifest.lines().find(|line| line.starts_with(&format!("{name} = ")));
-        let line = line.expect("a dependency");
-        assert!(line.starts_with(&format!("{name} = \"=")), "{line}");
+    let lock = include_str!("../../Cargo.lock");
+    let chapter = regatta::manual::chapter("stable").expect("a chapter").text;
+    for (name, version) in [("glam", "0.34.3"), ("libm", "0.2.16")] {
+        let asked = manifest.lines().find_map(|line| line.strip_prefix(&format!("{name} = \"")));
+        let asked = asked.expect("a dependency").trim_end_matches('"');
+        assert!(asked.starts_with(|c: char| c.is_ascii_digit()), "{name} is asked for as {asked}");
+        assert!(lock.contains(&format!("name = \"{name}\"\nversion = \"{version}\"")), "{name}");
+        assert!(chapter.contains(&format!("`{name}` {version}")), "{name}");
+    }
+}
+
+#[test]
+fn what_a_game_s_own_test_prints_is_what_the_manual_says() {
+    let chapter = regatta::manual::chapter("stable").expect("a chapter").text;
+    for scene in ["pendulum", "orbit", "helm"] {
+        let mut race = Race::of_scene(&Scene::built_in(scene).expect("a built-in scene"));
+        race.run(600);
+        let hash = race.state_hash();
+        assert!(chapter.contains(&format!("{scene} {hash:016x}")), "{scene} {hash:016x}");
     }
 }
