@@ -257,7 +257,7 @@ mod tests {
             let methods = scene.non_engine_methods().filter(|it| it.evaluations == Some(1));
             let all: Vec<_> = methods.map(|it| adviser.judged(LaneSpec::plain(it))).collect();
             let looks_right = CRITERIA.iter().position(|it| *it == Criterion::LooksRight).unwrap();
-            let best = recommended(&all, looks_right, 1.0, |_, met| met.evaluations_per_s);
+            let best = recommended(&all, looks_right);
             let best = &all[best.expect("some look right")];
             let lane = scene.lanes.iter().find(|lane| Some(lane.method) == scene.opening_method);
             let told = lane.map(|lane| (lane.method.id, lane.substeps));
