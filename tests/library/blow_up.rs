@@ -202,7 +202,7 @@ fn the_halt_of_a_lane_is_not_told_once_that_lane_is_gone() {
 #[test]
 fn a_kick_past_all_bounds_is_no_state_but_a_halt_with_its_reason() {
     for (mass, times, reason) in
-        [(1e-300, 1.0, "blew up: v became infinite"), (1.0, 1e30, "blew up: v reached ")]
+        [(1e-300, 1.0, "blew up: v became infinite"), (1e-10, 1e15, "blew up: v reached ")]
     {
         let text = format!(
             "title = 'light'\ntick_hz = 60\nseconds = 1\nmethods = ['rk4']\n\

@@ -431,7 +431,7 @@ fn what_a_stop_answers_is_what_the_verdict_beside_it_says() {
         ("The spring that Euler blows up", GainsEnergy),
         ("The same lines in another order", OutOfPhase),
         ("A stiff spring", BlewUp),
-        ("The stability map", OutOfPhase),
+        ("The stability map", GainsEnergy),
         ("Implicit methods", LosesEnergy),
         ("Round-off", Rounding),
         ("Runge-Kutta", Accurate),

@@ -512,8 +512,7 @@ fn an_adaptive_method_on_an_oscillator_is_judged_by_how_it_goes_on() {
 
 #[test]
 fn an_undamped_spring_that_looks_right_swings_as_wide_as_the_truth_from_any_start() {
-    let mut dice = Dice::new(44_02);
-    let (mut told, mut refused) = (0, 0);
+    let (mut dice, mut refused) = (Dice::new(44_02), 0);
     for _ in 0..60 {
         let omega = 2.0 + 18.0 * dice.part();
         let [x0, v0] = [dice.between(0.3, 1.5), omega * dice.between(-1.5, 1.5)];
@@ -522,7 +521,6 @@ fn an_undamped_spring_that_looks_right_swings_as_wide_as_the_truth_from_any_star
             "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = {}\nx0_m = {x0}\nv0_m_per_s = {v0}",
             omega * omega
         );
-        let scene = scene(20.0, &spring);
         // v² + ω² x² - h ω² x v is constant, and x² is at most this over ω² (1 - z² / 4).
         let off = |steps: u32| {
             let h = 1.0 / f64::from(steps * tick_hz);
@@ -530,17 +528,13 @@ fn an_undamped_spring_that_looks_right_swings_as_wide_as_the_truth_from_any_star
             let kept = exact * exact - h * x0 * v0;
             (kept / (1.0 - z * z / 4.0)).sqrt() / exact - 1.0
         };
-        let adviser = Adviser::new(&scene, tick_hz);
+        let adviser = Adviser::new(&scene(20.0, &spring), tick_hz);
         let meets = adviser.meets(spec("semi-implicit-euler"), CRITERIA[LOOKS_RIGHT]);
-        let met = meets.met().unwrap();
-        let told_off = off(met.substeps);
-        assert!(told_off.is_finite() && told_off.abs() <= 0.0501, "{told_off}: {spring}");
-        told += 1;
-        if met.substeps > 1 && off(met.substeps - 1).abs() > 0.05 {
-            refused += 1;
-        }
+        let told = meets.met().unwrap().substeps;
+        assert!(off(told).is_finite() && off(told).abs() <= 0.0501, "×{told}: {spring}");
+        refused += u32::from(told > 1 && off(told - 1).abs() > 0.05);
     }
-    assert!(told == 60 && (5..=55).contains(&refused), "{refused} are refused for their width");
+    assert!((5..=55).contains(&refused), "{refused} are refused for their width");
 }
 
 #[test]
@@ -557,10 +551,9 @@ fn a_damped_spring_that_looks_right_reaches_as_far_as_the_truth() {
         let (mut body, mut furthest) = (body(&scene, solver), 0.0_f64);
         for tick in 0..115 * 16 {
             let h = 1.0 / (115.0 * 16.0);
-            if solver == Solver::Truth {
-                body.advance(f64::from(tick) * h, h, 1).unwrap();
-            } else if tick % 16 == 0 {
-                body.advance(f64::from(tick) * h, 16.0 * h, substeps).unwrap();
+            let (each, parts) = if solver == Solver::Truth { (1, 1) } else { (16, substeps) };
+            if tick % each == 0 {
+                body.advance(f64::from(tick) * h, f64::from(each) * h, parts).unwrap();
             }
             furthest = furthest.max(body.q()[0].abs());
         }
@@ -568,7 +561,7 @@ fn a_damped_spring_that_looks_right_reaches_as_far_as_the_truth() {
     };
     let solver = spec("semi-implicit-euler").solver();
     let (truth, lane) = (furthest(Solver::Truth, 1), furthest(solver, substeps));
-    assert!((truth - 1.684).abs() < 2e-3, "{truth}");
+    assert!((truth - 1.6886).abs() < 2e-3, "{truth}");
     assert!((lane / truth - 1.0).abs() < 0.05, "{lane} by {substeps}, not {truth}");
     assert!(furthest(solver, substeps - 1) / truth > 1.04, "one fewer would do");
 }
@@ -583,9 +576,8 @@ fn a_body_that_swings_less_than_three_times_is_judged_by_its_first_swings() {
     {
         for seconds in lengths {
             let adviser = Adviser::new(&scene(seconds, body), tick_hz);
-            let meets = adviser.meets(spec("velocity-verlet"), CRITERIA[LOOKS_RIGHT]);
-            let found = meets.met().map(|met| met.substeps);
-            assert_eq!(found, Some(substeps), "{seconds} s of {body}");
+            let found = adviser.meets(spec("velocity-verlet"), CRITERIA[LOOKS_RIGHT]);
+            assert_eq!(found.met().unwrap().substeps, substeps, "{seconds} s of {body}");
         }
     }
 }

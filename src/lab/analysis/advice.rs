@@ -142,9 +142,8 @@ impl Adviser {
         criterion: Criterion,
         methods: impl Iterator<Item = &'static Method>,
     ) -> Option<LaneSpec> {
-        let least = |method: &Method| {
-            method.evaluations_per_tick(1).unwrap_or(1) * u32::from(method.evaluation_cost)
-        };
+        let least =
+            |method: &Method| method.evaluations_per_tick(1).unwrap_or(1) * method.evaluation_cost;
         let mut methods: Vec<_> = methods.filter(|method| !method.is_as_printed()).collect();
         methods.sort_by_key(|method| least(method));
         let mut best: Option<(CriterionMet, LaneSpec)> = None;

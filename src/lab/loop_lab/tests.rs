@@ -55,7 +55,7 @@ fn the_list_begins_with_the_loop_to_take_and_a_step_of_the_frame_says_that_its_p
     assert!(studio.verdict(listed[0]).to_string().starts_with("recommended, smooth"));
     for (lane, index) in studio.lanes().iter().zip(0..) {
         let verdict = studio.verdict(index);
-        let says = verdict.to_string().contains("its physics changes with the frame rate");
+        let says = verdict.to_string().contains("physics varies with the rate");
         assert_eq!(says, !lane.card().has_fixed_tick, "{}: {verdict}", lane.card().id);
         let is_green = verdict.severity == crate::lab::analysis::Severity::Fine;
         assert!(!(says && is_green), "{}: {verdict}", lane.card().id);

@@ -65,7 +65,7 @@ impl LoopLane {
         let report = self.report().filter(|report| report.keeps_speed() != Some(false));
         let differs = report.is_some_and(|report| report.other_motion().is_some());
         if differs && !self.card().has_fixed_tick {
-            verdict.parts.push("its physics changes with the frame rate".into());
+            verdict.parts.push("physics varies with the rate".into());
             if verdict.severity == Severity::Fine {
                 verdict.severity = Severity::Doubtful;
             }

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::body::OutlineView;
-use super::flags::{Flag, Lost, badges, flags, row_width};
+use super::flags::{Flag, Lost, badges, clear_number, flags, row_width};
 use super::framed::{BodyView, on_one_stage, quay_width};
 use super::ghost::Ghost;
 use super::layout::{bands, grid, mosaic};
@@ -195,6 +195,7 @@ impl BodyCell<'_> {
 
         let behind = self.lanes.iter().filter(|lane| !self.is_front(lane));
         let mut flagged: Vec<Flag> = Vec::new();
+        let mut numbered = None;
         let mut lost: Vec<Lost> = Vec::new();
         let mut near: Vec<LoupeLane<'_>> = Vec::new();
         let mut cell = Cell {
@@ -253,6 +254,7 @@ impl BodyCell<'_> {
             // Flags of many lanes reach over the bodies.
             if (2..=MAX_NUMBERED).contains(&self.lanes.len()) {
                 shown.number(picture, entry + 1, colour);
+                numbered = Some(at);
             }
         }
         if shows_ghost {
@@ -269,6 +271,9 @@ impl BodyCell<'_> {
         };
         let room = badges(picture, camera, &lost, [below, BADGES], palette);
         let name = captions::name_room(camera.rect, moment, index);
+        if let Some(front) = numbered {
+            clear_number(&mut flagged, front, lift);
+        }
         flags(picture, &flagged, lift, palette, (room, camera.rect, name));
         if Look::of(truth).has_ground() && truth.halted().is_none() {
             apex::draw(picture, camera, moment, self.front, index);

@@ -36,6 +36,16 @@ pub(super) struct Flag {
     pub(super) colour: Rgba,
 }
 
+/// Lifts the flags that would lie over the number of the body in front, at `front`, as high as that body's own would be.
+pub(super) fn clear_number(flags: &mut [Flag], front: [f32; 2], lift: f32) {
+    for flag in flags {
+        let [across, down] = [flag.at[0] - front[0], flag.at[1] - lift - front[1]];
+        if across.abs() < 2.0 * FLAG && down.abs() < 2.0 * FLAG {
+            flag.at[1] = flag.at[1].min(front[1]);
+        }
+    }
+}
+
 /// Flags over these places, within `room` and beside the `name` of their body, pushed apart where they would cover each
 /// other. Of many, those that point at one place share one.
 pub(super) fn flags(
@@ -175,6 +185,9 @@ fn board(
     });
 }
 
+/// What a badge says.
+type Worded = fn(&Lost) -> &str;
+
 /// A lane whose body is beyond the edge of its cell, or comes and goes.
 #[derive(Clone, Debug)]
 pub(super) struct Lost {
@@ -278,12 +291,12 @@ pub(super) fn badges(
         let top = if of_side.len() <= rows(tops[0]) { tops[0] } else { tops[1] };
         let top = top.min(height - high);
         let rows = rows(top);
-        let widest = |words: fn(&Lost) -> &str| {
+        let widest = |words: Worded| {
             let letters = of_side.iter().map(|badge| words(badge).chars().count()).max();
             (BESIDE_WORDS + LETTER * letters.unwrap_or(0) as f32).max(WIDE_BADGE)
         };
         // In a narrow cell a badge has its number alone.
-        let worded: [(fn(&Lost) -> &str, f32); 2] = [(Lost::words, 3.0), (Lost::figure, 1.6)];
+        let worded: [(Worded, f32); 2] = [(Lost::words, 3.0), (Lost::figure, 1.6)];
         let worded = worded.map(|(words, times)| (words, widest(words), times));
         let worded = worded
             .into_iter()

@@ -26,6 +26,10 @@ const LATENESS: f32 = 112.0;
 const FOOT: f32 = 30.0;
 /// The height of a line where several loops are named below each other, in points.
 const LINE: f32 = 18.0;
+/// The width of a letter of a loop's name and of its verdict, and the least room between the two, in points.
+const NAME_LETTER: f32 = 8.0;
+const VERDICT_LETTER: f32 = 6.4;
+const GAP: f32 = 12.0;
 /// How long the path of frames is, in seconds of the display.
 const PATH_S: f64 = 0.16;
 /// How much of the swing the stage shows beside it.
@@ -313,9 +317,10 @@ impl<'a> LoopBand<'a> {
         Label { at, align, size, colour: self.palette.text, is_strong: false, halo, text }
     }
 
-    /// The loop's name at this height, and where there is room, its verdict.
+    /// The loop's name at this height, and as much of its verdict as there is room for.
     fn name(&self, picture: &mut Picture, y: f32, name: &str) {
         let [left, right] = [self.rect.min[0] + 14.0, self.rect.max[0] - 14.0];
+        let room = right - left - GAP - NAME_LETTER * name.chars().count() as f32;
         let name = self.label([left, y], Align::Left, 14.5, name.into());
         picture.labels.push(Label { is_strong: true, ..name });
         let [width, height] = self.size();
@@ -329,8 +334,11 @@ impl<'a> LoopBand<'a> {
             Severity::Bad => self.palette.bad,
             Severity::Unknown => self.palette.dim,
         };
-        let verdict = self.label([right, y], Align::Right, 12.5, verdict.to_string());
-        picture.labels.push(Label { colour, ..verdict });
+        let fits = |words: &String| VERDICT_LETTER * words.chars().count() as f32 <= room;
+        if let Some(words) = verdict.wordings().into_iter().find(fits) {
+            let verdict = self.label([right, y], Align::Right, 12.5, words);
+            picture.labels.push(Label { colour, ..verdict });
+        }
     }
 
     /// The loop's name with its method, and a mark if it is selected.

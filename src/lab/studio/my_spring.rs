@@ -235,7 +235,7 @@ mod tests {
         assert!((value("x0_m") - 0.38).abs() < 1e-12, "{}", value("x0_m"));
         assert_eq!(value("v0_m_per_s"), -2.0);
         assert!(
-            scene.about.contains("0.12 m") && scene.about.contains("-2 m/s"),
+            scene.about.contains("0.12 m") && scene.about.contains("−2 m/s"),
             "{}",
             scene.about
         );

@@ -9,7 +9,7 @@ pub(super) const KEYS_BESIDE_HINT: f32 = 560.0;
 pub(super) const MENUS: f32 = 600.0;
 pub(super) const SPRING: f32 = 660.0;
 pub(super) const MY_SPRING: f32 = 760.0;
-pub(super) const TICK_BACK: f32 = 780.0;
+pub(super) const TICK_BACK: f32 = 820.0;
 pub(super) const WORDS_IN_TOP_BAR: f32 = 960.0;
 pub(super) const PACE: f32 = 1100.0;
 /// The menu of traces is in the top bar; else the instrument has it.

@@ -20,7 +20,9 @@ pub(super) fn height(room: f32) -> f32 {
 pub(super) fn show(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing = vec2(6.0, 5.0);
     head(ui, tour, commands);
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+    // A low guide is no higher than it is said to be, or it would lie over the stage.
+    let scrolled = ScrollArea::vertical().auto_shrink(false).min_scrolled_height(0.0);
+    scrolled.show(ui, |ui| {
         let stop = tour.stop();
         ui.label(stop.question);
         choices(ui, tour, commands);

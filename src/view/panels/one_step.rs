@@ -27,7 +27,7 @@ const ROOM_BESIDE: f32 = 700.0;
 const TABLE: f32 = 380.0;
 /// The least part of the height that the plot takes above the table, and its least height in points.
 const PLOT: f32 = 0.42;
-const MIN_PLOT: f32 = 132.0;
+const MIN_PLOT: f32 = 108.0;
 /// The height of a row of the table and of a line of the formula, in points.
 const ROW: f32 = 20.0;
 const FORMULA: f32 = 20.0;
@@ -65,7 +65,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
         let said = said(ui, studio, &step, room.x);
         let left = height - said.size().y - ui.spacing().item_spacing.y;
         let plot_height = (left - table_height(&step)).max(PLOT * left);
-        plot(ui, studio, &step, vec2(room.x, plot_height.max(MIN_PLOT.min(0.7 * height))));
+        plot(ui, studio, &step, vec2(room.x, plot_height.max(MIN_PLOT.min(0.58 * height))));
         // Where there is hardly room for the plot, the words are scrolled too.
         let scrolled = if plot_height < MIN_PLOT {
             Some(said)

@@ -190,13 +190,14 @@ fn a_second_and_a_lost_implementation_are_seen() {
 
 /// Who steps a body or a lane of the lab by a length of time. A loop of ticks is [`Follow`](regatta::lab::Follow)'s, or
 /// that of the run.
-const STEPPERS: [(&str, &str); 10] = [
+const STEPPERS: [(&str, &str); 11] = [
     ("src/lab/race/lane.rs", "a tick of a body, which may fail"),
     ("src/lab/race/follow.rs", "the loop of ticks outside the run"),
     ("src/lab/race.rs", "the tick of the run"),
     ("src/lab/pacing/paced_lane.rs", "the steps of a game loop"),
     ("src/lab/pacing/scripted_truth.rs", "the truth at the moments of display"),
     ("src/lab/past/truth_curve.rs", "the true curve between ticks"),
+    ("src/lab/analysis/modes.rs", "the first step of a normal mode"),
     ("src/lab/analysis/survey.rs", "a step of the true motion"),
     ("src/lab/analysis/truth.rs", "the truth from input to input"),
     ("src/lab/studio/one_step.rs", "the anatomy of the next tick"),

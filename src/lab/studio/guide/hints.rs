@@ -257,7 +257,7 @@ mod tests {
         studio.apply(StageCommand::TickRate(Step::Next));
         assert!(text(&studio).contains("`F2`"));
         studio.apply(StageCommand::SceneBeside(Step::Next));
-        assert_eq!(studio.hint(), None, "its digits are for solo");
+        assert_eq!(studio.hint(), studio.scene().hint, "a rate is a race's too");
         studio.apply(StageCommand::ToggleRace);
         assert_eq!(studio.hint(), studio.scene().hint);
     }

@@ -77,9 +77,10 @@ mod tests {
         };
         assert!(!sought.is_empty() && sought.iter().all(is_half), "{sought:?}, not {half_ns}");
         let third = table + 3.5 * panels::lanes::ROW;
+        let index = loops.listed()[2];
         let commands = window.click(&studio, pos2(300.0, third));
-        assert_eq!(commands, [Command::Loop(LoopCommand::Select(2))]);
+        assert_eq!(commands, [Command::Loop(LoopCommand::Select(index))]);
         let commands = window.click(&studio, pos2(50.0, third));
-        assert_eq!(commands, [Command::Loop(LoopCommand::ToggleOnStage(2))]);
+        assert_eq!(commands, [Command::Loop(LoopCommand::ToggleOnStage(index))]);
     }
 }

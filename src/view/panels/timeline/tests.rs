@@ -24,10 +24,11 @@ fn a_press_on_the_track_goes_to_the_tick_there_and_a_drag_follows() {
     assert_eq!(pressed, [Command::Run(RunCommand::Seek(150))]);
     let dragged = frame(&studio, Input::PointerMoved(at(4.0)));
     assert_eq!(dragged, [Command::Run(RunCommand::Seek(240))]);
-    // Nothing was run beyond its end.
+    // Nothing was run beyond its end, which is told of there.
     let dragged = frame(&studio, Input::PointerMoved(at(19.0)));
-    assert_eq!(dragged, [Command::Run(RunCommand::Seek(600))]);
-    studio.apply(RunCommand::Seek(600));
+    assert_eq!(dragged, [Command::Run(RunCommand::Seek(1140))]);
+    studio.apply(RunCommand::Seek(1140));
+    assert_eq!(studio.race().tick(), 600);
     assert_eq!(frame(&studio, button(at(19.0), false)), []);
 }
 
