@@ -24,7 +24,7 @@ function __fish_regatta_using_subcommand
     contains -- $cmd[1] $argv
 end
 
-complete -c regatta -n "__fish_regatta_needs_command" -l scene -d 'A built-in scene (`regatta list scenes`), or else the path of a scene file [default: harbour]' -r -f -a "harbour\t''
+complete -c regatta -n "__fish_regatta_needs_command" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
 ship\t''
 spring\t''
 stiff\t''
@@ -49,12 +49,12 @@ alike\t''
 engines\t''
 held-force\t''
 stiff-in-engines\t''"
-complete -c regatta -n "__fish_regatta_needs_command" -l k -d 'In the place of a scene, a spring of this stiffness in N/m; with --c and --mass' -r
-complete -c regatta -n "__fish_regatta_needs_command" -l c -d 'The damping of that spring in N s/m [default: 0]' -r
-complete -c regatta -n "__fish_regatta_needs_command" -l frequency -d 'In the place of a scene, a spring that swings at this frequency in Hz; with --damping-ratio' -r
-complete -c regatta -n "__fish_regatta_needs_command" -l damping-ratio -d 'The damping of that spring, 1 where it just swings no more [default: 0]' -r
-complete -c regatta -n "__fish_regatta_needs_command" -l mass -d 'The mass on the spring of --k or --frequency in kg [default: 1]' -r
-complete -c regatta -n "__fish_regatta_needs_command" -l method -d 'An integrator (`regatta list methods`); give several to race them' -r -f -a "explicit-euler\t''
+complete -c regatta -n "__fish_regatta_needs_command" -l k -d 'A spring of this stiffness in place of a scene' -r
+complete -c regatta -n "__fish_regatta_needs_command" -l c -d 'The damping of the spring of --k [default: 0]' -r
+complete -c regatta -n "__fish_regatta_needs_command" -l frequency -d 'A spring of this frequency in place of a scene' -r
+complete -c regatta -n "__fish_regatta_needs_command" -l damping-ratio -d 'The damping of that spring [default: 0]' -r
+complete -c regatta -n "__fish_regatta_needs_command" -l mass -d 'The mass on the spring [default: 1]' -r
+complete -c regatta -n "__fish_regatta_needs_command" -l method -d 'A method (`regatta list methods`), or several' -r -f -a "explicit-euler\t''
 midpoint\t''
 improved-euler\t''
 ssp-rk3\t''
@@ -96,6 +96,7 @@ engine-avian-motor\t''
 engine-jolt\t''
 engine-physx\t''
 engine-physx-tgs\t''
+engine-physx-tgs-56\t''
 engine-bullet\t''
 engine-pybullet\t''
 engine-chipmunk\t''
@@ -104,34 +105,34 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
-complete -c regatta -n "__fish_regatta_needs_command" -l tick-hz -d 'Ticks per second, 1 to 10000 [default: the scene\'s]' -r
-complete -c regatta -n "__fish_regatta_needs_command" -l loop -d 'Open the loop lab on this built-in trace, edge if none is named' -r
-complete -c regatta -n "__fish_regatta_needs_command" -l seconds -d 'Close at the tick nearest to this many simulated seconds [default: never]' -r
-complete -c regatta -n "__fish_regatta_needs_command" -l record -d 'Write the run to FILE as a scene when the window is closed or Ctrl-C is pressed; until then it grows beside it, in FILE.unfinished.toml' -r -F
-complete -c regatta -n "__fish_regatta_needs_command" -l theme -d 'The theme: dark or light [default: the one chosen last, else the system\'s]' -r -f -a "dark\t''
+complete -c regatta -n "__fish_regatta_needs_command" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
+complete -c regatta -n "__fish_regatta_needs_command" -l loop -d 'Open the loop lab on a trace [default: edge]' -r
+complete -c regatta -n "__fish_regatta_needs_command" -l seconds -d 'Close after these simulated seconds' -r
+complete -c regatta -n "__fish_regatta_needs_command" -l record -d 'Write the run to FILE as a scene' -r -F
+complete -c regatta -n "__fish_regatta_needs_command" -l theme -d 'The theme: dark or light' -r -f -a "dark\t''
 light\t''"
-complete -c regatta -n "__fish_regatta_needs_command" -l rewind-mb -d 'Memory for rewinding a run: less makes long jumps slower [default: 64]' -r
+complete -c regatta -n "__fish_regatta_needs_command" -l rewind-mb -d 'Memory for rewinding a run [default: 64]' -r
 complete -c regatta -n "__fish_regatta_needs_command" -l race -d 'Race all methods of the scene at once'
 complete -c regatta -n "__fish_regatta_needs_command" -l force -d 'Replace the --record FILE if it exists'
-complete -c regatta -n "__fish_regatta_needs_command" -l reduced-motion -d 'Trails do not fade, and the camera does not glide'
-complete -c regatta -n "__fish_regatta_needs_command" -s h -l help -d 'Print help'
+complete -c regatta -n "__fish_regatta_needs_command" -l reduced-motion -d 'Trails do not fade, and the camera zooms out in steps'
+complete -c regatta -n "__fish_regatta_needs_command" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_needs_command" -s V -l version -d 'Print version'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "play" -d 'Open the window (also without `play`)'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "capture" -d 'Draw a run into numbered pictures, without a window'
-complete -c regatta -n "__fish_regatta_needs_command" -f -a "verify" -d 'Run a capture or a recording again and report whether physics or pixels have changed'
-complete -c regatta -n "__fish_regatta_needs_command" -f -a "trace" -d 'Write the truth and every lane\'s numbers, tick by tick, to standard output'
+complete -c regatta -n "__fish_regatta_needs_command" -f -a "verify" -d 'Run a capture or a recording again and say what has changed'
+complete -c regatta -n "__fish_regatta_needs_command" -f -a "trace" -d 'Write the truth and every lane\'s numbers, tick by tick'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "advise" -d 'Recommend a method and its substeps for a scene at its tick rate'
-complete -c regatta -n "__fish_regatta_needs_command" -f -a "sweep" -d 'Run every method at every tick rate on every scene and write one row per run'
-complete -c regatta -n "__fish_regatta_needs_command" -f -a "cloud" -d 'Step a shape of many starts by each method and show what becomes of its area'
+complete -c regatta -n "__fish_regatta_needs_command" -f -a "sweep" -d 'Run every method at every tick rate on every scene, a row each'
+complete -c regatta -n "__fish_regatta_needs_command" -f -a "cloud" -d 'Step a shape of many starts and show what becomes of its area'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "loop" -d 'Measure what game loops do to motion on a display'
-complete -c regatta -n "__fish_regatta_needs_command" -f -a "identify" -d 'Say which engine or method, with how many substeps, made a log of a motion'
-complete -c regatta -n "__fish_regatta_needs_command" -f -a "port" -d 'Say the settings with which a spring moves the same in every engine'
+complete -c regatta -n "__fish_regatta_needs_command" -f -a "identify" -d 'Say which engine or method made a log of a motion'
+complete -c regatta -n "__fish_regatta_needs_command" -f -a "port" -d 'Say with what settings a spring moves alike in all engines'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "show" -d 'Print a method as a function in Rust, C, C# or GDScript'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "chapter" -d 'Print the chapter\'s tables, and draw its Figures 7-2 to 7-8'
-complete -c regatta -n "__fish_regatta_needs_command" -f -a "list" -d 'List the scenes, methods, bodies, metrics, policies, traces or keys'
+complete -c regatta -n "__fish_regatta_needs_command" -f -a "list" -d 'List scenes, methods, bodies, metrics, policies, traces or keys'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "completions" -d 'Print a completion script for a shell'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "help" -d 'Print this help, that of a command, or a chapter of the manual'
-complete -c regatta -n "__fish_regatta_using_subcommand play" -l scene -d 'A built-in scene (`regatta list scenes`), or else the path of a scene file [default: harbour]' -r -f -a "harbour\t''
+complete -c regatta -n "__fish_regatta_using_subcommand play" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
 ship\t''
 spring\t''
 stiff\t''
@@ -156,12 +157,12 @@ alike\t''
 engines\t''
 held-force\t''
 stiff-in-engines\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand play" -l k -d 'In the place of a scene, a spring of this stiffness in N/m; with --c and --mass' -r
-complete -c regatta -n "__fish_regatta_using_subcommand play" -l c -d 'The damping of that spring in N s/m [default: 0]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand play" -l frequency -d 'In the place of a scene, a spring that swings at this frequency in Hz; with --damping-ratio' -r
-complete -c regatta -n "__fish_regatta_using_subcommand play" -l damping-ratio -d 'The damping of that spring, 1 where it just swings no more [default: 0]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand play" -l mass -d 'The mass on the spring of --k or --frequency in kg [default: 1]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand play" -l method -d 'An integrator (`regatta list methods`); give several to race them' -r -f -a "explicit-euler\t''
+complete -c regatta -n "__fish_regatta_using_subcommand play" -l k -d 'A spring of this stiffness in place of a scene' -r
+complete -c regatta -n "__fish_regatta_using_subcommand play" -l c -d 'The damping of the spring of --k [default: 0]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand play" -l frequency -d 'A spring of this frequency in place of a scene' -r
+complete -c regatta -n "__fish_regatta_using_subcommand play" -l damping-ratio -d 'The damping of that spring [default: 0]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand play" -l mass -d 'The mass on the spring [default: 1]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand play" -l method -d 'A method (`regatta list methods`), or several' -r -f -a "explicit-euler\t''
 midpoint\t''
 improved-euler\t''
 ssp-rk3\t''
@@ -203,6 +204,7 @@ engine-avian-motor\t''
 engine-jolt\t''
 engine-physx\t''
 engine-physx-tgs\t''
+engine-physx-tgs-56\t''
 engine-bullet\t''
 engine-pybullet\t''
 engine-chipmunk\t''
@@ -211,18 +213,18 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand play" -l tick-hz -d 'Ticks per second, 1 to 10000 [default: the scene\'s]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand play" -l loop -d 'Open the loop lab on this built-in trace, edge if none is named' -r
-complete -c regatta -n "__fish_regatta_using_subcommand play" -l seconds -d 'Close at the tick nearest to this many simulated seconds [default: never]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand play" -l record -d 'Write the run to FILE as a scene when the window is closed or Ctrl-C is pressed; until then it grows beside it, in FILE.unfinished.toml' -r -F
-complete -c regatta -n "__fish_regatta_using_subcommand play" -l theme -d 'The theme: dark or light [default: the one chosen last, else the system\'s]' -r -f -a "dark\t''
+complete -c regatta -n "__fish_regatta_using_subcommand play" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand play" -l loop -d 'Open the loop lab on a trace [default: edge]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand play" -l seconds -d 'Close after these simulated seconds' -r
+complete -c regatta -n "__fish_regatta_using_subcommand play" -l record -d 'Write the run to FILE as a scene' -r -F
+complete -c regatta -n "__fish_regatta_using_subcommand play" -l theme -d 'The theme: dark or light' -r -f -a "dark\t''
 light\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand play" -l rewind-mb -d 'Memory for rewinding a run: less makes long jumps slower [default: 64]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand play" -l rewind-mb -d 'Memory for rewinding a run [default: 64]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l race -d 'Race all methods of the scene at once'
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l force -d 'Replace the --record FILE if it exists'
-complete -c regatta -n "__fish_regatta_using_subcommand play" -l reduced-motion -d 'Trails do not fade, and the camera does not glide'
-complete -c regatta -n "__fish_regatta_using_subcommand play" -s h -l help -d 'Print help'
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l scene -d 'A built-in scene (`regatta list scenes`), or else the path of a scene file [default: harbour]' -r -f -a "harbour\t''
+complete -c regatta -n "__fish_regatta_using_subcommand play" -l reduced-motion -d 'Trails do not fade, and the camera zooms out in steps'
+complete -c regatta -n "__fish_regatta_using_subcommand play" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
 ship\t''
 spring\t''
 stiff\t''
@@ -247,12 +249,12 @@ alike\t''
 engines\t''
 held-force\t''
 stiff-in-engines\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l k -d 'In the place of a scene, a spring of this stiffness in N/m; with --c and --mass' -r
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l c -d 'The damping of that spring in N s/m [default: 0]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l frequency -d 'In the place of a scene, a spring that swings at this frequency in Hz; with --damping-ratio' -r
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l damping-ratio -d 'The damping of that spring, 1 where it just swings no more [default: 0]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l mass -d 'The mass on the spring of --k or --frequency in kg [default: 1]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l method -d 'An integrator (`regatta list methods`); give several to race them' -r -f -a "explicit-euler\t''
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l k -d 'A spring of this stiffness in place of a scene' -r
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l c -d 'The damping of the spring of --k [default: 0]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l frequency -d 'A spring of this frequency in place of a scene' -r
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l damping-ratio -d 'The damping of that spring [default: 0]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l mass -d 'The mass on the spring [default: 1]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l method -d 'A method (`regatta list methods`), or several' -r -f -a "explicit-euler\t''
 midpoint\t''
 improved-euler\t''
 ssp-rk3\t''
@@ -294,6 +296,7 @@ engine-avian-motor\t''
 engine-jolt\t''
 engine-physx\t''
 engine-physx-tgs\t''
+engine-physx-tgs-56\t''
 engine-bullet\t''
 engine-pybullet\t''
 engine-chipmunk\t''
@@ -302,38 +305,38 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l tick-hz -d 'Ticks per second, 1 to 10000 [default: the scene\'s]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l loop -d 'Show the loop lab over this built-in trace, edge if none is named, at an eighth of real time' -r
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l out -d 'The directory for frame-000000.png and so on, created if necessary; in formats other than png a file, or - for standard output' -r -F
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l frames -d 'How many frames to draw, 1 to 1000000; in a sheet the number of columns [sheet: 6]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l seconds -d 'How many simulated seconds to draw [default: the scene\'s]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l fps -d 'Frames per simulated second, 1 to 1000 [default: 30; sheet: 1]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l size -d 'Width and height in pixels, 1x1 to 8192x8192; in a sheet those of each cell [default: 1280x720; sheet: 320x180]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l scale -d 'Pixels per point, 0.5 to 4: the size of text and lines' -r
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l loop -d 'Show the loop lab over a trace [default: edge]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l out -d 'The directory of the frames, or the file' -r -F
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l frames -d 'How many frames to draw' -r
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l seconds -d 'Simulated seconds to draw [default: the scene\'s]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l fps -d 'Frames per simulated second [default: 30]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l size -d 'Width and height in pixels [default: 1280x720]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l scale -d 'The size of text and lines' -r
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l theme -d 'The theme: dark or light [default: dark]' -r -f -a "dark\t''
 light\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l panels -d 'Whether panels are shown around the stage: on or off [default: on; sheet: off]' -r -f -a "on\t''
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l panels -d 'Panels around the stage: on or off' -r -f -a "on\t''
 off\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l instrument -d 'The instrument among the panels, such as energy, phase-portrait or cloud [default: motion]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l shape -d 'What the instrument cloud shows: cat, disc, ring or section [default: cat]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l mark-every -d 'Ticks between two states in the manifest [default: about 500 states in all]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l format -d 'The format: png, apng, gif, y4m, rgba or sheet [default: by the ending of FILE; png for a DIR]' -r -f -a "png\t'Numbered pictures and a manifest in a directory'
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l instrument -d 'The instrument [default: motion]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l shape -d 'What the instrument cloud shows [default: cat]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l mark-every -d 'Ticks between two states in the manifest' -r
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l format -d 'The format: png, apng, gif, y4m, rgba or sheet' -r -f -a "png\t'Numbered pictures and a manifest in a directory'
 apng\t'One animated PNG'
 gif\t'One GIF, each frame with a palette of its own'
 y4m\t'YUV4MPEG2, for a video encoder'
 rgba\t'Raw RGBA bytes, for a video encoder'
 sheet\t'One picture, time across, lanes down'"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l race -d 'Race all methods of the scene at once'
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l force -d 'Replace the frames in DIR, where other files stay; or replace FILE'
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -s h -l help -d 'Print help'
-complete -c regatta -n "__fish_regatta_using_subcommand verify" -l report -d 'Also write the result to FILE, as junit or json; repeat the option for both' -r
-complete -c regatta -n "__fish_regatta_using_subcommand verify" -l diff -d 'For each frame that differs, write a picture of the difference into DIR' -r -F
-complete -c regatta -n "__fish_regatta_using_subcommand verify" -l max-channel -d 'The largest allowed difference of a channel, 0 to 255 [default: 0, or 2 on another driver]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand verify" -l max-pixels -d 'The largest allowed percentage of pixels off by more than 1 [default: 0, or 0.01 on another driver]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l force -d 'Replace the frames in DIR, or FILE'
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c regatta -n "__fish_regatta_using_subcommand verify" -l report -d 'Also write the result to FILE, as junit or json' -r
+complete -c regatta -n "__fish_regatta_using_subcommand verify" -l diff -d 'Draw the difference of each such frame into DIR' -r -F
+complete -c regatta -n "__fish_regatta_using_subcommand verify" -l max-channel -d 'The largest allowed difference of a channel, 0 to 255' -r
+complete -c regatta -n "__fish_regatta_using_subcommand verify" -l max-pixels -d 'The largest allowed percentage of pixels off by more than 1' -r
 complete -c regatta -n "__fish_regatta_using_subcommand verify" -l physics-only -d 'Judge only the physics; needs no graphics'
-complete -c regatta -n "__fish_regatta_using_subcommand verify" -l bless -d 'Accept the present results: replace all frames, or all checks of a recording. The old frames stay until all new ones are drawn'
-complete -c regatta -n "__fish_regatta_using_subcommand verify" -s h -l help -d 'Print help'
-complete -c regatta -n "__fish_regatta_using_subcommand trace" -l scene -d 'A built-in scene (`regatta list scenes`), or else the path of a scene file [default: harbour]' -r -f -a "harbour\t''
+complete -c regatta -n "__fish_regatta_using_subcommand verify" -l bless -d 'Accept the present results'
+complete -c regatta -n "__fish_regatta_using_subcommand verify" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c regatta -n "__fish_regatta_using_subcommand trace" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
 ship\t''
 spring\t''
 stiff\t''
@@ -358,12 +361,12 @@ alike\t''
 engines\t''
 held-force\t''
 stiff-in-engines\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand trace" -l k -d 'In the place of a scene, a spring of this stiffness in N/m; with --c and --mass' -r
-complete -c regatta -n "__fish_regatta_using_subcommand trace" -l c -d 'The damping of that spring in N s/m [default: 0]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand trace" -l frequency -d 'In the place of a scene, a spring that swings at this frequency in Hz; with --damping-ratio' -r
-complete -c regatta -n "__fish_regatta_using_subcommand trace" -l damping-ratio -d 'The damping of that spring, 1 where it just swings no more [default: 0]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand trace" -l mass -d 'The mass on the spring of --k or --frequency in kg [default: 1]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand trace" -l method -d 'An integrator (`regatta list methods`); give several to race them' -r -f -a "explicit-euler\t''
+complete -c regatta -n "__fish_regatta_using_subcommand trace" -l k -d 'A spring of this stiffness in place of a scene' -r
+complete -c regatta -n "__fish_regatta_using_subcommand trace" -l c -d 'The damping of the spring of --k [default: 0]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand trace" -l frequency -d 'A spring of this frequency in place of a scene' -r
+complete -c regatta -n "__fish_regatta_using_subcommand trace" -l damping-ratio -d 'The damping of that spring [default: 0]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand trace" -l mass -d 'The mass on the spring [default: 1]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand trace" -l method -d 'A method (`regatta list methods`), or several' -r -f -a "explicit-euler\t''
 midpoint\t''
 improved-euler\t''
 ssp-rk3\t''
@@ -405,6 +408,7 @@ engine-avian-motor\t''
 engine-jolt\t''
 engine-physx\t''
 engine-physx-tgs\t''
+engine-physx-tgs-56\t''
 engine-bullet\t''
 engine-pybullet\t''
 engine-chipmunk\t''
@@ -413,14 +417,14 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand trace" -l tick-hz -d 'Ticks per second, 1 to 10000 [default: the scene\'s]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand trace" -l seconds -d 'Length of the run in simulated seconds, to the nearest tick [default: the scene\'s]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand trace" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand trace" -l seconds -d 'Simulated seconds [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l every -d 'Write only the ticks that are multiples of N' -r
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l format -d 'How to write it: csv or json' -r -f -a "csv\t'Comma-separated values under a header'
 json\t'An array of objects with the same names'"
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l metrics -d 'Write each metric too (`regatta list metrics`)'
-complete -c regatta -n "__fish_regatta_using_subcommand trace" -s h -l help -d 'Print help'
-complete -c regatta -n "__fish_regatta_using_subcommand advise" -l scene -d 'A built-in scene (`regatta list scenes`), or else the path of a scene file [default: harbour]' -r -f -a "harbour\t''
+complete -c regatta -n "__fish_regatta_using_subcommand trace" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c regatta -n "__fish_regatta_using_subcommand advise" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
 ship\t''
 spring\t''
 stiff\t''
@@ -445,12 +449,12 @@ alike\t''
 engines\t''
 held-force\t''
 stiff-in-engines\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand advise" -l k -d 'In the place of a scene, a spring of this stiffness in N/m; with --c and --mass' -r
-complete -c regatta -n "__fish_regatta_using_subcommand advise" -l c -d 'The damping of that spring in N s/m [default: 0]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand advise" -l frequency -d 'In the place of a scene, a spring that swings at this frequency in Hz; with --damping-ratio' -r
-complete -c regatta -n "__fish_regatta_using_subcommand advise" -l damping-ratio -d 'The damping of that spring, 1 where it just swings no more [default: 0]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand advise" -l mass -d 'The mass on the spring of --k or --frequency in kg [default: 1]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand advise" -l method -d 'An integrator (`regatta list methods`); give several to race them' -r -f -a "explicit-euler\t''
+complete -c regatta -n "__fish_regatta_using_subcommand advise" -l k -d 'A spring of this stiffness in place of a scene' -r
+complete -c regatta -n "__fish_regatta_using_subcommand advise" -l c -d 'The damping of the spring of --k [default: 0]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand advise" -l frequency -d 'A spring of this frequency in place of a scene' -r
+complete -c regatta -n "__fish_regatta_using_subcommand advise" -l damping-ratio -d 'The damping of that spring [default: 0]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand advise" -l mass -d 'The mass on the spring [default: 1]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand advise" -l method -d 'A method (`regatta list methods`), or several' -r -f -a "explicit-euler\t''
 midpoint\t''
 improved-euler\t''
 ssp-rk3\t''
@@ -492,6 +496,7 @@ engine-avian-motor\t''
 engine-jolt\t''
 engine-physx\t''
 engine-physx-tgs\t''
+engine-physx-tgs-56\t''
 engine-bullet\t''
 engine-pybullet\t''
 engine-chipmunk\t''
@@ -500,17 +505,17 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand advise" -l tick-hz -d 'Ticks per second, 1 to 10000 [default: the scene\'s]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand advise" -l family -d 'Judge the methods of this family: explicit, symplectic, adaptive, implicit, linearised, as-printed, follower or engine; those of engines are judged only so' -r
-complete -c regatta -n "__fish_regatta_using_subcommand advise" -l as -d 'Print the recommended method too, as a function in this language, in text [default: rust for a spring of --k or --frequency]' -r -f -a "rust\t''
+complete -c regatta -n "__fish_regatta_using_subcommand advise" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand advise" -l family -d 'Judge the methods of this family' -r
+complete -c regatta -n "__fish_regatta_using_subcommand advise" -l as -d 'Print the recommended method as code too' -r -f -a "rust\t''
 c\t''
 csharp\t''
 gdscript\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
-complete -c regatta -n "__fish_regatta_using_subcommand advise" -l rates -d 'Also search, for each method in one step a tick, the slowest tick rates from 1 to 10000 Hz that meet the criteria'
-complete -c regatta -n "__fish_regatta_using_subcommand advise" -s h -l help -d 'Print help'
-complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l scene -d 'A built-in scene (`regatta list scenes`), or else the path of a scene file; give several to sweep them [default: all built-in scenes]' -r -f -a "harbour\t''
+complete -c regatta -n "__fish_regatta_using_subcommand advise" -l rates -d 'Also search the slowest tick rates'
+complete -c regatta -n "__fish_regatta_using_subcommand advise" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l scene -d 'A scene, or several [default: all built-in ones]' -r -f -a "harbour\t''
 ship\t''
 spring\t''
 stiff\t''
@@ -535,12 +540,12 @@ alike\t''
 engines\t''
 held-force\t''
 stiff-in-engines\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l k -d 'In the place of a scene, a spring of this stiffness in N/m; with --c and --mass' -r
-complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l c -d 'The damping of that spring in N s/m [default: 0]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l frequency -d 'In the place of a scene, a spring that swings at this frequency in Hz; with --damping-ratio' -r
-complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l damping-ratio -d 'The damping of that spring, 1 where it just swings no more [default: 0]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l mass -d 'The mass on the spring of --k or --frequency in kg [default: 1]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l method -d 'An integrator (`regatta list methods`); give several to sweep them [default: all]' -r -f -a "explicit-euler\t''
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l k -d 'A spring of this stiffness in place of a scene' -r
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l c -d 'The damping of the spring of --k [default: 0]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l frequency -d 'A spring of this frequency in place of a scene' -r
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l damping-ratio -d 'The damping of that spring [default: 0]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l mass -d 'The mass on the spring [default: 1]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l method -d 'A method, or several [default: all]' -r -f -a "explicit-euler\t''
 midpoint\t''
 improved-euler\t''
 ssp-rk3\t''
@@ -582,6 +587,7 @@ engine-avian-motor\t''
 engine-jolt\t''
 engine-physx\t''
 engine-physx-tgs\t''
+engine-physx-tgs-56\t''
 engine-bullet\t''
 engine-pybullet\t''
 engine-chipmunk\t''
@@ -590,17 +596,17 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l tick-hz -d 'Tick rates in Hz, 1 to 10000, separated by commas [default: octaves about the scene\'s own]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l vary -d 'Values of a parameter, of every body that has it (`regatta list bodies`), or of a constant of a law: a row for each' -r
-complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l seconds -d 'Length of each run in simulated seconds, to the nearest tick, one at least [default: the scene\'s, 60 at most]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l format -d 'How to write it: csv or json [default: by the ending of --out, else csv]' -r -f -a "csv\t'Comma-separated values under a header'
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l tick-hz -d 'Tick rates in Hz, separated by commas' -r
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l vary -d 'Values of a parameter: a row for each' -r
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l seconds -d 'Simulated seconds of each run' -r
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l format -d 'How to write it: csv or json' -r -f -a "csv\t'Comma-separated values under a header'
 json\t'An array of objects with the same names'"
-complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l threads -d 'Threads that make the runs, 1 to 256 [default: one for each core]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l out -d 'The file to write the rows to, or - for standard output' -r -F
-complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l plot -d 'Draw work-precision diagrams of the rows, and the round-off of f32 and f64 on the chapter\'s ship, as PNG into FILE, or - for standard output' -r -F
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l threads -d 'Threads, 1 to 256 [default: one for each core]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l out -d 'The file of the rows, or - for standard output' -r -F
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l plot -d 'Draw work-precision diagrams as PNG into FILE' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l force -d 'Replace the files that are there'
-complete -c regatta -n "__fish_regatta_using_subcommand sweep" -s h -l help -d 'Print help'
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l scene -d 'A built-in scene (`regatta list scenes`), or else the path of a scene file [default: harbour]' -r -f -a "harbour\t''
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
 ship\t''
 spring\t''
 stiff\t''
@@ -625,12 +631,12 @@ alike\t''
 engines\t''
 held-force\t''
 stiff-in-engines\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l k -d 'In the place of a scene, a spring of this stiffness in N/m; with --c and --mass' -r
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l c -d 'The damping of that spring in N s/m [default: 0]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l frequency -d 'In the place of a scene, a spring that swings at this frequency in Hz; with --damping-ratio' -r
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l damping-ratio -d 'The damping of that spring, 1 where it just swings no more [default: 0]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l mass -d 'The mass on the spring of --k or --frequency in kg [default: 1]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l method -d 'An integrator (`regatta list methods`); give several to race them' -r -f -a "explicit-euler\t''
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l k -d 'A spring of this stiffness in place of a scene' -r
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l c -d 'The damping of the spring of --k [default: 0]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l frequency -d 'A spring of this frequency in place of a scene' -r
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l damping-ratio -d 'The damping of that spring [default: 0]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l mass -d 'The mass on the spring [default: 1]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l method -d 'A method (`regatta list methods`), or several' -r -f -a "explicit-euler\t''
 midpoint\t''
 improved-euler\t''
 ssp-rk3\t''
@@ -672,6 +678,7 @@ engine-avian-motor\t''
 engine-jolt\t''
 engine-physx\t''
 engine-physx-tgs\t''
+engine-physx-tgs-56\t''
 engine-bullet\t''
 engine-pybullet\t''
 engine-chipmunk\t''
@@ -680,20 +687,20 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l tick-hz -d 'Ticks per second, 1 to 10000 [default: the scene\'s]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l points -d 'Starts, 1 to 1000000000' -r
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l shape -d 'The shape of the starts: disc, ring or cat' -r -f -a "disc\t''
-ring\t''
-cat\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l size -d 'How far the shape reaches, in the unit of the coordinate [default: a quarter of the swing]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l seconds -d 'Length of the run in simulated seconds, to the nearest tick [default: the scene\'s, 60 at most]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l section -d 'Draw the points at this frequency only, in hertz: that of a drive' -r
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l threads -d 'Threads that step, 1 to 256 [default: one for each core, or RAYON_NUM_THREADS]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l out -d 'The file: FILE.png for the end, FILE.gif for the way there, FILE.csv for the rows, or - for the rows on standard output' -r -F
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l shape -d 'The shape of the starts: cat, disc or ring' -r -f -a "cat\t''
+disc\t''
+ring\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l size -d 'The reach of the shape' -r
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l seconds -d 'Simulated seconds of the run' -r
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l section -d 'Draw the points at this frequency only' -r
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l threads -d 'Threads, 1 to 256 [default: one for each core]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l out -d 'FILE.png, FILE.gif, FILE.csv, or - for the rows' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l force -d 'Replace the file if it is there'
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -s h -l help -d 'Print help'
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l policy -d 'A policy (`regatta list policies`); give several to compare them [default: all]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l trace -d 'A built-in trace (`regatta list traces`), or else a CSV file of PresentMon, OCAT, CapFrameX, FrameView or MangoHud; give several to go through them [default: all built-in traces]' -r -f -a "steady-60\t''
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l policy -d 'A policy, or several [default: all]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l trace -d 'A trace, or several [default: all built-in ones]' -r -f -a "steady-60\t''
 steady-59.94\t''
 steady-75\t''
 steady-120\t''
@@ -706,9 +713,9 @@ hitch-100ms\t''
 alt-tab-5s\t''
 spiral\t''
 jitter\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l tick-hz -d 'Ticks per second, 1 to 10000 [default: the scene\'s]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l display-hz -d 'The refresh rate of the display in Hz, 1 to 1000 [default: the trace\'s; without --trace, an even display of this rate]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l scene -d 'A built-in scene (`regatta list scenes`), or else the path of a scene file' -r -f -a "harbour\t''
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l display-hz -d 'The refresh rate [default: the trace\'s]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l scene -d 'A scene or the file of one' -r -f -a "harbour\t''
 ship\t''
 spring\t''
 stiff\t''
@@ -733,7 +740,7 @@ alike\t''
 engines\t''
 held-force\t''
 stiff-in-engines\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l method -d 'The integrator of the bodies (`regatta list methods`)' -r -f -a "explicit-euler\t''
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l method -d 'The method of the bodies' -r -f -a "explicit-euler\t''
 midpoint\t''
 improved-euler\t''
 ssp-rk3\t''
@@ -775,6 +782,7 @@ engine-avian-motor\t''
 engine-jolt\t''
 engine-physx\t''
 engine-physx-tgs\t''
+engine-physx-tgs-56\t''
 engine-bullet\t''
 engine-pybullet\t''
 engine-chipmunk\t''
@@ -783,22 +791,22 @@ engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
 held-force\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l seconds -d 'Length of each run in seconds of real time; a trace from a file may end before [default: the scene\'s, but at least 10, and the whole of a file]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l latency-ms -d 'The largest mean latency in ms of the policy that is advised; on a trace from a file, above the least' -r
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l format -d 'How to write the rows: csv or json [default: by the ending of --out, else csv]' -r -f -a "csv\t'Comma-separated values under a header'
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l seconds -d 'Seconds of real time of each run' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l latency-ms -d 'The most mean latency of what is advised' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l format -d 'How to write the rows: csv or json' -r -f -a "csv\t'Comma-separated values under a header'
 json\t'An array of objects with the same names'"
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l out -d 'The file to write the rows to, or - for standard output' -r -F
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l frames -d 'Write a line of CSV for each frame into FILE, or - for standard output' -r -F
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l plot -d 'Draw the moment shown against the moment of display, and what each loop costs, on up to four traces, as PNG into FILE' -r -F
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l show -d 'Print this policy as source, to be taken into a game, and do nothing else' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l out -d 'The file of the rows, or - for standard output' -r -F
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l frames -d 'Write a line of CSV for each frame into FILE' -r -F
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l plot -d 'Draw what each loop shows as PNG into FILE' -r -F
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l show -d 'Print this policy as source' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l language -d 'The language of --show: rust, c++ or c#' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l force -d 'Replace the files that are there'
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -s h -l help -d 'Print help'
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l tick-hz -d 'Ticks per second of the game that wrote it' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l mass -d 'The mass in kg' -r
-complete -c regatta -n "__fish_regatta_using_subcommand identify" -l k -d 'The stiffness of the spring in N/m [default: fitted]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand identify" -l c -d 'The damping of the spring in N s/m [default: 0 with --k, else fitted]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand identify" -l drag -d 'The damping setting of the body in 1/s' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l k -d 'The stiffness of the spring [default: fitted]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l c -d 'The damping of the spring [default: fitted]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l drag -d 'The damping setting of the body' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l thrust -d 'A constant force in newtons' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l tick-column -d 'The column of the tick\'s number' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l t-column -d 'The column of the time in seconds' -r
@@ -806,18 +814,18 @@ complete -c regatta -n "__fish_regatta_using_subcommand identify" -l x-column -d
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l v-column -d 'The column of the velocity in metres per second' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
-complete -c regatta -n "__fish_regatta_using_subcommand identify" -s h -l help -d 'Print help'
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l want -d 'The frequency in Hz that a player is to see' -r
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l zeta -d 'The damping ratio that a player is to see, 1 where it just swings no more [default: 0]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l from -d 'The settings of an engine, a log, or how a value chases its target' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l want -d 'The frequency that a player is to see' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l zeta -d 'The damping ratio to be seen [default: 0]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l from -d 'An engine\'s settings, a log, or a chase' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l mass -d 'The mass on the spring in kg' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l tick-hz -d 'Ticks per second of the engines, and of a log' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l substeps -d 'Substeps per tick, 1 to 1000 [default: each engine\'s own]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l to -d 'The engines (`regatta list methods`), or all' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l decimation -d 'The ticks through which a drive of user code holds its force' -r
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l k -d 'The stiffness of the spring in N/m [default: fitted]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l c -d 'The damping of the spring in N s/m [default: 0 with --k, else fitted]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l drag -d 'The damping setting of the body in 1/s' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l k -d 'The stiffness of the spring [default: fitted]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l c -d 'The damping of the spring [default: fitted]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l drag -d 'The damping setting of the body' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l thrust -d 'A constant force in newtons' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l tick-column -d 'The column of the tick\'s number' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l t-column -d 'The column of the time in seconds' -r
@@ -826,18 +834,18 @@ complete -c regatta -n "__fish_regatta_using_subcommand port" -l v-column -d 'Th
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l drive -d 'The limits of a drive with these gains'
-complete -c regatta -n "__fish_regatta_using_subcommand port" -s h -l help -d 'Print help'
+complete -c regatta -n "__fish_regatta_using_subcommand port" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand show" -l as -d 'The language' -r -f -a "rust\t''
 c\t''
 csharp\t''
 gdscript\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand show" -l float -d 'Numbers of single precision, as Unity and Godot have them'
-complete -c regatta -n "__fish_regatta_using_subcommand show" -s h -l help -d 'Print help'
-complete -c regatta -n "__fish_regatta_using_subcommand chapter" -l out -d 'The directory for figure-7-2.png, figure-7-2.csv and so on; made where there is none' -r -F
+complete -c regatta -n "__fish_regatta_using_subcommand show" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c regatta -n "__fish_regatta_using_subcommand chapter" -l out -d 'The directory for the figures and their data' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand chapter" -l force -d 'Replace the figures that DIR holds; other files in it stay'
-complete -c regatta -n "__fish_regatta_using_subcommand chapter" -s h -l help -d 'Print help'
+complete -c regatta -n "__fish_regatta_using_subcommand chapter" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand list" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand list" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c regatta -n "__fish_regatta_using_subcommand completions" -s h -l help -d 'Print help'
-complete -c regatta -n "__fish_regatta_using_subcommand help" -s h -l help -d 'Print help'
+complete -c regatta -n "__fish_regatta_using_subcommand completions" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c regatta -n "__fish_regatta_using_subcommand help" -s h -l help -d 'Print help (see more with \'--help\')'
