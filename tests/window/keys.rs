@@ -78,7 +78,6 @@ fn every_key_of_the_table_does_what_the_table_says() {
         } else if !others.contains(command) {
             if *command == StageCommand::ToggleRace.into() {
                 // A race selects what its verdicts put first, as soon as they are known.
-                desk.still();
                 studio.analyse();
             }
             desk.press(&x_name(*key));

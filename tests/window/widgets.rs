@@ -172,11 +172,11 @@ fn a_spring_of_ones_own_is_typed_advised_on_and_kept_for_the_next_time() {
         assert!(told.contains(&line), "no {line} in {told}");
     }
     // By keys alone: the first number has the focus, and Enter after the last goes on.
+    desk.press("space");
     for key in ["s", "3", "Return", "Return"] {
         desk.still();
         desk.press(key);
     }
-    desk.still();
     assert!(desk.recording().contains("mass_kg = 3.0"), "stiffness and damping stay");
     desk.quit();
 }

@@ -84,7 +84,8 @@ pub(super) fn show(ui: &Ui, studio: &Studio, over: Rect, commands: &mut Vec<Comm
         ui.horizontal(|ui| {
             let words = format!("Advise at {tick_hz} Hz");
             let advise = ui.add(Button::new(RichText::new(words).size(TYPE).strong()));
-            if !is_new && !has_focus {
+            // A number that was clicked has it just now.
+            if !is_new && !has_focus && ui.memory(|m| m.focused().is_none()) {
                 // After a number was typed, Enter goes on.
                 advise.request_focus();
             }

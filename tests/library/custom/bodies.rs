@@ -68,7 +68,7 @@ fn own_bodies_have_the_bits_of_the_built_in_ones_under_every_method() {
 #[test]
 fn own_bodies_have_the_verdicts_of_the_built_in_ones() {
     for (built_in, own) in twins() {
-        let judges = [&built_in, &own].map(|scene| Judge::new(scene));
+        let judges = [&built_in, &own].map(Judge::new);
         for method in GENERAL_METHODS {
             for tick_hz in [15, 60] {
                 let [a, b] = judges
