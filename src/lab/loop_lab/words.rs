@@ -45,9 +45,7 @@ impl LoopLab {
     pub fn waiting(&self) -> Option<&'static str> {
         (!self.is_stage_complete()).then_some("Running the loops on the stage…")
     }
-}
 
-impl LoopLab {
     /// What is said of the loop with this index in [`POLICIES`](crate::lab::pacing::POLICIES).
     pub fn verdict(&self, index: usize) -> LoopVerdict {
         let mut verdict = self.lanes()[index].verdict(self.scene().tick_hz);

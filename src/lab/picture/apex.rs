@@ -11,6 +11,9 @@ use crate::sim::number::significant;
 
 /// Half the width of the mark at a height, in points.
 const APEX: f32 = 34.0;
+/// The room between the mark and its words, and the width of a letter of these, in points.
+const GAP: f32 = 8.0;
+const LETTER: f32 = 7.0;
 
 /// The height to which a body went before it came down again, of what it swept between these samples, in metres.
 fn apex(swept: impl Iterator<Item = SweptRange>) -> Option<f64> {
@@ -25,7 +28,7 @@ fn apex(swept: impl Iterator<Item = SweptRange>) -> Option<f64> {
 }
 
 /// Marks how high a body went that comes down to its ground again, and how high it should have gone, and says by how much
-/// they differ.
+/// they differ, with as many words as there is room for.
 pub(super) fn draw(
     picture: &mut Picture,
     camera: &Camera,
@@ -53,9 +56,12 @@ pub(super) fn draw(
             format!("{} % {way} the exact {exact} m", significant(percent.abs(), 2))
         }
     };
-    let words = format!("{} m high, {differs}", significant(lane_m, 4));
     let [x, y] = camera.points(DVec2::new(0.0, lane_m.min(exact_m)));
-    let at = [x - APEX - 8.0, y + 4.0];
+    let at = [x - APEX - GAP, y + 4.0];
+    let room = at[0] - camera.rect.min[0] - GAP;
+    let fits = |words: &String| LETTER * words.chars().count() as f32 <= room;
+    let whole = format!("{} m high, {differs}", significant(lane_m, 4));
+    let Some(words) = [whole, differs].into_iter().find(fits) else { return };
     let label = captions::text(moment.palette, at, Align::Right, 13.0, moment.palette.text, words);
     picture.labels.push(Label { is_strong: true, ..label });
 }
