@@ -8,10 +8,11 @@ use std::time::Instant;
 
 use multiversion::multiversion;
 use rayon::ThreadPoolBuilder;
-use regatta::lab::Scene;
 use regatta::lab::cloud::{Density, PlaneView};
 use regatta::lab::palette::Theme;
+use regatta::lab::{Scene, SceneBody};
 use regatta::sim::batch::{Batch, InstructionSet, Ticks};
+use regatta::sim::bodies::MakeBatch;
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, State, Stepper};
 
@@ -38,20 +39,27 @@ fn print(what: &str, steps: f64, [ours, other]: [f64; 2], than: &str, aim: f64) 
     println!("{what:44} {rate:8.1} M/s  {ratio:6.2} × {than}  aim {aim}: {word}");
 }
 
-fn body(text: &str) -> Box<dyn Stepper> {
+/// A body with what makes copies of it.
+fn body(text: &str) -> (MakeBatch, Box<dyn Stepper>) {
     let scene = format!("title = 'A'\ntick_hz = 60\nseconds = 10\n{text}");
     let scene = Scene::parse("a.toml", &scene).expect("a scene");
     let solver = Solver::Method(method("rk4").expect("a method"));
-    (scene.bodies[0].kind.build)(&scene.bodies[0].values, solver)
+    let SceneBody { kind, values, .. } = &scene.bodies[0];
+    (kind.batch, (kind.build)(values, solver))
 }
 
 fn starts(count: usize) -> Vec<State<f64>> {
     (0..count).map(|n| State { q: n as f64 / count as f64, v: 0.1 }).collect()
 }
 
-fn batch(body: &dyn Stepper, id: &str, set: InstructionSet, count: usize) -> Batch {
+fn batch(
+    (make, body): &(MakeBatch, Box<dyn Stepper>),
+    id: &str,
+    set: InstructionSet,
+    count: usize,
+) -> Batch {
     let solver = Solver::Method(method(id).expect("a method"));
-    body.batch(set, solver, starts(count)).expect("one coordinate").expect("some memory")
+    make(body.body(), set, solver, starts(count)).expect("one coordinate").expect("some memory")
 }
 
 /// Runs a batch on so many threads.
@@ -113,19 +121,19 @@ fn main() {
     let spring = body("[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\ndamping_n_s_per_m = 0.1\n");
     let all = POINTS as f64;
     for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
-        let mut ours = batch(&*spring, "rk4", set, POINTS);
+        let mut ours = batch(&spring, "rk4", set, POINTS);
         let [mut q, mut v] = states(POINTS);
         let mut hand = || springs_by_hand(black_box(40.0), 0.1, h, 10, &mut q, &mut v);
         let times = turns([&mut run(&mut ours, 1, 10), &mut hand]);
         print(&format!("springs, RK4, {set:?}"), 10.0 * all, times, "by hand, AVX2", 0.8);
     }
     let widest = InstructionSet::widest();
-    let mut one = batch(&*spring, "rk4", widest, POINTS);
-    let mut two = batch(&*spring, "rk4", widest, POINTS);
+    let mut one = batch(&spring, "rk4", widest, POINTS);
+    let mut two = batch(&spring, "rk4", widest, POINTS);
     let times = turns([&mut run(&mut two, 2, 10), &mut run(&mut one, 1, 10)]);
     print("springs, RK4, two cores", 10.0 * all, times, "one core", 1.8);
 
-    let mut ours = batch(&*spring, "semi-implicit-euler", widest, POINTS);
+    let mut ours = batch(&spring, "semi-implicit-euler", widest, POINTS);
     let ([from, also], [mut q, mut v]) = (states(POINTS), states(POINTS));
     let mut copy = || {
         q.copy_from_slice(black_box(&from));
@@ -136,7 +144,7 @@ fn main() {
 
     let count = 100_000;
     let pendulum = body("[[pendulum]]\nlength_m = 1\ngravity_m_per_s2 = 10\n");
-    let mut ours = batch(&*pendulum, "rk4", widest, count);
+    let mut ours = batch(&pendulum, "rk4", widest, count);
     let [mut q, mut v] = states(count);
     let mut hand = || pendulums_by_hand(black_box(10.0), h, &mut q, &mut v);
     let times = turns([&mut run(&mut ours, 1, 1), &mut hand]);
@@ -144,11 +152,12 @@ fn main() {
 
     let duffing = Scene::built_in("duffing").expect("a scene");
     let rk4 = Solver::Method(method("rk4").expect("a method"));
-    let mut alone = (duffing.bodies[0].kind.build)(&duffing.bodies[0].values, rk4);
-    let mut ours = batch(&*alone, "rk4", widest, count);
+    let SceneBody { kind, values, .. } = &duffing.bodies[0];
+    let mut alone = (kind.batch, (kind.build)(values, rk4));
+    let mut ours = batch(&alone, "rk4", widest, count);
     let mut tape = || {
         for tick in 0..count {
-            alone.advance(tick as f64 * h, h, 1).expect("a gentle motion");
+            alone.1.advance(tick as f64 * h, h, 1).expect("a gentle motion");
         }
     };
     let times = turns([&mut run(&mut ours, 1, 1), &mut tape]);

@@ -22,8 +22,8 @@ use super::terminal::print_status;
 use crate::atomic_file::IfExists;
 use crate::lab::analysis::Unit;
 use crate::lab::cloud::{
-    Cloud, CloudAxes, CloudBorder, CloudMeasure, CloudShape, CloudStart, Density, NoCloud,
-    PlaneView, Section, ShownTicks, USUAL_POINTS, hidden_in_words,
+    Cloud, CloudAxes, CloudBody, CloudBorder, CloudMeasure, CloudShape, CloudStart, Density,
+    NoCloud, PlaneView, Section, ShownTicks, USUAL_POINTS, hidden_in_words,
 };
 use crate::lab::palette::{Rgba, Theme};
 use crate::lab::{LaneSpec, Scene, SceneBody};
@@ -307,13 +307,14 @@ fn make(
     interrupted: &AtomicBool,
 ) -> Result<Made, Error> {
     let of_scene = scene_body(scene);
-    let (name, body) = (&of_scene.name, (of_scene.kind.build)(&of_scene.values, specs[0].solver()));
-    let start = CloudStart::about(name, &*body, args.shape, args.size);
+    let body = (of_scene.kind.build)(&of_scene.values, specs[0].solver());
+    let of = CloudBody { name: &of_scene.name, kind: &of_scene.kind, body: &*body };
+    let start = CloudStart::about(of, args.shape, args.size);
     let start = start.map_err(no_cloud)?;
     let points = args.points as usize;
     Cloud::find_room(points, specs).map_err(no_cloud)?;
     let cloud = |spec: &LaneSpec| {
-        let cloud = Cloud::new(name, &*body, spec, start, points, scene.tick_hz);
+        let cloud = Cloud::new(of, spec, start, points, scene.tick_hz);
         cloud.map(|cloud| MethodCloud {
             spec: *spec,
             cloud,
@@ -342,7 +343,7 @@ fn make(
     let view = match form {
         Form::Rows => None,
         Form::Png | Form::Gif => {
-            let axes = CloudAxes::of_run(name, &*body, start, specs, scene.tick_hz, shown);
+            let axes = CloudAxes::of_run(of, start, specs, scene.tick_hz, shown);
             Some(axes.map_err(no_cloud)?.whole)
         }
     };
@@ -361,7 +362,7 @@ fn make(
         ),
     });
     let mut frames = Vec::new();
-    let mut border = CloudBorder::exact(name, &*body, start, scene.tick_hz).map_err(no_cloud)?;
+    let mut border = CloudBorder::exact(of, start, scene.tick_hz).map_err(no_cloud)?;
     let every = match (form, strobe) {
         (_, None) => ticks.div_ceil(MAX_FRAMES),
         (Form::Rows | Form::Png, Some(_)) => ticks,

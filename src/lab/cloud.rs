@@ -4,6 +4,7 @@
 //! tears it.
 
 use crate::sim::batch::{Batch, InstructionSet, OneCoordinate, Ticks};
+use crate::sim::bodies::Kind;
 use crate::sim::integrators::Family;
 use crate::sim::number::significant;
 use crate::sim::{State, Stepper};
@@ -50,8 +51,8 @@ pub enum NoCloud {
         /// How many.
         coordinates: usize,
     },
-    /// A custom body is not shared between threads.
-    #[error("{body} is a custom body, whose copies are stepped by sim::batch and Cloud::of alone")]
+    /// A custom body has its coordinate in another type than `f64`.
+    #[error("{body} is a custom body whose coordinate is no f64")]
     Custom {
         /// Its name.
         body: String,
@@ -62,6 +63,17 @@ pub enum NoCloud {
         /// How many.
         points: usize,
     },
+}
+
+/// A body that a cloud is made of.
+#[derive(Clone, Copy)]
+pub struct CloudBody<'a> {
+    /// Its name, for errors.
+    pub name: &'a str,
+    /// Its kind.
+    pub kind: &'a Kind,
+    /// The body, whose state is the middle of the cloud.
+    pub body: &'a dyn Stepper,
 }
 
 /// Where a cloud starts.
@@ -82,10 +94,9 @@ impl CloudStart {
     /// of the swing; in the velocity it reaches as far by the rate of the body's motion there.
     ///
     /// # Errors
-    /// If the body, named `name`, has several coordinates.
+    /// If the body has several coordinates.
     pub fn about(
-        name: &str,
-        body: &dyn Stepper,
+        CloudBody { name, body, .. }: CloudBody<'_>,
         shape: CloudShape,
         size: Option<f64>,
     ) -> Result<Self, NoCloud> {
@@ -196,16 +207,15 @@ impl Cloud {
     /// # Errors
     /// Why the body has none.
     pub fn new(
-        name: &str,
-        body: &dyn Stepper,
+        of: CloudBody<'_>,
         spec: &LaneSpec,
         start: CloudStart,
         points: usize,
         tick_hz: u32,
     ) -> Result<Self, NoCloud> {
-        let copies = copies_of(body);
-        let subject = Subject::new(name, &copies);
-        Self::of_subject(subject, body.is_linear(), spec, start, points, tick_hz)
+        let copies = copies_of(of);
+        let subject = Subject::new(of.name, &copies);
+        Self::of_subject(subject, of.body.is_linear(), spec, start, points, tick_hz)
     }
 
     /// A cloud of `points` starts of a custom body about a start, a quarter of its swing wide.
@@ -250,7 +260,7 @@ impl Cloud {
         };
         let around = CloudStart::around([start.q, start.v], force, shape, None);
         let copies =
-            |solver, starts| Batch::of_body(system, InstructionSet::widest(), solver, starts);
+            |solver, starts| Some(Batch::of_body(system, InstructionSet::widest(), solver, starts));
         let subject = Subject::new("body", &copies);
         Self::of_subject(subject, false, spec, around, points, tick_hz)
     }

@@ -2,20 +2,10 @@
 
 use glam::DVec2;
 
-#[cfg(feature = "batch")]
-use super::batch::{InstructionSet, NewBatch};
 use super::parameter::{self, ParameterOf};
 use super::piece::{Distances, NO_BOUNDARIES, Piece};
-#[cfg(feature = "batch")]
-use super::solver::Solver;
-#[cfg(feature = "batch")]
-use super::state::State;
 use super::state::Vector;
 use super::system::{BodyClass, StateOf, System};
-
-/// Makes copies of a body from these starts, on an instruction set; `None` if it cannot.
-#[cfg(feature = "batch")]
-pub type MakeBatch<B> = fn(&B, InstructionSet, Solver, Vec<State<f64>>) -> Option<NewBatch>;
 
 /// Something that moves by an equation of motion.
 pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
@@ -27,10 +17,6 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
 
     /// Whether it has a closed form, [`Body::exact_into`].
     const HAS_EXACT: bool = false;
-
-    /// How copies of the body from other starts are stepped at once; it makes none of a body of several coordinates.
-    #[cfg(feature = "batch")]
-    const BATCH: MakeBatch<Self> = |_, _, _, _| None;
 
     /// The parameters of this kind of body. Its card lists their descriptions as
     /// [`Kind::parameters`](super::bodies::Kind::parameters).

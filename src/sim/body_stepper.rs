@@ -1,22 +1,26 @@
 //! A body of one type with its state and its propagator.
 
 use std::any::Any;
+use std::rc::Rc;
 
 use glam::DVec2;
 
-#[cfg(feature = "batch")]
-use super::batch::{InstructionSet, NewBatch};
 use super::body::Body;
 #[cfg(feature = "lab")]
 use super::cores;
 use super::exact_flow::ExactFlow;
-use super::integrators::{Construct, Integrator, Method, StepFailure, Stepped, construct};
-use super::propagator::{MethodPropagator, Propagator};
+use super::integrators::{
+    AnySystem, Construct, Integrator, Method, Problem, StepFailure, Stepped, any_integrator,
+    construct, problem,
+};
+use super::propagator::{AnyMethod, MethodPropagator, Propagator};
 use super::reference::{Reference, is_beyond_reference};
 use super::solver::Solver;
 use super::state::{State, Vector, bytes_with_vectors};
 use super::stepper::{Change, PlacedBody, RecordedTick, Stepper};
-use super::system::{BodyClass, Counted, Counts, Coupling, EngineSettings, Pursuit, Recorded};
+use super::system::{
+    BodyClass, Counted, Counts, Coupling, EngineSettings, Logged, Pursuit, System,
+};
 use crate::sim::system::StateOf;
 
 /// Puts `body` at its start, at time 0, under `solver`.
@@ -28,7 +32,15 @@ pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
 /// Puts a body under `solver` at time `t` (s).
 pub(super) fn with_solver<B: Body>(placed: Placed<B>, solver: Solver, t: f64) -> Box<dyn Stepper> {
     if let Some(method) = solver.method() {
-        construct(method, UnderMethod { placed, solver })
+        let coupling = placed.body.coupling();
+        if const { <B::Vector as Vector>::IS_SMALL } {
+            return construct(method, coupling, UnderMethod { placed, solver });
+        }
+        let mut integrator = any_integrator(method, B::CLASS, coupling, &placed.state.q);
+        if let Solver::With(_, other) = solver {
+            integrator.set(other);
+        }
+        Box::new(BodyStepper { placed, propagator: AnyMethod { id: method.id, integrator } })
     } else if B::HAS_EXACT {
         let propagator = ExactFlow::new(&placed.state, t);
         Box::new(BodyStepper { placed, propagator })
@@ -83,7 +95,7 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
     fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Stepped {
         StepFailure::check_step(t, h, substeps)?;
         #[cfg(feature = "lab")]
-        if B::coupling() == Coupling::Few && cores::is_large(self.placed.q().len()) {
+        if self.placed.body.coupling() == Coupling::Few && cores::is_large(self.placed.q().len()) {
             let mut stepped = Ok(());
             cores::enter(&mut || stepped = self.advance_here(t, h, substeps));
             return stepped;
@@ -151,8 +163,21 @@ impl<B: Body> PlacedBody for Placed<B> {
         h: f64,
         substeps: u32,
     ) -> Option<RecordedTick> {
-        let system = Recorded::new(&self.body.system);
-        construct(method, Recording { system, memory, state: self.state.clone(), t, h, substeps })
+        let log = Rc::default();
+        let system = problem(Logged { system: self.body.system.clone(), log: Rc::clone(&log) });
+        let mut state = self.state.clone();
+        let stepped = if const { <B::Vector as Vector>::IS_SMALL } {
+            let of = Recording { system: &system, memory, state: &mut state, t, h, substeps };
+            construct(method, system.coupling(), of)?
+        } else {
+            let AnyMethod { id, integrator } = memory.downcast_ref::<AnyMethod<B::Vector>>()?;
+            let system: AnySystem<'_, B::Vector> = &system;
+            let step = || integrator.boxed_clone().steps(&system, t, h, substeps, &mut state);
+            (*id == method.id).then(step)?
+        };
+        let State { q, v } = state;
+        let landing = stepped.map(|()| [q, v].map(|vector| vector.components().to_vec()));
+        Some(RecordedTick { evaluations: log.take(), landing })
     }
 
     fn counts(&self) -> Counts {
@@ -168,7 +193,7 @@ impl<B: Body> PlacedBody for Placed<B> {
         is_beyond_reference(&self.body.system)
     }
     fn is_sparse(&self) -> bool {
-        B::coupling() == Coupling::Few
+        self.body.coupling() == Coupling::Few
     }
 
     fn is_closed_form_of(&self, memory: &dyn Any) -> bool {
@@ -197,16 +222,6 @@ impl<B: Body> PlacedBody for Placed<B> {
         EngineSettings::of(&self.body.system, t, &self.state, &mut self.state.q.clone())
     }
 
-    #[cfg(feature = "batch")]
-    fn batch(
-        &self,
-        set: InstructionSet,
-        solver: Solver,
-        starts: Vec<State<f64>>,
-    ) -> Option<NewBatch> {
-        B::BATCH(&self.body.system, set, solver, starts)
-    }
-
     fn place(&self) -> DVec2 {
         self.body.system.place(&self.state.q)
     }
@@ -231,42 +246,29 @@ fn truth<B: Body>(memory: &dyn Any) -> Option<&dyn Propagator<B>> {
     exact.or_else(reference)
 }
 
-/// A tick to record, with the method's memory.
+/// A tick to take with a copy of a method's memory.
 struct Recording<'a, V: Vector> {
-    system: Recorded<'a, V>,
+    system: &'a Problem<V>,
     memory: &'a dyn Any,
-    state: State<V>,
+    state: &'a mut State<V>,
     t: f64,
     h: f64,
     substeps: u32,
 }
 
-impl<'a, V: Vector> Construct<Recorded<'a, V>> for Recording<'a, V> {
-    type Output = Option<RecordedTick>;
+impl<V: Vector> Construct<Problem<V>> for Recording<'_, V> {
+    type Output = Option<Stepped>;
 
-    fn of<I: Integrator<Recorded<'a, V>> + Clone + 'static>(
+    fn of<I: Integrator<Problem<V>> + Clone + 'static>(
         self,
         _new: impl FnOnce(&V) -> I,
     ) -> Self::Output {
         // An integrator's type depends on the vector and not on the system, so that the one that steps
-        // the body can step the recorded system too.
+        // the body can step a problem too.
         let MethodPropagator(integrator) = self.memory.downcast_ref::<MethodPropagator<I>>()?;
-        let mut integrator = integrator.clone();
-        let Self { system, mut state, t, h, substeps, .. } = self;
-        let stepped = integrator.steps(&system, t, h, substeps, &mut state);
-        Some(recorded_tick(system, stepped, state))
+        let Self { system, state, t, h, substeps, .. } = self;
+        Some(integrator.clone().steps(system, t, h, substeps, state))
     }
-}
-
-/// Apart from the methods, which would each have a copy of it.
-#[inline(never)]
-fn recorded_tick<V: Vector>(
-    system: Recorded<'_, V>,
-    stepped: Stepped,
-    State { q, v }: State<V>,
-) -> RecordedTick {
-    let landing = stepped.map(|()| [q, v].map(|vector| vector.components().to_vec()));
-    RecordedTick { evaluations: system.into_evaluations(), landing }
 }
 
 fn write<V: Vector>(state: &mut State<V>, q: &[f64], v: &[f64]) {

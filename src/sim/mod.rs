@@ -46,8 +46,6 @@ mod xor_shift;
 #[cfg(feature = "lab")]
 pub(crate) use accumulator::max_ticks;
 pub use accumulator::{Accumulator, Due, MAX_FRAME_MS};
-#[cfg(feature = "batch")]
-pub use body::MakeBatch;
 pub use body::{Body, Input};
 pub use body_stepper::stepper;
 pub use clock::{Clock, TickRateError};
@@ -60,6 +58,6 @@ pub use solver::Solver;
 pub use state::{Elementwise, State, Vector};
 pub use stepper::{Change, PlacedBody, RecordedTick, Stepper};
 pub use system::{
-    BodyClass, Counted, Counts, Coupling, EngineSettings, Evaluation, Pursuit, Question, Recorded,
-    StateOf, System,
+    BodyClass, Counted, Counts, Coupling, EngineSettings, Evaluation, Pursuit, Question, StateOf,
+    System,
 };

@@ -17,7 +17,8 @@
 //!   cost time at every tick.
 
 use super::body::Body;
-use super::integrators::{Integrator, Stepped};
+use super::integrators::{AnyIntegrator, AnySystem, Integrator, Stepped};
+use super::state::{State, Vector};
 use super::stepper::Change;
 use super::system::Counted;
 use crate::sim::system::StateOf;
@@ -47,7 +48,39 @@ pub(super) trait Propagator<B: Body>: Send + 'static {
     }
 }
 
-/// A method from the table.
+/// A method, compiled once for the type of the body's vector.
+pub(super) struct AnyMethod<V> {
+    /// That of its card.
+    pub(super) id: &'static str,
+    pub(super) integrator: Box<dyn AnyIntegrator<V>>,
+}
+
+impl<V> Clone for AnyMethod<V> {
+    fn clone(&self) -> Self {
+        Self { id: self.id, integrator: self.integrator.boxed_clone() }
+    }
+}
+
+impl<V: Vector, B: Body<Vector = V>> Propagator<B> for AnyMethod<V> {
+    fn step(&mut self, body: &Counted<B>, t: f64, h: f64, n: u32, y: &mut State<V>) -> Stepped {
+        let system: AnySystem<'_, V> = body;
+        self.integrator.steps(&system, t, h, n, y)
+    }
+
+    fn jump(&mut self, _t: f64, change: Change<'_>, body: &mut B, state: &mut State<V>) -> bool {
+        let is_changed = change.apply(body, state);
+        if is_changed {
+            self.integrator.reset();
+        }
+        is_changed
+    }
+
+    fn heap_bytes(&self) -> usize {
+        self.integrator.heap_bytes()
+    }
+}
+
+/// A method from the table, compiled for the body.
 pub(super) struct MethodPropagator<I>(pub(super) I);
 
 impl<I: Clone> Clone for MethodPropagator<I> {

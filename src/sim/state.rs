@@ -63,6 +63,9 @@ pub trait Elementwise: Clone + Send + 'static {
 /// in space, `Vec<f64>` for many coordinates. A method is written once over this trait; it compiles to
 /// registers for the small types and to loops for `Vec`.
 pub trait Vector: Elementwise {
+    /// Whether the coordinates fit into registers, so that each method is compiled for each body of this type. For all
+    /// bodies of another it is compiled once.
+    const IS_SMALL: bool = false;
     /// The components in order.
     fn components(&self) -> &[f64];
     /// The components in order, mutable.
@@ -108,6 +111,8 @@ impl<const W: usize> Elementwise for [f64; W] {
 }
 
 impl Vector for f64 {
+    const IS_SMALL: bool = true;
+
     fn components(&self) -> &[f64] {
         std::slice::from_ref(self)
     }
@@ -119,6 +124,8 @@ impl Vector for f64 {
 macro_rules! glam_vector {
     ($($Vector:ty),+) => {$(
         impl Vector for $Vector {
+            const IS_SMALL: bool = true;
+
             fn components(&self) -> &[f64] {
                 self.as_ref()
             }

@@ -5,13 +5,9 @@ use std::ops::Deref;
 
 use glam::DVec2;
 
-#[cfg(feature = "batch")]
-use super::batch::{InstructionSet, NewBatch};
 use super::body::{Body, Input};
 use super::integrators::{Method, StepFailure, Stepped};
 use super::solver::Solver;
-#[cfg(feature = "batch")]
-use super::state::State;
 use super::state::Vector;
 use super::system::{Counts, EngineSettings, Evaluation, Pursuit};
 use crate::sim::system::StateOf;
@@ -193,16 +189,6 @@ pub trait PlacedBody {
     fn pursuit(&self, t: f64) -> Option<Pursuit<f64>>;
     /// The joint and damping settings of the body in a physics engine. It is not counted as an evaluation.
     fn engine_settings(&self, t: f64) -> EngineSettings;
-
-    /// Copies of the body with its present parameters and inputs, from these starts, on an instruction set; `None` if it has
-    /// several coordinates or is a custom body.
-    #[cfg(feature = "batch")]
-    fn batch(
-        &self,
-        set: InstructionSet,
-        solver: Solver,
-        starts: Vec<State<f64>>,
-    ) -> Option<NewBatch>;
 
     /// Where the body is, in metres. Never allocates.
     fn place(&self) -> DVec2;

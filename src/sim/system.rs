@@ -2,6 +2,7 @@
 
 use std::cell::{Cell, RefCell};
 use std::ops::Deref;
+use std::rc::Rc;
 
 use super::state::{Elementwise, State, Vector};
 
@@ -24,18 +25,15 @@ pub trait System {
     }
 
     /// Answers what a method or the program asks of the system beyond its acceleration, at time `t` (s). Returns whether
-    /// it does. A system that wraps another forwards this and the acceleration, and nothing else.
+    /// it does. A system that wraps another forwards this, the coupling and the acceleration, and nothing else.
     #[inline]
     fn answer(&self, _t: f64, _question: Question<'_, Self::Vector>) -> bool {
         false
     }
 
-    /// Which coordinates act on which, for every system of the type.
+    /// Which coordinates act on which. A system that wraps another forwards this.
     #[inline]
-    fn coupling() -> Coupling
-    where
-        Self: Sized,
-    {
+    fn coupling(&self) -> Coupling {
         Coupling::All
     }
 }
@@ -95,8 +93,7 @@ impl Coupling {
     }
 }
 
-/// A system behind a pointer: what methods do with one of any type is compiled once for each type of vector. Its
-/// [`Coupling`] is not known, so that its Jacobian is taken whole.
+/// A system behind a pointer: what methods do with one of any type is compiled once for each type of vector.
 impl<S: System + ?Sized, P: Deref<Target = S>> System for P {
     type Vector = S::Vector;
 
@@ -106,6 +103,10 @@ impl<S: System + ?Sized, P: Deref<Target = S>> System for P {
 
     fn answer(&self, t: f64, question: Question<'_, S::Vector>) -> bool {
         (**self).answer(t, question)
+    }
+
+    fn coupling(&self) -> Coupling {
+        (**self).coupling()
     }
 }
 
@@ -240,8 +241,8 @@ impl<S: System> System for Counted<S> {
     type Vector = S::Vector;
 
     #[inline]
-    fn coupling() -> Coupling {
-        S::coupling()
+    fn coupling(&self) -> Coupling {
+        self.system.coupling()
     }
 
     #[inline]
@@ -275,37 +276,27 @@ pub struct Evaluation {
     pub a: Vec<f64>,
 }
 
-/// A system that keeps every evaluation, in order. It allocates.
-pub struct Recorded<'a, V: Vector> {
-    system: &'a dyn System<Vector = V>,
-    evaluations: RefCell<Vec<Evaluation>>,
+/// A system that keeps every evaluation in a log, in order. It allocates.
+pub(super) struct Logged<S> {
+    pub(super) system: S,
+    pub(super) log: Rc<RefCell<Vec<Evaluation>>>,
 }
 
-impl<'a, V: Vector> Recorded<'a, V> {
-    /// Wraps `system`, with nothing recorded.
-    pub fn new(system: &'a dyn System<Vector = V>) -> Self {
-        Self { system, evaluations: RefCell::default() }
+impl<S: System<Vector: Vector>> System for Logged<S> {
+    type Vector = S::Vector;
+
+    fn coupling(&self) -> Coupling {
+        self.system.coupling()
     }
 
-    /// What was recorded.
-    pub fn into_evaluations(self) -> Vec<Evaluation> {
-        self.evaluations.into_inner()
-    }
-}
-
-impl<V: Vector> System for Recorded<'_, V> {
-    type Vector = V;
-
-    #[inline(never)]
-    fn acceleration(&self, t: f64, q: &V, v: &V, a: &mut V) {
+    fn acceleration(&self, t: f64, q: &S::Vector, v: &S::Vector, a: &mut S::Vector) {
         self.system.acceleration(t, q, v, a);
         let [q, v, a] = [q, v, a].map(|vector| vector.components().to_vec());
-        self.evaluations.borrow_mut().push(Evaluation { t, q, v, a });
+        self.log.borrow_mut().push(Evaluation { t, q, v, a });
     }
 
     /// Kept as an evaluation: a slope and settings at their state, and a target at rest in it.
-    #[inline(never)]
-    fn answer(&self, t: f64, question: Question<'_, V>) -> bool {
+    fn answer(&self, t: f64, question: Question<'_, S::Vector>) -> bool {
         match question {
             Question::Slope { state, .. } | Question::Engine { state, .. } => {
                 let is_answered = self.system.answer(t, question);
@@ -315,7 +306,7 @@ impl<V: Vector> System for Recorded<'_, V> {
                 is_answered
             }
             Question::Target(pursuit) => {
-                *pursuit = Pursuit::of(self.system, t);
+                *pursuit = Pursuit::of(&self.system, t);
                 if let Some(Pursuit { target, .. }) = pursuit {
                     let mut rest = target.clone();
                     rest.components_mut().fill(0.0);

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use super::cores::assert_length;
 use super::state::{State, Vector};
-use super::system::{Pursuit, Question, System};
+use super::system::{Coupling, Pursuit, Question, System};
 
 /// A system as one of a `Vec`.
 pub(super) struct VecSystem<'a, S: System> {
@@ -50,6 +50,10 @@ impl<S: System<Vector: Vector>> System for VecSystem<'_, S> {
         let result = result.components();
         assert_length(result.len(), a.len());
         a.copy_from_slice(result);
+    }
+
+    fn coupling(&self) -> Coupling {
+        self.system.coupling()
     }
 
     fn answer(&self, t: f64, question: Question<'_, Vec<f64>>) -> bool {

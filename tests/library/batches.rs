@@ -22,10 +22,14 @@ const TICK_HZ: u32 = 30;
 const TICKS: u64 = 5;
 const SUBSTEPS: u32 = 2;
 
-fn body(text: &str, solver: Solver) -> Box<dyn Stepper> {
+fn scene(text: &str) -> Scene {
     let text = format!("title = 'A body'\ntick_hz = {TICK_HZ}\nseconds = 1\n{text}");
-    let scene = Scene::parse("body.toml", &text).unwrap();
-    (scene.bodies[0].kind.build)(&scene.bodies[0].values, solver)
+    Scene::parse("body.toml", &text).unwrap()
+}
+
+fn body(text: &str, solver: Solver) -> Box<dyn Stepper> {
+    let body = &scene(text).bodies[0];
+    (body.kind.build)(&body.values, solver)
 }
 
 /// States apart from each other.
@@ -59,7 +63,8 @@ fn alone(text: &str, method: &'static Method, starts: &[State<f64>]) -> Vec<Vec<
 
 fn batch(text: &str, method: &'static Method, set: InstructionSet, s: &[State<f64>]) -> Batch {
     let solver = Solver::Method(method);
-    body(text, solver).batch(set, solver, s.to_vec()).unwrap().unwrap()
+    let kind = &scene(text).bodies[0].kind;
+    (kind.batch)(body(text, solver).body(), set, solver, s.to_vec()).unwrap().unwrap()
 }
 
 fn available() -> impl Iterator<Item = InstructionSet> {

@@ -6,27 +6,42 @@ use std::sync::Arc;
 
 use rayon::ThreadPoolBuilder;
 use regatta::lab::cloud::{
-    Cloud, CloudBorder, CloudChoice, CloudKind, CloudPicture, CloudShape, CloudStart, CloudWorker,
-    Density, NoCloud, PlaneView,
+    Cloud, CloudBody, CloudBorder, CloudChoice, CloudKind, CloudPicture, CloudShape, CloudStart,
+    CloudWorker, Density, NoCloud, PlaneView,
 };
 use regatta::lab::palette::Theme;
 use regatta::lab::scene::{Scene, Scripted};
 use regatta::lab::studio::{Command, Instrument, RunCommand, StageCommand, Studio, ViewCommand};
 use regatta::lab::{Action, LaneSpec};
+use regatta::prelude::Options;
+use regatta::sim::bodies::Kind;
 use regatta::sim::integrators::method;
-use regatta::sim::{Solver, Stepper};
+use regatta::sim::{Solver, State, Stepper, System};
 
-fn body(scene: &str) -> Box<dyn Stepper> {
-    let scene = Scene::built_in(scene).unwrap();
+/// The first body of a scene, with its kind.
+struct Built(Arc<Kind>, Box<dyn Stepper>);
+
+impl Built {
+    fn of(&self) -> CloudBody<'_> {
+        CloudBody { name: "it", kind: &self.0, body: &*self.1 }
+    }
+}
+
+fn built(scene: &Scene) -> Built {
+    let body = &scene.bodies[0];
     let rk4 = Solver::Method(method("rk4").unwrap());
-    (scene.bodies[0].kind.build)(&scene.bodies[0].values, rk4)
+    Built(body.kind.clone(), (body.kind.build)(&body.values, rk4))
+}
+
+fn body(scene: &str) -> Built {
+    built(&Scene::built_in(scene).unwrap())
 }
 
 fn cloud(scene: &str, id: &str, shape: CloudShape, points: usize, hz: u32) -> Cloud {
     let body = body(scene);
-    let start = CloudStart::about("it", &*body, shape, None).unwrap();
+    let start = CloudStart::about(body.of(), shape, None).unwrap();
     let spec = LaneSpec::plain(method(id).unwrap());
-    Cloud::new("it", &*body, &spec, start, points, hz).unwrap()
+    Cloud::new(body.of(), &spec, start, points, hz).unwrap()
 }
 
 #[test]
@@ -51,7 +66,7 @@ fn the_area_of_a_spring_is_its_determinant_however_far_its_points_are_thrown() {
     thrown.advance(60);
     let body = body("stiff");
     let mut a = [0.0];
-    body.acceleration(0.0, &[1.0], &[0.0], &mut a);
+    body.1.acceleration(0.0, &[1.0], &[0.0], &mut a);
     let exact = libm::pow(1.0 - a[0] / 3600.0, 60.0);
     let ratio = thrown.area_ratio().unwrap();
     assert!(exact > 1e30 && (ratio / exact - 1.0).abs() < 1e-9, "{ratio}, not {exact}");
@@ -112,8 +127,8 @@ fn an_adaptive_method_keeps_area_also_where_the_force_has_kinks_and_near_points_
     for id in ["dormand-prince-54", "bogacki-shampine-32", "adaptive-euler"] {
         for (scene, ticks) in [("bouncing-bungee", 300), ("duffing", 300), ("pendulum", 60)] {
             let body = body(scene);
-            let start = CloudStart::about("it", &*body, CloudShape::Disc, None).unwrap();
-            let mut exact = CloudBorder::exact("it", &*body, start, 60).unwrap();
+            let start = CloudStart::about(body.of(), CloudShape::Disc, None).unwrap();
+            let mut exact = CloudBorder::exact(body.of(), start, 60).unwrap();
             let mut cloud = cloud(scene, id, CloudShape::Disc, 4000, 60);
             exact.go_to(ticks);
             cloud.advance(ticks);
@@ -162,16 +177,16 @@ fn a_start_that_blows_up_drops_out_of_the_count() {
 
 #[test]
 fn a_body_of_two_coordinates_has_no_cloud() {
-    let found = CloudStart::about("satellite", &*body("orbit"), CloudShape::Disc, None);
-    let expected = NoCloud::SeveralCoordinates { body: "satellite".into(), coordinates: 2 };
+    let found = CloudStart::about(body("orbit").of(), CloudShape::Disc, None);
+    let expected = NoCloud::SeveralCoordinates { body: "it".into(), coordinates: 2 };
     assert_eq!(found.unwrap_err(), expected);
 }
 
 #[test]
 fn an_accurate_method_fills_the_exact_border_and_a_picture_shows_every_point() {
     let body = body("pendulum");
-    let start = CloudStart::about("it", &*body, CloudShape::Disc, Some(0.2)).unwrap();
-    let mut border = CloudBorder::exact("it", &*body, start, 60).unwrap();
+    let start = CloudStart::about(body.of(), CloudShape::Disc, Some(0.2)).unwrap();
+    let mut border = CloudBorder::exact(body.of(), start, 60).unwrap();
     let mut cloud = cloud("pendulum", "pefrl", CloudShape::Disc, 900, 60);
     border.go_to(30);
     cloud.advance(0);
@@ -439,4 +454,34 @@ fn an_area_keeps_within_a_millionth_and_loses_a_told_part_beyond() {
     assert!((0.9975..0.999).contains(&ratio), "{ratio}");
     let said = lost.in_words(Some(ratio), []);
     assert!(said.starts_with("loses 0.1") && said.ends_with(" %"), "{said}");
+}
+
+/// A spring of 1 Hz, which answers for its slope.
+#[derive(Clone)]
+struct Hertz;
+
+impl System for Hertz {
+    type Vector = f64;
+    fn acceleration(&self, _t: f64, x: &f64, _v: &f64, a: &mut f64) {
+        *a = -TAU * TAU * x;
+    }
+}
+
+#[test]
+fn a_custom_body_of_one_coordinate_is_a_cloud_with_the_bits_of_its_system() {
+    let start = State { q: 0.8, v: 0.1 };
+    let scene = Scene::of(&Hertz, start.clone(), Options::default()).unwrap();
+    let body = built(&scene);
+    for id in ["rk4", "implicit-midpoint", "adams-bashforth-2"] {
+        let spec = LaneSpec::plain(method(id).unwrap());
+        let about = CloudStart::about(body.of(), CloudShape::Cat, None).unwrap();
+        let mut cloud = Cloud::new(body.of(), &spec, about, 300, 60).unwrap();
+        let mut twin = Cloud::of(&Hertz, start.clone(), CloudShape::Cat, 300, &spec, 60).unwrap();
+        for cloud in [&mut cloud, &mut twin] {
+            cloud.advance(90);
+        }
+        assert!(cloud.q().iter().chain(cloud.v()).all(|x| x.is_finite()), "{id}");
+        assert_eq!([cloud.q(), cloud.v()], [twin.q(), twin.v()], "{id}");
+        assert_eq!(cloud.area_ratio(), twin.area_ratio(), "{id}");
+    }
 }

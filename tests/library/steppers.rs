@@ -1,8 +1,8 @@
 //! What a stepper says of its body besides its state: energies, inputs taken and refused, errors, lost time.
 
-use regatta::sim::bodies::{BODIES, Input, Ship, Spring, kind};
+use regatta::sim::bodies::{BODIES, ClaimHorizon, Extras, Input, Ship, Spring, custom_kind, kind};
 use regatta::sim::integrators::{GENERAL_METHODS, Override, method};
-use regatta::sim::{Solver, Stepper, stepper};
+use regatta::sim::{Coupling, Solver, State, Stepper, System, stepper};
 
 fn by(id: &str) -> Solver {
     Solver::Method(method(id).expect("a method"))
@@ -268,6 +268,64 @@ fn a_copy_of_a_stepper_goes_on_alike_to_the_bit() {
             assert_eq!(account(&*copy), account(&*body), "{id}, {solver:?}");
             fly(&mut *again, 20..45);
             assert_eq!(account(&*again), account(&*body), "{id}, {solver:?}");
+        }
+    }
+}
+
+/// Masses of 1 kg in a row, between walls, joined by springs of 900 N/m.
+#[derive(Clone)]
+struct Row(Coupling);
+
+impl System for Row {
+    type Vector = Vec<f64>;
+    fn acceleration(&self, _t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
+        for i in 0..q.len() {
+            let left = i.checked_sub(1).map_or(0.0, |left| q[left]);
+            let right = q.get(i + 1).unwrap_or(&0.0);
+            a[i] = 900.0 * (left - 2.0 * q[i] + right) - 0.3 * v[i];
+        }
+    }
+    fn coupling(&self) -> Coupling {
+        self.0
+    }
+}
+
+#[test]
+fn a_custom_row_of_256_masses_costs_a_band_of_its_jacobian_where_it_says_so() {
+    let start = State { q: (0..256).map(|i| f64::from(i % 7)).collect(), v: vec![0.0; 256] };
+    let horizon = ClaimHorizon { tick_hz: 60, ticks: 1 };
+    let of = |coupling| {
+        let kind =
+            custom_kind(&Row(coupling), &start, &Extras::default(), horizon).expect("a body");
+        let mut body = (kind.build)(&[1.0], by("implicit-midpoint"));
+        body.advance(0.0, 1.0 / 60.0, 1).expect("a step");
+        let landing = state(&*body);
+        assert!(landing.iter().flatten().all(|number| number.is_finite()));
+        (body.evaluations(), landing)
+    };
+    let [(band, [near, _]), (whole, [far, _])] = [Coupling::Band(1), Coupling::All].map(of);
+    assert!((3..20).contains(&band), "{band}");
+    assert!((256..300).contains(&whole), "{whole}");
+    let apart = near.iter().zip(&far).map(|(near, far)| (near - far).abs()).fold(0.0, f64::max);
+    assert!(apart < 1e-9, "{apart}");
+}
+
+#[test]
+fn a_tick_that_is_recorded_lands_where_the_body_lands_and_evaluates_as_often() {
+    for method in GENERAL_METHODS {
+        for (id, mut body) in bodies(Solver::Method(method), 0.9) {
+            let context = format!("{} of the {id}", method.id);
+            for tick in 0..3 {
+                let (t, h) = (f64::from(tick) / 30.0, 1.0 / 30.0);
+                let recorded = body.recorded(method, t, h, 2).expect(&context);
+                let before = body.evaluations();
+                body.advance(t, h, 2).expect(&context);
+                assert_eq!(recorded.landing.expect(&context), state(&*body), "{context}");
+                let evaluated = body.evaluations() - before;
+                assert_eq!(recorded.evaluations.len() as u64, evaluated, "{context}");
+            }
+            let other = GENERAL_METHODS.iter().find(|other| other.id != method.id).unwrap();
+            assert_eq!(body.recorded(other, 0.0, 0.1, 1), None, "{context}");
         }
     }
 }

@@ -1,8 +1,7 @@
 //! What part of the phase plane a run of clouds is shown on: found by a few points that run ahead.
 
-use super::{Cloud, CloudBorder, CloudStart, NoCloud, PlaneView};
+use super::{Cloud, CloudBody, CloudBorder, CloudStart, NoCloud, PlaneView};
 use crate::lab::lane_spec::LaneSpec;
-use crate::sim::Stepper;
 
 /// The points of each method that run ahead, and those of the exact border.
 const SCOUTS: usize = 100;
@@ -61,17 +60,16 @@ impl CloudAxes {
     /// # Errors
     /// As [`Cloud::new`].
     pub fn of_run(
-        name: &str,
-        body: &dyn Stepper,
+        of: CloudBody<'_>,
         start: CloudStart,
         specs: &[LaneSpec],
         tick_hz: u32,
         shown: ShownTicks,
     ) -> Result<Self, NoCloud> {
-        let mut border = CloudBorder::exact_of_points(BORDER_SCOUTS, name, body, start, tick_hz)?;
-        let scouts = specs.iter().map(|spec| Cloud::new(name, body, spec, start, SCOUTS, tick_hz));
+        let mut border = CloudBorder::exact_of_points(BORDER_SCOUTS, of, start, tick_hz)?;
+        let scouts = specs.iter().map(|spec| Cloud::new(of, spec, start, SCOUTS, tick_hz));
         let mut scouts = scouts.collect::<Result<Vec<_>, _>>()?;
-        let is_angle = body.is_angle(0);
+        let is_angle = of.body.is_angle(0);
         let at_start = border.lines().concat();
         let largest = [0, 1].map(|i| shown.spread * PlaneView::width(&at_start, i));
         let (mut exact, mut others) = (Vec::new(), Vec::new());

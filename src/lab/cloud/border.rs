@@ -1,10 +1,10 @@
 //! The border of a cloud: closed lines of points, and the area within.
 
 use super::course::{Course, Memory, Subject, copies_of};
-use super::{CloudStart, NoCloud};
+use super::{CloudBody, CloudStart, NoCloud};
+use crate::sim::Solver;
 use crate::sim::batch::Ticks;
 use crate::sim::integrators::{Override, method};
-use crate::sim::{Solver, Stepper};
 
 /// Points of a border, and the fewest of one of a cloud of few points.
 const POINTS: usize = 1200;
@@ -33,26 +33,20 @@ impl CloudBorder {
     ///
     /// # Errors
     /// As [`Cloud::new`](super::Cloud::new).
-    pub fn exact(
-        name: &str,
-        body: &dyn Stepper,
-        start: CloudStart,
-        tick_hz: u32,
-    ) -> Result<Self, NoCloud> {
-        Self::exact_of_points(POINTS, name, body, start, tick_hz)
+    pub fn exact(of: CloudBody<'_>, start: CloudStart, tick_hz: u32) -> Result<Self, NoCloud> {
+        Self::exact_of_points(POINTS, of, start, tick_hz)
     }
 
     pub(super) fn exact_of_points(
         points: usize,
-        name: &str,
-        body: &dyn Stepper,
+        of: CloudBody<'_>,
         start: CloudStart,
         tick_hz: u32,
     ) -> Result<Self, NoCloud> {
         let method = method("dormand-prince-54").expect("a method of the table");
         let solver = (Solver::With(method, Override::tolerance(TOLERANCE)), Memory::Dropped);
-        let copies = copies_of(body);
-        Self::new(Subject::new(name, &copies), solver, start.ticks(tick_hz, 1), start, points)
+        let copies = copies_of(of);
+        Self::new(Subject::new(of.name, &copies), solver, start.ticks(tick_hz, 1), start, points)
     }
 
     /// The border of a cloud of so many points under a solver, at the start.

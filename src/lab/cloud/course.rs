@@ -1,9 +1,9 @@
 //! A batch on its way through the ticks of a run. It goes back too, from states that it keeps.
 
-use super::NoCloud;
 use super::lozenges::Lozenges;
+use super::{CloudBody, NoCloud};
 use crate::sim::batch::{Batch, InstructionSet, NewBatch, Ticks};
-use crate::sim::{Solver, State, Stepper};
+use crate::sim::{Solver, State};
 
 /// Ticks between two states that are kept at first; they are repeated within a frame or two.
 const SPACING: u64 = 32;
@@ -42,9 +42,9 @@ impl<'a> Subject<'a> {
 
 /// Copies of a body of a scene.
 pub(super) fn copies_of(
-    body: &dyn Stepper,
+    CloudBody { kind, body, .. }: CloudBody<'_>,
 ) -> impl Fn(Solver, Vec<State<f64>>) -> Option<NewBatch> + '_ {
-    |solver, starts| body.batch(InstructionSet::widest(), solver, starts)
+    |solver, starts| (kind.batch)(body.body(), InstructionSet::widest(), solver, starts)
 }
 
 /// All copies at a tick.

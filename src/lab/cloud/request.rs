@@ -2,11 +2,10 @@
 
 use std::sync::Arc;
 
-use super::{CloudShape, Density, NoCloud, PlaneView, USUAL_POINTS};
+use super::{CloudBody, CloudShape, Density, NoCloud, PlaneView, USUAL_POINTS};
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::race::Interventions;
 use crate::lab::scene::Scene;
-use crate::sim::Stepper;
 use crate::sim::integrators::steps_in_blocks;
 
 /// The points of a cloud that a person can choose.
@@ -93,9 +92,8 @@ pub struct CloudRequest {
 /// A request as it is worked on.
 #[derive(Clone, Copy)]
 pub(super) struct Request<'a> {
-    pub(super) name: &'a str,
     /// At the start.
-    pub(super) body: &'a dyn Stepper,
+    pub(super) of: CloudBody<'a>,
     pub(super) lanes: &'a [(usize, LaneSpec)],
     pub(super) tick_hz: u32,
     /// The length of the run, in seconds.

@@ -8,8 +8,8 @@ use std::sync::Arc;
 use super::request::{GRID, Request, cost};
 use super::section::SectionRun;
 use super::{
-    Cloud, CloudAxes, CloudBorder, CloudKind, CloudPicture, CloudRequest, CloudShape, CloudStart,
-    Density, FoundCloud, LaneCloud, NoCloud, ShownTicks,
+    Cloud, CloudAxes, CloudBody, CloudBorder, CloudKind, CloudPicture, CloudRequest, CloudShape,
+    CloudStart, Density, FoundCloud, LaneCloud, NoCloud, ShownTicks,
 };
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::race::Race;
@@ -132,8 +132,11 @@ impl Running {
         let mut race = Race::new(&scene, []).with_script(&scene.script);
         race.catch_up(&mut ());
         let request = Request {
-            name: &scene.bodies[0].name,
-            body: &*race.truth().bodies()[0].stepper,
+            of: CloudBody {
+                name: &scene.bodies[0].name,
+                kind: &scene.bodies[0].kind,
+                body: &*race.truth().bodies()[0].stepper,
+            },
             lanes,
             tick_hz,
             seconds: scene.seconds,
@@ -172,21 +175,21 @@ struct CloudRun {
 
 impl CloudRun {
     fn new(request: Request<'_>, shape: CloudShape, points: usize) -> Result<Self, NoCloud> {
-        let Request { name, body, lanes, tick_hz, seconds, t } = request;
-        let about = CloudStart::about(name, body, shape, None)?;
+        let Request { of, lanes, tick_hz, seconds, t } = request;
+        let about = CloudStart::about(of, shape, None)?;
         let start = CloudStart { t, reach: about.reach.map(|reach| REACH * reach), ..about };
         Cloud::find_room(points, lanes.iter().map(|(_, spec)| spec))?;
         let new = |(entry, spec): &(usize, LaneSpec)| {
-            let cloud = Cloud::new(name, body, spec, start, points, tick_hz)?.rewindable();
+            let cloud = Cloud::new(of, spec, start, points, tick_hz)?.rewindable();
             Ok((*entry, SampledCloud { cloud, areas: Vec::new() }))
         };
         let runs = lanes.iter().map(new).collect::<Result<Vec<_>, NoCloud>>()?;
-        let border = CloudBorder::exact(name, body, start, tick_hz)?.rewindable();
+        let border = CloudBorder::exact(of, start, tick_hz)?.rewindable();
         let ticks = |seconds: f64| ((seconds * f64::from(tick_hz)) as u64).max(1);
         let specs: Vec<LaneSpec> = lanes.iter().map(|(_, spec)| *spec).collect();
         let long = ticks(seconds.min(ShownTicks::MAX_S));
         let shown = ShownTicks { spread: SPREAD, ..long.into() };
-        let axes = CloudAxes::of_run(name, body, start, &specs, tick_hz, shown)?;
+        let axes = CloudAxes::of_run(of, start, &specs, tick_hz, shown)?;
         let work: u64 = specs.iter().map(cost).sum();
         let mut run = Self {
             lanes: runs,

@@ -79,16 +79,16 @@ struct SectionLane {
 
 impl SectionRun {
     pub(super) fn new(request: Request<'_>) -> Result<Self, NoCloud> {
-        let Request { name, body, lanes, tick_hz, seconds, t } = request;
-        let plain = CloudStart::about(name, body, CloudShape::Disc, Some(1.0))?;
+        let Request { of, lanes, tick_hz, seconds, t } = request;
+        let plain = CloudStart::about(of, CloudShape::Disc, Some(1.0))?;
         let swing = plain.middle[0].abs().max(plain.middle[1].abs() / plain.reach[1]);
         let usual = if swing > 0.0 { REACH * swing } else { REACH };
-        let reach = if body.is_angle(0) { std::f64::consts::PI } else { usual };
+        let reach = if of.body.is_angle(0) { std::f64::consts::PI } else { usual };
         let start = CloudStart { t, reach: plain.reach.map(|unit| unit * reach), ..plain };
         let shown = ((seconds.min(ShownTicks::MAX_S) * f64::from(tick_hz)) as u64).max(1);
         let specs: Vec<_> = lanes.iter().map(|(_, spec)| *spec).collect();
-        let axes = CloudAxes::of_run(name, body, start, &specs, tick_hz, shown.into())?;
-        let drive = period(body, start.middle, seconds, tick_hz);
+        let axes = CloudAxes::of_run(of, start, &specs, tick_hz, shown.into())?;
+        let drive = period(of.body, start.middle, seconds, tick_hz);
         // Without a drive, each tick.
         let period = drive.map_or(1.0, |seconds| seconds * f64::from(tick_hz));
         let strobe = match drive {
@@ -96,7 +96,7 @@ impl SectionRun {
             None => "at each tick".into(),
         };
         let lane = |(entry, spec): &(usize, _)| {
-            let cloud = Cloud::new(name, body, spec, start, STARTS, tick_hz)?;
+            let cloud = Cloud::new(of, spec, start, STARTS, tick_hz)?;
             let work = (cost(spec) * STARTS as u64) as f64 * period;
             let wanted = ((WORK as f64 / work) as u64).clamp(1, MAX_CROSSINGS);
             let section = Section::new(period, Density::new([GRID; 2], axes.whole));

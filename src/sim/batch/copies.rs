@@ -40,7 +40,7 @@ impl<S: System<Vector = f64> + Clone + Send + Sync + 'static> OneCoordinate for 
 pub(super) struct Alike<S>(pub(super) S);
 
 /// A block of [`Alike`].
-pub(in crate::sim) struct AlikeBlock<S, const W: usize>(S);
+pub(in crate::sim) struct AlikeBlock<S, const W: usize>(pub(in crate::sim) S);
 
 impl<S: OneCoordinate> Copies for Alike<S> {
     type Block<const W: usize> = AlikeBlock<S, W>;
@@ -54,7 +54,7 @@ impl<S: OneCoordinate> Copies for Alike<S> {
     }
 }
 
-impl<S: OneCoordinate, const W: usize> System for AlikeBlock<S, W> {
+impl<S: System<Vector = f64>, const W: usize> System for AlikeBlock<S, W> {
     type Vector = [f64; W];
 
     #[inline(always)]
@@ -65,7 +65,7 @@ impl<S: OneCoordinate, const W: usize> System for AlikeBlock<S, W> {
     }
 }
 
-impl<S: OneCoordinate, const W: usize> BlockSystem<W> for AlikeBlock<S, W> {}
+impl<S: System<Vector = f64>, const W: usize> BlockSystem<W> for AlikeBlock<S, W> {}
 
 /// Copies that differ, one system each.
 #[derive(Clone)]

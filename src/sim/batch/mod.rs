@@ -9,21 +9,20 @@ mod alone;
 mod blocks;
 mod copies;
 mod instruction_set;
-#[cfg(feature = "lab")]
-mod law;
 mod parts;
 
 use std::collections::TryReserveError;
 
 use alone::each_alone;
 use blocks::in_blocks;
+pub(in crate::sim) use copies::Copies;
 pub use copies::OneCoordinate;
-use copies::{Alike, Copies, Each};
+use copies::{Alike, Each};
+#[cfg(feature = "lab")]
+pub(in crate::sim) use copies::{AlikeBlock, BlockSystem};
 pub use instruction_set::InstructionSet;
 #[cfg(feature = "lab")]
 pub(in crate::sim) use instruction_set::Kernel;
-#[cfg(feature = "lab")]
-pub(in crate::sim) use law::LawCopies;
 
 use super::integrators::{Method, steps_in_blocks};
 use super::solver::Solver;
@@ -175,15 +174,15 @@ impl Batch {
         Self::with(&Each(systems.into()), Solver::Method(method), starts.into_iter(), set)
     }
 
-    /// Copies of a body of one coordinate, as its [`Body::BATCH`](super::Body::BATCH).
+    /// Copies of a body of one coordinate.
     #[cfg(feature = "lab")]
     pub(crate) fn of_body<S: OneCoordinate>(
         body: &S,
         set: InstructionSet,
         solver: Solver,
         starts: Vec<State<f64>>,
-    ) -> Option<NewBatch> {
-        Some(Self::with(&Alike(body.clone()), solver, starts.into_iter(), set))
+    ) -> NewBatch {
+        Self::with(&Alike(body.clone()), solver, starts.into_iter(), set)
     }
 
     pub(in crate::sim) fn with<C: Copies>(

@@ -123,7 +123,7 @@ impl Chain {
 impl System for Chain {
     type Vector = Vec<f64>;
 
-    fn coupling() -> Coupling {
+    fn coupling(&self) -> Coupling {
         Coupling::Band(1)
     }
 

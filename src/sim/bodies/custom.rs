@@ -10,6 +10,7 @@ use crate::sim::state::{Vector, bytes_with_vectors};
 use crate::sim::system::StateOf;
 
 mod claims;
+mod copies;
 mod extras;
 mod kind;
 mod motion;
@@ -85,6 +86,10 @@ impl System for Custom {
 
     fn acceleration(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
         self.motion.acceleration(t, q, v, a);
+    }
+
+    fn coupling(&self) -> Coupling {
+        self.motion.coupling()
     }
 
     fn answer(&self, t: f64, question: Question<'_, Vec<f64>>) -> bool {

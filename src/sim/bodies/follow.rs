@@ -14,7 +14,7 @@ pub(super) fn kind() -> Kind {
             .into(),
         all_coordinates: vec![Coordinate::new("x", "v", "m")].into(),
         leading: "rate_per_s".into(),
-        ..Kind::of(Follow::default())
+        ..Kind::of_one(Follow::default())
     }
 }
 
@@ -167,7 +167,6 @@ impl Body for Follow {
         "a follower moves towards its target by a rule, and an engine moves bodies by forces",
     );
     const HAS_EXACT: bool = true;
-    const BATCH: MakeBatch<Self> = Batch::of_body;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn start(&self) -> State<f64> {

@@ -1,8 +1,10 @@
 //! The card of a kind of body.
 
+use std::any::Any;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use crate::sim::batch::{Batch, InstructionSet, NewBatch};
 use crate::sim::body::Body;
 use crate::sim::body_stepper::stepper;
 use crate::sim::law::{Equations, shown_unit};
@@ -10,6 +12,7 @@ use crate::sim::net_plan::NetPlan;
 use crate::sim::parameter::{Fault, Parameter, ParameterOf, Text};
 use crate::sim::reference::REFERENCE_ACCURACY;
 use crate::sim::solver::Solver;
+use crate::sim::state::State;
 use crate::sim::stepper::Stepper;
 use crate::sim::system::{BodyClass, EngineSettings};
 
@@ -58,6 +61,9 @@ pub type Build = dyn Fn(&[f64], Solver) -> Box<dyn Stepper> + Send + Sync;
 /// Checks values that are each in range for errors in combination.
 pub type Check = dyn Fn(&[f64]) -> Result<(), Fault> + Send + Sync;
 
+/// Makes copies of a body from these starts, on an instruction set; `None` if it cannot.
+pub type MakeBatch = fn(&dyn Any, InstructionSet, Solver, Vec<State<f64>>) -> Option<NewBatch>;
+
 /// The card of a kind of body: its name, its coordinates, and its keys in a scene.
 pub struct Kind {
     /// The name of its table array in a scene.
@@ -86,6 +92,8 @@ pub struct Kind {
     pub class: BodyClass,
     /// What the kind was made of.
     pub origin: Origin,
+    /// Makes copies of a body of the kind, with its present parameters and inputs; none of one with several coordinates.
+    pub batch: MakeBatch,
 }
 
 /// What a kind was made of.
@@ -165,7 +173,16 @@ impl Kind {
             build: Box::new(move |values, solver| stepper(copy().with_parameters(values), solver)),
             class: B::CLASS,
             origin: Origin::Table,
+            batch: |_, _, _, _| None,
         }
+    }
+
+    /// As [`Kind::of`], of bodies of one coordinate whose copies are stepped in blocks.
+    pub(super) fn of_one<B: Body<Vector = f64> + Sync>(blank: B) -> Self {
+        let batch: MakeBatch = |body, set, solver, starts| {
+            Some(Batch::of_body(body.downcast_ref::<B>()?, set, solver, starts))
+        };
+        Self { batch, ..Self::of(blank) }
     }
 
     /// The coordinates of a body with these parameter values, in state order.

@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use super::claims::{Checked, Claimant, FalseClaims};
 use super::prelude::*;
-use crate::sim::batch::LawCopies;
 use crate::sim::law::{At, Equations, Layout, Registers};
 use crate::sim::piece::{Distances, NO_BOUNDARIES, Piece};
 
 mod claims;
+mod copies;
 mod kind;
 
 pub use claims::check_law;
@@ -107,13 +107,6 @@ impl System for Law {
 }
 
 impl Body for Law {
-    const BATCH: MakeBatch<Self> = |law, set, solver, starts| {
-        let Self { equations, values, steering, .. } = law;
-        let values = known(equations, values).into();
-        let copies = LawCopies { equations: equations.clone(), values, steering: *steering };
-        (law.coordinates() == 1).then(|| Batch::with(&copies, solver, starts.into_iter(), set))
-    };
-
     fn with_parameters(mut self, values: &[f64]) -> Self {
         self.write(values);
         // Before the first tick, which must not allocate.

@@ -247,7 +247,7 @@ impl Net {
 impl System for Net {
     type Vector = Vec<f64>;
 
-    fn coupling() -> Coupling {
+    fn coupling(&self) -> Coupling {
         Coupling::Few
     }
 

@@ -8,7 +8,7 @@ pub(super) fn kind() -> Kind {
         about: "m l² θ″ = -m g l sin θ - c θ′: a bob on a rod, at any angle".into(),
         all_coordinates: vec![Coordinate::new("theta", "omega", "rad")].into(),
         leading: "gravity_m_per_s2".into(),
-        ..Kind::of(Pendulum::default())
+        ..Kind::of_one(Pendulum::default())
     }
 }
 
@@ -88,7 +88,6 @@ impl Body for Pendulum {
     const CLASS: BodyClass = BodyClass::NoEngine(
         "in an engine a pendulum is a hinge, whose rod the solver holds by constraint forces",
     );
-    const BATCH: MakeBatch<Self> = Batch::of_body;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn start(&self) -> State<f64> {

@@ -8,7 +8,7 @@ pub(super) fn kind() -> Kind {
         about: "m s″ = T - C s′: full thrust times throttle, against linear drag".into(),
         all_coordinates: vec![Coordinate::new("s", "v", "m")].into(),
         leading: "drag_n_s_per_m".into(),
-        ..Kind::of(Ship::BLANK)
+        ..Kind::of_one(Ship::BLANK)
     }
 }
 
@@ -84,7 +84,6 @@ impl System for Ship {
 impl Body for Ship {
     const INPUTS: &'static [&'static str] = &["throttle", "kick"];
     const HAS_EXACT: bool = true;
-    const BATCH: MakeBatch<Self> = Batch::of_body;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn start(&self) -> State<f64> {

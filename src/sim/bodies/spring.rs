@@ -9,7 +9,7 @@ pub(super) fn kind() -> Kind {
         about: "m x″ = -k x - c x′: a mass on a spring with a dash-pot".into(),
         all_coordinates: vec![Coordinate::new("x", "v", "m")].into(),
         leading: "stiffness_n_per_m".into(),
-        ..Kind::of(Spring::default())
+        ..Kind::of_one(Spring::default())
     }
 }
 
@@ -89,7 +89,6 @@ impl System for Spring {
 impl Body for Spring {
     const CLASS: BodyClass = BodyClass::Joint;
     const HAS_EXACT: bool = true;
-    const BATCH: MakeBatch<Self> = Batch::of_body;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn start(&self) -> State<f64> {

@@ -37,10 +37,14 @@ const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 
 impl<S: System<Vector: Vector>> Integrator<S> for Bdf2<S::Vector> {
     fn new(like: &S::Vector) -> Self {
+        <Self as Integrator<S>>::coupled(like, Coupling::All)
+    }
+
+    fn coupled(like: &S::Vector, coupling: Coupling) -> Self {
         let zero = State { q: like.clone(), v: like.clone() };
         let [before, start, stage] = [zero.clone(), zero.clone(), zero];
         Self {
-            newton: Newton::new(like, S::coupling()),
+            newton: Newton::new(like, coupling),
             before,
             start,
             stage,

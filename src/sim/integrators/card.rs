@@ -3,7 +3,7 @@
 //! A method sets its name, source, orders and evaluations, and takes the other fields from its family
 //! unless they differ.
 
-use super::custom_method::CustomIntegrator;
+use super::custom_method::AnyIntegrator;
 use super::free_spin::FreeSpin;
 use super::joint_mode::JointMode;
 use super::tolerance::Tolerance;
@@ -274,7 +274,7 @@ pub struct Method {
     pub source: &'static str,
     /// How a custom method is built, which is not in [`METHODS`](super::METHODS): [`custom_integrator`](super::custom_integrator) of its
     /// type. `None` for those of the table.
-    pub custom: Option<fn(usize) -> Box<dyn CustomIntegrator>>,
+    pub custom: Option<fn(usize) -> Box<dyn AnyIntegrator>>,
 }
 
 impl Method {

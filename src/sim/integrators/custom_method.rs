@@ -1,4 +1,5 @@
-//! Custom methods: they are in no table, and their cards say how they are built.
+//! Methods behind a pointer, which are compiled once for each type of vector. Custom ones are in no table, and their
+//! cards say how they are built.
 
 use std::cell::RefCell;
 
@@ -9,17 +10,17 @@ use crate::sim::state::{State, Vector, bytes_with_vectors};
 use crate::sim::system::{StateOf, System};
 use crate::sim::vec_system::{Scratch, VecSystem};
 
-/// A system of any type with its coordinates in a `Vec`: what a custom method steps.
-pub type AnySystem<'a> = &'a (dyn System<Vector = Vec<f64>> + 'a);
+/// A system of any type. A custom method steps those with their coordinates in a `Vec`.
+pub type AnySystem<'a, V = Vec<f64>> = &'a (dyn System<Vector = V> + 'a);
 
-/// A custom method behind a pointer. Every `Clone` [`Integrator`] of systems with a `Vec` is one.
-pub trait CustomIntegrator: for<'a> Integrator<AnySystem<'a>> {
+/// A method behind a pointer, which steps systems behind one. Every `Clone` [`Integrator`] is one.
+pub trait AnyIntegrator<V = Vec<f64>>: for<'a> Integrator<AnySystem<'a, V>> {
     /// A copy with the same memory.
-    fn boxed_clone(&self) -> Box<dyn CustomIntegrator>;
+    fn boxed_clone(&self) -> Box<dyn AnyIntegrator<V>>;
 }
 
-impl<I: for<'a> Integrator<AnySystem<'a>> + Clone + 'static> CustomIntegrator for I {
-    fn boxed_clone(&self) -> Box<dyn CustomIntegrator> {
+impl<V, I: for<'a> Integrator<AnySystem<'a, V>> + Clone + 'static> AnyIntegrator<V> for I {
+    fn boxed_clone(&self) -> Box<dyn AnyIntegrator<V>> {
         Box::new(self.clone())
     }
 }
@@ -62,22 +63,20 @@ impl<I: for<'a> Integrator<AnySystem<'a>> + Clone + 'static> CustomIntegrator fo
 /// };
 /// assert_eq!(PLAIN.stability_limit, Some(0.0));
 /// ```
-pub fn custom_integrator<I: CustomIntegrator + 'static>(
-    coordinates: usize,
-) -> Box<dyn CustomIntegrator> {
+pub fn custom_integrator<I: AnyIntegrator + 'static>(coordinates: usize) -> Box<dyn AnyIntegrator> {
     Box::new(I::new(&vec![0.0; coordinates]))
 }
 
 /// A custom method on systems with coordinates in a `V`.
 pub(super) struct CustomMethod<V> {
-    integrator: Box<dyn CustomIntegrator>,
+    integrator: Box<dyn AnyIntegrator>,
     state: State<Vec<f64>>,
     scratch: RefCell<Scratch<V>>,
 }
 
 impl<V: Vector> CustomMethod<V> {
     /// The method that `build` builds, for coordinates shaped `like` these.
-    pub(super) fn new(build: fn(usize) -> Box<dyn CustomIntegrator>, like: &V) -> Self {
+    pub(super) fn new(build: fn(usize) -> Box<dyn AnyIntegrator>, like: &V) -> Self {
         let zero = vec![0.0; like.components().len()];
         Self {
             integrator: build(zero.len()),

@@ -79,13 +79,17 @@ impl<V: Vector> ExponentialRosenbrockEuler<V> {
 
 impl<S: System<Vector: Vector>> Integrator<S> for ExponentialRosenbrockEuler<S::Vector> {
     fn new(like: &S::Vector) -> Self {
+        <Self as Integrator<S>>::coupled(like, Coupling::All)
+    }
+
+    fn coupled(like: &S::Vector, coupling: Coupling) -> Self {
         let n = like.components().len();
         let [x, f, f_t] = [(); 3].map(|()| vec![0.0; 2 * n]);
         Self {
             a: like.clone(),
             a_later: like.clone(),
-            jacobian: Jacobian::new(like, S::coupling()),
-            flow: LinearFlow::new(2 * n, S::coupling()),
+            jacobian: Jacobian::new(like, coupling),
+            flow: LinearFlow::new(2 * n, coupling),
             x,
             f,
             f_t,

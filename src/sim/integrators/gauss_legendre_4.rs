@@ -37,7 +37,11 @@ pub struct GaussLegendre4<V> {
 
 impl<S: System<Vector: Vector>> Integrator<S> for GaussLegendre4<S::Vector> {
     fn new(like: &S::Vector) -> Self {
-        Self { newton: Newton::new(like, S::coupling()) }
+        <Self as Integrator<S>>::coupled(like, Coupling::All)
+    }
+
+    fn coupled(like: &S::Vector, coupling: Coupling) -> Self {
+        Self { newton: Newton::new(like, coupling) }
     }
 
     fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {

@@ -27,8 +27,12 @@ pub struct ImplicitMidpoint<V> {
 
 impl<S: System<Vector: Vector>> Integrator<S> for ImplicitMidpoint<S::Vector> {
     fn new(like: &S::Vector) -> Self {
+        <Self as Integrator<S>>::coupled(like, Coupling::All)
+    }
+
+    fn coupled(like: &S::Vector, coupling: Coupling) -> Self {
         let middle = State { q: like.clone(), v: like.clone() };
-        Self { newton: Newton::new(like, S::coupling()), middle }
+        Self { newton: Newton::new(like, coupling), middle }
     }
 
     fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {

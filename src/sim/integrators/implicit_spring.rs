@@ -27,28 +27,3 @@ impl FollowerRule for ImplicitSpring {
         (x + h * end, end)
     }
 }
-
-#[cfg(all(test, feature = "lab"))]
-mod tests {
-    use crate::sim::Solver;
-    use crate::sim::bodies::kind;
-    use crate::sim::integrators::method;
-
-    #[test]
-    fn a_step_solves_the_equations_of_backward_euler() {
-        // Towards a target that steps, moves away and swings.
-        let values = [2.0, 5.0, 1.0, 0.5, 0.3, 1.2, -1.0, 0.7, 0.5];
-        let solver = Solver::Method(method("implicit-spring").unwrap());
-        for h in [1.0 / 144.0, 1.0 / 30.0, 0.5] {
-            let mut body = (kind("follow").unwrap().build)(&values, solver);
-            for tick in 0..40 {
-                let (t, [x, v]) = (f64::from(tick) * h, [body.q()[0], body.v()[0]]);
-                body.advance(t, h, 1).unwrap();
-                let (q, w, mut a) = (body.q().to_vec(), body.v().to_vec(), [0.0]);
-                body.acceleration(t + h, &q, &w, &mut a);
-                assert!((q[0] - (x + h * w[0])).abs() < 1e-13, "{h} s, tick {tick}");
-                assert!((w[0] - (v + h * a[0])).abs() < 1e-12, "{h} s, tick {tick}");
-            }
-        }
-    }
-}

@@ -2,7 +2,7 @@
 
 use super::failure::Stepped;
 use super::tolerance::Tolerance;
-use crate::sim::system::{StateOf, System};
+use crate::sim::system::{Coupling, StateOf, System};
 
 /// A method that advances a system by steps.
 ///
@@ -14,6 +14,15 @@ pub trait Integrator<S: System>: Send {
     fn new(like: &S::Vector) -> Self
     where
         Self: Sized;
+
+    /// As [`Integrator::new`], for systems with this coupling. A method that solves equations chooses its linear algebra by
+    /// it.
+    fn coupled(like: &S::Vector, _coupling: Coupling) -> Self
+    where
+        Self: Sized,
+    {
+        Self::new(like)
+    }
 
     /// Advances `state` from `t` to exactly `t + h` (s), unless the card says that the method does not
     /// [keep time](super::Method::keeps_time). Never allocates.

@@ -29,7 +29,11 @@ pub struct LinearlyImplicitEuler<V> {
 
 impl<S: System<Vector: Vector>> Integrator<S> for LinearlyImplicitEuler<S::Vector> {
     fn new(like: &S::Vector) -> Self {
-        Self { a: like.clone(), equations: Linearisation::new(like, S::coupling()) }
+        <Self as Integrator<S>>::coupled(like, Coupling::All)
+    }
+
+    fn coupled(like: &S::Vector, coupling: Coupling) -> Self {
+        Self { a: like.clone(), equations: Linearisation::new(like, coupling) }
     }
 
     fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {

@@ -10,7 +10,7 @@ use reset_on_change::ResetOnChange;
 use unfit::Unfit;
 
 use super::state::Vector;
-use super::system::{BodyClass, System};
+use super::system::{BodyClass, Coupling, System};
 
 mod adams_bashforth_2;
 mod adaptive_euler;
@@ -59,7 +59,6 @@ mod physx_tgs;
 mod physx_tgs_56;
 mod position_verlet;
 mod prelude;
-#[cfg(feature = "batch")]
 mod problem;
 mod pybullet;
 mod rapier;
@@ -83,14 +82,13 @@ pub use card::{
     DAMPING_RATIOS, Engine, Family, FollowerQuantity, FollowerSetting, Method, Needs, Only,
     Substeps,
 };
-pub use custom_method::{AnySystem, CustomIntegrator, custom_integrator};
+pub use custom_method::{AnyIntegrator, AnySystem, custom_integrator};
 pub use engine::{EngineMethod, EngineTick, Rule};
 pub use failure::{StepFailure, Stepped};
 pub use follower::{Follower, FollowerRule};
 pub use free_spin::{FreeSpin, SpinMap};
 pub use integrator::{Integrator, Override};
 pub use joint_mode::{JointMode, JointQuantity, Setting, in_code};
-#[cfg(feature = "batch")]
 pub use problem::{Problem, fresh, problem};
 pub use shared::embedded_pair::{EmbeddedPair, Pair};
 pub use tolerance::Tolerance;
@@ -117,10 +115,10 @@ const fn refusal<S: System, C: Construct<S>>(card: &Method) -> Option<&'static s
     }
 }
 
-/// The type of a method on coordinates of `S`: its own, or that of the family of its rule.
+/// The type of a method on coordinates of type `V`: its own, or that of the family of its rule.
 macro_rules! method_type {
-    ($S:ident, $Type:ident) => { $Type<$S::Vector> };
-    ($S:ident, $Rule:ident, $Family:ident) => { $Family<$S::Vector, $Rule> };
+    ($V:ty, $Type:ident) => { $Type<$V> };
+    ($V:ty, $Rule:ident, $Family:ident) => { $Family<$V, $Rule> };
 }
 
 /// Returns the result of `construct` if `method` is this one, and is one that steps blocks.
@@ -149,7 +147,7 @@ macro_rules! methods {
         /// Every method, in the order of the digit keys and of race lanes.
         pub static METHODS: &[Method] = &[$($file::CARD),+];
 
-        /// Calls `construct` with the integrator type of `method`.
+        /// Calls `construct` with the integrator type of `method`, for systems with this coupling.
         ///
         /// A method that steps no such system is one that [refuses](StepFailure::Refused) every step.
         ///
@@ -157,6 +155,7 @@ macro_rules! methods {
         /// If `method` is neither from [`METHODS`] nor [custom](Method::custom).
         pub fn construct<S: System<Vector: Vector>, C: Construct<S>>(
             method: &Method,
+            coupling: Coupling,
             construct: C,
         ) -> C::Output {
             if let Some(build) = method.custom {
@@ -164,15 +163,39 @@ macro_rules! methods {
             }
             $(if const { refusal::<S, C>(&$file::CARD).is_none() } {
                 if method.id == $file::CARD.id {
-                    return construct.of(
-                        <method_type!(S, $Type $(, $Family)?) as Integrator<S>>::new
-                    );
+                    return construct.of(|like| {
+                        <method_type!(S::Vector, $Type $(, $Family)?) as Integrator<S>>::coupled(like, coupling)
+                    });
                 }
             })+
             let Some(reason) = refusal::<S, C>(method) else {
                 panic!("{} is not in METHODS, and its card has no `custom`", method.id)
             };
             construct.of(|_| Unfit { reason })
+        }
+
+        /// An integrator of `method` for bodies of this class and coupling, compiled once for their type of vector.
+        ///
+        /// # Panics
+        /// As [`construct`].
+        pub(in crate::sim) fn any_integrator<V: Vector>(
+            method: &Method,
+            class: BodyClass,
+            coupling: Coupling,
+            like: &V,
+        ) -> Box<dyn AnyIntegrator<V>> {
+            if let Some(build) = method.custom {
+                return Box::new(CustomMethod::new(build, like));
+            }
+            if let Some(reason) = method.only.as_ref().and_then(|only| only.incompatibility(class)) {
+                return Box::new(Unfit { reason });
+            }
+            $(if method.id == $file::CARD.id {
+                return Box::new(
+                    <method_type!(V, $Type $(, $Family)?) as Integrator<AnySystem<'_, V>>>::coupled(like, coupling)
+                );
+            })+
+            panic!("{} is not in METHODS, and its card has no `custom`", method.id)
         }
 
         /// Calls `construct` with the integrator type of a `method` that steps each number by itself, as blocks of bodies
@@ -265,7 +288,7 @@ pub fn method(id: &str) -> Option<&'static Method> {
     METHODS.iter().find(|method| method.id == id)
 }
 
-/// A new integrator of `method` for systems with coordinates shaped `like` these. It
+/// A new integrator of `method` for any system with coordinates shaped `like` these. It
 /// [resets](Integrator::reset) itself if it is given a state other than it returned; a jump of the
 /// forces must be reported by the caller.
 ///
@@ -281,6 +304,16 @@ pub fn integrator<S: System<Vector: Vector> + 'static>(
     method: &Method,
     like: &S::Vector,
 ) -> Box<dyn Integrator<S>> {
+    integrator_for(method, Coupling::All, like)
+}
+
+/// As [`integrator()`], for systems with this [coupling](System::coupling) alone: a method that solves equations saves much
+/// of the work where few of many coordinates act on each.
+pub fn integrator_for<S: System<Vector: Vector> + 'static>(
+    method: &Method,
+    coupling: Coupling,
+    like: &S::Vector,
+) -> Box<dyn Integrator<S>> {
     struct Boxed<'a, V>(&'a V);
     impl<S: System<Vector: Vector> + 'static> Construct<S> for Boxed<'_, S::Vector> {
         type Output = Box<dyn Integrator<S>>;
@@ -291,5 +324,5 @@ pub fn integrator<S: System<Vector: Vector> + 'static>(
             Box::new(ResetOnChange::around(new(self.0), self.0))
         }
     }
-    construct::<S, _>(method, Boxed(like))
+    construct::<S, _>(method, coupling, Boxed(like))
 }

@@ -31,7 +31,11 @@ const GAMMA: f64 = 0.5;
 
 impl<S: System<Vector: Vector>> Integrator<S> for Newmark<S::Vector> {
     fn new(like: &S::Vector) -> Self {
-        Self { a: like.clone(), newton: Newton::new(like, S::coupling()) }
+        <Self as Integrator<S>>::coupled(like, Coupling::All)
+    }
+
+    fn coupled(like: &S::Vector, coupling: Coupling) -> Self {
+        Self { a: like.clone(), newton: Newton::new(like, coupling) }
     }
 
     fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {

@@ -13,4 +13,4 @@ pub(super) use super::integrator::{Integrator, Override};
 pub(super) use super::joint_mode::{JointMode, mode};
 pub(super) use super::tolerance::Tolerance;
 pub(super) use crate::sim::state::{Elementwise, State, Vector};
-pub(super) use crate::sim::system::{StateOf, System};
+pub(super) use crate::sim::system::{Coupling, StateOf, System};

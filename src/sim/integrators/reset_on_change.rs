@@ -3,7 +3,7 @@
 use super::failure::{StepFailure, Stepped};
 use super::integrator::{Integrator, Override};
 use crate::sim::state::{State, Vector};
-use crate::sim::system::{StateOf, System};
+use crate::sim::system::{Coupling, StateOf, System};
 
 /// A method that is [reset](Integrator::reset) if it is given a state other than it returned.
 pub(super) struct ResetOnChange<I, V> {
@@ -39,6 +39,10 @@ impl<I, V: Vector> ResetOnChange<I, V> {
 impl<S: System<Vector: Vector>, I: Integrator<S>> Integrator<S> for ResetOnChange<I, S::Vector> {
     fn new(like: &S::Vector) -> Self {
         Self::around(I::new(like), like)
+    }
+
+    fn coupled(like: &S::Vector, coupling: Coupling) -> Self {
+        Self::around(I::coupled(like, coupling), like)
     }
 
     fn step(&mut self, system: &S, t: f64, h: f64, state: &mut StateOf<S>) -> Stepped {

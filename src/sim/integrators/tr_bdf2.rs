@@ -38,8 +38,12 @@ const W: f64 = 1.0 / (GAMMA * (2.0 - GAMMA));
 
 impl<S: System<Vector: Vector>> Integrator<S> for TrBdf2<S::Vector> {
     fn new(like: &S::Vector) -> Self {
+        <Self as Integrator<S>>::coupled(like, Coupling::All)
+    }
+
+    fn coupled(like: &S::Vector, coupling: Coupling) -> Self {
         let zero = State { q: like.clone(), v: like.clone() };
-        Self { newton: Newton::new(like, S::coupling()), f: zero.clone(), stage: zero }
+        Self { newton: Newton::new(like, coupling), f: zero.clone(), stage: zero }
     }
 
     fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {

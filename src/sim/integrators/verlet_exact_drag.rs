@@ -73,12 +73,16 @@ fn rest<V: Vector>(
 
 impl<S: System<Vector: Vector>> Integrator<S> for VerletExactDrag<S::Vector> {
     fn new(like: &S::Vector) -> Self {
+        <Self as Integrator<S>>::coupled(like, Coupling::All)
+    }
+
+    fn coupled(like: &S::Vector, coupling: Coupling) -> Self {
         let n = like.components().len();
         Self {
             a: like.clone(),
             v_end: like.clone(),
-            drag: Jacobian::by_velocity(like, S::coupling()),
-            decay: LinearFlow::new(n, S::coupling()),
+            drag: Jacobian::by_velocity(like, coupling),
+            decay: LinearFlow::new(n, coupling),
             zeros: vec![0.0; n],
         }
     }

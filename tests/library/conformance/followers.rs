@@ -4,11 +4,11 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use glam::{DVec2, DVec3};
-use regatta::sim::bodies::{Body, Follow};
+use regatta::sim::bodies::{Body, Follow, kind};
 use regatta::sim::integrators::{
     Family, Integrator, METHODS, Method, StepFailure, integrator, method,
 };
-use regatta::sim::{Pursuit, Question, State, System, Vector};
+use regatta::sim::{Pursuit, Question, Solver, State, System, Vector};
 
 use super::systems::{Problem, bits, fresh, problem, spring};
 
@@ -261,4 +261,22 @@ fn smooth_damp_stops_dead_where_it_meets_a_moving_target_and_the_closed_form_goe
     let stopped = stops("smooth-damp");
     assert!((4..=6).contains(&stopped), "{stopped} stops in 5 s");
     assert_eq!(stops("critically-damped-spring") + stops("implicit-spring"), 0);
+}
+
+#[test]
+fn an_implicit_spring_solves_the_equations_of_backward_euler() {
+    // Towards a target that steps, moves away and swings.
+    let values = [2.0, 5.0, 1.0, 0.5, 0.3, 1.2, -1.0, 0.7, 0.5];
+    let solver = Solver::Method(method("implicit-spring").unwrap());
+    for h in [1.0 / 144.0, 1.0 / 30.0, 0.5] {
+        let mut body = (kind("follow").unwrap().build)(&values, solver);
+        for tick in 0..40 {
+            let (t, [x, v]) = (f64::from(tick) * h, [body.q()[0], body.v()[0]]);
+            body.advance(t, h, 1).unwrap();
+            let (q, w, mut a) = (body.q().to_vec(), body.v().to_vec(), [0.0]);
+            body.acceleration(t + h, &q, &w, &mut a);
+            assert!((q[0] - (x + h * w[0])).abs() < 1e-13, "{h} s, tick {tick}");
+            assert!((w[0] - (v + h * a[0])).abs() < 1e-12, "{h} s, tick {tick}");
+        }
+    }
 }

@@ -41,7 +41,7 @@ impl<S: System> System for Sparse<S> {
     fn acceleration(&self, t: f64, q: &S::Vector, v: &S::Vector, a: &mut S::Vector) {
         self.0.acceleration(t, q, v, a);
     }
-    fn coupling() -> Coupling {
+    fn coupling(&self) -> Coupling {
         Coupling::Few
     }
 }

@@ -107,6 +107,7 @@ fn kind(body: Custom, parameters: Vec<Parameter>) -> Kind {
         parameters,
         leading,
         origin: Origin::Custom(info),
+        batch: super::copies::batch,
         ..Kind::checked(body, check)
     }
 }

@@ -5,9 +5,10 @@ use std::cell::RefCell;
 use std::fmt;
 
 use super::extras::{Energy, Exact, Extras};
+use crate::sim::integrators::{Problem, problem};
 use crate::sim::parameter::ParameterOf;
 use crate::sim::state::{Elementwise, State, Vector};
-use crate::sim::system::{EngineSettings, Question, System};
+use crate::sim::system::{Coupling, EngineSettings, Question, System};
 use crate::sim::vec_system::{Scratch, VecSystem};
 
 /// The motion of a custom body. It answers for no target: a body that follows one has a kind of its own.
@@ -19,6 +20,8 @@ pub(super) trait Motion: System<Vector = Vec<f64>> + Send {
     /// Sets the parameter with this index.
     fn set(&mut self, index: usize, value: f64);
     fn system(&self) -> &dyn Any;
+    /// The system by itself, if its coordinates are one `f64`.
+    fn alone(&self) -> Option<Problem<f64>>;
     fn boxed_clone(&self) -> Box<dyn Motion>;
 }
 
@@ -34,12 +37,53 @@ impl fmt::Debug for dyn Motion {
     }
 }
 
+/// A system whose force is multiplied.
+#[derive(Clone)]
+struct Scaled<S> {
+    system: S,
+    /// 1 of a system with parameters.
+    force: f64,
+}
+
+impl<S: System<Vector: Vector>> System for Scaled<S> {
+    type Vector = S::Vector;
+
+    fn acceleration(&self, t: f64, q: &S::Vector, v: &S::Vector, a: &mut S::Vector) {
+        self.system.acceleration(t, q, v, a);
+        a.scale(self.force);
+    }
+
+    fn coupling(&self) -> Coupling {
+        self.system.coupling()
+    }
+
+    fn answer(&self, t: f64, question: Question<'_, S::Vector>) -> bool {
+        match question {
+            Question::Slope { state, along, slope } => {
+                let question = Question::Slope { state, along, slope: &mut *slope };
+                let is_answered = self.system.answer(t, question);
+                slope.scale(self.force);
+                is_answered
+            }
+            Question::Engine { state, settings, force } => {
+                let (engine, own) = (&mut *settings, &mut *force);
+                let question = Question::Engine { state, settings: engine, force: own };
+                let is_answered = self.system.answer(t, question);
+                force.scale(self.force);
+                let EngineSettings { stiffness, damping, drag } = settings;
+                [stiffness, damping, drag].into_iter().for_each(|setting| *setting *= self.force);
+                is_answered
+            }
+            Question::Target(_) => false,
+            Question::LostTime(_) => self.system.answer(t, question),
+        }
+    }
+}
+
 /// A system with its optional properties.
 #[derive(Clone)]
 pub(super) struct Typed<S: System<Vector: Vector>> {
-    system: S,
-    /// Multiplies the acceleration of a system without parameters.
-    force: f64,
+    scaled: Scaled<S>,
     parameters: Vec<fn(&mut S) -> &mut f64>,
     energy: Option<Energy<S>>,
     exact: Option<Exact<S>>,
@@ -49,8 +93,7 @@ pub(super) struct Typed<S: System<Vector: Vector>> {
 impl<S: System<Vector: Vector>> Typed<S> {
     pub(super) fn new(system: S, like: &S::Vector, extras: &Extras<S>) -> Self {
         Self {
-            system,
-            force: 1.0,
+            scaled: Scaled { system, force: 1.0 },
             parameters: extras.parameters.iter().filter_map(ParameterOf::acting_at_once).collect(),
             energy: extras.energy,
             exact: extras.exact,
@@ -58,9 +101,8 @@ impl<S: System<Vector: Vector>> Typed<S> {
         }
     }
 
-    /// The system without the factor of its force.
-    fn unscaled(&self) -> VecSystem<'_, S> {
-        VecSystem { system: &self.system, scratch: &self.scratch }
+    fn of_vec(&self) -> VecSystem<'_, Scaled<S>> {
+        VecSystem { system: &self.scaled, scratch: &self.scratch }
     }
 }
 
@@ -68,42 +110,27 @@ impl<S: System<Vector: Vector>> System for Typed<S> {
     type Vector = Vec<f64>;
 
     fn acceleration(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
-        self.unscaled().acceleration(t, q, v, a);
-        a.scale(self.force);
+        self.of_vec().acceleration(t, q, v, a);
+    }
+
+    fn coupling(&self) -> Coupling {
+        self.scaled.coupling()
     }
 
     fn answer(&self, t: f64, question: Question<'_, Vec<f64>>) -> bool {
-        match question {
-            Question::Slope { state, along, slope } => {
-                let question = Question::Slope { state, along, slope: &mut *slope };
-                let is_answered = self.unscaled().answer(t, question);
-                slope.scale(self.force);
-                is_answered
-            }
-            Question::Engine { state, settings, force } => {
-                let (engine, own) = (&mut *settings, &mut *force);
-                let question = Question::Engine { state, settings: engine, force: own };
-                let is_answered = self.unscaled().answer(t, question);
-                force.scale(self.force);
-                let EngineSettings { stiffness, damping, drag } = settings;
-                [stiffness, damping, drag].into_iter().for_each(|setting| *setting *= self.force);
-                is_answered
-            }
-            Question::Target(_) => false,
-            Question::LostTime(_) => self.unscaled().answer(t, question),
-        }
+        self.of_vec().answer(t, question)
     }
 }
 
 impl<S: System<Vector: Vector> + Clone + Send + 'static> Motion for Typed<S> {
     fn energy(&self, q: &[f64], v: Option<&[f64]>) -> Option<f64> {
         let energy = self.energy?;
-        Some(energy(&self.system, self.scratch.borrow_mut().state(q, v)))
+        Some(energy(&self.scaled.system, self.scratch.borrow_mut().state(q, v)))
     }
 
     fn exact(&self, t: f64, to: &mut State<Vec<f64>>) -> bool {
         let Some(exact) = self.exact else { return false };
-        let State { q, v } = exact(&self.system, t);
+        let State { q, v } = exact(&self.scaled.system, t);
         to.q.copy_from_slice(q.components());
         to.v.copy_from_slice(v.components());
         true
@@ -111,13 +138,18 @@ impl<S: System<Vector: Vector> + Clone + Send + 'static> Motion for Typed<S> {
 
     fn set(&mut self, index: usize, value: f64) {
         match self.parameters.get(index) {
-            Some(field) => *field(&mut self.system) = value,
-            None => self.force = value,
+            Some(field) => *field(&mut self.scaled.system) = value,
+            None => self.scaled.force = value,
         }
     }
 
     fn system(&self) -> &dyn Any {
-        &self.system
+        &self.scaled.system
+    }
+
+    fn alone(&self) -> Option<Problem<f64>> {
+        let problem: Box<dyn Any> = Box::new(problem(self.scaled.clone()));
+        problem.downcast().ok().map(|problem| *problem)
     }
 
     fn boxed_clone(&self) -> Box<dyn Motion> {

@@ -42,6 +42,7 @@ pub fn law_kind(text: LawText) -> Result<Arc<Kind>, Vec<LawFault>> {
         inputs,
         leading: leading.unwrap_or_else(|| first_key.clone()),
         origin: Origin::Law(equations.clone()),
+        batch: super::copies::batch,
         ..Kind::checked(template, move |mut law, values| {
             law.write(values);
             check_start(&law).map_err(|fault| Fault {

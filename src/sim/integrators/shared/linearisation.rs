@@ -263,7 +263,7 @@ mod tests {
 
     impl System for Apart {
         type Vector = Vec<f64>;
-        fn coupling() -> Coupling {
+        fn coupling(&self) -> Coupling {
             Coupling::Few
         }
         fn acceleration(&self, _t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {

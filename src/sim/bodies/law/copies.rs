@@ -1,28 +1,44 @@
 //! Copies of a law of one coordinate: its tape runs over blocks.
 
+use std::any::Any;
 use std::cell::RefCell;
 use std::slice::{from_mut, from_ref};
 use std::sync::Arc;
 
-use super::copies::{BlockSystem, Copies};
-use super::instruction_set::{InstructionSet, Kernel};
+use super::{Law, known};
+use crate::sim::batch::{Batch, BlockSystem, Copies, InstructionSet, Kernel, NewBatch};
 use crate::sim::integrators::{Problem, problem};
 use crate::sim::law::{At, Equations, LawLanes, Registers};
+use crate::sim::solver::Solver;
+use crate::sim::state::State;
 use crate::sim::system::System;
 
 /// Copies of a law of one coordinate.
 #[derive(Clone)]
-pub(in crate::sim) struct LawCopies {
+struct LawCopies {
     /// The law.
-    pub(in crate::sim) equations: Arc<Equations>,
+    equations: Arc<Equations>,
     /// Its values, as those of [`Registers`].
-    pub(in crate::sim) values: Arc<[f64]>,
+    values: Arc<[f64]>,
     /// Throttle and rudder.
-    pub(in crate::sim) steering: [f64; 2],
+    steering: [f64; 2],
+}
+
+/// Copies of a body that is a law; `None` if it has several coordinates.
+pub(super) fn batch(
+    body: &dyn Any,
+    set: InstructionSet,
+    solver: Solver,
+    starts: Vec<State<f64>>,
+) -> Option<NewBatch> {
+    let law: &Law = body.downcast_ref()?;
+    let values = known(&law.equations, &law.values).into();
+    let copies = LawCopies { equations: law.equations.clone(), values, steering: law.steering };
+    (law.coordinates() == 1).then(|| Batch::with(&copies, solver, starts.into_iter(), set))
 }
 
 /// A block of [`LawCopies`].
-pub(in crate::sim) struct LawBlock<const W: usize> {
+struct LawBlock<const W: usize> {
     equations: Arc<Equations>,
     lanes: RefCell<LawLanes<W>>,
     set: InstructionSet,
