@@ -5,8 +5,9 @@ use egui::{
     Align, Color32, ComboBox, FontId, Label, Layout, Rect, Response, RichText, Ui, UiBuilder, vec2,
 };
 
+use super::breakpoints;
+use super::parts::{is_picture, tone};
 use super::table::{Column, GAP, MARGIN, SortKey, Table, TableRow, show_name};
-use super::{breakpoints, is_picture, palette, strong_font, tone};
 use crate::lab::LaneSpec;
 use crate::lab::analysis::{
     Advice, AdvisedBodies, CRITERIA, Criterion, CriterionMet, CriterionResult,
@@ -15,7 +16,7 @@ use crate::lab::analysis::{
 use crate::lab::number::{counted, significant};
 use crate::lab::source_code::Language;
 use crate::lab::studio::{Command, RunCommand, Studio, ViewCommand};
-use crate::view::theme::{PanelPalette, TYPE};
+use crate::view::theme::{PanelPalette, TYPE, palette, strong_font};
 
 /// What is written in a cell, where there is room for it and where there is not.
 const CELLS: [&str; 2] = [

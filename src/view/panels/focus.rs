@@ -3,7 +3,7 @@
 use egui::style::ScrollAnimation;
 use egui::{Id, Response, Stroke, StrokeKind, Ui};
 
-use super::palette;
+use crate::view::theme::palette;
 
 /// The width of the ring, in points.
 pub(in crate::view) const RING: f32 = 1.6;

@@ -2,12 +2,13 @@
 
 use egui::{Align, Layout, RichText, Sense, Ui, vec2};
 
-use super::{breakpoints, keycap, loops, palette, short};
+use super::parts::short;
+use super::{breakpoints, keycap, loops};
 use crate::lab::loop_lab::LoopCommand;
 use crate::lab::number::round;
 use crate::lab::race::Mode;
 use crate::lab::studio::{Command, RunCommand, StageCommand, Step, Studio, ViewCommand};
-use crate::view::theme::TYPE;
+use crate::view::theme::{TYPE, palette};
 
 pub(super) const HEIGHT: f32 = 32.0;
 

@@ -3,9 +3,10 @@
 use egui::scroll_area::ScrollBarVisibility;
 use egui::{Align2, FontId, Order, RichText, ScrollArea, Ui, Vec2, Window, pos2, vec2};
 
-use super::{breakpoints, keycap, palette, short};
+use super::parts::short;
+use super::{breakpoints, keycap};
 use crate::lab::studio::{Command, GESTURES, KEYS, ViewCommand};
-use crate::view::theme::TYPE;
+use crate::view::theme::{TYPE, palette};
 
 /// The width of a column, and of the keys in it.
 const COLUMN: f32 = 560.0;

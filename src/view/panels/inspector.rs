@@ -7,10 +7,11 @@ use egui::{
 
 pub(super) use self::number::NumberField;
 use self::rows::{Reach, Row, Spacing, Values, rows};
-use super::{focus, palette};
+use super::focus;
 use crate::lab::scene::edited_values;
 use crate::lab::studio::{Command, RunCommand, Studio};
 use crate::lab::{Action, Acts};
+use crate::view::theme::palette;
 
 mod engine;
 mod number;

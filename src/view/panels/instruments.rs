@@ -5,9 +5,10 @@
 
 use egui::{Button, Color32, ComboBox, Label, Rect, Response, RichText, Sense, Stroke, Ui, vec2};
 
+use super::parts::is_picture;
 use super::series_styles::{SeriesStyle, SeriesStyles};
 use super::tracks::Detail;
-use super::{advice, breakpoints, cost, is_picture, loops, one_step, palette, stability_map};
+use super::{advice, breakpoints, cost, loops, one_step, stability_map};
 use crate::lab::METRICS;
 use crate::lab::loop_lab::FRAME_METRICS;
 use crate::lab::past::Quantity;
@@ -16,7 +17,7 @@ use crate::lab::studio::{
     ViewCommand,
 };
 use crate::view::chart::legend::{self, Entry};
-use crate::view::theme::{TYPE, strong_font};
+use crate::view::theme::{TYPE, palette, strong_font};
 pub(in crate::view) use export::{csv, svg};
 use plot_set::PlotSet;
 

@@ -2,8 +2,8 @@
 
 use egui::{Align2, Color32, FontId, Painter, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 
-use super::{palette, short};
-use crate::view::theme::{TYPE, strong_font};
+use super::parts::short;
+use crate::view::theme::{TYPE, palette, strong_font};
 
 /// The height of a box, the least room round its letter, and the room between it and a word, in points.
 pub(super) const HEIGHT: f32 = 22.0;

@@ -2,12 +2,12 @@
 
 use egui::{Color32, RichText, Ui};
 
+use super::formula;
 use super::table::{Table, TableRow};
-use super::{formula, palette};
 use crate::lab::race::LaneBody;
 use crate::lab::source_code::Language;
 use crate::lab::studio::{Command, DriverRequest, StageCommand, Studio, ViewCommand};
-use crate::view::theme::{PanelPalette, TYPE, strong_font};
+use crate::view::theme::{PanelPalette, TYPE, palette, strong_font};
 
 use row::Row;
 

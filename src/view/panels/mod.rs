@@ -1,12 +1,8 @@
 //! The panels round the stage: they read the studio and return commands, and touch nothing.
 
-use std::sync::Arc;
+use egui::{Frame, Key, Margin, Rect, Ui};
 
-use egui::text::{LayoutJob, TextWrapping};
-use egui::{Color32, FontId, Frame, Galley, Key, Margin, Rect, TextFormat, Ui};
-
-use super::theme::{PanelPalette, colour, palette, palette_of, strong_font};
-use crate::lab::analysis::{Outcome, Severity};
+use super::theme::palette;
 use crate::lab::studio::{Command, Dialog, Studio, ViewCommand};
 
 mod advice;
@@ -27,6 +23,7 @@ mod loops;
 mod my_spring;
 mod one_step;
 mod opening;
+mod parts;
 mod ranges;
 mod series_styles;
 mod stability_map;
@@ -68,14 +65,15 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         return (commands, whole);
     }
     if size.y >= breakpoints::TOP_BAR {
-        let panel =
-            egui::Panel::top("top bar").exact_size(top_bar::HEIGHT).frame(frame(palette(ui).panel));
+        let panel = egui::Panel::top("top bar")
+            .exact_size(top_bar::HEIGHT)
+            .frame(parts::frame(palette(ui).panel));
         panel.show(ui, |ui| top_bar::show(ui, studio, &mut commands));
     }
     if size.y >= breakpoints::FOOTER {
         let panel = egui::Panel::bottom("footer")
             .exact_size(footer::HEIGHT)
-            .frame(frame(palette(ui).panel));
+            .frame(parts::frame(palette(ui).panel));
         panel.show(ui, |ui| footer::show(ui, studio, &mut commands));
     }
     let mut pointed = None;
@@ -99,7 +97,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
             true => timeline::HEIGHT,
             false => timeline::HEIGHT_OF_TRACK,
         };
-        let frame = frame(palette(ui).panel).inner_margin(Margin::symmetric(8, 1));
+        let frame = parts::frame(palette(ui).panel).inner_margin(Margin::symmetric(8, 1));
         let panel = egui::Panel::bottom("timeline").exact_size(height).frame(frame);
         panel.show(ui, |ui| match studio.loop_lab() {
             Some(loops) => loops::slider::show(ui, loops, &mut commands),
@@ -115,7 +113,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         };
         let panel = egui::Panel::right("instruments")
             .exact_size(width)
-            .frame(frame(palette(ui).background));
+            .frame(parts::frame(palette(ui).background));
         panel.show(ui, |ui| {
             // What is wider than the panel does not move its edge.
             let room = ui.available_rect_before_wrap();
@@ -156,25 +154,17 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     (commands, stage)
 }
 
-/// What marks the panel of a picture of an instrument.
-const PICTURE: &str = "picture of an instrument";
-
 /// Shows the instrument alone, for a picture in which nothing can be clicked.
 pub(super) fn show_instrument(ui: &mut Ui, studio: &Studio) {
     let frame = Frame::new().fill(palette(ui).background).inner_margin(Margin::symmetric(8, 4));
     let panel = egui::CentralPanel::default_margins().frame(frame);
     panel.show(ui, |ui| {
-        let mark = egui::UiStackInfo::default().with_tag(PICTURE);
+        let mark = egui::UiStackInfo::default().with_tag(parts::PICTURE);
         ui.scope_builder(egui::UiBuilder::new().ui_stack_info(mark), |ui| {
             ui.visuals_mut().button_frame = false;
             instruments::show_alone(ui, studio, &mut Vec::new());
         });
     });
-}
-
-/// Whether this is part of a picture, which has words where a window has buttons and menus.
-fn is_picture(ui: &Ui) -> bool {
-    ui.stack().iter().any(|part| part.tags().contains(PICTURE))
 }
 
 /// The instruments; with the inspector open they keep the upper part, where there is room for both.
@@ -191,33 +181,5 @@ fn beside_the_stage(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Ve
         let frame = Frame::new().inner_margin(Margin { top: 6, ..Margin::ZERO });
         panel.frame(frame).show(ui, |ui| inspector::show(ui, studio, commands));
         instruments::show(ui, studio, indent, commands);
-    }
-}
-
-fn frame(fill: Color32) -> Frame {
-    Frame::new().fill(fill).inner_margin(Margin::symmetric(8, 4))
-}
-
-/// Words in one line of this width, with an ellipsis where they do not fit, and whether they fit.
-fn short(ui: &Ui, words: &str, font: FontId, room: f32, colour: Color32) -> (Arc<Galley>, bool) {
-    let mut job = LayoutJob::single_section(words.to_owned(), TextFormat::simple(font, colour));
-    job.wrap = TextWrapping::truncate_at_width(room.max(0.0));
-    let galley = ui.painter().layout_job(job);
-    let is_whole = !galley.elided;
-    (galley, is_whole)
-}
-
-/// The colour of a verdict.
-fn tone(ui: &Ui, word: Outcome) -> Color32 {
-    severity_tone(ui, word.severity())
-}
-
-/// The colour of a severity.
-fn severity_tone(ui: &Ui, severity: Severity) -> Color32 {
-    match severity {
-        Severity::Fine => palette(ui).good,
-        Severity::Doubtful => palette(ui).warn,
-        Severity::Bad => palette(ui).bad,
-        Severity::Unknown => palette(ui).dim,
     }
 }

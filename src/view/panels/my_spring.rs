@@ -4,10 +4,9 @@ use egui::{Align2, Button, FontId, Id, Rect, RichText, Sense, Ui, vec2};
 
 use super::dialog::{select, window};
 use super::inspector::NumberField;
-use super::palette;
 use crate::lab::source_code::Language;
 use crate::lab::studio::{Command, MySpring, StageCommand, Studio, ViewCommand};
-use crate::view::theme::TYPE;
+use crate::view::theme::{TYPE, palette};
 
 const TITLE: &str = "My spring";
 /// The widths of a name and of a number, and the height of a line, in points.

@@ -8,13 +8,13 @@ use egui::{
 };
 
 use super::annotations::{arrow, label};
-use super::{breakpoints, colour, formula, palette, strong_font};
+use super::{breakpoints, formula};
 use crate::lab::Coordinate;
 use crate::lab::analysis::Unit;
 use crate::lab::number::{round, significant};
 use crate::lab::studio::{OneStep, Slope, Studio};
 use crate::view::chart::{self, AxisScale, Curve, Drawing, LineStyle, PlotArea};
-use crate::view::theme::TYPE;
+use crate::view::theme::{TYPE, colour, palette, strong_font};
 
 mod loupe;
 

@@ -3,9 +3,9 @@
 use egui::{Id, Key, Label, Rect, RichText, ScrollArea, TextEdit, TextStyle, TextWrapMode, Ui};
 
 use super::dialog::{select, window};
-use super::palette;
 use crate::lab::scene::Mistake;
 use crate::lab::studio::{Command, DriverRequest, Studio, ViewCommand};
+use crate::view::theme::palette;
 
 /// The width of a path that can be read without scrolling, in points.
 const WIDTH: f32 = 460.0;

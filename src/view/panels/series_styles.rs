@@ -2,12 +2,11 @@
 
 use egui::Color32;
 
-use super::palette_of;
 use crate::lab::Studio;
 use crate::lab::loop_lab::LoopLab;
 use crate::lab::pacing::POLICIES;
 use crate::lab::race::Mode;
-use crate::view::theme::colour;
+use crate::view::theme::{colour, palette_of};
 
 /// Whose curves the plots show.
 pub(super) struct SeriesStyles {

@@ -3,11 +3,12 @@
 
 use egui::{Align2, Color32, FontId, Id, Rect, Response, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
 
-use super::{focus, keycap, palette, short};
+use super::parts::short;
+use super::{focus, keycap};
 use crate::lab::studio::Command;
 use crate::view::chart;
 use crate::view::chart::legend::swatch;
-use crate::view::theme::{PanelPalette, TYPE, strong_font};
+use crate::view::theme::{PanelPalette, TYPE, palette, strong_font};
 
 /// The width of the bar at the left of the selected row, and of the margin that it stands in, in points.
 const BAR: f32 = 4.0;

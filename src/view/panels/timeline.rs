@@ -10,11 +10,12 @@ use egui::{
 
 use self::marks::{Context, Group, Sign, grouped};
 pub(super) use self::span::Span;
-use super::{PanelPalette, breakpoints, palette};
+use super::breakpoints;
 use crate::lab::race::{Mode, TimeScale};
 use crate::lab::session::Event;
 use crate::lab::studio::{Command, RunCommand, StageCommand, Step, Studio};
 use crate::view::chart::AxisScale;
+use crate::view::theme::{PanelPalette, palette};
 use crate::view::wheel;
 
 mod marks;

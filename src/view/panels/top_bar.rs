@@ -4,15 +4,15 @@ use egui::{
     Align, Button, ComboBox, Frame, Label, Layout, RichText, Sense, TextWrapMode, Ui, vec2,
 };
 
+use super::breakpoints;
 use super::loops::controls;
-use super::{breakpoints, palette};
 use crate::lab::loop_lab::LoopCommand;
 use crate::lab::race::Mode;
 use crate::lab::studio::{
     Command, Pace, RunCommand, SPEED_LADDER, StageCommand, Step, Studio, TICK_LADDER, ViewCommand,
 };
 use crate::lab::{SCENES, Scene};
-use crate::view::theme::{TYPE, strong_font};
+use crate::view::theme::{TYPE, palette, strong_font};
 
 pub(super) const HEIGHT: f32 = 40.0;
 

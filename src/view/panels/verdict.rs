@@ -3,9 +3,9 @@
 use egui::epaint::PathShape;
 use egui::{Color32, FontId, Pos2, Rect, Stroke, Ui, pos2, vec2};
 
-use super::{palette, severity_tone, short};
+use super::parts::{severity_tone, short};
 use crate::lab::analysis::{Outcome, Severity};
-use crate::view::theme::TYPE;
+use crate::view::theme::{TYPE, palette};
 
 /// Half the size of a sign, and the room that it takes, in points.
 const HALF: f32 = 4.5;

@@ -2,11 +2,11 @@
 
 use egui::{CollapsingHeader, ComboBox, RichText, Ui, vec2};
 
-use super::super::palette;
 use super::{LINE, NumberField, line};
 use crate::lab::number::significant;
 use crate::lab::port::Setup;
 use crate::lab::studio::{Command, RunCommand, Studio};
+use crate::view::theme::palette;
 
 /// Shows the numbers of a body that is a spring as the engine has them that is chosen; nothing of any other body.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, body: usize, commands: &mut Vec<Command>) {

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use egui::{DragValue, Id, Response, RichText, Ui, Vec2};
 
-use super::super::palette;
+use crate::view::theme::palette;
 
 /// What one point of a drag changes, as a part of the number.
 const SPEED: f64 = 0.004;

@@ -8,7 +8,7 @@ use crate::lab::race::{Entrant, Mode};
 use crate::lab::scene::{MAX_SECONDS, MAX_SUBSTEPS, MAX_TICK_HZ, MIN_SECONDS, TOLERANCES};
 use crate::lab::studio::{Command, RunCommand, StageCommand, Studio};
 use crate::lab::{Action, LaneSpec};
-use crate::view::panels::palette;
+use crate::view::theme::palette;
 
 /// The widths of the fields of a lane, in points.
 const SUBSTEPS: f32 = 44.0;

@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 use egui::{Align2, FontId, Pos2, Rect, Response, Sense, Ui, Vec2, pos2, vec2};
 
+use super::super::parts::short;
 use super::super::series_styles::SeriesStyles;
-use super::super::{palette, short};
 use super::hover;
 use super::layout::{Cell, cells};
 use super::plot_set::PlotSet;
 use crate::lab::studio::{Command, DriverRequest, StageCommand, Studio, ViewCommand};
 use crate::view::chart::{self, ABOVE, NAME, NUMBER, PlotArea, Primitive, Text};
-use crate::view::theme::{PanelPalette, strong_font};
+use crate::view::theme::{PanelPalette, palette, strong_font};
 use crate::view::wheel;
 
 /// The least room for the numbers of an upright axis, in points.

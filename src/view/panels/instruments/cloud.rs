@@ -11,7 +11,6 @@ use egui::{
 
 use super::super::series_styles::SeriesStyles;
 use super::super::tracks::Track;
-use super::super::{PanelPalette, palette, strong_font};
 use super::error::capitalised;
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, over_time};
 use super::{body_choice, chart, choice};
@@ -25,6 +24,7 @@ use crate::lab::race::Mode;
 use crate::lab::studio::{Command, RunCommand, StageCommand, Studio};
 use crate::view::chart::{self as charts, AxisScale, LineStyle, PlotArea, Primitive, ScreenCurve};
 use crate::view::panels::breakpoints;
+use crate::view::theme::{PanelPalette, palette, strong_font};
 
 /// The least room for the numbers of the axes at the left, and what these need besides their width; the room for those
 /// below, and for the axes' names, in points.

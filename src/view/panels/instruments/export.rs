@@ -2,15 +2,15 @@
 
 use egui::{Align2, Pos2, Rect, pos2, vec2};
 
+use super::super::loops;
 use super::super::tracks::Detail;
-use super::super::{loops, palette_of};
 use super::layout::cells;
 use super::plot_set::{PlotAxis, PlotSet};
 use super::{chart, plot_set_of};
 use crate::lab::csv_row;
 use crate::lab::studio::{Instrument, Studio};
 use crate::view::chart::{ABOVE, NAME, Primitive, Text, legend, svg};
-use crate::view::theme::PanelPalette;
+use crate::view::theme::{PanelPalette, palette_of};
 
 /// The size of a drawing, in its own pixels, and the room round its plots.
 const SIZE: [f32; 2] = [960.0, 600.0];

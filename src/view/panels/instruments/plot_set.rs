@@ -4,7 +4,6 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::super::palette_of;
 use super::super::series_styles::{SeriesStyle, SeriesStyles};
 use super::super::tracks::{self, Track, TrackStyle};
 use crate::lab::analysis::Unit;
@@ -12,6 +11,7 @@ use crate::lab::number::significant;
 use crate::lab::past::{Quantity, TruthCurve, TruthSample};
 use crate::lab::{Coordinate, Studio};
 use crate::view::chart::{Arrow, AxisScale, Bounds, Curve, Dots, Drawing, LineStyle, SwitchMark};
+use crate::view::theme::palette_of;
 use egui::Color32;
 
 /// The width of the exact curve, in points: a lane that keeps to the truth is seen on both sides of it.

@@ -6,7 +6,8 @@ use crate::lab::loop_lab::{LoopCommand, LoopLab, SLOWNESS};
 use crate::lab::number::round;
 use crate::lab::pacing::{FrameTrace, TRACES};
 use crate::lab::studio::Command;
-use crate::view::panels::{breakpoints, palette};
+use crate::view::panels::breakpoints;
+use crate::view::theme::palette;
 
 /// The most characters of a trace's name in the closed menu.
 const MAX_CHARS: usize = 18;

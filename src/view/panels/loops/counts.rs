@@ -5,8 +5,8 @@ use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 use super::ShownLane;
 use crate::lab::number::round;
 use crate::view::chart::{self, AxisScale, PlotArea, Primitive, Text};
-use crate::view::panels::{breakpoints, palette};
-use crate::view::theme::PanelPalette;
+use crate::view::panels::breakpoints;
+use crate::view::theme::{PanelPalette, palette};
 
 /// What a frame can have: the last is that or more.
 const NAMES: [&str; 4] = ["0", "1", "2", "3+"];

@@ -7,8 +7,7 @@ use super::counts::{BELOW, LEFT, NAME, TITLE};
 use crate::lab::loop_lab::LoopLab;
 use crate::lab::number::round;
 use crate::view::chart::{self, AxisScale, PlotArea, Primitive, Text};
-use crate::view::panels::palette;
-use crate::view::theme::PanelPalette;
+use crate::view::theme::{PanelPalette, palette};
 
 /// The number of frames shown.
 const FRAMES: usize = 24;

@@ -8,8 +8,8 @@ use super::errors::round_up;
 use crate::lab::analysis::Unit;
 use crate::lab::studio::{LiveFrame, Studio};
 use crate::view::chart::{self, Arrow, AxisScale, Curve, Drawing, LineStyle, PlotArea, Primitive};
-use crate::view::panels::{breakpoints, palette, strong_font};
-use crate::view::theme::{PanelPalette, colour};
+use crate::view::panels::breakpoints;
+use crate::view::theme::{PanelPalette, colour, palette, strong_font};
 
 pub(super) const TITLE: &str = "This window's own loop";
 /// The length of the plot in seconds.

@@ -11,8 +11,7 @@ use crate::lab::number::round;
 use crate::view::chart::{
     self, AxisScale, LineStyle, NUMBER, PlotArea, Primitive, ScreenCurve, Text,
 };
-use crate::view::panels::{palette, strong_font};
-use crate::view::theme::PanelPalette;
+use crate::view::theme::{PanelPalette, palette, strong_font};
 
 /// The number of the display's frames that are shown.
 const FRAMES: f64 = 12.0;

@@ -7,8 +7,7 @@ use crate::lab::loop_lab::{LoopCommand, LoopLab, LoopLane};
 use crate::lab::studio::Command;
 use crate::view::panels::table::TableRow;
 use crate::view::panels::verdict::{Sign, VerdictText};
-use crate::view::panels::{palette, strong_font};
-use crate::view::theme::{PanelPalette, TYPE, colour};
+use crate::view::theme::{PanelPalette, TYPE, colour, palette, strong_font};
 
 /// A loop as a row.
 pub(super) struct Row<'a> {

@@ -4,8 +4,8 @@ use egui::{Align2, Rangef, Response, Ui};
 
 use crate::lab::loop_lab::{LoopCommand, LoopLab};
 use crate::lab::studio::Command;
-use crate::view::panels::palette;
 use crate::view::panels::timeline::{Groove, Span, THICKNESS, pressed, step};
+use crate::view::theme::palette;
 
 /// Shows it.
 pub(in crate::view::panels) fn show(ui: &mut Ui, loops: &LoopLab, commands: &mut Vec<Command>) {

@@ -8,7 +8,7 @@ use egui::{Color32, FontId, Galley, TextFormat, Ui};
 use crate::lab::analysis::{Here, MapRequest, StabilityMap};
 use crate::lab::number::round;
 use crate::lab::{Parameter, Studio};
-use crate::view::panels::{palette, strong_font};
+use crate::view::theme::{palette, strong_font};
 
 /// The letter of a parameter in the equation of motion, or else its name.
 pub(super) fn letter(parameter: &Parameter) -> String {

@@ -2,10 +2,10 @@
 
 use egui::Color32;
 
-use super::super::PanelPalette;
 use crate::lab::race::{Race, TimeScale};
 use crate::lab::session::{Event, EventKind};
 use crate::lab::{Action, LaneId, LaneSpec, Scene};
+use crate::view::theme::PanelPalette;
 
 /// The sign of a mark. Of several in one place the last of this list is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,7 +1,7 @@
 use super::*;
 use crate::lab::studio::{RunCommand, StageCommand};
 use crate::lab::{Action, Scene};
-use crate::view::panels::palette_of;
+use crate::view::theme::palette_of;
 
 const STYLE: TrackStyle = TrackStyle { dots: Dots::None, is_over_time: true };
 
