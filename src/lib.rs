@@ -79,7 +79,7 @@
 //!   evaluated beside it. `BLESS=1 cargo test --test library tables` writes its row in the [manual](mod@manual::methods).
 //! - **A body**: copy `sim/bodies/spring.rs`, declare the file, add its card to
 //!   [`BODIES`](sim::bodies::BODIES); say how it looks, and where a person can grab it, in a file beside
-//!   `lab/picture/look/spring.rs`, and add that to `LOOKS`. `tests/library/exact_flows.rs` and `tests/library/bodies` hold its exact flow, or what stands in for one,
+//!   `lab/look/spring.rs`, and add that to `LOOKS`. `tests/library/exact_flows.rs` and `tests/library/bodies` hold its exact flow, or what stands in for one,
 //!   against its equation.
 //!   What a scene lays out itself, a [law](sim::bodies::law_kind) or a [net](sim::bodies::net_kind), has a kind of its own
 //!   that is made when the scene is read.

@@ -25,6 +25,7 @@ pub mod custom;
 pub mod identify;
 mod lane_id;
 mod lane_spec;
+mod look;
 pub mod loop_lab;
 pub mod pacing;
 pub mod palette;

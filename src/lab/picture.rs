@@ -16,7 +16,6 @@ mod ghost;
 mod grasp;
 mod hull;
 mod layout;
-mod look;
 mod loop_stage;
 mod loupe;
 mod mass;
@@ -25,11 +24,10 @@ mod outgrown;
 mod sketch;
 mod trails;
 
+pub use super::look::{Framing, Handle, Look, Pull};
 pub use super::scene::{Mark, Outline};
 pub use compose::compose;
 pub use grasp::{Cell, Grasp, Grip, Whose};
-pub use look::{Framing, Handle, Look, Pull};
-pub(super) use outgrown::slow_motion_percent;
 
 pub use super::palette::{self, Rgba};
 

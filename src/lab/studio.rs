@@ -38,6 +38,7 @@ mod restarting;
 mod resting;
 mod scene_list;
 mod showing;
+mod slow_motion;
 mod step;
 mod viewer;
 mod zoom_pan;

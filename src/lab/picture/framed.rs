@@ -2,11 +2,11 @@
 
 use glam::DVec2;
 
-use super::look::drawn_unit;
 use super::moment::{DrawContext, turns};
 use super::outgrown::{Room, in_steps, strayed_m};
 use super::sketch::Camera;
 use super::{Framing, Rect};
+use crate::lab::look::drawn_unit;
 use crate::lab::race::Entrant;
 use crate::lab::studio::Motion;
 

@@ -1,32 +1,24 @@
-//! How far a lane goes beyond what the stage shows, and how fast. A stage that is watched zooms out after it, and time slows
-//! down while that is too fast to see. Both follow from the run and the moment shown: what is gone back to looks the same
-//! again.
+//! How far a lane goes beyond what the stage shows. A stage that is watched zooms out after it. That follows from the run and
+//! the moment shown: what is gone back to looks the same again.
 
 use glam::DVec2;
 
 use super::moment::DrawContext;
-use super::{Framing, Look, Outline};
+use super::{Look, Outline};
 use crate::lab::Metric;
 use crate::lab::past::{History, Sample};
-use crate::lab::race::{Entrant, Mode};
-use crate::lab::studio::{Motion, Studio};
+use crate::lab::race::Entrant;
 
 /// For how long the zoom is evened out, in seconds: a swing of the harbour's spring; and in how many parts.
 const EVENED_S: f64 = 1.0;
 const PARTS: u32 = 12;
 /// How much more room than it takes an even growth gets.
 const MARGIN: f64 = 1.15;
-/// The fastest zoom that can be watched, in powers of ten per second of real time.
-const MAX_ZOOM: f64 = 6.0;
-/// The least part of its speed to which time slows down, in percent.
-const MIN_PERCENT: u32 = 6;
 /// No cubic between two ticks goes further than a line between its ends does that is so many times ahead, from where each
 /// end is with so much of a tick's motion more.
 const AHEAD: f64 = 1.125;
 const OVERSHOT: f64 = 0.25;
-/// The newest samples of a motion, by which its growth is measured, and the time in seconds for which it is remembered where
-/// the body has been: longer than a swing that anybody waits for.
-const MEASURED: usize = 4;
+/// For how long it is remembered how far a lane strayed, in seconds: longer than a swing that anybody waits for.
 const REMEMBERED_S: f64 = 2.0;
 
 /// Where a lane moves: the room that the stage has for it, and for how long it stays.
@@ -133,44 +125,11 @@ pub(super) fn strayed_m(moment: &DrawContext<'_>, lane: &Entrant, body: usize) -
     errors.filter(|error| error.is_finite()).fold(0.0, f64::max)
 }
 
-/// How fast time runs so that a lane which outgrows the stage can be watched, in percent of the speed that is set.
-pub(in crate::lab) fn slow_motion_percent(studio: &Studio) -> u32 {
-    if studio.display().motion == Motion::Recorded || studio.mode() != Mode::Solo {
-        return 100;
-    }
-    let decades =
-        studio.past().histories(studio.selected().id).iter().zip(studio.selected().lane.bodies());
-    let decades = decades.map(|(history, body)| {
-        let base_m = match Look::of(body).framing() {
-            Framing::Recorder { half_width_m } => half_width_m,
-            Framing::Fixed { half_m, .. } => half_m.max_element(),
-            Framing::Follow { width_m, .. } => width_m,
-        };
-        if body.halted().is_some() { 0.0 } else { decades_per_s(history, base_m) }
-    });
-    let speed = f64::from(studio.clock().speed_percent()) / 100.0;
-    let fastest = speed * decades.fold(0.0, f64::max);
-    if fastest <= MAX_ZOOM { 100 } else { ((100.0 * MAX_ZOOM / fastest) as u32).max(MIN_PERCENT) }
-}
-
-/// How fast a body goes beyond this distance and beyond where it has been, in powers of ten per simulated second.
-fn decades_per_s(history: &History, base_m: f64) -> f64 {
-    let newest = history.samples().rev();
-    let Some(now) = newest.clone().next() else { return 0.0 };
-    let Some(then) = newest.clone().nth(MEASURED) else { return 0.0 };
-    let reach = |from: usize| {
-        let lately = newest.clone().skip(from).take_while(|sample| now.t - sample.t < REMEMBERED_S);
-        lately.map(|sample| sample.at.length()).fold(base_m, f64::max)
-    };
-    libm::log10(reach(0) / reach(MEASURED)) / (now.t - then.t)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::lab::Scene;
     use crate::lab::picture::{Whose, compose};
-    use crate::lab::studio::StageCommand;
+    use crate::lab::studio::{Motion, StageCommand, Studio};
 
     const SIZE: [f32; 2] = [780.0, 500.0];
 

@@ -6,7 +6,6 @@ use super::looping::Activity;
 use super::notices::Notices;
 use crate::lab::action::Action;
 use crate::lab::pacing::Due;
-use crate::lab::picture::slow_motion_percent;
 use crate::lab::race::{Mode, Observer, TimeScale};
 use crate::lab::session::Timeline;
 
@@ -60,7 +59,7 @@ impl Studio {
         let ((), told) =
             self.watched(|timeline, notices| timeline.catch_up(&mut (notices, &mut *observer)));
         self.tell(told);
-        let percent = slow_motion_percent(self);
+        let percent = self.slow_motion_percent();
         let mut due = self.clock.advance(frame_ns.saturating_mul(i64::from(percent)) / 100);
         for made in 1..=due.ticks {
             if self.race().tick() >= last {
@@ -90,7 +89,7 @@ impl Studio {
 
     fn note_frame(&mut self, duration_ns: i64, due: Due) {
         let shown_s = self.shown_s();
-        let percent = self.clock.speed_percent() * slow_motion_percent(self);
+        let percent = self.clock.speed_percent() * self.slow_motion_percent();
         let speed = f64::from(percent) / 1e4;
         let Due { ticks, dropped } = due;
         let frame = LiveFrame { duration_ns, ticks, dropped, animation_error_ms: 0.0 };

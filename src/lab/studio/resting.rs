@@ -80,7 +80,6 @@ impl Studio {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::picture::slow_motion_percent;
     use crate::lab::studio::{Command, RunCommand, StageCommand, Step, Studio, ViewCommand};
     use crate::lab::{Action, Scene};
 
@@ -107,7 +106,7 @@ mod tests {
         watch(&mut studio, 21);
         assert_eq!((studio.race().t(), studio.running()), (studio.scene().seconds, false));
         assert_eq!(
-            slow_motion_percent(&studio),
+            studio.slow_motion_percent(),
             100,
             "a swing that grows by itself is fast enough"
         );

@@ -5,7 +5,7 @@ use std::any::Any;
 
 use glam::DVec2;
 
-use super::{Mark, Outline};
+use super::scene::{Mark, Outline};
 use crate::lab::race::LaneBody;
 use crate::sim::bodies::{
     Body, Chain, Custom, Follow, Helm, Kind, Law, Net, Orbit, Origin, Pendulum, Ship, Spring,
@@ -162,7 +162,7 @@ static CUSTOM_LOOK: LookCard = LookCard::of::<Custom>("custom", custom::picture)
 
 /// The unit of what is drawn in its own scale, for people: of the plane, or of the first coordinate. Empty for a pure
 /// number.
-pub(super) fn drawn_unit(kind: &Kind) -> &'static str {
+pub(in crate::lab) fn drawn_unit(kind: &Kind) -> &'static str {
     let plane = match &kind.origin {
         Origin::Law(law) if !law.has_places() => law.text().plane,
         Origin::Custom(info) => info.plane,
