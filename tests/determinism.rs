@@ -152,9 +152,11 @@ fn lines(name: &str) -> Vec<String> {
     } else {
         vec![ticks(&scene) / EARLY, ticks(&scene)]
     };
+    // Frames end within ticks, or they do not: that is seen long before the hash is taken.
+    let paced_ticks = ticks[0] / 4;
     let pacings = [
-        ("steady", paced(Field::Everyone.open(&scene), ticks[0], steady())),
-        ("ragged", paced(Field::Everyone.open(&scene), ticks[0], ragged(0x5eed_0001))),
+        ("steady", paced(Field::Everyone.open(&scene), paced_ticks, steady())),
+        ("ragged", paced(Field::Everyone.open(&scene), paced_ticks, ragged(0x5eed_0001))),
     ];
     let hashes = compare(Field::Everyone.open(&scene), &ticks, &pacings, name);
     let line = |(method, hash): (&Method, u64)| format!("{name} {} {hash:016x}\n", method.id);
@@ -252,8 +254,10 @@ fn a_script_acts_at_its_ticks(name: &str) {
             ]);
         }
         let hash = compare(field.open(&with), &[SCRIPTED_TICKS], &pacings, &what);
-        let plain = compare(field.open(&without), &[SCRIPTED_TICKS], &[], &what);
-        assert_ne!(hash, plain, "{what}: the script changes something");
+        if matches!(field, Field::Solo(_)) {
+            let plain = compare(field.open(&without), &[SCRIPTED_TICKS], &[], &what);
+            assert_ne!(hash, plain, "{what}: the script changes something");
+        }
     }
 }
 

@@ -167,8 +167,11 @@ fn a_race_does_not_allocate_while_its_histories_fill_and_turn_over() {
     for scene in scenes() {
         let mut race = Race::new(&scene, scene.lanes.iter().copied());
         let mut past = Past::new(&race, scene.seconds);
+        // Histories turn over alike whatever moves: that takes thousands of ticks.
+        let ticks =
+            if ["harbour", "helm", "orbit"].contains(&scene.name.as_str()) { 5000 } else { 1500 };
         let count = allocations_in(|| {
-            for tick in 0..5000 {
+            for tick in 0..ticks {
                 race.step_seen(&mut past);
                 if tick % 500 == 0 {
                     race.perform(&Action::Kick(1.0), &mut past);
@@ -187,17 +190,17 @@ fn a_lab_allocates_in_no_tick_but_those_at_which_it_takes_a_snapshot() {
         let mut studio = Studio::new(scene);
         studio.apply(StageCommand::ToggleRace);
         // A lane that halts is announced in words, which do: let those halt first that will.
-        for _ in 0..3000 {
+        for _ in 0..1500 {
             studio.tick();
         }
         let mut snapshots = 0;
-        for _ in 0..3000 {
+        for _ in 0..500 {
             if allocations_in(|| studio.tick()) > 0 {
                 assert_eq!(studio.race().tick() % 32, 0, "{}", studio.scene().name);
                 snapshots += 1;
             }
         }
-        assert!((1..=3000_u32.div_ceil(32)).contains(&snapshots), "{snapshots}");
+        assert!((1..=500_u32.div_ceil(32)).contains(&snapshots), "{snapshots}");
         let count = allocations_in(|| _ = studio.advance(1_000_000));
         assert_eq!(count, 0, "{}", studio.scene().name);
     }

@@ -8,9 +8,9 @@ use regatta::sim::Clock;
 use regatta::sim::integrators::{GENERAL_METHODS, StepFailure, method};
 
 /// Ticks of the long race: 83 min at 60 Hz.
-const TICKS: u64 = 300_000;
+const TICKS: u64 = 60_000;
 /// Ticks in which it is held against the race without the lane: 300 times as long as that lane lives.
-const SIDE_BY_SIDE: u64 = 45_000;
+const SIDE_BY_SIDE: u64 = 10_000;
 
 fn stiff() -> Scene {
     Scene::built_in("stiff").expect("a built-in scene")

@@ -1,8 +1,9 @@
-//! The manual's test for continuous integration, in a stranger's crate: it passes as it is printed, and fails
-//! as soon as any lane's method is another.
+//! What the manual prints for a stranger's package: its test passes, and fails as soon as any lane's method is another; its
+//! body and the examples compile with this library and nothing else, and its dependencies are a package's.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::LazyLock;
 use std::{env, fs};
 
 use regatta::lab::{Race, Scene};
@@ -50,53 +51,76 @@ fn manifest() -> String {
     )
 }
 
-/// A package beside the others in the target folder, so that what it depends on is compiled once.
-struct Stranger {
-    folder: PathBuf,
-    target: PathBuf,
+/// What Cargo made for these tests, of the same features: the library, and the programs of the examples by their names.
+static MADE: LazyLock<(PathBuf, Vec<(String, PathBuf)>)> = LazyLock::new(|| {
+    let mut made = Command::new(env!("CARGO"));
+    made.args(["test", "--no-run", "--offline", "--quiet", "--message-format", "json"]);
+    made.args(["--test", "library", "--examples"]).current_dir(env!("CARGO_MANIFEST_DIR"));
+    if !cfg!(debug_assertions) {
+        made.arg("--release");
+    }
+    if !cfg!(feature = "accessibility") {
+        let parts = [
+            ("batch", cfg!(feature = "batch")),
+            ("lab", cfg!(feature = "lab")),
+            ("serde", cfg!(feature = "serde")),
+            ("view", cfg!(feature = "view")),
+            ("window", cfg!(feature = "window")),
+            ("cli", cfg!(feature = "cli")),
+        ];
+        let parts: Vec<_> = parts.iter().filter(|part| part.1).map(|part| part.0).collect();
+        made.args(["--no-default-features", "--features", &parts.join(",")]);
+    }
+    let made = made.output().expect("cargo runs this test too");
+    assert!(made.status.success(), "{}", said(&made));
+    let (mut library, mut examples) = (None, Vec::new());
+    for line in String::from_utf8(made.stdout).unwrap().lines() {
+        let made: serde_json::Value = serde_json::from_str(line).unwrap();
+        let target = &made["target"];
+        let (name, kind) = (target["name"].as_str(), target["kind"][0].as_str());
+        let file = |file: &serde_json::Value| file.as_str().map(PathBuf::from);
+        match (name, kind) {
+            (Some("regatta"), Some("lib")) if made["profile"]["test"] == false => {
+                let mut files = made["filenames"].as_array().unwrap().iter().filter_map(file);
+                library = files.find(|file| file.extension().is_some_and(|it| it == "rlib"));
+            }
+            (Some(name), Some("example")) => {
+                examples.extend(file(&made["executable"]).map(|file| (name.to_owned(), file)));
+            }
+            _ => {}
+        }
+    }
+    (library.expect("these tests are linked with it"), examples)
+});
+
+/// A folder of a stranger's package.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("stranger").join(name);
+    fs::create_dir_all(&folder).unwrap();
+    folder
 }
 
-impl Stranger {
-    fn new(folder: &str) -> Self {
-        let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("stranger-target");
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(folder);
-        let write = |path: &str, text: &str| {
-            let path = folder.join(path);
-            fs::create_dir_all(path.parent().unwrap()).unwrap();
-            fs::write(path, text).unwrap();
-        };
-        write("Cargo.toml", &manifest());
-        write("Cargo.lock", include_str!("../../Cargo.lock"));
-        write("src/lib.rs", "");
-        write("tests/physics.rs", recipe());
-        for (name, text) in examples().filter(runs_without_graphics) {
-            write(&format!("examples/{name}.rs"), &text);
-        }
-        write("examples/printed_body.rs", &custom_body());
-        Self { folder, target }
-    }
-
-    /// Runs the package's tests with this scene.
-    fn test(&self, scene: &str) -> Output {
-        let file = self.folder.join("assets/scenes/stiff.toml");
-        fs::create_dir_all(file.parent().unwrap()).unwrap();
-        fs::write(file, scene).unwrap();
-        self.cargo(&["test", "--quiet", "--offline", "--test", "physics"])
-    }
-
-    fn cargo(&self, arguments: &[&str]) -> Output {
-        // Its few steps take less than optimising would.
-        let unoptimised = ["--config", "profile.dev.package.regatta.opt-level=0"];
-        Command::new(env!("CARGO"))
-            .args(unoptimised)
-            .args(arguments)
-            .current_dir(&self.folder)
-            .env("CARGO_TARGET_DIR", &self.target)
-            .env_remove("RUSTFLAGS")
-            .env_remove("RUSTC_WORKSPACE_WRAPPER")
-            .output()
-            .expect("cargo runs this test too")
-    }
+/// Compiles a program of a stranger's, who has this library and nothing else.
+fn compile(name: &str, text: &str, arguments: &[&str]) -> PathBuf {
+    let folder = folder("tests");
+    let source = folder.join(name).with_extension("rs");
+    fs::write(&source, text).unwrap();
+    let (library, _) = &*MADE;
+    let output = Command::new(Path::new(env!("CARGO")).with_file_name("rustc"))
+        .args(["--edition", "2024", "--extern"])
+        .arg(format!("regatta={}", library.display()))
+        .arg("-L")
+        .arg(format!("dependency={}", library.with_file_name("deps").display()))
+        .arg("-L")
+        .arg(format!("dependency={}", library.with_file_name("").display()))
+        .arg("--out-dir")
+        .arg(&folder)
+        .args(arguments)
+        .arg(&source)
+        .output()
+        .expect("cargo has a compiler");
+    assert!(output.status.success(), "{}", said(&output));
+    folder.join(name).with_extension(env::consts::EXE_EXTENSION)
 }
 
 /// Whether an example needs no more than a game's tests have.
@@ -122,15 +146,33 @@ fn said(output: &Output) -> String {
 }
 
 #[test]
+fn the_dependencies_that_the_manual_prints_are_a_packages() {
+    let package = folder("package");
+    fs::write(folder("package/src").join("lib.rs"), "").unwrap();
+    fs::write(package.join("Cargo.toml"), manifest()).unwrap();
+    fs::write(package.join("Cargo.lock"), include_str!("../../Cargo.lock")).unwrap();
+    let mut tree = Command::new(env!("CARGO"));
+    tree.args(["tree", "--offline", "--edges", "features"]).current_dir(&package);
+    let output = tree.output().expect("cargo runs this test too");
+    assert!(output.status.success(), "{}", said(&output));
+    let tree = said(&output);
+    assert!(tree.contains("regatta feature \"lab\"") && !tree.contains("wgpu"), "{tree}");
+}
+
+#[test]
 fn the_manuals_test_passes_and_fails_for_every_lane_whose_method_is_another() {
-    let stranger = Stranger::new("stranger-with-a-test");
-    let output = stranger.test(SCENE);
+    let run = |scene: &str| {
+        fs::write(folder("assets/scenes").join("stiff.toml"), scene).unwrap();
+        let test = compile("physics", recipe(), &["--test"]);
+        Command::new(test).output().expect("it was just compiled")
+    };
+    let output = run(SCENE);
     assert!(output.status.success(), "{}", said(&output));
     assert!(said(&output).contains("1 passed"), "{}", said(&output));
     let lanes = Scene::parse("stiff.toml", SCENE).unwrap().lanes;
     assert!(lanes.len() > 1);
     for lane in lanes {
-        let output = stranger.test(&with_another(lane.method.id));
+        let output = run(&with_another(lane.method.id));
         let said = said(&output);
         assert!(!output.status.success(), "{} may change unseen", lane.method.id);
         assert!(said.contains("the_physics_is_what_it_was") && said.contains(OTHER), "{said}");
@@ -138,22 +180,24 @@ fn the_manuals_test_passes_and_fails_for_every_lane_whose_method_is_another() {
 }
 
 #[test]
-fn the_examples_run_in_a_package_of_their_own() {
-    let stranger = Stranger::new("stranger-with-examples");
+fn the_examples_run_and_need_nothing_but_the_library() {
     let mut ran = 0;
     for example in examples() {
-        let name = &example.0;
+        let (name, text) = &example;
         let file = format!("`examples/{name}.rs`");
         assert!(chapter("library").unwrap().text.contains(&file), "the manual leaves out {name}");
         if !runs_without_graphics(&example) {
             continue;
         }
         ran += 1;
-        let output = stranger.cargo(&["run", "--quiet", "--offline", "--example", name]);
+        compile(name, text, &["--emit", "metadata"]);
+        let made = MADE.1.iter().find(|made| made.0 == *name).expect("it is made beside the tests");
+        let output = Command::new(&made.1).current_dir(env!("CARGO_MANIFEST_DIR")).output();
+        let output = output.expect("it was just made");
         assert!(output.status.success() && !output.stdout.is_empty(), "{}", said(&output));
     }
     assert!(ran > 5 && ran < examples().count(), "{ran} examples");
-    let output = stranger.cargo(&["run", "--quiet", "--offline", "--example", "printed_body"]);
+    let output = Command::new(compile("printed_body", &custom_body(), &[])).output().unwrap();
     assert!(
         output.status.success() && said(&output).contains("body at 60 Hz"),
         "{}",

@@ -412,7 +412,7 @@ fn an_ellipse_that_turns_does_not_grow() {
 #[test]
 fn verdicts_on_random_scenes_are_true() {
     let mut dice = Dice::new(0);
-    let (mut unknown, mut false_ones, total) = (Vec::new(), Vec::new(), 200);
+    let (mut unknown, mut false_ones, total) = (Vec::new(), Vec::new(), 100);
     for round in 0..total {
         let kind = KINDS[round % KINDS.len()];
         let text = scene(&mut dice, kind);

@@ -38,11 +38,12 @@ fn nothing_that_blows_up_reaches_a_vertex() {
         studio.apply(StageCommand::ToggleRace);
         for frame in 0..400 {
             studio.advance(16_666_667);
+            // What doubles in a frame is seen before it is eight times as large.
             if frame % 3 == 0 {
                 studio.apply(RunCommand::NextInterpolation);
+                let what = format!("{} at frame {frame}", scene.name);
+                assert_drawable(&compose(&studio, [780.0, 500.0]), &what);
             }
-            let what = format!("{} at frame {frame}", scene.name);
-            assert_drawable(&compose(&studio, [780.0, 500.0]), &what);
         }
     }
 }

@@ -104,7 +104,7 @@ fn ticks_of_actions(dice: &mut Dice, ticks: u64) -> Vec<u64> {
     at
 }
 
-const TICKS: u64 = 10_000;
+const TICKS: u64 = 5_000;
 /// An unoptimised build would take a quarter of an hour for all.
 const JOURNALS: usize = if cfg!(debug_assertions) { 40 } else { 200 };
 
@@ -212,10 +212,10 @@ fn a_seek_from_any_tick_gives_the_state_of_a_run_to_that_tick() {
     let mut dice = Dice::new(2);
     for n in 0..16 {
         let mut timeline = Timeline::new(start(&mut dice, n));
-        let mut at = ticks_of_actions(&mut dice, 4000).into_iter().peekable();
-        let wanted: Vec<u64> = (0..12).map(|_| dice.below(4000) as u64).collect();
+        let mut at = ticks_of_actions(&mut dice, 2000).into_iter().peekable();
+        let wanted: Vec<u64> = (0..12).map(|_| dice.below(2000) as u64).collect();
         let mut ran = Vec::new();
-        for tick in 0..4000 {
+        for tick in 0..2000 {
             if wanted.contains(&tick) {
                 ran.push(shown(&timeline));
             }
@@ -226,7 +226,7 @@ fn a_seek_from_any_tick_gives_the_state_of_a_run_to_that_tick() {
             timeline.tick();
         }
         ran.push(shown(&timeline));
-        for _ in 0..30 {
+        for _ in 0..15 {
             let then = &ran[dice.below(ran.len())];
             timeline.seek(then.tick);
             let now = shown(&timeline);

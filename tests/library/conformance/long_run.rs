@@ -46,7 +46,8 @@ fn drift(method: &Method, h: f64, steps: u32) -> Option<Drift> {
 #[test]
 fn symplectic_methods_and_no_others_bound_energy_without_a_trend_over_a_million_steps() {
     for method in GENERAL_METHODS {
-        let drift = drift(method, 0.3, 1_000_000);
+        // A trend is seen sooner than that there is none.
+        let drift = drift(method, 0.3, if method.symplectic { 1_000_000 } else { 200_000 });
         let trend = drift.as_ref().map_or(f64::INFINITY, Drift::trend);
         let amplitude = drift.map_or(f64::INFINITY, |drift| drift.amplitude);
         println!("{:26} energy error {amplitude:.1e}, trend {trend:.1e} of it", method.id);

@@ -65,10 +65,10 @@ fn by_runge_kutta(body: &SceneBody, seconds: f64, steps: u32) -> Vec<f64> {
 }
 
 #[test]
-fn the_reference_of_fifty_random_laws_agrees_with_an_independent_integrator() {
+fn the_reference_of_twenty_five_random_laws_agrees_with_an_independent_integrator() {
     let mut dice = Dice::new(1);
     let (mut tried, mut smooth) = (0, 0);
-    while tried < 50 {
+    while tried < 25 {
         let [f, g] = [(); 2].map(|()| expression(&mut dice, 3));
         let text = format!(
             "[[law]]\nconstants = {{ k = 1.5 }}\n[law.coordinates.x]\nstart = 0.4\nacceleration = \"-3*x - 0.4*vx + {f}\"\n\
@@ -95,11 +95,11 @@ fn the_reference_of_fifty_random_laws_agrees_with_an_independent_integrator() {
         smooth += u32::from(own < 1e-10 * size);
         tried += 1;
     }
-    assert!(smooth > 20, "{smooth} of 50 could be compared to 1e-10");
+    assert!(smooth > 10, "{smooth} of 25 could be compared to 1e-10");
 }
 
 #[test]
-fn three_hundred_thousand_mutated_expressions_are_read_or_refused_in_place() {
+fn a_hundred_thousand_mutated_expressions_are_read_or_refused_in_place() {
     const PIECES: [&str; 40] = [
         "x",
         "vx",
@@ -151,7 +151,7 @@ fn three_hundred_thousand_mutated_expressions_are_read_or_refused_in_place() {
     ];
     let mut dice = Dice::new(2);
     let (mut good, mut bad) = (0, 0);
-    for _ in 0..300_000 {
+    for _ in 0..100_000 {
         let mut text: Vec<char> = SEEDS[dice.below(5)].chars().collect();
         for _ in 0..1 + dice.below(6) {
             let at = dice.below(text.len() + 1);
@@ -201,5 +201,5 @@ fn three_hundred_thousand_mutated_expressions_are_read_or_refused_in_place() {
             }
         }
     }
-    assert!(good > 10_000 && bad > 100_000, "{good} read, {bad} refused");
+    assert!(good > 3_000 && bad > 30_000, "{good} read, {bad} refused");
 }

@@ -118,7 +118,7 @@ fn the_race_goes_on_without_a_truth() {
 
 #[test]
 fn advice_without_a_truth_is_on_stability_only() {
-    let scene = scene(1000.0, "");
+    let scene = Scene { seconds: 1.0, ..scene(1000.0, "") };
     let adviser = Adviser::new(&scene, 60);
     let plain = |id: &str| LaneSpec::plain(method(id).unwrap());
     for id in ["semi-implicit-euler", "implicit-euler"] {

@@ -61,7 +61,7 @@ fn killed_at_any_moment_it_leaves_the_old_clip_or_the_new_one() {
     let Some((folder, old, new, duration)) = clip_or_skip(test) else { return };
     let folder = folder.path();
     let mut random = XorShift::new(test);
-    for _ in 0..14 {
+    for _ in 0..8 {
         restore(folder, &old);
         let mut command = regatta();
         command.current_dir(folder).args(["verify", "clip", "--bless"]).stderr(Stdio::null());

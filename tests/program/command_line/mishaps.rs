@@ -98,7 +98,7 @@ fn killed_at_any_moment_it_leaves_whole_frames_in_order_and_can_be_drawn_again()
     let folder = folder.path();
     let Some(whole) = whole_or_skip(test, folder) else { return };
     let mut random = XorShift::new(test);
-    for _ in 0..20 {
+    for _ in 0..10 {
         let _ = fs::remove_dir_all(folder.join("clip"));
         let mut child = start(folder, &format!("{CAPTURE} clip"));
         std::thread::sleep(Duration::from_micros(random.below(whole.as_micros() as u64)));
@@ -153,7 +153,7 @@ fn interrupted_at_any_moment_it_leaves_a_manifest_of_what_is_there() {
     let Some(_) = whole_or_skip(test, folder) else { return };
     let mut random = XorShift::new(test);
     let mut interrupted = 0;
-    for _ in 0..14 {
+    for _ in 0..7 {
         let _ = fs::remove_dir_all(folder.join("clip"));
         let child = start(folder, &format!("{CAPTURE} clip"));
         let frame = folder.join(format!("clip/frame-{:06}.png", random.below(FRAMES as u64)));
