@@ -3,7 +3,8 @@
 
 use std::fmt;
 
-use super::command::{Command, RunCommand, StageCommand, ViewCommand};
+use super::command::Command::{self, Ask, Loop, Run, Stage, View};
+use super::command::{RunCommand, StageCommand, ViewCommand};
 use super::display::DriverRequest;
 use super::step::Step;
 use crate::lab::action::Action;
@@ -85,280 +86,233 @@ pub struct Binding {
 
 /// Every key and its command.
 pub static KEYS: &[Binding] = &[
-    Binding {
-        shown: "1 … 9, 0",
-        about: "solo: switch the bodies to that method, in flight; race, loop lab: select that lane",
-        keys: &[
-            (Key::Digit(1), Command::Stage(StageCommand::Pick(0))),
-            (Key::Digit(2), Command::Stage(StageCommand::Pick(1))),
-            (Key::Digit(3), Command::Stage(StageCommand::Pick(2))),
-            (Key::Digit(4), Command::Stage(StageCommand::Pick(3))),
-            (Key::Digit(5), Command::Stage(StageCommand::Pick(4))),
-            (Key::Digit(6), Command::Stage(StageCommand::Pick(5))),
-            (Key::Digit(7), Command::Stage(StageCommand::Pick(6))),
-            (Key::Digit(8), Command::Stage(StageCommand::Pick(7))),
-            (Key::Digit(9), Command::Stage(StageCommand::Pick(8))),
-            (Key::Digit(0), Command::Stage(StageCommand::Pick(9))),
+    once(
+        "1 … 9, 0",
+        "solo: switch the bodies to that method, in flight; race, loop lab: select that lane",
+        &[
+            (Key::Digit(1), Stage(StageCommand::Pick(0))),
+            (Key::Digit(2), Stage(StageCommand::Pick(1))),
+            (Key::Digit(3), Stage(StageCommand::Pick(2))),
+            (Key::Digit(4), Stage(StageCommand::Pick(3))),
+            (Key::Digit(5), Stage(StageCommand::Pick(4))),
+            (Key::Digit(6), Stage(StageCommand::Pick(5))),
+            (Key::Digit(7), Stage(StageCommand::Pick(6))),
+            (Key::Digit(8), Stage(StageCommand::Pick(7))),
+            (Key::Digit(9), Stage(StageCommand::Pick(8))),
+            (Key::Digit(0), Stage(StageCommand::Pick(9))),
         ],
-        repeats: false,
-    },
-    Binding {
-        shown: "M, Shift M",
-        about: "next, previous method",
-        keys: &[
-            (Key::Sign('m'), Command::Stage(StageCommand::MethodBeside(Step::Next))),
-            (Key::ShiftSign('m'), Command::Stage(StageCommand::MethodBeside(Step::Previous))),
+    ),
+    once(
+        "M, Shift M",
+        "next, previous method",
+        &[
+            (Key::Sign('m'), Stage(StageCommand::MethodBeside(Step::Next))),
+            (Key::ShiftSign('m'), Stage(StageCommand::MethodBeside(Step::Previous))),
         ],
-        repeats: false,
-    },
-    Binding {
-        shown: "C",
-        about: "solo / race of all methods",
-        keys: &[(Key::Sign('c'), Command::Stage(StageCommand::ToggleRace))],
-        repeats: false,
-    },
-    Binding {
-        shown: "Space",
-        about: "run / pause",
-        keys: &[(Key::Space, Command::View(ViewCommand::TogglePause))],
-        repeats: false,
-    },
-    Binding {
-        shown: ", .",
-        about: "one tick back, forward",
-        keys: &[
-            (Key::Sign(','), Command::Stage(StageCommand::Tick(Step::Previous))),
-            (Key::Sign('.'), Command::Stage(StageCommand::Tick(Step::Next))),
+    ),
+    once("C", "solo / race of all methods", &[(Key::Sign('c'), Stage(StageCommand::ToggleRace))]),
+    once("Space", "run / pause", &[(Key::Space, View(ViewCommand::TogglePause))]),
+    repeating(
+        ", .",
+        "one tick back, forward",
+        &[
+            (Key::Sign(','), Stage(StageCommand::Tick(Step::Previous))),
+            (Key::Sign('.'), Stage(StageCommand::Tick(Step::Next))),
         ],
-        repeats: true,
-    },
-    Binding {
-        shown: "Shift , .",
-        about: "one second back, forward",
-        keys: &[
-            (Key::ShiftSign(','), Command::Stage(StageCommand::Second(Step::Previous))),
-            (Key::ShiftSign('.'), Command::Stage(StageCommand::Second(Step::Next))),
+    ),
+    repeating(
+        "Shift , .",
+        "one second back, forward",
+        &[
+            (Key::ShiftSign(','), Stage(StageCommand::Second(Step::Previous))),
+            (Key::ShiftSign('.'), Stage(StageCommand::Second(Step::Next))),
         ],
-        repeats: true,
-    },
-    Binding {
-        shown: "W",
-        about: "watch the selected lane blow up again",
-        keys: &[(Key::Sign('w'), Command::Run(RunCommand::WatchAgain))],
-        repeats: false,
-    },
-    Binding {
-        shown: "Ctrl Z, Ctrl Shift Z",
-        about: "undo, redo the last change",
-        keys: &[
-            (Key::ControlSign('z'), Command::Run(RunCommand::Undo)),
-            (Key::ControlShiftSign('z'), Command::Run(RunCommand::Redo)),
+    ),
+    once(
+        "W",
+        "watch the selected lane blow up again",
+        &[(Key::Sign('w'), Run(RunCommand::WatchAgain))],
+    ),
+    once(
+        "Ctrl Z, Ctrl Shift Z",
+        "undo, redo the last change",
+        &[
+            (Key::ControlSign('z'), Run(RunCommand::Undo)),
+            (Key::ControlShiftSign('z'), Run(RunCommand::Redo)),
         ],
-        repeats: false,
-    },
-    Binding {
-        shown: "Home",
-        about: "restart",
-        keys: &[(Key::Home, Command::Stage(StageCommand::Restart))],
-        repeats: false,
-    },
-    Binding {
-        shown: "[ ]",
-        about: "tick rate down, up",
-        keys: &[
-            (Key::Sign('['), Command::Stage(StageCommand::TickRate(Step::Previous))),
-            (Key::Sign(']'), Command::Stage(StageCommand::TickRate(Step::Next))),
+    ),
+    once("Home", "restart", &[(Key::Home, Stage(StageCommand::Restart))]),
+    repeating(
+        "[ ]",
+        "tick rate down, up",
+        &[
+            (Key::Sign('['), Stage(StageCommand::TickRate(Step::Previous))),
+            (Key::Sign(']'), Stage(StageCommand::TickRate(Step::Next))),
         ],
-        repeats: true,
-    },
-    Binding {
-        shown: "- =",
-        about: "speed down, up: ¼× to 16×",
-        keys: &[
-            (Key::Sign('-'), Command::Stage(StageCommand::Speed(Step::Previous))),
-            (Key::Sign('='), Command::Stage(StageCommand::Speed(Step::Next))),
+    ),
+    repeating(
+        "- =",
+        "speed down, up: ¼× to 16×",
+        &[
+            (Key::Sign('-'), Stage(StageCommand::Speed(Step::Previous))),
+            (Key::Sign('='), Stage(StageCommand::Speed(Step::Next))),
         ],
-        repeats: true,
-    },
-    Binding {
-        shown: "↑ ↓",
-        about: "throttle (ship, helm, a law that uses it)",
-        keys: &[
-            (Key::Up, Command::Run(RunCommand::ThrottleUp)),
-            (Key::Down, Command::Run(RunCommand::ThrottleDown)),
+    ),
+    repeating(
+        "↑ ↓",
+        "throttle (ship, helm, a law that uses it)",
+        &[(Key::Up, Run(RunCommand::ThrottleUp)), (Key::Down, Run(RunCommand::ThrottleDown))],
+    ),
+    repeating(
+        "← →",
+        "rudder (helm, a law that uses it)",
+        &[(Key::Left, Run(RunCommand::RudderLeft)), (Key::Right, Run(RunCommand::RudderRight))],
+    ),
+    once(
+        "K",
+        "kick: an impulse at the next tick",
+        &[(Key::Sign('k'), Run(RunCommand::Act(Action::Kick(1.0))))],
+    ),
+    once(
+        "N, B",
+        "next, previous scene",
+        &[
+            (Key::Sign('n'), Stage(StageCommand::SceneBeside(Step::Next))),
+            (Key::Sign('b'), Stage(StageCommand::SceneBeside(Step::Previous))),
         ],
-        repeats: true,
-    },
-    Binding {
-        shown: "← →",
-        about: "rudder (helm, a law that uses it)",
-        keys: &[
-            (Key::Left, Command::Run(RunCommand::RudderLeft)),
-            (Key::Right, Command::Run(RunCommand::RudderRight)),
-        ],
-        repeats: true,
-    },
-    Binding {
-        shown: "K",
-        about: "kick: an impulse at the next tick",
-        keys: &[(Key::Sign('k'), Command::Run(RunCommand::Act(Action::Kick(1.0))))],
-        repeats: false,
-    },
-    Binding {
-        shown: "N, B",
-        about: "next, previous scene",
-        keys: &[
-            (Key::Sign('n'), Command::Stage(StageCommand::SceneBeside(Step::Next))),
-            (Key::Sign('b'), Command::Stage(StageCommand::SceneBeside(Step::Previous))),
-        ],
-        repeats: false,
-    },
-    Binding {
-        shown: "O",
-        about: "open a scene file; or drop one onto the window",
-        keys: &[(Key::Sign('o'), Command::View(ViewCommand::AskForPath))],
-        repeats: false,
-    },
-    Binding {
-        shown: "S",
-        about: "a spring of your own: its numbers, the recommended method, and its code",
-        keys: &[(Key::Sign('s'), Command::View(ViewCommand::AskForSpring))],
-        repeats: false,
-    },
-    Binding {
-        shown: "G",
-        about: "exact ghost on / off",
-        keys: &[(Key::Sign('g'), Command::View(ViewCommand::ToggleGhost))],
-        repeats: false,
-    },
-    Binding {
-        shown: "I",
-        about: "drawing between ticks: raw / extrapolated / linear / Hermite / monotone Hermite",
-        keys: &[(Key::Sign('i'), Command::Run(RunCommand::NextInterpolation))],
-        repeats: false,
-    },
-    Binding {
-        shown: "L",
-        about: "loop lab: one motion under every game loop",
-        keys: &[(Key::Sign('l'), Command::Loop(LoopCommand::ToggleLab))],
-        repeats: false,
-    },
-    Binding {
-        shown: "V",
-        about: "race, loop lab: lanes over each other / side by side",
-        keys: &[(Key::Sign('v'), Command::Stage(StageCommand::ToggleArrangement))],
-        repeats: false,
-    },
-    Binding {
-        shown: "F3",
-        about: "light / dark theme",
-        keys: &[(Key::Function(3), Command::View(ViewCommand::ToggleTheme))],
-        repeats: false,
-    },
-    Binding {
-        shown: "Ctrl + − 0",
-        about: "text and panels larger, smaller, back to normal",
-        keys: &[
-            (Key::ControlSign('+'), Command::View(ViewCommand::Scale(Step::Next))),
+    ),
+    once(
+        "O",
+        "open a scene file; or drop one onto the window",
+        &[(Key::Sign('o'), View(ViewCommand::AskForPath))],
+    ),
+    once(
+        "S",
+        "a spring of your own: its numbers, the recommended method, and its code",
+        &[(Key::Sign('s'), View(ViewCommand::AskForSpring))],
+    ),
+    once("G", "exact ghost on / off", &[(Key::Sign('g'), View(ViewCommand::ToggleGhost))]),
+    once(
+        "I",
+        "drawing between ticks: raw / extrapolated / linear / Hermite / monotone Hermite",
+        &[(Key::Sign('i'), Run(RunCommand::NextInterpolation))],
+    ),
+    once(
+        "L",
+        "loop lab: one motion under every game loop",
+        &[(Key::Sign('l'), Loop(LoopCommand::ToggleLab))],
+    ),
+    once(
+        "V",
+        "race, loop lab: lanes over each other / side by side",
+        &[(Key::Sign('v'), Stage(StageCommand::ToggleArrangement))],
+    ),
+    once("F3", "light / dark theme", &[(Key::Function(3), View(ViewCommand::ToggleTheme))]),
+    repeating(
+        "Ctrl + − 0",
+        "text and panels larger, smaller, back to normal",
+        &[
+            (Key::ControlSign('+'), View(ViewCommand::Scale(Step::Next))),
             // The same key unshifted.
-            (Key::ControlSign('='), Command::View(ViewCommand::Scale(Step::Next))),
-            (Key::ControlSign('-'), Command::View(ViewCommand::Scale(Step::Previous))),
-            (Key::ControlSign('0'), Command::View(ViewCommand::UsualScale)),
+            (Key::ControlSign('='), View(ViewCommand::Scale(Step::Next))),
+            (Key::ControlSign('-'), View(ViewCommand::Scale(Step::Previous))),
+            (Key::ControlSign('0'), View(ViewCommand::UsualScale)),
         ],
-        repeats: true,
-    },
-    Binding {
-        shown: "T, Shift T",
-        about: "next, previous instrument; loop lab: display",
-        keys: &[
-            (Key::Sign('t'), Command::Stage(StageCommand::InstrumentBeside(Step::Next))),
-            (Key::ShiftSign('t'), Command::Stage(StageCommand::InstrumentBeside(Step::Previous))),
+    ),
+    once(
+        "T, Shift T",
+        "next, previous instrument; loop lab: display",
+        &[
+            (Key::Sign('t'), Stage(StageCommand::InstrumentBeside(Step::Next))),
+            (Key::ShiftSign('t'), Stage(StageCommand::InstrumentBeside(Step::Previous))),
         ],
-        repeats: false,
-    },
-    Binding {
-        shown: "Enter",
-        about: "enlarge the instrument over the stage",
-        keys: &[(Key::Enter, Command::View(ViewCommand::ToggleEnlarged))],
-        repeats: false,
-    },
-    Binding {
-        shown: "Ctrl C, Ctrl E",
-        about: "copy the instrument's values, or on a lane its method, or an engine's settings, as code; save as PNG, SVG and CSV",
-        keys: &[
-            (Key::ControlSign('c'), Command::View(ViewCommand::Copy)),
-            (Key::ControlSign('e'), Command::Ask(DriverRequest::ExportInstrument)),
+    ),
+    once(
+        "Enter",
+        "enlarge the instrument over the stage",
+        &[(Key::Enter, View(ViewCommand::ToggleEnlarged))],
+    ),
+    once(
+        "Ctrl C, Ctrl E",
+        "copy the instrument's values, or on a lane its method, or an engine's settings, as code; save as PNG, SVG and CSV",
+        &[
+            (Key::ControlSign('c'), View(ViewCommand::Copy)),
+            (Key::ControlSign('e'), Ask(DriverRequest::ExportInstrument)),
         ],
-        repeats: false,
-    },
-    Binding {
-        shown: "E",
-        about: "inspector: parameters, methods and rates, edited while it runs",
-        keys: &[(Key::Sign('e'), Command::Run(RunCommand::ToggleInspector))],
-        repeats: false,
-    },
-    Binding {
-        shown: "P, F12",
-        about: "screenshot; the file's name is shown",
-        keys: &[
-            (Key::Sign('p'), Command::Ask(DriverRequest::Screenshot)),
-            (Key::Function(12), Command::Ask(DriverRequest::Screenshot)),
+    ),
+    once(
+        "E",
+        "inspector: parameters, methods and rates, edited while it runs",
+        &[(Key::Sign('e'), Run(RunCommand::ToggleInspector))],
+    ),
+    once(
+        "P, F12",
+        "screenshot; the file's name is shown",
+        &[
+            (Key::Sign('p'), Ask(DriverRequest::Screenshot)),
+            (Key::Function(12), Ask(DriverRequest::Screenshot)),
         ],
-        repeats: false,
-    },
-    Binding {
-        shown: "F5, Ctrl S",
-        about: "save the run as a scene file; its name is shown",
-        keys: &[
-            (Key::Function(5), Command::Ask(DriverRequest::Record)),
-            (Key::ControlSign('s'), Command::Ask(DriverRequest::Record)),
+    ),
+    once(
+        "F5, Ctrl S",
+        "save the run as a scene file; its name is shown",
+        &[
+            (Key::Function(5), Ask(DriverRequest::Record)),
+            (Key::ControlSign('s'), Ask(DriverRequest::Record)),
         ],
-        repeats: false,
-    },
-    Binding {
-        shown: "X",
-        about: "equal cost of all lanes on / off: cheap lanes get more substeps",
-        keys: &[(Key::Sign('x'), Command::Run(RunCommand::ToggleEqualCost))],
-        repeats: false,
-    },
-    Binding {
-        shown: "F11",
-        about: "full screen",
-        keys: &[(Key::Function(11), Command::Ask(DriverRequest::ToggleFullScreen))],
-        repeats: false,
-    },
-    Binding {
-        shown: "F2",
-        about: "guide: the chapter in stops, each with a prediction and a key to press",
-        keys: &[(Key::Function(2), Command::View(ViewCommand::ToggleGuide))],
-        repeats: false,
-    },
-    Binding {
-        shown: "Page Up, Down",
-        about: "previous, next stop of the guide, while it is open",
-        keys: &[
-            (Key::PageUp, Command::View(ViewCommand::StopBeside(Step::Previous))),
-            (Key::PageDown, Command::View(ViewCommand::StopBeside(Step::Next))),
+    ),
+    once(
+        "X",
+        "equal cost of all lanes on / off: cheap lanes get more substeps",
+        &[(Key::Sign('x'), Run(RunCommand::ToggleEqualCost))],
+    ),
+    once("F11", "full screen", &[(Key::Function(11), Ask(DriverRequest::ToggleFullScreen))]),
+    once(
+        "F2",
+        "guide: the chapter in stops, each with a prediction and a key to press",
+        &[(Key::Function(2), View(ViewCommand::ToggleGuide))],
+    ),
+    once(
+        "Page Up, Down",
+        "previous, next stop of the guide, while it is open",
+        &[
+            (Key::PageUp, View(ViewCommand::StopBeside(Step::Previous))),
+            (Key::PageDown, View(ViewCommand::StopBeside(Step::Next))),
         ],
-        repeats: false,
-    },
-    Binding {
-        shown: "H, F1, ?",
-        about: "help",
-        keys: &[
-            (Key::Sign('h'), Command::View(ViewCommand::ToggleHelp)),
-            (Key::Function(1), Command::View(ViewCommand::ToggleHelp)),
-            (Key::Sign('?'), Command::View(ViewCommand::ToggleHelp)),
+    ),
+    once(
+        "H, F1, ?",
+        "help",
+        &[
+            (Key::Sign('h'), View(ViewCommand::ToggleHelp)),
+            (Key::Function(1), View(ViewCommand::ToggleHelp)),
+            (Key::Sign('?'), View(ViewCommand::ToggleHelp)),
         ],
-        repeats: false,
-    },
-    Binding {
-        shown: "Esc",
-        about: "let go of a body, close the overlay, the guide, the instrument, the inspector, leave the loop lab, or quit: twice where something would be lost",
-        keys: &[(Key::Escape, Command::View(ViewCommand::Escape))],
-        repeats: false,
-    },
+    ),
+    once(
+        "Esc",
+        "let go of a body, close the overlay, the guide, the instrument, the inspector, leave the loop lab, or quit: twice where something would be lost",
+        &[(Key::Escape, View(ViewCommand::Escape))],
+    ),
 ];
+
+/// A line whose keys do nothing more while they are held.
+const fn once(
+    shown: &'static str,
+    about: &'static str,
+    keys: &'static [(Key, Command)],
+) -> Binding {
+    Binding { shown, about, keys, repeats: false }
+}
+
+/// A line whose keys repeat while they are held.
+const fn repeating(
+    shown: &'static str,
+    about: &'static str,
+    keys: &'static [(Key, Command)],
+) -> Binding {
+    Binding { repeats: true, ..once(shown, about, keys) }
+}
 
 /// What `key` does, if anything.
 pub fn command_for(key: Key) -> Option<(Command, &'static Binding)> {
