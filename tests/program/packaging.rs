@@ -59,3 +59,16 @@ fn the_icon_is_square_and_the_version_that_of_the_package() {
     let about = fs::read_to_string(folder().join("org.example.regatta.metainfo.xml")).unwrap();
     assert!(about.contains(&format!("version=\"{}\"", env!("CARGO_PKG_VERSION"))));
 }
+
+#[test]
+fn every_crate_that_a_profile_names_is_built() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let [manifest, lock] =
+        ["Cargo.toml", "Cargo.lock"].map(|file| fs::read_to_string(here.join(file)).unwrap());
+    let names = manifest.lines().filter_map(|line| line.split_once(" = { opt-level = "));
+    let names: Vec<&str> = names.map(|(name, _)| name).filter(|name| *name != "\"*\"").collect();
+    assert!(names.len() > 50, "{names:?}");
+    for name in names {
+        assert!(lock.contains(&format!("\nname = \"{name}\"\n")), "{name}");
+    }
+}
