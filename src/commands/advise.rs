@@ -6,15 +6,15 @@ use std::sync::atomic::Ordering;
 use clap::Args;
 
 use super::error::Error;
-use super::experiment::{ExperimentArgs, Lineup, one_of};
+use super::experiment::{ExperimentArgs, Lineup};
 use super::help::flowing;
+use super::id::{FAMILY, LANGUAGE};
 use super::interrupt::watch_for_interrupt;
 use super::output::print;
 use super::output::table::TableFormat;
 use super::{jobs, scene_file};
-use crate::lab::scene::{Scene, nearest};
 use crate::lab::source_code::Language;
-use crate::lab::{Adviser, LaneSpec};
+use crate::lab::{Adviser, LaneSpec, Scene};
 use crate::sim::integrators::{Family, METHODS};
 
 mod judged;
@@ -83,13 +83,13 @@ pub(super) struct AdviseArgs {
     ///
     /// Explicit, symplectic, adaptive, implicit, linearised, as-printed, follower or engine; those of engines are judged
     /// only so.
-    #[arg(long, value_name = "FAMILY", value_parser = known_family, conflicts_with = "methods")]
+    #[arg(long, value_name = "FAMILY", value_parser = FAMILY, hide_possible_values = true, conflicts_with = "methods")]
     family: Option<Family>,
 
     /// Print the recommended method as code too
     ///
     /// As a function in this language, in text. For a spring of --k or --frequency the default is rust.
-    #[arg(long = "as", value_name = "LANGUAGE", value_parser = one_of(&Language::ALL, Language::id))]
+    #[arg(long = "as", value_name = "LANGUAGE", value_parser = LANGUAGE)]
     language: Option<Language>,
 
     /// The format: text or json
@@ -107,17 +107,6 @@ fn of_family(scene: &Scene, family: Family) -> Result<Vec<LaneSpec>, Error> {
         scene_file::check_method(scene, method.expect("each family has a method"))?;
     }
     Ok(specs)
-}
-
-fn known_family(id: &str) -> Result<Family, String> {
-    let ids = || Family::ALL.map(|family| (family.id(), family.id()));
-    Family::ALL.into_iter().find(|family| family.id() == id).ok_or_else(|| {
-        let all = Family::ALL.map(Family::id).join(", ");
-        match nearest(id, ids().into_iter()) {
-            Some(meant) => format!("no such family; did you mean {meant}? There are {all}"),
-            None => format!("no such family. There are {all}"),
-        }
-    })
 }
 
 pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {

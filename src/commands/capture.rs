@@ -7,17 +7,15 @@ use clap::{Args, ValueEnum};
 
 use super::capture_settings::CaptureSettings;
 use super::error::Error;
-use super::experiment::{
-    self, Experiment, ExperimentArgs, Lineup, ThemeName, known_cloud, known_instrument, known_trace,
-};
+use super::experiment::{self, Experiment, ExperimentArgs, Lineup, ThemeName, known_trace};
 use super::frame_folder::{FolderPolicy, FrameFolder};
 use super::frame_names::MAX_FRAMES;
 use super::help::flowing;
-use super::movie::{self, MovieFormat};
-use super::output::picture_format::PictureFormat;
+use super::id::{CLOUD, INSTRUMENT};
 use super::output::{Destination, Output};
+use super::picture_format::{self, PictureFormat, Writing};
 use super::schedule::{FPS, MAX_FPS, Schedule, frames_in};
-use super::{clip, sheet, state_log};
+use super::{clip, movie, sheet, state_log};
 use crate::atomic_file::IfExists;
 use crate::lab::cloud::CloudKind;
 use crate::lab::pacing::TraceCard;
@@ -103,13 +101,15 @@ pub(super) struct CaptureArgs {
     /// The instrument [default: motion]
     ///
     /// That among the panels, such as energy, phase-portrait or cloud.
-    #[arg(long, value_name = "NAME", value_parser = known_instrument, conflicts_with = "loop_trace")]
+    #[arg(long, value_name = "NAME", value_parser = INSTRUMENT, conflicts_with = "loop_trace")]
+    #[arg(hide_possible_values = true)]
     instrument: Option<Instrument>,
 
     /// What the instrument cloud shows [default: cat]
     ///
     /// Cat, disc, ring or section.
-    #[arg(long, value_name = "SHAPE", value_parser = known_cloud, requires = "instrument")]
+    #[arg(long, value_name = "SHAPE", value_parser = CLOUD, requires = "instrument")]
+    #[arg(hide_possible_values = true)]
     shape: Option<CloudKind>,
 
     /// Ticks between two states in the manifest
@@ -122,8 +122,8 @@ pub(super) struct CaptureArgs {
     /// The format: png, apng, gif, y4m, rgba or sheet
     ///
     /// By default that of the ending of FILE, and png for a DIR.
-    #[arg(long, value_name = "FORMAT", hide_possible_values = true)]
-    format: Option<PictureFormat>,
+    #[arg(long, value_name = "FORMAT", value_parser = picture_format::by_id(), hide_possible_values = true)]
+    format: Option<&'static PictureFormat>,
 
     /// Replace the frames in DIR, or FILE
     ///
@@ -154,26 +154,27 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
         ));
     }
     let format = PictureFormat::of(&args.out, args.format)?;
-    let everyone = args.race || format == PictureFormat::Sheet && args.experiment.names_no_method();
+    let everyone = args.race || format.is_sheet() && args.experiment.names_no_method();
     let lineup = if everyone { Lineup::Everyone } else { Lineup::Solo };
-    if args.loop_trace.is_some() && format == PictureFormat::Sheet {
+    if args.loop_trace.is_some() && format.is_sheet() {
         return Err(Error::mistake(
             "a sheet shows methods and not loops; give --loop another format",
         ));
     }
     let experiment = args.experiment.load(lineup)?;
+    let experiment = Experiment { loop_trace: args.loop_trace, ..experiment };
+    let studio = experiment.studio();
     if args.loop_trace.is_some()
-        && let Some(refusal) = experiment.studio().loop_lab_refusal()
+        && let Some(refusal) = studio.loop_lab_refusal()
     {
         return Err(Error::mistake(format!("--loop: {refusal}")));
     }
-    let experiment = Experiment { loop_trace: args.loop_trace, ..experiment };
     let fps = args.fps.unwrap_or(format.or_sheet(FPS, SHEET_FPS));
     format.check(fps)?;
     let frames = match (args.frames, args.seconds) {
         (Some(frames), _) => frames,
         (None, Some(seconds)) => frames_in(seconds, fps)?,
-        (None, None) if format == PictureFormat::Sheet => SHEET_COLUMNS,
+        (None, None) if format.is_sheet() => SHEET_COLUMNS,
         (None, None) => frames_in(experiment.scene.seconds, fps)?,
     };
     let schedule = Schedule { frames, fps };
@@ -188,23 +189,17 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
         theme: args.theme.map(Theme::from).unwrap_or_default(),
         mark_every: args
             .mark_every
-            .unwrap_or_else(|| state_log::usual_stride(schedule.ticks(&experiment.studio()))),
+            .unwrap_or_else(|| state_log::usual_stride(schedule.ticks(&studio))),
     };
-    let movie = match format {
-        PictureFormat::Png => {
+    match format.writing {
+        Writing::Folder => {
             let existing = if args.force { FolderPolicy::Replace } else { FolderPolicy::Refuse };
             let folder = FrameFolder::inspect(&args.out, existing, "--out")?;
-            return clip::record(&experiment, capture, folder).map(drop);
+            clip::record(&experiment, studio, capture, folder).map(drop)
         }
-        PictureFormat::Sheet => {
-            return sheet::draw(&experiment, capture, open(args)?);
-        }
-        PictureFormat::Gif => MovieFormat::Gif,
-        PictureFormat::Apng => MovieFormat::Apng,
-        PictureFormat::Y4m => MovieFormat::Y4m,
-        PictureFormat::Rgba => MovieFormat::Rgba,
-    };
-    movie::record(&experiment, capture, movie, open(args)?)
+        Writing::Sheet => sheet::draw(&experiment, &studio, capture, open(args)?),
+        Writing::Movie(begin) => movie::record(studio, capture, begin, open(args)?),
+    }
 }
 
 fn open(args: &CaptureArgs) -> Result<Output, Error> {

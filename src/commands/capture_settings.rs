@@ -1,6 +1,5 @@
 //! The settings with which a run is drawn.
 
-use super::experiment::Experiment;
 use super::schedule::Schedule;
 use crate::lab::cloud::{CloudChoice, CloudKind};
 use crate::lab::palette::Theme;
@@ -27,9 +26,8 @@ pub(super) struct CaptureSettings {
 }
 
 impl CaptureSettings {
-    /// The lab at the start of the run.
-    pub(super) fn studio(&self, experiment: &Experiment) -> Studio {
-        let mut studio = experiment.studio();
+    /// The lab of an experiment at the start of the run, as it is drawn.
+    pub(super) fn dress(&self, mut studio: Studio) -> Studio {
         studio.viewer_mut().preferences.display.motion =
             if self.motion { Motion::Recorded } else { Motion::Reduced };
         studio.viewer_mut().preferences.choose_theme(self.theme);

@@ -16,9 +16,11 @@ use super::terminal::{print_status, report_left_alone};
 use crate::lab::Studio;
 use crate::view::png;
 
-/// Draws a run into `folder` and reports on standard error what it wrote. Returns the studio at its end.
+/// Draws the run of `studio`, which the experiment begins, into `folder` and reports on standard error what it wrote.
+/// Returns the studio at its end.
 pub(super) fn record(
     experiment: &Experiment,
+    studio: Studio,
     capture: CaptureSettings,
     mut folder: FrameFolder,
 ) -> Result<Studio, Error> {
@@ -28,7 +30,7 @@ pub(super) fn record(
     folder.clear()?;
 
     let interrupted = watch_for_interrupt();
-    let mut studio = capture.studio(experiment);
+    let mut studio = capture.dress(studio);
     let mut state_log = StateLog::new(capture.mark_every, studio.race());
     let mut entries = Vec::new();
     let run = Pipeline {

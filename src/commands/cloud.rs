@@ -9,13 +9,14 @@ use clap::Args;
 use serde_json::json;
 
 use super::error::Error;
-use super::experiment::{ExperimentArgs, Lineup, one_of, some_seconds};
+use super::experiment::{ExperimentArgs, Lineup, some_seconds};
+use super::file_names::{ending, mislabelled};
 use super::help::flowing;
+use super::id::SHAPE;
 use super::interrupt::watch_for_interrupt;
 use super::jobs;
 use super::movie::Gif;
 use super::numbers::number_that;
-use super::output::picture_format::{ending, mislabelled};
 use super::output::table::{Column, RowFormat, write_rows};
 use super::output::{Destination, Output, STDOUT};
 use super::terminal::print_status;
@@ -73,7 +74,7 @@ pub(super) struct CloudArgs {
     /// The shape of the starts: cat, disc or ring
     #[arg(long, value_name = "SHAPE", default_value = CloudShape::default().id())]
     #[arg(hide_possible_values = true)]
-    #[arg(value_parser = one_of(&CloudShape::ALL, CloudShape::id))]
+    #[arg(value_parser = SHAPE)]
     shape: CloudShape,
 
     /// The reach of the shape

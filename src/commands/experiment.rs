@@ -3,21 +3,21 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::error::Error;
+use super::id::{METHOD, TRACE};
 use super::scene_file;
 use super::spring::SpringArgs;
 use crate::lab::LaneSpec;
-use crate::lab::cloud::CloudKind;
-use crate::lab::pacing::{POLICIES, PolicyCard, TRACES, TraceCard, policy, trace_card};
+use crate::lab::pacing::{TRACES, TraceCard};
 use crate::lab::palette::Theme;
 use crate::lab::race::lanes_that_race;
-use crate::lab::scene::{MAX_SECONDS, SCENES, Scene, nearest};
-use crate::lab::studio::{Instrument, StageCommand, Studio};
+use crate::lab::scene::{MAX_SECONDS, SCENES, Scene};
+use crate::lab::studio::{StageCommand, Studio};
 use crate::sim::Clock;
-use crate::sim::integrators::{METHODS, Method, method};
+use crate::sim::integrators::Method;
 
 /// With so many methods named, none of them is selected.
 const MANY_LANES: usize = 10;
@@ -207,50 +207,18 @@ impl Experiment {
 
 /// The built-in trace of this id, for the command line's parser.
 pub(super) fn known_trace(id: &str) -> Result<&'static TraceCard, String> {
-    let spellings = TRACES.iter().map(|card| (card.id, card.id));
-    trace_card(id).ok_or_else(|| {
-        if is_path(id) {
-            return "only built-in traces are taken here; drop the file on the window, open it there with O, or \
-                    give it to `regatta loop --trace`"
-                .into();
-        }
-        no_such("trace", "traces", nearest(id, spellings))
+    TRACE.find(id).map_err(|refusal| match is_path(id) {
+        true => "only built-in traces are taken here; drop the file on the window, open it there with O, or \
+                 give it to `regatta loop --trace`"
+            .into(),
+        false => refusal,
     })
-}
-
-/// The instrument of this id, for the command line's parser.
-pub(super) fn known_instrument(id: &str) -> Result<Instrument, String> {
-    Instrument::of_id(id).ok_or_else(|| {
-        let ids: Vec<_> = Instrument::all().map(Instrument::id).collect();
-        format!("no such instrument; give one of {}", ids.join(", "))
-    })
-}
-
-/// The cloud of this name, for the command line's parser.
-pub(super) fn known_cloud(name: &str) -> Result<CloudKind, String> {
-    let names = || CloudKind::ALL.map(CloudKind::name).join(", ");
-    CloudKind::named(name).ok_or_else(|| format!("no such cloud; give one of {}", names()))
-}
-
-/// The policy of this id, for the command line's parser.
-pub(super) fn known_policy(id: &str) -> Result<&'static PolicyCard, String> {
-    let spellings = POLICIES.iter().flat_map(|card| [(card.id, card.id), (card.name, card.id)]);
-    policy(id).ok_or_else(|| no_such("policy", "policies", nearest(id, spellings)))
 }
 
 /// Whether what is meant to be an id looks like the path of a file.
 fn is_path(id: &str) -> bool {
     Path::new(id).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"))
         || id.contains(['/', '\\'])
-}
-
-/// The message for an id that is not on a list, with the one that was probably meant.
-fn no_such(thing: &str, list: &str, meant: Option<&'static str>) -> String {
-    let see = format!("`regatta list {list}` names all");
-    match meant {
-        Some(id) => format!("no such {thing}; did you mean {id}? {see}"),
-        None => format!("no such {thing}. {see}"),
-    }
 }
 
 /// A theme on the command line.
@@ -291,16 +259,6 @@ pub(super) fn range_of(range: std::ops::RangeInclusive<u32>) -> std::ops::RangeI
     i64::from(*range.start())..=i64::from(*range.end())
 }
 
-/// Takes the id of one of these; offers all of them to the shell's completion.
-pub(super) fn one_of<T: Copy + Send + Sync>(
-    all: &'static [T],
-    id: fn(T) -> &'static str,
-) -> impl TypedValueParser<Value = T> {
-    let known = PossibleValuesParser::new(all.iter().map(|one| id(*one)));
-    let named = move |given: String| all.iter().copied().find(|one| id(*one) == given);
-    known.map(move |given| named(given).expect("no other is taken"))
-}
-
 /// Takes any path; offers these names to the shell's completion.
 #[derive(Clone)]
 pub(super) struct PathOrName(pub(super) fn() -> Vec<&'static str>);
@@ -332,42 +290,10 @@ pub(super) fn trace_names() -> Vec<&'static str> {
     TRACES.iter().map(|card| card.id).collect()
 }
 
-/// Takes what `parse` does; offers these names to the shell's completion.
-#[derive(Clone)]
-pub(super) struct Offered<T> {
-    pub(super) parse: fn(&str) -> Result<T, String>,
-    pub(super) names: fn() -> Vec<&'static str>,
-}
-
-impl<T: Clone + Send + Sync + 'static> TypedValueParser for Offered<T> {
-    type Value = T;
-
-    fn parse_ref(
-        &self,
-        command: &clap::Command,
-        arg: Option<&clap::Arg>,
-        value: &OsStr,
-    ) -> Result<T, clap::Error> {
-        self.parse.parse_ref(command, arg, value)
-    }
-
-    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new((self.names)().into_iter().map(PossibleValue::new)))
-    }
-}
-
-/// Takes a method's id.
-pub(super) const METHOD: Offered<&'static Method> =
-    Offered { parse: known_method, names: || METHODS.iter().map(|method| method.id).collect() };
-
-pub(super) fn known_method(id: &str) -> Result<&'static Method, String> {
-    let spellings = METHODS.iter().flat_map(Method::spellings);
-    method(id).ok_or_else(|| no_such("method", "methods", nearest(id, spellings)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::integrators::METHODS;
 
     #[derive(clap::Parser)]
     struct Line {

@@ -3,8 +3,39 @@
 use std::path::{self, Path, PathBuf};
 
 use crate::commands::error::Error;
-use crate::commands::output::picture_format::{ending, is_of_pictures, mislabelled};
 use crate::commands::output::table::RowFormat;
+
+/// The endings of files that hold pictures; all others promise nothing.
+const PICTURES: [&str; 21] = [
+    "apng", "avi", "avif", "bmp", "gif", "jpeg", "jpg", "m4v", "mkv", "mov", "mp4", "mpeg", "mpg",
+    "png", "rgba", "svg", "tif", "tiff", "webm", "webp", "y4m",
+];
+
+/// Endings of files that hold no pictures, and so nothing that a capture writes.
+#[cfg(feature = "view")]
+const NO_PICTURES: [&str; 11] =
+    ["csv", "html", "json", "log", "md", "pdf", "sheet", "toml", "txt", "xml", "zip"];
+
+/// What a name ends in, after its last dot, in small letters.
+pub(super) fn ending(path: &Path) -> Option<String> {
+    path.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase)
+}
+
+/// Whether files with this ending hold pictures.
+pub(super) fn is_of_pictures(ending: &str) -> bool {
+    PICTURES.contains(&ending)
+}
+
+/// Whether files with this ending hold something else.
+#[cfg(feature = "view")]
+pub(super) fn holds_no_picture(ending: &str) -> bool {
+    NO_PICTURES.contains(&ending)
+}
+
+/// The error of a name that promises another format than the one asked for.
+pub(super) fn mislabelled(path: &Path, remedy: &str) -> Error {
+    Error::mistake(format!("{} would not hold what its name says; {remedy}", path.display()))
+}
 
 /// The format asked for, else the one that the name of `out` asks for, else CSV.
 pub(super) fn row_format(out: &Path, asked: Option<RowFormat>) -> Result<RowFormat, Error> {

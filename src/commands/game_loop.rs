@@ -7,11 +7,10 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use super::error::Error;
-use super::experiment::{
-    METHOD, PathOrName, known_policy, range_of, scene_names, some_seconds, trace_names,
-};
+use super::experiment::{PathOrName, range_of, scene_names, some_seconds, trace_names};
 use super::file_names::{check_picture_name, row_format, same_file_path};
 use super::help::flowing;
+use super::id::{METHOD, POLICY};
 use super::interrupt::watch_for_interrupt;
 use super::numbers::number_that;
 use super::output::table::{RowFormat, RowWriter};
@@ -83,7 +82,7 @@ pub(super) struct LoopArgs {
     /// A policy, or several [default: all]
     ///
     /// `regatta list policies` has them. Give the option again for each, to compare them.
-    #[arg(long = "policy", value_name = "ID", value_parser = known_policy)]
+    #[arg(long = "policy", value_name = "ID", value_parser = POLICY, hide_possible_values = true)]
     policies: Vec<&'static PolicyCard>,
 
     /// A trace, or several [default: all built-in ones]
@@ -164,7 +163,7 @@ pub(super) struct LoopArgs {
     /// Print this policy as source
     ///
     /// To be taken into a game. Nothing else is done.
-    #[arg(long, value_name = "ID", value_parser = known_policy)]
+    #[arg(long, value_name = "ID", value_parser = POLICY, hide_possible_values = true)]
     #[arg(conflicts_with_all = [
         "policies", "traces", "tick_hz", "display_hz", "scene", "method", "seconds", "latency_ms", "format", "out",
         "frames", "force",

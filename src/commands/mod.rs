@@ -42,6 +42,7 @@ mod trace;
 mod verify;
 
 mod experiment;
+mod id;
 mod scene_file;
 mod spring;
 mod trace_source;
@@ -60,6 +61,8 @@ mod frame_names;
 pub mod manifest;
 #[cfg(feature = "view")]
 mod movie;
+#[cfg(feature = "view")]
+mod picture_format;
 #[cfg(feature = "view")]
 mod pipeline;
 #[cfg(feature = "window")]
@@ -81,27 +84,10 @@ mod plot;
 mod stopwatch;
 mod terminal;
 
-use advise::AdviseArgs;
-#[cfg(feature = "view")]
-use capture::CaptureArgs;
-#[cfg(feature = "view")]
-use chapter::ChapterArgs;
-#[cfg(feature = "view")]
-use cloud::CloudArgs;
-use completions::CompletionsArgs;
 pub use error::Error;
-use game_loop::LoopArgs;
-use help::HelpArgs;
-use identify::IdentifyArgs;
-use list::ListArgs;
 #[cfg(feature = "window")]
 use play::PlayArgs;
-use port::PortArgs;
-use show::ShowArgs;
-use sweep::SweepArgs;
 pub use terminal::{print_status, stderr_renderer};
-use trace::TraceArgs;
-use verify::VerifyArgs;
 
 use crate::lab::clip as shortened;
 
@@ -167,27 +153,44 @@ impl Cli {
     }
 }
 
-#[derive(Debug, Subcommand)]
-enum Command {
+/// Makes the subcommands from a row each: what the command line has of it, and what runs it.
+macro_rules! subcommands {
+    ($($(#[$when:meta])* $name:ident($args:ty) => $run:expr,)*) => {
+        #[derive(Debug, Subcommand)]
+        enum Command {
+            $($(#[$when])* $name($args),)*
+        }
+
+        impl Command {
+            fn run(&self) -> Result<(), Error> {
+                match self {
+                    $($(#[$when])* Self::$name(args) => $run(args),)*
+                }
+            }
+        }
+    };
+}
+
+subcommands! {
     #[cfg(feature = "window")]
-    Play(PlayArgs),
+    Play(PlayArgs) => play::run,
     #[cfg(feature = "view")]
-    Capture(CaptureArgs),
-    Verify(VerifyArgs),
-    Trace(TraceArgs),
-    Advise(AdviseArgs),
-    Sweep(SweepArgs),
+    Capture(capture::CaptureArgs) => capture::run,
+    Verify(verify::VerifyArgs) => verify::run,
+    Trace(trace::TraceArgs) => trace::run,
+    Advise(advise::AdviseArgs) => advise::run,
+    Sweep(sweep::SweepArgs) => sweep::run,
     #[cfg(feature = "view")]
-    Cloud(CloudArgs),
-    Loop(LoopArgs),
-    Identify(IdentifyArgs),
-    Port(PortArgs),
-    Show(ShowArgs),
+    Cloud(cloud::CloudArgs) => cloud::run,
+    Loop(game_loop::LoopArgs) => game_loop::run,
+    Identify(identify::IdentifyArgs) => identify::run,
+    Port(port::PortArgs) => port::run,
+    Show(show::ShowArgs) => show::run,
     #[cfg(feature = "view")]
-    Chapter(ChapterArgs),
-    List(ListArgs),
-    Completions(CompletionsArgs),
-    Help(HelpArgs),
+    Chapter(chapter::ChapterArgs) => chapter::run,
+    List(list::ListArgs) => list::run,
+    Completions(completions::CompletionsArgs) => |args| completions::run(args, &mut Cli::command()),
+    Help(help::HelpArgs) => |args| help::run(args, Cli::command()),
 }
 
 /// Runs the command that the command line names.
@@ -198,29 +201,8 @@ pub fn run(cli: Cli) -> Result<(), Error> {
     #[cfg(feature = "window")]
     let command = cli.command.unwrap_or(Command::Play(cli.play));
     #[cfg(not(feature = "window"))]
-    let command = cli.command.unwrap_or(Command::Help(HelpArgs::default()));
-    let done = match command {
-        #[cfg(feature = "window")]
-        Command::Play(args) => play::run(&args),
-        #[cfg(feature = "view")]
-        Command::Capture(args) => capture::run(&args),
-        Command::Verify(args) => verify::run(&args),
-        Command::Trace(args) => trace::run(&args),
-        Command::Advise(args) => advise::run(&args),
-        Command::Sweep(args) => sweep::run(&args),
-        #[cfg(feature = "view")]
-        Command::Cloud(args) => cloud::run(&args),
-        Command::Loop(args) => game_loop::run(&args),
-        Command::Identify(args) => identify::run(&args),
-        Command::Port(args) => port::run(&args),
-        Command::Show(args) => show::run(&args),
-        #[cfg(feature = "view")]
-        Command::Chapter(args) => chapter::run(&args),
-        Command::List(args) => list::run(&args),
-        Command::Help(args) => help::run(&args, Cli::command()),
-        Command::Completions(args) => completions::run(&args, &mut Cli::command()),
-    };
-    match done {
+    let command = cli.command.unwrap_or(Command::Help(Default::default()));
+    match command.run() {
         Err(error) if error.is_closed_pipe() => Ok(()),
         done => done,
     }

@@ -8,43 +8,46 @@ use image::{Delay, Frame, ImageError, RgbaImage};
 use super::capture_settings::CaptureSettings;
 use super::drawing::{closing_line, interrupted_after};
 use super::error::Error;
-use super::experiment::Experiment;
 use super::interrupt::watch_for_interrupt;
 use super::output::Output;
 use super::pipeline::{DrawnFrame, Pipeline};
 use super::schedule::Schedule;
 use super::state_log::StateLog;
 use super::terminal::print_status;
+use crate::lab::Studio;
 
-/// A format of one stream.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum MovieFormat {
-    /// Animated PNG, every bit of every frame.
-    Apng,
-    /// GIF, with a palette of 256 colours for each frame.
-    Gif,
-    /// YUV4MPEG2, 4:4:4, BT.601 in the limited range.
-    Y4m,
-    /// Bytes of red, green, blue and alpha, without a header.
-    Rgba,
+/// A stream of frames being encoded.
+pub(super) trait Movie: Send {
+    fn push(&mut self, frame: &DrawnFrame) -> Result<(), Error>;
+
+    /// Writes what comes after the last frame.
+    fn end(self: Box<Self>) -> Result<(), Error> {
+        Ok(())
+    }
 }
+
+/// A stream that was begun.
+pub(super) type Begun<'a> = Result<Box<dyn Movie + 'a>, Error>;
+
+/// Begins a stream of one format.
+pub(super) type Begin = for<'a> fn(&'a mut Output, &CaptureSettings) -> Begun<'a>;
 
 /// One pixel in this many is sampled for a GIF's palette. The coarsest sampling: twice as fast as a
 /// medium one, and on flat colours no worse.
 const GIF_SPEED: i32 = 30;
 
-/// Draws a run into `output` and reports on standard error what it wrote.
+/// Draws the run of `studio` into `output` and reports on standard error what it wrote.
 pub(super) fn record(
-    experiment: &Experiment,
+    studio: Studio,
     capture: CaptureSettings,
-    format: MovieFormat,
+    begin: Begin,
     mut output: Output,
 ) -> Result<(), Error> {
     let mut renderer = capture.renderer()?;
     let Schedule { frames, .. } = capture.schedule;
-    let mut movie = Movie::begin(format, &mut output, &capture)?;
+    let mut movie = begin(&mut output, &capture)?;
     let interrupted = watch_for_interrupt();
-    let mut studio = capture.studio(experiment);
+    let mut studio = capture.dress(studio);
     let mut state_log = StateLog::new(u64::MAX, studio.race());
     let run = Pipeline {
         renderer: &mut renderer,
@@ -66,65 +69,80 @@ pub(super) fn record(
     Ok(())
 }
 
-/// A stream of frames being encoded.
-enum Movie<'a> {
-    Apng(Box<png::Writer<&'a mut Output>>),
-    Gif { gif: Gif<&'a mut Output>, fps: u32 },
-    Y4m { out: &'a mut Output, planes: Vec<u8> },
-    Rgba(&'a mut Output),
+/// Animated PNG, every bit of every frame.
+struct Apng<'a>(png::Writer<&'a mut Output>);
+
+pub(super) fn apng<'a>(out: &'a mut Output, capture: &CaptureSettings) -> Begun<'a> {
+    let [width, height] = capture.size_px;
+    let Schedule { frames, fps } = capture.schedule;
+    let mut encoder = png::Encoder::new(out, width, height);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Fast);
+    encoder.set_filter(png::Filter::Up);
+    encoder.set_animated(frames, 0).map_err(of_png)?;
+    encoder.set_frame_delay(1, small(fps)).map_err(of_png)?;
+    Ok(Box::new(Apng(encoder.write_header().map_err(of_png)?)))
 }
 
-impl<'a> Movie<'a> {
-    fn begin(
-        format: MovieFormat,
-        out: &'a mut Output,
-        capture: &CaptureSettings,
-    ) -> Result<Self, Error> {
-        let [width, height] = capture.size_px;
-        let Schedule { frames, fps } = capture.schedule;
-        Ok(match format {
-            MovieFormat::Apng => {
-                let mut encoder = png::Encoder::new(out, width, height);
-                encoder.set_color(png::ColorType::Rgba);
-                encoder.set_depth(png::BitDepth::Eight);
-                encoder.set_compression(png::Compression::Fast);
-                encoder.set_filter(png::Filter::Up);
-                encoder.set_animated(frames, 0).map_err(of_png)?;
-                encoder.set_frame_delay(1, small(fps)).map_err(of_png)?;
-                Movie::Apng(Box::new(encoder.write_header().map_err(of_png)?))
-            }
-            MovieFormat::Gif => Movie::Gif { gif: Gif::begin(out, capture.size_px)?, fps },
-            MovieFormat::Y4m => {
-                writeln!(
-                    out,
-                    "YUV4MPEG2 W{width} H{height} F{fps}:1 Ip A1:1 C444 XCOLORRANGE=LIMITED"
-                )?;
-                Movie::Y4m { out, planes: Vec::new() }
-            }
-            MovieFormat::Rgba => Movie::Rgba(out),
-        })
+impl Movie for Apng<'_> {
+    fn push(&mut self, frame: &DrawnFrame) -> Result<(), Error> {
+        self.0.write_image_data(&frame.rgba).map_err(of_png)
     }
 
-    fn push(&mut self, DrawnFrame { frame, rgba, .. }: &DrawnFrame) -> Result<(), Error> {
-        match self {
-            Movie::Apng(writer) => writer.write_image_data(rgba).map_err(of_png)?,
-            Movie::Gif { gif, fps } => gif.push(rgba.clone(), shown_cs(*frame, *fps))?,
-            Movie::Y4m { out, planes } => {
-                to_yuv(rgba, planes);
-                out.write_all(b"FRAME\n")?;
-                out.write_all(planes)?;
-            }
-            Movie::Rgba(out) => out.write_all(rgba)?,
-        }
-        Ok(())
+    fn end(self: Box<Self>) -> Result<(), Error> {
+        self.0.finish().map_err(of_png)
     }
+}
 
-    fn end(self) -> Result<(), Error> {
-        match self {
-            Movie::Apng(writer) => writer.finish().map_err(of_png),
-            // A GIF's encoder writes the last byte when it is dropped; the output tells when it is closed whether it could.
-            Movie::Gif { .. } | Movie::Y4m { .. } | Movie::Rgba(_) => Ok(()),
-        }
+/// GIF, with a palette of 256 colours for each frame. Its encoder writes the last byte when it is dropped; the output tells
+/// when it is closed whether it could.
+struct GifMovie<'a> {
+    gif: Gif<&'a mut Output>,
+    fps: u32,
+}
+
+pub(super) fn gif<'a>(out: &'a mut Output, capture: &CaptureSettings) -> Begun<'a> {
+    let gif = Gif::begin(out, capture.size_px)?;
+    Ok(Box::new(GifMovie { gif, fps: capture.schedule.fps }))
+}
+
+impl Movie for GifMovie<'_> {
+    fn push(&mut self, frame: &DrawnFrame) -> Result<(), Error> {
+        self.gif.push(frame.rgba.clone(), shown_cs(frame.frame, self.fps))
+    }
+}
+
+/// YUV4MPEG2, 4:4:4, BT.601 in the limited range.
+struct Y4m<'a> {
+    out: &'a mut Output,
+    planes: Vec<u8>,
+}
+
+pub(super) fn y4m<'a>(out: &'a mut Output, capture: &CaptureSettings) -> Begun<'a> {
+    let ([width, height], Schedule { fps, .. }) = (capture.size_px, capture.schedule);
+    writeln!(out, "YUV4MPEG2 W{width} H{height} F{fps}:1 Ip A1:1 C444 XCOLORRANGE=LIMITED")?;
+    Ok(Box::new(Y4m { out, planes: Vec::new() }))
+}
+
+impl Movie for Y4m<'_> {
+    fn push(&mut self, frame: &DrawnFrame) -> Result<(), Error> {
+        to_yuv(&frame.rgba, &mut self.planes);
+        self.out.write_all(b"FRAME\n")?;
+        Ok(self.out.write_all(&self.planes)?)
+    }
+}
+
+/// Bytes of red, green, blue and alpha, without a header.
+struct Rgba<'a>(&'a mut Output);
+
+pub(super) fn rgba<'a>(out: &'a mut Output, _: &CaptureSettings) -> Begun<'a> {
+    Ok(Box::new(Rgba(out)))
+}
+
+impl Movie for Rgba<'_> {
+    fn push(&mut self, frame: &DrawnFrame) -> Result<(), Error> {
+        Ok(self.0.write_all(&frame.rgba)?)
     }
 }
 

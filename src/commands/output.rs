@@ -3,7 +3,6 @@
 
 mod destination;
 mod directory_lock;
-pub(super) mod picture_format;
 pub(super) mod table;
 
 pub(super) use destination::{Destination, Output, STDOUT, print};

@@ -2,119 +2,117 @@
 
 use std::path::Path;
 
-use clap::ValueEnum;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use super::STDOUT;
-use crate::commands::error::Error;
+use super::error::Error;
+use super::file_names::{ending, holds_no_picture, is_of_pictures, mislabelled};
+use super::movie::{self, Begin};
+use super::output::STDOUT;
+use Writing::{Folder, Movie, Sheet};
 
-/// How pictures are written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum PictureFormat {
-    /// Numbered pictures and a manifest in a directory
-    Png,
-    /// One animated PNG
-    Apng,
-    /// One GIF, each frame with a palette of its own
-    Gif,
-    /// YUV4MPEG2, for a video encoder
-    Y4m,
-    /// Raw RGBA bytes, for a video encoder
-    Rgba,
-    /// One picture, time across, lanes down
+/// How a capture is written.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Writing {
+    /// A picture a frame, in a directory.
+    Folder,
+    /// One picture of all frames.
     Sheet,
+    /// All frames in one stream.
+    Movie(Begin),
 }
 
-/// Players show a GIF's frame for two hundredths of a second at least.
-const MAX_GIF_FPS: u32 = 50;
+/// A format of a capture.
+#[derive(Debug)]
+pub(super) struct PictureFormat {
+    /// As `--format` takes it.
+    pub(super) id: &'static str,
+    about: &'static str,
+    /// The endings of the files that hold it.
+    endings: &'static [&'static str],
+    /// The most frames per second that it shows.
+    max_fps: Option<u32>,
+    pub(super) writing: Writing,
+}
 
-/// What files with these endings hold, of what a capture writes; other endings promise nothing.
-const ENDINGS: &[(&str, &[PictureFormat])] = &[
-    ("png", &[PictureFormat::Sheet, PictureFormat::Apng]),
-    ("apng", &[PictureFormat::Apng]),
-    ("gif", &[PictureFormat::Gif]),
-    ("y4m", &[PictureFormat::Y4m]),
-    ("rgba", &[PictureFormat::Rgba]),
-    ("avi", &[]),
-    ("avif", &[]),
-    ("bmp", &[]),
-    ("jpeg", &[]),
-    ("jpg", &[]),
-    ("m4v", &[]),
-    ("mkv", &[]),
-    ("mov", &[]),
-    ("mp4", &[]),
-    ("mpeg", &[]),
-    ("mpg", &[]),
-    ("svg", &[]),
-    ("tif", &[]),
-    ("tiff", &[]),
-    ("webm", &[]),
-    ("webp", &[]),
+/// All formats.
+pub(super) static FORMATS: [PictureFormat; 6] = [
+    format("png", "Numbered pictures and a manifest in a directory", &[], Folder),
+    format("apng", "One animated PNG", &["apng", "png"], Movie(movie::apng)),
+    PictureFormat {
+        // Players show a frame for two hundredths of a second at least.
+        max_fps: Some(50),
+        ..format(
+            "gif",
+            "One GIF, each frame with a palette of its own",
+            &["gif"],
+            Movie(movie::gif),
+        )
+    },
+    format("y4m", "YUV4MPEG2, for a video encoder", &["y4m"], Movie(movie::y4m)),
+    format("rgba", "Raw RGBA bytes, for a video encoder", &["rgba"], Movie(movie::rgba)),
+    format("sheet", "One picture, time across, lanes down", &["png"], Sheet),
 ];
 
-/// Endings of files that hold no pictures, and so of none that a capture writes.
-const NO_PICTURES: &[&str] =
-    &["csv", "html", "json", "log", "md", "pdf", "sheet", "toml", "txt", "xml", "zip"];
-
-/// What a name ends in, after its last dot, in small letters.
-pub(crate) fn ending(path: &Path) -> Option<String> {
-    path.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase)
+const fn format(
+    id: &'static str,
+    about: &'static str,
+    endings: &'static [&'static str],
+    writing: Writing,
+) -> PictureFormat {
+    PictureFormat { id, about, endings, max_fps: None, writing }
 }
 
-/// Whether files with this ending hold pictures.
-pub(crate) fn is_of_pictures(ending: &str) -> bool {
-    ENDINGS.iter().any(|(known, _)| *known == ending)
-}
-
-/// The error of a name that promises another format than the one asked for.
-pub(crate) fn mislabelled(path: &Path, remedy: &str) -> Error {
-    Error::mistake(format!("{} would not hold what its name says; {remedy}", path.display()))
+/// Takes the id of a format; offers all of them to the shell's completion.
+pub(super) fn by_id() -> impl TypedValueParser<Value = &'static PictureFormat> {
+    let ids = FORMATS.iter().map(|format| PossibleValue::new(format.id).help(format.about));
+    PossibleValuesParser::new(ids).map(|id| PictureFormat::find(&id).expect("no other is taken"))
 }
 
 impl PictureFormat {
+    fn find(id: &str) -> Option<&'static Self> {
+        FORMATS.iter().find(|format| format.id == id)
+    }
+
     /// The format asked for, else the one that the name of `out` asks for, else numbered pictures.
-    pub(crate) fn of(out: &Path, asked: Option<Self>) -> Result<Self, Error> {
+    pub(super) fn of(out: &Path, asked: Option<&'static Self>) -> Result<&'static Self, Error> {
         let path = out.display();
         if out == Path::new(STDOUT) {
-            return asked.filter(|format| *format != Self::Png).ok_or_else(|| {
+            return asked.filter(|format| !matches!(format.writing, Folder)).ok_or_else(|| {
                 Error::mistake(
                     "numbered pictures need a directory; give --format y4m, rgba, apng, gif or sheet with --out -",
                 )
             });
         }
         let ending = ending(out);
-        let strange = |known: &&&str| ending.as_deref() == Some(**known);
-        if let Some(ending) = NO_PICTURES.iter().find(strange) {
+        let Some(ending) = ending.as_deref() else { return Ok(asked.unwrap_or(&FORMATS[0])) };
+        if holds_no_picture(ending) {
             return Err(Error::mistake(format!(
                 "regatta capture writes no .{ending} files; give {path} without its ending for a directory, or a \
                  name that ends in .gif, .apng or .y4m, or in .png with --format sheet"
             )));
         }
-        let known = ending.and_then(|ending| ENDINGS.iter().find(|(known, _)| *known == ending));
-        match (asked, known) {
-            (None, None) => Ok(Self::Png),
-            (Some(asked), None) => Ok(asked),
-            (Some(asked), Some((_, held))) if held.contains(&asked) => Ok(asked),
-            (Some(asked), Some((_, held))) => {
-                let name = |format: &Self| {
-                    let value = format.to_possible_value().expect("every format has a name");
-                    value.get_name().to_owned()
-                };
-                let of_name = held.first().map(|format| format!("--format {}", name(format)));
+        if !is_of_pictures(ending) {
+            return Ok(asked.unwrap_or(&FORMATS[0]));
+        }
+        let is_held = |format: &&Self| format.endings.contains(&ending);
+        let mut held = FORMATS.iter().filter(is_held);
+        match (asked, held.next(), held.next_back()) {
+            (Some(asked), ..) if is_held(&asked) => Ok(asked),
+            (Some(asked), first, last) => {
+                let of_name = last.or(first).map(|format| format!("--format {}", format.id));
                 let of_name = of_name.unwrap_or("--format y4m and a video encoder".into());
-                let remedy = match asked {
-                    Self::Png => format!("give the name of a directory, or {of_name}"),
-                    Self::Sheet => format!("give a name that ends in .png, or {of_name}"),
-                    _ => format!("give a name that ends in .{}, or {of_name}", name(&asked)),
+                let remedy = match asked.endings {
+                    [] => format!("give the name of a directory, or {of_name}"),
+                    [ending, ..] => format!("give a name that ends in .{ending}, or {of_name}"),
                 };
                 Err(mislabelled(out, &remedy))
             }
-            (None, Some((_, [held]))) => Ok(*held),
-            (None, Some((ending, []))) => Err(Error::mistake(format!(
+            (None, Some(held), None) => Ok(held),
+            (None, None, _) => Err(Error::mistake(format!(
                 "regatta writes no .{ending} files; give --format y4m --out -, and let a video encoder such as \
                  ffmpeg write {path}"
             ))),
-            (None, Some(_)) => Err(Error::mistake(format!(
+            (None, Some(_), Some(_)) => Err(Error::mistake(format!(
                 "{path} is the name of one picture; give --format sheet or --format apng for one, or the name of \
                  a directory for numbered ones"
             ))),
@@ -122,55 +120,67 @@ impl PictureFormat {
     }
 
     /// Fails if a run cannot be written at this many frames per second.
-    pub(crate) fn check(self, fps: u32) -> Result<(), Error> {
-        match self {
-            PictureFormat::Gif if fps > MAX_GIF_FPS => Err(Error::mistake(format!(
-                "a GIF has at most {MAX_GIF_FPS} frames a second, not {fps}; give a lower --fps"
+    pub(super) fn check(&self, fps: u32) -> Result<(), Error> {
+        match self.max_fps {
+            Some(most) if fps > most => Err(Error::mistake(format!(
+                "a {} has at most {most} frames a second, not {fps}; give a lower --fps",
+                self.id.to_uppercase()
             ))),
             _ => Ok(()),
         }
     }
 
+    pub(super) fn is_sheet(&self) -> bool {
+        matches!(self.writing, Sheet)
+    }
+
     /// What a sheet wants instead of what all others do.
-    pub(crate) fn or_sheet<T>(self, others: T, sheet: T) -> T {
-        if self == PictureFormat::Sheet { sheet } else { others }
+    pub(super) fn or_sheet<T>(&self, others: T, sheet: T) -> T {
+        if self.is_sheet() { sheet } else { others }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::PictureFormat::*;
     use super::*;
 
     #[test]
     fn a_name_asks_for_its_format_and_contradicts_others() {
         for (out, asked, expected) in [
-            ("clip", None, Some(Png)),
-            ("clip", Some(Gif), Some(Gif)),
-            ("run.2026", None, Some(Png)),
-            ("run.raw", Some(Rgba), Some(Rgba)),
-            ("x.gif", None, Some(Gif)),
-            ("x.GIF", None, Some(Gif)),
-            ("x.apng", None, Some(Apng)),
-            ("x.y4m", None, Some(Y4m)),
-            ("x.rgba", None, Some(Rgba)),
-            ("x.png", Some(Sheet), Some(Sheet)),
-            ("x.png", Some(Apng), Some(Apng)),
+            ("clip", None, Some("png")),
+            ("clip", Some("gif"), Some("gif")),
+            ("run.2026", None, Some("png")),
+            ("run.raw", Some("rgba"), Some("rgba")),
+            ("x.gif", None, Some("gif")),
+            ("x.GIF", None, Some("gif")),
+            ("x.apng", None, Some("apng")),
+            ("x.y4m", None, Some("y4m")),
+            ("x.rgba", None, Some("rgba")),
+            ("x.png", Some("sheet"), Some("sheet")),
+            ("x.png", Some("apng"), Some("apng")),
             ("x.png", None, None),
-            ("x.png", Some(Gif), None),
-            ("x.png", Some(Png), None),
-            ("x.gif", Some(Png), None),
-            ("x.gif", Some(Sheet), None),
+            ("x.png", Some("gif"), None),
+            ("x.png", Some("png"), None),
+            ("x.gif", Some("png"), None),
+            ("x.gif", Some("sheet"), None),
             ("x.mp4", None, None),
             ("x.txt", None, None),
-            ("x.CSV", Some(Gif), None),
-            ("x.sheet", Some(Sheet), None),
-            ("x.mp4", Some(Y4m), None),
-            ("-", Some(Y4m), Some(Y4m)),
-            ("-", Some(Png), None),
+            ("x.CSV", Some("gif"), None),
+            ("x.sheet", Some("sheet"), None),
+            ("x.mp4", Some("y4m"), None),
+            ("-", Some("y4m"), Some("y4m")),
+            ("-", Some("png"), None),
             ("-", None, None),
         ] {
-            assert_eq!(PictureFormat::of(Path::new(out), asked).ok(), expected, "{out} {asked:?}");
+            let format = asked.map(|id| PictureFormat::find(id).unwrap());
+            let found = PictureFormat::of(Path::new(out), format).ok().map(|format| format.id);
+            assert_eq!(found, expected, "{out} {asked:?}");
+        }
+    }
+    #[test]
+    fn every_ending_of_a_format_is_one_of_pictures() {
+        for ending in FORMATS.iter().flat_map(|format| format.endings) {
+            assert!(is_of_pictures(ending) && !holds_no_picture(ending), "{ending}");
         }
     }
 }

@@ -225,6 +225,7 @@ fn without_display(
         folder.path().display(),
     ));
     let schedule = Schedule { frames, fps: FPS };
+    let studio = experiment.studio();
     let capture = CaptureSettings {
         schedule,
         size_px: SIZE_PX,
@@ -234,10 +235,10 @@ fn without_display(
         cloud: None,
         motion: !args.reduced_motion,
         theme: args.theme.map(Theme::from).unwrap_or_default(),
-        mark_every: state_log::usual_stride(schedule.ticks(&experiment.studio())),
+        mark_every: state_log::usual_stride(schedule.ticks(&studio)),
     };
-    let last = args.seconds.map(|seconds| experiment.studio().nearest_tick(seconds));
-    let mut studio = clip::record(experiment, capture, folder)?;
+    let last = args.seconds.map(|seconds| studio.nearest_tick(seconds));
+    let mut studio = clip::record(experiment, studio, capture, folder)?;
     // The last frame is before the end.
     while last.is_some_and(|last| studio.race().tick() < last) {
         studio.tick();

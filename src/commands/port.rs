@@ -5,12 +5,13 @@ use clap::{ArgGroup, Args};
 
 use super::error::Error;
 use super::help::flowing;
+use super::id::Id;
 use super::identify::{LogArgs, rate};
 use super::numbers::{number, positive};
 use super::output::print;
 use super::output::table::TableFormat;
 use crate::lab::port::{DriveLimits, Ported, Setup, Wish, drive_limits, followers, setups};
-use crate::lab::scene::{MAX_SUBSTEPS, nearest};
+use crate::lab::scene::MAX_SUBSTEPS;
 use crate::lab::{identify, port};
 use crate::sim::integrators::{METHODS, Method};
 
@@ -101,7 +102,7 @@ pub(super) struct PortArgs {
 
     /// The engines (`regatta list methods`), or all
     #[arg(long, value_name = "ID,…", default_value = "all", value_delimiter = ',')]
-    #[arg(value_parser = engines)]
+    #[arg(value_parser = ASKED, hide_possible_values = true)]
     to: Vec<Asked>,
 
     /// The limits of a drive with these gains
@@ -133,24 +134,24 @@ fn has_modes(method: &Method) -> bool {
     method.engine.is_some_and(|engine| !engine.modes.is_empty())
 }
 
-/// The engine of this id, which has a spring.
-fn engine(id: &str) -> Result<&'static Method, String> {
-    let all = || METHODS.iter().filter(|method| has_modes(method));
-    all().find(|method| method.id == id).ok_or_else(|| {
-        let ids = || all().map(|method| method.id);
-        match nearest(id, ids().map(|id| (id, id))) {
-            Some(meant) => format!("no engine with a spring is called {id}; did you mean {meant}?"),
-            None => {
-                let all = ids().collect::<Vec<_>>().join(", ");
-                format!("no engine with a spring is called {id}; there are {all}")
-            }
-        }
-    })
-}
+/// Takes the id of an engine that has a spring.
+const ENGINE: Id<&Method> = Id {
+    thing: "engine with a spring",
+    list: None,
+    all: || METHODS.iter().filter(|it| has_modes(it)).map(|it| (it.id.into(), it)).collect(),
+    spellings: Vec::new,
+};
 
-fn engines(id: &str) -> Result<Asked, String> {
-    if id == "all" { Ok(Asked::All) } else { engine(id).map(Asked::One) }
-}
+/// The same, or that of all.
+const ASKED: Id<Asked> = Id {
+    thing: ENGINE.thing,
+    list: None,
+    all: || {
+        let each = (ENGINE.all)().into_iter().map(|(id, engine)| (id, Asked::One(engine)));
+        [("all".into(), Asked::All)].into_iter().chain(each).collect()
+    },
+    spellings: Vec::new,
+};
 
 /// An engine's setup with its settings; `None` if it shows nothing near the wish.
 struct PortedEngine {

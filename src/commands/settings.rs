@@ -1,9 +1,10 @@
 //! Converts an experiment and the settings of a capture to those of a manifest, and back.
 
 use super::capture_settings::CaptureSettings;
-use super::experiment::{Experiment, Lineup, known_cloud, known_instrument, known_trace};
+use super::experiment::{Experiment, Lineup};
 use super::fingerprint::fingerprint;
 use super::frame_names::{MAX_FRAMES, frame_name};
+use super::id::{CLOUD, INSTRUMENT, TRACE};
 use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings};
 use super::schedule::{MAX_FPS, Schedule};
 use crate::lab::LaneSpec;
@@ -104,15 +105,15 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, CaptureSettings),
         text: text.clone(),
         selected: settings.selected.as_deref().map(known).transpose()?,
         lineup: if settings.race { Lineup::Everyone } else { Lineup::Solo },
-        loop_trace: settings.loop_trace.as_deref().map(known_trace).transpose()?,
+        loop_trace: settings.loop_trace.as_deref().map(|id| TRACE.find(id)).transpose()?,
     };
     let capture = CaptureSettings {
         schedule: Schedule { frames: settings.frames, fps: settings.fps },
         size_px: settings.size,
         scale: settings.scale as f32,
         panels: settings.panels,
-        instrument: settings.instrument.as_deref().map(known_instrument).transpose()?,
-        cloud: settings.cloud.as_deref().map(known_cloud).transpose()?,
+        instrument: settings.instrument.as_deref().map(|id| INSTRUMENT.find(id)).transpose()?,
+        cloud: settings.cloud.as_deref().map(|id| CLOUD.find(id)).transpose()?,
         motion: settings.motion,
         theme: match settings.theme.as_deref() {
             None => Theme::Dark,

@@ -10,8 +10,8 @@ use super::interrupt::watch_for_interrupt;
 use super::output::Output;
 use super::pipeline::complete_analysis;
 use super::terminal::{print_status, progress};
-use crate::lab::LaneSpec;
 use crate::lab::cloud::CloudWorker;
+use crate::lab::{LaneSpec, Studio};
 use crate::view::png;
 
 /// The most pixels of a sheet, a gigabyte of memory.
@@ -20,12 +20,12 @@ const MAX_SHEET_PIXELS: u64 = 1 << 28;
 /// Draws every lane of the experiment alone, at the moments of the capture, into one picture.
 pub(super) fn draw(
     experiment: &Experiment,
+    studio: &Studio,
     capture: CaptureSettings,
     mut output: Output,
 ) -> Result<(), Error> {
     let [width, height] = capture.size_px;
     let columns = capture.schedule.frames;
-    let studio = experiment.studio();
     let lanes = studio.race().entrants().iter().map(|entrant| entrant.spec);
     let lanes: Vec<LaneSpec> = lanes.collect();
     let methods: Vec<&str> = lanes.iter().map(|lane| lane.method.id).collect();
@@ -50,7 +50,7 @@ pub(super) fn draw(
             lineup: Lineup::Solo,
             loop_trace: None,
         };
-        let (mut studio, mut clouds) = (capture.studio(&alone), CloudWorker::default());
+        let (mut studio, mut clouds) = (capture.dress(alone.studio()), CloudWorker::default());
         for column in 0..columns {
             capture.schedule.advance(&mut studio, column, &mut ());
             if !complete_analysis(&mut studio, &renderer, &mut clouds, &interrupted) {

@@ -3,8 +3,8 @@
 use clap::Args;
 
 use super::error::Error;
-use super::experiment::{Offered, known_method, one_of};
 use super::help::flowing;
+use super::id::{Id, LANGUAGE, METHOD};
 use super::output::print;
 use super::terminal::print_status;
 use crate::lab::source_code::{Language, Precision, source_code};
@@ -35,7 +35,7 @@ pub(super) struct ShowArgs {
 
     /// The language
     #[arg(long = "as", value_name = "LANGUAGE", default_value = Language::Rust.id())]
-    #[arg(value_parser = one_of(&Language::ALL, Language::id))]
+    #[arg(value_parser = LANGUAGE)]
     language: Language,
 
     /// Numbers of single precision, as Unity and Godot have them
@@ -51,28 +51,22 @@ struct Asked {
     alias: Option<&'static str>,
 }
 
-/// Every other id, with the method that it stands for.
-fn aliases() -> impl Iterator<Item = Asked> {
-    let of_each = |method: &'static Method| {
-        method.also.iter().map(move |alias| Asked { method, alias: Some(alias) })
-    };
-    METHODS.iter().flat_map(of_each)
-}
-
 /// Takes the id of a method or one of its other ids.
-const ASKED: Offered<Asked> = Offered { parse: asked, names };
-
-fn asked(id: &str) -> Result<Asked, String> {
-    match aliases().find(|asked| asked.alias == Some(id)) {
-        Some(asked) => Ok(asked),
-        None => Ok(Asked { method: known_method(id)?, alias: None }),
-    }
-}
-
-fn names() -> Vec<&'static str> {
-    let own = METHODS.iter().map(|method| method.id);
-    own.chain(aliases().filter_map(|asked| asked.alias)).collect()
-}
+const ASKED: Id<Asked> = Id {
+    thing: METHOD.thing,
+    list: METHOD.list,
+    all: || {
+        let own = METHODS.iter().map(|method| (method.id.into(), Asked { method, alias: None }));
+        let others = METHODS.iter().flat_map(|method| {
+            method
+                .also
+                .iter()
+                .map(move |alias| ((*alias).into(), Asked { method, alias: Some(alias) }))
+        });
+        own.chain(others).collect()
+    },
+    spellings: METHOD.spellings,
+};
 
 pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
     let Asked { method, alias } = args.asked;

@@ -6,9 +6,10 @@ use clap::Args;
 use serde_json::json;
 
 use super::error::Error;
-use super::experiment::{METHOD, PathOrName, range_of, scene_names, some_seconds};
+use super::experiment::{PathOrName, range_of, scene_names, some_seconds};
 use super::file_names::{check_picture_name, row_format};
 use super::help::flowing;
+use super::id::METHOD;
 use super::interrupt::watch_for_interrupt;
 use super::output::table::{Column, RowFormat, write_rows};
 use super::output::{Destination, STDOUT};

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::engine;
+use super::ENGINE;
 use crate::lab::port::{Approach, Setup, Wish};
 use crate::lab::scene::MAX_SUBSTEPS;
 use crate::sim::integrators::{JointMode, Method, Setting};
@@ -36,7 +36,7 @@ impl From {
     /// Reads it, at this tick rate in hertz and of a body of this mass in kg.
     pub(super) fn parse(written: &str, tick_hz: f64, mass_kg: f64) -> Result<Self, String> {
         let Some((head, rest)) = written.split_once(':') else {
-            return match engine(written) {
+            return match ENGINE.find(written) {
                 Ok(method) => Err(format!("give its settings too: {}", example(method))),
                 Err(_) => Ok(From::Log(written.into())),
             };
@@ -64,7 +64,7 @@ impl From {
             }
             // A drive of a path has one letter.
             _ if head.len() == 1 => Ok(From::Log(written.into())),
-            _ => of_engine(engine(head)?, rest, tick_hz, mass_kg).map(From::Engine),
+            _ => of_engine(ENGINE.find(head)?, rest, tick_hz, mass_kg).map(From::Engine),
         }
     }
 }

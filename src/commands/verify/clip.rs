@@ -161,7 +161,7 @@ pub(super) fn bless(dir: &Path) -> Result<(), Error> {
     }
     let folder = FrameFolder::inspect(dir, FolderPolicy::Bless, "DIR")?;
     let Rerun { experiment, capture, .. } = read_run(dir)?;
-    let drawn = record(&experiment, capture, folder);
+    let drawn = record(&experiment, experiment.studio(), capture, folder);
     drawn.map(drop).map_err(|error| error.within("not blessed"))
 }
 

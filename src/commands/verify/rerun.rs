@@ -24,7 +24,7 @@ pub(super) struct Frames {
 impl Rerun {
     /// The lab at the start of the run, and the log of its states.
     pub(super) fn begin(&self) -> (Studio, StateLog) {
-        let studio = self.capture.studio(&self.experiment);
+        let studio = self.capture.dress(self.experiment.studio());
         let state_log = StateLog::new(self.capture.mark_every, studio.race());
         (studio, state_log)
     }

@@ -1,0 +1,99 @@
+//! Ids on the command line: taken, offered to the shell's completion, or refused with the one that was probably meant.
+
+use std::ffi::OsStr;
+
+use clap::builder::{PossibleValue, TypedValueParser};
+
+use crate::lab::cloud::{CloudKind, CloudShape};
+use crate::lab::pacing::{POLICIES, PolicyCard, TRACES, TraceCard};
+use crate::lab::scene::nearest;
+use crate::lab::source_code::Language;
+use crate::lab::studio::Instrument;
+use crate::sim::integrators::{Family, METHODS, Method};
+
+/// One kind of ids, and what each stands for.
+#[derive(Clone, Copy)]
+pub(super) struct Id<T: 'static> {
+    /// What has such an id, in messages.
+    pub(super) thing: &'static str,
+    /// The list of `regatta list` that names all; without one the message does.
+    pub(super) list: Option<&'static str>,
+    pub(super) all: fn() -> Vec<(String, T)>,
+    /// Other spellings, each with its id, by which a mistake is understood.
+    pub(super) spellings: fn() -> Vec<(&'static str, &'static str)>,
+}
+
+impl<T: Copy> Id<T> {
+    const fn new(thing: &'static str, all: fn() -> Vec<(String, T)>) -> Self {
+        Self { thing, list: None, all, spellings: Vec::new }
+    }
+
+    /// What this id stands for.
+    ///
+    /// # Errors
+    /// The message for an id that is none.
+    pub(super) fn find(&self, id: &str) -> Result<T, String> {
+        let all = (self.all)();
+        if let Some((_, found)) = all.iter().find(|(known, _)| known == id) {
+            return Ok(*found);
+        }
+        let ids: Vec<&str> = all.iter().map(|(id, _)| &**id).collect();
+        let spellings = ids.iter().map(|id| (*id, *id)).chain((self.spellings)());
+        let meant = nearest(id, spellings).map(|meant| format!("; did you mean {meant}?"));
+        let see = match self.list {
+            Some(list) => format!("`regatta list {list}` names all"),
+            None => format!("There are {}", ids.join(", ")),
+        };
+        Err(format!("no such {}{} {see}", self.thing, meant.unwrap_or(".".into())))
+    }
+}
+
+impl<T: Copy + Send + Sync + 'static> TypedValueParser for Id<T> {
+    type Value = T;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        arg: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<T, clap::Error> {
+        let ids = *self;
+        (move |id: &str| ids.find(id)).parse_ref(command, arg, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new((self.all)().into_iter().map(|(id, _)| PossibleValue::new(id))))
+    }
+}
+
+pub(super) const METHOD: Id<&Method> = Id {
+    list: Some("methods"),
+    spellings: || METHODS.iter().flat_map(Method::spellings).collect(),
+    ..Id::new("method", || METHODS.iter().map(|method| (method.id.into(), method)).collect())
+};
+
+pub(super) const POLICY: Id<&PolicyCard> = Id {
+    list: Some("policies"),
+    spellings: || POLICIES.iter().map(|card| (card.name, card.id)).collect(),
+    ..Id::new("policy", || POLICIES.iter().map(|card| (card.id.into(), card)).collect())
+};
+
+pub(super) const TRACE: Id<&TraceCard> = Id {
+    list: Some("traces"),
+    ..Id::new("trace", || TRACES.iter().map(|card| (card.id.into(), card)).collect())
+};
+
+pub(super) const INSTRUMENT: Id<Instrument> =
+    Id::new("instrument", || Instrument::all().map(|it| (it.id(), it)).collect());
+
+pub(super) const CLOUD: Id<CloudKind> =
+    Id::new("cloud", || CloudKind::ALL.map(|kind| (kind.name().into(), kind)).into());
+
+pub(super) const SHAPE: Id<CloudShape> =
+    Id::new("shape", || CloudShape::ALL.map(|shape| (shape.id().into(), shape)).into());
+
+pub(super) const FAMILY: Id<Family> =
+    Id::new("family", || Family::ALL.map(|family| (family.id().into(), family)).into());
+
+pub(super) const LANGUAGE: Id<Language> =
+    Id::new("language", || Language::ALL.map(|language| (language.id().into(), language)).into());
