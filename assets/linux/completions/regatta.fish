@@ -317,8 +317,20 @@ complete -c regatta -n "__fish_regatta_using_subcommand capture" -l theme -d 'Th
 light\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l panels -d 'Panels around the stage: on or off' -r -f -a "on\t''
 off\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l instrument -d 'The instrument [default: motion]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l shape -d 'What the instrument cloud shows [default: cat]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l instrument -d 'The instrument [default: motion]' -r -f -a "motion\t''
+error\t''
+energy\t''
+phase-portrait\t''
+cost\t''
+stability-map\t''
+one-step\t''
+cloud\t''
+loop\t''
+advice\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l shape -d 'What the instrument cloud shows [default: cat]' -r -f -a "cat\t''
+disc\t''
+ring\t''
+section\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l mark-every -d 'Ticks between two states in the manifest' -r
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l format -d 'The format: png, apng, gif, y4m, rgba or sheet' -r -f -a "png\t'Numbered pictures and a manifest in a directory'
 apng\t'One animated PNG'
@@ -506,7 +518,14 @@ engine-godot\t''
 engine-box3d\t''
 held-force\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand advise" -l family -d 'Judge the methods of this family' -r
+complete -c regatta -n "__fish_regatta_using_subcommand advise" -l family -d 'Judge the methods of this family' -r -f -a "explicit\t''
+symplectic\t''
+adaptive\t''
+implicit\t''
+linearised\t''
+as-printed\t''
+follower\t''
+engine\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l as -d 'Print the recommended method as code too' -r -f -a "rust\t''
 c\t''
 csharp\t''
@@ -699,7 +718,19 @@ complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l threads -d 'Th
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l out -d 'FILE.png, FILE.gif, FILE.csv, or - for the rows' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l force -d 'Replace the file if it is there'
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l policy -d 'A policy, or several [default: all]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l policy -d 'A policy, or several [default: all]' -r -f -a "variable\t''
+lockstep\t''
+clamped-variable\t''
+semi-fixed\t''
+fixed\t''
+fixed-linear\t''
+fixed-hermite\t''
+fixed-extrapolated\t''
+snapped\t''
+whole-refresh\t''
+hysteresis\t''
+median\t''
+slow-down\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l trace -d 'A trace, or several [default: all built-in ones]' -r -f -a "steady-60\t''
 steady-59.94\t''
 steady-75\t''
@@ -798,7 +829,19 @@ json\t'An array of objects with the same names'"
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l out -d 'The file of the rows, or - for standard output' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l frames -d 'Write a line of CSV for each frame into FILE' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l plot -d 'Draw what each loop shows as PNG into FILE' -r -F
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l show -d 'Print this policy as source' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l show -d 'Print this policy as source' -r -f -a "variable\t''
+lockstep\t''
+clamped-variable\t''
+semi-fixed\t''
+fixed\t''
+fixed-linear\t''
+fixed-hermite\t''
+fixed-extrapolated\t''
+snapped\t''
+whole-refresh\t''
+hysteresis\t''
+median\t''
+slow-down\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l language -d 'The language of --show: rust, c++ or c#' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l force -d 'Replace the files that are there'
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -s h -l help -d 'Print help (see more with \'--help\')'
@@ -821,7 +864,22 @@ complete -c regatta -n "__fish_regatta_using_subcommand port" -l from -d 'An eng
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l mass -d 'The mass on the spring in kg' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l tick-hz -d 'Ticks per second of the engines, and of a log' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l substeps -d 'Substeps per tick, 1 to 1000 [default: each engine\'s own]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l to -d 'The engines (`regatta list methods`), or all' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l to -d 'The engines (`regatta list methods`), or all' -r -f -a "all\t''
+engine-box2d\t''
+engine-rapier\t''
+engine-avian\t''
+engine-avian-motor\t''
+engine-jolt\t''
+engine-physx\t''
+engine-physx-tgs\t''
+engine-physx-tgs-56\t''
+engine-bullet\t''
+engine-chipmunk\t''
+engine-mujoco\t''
+engine-mujoco-rk4\t''
+engine-godot\t''
+engine-box3d\t''
+held-force\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l decimation -d 'The ticks through which a drive of user code holds its force' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l k -d 'The stiffness of the spring [default: fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l c -d 'The damping of the spring [default: fitted]' -r

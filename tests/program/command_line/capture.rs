@@ -191,7 +191,7 @@ fn a_capture_shows_the_cloud_if_it_is_asked_for_and_is_verified_with_it() {
     assert_eq!(verified.status.code(), Some(0), "{}", stderr(&verified));
     let wrong = run_in(folder.path(), "capture --instrument fog --out fog");
     assert_eq!(wrong.status.code(), Some(2));
-    assert!(stderr(&wrong).contains("give one of motion, error"), "{}", stderr(&wrong));
+    assert!(stderr(&wrong).contains("There are motion, error"), "{}", stderr(&wrong));
 }
 
 #[test]
@@ -199,7 +199,7 @@ fn a_capture_shows_the_cloud_that_is_chosen_and_refuses_a_shape_of_other_instrum
     let test = "a_capture_shows_the_cloud_that_is_chosen_and_refuses_a_shape_of_other_instruments";
     let folder = tempfile::tempdir().unwrap();
     for (options, said) in [
-        ("--instrument cloud --shape dog", "give one of cat, disc, ring, section"),
+        ("--instrument cloud --shape dog", "There are cat, disc, ring, section"),
         ("--instrument energy --shape disc", "give --instrument cloud, or no --shape"),
         ("--shape disc", "--instrument"),
     ] {

@@ -166,8 +166,8 @@ fn what_cannot_be_asked_is_one_error_with_a_remedy() {
         ),
         ("--want 2Hz --zeta -1", "give a number from 0 up"),
         ("--want 2Hz --mass -1", "give a number above 0"),
-        ("--want 2Hz --to engine-foo", "no engine with a spring is called engine-foo"),
-        ("--want 2Hz --to engine-pybullet", "no engine with a spring is called engine-pybullet"),
+        ("--want 2Hz --to engine-foo", "no such engine with a spring"),
+        ("--want 2Hz --to engine-pybullet", "no such engine with a spring"),
         ("--want 2Hz --decimation 2", "--drive"),
         ("--from engine-gdot:stiffness=1", "did you mean engine-godot?"),
         (
