@@ -22,7 +22,6 @@ mod function;
 mod jet;
 mod lanes;
 mod op;
-mod power;
 mod registers;
 mod switch;
 mod tape;

@@ -127,21 +127,6 @@ impl System for Oscillator {
 }
 
 #[test]
-fn copies_may_have_other_parameters() {
-    let bodies = || (0..77).map(|n| (Oscillator(f64::from(n)), State { q: 1.0, v: 0.0 }));
-    for id in ["rk4", "stormer-verlet", "implicit-midpoint"] {
-        let method = method(id).unwrap();
-        let mut each = Batch::of_each(method, bodies()).unwrap();
-        each.run(Ticks::from_start(60, 1, 40));
-        for (copy, (body, start)) in bodies().enumerate() {
-            let mut one = Batch::new(&body, method, [start].into_iter()).unwrap();
-            one.run(Ticks::from_start(60, 1, 40));
-            assert_eq!(one.q()[0].to_bits(), each.q()[copy].to_bits(), "{id} {copy}");
-        }
-    }
-}
-
-#[test]
 fn copies_that_do_not_fit_into_memory_are_refused_before_they_are_made() {
     struct Endless;
     impl Iterator for Endless {

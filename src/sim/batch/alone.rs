@@ -12,8 +12,6 @@ use crate::sim::state::State;
 /// Neighbouring copies with an integrator each.
 struct Alone<C> {
     copies: C,
-    /// The index of the first copy.
-    first: usize,
     integrators: Vec<Box<dyn Integrator<Problem<f64>>>>,
 }
 
@@ -35,17 +33,16 @@ pub(super) fn each_alone<C: Copies>(
         own
     };
     let part = |part: Range<usize>| {
-        let (copies, first) = (copies.clone(), part.start);
-        Box::new(Alone { copies, first, integrators: part.map(own).collect() }) as _
+        Box::new(Alone { copies: copies.clone(), integrators: part.map(own).collect() }) as _
     };
     Some(Box::new(Parts::new(GRAIN, count, part)))
 }
 
 impl<C: Copies> Advance for Alone<C> {
     fn advance(&mut self, ticks: Ticks, q: &mut [f64], v: &mut [f64]) {
-        let Self { copies, first, integrators } = self;
-        for (n, ((q, v), own)) in q.iter_mut().zip(v).zip(integrators).enumerate() {
-            let system = copies.alone(*first + n);
+        let Self { copies, integrators } = self;
+        let system = copies.alone();
+        for ((q, v), own) in q.iter_mut().zip(v).zip(integrators) {
             let mut state = State { q: *q, v: *v };
             let mut ticks_left = ticks.first..ticks.first + ticks.count;
             let gave_up = ticks_left.any(|tick| {

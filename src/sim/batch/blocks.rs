@@ -4,12 +4,13 @@ use std::marker::PhantomData;
 use std::ops::Range;
 use std::sync::atomic::{Ordering, compiler_fence};
 
-use super::copies::{BlockSystem, Copies};
+use super::copies::Copies;
 use super::instruction_set::{InstructionSet, Kernel, NARROW, WIDE};
 use super::parts::Parts;
 use super::{Advance, Ticks};
 use crate::sim::integrators::{Construct, Integrator, Method};
 use crate::sim::state::State;
+use crate::sim::system::System;
 
 /// The copies that a thread takes at a time: their state is 64 KiB, which the second cache of every processor holds. A
 /// multiple of every width of a block.
@@ -66,8 +67,7 @@ impl<C: Copies, const W: usize> Construct<C::Block<W>> for Make<C, W> {
             let blocks = if has_memory { copies_of.len() / W } else { 0 };
             let memory = vec![integrator.clone(); blocks];
             let (copies, integrator) = (copies.clone(), integrator.clone());
-            let first = copies_of.start;
-            Box::new(Blocks::<C, I, W> { copies, set, first, integrator, memory }) as _
+            Box::new(Blocks::<C, I, W> { copies, set, integrator, memory }) as _
         };
         Box::new(Parts::new(GRAIN, count, part))
     }
@@ -77,8 +77,6 @@ impl<C: Copies, const W: usize> Construct<C::Block<W>> for Make<C, W> {
 struct Blocks<C, I, const W: usize> {
     copies: C,
     set: InstructionSet,
-    /// The index of the first copy.
-    first: usize,
     /// Before its first step.
     integrator: I,
     /// That of each block, of a method with memory; empty for all others.
@@ -87,9 +85,9 @@ struct Blocks<C, I, const W: usize> {
 
 impl<C: Copies, I: Integrator<C::Block<W>> + Clone, const W: usize> Advance for Blocks<C, I, W> {
     fn advance(&mut self, ticks: Ticks, q: &mut [f64], v: &mut [f64]) {
-        let Self { copies, set, first, integrator, memory } = self;
-        let (system, integrator, first) = (copies.block::<W>(*set), integrator.clone(), *first);
-        set.run(Grain { system, integrator, memory, first, ticks, q, v, of: PhantomData });
+        let Self { copies, set, integrator, memory } = self;
+        let (system, integrator) = (copies.block::<W>(*set), integrator.clone());
+        set.run(Grain { system, integrator, memory, ticks, q, v, of: PhantomData });
     }
 
     fn reset(&mut self) {
@@ -102,19 +100,22 @@ struct Grain<'a, S, I, const W: usize> {
     system: S,
     integrator: I,
     memory: &'a mut [I],
-    first: usize,
     ticks: Ticks,
     q: &'a mut [f64],
     v: &'a mut [f64],
     of: PhantomData<[f64; W]>,
 }
 
-impl<S: BlockSystem<W>, I: Integrator<S> + Clone, const W: usize> Kernel for Grain<'_, S, I, W> {
+impl<S, I, const W: usize> Kernel for Grain<'_, S, I, W>
+where
+    S: System<Vector = [f64; W]>,
+    I: Integrator<S> + Clone,
+{
     const WIDTH: Option<usize> = Some(W);
 
     #[inline(always)]
     fn run(self) {
-        let Self { mut system, integrator, memory, first, ticks, q, v, of: _ } = self;
+        let Self { system, integrator, memory, ticks, q, v, of: _ } = self;
         let (q, v) = (q.as_chunks_mut::<W>().0, v.as_chunks_mut::<W>().0);
         let part = ticks.part();
         let tiles = q.chunks_mut(TILE / W).zip(v.chunks_mut(TILE / W)).enumerate();
@@ -126,7 +127,6 @@ impl<S: BlockSystem<W>, I: Integrator<S> + Clone, const W: usize> Kernel for Gra
                     for (n, (q, v)) in q.iter_mut().zip(v.iter_mut()).enumerate() {
                         // A block is a vector as it is: across several the compiler would gather and scatter.
                         compiler_fence(Ordering::AcqRel);
-                        system.turn_to(first + (tile + n) * W);
                         let mut own = memory.get(tile + n).unwrap_or(&integrator).clone();
                         let mut state = State { q: *q, v: *v };
                         let stepped = own.step(&system, t, part, &mut state);

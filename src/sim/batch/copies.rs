@@ -1,7 +1,5 @@
 //! Copies of a system of one coordinate, as a batch steps them: in blocks, or each alone.
 
-use std::sync::Arc;
-
 use super::instruction_set::InstructionSet;
 use crate::sim::integrators::{Problem, problem};
 use crate::sim::system::System;
@@ -12,22 +10,13 @@ pub(in crate::sim) trait Copies: Clone + Send + Sync + 'static {
     const IS_INTERPRETED: bool = false;
 
     /// `W` copies at once.
-    type Block<const W: usize>: BlockSystem<W>;
+    type Block<const W: usize>: System<Vector = [f64; W]>;
 
-    /// The first `W` copies, on an instruction set.
+    /// `W` copies, on an instruction set.
     fn block<const W: usize>(&self, set: InstructionSet) -> Self::Block<W>;
 
     /// One copy.
-    fn alone(&self, copy: usize) -> Problem<f64>;
-}
-
-/// `W` neighbouring copies of a body.
-pub(in crate::sim) trait BlockSystem<const W: usize>:
-    System<Vector = [f64; W]>
-{
-    /// Turns to the copies from this one on. Those beyond the last are like the last. Copies that are alike need not turn.
-    #[inline(always)]
-    fn turn_to(&mut self, _first: usize) {}
+    fn alone(&self) -> Problem<f64>;
 }
 
 /// A system that a batch can step: of one coordinate, and shared by threads.
@@ -49,7 +38,7 @@ impl<S: OneCoordinate> Copies for Alike<S> {
         AlikeBlock(self.0.clone())
     }
 
-    fn alone(&self, _copy: usize) -> Problem<f64> {
+    fn alone(&self) -> Problem<f64> {
         problem(self.0.clone())
     }
 }
@@ -62,52 +51,5 @@ impl<S: System<Vector = f64>, const W: usize> System for AlikeBlock<S, W> {
         for i in 0..W {
             self.0.acceleration(t, &q[i], &v[i], &mut a[i]);
         }
-    }
-}
-
-impl<S: System<Vector = f64>, const W: usize> BlockSystem<W> for AlikeBlock<S, W> {}
-
-/// Copies that differ, one system each.
-#[derive(Clone)]
-pub(super) struct Each<S>(pub(super) Arc<[S]>);
-
-/// A block of [`Each`].
-pub(in crate::sim) struct EachBlock<S, const W: usize> {
-    systems: Arc<[S]>,
-    first: usize,
-}
-
-impl<S> Each<S> {
-    fn of(systems: &[S], copy: usize) -> &S {
-        &systems[copy.min(systems.len() - 1)]
-    }
-}
-
-impl<S: OneCoordinate> Copies for Each<S> {
-    type Block<const W: usize> = EachBlock<S, W>;
-
-    fn block<const W: usize>(&self, _set: InstructionSet) -> EachBlock<S, W> {
-        EachBlock { systems: self.0.clone(), first: 0 }
-    }
-
-    fn alone(&self, copy: usize) -> Problem<f64> {
-        problem(Self::of(&self.0, copy).clone())
-    }
-}
-
-impl<S: OneCoordinate, const W: usize> System for EachBlock<S, W> {
-    type Vector = [f64; W];
-
-    #[inline(always)]
-    fn acceleration(&self, t: f64, q: &[f64; W], v: &[f64; W], a: &mut [f64; W]) {
-        for i in 0..W {
-            Each::of(&self.systems, self.first + i).acceleration(t, &q[i], &v[i], &mut a[i]);
-        }
-    }
-}
-
-impl<S: OneCoordinate, const W: usize> BlockSystem<W> for EachBlock<S, W> {
-    fn turn_to(&mut self, first: usize) {
-        self.first = first;
     }
 }

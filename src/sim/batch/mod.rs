@@ -17,9 +17,9 @@ use alone::each_alone;
 use blocks::in_blocks;
 pub(in crate::sim) use copies::Copies;
 pub use copies::OneCoordinate;
-use copies::{Alike, Each};
+use copies::Alike;
 #[cfg(feature = "lab")]
-pub(in crate::sim) use copies::{AlikeBlock, BlockSystem};
+pub(in crate::sim) use copies::AlikeBlock;
 pub use instruction_set::InstructionSet;
 #[cfg(feature = "lab")]
 pub(in crate::sim) use instruction_set::Kernel;
@@ -159,19 +159,6 @@ impl Batch {
         starts: impl ExactSizeIterator<Item = State<f64>>,
     ) -> NewBatch {
         Self::with(&Alike(system.clone()), Solver::Method(method), starts, set)
-    }
-
-    /// A body for each start: copies with other parameters.
-    ///
-    /// # Errors
-    /// As [`Batch::new`].
-    pub fn of_each<S: OneCoordinate>(
-        method: &'static Method,
-        bodies: impl IntoIterator<Item = (S, State<f64>)>,
-    ) -> NewBatch {
-        let (systems, starts): (Vec<_>, Vec<_>) = bodies.into_iter().unzip();
-        let set = InstructionSet::widest();
-        Self::with(&Each(systems.into()), Solver::Method(method), starts.into_iter(), set)
     }
 
     /// Copies of a body of one coordinate.

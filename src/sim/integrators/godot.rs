@@ -25,7 +25,7 @@ pub(super) const CARD: Method = Method {
             "Engine.physics_ticks_per_second = {hz} # step {n} times with dt / {n}: Godot has no substeps, and whole ticks",
         ),
         // Of its bodies in space.
-        free_spin: Some(FreeSpin { default: SpinMap::Constant, opt_in: None, per_substep: false }),
+        free_spin: Some(FreeSpin { default: SpinMap::Constant, opt_in: None }),
         version: "4.x",
         logged: None,
         modes: &MODES,

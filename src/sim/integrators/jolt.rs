@@ -29,7 +29,6 @@ pub(super) const CARD: Method = Method {
         free_spin: Some(FreeSpin {
             default: SpinMap::Constant,
             opt_in: Some(SpinMap::ScaledMomentum),
-            per_substep: true,
         }),
         version: "5.5.1 main 3b47ec3",
         logged: Some("2026-11-21"),

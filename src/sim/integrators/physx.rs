@@ -42,7 +42,6 @@ pub(super) const CARD: Method = Method {
         free_spin: Some(FreeSpin {
             default: SpinMap::Constant,
             opt_in: Some(SpinMap::ScaledMomentum),
-            per_substep: false,
         }),
         version: "5.1.3",
         logged: Some("2026-11-21"),

@@ -11,7 +11,6 @@ use super::expression::{Expression, Node};
 use super::fault::Part;
 use super::jet::{self, Jet};
 use super::op::Op;
-use super::power::powers;
 use super::switch::Switch;
 use crate::sim::curve::Curve;
 
@@ -278,7 +277,6 @@ impl Tape {
                 Op::Subtract => from_fn(|i| a[i] - b[i]),
                 Op::Multiply | Op::And => from_fn(|i| a[i] * b[i]),
                 Op::Divide => from_fn(|i| a[i] / b[i]),
-                Op::Power if W > 1 && !is_alike => powers(a, b),
                 Op::Power => called(libm::pow),
                 Op::Or => from_fn(|i| f64::from(u8::from(a[i] + b[i] > 0.0))),
                 Op::Not => from_fn(|i| 1.0 - a[i]),

@@ -6,6 +6,7 @@ use glam::DVec3;
 use regatta::sim::integrators::{FreeSpin, METHODS, SpinMap, method};
 
 use super::log::{Entry, columns, manifest};
+use super::spin_maps;
 
 /// The principal moments of inertia of the body of every log, in kg m².
 const INERTIA: DVec3 = DVec3::new(1.0, 2.0, 3.0);
@@ -33,6 +34,14 @@ fn off(found: DVec3, wanted: DVec3) -> f64 {
 fn free_spin(id: &str) -> FreeSpin {
     let engine = method(id).and_then(|method| method.engine).expect("an engine");
     engine.free_spin.unwrap_or_else(|| panic!("{id} claims nothing"))
+}
+
+/// The angular velocity after a tick of `length` (s). PhysX applies its map once a tick; all others apply it, or repeat
+/// their whole step, in each substep.
+fn spin(id: &str, map: SpinMap, omega: DVec3, length: f64, substeps: u32) -> DVec3 {
+    let steps = if id.starts_with("engine-physx") { 1 } else { substeps };
+    let h = length / f64::from(steps);
+    (0..steps).fold(omega, |omega, _| spin_maps::step(map, INERTIA, omega, h))
 }
 
 /// A row of a log.
@@ -99,7 +108,7 @@ impl Tumble {
 
     /// The angular velocity a tick later, as the card says.
     fn tick(&self, omega: DVec3) -> DVec3 {
-        free_spin(self.id).tick(self.map, INERTIA, omega, self.tick_s, self.substeps)
+        spin(self.id, self.map, omega, self.tick_s, self.substeps)
     }
 
     /// The run of the card from the first row, at each row.
@@ -265,8 +274,7 @@ const MINUTES: [Minute; 9] = [
 
 /// The angular velocity after `ticks` ticks at 60 Hz.
 fn after(id: &str, map: SpinMap, substeps: u32, start: DVec3, ticks: u32) -> DVec3 {
-    let spin = free_spin(id);
-    (0..ticks).fold(start, |omega, _| spin.tick(map, INERTIA, omega, 1.0 / 60.0, substeps))
+    (0..ticks).fold(start, |omega, _| spin(id, map, omega, 1.0 / 60.0, substeps))
 }
 
 #[test]

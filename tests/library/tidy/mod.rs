@@ -1,11 +1,10 @@
-//! Who may name whom, what is in which table, what is implemented once, and how long a file may be: read off the
+//! Who may name whom, what is in which table, and how long a file may be: read off the
 //! sources.
 //!
 //! `main → commands, window → view → lab → sim`. Each rule is a function from a file's text to
 //! complaints, and is shown a bad text here too, so that it is known to see one.
 
 mod circles;
-mod concepts;
 mod paths;
 mod rules;
 mod tables;

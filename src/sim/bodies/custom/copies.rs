@@ -31,10 +31,10 @@ impl Copies for CustomCopies {
     type Block<const W: usize> = AlikeBlock<Problem<f64>, W>;
 
     fn block<const W: usize>(&self, _set: InstructionSet) -> AlikeBlock<Problem<f64>, W> {
-        AlikeBlock(self.alone(0))
+        AlikeBlock(self.alone())
     }
 
-    fn alone(&self, _copy: usize) -> Problem<f64> {
+    fn alone(&self) -> Problem<f64> {
         let motion = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         motion.alone().expect("it was of one coordinate")
     }

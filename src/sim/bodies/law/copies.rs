@@ -6,7 +6,7 @@ use std::slice::{from_mut, from_ref};
 use std::sync::Arc;
 
 use super::{Law, known};
-use crate::sim::batch::{Batch, BlockSystem, Copies, InstructionSet, Kernel, NewBatch};
+use crate::sim::batch::{Batch, Copies, InstructionSet, Kernel, NewBatch};
 use crate::sim::integrators::{Problem, problem};
 use crate::sim::law::{At, Equations, LawLanes, Registers};
 use crate::sim::solver::Solver;
@@ -53,7 +53,7 @@ impl Copies for LawCopies {
         LawBlock { equations: self.equations.clone(), lanes, set }
     }
 
-    fn alone(&self, _copy: usize) -> Problem<f64> {
+    fn alone(&self) -> Problem<f64> {
         let registers = RefCell::new(Registers::new(&self.equations, &self.values));
         problem(LawAlone { equations: self.equations.clone(), registers, steering: self.steering })
     }
@@ -67,8 +67,6 @@ impl<const W: usize> System for LawBlock<W> {
         set.run(Evaluation { equations, lanes: &mut lanes.borrow_mut(), t, at: [q, v], a });
     }
 }
-
-impl<const W: usize> BlockSystem<W> for LawBlock<W> {}
 
 /// An evaluation of a block, compiled apart from the methods: it is long.
 struct Evaluation<'a, const W: usize> {
