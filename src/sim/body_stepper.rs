@@ -18,15 +18,14 @@ use super::reference::{Reference, is_beyond_reference};
 use super::solver::Solver;
 use super::state::{State, Vector, bytes_with_vectors};
 use super::stepper::{Change, PlacedBody, RecordedTick, Stepper};
-use super::system::{
-    BodyClass, Counted, Counts, Coupling, EngineSettings, Logged, Pursuit, System,
-};
+use super::system::{BodyClass, Counted, Coupling, EngineSettings, Logged, Pursuit, System};
 use crate::sim::system::StateOf;
 
 /// Puts `body` at its start, at time 0, under `solver`.
 pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
     let state = body.start();
-    with_solver(Placed { body: Counted::new(body), state }, solver, 0.0)
+    let placed = Placed { body: Counted::new(body), state, lost_before: 0.0, lost_time: 0.0 };
+    with_solver(placed, solver, 0.0)
 }
 
 /// Puts a body under `solver` at time `t` (s).
@@ -86,8 +85,13 @@ impl<B: Body, D: Propagator<B>> BodyStepper<B, D> {
     /// Advances on the calling thread.
     #[inline]
     fn advance_here(&mut self, t: f64, h: f64, substeps: u32) -> Stepped {
-        let Self { placed: Placed { body, state }, propagator } = self;
-        propagator.step(body, t, h, substeps, state)
+        let Self { placed: Placed { body, state, lost_before, lost_time }, propagator } = self;
+        let stepped = propagator.step(body, t, h, substeps, state);
+        let lost = propagator.lost_time();
+        if lost > 0.0 {
+            *lost_time = *lost_before + lost;
+        }
+        stepped
     }
 }
 
@@ -104,7 +108,7 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
     }
 
     fn change(&mut self, t: f64, change: Change<'_>) -> bool {
-        let Self { placed: Placed { body, state }, propagator } = self;
+        let Self { placed: Placed { body, state, .. }, propagator } = self;
         propagator.jump(t, change, &mut body.system, state)
     }
 
@@ -129,13 +133,22 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
 pub(super) struct Placed<B: Body> {
     pub(super) body: Counted<B>,
     pub(super) state: StateOf<B>,
+    /// The time in seconds that methods left out of their steps: those before the present solver, and all.
+    lost_before: f64,
+    lost_time: f64,
 }
 
 impl<B: Body> Clone for Placed<B> {
     /// Apart from the methods, which would each have a copy of it.
     #[inline(never)]
     fn clone(&self) -> Self {
-        Self { body: self.body.clone(), state: self.state.clone() }
+        let Self { body, state, lost_before, lost_time } = self;
+        Self {
+            body: body.clone(),
+            state: state.clone(),
+            lost_before: *lost_before,
+            lost_time: *lost_time,
+        }
     }
 }
 
@@ -180,8 +193,11 @@ impl<B: Body> PlacedBody for Placed<B> {
         Some(RecordedTick { evaluations: log.take(), landing })
     }
 
-    fn counts(&self) -> Counts {
-        self.body.counts()
+    fn evaluations(&self) -> u64 {
+        self.body.evaluations()
+    }
+    fn lost_time(&self) -> f64 {
+        self.lost_time
     }
     fn is_linear(&self) -> bool {
         self.body.system.is_linear()
@@ -230,7 +246,7 @@ impl<B: Body> PlacedBody for Placed<B> {
     }
 
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper> {
-        with_solver(self.clone(), solver, t)
+        with_solver(Self { lost_before: self.lost_time, ..self.clone() }, solver, t)
     }
 
     fn bytes_with(&self, memory: &dyn Any) -> usize {

@@ -42,6 +42,11 @@ pub(super) trait Propagator<B: Body>: Send + 'static {
         None
     }
 
+    /// The time in seconds that a method has left out of its steps.
+    fn lost_time(&self) -> f64 {
+        0.0
+    }
+
     /// Memory in bytes, without its own size and that of its coordinate vectors.
     fn heap_bytes(&self) -> usize {
         0
@@ -75,6 +80,10 @@ impl<V: Vector, B: Body<Vector = V>> Propagator<B> for AnyMethod<V> {
         is_changed
     }
 
+    fn lost_time(&self) -> f64 {
+        self.integrator.lost_time()
+    }
+
     fn heap_bytes(&self) -> usize {
         self.integrator.heap_bytes()
     }
@@ -104,6 +113,11 @@ impl<B: Body, I: Integrator<Counted<B>> + Clone + 'static> Propagator<B> for Met
             self.0.reset();
         }
         is_changed
+    }
+
+    #[inline]
+    fn lost_time(&self) -> f64 {
+        self.0.lost_time()
     }
 
     fn heap_bytes(&self) -> usize {

@@ -9,7 +9,7 @@ use super::body::{Body, Input};
 use super::integrators::{Method, StepFailure, Stepped};
 use super::solver::Solver;
 use super::state::Vector;
-use super::system::{Counts, EngineSettings, Evaluation, Pursuit};
+use super::system::{EngineSettings, Evaluation, Pursuit};
 use crate::sim::system::StateOf;
 
 /// A tick that was taken on a copy of a body.
@@ -161,12 +161,10 @@ pub trait PlacedBody {
     /// is not counted.
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]);
 
-    /// Evaluations and lost time of all methods since the start. The truth is not counted.
-    fn counts(&self) -> Counts;
-    /// Evaluations of the acceleration since the start.
-    fn evaluations(&self) -> u64 {
-        self.counts().evaluations
-    }
+    /// Evaluations of the acceleration by all methods since the start. The truth is not counted.
+    fn evaluations(&self) -> u64;
+    /// The time in seconds that methods left out of their steps since the start.
+    fn lost_time(&self) -> f64;
     /// Whether the equation of motion is linear apart from a constant.
     fn is_linear(&self) -> bool;
     /// Whether this coordinate is an angle, so that a full turn leaves the body unchanged.

@@ -64,9 +64,6 @@ pub enum Question<'a, V> {
         /// Where to write the remaining force per unit mass.
         force: &'a mut V,
     },
-    /// Nothing: a method that does not [keep time](super::integrators::Method::keeps_time) reports that it left out so
-    /// many seconds of a step. It does not affect the motion; [`Counted`] sums it.
-    LostTime(f64),
 }
 
 /// Which coordinates and velocities the acceleration of a coordinate depends on. Implicit methods choose their linear
@@ -202,33 +199,18 @@ impl BodyClass {
     }
 }
 
-/// A system that counts evaluations and lost time. A clone continues from the same counts.
+/// A system that counts evaluations. A clone continues from the same count.
 #[derive(Clone, Debug)]
 pub struct Counted<S> {
     /// The system counted.
     pub system: S,
     evaluations: Cell<u64>,
-    lost_time: Cell<f64>,
-}
-
-/// Evaluations and lost time of methods on a system.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Counts {
-    /// Evaluations of the acceleration.
-    pub evaluations: u64,
-    /// The time in seconds that methods left out of their steps.
-    pub lost_time: f64,
 }
 
 impl<S> Counted<S> {
-    /// Wraps `system`, with all counts at zero.
+    /// Wraps `system`, with nothing counted.
     pub fn new(system: S) -> Self {
-        Self { system, evaluations: Cell::new(0), lost_time: Cell::new(0.0) }
-    }
-
-    /// The counts so far.
-    pub fn counts(&self) -> Counts {
-        Counts { evaluations: self.evaluations.get(), lost_time: self.lost_time.get() }
+        Self { system, evaluations: Cell::new(0) }
     }
 
     /// Evaluations so far.
@@ -253,10 +235,6 @@ impl<S: System> System for Counted<S> {
 
     #[inline]
     fn answer(&self, t: f64, question: Question<'_, S::Vector>) -> bool {
-        if let Question::LostTime(h) = question {
-            self.lost_time.set(self.lost_time.get() + h);
-            return true;
-        }
         let is_answered = self.system.answer(t, question);
         self.evaluations.set(self.evaluations.get() + u64::from(is_answered));
         is_answered
@@ -314,7 +292,6 @@ impl<S: System<Vector: Vector>> System for Logged<S> {
                 }
                 pursuit.is_some()
             }
-            Question::LostTime(_) => self.system.answer(t, question),
         }
     }
 }

@@ -79,7 +79,6 @@ impl<S: System<Vector: Vector>> System for VecSystem<'_, S> {
                 });
                 return pursuit.is_some();
             }
-            Question::LostTime(h) => return self.system.answer(t, Question::LostTime(h)),
         };
         if is_answered {
             to.copy_from_slice(scratch.result.components());

@@ -58,7 +58,7 @@ impl System for Told {
             Question::Target(pursuit) => {
                 *pursuit = Some(Pursuit { target: target(t), rate, order, is_still: false });
             }
-            Question::Slope { .. } | Question::LostTime(_) => return false,
+            Question::Slope { .. } => return false,
         }
         true
     }

@@ -151,12 +151,12 @@ fn the_inputs_on_its_card_are_taken_and_any_other_is_refused_and_changes_no_bit(
 fn what_a_method_lost_stays_lost_under_the_next() {
     let printed = GENERAL_METHODS.iter().find(|m| m.tolerance.is_some() && !m.keeps_time).unwrap();
     let (_, mut body) = bodies(Solver::Method(printed), 0.9).nth(1).unwrap();
-    assert_eq!(body.counts().lost_time, 0.0);
+    assert_eq!(body.lost_time(), 0.0);
     let run = |body: &mut dyn Stepper, from: u32| {
         for tick in from..from + 4 {
             body.advance(0.5 * f64::from(tick), 0.5, 1).unwrap();
         }
-        body.counts().lost_time
+        body.lost_time()
     };
     let lost = run(&mut *body, 0);
     assert!(lost > 0.0 && lost < 2.0, "{lost} s of 2");
@@ -237,7 +237,7 @@ fn the_error_of_a_motion_that_has_come_to_rest_grows_no_more() {
 fn account(body: &dyn Stepper) -> Vec<u64> {
     let state = body.q().iter().chain(body.v()).copied();
     let error = body.truth_error().into_iter().flatten();
-    let numbers = state.chain(error).chain([body.counts().lost_time]);
+    let numbers = state.chain(error).chain([body.lost_time()]);
     numbers.map(f64::to_bits).chain([body.evaluations()]).collect()
 }
 

@@ -6,7 +6,7 @@ use super::run::{exactly, scene};
 use crate::sim::bodies::{Body, Ship};
 use crate::sim::integrators::{AdaptiveEuler, AdaptiveEulerAsPrinted, Integrator, Tolerance};
 use crate::sim::number::significant;
-use crate::sim::{Counted, Counts, State};
+use crate::sim::{Counted, State};
 
 /// The chapter's tolerances of the speed, in m/s.
 const TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-4];
@@ -38,10 +38,10 @@ pub(super) fn listings() -> String {
     for tolerance in TOLERANCES {
         let allowed = Tolerance { absolute_q: f64::INFINITY, absolute_v: tolerance, relative: 0.0 };
         let mut printed = AdaptiveEulerAsPrinted::with_tolerance(&0.0, allowed);
-        let (slow, counts) = run(&mut printed, &ship, h);
-        let simulated = asked - counts.lost_time;
+        let (slow, _) = run(&mut printed, &ship, h);
+        let simulated = asked - Integrator::<Counted<Ship>>::lost_time(&printed);
         let mut corrected = AdaptiveEuler::with_tolerance(&0.0, allowed);
-        let (right, Counts { evaluations, .. }) = run(&mut corrected, &ship, h);
+        let (right, evaluations) = run(&mut corrected, &ship, h);
         let percent = |v: f64| format!("{} %", significant(100.0 * (v - truth) / truth, 3));
         let _ = writeln!(
             text,
@@ -58,12 +58,8 @@ pub(super) fn listings() -> String {
         + "\n  As printed a step that is cut short is never made up for: the ship sails in slow motion.\n"
 }
 
-/// The ship's state after all ticks, and the method's counts.
-fn run(
-    integrator: &mut dyn Integrator<Counted<Ship>>,
-    ship: &Ship,
-    h: f64,
-) -> (State<f64>, Counts) {
+/// The ship's state after all ticks, and the method's evaluations.
+fn run(integrator: &mut dyn Integrator<Counted<Ship>>, ship: &Ship, h: f64) -> (State<f64>, u64) {
     let system = Counted::new(ship.clone());
     let mut state = ship.start();
     for tick in 0..TICKS {
@@ -71,5 +67,5 @@ fn run(
             .step(&system, h * f64::from(tick), h, &mut state)
             .expect("the ship is gentle enough for every tolerance of the table");
     }
-    (state, system.counts())
+    (state, system.evaluations())
 }

@@ -208,7 +208,7 @@ pub const METRICS: &[Metric] = &[
         is_comparison: false,
         is_of_energy: false,
         about: "time by which this body is behind, under a method that does not keep it",
-        measure: |lane, _| Some(lane.stepper.counts().lost_time).filter(|&lost| lost > 0.0),
+        measure: |lane, _| Some(lane.stepper.lost_time()).filter(|&lost| lost > 0.0),
     },
     Metric {
         id: "half_life",

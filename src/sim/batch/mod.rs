@@ -15,11 +15,11 @@ use std::collections::TryReserveError;
 
 use alone::each_alone;
 use blocks::in_blocks;
-pub(in crate::sim) use copies::Copies;
-pub use copies::OneCoordinate;
 use copies::Alike;
 #[cfg(feature = "lab")]
 pub(in crate::sim) use copies::AlikeBlock;
+pub(in crate::sim) use copies::Copies;
+pub use copies::OneCoordinate;
 pub use instruction_set::InstructionSet;
 #[cfg(feature = "lab")]
 pub(in crate::sim) use instruction_set::Kernel;

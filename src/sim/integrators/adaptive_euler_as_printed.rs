@@ -1,7 +1,6 @@
 //! Adaptive Euler as the chapter prints it: a shortened step still ends the tick.
 
 use super::prelude::*;
-use crate::sim::system::Question;
 
 pub(super) const CARD: Method = Method {
     id: "adaptive-euler-as-printed",
@@ -32,6 +31,7 @@ const TOLERANCE: Tolerance =
 #[derive(Clone)]
 pub struct AdaptiveEulerAsPrinted<V> {
     tolerance: Tolerance,
+    lost_time: f64,
     a: V,
     v1: V,
     v2: V,
@@ -40,7 +40,7 @@ pub struct AdaptiveEulerAsPrinted<V> {
 impl<V: Vector> AdaptiveEulerAsPrinted<V> {
     /// The method with this tolerance; only `absolute_v` is used.
     pub fn with_tolerance(like: &V, tolerance: Tolerance) -> Self {
-        Self { tolerance, a: like.clone(), v1: like.clone(), v2: like.clone() }
+        Self { tolerance, lost_time: 0.0, a: like.clone(), v1: like.clone(), v2: like.clone() }
     }
 }
 
@@ -51,7 +51,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for AdaptiveEulerAsPrinted<S::Vect
 
     #[inline]
     fn step(&mut self, system: &S, t: f64, h: f64, State { q, v }: &mut StateOf<S>) -> Stepped {
-        let Self { tolerance, a, v1, v2 } = self;
+        let Self { tolerance, lost_time, a, v1, v2 } = self;
         system.acceleration(t, q, v, a);
         v1.assign_sum(v, h, a);
 
@@ -67,7 +67,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for AdaptiveEulerAsPrinted<S::Vect
             system.acceleration(t, q, v, a);
             v.add_scaled(h_new, a);
             q.add_scaled(h_new, v);
-            system.answer(t, Question::LostTime(h - h_new));
+            *lost_time += h - h_new;
         } else {
             v.assign(v1);
             q.add_scaled(h, v);
@@ -79,6 +79,10 @@ impl<S: System<Vector: Vector>> Integrator<S> for AdaptiveEulerAsPrinted<S::Vect
         if let Override::Tolerance(tolerance) = with {
             self.tolerance = tolerance;
         }
+    }
+
+    fn lost_time(&self) -> f64 {
+        self.lost_time
     }
 }
 

@@ -260,7 +260,7 @@ pub struct Method {
     /// if it is given a state other than it returned. `None` without memory.
     pub restart: Option<&'static str>,
     /// Whether a step of `h` always advances by `h`. A method that does not reports the rest to
-    /// [`Question::LostTime`](crate::sim::Question::LostTime).
+    /// [`Integrator::lost_time`](super::Integrator::lost_time).
     pub keeps_time: bool,
     /// The bodies that it is for; `None` if it steps every body.
     pub only: Option<Only>,

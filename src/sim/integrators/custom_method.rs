@@ -122,6 +122,10 @@ impl<S: System<Vector: Vector>> Integrator<S> for CustomMethod<S::Vector> {
         self.integrator.set(with);
     }
 
+    fn lost_time(&self) -> f64 {
+        self.integrator.lost_time()
+    }
+
     fn heap_bytes(&self) -> usize {
         let integrator = &*self.integrator;
         bytes_with_vectors(integrator, &self.state.q) + integrator.heap_bytes()

@@ -53,6 +53,12 @@ pub trait Integrator<S: System>: Send {
     /// Replaces what its card or the body says; a method that has no such number ignores it.
     fn set(&mut self, _override: Override) {}
 
+    /// The time in seconds that the method has left out of its steps since it was built: 0 of one that
+    /// [keeps time](super::Method::keeps_time).
+    fn lost_time(&self) -> f64 {
+        0.0
+    }
+
     /// Memory in bytes, without its own size and that of its coordinate vectors.
     fn heap_bytes(&self) -> usize {
         0

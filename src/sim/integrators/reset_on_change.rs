@@ -63,6 +63,10 @@ impl<S: System<Vector: Vector>, I: Integrator<S>> Integrator<S> for ResetOnChang
         self.method.set(with);
     }
 
+    fn lost_time(&self) -> f64 {
+        self.method.lost_time()
+    }
+
     fn heap_bytes(&self) -> usize {
         self.method.heap_bytes()
     }

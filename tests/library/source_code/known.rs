@@ -100,7 +100,7 @@ impl System for Run {
                 let (rate, order) = (RATE, self.order);
                 *pursuit = Some(Pursuit { target: target(t), rate, order, is_still: false });
             }
-            Question::Slope { .. } | Question::LostTime(_) => return false,
+            Question::Slope { .. } => return false,
         }
         true
     }

@@ -75,7 +75,6 @@ impl<S: System<Vector: Vector>> System for Scaled<S> {
                 is_answered
             }
             Question::Target(_) => false,
-            Question::LostTime(_) => self.system.answer(t, question),
         }
     }
 }
