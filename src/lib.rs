@@ -70,16 +70,16 @@
 //!
 //! # Adding a thing
 //!
-//! - **A method**: copy `sim/integrators/improved_euler.rs`, declare the file, add its line to
+//! - **A method**: copy `sim/integrators/midpoint.rs`, declare the file, add its line to
 //!   `methods!`. If its card claims too much or too little, `tests/library/conformance` fails. One that is for some bodies
 //!   [only](sim::integrators::Only) comes after all others, and is refused elsewhere with the reason on its card. A physics engine is a
 //!   [family](sim::integrators::Family::Engine) of such methods: a rule like `sim/integrators/bullet.rs`, which reads the
 //!   [settings](sim::EngineSettings) of a body.
 //!   Its formula is on its card, and its [source code](lab::source_code::MethodSource) for other games in `assets/methods`: both are
 //!   evaluated beside it. `BLESS=1 cargo test --test library tables` writes its row in the [manual](mod@manual::methods).
-//! - **A body**: copy `sim/bodies/spring.rs`, declare the file, add its card to
+//! - **A body**: copy `sim/bodies/pendulum.rs`, declare the file, add its card to
 //!   [`BODIES`](sim::bodies::BODIES); say how it looks, and where a person can grab it, in a file beside
-//!   `lab/look/spring.rs`, and add that to `LOOKS`. `tests/library/exact_flows.rs` and `tests/library/bodies` hold its exact flow, or what stands in for one,
+//!   `lab/look/pendulum.rs`, and add that to `LOOKS`. `tests/library/exact_flows.rs` and `tests/library/bodies` hold its exact flow, or what stands in for one,
 //!   against its equation.
 //!   What a scene lays out itself, a [law](sim::bodies::law_kind) or a [net](sim::bodies::net_kind), has a kind of its own
 //!   that is made when the scene is read.

@@ -215,20 +215,30 @@ fn main() {
     }
 }
 
-/// The manual's table: one step a tick, and beside it the loop by hand as the book prints it.
+/// The manual's table: one step a tick, and beside it the loop by hand as the book prints it. With `BLESS=1` it replaces
+/// that of the manual.
 fn readme() {
     let heads = COURSES.each_ref().map(|course| format!("{}, ns | by hand |", course.name()));
-    println!("| method | {}\n|---|{}", heads.join(" "), "---:|---:|".repeat(COURSES.len()));
+    let mut table = format!("| method | {}\n", heads.join(" "));
+    table += &format!("|---|{}\n", "---:|---:|".repeat(COURSES.len()));
     for method in GENERAL_METHODS {
-        print!("| `{}` |", method.id);
+        table += &format!("| `{}` |", method.id);
         for course in &COURSES {
             let Figures { ns, by_hand } = measure(course, method, 1);
             // Three digits, and no more than the measurement has.
             let ns = if ns < 100.0 { format!("{ns:.1}") } else { format!("{ns:.0}") };
             let ratio = by_hand.map(|[textbook, ..]| format!("{:.2} ×", textbook.ratio));
-            print!(" {ns} | {} |", ratio.unwrap_or_default());
+            table += &format!(" {ns} | {} |", ratio.unwrap_or_default());
         }
-        println!();
+        table.push('\n');
+    }
+    print!("{table}");
+    if std::env::var_os("BLESS").is_some_and(|value| value == "1") {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/manual/speed.md");
+        let text = std::fs::read_to_string(path).expect("a chapter");
+        let from = text.find("| method | ship, ns |").expect("its table");
+        let to = from + text[from..].find("\n\n").expect("the end of the table") + 1;
+        std::fs::write(path, text[..from].to_owned() + &table + &text[to..]).expect("written");
     }
 }
 

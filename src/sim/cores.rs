@@ -1,10 +1,10 @@
 //! Long loops over the numbers of one large body, shared by all cores. The shares are cut by size alone, and no sum
 //! passes from one to another, so that the number of threads changes no bit. Without the feature `batch` one does all.
 
-/// The numbers of a vector that a thread takes at a time: some ten microseconds of memory. A vector of fewer is left to
+/// The numbers that a thread takes at a time, of vectors and of states: some ten microseconds of memory. Fewer are left to
 /// one thread.
 #[cfg(feature = "batch")]
-const GRAIN: usize = 1 << 15;
+pub(super) const GRAIN: usize = 1 << 15;
 
 /// Whether a body with this number of coordinates is stepped on all cores.
 #[cfg(feature = "lab")]
@@ -12,19 +12,25 @@ pub(super) fn is_large(coordinates: usize) -> bool {
     coordinates > GRAIN / 2
 }
 
-/// Runs `work` once, on a thread of the pool that [`join`] shares work with. Never allocates there.
+/// Runs `work` on a worker of rayon's pool, so that nested [`split`]s do not inject work, and allocate, from outside.
 #[cfg(feature = "lab")]
 pub(super) fn enter(work: &mut (dyn FnMut() + Send)) {
-    join(work, || ());
+    rayon::join(work, || ());
 }
 
-/// Does both, at once if a core is free.
+/// Runs `work`, in halves for as long as `halve` finds any. A half goes to another core if one is free.
 #[cfg(feature = "batch")]
-pub(super) fn join<A: Send, B: Send>(
-    a: impl FnOnce() -> A + Send,
-    b: impl FnOnce() -> B + Send,
-) -> (A, B) {
-    rayon::join(a, b)
+pub(super) fn split<W: Send>(
+    work: W,
+    halve: impl Fn(W) -> Result<[W; 2], W> + Copy + Sync + Send,
+    run: impl Fn(W) + Copy + Sync + Send,
+) {
+    match halve(work) {
+        Ok([near, far]) => {
+            rayon::join(|| split(near, halve, run), || split(far, halve, run));
+        }
+        Err(whole) => run(whole),
+    }
 }
 
 /// Checks that a vector of a system has the length that the system began with.
@@ -60,23 +66,28 @@ pub(super) fn in_parts<const M: usize, const N: usize>(
     from.iter().for_each(|from| assert_length(from.len(), to[0].len()));
     #[cfg(feature = "batch")]
     if to[0].len() > GRAIN {
-        return in_halves(to, from, work);
+        return split((to, from), halves, |(to, from)| work(to, from));
     }
     work(to, from);
 }
 
+/// Vectors that are written, and vectors that are read.
 #[cfg(feature = "batch")]
-#[cold]
-fn in_halves<const M: usize, const N: usize>(
-    to: [&mut [f64]; M],
-    from: [&[f64]; N],
-    work: impl Fn([&mut [f64]; M], [&[f64]; N]) + Copy + Sync + Send,
-) {
+type Vectors<'a, const M: usize, const N: usize> = ([&'a mut [f64]; M], [&'a [f64]; N]);
+
+/// The halves of vectors that are longer than a [`GRAIN`].
+#[cfg(feature = "batch")]
+fn halves<const M: usize, const N: usize>(
+    (to, from): Vectors<'_, M, N>,
+) -> Result<[Vectors<'_, M, N>; 2], Vectors<'_, M, N>> {
+    if to[0].len() <= GRAIN {
+        return Err((to, from));
+    }
     let middle = to[0].len() / 2;
     let [mut to_near, mut to_far] = [(); 2].map(|()| [(); M].map(|()| &mut [][..]));
     for (place, to) in to.into_iter().enumerate() {
         (to_near[place], to_far[place]) = to.split_at_mut(middle);
     }
     let (near, far) = (from.map(|from| &from[..middle]), from.map(|from| &from[middle..]));
-    join(|| in_parts(to_near, near, work), || in_parts(to_far, far, work));
+    Ok([(to_near, near), (to_far, far)])
 }

@@ -24,8 +24,8 @@ pub trait System {
         self.acceleration(t, &state.q, &state.v, &mut d.v);
     }
 
-    /// Answers what a method or the program asks of the system beyond its acceleration, at time `t` (s). Returns whether
-    /// it does. A system that wraps another forwards this, the coupling and the acceleration, and nothing else.
+    /// Answers an optional question at time `t` (s). Returns `false` if the system has no answer. A system that wraps
+    /// another forwards this, the coupling and the acceleration, and nothing else.
     #[inline]
     fn answer(&self, _t: f64, _question: Question<'_, Self::Vector>) -> bool {
         false

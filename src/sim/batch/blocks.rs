@@ -2,19 +2,19 @@
 
 use std::marker::PhantomData;
 use std::ops::Range;
-use std::sync::atomic::{Ordering, compiler_fence};
 
 use super::copies::Copies;
 use super::instruction_set::{InstructionSet, Kernel, NARROW, WIDE};
 use super::parts::Parts;
 use super::{Advance, Ticks};
+use crate::sim::cores;
 use crate::sim::integrators::{Construct, Integrator, Method};
 use crate::sim::state::State;
 use crate::sim::system::System;
 
 /// The copies that a thread takes at a time: their state is 64 KiB, which the second cache of every processor holds. A
 /// multiple of every width of a block.
-pub(super) const GRAIN: usize = 4096;
+const GRAIN: usize = cores::GRAIN / 8;
 
 /// The copies that a thread steps through all ticks before it goes on to the next: their state is 4 KiB, which stays in the
 /// first cache. Their blocks do not wait for each other, as the ticks of one block do.
@@ -125,8 +125,6 @@ where
                 for substep in 0..ticks.substeps {
                     let t = ticks.t(tick) + part * f64::from(substep);
                     for (n, (q, v)) in q.iter_mut().zip(v.iter_mut()).enumerate() {
-                        // A block is a vector as it is: across several the compiler would gather and scatter.
-                        compiler_fence(Ordering::AcqRel);
                         let mut own = memory.get(tile + n).unwrap_or(&integrator).clone();
                         let mut state = State { q: *q, v: *v };
                         let stepped = own.step(&system, t, part, &mut state);

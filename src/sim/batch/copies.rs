@@ -6,7 +6,7 @@ use crate::sim::system::System;
 
 /// Copies of a body of one coordinate.
 pub(in crate::sim) trait Copies: Clone + Send + Sync + 'static {
-    /// Whether an evaluation looks up what to do, which wide blocks do seldom.
+    /// Whether an evaluation is interpreted; wide blocks share the cost of each look-up.
     const IS_INTERPRETED: bool = false;
 
     /// `W` copies at once.

@@ -178,7 +178,7 @@ impl Batch {
         starts: impl ExactSizeIterator<Item = State<f64>>,
         set: InstructionSet,
     ) -> NewBatch {
-        assert!(set.is_available(), "{set:?} is an instruction set that this processor has not");
+        assert!(set.is_available(), "this processor does not support {set:?}");
         let count = starts.len();
         let padded = count.next_multiple_of(PADDING);
         let [mut q, mut v] = [Vec::new(), Vec::new()];

@@ -76,7 +76,7 @@ pub(super) struct Checked {
 }
 
 impl Checked {
-    /// No claim holds.
+    /// A checker that reports every claim as false, for use while claims are being checked.
     pub(super) fn without_claims() -> Self {
         let none = FalseClaims { energy: true, exact: true };
         Self { present: OnceCell::from(none), ..Self::default() }

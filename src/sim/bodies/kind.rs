@@ -247,13 +247,13 @@ pub struct Coordinates {
     named: Named,
 }
 
-/// Names a coordinate by its index.
-type Rule = dyn Fn(usize) -> [String; 2] + Send + Sync;
+/// Names a coordinate and its velocity by the coordinate's index.
+type Naming = dyn Fn(usize) -> [String; 2] + Send + Sync;
 
 #[derive(Clone)]
 enum Named {
     List(Arc<[Coordinate]>),
-    Rule { rule: Arc<Rule>, unit: &'static str },
+    Rule { rule: Arc<Naming>, unit: &'static str },
 }
 
 impl From<Vec<Coordinate>> for Coordinates {
@@ -264,7 +264,7 @@ impl From<Vec<Coordinate>> for Coordinates {
 
 impl Coordinates {
     /// So many coordinates of one unit, each named with its velocity by a rule from its index.
-    pub(super) fn by_rule(count: usize, unit: &'static str, rule: Arc<Rule>) -> Self {
+    pub(super) fn by_rule(count: usize, unit: &'static str, rule: Arc<Naming>) -> Self {
         Self { count, named: Named::Rule { rule, unit } }
     }
 

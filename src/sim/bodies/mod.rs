@@ -2,7 +2,7 @@
 //!
 //! A body is a closed system with natural coordinates, and with an exact flow if it has a closed form.
 //! Its [`Kind`] card says how a scene describes it; [`Look`](crate::lab::picture::Look) says how it is
-//! drawn. To add one, copy `spring.rs`, declare it, and name it in [`BODIES`].
+//! drawn. To add one, copy `pendulum.rs`, declare it, and name it in [`BODIES`].
 
 use std::sync::{Arc, LazyLock};
 

@@ -9,9 +9,9 @@ use std::sync::Arc;
 
 use super::prelude::*;
 use crate::sim::net_plan::{PlannedSpring, distance};
-use forces::{Accelerations, Forces, Slopes};
+use forces::{Accelerations, Derivatives, Forces};
 use rows::{Nodes, RestLengths};
-use topology::{Layout, Topology};
+use topology::{Storage, Topology};
 
 mod forces;
 mod kind;
@@ -141,14 +141,14 @@ impl Net {
     /// Calls `see` with the index of a free end, the other end and the constants of each spring, in the order of the sums.
     fn each_spring(&self, springs: &Springs, mut see: impl FnMut(usize, End, &[f64; 3])) {
         let Springs { shared: [k, c], rest, constants, .. } = springs;
-        let of_anchors = match &self.topology.layout {
-            Layout::Rows(rows) => {
+        let of_anchors = match &self.topology.storage {
+            Storage::Rows(rows) => {
                 rows.each_spring(|[from, to], (row, column, way)| {
                     see(from, End::Free(to), &[*k, *c, rest.of(row, column, way)]);
                 });
                 &constants[..]
             }
-            Layout::Arrays(arrays) => {
+            Storage::Arrays(arrays) => {
                 let (inner, outer) = constants.split_at(arrays.ends.len());
                 for ([from, to], constants) in arrays.ends.iter().zip(inner) {
                     see(*from as usize, End::Free(*to as usize), constants);
@@ -214,12 +214,12 @@ impl Net {
     ) {
         let Springs { shared, rest, constants, .. } = &*self.springs;
         let at = |node: usize| from_fn(|n| vectors[n][node]);
-        let of_anchors = match &self.topology.layout {
-            Layout::Rows(rows) => {
+        let of_anchors = match &self.topology.storage {
+            Storage::Rows(rows) => {
                 rows.sum(forces, (*shared, rest), vectors, sums);
                 &constants[..]
             }
-            Layout::Arrays(arrays) => {
+            Storage::Arrays(arrays) => {
                 for (node, sum) in sums.iter_mut().enumerate() {
                     *sum = forces.on_node(at(node));
                 }
@@ -233,7 +233,7 @@ impl Net {
                 outer
             }
         };
-        // Less any number, -0 is its negative, of a zero too.
+        // `-0.0 - x == -x` for every `x`, ±0 included.
         let mut to = [[-0.0; 2]; N];
         for ((i, anchor), constants) in self.topology.anchors.iter().zip(of_anchors) {
             let i = *i as usize;
@@ -261,7 +261,7 @@ impl System for Net {
     fn answer(&self, _t: f64, question: Question<'_, Vec<f64>>) -> bool {
         let Question::Slope { state, along, slope } = question else { return false };
         let vectors = [&state.q, &state.v, &along.q, &along.v].map(|vector| Self::nodes(vector));
-        let forces = Slopes { drag: self.drag / self.mass };
+        let forces = Derivatives { drag: self.drag / self.mass };
         self.sum(forces, vectors, Self::nodes_mut(slope));
         true
     }
@@ -283,9 +283,9 @@ impl Body for Net {
         let of = |spring: PlannedSpring| {
             constants(&spring, distance(spring.between.map(|node| self.topology.place(node))))
         };
-        let rest = match &self.topology.layout {
-            Layout::Rows(rows) => RestLengths::new(&rows.grid, self.rest_ratio),
-            Layout::Arrays(_) => RestLengths::default(),
+        let rest = match &self.topology.storage {
+            Storage::Rows(rows) => RestLengths::new(&rows.grid, self.rest_ratio),
+            Storage::Arrays(_) => RestLengths::default(),
         };
         let [k, c, _] = constants(&PlannedSpring::default(), 0.0);
         let constants: Vec<[f64; 3]> = self.topology.kept().map(of).collect();

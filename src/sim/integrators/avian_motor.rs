@@ -52,7 +52,9 @@ impl Rule for AvianMotor {
         let (h, set) = (substep(tick.length, tick.substeps), tick.settings);
         let (drag, resistance) = (1.0 + h * set.drag, set.resistance(h));
         let has_spring = set.has_spring();
-        each_with(tick.force, tick.carried, q, v, |sum, x, v, f| {
+        let sums = tick.carried.expect("its card says how it restarts").components_mut();
+        let moved = q.components_mut().iter_mut().zip(v.components_mut());
+        for (((x, v), f), sum) in moved.zip(tick.force.components()).zip(sums) {
             let before = std::mem::take(sum);
             for i in 0..tick.substeps {
                 *v = *v / drag + h * f;
@@ -67,6 +69,6 @@ impl Rule for AvianMotor {
                     *sum += correction;
                 }
             }
-        });
+        }
     }
 }

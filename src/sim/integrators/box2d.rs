@@ -54,16 +54,20 @@ impl Rule for Box2d {
         let (h, set) = (tick.substep(), tick.settings);
         let (drag, pull, resistance) = (1.0 + h * set.drag, h * set.stiffness, set.resistance(h));
         let has_spring = set.has_spring();
+        let pushed = |v: f64, f: f64| v / drag + h * f;
+        let solved = |p: f64, x: f64| if has_spring { (p - pull * x) / resistance } else { p };
         for _ in 0..tick.substeps {
-            each_with(tick.force, tick.carried, q, v, |p, x, v, f| {
-                *p = *v / drag + h * f;
-                *v = if has_spring { (*p - pull * *x) / resistance } else { *p };
+            let known = q.components().iter().zip(v.components()).zip(tick.force.components());
+            let first = known.map(|((x, v), f)| solved(pushed(*v, *f), *x));
+            let part = part_below(MAX_SPEED, first);
+            each(tick.force, q, v, |x, v, f| {
+                let p = pushed(*v, f);
+                *v = solved(p, *x) * part;
+                *x += h * *v;
+                if has_spring {
+                    *v = solved(p, *x);
+                }
             });
-            cap(v, MAX_SPEED);
-            q.add_scaled(h, v);
-            if has_spring {
-                each(tick.carried, q, v, |x, v, p| *v = (p - pull * *x) / resistance);
-            }
         }
     }
 }

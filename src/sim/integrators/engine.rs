@@ -27,8 +27,8 @@ pub struct EngineTick<'a, V> {
     pub(super) settings: EngineSettings,
     /// f, held through the tick.
     pub(super) force: &'a V,
-    /// What the engine carries from tick to tick; 0 at the start.
-    pub(super) carried: &'a mut V,
+    /// What the engine carries from tick to tick, 0 at the start, if its card says how it [restarts](Method::restart).
+    pub(super) carried: Option<&'a mut V>,
 }
 
 impl<V> EngineTick<'_, V> {
@@ -51,7 +51,7 @@ pub trait Rule: Clone + Send + 'static {
 #[derive(Clone)]
 pub struct EngineMethod<V, R> {
     force: V,
-    carried: V,
+    carried: Option<V>,
     /// K and c of the joint, if they are not the body's.
     joint: Option<[f64; 2]>,
     rule: PhantomData<R>,
@@ -61,7 +61,8 @@ impl<S: System<Vector: Vector>, R: Rule> Integrator<S> for EngineMethod<S::Vecto
     fn new(like: &S::Vector) -> Self {
         let mut zero = like.clone();
         zero.components_mut().fill(0.0);
-        Self { force: zero.clone(), carried: zero, joint: None, rule: PhantomData }
+        let carried = R::CARD.restart.map(|_| zero.clone());
+        Self { force: zero, carried, joint: None, rule: PhantomData }
     }
 
     #[inline]
@@ -85,7 +86,7 @@ impl<S: System<Vector: Vector>, R: Rule> Integrator<S> for EngineMethod<S::Vecto
     }
 
     fn reset(&mut self) {
-        self.carried.components_mut().fill(0.0);
+        self.carried.iter_mut().for_each(|carried| carried.components_mut().fill(0.0));
     }
 }
 
@@ -112,6 +113,7 @@ impl<V: Vector, R: Rule> EngineMethod<V, R> {
         if let (Some([stiffness, damping]), true) = (*joint, settings.has_spring()) {
             settings = EngineSettings { stiffness, damping, ..settings };
         }
+        let carried = carried.as_mut();
         let tick = EngineTick { length, substeps, settings, force, carried };
         R::tick(tick, &mut state.q, &mut state.v);
         Ok(())
@@ -132,28 +134,18 @@ pub(super) fn each<V: Vector>(
     }
 }
 
-/// As [`each`], with the carried component first.
-#[inline]
-pub(super) fn each_with<V: Vector>(
-    force: &V,
-    carried: &mut V,
-    q: &mut V,
-    v: &mut V,
-    change: impl Fn(&mut f64, &mut f64, &mut f64, f64),
-) {
-    let moved = q.components_mut().iter_mut().zip(v.components_mut());
-    let known = carried.components_mut().iter_mut().zip(force.components());
-    for ((x, v), (carried, f)) in moved.zip(known) {
-        change(carried, x, v, *f);
-    }
-}
-
 /// Shortens a velocity longer than `max_speed`, in metres per second.
 #[inline]
 pub(super) fn cap<V: Vector>(v: &mut V, max_speed: f64) {
-    let square: f64 = v.components().iter().map(|v| v * v).sum();
-    if square > max_speed * max_speed {
-        let part = max_speed / square.sqrt();
+    let part = part_below(max_speed, v.components().iter().copied());
+    if part < 1.0 {
         v.components_mut().iter_mut().for_each(|v| *v *= part);
     }
+}
+
+/// The part of a velocity with these components that is no longer than `max_speed`, in metres per second.
+#[inline]
+pub(super) fn part_below(max_speed: f64, v: impl Iterator<Item = f64>) -> f64 {
+    let square: f64 = v.map(|v| v * v).sum();
+    if square > max_speed * max_speed { max_speed / square.sqrt() } else { 1.0 }
 }

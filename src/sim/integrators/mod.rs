@@ -3,7 +3,7 @@
 //! A method implements [`Integrator`] for every [`System`] and describes itself on a [`Method`] card. If it
 //! is for some bodies [only](Only), its card says which, and its step fails on others.
 //! Menus, command line, help and tests loop over [`METHODS`]; the conformance suite measures each field
-//! of each card, both ways. A [custom](Method::custom) method needs no place in the table. To add one, copy `improved_euler.rs`, declare it, and name it in `methods!`.
+//! of each card, both ways. A [custom](Method::custom) method needs no place in the table. To add one, copy `midpoint.rs`, declare it, and name it in `methods!`.
 
 use custom_method::CustomMethod;
 use reset_on_change::ResetOnChange;

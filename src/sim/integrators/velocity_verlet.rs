@@ -10,7 +10,9 @@ pub(super) const CARD: Method = Method {
     order: 2,
     order_with_drag: 2,
     evaluations: Some(1),
-    restart: Some("by evaluating the force at the start, which else is the last step's end"),
+    restart: Some(
+        "by evaluating the force at the start, otherwise reused from the end of the last step",
+    ),
     damped_limits: Some([1.912, 1.757, 1.0]),
     source: "Swope, Andersen, Berens & Wilson, A computer simulation method for the calculation of equilibrium constants for the formation of physical clusters of molecules (1982)",
     formula: &["v½ = v + ½h a", "q′ = q + h v½", "a′ = a(t + h, q′, v½ + ½h a)", "v′ = v½ + ½h a′"],

@@ -85,8 +85,8 @@ impl PowerIteration {
     }
 }
 
-/// Ticks of a method that restarts at each, from the state of `body` and displaced by the deviation. They end if it vanishes
-/// or overflows.
+/// Power iteration for a method without memory: each tick starts from the state of `body` plus the deviation, and the
+/// iteration ends if that vanishes or overflows.
 fn displaced_ticks(
     body: &dyn Stepper,
     solver: Solver,

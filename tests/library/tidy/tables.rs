@@ -181,10 +181,9 @@ fn the_manual_says_of_every_method_and_engine_what_its_card_does() {
 }
 
 #[test]
-fn the_manual_lists_every_scene_and_what_is_timed_in_the_order_of_the_table() {
+fn the_manual_lists_every_scene_and_times_every_general_method_in_the_order_of_the_table() {
     let timed = manual_rows("| method | ship, ns |");
-    let ids = GENERAL_METHODS.iter().map(|method| method.id.to_string());
-    assert_eq!(timed, ids.filter(|id| timed.contains(id)).collect::<Vec<_>>());
+    assert_eq!(timed, GENERAL_METHODS.iter().map(|method| method.id).collect::<Vec<_>>());
     let scenes: Vec<&str> = SCENES.iter().map(|scene| scene.name).collect();
     assert_eq!(manual_rows("| scene | what it shows |"), scenes);
 }

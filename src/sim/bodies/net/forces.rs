@@ -1,7 +1,7 @@
 //! What acts in a net: on a node by itself, and along a spring.
 
 /// What is summed on each node of a net, from `N` vectors of pairs of numbers at the nodes.
-pub(super) trait Forces<const N: usize>: Copy + Sync {
+pub(super) trait Forces<const N: usize>: Copy + Send + Sync {
     /// What acts on a node by itself.
     fn on_node(&self, node: [[f64; 2]; N]) -> [f64; 2];
 
@@ -21,7 +21,7 @@ pub(super) struct Accelerations {
 /// The derivative of the accelerations at a state in the direction of another: places, velocities, and those of the
 /// direction.
 #[derive(Clone, Copy)]
-pub(super) struct Slopes {
+pub(super) struct Derivatives {
     /// Divided by the mass of a node.
     pub(super) drag: f64,
 }
@@ -42,7 +42,7 @@ impl Forces<2> for Accelerations {
     }
 }
 
-impl Forces<4> for Slopes {
+impl Forces<4> for Derivatives {
     #[inline(always)]
     fn on_node(&self, [_, _, _, dv]: [[f64; 2]; 4]) -> [f64; 2] {
         [-self.drag * dv[0], -self.drag * dv[1]]

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, LazyLock};
 
-use super::topology::{Layout, Topology};
+use super::topology::{Storage, Topology};
 use super::{Net, PARAMETERS};
 use crate::sim::bodies::kind::{Coordinates, Kind, Origin};
 use crate::sim::net_plan::{NetFault, NetPlan};
@@ -48,8 +48,8 @@ fn coordinates(topology: &Arc<Topology>) -> Coordinates {
         [format!("{axis}{node}"), format!("v{axis}{node}")]
     };
     let by_rule = Coordinates::by_rule(count, "m", Arc::new(names));
-    match topology.layout {
-        Layout::Rows(_) => by_rule,
-        Layout::Arrays(_) => by_rule.iter().collect::<Vec<_>>().into(),
+    match topology.storage {
+        Storage::Rows(_) => by_rule,
+        Storage::Arrays(_) => by_rule.iter().collect::<Vec<_>>().into(),
     }
 }

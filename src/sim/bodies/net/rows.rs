@@ -10,7 +10,7 @@ use std::slice;
 
 use super::forces::Forces;
 use crate::sim::batch::{InstructionSet, Kernel};
-use crate::sim::cores::join;
+use crate::sim::cores::{self, split};
 use crate::sim::net_plan::{Grid, Way, distance};
 
 /// The numbers of a vector at the nodes, as x and y.
@@ -26,7 +26,7 @@ const WIDTH: usize = 8;
 const LANES: usize = TILE + 1 + WIDTH;
 
 /// The nodes that a thread takes at a time: some ten microseconds of work. Smaller nets are stepped by one thread.
-const GRAIN: usize = 8192;
+const GRAIN: usize = cores::GRAIN / 4;
 
 /// One number of each node of a part of a row.
 type Lanes = [f64; LANES];
@@ -150,9 +150,11 @@ impl Rows {
         sums: &mut [[f64; 2]],
     ) {
         let Some((first, others)) = sums.split_first_mut() else { return };
-        let part = Part { rows: *self, forces, constants, rest, vectors };
+        let part = GridForces { rows: *self, forces, constants, rest, vectors };
         let Grid { columns, rows, .. } = self.grid;
-        part.share(set, [0..columns, 0..rows], Sink { first: Some(first), others });
+        let sink = Sink { first: Some(first), others };
+        let all = Band { part, columns: 0..columns, rows: 0..rows, sink };
+        split(all, Band::halve, |band| set.run(band));
     }
 
     /// Calls `see` with the indices of the ends of each spring between free nodes, and with its row, column and direction,
@@ -187,9 +189,9 @@ impl Rows {
     }
 }
 
-/// What is evaluated of a grid.
+/// The forces of a grid, and the vectors that they are of.
 #[derive(Clone, Copy)]
-struct Part<'a, F, const N: usize> {
+struct GridForces<'a, F, const N: usize> {
     rows: Rows,
     forces: F,
     /// Stiffness and damping of every spring, as those of [`Forces::along`].
@@ -206,14 +208,22 @@ struct Sink<'a> {
     others: &'a mut [[f64; 2]],
 }
 
-impl<F: Forces<N>, const N: usize> Part<'_, F, N> {
-    /// Evaluates these columns of these rows: all columns, or those of one row. Halves go to threads that have nothing to
-    /// do.
-    fn share(self, set: InstructionSet, [columns, rows]: [Range<usize>; 2], sink: Sink<'_>) {
-        let (across, down) = (columns.len(), rows.len());
-        if across * down <= GRAIN || rows.is_empty() {
-            return set.run(Band { part: self, columns, rows, sink });
+/// Some columns of some rows, evaluated by one thread.
+struct Band<'a, F, const N: usize> {
+    part: GridForces<'a, F, N>,
+    columns: Range<usize>,
+    rows: Range<usize>,
+    sink: Sink<'a>,
+}
+
+impl<F: Forces<N>, const N: usize> Band<'_, F, N> {
+    /// Its halves: of its rows, or of its columns if it is one row. It itself if one thread takes it.
+    fn halve(self) -> Result<[Self; 2], Self> {
+        let (across, down) = (self.columns.len(), self.rows.len());
+        if across * down <= GRAIN || self.rows.is_empty() {
+            return Err(self);
         }
+        let Self { part, columns, rows, sink } = self;
         let middle = rows.start + down / 2;
         let (near, far) = if down > 1 {
             ([columns.clone(), rows.start..middle], [columns, middle..rows.end])
@@ -222,25 +232,18 @@ impl<F: Forces<N>, const N: usize> Part<'_, F, N> {
             ([columns.start..middle, rows.clone()], [middle..columns.end, rows])
         };
         let begin = |[columns, rows]: &[Range<usize>; 2]| {
-            rows.start * self.rows.grid.columns + columns.start
+            rows.start * part.rows.grid.columns + columns.start
         };
-        let (from, to) = (self.rows.rank(begin(&near)), self.rows.rank(begin(&far)));
+        let (from, to) = (part.rows.rank(begin(&near)), part.rows.rank(begin(&far)));
         let (of_near, of_far) = sink.others.split_at_mut(to - from);
-        let is_near = self.rows.first < begin(&far);
+        let is_near = part.rows.first < begin(&far);
         let (first_near, first_far) = if is_near { (sink.first, None) } else { (None, sink.first) };
-        join(
-            || self.share(set, near, Sink { first: first_near, others: of_near }),
-            || self.share(set, far, Sink { first: first_far, others: of_far }),
-        );
+        let half = |[columns, rows]: [Range<usize>; 2], first, others| {
+            let sink = Sink { first, others };
+            Band { part, columns, rows, sink }
+        };
+        Ok([half(near, first_near, of_near), half(far, first_far, of_far)])
     }
-}
-
-/// Some columns of some rows, evaluated by one thread.
-struct Band<'a, F, const N: usize> {
-    part: Part<'a, F, N>,
-    columns: Range<usize>,
-    rows: Range<usize>,
-    sink: Sink<'a>,
 }
 
 impl<F: Forces<N>, const N: usize> Kernel for Band<'_, F, N> {
@@ -273,7 +276,7 @@ impl<F: Forces<N>, const N: usize> Kernel for Band<'_, F, N> {
 
 /// Some columns, from the top down. Lane 0 is the column before the first of them.
 struct Tile<'a, F, const N: usize> {
-    part: Part<'a, F, N>,
+    part: GridForces<'a, F, N>,
     columns: Range<usize>,
     /// The nodes of the row at hand and of the one below, in turn.
     nodes: [Row<N>; 2],
@@ -286,7 +289,7 @@ struct Tile<'a, F, const N: usize> {
 
 impl<'a, F: Forces<N>, const N: usize> Tile<'a, F, N> {
     #[inline(always)]
-    fn new(part: Part<'a, F, N>, columns: Range<usize>) -> Self {
+    fn new(part: GridForces<'a, F, N>, columns: Range<usize>) -> Self {
         let none = [[0.0; LANES]; 2];
         Self { part, columns, nodes: [[none; N]; 2], right: none, down: [[none; 3]; 2] }
     }
@@ -388,7 +391,7 @@ impl<'a, F: Forces<N>, const N: usize> Tile<'a, F, N> {
     /// The springs of one direction that begin in a row.
     #[inline(always)]
     fn pull(&mut self, row: usize, way: Way) {
-        let Part { rows, forces, constants: [k, c], rest, .. } = self.part;
+        let GridForces { rows, forces, constants: [k, c], rest, .. } = self.part;
         let ([from, to], rows_down) = way.ends();
         let (above, below) = (&self.nodes[row % 2], &self.nodes[(row + rows_down) % 2]);
         let lanes = self.lanes();
@@ -413,7 +416,7 @@ impl<'a, F: Forces<N>, const N: usize> Tile<'a, F, N> {
                 [x[i], y[i]] = forces.along(&constants, node(&ends[0], i), node(&ends[1], i));
             }
         }
-        // Those that are not there, or end in a fixed node, are zeros of the sign that changes no sum.
+        // Missing and anchored springs contribute a zero whose sign leaves every sum unchanged.
         let last = self.columns.len();
         let is_free = |lane: usize, row: usize| {
             let column = (self.columns.start + lane).wrapping_sub(1);

@@ -113,7 +113,7 @@ fn the_width_of_vectors_changes_no_bit_of_a_grid() {
     let grid = Grid { columns: 90, rows: 7, spacing: 0.1, shear: true, pin: Some(Pin::Corners) };
     let plan = NetPlan { form: Form::Grid(grid), kicked: Some(301) };
     let net = net(&plan, true);
-    let Layout::Rows(rows) = &net.topology.layout else { panic!("they are rows") };
+    let Storage::Rows(rows) = &net.topology.storage else { panic!("they are rows") };
     let Springs { shared, rest, .. } = &*net.springs;
     let forces = Accelerations { drag: 0.3, gravity: 9.81 };
     let [state, _] = &states(&net)[0];

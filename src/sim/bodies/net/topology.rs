@@ -15,7 +15,7 @@ const MIN_ROWS_NODES: usize = 2048;
 #[derive(Debug)]
 pub(super) struct Topology {
     pub(super) plan: Arc<NetPlan>,
-    pub(super) layout: Layout,
+    pub(super) storage: Storage,
     /// How many nodes are free.
     pub(super) free: usize,
     /// For each spring with a fixed end: index of its free node, position of its anchor.
@@ -27,7 +27,7 @@ pub(super) struct Topology {
 /// Where the free nodes are in a vector: the kicked node, or else the last one, comes first, because plots show the
 /// first coordinate, and the others follow by their numbers.
 #[derive(Debug)]
-pub(super) enum Layout {
+pub(super) enum Storage {
     /// Of a large grid.
     Rows(Rows),
     /// Of lists, and of a small grid as lists.
@@ -54,17 +54,17 @@ impl Topology {
 
     /// Prepares a plan, a grid by rows or as lists.
     pub(super) fn laid_out(plan: Arc<NetPlan>, by_rows: bool) -> Self {
-        let layout = match &plan.form {
-            Form::Grid(grid) if by_rows => Layout::Rows(Rows::new(*grid, plan.kicked)),
-            Form::Grid(grid) => Layout::Arrays(Arrays::new(&grid.lists(), plan.kicked)),
-            Form::Lists(lists) => Layout::Arrays(Arrays::new(lists, plan.kicked)),
+        let storage = match &plan.form {
+            Form::Grid(grid) if by_rows => Storage::Rows(Rows::new(*grid, plan.kicked)),
+            Form::Grid(grid) => Storage::Arrays(Arrays::new(&grid.lists(), plan.kicked)),
+            Form::Lists(lists) => Storage::Arrays(Arrays::new(lists, plan.kicked)),
         };
-        let free = match &layout {
-            Layout::Rows(rows) => rows.len(),
-            Layout::Arrays(arrays) => arrays.free.len(),
+        let free = match &storage {
+            Storage::Rows(rows) => rows.len(),
+            Storage::Arrays(arrays) => arrays.free.len(),
         };
         let kicks_first = plan.kicked.is_some();
-        let mut topology = Self { plan, layout, free, anchors: Vec::new(), kicks_first };
+        let mut topology = Self { plan, storage, free, anchors: Vec::new(), kicks_first };
         let anchors = topology.anchored().map(|PlannedSpring { between: [a, b], .. }| {
             let of = |node| topology.index_of(node).map(|index| index as u32);
             match (of(a), of(b)) {
@@ -78,7 +78,7 @@ impl Topology {
 
     /// The springs whose constants are kept, in the order of the sums: of lists all, of rows those with a fixed end.
     pub(super) fn kept(&self) -> impl Iterator<Item = PlannedSpring> + '_ {
-        let is_kept = |_: &PlannedSpring| matches!(self.layout, Layout::Arrays(_));
+        let is_kept = |_: &PlannedSpring| matches!(self.storage, Storage::Arrays(_));
         let inner = self.plan.springs().filter(is_kept).filter(|it| !self.is_anchored(it));
         inner.chain(self.anchored())
     }
@@ -104,9 +104,9 @@ impl Topology {
     /// The index of a node among the free ones; `None` if it is fixed.
     #[inline]
     pub(super) fn index_of(&self, node: usize) -> Option<usize> {
-        match &self.layout {
-            Layout::Rows(rows) => (!rows.grid.is_fixed(node)).then(|| rows.index_of(node)),
-            Layout::Arrays(arrays) => {
+        match &self.storage {
+            Storage::Rows(rows) => (!rows.grid.is_fixed(node)).then(|| rows.index_of(node)),
+            Storage::Arrays(arrays) => {
                 Some(arrays.index_of[node]).filter(|&it| it != FIXED).map(|index| index as usize)
             }
         }
@@ -114,9 +114,9 @@ impl Topology {
 
     /// The number of the free node with this index.
     pub(super) fn node_at(&self, index: usize) -> usize {
-        match &self.layout {
-            Layout::Rows(rows) => rows.node_at(index),
-            Layout::Arrays(arrays) => arrays.free[index] as usize,
+        match &self.storage {
+            Storage::Rows(rows) => rows.node_at(index),
+            Storage::Arrays(arrays) => arrays.free[index] as usize,
         }
     }
 

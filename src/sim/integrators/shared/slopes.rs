@@ -19,7 +19,7 @@ const PART: f64 = 1.0 / 16.0;
 /// Without it a body at rest would have rounding for a slope.
 const MIN_REACH: f64 = 1.5e-8;
 
-/// The forces at the state of a forward difference, and how many times the direction it reaches.
+/// Base value and step of a forward difference.
 pub(in crate::sim::integrators) struct Forward<'a, V> {
     pub(in crate::sim::integrators) from: &'a V,
     pub(in crate::sim::integrators) part: f64,
