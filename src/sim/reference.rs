@@ -184,7 +184,10 @@ impl<V: Vector> Reference<V> {
         allowance.saved = allowance.saved.saturating_sub(work.evaluations);
         if let Err(ended) = solved {
             let failure = match ended {
-                Ended::Budget => StepFailure::ReferenceFailed { evaluations: work.evaluations },
+                Ended::Budget => {
+                    allowance.saved = 0;
+                    StepFailure::ReferenceFailed { evaluations: work.evaluations }
+                }
                 Ended::Sticks => StepFailure::Sticks,
             };
             self.failed = Some(failure.clone());

@@ -41,6 +41,13 @@ const IGNORED_CROSSING: f64 = 1e-9;
 /// How often a step is halved if it leaves its piece and comes back to it.
 const MAX_HALVINGS: u32 = 8;
 
+/// After so many evaluations within one call it is seen how far they have come: what is stiff beyond hope, such as a ship that
+/// turns in 10⁻¹⁴⁰ s, would take all that is saved, seconds of work, for each run of it.
+const STRETCH: u64 = 200_000;
+
+/// The steps of a stretch may still grow so many times on the rest of the way, as after a near collision.
+const HOPE: f64 = 1e3;
+
 /// How a trajectory chooses its steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StepControl {
@@ -91,7 +98,7 @@ enum Tried {
 /// Why a trajectory ends.
 #[derive(Debug)]
 pub(super) enum Ended {
-    /// The budget of evaluations is exhausted.
+    /// The budget of evaluations is exhausted, or would be long before the end.
     Budget,
     /// The motion is pushed back to a jump of the force from both sides.
     Sticks,
@@ -190,7 +197,16 @@ impl<V: Vector> Trajectory<V> {
         let mut left = h;
         let (mut halvings, mut stands) = (0, 0);
         work.begin(body, &self.piece, t, &self.at);
+        let mut seen = (work.evaluations, left);
         while work.evaluations < budget {
+            if work.evaluations >= seen.0 + STRETCH {
+                let come = (seen.1 - left).abs();
+                let stretches = (budget - work.evaluations) as f64 / STRETCH as f64;
+                if HOPE * stretches * come < left.abs() {
+                    return Err(Ended::Budget);
+                }
+                seen = (work.evaluations, left);
+            }
             let is_first = left.abs() > 0.5 * h.abs();
             let most = if self.control == StepControl::Uneven && is_first {
                 FIRST_UNEVEN_STEP * left
