@@ -24,7 +24,6 @@ mod error;
 mod event;
 mod export;
 mod growing_recording;
-mod interrupt;
 mod keys;
 mod opening;
 mod pace;
@@ -42,7 +41,7 @@ mod work_thread;
 pub use error::WindowError;
 pub use opening::{KeepRecording, ReadScene, SceneFiles};
 pub use run_of_session::Window;
-pub use settings::{Closed, WindowSettings};
+pub use settings::{Closed, OnInterrupt, WindowSettings};
 
 use canvas::{Canvas, FrameOutcome};
 use clipboard::Clipboard;
@@ -73,13 +72,15 @@ pub fn run(
     settings: WindowSettings,
     files: SceneFiles,
 ) -> Result<Closed, WindowError> {
-    let WindowSettings { seconds, size, heeds_interrupts } = settings;
+    let WindowSettings { seconds, size, on_interrupt } = settings;
     let event_loop = EventLoop::<Event>::with_user_event()
         .build()
         .map_err(|error| WindowError::NoDisplay(reason(&error)))?;
     let proxy = event_loop.create_proxy();
-    if heeds_interrupts {
-        interrupt::send_interrupts(event_loop.create_proxy());
+    if let Some(on_interrupt) = on_interrupt {
+        let window = event_loop.create_proxy();
+        // A closed window needs no event.
+        on_interrupt(Box::new(move || _ = window.send_event(Event::Interrupted)));
     }
     let SceneFiles { read, opened, keep } = files;
     let watch = FileWatch::new(Arc::clone(&read), proxy.clone());

@@ -16,10 +16,24 @@ const GRACE: Duration = Duration::from_millis(100);
 
 /// A flag that is set once Ctrl-C is pressed or the system asks the process to end.
 pub(super) fn watch_for_interrupt() -> Arc<AtomicBool> {
+    watch(|| ())
+}
+
+/// Calls `tell` at each of these signals, unless they are watched already.
+#[cfg(feature = "window")]
+pub(super) fn tell_of_interrupt(tell: Box<dyn Fn() + Send>) {
+    watch(tell);
+}
+
+fn watch(tell: impl Fn() + Send + 'static) -> Arc<AtomicBool> {
     let watched = INTERRUPTED.get_or_init(|| {
         let interrupted = Arc::new(AtomicBool::new(false));
         let set = Arc::clone(&interrupted);
-        if let Err(error) = ctrlc::set_handler(move || set.store(true, Ordering::Relaxed)) {
+        let heed = move || {
+            set.store(true, Ordering::Relaxed);
+            tell();
+        };
+        if let Err(error) = ctrlc::set_handler(heed) {
             log::warn!("Ctrl-C will stop the run at once: {error}");
         }
         interrupted

@@ -12,6 +12,7 @@ use super::error::Error;
 use super::experiment::{self, Experiment, ExperimentArgs, Lineup, ThemeName, known_trace};
 use super::frame_folder::FrameFolder;
 use super::help::flowing;
+use super::interrupt::tell_of_interrupt;
 use super::output::{Destination, Output};
 use super::preferences::{self, SavedPreferences};
 use super::schedule::{FPS, Schedule, frames_in};
@@ -139,7 +140,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     let settings = WindowSettings {
         seconds: args.seconds,
         size: preferences.size,
-        heeds_interrupts: record.is_some(),
+        on_interrupt: record.map(|_| tell_of_interrupt as _),
     };
     let keep = unfinished.as_ref().map(UnfinishedRecording::keeper);
     let files = SceneFiles { keep, ..files(&options, &experiment) };

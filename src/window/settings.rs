@@ -13,9 +13,13 @@ pub struct WindowSettings {
     pub seconds: Option<f64>,
     /// The size at first, in points; `None` for the usual one.
     pub size: Option<[u32; 2]>,
-    /// Whether Ctrl-C in the terminal closes it.
-    pub heeds_interrupts: bool,
+    /// Takes what is to be called when Ctrl-C in the terminal, or the system, asks the window to close; `None` for a window
+    /// that such a request ends at once.
+    pub on_interrupt: Option<OnInterrupt>,
 }
+
+/// Keeps what closes a window, and calls it when the program is to end.
+pub type OnInterrupt = fn(close: Box<dyn Fn() + Send>);
 
 /// What a closed window returns.
 pub struct Closed {

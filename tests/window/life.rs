@@ -1,12 +1,14 @@
 //! Starting, ending, and what happens while nobody looks.
 
+use std::fs::File;
 use std::io::{self, Write};
+use std::process::Command;
 use std::time::{Duration, Instant};
 
 use image::{Rgba, RgbaImage};
 use regatta::lab::palette::Theme;
 
-use crate::desk::{Desk, Display, until};
+use crate::desk::{Desk, Display, skip, until};
 
 #[test]
 fn a_window_opens_under_vulkan_and_under_gl() {
@@ -37,6 +39,32 @@ fn it_ends_when_its_seconds_are_over_or_its_window_is_closed() {
     // Not a request: the window is gone.
     desk.xdotool("windowclose WINDOW");
     desk.ends();
+}
+
+#[test]
+fn a_request_to_end_is_heeded_while_nothing_reads_the_recording_of_a_closed_window() {
+    let test = "a_request_to_end_is_heeded_while_nothing_reads_the_recording_of_a_closed_window";
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe");
+    if !Command::new("mkfifo").arg(&pipe).status().is_ok_and(|status| status.success()) {
+        return skip(test, "there is no mkfifo").unwrap_or_default();
+    }
+    // As much as a pipe holds, which its reader leaves there.
+    let mut reader = File::options().read(true).write(true).open(&pipe).unwrap();
+    reader.write_all(&[b' '; 1 << 16]).unwrap();
+    let arguments = format!("--scene spring --record {}", pipe.display());
+    let Some(mut desk) = Desk::open(test, &arguments) else { return };
+    desk.close();
+    std::thread::sleep(Duration::from_secs(2));
+    assert!(desk.program.ended().is_none(), "it waits");
+    desk.program.terminate();
+    let asked = Instant::now();
+    let status = until("the end", || desk.program.ended());
+    // Far more than 0.2 s, which is promised of a machine that does nothing else.
+    assert!(asked.elapsed() < Duration::from_secs(3), "{:?}", asked.elapsed());
+    let said = desk.program.said();
+    assert_eq!(status.code(), Some(130), "{said}");
+    assert!(said.contains("interrupted while nothing was reading"), "{said}");
 }
 
 #[test]

@@ -82,6 +82,11 @@ impl Program {
     pub(crate) fn stop_for(&self, span: Duration) {
         stop_for(&self.0, span);
     }
+
+    /// Asks it to end, as the system does.
+    pub(crate) fn terminate(&self) {
+        send("TERM", &self.0);
+    }
 }
 
 impl Drop for Program {
@@ -92,13 +97,14 @@ impl Drop for Program {
 
 /// Stops a process for so long.
 pub(crate) fn stop_for(child: &Child, span: Duration) {
-    let signal = |name| {
-        let id = child.id().to_string();
-        assert!(Command::new("kill").args(["-s", name, &id]).status().unwrap().success());
-    };
-    signal("STOP");
+    send("STOP", child);
     std::thread::sleep(span);
-    signal("CONT");
+    send("CONT", child);
+}
+
+fn send(signal: &str, child: &Child) {
+    let id = child.id().to_string();
+    assert!(Command::new("kill").args(["-s", signal, &id]).status().unwrap().success());
 }
 
 pub(crate) fn end(child: &mut Child) {
