@@ -282,11 +282,31 @@ fn clouds_that_fall_behind_go_on_with_fewer_points_and_have_all_again_once_time_
         (0..2).for_each(|_| studio.tick());
     }
     assert_eq!(Vec::from_iter(points), [1_000, 10_000], "and no fewer");
-    assert_eq!(picture(&mut studio, &mut worker).points, 1_000, "it runs");
     studio.apply(ViewCommand::TogglePause);
     let whole = shown(picture(&mut studio, &mut worker));
     assert_eq!(studio.cloud().unwrap().picture.as_ref().unwrap().points, 10_000);
     assert!(whole == shown(picture(&mut studio, &mut CloudWorker::default())));
+    // Those that are asked for late have fewer from their first picture on.
+    studio.apply(ViewCommand::TogglePause);
+    (0..600).for_each(|_| studio.tick());
+    let mut late = CloudWorker::default();
+    late.set_request(studio.cloud_request().map(Arc::new));
+    let first = std::iter::repeat_with(|| late.work()).find_map(|found| found);
+    assert_eq!(first.unwrap().picture.unwrap().points, 1_000);
+}
+
+#[test]
+fn the_axes_of_a_picture_fit_the_clouds_that_are_there() {
+    let mut studio = race_of("liouville", &["rk4"], CloudKind::default());
+    let picture = picture(&mut studio, &mut CloudWorker::default());
+    let border = picture.border.concat();
+    let reach = [0, 1].map(|axis| {
+        let at = border.iter().map(|&[q, v]| picture.view.place(q, v)[axis]);
+        at.fold([1.0_f64, 0.0_f64], |[low, high], at| [low.min(at), high.max(at)])
+    });
+    for [low, high] in reach {
+        assert!(low > 0.0 && high < 1.0 && high - low > 0.6, "{reach:?}");
+    }
 }
 
 #[test]

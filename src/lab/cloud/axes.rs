@@ -7,10 +7,10 @@ use crate::lab::lane_spec::LaneSpec;
 const SCOUTS: usize = 100;
 const BORDER_SCOUTS: usize = 90;
 
-/// An axis along which the exact cloud goes this many times further than it is wide follows it.
-const FAR: f64 = 12.0;
-/// How many times wider than the exact cloud at its widest an axis is that follows it.
-const ROOM: f64 = 1.8;
+/// How far other clouds stretch the axes of a moment, in widths of the exact one; and how much narrower than the exact cloud
+/// at its widest these may be.
+const BESIDE_NOW: f64 = 0.3;
+const NARROWEST: f64 = 0.25;
 
 /// The moments through which the axes of a studio are found.
 const MOMENTS: u64 = 60;
@@ -45,13 +45,13 @@ impl From<u64> for ShownTicks {
     }
 }
 
-/// The axes of a run of clouds, which do not move but to follow a cloud that goes far.
+/// The axes of a run of clouds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloudAxes {
     /// Where the exact cloud comes, and the others near it.
     pub whole: PlaneView,
-    /// The width of an axis that follows the exact cloud, of the coordinate and of the velocity.
-    follows: [Option<f64>; 2],
+    /// How wide and how high the exact cloud gets.
+    widest: [f64; 2],
 }
 
 impl CloudAxes {
@@ -91,20 +91,22 @@ impl CloudAxes {
             }
         }
         let whole = PlaneView::around(&exact, &others, shown.beside, is_angle);
-        let wide = [0, 1].map(|i| PlaneView::width(&exact, i));
-        let is_far = |i: usize| wide[i] > FAR * widest[i] && !(i == 0 && whole.wraps);
-        let follows = [0, 1].map(|i| is_far(i).then_some(ROOM * widest[i]));
-        Ok(Self { whole, follows })
+        Ok(Self { whole, widest })
     }
 
-    /// The part of the plane that is shown while the exact border is there.
-    pub fn around(&self, border: &[Vec<[f64; 2]>]) -> PlaneView {
+    /// The part of the plane that is shown while the exact border and the points of others are there: it follows them, and
+    /// is no wider or higher than the whole.
+    pub fn around(&self, border: &[[f64; 2]], others: &[[f64; 2]]) -> PlaneView {
         let mut view = self.whole;
-        for (i, range) in [&mut view.q, &mut view.v].into_iter().enumerate() {
-            let Some(width) = self.follows[i] else { continue };
-            let [low, high] = PlaneView::range(border.iter().flatten(), i);
-            let middle = (low + high) / 2.0;
-            *range = [middle - width / 2.0, middle + width / 2.0];
+        let near = PlaneView::around(border, others, BESIDE_NOW, false);
+        for (i, (range, [low, high])) in
+            [(&mut view.q, near.q), (&mut view.v, near.v)].into_iter().enumerate()
+        {
+            let wide = (high - low).max(NARROWEST * self.widest[i]);
+            if wide < range[1] - range[0] && !(i == 0 && self.whole.wraps) {
+                let middle = (low + high) / 2.0;
+                *range = [middle - wide / 2.0, middle + wide / 2.0];
+            }
         }
         view
     }

@@ -27,8 +27,13 @@ const SPREAD: f64 = 10.0;
 const BEHIND_S: f64 = 0.125;
 const LEAST_POINTS: usize = 1_000;
 
-/// About how many evaluations are made before a picture is shown on the way.
+/// About how many evaluations are made before a picture is shown on the way, and the most that a run in time makes to come to
+/// its first tick with all points.
 const WORK: u64 = 4_000_000;
+const WORK_AT_FIRST: u64 = 8 * WORK;
+
+/// The points of each cloud that the axes of a picture heed.
+const SEEN: usize = 1_000;
 
 /// Steps the clouds of one [`CloudRequest`] at a time, beside the run.
 pub struct CloudWorker {
@@ -59,7 +64,10 @@ impl CloudWorker {
                     (self.run, self.looked, self.thinned) = (None, None, thinned);
                 }
             }
-            _ => (self.run, self.looked, self.thinned) = (None, None, 1),
+            (_, new) => {
+                let thinned = new.as_deref().map_or(1, thinned_at_first);
+                (self.run, self.looked, self.thinned) = (None, None, thinned);
+            }
         }
         self.is_done = request.is_none();
         self.request = request;
@@ -82,10 +90,7 @@ impl CloudWorker {
         let behind = old.saturating_sub(run.tick);
         let gained = (run.tick.saturating_sub(reached)).saturating_sub(old.saturating_sub(asked));
         let keeps_up = behind <= part || 2 * gained >= behind;
-        match new.choice.points / (10 * self.thinned) >= LEAST_POINTS {
-            true if !keeps_up => 10 * self.thinned,
-            _ => self.thinned,
-        }
+        if keeps_up { self.thinned } else { thinned_once(new, self.thinned) }
     }
 
     /// Whether there is nothing more to do.
@@ -116,6 +121,26 @@ impl CloudWorker {
         };
         Some(FoundCloud { request: Arc::clone(request), picture })
     }
+}
+
+/// A tenth of so many points, unless these are few.
+fn thinned_once(request: &CloudRequest, thinned: usize) -> usize {
+    if request.choice.points / (10 * thinned) < LEAST_POINTS { thinned } else { 10 * thinned }
+}
+
+/// One of how many points is stepped in a run that is asked for late.
+fn thinned_at_first(request: &CloudRequest) -> usize {
+    let points = request.choice.points as u64;
+    let work =
+        request.lanes.iter().map(|(_, spec)| cost(spec)).sum::<u64>() * points * request.tick;
+    let mut thinned = 1;
+    while request.in_time && work / thinned as u64 > WORK_AT_FIRST {
+        match thinned_once(request, thinned) {
+            same if same == thinned => break,
+            fewer => thinned = fewer,
+        }
+    }
+    thinned
 }
 
 /// What is shown, on its way.
@@ -234,7 +259,12 @@ impl CloudRun {
 
     fn picture(&self) -> CloudPicture {
         let border = self.exact.cloud.lines();
-        let view = self.axes.around(&border);
+        let some = |(_, SampledCloud { cloud, .. }): &(usize, SampledCloud<Cloud>)| {
+            let points = cloud.q().iter().zip(cloud.v()).map(|(&q, &v)| [q, v]);
+            points.step_by(cloud.q().len().div_ceil(SEEN)).collect::<Vec<_>>()
+        };
+        let others: Vec<_> = self.lanes.iter().flat_map(some).collect();
+        let view = self.axes.around(&border.concat(), &others);
         let lane = |(entry, SampledCloud { cloud, areas }): &(usize, SampledCloud<Cloud>)| {
             let mut density = Density::new([GRID; 2], view);
             density.add(cloud.q(), cloud.v());

@@ -67,7 +67,9 @@ impl Studio {
 
     /// Steps the clouds to the present tick, now, with a worker that may know earlier ones; `stop` ends it early.
     pub fn complete_clouds(&mut self, worker: &mut CloudWorker, stop: impl Fn() -> bool) {
-        worker.set_request(self.cloud_request().map(Arc::new));
+        // Whoever waits for them has all their points.
+        let wanted = self.cloud_request().map(|wanted| CloudRequest { in_time: false, ..wanted });
+        worker.set_request(wanted.map(Arc::new));
         let mut last = None;
         while !worker.is_done() && !stop() {
             last = worker.work().or(last);
