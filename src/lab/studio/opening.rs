@@ -32,12 +32,24 @@ impl Studio {
     pub fn list_as_file(&mut self, path: &Path) {
         let index = self.scene_list.put(path, self.scene().clone());
         self.scene_list.set_open(index);
+        self.tell_outdated();
     }
 
     /// Opens a scene that was read from the file at `path`, and puts it on the list.
     pub fn open_file(&mut self, path: &Path, scene: Scene) {
         let index = self.scene_list.put(path, scene);
         self.open(index);
+        self.tell_outdated();
+    }
+
+    /// Tells of a file that says in ticks when its commands are done, which is read for this release only.
+    fn tell_outdated(&mut self) {
+        if self.scene().outdated.is_some() {
+            let name = self.scene_name();
+            self.viewer.set_notice(format!(
+                "{name}: `tick` in a command is read for this release only; write `at_s`, in seconds"
+            ));
+        }
     }
 
     /// Opens the spring that a person has described, alone and running, at the present tick rate, under what is recommended

@@ -41,6 +41,19 @@ fn a_file_stays_on_the_list_and_does_not_pass_for_a_built_in_scene() {
 }
 
 #[test]
+fn a_file_that_tells_ticks_is_told_of_where_it_opens() {
+    for (when, told) in [("at_s = 1", false), ("tick = 1", true)] {
+        let text = format!("{}\n[[command]]\n{when}\nthrottle = 0", text("ship"));
+        let opened = studio(&text);
+        let notice = opened.viewer().notice.as_deref().unwrap_or_default();
+        assert_eq!(notice.starts_with("ship.toml: `tick`"), told, "{notice}");
+        let mut listed = Studio::new(scene(&text));
+        listed.list_as_file(Path::new(PATH));
+        assert_eq!(listed.viewer().notice.is_some(), told);
+    }
+}
+
+#[test]
 fn a_changed_file_with_the_same_lanes_and_bodies_is_run_again_to_the_tick() {
     let before = text("spring");
     let after = before.replacen("mass_kg = ", "mass_kg = 1", 1);
