@@ -43,7 +43,7 @@ impl Studio {
         }
         if let Some(halt) = self.just_lost() {
             let (name, how) = (self.lane_name(self.active()), halt.how());
-            let t = significant(self.race().t(), 3);
+            let t = significant(halt.t, 3);
             return Some(format!(
                 "{name} {how} at {t} s. `W` shows it again, `Home` starts over, `Space` goes on."
             ));

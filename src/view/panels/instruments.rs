@@ -329,7 +329,11 @@ fn choice<N: AsRef<str>>(
 /// All whose curves are shown, in the order of [`PlotSet::shown`], and the exact solution.
 fn legend_entries(set: &PlotSet) -> Vec<Entry> {
     let series = set.shown().map(|(place, SeriesStyle { name, colour, dash, .. })| {
-        let name = format!("{} {name}", place + 1);
+        // Alone, a lane has a number only where a key picks it.
+        let name = match set.styles.is_race || place < 9 {
+            true => format!("{} {name}", place + 1),
+            false => name.clone(),
+        };
         let is_front = place == set.styles.front;
         Entry { name, colour: *colour, dash: *dash, is_front }
     });

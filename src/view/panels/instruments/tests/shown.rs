@@ -263,3 +263,18 @@ fn the_helm_plots_its_track() {
     }
     assert_legible(&studio, "the track of the helm");
 }
+
+#[test]
+fn a_lane_alone_has_a_number_in_the_legend_only_where_a_key_picks_it() {
+    let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
+    for (id, told) in
+        [("semi-implicit-euler", "2 Semi-implicit Euler"), ("implicit-euler", "Implicit Euler")]
+    {
+        let entry = studio.entries().iter().position(|spec| spec.method.id == id);
+        studio.apply(StageCommand::Pick(entry.unwrap()));
+        studio.tick();
+        let set = plot_set_of(&studio, Detail::Samples).unwrap();
+        let names: Vec<_> = legend_entries(&set).into_iter().map(|entry| entry.name).collect();
+        assert!(names.iter().any(|name| name == told), "{names:?}");
+    }
+}
