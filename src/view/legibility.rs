@@ -207,7 +207,7 @@ fn every_text_can_be_read_at_every_stop_of_the_guide_beside_the_inspector() {
     let mut all = Vec::new();
     let mut studio = run("spring", false);
     studio.apply(ViewCommand::ToggleGuide);
-    for stop in 0..STOPS.len() {
+    for (stop, of) in STOPS.iter().enumerate() {
         (0..60).for_each(|_| studio.tick());
         for (i, size) in SIZES[..2].iter().enumerate() {
             if studio.display().inspector != (i == stop % 2) {
@@ -217,6 +217,12 @@ fn every_text_can_be_read_at_every_stop_of_the_guide_beside_the_inspector() {
             let at = format!("stop {stop}, inspector {}, {size}", studio.display().inspector);
             all.extend(faults.into_iter().map(|fault| format!("{at}: {fault}")));
         }
+        // Above the guide there is room for the stage, below its head for two lines and more.
+        let head = texts(&studio, SIZES[0])
+            .into_iter()
+            .find(|text| text.words.starts_with(&format!("{}. {}", stop + 1, of.title)));
+        let above = head.expect("the head of the guide").rect.top();
+        assert!((190.0..480.0).contains(&above), "stop {stop}: {above} of {} points", SIZES[0].y);
         studio.apply(ViewCommand::StopBeside(Step::Next));
     }
     assert!(all.is_empty(), "\n{}", all.join("\n"));
@@ -371,8 +377,14 @@ fn what_one_step_does_to_the_swing_is_seen_whole_under_any_method() {
         studio.apply(StageCommand::Pick(entry));
         for size in [vec2(960.0, 540.0)].into_iter().chain(SIZES) {
             let texts = beside_the_stage(&studio, size);
-            let said = texts.iter().position(|text| text.words.starts_with("This tick"));
-            let said = &texts[said.expect("what the tick does")..];
+            let begins = |words: &str| texts.iter().position(|text| text.words.starts_with(words));
+            let said = &texts[begins("This tick").expect("what the tick does")..];
+            let plot = &texts[begins("velocity").expect("the name of an axis")];
+            // Where the words stand below the plot, that is high enough to see.
+            if size.x < SIZES[2].x {
+                let height = said[0].rect.top() - plot.rect.top();
+                assert!((80.0..size.y / 2.0).contains(&height), "{entry}, {size}: {height}");
+            }
             let last = said.iter().position(|text| text.words.trim_end().ends_with("m/s."));
             for text in &said[..=last.expect("how far it misses")] {
                 let is_whole = text.clip.contains_rect(text.rect);

@@ -347,14 +347,14 @@ fn whole(count: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use egui::{Pos2, Rect};
+    use egui::{FontFamily, Pos2, Rect};
 
     use super::*;
     use crate::lab::Scene;
     use crate::lab::analysis::AnalysisWorker;
     use crate::lab::studio::{Instrument, StageCommand};
     use crate::view::panels;
-    use crate::view::testing::TestWindow;
+    use crate::view::testing::{ShownText, TestWindow};
 
     /// Shows frames of this size. Returns the stage and every text that is seen whole, with where it stands.
     fn shown(studio: &Studio, size: [f32; 2]) -> (Rect, Vec<(Pos2, String)>) {
@@ -429,6 +429,29 @@ mod tests {
                     |(at, text): &&(Pos2, String)| text == "Semi-implicit Euler" && at.y < head.y;
                 assert!(texts.iter().any(|text| is_named(&text)), "{size:?}: {texts:?}");
             }
+        }
+    }
+
+    #[test]
+    fn the_names_of_methods_in_the_table_have_one_size_of_type() {
+        let (mut studio, mut worker) = asked("spring", false);
+        judge(&mut studio, &mut worker, 8);
+        for size in SIZES {
+            let mut window = TestWindow::new(size);
+            let mut frame = || window.show(Vec::new(), |ui| panels::show(ui, &studio).1);
+            (0..2).for_each(|_| drop(frame()));
+            let (stage, shown) = frame();
+            // Those of the answer are strong.
+            let size_of_name = |text: &ShownText| {
+                let galley = &text.shape.galley;
+                let font = &galley.job.sections.first()?.format.font_id;
+                let is_name = studio.entries().iter().any(|it| it.method.name == galley.text());
+                let is_plain = font.family == FontFamily::Proportional;
+                (is_name && is_plain && text.shape.pos.x > stage.right()).then_some(font.size)
+            };
+            let sizes: Vec<f32> = shown.texts.iter().filter_map(size_of_name).collect();
+            let is_one = sizes.iter().all(|other| *other == sizes[0]);
+            assert!(sizes.len() > 4 && is_one, "{size:?}: {sizes:?}");
         }
     }
 

@@ -72,6 +72,21 @@ fn said(studio: &Studio) -> Vec<String> {
 }
 
 #[test]
+fn the_tooltip_of_an_engine_tells_the_version_and_the_day_that_it_is_held_against() {
+    let studio = Studio::new(Scene::built_in("engines").unwrap());
+    let mut versions = 0;
+    for row in sorted(&studio, None) {
+        let ((), shown) = TestWindow::new([800.0, 600.0]).show(Vec::new(), |ui| row.tooltip(ui));
+        let words = shown.words().join("\n");
+        let version = row.spec.method.engine.map_or("", |engine| engine.version);
+        let is_told = words.contains(" version ");
+        assert!(is_told != version.is_empty() && words.contains(version), "{words}");
+        versions += usize::from(is_told);
+    }
+    assert!((9..40).contains(&versions), "{versions}");
+}
+
+#[test]
 fn a_method_is_being_judged_until_it_is() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     assert!(said(&studio).iter().all(|said| said == "judging…"), "{:?}", said(&studio));
