@@ -99,7 +99,7 @@ pub static STOPS: &[Stop] = &[
         question: "Take a step once whole and once in two halves: the difference estimates the error, and the step follows from it. What does that do to the cost?",
         choices: &["it saves work", "it costs more, and is more accurate"],
         right: 1,
-        task: "Press `5` for adaptive Euler, and `Home`. Watch error and evaluations in the table.",
+        task: "Press `5` for adaptive Euler, and `Home`. Watch error and cost in the table.",
         keys: &[Key::Digit(5), Key::Home],
         goal: Goal::Method("adaptive-euler"),
         answer: "Here it costs more than plain Euler, and keeps the error that was asked for. It is a guard for accuracy. It does not cure a method that is unstable at every step.",
