@@ -16,7 +16,7 @@ use winit::window::{Fullscreen, WindowId};
 use crate::lab::analysis::AnalysisWorker;
 use crate::lab::cloud::CloudWorker;
 use crate::lab::loop_lab::LoopWorker;
-use crate::lab::studio::{Command, DriverRequest, SceneList, Studio, ViewCommand};
+use crate::lab::studio::{Command, DriverRequest, SceneList, StageCommand, Studio, ViewCommand};
 
 mod canvas;
 mod clipboard;
@@ -230,6 +230,10 @@ impl App {
     fn simulate(&mut self, event_loop: &ActiveEventLoop, now: Instant) {
         let scene = std::ptr::from_ref(self.studio.scene());
         for command in std::mem::take(&mut self.asked) {
+            if command == Command::Stage(StageCommand::OpenSpring) {
+                self.advise_on_spring();
+                continue;
+            }
             match self.studio.apply(command) {
                 Some(DriverRequest::Quit) => self.end(event_loop, Ok(())),
                 Some(DriverRequest::Screenshot) => self.screenshot = true,
@@ -285,6 +289,16 @@ impl App {
             canvas.window.set_title(&title);
             self.title = title;
         }
+    }
+
+    /// Finds what to recommend for the spring that a person has described, which takes longer than a frame if it is stiff.
+    fn advise_on_spring(&self) {
+        let (spring, tick_hz) = (self.studio.viewer().my_spring(), self.studio.clock().tick_hz());
+        let proxy = self.proxy.clone();
+        thread::spawn(move || {
+            let scene = spring.advised_scene(tick_hz).into();
+            _ = proxy.send_event(Event::SpringAdvised(scene));
+        });
     }
 
     fn toggle_full_screen(&self) {

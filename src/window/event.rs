@@ -11,7 +11,8 @@ use crate::lab::LaneSpec;
 use crate::lab::analysis::Findings;
 use crate::lab::cloud::FoundCloud;
 use crate::lab::loop_lab::FoundLoop;
-use crate::lab::scene::{Mistake, Scene};
+use crate::lab::scene::{Mistake, Scene, SceneErrors};
+use crate::lab::studio::Dialog;
 
 /// An event from the program's own threads or from a screen reader.
 pub(super) enum Event {
@@ -26,6 +27,8 @@ pub(super) enum Event {
     Clouds(Box<FoundCloud>),
     /// The ticks of these lanes were timed: nanoseconds per tick, `None` of a lane that halted.
     TicksTimed(Vec<(LaneSpec, Option<f64>)>),
+    /// The spring that a person has described is advised on, as a scene.
+    SpringAdvised(Box<Result<Scene, SceneErrors>>),
     /// Ctrl-C was pressed in the terminal.
     Interrupted,
     /// The run is not recorded as it grows, for this reason.
@@ -68,6 +71,14 @@ impl App {
             Event::Clouds(found) => {
                 self.studio.accept_cloud(*found);
                 if !self.studio.running() {
+                    self.request_redraw();
+                }
+            }
+            Event::SpringAdvised(scene) => {
+                // Whoever has closed the dialog meanwhile wants it no more.
+                if self.studio.viewer().dialog() == Some(&Dialog::Spring) {
+                    self.studio.open_advised_spring(*scene);
+                    self.stand_still();
                     self.request_redraw();
                 }
             }

@@ -5,7 +5,7 @@ use regatta::lab::studio::{
     INSTRUMENTS, Instrument, MySpring, StageCommand, Step, Studio, ViewCommand,
 };
 
-use crate::desk::Desk;
+use crate::desk::{Desk, until};
 use crate::twin::Twin;
 
 /// A paused window at the start of a scene, and its twin.
@@ -160,6 +160,7 @@ fn a_spring_of_ones_own_is_typed_advised_on_and_kept_for_the_next_time() {
     twin.click(&desk, "Advise at");
     assert_eq!((twin.studio.scene_name().as_str(), twin.studio.race().tick()), ("my spring", 0));
     assert_eq!(twin.studio.display().instrument, Instrument::Advice);
+    desk.titled(&twin.studio.title());
     let softer = MySpring { stiffness_n_per_m: 50.0, ..MySpring::default() };
     let faster = MySpring::of_frequency(12.0, 3.0, softer.damping_ratio());
     let spring = MySpring::of_frequency(12.0, faster.frequency_hz(), 1.0);
@@ -177,6 +178,7 @@ fn a_spring_of_ones_own_is_typed_advised_on_and_kept_for_the_next_time() {
         desk.still();
         desk.press(key);
     }
+    until("a run", || (!desk.title().contains("paused")).then_some(()));
     assert!(desk.recording().contains("mass_kg = 3.0"), "stiffness and damping stay");
     desk.quit();
 }

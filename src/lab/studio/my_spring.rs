@@ -152,7 +152,7 @@ impl MySpring {
     ///
     /// # Errors
     /// If a scene may not have these numbers.
-    pub(super) fn advised_scene(self, tick_hz: u32) -> Result<Scene, SceneErrors> {
+    pub(crate) fn advised_scene(self, tick_hz: u32) -> Result<Scene, SceneErrors> {
         let mut scene = self.scene(tick_hz)?;
         let adviser = Adviser::new(&scene, tick_hz);
         let methods = scene.non_engine_methods();

@@ -9,7 +9,7 @@ use super::scene_list::SceneList;
 use super::step::Step;
 use super::viewer::Dialog;
 use crate::lab::race::Mode;
-use crate::lab::scene::{Mistake, Scene};
+use crate::lab::scene::{Mistake, Scene, SceneErrors};
 
 /// The name of a custom spring on the list of scenes.
 const MY_SPRING: &str = "my spring";
@@ -55,8 +55,14 @@ impl Studio {
     /// Opens the spring that a person has described, alone and running, at the present tick rate, under what is recommended
     /// for it, and advises on it. It is on the list of scenes under a name that is no file's.
     pub(super) fn open_spring(&mut self) {
+        let scene = self.viewer.preferences.my_spring.advised_scene(self.clock.tick_hz());
+        self.open_advised_spring(scene);
+    }
+
+    /// Opens what [`MySpring::advised_scene`](super::MySpring::advised_scene) has made of it.
+    pub(crate) fn open_advised_spring(&mut self, scene: Result<Scene, SceneErrors>) {
         let path = Path::new(MY_SPRING);
-        match self.viewer.preferences.my_spring.advised_scene(self.clock.tick_hz()) {
+        match scene {
             Ok(scene) => {
                 self.open_file(path, scene);
                 self.start.mode = Mode::Solo;
