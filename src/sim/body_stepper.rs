@@ -120,10 +120,6 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
         &self.propagator
     }
 
-    fn heap_bytes(&self) -> usize {
-        self.propagator.heap_bytes()
-    }
-
     fn boxed_clone(&self) -> Box<dyn Stepper> {
         Box::new(self.clone())
     }
@@ -208,8 +204,8 @@ impl<B: Body> PlacedBody for Placed<B> {
     fn is_beyond_reference(&self) -> bool {
         is_beyond_reference(&self.body.system)
     }
-    fn is_sparse(&self) -> bool {
-        self.body.coupling() == Coupling::Few
+    fn coupling(&self) -> Coupling {
+        self.body.coupling()
     }
 
     fn is_closed_form_of(&self, memory: &dyn Any) -> bool {
@@ -251,7 +247,10 @@ impl<B: Body> PlacedBody for Placed<B> {
 
     fn bytes_with(&self, memory: &dyn Any) -> usize {
         let own = bytes_with_vectors(self, self.q()) + self.body.system.heap_bytes();
-        own + bytes_with_vectors(memory, self.q())
+        let method = memory.downcast_ref::<AnyMethod<B::Vector>>();
+        let boxed = method.map_or(0, |method| bytes_with_vectors(&*method.integrator, self.q()));
+        let truth = truth::<B>(memory).map_or(0, Propagator::heap_bytes);
+        own + bytes_with_vectors(memory, self.q()) + boxed + truth
     }
 }
 

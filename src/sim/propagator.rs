@@ -83,10 +83,6 @@ impl<V: Vector, B: Body<Vector = V>> Propagator<B> for AnyMethod<V> {
     fn lost_time(&self) -> f64 {
         self.integrator.lost_time()
     }
-
-    fn heap_bytes(&self) -> usize {
-        self.integrator.heap_bytes()
-    }
 }
 
 /// A method from the table, compiled for the body.
@@ -118,9 +114,5 @@ impl<B: Body, I: Integrator<Counted<B>> + Clone + 'static> Propagator<B> for Met
     #[inline]
     fn lost_time(&self) -> f64 {
         self.0.lost_time()
-    }
-
-    fn heap_bytes(&self) -> usize {
-        self.0.heap_bytes()
     }
 }

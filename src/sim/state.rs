@@ -205,7 +205,7 @@ impl Vector for Vec<f64> {
     }
 }
 
-/// An upper bound on the memory of `value` in bytes, as if every field were a vector as long as `like`.
+/// Upper bound on the size of `value` in bytes: its inline size, plus one heap vector as long as `like` for every 24 bytes of it.
 pub(in crate::sim) fn bytes_with_vectors(value: &impl ?Sized, like: &[f64]) -> usize {
     let size = size_of_val(value);
     size + size / size_of::<Vec<f64>>() * size_of_val(like)

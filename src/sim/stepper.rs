@@ -9,7 +9,7 @@ use super::body::{Body, Input};
 use super::integrators::{Method, StepFailure, Stepped};
 use super::solver::Solver;
 use super::state::Vector;
-use super::system::{EngineSettings, Evaluation, Pursuit};
+use super::system::{Coupling, EngineSettings, Evaluation, Pursuit};
 use crate::sim::system::StateOf;
 
 /// A tick that was taken on a copy of a body.
@@ -23,7 +23,7 @@ pub struct RecordedTick {
 
 /// A body under a solver. The layers above this one see bodies only through `dyn Stepper`.
 ///
-/// The trait has what depends on body and solver together, because that is compiled for each pair of them. It
+/// Only what depends on body *and* solver is here: it is compiled for each pair of them. The trait
 /// dereferences to the [body at its state](PlacedBody), which is compiled for each body.
 pub trait Stepper: Send {
     /// Advances from `t` to `t + h` (s). A method takes `substeps` equal steps.
@@ -41,9 +41,6 @@ pub trait Stepper: Send {
 
     /// What the solver keeps from tick to tick.
     fn memory(&self) -> &dyn Any;
-
-    /// The memory that this takes on the heap without its coordinate vectors, in bytes.
-    fn heap_bytes(&self) -> usize;
 
     /// A copy with all memory of the solver: original and copy continue with the same bits.
     fn boxed_clone(&self) -> Box<dyn Stepper>;
@@ -96,9 +93,10 @@ impl dyn Stepper + '_ {
         self.truth_error_of(self.memory())
     }
 
-    /// An upper bound on its memory, in bytes.
-    pub fn bytes(&self) -> usize {
-        self.bytes_with(self.memory()) + self.heap_bytes()
+    /// An upper bound on its memory under its `solver`, in bytes.
+    pub fn bytes(&self, solver: Solver) -> usize {
+        let kept = |method: &Method| method.numbers_kept(self.q().len(), self.coupling());
+        self.bytes_with(self.memory()) + size_of::<f64>() * solver.method().map_or(0, kept)
     }
 }
 
@@ -171,8 +169,12 @@ pub trait PlacedBody {
     fn is_angle(&self, coordinate: usize) -> bool;
     /// Whether a reference solution would take more than [`MAX_REFERENCE_WORK`](super::MAX_REFERENCE_WORK).
     fn is_beyond_reference(&self) -> bool;
+    /// Which coordinates act on which.
+    fn coupling(&self) -> Coupling;
     /// Whether implicit methods solve the body's equations without a matrix.
-    fn is_sparse(&self) -> bool;
+    fn is_sparse(&self) -> bool {
+        self.coupling() == Coupling::Few
+    }
     /// The conserved energy in joules; `None` if the body conserves none under its current input.
     fn energy(&self) -> Option<f64>;
     /// The kinetic part of [`PlacedBody::energy`], in joules. Never allocates.
@@ -209,6 +211,6 @@ pub trait PlacedBody {
     fn is_closed_form_of(&self, memory: &dyn Any) -> bool;
     /// The error of the truth with this memory; `None` for that of a method.
     fn truth_error_of(&self, memory: &dyn Any) -> Option<[f64; 2]>;
-    /// An upper bound on the memory of the body and of what the solver keeps, in bytes, less the solver's own `heap_bytes`.
+    /// An upper bound on the memory of the body and of what the solver keeps, in bytes, less the matrices of a method.
     fn bytes_with(&self, memory: &dyn Any) -> usize;
 }

@@ -120,7 +120,7 @@ impl TruthCurve {
 
     /// Its heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
-        self.between.bytes() + self.samples.heap_bytes() + self.extents.heap_bytes()
+        self.between.bytes(Solver::Truth) + self.samples.heap_bytes() + self.extents.heap_bytes()
     }
 
     /// The samples, oldest first: at every point of the grid, and on both sides of an input.

@@ -282,11 +282,11 @@ impl LaneBody {
         self.previous_v.copy_from_slice(self.stepper.v());
     }
 
-    fn bytes(&self) -> usize {
+    fn bytes(&self, solver: Solver) -> usize {
         let [q, v] = &self.before_input;
         let vectors = [&self.previous_q, &self.previous_v, q, v];
         let vectors = vectors.map(|vector| size_of_val(&vector[..])).iter().sum::<usize>();
-        size_of::<Self>() + vectors + self.stepper.bytes()
+        size_of::<Self>() + vectors + self.stepper.bytes(solver)
     }
 
     /// Extends the range of the true motion by the present state.
@@ -397,7 +397,7 @@ impl Lane {
 
     /// An upper bound of its heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
-        self.bodies.iter().map(LaneBody::bytes).sum()
+        self.bodies.iter().map(|body| body.bytes(self.solver)).sum()
     }
 
     /// Puts the bodies under another solver at time `t` (s), with their states unchanged. Halted bodies resume from the

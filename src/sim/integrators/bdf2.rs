@@ -75,8 +75,4 @@ impl<S: System<Vector: Vector>> Integrator<S> for Bdf2<S::Vector> {
     fn reset(&mut self) {
         self.last_step = LastStep::NONE;
     }
-
-    fn heap_bytes(&self) -> usize {
-        self.newton.heap_bytes()
-    }
 }

@@ -7,7 +7,7 @@ use super::custom_method::AnyIntegrator;
 use super::free_spin::FreeSpin;
 use super::joint_mode::JointMode;
 use super::tolerance::Tolerance;
-use crate::sim::system::BodyClass;
+use crate::sim::system::{BodyClass, Coupling};
 
 /// The families of methods, for menus and tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -254,6 +254,8 @@ pub struct Method {
     /// The largest `h ω` at which the first step of an oscillator that is damped by each of [`DAMPING_RATIOS`] does not grow;
     /// `None` as for the undamped. What a method with memory carries may lower it in a long run.
     pub damped_limits: Option<[f64; 3]>,
+    /// The most matrices of the derivatives of the acceleration that it keeps, of few coordinates: what bounds its memory.
+    pub matrices: u32,
     /// The default tolerance of a substep of an adaptive method.
     pub tolerance: Option<Tolerance>,
     /// How a method with memory starts: at the start, after a kick, a switch or a change of step, and
@@ -287,6 +289,21 @@ impl Method {
     /// Whether this is a published listing with its faults, which is never advised.
     pub fn is_as_printed(&self) -> bool {
         self.family == Family::AsPrinted
+    }
+
+    /// An upper bound on the numbers that it keeps on the heap beside its own vectors, of `n` coordinates coupled so. A
+    /// custom method is taken for one with sixteen vectors.
+    pub(in crate::sim) fn numbers_kept(&self, n: usize, coupling: Coupling) -> usize {
+        let matrices = self.matrices as usize;
+        match coupling.reach(n) {
+            _ if self.custom.is_some() => 16 * (n + 3),
+            // The exponential of a small matrix is a whole one.
+            Some(_) if self.family == Family::Linearised && n <= 32 => matrices * (n + 2) * (n + 2),
+            // The band of a factored matrix is half as wide again.
+            Some(reach) => matrices * (n + 2) * (n + 2).min(3 * reach + 2),
+            // Of each of two stages at most, the vectors of an iteration.
+            None => 12 * (n + 3) * matrices.min(2),
+        }
     }
 
     /// Evaluations of the acceleration per tick of `substeps` substeps, averaged over a long run; `None` if the method
@@ -345,6 +362,7 @@ const PLAIN: Method = Method {
     reversible: false,
     stability_limit: None,
     damped_limits: None,
+    matrices: 0,
     tolerance: None,
     restart: None,
     keeps_time: true,
@@ -378,11 +396,11 @@ pub(super) const ADAPTIVE: Method = Method {
 
 /// An implicit method.
 pub(super) const IMPLICIT: Method =
-    Method { family: Family::Implicit, evaluation_cost: 4, ..PLAIN };
+    Method { family: Family::Implicit, evaluation_cost: 4, matrices: 1, ..PLAIN };
 
 /// A method that takes the derivative of the acceleration: one evaluation or two for each coordinate.
 pub(super) const LINEARISED: Method =
-    Method { family: Family::Linearised, evaluation_cost: 2, ..PLAIN };
+    Method { family: Family::Linearised, evaluation_cost: 2, matrices: 1, ..PLAIN };
 
 /// A listing of the chapter: if forces depend on position only, all are semi-implicit Euler.
 pub(super) const AS_PRINTED: Method =

@@ -6,7 +6,7 @@ use std::cell::RefCell;
 use super::failure::Stepped;
 use super::integrator::{Integrator, Override};
 use super::unfit::Unfit;
-use crate::sim::state::{State, Vector, bytes_with_vectors};
+use crate::sim::state::{State, Vector};
 use crate::sim::system::{StateOf, System};
 use crate::sim::vec_system::{Scratch, VecSystem};
 
@@ -124,10 +124,5 @@ impl<S: System<Vector: Vector>> Integrator<S> for CustomMethod<S::Vector> {
 
     fn lost_time(&self) -> f64 {
         self.integrator.lost_time()
-    }
-
-    fn heap_bytes(&self) -> usize {
-        let integrator = &*self.integrator;
-        bytes_with_vectors(integrator, &self.state.q) + integrator.heap_bytes()
     }
 }

@@ -10,6 +10,7 @@ pub(super) const CARD: Method = Method {
     about: "exact at any step on springs, drag and all that is linear, without damping of its own; second order elsewhere",
     order: 2,
     order_with_drag: 2,
+    matrices: 14,
     evaluation_cost: 3,
     exact_if_linear: true,
     source: "Pope, An exponential method of numerical integration of ordinary differential equations (1963); Hochbruck & Ostermann, Exponential integrators (2010)",
@@ -112,9 +113,5 @@ impl<S: System<Vector: Vector>> Integrator<S> for ExponentialRosenbrockEuler<S::
         *q += h * *v * (1.0 + h * h * da_dq * s2) + h * h * (a * s1 + more * s2);
         *v += h * (h * da_dq * *v * s1 + a * s + more * s1);
         Ok(())
-    }
-
-    fn heap_bytes(&self) -> usize {
-        self.jacobian.heap_bytes() + self.flow.heap_bytes()
     }
 }

@@ -10,6 +10,7 @@ pub(super) const CARD: Method = Method {
     about: "stable at any step, accurate, and keeps the energy of springs; the dearest of the implicit ones",
     order: 4,
     order_with_drag: 4,
+    matrices: 6,
     symplectic: true,
     reversible: true,
     source: "Butcher, Implicit Runge-Kutta processes (1964); Hairer, Lubich & Wanner, Geometric Numerical Integration, II.1.3",
@@ -62,9 +63,5 @@ impl<S: System<Vector: Vector>> Integrator<S> for GaussLegendre4<S::Vector> {
         y.q.add_terms([(h, &y.v), (h * h / 2.0 * C[1], a1), (h * h / 2.0 * C[0], a2)]);
         y.v.add_terms([(h / 2.0, a1), (h / 2.0, a2)]);
         Ok(())
-    }
-
-    fn heap_bytes(&self) -> usize {
-        self.newton.heap_bytes()
     }
 }

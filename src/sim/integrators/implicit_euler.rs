@@ -33,8 +33,4 @@ impl<S: System<Vector: Vector>> Integrator<S> for ImplicitEuler<S::Vector> {
     fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         self.newton.backward_euler(system, t + h, h, y)
     }
-
-    fn heap_bytes(&self) -> usize {
-        self.newton.heap_bytes()
-    }
 }

@@ -43,8 +43,4 @@ impl<S: System<Vector: Vector>> Integrator<S> for ImplicitMidpoint<S::Vector> {
         y.v.add_scaled(h, &newton.a[0]);
         Ok(())
     }
-
-    fn heap_bytes(&self) -> usize {
-        self.newton.heap_bytes()
-    }
 }

@@ -58,11 +58,6 @@ pub trait Integrator<S: System>: Send {
     fn lost_time(&self) -> f64 {
         0.0
     }
-
-    /// Memory in bytes, without its own size and that of its coordinate vectors.
-    fn heap_bytes(&self) -> usize {
-        0
-    }
 }
 
 /// What a method may be given in place of what its card or the body says.

@@ -45,8 +45,4 @@ impl<S: System<Vector: Vector>> Integrator<S> for LinearlyImplicitEuler<S::Vecto
         S::Vector::kick_and_drift(h, a, &mut y.v, h, &mut y.q);
         Ok(())
     }
-
-    fn heap_bytes(&self) -> usize {
-        self.equations.heap_bytes()
-    }
 }

@@ -52,8 +52,4 @@ impl<S: System<Vector: Vector>> Integrator<S> for Newmark<S::Vector> {
         y.v.add_scaled(beta, &newton.a[0]);
         Ok(())
     }
-
-    fn heap_bytes(&self) -> usize {
-        self.newton.heap_bytes()
-    }
 }

@@ -66,8 +66,4 @@ impl<S: System<Vector: Vector>, I: Integrator<S>> Integrator<S> for ResetOnChang
     fn lost_time(&self) -> f64 {
         self.method.lost_time()
     }
-
-    fn heap_bytes(&self) -> usize {
-        self.method.heap_bytes()
-    }
 }

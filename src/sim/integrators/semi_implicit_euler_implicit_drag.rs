@@ -43,8 +43,4 @@ impl<S: System<Vector: Vector>> Integrator<S> for SemiImplicitEulerImplicitDrag<
         S::Vector::kick_and_drift(h, a, &mut y.v, h, &mut y.q);
         Ok(())
     }
-
-    fn heap_bytes(&self) -> usize {
-        self.equations.heap_bytes()
-    }
 }

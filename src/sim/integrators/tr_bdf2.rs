@@ -56,8 +56,4 @@ impl<S: System<Vector: Vector>> Integrator<S> for TrBdf2<S::Vector> {
         y.add_terms([(-W, f), (W, stage)]);
         newton.backward_euler(system, t + h, h * D, y)
     }
-
-    fn heap_bytes(&self) -> usize {
-        self.newton.heap_bytes()
-    }
 }

@@ -10,6 +10,7 @@ pub(super) const CARD: Method = Method {
     about: "velocity Verlet whose drag is exact and stable at any step: bounded up to h ω = 2 however damped",
     order: 2,
     order_with_drag: 2,
+    matrices: 5,
     symplectic: true,
     reversible: true,
     stability_limit: Some(2.0),
@@ -110,9 +111,5 @@ impl<S: System<Vector: Vector>> Integrator<S> for VerletExactDrag<S::Vector> {
             None => self.decay(system, h, v)?,
         }
         Ok(())
-    }
-
-    fn heap_bytes(&self) -> usize {
-        self.drag.heap_bytes() + self.decay.heap_bytes()
     }
 }

@@ -119,7 +119,7 @@ fn no_implicit_method_keeps_a_matrix_for_a_net() {
         |method: &&Method| [Family::Implicit, Family::Linearised].contains(&method.family);
     for method in METHODS.iter().filter(with_equations) {
         let net = build(&plan, PLAIN, Solver::Method(method));
-        let vectors = net.bytes() as f64 / size_of_val(net.q()) as f64;
+        let vectors = net.bytes(Solver::Method(method)) as f64 / size_of_val(net.q()) as f64;
         // A matrix of one stage would be as many vectors as there are coordinates, 20 000.
         assert!((3.0..80.0).contains(&vectors), "{}: {vectors} vectors", method.id);
     }

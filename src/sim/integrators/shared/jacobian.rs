@@ -1,6 +1,6 @@
 //! The derivatives of the acceleration by coordinates and by velocities, and their products with vectors.
 //!
-//! They are kept as matrices, or where [few](Coupling::Few) coordinates act on each taken along each vector.
+//! Stored as matrices; for [`Coupling::Few`], computed as directional derivatives on demand.
 
 use super::linearisation::alternate;
 use super::slopes::{Slopes, comb};
@@ -55,11 +55,6 @@ impl<V: Vector> Jacobian<V> {
             da_dq: Vec::new(),
             da_dv: vec![0.0; entries],
         }
-    }
-
-    /// Memory in bytes, without its own size and that of its coordinate vectors.
-    pub(in crate::sim::integrators) fn heap_bytes(&self) -> usize {
-        size_of_val(&self.da_dq[..]) + size_of_val(&self.da_dv[..])
     }
 
     /// Takes the derivatives at `t` and `y`, where the acceleration is `a`, for a step of `h`.

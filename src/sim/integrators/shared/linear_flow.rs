@@ -84,14 +84,6 @@ impl LinearFlow {
         Self { term: vec![0.0; size], next: vec![0.0; size], squaring }
     }
 
-    /// Memory on the heap, in bytes, without vectors.
-    pub(in crate::sim::integrators) fn heap_bytes(&self) -> usize {
-        self.squaring.as_deref().map_or(0, |squaring| {
-            let matrices = squaring.matrices.iter().map(|matrix| size_of_val(&matrix[..]));
-            size_of_val(squaring) + matrices.sum::<usize>()
-        })
-    }
-
     /// Advances `x` by `x' = A x + b + t c` from `t = 0` to 1, where `product` overwrites its second argument with
     /// `A` times its first, and `norm` bounds the largest row sum of `A`.
     ///

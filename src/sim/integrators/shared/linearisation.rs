@@ -9,7 +9,7 @@ use super::lu::StageLu;
 use super::slopes::{Forward, Slopes, comb};
 use super::stages::Stages;
 use crate::sim::integrators::failure::{StepFailure, Stepped};
-use crate::sim::state::{State, Vector, bytes_with_vectors, largest};
+use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::{Coupling, System};
 
 /// The residual to which an iteration solves the equations of a step, relative to the right-hand side.
@@ -45,13 +45,6 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
             matrix: reach.filter(|_| S * n > 1).map(|reach| StageLu::new(S, n, reach)),
             krylov: reach.is_none().then(|| Box::new(Krylov::new(S * n))),
         }
-    }
-
-    /// Memory in bytes, without its own size and that of its coordinate vectors.
-    pub(in crate::sim::integrators) fn heap_bytes(&self) -> usize {
-        let Self { matrix, krylov, .. } = self;
-        let krylov = krylov.as_deref().map_or(0, |krylov| bytes_with_vectors(krylov, &krylov.x));
-        matrix.as_ref().map_or(0, StageLu::heap_bytes) + krylov
     }
 
     /// Whether equations are solved without a matrix.

@@ -154,11 +154,6 @@ impl StageLu {
         }
     }
 
-    /// Memory on the heap, in bytes, without vectors.
-    pub(super) fn heap_bytes(&self) -> usize {
-        size_of_val(&self.lu.entries[..])
-    }
-
     /// Coordinates this far apart, and farther, act on different ones.
     #[inline]
     pub(super) fn apart(&self) -> usize {

@@ -138,11 +138,6 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         }
     }
 
-    /// Memory in bytes, without its own size and that of vectors of one stage.
-    pub(in crate::sim::integrators) fn heap_bytes(&self) -> usize {
-        self.linearisation.heap_bytes() + 6 * (S - 1) * size_of_val(&self.residual[..]) / S
-    }
-
     /// Solves for the accelerations at the stages.
     pub(in crate::sim::integrators) fn solve(
         &mut self,
