@@ -7,9 +7,7 @@ use crate::lab::lane_spec::LaneSpec;
 const SCOUTS: usize = 100;
 const BORDER_SCOUTS: usize = 90;
 
-/// How far other clouds stretch the axes of a moment, in widths of the exact one; and how much narrower than the exact cloud
-/// at its widest these may be.
-const BESIDE_NOW: f64 = 0.3;
+/// How much narrower than the exact cloud at its widest the axes of a moment may be.
 const NARROWEST: f64 = 0.25;
 
 /// The moments through which the axes of a studio are found.
@@ -94,11 +92,15 @@ impl CloudAxes {
         Ok(Self { whole, widest })
     }
 
-    /// The part of the plane that is shown while the exact border and the points of others are there: it follows them, and
-    /// is no wider or higher than the whole.
+    /// The part of the plane that is shown while the exact border and the points of others are there: it follows those of
+    /// them that the whole has, and is no wider or higher.
     pub fn around(&self, border: &[[f64; 2]], others: &[[f64; 2]]) -> PlaneView {
         let mut view = self.whole;
-        let near = PlaneView::around(border, others, BESIDE_NOW, false);
+        let is_within = |[q, v]: &[f64; 2]| {
+            self.whole.place(*q, *v).iter().all(|part| (0.0..=1.0).contains(part))
+        };
+        let others: Vec<_> = others.iter().copied().filter(is_within).collect();
+        let near = PlaneView::around(border, &others, f64::INFINITY, false);
         for (i, (range, [low, high])) in
             [(&mut view.q, near.q), (&mut view.v, near.v)].into_iter().enumerate()
         {

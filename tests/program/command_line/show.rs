@@ -58,8 +58,8 @@ fn a_mistake_in_a_name_is_told_with_the_nearest() {
         ("show rk5", "did you mean rk4? `regatta list methods` names all"),
         ("show runge-kutta", "did you mean rk4?"),
         ("show x", "no such method. `regatta list methods` names all"),
-        ("show rk4 --as cobol", "[possible values: rust, c, csharp, gdscript]"),
-        ("show rk4 --as csharpp", "a similar value exists: 'csharp'"),
+        ("show rk4 --as cobol", "There are rust, c, csharp, gdscript"),
+        ("show rk4 --as csharpp", "did you mean csharp?"),
     ] {
         let said_so = refusal(arguments, 2);
         assert!(said_so.contains(said), "{arguments}: {said_so}");
