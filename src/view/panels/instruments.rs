@@ -5,7 +5,7 @@
 
 use egui::{Button, Color32, ComboBox, Label, Rect, Response, RichText, Sense, Stroke, Ui, vec2};
 
-use super::parts::is_picture;
+use super::parts::{is_picture, numbered};
 use super::series_styles::{SeriesStyle, SeriesStyles};
 use super::tracks::Detail;
 use super::{advice, breakpoints, cost, loops, one_step, stability_map};
@@ -330,9 +330,9 @@ fn choice<N: AsRef<str>>(
 fn legend_entries(set: &PlotSet) -> Vec<Entry> {
     let series = set.shown().map(|(place, SeriesStyle { name, colour, dash, .. })| {
         // Alone, a lane has a number only where a key picks it.
-        let name = match set.styles.is_race || place < 9 {
+        let name = match set.styles.is_race {
             true => format!("{} {name}", place + 1),
-            false => name.clone(),
+            false => numbered(place, name),
         };
         let is_front = place == set.styles.front;
         Entry { name, colour: *colour, dash: *dash, is_front }

@@ -21,6 +21,11 @@ pub(super) fn frame(fill: Color32) -> Frame {
     Frame::new().fill(fill).inner_margin(Margin::symmetric(8, 4))
 }
 
+/// The name of a method after the digit that picks it, if there is one.
+pub(super) fn numbered(entry: usize, name: &str) -> String {
+    if entry < 9 { format!("{} {name}", entry + 1) } else { name.to_owned() }
+}
+
 /// Words in one line of this width, with an ellipsis where they do not fit, and whether they fit.
 pub(super) fn short(
     ui: &Ui,

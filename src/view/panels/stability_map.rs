@@ -10,7 +10,7 @@ use egui::{
 
 use super::annotations::{label, mixed, polygon};
 use super::breakpoints;
-use super::parts::is_picture;
+use super::parts::{is_picture, numbered};
 use crate::lab::analysis::{Coverage, MapRequest, SeenLine, StabilityMap};
 use crate::lab::number::round;
 use crate::lab::scene::edited_values;
@@ -262,11 +262,6 @@ fn seen_lines(studio: &Studio, map: &StabilityMap, area: &PlotArea) -> Vec<(f64,
 fn limit(map: &StabilityMap, entry: usize) -> Option<String> {
     let index = map.request.specs.iter().position(|(listed, _)| *listed == entry)?;
     Some(format!("ω h < {}", round(map.regions.get(index)?.limit?, 4)))
-}
-
-/// The name of a method after the digit that picks it, if there is one.
-fn numbered(entry: usize, name: &str) -> String {
-    if entry < 9 { format!("{} {name}", entry + 1) } else { name.to_owned() }
 }
 
 /// Points along a label.
