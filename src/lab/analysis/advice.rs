@@ -9,7 +9,7 @@ use super::judge::{CriterionFinding, FULL_THROTTLE, Judge, horizon_s};
 use super::run::MAX_WORK;
 use super::searches::{FACTORS, RatesDown, tried_substeps};
 use super::slices::{Meter, Once, at_once};
-use super::verdict::Verdict;
+use super::verdict::{Finding, NotJudged, Verdict};
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::{Scene, SceneBody, edited_values};
 use crate::sim::integrators::{METHODS, Method};
@@ -172,11 +172,14 @@ impl Adviser {
 
     /// As [`Self::judged`].
     pub(super) async fn advice_on(&self, spec: LaneSpec) -> MethodAdvice {
-        let mut met = [const { CriterionResult::Unknown }; CRITERIA.len()];
-        for (met, criterion) in met.iter_mut().zip(CRITERIA) {
-            *met = self.fewest_substeps(spec, criterion).await;
-        }
         let verdict = self.judge.verdict_within(MAX_WORK, spec, self.tick_hz).await;
+        let mut met = [const { CriterionResult::Unknown }; CRITERIA.len()];
+        // What takes too much work in one step a tick does in each run for a criterion, and with more substeps.
+        if spec.substeps > 1 || verdict.finding != Finding::NotJudged(NotJudged::TooMuchWork) {
+            for (met, criterion) in met.iter_mut().zip(CRITERIA) {
+                *met = self.fewest_substeps(spec, criterion).await;
+            }
+        }
         MethodAdvice { spec, verdict, met }
     }
 
