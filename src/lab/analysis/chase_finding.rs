@@ -67,9 +67,20 @@ fn true_half_life_s(truth: &BodyTruth) -> Option<f64> {
     Some(past)
 }
 
+impl ChaseFinding {
+    /// The one number of a body that closes on its target: its half-life.
+    pub(super) fn number(&self) -> Option<String> {
+        let half = self.half_life_s.filter(|_| self.beyond_limit.is_none())?;
+        Some(format!("half-life {}", milliseconds(half)))
+    }
+}
+
+fn milliseconds(seconds: f64) -> String {
+    format!("{} ms", round(1e3 * seconds, 3))
+}
+
 impl fmt::Display for ChaseFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let ms = |seconds: f64| format!("{} ms", round(1e3 * seconds, 3));
         if let Some([step, limit]) = self.beyond_limit {
             write!(f, "explodes, as k dt = {} is above {limit}", round(step, 3))?;
             return Ok(());
@@ -77,9 +88,9 @@ impl fmt::Display for ChaseFinding {
         match (self.half_life_s, self.true_half_life_s) {
             (None, _) => f.write_str("never half-way")?,
             (Some(half), Some(wanted)) if (half / wanted - 1.0).abs() > SLIGHT => {
-                write!(f, "half-life {}, not {}", ms(half), ms(wanted))?;
+                write!(f, "half-life {}, not {}", milliseconds(half), milliseconds(wanted))?;
             }
-            (Some(half), _) => write!(f, "half-life {}", ms(half))?,
+            (Some(half), _) => write!(f, "half-life {}", milliseconds(half))?,
         }
         if self.overshoot_percent >= FAINT_PERCENT {
             write!(f, ", overshoots by {} %", significant(self.overshoot_percent, 2))?;

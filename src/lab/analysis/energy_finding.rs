@@ -47,12 +47,13 @@ impl EnergyFinding {
     }
 
     /// What becomes of the energy where it neither grows nor is lost in a way that can be seen.
-    pub(super) fn kept(&self, horizon: &str) -> String {
-        let percent = round(100.0 * self.change.abs(), 2);
-        match self.is_conserved {
-            true => format!("keeps its energy within {percent} % in {horizon}"),
-            false => format!("gains no energy in {horizon}"),
-        }
+    pub(super) fn word(&self) -> &'static str {
+        if self.is_conserved { "keeps energy" } else { "gains no energy" }
+    }
+
+    /// Within how much it keeps it, if it should.
+    pub(super) fn number(&self) -> Option<String> {
+        self.is_conserved.then(|| format!("within {} %", round(100.0 * self.change.abs(), 2)))
     }
 }
 

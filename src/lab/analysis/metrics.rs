@@ -234,6 +234,17 @@ pub const METRICS: &[Metric] = &[
     },
 ];
 
+/// The energy that a body in a lane has more than in truth, in percent of what the exact motion exchanges, or where it
+/// conserves or exchanges none of the most that it had; `None` where its energies are not known.
+pub fn energy_gained_percent(lane: &LaneBody, truth: &LaneBody) -> Option<f64> {
+    let of_swing = (METRICS[Metric::ENERGY_DRIFT].measure)(lane, truth);
+    of_swing.or_else(|| {
+        let [lane, exact] = both(lane, truth)?;
+        let sum = |body: &LaneBody| Some(body.stepper.mechanical_energy()?.iter().sum::<f64>());
+        known(100.0 * (sum(lane)? - sum(exact)?) / exact.extent()?.most_j())
+    })
+}
+
 /// The body in a lane and in truth; `None` once either has halted.
 fn both<'a>(lane: &'a LaneBody, truth: &'a LaneBody) -> Option<[&'a LaneBody; 2]> {
     let go_on = lane.halted().is_none() && truth.halted().is_none();

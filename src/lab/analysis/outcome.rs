@@ -62,8 +62,8 @@ impl Outcome {
             Outcome::OutOfPhase => "out of phase",
             Outcome::LosesEnergy => "loses energy",
             Outcome::GainsEnergy => "gains energy",
-            Outcome::GaveUp => "will give up",
-            Outcome::BlewUp => "will blow up",
+            Outcome::GaveUp => "gives up",
+            Outcome::BlewUp => "blows up",
         }
     }
 
