@@ -119,6 +119,8 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     if let Some(theme) = args.theme.map(Theme::from).or(preferences.theme) {
         studio.viewer_mut().preferences.choose_theme(theme);
     }
+    let opens_at_work = args.race || args.loop_trace.is_some();
+    studio.viewer_mut().preferences.display.measure = preferences.measure || opens_at_work;
     if let Some(percent) = preferences.scale_percent {
         studio.viewer_mut().preferences.choose_scale(percent);
     }
@@ -155,7 +157,8 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
             let scene = if is_own { preferences.scene } else { preferences::scene_of(&studio) };
             let (theme, size) = (theme.or(preferences.theme), size.or(preferences.size));
             let scale_percent = Some(studio.display().scale_percent);
-            SavedPreferences { scene, theme, scale_percent, size }.save();
+            let measure = studio.display().measure;
+            SavedPreferences { scene, theme, scale_percent, size, measure }.save();
             (studio, interrupted)
         }
     };

@@ -29,6 +29,8 @@ pub(super) struct SavedPreferences {
     pub(super) scale_percent: Option<u32>,
     /// The size of the window in points.
     pub(super) size: Option<[u32; 2]>,
+    /// Whether instruments stood round the stage; on a first start it is alone.
+    pub(super) measure: bool,
 }
 
 impl SavedPreferences {
@@ -96,7 +98,8 @@ impl SavedPreferences {
                     let size = preferences.size.get_or_insert([1280, 720]);
                     size[usize::from(key == "height")] = points;
                 }
-                ("scene" | "theme" | "scale_percent" | "width" | "height", _) => {
+                ("measure", DeValue::Boolean(measure)) => preferences.measure = *measure,
+                ("scene" | "theme" | "scale_percent" | "width" | "height" | "measure", _) => {
                     return Err(wrong());
                 }
                 // Of a newer program.
@@ -116,6 +119,7 @@ impl SavedPreferences {
             theme.map(|theme| format!("theme = '{theme}'\n")),
             self.scale_percent.map(|percent| format!("scale_percent = {percent}\n")),
             self.size.map(|[width, height]| format!("width = {width}\nheight = {height}\n")),
+            Some(format!("measure = {}\n", self.measure)),
         ]
         .into_iter()
         .flatten()
@@ -154,6 +158,7 @@ mod tests {
                 theme: Some(Theme::Light),
                 scale_percent: Some(125),
                 size: Some([1920, 1080]),
+                measure: true,
             },
         ] {
             assert_eq!(SavedPreferences::parse(&preferences.to_text()), Ok(preferences));

@@ -39,7 +39,7 @@ pub use criterion::{CRITERIA, Criterion};
 pub use energy_finding::EnergyFinding;
 pub use judge::{Judge, MAX_HORIZON_S};
 pub use limits::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
-pub use metrics::{METRICS, Metric, Scale, Unit};
+pub use metrics::{METRICS, Metric, Scale, Unit, energy_gained_percent};
 pub use outcome::{Outcome, Severity};
 pub use report::{Criteria, MethodReport, Recommendation, Report, advise, try_advise};
 pub use run::MAX_WORK;

@@ -90,6 +90,11 @@ trait Drawn: Body {
         Vec::new()
     }
 
+    /// What a body does in truth from this state on, in a few words, if that is simple.
+    fn promise(&self, _state: &State<Self::Vector>) -> Option<String> {
+        None
+    }
+
     /// Where a hand can take hold of a body with these coordinates.
     fn handles(&self, q: &Self::Vector) -> Vec<Handle>;
 
@@ -104,6 +109,9 @@ trait BodyPicture {
     fn framing(&self) -> Framing;
     fn course(&self, _q: &[f64], _v: &[f64]) -> Vec<DVec2> {
         Vec::new()
+    }
+    fn promise(&self, _q: &[f64], _v: &[f64]) -> Option<String> {
+        None
     }
     fn handles(&self, q: &[f64]) -> Vec<Handle>;
     fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull);
@@ -124,6 +132,9 @@ impl<B: Drawn> BodyPicture for Plain<'_, B> {
     }
     fn course(&self, q: &[f64], v: &[f64]) -> Vec<DVec2> {
         self.0.course(&State { q: vector(self.0, q), v: vector(self.0, v) })
+    }
+    fn promise(&self, q: &[f64], v: &[f64]) -> Option<String> {
+        self.0.promise(&State { q: vector(self.0, q), v: vector(self.0, v) })
     }
     fn handles(&self, q: &[f64]) -> Vec<Handle> {
         self.0.handles(&vector(self.0, q))
@@ -230,6 +241,11 @@ impl<'a> Look<'a> {
     /// The closed course that the body goes along in this state, if it does.
     pub fn course(&self, q: &[f64], v: &[f64]) -> Vec<DVec2> {
         self.picture.course(q, v)
+    }
+
+    /// What the body does in truth from this state on, in a few words, if that is simple.
+    pub fn promise(&self, q: &[f64], v: &[f64]) -> Option<String> {
+        self.picture.promise(q, v)
     }
 
     /// Whether it is one body over a ground, on which it comes down again.

@@ -74,6 +74,8 @@ pub struct Picture {
     pub labels: Vec<Label>,
     /// What a pointer is over: one for each body, or where lanes have cells of their own, for each body of each lane.
     pub cells: Vec<Cell>,
+    /// Where the verdict on the method is said.
+    pub chip: Option<Rect>,
 }
 
 impl Picture {

@@ -287,6 +287,7 @@ pub static SCENES: &[BuiltIn] = &[
     BuiltIn { name: "harbour", text: include_str!("../../assets/scenes/harbour.toml") },
     BuiltIn { name: "ship", text: include_str!("../../assets/scenes/ship.toml") },
     BuiltIn { name: "spring", text: include_str!("../../assets/scenes/spring.toml") },
+    BuiltIn { name: "damped", text: include_str!("../../assets/scenes/damped.toml") },
     BuiltIn { name: "stiff", text: include_str!("../../assets/scenes/stiff.toml") },
     BuiltIn { name: "surge", text: include_str!("../../assets/scenes/surge.toml") },
     BuiltIn { name: "chain", text: include_str!("../../assets/scenes/chain.toml") },

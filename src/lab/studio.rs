@@ -49,7 +49,7 @@ pub use command::{
 pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, View};
 pub use gesture::{GESTURES, Gesture};
 pub use held::HeldBody;
-pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow};
+pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentGroup};
 pub use joint::SpringJoint;
 pub use key::{Binding, KEYS, Key, command_for};
 pub use live_loop::{LiveFrame, LiveLoop};

@@ -13,8 +13,8 @@ use crate::lab::palette::Theme;
 use crate::lab::picture::compose;
 use crate::lab::studio::guide::STOPS;
 use crate::lab::studio::{
-    Arrangement, Command, Instrument, RunCommand, SCALE_LADDER, StageCommand, Step, Studio,
-    ViewCommand,
+    Arrangement, Command, INSTRUMENTS, Instrument, Motion, RunCommand, SCALE_LADDER, StageCommand,
+    Step, Studio, ViewCommand,
 };
 use crate::lab::{SCENES, Scene};
 
@@ -443,4 +443,53 @@ fn every_text_of_this_windows_own_loop_can_be_read() {
         studio.advance(if frame % 50 == 7 { 41_000_000 } else { 16_600_000 });
     }
     assert_legible(&studio, "ten seconds of frames");
+}
+
+/// How many words and numbers a frame has: what has a digit is a number, and what has a letter else a word.
+fn counted(studio: &Studio, size: Vec2) -> [Vec<String>; 2] {
+    let mut texts = texts(studio, size);
+    // A halo is the same text again.
+    let place = |text: &Text| text.rect.center();
+    let mut kept: Vec<Text> = Vec::new();
+    for text in texts.drain(..) {
+        let is_halo =
+            |other: &Text| other.words == text.words && place(other).distance(place(&text)) < 4.5;
+        if text.clip.intersects(text.rect) && !kept.iter().any(is_halo) {
+            kept.push(text);
+        }
+    }
+    let tokens = kept.iter().flat_map(|text| text.words.split_whitespace()).map(str::to_owned);
+    let (numbers, others) =
+        tokens.partition(|token: &String| token.contains(|c: char| c.is_numeric()));
+    let words = |token: &String| token.contains(char::is_alphabetic);
+    [Vec::into_iter(others).filter(words).collect(), numbers]
+}
+
+#[test]
+fn the_opening_has_few_words_and_numbers_and_no_tab_and_measuring_not_many() {
+    for (measure, most) in [(false, [40, 20]), (true, [90, 60])] {
+        let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+        studio.viewer_mut().preferences.display.measure = measure;
+        studio.viewer_mut().preferences.display.motion = Motion::Live;
+        studio.analyse();
+        for seconds in [0, 2, 7, 15] {
+            while studio.race().tick() < 60 * seconds {
+                studio.tick();
+            }
+            let counted = counted(&studio, SIZES[1]);
+            let [words, numbers] = [0, 1].map(|of| counted[of].len());
+            assert!(words > 20 && words <= most[0], "{words} at {seconds} s: {:?}", counted[0]);
+            assert!(
+                numbers > 8 && numbers <= most[1],
+                "{numbers} at {seconds} s: {:?}",
+                counted[1]
+            );
+            for card in INSTRUMENTS {
+                let is_there = counted[0]
+                    .iter()
+                    .any(|word| card.name.starts_with(word.as_str()) && word.len() > 3);
+                assert!(measure || !is_there, "{} at {seconds} s", card.name);
+            }
+        }
+    }
 }

@@ -65,6 +65,11 @@ impl Stage<'_> {
         (at - self.rect.min).into()
     }
 
+    /// Whether the verdict on the method is said there.
+    fn is_on_chip(&self, at: Pos2) -> bool {
+        self.picture.chip.is_some_and(|chip| chip.contains(self.point(at)))
+    }
+
     fn cell(&self, at: Pos2) -> Option<&Cell> {
         let at = self.point(at);
         self.picture.cells.iter().find(|cell| cell.rect.contains(at))
@@ -97,7 +102,7 @@ impl Touch {
                     modifiers,
                 } => {
                     if !pressed {
-                        self.release(&stage, time, pos, modifiers.shift, commands);
+                        self.release(&stage, time, pos, !modifiers.shift, commands);
                     } else if over_stage(pos) {
                         self.press(&stage, time, pos, commands);
                     }
@@ -126,8 +131,14 @@ impl Touch {
     }
 
     fn press(&mut self, stage: &Stage<'_>, time: f64, at: Pos2, commands: &mut Vec<Command>) {
-        let Some(cell) = stage.cell(at) else { return };
         let point = stage.point(at);
+        if stage.is_on_chip(at) {
+            if !stage.studio.display().measure {
+                commands.push(Command::View(ViewCommand::ToggleMeasure));
+            }
+            return;
+        }
+        let Some(cell) = stage.cell(at) else { return };
         let grip = cell.grip_at(stage.studio, point);
         let on = match grip.and_then(|grip| Grasp::new(stage.studio, cell, &grip, point)) {
             Some(grasp) => {
@@ -169,14 +180,14 @@ impl Touch {
         }
     }
 
-    /// A body that was dragged goes on from where it is let go: at rest, or flung with the drag's velocity. A click
+    /// A body that was dragged goes on from where it is let go: thrown with the drag's velocity, or at rest. A click
     /// changes nothing of the run; in a race it selects the lane.
     fn release(
         &mut self,
         stage: &Stage<'_>,
         time: f64,
         at: Pos2,
-        flung: bool,
+        is_thrown: bool,
         commands: &mut Vec<Command>,
     ) {
         self.drag(stage, time, at, commands);
@@ -185,7 +196,7 @@ impl Touch {
             Pressed::Body { mut grasp, entry } => {
                 if is_drag {
                     let speed = f64::from(stage.studio.clock().speed_percent()) / 100.0;
-                    let velocity = if flung { self.track.velocity() } else { Vec2::ZERO };
+                    let velocity = if is_thrown { self.track.velocity() } else { Vec2::ZERO };
                     let velocity = [velocity.x, velocity.y].map(|points| f64::from(points) / speed);
                     grasp.pull(stage.studio, stage.point(at), velocity);
                     let held = grasp.held();
@@ -210,6 +221,9 @@ impl Touch {
             Some(_) => return,
             None => {
                 let Some(at) = hover else { return };
+                if stage.is_on_chip(at) && !stage.studio.display().measure {
+                    return ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
+                }
                 let Some(cell) = stage.cell(at) else { return };
                 let Some(grip) = cell.grip_at(stage.studio, stage.point(at)) else { return };
                 let origin = stage.rect.min.to_vec2();

@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::State;
 use crate::sim::bodies::Spring;
+use crate::sim::number::round;
 
 /// The amplitude that the undamped spring would swing with from its start, in metres; of one that would not
 /// swing, 1.
@@ -23,6 +24,14 @@ impl Drawn for Spring {
 
     fn framing(&self) -> Framing {
         Framing::Recorder { half_width_m: 2.0 * amplitude(self) }
+    }
+
+    fn promise(&self, state: &State<f64>) -> Option<String> {
+        if self.damping > 0.0 {
+            return Some("should come to rest".into());
+        }
+        let swing = libm::hypot(state.q, state.v / self.angular_frequency());
+        Some(format!("should keep to ±{} m", round(swing, 3)))
     }
 
     fn handles(&self, x: &f64) -> Vec<Handle> {

@@ -3,10 +3,9 @@
 use crate::sim::bodies::Coordinate;
 
 /// What of a coordinate the motion instrument shows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// The coordinate.
-    #[default]
     Position,
     /// Its rate of change.
     Velocity,

@@ -4,12 +4,11 @@ use glam::DVec2;
 
 use super::moment::DrawContext;
 use super::sketch::{Camera, SOLID, fill, line, path, ring, rounded};
-use super::{Align, Label, Picture, Rect, Rgba, breakpoints};
+use super::{Align, Label, Look, Picture, Rect, Rgba, breakpoints};
 use crate::lab::Studio;
 use crate::lab::analysis::Severity;
 use crate::lab::palette::{Palette, faded};
 use crate::lab::race::{Entrant, Halt, LaneBody};
-use crate::sim::bodies::Coordinate;
 use crate::sim::number::{round, significant};
 
 /// Room that a scale bar may take at the right of a cell, in points.
@@ -167,8 +166,7 @@ fn capitalised(name: &str) -> String {
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// Draws the state of the moment shown and, if the method fails, its verdict beside the body's name. If both do not fit,
-/// only the verdict.
+/// Says beside a body's name what it should do, and at the right what the method does instead. If both do not fit, only that.
 pub(super) fn head(
     picture: &mut Picture,
     rect: Rect,
@@ -180,68 +178,60 @@ pub(super) fn head(
     let body = &entrant.lane.bodies()[index];
     let name = moment.studio.scene().bodies[index].name.chars().count();
     let left = x + NAME_LETTER * name as f32 + 14.0;
-    let (coordinate, _) = moment.studio.past().coordinate(moment.studio.race(), index);
-    let right = left + LETTER * widest_state(&coordinate) as f32 + 14.0;
+    let (words, colour) = beside_name(moment, index, body);
+    let right = left + LETTER * words.chars().count() as f32 + 14.0;
     let chip =
         Chip::of(moment, index, entrant).filter(|_| rect.max[1] - rect.min[1] >= breakpoints::CHIP);
     let room_for = |from: f32| rect.max[0] - 10.0 - from;
     let beside_both = chip.as_ref().and_then(|chip| chip.within(room_for(right)));
     let alone = chip.as_ref().and_then(|chip| chip.within(room_for(left)));
     // The chip of a body that halted says so already.
-    if beside_both.is_some() && body.halted().is_none() || alone.is_none() {
-        state(picture, [left, y + 0.5], rect, moment, index, body);
+    if right <= rect.max[0] && (beside_both.is_some() && body.halted().is_none() || alone.is_none())
+    {
+        let at = [left, y + 0.5];
+        picture.labels.push(text(moment.palette, at, Align::Left, 12.5, colour, words));
     }
     if let Some(chip) = beside_both.or(alone) {
         chip.draw(picture, rect, moment.palette);
     }
 }
 
-/// The most letters of a number beside the name of a body.
-const NUMBER: usize = 10;
-
-/// A number in four figures, or in two where those are too many letters, as of a power of ten.
-fn brief(value: f64) -> String {
-    let words = significant(value, 4);
-    if words.chars().count() <= NUMBER { words } else { significant(value, 2) }
-}
-
-/// The most letters of what is said of where a body is.
-fn widest_state(coordinate: &Coordinate) -> usize {
-    let words = [&*coordinate.name, coordinate.unit, &*coordinate.velocity, coordinate.unit];
-    words.map(str::len).iter().sum::<usize>() + 2 * NUMBER + 9
-}
-
-/// Says where a body is at the moment drawn.
-fn state(
-    picture: &mut Picture,
-    at: [f32; 2],
-    rect: Rect,
-    moment: &DrawContext<'_>,
-    index: usize,
-    body: &LaneBody,
-) {
-    let palette = moment.palette;
+/// What became of a body, where it is while a person holds it, or else what it should do, and the colour of that.
+fn beside_name(moment: &DrawContext<'_>, index: usize, body: &LaneBody) -> (String, Rgba) {
+    let (studio, palette) = (moment.studio, moment.palette);
     if let Some(halt) = body.halted() {
-        picture.labels.push(text(palette, at, Align::Left, 12.5, palette.bad, halt.fate()));
-    } else if rect.max[0] - rect.min[0] > breakpoints::NUMBERS {
-        let held = moment.studio.viewer().held().filter(|held| held.body == index);
-        let (q, v) = match held {
-            Some(held) => (held.q.to_vec(), held.v.to_vec()),
-            None => moment.studio.shown_state(body),
-        };
-        let (coordinate, plotted) = moment.studio.past().coordinate(moment.studio.race(), index);
-        let place = format!("{} {}", brief(q[plotted]), coordinate.shown_unit());
-        let names = [&*coordinate.name, &*coordinate.velocity];
-        let of_node = names.map(|name| body.kind.node(name));
-        let whose = of_node[0].map_or(String::new(), |(_, node)| format!("node {node}: "));
-        let [name, velocity] = [0, 1].map(|it| of_node[it].map_or(names[it], |(symbol, _)| symbol));
-        let words = format!(
-            "{whose}{name} = {}   {velocity} = {} {}/s",
-            place.trim_end(),
-            brief(v[plotted]),
-            coordinate.unit,
-        );
-        picture.labels.push(text(palette, at, Align::Left, 12.5, palette.dim, words));
+        return (halt.fate(), palette.bad);
+    }
+    let held = studio.viewer().held().filter(|held| held.body == index);
+    let words = match held {
+        Some(held) => {
+            let (coordinate, plotted) = studio.past().coordinate(studio.race(), index);
+            let place = significant(held.q[plotted], 4);
+            format!("{} = {place} {}", coordinate.name, coordinate.shown_unit())
+        }
+        None => {
+            let truth = &studio.race().truth().bodies()[index];
+            let (q, v) = studio.shown_truth(index);
+            Look::of(truth).promise(&q, &v).unwrap_or_default()
+        }
+    };
+    (words, palette.dim)
+}
+
+/// The speed of a ship, ahead of its bow.
+pub(super) fn speed(
+    picture: &mut Picture,
+    camera: &Camera,
+    (at, ahead_m): (DVec2, f64),
+    speed: f64,
+    palette: &Palette,
+) {
+    let [x, y] = camera.points(at + DVec2::new(ahead_m, 0.0));
+    let words = format!("{} {}/s", significant(speed, 2), camera.unit);
+    let (left, width) = (x + 14.0, LETTER * words.chars().count() as f32);
+    if camera.rect.contains([left, y]) && left + width < camera.rect.max[0] {
+        let label = text(palette, [left, y - 12.0], Align::Left, 14.0, palette.text, words);
+        picture.labels.push(Label { is_strong: true, ..label });
     }
 }
 
@@ -258,8 +248,6 @@ struct Chip {
     verdict: String,
     /// The same in fewer words.
     brief: Option<String>,
-    /// How far the body has swung, and how far it should.
-    swing: Option<String>,
 }
 
 impl Chip {
@@ -276,18 +264,6 @@ impl Chip {
         if verdict.body != index {
             return None;
         }
-        let furthest = |samples: &mut dyn Iterator<Item = f64>| {
-            samples.map(f64::abs).filter(|x| x.is_finite()).fold(0.0, f64::max)
-        };
-        let past = moment.studio.past();
-        let since_s = past.changed_s();
-        let samples = moment.history(entrant, index).since(since_s);
-        let lane = furthest(&mut samples.map(|sample| sample.q));
-        let samples = past.truth_curves()[index].since(since_s);
-        let exact = furthest(&mut samples.map(|sample| sample.q));
-        let unit = moment.studio.race().truth().bodies()[index].coordinates().at(0).shown_unit();
-        let how_far =
-            |reach: f64| format!("{} {unit}", significant(reach, 2)).trim_end().to_owned();
         // The run on the screen is another than the judged one.
         let is_other = moment.studio.is_judged_apart();
         let halt = entrant.lane.bodies()[index].halted();
@@ -297,34 +273,20 @@ impl Chip {
             verdict: match halt {
                 Some(halt) => halt.fate(),
                 None if is_other => verdict.wordings_of_another_run(false)[0].clone(),
-                None => verdict.wordings(false)[1].clone(),
+                None => verdict.wordings(false)[0].clone(),
             },
             brief: verdict.fails_in_brief().filter(|_| is_other && halt.is_none()),
-            swing: (verdict.long_term.swings
-                && !is_other
-                && past.coordinate(moment.studio.race(), index).1 == 0)
-                .then(|| format!("{}, exact {}", how_far(lane), how_far(exact))),
         })
     }
 
     fn width(&self) -> f32 {
-        let [verdict, swing] = [Some(&self.verdict), self.swing.as_ref()]
-            .map(|words| words.map_or(0, |words| words.chars().count()) as f32);
-        34.0 + VERDICT_LETTER * verdict + if swing > 0.0 { 10.0 + LETTER * swing } else { 0.0 }
+        34.0 + VERDICT_LETTER * self.verdict.chars().count() as f32
     }
 
     /// As much of the chip as this width takes.
     fn within(&self, width: f32) -> Option<Self> {
-        let with = |verdict: &String, swing| Self {
-            sign: self.sign,
-            colours: self.colours,
-            verdict: verdict.clone(),
-            brief: None,
-            swing,
-        };
-        let whole = with(&self.verdict, self.swing.clone());
-        let shorter = [Some(&self.verdict), self.brief.as_ref()].into_iter().flatten();
-        let mut chips = std::iter::once(whole).chain(shorter.map(|verdict| with(verdict, None)));
+        let said = [Some(&self.verdict), self.brief.as_ref()].into_iter().flatten();
+        let mut chips = said.map(|verdict| Self { verdict: verdict.clone(), brief: None, ..*self });
         chips.find(|chip| chip.width() <= width)
     }
 
@@ -335,15 +297,13 @@ impl Chip {
         picture.shapes.push(fill(&shape, faded(palette.panel, 0.94), rect));
         picture.shapes.push(ring(&shape, 1.6, self.colours[1], SOLID, rect));
         let middle = top + CHIP / 2.0;
-        let mut write = |x, align, size, colour, is_strong, words: String| {
-            let label = text(palette, [x, middle], align, size, colour, words);
-            picture.labels.push(Label { is_strong, halo: [0; 4], ..label });
+        let mut write = |x, size, colour, words: String| {
+            let label = text(palette, [x, middle], Align::Left, size, colour, words);
+            picture.labels.push(Label { is_strong: true, halo: [0; 4], ..label });
         };
-        write(left + 11.0, Align::Left, 12.5, self.colours[0], true, self.sign.into());
-        write(left + 28.0, Align::Left, 13.5, palette.text, true, self.verdict);
-        if let Some(swing) = self.swing {
-            write(right - 11.0, Align::Right, 12.5, palette.dim, false, swing);
-        }
+        write(left + 11.0, 12.5, self.colours[0], self.sign.into());
+        write(left + 28.0, 13.5, palette.text, self.verdict);
+        picture.chip = Some(Rect { min: [left, top], max: [right, top + CHIP] });
     }
 }
 
@@ -387,6 +347,8 @@ pub(super) fn course(picture: &mut Picture, camera: &Camera, palette: &Palette) 
         return;
     }
     let step_m = camera.round_length_m(96.0);
+    let named_m = camera.round_length_m(0.47 * f64::from(max[0] - min[0]));
+    let is_named = |x_m: f64| libm::fmod(x_m, named_m).abs() < step_m / 2.0;
     let (left, right) = camera.span_m();
     let first = libm::ceil(left / step_m);
     for i in 0..=((right - left) / step_m) as usize {
@@ -395,7 +357,11 @@ pub(super) fn course(picture: &mut Picture, camera: &Camera, palette: &Palette) 
         if x > min[0] + 30.0 && x < max[0] - 30.0 {
             let colour = palette.dim;
             picture.shapes.push(line([x, y - 5.0], [x, y + 5.0], 1.5, colour, camera.rect));
-            let words = format!("{} m", round(x_m, 6));
+            if !is_named(x_m) {
+                continue;
+            }
+            let unit = if x_m == 0.0 { " m" } else { "" };
+            let words = round(x_m, 6) + unit;
             picture.labels.push(text(
                 palette,
                 [x, (y + 32.0).min(max[1] - 9.0)],

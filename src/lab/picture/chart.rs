@@ -12,6 +12,8 @@ use crate::sim::number::round;
 
 /// The height of the ruler along the top of the stage, in points.
 pub(super) const RULER: f32 = 24.0;
+/// How far apart the numbers of a ruler are at least, as a part of its length.
+const NAMED_APART: f64 = 0.19;
 /// The height of its striped bar.
 const STRIPES: f32 = 6.0;
 /// The waves of a stage of the usual size, and its area in square points.
@@ -135,7 +137,7 @@ pub(super) fn ruler(picture: &mut Picture, strip: Rect, camera: &Camera, palette
         mixed(palette.panel, palette.background, 0.4),
         strip,
     ));
-    let step_m = camera.round_length_m(64.0);
+    let step_m = camera.round_length_m(NAMED_APART * f64::from(max[0] - min[0]));
     let (left, right) = camera.span_m();
     let [top, bottom] = [max[1] - STRIPES, max[1]];
     let x = |i: i64| camera.points(DVec2::new(i as f64 * step_m / 2.0, 0.0))[0];

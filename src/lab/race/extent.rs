@@ -11,6 +11,8 @@ const AT_REST: f64 = 0.01;
 #[derive(Clone, Debug, Default)]
 pub(in crate::lab) struct Extent {
     largest_speed: f64,
+    /// The largest sum of kinetic and potential energy, in joules.
+    most_j: f64,
     kinetic: Option<Kinetic>,
 }
 
@@ -34,6 +36,17 @@ impl Extent {
         if let Some(now) = kinetic_j {
             self.kinetic.get_or_insert_with(|| Kinetic::from(now)).cover(now);
         }
+    }
+
+    /// Adds a moment's kinetic and potential energy (J), conserved or not, if they are known.
+    pub(in crate::lab) fn cover_energy(&mut self, energies: Option<[f64; 2]>) {
+        let sum = energies.map_or(0.0, |[kinetic, potential]| kinetic + potential);
+        self.most_j = self.most_j.max(sum);
+    }
+
+    /// The largest sum of kinetic and potential energy so far, in joules; 0 where they are not known.
+    pub(in crate::lab) fn most_j(&self) -> f64 {
+        self.most_j
     }
 
     /// The largest speed so far; 0 if the body has not moved.

@@ -9,8 +9,11 @@ use super::chase::Chase;
 use super::extent::Extent;
 use super::follow::Ticked;
 use crate::lab::action::Action;
+use crate::lab::past::Quantity;
 use crate::lab::scene::{Appearance, Drawing, Preview, Scene, SceneBody};
-use crate::sim::bodies::{Coordinate, Coordinates, Custom, FalseClaims, Input, Kind, Law, Truth};
+use crate::sim::bodies::{
+    Coordinate, Coordinates, Custom, FalseClaims, Input, Kind, Law, Ship, Truth,
+};
 use crate::sim::integrators::StepFailure;
 use crate::sim::number::superscript;
 use crate::sim::{Solver, Stepper};
@@ -157,6 +160,15 @@ impl LaneBody {
         self.kind.net().map_or(0, |_| self.preview().farthest)
     }
 
+    /// What of its coordinate a plot shows unless a person chooses otherwise: of a ship on a straight course its speed, for it
+    /// runs on for ever.
+    pub fn plotted_quantity(&self) -> Quantity {
+        match self.stepper.body().is::<Ship>() {
+            true => Quantity::Velocity,
+            false => Quantity::Position,
+        }
+    }
+
     /// The values whose coordinate has the same unit as the first; `values` has one per coordinate.
     pub(in crate::lab) fn like_first(&self, values: &[f64]) -> impl Iterator<Item = f64> {
         let units = self.kind.all_coordinates.units();
@@ -293,6 +305,7 @@ impl LaneBody {
     fn cover(&mut self) {
         if let Some(mut extent) = self.extent.take() {
             extent.cover(self.speed(), self.stepper.kinetic_energy());
+            extent.cover_energy(self.stepper.mechanical_energy());
             self.extent = Some(extent);
         }
     }

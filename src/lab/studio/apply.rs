@@ -34,12 +34,33 @@ impl Studio {
             self.timeline.close_change();
         }
         let ran = self.time_runs();
+        self.measure_for(&command);
         let request = self.carry_out(command);
         if !ran && self.time_runs() {
             self.run_on();
         }
         self.look_at_goal();
         request
+    }
+
+    /// Shows the instruments if this command is about what they show.
+    fn measure_for(&mut self, command: &Command) {
+        let is_about = match command {
+            Command::Stage(command) => matches!(
+                command,
+                StageCommand::ToggleRace
+                    | StageCommand::Instrument(_)
+                    | StageCommand::InstrumentBeside(_)
+                    | StageCommand::OpenSpring
+            ),
+            Command::Loop(command) => *command == LoopCommand::ToggleLab,
+            Command::Run(command) => *command == RunCommand::ToggleInspector,
+            Command::View(command) => {
+                matches!(command, ViewCommand::ToggleEnlarged | ViewCommand::ToggleGuide)
+            }
+            Command::Ask(_) => false,
+        };
+        self.viewer.preferences.display.measure |= is_about;
     }
 
     pub(super) fn carry_out(&mut self, command: Command) -> Option<DriverRequest> {
@@ -158,10 +179,13 @@ impl Studio {
     }
 
     fn carry_out_on_view(&mut self, command: ViewCommand) -> Option<DriverRequest> {
+        let is_in_loop_lab = self.loop_lab().is_some();
         let display = &mut self.viewer.preferences.display;
         match command {
             ViewCommand::TogglePause => self.running = !self.running,
             ViewCommand::PointerDown(is_down) => self.viewer.pointer_is_down = is_down,
+            // The loop lab is its instruments.
+            ViewCommand::ToggleMeasure => display.measure = !display.measure || is_in_loop_lab,
             ViewCommand::ToggleGhost => display.ghost = !display.ghost,
             ViewCommand::ToggleTheme => {
                 display.theme = display.theme.other();

@@ -146,6 +146,8 @@ pub enum ViewCommand {
     DescribeSpring(MySpring),
     /// Closes the open dialog.
     CloseDialog,
+    /// Puts instruments, table and timeline round the stage, or lets the stage fill the window.
+    ToggleMeasure,
     /// Shows or hides the exact ghost.
     ToggleGhost,
     /// The dark theme or the light one.
@@ -154,8 +156,8 @@ pub enum ViewCommand {
     Scale(Step),
     /// The usual size of type and panels.
     UsualScale,
-    /// Shows this quantity in the motion instrument.
-    Quantity(Quantity),
+    /// Shows this quantity in the motion instrument; `None` for that which is usual for each body.
+    Quantity(Option<Quantity>),
     /// Shows this coordinate of a body in the plots.
     Coordinate {
         /// The body's index in the scene.

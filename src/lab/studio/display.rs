@@ -35,6 +35,8 @@ pub enum Motion {
 /// How the studio is displayed, whatever the scene is. It does not affect the physics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Display {
+    /// Whether instruments, table and timeline stand round the stage; otherwise it fills the window, over the methods.
+    pub measure: bool,
     /// Whether the exact ghost is drawn.
     pub ghost: bool,
     /// How bodies are drawn between ticks.
@@ -43,8 +45,8 @@ pub struct Display {
     pub instrument: Instrument,
     /// Whether the instrument covers the stage too.
     pub enlarged: bool,
-    /// What the motion instrument shows of every body.
-    pub quantity: Quantity,
+    /// What the motion instrument shows of every body; `None` for what is [usual](crate::lab::race::LaneBody::plotted_quantity).
+    pub quantity: Option<Quantity>,
     /// The metric of the error instrument, by its index in [`METRICS`](crate::lab::METRICS).
     pub metric: usize,
     /// Whether the advice is about the [displayed body](View::body) alone, and not about all.

@@ -13,7 +13,7 @@ pub struct Gesture {
 pub static GESTURES: &[Gesture] = &[
     Gesture {
         shown: "Drag a body",
-        about: "move it and let it go at rest; with Shift, at the speed of the drag",
+        about: "move it and throw it at the speed of the drag; with Shift, put it down at rest",
     },
     Gesture { shown: "Wheel, pinch", about: "zoom the stage, a plot, the timeline" },
     Gesture { shown: "Drag the water", about: "pan; in a plot too" },

@@ -128,7 +128,7 @@ pub struct Tour {
 /// What a person chose to see before the guide, of what its stops set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Chosen {
-    quantity: Quantity,
+    quantity: Option<Quantity>,
     metric: usize,
     interpolation: Interpolation,
 }

@@ -113,7 +113,7 @@ impl Studio {
         self.clock.set_speed_percent(100);
         self.running = !matches!(goal, Goal::SteppedTo(_));
         self.viewer.preferences.display.instrument = instrument;
-        self.viewer.preferences.display.quantity = quantity;
+        self.viewer.preferences.display.quantity = Some(quantity);
         self.viewer.preferences.display.metric = error_of(quantity);
         self.viewer.preferences.display.interpolation = Interpolation::default();
         self.viewer.tour = Some(tour);

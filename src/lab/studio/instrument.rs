@@ -11,27 +11,29 @@ pub enum Instrument {
     Energy,
     /// Velocity over coordinate.
     Phase,
-    /// What a tick of each lane costs.
-    Cost,
     /// The tick rates and the values of a parameter at which each method is stable.
     StabilityMap,
     /// What the selected method does in the next tick.
     OneStep,
     /// What each method does to the area of many starts.
     Cloud,
-    /// What game loops show, and what this program's own loop does.
-    Loop,
     /// Advice on methods and rates.
     Advice,
+    /// What game loops show, and what this program's own loop does.
+    Loop,
+    /// What a tick of each lane costs.
+    Cost,
 }
 
-/// The two rows of tabs.
+/// The groups of tabs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InstrumentRow {
+pub enum InstrumentGroup {
     /// What the run does.
-    Watch,
+    See,
     /// Why it does it.
-    Explain,
+    Why,
+    /// What to do about it.
+    Do,
 }
 
 /// One line of the table of instruments.
@@ -39,8 +41,8 @@ pub enum InstrumentRow {
 pub struct InstrumentCard {
     /// The instrument.
     pub instrument: Instrument,
-    /// The row of its tab.
-    pub row: InstrumentRow,
+    /// The group of its tab.
+    pub group: InstrumentGroup,
     /// The text of its tab.
     pub name: &'static str,
     /// What it measures, and how to read it.
@@ -48,91 +50,92 @@ pub struct InstrumentCard {
 }
 
 use super::step::Step;
-use InstrumentRow::{Explain, Watch};
+use InstrumentGroup::{Do, See, Why};
 
 /// Every instrument, in the order of the tabs.
 pub static INSTRUMENTS: &[InstrumentCard] = &[
     InstrumentCard {
         instrument: Instrument::Motion,
-        row: Watch,
+        group: See,
         name: "Motion",
         about: "Where every body is over time. A method that follows the exact curve is right; one that swings wider \
                 gains energy, one that slides sideways is out of phase.",
     },
     InstrumentCard {
         instrument: Instrument::Error,
-        row: Watch,
+        group: See,
         name: "Error",
         about: "How far each method is from the exact solution, on a logarithmic scale: one mark up is a larger error by \
                 a power of ten. A straight climb is exponential growth.",
     },
     InstrumentCard {
         instrument: Instrument::Energy,
-        row: Watch,
+        group: See,
         name: "Energy",
         about: "Kinetic, potential and total energy, and the energy each method has gained or lost. The exact total is \
                 a level line.",
     },
     InstrumentCard {
         instrument: Instrument::Phase,
-        row: Watch,
-        name: "Phase portrait",
+        group: See,
+        name: "Phase",
         about: "Velocity against position. A motion that repeats is a closed loop; a spiral outwards gains energy, a \
                 spiral inwards loses it.",
     },
     InstrumentCard {
-        instrument: Instrument::Cost,
-        row: Watch,
-        name: "Cost",
-        about: "What a tick of each lane costs: evaluations of the force, and in the window the time they take, also as \
-                a share of a frame at 60 Hz.",
-    },
-    InstrumentCard {
         instrument: Instrument::StabilityMap,
-        row: Explain,
+        group: Why,
         name: "Stability map",
         about: "Where each method is stable: tick rates across, a parameter of the body up. Drag the cross to change \
                 both values.",
     },
     InstrumentCard {
         instrument: Instrument::OneStep,
-        row: Explain,
+        group: Why,
         name: "One step",
         about: "What the selected method does in its next tick: where it evaluates the force, what slope it finds there, \
                 where it lands, and where the exact solution lands.",
     },
     InstrumentCard {
         instrument: Instrument::Cloud,
-        row: Explain,
+        group: Why,
         name: "Cloud",
         about: "A shape of very many starts about that of the body, stepped by each method: brighter where more points are, \
                 the exact cloud outlined. A method keeps their area, grows it or shrinks it. They start again whenever you or \
                 the script act on a body; all their ticks use the present method, substeps and tick rate.",
     },
     InstrumentCard {
+        instrument: Instrument::Advice,
+        group: Do,
+        name: "Advice",
+        about: "Which method meets which demand at this tick rate, and how many evaluations per second it takes.",
+    },
+    InstrumentCard {
         instrument: Instrument::Loop,
-        row: Explain,
+        group: Do,
         name: "Loop",
         about: "In the loop lab, the moments that each game loop shows against the moments of display: a level step is a \
                 repeated frame. Elsewhere, the frame times and ticks of this window's own loop.",
     },
     InstrumentCard {
-        instrument: Instrument::Advice,
-        row: Explain,
-        name: "Advice",
-        about: "Which method meets which demand at this tick rate, and how many evaluations per second it takes.",
+        instrument: Instrument::Cost,
+        group: Do,
+        name: "Cost",
+        about: "What a tick of each lane costs: evaluations of the force, and in the window the time they take, also as \
+                a share of a frame at 60 Hz.",
     },
 ];
 
-impl InstrumentRow {
-    /// Both rows, from the top.
-    pub const ALL: [InstrumentRow; 2] = [Watch, Explain];
+impl InstrumentGroup {
+    /// Every group, from the left.
+    pub const ALL: [InstrumentGroup; 3] = [See, Why, Do];
 
     /// The word before its tabs.
     pub fn name(self) -> &'static str {
         match self {
-            Watch => "Watch",
-            Explain => "Explain",
+            See => "See",
+            Why => "Why",
+            Do => "Do",
         }
     }
 }
@@ -159,8 +162,9 @@ impl Instrument {
         self.name().to_lowercase().replace(' ', "-")
     }
 
-    /// The instrument of this [id](Self::id).
+    /// The instrument of this [id](Self::id), or of the one that it had before.
     pub fn of_id(id: &str) -> Option<Self> {
+        let id = if id == "phase-portrait" { "phase" } else { id };
         Self::all().find(|instrument| instrument.id() == id)
     }
 
@@ -184,10 +188,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_row_has_instruments_together_and_each_says_what_it_is() {
-        for pair in INSTRUMENTS.windows(2) {
-            assert!(pair[0].row == pair[1].row || pair[0].row == Watch);
-        }
+    fn every_group_has_its_instruments_together_and_each_says_what_it_is() {
+        let mut groups: Vec<InstrumentGroup> = INSTRUMENTS.iter().map(|card| card.group).collect();
+        groups.dedup();
+        assert_eq!(groups, InstrumentGroup::ALL);
         for card in INSTRUMENTS {
             assert!(card.about.len() > 40 && card.about.ends_with('.'), "{}", card.name);
             assert_eq!(card.instrument.name(), card.name);
@@ -202,6 +206,6 @@ mod tests {
             instrument = instrument.beside(Step::Next);
         }
         assert_eq!(instrument, Instrument::Motion);
-        assert_eq!(Instrument::Motion.beside(Step::Previous), Instrument::Advice);
+        assert_eq!(Instrument::Motion.beside(Step::Previous), Instrument::Cost);
     }
 }

@@ -220,11 +220,16 @@ pub static KEYS: &[Binding] = &[
         ],
     ),
     once(
-        "T, Shift T",
+        "T",
+        "measure: instruments, table and timeline round the stage; or the stage alone",
+        &[(Key::Sign('t'), View(ViewCommand::ToggleMeasure))],
+    ),
+    once(
+        "D, Shift D",
         "next, previous instrument; loop lab: display",
         &[
-            (Key::Sign('t'), Stage(StageCommand::InstrumentBeside(Step::Next))),
-            (Key::ShiftSign('t'), Stage(StageCommand::InstrumentBeside(Step::Previous))),
+            (Key::Sign('d'), Stage(StageCommand::InstrumentBeside(Step::Next))),
+            (Key::ShiftSign('d'), Stage(StageCommand::InstrumentBeside(Step::Previous))),
         ],
     ),
     once(

@@ -13,7 +13,6 @@ use crate::lab::cloud::{CloudChoice, FoundCloud};
 use crate::lab::lane_id::LaneId;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::palette::Theme;
-use crate::lab::past::Quantity;
 use crate::lab::race::Interpolation;
 use crate::lab::scene::Mistake;
 use crate::lab::source_code::Language;
@@ -84,10 +83,11 @@ impl Default for Preferences {
     fn default() -> Self {
         Self {
             display: Display {
+                measure: true,
                 ghost: true,
                 interpolation: Interpolation::default(),
                 instrument: Instrument::Motion,
-                quantity: Quantity::default(),
+                quantity: None,
                 enlarged: false,
                 metric: 0,
                 advises_on_one_body: true,

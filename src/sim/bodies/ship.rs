@@ -123,6 +123,10 @@ impl Body for Ship {
         (self.drag == 0.0).then(|| self.mass * state.v * state.v / 2.0 - thrust * state.q)
     }
 
+    fn mechanical_energy(&self, state: &State<f64>) -> Option<[f64; 2]> {
+        Some([self.mass * state.v * state.v / 2.0, 0.0])
+    }
+
     fn input(&mut self, input: Input, state: &mut State<f64>) -> bool {
         match input {
             Input::Throttle(part) => self.throttle = part,

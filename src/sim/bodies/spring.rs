@@ -111,6 +111,11 @@ impl Body for Spring {
         (self.damping == 0.0).then(|| (self.mass * v * v + self.stiffness * x * x) / 2.0)
     }
 
+    fn mechanical_energy(&self, state: &State<f64>) -> Option<[f64; 2]> {
+        let State { q: x, v } = *state;
+        Some([self.mass * v * v / 2.0, self.stiffness * x * x / 2.0])
+    }
+
     fn input(&mut self, input: Input, state: &mut State<f64>) -> bool {
         let Input::Kick(times) = input else { return false };
         state.v += times * self.kick / self.mass;

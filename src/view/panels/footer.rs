@@ -1,19 +1,17 @@
 //! The line under everything: what happened last, or what to try next, and a few keys.
 
-use egui::{Align, Layout, RichText, Sense, Ui, vec2};
+use egui::{Align, Layout, Sense, Ui, vec2};
 
 use super::parts::short;
 use super::{breakpoints, keycap, loops};
 use crate::lab::loop_lab::LoopCommand;
 use crate::lab::number::round;
 use crate::lab::race::Mode;
-use crate::lab::studio::{Command, RunCommand, StageCommand, Step, Studio, ViewCommand};
+use crate::lab::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand};
 use crate::view::theme::{TYPE, palette};
 
 pub(super) const HEIGHT: f32 = 32.0;
 
-/// The size of the count of dropped ticks, in points.
-const DROPPED: f32 = 11.0;
 /// The room between two hints, in points.
 const GAP: f32 = 16.0;
 
@@ -27,14 +25,6 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let room_for_hint = keycap::line_width(ui, &sentence) + GAP;
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
-        if studio.dropped() > 0 && studio.loop_lab().is_none() {
-            let count = studio.dropped();
-            let ticks = if count == 1 { "tick" } else { "ticks" };
-            let text = RichText::new(format!("−{count} {ticks}")).size(DROPPED);
-            let about = format!("{count} {ticks} dropped: the simulation fell behind real time");
-            let response = ui.label(text.color(palette(ui).bad)).on_hover_text(&about);
-            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &about));
-        }
         if width >= breakpoints::KEYS_BESIDE_HINT {
             // From the right: the first are the last to go.
             for hint in key_hints(studio) {
@@ -75,55 +65,37 @@ fn fitting(ui: &Ui, parts: &[String], width: f32) -> String {
     sentences.find(fits).unwrap_or_else(|| parts[0].clone())
 }
 
-/// The hints from right to left.
-fn key_hints(studio: &Studio) -> Vec<KeyHint> {
+/// Two hints, from right to left: the help, and before it what goes on from here.
+fn key_hints(studio: &Studio) -> [KeyHint; 2] {
     let hint = |key, what: &str, command| (key, what.to_owned(), Some(command));
-    let mut hints = vec![hint("H", "all keys", Command::View(ViewCommand::ToggleHelp))];
-    let pause = if studio.running() { "pause" } else { "run" };
-    let pause = hint("Space", pause, Command::View(ViewCommand::TogglePause));
-    let toggle_loops = Command::Loop(LoopCommand::ToggleLab);
-    if let Some(loops) = studio.loop_lab() {
-        hints.push(hint("L", "leave the lab", toggle_loops));
-        hints.push(pause);
-        hints.push(hint(
-            "T",
-            "next display",
-            Command::Stage(StageCommand::InstrumentBeside(Step::Next)),
-        ));
-        let arrangement = if loops.is_overlaid() { "side by side" } else { "overlay" };
-        hints.push(hint("V", arrangement, Command::Stage(StageCommand::ToggleArrangement)));
-        hints.push(hint(".", "next frame", Command::Stage(StageCommand::Tick(Step::Next))));
-        return hints;
-    }
+    let next = if let Some(input) = input_in_use(studio) {
+        input
+    } else if studio.loop_lab().is_some() {
+        hint("L", "leave the lab", Command::Loop(LoopCommand::ToggleLab))
+    } else if studio.lost_at().is_some() {
+        hint("W", "watch again", Command::Run(RunCommand::WatchAgain))
+    } else if !studio.display().measure {
+        hint("T", "measure", Command::View(ViewCommand::ToggleMeasure))
+    } else {
+        let what = if studio.mode() == Mode::Solo { "race" } else { "solo" };
+        hint("C", what, Command::Stage(StageCommand::ToggleRace))
+    };
+    [hint("H", "all keys", Command::View(ViewCommand::ToggleHelp)), next]
+}
+
+/// The input of the body that is looked at, or one that is in use.
+fn input_in_use(studio: &Studio) -> Option<KeyHint> {
     let inputs = [
         ("throttle", "↑ ↓", studio.race().throttle(), 1.0),
         ("rudder", "← →", studio.race().rudder(), 0.0),
     ];
-    // Of a body that nobody looks at, an input is told only where it is in use.
     let shown = &studio.scene().bodies[studio.view().body].kind;
-    for (input, key, part, at_start) in inputs {
-        let is_in_use = shown.inputs.contains(&input) || part != at_start;
-        if studio.race().takes(input) && is_in_use {
-            hints.push((key, format!("{input} {} %", round(part * 100.0, 3)), None));
-        }
-    }
-    if studio.lost_at().is_some() {
-        hints.push(hint("W", "watch again", Command::Run(RunCommand::WatchAgain)));
-    }
-    match studio.mode() {
-        Mode::Race => {
-            hints.push(hint("E", "inspector", Command::Run(RunCommand::ToggleInspector)));
-            hints.push(hint("V", "side by side", Command::Stage(StageCommand::ToggleArrangement)));
-        }
-        Mode::Solo => {
-            hints.push(hint(",", "back", Command::Stage(StageCommand::Tick(Step::Previous))));
-            hints.push(hint("C", "race", Command::Stage(StageCommand::ToggleRace)));
-        }
-    }
-    hints.push(pause);
-    hints.push(hint("L", "loop lab", toggle_loops));
-    hints.push(hint("F2", "guide", Command::View(ViewCommand::ToggleGuide)));
-    hints
+    let mut told = inputs.into_iter().filter(|(input, _, part, at_start)| {
+        let is_in_use = shown.inputs.contains(input) || part != at_start;
+        studio.loop_lab().is_none() && studio.race().takes(input) && is_in_use
+    });
+    told.next()
+        .map(|(input, key, part, _)| (key, format!("{input} {} %", round(part * 100.0, 3)), None))
 }
 
 fn width_of(ui: &Ui, (key, what, _): &KeyHint) -> f32 {

@@ -1,9 +1,9 @@
-//! The instrument beside the stage: tabs in two rows, and the chosen instrument in all the room below.
+//! The instrument beside the stage: tabs in one row, and the chosen instrument in all the room below.
 //!
 //! Axes follow the truth and the lanes near it. A lane beyond them is cut off at the edge, where an
 //! arrow in its colour says so.
 
-use egui::{Button, Color32, ComboBox, Label, Rect, Response, RichText, Sense, Stroke, Ui, vec2};
+use egui::{Button, Color32, ComboBox, Rect, Response, RichText, Sense, Stroke, Ui, vec2};
 
 use super::parts::{is_picture, numbered};
 use super::series_styles::{SeriesStyle, SeriesStyles};
@@ -13,7 +13,7 @@ use crate::lab::METRICS;
 use crate::lab::loop_lab::FRAME_METRICS;
 use crate::lab::past::Quantity;
 use crate::lab::studio::{
-    Command, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow, StageCommand, Studio,
+    Command, INSTRUMENTS, Instrument, InstrumentCard, InstrumentGroup, StageCommand, Studio,
     ViewCommand,
 };
 use crate::view::chart::legend::{self, Entry};
@@ -35,11 +35,11 @@ mod plot_set;
 #[cfg(test)]
 mod tests;
 
-/// The width of the words before the tabs, in points.
-const ROW_NAME: f32 = 52.0;
 /// The room between two tabs, and beside the words of a tab where the panel is narrow, in points.
 const BETWEEN_TABS: f32 = 2.0;
 const TIGHT: f32 = 2.5;
+/// The room between two groups of tabs, in points.
+const BETWEEN_GROUPS: f32 = 10.0;
 /// With more lines than this there is no legend either: the table below has the names, and the plots need the room.
 const MAX_IN_LEGEND: usize = 12;
 /// The most lines of a legend beside the title.
@@ -111,55 +111,70 @@ fn plot_set_of(studio: &Studio, detail: Detail) -> Option<PlotSet> {
     }
 }
 
-/// Two rows of tabs: without their names in a narrow panel, and in one that is narrower still a menu.
+/// One row of tabs, the groups apart: where not all fit, of each other group its name, and where those do not fit, a menu.
 fn tabs(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Command>) {
     let room = ui.available_width() - indent;
     let usual = ui.spacing().button_padding.x;
-    let fits = |padding: f32, name: f32| {
-        InstrumentRow::ALL.iter().all(|row| name + row_width(ui, *row, padding) <= room)
+    let chosen = studio.display().instrument.card().group;
+    let fits = |padding: f32, is_whole: bool| {
+        let groups = InstrumentGroup::ALL.iter();
+        let width = |group: &InstrumentGroup| match is_whole || *group == chosen {
+            true => tabs_width(ui, cards(studio, *group).map(|card| card.name), padding),
+            false => tabs_width(ui, std::iter::once(group.name()), padding),
+        };
+        groups.map(width).sum::<f32>() + 2.0 * BETWEEN_GROUPS <= room
     };
-    let (has_names, padding) = match () {
-        () if fits(usual, ROW_NAME) => (true, usual),
-        () if fits(TIGHT, 0.0) => (false, TIGHT),
+    let (padding, is_whole) = match () {
+        () if fits(usual, true) => (usual, true),
+        () if fits(TIGHT, true) => (TIGHT, true),
+        () if fits(usual, false) => (usual, false),
+        () if fits(TIGHT, false) => (TIGHT, false),
         () => return tabs_menu(ui, studio, indent, commands),
     };
-    for row in InstrumentRow::ALL {
-        ui.horizontal(|ui| {
-            ui.add_space(indent);
-            ui.spacing_mut().item_spacing.x = BETWEEN_TABS;
-            ui.spacing_mut().button_padding.x = padding;
-            if has_names {
-                let height = ui.spacing().interact_size.y;
-                let (place, _) = ui.allocate_exact_size(vec2(ROW_NAME, height), Sense::hover());
-                let name = RichText::new(row.name()).color(palette(ui).dim);
-                ui.put(place, Label::new(name).selectable(false));
+    ui.horizontal(|ui| {
+        ui.add_space(indent);
+        ui.spacing_mut().item_spacing.x = BETWEEN_TABS;
+        ui.spacing_mut().button_padding.x = padding;
+        for (place, group) in InstrumentGroup::ALL.into_iter().enumerate() {
+            if place > 0 {
+                let size = vec2(BETWEEN_GROUPS - BETWEEN_TABS, ui.spacing().interact_size.y);
+                let (gap, _) = ui.allocate_exact_size(size, Sense::hover());
+                let stroke = Stroke::new(1.0, palette(ui).line);
+                ui.painter().vline(gap.center().x, gap.shrink2(vec2(0.0, 4.0)).y_range(), stroke);
             }
-            for card in cards(row).filter(|card| is_open(studio, card)) {
-                let is_chosen = studio.display().instrument == card.instrument;
-                if tab(ui, card, is_chosen) {
+            let mut open = cards(studio, group).peekable();
+            if !is_whole && group != chosen {
+                let names: Vec<&str> = cards(studio, group).map(|card| card.name).collect();
+                if let Some(first) = open.peek()
+                    && tab(ui, group.name(), &names.join(", "), false)
+                {
+                    commands.push(Command::Stage(StageCommand::Instrument(first.instrument)));
+                }
+                continue;
+            }
+            for card in open {
+                if tab(ui, card.name, card.about, studio.display().instrument == card.instrument) {
                     commands.push(Command::Stage(StageCommand::Instrument(card.instrument)));
                 }
             }
-        });
-    }
+        }
+    });
 }
 
-fn cards(row: InstrumentRow) -> impl Iterator<Item = &'static InstrumentCard> {
-    INSTRUMENTS.iter().filter(move |card| card.row == row)
+/// The instruments of a group that are there.
+fn cards(studio: &Studio, group: InstrumentGroup) -> impl Iterator<Item = &'static InstrumentCard> {
+    let is_in_loop_lab = studio.loop_lab().is_some();
+    let of_group = INSTRUMENTS.iter().filter(move |card| card.group == group);
+    of_group.filter(move |card| !is_in_loop_lab || card.instrument.is_in_loop_lab())
 }
 
-fn is_open(studio: &Studio, card: &InstrumentCard) -> bool {
-    studio.loop_lab().is_none() || card.instrument.is_in_loop_lab()
-}
-
-/// The width of the tabs of a row, of which any may be the chosen one, with this much beside the words of each, in points.
-fn row_width(ui: &Ui, row: InstrumentRow, padding: f32) -> f32 {
-    let tab = |card: &InstrumentCard| {
-        let words =
-            ui.painter().layout_no_wrap(card.name.into(), strong_font(TYPE), palette(ui).text);
+/// The width of tabs, of which any may be the chosen one, with this much beside the words of each, in points.
+fn tabs_width<'a>(ui: &Ui, names: impl Iterator<Item = &'a str>, padding: f32) -> f32 {
+    let tab = |name: &str| {
+        let words = ui.painter().layout_no_wrap(name.into(), strong_font(TYPE), palette(ui).text);
         words.size().x + 2.0 * padding + BETWEEN_TABS
     };
-    cards(row).map(tab).sum()
+    names.map(tab).sum()
 }
 
 /// A menu of the instruments.
@@ -167,7 +182,7 @@ fn tabs_menu(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Comma
     ui.horizontal(|ui| {
         ui.add_space(indent);
         let instrument = studio.display().instrument;
-        let open = INSTRUMENTS.iter().filter(|card| is_open(studio, card));
+        let open = InstrumentGroup::ALL.into_iter().flat_map(|group| cards(studio, group));
         let offered =
             open.map(|card| (Command::Stage(StageCommand::Instrument(card.instrument)), card.name));
         let chosen = (Command::Stage(StageCommand::Instrument(instrument)), instrument.name());
@@ -176,32 +191,34 @@ fn tabs_menu(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Vec<Comma
 }
 
 /// Shows a tab. Returns whether it was clicked.
-fn tab(ui: &mut Ui, card: &InstrumentCard, is_chosen: bool) -> bool {
+fn tab(ui: &mut Ui, name: &str, about: &str, is_chosen: bool) -> bool {
     let palette = palette(ui);
     let text = match is_chosen {
-        true => RichText::new(card.name).color(palette.on_accent).font(strong_font(TYPE)),
-        false => RichText::new(card.name).color(palette.text),
+        true => RichText::new(name).color(palette.on_accent).font(strong_font(TYPE)),
+        false => RichText::new(name).color(palette.text),
     };
     let fill = if is_chosen { palette.accent } else { Color32::TRANSPARENT };
     let response = ui.add(Button::new(text).fill(fill).stroke(Stroke::NONE));
-    let info = || egui::WidgetInfo::selected(egui::Role::Tab, true, is_chosen, card.name);
-    response.widget_info(info);
-    response.on_hover_text(card.about).clicked()
+    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Tab, true, is_chosen, name));
+    response.on_hover_text(about).clicked()
 }
 
 /// An instrument of plots, below its title, its choices and its legend.
 fn plots(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut Vec<Command>) {
     let entries = legend_entries(set);
-    let has_legend = ui.available_height() >= breakpoints::LEGEND && entries.len() <= MAX_IN_LEGEND;
+    // One method and the exact solution are told apart by the table and the stage.
+    let is_needed = set.styles.is_race || entries.len() > BESIDE_TITLE || is_picture(ui);
+    let has_legend =
+        is_needed && ui.available_height() >= breakpoints::LEGEND && entries.len() <= MAX_IN_LEGEND;
     let may_be_beside = has_legend
         && entries.len() <= BESIDE_TITLE
         && studio.display().instrument == Instrument::Motion;
     let for_plots = ui.available_height() - HEAD * (1.0 + f32::from(u8::from(has_legend)));
     let is_beside = ui.horizontal_wrapped(|ui| {
-        let is_error = studio.display().instrument == Instrument::Error;
-        // The metric is said by its menu.
-        let title = if is_error { Instrument::Error.name() } else { &set.title };
-        ui.label(RichText::new(title).font(strong_font(15.0)).color(palette(ui).text));
+        // Else its tab says so.
+        if is_picture(ui) {
+            ui.label(RichText::new(&set.title).font(strong_font(15.0)).color(palette(ui).text));
+        }
         choices(ui, studio, commands);
         if !layout::all_fit(set.plots.len(), for_plots) {
             // Else the menu is there already.
@@ -251,10 +268,12 @@ fn choices(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     }
     let has_all = instrument == Instrument::Motion && studio.loop_lab().is_none();
     if has_all {
-        let named =
-            |quantity: Quantity| (Command::View(ViewCommand::Quantity(quantity)), quantity.name());
-        let chosen = named(studio.display().quantity);
-        choice(ui, "quantity", Quantity::ALL.into_iter().map(named), chosen, commands);
+        let named = |quantity: Option<Quantity>| {
+            let name = quantity.map_or("usual", Quantity::name);
+            (Command::View(ViewCommand::Quantity(quantity)), name)
+        };
+        let offered = [None].into_iter().chain(Quantity::ALL.map(Some)).map(named);
+        choice(ui, "quantity", offered, named(studio.display().quantity), commands);
     }
     if has_all || instrument == Instrument::Phase && studio.loop_lab().is_none() {
         coordinate_choice(ui, studio, commands);

@@ -32,7 +32,7 @@ pub(super) fn plain(sentence: &str) -> String {
 }
 
 /// The width of a key's box.
-fn width(painter: &Painter, key: &str) -> f32 {
+pub(super) fn width(painter: &Painter, key: &str) -> f32 {
     let text = painter.layout_no_wrap(key.to_owned(), strong_font(TYPE), Color32::WHITE);
     (text.size().x + 2.0 * PADDING).max(HEIGHT)
 }

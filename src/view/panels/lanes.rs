@@ -1,10 +1,11 @@
-//! The table of lanes: key, colour, method and verdict, then numbers. Solo, the flown lane has a row for each body.
+//! The table of lanes: key, colour, method and verdict, then numbers. Solo, it is the flown lane's alone, a row for each body.
 
 use egui::{Color32, RichText, Ui};
 
 use super::formula;
 use super::table::{Table, TableRow};
-use crate::lab::race::LaneBody;
+use super::verdict::VerdictText;
+use crate::lab::race::{LaneBody, Mode};
 use crate::lab::source_code::Language;
 use crate::lab::studio::{Command, DriverRequest, StageCommand, Studio, ViewCommand};
 use crate::view::theme::{PanelPalette, TYPE, palette, strong_font};
@@ -18,16 +19,19 @@ mod verdict;
 /// The height of a row, in points.
 pub(super) const ROW: f32 = 26.0;
 
-/// Rows in sight, where the window is high enough: the lanes of a usual race. The rest is scrolled to.
-const ROWS: std::ops::RangeInclusive<usize> = 5..=8;
+/// The most rows in sight. The rest is scrolled to.
+const ROWS: usize = 8;
 
 pub(super) fn height(studio: &Studio) -> f32 {
-    height_of(studio.scene().lanes.len())
+    height_of(match studio.mode() {
+        Mode::Solo => studio.scene().bodies.len(),
+        Mode::Race => studio.race().entrants().len(),
+    })
 }
 
 /// The height of a table of `rows` rows, as far as they are in sight.
 pub(super) fn height_of(rows: usize) -> f32 {
-    ROW * (rows.clamp(*ROWS.start(), *ROWS.end()) + 1) as f32
+    ROW * (rows.clamp(1, ROWS) + 1) as f32
 }
 
 /// Shows the table. Returns the index of the lane whose row the pointer or the keyboard's focus is on.
@@ -40,6 +44,11 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) ->
         }
     });
     pointed
+}
+
+/// What is said of the method on this index of the list.
+pub(super) fn verdict_on(studio: &Studio, entry: usize) -> VerdictText {
+    verdict::text_of(studio, entry, studio.flown(entry), (None, None))
 }
 
 fn table(studio: &Studio) -> Table<Row<'_>> {
@@ -56,10 +65,12 @@ fn groups(studio: &Studio) -> Vec<Vec<Row<'_>>> {
     };
     let exact: Vec<Option<f64>> = truth.map(exact).collect();
     let judged = row::judged_body(studio);
+    let is_shown = |entry: usize| studio.mode() == Mode::Race || entry == studio.active();
     studio
         .entries()
         .iter()
         .enumerate()
+        .filter(|(entry, _)| is_shown(*entry))
         .map(|method| Row::of_method(studio, method, &exact, judged))
         .collect()
 }
@@ -120,6 +131,9 @@ impl TableRow for Row<'_> {
             ui.label(formula::job(line, 16.0, palette(ui).text));
         }
         ui.label(format!("At {} Hz: {}.", self.studio.clock().tick_hz(), self.said().whole()));
+        for detail in self.details() {
+            ui.label(RichText::new(detail).color(palette(ui).dim));
+        }
         let order = match method.order == method.order_with_drag {
             true => format!("Order {}", method.order),
             false => format!("Order {}, {} with drag", method.order, method.order_with_drag),

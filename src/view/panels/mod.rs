@@ -1,8 +1,10 @@
 //! The panels round the stage: they read the studio and return commands, and touch nothing.
 
-use egui::{Frame, Key, Margin, Rect, Ui};
+use egui::epaint::PathShape;
+use egui::{Frame, Key, Margin, Rect, Stroke, Ui, Vec2, pos2, vec2};
 
 use super::theme::palette;
+use crate::lab::race::Mode;
 use crate::lab::studio::{Command, Dialog, Studio, ViewCommand};
 
 mod advice;
@@ -20,6 +22,7 @@ mod instruments;
 mod keycap;
 mod lanes;
 mod loops;
+mod methods;
 mod my_spring;
 mod one_step;
 mod opening;
@@ -52,6 +55,9 @@ pub enum Panels {
 /// The part of the width that the instruments take.
 pub(super) const INSTRUMENTS: f32 = 0.38;
 
+/// The handle at the right edge of a stage that stands alone, in points.
+const EDGE: Vec2 = vec2(16.0, 80.0);
+
 /// The part of their height that the inspector takes at first, where it leaves them enough, and the least that it has.
 const INSPECTOR: f32 = 0.62;
 const MIN_INSPECTOR: f32 = 130.0;
@@ -64,7 +70,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     if size.x < breakpoints::PANELS[0] || size.y < breakpoints::PANELS[1] {
         return (commands, whole);
     }
-    if size.y >= breakpoints::TOP_BAR {
+    if studio.display().measure && size.y >= breakpoints::TOP_BAR {
         let panel = egui::Panel::top("top bar")
             .exact_size(top_bar::HEIGHT)
             .frame(parts::frame(palette(ui).panel));
@@ -77,50 +83,23 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         panel.show(ui, |ui| footer::show(ui, studio, &mut commands));
     }
     let mut pointed = None;
-    // An instrument that is enlarged has the table's room too.
-    if size.y >= breakpoints::LANES && !studio.display().enlarged {
-        let height = studio.loop_lab().map_or_else(|| lanes::height(studio), loops::table::height);
-        let height = height.min(size.y * 0.4);
-        // Without a margin: a row reaches from edge to edge.
-        let frame = Frame::new().fill(palette(ui).panel);
-        let panel = egui::Panel::bottom("lanes").exact_size(height).frame(frame);
-        panel.show(ui, |ui| match studio.loop_lab() {
-            Some(loops) => loops::table::show(ui, loops, &mut commands),
-            None => pointed = lanes::show(ui, studio, &mut commands),
-        });
+    // A race has them all in its table.
+    let has_methods = studio.loop_lab().is_none()
+        && (studio.mode() == Mode::Solo || !studio.display().measure)
+        && size.y >= breakpoints::LANES
+        && !studio.display().enlarged;
+    if has_methods {
+        let panel = egui::Panel::bottom("methods")
+            .exact_size(methods::HEIGHT)
+            .frame(parts::frame(palette(ui).panel));
+        panel.show(ui, |ui| pointed = methods::show(ui, studio, &mut commands));
+    }
+    if studio.display().measure {
+        let in_table = round_the_stage(ui, studio, size, &mut commands);
+        pointed = pointed.or(in_table);
     }
     if pointed != studio.viewer().pointed_lane() {
         commands.push(Command::View(ViewCommand::PointAt(pointed)));
-    }
-    if size.y >= breakpoints::TIMELINE {
-        let height = match size.y >= breakpoints::TIMES_OF_TIMELINE {
-            true => timeline::HEIGHT,
-            false => timeline::HEIGHT_OF_TRACK,
-        };
-        let frame = parts::frame(palette(ui).panel).inner_margin(Margin::symmetric(8, 1));
-        let panel = egui::Panel::bottom("timeline").exact_size(height).frame(frame);
-        panel.show(ui, |ui| match studio.loop_lab() {
-            Some(loops) => loops::slider::show(ui, loops, &mut commands),
-            None => timeline::show(ui, studio, &mut commands),
-        });
-    }
-    if size.x >= breakpoints::INSTRUMENTS {
-        let beside = size.x * INSTRUMENTS;
-        let (width, indent) = match studio.display().enlarged {
-            // The tabs stay where they are, under the pointer.
-            true => (size.x, size.x - beside),
-            false => (beside, 0.0),
-        };
-        let panel = egui::Panel::right("instruments")
-            .exact_size(width)
-            .frame(parts::frame(palette(ui).background));
-        panel.show(ui, |ui| {
-            // What is wider than the panel does not move its edge.
-            let room = ui.available_rect_before_wrap();
-            ui.allocate_rect(room, egui::Sense::hover());
-            let mut inside = ui.new_child(egui::UiBuilder::new().max_rect(room));
-            beside_the_stage(&mut inside, studio, indent, &mut commands);
-        });
     }
     if let Some(tour) = studio.viewer().tour() {
         let height = guide::height(ui.available_height());
@@ -129,6 +108,9 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         panel.show(ui, |ui| guide::show(ui, tour, &mut commands));
     }
     let stage = ui.available_rect_before_wrap();
+    if !studio.display().measure {
+        edge(ui, stage, &mut commands);
+    }
     if studio.display().help {
         help::show(ui, &mut commands);
     }
@@ -152,6 +134,81 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     }
     focus::show(ui);
     (commands, stage)
+}
+
+/// Shows the table, the timeline and the instruments, in a window of this size. Returns the index of the lane in the table
+/// that the pointer or the keyboard's focus is on.
+fn round_the_stage(
+    ui: &mut Ui,
+    studio: &Studio,
+    size: Vec2,
+    commands: &mut Vec<Command>,
+) -> Option<usize> {
+    let mut pointed = None;
+    // An instrument that is enlarged has the table's room too.
+    if size.y >= breakpoints::LANES && !studio.display().enlarged {
+        let height = studio.loop_lab().map_or_else(|| lanes::height(studio), loops::table::height);
+        let height = height.min(size.y * 0.4);
+        // Without a margin: a row reaches from edge to edge.
+        let frame = Frame::new().fill(palette(ui).panel);
+        let panel = egui::Panel::bottom("lanes").exact_size(height).frame(frame);
+        panel.show(ui, |ui| match studio.loop_lab() {
+            Some(loops) => loops::table::show(ui, loops, commands),
+            None => pointed = lanes::show(ui, studio, commands),
+        });
+    }
+    if size.y >= breakpoints::TIMELINE {
+        let height = match size.y >= breakpoints::TIMES_OF_TIMELINE {
+            true => timeline::HEIGHT,
+            false => timeline::HEIGHT_OF_TRACK,
+        };
+        let frame = parts::frame(palette(ui).panel).inner_margin(Margin::symmetric(8, 1));
+        let panel = egui::Panel::bottom("timeline").exact_size(height).frame(frame);
+        panel.show(ui, |ui| match studio.loop_lab() {
+            Some(loops) => loops::slider::show(ui, loops, commands),
+            None => timeline::show(ui, studio, commands),
+        });
+    }
+    if size.x >= breakpoints::INSTRUMENTS {
+        let beside = size.x * INSTRUMENTS;
+        let (width, indent) = match studio.display().enlarged {
+            // The tabs stay where they are, under the pointer.
+            true => (size.x, size.x - beside),
+            false => (beside, 0.0),
+        };
+        let panel = egui::Panel::right("instruments")
+            .exact_size(width)
+            .frame(parts::frame(palette(ui).background));
+        panel.show(ui, |ui| {
+            // What is wider than the panel does not move its edge.
+            let room = ui.available_rect_before_wrap();
+            ui.allocate_rect(room, egui::Sense::hover());
+            let mut inside = ui.new_child(egui::UiBuilder::new().max_rect(room));
+            beside_the_stage(&mut inside, studio, indent, commands);
+        });
+    }
+    pointed
+}
+
+/// A handle at the right edge of a stage that stands alone, from where the instruments slide in.
+fn edge(ui: &Ui, stage: Rect, commands: &mut Vec<Command>) {
+    let rect = Rect::from_center_size(stage.right_center() - EDGE / 2.0 * Vec2::X, EDGE);
+    let area = egui::Area::new(egui::Id::unique("edge")).fixed_pos(rect.min).constrain(false);
+    area.show(ui.ctx(), |ui| {
+        let (rect, response) = ui.allocate_exact_size(EDGE, egui::Sense::click());
+        let about = "measure: plots, a table and the timeline (T)";
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, about));
+        let is_lit = response.hovered() || response.has_focus();
+        let colour = if is_lit { palette(ui).accent } else { palette(ui).dim };
+        ui.painter().rect_filled(rect, 4.0, palette(ui).panel);
+        let [x, y] = [rect.center().x, rect.center().y];
+        let arrow = [[3.0, -6.0], [3.0, 6.0], [-4.0, 0.0]].map(|[dx, dy]| pos2(x + dx, y + dy));
+        let arrow = PathShape::convex_polygon(arrow.to_vec(), colour, Stroke::NONE);
+        ui.painter().add(arrow);
+        if response.on_hover_text(about).clicked() {
+            commands.push(Command::View(ViewCommand::ToggleMeasure));
+        }
+    });
 }
 
 /// Shows the instrument alone, for a picture in which nothing can be clicked.

@@ -31,7 +31,6 @@ pub(super) const TRACK_Y: f32 = 16.0;
 const TRACK_Y_ALONE: f32 = 12.0;
 /// Its least length, in points.
 const MIN_LENGTH: f32 = 40.0;
-pub(super) const NAME: f32 = 72.0;
 pub(super) const MEMORY: f32 = 104.0;
 /// What the ends of the track keep free for half a number, and for the *undo* button where nothing else is there.
 pub(super) const MARGIN: f32 = 14.0;
@@ -39,7 +38,7 @@ const UNDO: f32 = 52.0;
 /// The memory is shown from this part of its bound on.
 const NEAR_THE_BOUND: f64 = 0.75;
 /// The least distances in points between the numbers along the track, and between two marks.
-const NUMBERS_APART: f64 = 64.0;
+const NUMBERS_APART: f64 = 120.0;
 const MARKS_APART: f32 = 15.0;
 /// The ticks in the closest view.
 const MIN_TICKS: f64 = 12.0;
@@ -104,8 +103,8 @@ impl Groove {
     /// With so much room at the right, in points, where there is none for words; `None` if the track would be too short.
     pub(super) fn new(room: Rect, beside: f32) -> Option<Self> {
         let has_words = room.width() >= breakpoints::WORDS_BESIDE_TIMELINE;
-        let [left, right] = if has_words { [NAME, MEMORY] } else { [MARGIN, beside] };
-        let along = Rangef::new(room.left() + left, room.right() - right - MARGIN);
+        let right = if has_words { MEMORY } else { beside };
+        let along = Rangef::new(room.left() + MARGIN, room.right() - right - MARGIN);
         let y = room.top() + if is_tall(room) { TRACK_Y } else { TRACK_Y_ALONE };
         (along.span() >= MIN_LENGTH).then_some(Self { room, y, along })
     }
@@ -122,12 +121,11 @@ impl Groove {
         Rect::from_min_max(pos2(from, self.y - half), pos2(to, self.y + half))
     }
 
-    /// Writes the name at its left and times at round steps below, each where there is room.
+    /// Writes times at round steps below, where there is room.
     pub(super) fn write(&self, painter: &Painter, span: Span, palette: &PanelPalette) {
         if is_tall(self.room) {
             numbers(painter, (span, self.along), self.y, self.room.bottom(), palette);
         }
-        self.write_at(painter, Align2::LEFT_CENTER, "Timeline", palette);
     }
 
     /// Writes words at an end of the panel, where there is room.

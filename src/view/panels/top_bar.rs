@@ -9,7 +9,7 @@ use super::loops::controls;
 use crate::lab::loop_lab::LoopCommand;
 use crate::lab::race::Mode;
 use crate::lab::studio::{
-    Command, Pace, RunCommand, SPEED_LADDER, StageCommand, Step, Studio, TICK_LADDER, ViewCommand,
+    Command, RunCommand, SPEED_LADDER, StageCommand, Step, Studio, TICK_LADDER, ViewCommand,
 };
 use crate::lab::{SCENES, Scene};
 use crate::view::theme::{TYPE, palette, strong_font};
@@ -54,10 +54,6 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
                 None => {
                     if width >= breakpoints::MENUS {
                         inspector_button(ui, studio, commands);
-                    }
-                    if width >= breakpoints::PACE {
-                        pace(ui, studio);
-                        ui.separator();
                     }
                     let t = studio.shown_s();
                     match is_wide {
@@ -228,23 +224,6 @@ fn tick_rate_menu(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         }
     });
     response.response.on_hover_text("ticks per simulated second ([ and ])");
-}
-
-fn pace(ui: &mut Ui, studio: &Studio) {
-    // Paused, no frame is drawn but for an event, and no time goes by.
-    if !studio.running() {
-        ui.label(RichText::new("paused").color(palette(ui).accent));
-        return;
-    }
-    let text = match studio.viewer().pace {
-        Some(Pace::Measured { frames_per_second, real_time_factor }) => {
-            format!("{frames_per_second:.0} fps · {real_time_factor:.2}× real time")
-        }
-        Some(Pace::Unknown) => return,
-        None => "scripted time".into(),
-    };
-    ui.label(RichText::new(text).color(palette(ui).dim))
-        .on_hover_text("frames drawn per second · simulated seconds per second");
 }
 
 fn inspector_button(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {

@@ -88,12 +88,17 @@ impl VerdictText {
         &self.wordings[0]
     }
 
+    /// Shows the sign alone, with its middle here.
+    pub(super) fn paint_sign(&self, ui: &Ui, at: Pos2) {
+        if let Some((sign, severity)) = self.sign {
+            sign.paint(ui, at, severity_tone(ui, severity));
+        }
+    }
+
     /// Shows the sign and the longest wording that fits.
     pub(super) fn show(&self, ui: &Ui, cell: Rect, colour: Color32) {
         let left = cell.left_center();
-        if let Some((sign, severity)) = self.sign {
-            sign.paint(ui, pos2(left.x + HALF, left.y), severity_tone(ui, severity));
-        }
+        self.paint_sign(ui, pos2(left.x + HALF, left.y));
         let colour = if self.sign.is_some() { colour } else { palette(ui).dim };
         let room = cell.width() - ROOM;
         let fitted = |words: &String| short(ui, words, FontId::proportional(TYPE), room, colour);

@@ -20,7 +20,7 @@ struct Lead {
 /// How long a run has lasted that is worth going back in, in seconds.
 const WORTH_GOING_BACK_S: f64 = 1.0;
 
-static LEADS: [Lead; 7] = [
+static LEADS: [Lead; 8] = [
     Lead {
         text: |now| (!now.is_from_the_start).then_some("Press `Home` to see it from the start."),
         is_done_by: |command| {
@@ -64,8 +64,14 @@ static LEADS: [Lead; 7] = [
     },
     Lead {
         text: |now| {
+            (!now.display.measure).then_some("Press `T` to measure: plots, numbers, a timeline.")
+        },
+        is_done_by: |command| matches!(command, Command::View(ViewCommand::ToggleMeasure)),
+    },
+    Lead {
+        text: |now| {
             (now.display.instrument != Instrument::StabilityMap)
-                .then_some("Press `T` until the stability map is there, and drag its cross.")
+                .then_some("Press `D` until the stability map is there, and drag its cross.")
         },
         is_done_by: |command| {
             matches!(
@@ -252,7 +258,7 @@ mod tests {
         assert!(text(&studio).contains("`V`"));
         studio.apply(StageCommand::ToggleArrangement);
         (0..90).for_each(|_| studio.tick());
-        assert!(text(&studio).contains("`T`"), "going back was done before");
+        assert!(text(&studio).contains("`D`"), "going back was done before");
         studio.apply(StageCommand::InstrumentBeside(Step::Next));
         studio.apply(StageCommand::TickRate(Step::Next));
         assert!(text(&studio).contains("`F2`"));

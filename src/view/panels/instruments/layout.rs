@@ -9,7 +9,7 @@ use crate::view::chart::{ABOVE, Mark, NAMES, NUMBERS, PlotArea};
 use crate::view::panels::breakpoints;
 
 /// The least distance between marks along and up, in points, as long as three fit.
-const MARKS_APART: [f64; 2] = [56.0, 24.0];
+const MARKS_APART: [f64; 2] = [80.0, 34.0];
 /// Room at the right for values, in points, and for those that have names.
 const RIGHT: f32 = 92.0;
 const RIGHT_OF_PARTS: f32 = 156.0;

@@ -17,10 +17,9 @@ const HEALTHY_ALONE: f64 = 4.0;
 
 pub(super) fn plot_set(studio: &Studio, detail: Detail) -> PlotSet {
     let bodies = 0..studio.scene().bodies.len();
-    let title = if bodies.len() > 1 { "Motion of every body" } else { "Motion" };
     PlotSet {
         styles: SeriesStyles::of(studio),
-        title: title.into(),
+        title: "Motion".into(),
         plots: bodies
             .flat_map(|body| track(studio, body).into_iter().chain([plot(studio, body, detail)]))
             .collect(),
@@ -56,7 +55,7 @@ fn track(studio: &Studio, body: usize) -> Option<PlotModel> {
 fn plot(studio: &Studio, body: usize, detail: Detail) -> PlotModel {
     let truth = &studio.race().truth().bodies()[body];
     let (coordinate, _) = studio.past().coordinate(studio.race(), body);
-    let quantity = studio.display().quantity;
+    let quantity = studio.display().quantity.unwrap_or_else(|| truth.plotted_quantity());
     let mut tracks = Track::of_quantity(studio, body, quantity, detail);
     put_in_hand(studio, body, &mut tracks, |t, [q, v]| [t, quantity.among([q, v])]);
     let exact = ExactLine::of_quantity(studio, body, quantity);

@@ -9,7 +9,7 @@ use crate::view::panels::table::{Column, SortKey, TableRow, show_words};
 /// The least width of the verdict, in points, and the one that it keeps beside columns of what the stage or an instrument
 /// shows too, which are those from this priority on.
 const MIN_VERDICT: f32 = 320.0;
-const ROOMY_VERDICT: f32 = 700.0;
+const ROOMY_VERDICT: f32 = 820.0;
 const EXTRAS: u8 = 5;
 
 /// The least width of the verdict beside columns of a priority.
@@ -23,7 +23,11 @@ pub(super) fn of<'a>(studio: &Studio) -> Vec<Column<Row<'a>>> {
     let mut truths = studio.race().truth().bodies().iter();
     // Where there is nothing to compare with, the stage says so once.
     let has_truth = truths.clone().any(|body| body.halted().is_none());
-    let mut columns = marks();
+    let mut columns: Vec<_> = marks().into();
+    if is_solo {
+        // Its digit and its name stand above the table.
+        columns.retain(|column| column.name == "line");
+    }
     if is_solo && studio.scene().bodies.len() > 1 {
         columns.push(Column { priority: 1, ..body() });
     }
@@ -46,7 +50,7 @@ pub(super) fn of<'a>(studio: &Studio) -> Vec<Column<Row<'a>>> {
 }
 
 /// Key, line and method.
-fn marks<'a>() -> Vec<Column<Row<'a>>> {
+fn marks<'a>() -> [Column<Row<'a>>; 3] {
     let index = |row: &Row<'a>| row.is_first.then_some(row.entry);
     let about = "the key that switches to this method, or selects its lane in a race";
     let key = Column::key(about, index);
@@ -68,7 +72,7 @@ fn marks<'a>() -> Vec<Column<Row<'a>>> {
         },
         |row| SortKey::Words(row.spec.method.name.into()),
     );
-    vec![key, line, method]
+    [key, line, method]
 }
 
 fn body<'a>() -> Column<Row<'a>> {
@@ -90,7 +94,7 @@ fn verdict<'a>(studio: &Studio) -> Column<Row<'a>> {
     let about = "what this method does to the scene at this tick rate: its worst body, judged in a run of its own; a click sorts from best to worst";
     let bodies = &studio.scene().bodies;
     let whose = row::judged_body(studio).map(|body| format!(" ({})", bodies[body].name));
-    let head = format!("Verdict at {} Hz{}", studio.clock().tick_hz(), whose.unwrap_or_default());
+    let head = format!("Verdict{}", whose.unwrap_or_default());
     let has_numbers_of_one = studio.mode() == Mode::Race && bodies.len() > 1;
     let column = Column::shown(
         "Verdict",
@@ -146,14 +150,13 @@ fn chase<'a>() -> [Column<Row<'a>>; 2] {
 }
 
 fn energy<'a>() -> Column<Row<'a>> {
-    let drift = |row: &Row<'a>| row.measure(Metric::ENERGY_DRIFT);
-    let text = move |row: &Row<'a>| {
-        let drift = drift(row)?;
+    let text = |row: &Row<'a>| {
+        let drift = row.energy_percent()?;
         let sign = if drift > 0.0 { "+" } else { "" };
         Some(format!("{sign}{} %", significant(drift, 3)))
     };
-    let about = "energy gained or lost, in percent of the energy that the exact swing exchanges";
-    Column::number("energy", (98.0, 3), about, text, drift)
+    let about = "energy gained or lost, in percent of the energy that the exact swing exchanges, or else of the most that the exact body had";
+    Column::number("energy", (98.0, 3), about, text, Row::energy_percent)
 }
 
 fn work<'a>() -> [Column<Row<'a>>; 2] {

@@ -1,7 +1,7 @@
 //! A row of the table, and its numbers.
 
 use super::verdict;
-use crate::lab::analysis::{ChaseFinding, METRICS, Metric};
+use crate::lab::analysis::{ChaseFinding, METRICS, Metric, Verdict, energy_gained_percent};
 use crate::lab::number::significant;
 use crate::lab::race::{Entrant, LaneBody, Mode};
 use crate::lab::{LaneSpec, Studio};
@@ -76,6 +76,16 @@ impl<'a> Row<'a> {
         verdict::text_of(self.studio, self.entry, self.flown, named)
     }
 
+    /// What else its verdict found.
+    pub(super) fn details(&self) -> Vec<String> {
+        let verdict = self.studio.viewer().verdict(self.entry);
+        let of_row = |verdict: &'a Verdict| match self.is_of_body {
+            true => verdict.of_bodies.get(self.body),
+            false => Some(verdict),
+        };
+        verdict.and_then(of_row).map(Verdict::details).unwrap_or_default()
+    }
+
     /// The body of the row, or else the one that the verdict is about.
     pub(super) fn body_name(&self) -> Option<&'a str> {
         let bodies = &self.studio.scene().bodies;
@@ -118,6 +128,11 @@ impl<'a> Row<'a> {
     /// The metric with this index in [`METRICS`], of the body, if it is flown.
     pub(super) fn measure(&self, metric: usize) -> Option<f64> {
         (METRICS[metric].measure)(self.flown_body()?, self.truth())
+    }
+
+    /// The energy that the body has more than in truth, in percent.
+    pub(super) fn energy_percent(&self) -> Option<f64> {
+        energy_gained_percent(self.flown_body()?, self.truth())
     }
 
     /// The half-life of the body in this lane, or else the one of the verdict.

@@ -23,7 +23,7 @@ pub(in crate::view::panels) fn parts(loops: &LoopLab) -> [String; 2] {
         let next = hz(next);
         return [
             "Raw ticks flip between none and two a frame".into(),
-            format!("press `T` for a {next} Hz display."),
+            format!("press `D` for a {next} Hz display."),
         ];
     }
     let repeated = loops.lanes()[raw].report().and_then(|report| report.repeated_percent);
@@ -38,6 +38,6 @@ pub(in crate::view::panels) fn parts(loops: &LoopLab) -> [String; 2] {
     }
     [
         "The same motion in different loops".into(),
-        "`T`: the next display, `1` … `9`: a loop, `L`: leave.".into(),
+        "`D`: the next display, `1` … `9`: a loop, `L`: leave.".into(),
     ]
 }

@@ -6,7 +6,7 @@ use super::columns::shown;
 use super::counts::{self, LEFT, Series};
 use super::errors::round_up;
 use crate::lab::analysis::Unit;
-use crate::lab::studio::{LiveFrame, Studio};
+use crate::lab::studio::{LiveFrame, Pace, Studio};
 use crate::view::chart::{self, Arrow, AxisScale, Curve, Drawing, LineStyle, PlotArea, Primitive};
 use crate::view::panels::breakpoints;
 use crate::view::theme::{PanelPalette, colour, palette, strong_font};
@@ -59,6 +59,11 @@ fn time_ms(frame: &LiveFrame) -> f64 {
 
 pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
     let top = ui.cursor().top();
+    if let Some(Pace::Measured { frames_per_second, real_time_factor }) = studio.viewer().pace {
+        let pace =
+            format!("{frames_per_second:.0} frames per second, {real_time_factor:.2}× real time");
+        ui.label(RichText::new(pace).color(palette(ui).text));
+    }
     let frames = studio.viewer().live.frames();
     ui.label(RichText::new(TITLE).font(strong_font(15.0)).color(palette(ui).text));
     let Some(summary) = Summary::of(frames) else {

@@ -52,7 +52,7 @@ mod tests {
     use super::*;
     use crate::lab::{Scene, Studio};
     use crate::view::panels;
-    use crate::view::panels::timeline::{HEIGHT, MARGIN, MEMORY, NAME, TRACK_Y};
+    use crate::view::panels::timeline::{HEIGHT, MARGIN, MEMORY, TRACK_Y};
     use crate::view::testing::TestWindow;
 
     const SIZE: Vec2 = vec2(1280.0, 720.0);
@@ -66,7 +66,7 @@ mod tests {
         let loops = studio.loop_lab().unwrap();
         let bottom = SIZE.y - panels::footer::HEIGHT;
         let table = bottom - panels::loops::table::height(loops);
-        let along = Rangef::new(8.0 + NAME, SIZE.x - 8.0 - MEMORY - MARGIN);
+        let along = Rangef::new(8.0 + MARGIN, SIZE.x - 8.0 - MEMORY - MARGIN);
         let middle = pos2(along.center(), table - HEIGHT + TRACK_Y);
         let half_ns = loops.end_ns() / 2;
         window.panels(&studio, Vec::new());

@@ -16,7 +16,7 @@ fn a_press_on_the_track_goes_to_the_tick_there_and_a_drag_follows() {
     let mut frame = |studio: &Studio, event: Input| window.panels(studio, vec![event]).0;
     let height =
         SIZE.y - panels::footer::HEIGHT - panels::lanes::height(&studio) - HEIGHT + TRACK_Y;
-    let along = Rangef::new(8.0 + NAME, SIZE.x - 8.0 - MEMORY - MARGIN);
+    let along = Rangef::new(8.0 + MARGIN, SIZE.x - 8.0 - MEMORY - MARGIN);
     let whole = Span::whole(studio.scene().seconds, 10.0);
     let at = |seconds: f64| pos2(whole.x(seconds, along), height);
     frame(&studio, Input::PointerMoved(at(2.5)));

@@ -19,7 +19,7 @@ fn motion_shows_the_chosen_quantity_and_its_table_follows() {
     };
     let [place, exact_place] = at_the_end(&studio);
     assert!(place < exact_place - 1.0, "{place} and {exact_place}");
-    studio.apply(ViewCommand::Quantity(Quantity::Velocity));
+    studio.apply(ViewCommand::Quantity(Some(Quantity::Velocity)));
     let [speed, exact_speed] = at_the_end(&studio);
     assert!((speed - 11.64).abs() < 0.01 && (exact_speed - 11.45).abs() < 0.01, "{speed}");
     let table = csv(&studio).unwrap().concat();
@@ -104,7 +104,7 @@ fn the_number_of_a_lane_and_its_value_do_not_run_together() {
         let place = Action::Place { body: 0, q: [q].into(), v: [q].into() };
         studio.apply(RunCommand::Act(place));
         for quantity in Quantity::ALL {
-            studio.apply(ViewCommand::Quantity(quantity));
+            studio.apply(ViewCommand::Quantity(Some(quantity)));
             for size in [vec2(1280.0, 720.0), vec2(1000.0, 640.0)] {
                 let shown = texts(&studio, size);
                 let keys = shown.iter().filter(|(rect, text)| {
