@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use super::moment::DrawContext;
+use super::moment::{DrawContext, turns};
 use super::sketch::{Camera, SOLID, fill, line, path, ring, rounded};
-use super::{Align, Label, Look, Picture, Rect, Rgba, breakpoints};
+use super::{Align, Label, Look, Mark, Picture, Rect, Rgba, breakpoints};
 use crate::lab::Studio;
 use crate::lab::analysis::Severity;
 use crate::lab::palette::{Palette, faded};
@@ -218,21 +218,46 @@ fn beside_name(moment: &DrawContext<'_>, index: usize, body: &LaneBody) -> (Stri
     (words, palette.dim)
 }
 
-/// The speed of a ship, ahead of its bow.
+/// The speed of a ship on a straight course, ahead of its bow, where nothing else is said.
 pub(super) fn speed(
     picture: &mut Picture,
     camera: &Camera,
-    (at, ahead_m): (DVec2, f64),
-    speed: f64,
-    palette: &Palette,
+    moment: &DrawContext<'_>,
+    index: usize,
+    entrant: &Entrant,
 ) {
-    let [x, y] = camera.points(at + DVec2::new(ahead_m, 0.0));
-    let words = format!("{} {}/s", significant(speed, 2), camera.unit);
-    let (left, width) = (x + 14.0, LETTER * words.chars().count() as f32);
-    if camera.rect.contains([left, y]) && left + width < camera.rect.max[0] {
-        let label = text(palette, [left, y - 12.0], Align::Left, 14.0, palette.text, words);
+    let body = &entrant.lane.bodies()[index];
+    let (q, v) = moment.studio.shown_state(body);
+    let outline = Look::of(body).outline(moment.t, &q);
+    let bow = outline.marks.iter().find_map(|mark| match mark {
+        Mark::Hull { length, .. } if !turns(body) => Some(DVec2::new(length / 2.0, 0.0)),
+        _ => None,
+    });
+    let Some(bow) = bow else { return };
+    let [x, y] = camera.points(outline.at + bow);
+    let words = format!("{} {}/s", significant(v[0], 2), camera.unit);
+    let (at, palette) = ([x + 14.0, y - 12.0], moment.palette);
+    let label = text(palette, at, Align::Left, 14.0, palette.text, words);
+    let [left, right] = span(&label);
+    let is_taken = |other: &Label| {
+        let [from, to] = span(other);
+        (other.at[1] - at[1]).abs() < 16.0 && from < right && to > left
+    };
+    let is_within = camera.rect.contains([left, y]) && right < camera.rect.max[0];
+    if is_within && !picture.labels.iter().any(is_taken) {
         picture.labels.push(Label { is_strong: true, ..label });
     }
+}
+
+/// From where to where about a label reaches, in points.
+fn span(label: &Label) -> [f32; 2] {
+    let width = LETTER / 12.5 * label.size * label.text.chars().count() as f32;
+    let left = match label.align {
+        Align::Left => label.at[0],
+        Align::Centre => label.at[0] - width / 2.0,
+        Align::Right => label.at[0] - width,
+    };
+    [left, left + width]
 }
 
 fn caption_place(rect: Rect) -> Option<[f32; 2]> {

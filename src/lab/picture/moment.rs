@@ -96,7 +96,8 @@ mod tests {
             studio.apply(StageCommand::Tick(Step::Next));
             for _ in Interpolation::ALL {
                 let lanes = [&studio.race().entrants()[0].lane, studio.race().truth()];
-                let wanted = [0, 1].map(|body| lanes.map(|lane| lane.bodies()[body].stepper.q()[0]));
+                let wanted =
+                    [0, 1].map(|body| lanes.map(|lane| lane.bodies()[body].stepper.q()[0]));
                 let speed = lanes[0].bodies()[1].stepper.v()[0];
                 let (places, said) = drawn(&studio);
                 let way = studio.display().interpolation;
