@@ -274,7 +274,7 @@ impl Scene {
 
     /// The harbour with a second spring, for what concerns springs beside each other.
     #[cfg(test)]
-    pub(in crate::lab) fn with_two_springs() -> Scene {
+    pub(crate) fn with_two_springs() -> Scene {
         let [mut scene, mut damped] =
             ["harbour", "damped"].map(|name| Scene::built_in(name).unwrap());
         "damped spring".clone_into(&mut damped.bodies[0].name);
