@@ -148,8 +148,9 @@ fn a_bounded_worker_counts_its_work_and_leaves_the_rest_unjudged() {
         texts.collect::<Vec<_>>()
     };
     let (none, some) = (judged(0), judged(14_000_000));
-    let unjudged =
-        |texts: &[String]| texts.iter().filter(|text| *text == "not judged · too much work").count();
+    let unjudged = |texts: &[String]| {
+        texts.iter().filter(|text| *text == "not judged · too much work").count()
+    };
     assert_eq!(unjudged(&none), none.len());
     assert!((1..none.len()).contains(&unjudged(&some)), "{some:?}");
     assert_eq!(some, judged(14_000_000));
