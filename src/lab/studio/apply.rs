@@ -183,7 +183,14 @@ impl Studio {
         let display = &mut self.viewer.preferences.display;
         match command {
             ViewCommand::TogglePause => self.running = !self.running,
-            ViewCommand::PointerDown(is_down) => self.viewer.pointer_is_down = is_down,
+            ViewCommand::PointerDown(is_down) => {
+                self.viewer.hz_at_press = is_down.then(|| self.timeline.session().race().tick_hz());
+                self.viewer.pointer_is_down = is_down;
+            }
+            ViewCommand::ToggleFutures => {
+                display.futures = !display.futures;
+                self.running &= !display.futures;
+            }
             // The loop lab is its instruments.
             ViewCommand::ToggleMeasure => display.measure = !display.measure || is_in_loop_lab,
             ViewCommand::ToggleGhost => display.ghost = !display.ghost,
