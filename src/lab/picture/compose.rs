@@ -12,8 +12,8 @@ use super::mass::LaneStyle;
 use super::moment::DrawContext;
 use super::sketch::{Camera, line, path};
 use super::{
-    Cell, Framing, Look, Mark, Picture, Rect, Rgba, Whose, apex, breakpoints, captions, chart,
-    futures, loop_stage, loupe, universe,
+    Cell, Framing, Look, Mark, Outline, Picture, Rect, Rgba, Whose, apex, breakpoints, captions,
+    chart, futures, loop_stage, loupe, universe,
 };
 use crate::lab::palette::faded;
 use crate::lab::race::{Entrant, Mode};
@@ -206,6 +206,7 @@ impl BodyCell<'_> {
         let behind = self.lanes.iter().filter(|lane| !self.is_front(lane));
         let mut flagged: Vec<Flag> = Vec::new();
         let mut numbered = None;
+        let mut rivals: Vec<(Outline, LaneStyle)> = Vec::new();
         let mut lost: Vec<Lost> = Vec::new();
         let mut near: Vec<LoupeLane<'_>> = Vec::new();
         let mut cell = Cell {
@@ -245,6 +246,9 @@ impl BodyCell<'_> {
             if !is_front {
                 seen.behind(&mut picture.shapes, coat);
                 flagged.push(flag);
+                if self.lanes.len() <= MAX_NUMBERED && outline.threads.is_empty() {
+                    rivals.push((outline, LaneStyle { fill: 0.0, ..coat }));
+                }
                 continue;
             }
             let in_hand = held.map(|held| look.outline(moment.t, &held.q));
@@ -257,6 +261,10 @@ impl BodyCell<'_> {
             shown.carried(picture, coat);
             self.draw_ghost(picture, shows_ghost);
             shown.front(&mut picture.shapes, coat);
+            // Those behind would be hidden by it.
+            for (outline, coat) in rivals.drain(..) {
+                OutlineView { outline: &outline, ..shown }.behind(&mut picture.shapes, coat);
+            }
             let hull = outline.marks.iter().find_map(|mark| match mark {
                 Mark::Hull { length, .. } => Some(length / 2.0),
                 _ => None,

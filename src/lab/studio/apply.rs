@@ -153,6 +153,7 @@ impl Studio {
             StageCommand::Tick(step) => self.step_by(step.sign()),
             StageCommand::Second(step) => self.step_by(step.sign() * i64::from(race.tick_hz())),
             StageCommand::Restart => {
+                self.viewer.view.zoom_pans.clear();
                 // A hint leads on; the old run is a click away on the timeline.
                 if self.restart_keeping_run() && self.hint().is_none() {
                     self.viewer.set_notice("restarted: Ctrl Z brings the run back");
