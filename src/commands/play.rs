@@ -119,6 +119,9 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     if let Some(theme) = args.theme.map(Theme::from).or(preferences.theme) {
         studio.viewer_mut().preferences.choose_theme(theme);
     }
+    if args.loop_trace.is_none() {
+        studio.show_clouds_of_scene();
+    }
     let opens_at_work = args.race || args.loop_trace.is_some();
     studio.viewer_mut().preferences.display.measure = preferences.measure || opens_at_work;
     if let Some(percent) = preferences.scale_percent {

@@ -8,6 +8,7 @@ use std::path::Path;
 use std::sync::{Arc, LazyLock, OnceLock};
 
 use super::action::Action;
+use super::cloud_shape::CloudKind;
 use super::lane_id::LaneId;
 use super::lane_spec::LaneSpec;
 use super::time_scale::Piece;
@@ -119,6 +120,8 @@ pub struct Scene {
     pub equal_cost: bool,
     /// Whether the program opens it as a race, and not under one method.
     pub opens_as_race: bool,
+    /// The clouds of many starts that it opens with, in place of the bodies; `None` if it opens with those.
+    pub clouds: Option<CloudKind>,
     /// The bodies in the order of the file, 1 to [`MAX_BODIES`], no two of one name.
     pub bodies: Vec<SceneBody>,
     /// The scripted commands by time, and those of one time in the order of the file.

@@ -193,7 +193,10 @@ impl Studio {
                 self.running &= !display.futures;
             }
             // The loop lab is its instruments.
-            ViewCommand::ToggleMeasure => display.measure = !display.measure || is_in_loop_lab,
+            ViewCommand::ToggleMeasure => {
+                display.measure = !display.measure || is_in_loop_lab;
+                display.enlarged &= !display.measure;
+            }
             ViewCommand::ToggleGhost => display.ghost = !display.ghost,
             ViewCommand::ToggleTheme => {
                 display.theme = display.theme.other();
