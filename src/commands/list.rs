@@ -11,7 +11,7 @@ use super::output::print;
 use super::output::table::{self, Column, TableFormat};
 use crate::lab::analysis::{METRICS, Metric, Scale};
 use crate::lab::pacing::{POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
-use crate::lab::scene::{SCENES, Scene, SceneKey, scene_tables};
+use crate::lab::scene::{BuiltIn, SCENES, Scene, SceneKey, scene_tables};
 use crate::lab::studio::{Binding, KEYS};
 use crate::sim::BodyClass;
 use crate::sim::bodies::{BODIES, Body, Coordinate, Kind, Net, Parameter, stepped_kinds};
@@ -58,11 +58,7 @@ enum Listing {
 
 pub(super) fn run(args: &ListArgs) -> Result<(), Error> {
     let listing = match args.what {
-        Listing::Scenes => {
-            let scenes: Vec<_> =
-                SCENES.iter().filter_map(|scene| Scene::built_in(scene.name)).collect();
-            write(SCENE, &scenes, args.format)
-        }
+        Listing::Scenes => scenes(args.format),
         Listing::Methods => write(METHOD, METHODS, args.format),
         Listing::Bodies if args.format == TableFormat::Text => bodies_with_keys(),
         Listing::Bodies => write(BODY, &BODIES, args.format),
@@ -79,6 +75,28 @@ fn write<T>(columns: &[Column<T>], items: &[T], format: TableFormat) -> String {
         TableFormat::Text => table::text(columns, items, ""),
         TableFormat::Json => format!("{:#}\n", table::json(columns, items)),
     }
+}
+
+/// The built-in scenes; in text each group below its heading.
+fn scenes(format: TableFormat) -> String {
+    let read = |built_in: &'static BuiltIn| Some((built_in, Scene::built_in(built_in.name)?));
+    let scenes: Vec<(&BuiltIn, Scene)> = SCENES.iter().filter_map(read).collect();
+    let text = write(SCENE, &scenes, format);
+    if format == TableFormat::Json {
+        return text;
+    }
+    let (head, rows) = text.split_once('\n').expect("a line of headings");
+    let mut grouped = format!("{head}\n");
+    for rows in scenes
+        .iter()
+        .zip(rows.lines())
+        .collect::<Vec<_>>()
+        .chunk_by(|one, other| one.0.0.group == other.0.0.group)
+    {
+        grouped += &format!("\n{}\n", rows[0].0.0.group.title());
+        grouped.extend(rows.iter().map(|(_, row)| format!("{row}\n")));
+    }
+    grouped
 }
 
 /// What expressions of laws are made of.
@@ -139,16 +157,19 @@ fn refused_by_engines(class: BodyClass) -> Option<String> {
     Some(format!("  No method of an engine{except}:\n    {why}.\n"))
 }
 
-const SCENE: &[Column<Scene>] = &[
-    Column::shown("name", "NAME", |scene| json!(scene.name)),
-    Column::shown("tick_hz", "HZ", |scene| json!(scene.tick_hz)),
-    Column::shown("seconds", "SECONDS", |scene| json!(scene.seconds)),
-    Column::shown("bodies", "BODIES", |scene| {
+const SCENE: &[Column<(&BuiltIn, Scene)>] = &[
+    Column::shown("name", "NAME", |(_, scene)| json!(scene.name)),
+    Column::new("group", |(built_in, _)| json!(built_in.group.title())),
+    Column::shown("tick_hz", "HZ", |(_, scene)| json!(scene.tick_hz)),
+    Column::shown("seconds", "SECONDS", |(_, scene)| json!(scene.seconds)),
+    Column::shown("bodies", "BODIES", |(_, scene)| {
         scene.bodies.iter().map(|body| json!(body.kind.id)).collect()
     }),
-    Column::new("methods", |scene| scene.lanes.iter().map(|lane| json!(lane.method.id)).collect()),
-    Column::shown("title", "TITLE", |scene| json!(scene.title)),
-    Column::new("about", |scene| json!(scene.about)),
+    Column::new("methods", |(_, scene)| {
+        scene.lanes.iter().map(|lane| json!(lane.method.id)).collect()
+    }),
+    Column::shown("title", "TITLE", |(_, scene)| json!(scene.title)),
+    Column::new("about", |(_, scene)| json!(scene.about)),
 ];
 
 fn free_spin(method: &Method) -> Option<FreeSpin> {

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use regatta::lab::pacing::POLICIES;
+use regatta::lab::scene::SceneGroup;
 use regatta::lab::{METRICS, SCENES, Scene};
 use regatta::manual::CHAPTERS;
 use regatta::sim::bodies::{BODIES, kind};
@@ -184,8 +186,14 @@ fn the_manual_says_of_every_method_and_engine_what_its_card_does() {
 fn the_manual_lists_every_scene_and_times_every_general_method_in_the_order_of_the_table() {
     let timed = manual_rows("| method | ship, ns |");
     assert_eq!(timed, GENERAL_METHODS.iter().map(|method| method.id).collect::<Vec<_>>());
-    let scenes: Vec<&str> = SCENES.iter().map(|scene| scene.name).collect();
-    assert_eq!(manual_rows("| scene | what it shows |"), scenes);
+    for group in SceneGroup::ALL {
+        let scenes = SCENES.iter().filter(|scene| scene.group == group);
+        let names: Vec<&str> = scenes.map(|scene| scene.name).collect();
+        assert_eq!(manual_rows(&format!("| {} | what it shows |", group.title())), names);
+    }
+    assert!(
+        SCENES.is_sorted_by_key(|scene| SceneGroup::ALL.iter().position(|g| *g == scene.group))
+    );
 }
 
 #[test]
