@@ -140,7 +140,7 @@ fn bodies_with_keys() -> String {
         tables.map(|(name, keys)| format!("\n{name}\n{}", table::text(SCENE_KEY, &keys, "  ")));
     let (keys, tables) = (keys.collect::<String>(), tables.collect::<String>());
     let of_nets = refused_by_engines(Net::CLASS).unwrap_or_default();
-    table::text(BODY, &BODIES, "") + &keys + &tables + &expressions() + "\nnets\n" + &of_nets
+    table::text(BODY, BODIES.iter(), "") + &keys + &tables + &expressions() + "\nnets\n" + &of_nets
 }
 
 /// Two lines that say why engines do not step bodies of this class, and which methods of the family do.
@@ -202,7 +202,7 @@ const METHOD: &[Column<Method>] = &[
     }),
     Column::new("restart", |method| json!(method.restart)),
     Column::new("keeps_time", |method| json!(method.keeps_time)),
-    Column::shown("as_printed", "AS PRINTED", |m| json!(m.is_as_printed())),
+    Column::new("as_printed", |method| json!(method.is_as_printed())),
     Column::shown("only", "ONLY FOR", |method| json!(stepped_kinds(method))),
     Column::new("only_because", |method| json!(method.only.map(|only| only.reason))),
     Column::new("default_substeps", |m| json!(m.default_substeps)),

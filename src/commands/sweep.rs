@@ -181,7 +181,7 @@ impl SweepArgs {
             }
         }
         let asked = |method: &&Method| match &self.methods[..] {
-            [] => !method.is_engine(),
+            [] => method.is_for_games(),
             named => named.contains(method),
         };
         let mut rates = self.tick_hz.clone();
