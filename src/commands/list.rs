@@ -279,6 +279,7 @@ const POLICY: &[Column<PolicyCard>] = &[
     Column::new("odd_frames", |policy| json!(policy.odd_frames)),
     Column::shown("drawing", "DRAWING", |p| json!(p.drawing.name())),
     Column::shown("has_fixed_tick", "FIXED", |p| json!(p.has_fixed_tick)),
+    Column::new("usual", |policy| json!(policy.is_usual)),
     Column::new("users", |policy| json!(policy.users)),
     Column::new("source", |policy| json!(policy.source)),
     Column::new("languages", |policy| {

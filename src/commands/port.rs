@@ -137,7 +137,7 @@ fn has_modes(method: &Method) -> bool {
 /// Takes the id of an engine that has a spring.
 const ENGINE: Id<&Method> = Id {
     thing: "engine with a spring",
-    list: None,
+    lists: &[],
     all: || METHODS.iter().filter(|it| has_modes(it)).map(|it| (it.id.into(), it)).collect(),
     spellings: Vec::new,
 };
@@ -145,7 +145,7 @@ const ENGINE: Id<&Method> = Id {
 /// The same, or that of all.
 const ASKED: Id<Asked> = Id {
     thing: ENGINE.thing,
-    list: None,
+    lists: &[],
     all: || {
         let each = (ENGINE.all)().into_iter().map(|(id, engine)| (id, Asked::One(engine)));
         [("all".into(), Asked::All)].into_iter().chain(each).collect()

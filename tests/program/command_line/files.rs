@@ -194,7 +194,7 @@ fn a_request_to_end_is_heeded_while_nothing_reads_a_pipe() {
         return;
     }
     let sweep = "sweep --scene spring --method rk4 --tick-hz 60";
-    let game_loop = "loop --trace steady-144 --out rows.csv --frames";
+    let game_loop = "loop --trace steady-144 --out rows.csv --frame-rows";
     // The one waits for a reader; of the other a reader takes nothing, and it has more than a pipe holds.
     for (arguments, has_reader) in [
         (format!("{sweep} --out pipe"), false),
