@@ -29,7 +29,7 @@ written last, says what was drawn; `regatta verify` judges by it.
 Examples:
   regatta capture --scene spring --race --out clip
   regatta capture --scene ship --frames 1 --size 1920x1080 --out still
-  regatta capture --scene stiff --race --format sheet --out stiff.png
+  regatta capture --scene stiff --out stiff.png
   regatta capture --race --format y4m --out - | ffmpeg -i - race.mp4";
 
 /// Draw a run into numbered pictures, without a window
@@ -119,9 +119,9 @@ pub(super) struct CaptureArgs {
     #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     mark_every: Option<u64>,
 
-    /// The format: png, apng, gif, y4m, rgba or sheet
+    /// The format: png, gif, y4m or sheet
     ///
-    /// By default that of the ending of FILE, and png for a DIR.
+    /// By default that of the ending of FILE, which is .png of a sheet, and png for a DIR.
     #[arg(long, value_name = "FORMAT", value_parser = picture_format::by_id(), hide_possible_values = true)]
     format: Option<&'static PictureFormat>,
 
