@@ -11,13 +11,13 @@ use super::experiment::{self, Experiment, ExperimentArgs, Lineup, ThemeName, kno
 use super::frame_folder::{FolderPolicy, FrameFolder};
 use super::frame_names::MAX_FRAMES;
 use super::help::flowing;
-use super::id::{CLOUD, INSTRUMENT};
+use super::id::{INSTRUMENT, SHAPE};
 use super::output::{Destination, Output};
 use super::picture_format::{self, PictureFormat, Writing};
 use super::schedule::{FPS, MAX_FPS, Schedule, frames_in};
 use super::{clip, movie, sheet, state_log};
 use crate::atomic_file::IfExists;
-use crate::lab::cloud::CloudKind;
+use crate::lab::cloud::{CloudKind, CloudShape};
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
 use crate::lab::studio::Instrument;
@@ -105,12 +105,18 @@ pub(super) struct CaptureArgs {
     #[arg(hide_possible_values = true)]
     instrument: Option<Instrument>,
 
-    /// What the instrument cloud shows [default: cat]
+    /// The shape of the starts of the instrument cloud
     ///
-    /// Cat, disc, ring or section.
-    #[arg(long, value_name = "SHAPE", value_parser = CLOUD, requires = "instrument")]
+    /// Cat, disc or ring; by default cat.
+    #[arg(long, value_name = "SHAPE", value_parser = SHAPE, requires = "instrument")]
     #[arg(hide_possible_values = true)]
-    shape: Option<CloudKind>,
+    shape: Option<CloudShape>,
+
+    /// In the instrument cloud a section after Poincaré
+    ///
+    /// Where the starts come once in each period of a drive, or at each tick where nothing drives them.
+    #[arg(long, requires = "instrument", conflicts_with = "shape")]
+    section: bool,
 
     /// Ticks between two states in the manifest
     ///
@@ -148,9 +154,13 @@ const SHEET_COLUMNS: u32 = 6;
 const MAX_SIDE_PX: u32 = 8192;
 
 pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
-    if args.shape.is_some() && args.instrument != Some(Instrument::Cloud) {
+    let cloud = match args.section {
+        true => Some(CloudKind::Section),
+        false => args.shape.map(CloudKind::Shape),
+    };
+    if cloud.is_some() && args.instrument != Some(Instrument::Cloud) {
         return Err(Error::mistake(
-            "--shape is that of the instrument cloud; give --instrument cloud, or no --shape",
+            "--shape and --section are of the instrument cloud; give --instrument cloud, or neither",
         ));
     }
     let format = PictureFormat::of(&args.out, args.format)?;
@@ -184,7 +194,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
         scale: args.scale,
         panels: args.panels.unwrap_or(format.or_sheet(Shown::On, Shown::Off)) == Shown::On,
         instrument: args.instrument,
-        cloud: args.shape,
+        cloud,
         motion: true,
         theme: args.theme.map(Theme::from).unwrap_or_default(),
         mark_every: args

@@ -29,7 +29,6 @@ pub use request::{
     CloudChoice, CloudKind, CloudPicture, CloudRequest, FoundCloud, LaneCloud, POINTS,
 };
 pub use running::CloudWorker;
-pub use section::Section;
 pub use shape::CloudShape;
 
 use super::lane_spec::LaneSpec;
