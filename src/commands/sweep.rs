@@ -35,8 +35,6 @@ use varied::{Varied, varied};
 
 const ABOUT: &str = "\
 One row for each scene, body, method and tick rate, in that order whatever the number of threads:
-  scene, body, method, tick_hz
-  seconds               simulated seconds that the run got through
   error                 the largest of a coordinate or a velocity on the way, as a part of its
                         amplitude; empty where the method did not come to the end or there is no
                         truth
