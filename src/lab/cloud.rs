@@ -27,7 +27,6 @@ use lozenges::Lozenges;
 pub(super) use request::MAX_CLOUDS;
 pub use request::{CloudChoice, CloudPicture, CloudRequest, FoundCloud, LaneCloud, POINTS};
 pub use running::CloudWorker;
-pub use section::Section;
 
 use super::lane_spec::LaneSpec;
 use super::race::{ESCAPE, Fnv};

@@ -117,7 +117,7 @@ impl Scene {
         let lanes = match &methods[..] {
             [] => METHODS
                 .iter()
-                .filter(|method| !method.is_engine())
+                .filter(|method| method.is_for_games())
                 .filter(steps)
                 .map(LaneSpec::plain)
                 .collect(),
