@@ -274,6 +274,16 @@ impl Scene {
         let read = || Scene::parse(name, text).expect("tests/library/scenes parses them all");
         Some(READ[index].get_or_init(read).clone())
     }
+
+    /// The harbour with a second spring, for what concerns springs beside each other.
+    #[cfg(test)]
+    pub(crate) fn with_two_springs() -> Scene {
+        let [mut scene, mut damped] =
+            ["harbour", "damped"].map(|name| Scene::built_in(name).unwrap());
+        "damped spring".clone_into(&mut damped.bodies[0].name);
+        scene.bodies.splice(1..1, damped.bodies);
+        scene
+    }
 }
 
 /// A scene that is part of the program.

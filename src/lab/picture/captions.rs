@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use super::moment::DrawContext;
+use super::moment::{DrawContext, turns};
 use super::sketch::{Camera, SOLID, fill, line, path, ring, rounded};
-use super::{Align, Label, Look, Picture, Rect, Rgba, breakpoints};
+use super::{Align, Label, Look, Mark, Picture, Rect, Rgba, breakpoints};
 use crate::lab::Studio;
 use crate::lab::analysis::Severity;
 use crate::lab::palette::{Palette, faded};
@@ -218,21 +218,46 @@ fn beside_name(moment: &DrawContext<'_>, index: usize, body: &LaneBody) -> (Stri
     (words, palette.dim)
 }
 
-/// The speed of a ship, ahead of its bow.
+/// The speed of a ship on a straight course, ahead of its bow, where nothing else is said.
 pub(super) fn speed(
     picture: &mut Picture,
     camera: &Camera,
-    (at, ahead_m): (DVec2, f64),
-    speed: f64,
-    palette: &Palette,
+    moment: &DrawContext<'_>,
+    index: usize,
+    entrant: &Entrant,
 ) {
-    let [x, y] = camera.points(at + DVec2::new(ahead_m, 0.0));
-    let words = format!("{} {}/s", significant(speed, 2), camera.unit);
-    let (left, width) = (x + 14.0, LETTER * words.chars().count() as f32);
-    if camera.rect.contains([left, y]) && left + width < camera.rect.max[0] {
-        let label = text(palette, [left, y - 12.0], Align::Left, 14.0, palette.text, words);
+    let body = &entrant.lane.bodies()[index];
+    let (q, v) = moment.studio.shown_state(body);
+    let outline = Look::of(body).outline(moment.t, &q);
+    let bow = outline.marks.iter().find_map(|mark| match mark {
+        Mark::Hull { length, .. } if !turns(body) => Some(DVec2::new(length / 2.0, 0.0)),
+        _ => None,
+    });
+    let Some(bow) = bow else { return };
+    let [x, y] = camera.points(outline.at + bow);
+    let words = format!("{} {}/s", significant(v[0], 2), camera.unit);
+    let (at, palette) = ([x + 14.0, y - 12.0], moment.palette);
+    let label = text(palette, at, Align::Left, 14.0, palette.text, words);
+    let [left, right] = span(&label);
+    let is_taken = |other: &Label| {
+        let [from, to] = span(other);
+        (other.at[1] - at[1]).abs() < 16.0 && from < right && to > left
+    };
+    let is_within = camera.rect.contains([left, y]) && right < camera.rect.max[0];
+    if is_within && !picture.labels.iter().any(is_taken) {
         picture.labels.push(Label { is_strong: true, ..label });
     }
+}
+
+/// From where to where about a label reaches, in points.
+fn span(label: &Label) -> [f32; 2] {
+    let width = LETTER / 12.5 * label.size * label.text.chars().count() as f32;
+    let left = match label.align {
+        Align::Left => label.at[0],
+        Align::Centre => label.at[0] - width / 2.0,
+        Align::Right => label.at[0] - width,
+    };
+    [left, left + width]
 }
 
 fn caption_place(rect: Rect) -> Option<[f32; 2]> {
@@ -403,28 +428,41 @@ mod tests {
     use super::*;
     use crate::lab::Scene;
     use crate::lab::picture::compose;
-    use crate::lab::studio::{StageCommand, Step};
+    use crate::lab::studio::{HeldBody, RunCommand, StageCommand, ViewCommand};
+
+    /// What is said beside the name of the one body, and where it ends: before the chip.
+    fn beside_name_of(studio: &Studio, width: f32) -> Option<String> {
+        let picture = compose(studio, [width, 460.0]);
+        let chip = picture.labels.iter().find(|label| label.text == "▲").expect("a chip");
+        let name = picture.labels.iter().find(|label| label.text == "Spring").expect("a name");
+        let is_beside = |label: &&Label| label.size == 12.5 && label.at[1] == name.at[1] + 0.5;
+        let beside = picture.labels.iter().find(is_beside)?;
+        let right = beside.at[0] + LETTER * beside.text.chars().count() as f32;
+        assert!(right < chip.at[0] - 11.0, "{} ends at {right} of {width}", beside.text);
+        Some(beside.text.clone())
+    }
 
     #[test]
-    fn the_numbers_beside_a_name_end_before_the_chip_however_far_the_body_is() {
-        let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
-        for _ in 0..3 {
-            studio.apply(StageCommand::TickRate(Step::Previous));
-        }
+    fn what_stands_beside_a_name_ends_before_the_chip_and_has_digits_only_while_the_body_is_held() {
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
         studio.analyse();
-        let mut said = 0;
-        for _ in 0..studio.race().tick_hz() {
-            studio.tick();
-            let picture = compose(&studio, [780.0, 460.0]);
-            let chip = picture.labels.iter().find(|label| label.text == "▲").expect("a chip");
-            let numbers = picture.labels.iter().filter(|label| label.text.starts_with("x = "));
-            for label in numbers {
-                said += 1;
-                let right = label.at[0] + LETTER * label.text.chars().count() as f32;
-                assert!(right < chip.at[0] - 11.0, "{} ends at {right}", label.text);
-            }
+        (0..60).for_each(|_| studio.tick());
+        let promise = Some("should keep to ±1 m".to_owned());
+        assert_eq!(beside_name_of(&studio, 780.0), promise);
+        assert_eq!(beside_name_of(&studio, 430.0), None, "no room for both");
+        let lane = studio.selected().id;
+        let mut in_narrow = 0;
+        for power in -20..30 {
+            let at = -1.2345 * libm::exp10(f64::from(power));
+            let (q, v, hand) = ([at].into(), [0.0].into(), DVec2::new(at, 0.0));
+            studio.apply(RunCommand::Hold(HeldBody { lane, body: 0, q, v, hand, handle: hand }));
+            let words = beside_name_of(&studio, 780.0).expect("room for both");
+            assert!(words.starts_with("x = −") && words.ends_with(" m"), "{power}: {words}");
+            in_narrow += usize::from(beside_name_of(&studio, 480.0).is_some());
         }
-        assert!(said > 20, "{said}");
+        assert!((1..49).contains(&in_narrow), "{in_narrow}");
+        studio.apply(ViewCommand::LetGo);
+        assert_eq!(beside_name_of(&studio, 780.0), promise);
     }
 
     #[test]
@@ -434,8 +472,8 @@ mod tests {
             labels.filter(|text| text.contains("blow")).collect()
         };
         for (ticks, wide, narrow) in [
-            (0, "will blow up at 4.14 s", "will blow up at 4.14 s"),
-            (20, "from the start: will blow up at 4.14 s", "blows up, if run from the start"),
+            (0, "blows up · at 4.14 s", "blows up · at 4.14 s"),
+            (20, "from the start: blows up · at 4.14 s", "blows up, if run from the start"),
         ] {
             let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
             (0..ticks).for_each(|_| studio.tick());

@@ -98,6 +98,7 @@ fn overlay(
         captions::name(picture, *cell, moment, index);
         if moment.studio.mode() == Mode::Solo {
             captions::head(picture, *cell, moment, index, front);
+            captions::speed(picture, &camera, moment, index, front);
         }
         let is_measured = match view.framing {
             Framing::Follow { .. } => !view.turns,
@@ -264,16 +265,6 @@ impl BodyCell<'_> {
             // Those behind would be hidden by it.
             for (outline, coat) in rivals.drain(..) {
                 OutlineView { outline: &outline, ..shown }.behind(&mut picture.shapes, coat);
-            }
-            let hull = outline.marks.iter().find_map(|mark| match mark {
-                Mark::Hull { length, .. } => Some(length / 2.0),
-                _ => None,
-            });
-            if let (Framing::Follow { .. }, false, true, Some(ahead_m)) =
-                (framing, view.turns, self.lanes.len() == 1, hull)
-            {
-                let speed = studio.shown_state(body).1[0];
-                captions::speed(picture, camera, (outline.at, ahead_m), speed, palette);
             }
             if let Some(held) = held.filter(|held| held.lane == lane.id) {
                 let [handle, hand] = [held.handle, held.hand].map(|at| camera.points(at));

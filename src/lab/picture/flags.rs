@@ -421,14 +421,14 @@ mod tests {
 
     #[test]
     fn no_badge_lies_over_a_spring_of_its_row_and_no_flag_over_the_name_of_its_body() {
-        let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+        let mut studio = Studio::new(Scene::with_two_springs());
         studio.apply(StageCommand::ToggleRace);
         let (mut badges, mut beside) = (0, 0);
         for _ in 0..300 {
             studio.tick();
             for size in [[496.0, 342.0], [794.0, 430.0]] {
                 let picture = compose(&studio, size);
-                for (cell, name) in picture.cells.iter().zip(["Free spring", "Damped spring"]) {
+                for (cell, name) in picture.cells.iter().zip(["Spring", "Damped spring"]) {
                     let of_cell =
                         |label: &&Label| cell.rect.contains(label.at) && label.at[1] > 30.0;
                     let name = picture.labels.iter().find(|label| label.text == name).unwrap();

@@ -264,7 +264,7 @@ mod tests {
     #[test]
     fn bodies_on_one_ruler_are_zoomed_as_one_and_it_with_them() {
         for over in [0, 1] {
-            let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+            let mut studio = Studio::new(Scene::with_two_springs());
             studio.advance(100_000_000);
             let before = compose(&studio, [780.0, 500.0]);
             let zoomed_as = before.cells[over].zoomed_as;

@@ -57,25 +57,29 @@ mod tests {
     use crate::lab::studio::{RunCommand, StageCommand, Step, Studio, ViewCommand};
     use crate::sim::number::significant;
 
-    /// A spring under RK4 at a rate at which a tick can be seen.
+    /// A spring and a ship under RK4 at a rate at which a tick can be seen.
     fn studio() -> Studio {
-        let scene = Scene { tick_hz: 5, ..Scene::built_in("spring").unwrap() };
+        let scene = Scene { tick_hz: 5, ..Scene::built_in("harbour").unwrap() };
         let mut studio = Studio::new(scene);
         let rk4 = studio.entries().iter().position(|spec| spec.method.id == "rk4");
         studio.apply(StageCommand::Pick(rk4.unwrap()));
         studio
     }
 
-    /// Where the mass and the ghost are drawn, in metres, and what the stage says of the mass.
-    fn drawn(studio: &Studio) -> ([f64; 2], String) {
+    /// Where the mass of the spring and its ghost are drawn, then the ship and its ghost, in metres, and the speed that the
+    /// stage tells of the ship.
+    fn drawn(studio: &Studio) -> ([[f64; 2]; 2], String) {
         let picture = compose(studio, [780.0, 500.0]);
-        let cell = &picture.cells[0];
-        let of = |truth: bool| {
-            let grip = cell.grips(studio).find(|grip| (grip.whose == Whose::Truth) == truth);
-            cell.camera.metres(grip.expect("it is on the stage").at).x
-        };
+        let places = [0, 1].map(|body| {
+            let cell = &picture.cells[body];
+            [false, true].map(|truth| {
+                let grip = cell.grips(studio).find(|grip| (grip.whose == Whose::Truth) == truth);
+                cell.camera.metres(grip.expect("it is on the stage").at).x
+            })
+        });
         let mut texts = picture.labels.into_iter().map(|label| label.text);
-        ([of(false), of(true)], texts.find(|text| text.contains(" m/s")).expect("its numbers"))
+        let is_speed = |text: &String| text.ends_with(" m/s") && !text.contains("to");
+        (places, texts.find(is_speed).expect("its speed"))
     }
 
     fn is_near(a: f64, b: f64) -> bool {
@@ -91,12 +95,17 @@ mod tests {
             studio.apply(StageCommand::Tick(Step::Next));
             studio.apply(StageCommand::Tick(Step::Next));
             for _ in Interpolation::ALL {
-                let [mass, truth] = [&studio.race().entrants()[0].lane, studio.race().truth()]
-                    .map(|lane| lane.bodies()[0].stepper.q()[0]);
-                let ([block, ghost], said) = drawn(&studio);
+                let lanes = [&studio.race().entrants()[0].lane, studio.race().truth()];
+                let wanted =
+                    [0, 1].map(|body| lanes.map(|lane| lane.bodies()[body].stepper.q()[0]));
+                let speed = lanes[0].bodies()[1].stepper.v()[0];
+                let (places, said) = drawn(&studio);
                 let way = studio.display().interpolation;
-                assert!(is_near(block, mass) && is_near(ghost, truth), "{way:?}: {block} {ghost}");
-                assert!(said.contains(&format!("x = {} m", significant(mass, 4))), "{said}");
+                for body in 0..2 {
+                    let are_near = (0..2).all(|of| is_near(places[body][of], wanted[body][of]));
+                    assert!(are_near, "{way:?}: {places:?}, not {wanted:?}");
+                }
+                assert_eq!(said, format!("{} m/s", significant(speed, 2)));
                 assert_eq!(studio.shown_s(), studio.race().t());
                 studio.apply(RunCommand::NextInterpolation);
             }
@@ -111,14 +120,16 @@ mod tests {
             studio.advance((part * 0.2e9) as i64);
             studio.advance(100_000_000);
             for way in Interpolation::ALL {
-                let ([block, ghost], said) = drawn(&studio);
-                let exact = libm::cos(std::f64::consts::TAU * studio.shown_s());
-                assert!(is_near(ghost, exact), "{way:?}: {ghost} at {} s", studio.shown_s());
-                let x = said.split(' ').nth(2).expect("x = …").replace('−', "-");
-                assert!(
-                    (x.parse::<f64>().unwrap() - block).abs() < 1e-3,
-                    "{way:?}: {said}, {block}"
-                );
+                let ([[block, ghost], [ship, true_ship]], said) = drawn(&studio);
+                let t = studio.shown_s();
+                let exact = libm::cos(std::f64::consts::TAU * t);
+                assert!(is_near(ghost, exact), "{way:?}: {ghost} at {t} s");
+                let exact = 20.0 * (t + 10.0 * libm::expm1(-t / 10.0));
+                assert!(is_near(true_ship, exact), "{way:?}: {true_ship} at {t} s");
+                let bodies = studio.race().entrants()[0].lane.bodies();
+                let [spring, state] = [0, 1].map(|body| studio.shown_state(&bodies[body]));
+                assert!(is_near(block, spring.0[0]) && is_near(ship, state.0[0]), "{way:?}");
+                assert_eq!(said, format!("{} m/s", significant(state.1[0], 2)), "{way:?}");
                 studio.apply(RunCommand::NextInterpolation);
             }
         }
@@ -131,9 +142,9 @@ mod tests {
             (0..ways).for_each(|_| _ = studio.apply(RunCommand::NextInterpolation));
             studio.advance(730_000_000);
             studio.apply(ViewCommand::TogglePause);
-            let (rest, _) = drawn(&studio);
+            let ([rest, _], _) = drawn(&studio);
             studio.apply(ViewCommand::TogglePause);
-            let (on, _) = drawn(&studio);
+            let ([on, _], _) = drawn(&studio);
             let way = studio.display().interpolation;
             assert!(is_near(rest[0], on[0]) && is_near(rest[1], on[1]), "{way:?}: {rest:?} {on:?}");
         }

@@ -267,7 +267,9 @@ fn choices(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         choice(ui, "metric", offered, chosen, commands);
     }
     let has_all = instrument == Instrument::Motion && studio.loop_lab().is_none();
-    if has_all {
+    // In a picture the axes say what is usual.
+    let is_said = studio.display().quantity.is_some() || !is_picture(ui);
+    if has_all && is_said {
         let named = |quantity: Option<Quantity>| {
             let name = quantity.map_or("usual", Quantity::name);
             (Command::View(ViewCommand::Quantity(quantity)), name)

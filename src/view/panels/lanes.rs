@@ -51,6 +51,14 @@ pub(super) fn verdict_on(studio: &Studio, entry: usize) -> VerdictText {
     verdict::text_of(studio, entry, studio.flown(entry), (None, None))
 }
 
+/// The card of the method on this index of the list, and the whole verdict on it.
+pub(super) fn tooltip(ui: &mut Ui, studio: &Studio, entry: usize) {
+    let exact = vec![None; studio.scene().bodies.len()];
+    let mut rows = Row::of_method(studio, (entry, &studio.entries()[entry]), &exact, None);
+    rows[0].is_of_body = false;
+    rows[0].tooltip(ui);
+}
+
 fn table(studio: &Studio) -> Table<Row<'_>> {
     let (columns, min_rest) = (columns::of(studio), columns::min_verdict);
     Table { id: "lanes", columns, min_rest, row_height: ROW, head_type: TYPE }
@@ -96,7 +104,7 @@ impl TableRow for Row<'_> {
     fn spoken(&self) -> String {
         let name = [
             Some(format!("{} {}", self.entry + 1, self.method_name())),
-            self.is_of_body.then(|| self.studio.scene().bodies[self.body].name.clone()),
+            self.is_of_body.then(|| self.body_name().to_owned()),
             Some(self.said().whole().to_owned()),
         ];
         name.into_iter().flatten().collect::<Vec<_>>().join(", ")

@@ -80,7 +80,7 @@ fn method(
         let stroke = Stroke::new(1.0, palette(ui).accent);
         ui.painter().rect_stroke(rect, 7.0, stroke, StrokeKind::Inside);
     }
-    let response = response.on_hover_text(format!("{name}: {}", verdict.whole()));
+    let response = response.on_hover_ui(|ui| lanes::tooltip(ui, studio, entry));
     if response.clicked() {
         commands.push(Command::Stage(StageCommand::Pick(entry)));
     }

@@ -250,3 +250,38 @@ fn beside_the_stage(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Ve
         instruments::show(ui, studio, indent, commands);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::studio::StageCommand;
+    use crate::lab::{Scene, Studio};
+    use crate::view::testing::TestWindow;
+
+    #[test]
+    fn a_stage_that_stands_alone_is_as_wide_as_the_window_and_has_a_handle_at_its_right_edge() {
+        const SIZE: Vec2 = vec2(1280.0, 720.0);
+        let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+        for is_race in [false, true] {
+            for measure in [false, true] {
+                studio.viewer_mut().preferences.display.measure = measure;
+                let mut window = TestWindow::new(SIZE);
+                window.context.enable_accesskit();
+                let mut frame = || window.show(Vec::new(), |ui| show(ui, &studio));
+                // What lies over the stage is there from the second frame on.
+                drop(frame());
+                let ((_, stage), shown) = frame();
+                assert_eq!(stage.width() == SIZE.x, !measure, "{stage}");
+                let is_handle = |heard: &String| heard.starts_with("measure: ");
+                assert_eq!(shown.heard.iter().any(is_handle), !measure);
+                let at = pos2(SIZE.x - 6.0, stage.center().y);
+                let asked = window.click(&studio, at);
+                let toggle = Command::View(ViewCommand::ToggleMeasure);
+                assert_eq!(asked.contains(&toggle), !measure, "{asked:?}");
+            }
+            if !is_race {
+                studio.apply(StageCommand::ToggleRace);
+            }
+        }
+    }
+}

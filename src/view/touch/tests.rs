@@ -82,7 +82,7 @@ fn placed(commands: &[Command]) -> Option<&Action> {
 }
 
 #[test]
-fn a_drag_places_the_body_once_and_at_rest() {
+fn with_shift_a_drag_places_the_body_once_and_at_rest() {
     let mut table = Table::new("spring");
     let (tick, at) = (table.studio.race().tick(), table.body());
     assert_eq!(placed(&table.press(at)), None);
@@ -93,7 +93,7 @@ fn a_drag_places_the_body_once_and_at_rest() {
     }
     let to = at + vec2(-90.0, 4.0);
     let x = table.held().unwrap().q[0];
-    let commands = table.release(to, false);
+    let commands = table.release(to, true);
     let action = Action::Place { body: 0, q: [x].into(), v: [0.0].into() };
     assert_eq!(placed(&commands), Some(&action));
     assert!(table.held().is_none() && table.studio.time_runs());
@@ -108,7 +108,7 @@ fn a_drag_places_the_body_once_and_at_rest() {
 }
 
 #[test]
-fn with_shift_a_body_is_flung_with_the_pointers_velocity_in_simulated_time() {
+fn a_drag_throws_the_body_with_the_pointers_velocity_in_simulated_time() {
     let thrown = |speed_percent| {
         let mut table = Table::new("spring");
         table.studio.apply(RunCommand::SpeedPercent(speed_percent));
@@ -117,7 +117,7 @@ fn with_shift_a_body_is_flung_with_the_pointers_velocity_in_simulated_time() {
         for step in 1..=8 {
             table.move_to(at + vec2(10.0 * step as f32, 0.0));
         }
-        let commands = table.release(at + vec2(90.0, 0.0), true);
+        let commands = table.release(at + vec2(90.0, 0.0), false);
         let Some(Action::Place { v, .. }) = placed(&commands) else { panic!() };
         let picture = table.picture();
         let metre = picture.cells[0].metres([1.0, 0.0]).x - picture.cells[0].metres([0.0; 2]).x;
@@ -129,16 +129,34 @@ fn with_shift_a_body_is_flung_with_the_pointers_velocity_in_simulated_time() {
 }
 
 #[test]
-fn a_pointer_that_stopped_flings_nothing() {
+fn a_pointer_that_stopped_throws_nothing() {
     let mut table = Table::new("spring");
     let at = table.body();
     let to = at + vec2(60.0, 0.0);
     table.press(at);
     table.move_to(to);
     (0..3).for_each(|_| _ = table.frame(Vec::new()));
-    let commands = table.release(to, true);
+    let commands = table.release(to, false);
     let Some(Action::Place { v, .. }) = placed(&commands) else { panic!() };
     assert_eq!(v[0], 0.0);
+}
+
+#[test]
+fn a_click_on_the_verdict_brings_the_instruments_and_another_leaves_them() {
+    let mut table = Table::new("spring");
+    table.studio.analyse();
+    table.studio.apply(ViewCommand::ToggleMeasure);
+    for is_first in [true, false] {
+        let chip = table.picture().chip.expect("explicit Euler gains energy");
+        let at = Pos2::from(chip.min) + STAGE.min.to_vec2() + vec2(9.0, 9.0);
+        assert_eq!(table.studio.display().measure, !is_first);
+        let asked = [table.press(at), table.release(at, false)].concat();
+        let wanted = is_first.then_some(Command::View(ViewCommand::ToggleMeasure));
+        assert_eq!(asked, Vec::from_iter(wanted));
+        assert!(table.studio.display().measure);
+        // Not a double click.
+        table.window.time_s += 1.0;
+    }
 }
 
 #[test]

@@ -171,12 +171,12 @@ fn what_a_method_does_at_the_present_point_is_known() {
 #[test]
 fn the_present_point_changes_no_region() {
     let specs = vec![(0, LaneSpec::plain(&GENERAL_METHODS[0]))];
-    let scene = Scene::built_in("harbour").unwrap();
-    let opened = &scene.bodies[1];
+    let scene = Scene::built_in("damped").unwrap();
+    let opened = &scene.bodies[0];
     let request = |k: f64, c: f64, tick_hz: u32| {
         let mut values = opened.values.clone();
         (values[1], values[2]) = (k, c);
-        MapRequest::new((1, 1), opened, &values, tick_hz, specs.clone())
+        MapRequest::new((0, 1), opened, &values, tick_hz, specs.clone())
     };
     let mut work = MapWork::new(opened.kind.clone(), request(90.0, 1.0, 20));
     while !work.is_done() {

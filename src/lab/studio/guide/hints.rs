@@ -263,6 +263,8 @@ mod tests {
         studio.apply(StageCommand::TickRate(Step::Next));
         assert!(text(&studio).contains("`F2`"));
         studio.apply(StageCommand::SceneBeside(Step::Next));
+        assert_eq!(studio.hint(), None, "a method in flight is not a race's");
+        studio.apply(StageCommand::SceneBeside(Step::Next));
         assert_eq!(studio.hint(), studio.scene().hint, "a rate is a race's too");
         studio.apply(StageCommand::ToggleRace);
         assert_eq!(studio.hint(), studio.scene().hint);

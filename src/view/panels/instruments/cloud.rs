@@ -300,11 +300,13 @@ fn side_by_side(
     let found = TOLD.into_iter().find_map(largest);
     let Some((columns, size, captions, above)) = found else { return };
     let rows = lanes.len().div_ceil(columns);
+    // What is told of a cloud may be wider than that.
+    let wide = captions.iter().map(|words| words.size().x).fold(size.x, f32::max);
     for (place, (lane, words)) in lanes.iter().zip(captions).enumerate() {
         let (column, row) = (place % columns, place / columns);
         let is_lowest = row + 1 == rows || place + columns >= lanes.len();
         let top = inner.top() + row as f32 * (size.y + above + below + GAP / 2.0);
-        let corner = pos2(inner.left() + column as f32 * (size.x + GAP), top);
+        let corner = pos2(inner.left() + column as f32 * (wide + GAP), top);
         ui.painter().galley(corner, words, palette(ui).text);
         let rect = Rect::from_min_size(corner + vec2(0.0, above), size);
         cloud(ui, studio, picture, lane, (rect, place), [column == 0, is_lowest], commands);

@@ -76,16 +76,12 @@ fn marks<'a>() -> [Column<Row<'a>>; 3] {
 }
 
 fn body<'a>() -> Column<Row<'a>> {
-    let about =
-        "the body of this row; of a method that does not run, the body that its verdict is about";
     Column::shown(
         "Body",
         106.0,
-        about,
-        |ui, row: &Row<'a>, rect, _| {
-            show_words(ui, rect, row.body_name().unwrap_or_default(), false, row.text(ui));
-        },
-        |row| SortKey::Words(row.body_name().unwrap_or_default().into()),
+        "the body of this row",
+        |ui, row: &Row<'a>, rect, _| show_words(ui, rect, row.body_name(), false, row.text(ui)),
+        |row| SortKey::Words(row.body_name().into()),
     )
 }
 

@@ -24,8 +24,7 @@ pub(super) struct Row<'a> {
     pub(super) is_selected: bool,
     /// The first coordinate of the exact body at the moment shown, while there is one.
     exact: Option<f64>,
-    /// The bodies that name the judged one beside it and above all rows, if they do.
-    named_beside: Option<usize>,
+    /// The body that is named above all rows as the judged one, if it is.
     named_above: Option<usize>,
 }
 
@@ -43,14 +42,6 @@ impl<'a> Row<'a> {
         let count = studio.scene().bodies.len();
         let is_active = entry == studio.active();
         let is_of_body = studio.mode() == Mode::Solo && flown.is_some() && count > 1;
-        // A method that is not flown names the judged body in the column of bodies.
-        let is_named_beside = studio.mode() == Mode::Solo && count > 1;
-        let judged = studio.viewer().verdict(entry);
-        let named_body = |body: usize| match (is_of_body, is_named_beside) {
-            (true, _) => Some(body),
-            (false, true) => judged.map(|verdict| verdict.body),
-            (false, false) => None,
-        };
         let row = |body: usize| Row {
             studio,
             entry,
@@ -61,7 +52,6 @@ impl<'a> Row<'a> {
             is_first: !is_of_body || body == 0,
             is_selected: is_active && (!is_of_body || body == shown),
             exact: exact[body],
-            named_beside: named_body(body),
             named_above,
         };
         match is_of_body {
@@ -72,7 +62,7 @@ impl<'a> Row<'a> {
 
     /// What is said of it.
     pub(super) fn said(&self) -> VerdictText {
-        let named = (self.named_beside, self.named_above);
+        let named = (self.is_of_body.then_some(self.body), self.named_above);
         verdict::text_of(self.studio, self.entry, self.flown, named)
     }
 
@@ -86,14 +76,9 @@ impl<'a> Row<'a> {
         verdict.and_then(of_row).map(Verdict::details).unwrap_or_default()
     }
 
-    /// The body of the row, or else the one that the verdict is about.
-    pub(super) fn body_name(&self) -> Option<&'a str> {
-        let bodies = &self.studio.scene().bodies;
-        if self.is_of_body {
-            return Some(&bodies[self.body].name);
-        }
-        let verdict = self.studio.viewer().verdict(self.entry)?;
-        Some(&bodies.get(verdict.body)?.name)
+    /// The body whose numbers are shown.
+    pub(super) fn body_name(&self) -> &'a str {
+        &self.studio.scene().bodies[self.body].name
     }
 
     /// The method's name with its substeps and its tolerance.

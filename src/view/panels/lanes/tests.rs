@@ -7,7 +7,11 @@ use crate::view::panels::table::{Order, SortKey};
 use crate::view::testing::TestWindow;
 
 fn race() -> Studio {
-    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    judged_race(Scene::built_in("harbour").unwrap())
+}
+
+fn judged_race(scene: Scene) -> Studio {
+    let mut studio = Studio::new(scene);
     studio.apply(StageCommand::ToggleRace);
     (0..60).for_each(|_| studio.tick());
     studio.analyse();
@@ -73,7 +77,8 @@ fn said(studio: &Studio) -> Vec<String> {
 
 #[test]
 fn the_tooltip_of_an_engine_tells_the_version_and_the_day_that_it_is_held_against() {
-    let studio = Studio::new(Scene::built_in("engines").unwrap());
+    let mut studio = Studio::new(Scene::built_in("engines").unwrap());
+    studio.apply(StageCommand::ToggleRace);
     let mut versions = 0;
     for row in sorted(&studio, None) {
         let ((), shown) = TestWindow::new([800.0, 600.0]).show(Vec::new(), |ui| row.tooltip(ui));
@@ -102,7 +107,9 @@ fn a_verdict_tells_what_will_be_and_a_halt_what_was() {
     studio.analyse();
     let euler = studio.entries().iter().position(|spec| spec.method.id == "semi-implicit-euler");
     let euler = euler.unwrap();
-    assert_eq!(said(&studio)[euler], "will blow up at 4.14 s, if run from the start");
+    assert_eq!(said(&studio)[euler], "blows up · at 4.14 s");
+    let details = sorted(&studio, None)[euler].details();
+    assert_eq!(details[0], "if run from the start");
     while !studio
         .race()
         .entrants()
@@ -116,16 +123,16 @@ fn a_verdict_tells_what_will_be_and_a_halt_what_was() {
 
 #[test]
 fn the_body_that_every_verdict_is_about_is_named_once() {
-    let mut studio = race();
+    let mut studio = judged_race(Scene::with_two_springs());
     let flown: Vec<usize> =
         studio.race().entrants().iter().map(|lane| studio.entry(lane)).collect();
     let names = |studio: &Studio| {
         let said = said(studio);
-        flown.iter().filter(|&&entry| said[entry].contains("free spring")).count()
+        flown.iter().filter(|&&entry| said[entry].contains("(spring)")).count()
     };
     assert_eq!(
         row::judged_body(&studio).map(|body| &*studio.scene().bodies[body].name),
-        Some("free spring")
+        Some("spring")
     );
     assert_eq!(names(&studio), 0, "{:?}", said(&studio));
     // At a low rate the stiffest body of some lanes is another.

@@ -97,9 +97,8 @@ fn a_boundary_is_labelled_with_its_limit_where_nothing_is_damped() {
     let mut window = window();
     let texts = window.panels(&studio("spring"), Vec::new()).1.words();
     assert!(texts.iter().any(|text| text.ends_with(": ω h < 2")), "{texts:?}");
-    let mut damped = Studio::new(Scene::built_in("harbour").unwrap());
+    let mut damped = Studio::new(Scene::built_in("damped").unwrap());
     damped.apply(StageCommand::Instrument(Instrument::StabilityMap));
-    damped.apply(StageCommand::Body(1));
     damped.analyse();
     let map = damped.viewer().stability_map().unwrap();
     assert!(map.regions.iter().all(|region| region.limit.is_none()));

@@ -8,14 +8,19 @@ use crate::view::testing::{TestWindow, button};
 
 const SIZE: Vec2 = vec2(1280.0, 720.0);
 
+/// The height of the track in a frame of that size: below it are the table, the methods and the footer.
+fn track_y(studio: &Studio) -> f32 {
+    let below = panels::lanes::height(studio) + panels::methods::HEIGHT + panels::footer::HEIGHT;
+    SIZE.y - below - HEIGHT + TRACK_Y
+}
+
 #[test]
 fn a_press_on_the_track_goes_to_the_tick_there_and_a_drag_follows() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     (0..600).for_each(|_| studio.tick());
     let mut window = TestWindow::new(SIZE);
     let mut frame = |studio: &Studio, event: Input| window.panels(studio, vec![event]).0;
-    let height =
-        SIZE.y - panels::footer::HEIGHT - panels::lanes::height(&studio) - HEIGHT + TRACK_Y;
+    let height = track_y(&studio);
     let along = Rangef::new(8.0 + MARGIN, SIZE.x - 8.0 - MEMORY - MARGIN);
     let whole = Span::whole(studio.scene().seconds, 10.0);
     let at = |seconds: f64| pos2(whole.x(seconds, along), height);
@@ -38,8 +43,7 @@ fn letting_go_of_the_track_does_not_undo_the_step_of_a_key() {
     (0..600).for_each(|_| studio.tick());
     let mut window = TestWindow::new(SIZE);
     let mut frame = |studio: &Studio, event: Input| window.panels(studio, vec![event]).0;
-    let height =
-        SIZE.y - panels::footer::HEIGHT - panels::lanes::height(&studio) - HEIGHT + TRACK_Y;
+    let height = track_y(&studio);
     let at = |x: f32| pos2(x, height);
     frame(&studio, Input::PointerMoved(at(300.0)));
     let mut asked = frame(&studio, button(at(300.0), true));
@@ -80,8 +84,7 @@ fn the_moment_under_the_pointer_is_told_above_the_track_on_one_line() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     (0..600).for_each(|_| studio.tick());
     let mut window = TestWindow::new(SIZE);
-    let height =
-        SIZE.y - panels::footer::HEIGHT - panels::lanes::height(&studio) - HEIGHT + TRACK_Y;
+    let height = track_y(&studio);
     for x in [400.0, SIZE.x - MEMORY - MARGIN - 20.0] {
         window.panels(&studio, vec![Input::PointerMoved(pos2(x, height))]);
         let mut told = None;

@@ -17,15 +17,19 @@ fn motion_shows_the_chosen_quantity_and_its_table_follows() {
         let readouts = set.plots[0].readouts(&set.styles, 8.5);
         [readouts[0].at[1], readouts[1].at[1]]
     };
+    studio.apply(ViewCommand::Quantity(Some(Quantity::Position)));
     let [place, exact_place] = at_the_end(&studio);
     assert!(place < exact_place - 1.0, "{place} and {exact_place}");
-    studio.apply(ViewCommand::Quantity(Some(Quantity::Velocity)));
-    let [speed, exact_speed] = at_the_end(&studio);
-    assert!((speed - 11.64).abs() < 0.01 && (exact_speed - 11.45).abs() < 0.01, "{speed}");
-    let table = csv(&studio).unwrap().concat();
-    assert!(table.lines().skip(1).all(|line| line.contains(",v,m/s,")), "{table}");
-    assert!(svg(&studio).unwrap().contains(">v, m/s<"));
-    assert_legible(&studio, "the ship's velocity");
+    // Its speed is usual for a ship, which runs on for ever.
+    for quantity in [Some(Quantity::Velocity), None] {
+        studio.apply(ViewCommand::Quantity(quantity));
+        let [speed, exact_speed] = at_the_end(&studio);
+        assert!((speed - 11.64).abs() < 0.01 && (exact_speed - 11.45).abs() < 0.01, "{speed}");
+        let table = csv(&studio).unwrap().concat();
+        assert!(table.lines().skip(1).all(|line| line.contains(",v,m/s,")), "{table}");
+        assert!(svg(&studio).unwrap().contains(">v, m/s<"));
+        assert_legible(&studio, "the ship's velocity");
+    }
 }
 
 #[test]
@@ -125,7 +129,8 @@ fn the_number_of_a_lane_and_its_value_do_not_run_together() {
 
 #[test]
 fn a_saved_picture_has_nothing_to_click() {
-    let studio = race_of_springs();
+    let mut studio = race_of_springs();
+    studio.apply(ViewCommand::Quantity(Some(Quantity::Position)));
     for is_picture in [true, false] {
         let mut window = TestWindow::new([960.0, 600.0]);
         let mut after = |events: Vec<Event>| {
@@ -153,15 +158,17 @@ fn a_saved_picture_has_nothing_to_click() {
 #[test]
 fn a_saved_picture_has_no_tabs_and_an_enlarged_instrument_has_the_room_of_the_table() {
     let mut studio = race_of_springs();
-    let has_tabs = |texts: &[(Rect, String)]| texts.iter().any(|(_, text)| text == "Explain");
+    let has_tabs = |texts: &[(Rect, String)]| texts.iter().any(|(_, text)| text == "Error");
     let mut window = TestWindow::new([960.0, 600.0]);
     let alone = window.show(Vec::new(), |ui| panels::show_instrument(ui, &studio)).1.whole();
+    // What is usual its axes say.
+    assert!(alone.iter().all(|(_, text)| text != "usual"), "{alone:?}");
     assert!(!has_tabs(&alone) && alone.iter().any(|(_, text)| text == "time t, s"), "{alone:?}");
     let size = vec2(1280.0, 720.0);
     let lowest = |studio: &Studio| {
         let shown = texts(studio, size);
         let place = |wanted: &str| shown.iter().find(|(_, text)| text == wanted).map(|it| it.0);
-        (place("time t, s").unwrap().top(), place("Explain").unwrap().left())
+        (place("time t, s").unwrap().top(), place("Error").unwrap().left())
     };
     let (before, tabs) = lowest(&studio);
     studio.apply(ViewCommand::ToggleEnlarged);
