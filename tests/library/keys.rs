@@ -1,6 +1,6 @@
 //! What keys do to a run, as the title tells. That the window knows every key is tested with one.
 
-use regatta::lab::studio::{KEYS, Key, StageCommand, Studio, TICK_LADDER};
+use regatta::lab::studio::{Instrument, KEYS, Key, StageCommand, Studio, TICK_LADDER, ViewCommand};
 use regatta::lab::{SCENES, Scene};
 
 /// Does what the table says of a key.
@@ -54,4 +54,56 @@ fn brackets_walk_the_tick_rates_and_n_and_b_the_scenes() {
     back.rotate_left(1);
     assert_eq!(there, back);
     assert_eq!(there.last().map(String::as_str), Some("spring"));
+}
+
+#[test]
+fn the_first_press_of_t_or_of_what_the_instruments_show_puts_them_round_the_stage() {
+    let alone = || {
+        let mut studio = studio("harbour");
+        studio.viewer_mut().preferences.display.measure = false;
+        studio
+    };
+    for (key, shows) in [
+        (Key::Sign('t'), true),
+        (Key::Sign('d'), true),
+        (Key::ShiftSign('d'), true),
+        (Key::Sign('c'), true),
+        (Key::Sign('e'), true),
+        (Key::Sign('s'), true),
+        (Key::Sign('l'), true),
+        (Key::Enter, true),
+        (Key::Function(2), true),
+        (Key::Digit(2), false),
+        (Key::Space, false),
+        (Key::Sign('k'), false),
+        (Key::Sign('g'), false),
+        (Key::Home, false),
+        (Key::Sign('n'), false),
+    ] {
+        let mut studio = alone();
+        press(&mut studio, key);
+        assert_eq!(studio.display().measure, shows, "{key}");
+    }
+    let mut studio = alone();
+    studio.apply(StageCommand::Instrument(Instrument::Energy));
+    assert!(studio.display().measure, "a tab");
+    press(&mut studio, Key::Sign('t'));
+    assert!(!studio.display().measure);
+    press(&mut studio, Key::Sign('n'));
+    assert!(!studio.display().measure, "the next scene has the stage alone too");
+    press(&mut studio, Key::Sign('t'));
+    assert_eq!(studio.display().instrument, Instrument::Energy);
+}
+
+#[test]
+fn the_loop_lab_is_not_without_its_instruments() {
+    let mut studio = studio("spring");
+    studio.viewer_mut().preferences.display.measure = false;
+    press(&mut studio, Key::Sign('l'));
+    for _ in 0..2 {
+        assert!(studio.loop_lab().is_some() && studio.display().measure);
+        studio.apply(ViewCommand::ToggleMeasure);
+    }
+    press(&mut studio, Key::Sign('l'));
+    assert!(studio.loop_lab().is_none() && studio.display().measure);
 }

@@ -172,12 +172,12 @@ fn every_body_has_a_cell_inside_the_stage_and_side_by_side_every_body_of_every_l
         }
     };
     studio.advance(100_000_000);
-    assert_apart(&studio, 3);
+    assert_apart(&studio, 2);
     studio.apply(StageCommand::ToggleRace);
     studio.advance(100_000_000);
-    assert_apart(&studio, 3);
+    assert_apart(&studio, 2);
     studio.apply(StageCommand::ToggleArrangement);
-    assert_apart(&studio, 3 * studio.race().entrants().len());
+    assert_apart(&studio, 2 * studio.race().entrants().len());
 }
 
 #[test]
@@ -209,7 +209,7 @@ fn side_by_side_bodies_and_words_stay_in_their_cells_however_low_those_are() {
     (0..240).for_each(|_| studio.tick());
     let picture = compose(&studio, [780.0, 376.0]);
     let (lanes, height) = (studio.race().entrants().len(), 376.0_f32);
-    assert!(lanes > 25 && picture.cells.len() == 3 * lanes);
+    assert!(lanes > 25 && picture.cells.len() == 2 * lanes);
     let is_truth = |whose| matches!(whose, Whose::Truth);
     for cell in &picture.cells {
         let truth = cell.grips(&studio).find(|grip| is_truth(grip.whose)).expect("a ghost");
@@ -297,7 +297,7 @@ fn the_ghost_shows_only_when_it_is_asked_for() {
     studio.apply(ViewCommand::ToggleGhost);
     let without = drawn(&studio);
     assert!(without.0 < with.0, "{without:?} shapes without a ghost, {with:?} with");
-    assert_eq!((without.1, with.1), (0, 3));
+    assert_eq!((without.1, with.1), (0, 2));
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::dice::Dice;
 use crate::dropped::drop_file;
 
 /// Keys of the table, but for those that write files or leave the window, and some that are bound to nothing.
-const KEYS: [&str; 45] = [
+const KEYS: [&str; 46] = [
     "1",
     "2",
     "3",
@@ -41,7 +41,8 @@ const KEYS: [&str; 45] = [
     "i",
     "v",
     "t",
-    "shift+t",
+    "d",
+    "shift+d",
     "l",
     "e",
     "x",

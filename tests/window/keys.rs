@@ -105,9 +105,9 @@ fn in_the_loop_lab_keys_choose_loops_displays_rates_and_methods_and_leave_as_it_
     for (keys, commands) in [
         ("space", vec![Command::View(ViewCommand::TogglePause)]),
         ("6", vec![Command::Stage(StageCommand::Pick(5))]),
-        ("t", vec![Command::Stage(StageCommand::InstrumentBeside(Step::Next))]),
+        ("d", vec![Command::Stage(StageCommand::InstrumentBeside(Step::Next))]),
         (
-            "v shift+t t",
+            "v shift+d d",
             vec![
                 Command::Stage(StageCommand::ToggleArrangement),
                 Command::Stage(StageCommand::InstrumentBeside(Step::Previous)),

@@ -7,8 +7,10 @@ use std::time::{Duration, Instant};
 
 use image::{Rgba, RgbaImage};
 use regatta::lab::palette::Theme;
+use regatta::lab::studio::ViewCommand;
 
 use crate::desk::{Desk, Display, skip, until};
+use crate::widgets::paused_with;
 
 #[test]
 fn a_window_opens_under_vulkan_and_under_gl() {
@@ -93,18 +95,23 @@ fn a_window_that_is_not_mapped_goes_on_in_real_time() {
     assert!((Duration::from_secs(2)..Duration::from_secs(6)).contains(&took), "{took:?}");
 }
 
-/// Whether ticks were dropped: the footer says so in this colour.
+/// The keys that go back from *Motion* to the instrument *Loop*.
+const TO_LOOP: &str = "shift+d shift+d";
+
+/// Whether ticks were dropped: the instrument *Loop* says so above its plot, in this colour.
 fn tells_of_dropped_ticks(picture: &RgbaImage) -> bool {
-    let footer = picture.height() - 26;
+    let beside_the_stage = |x: u32, y: u32| x > 800 && (70..230).contains(&y);
     let alarm =
         |pixel: &Rgba<u8>| (0..3).all(|i| pixel[i].abs_diff(Theme::Dark.palette().bad[i]) < 40);
-    picture.enumerate_pixels().filter(|(_, y, pixel)| *y >= footer && alarm(pixel)).count() > 20
+    let pixels = picture.enumerate_pixels();
+    pixels.filter(|(x, y, pixel)| beside_the_stage(*x, *y) && alarm(pixel)).count() > 20
 }
 
 #[test]
 fn a_covered_window_goes_on_in_real_time_and_draws_nothing() {
     let test = "a_covered_window_goes_on_in_real_time_and_draws_nothing";
     let Some(desk) = Desk::open(test, "--scene spring --tick-hz 2") else { return };
+    desk.press(TO_LOOP);
     let cover = desk.cover();
     // What was dropped so far, on a busy machine, is forgotten.
     let start = Instant::now();
@@ -128,6 +135,7 @@ fn a_hitch_drops_ticks_and_says_so_and_a_pause_is_none() {
     let test = "a_hitch_drops_ticks_and_says_so_and_a_pause_is_none";
     // Ticks so long that a busy machine's own hitches hide in one of them.
     let Some(desk) = Desk::open(test, "--scene spring --tick-hz 2") else { return };
+    desk.press(TO_LOOP);
     assert!(!tells_of_dropped_ticks(&desk.screenshot().1));
     desk.program.stop_for(Duration::from_secs(2));
     assert!(tells_of_dropped_ticks(&desk.screenshot().1));
@@ -184,6 +192,30 @@ fn the_scene_that_was_open_last_opens_again_unless_another_is_asked_for() {
     let Some(mut desk) = Desk::open_with(test, "", &variables) else { return };
     desk.titled("Regatta - harbour - Explicit Euler - 60 Hz");
     desk.program.says("window.toml is ignored: its theme cannot be understood").unwrap();
+}
+
+#[test]
+fn a_first_start_shows_the_stage_alone_and_the_window_remembers_whether_instruments_are_round_it() {
+    let test = "a_first_start_shows_the_stage_alone_and_the_window_remembers_whether_instruments_are_round_it";
+    let config = tempfile::tempdir().unwrap();
+    let variables = [("XDG_CONFIG_HOME", config.path().to_str().unwrap())];
+    for (measures, is_by_key) in [(false, true), (true, true), (false, false)] {
+        let Some((desk, mut twin)) = paused_with(test, "harbour", &variables, measures) else {
+            return;
+        };
+        twin.looks_alike(&desk);
+        if is_by_key {
+            desk.press("t");
+            twin.apply(ViewCommand::ToggleMeasure);
+        } else {
+            twin.click(&desk, "measure: plots");
+        }
+        assert_eq!(twin.studio.display().measure, !measures);
+        twin.looks_alike(&desk);
+        desk.quit();
+        let text = std::fs::read_to_string(config.path().join("regatta/window.toml")).unwrap();
+        assert!(text.contains(&format!("measure = {}\n", !measures)), "{text}");
+    }
 }
 
 #[test]

@@ -4,6 +4,9 @@ use image::RgbaImage;
 
 use crate::desk::{Desk, until};
 
+/// The height of the track in a window of 1280 × 720, above the row of the one lane, the methods and the footer.
+const TRACK_Y: u32 = 576;
+
 const PAUSED: &str = "Regatta - spring - Explicit Euler - 60 Hz (paused)";
 
 /// The spring of `test`, paused at least two seconds after its start, and the tick it stands at.
@@ -73,20 +76,20 @@ fn a_mark_on_the_timeline_has_a_tooltip_with_a_line_for_each_action() {
         desk.xdotool("mousemove --window WINDOW 600 300");
         desk.still();
         let before = desk.sight();
-        desk.xdotool(&format!("mousemove --window WINDOW {x} 512"));
+        desk.xdotool(&format!("mousemove --window WINDOW {x} {TRACK_Y}"));
         until("a tooltip", || (changed(&before, &desk.sight(), x) > 0).then_some(()));
         desk.still();
         changed(&before, &desk.sight(), x)
     };
     // Between marks it is the moment alone.
-    let (mark, moment) = (told_at(82), told_at(700));
+    let (mark, moment) = (told_at(24), told_at(700));
     assert!(mark > moment * 3 / 2, "{mark} {moment}");
     desk.quit();
 }
 
 /// How many pixels differ right of the pointer at `x` and near the height of the timeline.
 fn changed(before: &RgbaImage, after: &RgbaImage, x: u32) -> usize {
-    let places = (470..640).flat_map(|y| (x + 8..x + 400).map(move |x| (x, y)));
+    let places = (TRACK_Y - 42..TRACK_Y + 128).flat_map(|y| (x + 8..x + 400).map(move |x| (x, y)));
     places.filter(|&(x, y)| before.get_pixel(x, y) != after.get_pixel(x, y)).count()
 }
 
@@ -94,14 +97,15 @@ fn changed(before: &RgbaImage, after: &RgbaImage, x: u32) -> usize {
 fn a_drag_along_the_timeline_goes_to_the_tick_under_the_mouse() {
     let test = "a_drag_along_the_timeline_goes_to_the_tick_under_the_mouse";
     let Some((desk, tick)) = paused(test) else { return };
-    // Under the stage of a window of 1280 × 720 with five rows of lanes.
-    desk.xdotool("mousemove --window WINDOW 90 512 mousedown 1");
+    let at = |x: u32| desk.xdotool(&format!("mousemove --window WINDOW {x} {TRACK_Y}"));
+    at(32);
+    desk.xdotool("mousedown 1");
     let near_the_start = desk.tick_within(0..=30);
-    desk.xdotool("mousemove --window WINDOW 140 512");
+    at(85);
     let later = desk.tick_within(near_the_start + 30..=119);
-    desk.xdotool("mousemove --window WINDOW 115 512");
+    at(57);
     desk.tick_within(near_the_start + 1..=later - 1);
-    desk.xdotool("mousemove --window WINDOW 1200 512");
+    at(1200);
     desk.at_tick(tick);
     desk.xdotool("mouseup 1");
     // In one frame with the release the key would come before it.

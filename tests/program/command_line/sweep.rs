@@ -256,7 +256,7 @@ fn a_blow_up_is_a_row() {
     let is_told = halted.starts_with("blew up: ") && halted.contains("·10³⁸");
     assert!(is_told && !halted.contains('-'), "{lost}");
     assert!(lost["error"].is_null());
-    // The verdict on this body is "will blow up at 4.14 s".
+    // The verdict on this body is "blows up · at 4.14 s".
     assert!((4.1..4.2).contains(&number(lost, "seconds")), "{lost}");
     assert_eq!(number(lost, "evaluations_per_s"), 49.0);
     assert!(number(lost, "ns_per_s") > 0.0);

@@ -52,13 +52,10 @@ impl Comparison {
         self.pitch().filter(|_| tells)
     }
 
-    /// Which way a motion is out of phase, as far as that is known.
-    fn way(&self) -> &'static str {
-        match self.frequency_error.filter(|error| error.abs() > FREQUENCY_ROUNDING) {
-            Some(error) if error > 0.0 => "early",
-            Some(_) => "late",
-            None => "out of phase",
-        }
+    /// Which way a motion is out of phase, if that is known.
+    fn way(&self) -> Option<&'static str> {
+        let error = self.frequency_error.filter(|error| error.abs() > FREQUENCY_ROUNDING)?;
+        Some(if error > 0.0 { "early" } else { "late" })
     }
 }
 
@@ -132,7 +129,10 @@ impl Verdict {
     fn gap(&self, found: &Comparison) -> String {
         let (error, horizon) = (percent(found.error), duration(self.horizon_s));
         if self.is_of_phase(found) {
-            return format!("{error} {} after {horizon}", found.way());
+            // Unless its word says so.
+            let word = (self.word() != Outcome::OutOfPhase.text()).then_some("out of phase");
+            let way = found.way().or(word).map_or(String::new(), |way| format!(" {way}"));
+            return format!("{error}{way} after {horizon}");
         }
         if let Some(pitch) = found.pitch_that_tells() {
             return pitch;

@@ -26,7 +26,6 @@ struct Summary {
     /// 99 in 100 frames took no longer.
     usual_ms: f64,
     worst_ms: f64,
-    dropped: u64,
     error_rms_ms: f64,
 }
 
@@ -37,12 +36,11 @@ impl Summary {
         let mut times: Vec<f64> = frames.clone().map(time_ms).collect();
         times.sort_by(f64::total_cmp);
         let worst_ms = *times.last()?;
-        let squares = frames.clone().map(|frame| frame.animation_error_ms.powi(2)).sum::<f64>();
+        let squares = frames.map(|frame| frame.animation_error_ms.powi(2)).sum::<f64>();
         Some(Self {
             mean_ms: times.iter().sum::<f64>() / count as f64,
             usual_ms: times[(99 * count).div_ceil(100) - 1],
             worst_ms,
-            dropped: frames.map(|frame| frame.dropped).sum(),
             error_rms_ms: (squares / count as f64).sqrt(),
         })
     }
@@ -72,17 +70,19 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
         ui.add(Label::new(RichText::new(words).color(palette(ui).dim)).wrap());
         return;
     };
-    let Summary { mean_ms, usual_ms, worst_ms, dropped, error_rms_ms } = summary;
+    let Summary { mean_ms, usual_ms, worst_ms, error_rms_ms } = summary;
     let [mean, usual, worst] =
         [mean_ms, usual_ms, worst_ms].map(|time_ms| shown(time_ms, Unit::Milliseconds));
     let times = format!("Frame time: mean {mean}, 99 % within {usual}, worst {worst}.");
-    let lost = match dropped {
-        0 => "No tick dropped.".into(),
-        1 => "1 tick dropped.".into(),
-        many => format!("{many} ticks dropped."),
+    let (lost, colour) = match studio.dropped() {
+        0 => ("No tick dropped since the start.".into(), palette(ui).dim),
+        1 => ("1 tick dropped since the start.".into(), palette(ui).bad),
+        many => (format!("{many} ticks dropped since the start."), palette(ui).bad),
     };
-    let error = format!("{lost} Animation error {} RMS.", shown(error_rms_ms, Unit::Milliseconds));
     ui.add(Label::new(RichText::new(times).color(palette(ui).dim)).wrap());
+    let lost = ui.add(Label::new(RichText::new(lost).color(colour)).wrap());
+    lost.on_hover_text("the simulation fell behind real time");
+    let error = format!("Animation error {} RMS.", shown(error_rms_ms, Unit::Milliseconds));
     let error = ui.add(Label::new(RichText::new(error).color(palette(ui).dim)).wrap());
     error.on_hover_text(
         "change of the moment shown minus change of real time; a frame counts as displayed when it begins",
@@ -180,13 +180,8 @@ mod tests {
         let mut frames = vec![frame(10); 99];
         frames.push(frame(110));
         let summary = Summary::of(frames.iter()).unwrap();
-        let expected = Summary {
-            mean_ms: 11.0,
-            usual_ms: 10.0,
-            worst_ms: 110.0,
-            dropped: 1,
-            error_rms_ms: 3.0,
-        };
+        let expected =
+            Summary { mean_ms: 11.0, usual_ms: 10.0, worst_ms: 110.0, error_rms_ms: 3.0 };
         assert_eq!(summary, expected);
         assert_eq!(Summary::of([].iter()), None);
     }
