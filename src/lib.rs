@@ -83,7 +83,7 @@
 //!   against its equation.
 //!   What a scene lays out itself, a [law](sim::bodies::law_kind) or a [net](sim::bodies::net_kind), has a kind of its own
 //!   that is made when the scene is read.
-//! - **A scene**: add a file to `assets/scenes` and its line to [`SCENES`](lab::SCENES).
+//! - **A scene**: add a file to `assets/scenes` and its name to a group of [`SCENES`](lab::SCENES).
 //! - **A game loop**: a file beside `lab/pacing/policies/whole_refresh.rs` if it has a memory, a card in
 //!   [`POLICIES`](lab::pacing::POLICIES), and its source in `assets/loops`. `tests/library/pacing_policies.rs` runs it for a day.
 //! - **A metric**: one entry of [`METRICS`](lab::METRICS). **A key**: one entry of [`KEYS`](lab::studio::KEYS).

@@ -20,43 +20,30 @@ use crate::sim::integrators::{Family, METHODS};
 mod judged;
 mod report;
 
-use judged::{judge_all, search_margins, warn_of_load};
+use judged::{judge_all, recommendations, search_margins, warn_of_load};
 
 const ABOUT: &str = "\
 Each method is judged on the scene from its start, with its script's inputs, against the exact
-solution, at the scene's tick rate or at --tick-hz. For each criterion the fewest substeps per
-tick, 1 to 64, are sought:
+solution. For each criterion the fewest substeps per tick, 1 to 64, are sought:
 
   bounded      nothing grows that should not, over the scene and in the long run: no mode of a
-               linear body doubles within a year, nor does its swing under a method that chooses
-               its own steps; any other body is followed for 20 times the scene's length, and one
-               that loses its swing for up to 2000 times, until it rests
+               linear body doubles within a year; any other body is followed for 20 times the
+               scene's length, and one that loses its swing for up to 2000 times, until it rests
   looks-right  over the scene each swing is as wide as the truth's, within 5 % of the widest, and
-               the frequency within 1 %; of several modes, by the energy of all and the frequency
-               of the one with the most; what does not swing stays within 5 % of its range
+               the frequency within 1 %; what does not swing stays within 5 % of its range
   accurate     over the scene no coordinate or velocity is off by more than 1 % of its amplitude
 
-What fails with 8 substeps and with 64 is not searched in between. A scene longer than a minute is
-judged over its first minute. Costs are those of all bodies per simulated second: EVALS/S are
-evaluations of the acceleration, and COST/S are these times what one costs with its share of the
-equations that the method solves: 1 where it solves none, 4 where it iterates, 2 to 3 where it is
-linearised. The recommended method has the least COST/S, of equal ones the fewest substeps, and of
-these it is the first of the table: the same on every machine, in the window and in the library.
-NS/S is measured now, on this machine, the best of several runs, and decides nothing.
+The recommended method has the least cost, of equal ones the fewest substeps. The cost is counted
+and not timed: evaluations of the acceleration per simulated second, each of 1 where a method solves
+no equations, 2 to 3 where it is linearised, 4 where it iterates.
 
-HOLDS DOWN TO is the slowest whole tick rate, at or below the one judged, at which the criterion
-still holds with the same substeps: rates are tried downwards, each lower by a sixtieth, for a net
-by a sixth, until one fails. HOLDS UP TO is the factor by which the named parameter may grow:
-factors are tried upwards, each higher by a tenth, until one fails, 10 at most. What already fails
-at the next has no reserve. Neither is known where the next run has no truth or takes too much
-work. With a body of more than eight coordinates they are searched for what is recommended and for
-each method that costs at most four times as much.
+With --all, HOLDS DOWN TO is the slowest tick rate at which the criterion still holds with the same
+substeps, and HOLDS UP TO the factor by which the named parameter may grow, 10 at most; NS/S is
+measured now, and decides nothing. In JSON a criterion that is not met has only met, which is false;
+one that cannot be told is null.
 
-In JSON a criterion that is not met has only met, which is false; one that cannot be told is null.
-Where nothing is recommended, none says why.
-
-The recommendations come first. For a custom spring (--k or --frequency), or with --as, the
-method recommended for looks-right, or else for bounded, follows as a function.
+For a custom spring (--k or --frequency), or with --as, the method recommended for looks-right, or
+else for bounded, follows as a function.
 
 Examples:
   regatta advise --scene harbour
@@ -81,10 +68,16 @@ pub(super) struct AdviseArgs {
 
     /// Judge the methods of this family
     ///
-    /// Explicit, symplectic, adaptive, implicit, linearised, as-printed, follower or engine; those of engines are judged
+    /// Explicit, symplectic, adaptive, implicit, linearised, as-printed, follower or engine; as-printed and engines are judged
     /// only so.
     #[arg(long, value_name = "FAMILY", value_parser = FAMILY, hide_possible_values = true, conflicts_with = "methods")]
     family: Option<Family>,
+
+    /// Print all tables
+    ///
+    /// Of every method the verdict, and for each criterion the costs and what it holds down and up to.
+    #[arg(long)]
+    all: bool,
 
     /// Print the recommended method as code too
     ///
@@ -126,14 +119,21 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     let Some(adviser) = adviser.map(Arc::new) else { return stopped(0) };
     let pool = jobs::pool(0)?;
     let mut rows = judge_all(&pool, &adviser, specs, args.rates, &interrupted);
-    for row in rows.iter_mut().take_while(|_| !interrupted.load(Ordering::Relaxed)) {
-        row.time(scene);
+    let is_whole = args.all || args.format == TableFormat::Json;
+    let margins = match is_whole {
+        true => adviser.worth_margins(&judged::advised(&rows)),
+        false => recommendations(&rows),
+    };
+    if is_whole {
+        let rows = rows.iter_mut().take_while(|_| !interrupted.load(Ordering::Relaxed));
+        rows.for_each(|row| row.time(scene));
     }
-    search_margins(&pool, &adviser, &mut rows, &interrupted);
+    search_margins(&pool, &adviser, &mut rows, margins, &interrupted);
     let text = match args.format {
         TableFormat::Text => {
             let usual = args.experiment.is_a_spring().then(Language::default);
-            report::text(scene, &adviser, &rows, wanted, args.language.or(usual))
+            let answer = report::answer(scene, &adviser, &rows, wanted, args.language.or(usual));
+            answer + &if args.all { report::all_tables(&rows) } else { report::best(&rows) }
         }
         TableFormat::Json => format!("{:#}\n", report::object(scene, &adviser, &rows, wanted)),
     };

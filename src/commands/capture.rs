@@ -11,13 +11,13 @@ use super::experiment::{self, Experiment, ExperimentArgs, Lineup, ThemeName, kno
 use super::frame_folder::{FolderPolicy, FrameFolder};
 use super::frame_names::MAX_FRAMES;
 use super::help::flowing;
-use super::id::{CLOUD, INSTRUMENT};
+use super::id::{INSTRUMENT, SHAPE};
 use super::output::{Destination, Output};
 use super::picture_format::{self, PictureFormat, Writing};
 use super::schedule::{FPS, MAX_FPS, Schedule, frames_in};
 use super::{clip, movie, sheet, state_log};
 use crate::atomic_file::IfExists;
-use crate::lab::cloud::CloudKind;
+use crate::lab::cloud::{CloudKind, CloudShape};
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
 use crate::lab::studio::Instrument;
@@ -29,7 +29,7 @@ written last, says what was drawn; `regatta verify` judges by it.
 Examples:
   regatta capture --scene spring --race --out clip
   regatta capture --scene ship --frames 1 --size 1920x1080 --out still
-  regatta capture --scene stiff --race --format sheet --out stiff.png
+  regatta capture --scene stiff --out stiff.png
   regatta capture --race --format y4m --out - | ffmpeg -i - race.mp4";
 
 /// Draw a run into numbered pictures, without a window
@@ -105,12 +105,18 @@ pub(super) struct CaptureArgs {
     #[arg(hide_possible_values = true)]
     instrument: Option<Instrument>,
 
-    /// What the instrument cloud shows [default: cat]
+    /// The shape of the starts of the instrument cloud
     ///
-    /// Cat, disc, ring or section.
-    #[arg(long, value_name = "SHAPE", value_parser = CLOUD, requires = "instrument")]
+    /// Cat, disc or ring; by default cat.
+    #[arg(long, value_name = "SHAPE", value_parser = SHAPE, requires = "instrument")]
     #[arg(hide_possible_values = true)]
-    shape: Option<CloudKind>,
+    shape: Option<CloudShape>,
+
+    /// In the instrument cloud a section after Poincaré
+    ///
+    /// Where the starts come once in each period of a drive, or at each tick where nothing drives them.
+    #[arg(long, requires = "instrument", conflicts_with = "shape")]
+    section: bool,
 
     /// Ticks between two states in the manifest
     ///
@@ -119,9 +125,9 @@ pub(super) struct CaptureArgs {
     #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     mark_every: Option<u64>,
 
-    /// The format: png, apng, gif, y4m, rgba or sheet
+    /// The format: png, gif, y4m or sheet
     ///
-    /// By default that of the ending of FILE, and png for a DIR.
+    /// By default that of the ending of FILE, which is .png of a sheet, and png for a DIR.
     #[arg(long, value_name = "FORMAT", value_parser = picture_format::by_id(), hide_possible_values = true)]
     format: Option<&'static PictureFormat>,
 
@@ -148,9 +154,13 @@ const SHEET_COLUMNS: u32 = 6;
 const MAX_SIDE_PX: u32 = 8192;
 
 pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
-    if args.shape.is_some() && args.instrument != Some(Instrument::Cloud) {
+    let cloud = match args.section {
+        true => Some(CloudKind::Section),
+        false => args.shape.map(CloudKind::Shape),
+    };
+    if cloud.is_some() && args.instrument != Some(Instrument::Cloud) {
         return Err(Error::mistake(
-            "--shape is that of the instrument cloud; give --instrument cloud, or no --shape",
+            "--shape and --section are of the instrument cloud; give --instrument cloud, or neither",
         ));
     }
     let format = PictureFormat::of(&args.out, args.format)?;
@@ -184,7 +194,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
         scale: args.scale,
         panels: args.panels.unwrap_or(format.or_sheet(Shown::On, Shown::Off)) == Shown::On,
         instrument: args.instrument,
-        cloud: args.shape,
+        cloud,
         motion: true,
         theme: args.theme.map(Theme::from).unwrap_or_default(),
         mark_every: args

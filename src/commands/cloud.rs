@@ -1,6 +1,5 @@
-//! `regatta cloud`: a shape of many starts under some methods, as a picture, and what becomes of its area, as a table.
+//! `regatta cloud`: a shape of many starts under some methods, and what becomes of its area, as a table and as a GIF.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -24,40 +23,31 @@ use crate::atomic_file::IfExists;
 use crate::lab::analysis::Unit;
 use crate::lab::cloud::{
     Cloud, CloudAxes, CloudBody, CloudBorder, CloudMeasure, CloudShape, CloudStart, Density,
-    NoCloud, PlaneView, Section, ShownTicks, USUAL_POINTS, hidden_in_words,
+    NoCloud, PlaneView, ShownTicks, USUAL_POINTS, hidden_in_words,
 };
 use crate::lab::palette::{Rgba, Theme};
 use crate::lab::{LaneSpec, Scene, SceneBody};
 use crate::sim::bodies::Coordinate;
 use crate::sim::number::{round, significant};
-use crate::view::{Lettering, png};
+use crate::view::Lettering;
 
 const ABOUT: &str = "\
 The starts fill the shape evenly about the scene's start, in the plane of the coordinate and the
 velocity of its first body of one coordinate. The scene's script is left out. One row for each
 method:
-  method            the methods named, else those of the scene
   points            the starts that have not blown up
-  area_ratio        the area over that at the start: on a linear body by the determinant of the
-                    method's map, elsewhere by those about up to 256 points, and under an adaptive
-                    method by the border; empty where no point is left, or the cloud is too fine,
-                    folded or torn for its points to tell
-  spread            the root mean square distance from the middle, over that at the start; empty of
-                    a single point
+  area_ratio        the area over that at the start; empty where no point is left, or the cloud is
+                    too fine, folded or torn for its points to tell
+  spread            the root mean square distance from the middle, over that at the start
   body_steps_per_s  measured here and now
   hash              of all states, to the bit: the same for any number of threads
 
-A picture has the methods side by side on the same axes, brighter where more points are, the exact
-cloud in white outline; the rows then go to standard output. --section draws the points at each
-period of a drive only, one over the other: a section after Poincaré. A crossing between two ticks
-is on the line through their states. The clouds of the window reach twice as far as these do
-without --size, since they are seen small.
+A GIF has the methods side by side, over the exact cloud in outline; the rows then go to standard
+output. `regatta capture --instrument cloud` draws stills and sections.
 
 Examples:
-  regatta cloud --scene pendulum --out pendulum.png
-  regatta cloud --scene liouville --out cat.gif
   regatta cloud --scene spring --points 1000000 --out cloud.csv
-  regatta cloud --scene kicked-rotor --size 3 --section 10 --out rotor.png";
+  regatta cloud --scene liouville --out cat.gif";
 
 /// Step a shape of many starts and show what becomes of its area
 #[derive(Debug, Args)]
@@ -79,9 +69,10 @@ pub(super) struct CloudArgs {
 
     /// The reach of the shape
     ///
-    /// In the unit of the coordinate. The default is a quarter of the swing.
-    #[arg(long, value_name = "R", value_parser = size)]
-    size: Option<f64>,
+    /// In the unit of the coordinate. The default is a quarter of the swing; the clouds of the window, which are seen
+    /// small, reach twice as far.
+    #[arg(long, alias = "size", value_name = "R", value_parser = reach)]
+    reach: Option<f64>,
 
     /// Simulated seconds of the run
     ///
@@ -90,12 +81,6 @@ pub(super) struct CloudArgs {
     #[arg(allow_negative_numbers = true)]
     seconds: Option<f64>,
 
-    /// Draw the points at this frequency only
-    ///
-    /// That of a drive.
-    #[arg(long, value_name = "Hz", value_parser = reach)]
-    section: Option<f64>,
-
     /// Threads, 1 to 256 [default: one for each core]
     ///
     /// Or RAYON_NUM_THREADS, where that is set.
@@ -103,9 +88,9 @@ pub(super) struct CloudArgs {
     #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
 
-    /// FILE.png, FILE.gif, FILE.csv, or - for the rows
+    /// FILE.csv or - for the rows, or FILE.gif
     ///
-    /// A PNG shows the end and a GIF the way there. CSV has the rows, and so has standard output.
+    /// A GIF shows what becomes of the shape on the way.
     #[arg(long, value_name = "FILE", default_value = STDOUT)]
     out: PathBuf,
 
@@ -114,15 +99,11 @@ pub(super) struct CloudArgs {
     force: bool,
 }
 
-fn reach(written: &str) -> Result<f64, String> {
-    number_that(written, |it| it > 0.0 && it <= 1e9, "a number above 0, up to 1e9")
-}
-
 /// A cloud that is smaller is lost in the rounding of its states.
-const MIN_SIZE: f64 = 1e-6;
+const MIN_REACH: f64 = 1e-6;
 
-fn size(written: &str) -> Result<f64, String> {
-    number_that(written, |it| (MIN_SIZE..=1e9).contains(&it), "a number from 1e-6 to 1e9")
+fn reach(written: &str) -> Result<f64, String> {
+    number_that(written, |it| (MIN_REACH..=1e9).contains(&it), "a number from 1e-6 to 1e9")
 }
 
 /// The error of a cloud that cannot be.
@@ -139,7 +120,6 @@ fn no_cloud(why: NoCloud) -> Error {
 #[derive(Clone, Copy, PartialEq)]
 enum Form {
     Rows,
-    Png,
     Gif,
 }
 
@@ -149,9 +129,12 @@ fn form(out: &Path) -> Result<Form, Error> {
     }
     match ending(out).as_deref() {
         Some("csv") => Ok(Form::Rows),
-        Some("png") => Ok(Form::Png),
         Some("gif") => Ok(Form::Gif),
-        _ => Err(mislabelled(out, "give --out a name that ends in .png, .gif or .csv")),
+        Some("png") => Err(Error::mistake(format!(
+            "regatta cloud draws no still pictures; `regatta capture --instrument cloud` draws {}",
+            out.display()
+        ))),
+        _ => Err(mislabelled(out, "give --out a name that ends in .gif or .csv")),
     }
 }
 
@@ -185,7 +168,6 @@ struct MethodCloud {
     stepping: Duration,
     /// The ticks that are stepped at once.
     part: u64,
-    section: Option<Section>,
     /// The areas on the way, where they are known.
     areas: Vec<f64>,
 }
@@ -196,24 +178,8 @@ impl MethodCloud {
         self.cloud.in_words(area_ratio, self.areas.iter().copied())
     }
 
-    /// Steps to a tick, and draws the points of a section at each crossing on the way; returns whether it came there before an
-    /// interrupt.
+    /// Steps to a tick; returns whether it came there before an interrupt.
     fn go_to(&mut self, tick: u64, interrupted: &AtomicBool) -> bool {
-        let next = |run: &Self| run.section.as_ref().map(Section::next_crossing);
-        while let Some(at) = next(self).filter(|at| at.ceil() <= tick as f64) {
-            if !self.step_to(at as u64, interrupted) {
-                return false;
-            }
-            let begun = Instant::now();
-            if let Some(section) = &mut self.section {
-                section.cross(&mut self.cloud);
-            }
-            self.stepping += begun.elapsed();
-        }
-        self.step_to(tick, interrupted)
-    }
-
-    fn step_to(&mut self, tick: u64, interrupted: &AtomicBool) -> bool {
         while self.cloud.tick() < tick && !interrupted.load(Ordering::Relaxed) {
             let part = self.part.min(tick - self.cloud.tick());
             let begun = Instant::now();
@@ -233,45 +199,26 @@ pub(super) fn run(args: &CloudArgs) -> Result<(), Error> {
         true => scene.lanes.clone(),
         false => args.experiment.lanes_named(&scene),
     };
-    let strobe = args.section.map(|hz| strobe(hz, scene.tick_hz)).transpose()?;
     let if_exists = if args.force { IfExists::Replace } else { IfExists::Keep };
     let to = Destination { path: &args.out, option: "--out", if_exists };
     let mut output = match form {
         Form::Rows => to.open_for_text()?,
-        Form::Png | Form::Gif => to.open()?,
+        Form::Gif => to.open()?,
     };
     let interrupted = watch_for_interrupt();
     let threads = args.threads.map_or(0, usize::from);
     let pool = jobs::pool(threads)?;
-    let Made { rows, size_px, mut frames } =
-        pool.install(|| make(args, &scene, &specs, form, strobe, &interrupted))?;
+    let Made { rows, size_px, frames } =
+        pool.install(|| make(args, &scene, &specs, form, &interrupted))?;
     let write_rows = |output| write_rows(output, RowFormat::Csv, COLUMNS, &rows);
-    match form {
-        Form::Rows => return write_rows(output),
-        Form::Png => {
-            let last = frames.pop().expect("a run ends with a picture");
-            output.write_all(&png::encode(size_px, &last))?;
-        }
-        Form::Gif => {
-            let mut gif = Gif::begin(&mut output, size_px)?;
-            frames.into_iter().try_for_each(|rgba| gif.push(rgba, SHOWN_CS))?;
-        }
+    if form == Form::Rows {
+        return write_rows(output);
     }
+    let mut gif = Gif::begin(&mut output, size_px)?;
+    frames.into_iter().try_for_each(|rgba| gif.push(rgba, SHOWN_CS))?;
+    drop(gif);
     output.finish(&format!("a picture of {}x{}", size_px[0], size_px[1]))?;
     write_rows(Output::stdout())
-}
-
-/// The ticks of a period, which may end between two.
-fn strobe(hz: f64, tick_hz: u32) -> Result<f64, Error> {
-    let ticks = f64::from(tick_hz) / hz;
-    // A period that is written with a few digits is meant to end at a tick if it nearly does.
-    let is_whole = (ticks - ticks.round()).abs() < 1e-6 * ticks;
-    let period = if is_whole { ticks.round() } else { ticks };
-    (period >= 1.0).then_some(period).ok_or_else(|| {
-        Error::mistake(format!(
-            "a section of {hz} Hz asks for more pictures than there are ticks, {tick_hz} per second; give a lower --section, or a higher --tick-hz"
-        ))
-    })
 }
 
 /// The results of all methods.
@@ -304,13 +251,12 @@ fn make(
     scene: &Scene,
     specs: &[LaneSpec],
     form: Form,
-    strobe: Option<f64>,
     interrupted: &AtomicBool,
 ) -> Result<Made, Error> {
     let of_scene = scene_body(scene);
     let body = (of_scene.kind.build)(&of_scene.values, specs[0].solver());
     let of = CloudBody { name: &of_scene.name, kind: &of_scene.kind, body: &*body };
-    let start = CloudStart::about(of, args.shape, args.size);
+    let start = CloudStart::about(of, args.shape, args.reach);
     let start = start.map_err(no_cloud)?;
     let points = args.points as usize;
     Cloud::find_room(points, specs).map_err(no_cloud)?;
@@ -321,37 +267,23 @@ fn make(
             cloud,
             stepping: Duration::ZERO,
             part: 1,
-            section: None,
             areas: Vec::new(),
         })
     };
     let mut runs = specs.iter().map(cloud).collect::<Result<Vec<_>, _>>().map_err(no_cloud)?;
     let seconds = args.seconds.unwrap_or(scene.seconds.min(USUAL_SECONDS));
     let ticks = ((seconds * f64::from(scene.tick_hz)).round() as u64).max(1);
-    if let Some(period) = strobe.filter(|&period| period > ticks as f64) {
-        return Err(Error::mistake(format!(
-            "no crossing within {seconds} s; give --seconds more than a period of --section, {} s",
-            significant(period / f64::from(scene.tick_hz), 4)
-        )));
-    }
     // The first part of a long run is as wide as the rest.
     let long = ticks.min(MAX_SCOUTED_S * u64::from(scene.tick_hz));
-    let (ticks_shown, times) = match (form, strobe) {
-        (Form::Png, None) => (ticks, 1),
-        _ => (long, long.min(MAX_FRAMES)),
-    };
-    let shown = ShownTicks { ticks: ticks_shown, times, beside: BESIDE, spread: f64::INFINITY };
+    let times = long.min(MAX_FRAMES);
+    let shown = ShownTicks { ticks: long, times, beside: BESIDE, spread: f64::INFINITY };
     let view = match form {
         Form::Rows => None,
-        Form::Png | Form::Gif => {
+        Form::Gif => {
             let axes = CloudAxes::of_run(of, start, specs, scene.tick_hz, shown);
             Some(axes.map_err(no_cloud)?.whole)
         }
     };
-    if let (Some(view), Some(period)) = (view, strobe) {
-        let section = Section::new(period, Density::new([SIDE_PX; 2], view));
-        runs.iter_mut().for_each(|run| run.section = Some(section.clone()));
-    }
     let paper = view.map(|view| Paper {
         lettering: Lettering::default(),
         view,
@@ -364,11 +296,7 @@ fn make(
     });
     let mut frames = Vec::new();
     let mut border = CloudBorder::exact(of, start, scene.tick_hz).map_err(no_cloud)?;
-    let every = match (form, strobe) {
-        (_, None) => ticks.div_ceil(MAX_FRAMES),
-        (Form::Rows | Form::Png, Some(_)) => ticks,
-        (Form::Gif, Some(period)) => ticks.div_ceil(MAX_FRAMES).max(period.ceil() as u64),
-    };
+    let every = ticks.div_ceil(MAX_FRAMES);
     let mut done = 0;
     while done < ticks {
         done = (done + every).min(ticks);
@@ -379,17 +307,10 @@ fn make(
             }
             run.areas.extend(run.cloud.area_ratio());
         }
-        let is_shown = form == Form::Gif || done == ticks;
-        let Some(paper) = paper.as_ref().filter(|_| is_shown) else { continue };
-        let lines = match strobe {
-            Some(_) => Vec::new(),
-            None => {
-                border.go_to(done);
-                border.lines()
-            }
-        };
+        let Some(paper) = &paper else { continue };
+        border.go_to(done);
         let t = done as f64 / f64::from(scene.tick_hz);
-        frames.push(paper.picture(&runs, t, &lines));
+        frames.push(paper.picture(&runs, t, &border.lines()));
     }
     let size_px = paper.map_or([0; 2], |paper| paper.size_px.map(|pixels| pixels as u32));
     let rows = runs.iter().map(|run| row(run, specs, points, ticks, form)).collect();
@@ -430,15 +351,9 @@ impl Paper {
         let mut pixels: Vec<Rgba> = vec![palette.background; width * height];
         let specs: Vec<LaneSpec> = runs.iter().map(|run| run.spec).collect();
         for (column, run) in runs.iter().enumerate() {
-            let MethodCloud { spec, cloud, section, .. } = run;
-            let density = match section {
-                Some(section) => section.density().clone(),
-                None => {
-                    let mut density = Density::new([SIDE_PX; 2], *view);
-                    density.add(cloud.q(), cloud.v());
-                    density
-                }
-            };
+            let MethodCloud { spec, cloud, .. } = run;
+            let mut density = Density::new([SIDE_PX; 2], *view);
+            density.add(cloud.q(), cloud.v());
             let (colour, _) = theme.style(spec.method);
             let picture = density.picture(theme, colour, lines);
             let left = column * (SIDE_PX + GAP_PX);
@@ -448,14 +363,9 @@ impl Paper {
             }
             let area = cloud.area_ratio();
             let ratio = area.map(|ratio| format!("area ×{}: ", significant(ratio, 3)));
-            let words = match section {
-                Some(section) => format!("{} crossings", section.crossings()),
-                None => {
-                    let hidden = hidden_in_words(cloud.hidden(&density), cloud.q().len());
-                    let hidden = hidden.map(|words| format!("; {words}")).unwrap_or_default();
-                    format!("{}{}{hidden}", ratio.unwrap_or_default(), run.words(area))
-                }
-            };
+            let hidden = hidden_in_words(cloud.hidden(&density), cloud.q().len());
+            let hidden = hidden.map(|words| format!("; {words}")).unwrap_or_default();
+            let words = format!("{}{}{hidden}", ratio.unwrap_or_default(), run.words(area));
             let name = spec.distinct_name(spec.method.name, &specs);
             for (line, (words, style)) in
                 [(name, (colour, true)), (words, (palette.text, false))].iter().enumerate()

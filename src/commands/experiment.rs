@@ -14,7 +14,7 @@ use crate::lab::LaneSpec;
 use crate::lab::pacing::{TRACES, TraceCard};
 use crate::lab::palette::Theme;
 use crate::lab::race::lanes_that_race;
-use crate::lab::scene::{MAX_SECONDS, SCENES, Scene};
+use crate::lab::scene::{MAX_SECONDS, SCENES, Scene, SceneGroup};
 use crate::lab::studio::{StageCommand, Studio};
 use crate::sim::Clock;
 use crate::sim::integrators::Method;
@@ -26,11 +26,9 @@ const MANY_LANES: usize = 10;
 #[derive(Clone, Debug, Args)]
 pub(super) struct ExperimentArgs {
     /// A scene or the file of one [default: harbour]
-    ///
-    /// `regatta list scenes` has the names. What is no name is the path of a file.
     #[arg(long, value_name = "NAME|FILE")]
     #[arg(value_parser = PathOrName(scene_names), hide_possible_values = true)]
-    #[arg(conflicts_with = "spring")]
+    #[arg(conflicts_with = "spring", long_help = scene_help())]
     scene: Option<PathBuf>,
 
     #[command(flatten)]
@@ -283,6 +281,18 @@ impl TypedValueParser for PathOrName {
 /// The names of the built-in scenes.
 pub(super) fn scene_names() -> Vec<&'static str> {
     SCENES.iter().map(|scene| scene.name).collect()
+}
+
+/// Where to begin among the scenes, and where a list of all is.
+fn scene_help() -> String {
+    let first = SCENES.iter().filter(|scene| scene.group == SceneGroup::StartHere);
+    let names: Vec<&str> = first.map(|scene| scene.name).collect();
+    format!(
+        "A scene or the file of one [default: {}]\n\nStart with {}; `regatta list scenes` has all. What is no name is the path \
+         of a file.",
+        names[0],
+        names.join(", ")
+    )
 }
 
 /// The names of the built-in traces.

@@ -14,7 +14,7 @@ use super::id::{METHOD, POLICY};
 use super::interrupt::watch_for_interrupt;
 use super::numbers::number_that;
 use super::output::table::{RowFormat, RowWriter};
-use super::output::{Destination, Output, STDOUT, print};
+use super::output::{Destination, Output, STDOUT};
 #[cfg(feature = "view")]
 use super::plot::Plot;
 use super::scene_file;
@@ -38,52 +38,43 @@ mod measured;
 use measured::{Measured, Stretch, drawn_from_ns, measure};
 
 const ABOUT: &str = "\
-One row for each trace and policy, in the order asked for:
-  policy, trace, tick_hz
-  frames                  frames made, displayed or not
-  animation_error_rms_ms, animation_error_max_ms  change of the moment shown minus change of the
-                          moment of display, from frame to frame: judder (PresentMon's term)
-  repeated_percent        displayed frames that show the same moment again
-  double_percent          displayed frames that show two ticks or more at once, half a tick or
-                          more ahead
-  latency_mean_ms, latency_max_ms  moment of display minus moment shown; of a file up to a
-                          constant, as the clocks of its two columns have no common origin; empty
-                          where the speed depends on the frame rate: the game runs away from the
-                          display
-  dropped_ms              real time given up
-  owed_max_ms             the most real time neither simulated nor given up
-  position_error_rms      distance from the exact solution at the moment of display, in amplitudes
-                          (half the range), of the worst body
-  ticks                   steps made, of whatever length
-  evaluations             of the bodies' accelerations
+One row for each trace and policy, in the order asked for; times are in ms:
+  frames              frames made, displayed or not
+  animation_error_…   change of the moment shown minus change of the moment of display, from frame
+                      to frame: judder (PresentMon's term)
+  repeated_percent    displayed frames that show the same moment again
+  double_percent      displayed frames that show two ticks or more at once, half a tick or more ahead
+  latency_…           moment of display minus moment shown; of a file up to a constant; empty where
+                      the speed depends on the frame rate: the game runs away from the display
+  dropped_ms          real time given up
+  owed_max_ms         the most real time neither simulated nor given up
+  position_error_rms  distance from the exact solution at the moment of display, in amplitudes (half
+                      the range), of the worst body
+  ticks, evaluations  steps made, and evaluations of the bodies' accelerations
 
---frames writes one line for each frame, policy and trace; q is the first coordinate of the
-scene's first body as the picture shows it. A trace from a file begins with its first row; a row
-that was never displayed steps the game and shows nothing. A file of several programs gives a
-trace for each. Frames that a driver generated, by the column FrameType, only let time pass. Of a
-log without times of display, as MangoHud's, PresentMon's MsBetweenPresents alone, or a list of
-frame times in milliseconds, one a line, frames are displayed when they begin.
-
-Below the rows stands which loop to take: the least animation error within --latency-ms; of equals
-a fixed tick, drawn between two ticks and not beyond the last, as extrapolation overshoots at each
-kick.
+In --frame-rows q is the first coordinate of the scene's first body as the picture shows it. Below
+the rows stands which loop to take: the least animation error within --latency-ms. `regatta help
+loops` says why, and which logs are read.
 
 Examples:
   regatta loop > loops.csv
   regatta loop --trace steady-144 --policy fixed --policy fixed-linear
   regatta loop --display-hz 90 --plot loops.png
-  regatta loop --trace capture.csv --tick-hz 50
-  regatta loop --show fixed-linear --language c#";
+  regatta loop --trace capture.csv --tick-hz 50";
 
 /// Measure what game loops do to motion on a display
 #[derive(Debug, Args)]
 #[command(after_long_help = flowing(ABOUT))]
 pub(super) struct LoopArgs {
-    /// A policy, or several [default: all]
+    /// A policy, or several [default: the usual ones]
     ///
     /// `regatta list policies` has them. Give the option again for each, to compare them.
     #[arg(long = "policy", value_name = "ID", value_parser = POLICY, hide_possible_values = true)]
     policies: Vec<&'static PolicyCard>,
+
+    /// Compare all policies
+    #[arg(long, conflicts_with = "policies")]
+    all: bool,
 
     /// A trace, or several [default: all built-in ones]
     ///
@@ -146,39 +137,22 @@ pub(super) struct LoopArgs {
     /// Write a line of CSV for each frame into FILE
     ///
     /// - is standard output.
-    #[arg(long, value_name = "FILE")]
-    frames: Option<PathBuf>,
+    #[arg(long, alias = "frames", value_name = "FILE")]
+    frame_rows: Option<PathBuf>,
 
     /// Draw what each loop shows as PNG into FILE
     ///
     /// The moment shown against the moment of display, and what each loop costs, on up to four traces.
     #[cfg(feature = "view")]
-    #[arg(long, value_name = "FILE", conflicts_with = "show")]
+    #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
 
     /// Replace the files that are there
     #[arg(long)]
     force: bool,
-
-    /// Print this policy as source
-    ///
-    /// To be taken into a game. Nothing else is done.
-    #[arg(long, value_name = "ID", value_parser = POLICY, hide_possible_values = true)]
-    #[arg(conflicts_with_all = [
-        "policies", "traces", "tick_hz", "display_hz", "scene", "method", "seconds", "latency_ms", "format", "out",
-        "frames", "force",
-    ])]
-    show: Option<&'static PolicyCard>,
-
-    /// The language of --show: rust, c++ or c#
-    #[arg(long, value_name = "LANGUAGE", default_value = "rust", requires = "show")]
-    language: String,
 }
 
 pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
-    if let Some(card) = args.show {
-        return print(snippet(card, &args.language)?);
-    }
     let (scene, _) = scene_file::load(&args.scene)?;
     scene_file::check_method(&scene, args.method)?;
     let scene = Scene { tick_hz: args.tick_hz.unwrap_or(scene.tick_hz), ..scene };
@@ -187,11 +161,11 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     if let Some(plot) = args.plot() {
         check_picture_name(plot, &args.out)?;
     }
-    let places = [Some(&*args.out), args.frames.as_deref(), args.plot()];
+    let places = [Some(&*args.out), args.frame_rows.as_deref(), args.plot()];
     let places: Vec<PathBuf> = places.into_iter().flatten().map(same_file_path).collect();
     if (1..places.len()).any(|n| places[..n].contains(&places[n])) {
         return Err(Error::mistake(
-            "two outputs would go to the same place; give each of --out, --frames and --plot its own",
+            "two outputs would go to the same place; give each of --out, --frame-rows and --plot its own",
         ));
     }
     let files = args.traces.iter().filter(|path| path.to_str().and_then(trace_card).is_none());
@@ -208,7 +182,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     let if_exists = if args.force { IfExists::Replace } else { IfExists::Keep };
     let to = |path, option| Destination { path, option, if_exists };
     let out = to(&args.out, "--out").open_for_text()?;
-    let frames = args.frames.as_deref().map(|path| to(path, "--frames").open_for_text());
+    let frames = args.frame_rows.as_deref().map(|path| to(path, "--frame-rows").open_for_text());
     let mut frames = match frames.transpose()? {
         Some(out) => Some(RowWriter::begin(out, RowFormat::Csv, FRAME_COLUMNS)?),
         None => None,
@@ -256,9 +230,11 @@ impl LoopArgs {
 
     /// The policies asked for, each once.
     fn policies(&self) -> Vec<&'static PolicyCard> {
+        if self.policies.is_empty() {
+            return POLICIES.iter().filter(|card| self.all || card.is_usual).collect();
+        }
         let mut policies: Vec<&'static PolicyCard> = Vec::new();
-        let all: Vec<&'static PolicyCard> = POLICIES.iter().collect();
-        for &card in if self.policies.is_empty() { &all } else { &self.policies } {
+        for &card in &self.policies {
             if !policies.contains(&card) {
                 policies.push(card);
             }
@@ -273,19 +249,6 @@ impl LoopArgs {
             seconds => (seconds.unwrap_or(scene.seconds.max(MIN_RUN_S)) * 1e9).round() as i64,
         }
     }
-}
-
-/// The source of a policy in a language.
-fn snippet(card: &'static PolicyCard, language: &str) -> Result<&'static str, Error> {
-    let found = card.snippets.iter().find(|snippet| snippet.language == language);
-    found.map(|snippet| snippet.source).ok_or_else(|| {
-        let known: Vec<&str> = card.snippets.iter().map(|snippet| snippet.language).collect();
-        Error::mistake(format!(
-            "{} is not written out in {language}; give --language {}",
-            card.id,
-            known.join(" or ")
-        ))
-    })
 }
 
 /// What is measured of a single run. The last takes a second one.
@@ -307,7 +270,7 @@ fn write_measured(out: Output, format: RowFormat, rows: &[Measured]) -> Result<(
     writer.end()?.finish(&counted(rows.len(), "row"))
 }
 
-/// The columns of `--frames`.
+/// The columns of `--frame-rows`.
 const FRAME_COLUMNS: [&str; 9] = [
     "trace",
     "policy",

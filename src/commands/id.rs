@@ -16,8 +16,8 @@ use crate::sim::integrators::{Family, METHODS, Method};
 pub(super) struct Id<T: 'static> {
     /// What has such an id, in messages.
     pub(super) thing: &'static str,
-    /// The list of `regatta list` that names all; without one the message does.
-    pub(super) list: Option<&'static str>,
+    /// The lists of `regatta list` that name all; without one the message does.
+    pub(super) lists: &'static [&'static str],
     pub(super) all: fn() -> Vec<(String, T)>,
     /// Other spellings, each with its id, by which a mistake is understood.
     pub(super) spellings: fn() -> Vec<(&'static str, &'static str)>,
@@ -25,7 +25,7 @@ pub(super) struct Id<T: 'static> {
 
 impl<T: Copy> Id<T> {
     const fn new(thing: &'static str, all: fn() -> Vec<(String, T)>) -> Self {
-        Self { thing, list: None, all, spellings: Vec::new }
+        Self { thing, lists: &[], all, spellings: Vec::new }
     }
 
     /// What this id stands for.
@@ -40,9 +40,14 @@ impl<T: Copy> Id<T> {
         let ids: Vec<&str> = all.iter().map(|(id, _)| &**id).collect();
         let spellings = ids.iter().map(|id| (*id, *id)).chain((self.spellings)());
         let meant = nearest(id, spellings).map(|meant| format!("; did you mean {meant}?"));
-        let see = match self.list {
-            Some(list) => format!("`regatta list {list}` names all"),
-            None => format!("There are {}", ids.join(", ")),
+        let see = match self.lists {
+            [] => format!("There are {}", ids.join(", ")),
+            [list] => format!("`regatta list {list}` names all"),
+            lists => {
+                let lists: Vec<_> =
+                    lists.iter().map(|list| format!("`regatta list {list}`")).collect();
+                format!("{} name all", lists.join(" and "))
+            }
         };
         Err(format!("no such {}{} {see}", self.thing, meant.unwrap_or(".".into())))
     }
@@ -67,19 +72,19 @@ impl<T: Copy + Send + Sync + 'static> TypedValueParser for Id<T> {
 }
 
 pub(super) const METHOD: Id<&Method> = Id {
-    list: Some("methods"),
+    lists: &["methods"],
     spellings: || METHODS.iter().flat_map(Method::spellings).collect(),
     ..Id::new("method", || METHODS.iter().map(|method| (method.id.into(), method)).collect())
 };
 
 pub(super) const POLICY: Id<&PolicyCard> = Id {
-    list: Some("policies"),
+    lists: &["policies"],
     spellings: || POLICIES.iter().map(|card| (card.name, card.id)).collect(),
     ..Id::new("policy", || POLICIES.iter().map(|card| (card.id.into(), card)).collect())
 };
 
 pub(super) const TRACE: Id<&TraceCard> = Id {
-    list: Some("traces"),
+    lists: &["traces"],
     ..Id::new("trace", || TRACES.iter().map(|card| (card.id.into(), card)).collect())
 };
 

@@ -18,28 +18,23 @@ use findings::{object, words};
 
 const ABOUT: &str = "\
 LOG.csv has a header and a row for each tick, or for some of them: t in seconds, x in metres and,
-if it was logged, v in metres per second. Where rows are skipped, a column tick counts them; else
-the tick is read off t. The body is one of:
+if it was logged, v. Where rows are skipped, a column tick counts them; else the tick is read off t.
+The body is one of:
 
   a spring      --k, and --c and --mass if they are not 0 and 1, x from where it rests
   a body that coasts or is driven    --drag, the damping setting in 1/s, and --thrust in newtons
   neither given: a spring whose stiffness and damping are fitted too, which leaves more open
 
-Every method with steps of one length is run beside the log under 1 to 16 substeps, from a start
-that is fitted to the log, of which 3000 ticks are used. Methods as they are set by default are
-believed before others, and counts of substeps that few set, such as 3, last. A residual is the
-root mean square of the difference from the log, in units of the largest x and v. The word is
+A residual is the root mean square of the difference from the log, in units of the largest x and v.
+The word is
 
   identified    one method explains the log to its noise, with those that do the same on this body
   cannot tell   methods that differ explain it equally well, or the log is too short to tell
   unknown       none explains it
 
-JSON has word, best, substeps, held, mode, version, logged, residual, also (the same on this body),
-unusual (would explain it too, but is rare), runner_up, runner_up_substeps, runner_up_residual,
-effective_stiffness_n_per_m, effective_frequency_hz, effective_damping_ratio, energy_halves_s,
-energy_doubles_s, exact_frequency_hz, exact_damping_ratio and recommended. held says that the game
-applies the spring's force itself, mode how an engine is told the spring, as `regatta port` names
-it, and version and logged what the engine's formula is held against. What is not known is null.
+In JSON, also are methods that do the same on this body, and unusual such as would explain it too,
+but are rare; held says that the game applies the spring's force itself, and mode how an engine is
+told the spring, as `regatta port` names it. What is not known is null.
 
 Examples:
   regatta identify spring.csv --tick-hz 60 --k 40 --c 0.5 --mass 2

@@ -11,7 +11,7 @@ use super::output::print;
 use super::output::table::{self, Column, TableFormat};
 use crate::lab::analysis::{METRICS, Metric, Scale};
 use crate::lab::pacing::{POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
-use crate::lab::scene::{SCENES, Scene, SceneKey, scene_tables};
+use crate::lab::scene::{BuiltIn, SCENES, Scene, SceneKey, scene_tables};
 use crate::lab::studio::{Binding, KEYS};
 use crate::sim::BodyClass;
 use crate::sim::bodies::{BODIES, Body, Coordinate, Kind, Net, Parameter, stepped_kinds};
@@ -58,11 +58,7 @@ enum Listing {
 
 pub(super) fn run(args: &ListArgs) -> Result<(), Error> {
     let listing = match args.what {
-        Listing::Scenes => {
-            let scenes: Vec<_> =
-                SCENES.iter().filter_map(|scene| Scene::built_in(scene.name)).collect();
-            write(SCENE, &scenes, args.format)
-        }
+        Listing::Scenes => scenes(args.format),
         Listing::Methods => write(METHOD, METHODS, args.format),
         Listing::Bodies if args.format == TableFormat::Text => bodies_with_keys(),
         Listing::Bodies => write(BODY, &BODIES, args.format),
@@ -79,6 +75,28 @@ fn write<T>(columns: &[Column<T>], items: &[T], format: TableFormat) -> String {
         TableFormat::Text => table::text(columns, items, ""),
         TableFormat::Json => format!("{:#}\n", table::json(columns, items)),
     }
+}
+
+/// The built-in scenes; in text each group below its heading.
+fn scenes(format: TableFormat) -> String {
+    let read = |built_in: &'static BuiltIn| Some((built_in, Scene::built_in(built_in.name)?));
+    let scenes: Vec<(&BuiltIn, Scene)> = SCENES.iter().filter_map(read).collect();
+    let text = write(SCENE, &scenes, format);
+    if format == TableFormat::Json {
+        return text;
+    }
+    let (head, rows) = text.split_once('\n').expect("a line of headings");
+    let mut grouped = format!("{head}\n");
+    for rows in scenes
+        .iter()
+        .zip(rows.lines())
+        .collect::<Vec<_>>()
+        .chunk_by(|one, other| one.0.0.group == other.0.0.group)
+    {
+        grouped += &format!("\n{}\n", rows[0].0.0.group.title());
+        grouped.extend(rows.iter().map(|(_, row)| format!("{row}\n")));
+    }
+    grouped
 }
 
 /// What expressions of laws are made of.
@@ -122,7 +140,7 @@ fn bodies_with_keys() -> String {
         tables.map(|(name, keys)| format!("\n{name}\n{}", table::text(SCENE_KEY, &keys, "  ")));
     let (keys, tables) = (keys.collect::<String>(), tables.collect::<String>());
     let of_nets = refused_by_engines(Net::CLASS).unwrap_or_default();
-    table::text(BODY, &BODIES, "") + &keys + &tables + &expressions() + "\nnets\n" + &of_nets
+    table::text(BODY, BODIES.iter(), "") + &keys + &tables + &expressions() + "\nnets\n" + &of_nets
 }
 
 /// Two lines that say why engines do not step bodies of this class, and which methods of the family do.
@@ -139,16 +157,19 @@ fn refused_by_engines(class: BodyClass) -> Option<String> {
     Some(format!("  No method of an engine{except}:\n    {why}.\n"))
 }
 
-const SCENE: &[Column<Scene>] = &[
-    Column::shown("name", "NAME", |scene| json!(scene.name)),
-    Column::shown("tick_hz", "HZ", |scene| json!(scene.tick_hz)),
-    Column::shown("seconds", "SECONDS", |scene| json!(scene.seconds)),
-    Column::shown("bodies", "BODIES", |scene| {
+const SCENE: &[Column<(&BuiltIn, Scene)>] = &[
+    Column::shown("name", "NAME", |(_, scene)| json!(scene.name)),
+    Column::new("group", |(built_in, _)| json!(built_in.group.title())),
+    Column::shown("tick_hz", "HZ", |(_, scene)| json!(scene.tick_hz)),
+    Column::shown("seconds", "SECONDS", |(_, scene)| json!(scene.seconds)),
+    Column::shown("bodies", "BODIES", |(_, scene)| {
         scene.bodies.iter().map(|body| json!(body.kind.id)).collect()
     }),
-    Column::new("methods", |scene| scene.lanes.iter().map(|lane| json!(lane.method.id)).collect()),
-    Column::shown("title", "TITLE", |scene| json!(scene.title)),
-    Column::new("about", |scene| json!(scene.about)),
+    Column::new("methods", |(_, scene)| {
+        scene.lanes.iter().map(|lane| json!(lane.method.id)).collect()
+    }),
+    Column::shown("title", "TITLE", |(_, scene)| json!(scene.title)),
+    Column::new("about", |(_, scene)| json!(scene.about)),
 ];
 
 fn free_spin(method: &Method) -> Option<FreeSpin> {
@@ -181,7 +202,7 @@ const METHOD: &[Column<Method>] = &[
     }),
     Column::new("restart", |method| json!(method.restart)),
     Column::new("keeps_time", |method| json!(method.keeps_time)),
-    Column::shown("as_printed", "AS PRINTED", |m| json!(m.is_as_printed())),
+    Column::new("as_printed", |method| json!(method.is_as_printed())),
     Column::shown("only", "ONLY FOR", |method| json!(stepped_kinds(method))),
     Column::new("only_because", |method| json!(method.only.map(|only| only.reason))),
     Column::new("default_substeps", |m| json!(m.default_substeps)),
@@ -258,6 +279,7 @@ const POLICY: &[Column<PolicyCard>] = &[
     Column::new("odd_frames", |policy| json!(policy.odd_frames)),
     Column::shown("drawing", "DRAWING", |p| json!(p.drawing.name())),
     Column::shown("has_fixed_tick", "FIXED", |p| json!(p.has_fixed_tick)),
+    Column::new("usual", |policy| json!(policy.is_usual)),
     Column::new("users", |policy| json!(policy.users)),
     Column::new("source", |policy| json!(policy.source)),
     Column::new("languages", |policy| {

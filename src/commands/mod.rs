@@ -100,10 +100,10 @@ Examples:
   regatta capture --scene spring --race --out clip
   regatta advise --scene stiff
   regatta sweep --scene spring --plot spring.png > spring.csv
-  regatta cloud --scene liouville --shape cat --out cat.png
+  regatta cloud --scene liouville      what becomes of an area under each method
   regatta loop --trace steady-144 --policy fixed --policy fixed-linear
   regatta identify spring.csv --tick-hz 60 --k 40
-  regatta port --want 2.5Hz --zeta 0.3 the settings of every engine for a spring
+  regatta port --frequency 2.5Hz       the settings of every engine for a spring
   regatta show rk4 --as csharp         the method's code, for your game
   regatta chapter --out figures
   regatta verify clip

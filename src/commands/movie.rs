@@ -19,11 +19,6 @@ use crate::lab::Studio;
 /// A stream of frames being encoded.
 pub(super) trait Movie: Send {
     fn push(&mut self, frame: &DrawnFrame) -> Result<(), Error>;
-
-    /// Writes what comes after the last frame.
-    fn end(self: Box<Self>) -> Result<(), Error> {
-        Ok(())
-    }
 }
 
 /// A stream that was begun.
@@ -64,35 +59,9 @@ pub(super) fn record(
         };
         return Err(interrupted_after(done, frames, &whole));
     }
-    movie.end()?;
+    drop(movie);
     print_status(&closing_line(&capture, &output.close()?));
     Ok(())
-}
-
-/// Animated PNG, every bit of every frame.
-struct Apng<'a>(png::Writer<&'a mut Output>);
-
-pub(super) fn apng<'a>(out: &'a mut Output, capture: &CaptureSettings) -> Begun<'a> {
-    let [width, height] = capture.size_px;
-    let Schedule { frames, fps } = capture.schedule;
-    let mut encoder = png::Encoder::new(out, width, height);
-    encoder.set_color(png::ColorType::Rgba);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::Fast);
-    encoder.set_filter(png::Filter::Up);
-    encoder.set_animated(frames, 0).map_err(of_png)?;
-    encoder.set_frame_delay(1, small(fps)).map_err(of_png)?;
-    Ok(Box::new(Apng(encoder.write_header().map_err(of_png)?)))
-}
-
-impl Movie for Apng<'_> {
-    fn push(&mut self, frame: &DrawnFrame) -> Result<(), Error> {
-        self.0.write_image_data(&frame.rgba).map_err(of_png)
-    }
-
-    fn end(self: Box<Self>) -> Result<(), Error> {
-        self.0.finish().map_err(of_png)
-    }
 }
 
 /// GIF, with a palette of 256 colours for each frame. Its encoder writes the last byte when it is dropped; the output tells
@@ -133,19 +102,6 @@ impl Movie for Y4m<'_> {
     }
 }
 
-/// Bytes of red, green, blue and alpha, without a header.
-struct Rgba<'a>(&'a mut Output);
-
-pub(super) fn rgba<'a>(out: &'a mut Output, _: &CaptureSettings) -> Begun<'a> {
-    Ok(Box::new(Rgba(out)))
-}
-
-impl Movie for Rgba<'_> {
-    fn push(&mut self, frame: &DrawnFrame) -> Result<(), Error> {
-        Ok(self.0.write_all(&frame.rgba)?)
-    }
-}
-
 /// A GIF that repeats, being encoded.
 pub(super) struct Gif<W: Write> {
     encoder: GifEncoder<W>,
@@ -173,17 +129,6 @@ impl<W: Write> Gif<W> {
 fn shown_cs(frame: u32, fps: u32) -> u32 {
     let ends = |frame: u32| u64::from(frame) * 100 / u64::from(fps);
     (ends(frame + 1) - ends(frame)) as u32
-}
-
-fn small(value: u32) -> u16 {
-    u16::try_from(value).expect("the command line's limits fit")
-}
-
-fn of_png(error: png::EncodingError) -> Error {
-    match error {
-        png::EncodingError::IoError(error) => error.into(),
-        error => Error::failed(format!("the PNG cannot be encoded: {error}")),
-    }
 }
 
 fn of_gif(error: ImageError) -> Error {

@@ -15,6 +15,12 @@ pub(super) fn number(written: &str) -> Result<f64, String> {
     number_that(written, |x| x >= 0.0, "a number from 0 up")
 }
 
+/// A frequency of the command line in Hz, which may have its unit behind it.
+pub(super) fn frequency(written: &str) -> Result<f64, String> {
+    let number = written.strip_suffix("Hz").unwrap_or(written).trim_end();
+    number_that(number, |hz| hz > 0.0, "a frequency above 0 in Hz, such as 2.5Hz")
+}
+
 /// A number of the command line above 0.
 pub(super) fn positive(written: &str) -> Result<f64, String> {
     number_that(written, |x| x > 0.0, "a number above 0")

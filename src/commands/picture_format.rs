@@ -35,9 +35,8 @@ pub(super) struct PictureFormat {
 }
 
 /// All formats.
-pub(super) static FORMATS: [PictureFormat; 6] = [
+pub(super) static FORMATS: [PictureFormat; 4] = [
     format("png", "Numbered pictures and a manifest in a directory", &[], Folder),
-    format("apng", "One animated PNG", &["apng", "png"], Movie(movie::apng)),
     PictureFormat {
         // Players show a frame for two hundredths of a second at least.
         max_fps: Some(50),
@@ -49,7 +48,6 @@ pub(super) static FORMATS: [PictureFormat; 6] = [
         )
     },
     format("y4m", "YUV4MPEG2, for a video encoder", &["y4m"], Movie(movie::y4m)),
-    format("rgba", "Raw RGBA bytes, for a video encoder", &["rgba"], Movie(movie::rgba)),
     format("sheet", "One picture, time across, lanes down", &["png"], Sheet),
 ];
 
@@ -79,7 +77,7 @@ impl PictureFormat {
         if out == Path::new(STDOUT) {
             return asked.filter(|format| !matches!(format.writing, Folder)).ok_or_else(|| {
                 Error::mistake(
-                    "numbered pictures need a directory; give --format y4m, rgba, apng, gif or sheet with --out -",
+                    "numbered pictures need a directory; give --format y4m, gif or sheet with --out -",
                 )
             });
         }
@@ -88,18 +86,17 @@ impl PictureFormat {
         if holds_no_picture(ending) {
             return Err(Error::mistake(format!(
                 "regatta capture writes no .{ending} files; give {path} without its ending for a directory, or a \
-                 name that ends in .gif, .apng or .y4m, or in .png with --format sheet"
+                 name that ends in .gif, .y4m or .png"
             )));
         }
         if !is_of_pictures(ending) {
             return Ok(asked.unwrap_or(&FORMATS[0]));
         }
-        let is_held = |format: &&Self| format.endings.contains(&ending);
-        let mut held = FORMATS.iter().filter(is_held);
-        match (asked, held.next(), held.next_back()) {
-            (Some(asked), ..) if is_held(&asked) => Ok(asked),
-            (Some(asked), first, last) => {
-                let of_name = last.or(first).map(|format| format!("--format {}", format.id));
+        let held = FORMATS.iter().find(|format| format.endings.contains(&ending));
+        match (asked, held) {
+            (Some(asked), Some(held)) if asked.id == held.id => Ok(asked),
+            (Some(asked), held) => {
+                let of_name = held.map(|format| format!("--format {}", format.id));
                 let of_name = of_name.unwrap_or("--format y4m and a video encoder".into());
                 let remedy = match asked.endings {
                     [] => format!("give the name of a directory, or {of_name}"),
@@ -107,14 +104,10 @@ impl PictureFormat {
                 };
                 Err(mislabelled(out, &remedy))
             }
-            (None, Some(held), None) => Ok(held),
-            (None, None, _) => Err(Error::mistake(format!(
+            (None, Some(held)) => Ok(held),
+            (None, None) => Err(Error::mistake(format!(
                 "regatta writes no .{ending} files; give --format y4m --out -, and let a video encoder such as \
                  ffmpeg write {path}"
-            ))),
-            (None, Some(_), Some(_)) => Err(Error::mistake(format!(
-                "{path} is the name of one picture; give --format sheet or --format apng for one, or the name of \
-                 a directory for numbered ones"
             ))),
         }
     }
@@ -150,15 +143,13 @@ mod tests {
             ("clip", None, Some("png")),
             ("clip", Some("gif"), Some("gif")),
             ("run.2026", None, Some("png")),
-            ("run.raw", Some("rgba"), Some("rgba")),
+            ("run.raw", Some("y4m"), Some("y4m")),
             ("x.gif", None, Some("gif")),
             ("x.GIF", None, Some("gif")),
-            ("x.apng", None, Some("apng")),
+            ("x.apng", None, None),
             ("x.y4m", None, Some("y4m")),
-            ("x.rgba", None, Some("rgba")),
             ("x.png", Some("sheet"), Some("sheet")),
-            ("x.png", Some("apng"), Some("apng")),
-            ("x.png", None, None),
+            ("x.png", None, Some("sheet")),
             ("x.png", Some("gif"), None),
             ("x.png", Some("png"), None),
             ("x.gif", Some("png"), None),

@@ -78,12 +78,6 @@ pub(super) struct PlayArgs {
     #[arg(long, value_name = "THEME", hide_possible_values = true)]
     theme: Option<ThemeName>,
 
-    /// Memory for rewinding a run [default: 64]
-    ///
-    /// Less makes long jumps slower.
-    #[arg(long, hide_short_help = true, value_name = "MB", value_parser = clap::value_parser!(u16).range(1..))]
-    rewind_mb: Option<u16>,
-
     /// Trails do not fade, and the camera zooms out in steps
     #[arg(long, hide_short_help = true)]
     reduced_motion: bool,
@@ -113,11 +107,11 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     let mut studio = experiment.studio();
     studio.viewer_mut().preferences.display.motion =
         if args.reduced_motion { Motion::Reduced } else { Motion::Live };
-    if let Some(mb) = args.rewind_mb {
-        studio.set_rewind_bytes(usize::from(mb) << 20);
-    }
     if let Some(theme) = args.theme.map(Theme::from).or(preferences.theme) {
         studio.viewer_mut().preferences.choose_theme(theme);
+    }
+    if args.loop_trace.is_none() {
+        studio.show_clouds_of_scene();
     }
     let opens_at_work = args.race || args.loop_trace.is_some();
     studio.viewer_mut().preferences.display.measure = preferences.measure || opens_at_work;

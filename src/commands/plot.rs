@@ -49,5 +49,5 @@ impl Plot {
 
 /// The number of columns that gives about as many rows.
 pub(super) fn columns(charts: usize) -> usize {
-    (2..charts).find(|columns| columns * (columns + 1) >= charts).unwrap_or(2)
+    (2..charts).find(|columns| columns * (columns + 1) >= charts).unwrap_or(charts.min(2))
 }

@@ -7,7 +7,7 @@ use super::error::Error;
 use super::help::flowing;
 use super::id::Id;
 use super::identify::{LogArgs, rate};
-use super::numbers::{number, positive};
+use super::numbers::{frequency, number, positive};
 use super::output::print;
 use super::output::table::TableFormat;
 use crate::lab::port::{DriveLimits, Ported, Setup, Wish, drive_limits, followers, setups};
@@ -18,48 +18,39 @@ use crate::sim::integrators::{METHODS, Method};
 mod from;
 mod report;
 
-use from::{From, with_unit};
+use from::From;
 
 const ABOUT: &str = "\
-What a player sees of a spring differs from engine to engine: each damps by itself, softens or
-stiffens it. For each engine, the settings are sought under which its tick shows what is wished:
+For each engine, the settings are sought under which its tick shows what is wished:
 
-  --want 2.5Hz --zeta 0.3        a frequency and a damping ratio
-  --from engine-X:KEY=VALUE,…    what engine X shows with its own settings; substeps, tick_hz and
-                                 mode may be given as keys too
-  --from LOG.csv                 what is seen in a log, which is read as by `regatta identify`
-  --from lerp:0.1@60fps          a value that chases a target: also smooth-damp:SECONDS and
-                                 half-life:SECONDS, to every follower at every rate of frames
+  --frequency F --damping-ratio R  what a player is to see
+  --from engine-X:KEY=VALUE,…      what engine X shows with its own settings; substeps, tick_hz and
+                                   mode may be given as keys too
+  --from LOG.csv                   what is seen in a log, which is read as by `regatta identify`
+  --from lerp:0.1@60fps            a value that chases a target: also smooth-damp:SECONDS and
+                                   half-life:SECONDS
 
-The frequency is the one at which the spring swings, or would without its damping; with a damping
-ratio d it swings √(1 - d²) times as fast. Frequency and damping ratio are read off the map of a
-tick, which is measured on the engine's step. The body is on a line and has no drag of its own, and
-what holds the spring rests. The word is
+The frequency is the one at which the spring would swing without its damping; with a damping ratio d
+it swings √(1 - d²) times as fast. The word is
 
   reached      the engine shows the wish, to rounding
   nearest      it does not; these settings come nearest
   unreachable  it does not, because it damps more by itself: its floor is the least damping ratio
                that it shows at this frequency
 
-Nearest is the least sum of two distances, of the logarithms of the frequencies and of the damping
-ratios. A number of substeps that is not given is the engine's own default. Where an engine has no
-substeps, as Chipmunk and Godot, N of them are N ticks that the game makes, each of dt / N; in
-PhysX they are position iterations. The code says so.
+Where an engine has no substeps, as Chipmunk and Godot, N of them are N ticks of dt / N that the
+game makes; in PhysX they are position iterations.
 
-With --drive the wish is the gains of a drive, as the equation of motion has them: of the engine's
-own, and of a force of user code that is held through --decimation ticks. Told are the largest
-stable stiffness with the damping of the wish, the largest stable damping with its stiffness, and
-the fewest substeps, up to 64, with which both are stable.
-
-JSON has want (frequency_hz, damping_ratio, mass_kg), tick_hz and engines, each with method, mode,
-substeps, word, settings, sees, floor, own_force and code, or with --drive drives.
+With --drive the wish is the gains of a drive, of the engine's own and of a force of user code that
+is held through --decimation ticks. Told are the largest stable stiffness with the damping of the
+wish, the largest stable damping with its stiffness, and the fewest substeps, up to 64.
 
 Examples:
-  regatta port --want 2.5Hz --zeta 0.3 --mass 80
-  regatta port --want 1Hz --to engine-box2d,engine-jolt --tick-hz 50
+  regatta port --frequency 2.5Hz --damping-ratio 0.3 --mass 80
+  regatta port --frequency 1Hz --to engine-box2d,engine-jolt --tick-hz 50
   regatta port --from engine-godot:stiffness=1000,damping=80 --to engine-jolt
   regatta port --from spring.csv --tick-hz 60 --format json
-  regatta port --want 5Hz --zeta 1 --drive --decimation 4 --tick-hz 500
+  regatta port --frequency 5Hz --drive --decimation 4 --tick-hz 500
   regatta port --from lerp:0.1@60fps";
 
 /// Say with what settings a spring moves alike in all engines
@@ -68,16 +59,16 @@ Examples:
 #[command(group = ArgGroup::new("wish").required(true))]
 pub(super) struct PortArgs {
     /// The frequency that a player is to see
-    #[arg(long, value_name = "Hz", group = "wish", allow_hyphen_values = true)]
-    #[arg(value_parser = |written: &str| with_unit(written, "Hz"))]
-    want: Option<f64>,
+    #[arg(long, alias = "want", value_name = "Hz", group = "wish", value_parser = frequency)]
+    #[arg(allow_hyphen_values = true)]
+    frequency: Option<f64>,
 
     /// The damping ratio to be seen [default: 0]
     ///
     /// At 1 it just swings no more.
-    #[arg(long, value_name = "RATIO", value_parser = number, allow_negative_numbers = true)]
-    #[arg(requires = "want")]
-    zeta: Option<f64>,
+    #[arg(long, alias = "zeta", value_name = "RATIO", value_parser = number)]
+    #[arg(allow_negative_numbers = true, requires = "frequency")]
+    damping_ratio: Option<f64>,
 
     /// An engine's settings, a log, or a chase
     ///
@@ -137,7 +128,7 @@ fn has_modes(method: &Method) -> bool {
 /// Takes the id of an engine that has a spring.
 const ENGINE: Id<&Method> = Id {
     thing: "engine with a spring",
-    list: None,
+    lists: &[],
     all: || METHODS.iter().filter(|it| has_modes(it)).map(|it| (it.id.into(), it)).collect(),
     spellings: Vec::new,
 };
@@ -145,7 +136,7 @@ const ENGINE: Id<&Method> = Id {
 /// The same, or that of all.
 const ASKED: Id<Asked> = Id {
     thing: ENGINE.thing,
-    list: None,
+    lists: &[],
     all: || {
         let each = (ENGINE.all)().into_iter().map(|(id, engine)| (id, Asked::One(engine)));
         [("all".into(), Asked::All)].into_iter().chain(each).collect()
@@ -173,7 +164,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
     let wish = match from.transpose()? {
         Some(From::Approach(_, _)) if args.drive => {
             return Err(Error::mistake(
-                "--drive is for a spring; give --want, or settings of an engine in --from",
+                "--drive is for a spring; give --frequency, or settings of an engine in --from",
             ));
         }
         Some(From::Approach(approach, fps)) => {
@@ -194,8 +185,8 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             Wish::of(seen.ok_or_else(none)?, args.mass)
         }
         None => Wish {
-            frequency_hz: args.want.expect("one of the group is given"),
-            damping_ratio: args.zeta.unwrap_or(0.0),
+            frequency_hz: args.frequency.expect("one of the group is given"),
+            damping_ratio: args.damping_ratio.unwrap_or(0.0),
             mass_kg: args.mass,
         },
     };

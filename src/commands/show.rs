@@ -1,79 +1,144 @@
-//! `regatta show`: a method as a function, to be taken into a game.
+//! `regatta show`: a method as a function, or a game loop, to be taken into a game.
 
 use clap::Args;
 
 use super::error::Error;
 use super::help::flowing;
-use super::id::{Id, LANGUAGE, METHOD};
+use super::id::{Id, LANGUAGE, METHOD, POLICY};
 use super::output::print;
 use super::terminal::print_status;
+use crate::lab::pacing::PolicyCard;
 use crate::lab::source_code::{Language, Precision, source_code};
 use crate::sim::integrators::{METHODS, Method};
 
 const ABOUT: &str = "\
 The function makes one step of h seconds for one coordinate: of its position x, its velocity v and
 a function a(x, v) for the acceleration. A method with memory takes its memory too, a follower the
-position of its target and a rate, and an engine the settings of its joint and its body. Above the
-function stand the method's source, its order, its stability limit, how it restarts, and what to do
-with forces that depend on time.
+position of its target and a rate, and an engine the settings of its joint and its body. The comment
+above the function has what else to know.
 
 Examples:
   regatta show rk4
   regatta show semi-implicit-euler --as csharp --float
   regatta show bdf2 --as c > bdf2.h
-  regatta show critically-damped-spring --as gdscript > spring.gd";
+  regatta show fixed-linear --as cpp";
 
-/// Print a method as a function in Rust, C, C# or GDScript
+/// Print a method or a game loop as code for your game
 #[derive(Debug, Args)]
 #[command(after_long_help = flowing(ABOUT))]
 pub(super) struct ShowArgs {
-    /// The method, by its id or another name of it
+    /// A method, by its id or another name, or a game loop
     ///
-    /// `regatta list methods` has both.
-    #[arg(value_name = "METHOD", value_parser = ASKED, hide_possible_values = true)]
+    /// `regatta list methods` and `regatta list policies` have them.
+    #[arg(value_name = "METHOD|POLICY", value_parser = ASKED, hide_possible_values = true)]
     asked: Asked,
 
-    /// The language
+    /// The language: rust, c, cpp, csharp or gdscript
+    ///
+    /// Methods are written in all but cpp, loops in rust and some in cpp and csharp.
     #[arg(long = "as", value_name = "LANGUAGE", default_value = Language::Rust.id())]
-    #[arg(value_parser = LANGUAGE)]
-    language: Language,
+    #[arg(value_parser = WRITTEN, hide_possible_values = true)]
+    language: Written,
 
     /// Numbers of single precision, as Unity and Godot have them
     #[arg(long)]
     float: bool,
 }
 
-/// A method that was asked for.
+/// What was asked for.
 #[derive(Clone, Copy, Debug)]
-struct Asked {
-    method: &'static Method,
-    /// The one of its [other ids](Method::also) that was given, if it was not its own.
-    alias: Option<&'static str>,
+enum Asked {
+    Method {
+        method: &'static Method,
+        /// The one of its [other ids](Method::also) that was given, if it was not its own.
+        alias: Option<&'static str>,
+    },
+    Loop(&'static PolicyCard),
 }
 
-/// Takes the id of a method or one of its other ids.
+/// Takes the id of a method, one of its other ids, or the id of a game loop.
 const ASKED: Id<Asked> = Id {
-    thing: METHOD.thing,
-    list: METHOD.list,
+    thing: "method or policy",
+    lists: &["methods", "policies"],
     all: || {
-        let own = METHODS.iter().map(|method| (method.id.into(), Asked { method, alias: None }));
+        let own = METHODS.iter().map(|it| (it.id, Asked::Method { method: it, alias: None }));
         let others = METHODS.iter().flat_map(|method| {
-            method
-                .also
-                .iter()
-                .map(move |alias| ((*alias).into(), Asked { method, alias: Some(alias) }))
+            let with = |alias| (alias, Asked::Method { method, alias: Some(alias) });
+            method.also.iter().copied().map(with)
         });
-        own.chain(others).collect()
+        let methods = own.chain(others).map(|(id, asked)| (id.to_owned(), asked));
+        let loops = (POLICY.all)().into_iter().map(|(id, card)| (id, Asked::Loop(card)));
+        methods.chain(loops).collect()
     },
-    spellings: METHOD.spellings,
+    spellings: || [(METHOD.spellings)(), (POLICY.spellings)()].concat(),
 };
 
+/// A language that something is written in.
+#[derive(Clone, Copy, Debug)]
+enum Written {
+    /// One of those of methods.
+    Of(Language),
+    /// That of loops alone.
+    Cpp,
+}
+
+const WRITTEN: Id<Written> = Id {
+    thing: LANGUAGE.thing,
+    lists: &[],
+    all: || {
+        let methods =
+            (LANGUAGE.all)().into_iter().map(|(id, language)| (id, Written::Of(language)));
+        methods.chain([("cpp".into(), Written::Cpp)]).collect()
+    },
+    spellings: || vec![("c++", "cpp"), ("c#", "csharp")],
+};
+
+impl Written {
+    /// Its name on the card of a loop.
+    fn of_loops(self) -> &'static str {
+        match self {
+            Self::Cpp => "c++",
+            Self::Of(Language::CSharp) => "c#",
+            Self::Of(language) => language.id(),
+        }
+    }
+}
+
 pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
-    let Asked { method, alias } = args.asked;
+    let (method, alias) = match args.asked {
+        Asked::Method { method, alias } => (method, alias),
+        Asked::Loop(_) if args.float => {
+            return Err(Error::mistake(
+                "--float is for methods; a loop has no precision to choose",
+            ));
+        }
+        Asked::Loop(card) => return print(snippet(card, args.language)?),
+    };
+    let Written::Of(language) = args.language else {
+        return Err(Error::mistake("methods are written in C, which C++ compiles; give --as c"));
+    };
     let precision = if args.float { Precision::Single } else { Precision::Double };
-    let code = source_code(method, args.language, precision).map_err(Error::mistake)?;
+    let code = source_code(method, language, precision).map_err(Error::mistake)?;
     if let Some(alias) = alias {
         print_status(&format!("note: {alias} is another name of {}, which is shown", method.id));
     }
     print(&code)
+}
+
+/// The source of a loop in a language.
+fn snippet(card: &PolicyCard, language: Written) -> Result<&'static str, Error> {
+    let found = |written: Written| {
+        let mut snippets = card.snippets.iter();
+        snippets.find(|snippet| snippet.language == written.of_loops())
+    };
+    found(language).map(|snippet| snippet.source).ok_or_else(|| {
+        let known = (WRITTEN.all)().into_iter().filter(|(_, written)| found(*written).is_some());
+        let known: Vec<String> = known.map(|(id, _)| id).collect();
+        let asked = language.of_loops();
+        Error::mistake(format!(
+            "{} is not written out in {asked}; give --as {}",
+            card.id,
+            known.join(" or ")
+        ))
+    })
 }

@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::error::Error;
-use super::numbers::{number, positive};
+use super::numbers::{frequency, number, positive};
 use crate::lab::Scene;
 use crate::lab::studio::MySpring;
 
@@ -21,7 +21,7 @@ pub(super) struct SpringArgs {
     c: Option<f64>,
 
     /// A spring of this frequency in place of a scene
-    #[arg(long, value_name = "Hz", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "Hz", value_parser = frequency, allow_hyphen_values = true)]
     #[arg(group = "spring")]
     frequency: Option<f64>,
 

@@ -35,28 +35,20 @@ use varied::{Varied, varied};
 
 const ABOUT: &str = "\
 One row for each scene, body, method and tick rate, in that order whatever the number of threads:
-  scene, body, method, tick_hz
-  seconds               simulated seconds that the run got through
   error                 the largest of a coordinate or a velocity on the way, as a part of its
                         amplitude; empty where the method did not come to the end or there is no
                         truth
-  energy_drift_percent  the largest on the way, of the energy that the exact motion exchanges, or
-                        without a reference of the largest kinetic energy or the most lost; empty
+  energy_drift_percent  the largest on the way, of the energy that the exact motion exchanges; empty
                         where the body conserves no energy
   evaluations_per_s     evaluations of the acceleration per simulated second
-  ns_per_s              nanoseconds per simulated second, measured here and now, one run at a
-                        time
+  ns_per_s              nanoseconds per simulated second, measured here and now
   verdict               rounding, accurate, out-of-phase, loses-energy, gains-energy, blew-up,
-                        gave-up, no-truth or not-judged; in JSON an object with that as its word
-  halted                why, if it blew up or gave up: a method that blows up is a row like others
-  half_life_ms          the time in which a follower covers half of the way to a target that
-                        stays; empty where it does not, and of other bodies
-  overshoot_percent     the furthest that it goes beyond the target, in percent of the way
-  parameter, value      what --vary sets; empty of a body that has no such parameter
+                        gave-up, no-truth or not-judged, as `regatta advise` judges
+  halted                why, if it blew up or gave up
+  half_life_ms, overshoot_percent  of a follower
+  parameter, value      what --vary sets
 
-A method that is for some bodies only has rows of those (`regatta list methods`). A body is judged
-as `regatta advise` judges it, from its start and with the inputs of the scene's script. Octaves
-are a quarter, half, 1, 2, 4 and 8 times the scene's own rate, rounded down.
+Octaves are a quarter, half, 1, 2, 4 and 8 times the scene's own rate, rounded down.
 
 Examples:
   regatta sweep > sweep.csv
@@ -121,10 +113,17 @@ pub(super) struct SweepArgs {
 
     /// Draw work-precision diagrams as PNG into FILE
     ///
-    /// Of the rows, and the round-off of f32 and f64 on the chapter's ship; - is standard output.
+    /// One for each scene; - is standard output.
     #[cfg(feature = "view")]
     #[arg(long, value_name = "FILE", conflicts_with = "vary")]
     plot: Option<PathBuf>,
+
+    /// In the picture the round-off of f32 and f64 too
+    ///
+    /// On the chapter's ship, for --scene ship --method rk4: the step below which rounding makes the error grow again.
+    #[cfg(feature = "view")]
+    #[arg(long, requires = "plot")]
+    round_off: bool,
 
     /// Replace the files that are there
     #[arg(long)]
@@ -133,6 +132,12 @@ pub(super) struct SweepArgs {
 
 pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
     let swept = args.load()?;
+    #[cfg(feature = "view")]
+    if args.round_off && !round_off::is_swept(&swept) {
+        return Err(Error::mistake(
+            "--round-off is of the chapter's ship under Runge-Kutta; give --scene ship --method rk4, or leave it out",
+        ));
+    }
     let format = row_format(&args.out, args.format)?;
     if let Some(plot) = args.plot() {
         check_picture_name(plot, &args.out)?;
@@ -144,13 +149,16 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
     #[cfg(feature = "view")]
     let plot = args.plot().map(|path| Destination { path, option: "--plot", if_exists });
     #[cfg(feature = "view")]
-    let plot = plot.map(|to| Plot::open(to, swept.scenes.len() + 1)).transpose()?;
+    let plot = plot
+        .map(|to| Plot::open(to, swept.scenes.len() + usize::from(args.round_off)))
+        .transpose()?;
     let rows = Grid::new(&swept).run(args.threads.map(usize::from), &interrupted)?;
     let written = write_rows(out, format, COLUMNS, &rows);
     // Even if the rows could not be written: their reader may have closed the pipe after the first few.
     #[cfg(feature = "view")]
     if let Some(plot) = plot {
-        plot.draw(&diagrams::figure(&swept, &rows))?;
+        let rounded = args.round_off.then(|| round_off::error_curves(&swept.methods));
+        plot.draw(&diagrams::figure(&swept, &rows, rounded.unwrap_or_default()))?;
     }
     written
 }
@@ -181,7 +189,7 @@ impl SweepArgs {
             }
         }
         let asked = |method: &&Method| match &self.methods[..] {
-            [] => !method.is_engine(),
+            [] => method.is_for_games(),
             named => named.contains(method),
         };
         let mut rates = self.tick_hz.clone();

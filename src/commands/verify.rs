@@ -23,12 +23,10 @@ mod rerun;
 use report::{ReportFile, ReportFormat};
 
 const EXAMPLES: &str = "\
-FILE.toml is a recording: a scene with checks. Its race is run again, without graphics. Each lane is
-reported as the same to the bit, or with the first check that differs.
-
-DIR is a capture. The run that its manifest describes is repeated: first the physics, which must be
-the same to the bit, then the frames. On the adapter and driver that drew them, every pixel must be
-the same; on others a channel may differ by 2, and one pixel in ten thousand by more than 1.
+The race of a recording, a scene with checks, is run again without graphics: each lane is the same to
+the bit, or told with the first check that differs. The run of a capture is repeated: first the
+physics, which must be the same to the bit, then the frames, which must be the same in every pixel
+on the adapter and driver that drew them.
 
 Exit code 0: the same. 1: different. 2: cannot be judged; the message says why.
 

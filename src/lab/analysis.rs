@@ -31,7 +31,7 @@ mod verdict;
 mod worker;
 
 pub use advice::{
-    Adviser, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS, MethodAdvice, recommended,
+    Adviser, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS, MethodAdvice, ranked, recommended,
 };
 pub use amplitude::Trend;
 pub use chase_finding::ChaseFinding;

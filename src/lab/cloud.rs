@@ -17,20 +17,16 @@ mod lozenges;
 mod request;
 mod running;
 mod section;
-mod shape;
 
+pub use super::cloud_shape::{CloudKind, CloudShape};
 pub use axes::{CloudAxes, ShownTicks};
 pub use border::CloudBorder;
 use course::{Course, Memory, Subject, copies_of};
 pub use density::{Density, MAX_LINE_PART, PlaneView};
 use lozenges::Lozenges;
 pub(super) use request::MAX_CLOUDS;
-pub use request::{
-    CloudChoice, CloudKind, CloudPicture, CloudRequest, FoundCloud, LaneCloud, POINTS,
-};
+pub use request::{CloudChoice, CloudPicture, CloudRequest, FoundCloud, LaneCloud, POINTS};
 pub use running::CloudWorker;
-pub use section::Section;
-pub use shape::CloudShape;
 
 use super::lane_spec::LaneSpec;
 use super::race::{ESCAPE, Fnv};

@@ -117,7 +117,7 @@ impl Scene {
         let lanes = match &methods[..] {
             [] => METHODS
                 .iter()
-                .filter(|method| !method.is_engine())
+                .filter(|method| method.is_for_games())
                 .filter(steps)
                 .map(LaneSpec::plain)
                 .collect(),
@@ -146,6 +146,7 @@ impl Scene {
             opening_method: None,
             equal_cost: false,
             opens_as_race: methods.len() != 1,
+            clouds: None,
             bodies: vec![SceneBody { appearance, ..SceneBody::new(name, kind, values) }],
             script: Vec::new(),
             outdated: None,

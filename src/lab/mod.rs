@@ -19,6 +19,7 @@ mod action;
 pub mod analysis;
 mod bisection;
 pub mod cloud;
+mod cloud_shape;
 #[cfg(any(feature = "cli", feature = "view"))]
 mod csv_row;
 pub mod custom;

@@ -12,6 +12,7 @@ mod coil;
 mod compose;
 mod flags;
 mod framed;
+mod futures;
 mod ghost;
 mod grasp;
 mod hull;
@@ -23,6 +24,7 @@ mod moment;
 mod outgrown;
 mod sketch;
 mod trails;
+mod universe;
 
 pub use super::look::{Framing, Handle, Look, Pull};
 pub use super::scene::{Mark, Outline};

@@ -8,6 +8,7 @@ use std::path::Path;
 use std::sync::{Arc, LazyLock, OnceLock};
 
 use super::action::Action;
+use super::cloud_shape::CloudKind;
 use super::lane_id::LaneId;
 use super::lane_spec::LaneSpec;
 use super::time_scale::Piece;
@@ -119,6 +120,8 @@ pub struct Scene {
     pub equal_cost: bool,
     /// Whether the program opens it as a race, and not under one method.
     pub opens_as_race: bool,
+    /// The clouds of many starts that it opens with, in place of the bodies; `None` if it opens with those.
+    pub clouds: Option<CloudKind>,
     /// The bodies in the order of the file, 1 to [`MAX_BODIES`], no two of one name.
     pub bodies: Vec<SceneBody>,
     /// The scripted commands by time, and those of one time in the order of the file.
@@ -267,7 +270,7 @@ impl Scene {
         static READ: LazyLock<Vec<OnceLock<Scene>>> =
             LazyLock::new(|| SCENES.iter().map(|_| OnceLock::new()).collect());
         let index = SCENES.iter().position(|scene| scene.name == name)?;
-        let BuiltIn { name, text } = SCENES[index];
+        let BuiltIn { name, text, .. } = SCENES[index];
         let read = || Scene::parse(name, text).expect("tests/library/scenes parses them all");
         Some(READ[index].get_or_init(read).clone())
     }
@@ -288,42 +291,56 @@ impl Scene {
 pub struct BuiltIn {
     /// The name of its file in `assets/scenes`, without the ending.
     pub name: &'static str,
+    /// Where it stands in menus and lists.
+    pub group: SceneGroup,
     /// The file.
     pub text: &'static str,
 }
 
+/// What a built-in scene is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SceneGroup {
+    /// For the first minutes.
+    StartHere,
+    /// What the chapter warns of, or is about.
+    Chapter,
+    /// Methods of physics engines.
+    Engines,
+    /// All others.
+    More,
+}
+
+impl SceneGroup {
+    /// All, in the order of menus.
+    pub const ALL: [Self; 4] = [Self::StartHere, Self::Chapter, Self::Engines, Self::More];
+
+    /// Its heading.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::StartHere => "Start here",
+            Self::Chapter => "The chapter",
+            Self::Engines => "Engines",
+            Self::More => "More",
+        }
+    }
+}
+
+/// Makes the table of built-in scenes from their names, group by group.
+macro_rules! scenes {
+    ($($group:ident: $($name:literal)+;)+) => {
+        &[$($(BuiltIn {
+            name: $name,
+            group: SceneGroup::$group,
+            text: include_str!(concat!("../../assets/scenes/", $name, ".toml")),
+        },)+)+]
+    };
+}
+
 /// Every built-in scene, in menu order; the first is the one that the program opens with.
-pub static SCENES: &[BuiltIn] = &[
-    BuiltIn { name: "harbour", text: include_str!("../../assets/scenes/harbour.toml") },
-    BuiltIn { name: "ship", text: include_str!("../../assets/scenes/ship.toml") },
-    BuiltIn { name: "spring", text: include_str!("../../assets/scenes/spring.toml") },
-    BuiltIn { name: "damped", text: include_str!("../../assets/scenes/damped.toml") },
-    BuiltIn { name: "stiff", text: include_str!("../../assets/scenes/stiff.toml") },
-    BuiltIn { name: "surge", text: include_str!("../../assets/scenes/surge.toml") },
-    BuiltIn { name: "chain", text: include_str!("../../assets/scenes/chain.toml") },
-    BuiltIn { name: "pendulum", text: include_str!("../../assets/scenes/pendulum.toml") },
-    BuiltIn { name: "liouville", text: include_str!("../../assets/scenes/liouville.toml") },
-    BuiltIn { name: "kicked-rotor", text: include_str!("../../assets/scenes/kicked-rotor.toml") },
-    BuiltIn { name: "orbit", text: include_str!("../../assets/scenes/orbit.toml") },
-    BuiltIn { name: "helm", text: include_str!("../../assets/scenes/helm.toml") },
-    BuiltIn { name: "follow", text: include_str!("../../assets/scenes/follow.toml") },
-    BuiltIn { name: "lerp", text: include_str!("../../assets/scenes/lerp.toml") },
-    BuiltIn { name: "duffing", text: include_str!("../../assets/scenes/duffing.toml") },
-    BuiltIn { name: "quarter-car", text: include_str!("../../assets/scenes/quarter-car.toml") },
-    BuiltIn {
-        name: "bouncing-bungee",
-        text: include_str!("../../assets/scenes/bouncing-bungee.toml"),
-    },
-    BuiltIn { name: "lift", text: include_str!("../../assets/scenes/lift.toml") },
-    BuiltIn { name: "jump", text: include_str!("../../assets/scenes/jump.toml") },
-    BuiltIn { name: "rope", text: include_str!("../../assets/scenes/rope.toml") },
-    BuiltIn { name: "cloth", text: include_str!("../../assets/scenes/cloth.toml") },
-    BuiltIn { name: "bridge", text: include_str!("../../assets/scenes/bridge.toml") },
-    BuiltIn { name: "alike", text: include_str!("../../assets/scenes/alike.toml") },
-    BuiltIn { name: "engines", text: include_str!("../../assets/scenes/engines.toml") },
-    BuiltIn { name: "held-force", text: include_str!("../../assets/scenes/held-force.toml") },
-    BuiltIn {
-        name: "stiff-in-engines",
-        text: include_str!("../../assets/scenes/stiff-in-engines.toml"),
-    },
-];
+pub static SCENES: &[BuiltIn] = scenes! {
+    StartHere: "harbour" "spring" "ship" "damped" "pendulum";
+    Chapter: "stiff" "surge" "chain" "helm";
+    Engines: "alike" "engines" "held-force" "stiff-in-engines";
+    More: "liouville" "kicked-rotor" "orbit" "follow" "lerp" "duffing" "quarter-car" "bouncing-bungee" "lift" "jump" "rope"
+        "cloth" "bridge";
+};

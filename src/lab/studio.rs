@@ -18,6 +18,7 @@ mod clouding;
 mod command;
 mod display;
 mod driving;
+mod fan;
 mod findings;
 mod gesture;
 pub mod guide;
@@ -47,6 +48,7 @@ pub use command::{
     Command, RunCommand, SCALE_LADDER, SPEED_LADDER, StageCommand, TICK_LADDER, ViewCommand,
 };
 pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, View};
+pub use fan::{Future, FutureMoment};
 pub use gesture::{GESTURES, Gesture};
 pub use held::HeldBody;
 pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentGroup};

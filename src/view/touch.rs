@@ -3,9 +3,9 @@
 
 use std::collections::VecDeque;
 
-use egui::{CursorIcon, Event, PointerButton, Pos2, Rect, Stroke, Ui, Vec2, vec2};
+use egui::{Align2, CursorIcon, Event, FontId, PointerButton, Pos2, Rect, Stroke, Ui, Vec2, vec2};
 
-use super::theme::palette;
+use super::theme::{TYPE, palette};
 use super::wheel;
 use crate::lab::Action;
 use crate::lab::picture::{Cell, Grasp, Picture, Whose};
@@ -19,6 +19,9 @@ const DRAG: f32 = 3.0;
 const MEMORY_S: f64 = 0.1;
 /// From a body's edge to the ring that says that it can be grabbed, in points.
 const RING: f32 = 3.0;
+/// For how long at a time, and how long after that not again, a body says that it can be dragged, in seconds.
+const INVITES_S: f64 = 3.0;
+const INVITED_S: f64 = 60.0;
 /// Its largest radius: round a ship as long as it is, it would leave the stage.
 const MAX_RING: f32 = 48.0;
 
@@ -27,6 +30,8 @@ const MAX_RING: f32 = 48.0;
 pub(super) struct Touch {
     press: Option<Press>,
     track: Track,
+    /// When a body began to say last that it can be dragged, in seconds; `None` as long as none has.
+    invited_s: Option<f64>,
 }
 
 /// A button held down.
@@ -117,7 +122,7 @@ impl Touch {
         {
             zoom(ui, &stage, at, commands);
         }
-        self.point_out(ui, &stage, hover);
+        self.point_out(ui, &stage, hover, time);
     }
 
     /// The lab may have released the body itself (Escape), or may still hold one that this state forgot.
@@ -214,7 +219,7 @@ impl Touch {
     }
 
     /// Shows by the pointer's shape, and by a ring, what it can take hold of.
-    fn point_out(&self, ui: &Ui, stage: &Stage<'_>, hover: Option<Pos2>) {
+    fn point_out(&mut self, ui: &Ui, stage: &Stage<'_>, hover: Option<Pos2>, time: f64) {
         let cursor = match &self.press {
             Some(Press { on: Pressed::Body { .. }, .. }) => CursorIcon::Grabbing,
             Some(Press { is_drag: true, .. }) => CursorIcon::Move,
@@ -232,6 +237,17 @@ impl Touch {
                 let middle = Pos2::from(grip.at) + origin;
                 let radius = (grip.radius + RING).min(MAX_RING);
                 painter.circle_stroke(middle, radius, Stroke::new(1.5, palette(ui).accent));
+                let soft = Stroke::new(5.0, palette(ui).accent.gamma_multiply(0.2));
+                painter.circle_stroke(middle, radius + 2.5, soft);
+                let since = *self.invited_s.get_or_insert(time);
+                if time - since >= INVITED_S {
+                    self.invited_s = Some(time);
+                } else if time - since < INVITES_S {
+                    let at = middle + vec2(0.0, radius + 12.0);
+                    let font = FontId::proportional(TYPE);
+                    let colour = palette(ui).accent;
+                    painter.text(at, Align2::CENTER_CENTER, "drag me", font, colour);
+                }
                 CursorIcon::Grab
             }
         };

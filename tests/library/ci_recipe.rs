@@ -60,14 +60,8 @@ static MADE: LazyLock<(PathBuf, Vec<(String, PathBuf)>)> = LazyLock::new(|| {
         made.arg("--release");
     }
     if !cfg!(feature = "accessibility") {
-        let parts = [
-            ("batch", cfg!(feature = "batch")),
-            ("lab", cfg!(feature = "lab")),
-            ("serde", cfg!(feature = "serde")),
-            ("view", cfg!(feature = "view")),
-            ("window", cfg!(feature = "window")),
-            ("cli", cfg!(feature = "cli")),
-        ];
+        let parts =
+            [("cli", true), ("view", cfg!(feature = "view")), ("window", cfg!(feature = "window"))];
         let parts: Vec<_> = parts.iter().filter(|part| part.1).map(|part| part.0).collect();
         made.args(["--no-default-features", "--features", &parts.join(",")]);
     }

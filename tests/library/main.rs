@@ -9,6 +9,7 @@ mod blocks;
 mod blow_up;
 mod bodies;
 mod chapter;
+#[cfg(feature = "cli")]
 mod ci_recipe;
 mod clouds;
 mod compilers;

@@ -106,7 +106,7 @@ fn a_thousand_random_events_leave_the_program_running_in_silence_and_within_its_
     std::fs::write(&scene, include_str!("../../assets/scenes/spring.toml")).unwrap();
     // What is freed goes back to the system, rather than to a reserve that depends on the order of events.
     let variables = [("MALLOC_MMAP_THRESHOLD_", "65536"), ("MALLOC_TRIM_THRESHOLD_", "65536")];
-    let Some(desk) = Desk::open_with(test, "--scene harbour --rewind-mb 1", &variables) else {
+    let Some(desk) = Desk::open_with(test, "--scene harbour", &variables) else {
         return;
     };
     let mut dice = Dice::new(11);

@@ -168,7 +168,7 @@ fn the_scene_that_was_open_last_opens_again_unless_another_is_asked_for() {
     let variables = [("XDG_CONFIG_HOME", config.path().to_str().unwrap())];
     let Some(desk) = Desk::open_with(test, "", &variables) else { return };
     desk.titled("Regatta - harbour - Explicit Euler - 60 Hz");
-    desk.press("n");
+    desk.press("n n");
     desk.titled("Regatta - ship - Explicit Euler - 2 Hz");
     desk.resize(900, 640);
     desk.press("space");

@@ -1,6 +1,6 @@
 # Print an optspec for argparse to handle cmd's options that are independent of any subcommand.
 function __fish_regatta_global_optspecs
-    string join \n scene= k= c= frequency= damping-ratio= mass= method= tick-hz= race loop= seconds= record= force theme= rewind-mb= reduced-motion h/help V/version
+    string join \n scene= k= c= frequency= damping-ratio= mass= method= tick-hz= race loop= seconds= record= force theme= reduced-motion h/help V/version
 end
 
 function __fish_regatta_needs_command
@@ -25,16 +25,21 @@ function __fish_regatta_using_subcommand
 end
 
 complete -c regatta -n "__fish_regatta_needs_command" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
-ship\t''
 spring\t''
+ship\t''
+damped\t''
+pendulum\t''
 stiff\t''
 surge\t''
 chain\t''
-pendulum\t''
+helm\t''
+alike\t''
+engines\t''
+held-force\t''
+stiff-in-engines\t''
 liouville\t''
 kicked-rotor\t''
 orbit\t''
-helm\t''
 follow\t''
 lerp\t''
 duffing\t''
@@ -44,11 +49,7 @@ lift\t''
 jump\t''
 rope\t''
 cloth\t''
-bridge\t''
-alike\t''
-engines\t''
-held-force\t''
-stiff-in-engines\t''"
+bridge\t''"
 complete -c regatta -n "__fish_regatta_needs_command" -l k -d 'A spring of this stiffness in place of a scene' -r
 complete -c regatta -n "__fish_regatta_needs_command" -l c -d 'The damping of the spring of --k [default: 0]' -r
 complete -c regatta -n "__fish_regatta_needs_command" -l frequency -d 'A spring of this frequency in place of a scene' -r
@@ -111,7 +112,6 @@ complete -c regatta -n "__fish_regatta_needs_command" -l seconds -d 'Close after
 complete -c regatta -n "__fish_regatta_needs_command" -l record -d 'Write the run to FILE as a scene' -r -F
 complete -c regatta -n "__fish_regatta_needs_command" -l theme -d 'The theme: dark or light' -r -f -a "dark\t''
 light\t''"
-complete -c regatta -n "__fish_regatta_needs_command" -l rewind-mb -d 'Memory for rewinding a run [default: 64]' -r
 complete -c regatta -n "__fish_regatta_needs_command" -l race -d 'Race all methods of the scene at once'
 complete -c regatta -n "__fish_regatta_needs_command" -l force -d 'Replace the --record FILE if it exists'
 complete -c regatta -n "__fish_regatta_needs_command" -l reduced-motion -d 'Trails do not fade, and the camera zooms out in steps'
@@ -127,22 +127,27 @@ complete -c regatta -n "__fish_regatta_needs_command" -f -a "cloud" -d 'Step a s
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "loop" -d 'Measure what game loops do to motion on a display'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "identify" -d 'Say which engine or method made a log of a motion'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "port" -d 'Say with what settings a spring moves alike in all engines'
-complete -c regatta -n "__fish_regatta_needs_command" -f -a "show" -d 'Print a method as a function in Rust, C, C# or GDScript'
+complete -c regatta -n "__fish_regatta_needs_command" -f -a "show" -d 'Print a method or a game loop as code for your game'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "chapter" -d 'Print the chapter\'s tables, and draw its Figures 7-2 to 7-8'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "list" -d 'List scenes, methods, bodies, metrics, policies, traces or keys'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "completions" -d 'Print a completion script for a shell'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "help" -d 'Print this help, that of a command, or a chapter of the manual'
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
-ship\t''
 spring\t''
+ship\t''
+damped\t''
+pendulum\t''
 stiff\t''
 surge\t''
 chain\t''
-pendulum\t''
+helm\t''
+alike\t''
+engines\t''
+held-force\t''
+stiff-in-engines\t''
 liouville\t''
 kicked-rotor\t''
 orbit\t''
-helm\t''
 follow\t''
 lerp\t''
 duffing\t''
@@ -152,11 +157,7 @@ lift\t''
 jump\t''
 rope\t''
 cloth\t''
-bridge\t''
-alike\t''
-engines\t''
-held-force\t''
-stiff-in-engines\t''"
+bridge\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l k -d 'A spring of this stiffness in place of a scene' -r
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l c -d 'The damping of the spring of --k [default: 0]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l frequency -d 'A spring of this frequency in place of a scene' -r
@@ -219,22 +220,26 @@ complete -c regatta -n "__fish_regatta_using_subcommand play" -l seconds -d 'Clo
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l record -d 'Write the run to FILE as a scene' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l theme -d 'The theme: dark or light' -r -f -a "dark\t''
 light\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand play" -l rewind-mb -d 'Memory for rewinding a run [default: 64]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l race -d 'Race all methods of the scene at once'
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l force -d 'Replace the --record FILE if it exists'
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l reduced-motion -d 'Trails do not fade, and the camera zooms out in steps'
 complete -c regatta -n "__fish_regatta_using_subcommand play" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
-ship\t''
 spring\t''
+ship\t''
+damped\t''
+pendulum\t''
 stiff\t''
 surge\t''
 chain\t''
-pendulum\t''
+helm\t''
+alike\t''
+engines\t''
+held-force\t''
+stiff-in-engines\t''
 liouville\t''
 kicked-rotor\t''
 orbit\t''
-helm\t''
 follow\t''
 lerp\t''
 duffing\t''
@@ -244,11 +249,7 @@ lift\t''
 jump\t''
 rope\t''
 cloth\t''
-bridge\t''
-alike\t''
-engines\t''
-held-force\t''
-stiff-in-engines\t''"
+bridge\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l k -d 'A spring of this stiffness in place of a scene' -r
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l c -d 'The damping of the spring of --k [default: 0]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l frequency -d 'A spring of this frequency in place of a scene' -r
@@ -320,25 +321,23 @@ off\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l instrument -d 'The instrument [default: motion]' -r -f -a "motion\t''
 error\t''
 energy\t''
-phase-portrait\t''
-cost\t''
+phase\t''
 stability-map\t''
 one-step\t''
 cloud\t''
+advice\t''
 loop\t''
-advice\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l shape -d 'What the instrument cloud shows [default: cat]' -r -f -a "cat\t''
+cost\t''"
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l shape -d 'The shape of the starts of the instrument cloud' -r -f -a "cat\t''
 disc\t''
-ring\t''
-section\t''"
+ring\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l mark-every -d 'Ticks between two states in the manifest' -r
-complete -c regatta -n "__fish_regatta_using_subcommand capture" -l format -d 'The format: png, apng, gif, y4m, rgba or sheet' -r -f -a "png\t'Numbered pictures and a manifest in a directory'
-apng\t'One animated PNG'
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l format -d 'The format: png, gif, y4m or sheet' -r -f -a "png\t'Numbered pictures and a manifest in a directory'
 gif\t'One GIF, each frame with a palette of its own'
 y4m\t'YUV4MPEG2, for a video encoder'
-rgba\t'Raw RGBA bytes, for a video encoder'
 sheet\t'One picture, time across, lanes down'"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l race -d 'Race all methods of the scene at once'
+complete -c regatta -n "__fish_regatta_using_subcommand capture" -l section -d 'In the instrument cloud a section after Poincaré'
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l force -d 'Replace the frames in DIR, or FILE'
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand verify" -l report -d 'Also write the result to FILE, as junit or json' -r
@@ -349,16 +348,21 @@ complete -c regatta -n "__fish_regatta_using_subcommand verify" -l physics-only 
 complete -c regatta -n "__fish_regatta_using_subcommand verify" -l bless -d 'Accept the present results'
 complete -c regatta -n "__fish_regatta_using_subcommand verify" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
-ship\t''
 spring\t''
+ship\t''
+damped\t''
+pendulum\t''
 stiff\t''
 surge\t''
 chain\t''
-pendulum\t''
+helm\t''
+alike\t''
+engines\t''
+held-force\t''
+stiff-in-engines\t''
 liouville\t''
 kicked-rotor\t''
 orbit\t''
-helm\t''
 follow\t''
 lerp\t''
 duffing\t''
@@ -368,11 +372,7 @@ lift\t''
 jump\t''
 rope\t''
 cloth\t''
-bridge\t''
-alike\t''
-engines\t''
-held-force\t''
-stiff-in-engines\t''"
+bridge\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l k -d 'A spring of this stiffness in place of a scene' -r
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l c -d 'The damping of the spring of --k [default: 0]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l frequency -d 'A spring of this frequency in place of a scene' -r
@@ -437,16 +437,21 @@ json\t'An array of objects with the same names'"
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l metrics -d 'Write each metric too (`regatta list metrics`)'
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
-ship\t''
 spring\t''
+ship\t''
+damped\t''
+pendulum\t''
 stiff\t''
 surge\t''
 chain\t''
-pendulum\t''
+helm\t''
+alike\t''
+engines\t''
+held-force\t''
+stiff-in-engines\t''
 liouville\t''
 kicked-rotor\t''
 orbit\t''
-helm\t''
 follow\t''
 lerp\t''
 duffing\t''
@@ -456,11 +461,7 @@ lift\t''
 jump\t''
 rope\t''
 cloth\t''
-bridge\t''
-alike\t''
-engines\t''
-held-force\t''
-stiff-in-engines\t''"
+bridge\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l k -d 'A spring of this stiffness in place of a scene' -r
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l c -d 'The damping of the spring of --k [default: 0]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l frequency -d 'A spring of this frequency in place of a scene' -r
@@ -533,18 +534,24 @@ gdscript\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l rates -d 'Also search the slowest tick rates'
+complete -c regatta -n "__fish_regatta_using_subcommand advise" -l all -d 'Print all tables'
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l scene -d 'A scene, or several [default: all built-in ones]' -r -f -a "harbour\t''
-ship\t''
 spring\t''
+ship\t''
+damped\t''
+pendulum\t''
 stiff\t''
 surge\t''
 chain\t''
-pendulum\t''
+helm\t''
+alike\t''
+engines\t''
+held-force\t''
+stiff-in-engines\t''
 liouville\t''
 kicked-rotor\t''
 orbit\t''
-helm\t''
 follow\t''
 lerp\t''
 duffing\t''
@@ -554,11 +561,7 @@ lift\t''
 jump\t''
 rope\t''
 cloth\t''
-bridge\t''
-alike\t''
-engines\t''
-held-force\t''
-stiff-in-engines\t''"
+bridge\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l k -d 'A spring of this stiffness in place of a scene' -r
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l c -d 'The damping of the spring of --k [default: 0]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l frequency -d 'A spring of this frequency in place of a scene' -r
@@ -623,19 +626,25 @@ json\t'An array of objects with the same names'"
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l threads -d 'Threads, 1 to 256 [default: one for each core]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l out -d 'The file of the rows, or - for standard output' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l plot -d 'Draw work-precision diagrams as PNG into FILE' -r -F
+complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l round-off -d 'In the picture the round-off of f32 and f64 too'
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l force -d 'Replace the files that are there'
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l scene -d 'A scene or the file of one [default: harbour]' -r -f -a "harbour\t''
-ship\t''
 spring\t''
+ship\t''
+damped\t''
+pendulum\t''
 stiff\t''
 surge\t''
 chain\t''
-pendulum\t''
+helm\t''
+alike\t''
+engines\t''
+held-force\t''
+stiff-in-engines\t''
 liouville\t''
 kicked-rotor\t''
 orbit\t''
-helm\t''
 follow\t''
 lerp\t''
 duffing\t''
@@ -645,11 +654,7 @@ lift\t''
 jump\t''
 rope\t''
 cloth\t''
-bridge\t''
-alike\t''
-engines\t''
-held-force\t''
-stiff-in-engines\t''"
+bridge\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l k -d 'A spring of this stiffness in place of a scene' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l c -d 'The damping of the spring of --k [default: 0]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l frequency -d 'A spring of this frequency in place of a scene' -r
@@ -711,14 +716,13 @@ complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l points -d 'Sta
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l shape -d 'The shape of the starts: cat, disc or ring' -r -f -a "cat\t''
 disc\t''
 ring\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l size -d 'The reach of the shape' -r
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l reach -d 'The reach of the shape' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l seconds -d 'Simulated seconds of the run' -r
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l section -d 'Draw the points at this frequency only' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l threads -d 'Threads, 1 to 256 [default: one for each core]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l out -d 'FILE.png, FILE.gif, FILE.csv, or - for the rows' -r -F
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l out -d 'FILE.csv or - for the rows, or FILE.gif' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l force -d 'Replace the file if it is there'
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l policy -d 'A policy, or several [default: all]' -r -f -a "variable\t''
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l policy -d 'A policy, or several [default: the usual ones]' -r -f -a "variable\t''
 lockstep\t''
 clamped-variable\t''
 semi-fixed\t''
@@ -747,16 +751,21 @@ jitter\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l tick-hz -d 'Ticks per second [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l display-hz -d 'The refresh rate [default: the trace\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l scene -d 'A scene or the file of one' -r -f -a "harbour\t''
-ship\t''
 spring\t''
+ship\t''
+damped\t''
+pendulum\t''
 stiff\t''
 surge\t''
 chain\t''
-pendulum\t''
+helm\t''
+alike\t''
+engines\t''
+held-force\t''
+stiff-in-engines\t''
 liouville\t''
 kicked-rotor\t''
 orbit\t''
-helm\t''
 follow\t''
 lerp\t''
 duffing\t''
@@ -766,11 +775,7 @@ lift\t''
 jump\t''
 rope\t''
 cloth\t''
-bridge\t''
-alike\t''
-engines\t''
-held-force\t''
-stiff-in-engines\t''"
+bridge\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l method -d 'The method of the bodies' -r -f -a "explicit-euler\t''
 midpoint\t''
 improved-euler\t''
@@ -827,22 +832,9 @@ complete -c regatta -n "__fish_regatta_using_subcommand loop" -l latency-ms -d '
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l format -d 'How to write the rows: csv or json' -r -f -a "csv\t'Comma-separated values under a header'
 json\t'An array of objects with the same names'"
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l out -d 'The file of the rows, or - for standard output' -r -F
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l frames -d 'Write a line of CSV for each frame into FILE' -r -F
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l frame-rows -d 'Write a line of CSV for each frame into FILE' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l plot -d 'Draw what each loop shows as PNG into FILE' -r -F
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l show -d 'Print this policy as source' -r -f -a "variable\t''
-lockstep\t''
-clamped-variable\t''
-semi-fixed\t''
-fixed\t''
-fixed-linear\t''
-fixed-hermite\t''
-fixed-extrapolated\t''
-snapped\t''
-whole-refresh\t''
-hysteresis\t''
-median\t''
-slow-down\t''"
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l language -d 'The language of --show: rust, c++ or c#' -r
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l all -d 'Compare all policies'
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l force -d 'Replace the files that are there'
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l tick-hz -d 'Ticks per second of the game that wrote it' -r
@@ -858,8 +850,8 @@ complete -c regatta -n "__fish_regatta_using_subcommand identify" -l v-column -d
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l want -d 'The frequency that a player is to see' -r
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l zeta -d 'The damping ratio to be seen [default: 0]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l frequency -d 'The frequency that a player is to see' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l damping-ratio -d 'The damping ratio to be seen [default: 0]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l from -d 'An engine\'s settings, a log, or a chase' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l mass -d 'The mass on the spring in kg' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l tick-hz -d 'Ticks per second of the engines, and of a log' -r
@@ -893,10 +885,11 @@ complete -c regatta -n "__fish_regatta_using_subcommand port" -l format -d 'The 
 json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l drive -d 'The limits of a drive with these gains'
 complete -c regatta -n "__fish_regatta_using_subcommand port" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c regatta -n "__fish_regatta_using_subcommand show" -l as -d 'The language' -r -f -a "rust\t''
+complete -c regatta -n "__fish_regatta_using_subcommand show" -l as -d 'The language: rust, c, cpp, csharp or gdscript' -r -f -a "rust\t''
 c\t''
 csharp\t''
-gdscript\t''"
+gdscript\t''
+cpp\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand show" -l float -d 'Numbers of single precision, as Unity and Godot have them'
 complete -c regatta -n "__fish_regatta_using_subcommand show" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand chapter" -l out -d 'The directory for the figures and their data' -r -F

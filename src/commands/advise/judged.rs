@@ -9,7 +9,7 @@ use rayon::ThreadPool;
 use crate::commands::jobs;
 use crate::commands::stopwatch::{self, Timing};
 use crate::commands::terminal::{print_status, progress};
-use crate::lab::analysis::{Adviser, CRITERIA, CriterionMet, MethodAdvice, recommended};
+use crate::lab::analysis::{Adviser, CRITERIA, CriterionMet, MethodAdvice, ranked, recommended};
 use crate::lab::{LaneSpec, Scene};
 use crate::sim::number::significant;
 
@@ -43,15 +43,15 @@ pub(super) fn judge_all(
     rows.into_iter().flatten().collect()
 }
 
-/// Searches the margins that are worth it; after an interrupt the others are missing.
+/// Searches these margins, each told by its row and its criterion; after an interrupt the others are missing.
 pub(super) fn search_margins(
     pool: &ThreadPool,
     adviser: &Arc<Adviser>,
     rows: &mut [Row],
+    margins: Vec<(usize, usize)>,
     interrupted: &AtomicBool,
 ) {
-    let advised: Vec<MethodAdvice> = rows.iter().map(|row| row.advised.clone()).collect();
-    let margins = adviser.worth_margins(&advised);
+    let advised = advised(rows);
     let progress = progress(margins.len() as u32, "margins searched");
     let (wanted, adviser) = (margins.clone(), Arc::clone(adviser));
     let search = move |index: usize| {
@@ -116,9 +116,35 @@ pub(super) fn warn_of_load(rows: &[Row]) {
     }
 }
 
+/// What was found of each row.
+pub(super) fn advised(rows: &[Row]) -> Vec<MethodAdvice> {
+    rows.iter().map(|row| row.advised.clone()).collect()
+}
+
 /// The recommended row for a criterion, and how it meets it.
 pub(super) fn recommended_row(rows: &[Row], criterion: usize) -> Option<(&Row, &CriterionMet)> {
-    let advised: Vec<MethodAdvice> = rows.iter().map(|row| row.advised.clone()).collect();
-    let row = &rows[recommended(&advised, criterion)?];
+    let row = &rows[recommended(&advised(rows), criterion)?];
     Some((row, row.advised.met[criterion].met()?))
+}
+
+/// The recommendations: for each criterion that a row meets, the row and the criterion.
+pub(super) fn recommendations(rows: &[Row]) -> Vec<(usize, usize)> {
+    let advised = advised(rows);
+    (0..CRITERIA.len()).filter_map(|i| Some((recommended(&advised, i)?, i))).collect()
+}
+
+/// The best rows, `most` at most: those recommended for each criterion, then those that come second, and so on; then what
+/// meets none.
+pub(super) fn best_rows(rows: &[Row], most: usize) -> Vec<&Row> {
+    let advised = advised(rows);
+    let ranked: Vec<Vec<usize>> = (0..CRITERIA.len()).map(|i| ranked(&advised, i)).collect();
+    let places =
+        (0..rows.len()).flat_map(|place| ranked.iter().filter_map(move |it| it.get(place)));
+    let mut best: Vec<usize> = Vec::new();
+    for row in places.copied().chain(0..rows.len()) {
+        if !best.contains(&row) {
+            best.push(row);
+        }
+    }
+    best.into_iter().take(most).map(|row| &rows[row]).collect()
 }

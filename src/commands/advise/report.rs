@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::judged::{Row, recommended_row};
+use super::judged::{Row, best_rows, recommended_row};
 use crate::commands::output::table::{self, Column};
 use crate::lab::analysis::{
     Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS,
@@ -11,9 +11,11 @@ use crate::lab::analysis::{
 use crate::lab::source_code::{Language, Precision};
 use crate::lab::{Scene, source_code};
 
-/// The answer as text: the recommendations, the recommended method in this language if there is one, the verdicts, and
-/// the methods that meet each criterion with their costs.
-pub(super) fn text(
+/// The most rows that are printed without `--all`.
+const MOST_ROWS: usize = 8;
+
+/// The answer as text: the recommendations, and the recommended method in this language if there is one.
+pub(super) fn answer(
     scene: &Scene,
     adviser: &Adviser,
     rows: &[Row],
@@ -24,10 +26,35 @@ pub(super) fn text(
     if let Some(code) = language.and_then(|language| code(adviser, rows, language)) {
         text += &format!("\n{code}");
     }
-    if rows.is_empty() {
-        return text;
+    text
+}
+
+/// The best rows as text: how each meets each criterion, and its verdict.
+pub(super) fn best(rows: &[Row]) -> String {
+    let best = best_rows(rows, MOST_ROWS);
+    if best.is_empty() {
+        return String::new();
     }
-    text += &format!("\n{}", table::text(VERDICTS, rows, ""));
+    let which = match best.len() < rows.len() {
+        true => format!("The best {} of {} methods. ", best.len(), rows.len()),
+        false => String::new(),
+    };
+    let mut text = format!(
+        "\n{}\n{which}Below a criterion stand the substeps, and the cost per simulated second. --all has more.\n",
+        table::text(BEST, best.iter().copied(), "")
+    );
+    if best.iter().any(|row| row.rates.is_some()) {
+        text += &slowest_rates(best);
+    }
+    text
+}
+
+/// All as text: the verdicts, and the methods that meet each criterion with their costs.
+pub(super) fn all_tables(rows: &[Row]) -> String {
+    if rows.is_empty() {
+        return String::new();
+    }
+    let mut text = format!("\n{}", table::text(VERDICTS, rows, ""));
     for (i, criterion) in CRITERIA.iter().enumerate() {
         let met: Vec<MetRow> = rows.iter().filter_map(|row| MetRow::of(row, i)).collect();
         text += &format!("\n{}: {}\n", criterion.id(), criterion.about());
@@ -46,10 +73,13 @@ pub(super) fn text(
         }
     }
     if rows.iter().any(|row| row.rates.is_some()) {
-        text += "\nslowest tick rates in one step a tick, in Hz\n";
-        text += &table::text(RATES, rows, "  ");
+        text += &slowest_rates(rows);
     }
     text
+}
+
+fn slowest_rates<'r>(rows: impl IntoIterator<Item = &'r Row>) -> String {
+    format!("\nslowest tick rates in one step a tick, in Hz\n{}", table::text(RATES, rows, "  "))
 }
 
 /// The method to take for each criterion.
@@ -155,6 +185,22 @@ const VERDICTS: &[Column<Row>] = &[
     Column::shown("method", "METHOD", |row| json!(row.advised.spec.method.id)),
     Column::shown("verdict", "VERDICT", |row| json!(row.advised.verdict.to_string())),
 ];
+
+const BEST: &[Column<Row>] = &[
+    Column::shown("method", "METHOD", |row| json!(row.advised.spec.method.id)),
+    Column::shown("bounded", "BOUNDED", |row| cost(row, 0)),
+    Column::shown("looks-right", "LOOKS-RIGHT", |row| cost(row, 1)),
+    Column::shown("accurate", "ACCURATE", |row| cost(row, 2)),
+    Column::shown("verdict", "VERDICT", |row| json!(row.advised.verdict.to_string())),
+];
+
+fn cost(row: &Row, criterion: usize) -> Value {
+    json!(match &row.advised.met[criterion] {
+        CriterionResult::With(met) => format!("×{} {}", met.substeps, met.cost_per_s.round()),
+        CriterionResult::No => "no".into(),
+        CriterionResult::Unknown => "not known".into(),
+    })
+}
 
 const RATES: &[Column<Row>] = &[
     Column::shown("method", "METHOD", |row| json!(row.advised.spec.method.id)),

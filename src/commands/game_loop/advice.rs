@@ -2,7 +2,7 @@
 
 use super::measured::Measured;
 use crate::commands::terminal::print_status;
-use crate::lab::pacing::{PacingReport, PolicyCard, advised_loop, latency_origin_ms};
+use crate::lab::pacing::{POLICIES, PacingReport, PolicyCard, advised_loop, latency_origin_ms};
 use crate::sim::number::round;
 
 /// Tells which of the policies measured on one trace to take.
@@ -15,7 +15,9 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
     let origin_ms = latency_origin_ms(first.has_one_clock, rows.iter().map(|row| &row.report));
     match advised_loop(&measured, origin_ms + latency_ms) {
         Some(advised) => {
-            print_status(&format!("{trace}: take {}", words(&rows[advised.index], origin_ms)));
+            // The window advises among all.
+            let among = if rows.len() < POLICIES.len() { "of these take" } else { "take" };
+            print_status(&format!("{trace}: {among} {}", words(&rows[advised.index], origin_ms)));
             if let Some(why) = advised.why {
                 print_status(&format!("  {why}"));
             }
@@ -27,7 +29,7 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
         }
         None => print_status(&format!(
             "{trace}: no policy here keeps the game's speed at half the frame rate, stays stable, and has a mean latency \
-             of {latency_ms} ms or less; try more policies, or a larger --latency-ms"
+             of {latency_ms} ms or less; try --all, or a larger --latency-ms"
         )),
     }
     if let Some(missing) = first.missing_display {

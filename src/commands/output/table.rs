@@ -150,12 +150,17 @@ fn in_a_cell(value: &Value) -> &Value {
 }
 
 /// A line of headings and a line for each of `items`, aligned; `indent` stands before each.
-pub(crate) fn text<T>(columns: &[Column<T>], items: &[T], indent: &str) -> String {
+pub(crate) fn text<'i, T: 'i>(
+    columns: &[Column<T>],
+    items: impl IntoIterator<Item = &'i T>,
+    indent: &str,
+) -> String {
     let shown: Vec<_> =
         columns.iter().filter_map(|column| Some((column.heading?, column.value))).collect();
     let headings = shown.iter().map(|(heading, _)| (*heading).to_owned()).collect();
     let cells = |item| shown.iter().map(|(_, value)| plain(&value(item))).collect();
-    let rows: Vec<Vec<String>> = std::iter::once(headings).chain(items.iter().map(cells)).collect();
+    let rows: Vec<Vec<String>> =
+        std::iter::once(headings).chain(items.into_iter().map(cells)).collect();
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max();
     let widths: Vec<_> = (0..shown.len()).filter_map(width).collect();
     let line = |row: Vec<String>| {

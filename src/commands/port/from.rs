@@ -18,7 +18,7 @@ pub(super) enum From {
 }
 
 /// A number that may have this unit behind it.
-pub(super) fn with_unit(written: &str, unit: &str) -> Result<f64, String> {
+fn with_unit(written: &str, unit: &str) -> Result<f64, String> {
     let number = written.strip_suffix(unit).unwrap_or(written).trim_end();
     let found = number.parse::<f64>().ok().filter(|number| number.is_finite());
     found.ok_or_else(|| match unit {

@@ -1,10 +1,10 @@
 //! The picture of a sweep: a work-precision diagram for each scene (Hairer, Nørsett & Wanner, *Solving
-//! Ordinary Differential Equations I*, II.10), and the round-off of f32 and f64 on the chapter's ship.
+//! Ordinary Differential Equations I*, II.10), and where it is asked for the round-off of f32 and f64 on the chapter's ship.
 
 use std::collections::BTreeMap;
 
 use super::grid::{Row, Swept};
-use super::round_off::{self, ErrorCurve, Width};
+use super::round_off::{ErrorCurve, Width};
 use crate::commands::plot::columns;
 use crate::lab::palette::Theme;
 use crate::sim::integrators::Method;
@@ -14,8 +14,8 @@ use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
 /// Errors beyond this many amplitudes are cut off: the method has failed.
 const LOST: f64 = 10.0;
 
-/// The picture of the rows on these scenes and methods.
-pub(super) fn figure(swept: &Swept, rows: &[Row]) -> Figure {
+/// The picture of the rows on these scenes and methods, and of these curves if there are any.
+pub(super) fn figure(swept: &Swept, rows: &[Row], rounded: Vec<ErrorCurve>) -> Figure {
     let work = swept.scenes.iter().map(|(name, scene)| {
         let curves = swept.methods.iter().map(|method| {
             let rows = rows.iter().filter(|row| row.scene == *name && row.method == *method);
@@ -23,11 +23,16 @@ pub(super) fn figure(swept: &Swept, rows: &[Row]) -> Figure {
         });
         work_precision(&scene.title, curves.collect())
     });
-    let rounded = round_off::error_curves();
     let note = note(&rounded);
-    let charts: Vec<Chart> = work.chain([v_curves(rounded)]).collect();
-    let title = "Work and precision: what accuracy costs, and where rounding ends it".into();
-    Figure { title, note, columns: columns(charts.len()), charts }
+    let (title, rounded) = match rounded.is_empty() {
+        true => ("Work and precision: what accuracy costs", None),
+        false => (
+            "Work and precision: what accuracy costs, and where rounding ends it",
+            Some(v_curves(rounded)),
+        ),
+    };
+    let charts: Vec<Chart> = work.chain(rounded).collect();
+    Figure { title: title.into(), note, columns: columns(charts.len()), charts }
 }
 
 /// A method's error against its evaluations, a point for each tick rate. Of several bodies the worst one
@@ -111,12 +116,16 @@ fn note(rounded: &[ErrorCurve]) -> String {
             round(best.error_m_per_s, 2)
         )
     });
+    let rounded = match best.collect::<Vec<_>>().join(", nor than ") {
+        none if none.is_empty() => none,
+        best => format!(
+            " On the ship: the largest error of the speed at 2, 4, 6 and 8 s. In f32 no step is better than {best}: finer \
+             ones only add roundings."
+        ),
+    };
     format!(
         "Error: the largest of a coordinate or a velocity on the way, as a part of its amplitude, of \
-         the worst body. A point for each tick rate; none where a method is lost. On the ship: the \
-         largest error of the speed at 2, 4, 6 and 8 s. In f32 no step is better than {}: finer ones \
-         only add roundings.",
-        best.collect::<Vec<_>>().join(", nor than ")
+         the worst body. A point for each tick rate; none where a method is lost.{rounded}"
     )
 }
 
@@ -125,6 +134,7 @@ mod tests {
     use std::sync::atomic::AtomicBool;
 
     use super::super::grid::Grid;
+    use super::super::round_off::error_curves;
     use super::*;
     use crate::lab::Scene;
     use crate::sim::integrators::method;
@@ -140,7 +150,8 @@ mod tests {
     #[test]
     fn the_worst_body_rules_and_all_bodies_cost() {
         let (swept, rows) = swept("harbour", "rk4", &[30, 60]);
-        let figure = figure(&swept, &rows);
+        let figure = figure(&swept, &rows, Vec::new());
+        assert_eq!(figure.charts.len(), 1);
         let [[work, error], [work_twice, _]] = figure.charts[0].curves[0].points[..] else {
             panic!("{figure:?}")
         };
@@ -154,7 +165,9 @@ mod tests {
     #[test]
     fn a_lost_method_has_no_point_and_every_axis_a_mark() {
         let (swept, rows) = swept("stiff", "semi-implicit-euler", &[49, 60]);
-        let figure = figure(&swept, &rows);
+        let rounded = error_curves(&[method("rk4").unwrap()]);
+        assert_eq!(rounded.len(), 2);
+        let figure = figure(&swept, &rows, rounded);
         let [work, rounded] = &figure.charts[..] else { panic!("{figure:?}") };
         assert_eq!(work.curves[0].points.len(), 1);
         for axis in work.axes.iter().chain(&rounded.axes) {
@@ -165,7 +178,7 @@ mod tests {
 
     #[test]
     fn there_are_about_as_many_rows_of_charts_as_columns() {
-        for (charts, wide) in [(2, 2), (4, 2), (6, 2), (7, 3), (10, 3), (12, 3), (13, 4)] {
+        for (charts, wide) in [(1, 1), (2, 2), (4, 2), (6, 2), (7, 3), (10, 3), (12, 3), (13, 4)] {
             assert_eq!(columns(charts), wide, "{charts} charts");
         }
     }

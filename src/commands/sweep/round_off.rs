@@ -9,10 +9,11 @@
 
 use std::ops::{Add, Div, Mul, RangeInclusive, Sub};
 
+use super::grid::Swept;
 use crate::lab::Scene;
 use crate::sim::State;
 use crate::sim::bodies::{Body, Ship};
-use crate::sim::integrators::{Method, method};
+use crate::sim::integrators::Method;
 
 /// Moments at which the speed is held against the exact one, in simulated seconds. Several, because
 /// roundings go either way, and by chance the error at one of them may be nothing.
@@ -69,11 +70,23 @@ impl ErrorCurve {
     }
 }
 
-/// Explicit Euler and Runge-Kutta 4 on the ship of the built-in scene, each in both widths.
-pub(super) fn error_curves() -> Vec<ErrorCurve> {
+/// The built-in scene that has the ship.
+const SCENE: &str = "ship";
+
+/// Whether the chapter's ship is swept under Runge-Kutta 4.
+pub(super) fn is_swept(swept: &Swept) -> bool {
+    swept.scenes.iter().any(|(name, _)| name == SCENE)
+        && swept.methods.iter().any(|method| method.id == RUNGE_KUTTA)
+}
+
+/// Those of explicit Euler and Runge-Kutta 4 that are among these methods, on the ship of the built-in scene, each in both
+/// widths.
+pub(super) fn error_curves(methods: &[&'static Method]) -> Vec<ErrorCurve> {
     let ship = chapters_ship();
-    let curves = FORMULAS.iter().flat_map(|&(id, formula)| {
-        let method = method(id).expect("it is in the table");
+    let named = FORMULAS.iter().filter_map(|&(id, formula)| {
+        Some((*methods.iter().find(|method| method.id == id)?, formula))
+    });
+    let curves = named.flat_map(|(method, formula)| {
         [Width::Single, Width::Double].map(|width| {
             let errors = STEPS_LOG2.map(|log2| step_error(&ship, formula, width, log2)).collect();
             ErrorCurve { method, width, errors }
@@ -83,7 +96,7 @@ pub(super) fn error_curves() -> Vec<ErrorCurve> {
 }
 
 fn chapters_ship() -> Ship {
-    let scene = Scene::built_in("ship").expect("it is built in");
+    let scene = Scene::built_in(SCENE).expect("it is built in");
     Ship::BLANK.with_parameters(&scene.bodies[0].values)
 }
 
@@ -108,7 +121,8 @@ enum Formula {
 }
 
 const FORMULAS: [(&str, Formula); 2] =
-    [("explicit-euler", Formula::ExplicitEuler), ("rk4", Formula::RungeKutta4)];
+    [("explicit-euler", Formula::ExplicitEuler), (RUNGE_KUTTA, Formula::RungeKutta4)];
+const RUNGE_KUTTA: &str = "rk4";
 
 /// The speeds at [`MOMENTS_S`] by steps of `h_s`, all arithmetic on the way in `R`.
 fn speeds<R: Real>(ship: &Ship, formula: Formula, h_s: f64) -> [f64; MOMENTS_S.len()] {
@@ -162,10 +176,11 @@ impl Real for f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::integrators::{METHODS, method};
     use crate::sim::{Solver, stepper};
 
     fn curve(id: &str, width: Width) -> ErrorCurve {
-        let mut curves = error_curves().into_iter();
+        let mut curves = error_curves(&METHODS.iter().collect::<Vec<_>>()).into_iter();
         let curve = curves.find(|curve| curve.method.id == id && curve.width == width).unwrap();
         let errors = curve.errors.iter();
         assert!(errors.clone().all(|e| e.error_m_per_s.is_finite() && e.error_m_per_s > 0.0));

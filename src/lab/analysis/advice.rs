@@ -362,18 +362,23 @@ impl Adviser {
     }
 }
 
-/// The recommended method for a criterion, by its index in `advised`, whoever asks and in whatever order they stand: of
-/// those that meet it, without the listings as printed, the one of the least [cost](CriterionMet::cost_per_s); of equal
-/// costs the one of the fewest substeps, and of these the first of the table of methods.
+/// The recommended method for a criterion, by its index in `advised`: the first that is [ranked].
 pub fn recommended(advised: &[MethodAdvice], criterion: usize) -> Option<usize> {
+    ranked(advised, criterion).first().copied()
+}
+
+/// The methods that meet a criterion, by their indices in `advised`, whoever asks and in whatever order they stand: without
+/// the listings as printed, from the least [cost](CriterionMet::cost_per_s) on; of equal costs from the fewest substeps on,
+/// and of these in the order of the table of methods.
+pub fn ranked(advised: &[MethodAdvice], criterion: usize) -> Vec<usize> {
     let place = |advice: &MethodAdvice| METHODS.iter().position(|one| one == advice.spec.method);
     let rank = |(i, advice): (usize, &MethodAdvice)| {
         let met = advice.met[criterion].met().filter(|_| !advice.spec.method.is_as_printed())?;
         Some((i, met.cost_per_s, (met.substeps, place(advice).unwrap_or(METHODS.len()))))
     };
-    let all = advised.iter().enumerate().filter_map(rank);
-    let best = all.min_by(|a, b| a.1.total_cmp(&b.1).then(a.2.cmp(&b.2)));
-    best.map(|(i, ..)| i)
+    let mut all: Vec<_> = advised.iter().enumerate().filter_map(rank).collect();
+    all.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.2.cmp(&b.2)));
+    all.into_iter().map(|(i, ..)| i).collect()
 }
 
 #[cfg(test)]

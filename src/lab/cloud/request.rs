@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{CloudBody, CloudShape, Density, NoCloud, PlaneView, USUAL_POINTS};
+use super::{CloudBody, CloudKind, CloudShape, Density, NoCloud, PlaneView, USUAL_POINTS};
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::race::Interventions;
 use crate::lab::scene::Scene;
@@ -27,36 +27,6 @@ pub struct CloudChoice {
     pub kind: CloudKind,
     /// The points of a cloud of a shape.
     pub points: usize,
-}
-
-/// What is shown of many starts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CloudKind {
-    /// A shape at the start, and what becomes of it by the present tick.
-    Shape(CloudShape),
-    /// All places to which they come at each period of a drive, or at each tick where nothing drives them.
-    Section,
-}
-
-impl CloudKind {
-    /// All, the usual one first.
-    pub const ALL: [Self; 4] = {
-        let [usual, second, third] = CloudShape::ALL;
-        [Self::Shape(usual), Self::Shape(second), Self::Shape(third), Self::Section]
-    };
-
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Shape(shape) => shape.id(),
-            Self::Section => "section",
-        }
-    }
-
-    /// The one of this name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.name() == name)
-    }
 }
 
 impl Default for CloudKind {

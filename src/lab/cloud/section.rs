@@ -24,8 +24,7 @@ const MOMENTS: u64 = 48;
 const ROUNDING: f64 = 1e-6;
 
 /// A section: the places of all points of a cloud at each crossing so far.
-#[derive(Clone)]
-pub struct Section {
+struct Section {
     /// From one crossing to the next, in ticks.
     period: f64,
     crossings: u64,
@@ -35,29 +34,14 @@ pub struct Section {
 impl Section {
     /// A section without crossings yet. They come once in each `period` (ticks, above 0) after the start, and are counted in
     /// `density`.
-    pub fn new(period: f64, density: Density) -> Self {
+    fn new(period: f64, density: Density) -> Self {
         Self { period, crossings: 0, density }
     }
 
-    /// The number of crossings so far.
-    pub fn crossings(&self) -> u64 {
-        self.crossings
-    }
-
-    /// The points of all crossings.
-    pub fn density(&self) -> &Density {
-        &self.density
-    }
-
-    /// When the next crossing is, in ticks since the start.
-    pub fn next_crossing(&self) -> f64 {
-        (self.crossings + 1) as f64 * self.period
-    }
-
     /// Steps a cloud to the next crossing, and counts its points.
-    pub fn cross(&mut self, cloud: &mut Cloud) {
-        let [q, v] = cloud.states_at(self.next_crossing());
+    fn cross(&mut self, cloud: &mut Cloud) {
         self.crossings += 1;
+        let [q, v] = cloud.states_at(self.crossings as f64 * self.period);
         self.density.add(&q, &v);
     }
 }

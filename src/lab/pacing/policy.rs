@@ -74,6 +74,8 @@ pub struct PolicyCard {
     pub drawing: Interpolation,
     /// Whether every step is a whole tick, so that the physics is the same to the bit at any frame rate.
     pub has_fixed_tick: bool,
+    /// Whether `regatta loop` compares it where none is named.
+    pub is_usual: bool,
     /// The loop, to be taken into a game.
     pub snippets: &'static [Snippet],
     pub(super) build: fn(TimeBase) -> Box<dyn Policy>,

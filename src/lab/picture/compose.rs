@@ -12,8 +12,8 @@ use super::mass::LaneStyle;
 use super::moment::DrawContext;
 use super::sketch::{Camera, line, path};
 use super::{
-    Cell, Framing, Look, Mark, Picture, Rect, Rgba, Whose, apex, breakpoints, captions, chart,
-    loop_stage, loupe,
+    Cell, Framing, Look, Mark, Outline, Picture, Rect, Rgba, Whose, apex, breakpoints, captions,
+    chart, futures, loop_stage, loupe, universe,
 };
 use crate::lab::palette::faded;
 use crate::lab::race::{Entrant, Mode};
@@ -193,10 +193,21 @@ impl BodyCell<'_> {
         let truth = &studio.race().truth().bodies()[index];
         let shows_ghost = studio.display().ghost && truth.halted().is_none();
         self.ground(picture, shows_ghost);
+        let has_outgrown = studio.mode() == Mode::Solo
+            && view.zoomed_as == index
+            && !self.shows_futures()
+            && universe::is_shown(moment, view, camera);
+        if has_outgrown {
+            universe::landmarks(picture, camera, palette);
+        }
+        if self.shows_futures() && self.lanes.iter().any(|lane| lane.id == studio.selected().id) {
+            futures::draw(picture, moment, camera, framing, index);
+        }
 
         let behind = self.lanes.iter().filter(|lane| !self.is_front(lane));
         let mut flagged: Vec<Flag> = Vec::new();
         let mut numbered = None;
+        let mut rivals: Vec<(Outline, LaneStyle)> = Vec::new();
         let mut lost: Vec<Lost> = Vec::new();
         let mut near: Vec<LoupeLane<'_>> = Vec::new();
         let mut cell = Cell {
@@ -236,6 +247,9 @@ impl BodyCell<'_> {
             if !is_front {
                 seen.behind(&mut picture.shapes, coat);
                 flagged.push(flag);
+                if self.lanes.len() <= MAX_NUMBERED && outline.threads.is_empty() {
+                    rivals.push((outline, LaneStyle { fill: 0.0, ..coat }));
+                }
                 continue;
             }
             let in_hand = held.map(|held| look.outline(moment.t, &held.q));
@@ -248,6 +262,10 @@ impl BodyCell<'_> {
             shown.carried(picture, coat);
             self.draw_ghost(picture, shows_ghost);
             shown.front(&mut picture.shapes, coat);
+            // Those behind would be hidden by it.
+            for (outline, coat) in rivals.drain(..) {
+                OutlineView { outline: &outline, ..shown }.behind(&mut picture.shapes, coat);
+            }
             if let Some(held) = held.filter(|held| held.lane == lane.id) {
                 let [handle, hand] = [held.handle, held.hand].map(|at| camera.points(at));
                 picture.shapes.push(line(handle, hand, 1.0, palette.text, camera.rect));
@@ -303,6 +321,10 @@ impl BodyCell<'_> {
             Some(((!is_alone).then(|| studio.entry(lane) + 1), halt))
         });
         captions::halts(picture, camera.rect, halted, truth, palette);
+        if has_outgrown {
+            let of_lane = (index, self.front);
+            universe::sentence(picture, camera, moment, (view, ghost.view.reach_m.x), of_lane);
+        }
         picture.cells.push(cell);
     }
 
@@ -326,6 +348,12 @@ impl BodyCell<'_> {
         lane.id == self.front.id
     }
 
+    /// Whether the futures of the body are drawn, in place of where it has been.
+    fn shows_futures(&self) -> bool {
+        let is_afloat = matches!(self.view.framing, Framing::Follow { .. });
+        self.moment.studio.shows_futures() && !is_afloat
+    }
+
     /// What lies under the bodies: the quay, a course, the exact trail, and how far the exact body swings.
     fn ground(&self, picture: &mut Picture, shows_ghost: bool) {
         let Self { moment, index, ghost, view, ref camera, .. } = *self;
@@ -340,7 +368,8 @@ impl BodyCell<'_> {
             }
             Framing::Follow { .. } | Framing::Fixed { .. } => {}
         }
-        if let Some(trail_s) = trail_s(framing, moment).filter(|_| shows_ghost) {
+        let is_past_shown = shows_ghost && !self.shows_futures();
+        if let Some(trail_s) = trail_s(framing, moment).filter(|_| is_past_shown) {
             let tolerance_m = TOLERANCE / camera.points_per_metre;
             let past = ghost.past(moment, index, trail_s, tolerance_m);
             moment.trail(picture, camera, framing, &past, TRAIL_OF_TRUTH);
@@ -375,6 +404,9 @@ impl BodyCell<'_> {
             return now;
         }
         let Some(trail_s) = trail_s(framing, moment) else { return now };
+        if self.shows_futures() {
+            return now;
+        }
         let mut legs = moment.legs(from, history, trail_s);
         let places = legs.iter().flatten().map(|place| place.at);
         let away = Lost::of(flag, camera, self.room(), std::iter::once(from).chain(places));

@@ -7,6 +7,11 @@ use glam::DVec2;
 use super::{FAR, Fill, Path, PathPoint, Rect, Rgba, Shape};
 use crate::lab::studio::ZoomPan;
 
+/// From the middle of a block to the point of the pen under it, in blocks.
+pub(super) const PEN: f32 = 0.66;
+/// The room for digits below threads, in points.
+const FOOT: f64 = 22.0;
+
 /// Looks at one body's world through one cell of the stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Camera {
@@ -66,6 +71,12 @@ impl Camera {
     pub(super) fn points(&self, place_m: DVec2) -> [f32; 2] {
         let offset = (place_m - self.centre_m) * self.points_per_metre;
         [demote(f64::from(self.at[0]) + offset.x), demote(f64::from(self.at[1]) - offset.y)]
+    }
+
+    /// The point on a chart recorder's paper, which holds a second, for a place so many seconds from now.
+    pub(super) fn ahead(&self, place_m: DVec2, seconds: f64) -> [f32; 2] {
+        let ([x, y], pen) = (self.points(place_m), f64::from(PEN * self.block));
+        [x, demote(f64::from(y) + pen + seconds * (self.paper - pen - FOOT).max(0.0))]
     }
 
     pub(super) fn length(&self, metres: f64) -> f32 {

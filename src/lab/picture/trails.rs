@@ -3,7 +3,7 @@
 use glam::{DVec2, Vec2};
 
 use super::moment::DrawContext;
-use super::sketch::{Camera, SOLID, demote, disc, taper};
+use super::sketch::{Camera, PEN, SOLID, demote, disc, taper};
 use super::{Framing, Path, PathPoint, Picture, Rect, Rgba, Shape};
 use crate::lab::palette::{faded, mixed};
 use crate::lab::past::{History, Sample};
@@ -20,8 +20,6 @@ const MAX_FEATHERS: usize = 60;
 /// The time between the eddies of a wake, in seconds, and how many there are at a time.
 const EDDY_S: f64 = 0.2;
 const EDDIES: u8 = 3;
-/// From the middle of a block to the point of the pen under it, in blocks.
-const PEN: f32 = 0.66;
 /// From this distance on, in points, samples of a trail can be told apart, and have dots of this radius.
 const SPARSE: f32 = 6.0;
 const DOT_RADIUS: f32 = 1.7;

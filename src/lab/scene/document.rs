@@ -9,7 +9,7 @@ use super::errors::{SceneError, position};
 use super::fault::{FaultKind, SceneFault};
 use super::fitting::{check_method, every_lane};
 use super::keys::{Key, METHOD, keep, list, number, quoted, read_lane_spec};
-use super::nearest::listed;
+use super::nearest::{listed, nearest, offer};
 use super::script::{self, SceneContext};
 use super::syntax;
 use super::table::Table;
@@ -17,6 +17,7 @@ use super::wanted::{Field, Wanted};
 use super::{
     MAX_LANES, MAX_SECONDS, MAX_TICK_HZ, MIN_SECONDS, Scene, USUAL_SECONDS, claim_horizon,
 };
+use crate::lab::cloud_shape::CloudKind;
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::{BODIES, Range};
 use crate::sim::integrators::Method;
@@ -53,7 +54,7 @@ pub(super) struct Draft {
 }
 
 /// The keys above the first table.
-pub(super) static TOP: [Key<Draft, Scene>; 7] = [
+pub(super) static TOP: [Key<Draft, Scene>; 8] = [
     Key {
         field: Field::required(
             "title",
@@ -104,11 +105,32 @@ pub(super) static TOP: [Key<Draft, Scene>; 7] = [
         },
     },
     Key {
+        field: Field::optional(
+            "clouds",
+            "opens it with clouds of many starts in place of the bodies: their shape, or their section",
+            Wanted::Clouds,
+        ),
+        read: |draft, top, field| draft.scene.clouds = read_clouds(top, field),
+        write: |scene| scene.clouds.map(|kind| quoted(kind.name())),
+    },
+    Key {
         field: OPENING_METHOD,
         read: |draft, top, field| draft.scene.opening_method = top.method(field),
         write: |scene| scene.opening_method.map(|method| quoted(method.id)),
     },
 ];
+
+/// What kind of clouds a scene opens with.
+fn read_clouds(top: &mut Table<'_>, field: &Field) -> Option<CloudKind> {
+    let written = top.text(field)?;
+    let found = CloudKind::named(&written);
+    if found.is_none() {
+        let names = CloudKind::ALL.map(CloudKind::name);
+        let remedy = offer(nearest(&written, names.iter().map(|it| (*it, *it))), &names, '"');
+        top.complain(top.span(field.key), format!("unknown clouds {written:?}"), remedy);
+    }
+    found
+}
 
 /// The keys of `[race]`.
 pub(super) static RACE: [Key<Scene, Scene>; 2] = [
@@ -164,6 +186,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), V
         opening_method: None,
         equal_cost: false,
         opens_as_race: false,
+        clouds: None,
         bodies: Vec::new(),
         script: Vec::new(),
         checks: Vec::new(),

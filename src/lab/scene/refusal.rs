@@ -34,16 +34,16 @@ impl Scene {
         METHODS.iter().filter(is_shown).filter(|method| self.refusal(method).is_none())
     }
 
-    /// The [methods that fit](Scene::fitting_methods) without those of engines: what a game can implement itself.
-    pub fn non_engine_methods(&self) -> impl Iterator<Item = &'static Method> {
-        self.fitting_methods().filter(|method| !method.is_engine())
+    /// The [methods that fit](Scene::fitting_methods) and are [for a game to implement](Method::is_for_games).
+    pub fn methods_for_games(&self) -> impl Iterator<Item = &'static Method> {
+        self.fitting_methods().filter(|method| method.is_for_games())
     }
 
     /// The lanes that advice is on: those of a body that is written in Rust, and of any other scene each of the
-    /// [methods](Scene::non_engine_methods) that a game can implement, with its card's substeps.
+    /// [methods for games](Scene::methods_for_games), with its card's substeps.
     pub fn advised_lanes(&self) -> Vec<LaneSpec> {
         match self.source {
-            Some(_) => self.non_engine_methods().map(LaneSpec::plain).collect(),
+            Some(_) => self.methods_for_games().map(LaneSpec::plain).collect(),
             None => self.lanes.clone(),
         }
     }

@@ -4,6 +4,7 @@ use std::fmt;
 use std::ops::RangeInclusive;
 
 use super::nearest::listed;
+use crate::lab::cloud_shape::CloudKind;
 use crate::sim::bodies::{self, Pin};
 use crate::sim::law::Layout;
 
@@ -72,6 +73,8 @@ pub(super) enum Wanted {
     Plane,
     /// Two expressions.
     At,
+    /// The name of a [`CloudKind`].
+    Clouds,
     /// The name of a [`Layout`].
     Layout,
     /// The places of nodes.
@@ -147,6 +150,7 @@ impl Wanted {
             | Wanted::Hash
             | Wanted::Expression
             | Wanted::Pin
+            | Wanted::Clouds
             | Wanted::Layout => "a string",
             Wanted::Number(_) => "a number",
             Wanted::Whole(_) => "an integer",
@@ -204,6 +208,9 @@ impl fmt::Display for Wanted {
             Wanted::Ends => write!(f, "the numbers of two nodes, such as [0, 1]"),
             Wanted::Springs => write!(f, "a list such as [{{ between = [0, 1] }}]"),
             Wanted::Spring => write!(f, "a spring in braces, such as {{ between = [0, 1] }}"),
+            Wanted::Clouds => {
+                write!(f, "{}", listed(&CloudKind::ALL.map(CloudKind::name), '"', " or "))
+            }
             Wanted::Layout => {
                 write!(f, "{}", listed(&Layout::ALL.map(|(id, _)| id), '"', " or "))
             }

@@ -153,6 +153,7 @@ impl Studio {
             StageCommand::Tick(step) => self.step_by(step.sign()),
             StageCommand::Second(step) => self.step_by(step.sign() * i64::from(race.tick_hz())),
             StageCommand::Restart => {
+                self.viewer.view.zoom_pans.clear();
                 // A hint leads on; the old run is a click away on the timeline.
                 if self.restart_keeping_run() && self.hint().is_none() {
                     self.viewer.set_notice("restarted: Ctrl Z brings the run back");
@@ -183,9 +184,19 @@ impl Studio {
         let display = &mut self.viewer.preferences.display;
         match command {
             ViewCommand::TogglePause => self.running = !self.running,
-            ViewCommand::PointerDown(is_down) => self.viewer.pointer_is_down = is_down,
+            ViewCommand::PointerDown(is_down) => {
+                self.viewer.hz_at_press = is_down.then(|| self.timeline.session().race().tick_hz());
+                self.viewer.pointer_is_down = is_down;
+            }
+            ViewCommand::ToggleFutures => {
+                display.futures = !display.futures;
+                self.running &= !display.futures;
+            }
             // The loop lab is its instruments.
-            ViewCommand::ToggleMeasure => display.measure = !display.measure || is_in_loop_lab,
+            ViewCommand::ToggleMeasure => {
+                display.measure = !display.measure || is_in_loop_lab;
+                display.enlarged &= !display.measure;
+            }
             ViewCommand::ToggleGhost => display.ghost = !display.ghost,
             ViewCommand::ToggleTheme => {
                 display.theme = display.theme.other();

@@ -148,6 +148,8 @@ pub enum ViewCommand {
     CloseDialog,
     /// Puts instruments, table and timeline round the stage, or lets the stage fill the window.
     ToggleMeasure,
+    /// Shows the next second under each method, and pauses for it; or hides it.
+    ToggleFutures,
     /// Shows or hides the exact ghost.
     ToggleGhost,
     /// The dark theme or the light one.

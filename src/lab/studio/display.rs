@@ -37,6 +37,8 @@ pub enum Motion {
 pub struct Display {
     /// Whether instruments, table and timeline stand round the stage; otherwise it fills the window, over the methods.
     pub measure: bool,
+    /// Whether the next second under each method is drawn while time stands still.
+    pub futures: bool,
     /// Whether the exact ghost is drawn.
     pub ghost: bool,
     /// How bodies are drawn between ticks.

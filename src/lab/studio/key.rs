@@ -191,6 +191,11 @@ pub static KEYS: &[Binding] = &[
         "a spring of your own: its numbers, the recommended method, and its code",
         &[(Key::Sign('s'), View(ViewCommand::AskForSpring))],
     ),
+    once(
+        "F",
+        "a fan of futures: the next second under each method, a dot a tick",
+        &[(Key::Sign('f'), View(ViewCommand::ToggleFutures))],
+    ),
     once("G", "exact ghost on / off", &[(Key::Sign('g'), View(ViewCommand::ToggleGhost))]),
     once(
         "I",

@@ -155,7 +155,7 @@ impl MySpring {
     pub(crate) fn advised_scene(self, tick_hz: u32) -> Result<Scene, SceneErrors> {
         let mut scene = self.scene(tick_hz)?;
         let adviser = Adviser::new(&scene, tick_hz);
-        let methods = scene.non_engine_methods();
+        let methods = scene.methods_for_games();
         let Some(best) = adviser.cheapest(Criterion::LooksRight, methods) else {
             scene.opening_method = method("semi-implicit-euler");
             return Ok(scene);
@@ -254,7 +254,7 @@ mod tests {
             assert_eq!(scene.lanes[0].method.id, "explicit-euler");
             let adviser = Adviser::new(&scene, tick_hz);
             // No dearer one can be it.
-            let methods = scene.non_engine_methods().filter(|it| it.evaluations == Some(1));
+            let methods = scene.methods_for_games().filter(|it| it.evaluations == Some(1));
             let all: Vec<_> = methods.map(|it| adviser.judged(LaneSpec::plain(it))).collect();
             let looks_right = CRITERIA.iter().position(|it| *it == Criterion::LooksRight).unwrap();
             let best = recommended(&all, looks_right);

@@ -181,6 +181,14 @@ impl Studio {
         self.timeline.show_present();
     }
 
+    /// Shows the clouds that the scene opens with, if it does, at full size.
+    pub fn show_clouds_of_scene(&mut self) {
+        let Some(kind) = self.scene().clouds else { return };
+        let display = &mut self.viewer.preferences.display;
+        (display.instrument, display.enlarged) = (Instrument::Cloud, true);
+        display.cloud.kind = kind;
+    }
+
     pub(super) fn open_beside(&mut self, step: Step) {
         let count = self.scene_list.count();
         self.open(self.scene_list.open().map_or(0, |here| step.around(here, count)));
@@ -195,6 +203,11 @@ impl Studio {
         studio.scene_list.set_open(index);
         studio.start.mode = if studio.scene().opens_as_race { Mode::Race } else { self.mode() };
         studio.viewer = self.viewer.before_next_scene(studio.viewer.selected);
+        if self.scene().clouds.is_some() && studio.display().enlarged {
+            let display = &mut studio.viewer.preferences.display;
+            (display.enlarged, display.instrument) = (false, Instrument::Motion);
+        }
+        studio.show_clouds_of_scene();
         studio.clock.set_speed_percent(self.clock.speed_percent());
         studio.running = self.runs_or_rests();
         studio.timeline.set_limit(self.timeline.limit());

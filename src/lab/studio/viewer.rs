@@ -84,6 +84,7 @@ impl Default for Preferences {
         Self {
             display: Display {
                 measure: true,
+                futures: false,
                 ghost: true,
                 interpolation: Interpolation::default(),
                 instrument: Instrument::Motion,
@@ -135,6 +136,8 @@ pub struct Viewer {
     /// The clouds that were found last.
     pub(super) cloud: Option<FoundCloud>,
     pub(super) pointer_is_down: bool,
+    /// The tick rate at which the pointer's button went down, in Hz, while it is.
+    pub(super) hz_at_press: Option<u32>,
     /// The body that the person holds.
     pub(super) held: Option<HeldBody>,
     pub(super) dialog: Option<Dialog>,
@@ -159,6 +162,7 @@ impl Viewer {
             findings: None,
             cloud: None,
             pointer_is_down: false,
+            hz_at_press: None,
             held: None,
             dialog: None,
             hints: Hints::default(),

@@ -291,6 +291,12 @@ impl Method {
         self.family == Family::AsPrinted
     }
 
+    /// Whether it is for a game to implement. The methods of engines and the listings as printed are not: they run where
+    /// they are named.
+    pub fn is_for_games(&self) -> bool {
+        !self.is_engine() && !self.is_as_printed()
+    }
+
     /// An upper bound on the numbers that it keeps on the heap beside its own vectors, of `n` coordinates coupled so. A
     /// custom method is taken for one with sixteen vectors.
     pub(in crate::sim) fn numbers_kept(&self, n: usize, coupling: Coupling) -> usize {

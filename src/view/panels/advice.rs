@@ -407,7 +407,7 @@ mod tests {
     #[test]
     fn every_column_is_seen_whole_and_the_stage_keeps_its_room() {
         let (mut studio, mut worker) = asked("spring", false);
-        let wanted = studio.scene().non_engine_methods().count();
+        let wanted = studio.scene().methods_for_games().count();
         judge(&mut studio, &mut worker, wanted);
         for size in SIZES {
             let (stage, texts) = shown(&studio, size);
@@ -466,7 +466,7 @@ mod tests {
             let found = texts.iter().find(|(_, text)| text == words).map(|(at, _)| at.y);
             found.unwrap_or_else(|| panic!("{words}: {texts:?}"))
         };
-        let wanted = studio.scene().non_engine_methods().count();
+        let wanted = studio.scene().methods_for_games().count();
         let told = |done| format!("At 60 Hz, the best of {done} of {wanted} methods judged:");
         judge(&mut studio, &mut worker, 1);
         of(&studio, &told(1));

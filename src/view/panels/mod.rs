@@ -87,7 +87,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
     let has_methods = studio.loop_lab().is_none()
         && (studio.mode() == Mode::Solo || !studio.display().measure)
         && size.y >= breakpoints::LANES
-        && !studio.display().enlarged;
+        && !(studio.display().measure && studio.display().enlarged);
     if has_methods {
         let panel = egui::Panel::bottom("methods")
             .exact_size(methods::HEIGHT)
@@ -107,9 +107,19 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         let panel = egui::Panel::bottom("guide").exact_size(height).frame(frame);
         panel.show(ui, |ui| guide::show(ui, tour, &mut commands));
     }
-    let stage = ui.available_rect_before_wrap();
+    let mut stage = ui.available_rect_before_wrap();
     if !studio.display().measure {
+        if studio.display().enlarged {
+            // In place of the stage.
+            let frame = parts::frame(palette(ui).background);
+            egui::CentralPanel::default_margins()
+                .frame(frame)
+                .show(ui, |ui| instruments::show_alone(ui, studio, &mut commands));
+        }
         edge(ui, stage, &mut commands);
+        if studio.display().enlarged {
+            stage.min.x = stage.max.x;
+        }
     }
     if studio.display().help {
         help::show(ui, &mut commands);

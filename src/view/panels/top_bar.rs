@@ -73,7 +73,7 @@ fn word(ui: &mut Ui, width: f32, word: &str) {
     }
 }
 
-/// Each scene by its name, with its title beside it.
+/// Each scene by its name, with its title beside it, below the heading of its group.
 fn scene_menu(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let name = studio.scene_name();
     let menu = ComboBox::from_id_salt("scene").selected_text(&name).width(92.0).height(480.0);
@@ -85,8 +85,11 @@ fn scene_menu(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         {
             commands.push(Command::View(ViewCommand::AskForSpring));
         }
-        ui.separator();
+        let group = |index: usize| SCENES.get(index).map_or("Files", |scene| scene.group.title());
         for (index, name) in studio.scene_list().names().enumerate() {
+            if index == 0 || group(index) != group(index - 1) {
+                ui.label(RichText::new(group(index)).size(11.0).color(palette(ui).dim));
+            }
             let is_open = studio.scene_list().open() == Some(index);
             let title = SCENES.get(index).and_then(|scene| Scene::built_in(scene.name));
             let title = title.map(|scene| scene.title).unwrap_or_default();

@@ -36,13 +36,18 @@ fn a_chain_and_a_helm_are_read_with_their_counts_and_points() {
     assert_eq!(names(&scene.bodies[1]), ["x vx", "y vy", "psi r"]);
 }
 
+/// The number of methods for games that step any body.
+fn for_games() -> usize {
+    GENERAL_METHODS.iter().filter(|method| method.is_for_games()).count()
+}
+
 #[test]
-fn a_scene_without_lanes_races_every_method_and_optional_keys_have_defaults() {
+fn a_scene_without_lanes_races_every_method_for_games_and_optional_keys_have_defaults() {
     let scene = parse_body(SPRING);
     assert_eq!((scene.name.as_str(), scene.title.as_str()), ("mine", "Mine"));
     assert_eq!((scene.about.as_str(), scene.hint), ("", None));
     assert_eq!((scene.tick_hz, scene.seconds), (60, 10.0));
-    assert_eq!(scene.lanes.len(), GENERAL_METHODS.len());
+    assert_eq!(scene.lanes.len(), for_games());
     let spring = &scene.bodies[0];
     let defaults = spring.kind.parameters[2..].iter().map(|parameter| parameter.default.unwrap());
     assert_eq!(spring.values, [1.0, 40.0].into_iter().chain(defaults).collect::<Vec<_>>());
@@ -159,7 +164,7 @@ fn other_editors_line_ends_byte_order_mark_and_inline_tables_are_the_same_scene(
 fn a_scene_without_lanes_races_the_methods_that_step_all_its_bodies() {
     let camera = |order: u32| format!("[[follow]]\norder = {order}\nrate_per_s = 5\n");
     let ids = |scene: &Scene| scene.lanes.iter().map(|lane| lane.method.id).collect::<Vec<_>>();
-    let others = |scene: &Scene| ids(scene)[GENERAL_METHODS.len()..].to_vec();
+    let others = |scene: &Scene| ids(scene)[for_games()..].to_vec();
     let first = parse_body(&camera(1));
     assert_eq!(others(&first), ["lerp-per-frame", "lerp-dt", "exponential-decay"]);
     let second = parse_body(&camera(2));

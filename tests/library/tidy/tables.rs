@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use regatta::lab::pacing::POLICIES;
+use regatta::lab::scene::SceneGroup;
 use regatta::lab::{METRICS, SCENES, Scene};
 use regatta::manual::CHAPTERS;
 use regatta::sim::bodies::{BODIES, kind};
@@ -184,8 +186,14 @@ fn the_manual_says_of_every_method_and_engine_what_its_card_does() {
 fn the_manual_lists_every_scene_and_times_every_general_method_in_the_order_of_the_table() {
     let timed = manual_rows("| method | ship, ns |");
     assert_eq!(timed, GENERAL_METHODS.iter().map(|method| method.id).collect::<Vec<_>>());
-    let scenes: Vec<&str> = SCENES.iter().map(|scene| scene.name).collect();
-    assert_eq!(manual_rows("| scene | what it shows |"), scenes);
+    for group in SceneGroup::ALL {
+        let scenes = SCENES.iter().filter(|scene| scene.group == group);
+        let names: Vec<&str> = scenes.map(|scene| scene.name).collect();
+        assert_eq!(manual_rows(&format!("| {} | what it shows |", group.title())), names);
+    }
+    assert!(
+        SCENES.is_sorted_by_key(|scene| SceneGroup::ALL.iter().position(|g| *g == scene.group))
+    );
 }
 
 #[test]
@@ -223,7 +231,9 @@ fn fit(ids: &[&str], dash: char) {
 
 #[test]
 fn ids_are_unique_and_fit_to_be_typed() {
-    fit(&METHODS.iter().map(|method| method.id).collect::<Vec<_>>(), '-');
+    // `regatta show` takes either.
+    let loops = POLICIES.iter().map(|card| card.id);
+    fit(&METHODS.iter().map(|method| method.id).chain(loops).collect::<Vec<_>>(), '-');
     fit(&BODIES.iter().map(|kind| kind.id).collect::<Vec<_>>(), '-');
     fit(&SCENES.iter().map(|scene| scene.name).collect::<Vec<_>>(), '-');
     fit(&METRICS.iter().map(|metric| metric.id).collect::<Vec<_>>(), '_');

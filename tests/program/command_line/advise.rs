@@ -24,6 +24,11 @@ fn row<'a>(advice: &'a Value, id: &str) -> &'a Value {
     rows.iter().find(|row| row["method"] == id).unwrap()
 }
 
+/// The ids of the methods that are judged where none is named.
+fn for_games() -> Vec<&'static str> {
+    GENERAL_METHODS.iter().filter(|method| method.is_for_games()).map(|method| method.id).collect()
+}
+
 fn keys(value: &Value) -> Vec<&str> {
     value.as_object().unwrap().keys().map(String::as_str).collect()
 }
@@ -33,7 +38,7 @@ fn every_method_has_a_verdict_and_meets_criteria_with_so_many_substeps() {
     let advice = advice("--scene spring --rates");
     let rows = advice["methods"].as_array().unwrap();
     let ids: Vec<&str> = rows.iter().map(|row| row["method"].as_str().unwrap()).collect();
-    assert_eq!(ids, GENERAL_METHODS.iter().map(|method| method.id).collect::<Vec<_>>());
+    assert_eq!(ids, for_games());
     assert_eq!((&advice["scene"], &advice["tick_hz"]), (&"spring".into(), &60.into()));
     assert_eq!((&advice["horizon_s"], &advice["bodies"]), (&20.0.into(), &["spring"][..].into()));
 
@@ -130,8 +135,9 @@ fn the_verdict_follows_the_tick_rate_and_the_rates_do_not() {
 
 #[test]
 fn text_is_a_table_of_verdicts_one_for_each_criterion_and_a_line_for_each() {
-    let text =
-        stdout_of("advise --scene stiff --method semi-implicit-euler --method explicit-euler");
+    let text = stdout_of(
+        "advise --all --scene stiff --method semi-implicit-euler --method explicit-euler",
+    );
     let lines: Vec<&str> = text.lines().collect();
     let table = &lines[4..];
     assert!(table[0].starts_with("METHOD") && table[0].ends_with("VERDICT"), "{text}");
@@ -146,6 +152,34 @@ fn text_is_a_table_of_verdicts_one_for_each_criterion_and_a_line_for_each() {
     assert!(lines[2].starts_with("at 60 Hz: accurate: "), "{text}");
     assert!(lines.contains(&"  not with up to 64 substeps: explicit-euler"), "{text}");
     assert!(lines.iter().all(|line| line.trim_end() == *line), "{text}");
+}
+
+#[test]
+fn without_all_the_answer_and_the_eight_best_rows_are_printed() {
+    let text = stdout_of("advise --scene stiff");
+    let lines: Vec<&str> = text.lines().collect();
+    let whole = stdout_of("advise --scene stiff --all");
+    assert!(whole.lines().take(3).eq(lines[..3].iter().copied()), "{text}");
+    let head: Vec<&str> = lines[4].split_whitespace().collect();
+    assert_eq!(head, ["METHOD", "BOUNDED", "LOOKS-RIGHT", "ACCURATE", "VERDICT"]);
+    let rows = &lines[5..13];
+    let of_table = |line: &str| line.split("  ").next().unwrap().to_owned();
+    for answer in &lines[..3] {
+        let method = answer.split(' ').nth(4).unwrap();
+        assert!(rows[..3].iter().any(|row| of_table(row) == method), "{answer}: {text}");
+    }
+    // Where another method stands, it costs no less, and is told so.
+    let advice = advice("--scene stiff");
+    for row in rows {
+        let met = &self::row(&advice, &of_table(row))["criteria"]["bounded"];
+        let cell = format!("×{} {}", met["substeps"], met["cost_per_s"].as_f64().unwrap().round());
+        assert!(row.contains(&cell), "{row}: {cell}");
+    }
+    let [empty, told] = lines[13..] else { panic!("{text}") };
+    assert!(empty.is_empty() && told.starts_with("The best 8 of 25 methods. "), "{text}");
+    let one = stdout_of("advise --scene stiff --method explicit-euler --rates");
+    assert!(one.contains("explicit-euler  no       no           no        will blow up"), "{one}");
+    assert!(one.contains("\nslowest tick rates") && !one.contains("best"), "{one}");
 }
 
 #[test]
@@ -225,7 +259,7 @@ fn a_margin_whose_search_ends_at_too_much_work_is_not_known() {
                  shear = true\npin = 'corners'\nmass_kg = 0.02\nstiffness_n_per_m = 1000\n";
     fs::write(folder.path().join("net.toml"), scene).unwrap();
     let said = |format: &str| {
-        let arguments = format!("advise --scene net.toml --method rk4 --format {format}");
+        let arguments = format!("advise --all --scene net.toml --method rk4 --format {format}");
         String::from_utf8(run_in(folder.path(), &arguments).stdout).unwrap()
     };
     // The run at the rate asked for is affordable. The many runs of a stiffer net may each take a tenth of its work.
@@ -246,7 +280,7 @@ fn what_is_not_known_of_an_adaptive_method_is_null_and_no_reason_to_say_no() {
     // The swing loses so slowly that it is not at rest after 2000 times the scene.
     let scene = "title = 'x'\ntick_hz = 200\nseconds = 3\n[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 300\n";
     fs::write(folder.path().join("slow.toml"), scene).unwrap();
-    let one = "advise --scene slow.toml --method bogacki-shampine-32 --format";
+    let one = "advise --all --scene slow.toml --method bogacki-shampine-32 --format";
     let output = run_in(folder.path(), &format!("{one} json"));
     let advice: Value = serde_json::from_slice(&output.stdout).unwrap();
     let criteria = &row(&advice, "bogacki-shampine-32")["criteria"];
@@ -269,7 +303,7 @@ fn margins_of_many_coordinates_are_searched_near_the_least_cost_and_the_others_s
     fs::write(folder.path().join("chain.toml"), scene).unwrap();
     let three = "--method semi-implicit-euler --method rk4 --method dormand-prince-54";
     let said = |format: &str| {
-        let arguments = format!("advise --scene chain.toml {three} --format {format}");
+        let arguments = format!("advise --all --scene chain.toml {three} --format {format}");
         String::from_utf8(run_in(folder.path(), &arguments).stdout).unwrap()
     };
     let advice: Value = serde_json::from_str(&said("json")).unwrap();
@@ -321,7 +355,7 @@ fn an_interrupt_is_heeded_while_the_true_motion_is_found() {
     assert!(begin.elapsed() < Duration::from_secs(1), "{:?}", begin.elapsed());
     let output = child.wait_with_output().unwrap();
     let error = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(error, "error: interrupted after 0 of 29 methods\n");
+    assert_eq!(error, "error: interrupted after 0 of 25 methods\n");
 }
 
 #[test]
@@ -373,15 +407,16 @@ fn lerp_per_frame_is_not_recommended() {
 }
 
 #[test]
-fn engines_are_judged_only_where_they_are_asked_for() {
+fn engines_and_listings_as_printed_are_judged_only_where_they_are_asked_for() {
     let ids = |arguments: &str| -> Vec<String> {
         let advice = advice(arguments);
         let rows = advice["methods"].as_array().unwrap();
         rows.iter().map(|row| row["method"].as_str().unwrap().to_owned()).collect()
     };
     let unasked = ids("--scene held-force");
-    assert!(unasked.len() == GENERAL_METHODS.len(), "{unasked:?}");
-    assert!(unasked.iter().all(|id| id != "held-force" && !id.starts_with("engine-")));
+    assert_eq!(unasked, for_games());
+    let printed = ids("--scene ship --family as-printed");
+    assert!(printed.iter().any(|id| id == "rk4-as-printed"), "{printed:?}");
     let engines = ids("--scene spring --family engine");
     assert!(engines.contains(&"held-force".to_owned()) && engines.len() > 10, "{engines:?}");
     assert!(engines.iter().all(|id| id == "held-force" || id.starts_with("engine-")));
@@ -404,7 +439,7 @@ fn in_a_pipe_a_line_every_ten_seconds_says_how_far_it_is() {
     let seconds = begin.elapsed().as_secs_f64();
     child.kill().unwrap();
     child.wait().unwrap();
-    let tells = [" of 29 methods judged\n", " margins searched\n"];
+    let tells = [" of 25 methods judged\n", " margins searched\n"];
     assert!(tells.iter().any(|told| line.ends_with(told)), "{line:?}");
     assert!(seconds > 10.0, "{seconds} s");
 }

@@ -199,23 +199,25 @@ fn a_capture_shows_the_cloud_that_is_chosen_and_refuses_a_shape_of_other_instrum
     let test = "a_capture_shows_the_cloud_that_is_chosen_and_refuses_a_shape_of_other_instruments";
     let folder = tempfile::tempdir().unwrap();
     for (options, said) in [
-        ("--instrument cloud --shape dog", "There are cat, disc, ring, section"),
-        ("--instrument energy --shape disc", "give --instrument cloud, or no --shape"),
+        ("--instrument cloud --shape dog", "There are cat, disc, ring"),
+        ("--instrument energy --shape disc", "give --instrument cloud, or neither"),
+        ("--instrument energy --section", "give --instrument cloud, or neither"),
+        ("--instrument cloud --shape disc --section", "cannot be used with"),
         ("--shape disc", "--instrument"),
     ] {
         let wrong = run_in(folder.path(), &format!("capture {options} --out wrong"));
         assert_eq!(wrong.status.code(), Some(2));
         assert!(stderr(&wrong).contains(said), "{}", stderr(&wrong));
     }
-    let frame = |shape: &str| {
+    let frame = |out: &str, shown: &str| {
         let capture = "capture --scene kicked-rotor --method rk4 --frames 1 --size 800x600";
-        let arguments = format!("{capture} --instrument cloud --shape {shape} --out {shape}");
+        let arguments = format!("{capture} --instrument cloud {shown} --out {out}");
         let output = drawn_or_skip(test, folder.path(), &arguments)?;
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-        Some(fs::read(folder.path().join(shape).join("frame-000000.png")).unwrap())
+        Some(fs::read(folder.path().join(out).join("frame-000000.png")).unwrap())
     };
-    let Some(ring) = frame("ring") else { return };
-    assert!(ring != frame("section").unwrap());
+    let Some(ring) = frame("ring", "--shape ring") else { return };
+    assert!(ring != frame("section", "--section").unwrap());
     let verified = run_in(folder.path(), "verify section");
     assert_eq!(verified.status.code(), Some(0), "{}", stderr(&verified));
 }

@@ -22,7 +22,7 @@ fn the_name_of_a_file_says_its_format() {
     let folder = tempfile::tempdir().unwrap();
     let test = "the_name_of_a_file_says_its_format";
     for (out, begin) in
-        [("run.gif", &b"GIF89a"[..]), ("run.y4m", b"YUV4MPEG2 "), ("run.apng", b"\x89PNG\r\n")]
+        [("run.gif", &b"GIF89a"[..]), ("run.y4m", b"YUV4MPEG2 "), ("run.png", b"\x89PNG\r\n")]
     {
         let Some(output) = drawn_or_skip(test, folder.path(), &format!("{GIF} --out {out}")) else {
             return;
@@ -30,7 +30,7 @@ fn the_name_of_a_file_says_its_format() {
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         assert!(fs::read(folder.path().join(out)).unwrap().starts_with(begin), "{out}");
     }
-    assert_eq!(names(folder.path()), ["run.apng", "run.gif", "run.y4m"]);
+    assert_eq!(names(folder.path()), ["run.gif", "run.png", "run.y4m"]);
 }
 
 #[cfg(unix)]
@@ -165,8 +165,8 @@ fn a_link_stays_one_and_its_target_is_written() {
 fn a_pipe_with_a_name_is_written_into_and_not_replaced() {
     let folder = tempfile::tempdir().unwrap();
     let test = "a_pipe_with_a_name_is_written_into_and_not_replaced";
-    let run = GIF.to_owned() + " --format rgba --out";
-    if drawn_or_skip(test, folder.path(), &format!("{run} run.rgba")).is_none() {
+    let run = GIF.to_owned() + " --format y4m --out";
+    if drawn_or_skip(test, folder.path(), &format!("{run} run.y4m")).is_none() {
         return;
     }
     let pipe = folder.path().join("pipe");
@@ -179,8 +179,8 @@ fn a_pipe_with_a_name_is_written_into_and_not_replaced() {
     File::open(&pipe).unwrap().read_to_end(&mut read).unwrap();
     let output = writer.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(read == fs::read(folder.path().join("run.rgba")).unwrap());
-    assert_eq!(names(folder.path()), ["pipe", "run.rgba"]);
+    assert!(read == fs::read(folder.path().join("run.y4m")).unwrap());
+    assert_eq!(names(folder.path()), ["pipe", "run.y4m"]);
 }
 
 #[cfg(unix)]
@@ -194,7 +194,7 @@ fn a_request_to_end_is_heeded_while_nothing_reads_a_pipe() {
         return;
     }
     let sweep = "sweep --scene spring --method rk4 --tick-hz 60";
-    let game_loop = "loop --trace steady-144 --out rows.csv --frames";
+    let game_loop = "loop --trace steady-144 --out rows.csv --frame-rows";
     // The one waits for a reader; of the other a reader takes nothing, and it has more than a pipe holds.
     for (arguments, has_reader) in [
         (format!("{sweep} --out pipe"), false),

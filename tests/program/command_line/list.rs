@@ -1,5 +1,6 @@
 //! `list` and `completions`.
 
+use regatta::lab::scene::SceneGroup;
 use regatta::lab::studio::KEYS;
 use regatta::lab::{METRICS, SCENES};
 use regatta::sim::bodies::{BODIES, Body, Net, kind, stepped_kinds};
@@ -27,7 +28,10 @@ fn every_table_is_listed_whole_and_in_order() {
     let ids: Vec<_> = METRICS.iter().map(|metric| metric.id).collect();
     assert_eq!(column(&listing("metrics"), "id"), ids);
     let names: Vec<_> = SCENES.iter().map(|scene| scene.name).collect();
-    assert_eq!(column(&listing("scenes"), "name"), names);
+    let scenes = listing("scenes");
+    assert_eq!(column(&scenes, "name"), names);
+    let groups: Vec<_> = SCENES.iter().map(|scene| scene.group.title()).collect();
+    assert_eq!(column(&scenes, "group"), groups);
     let keys: Vec<_> = KEYS.iter().map(|binding| binding.shown).collect();
     assert_eq!(column(&listing("keys"), "keys"), keys);
 }
@@ -122,7 +126,8 @@ fn a_body_is_listed_with_the_keys_of_its_table() {
 fn text_lists_have_a_line_for_each_entry_under_a_heading() {
     for (what, entries) in [
         ("methods", METHODS.len()),
-        ("scenes", SCENES.len()),
+        // Each group has a heading after an empty line.
+        ("scenes", SCENES.len() + 2 * SceneGroup::ALL.len()),
         ("metrics", METRICS.len()),
         ("keys", KEYS.len()),
     ] {

@@ -32,7 +32,7 @@ fn near(row: &Value, column: &str, expected: f64) {
 
 #[test]
 fn each_trace_and_policy_has_a_row_in_that_order_as_csv_and_as_json() {
-    let output = run("loop --seconds 0.5");
+    let output = run("loop --all --seconds 0.5");
     let csv = String::from_utf8(output.stdout).unwrap();
     let lines: Vec<&str> = csv.lines().collect();
     assert_eq!(lines[0], HEADER);
@@ -52,6 +52,24 @@ fn each_trace_and_policy_has_a_row_in_that_order_as_csv_and_as_json() {
     let row = &rows("--seconds 0.5 --trace edge --policy fixed --policy fixed")[0];
     let keys: Vec<&str> = row.as_object().unwrap().keys().map(String::as_str).collect();
     assert_eq!(keys.join(","), HEADER);
+}
+
+#[test]
+fn without_a_policy_the_usual_ones_are_compared_and_advised_as_among_all_where_the_best_is_usual() {
+    let compared = rows("--trace edge --seconds 0.5");
+    let ids: Vec<&str> = compared.iter().map(|row| row["policy"].as_str().unwrap()).collect();
+    assert_eq!(ids, ["variable", "fixed", "fixed-linear", "whole-refresh"]);
+    let advised = |options: &str, says: &str| -> Vec<(String, String)> {
+        let told = stderr(&run(&format!("loop {options} --seconds 20")));
+        let takes = told.lines().filter_map(|line| line.split_once(says));
+        takes.map(|(of, take)| (of.into(), take.split(':').next().unwrap().into())).collect()
+    };
+    let (all, usual) = (advised("--all", "): take "), advised("", "): of these take "));
+    assert!(all.len() > TRACES.len() / 2 && all.len() == usual.len(), "{all:?} {usual:?}");
+    for (of_all, of_usual) in all.iter().zip(&usual) {
+        let is_compared = ids.contains(&&*of_all.1);
+        assert_eq!(of_all == of_usual, is_compared, "{of_all:?} {of_usual:?}");
+    }
 }
 
 #[test]
@@ -93,7 +111,7 @@ fn every_frame_has_a_line_with_what_it_showed() {
     let folder = tempfile::tempdir().unwrap();
     let output = run_in(
         folder.path(),
-        "loop --trace steady-144 --policy fixed --seconds 1 --out rows.csv --frames frames.csv",
+        "loop --trace steady-144 --policy fixed --seconds 1 --out rows.csv --frame-rows frames.csv",
     );
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let text = fs::read_to_string(folder.path().join("frames.csv")).unwrap();
@@ -105,7 +123,7 @@ fn every_frame_has_a_line_with_what_it_showed() {
     let repeated = lines[1..].windows(2).filter(|pair| shown(pair[0]) == shown(pair[1])).count();
     // Seven in twelve of 144.
     assert_eq!(repeated, 84);
-    let again = run_in(folder.path(), "loop --trace steady-144 --frames frames.csv");
+    let again = run_in(folder.path(), "loop --trace steady-144 --frame-rows frames.csv");
     assert_eq!(again.status.code(), Some(2));
     assert!(stderr(&again).contains("--force"), "{}", stderr(&again));
 }
@@ -157,11 +175,11 @@ fn advice_names_a_policy_within_the_latency_with_its_constants() {
 fn of_loops_as_smooth_one_that_draws_between_two_ticks_is_advised_and_why() {
     let why = "extrapolation would be as smooth and no tick late, but it overshoots at each kick";
     for trace in ["steady-75", "steady-144", "steady-240"] {
-        let told = stderr(&run(&format!("loop --trace {trace} --seconds 5")));
+        let told = stderr(&run(&format!("loop --trace {trace} --seconds 5 --all")));
         assert!(told.contains("take fixed-linear: animation error 0 ms"), "{told}");
         assert!(told.contains(why), "{told}");
     }
-    let told = stderr(&run("loop --trace steady-144 --seconds 5 --latency-ms 1"));
+    let told = stderr(&run("loop --trace steady-144 --seconds 5 --latency-ms 1 --all"));
     assert!(told.contains("take fixed-extrapolated") && !told.contains(why), "{told}");
     let told = stderr(&run("loop --trace steady-60 --seconds 5"));
     assert!(told.contains("take fixed:") && !told.contains(why), "{told}");
@@ -210,7 +228,7 @@ fn the_latency_on_a_log_is_counted_from_the_least_because_its_clocks_have_no_com
 #[test]
 fn what_goes_to_standard_output_is_not_told_as_a_file() {
     let folder = tempfile::tempdir().unwrap();
-    let frames = "loop --trace edge --policy fixed --seconds 2 --out rows.csv --frames";
+    let frames = "loop --trace edge --policy fixed --seconds 2 --out rows.csv --frame-rows";
     let to_stdout = run_in(folder.path(), &format!("{frames} -"));
     assert_eq!(stderr(&to_stdout).matches("wrote").collect::<Vec<_>>(), ["wrote"]);
     let to_file = run_in(folder.path(), &format!("{frames} frames.csv --force"));
@@ -227,18 +245,6 @@ fn a_trace_is_not_overwritten_by_what_is_measured_on_it() {
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("is read as a trace"), "{}", stderr(&output));
     assert_eq!(fs::read_to_string(&log).unwrap(), text);
-}
-
-#[test]
-fn a_policy_is_printed_as_source_in_its_languages() {
-    for card in POLICIES {
-        for snippet in card.snippets {
-            let output = run(&format!("loop --show {} --language {}", card.id, snippet.language));
-            assert_eq!(String::from_utf8(output.stdout).unwrap(), snippet.source, "{}", card.id);
-        }
-    }
-    let refused = refusal("loop --show median --language c#", 2);
-    assert!(refused.contains("give --language rust"), "{refused}");
 }
 
 #[test]
@@ -264,10 +270,8 @@ fn mistakes_are_told_with_a_remedy() {
         ("--tick-hz 0", "1..=10000"),
         ("--scene nowhere", "nowhere"),
         ("--trace Cargo.toml", "Cargo.toml"),
-        ("--out x.csv --frames x.csv", "the same place"),
-        ("--language rust", "--show"),
-        ("--show fixed --frames x.csv", "--frames"),
-        ("--show fixed --tick-hz 30", "--tick-hz"),
+        ("--out x.csv --frame-rows x.csv", "the same place"),
+        ("--all --policy fixed", "cannot be used with"),
     ] {
         let refused = refusal(&format!("loop {options}"), 2);
         assert!(refused.contains(says), "{options}: {refused}");

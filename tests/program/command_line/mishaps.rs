@@ -219,7 +219,7 @@ fn a_full_disk_leaves_nothing_of_a_single_file_and_the_way_on_is_told() {
     let disk = folder.path().join("disk");
     let Some(()) = mounted_or_skip(test, &disk, "64k") else { return };
     let run = "capture --scene harbour --race --frames 30 --size 320x180 --out disk/run.";
-    let ended: Vec<_> = ["png --format apng", "gif", "y4m", "rgba", "png --format sheet"]
+    let ended: Vec<_> = ["gif", "y4m", "png"]
         .into_iter()
         .map_while(|format| drawn_or_skip(test, folder.path(), &format!("{run}{format}")))
         .map(|output| (output, names(&disk)))

@@ -14,7 +14,7 @@ fn rows(found: &Value, key: &str) -> Vec<Value> {
 
 #[test]
 fn a_wish_has_the_settings_of_every_mode_of_every_engine_with_code_and_version() {
-    let found = json("--want 2.5Hz --zeta 0.3 --mass 80");
+    let found = json("--frequency 2.5Hz --damping-ratio 0.3 --mass 80");
     assert_eq!(found["want"]["frequency_hz"], 2.5);
     assert_eq!((&found["want"]["mass_kg"], &found["tick_hz"]), (&80.0.into(), &60.0.into()));
     let engines = rows(&found, "engines");
@@ -53,7 +53,7 @@ fn a_wish_has_the_settings_of_every_mode_of_every_engine_with_code_and_version()
 #[test]
 fn what_substeps_are_is_said_where_an_engine_has_none_of_its_own_and_so_is_the_version() {
     let text = stdout_of(
-        "port --want 2Hz --zeta 0.2 --substeps 4 --to engine-chipmunk,engine-godot,engine-physx,engine-jolt",
+        "port --frequency 2Hz --damping-ratio 0.2 --substeps 4 --to engine-chipmunk,engine-godot,engine-physx,engine-jolt",
     );
     for (said, times) in [
         (
@@ -70,7 +70,8 @@ fn what_substeps_are_is_said_where_an_engine_has_none_of_its_own_and_so_is_the_v
     ] {
         assert_eq!(text.matches(said).count(), times, "{said}: {text}");
     }
-    let text = stdout_of("port --want 2Hz --zeta 0.2 --to engine-chipmunk,engine-godot");
+    let text =
+        stdout_of("port --frequency 2Hz --damping-ratio 0.2 --to engine-chipmunk,engine-godot");
     assert!(!text.contains("dt / "), "{text}");
 }
 
@@ -86,7 +87,7 @@ fn the_tgs_of_physx_5_6_reaches_what_was_seen_in_it() {
 
 #[test]
 fn a_floor_says_how_low_an_engine_goes_and_what_goes_lower() {
-    let text = stdout_of("port --want 1Hz --to engine-box2d,engine-physx");
+    let text = stdout_of("port --frequency 1Hz --to engine-box2d,engine-physx");
     for said in [
         "engine-box2d ×4, spring: unreachable",
         "Box2D ×4 at 60 Hz cannot go below a damping ratio of 0.0262 at 1 Hz; ×8 can go to 0.0131",
@@ -95,7 +96,7 @@ fn a_floor_says_how_low_an_engine_goes_and_what_goes_lower() {
     ] {
         assert!(text.contains(said), "{said}: {text}");
     }
-    let text = stdout_of("port --want 6Hz --zeta 0.2 --to engine-bullet");
+    let text = stdout_of("port --frequency 6Hz --damping-ratio 0.2 --to engine-bullet");
     assert!(
         text.contains("6dof-spring: nearest") && text.contains("missed: frequency by"),
         "{text}"
@@ -129,7 +130,7 @@ fn settings_of_an_engine_and_a_log_are_ported_and_come_back() {
 #[test]
 fn a_drive_has_its_limits_and_a_chase_its_rate_in_every_follower() {
     let found = json(
-        "--want 5Hz --zeta 1 --mass 2 --drive --decimation 4 --tick-hz 500 --to engine-mujoco",
+        "--frequency 5Hz --damping-ratio 1 --mass 2 --drive --decimation 4 --tick-hz 500 --to engine-mujoco",
     );
     let drives = rows(&found, "drives");
     let of = |mode: &str| drives.iter().find(|row| row["mode"] == mode).unwrap();
@@ -153,22 +154,25 @@ fn a_drive_has_its_limits_and_a_chase_its_rate_in_every_follower() {
 fn what_cannot_be_asked_is_one_error_with_a_remedy() {
     for (arguments, told) in [
         ("", "required arguments were not provided"),
-        ("--want 2.5s", "\"2.5s\" is no number of Hz; write it as 2.5Hz"),
-        ("--want -2Hz", "the frequency is -2; give hertz above 0"),
-        ("--want 40Hz", "40 Hz cannot be seen at 60 ticks per second"),
-        ("--want 20Hz --zeta 100", "is over within a tick of 60 Hz; damp less, or tick faster"),
-        ("--want 1e-9Hz", "takes more than 30000 ticks at 60 Hz, so that rounding hides it"),
-        ("--want 2Hz --tick-hz -60", "give a rate above 0"),
-        ("--want 2Hz --substeps 0", "0 is not in 1..=1000"),
+        ("--frequency 2.5s", "give a frequency above 0 in Hz, such as 2.5Hz"),
+        ("--frequency -2Hz", "give a frequency above 0 in Hz, such as 2.5Hz"),
+        ("--frequency 40Hz", "40 Hz cannot be seen at 60 ticks per second"),
+        (
+            "--frequency 20Hz --damping-ratio 100",
+            "is over within a tick of 60 Hz; damp less, or tick faster",
+        ),
+        ("--frequency 1e-9Hz", "takes more than 30000 ticks at 60 Hz, so that rounding hides it"),
+        ("--frequency 2Hz --tick-hz -60", "give a rate above 0"),
+        ("--frequency 2Hz --substeps 0", "0 is not in 1..=1000"),
         (
             "--from engine-godot",
             "give its settings too: engine-godot:stiffness=NUMBER,damping=NUMBER",
         ),
-        ("--want 2Hz --zeta -1", "give a number from 0 up"),
-        ("--want 2Hz --mass -1", "give a number above 0"),
-        ("--want 2Hz --to engine-foo", "no such engine with a spring"),
-        ("--want 2Hz --to engine-pybullet", "no such engine with a spring"),
-        ("--want 2Hz --decimation 2", "--drive"),
+        ("--frequency 2Hz --damping-ratio -1", "give a number from 0 up"),
+        ("--frequency 2Hz --mass -1", "give a number above 0"),
+        ("--frequency 2Hz --to engine-foo", "no such engine with a spring"),
+        ("--frequency 2Hz --to engine-pybullet", "no such engine with a spring"),
+        ("--frequency 2Hz --decimation 2", "--drive"),
         ("--from engine-gdot:stiffness=1", "did you mean engine-godot?"),
         (
             "--from engine-godot:stiffness=1,dampng=8",

@@ -1,8 +1,9 @@
-//! `show`: a method as a function in four languages.
+//! `show`: a method as a function, or a game loop, in the languages of both.
 
 use std::io::Read as _;
 use std::process::Stdio;
 
+use regatta::lab::pacing::POLICIES;
 use regatta::lab::source_code::{Language, Precision, source_code};
 use regatta::manual::chapter;
 use regatta::sim::integrators::METHODS;
@@ -22,6 +23,24 @@ fn every_method_is_shown_in_every_language() {
             }
         }
     }
+}
+
+#[test]
+fn every_loop_is_shown_in_the_languages_that_it_is_written_in() {
+    let languages =
+        [("rust", "rust"), ("c", "c"), ("cpp", "c++"), ("csharp", "c#"), ("gdscript", "gdscript")];
+    for card in POLICIES {
+        for (id, language) in languages {
+            let arguments = format!("show {} --as {id}", card.id);
+            match card.snippets.iter().find(|snippet| snippet.language == language) {
+                Some(snippet) => assert_eq!(stdout_of(&arguments), snippet.source),
+                None => assert!(refusal(&arguments, 2).contains("; give --as rust"), "{arguments}"),
+            }
+        }
+    }
+    assert!(refusal("show fixed --as gdscript", 2).contains("give --as rust or csharp or cpp"));
+    assert!(refusal("show fixed --float", 2).contains("--float is for methods"));
+    assert!(refusal("show rk4 --as cpp", 2).contains("give --as c"));
 }
 
 #[test]
@@ -54,11 +73,15 @@ fn another_name_of_a_method_shows_the_method_and_says_which_it_is() {
 #[test]
 fn a_mistake_in_a_name_is_told_with_the_nearest() {
     for (arguments, said) in [
-        ("show", "<METHOD>"),
-        ("show rk5", "did you mean rk4? `regatta list methods` names all"),
+        ("show", "<METHOD|POLICY>"),
+        (
+            "show rk5",
+            "did you mean rk4? `regatta list methods` and `regatta list policies` name all",
+        ),
         ("show runge-kutta", "did you mean rk4?"),
-        ("show x", "no such method. `regatta list methods` names all"),
-        ("show rk4 --as cobol", "There are rust, c, csharp, gdscript"),
+        ("show x", "no such method or policy. `regatta list methods`"),
+        ("show fixed-liner", "did you mean fixed-linear?"),
+        ("show rk4 --as cobol", "There are rust, c, csharp, gdscript, cpp"),
         ("show rk4 --as csharpp", "did you mean csharp?"),
     ] {
         let said_so = refusal(arguments, 2);

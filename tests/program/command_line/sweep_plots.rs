@@ -9,7 +9,7 @@ use regatta::sim::integrators::method;
 
 use super::capture::{dimensions, drawn_or_skip, names};
 use super::sweep::HEADER;
-use super::{regatta, run_in, stderr};
+use super::{refusal, regatta, run_in, stderr};
 
 /// How many pixels of the picture have each of these colours, or one close to it.
 fn lit(picture: &Path, colours: &[[u8; 3]]) -> Vec<usize> {
@@ -29,18 +29,18 @@ fn the_plot_is_a_picture_of_every_method_beside_the_rows() {
                  --plot sweep.png";
     let Some(output) = drawn_or_skip(test, folder.path(), sweep) else { return };
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert_eq!(stderr(&output), "wrote a picture of 1840x900: sweep.png\n");
+    assert_eq!(stderr(&output), "wrote a picture of 920x900: sweep.png\n");
     assert!(output.stdout.starts_with(HEADER.as_bytes()));
     assert_eq!(names(folder.path()), ["sweep.png"]);
     let picture = folder.path().join("sweep.png");
-    assert_eq!(dimensions(&picture), (1840, 900));
+    assert_eq!(dimensions(&picture), (920, 900));
     let colour = |id: &str| {
         let (rgba, _) = Theme::Dark.style(method(id).unwrap());
         [rgba[0], rgba[1], rgba[2]]
     };
     let colours = ["explicit-euler", "midpoint", "rk4", "semi-implicit-euler"].map(colour);
     let [euler, midpoint, rk4, none] = lit(&picture, &colours)[..] else { panic!("four counts") };
-    assert!((1_000..40_000).contains(&euler), "{euler} pixels of explicit Euler");
+    assert!((100..20_000).contains(&euler), "{euler} pixels of explicit Euler");
     assert!((300..20_000).contains(&midpoint), "{midpoint} pixels of midpoint");
     assert!((1_000..40_000).contains(&rk4), "{rk4} pixels of Runge-Kutta 4");
     assert_eq!(none, 0, "pixels of a method that was not swept");
@@ -65,6 +65,28 @@ fn a_picture_goes_to_standard_output_where_the_rows_do_not() {
 }
 
 #[test]
+fn the_round_off_is_drawn_where_it_is_asked_for_and_the_chapters_ship_is_swept() {
+    for arguments in ["--round-off", "--plot x.png --scene ship --vary x=1 --round-off"] {
+        refusal(&format!("sweep {arguments}"), 2);
+    }
+    for arguments in ["--scene spring --method rk4", "--scene ship --method midpoint"] {
+        let refused = refusal(&format!("sweep {arguments} --plot x.png --round-off"), 2);
+        assert!(refused.contains("give --scene ship --method rk4"), "{refused}");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let test = "the_round_off_is_drawn_where_it_is_asked_for_and_the_chapters_ship_is_swept";
+    let sweep = "sweep --scene ship --method rk4 --tick-hz 2,4 --plot";
+    for (file, options, size) in
+        [("one.png", "", (920, 900)), ("two.png", "--round-off", (1840, 900))]
+    {
+        let command = format!("{sweep} {file} {options}");
+        let Some(output) = drawn_or_skip(test, folder.path(), command.trim()) else { return };
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert_eq!(dimensions(&folder.path().join(file)), size);
+    }
+}
+
+#[test]
 fn a_pipe_that_closes_early_does_not_take_the_picture_with_it() {
     let folder = tempfile::tempdir().unwrap();
     let test = "a_pipe_that_closes_early_does_not_take_the_picture_with_it";
@@ -78,7 +100,7 @@ fn a_pipe_that_closes_early_does_not_take_the_picture_with_it() {
     let mut child = child.stdout(Stdio::piped()).spawn().unwrap();
     drop(child.stdout.take());
     let output = child.wait_with_output().unwrap();
-    assert_eq!(stderr(&output), "wrote a picture of 1840x900: sweep.png\n");
+    assert_eq!(stderr(&output), "wrote a picture of 920x900: sweep.png\n");
     assert_eq!(output.status.code(), Some(0));
     assert_eq!(names(folder.path()), ["sweep.png"]);
 }

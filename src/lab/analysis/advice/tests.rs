@@ -121,7 +121,7 @@ fn the_work_of_advice_on_each_built_in_scene_is_what_it_was() {
         }
         let scene = Scene::built_in(name).unwrap();
         let adviser = Adviser::new(&scene, scene.tick_hz);
-        let specs = scene.non_engine_methods().map(LaneSpec::plain);
+        let specs = scene.methods_for_games().map(LaneSpec::plain);
         let mut advised: Vec<_> = specs.map(|spec| adviser.judged(spec)).collect();
         for (row, criterion) in adviser.worth_margins(&advised) {
             advised[row].search_margins(&adviser, criterion);

@@ -4,6 +4,11 @@ use super::*;
 use crate::lab::{Action, Race};
 use crate::sim::integrators::{GENERAL_METHODS, method};
 
+/// The number of methods that advice is on.
+fn for_games() -> usize {
+    GENERAL_METHODS.iter().filter(|method| method.is_for_games()).count()
+}
+
 fn request(name: &str) -> AnalysisRequest {
     let scene = Arc::new(Scene::built_in(name).unwrap());
     let entries = scene.method_list();
@@ -33,18 +38,18 @@ fn each_verdict_is_found_once_until_the_rate_the_run_or_the_scene_changes() {
     let first = request("harbour");
     let mut worker = AnalysisWorker::new(first.clone());
     let (count, fine) = answer(&mut worker, &first);
-    assert_eq!(count, GENERAL_METHODS.len());
+    assert_eq!(count, for_games());
     assert_eq!(answer(&mut worker, &first), (0, fine.clone()));
     let (count, coarse) = answer(&mut worker, &AnalysisRequest { tick_hz: 20, ..first.clone() });
-    assert_eq!(count, GENERAL_METHODS.len());
+    assert_eq!(count, for_games());
     assert!(coarse != fine);
     let mut race = Race::of_scene(&first.scene);
     race.act(Action::Throttle(0.5), &mut ());
     let by_hand = Interventions::in_race(&race);
     let slower = AnalysisRequest { tick_hz: 20, by_hand, ..first.clone() };
-    assert_eq!(answer(&mut worker, &slower).0, GENERAL_METHODS.len());
-    assert_eq!(answer(&mut worker, &first), (GENERAL_METHODS.len(), fine));
-    assert_eq!(answer(&mut worker, &request("spring")).0, GENERAL_METHODS.len());
+    assert_eq!(answer(&mut worker, &slower).0, for_games());
+    assert_eq!(answer(&mut worker, &first), (for_games(), fine));
+    assert_eq!(answer(&mut worker, &request("spring")).0, for_games());
 }
 
 #[test]
@@ -56,7 +61,7 @@ fn a_verdict_is_on_the_substeps_of_its_lane() {
     let lane = finer.entries.iter_mut().find(|spec| spec.method.id == "rk4").unwrap();
     lane.substeps = 8;
     let (count, finer) = answer(&mut worker, &finer);
-    assert_eq!(count, GENERAL_METHODS.len());
+    assert_eq!(count, for_games());
     let changed: Vec<_> = (0..once.len()).filter(|&i| once[i] != finer[i]).collect();
     let rk4 = plain.entries.iter().position(|spec| spec.method.id == "rk4").unwrap();
     assert_eq!(changed, [rk4]);
@@ -106,7 +111,7 @@ fn advice_is_computed_in_small_steps_and_only_on_request() {
     let bits = 1 + (0..).take_while(|_| worker.work()).count();
     assert!((3..2000).contains(&bits), "{bits} times");
     let advice = worker.findings().advice.unwrap();
-    assert_eq!([advice.advised.len(), advice.wanted], [GENERAL_METHODS.len(); 2]);
+    assert_eq!([advice.advised.len(), advice.wanted], [for_games(); 2]);
     assert!(worker.findings().complete);
 }
 

@@ -9,7 +9,7 @@ use super::super::series_styles::SeriesStyles;
 use super::hover;
 use super::layout::{Cell, cells};
 use super::plot_set::PlotSet;
-use crate::lab::studio::{Command, DriverRequest, StageCommand, Studio, ViewCommand};
+use crate::lab::studio::{Command, DriverRequest, RunCommand, StageCommand, Studio, ViewCommand};
 use crate::view::chart::{self, ABOVE, NAME, NUMBER, PlotArea, Primitive, Text};
 use crate::view::theme::{PanelPalette, palette, strong_font};
 use crate::view::wheel;
@@ -82,7 +82,9 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut V
         if response.double_clicked() {
             views.fit(cell);
         } else if response.clicked() {
-            commands.extend(picked(&set.styles, cell, &views.area(cell), &response));
+            let area = views.area(cell);
+            let picked = picked(&set.styles, cell, &area, &response);
+            commands.extend(picked.or_else(|| went_to(studio, cell, &area, &response)));
         } else if response.dragged() {
             views.pan(cell, response.drag_delta());
         }
@@ -144,6 +146,19 @@ fn menu(ui: &mut Ui, cell: &Cell<'_>, views: &mut Views, commands: &mut Vec<Comm
             ui.close();
         }
     }
+}
+
+/// The command that goes to the time under a click.
+fn went_to(
+    studio: &Studio,
+    cell: &Cell<'_>,
+    area: &PlotArea,
+    response: &Response,
+) -> Option<Command> {
+    let is_of_run = studio.loop_lab().is_none() && cell.plot.is_over_time();
+    let at = response.interact_pointer_pos().filter(|_| is_of_run)?;
+    let t = area.point(at)[0].max(0.0);
+    Some(Command::Run(RunCommand::Seek(studio.timeline().times().nearest_tick(t))))
 }
 
 /// The command that selects the lane of the curve under a click.

@@ -50,6 +50,10 @@ const WORDS: f32 = 12.0;
 const MIN_WORDS: f32 = 8.5;
 /// The width of the exact outline, in points.
 const OUTLINE: f32 = 1.1;
+/// The least side of a cloud that has its area below it as one large number, its size, and the room that it takes, in points.
+const LARGE: f32 = 230.0;
+const AREA: f32 = 26.0;
+const AREA_ROOM: f32 = 34.0;
 /// An area that has grown or shrunk by more than this, as a power of ten, stretches no axis; and one axis shows at least
 /// this much on both sides of 1: half of it and twice.
 const MAX_DECADES: f64 = 3.0;
@@ -107,11 +111,9 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2, commands: &mut Vec<
         Some(Ok(picture)) => picture,
     };
     let left = (bottom - ui.cursor().top()).max(MIN_SIDE);
-    let for_areas = if left >= breakpoints::AREAS_OVER_TIME && picture.section.is_none() {
-        (AREAS * left).max(MIN_AREAS)
-    } else {
-        0.0
-    };
+    let has_room = left >= breakpoints::AREAS_OVER_TIME && studio.display().measure;
+    let for_areas =
+        if has_room && picture.section.is_none() { (AREAS * left).max(MIN_AREAS) } else { 0.0 };
     let (clouds, _) = ui.allocate_exact_size(vec2(room.x, left - for_areas), Sense::hover());
     side_by_side(ui, studio, picture, clouds, commands);
     if for_areas > 0.0
@@ -272,20 +274,27 @@ fn side_by_side(
         pos2(room.left() + LEFT.max(widest + BESIDE_NUMBERS), room.top()),
         pos2(room.right(), room.bottom() - NUMBERS - NAMES),
     );
+    // Their areas stand below in one row, which large clouds make.
+    let is_large = inner.width() / lanes.len() as f32 >= LARGE
+        && inner.height() >= LARGE + AREA_ROOM
+        && picture.section.is_none();
+    let below = if is_large { AREA_ROOM } else { 0.0 };
     let layout = |columns: usize, captions: &Captions<'_>, least: f32| {
         let rows = lanes.len().div_ceil(columns);
         let gaps = GAP * (columns - 1) as f32;
         let width = (inner.width() - gaps) / columns as f32;
         let captions = captions.laid_out(ui, studio, width)?;
         let above = captions.iter().map(|words| words.size().y).fold(0.0, f32::max) + 5.0;
-        let height = inner.height() / rows as f32 - above - GAP / 2.0;
+        let height = inner.height() / rows as f32 - above - below - GAP / 2.0;
         let size = vec2(width.min(MAX_ASPECT * height), height);
         (size.min_elem() >= least).then_some((columns, size, captions, above))
     };
     let area = |size: Vec2| size.x * size.y;
     let largest = |(told, least): (Told, f32)| {
         let captions = Captions::new(ui, studio, picture, told);
-        let layouts = (1..=lanes.len()).filter_map(|columns| layout(columns, &captions, least));
+        let least_columns = if is_large { lanes.len() } else { 1 };
+        let layouts =
+            (least_columns..=lanes.len()).filter_map(|columns| layout(columns, &captions, least));
         layouts.max_by(|a, b| area(a.1).total_cmp(&area(b.1)))
     };
     let found = TOLD.into_iter().find_map(largest);
@@ -296,11 +305,17 @@ fn side_by_side(
     for (place, (lane, words)) in lanes.iter().zip(captions).enumerate() {
         let (column, row) = (place % columns, place / columns);
         let is_lowest = row + 1 == rows || place + columns >= lanes.len();
-        let top = inner.top() + row as f32 * (size.y + above + GAP / 2.0);
+        let top = inner.top() + row as f32 * (size.y + above + below + GAP / 2.0);
         let corner = pos2(inner.left() + column as f32 * (wide + GAP), top);
         ui.painter().galley(corner, words, palette(ui).text);
         let rect = Rect::from_min_size(corner + vec2(0.0, above), size);
         cloud(ui, studio, picture, lane, (rect, place), [column == 0, is_lowest], commands);
+        if let Some(ratio) = lane.area_ratio.filter(|_| is_large) {
+            let at = pos2(rect.center().x, rect.bottom() + NUMBERS + AREA_ROOM / 2.0);
+            let number = format!("×{}", significant(ratio, 3));
+            let colour = palette(ui).text;
+            ui.painter().text(at, egui::Align2::CENTER_CENTER, number, strong_font(AREA), colour);
+        }
     }
     let coordinate = &studio.race().truth().bodies()[studio.view().body].coordinates().at(0);
     let names = PlotAxis::of_phase(coordinate).map(|axis| axis.name());

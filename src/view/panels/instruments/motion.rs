@@ -4,16 +4,24 @@ use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
 use super::super::tracks::{Detail, Track};
 use super::error::capitalised;
-use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, origin, over_time, time_in_view};
+use super::plot_set::{
+    EXACT, ExactLine, PlotAxis, PlotModel, PlotSet, origin, over_time, time_in_view,
+};
+use crate::lab::past::Quantity;
 use crate::lab::picture::{Framing, Look};
 use crate::lab::race::Mode;
+use crate::lab::studio::Future;
 use crate::lab::{Coordinate, Studio};
-use crate::view::chart::Dots;
+use crate::view::chart::{Curve, Dots, LineStyle};
+use crate::view::theme::palette_of;
 
 /// A lane this many times further out than the truth no longer stretches the axes, and here than the selected lane; and
 /// where it is alone, squeezes nothing but the truth, and is looked at for how it grows.
 const HEALTHY: f64 = 1.6;
 const HEALTHY_ALONE: f64 = 4.0;
+
+/// The width of the curve of a future, in points.
+const FUTURE: f32 = 1.8;
 
 pub(super) fn plot_set(studio: &Studio, detail: Detail) -> PlotSet {
     let bodies = 0..studio.scene().bodies.len();
@@ -64,7 +72,9 @@ fn plot(studio: &Studio, body: usize, detail: Detail) -> PlotModel {
     let [from_s, _] = time_in_view(studio.scene().seconds, studio.race().t());
     let selected = lanes.iter().filter(|lane| lane.is_front);
     let seen = selected.flat_map(|lane| lane.along_since(from_s)).chain(exact.fitted(studio, 1));
-    let seen = seen.chain(origin(studio));
+    let futures = futures(studio, body, quantity);
+    let exact_future = futures.last().into_iter().flat_map(|curve| &curve.points);
+    let seen = seen.chain(origin(studio)).chain(exact_future.map(|at| at[1]));
     let y = ranges::around_truth(seen, &lanes, 1, HEALTHY);
     let name = name_of_plotted(studio, body, &coordinate);
     let title = match truth.halted() {
@@ -74,7 +84,27 @@ fn plot(studio: &Studio, body: usize, detail: Detail) -> PlotModel {
     let id = format!("{} of {body}", quantity.symbol(&coordinate));
     let axes = [PlotAxis::time("time t"), PlotAxis::of_quantity(quantity, &coordinate)];
     let plot = PlotModel::new(body, id, title, axes, over_time(studio, y));
-    PlotModel { tracks, dots: Dots::SparseAlongX, exact: vec![exact], ..plot }
+    PlotModel { tracks, dots: Dots::SparseAlongX, exact: vec![exact], futures, ..plot }
+}
+
+/// The next second of a body under each method, and in truth, if they are shown.
+fn futures(studio: &Studio, body: usize, quantity: Quantity) -> Vec<Curve> {
+    if !studio.shows_futures() {
+        return Vec::new();
+    }
+    let palette = palette_of(studio.display().theme);
+    let curve = |future: Future| {
+        let style = match future.entry {
+            Some(entry) => {
+                let (colour, _) = palette.style(studio.entries(), &studio.entries()[entry]);
+                LineStyle { dots: Dots::SparseAlongX, ..LineStyle::solid(colour, FUTURE) }
+            }
+            None => LineStyle::solid(palette.exact, EXACT),
+        };
+        let points = future.moments.iter().map(|moment| [moment.t, quantity.among(moment.state)]);
+        Curve::new(style, points.collect())
+    };
+    studio.futures(body).into_iter().map(curve).collect()
 }
 
 /// The name of a body, and of a net which node it is that its plot shows.

@@ -39,6 +39,8 @@ pub(super) struct PlotModel {
     pub(super) tracks: Vec<Track>,
     pub(super) dots: Dots,
     pub(super) exact: Vec<ExactLine>,
+    /// The next second under each method, with a dot a tick, and in truth.
+    pub(super) futures: Vec<Curve>,
     /// Why there is nothing to show, in place of the plot.
     pub(super) nothing: Option<String>,
 }
@@ -291,8 +293,8 @@ impl PlotModel {
         axes: [PlotAxis; 2],
         fit: Bounds,
     ) -> Self {
-        let (tracks, exact) = (Vec::new(), Vec::new());
-        Self { id, title, body, axes, fit, tracks, dots: Dots::None, exact, nothing: None }
+        let (tracks, exact, futures) = (Vec::new(), Vec::new(), Vec::new());
+        Self { id, title, body, axes, fit, tracks, dots: Dots::None, exact, futures, nothing: None }
     }
 
     /// Whether the axis along is time.
@@ -331,6 +333,7 @@ impl PlotModel {
         }
         let curves = |line| ExactLine::curves(line, studio, self.body, bounds[0], columns);
         drawing.truth = self.exact.iter().flat_map(curves).collect();
+        drawing.truth.extend(self.futures.iter().cloned());
         if self.is_over_time() {
             let left = drawing.truth.iter().filter_map(|curve| departure(curve, bounds));
             drawing.arrows.extend(left.collect::<Vec<_>>());
@@ -390,6 +393,8 @@ impl PlotSet {
 /// The time in view and the given range of values.
 pub(super) fn over_time(studio: &Studio, (low, high): (f64, f64)) -> Bounds {
     let [from, to] = time_in_view(studio.scene().seconds, studio.race().t());
+    // The next second too, where that is shown.
+    let to = if studio.shows_futures() { to.max(studio.race().t() + 1.0) } else { to };
     [[from, to], [low, high]]
 }
 

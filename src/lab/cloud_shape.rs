@@ -1,6 +1,36 @@
-//! The shapes of clouds of starts.
+//! What clouds of starts show: their shapes, or a section.
 
 use std::f64::consts::TAU;
+
+/// What is shown of many starts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CloudKind {
+    /// A shape at the start, and what becomes of it by the present tick.
+    Shape(CloudShape),
+    /// All places to which they come at each period of a drive, or at each tick where nothing drives them.
+    Section,
+}
+
+impl CloudKind {
+    /// All, the usual one first.
+    pub const ALL: [Self; 4] = {
+        let [usual, second, third] = CloudShape::ALL;
+        [Self::Shape(usual), Self::Shape(second), Self::Shape(third), Self::Section]
+    };
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Shape(shape) => shape.id(),
+            Self::Section => "section",
+        }
+    }
+
+    /// The one of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+}
 
 /// The shape of a cloud at its start, in the square from -1 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
