@@ -112,6 +112,8 @@ impl Studio {
         self.restart();
         self.clock.set_speed_percent(100);
         self.running = !matches!(goal, Goal::SteppedTo(_));
+        // A scene of clouds opens with them in the place of the stage.
+        self.viewer.preferences.display.enlarged = false;
         self.viewer.preferences.display.instrument = instrument;
         self.viewer.preferences.display.quantity = Some(quantity);
         self.viewer.preferences.display.metric = error_of(quantity);

@@ -274,12 +274,12 @@ fn the_wheel_zooms_about_the_pointer_a_drag_of_the_sea_pans_and_a_double_click_f
         table.release(to, false);
     }
     assert_eq!(table.studio.view().zoom_pan(0), ZoomPan::default());
-    table.studio.apply(ViewCommand::ZoomPan {
-        body: 0,
-        zoom_pan: ZoomPan::default().zoomed(2.0, [0.0; 2]),
-    });
-    table.studio.apply(StageCommand::Restart);
-    assert_eq!(table.studio.view().zoom_pan(0).zoom(), 2.0);
-    table.studio.apply(StageCommand::SceneBeside(Step::Next));
-    assert_eq!(table.studio.view().zoom_pan(0), ZoomPan::default());
+    for command in [StageCommand::Restart, StageCommand::SceneBeside(Step::Next)] {
+        let zoom_pan = ZoomPan::default().zoomed(2.0, [0.0; 2]);
+        table.studio.apply(ViewCommand::ZoomPan { body: 0, zoom_pan });
+        table.studio.apply(StageCommand::Tick(Step::Next));
+        assert_eq!(table.studio.view().zoom_pan(0).zoom(), 2.0);
+        table.studio.apply(command);
+        assert_eq!(table.studio.view().zoom_pan(0), ZoomPan::default());
+    }
 }

@@ -60,6 +60,10 @@ impl Views {
     }
 }
 
+/// The tick at which a click left the run for another.
+#[derive(Clone, Copy)]
+struct Left(u64);
+
 /// Shows a set in all that is left of `ui`.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut Vec<Command>) {
     let room = ui.available_rect_before_wrap();
@@ -81,10 +85,16 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, set: &PlotSet, commands: &mut V
         }
         if response.double_clicked() {
             views.fit(cell);
+            // The first of its clicks was not meant to go to another time.
+            let left = ui.data(|data| data.get_temp::<Option<Left>>(response.id)).flatten();
+            commands.extend(left.map(|Left(tick)| Command::Run(RunCommand::Seek(tick))));
         } else if response.clicked() {
             let area = views.area(cell);
             let picked = picked(&set.styles, cell, &area, &response);
-            commands.extend(picked.or_else(|| went_to(studio, cell, &area, &response)));
+            let went = went_to(studio, cell, &area, &response).filter(|_| picked.is_none());
+            let left = went.is_some().then(|| Left(studio.race().tick()));
+            ui.data_mut(|data| data.insert_temp(response.id, left));
+            commands.extend(picked.or(went));
         } else if response.dragged() {
             views.pan(cell, response.drag_delta());
         }

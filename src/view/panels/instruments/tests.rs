@@ -36,8 +36,10 @@ fn assert_legible(studio: &Studio, what: &str) {
         assert!(place(card.name).or(group).is_some(), "{what}: no tab {}", card.name);
     }
     let Some(set) = plot_set_of(studio, Detail::Samples) else {
-        let words = here.iter().filter(|(_, text)| text.len() > 10).count();
-        assert!(words > 3, "{what}: {here:?}");
+        // Between the tabs and the timeline.
+        let is_of_instrument = |rect: &Rect| rect.top() > 66.0 && rect.bottom() < 540.0;
+        let mut said = here.iter().filter(|(rect, _)| is_of_instrument(rect));
+        assert!(said.any(|(_, text)| text.len() > 10), "{what}: {here:?}");
         return;
     };
     let numbers: Vec<_> = here.iter().filter(|(_, text)| is_number(text)).collect();
@@ -230,7 +232,7 @@ fn a_wheel_zooms_a_drag_pans_and_a_double_click_fits() {
 }
 
 #[test]
-fn a_click_on_a_curve_selects_its_lane() {
+fn a_click_on_a_curve_selects_its_lane_and_beside_it_goes_to_that_time() {
     let (studio, mut person) = (race_of_springs(), Person::new());
     let set = plot_set_of(&studio, Detail::Samples).unwrap();
     let room = Rect::from_min_size(Pos2::ZERO, FRAME);
@@ -242,7 +244,10 @@ fn a_click_on_a_curve_selects_its_lane() {
     let at = PlotArea { rect: cell.frame, bounds: cell.plot.fit }.at(at);
     let is_pick = |command: &Command| *command == Command::Stage(StageCommand::Pick(widest));
     assert!(person.click(&studio, at).iter().any(is_pick));
-    assert!(person.click(&studio, cell.frame.right_bottom() - vec2(9.0, 9.0)).is_empty());
+    let asked = person.click(&studio, cell.frame.left_bottom() + vec2(9.0, -9.0));
+    let t = cell.plot.fit[0][0] + 9.0 / f64::from(cell.frame.width()) * 5.0;
+    let tick = studio.timeline().times().nearest_tick(t.max(0.0));
+    assert_eq!(asked, [Command::Run(RunCommand::Seek(tick))]);
 }
 
 #[test]
