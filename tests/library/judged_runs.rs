@@ -4,6 +4,8 @@ use regatta::lab::scene::{Scene, Scripted};
 use regatta::lab::studio::{RunCommand, StageCommand, Step, Studio};
 use regatta::lab::{Action, Judge, Verdict};
 
+use crate::words::everything;
+
 fn opened(name: &str) -> Studio {
     Studio::new(Scene::built_in(name).unwrap())
 }
@@ -13,7 +15,7 @@ fn verdicts(studio: &mut Studio) -> Vec<String> {
     studio.analyse();
     let of = |entry| {
         let verdict = studio.viewer().verdict(entry).unwrap().clone();
-        Verdict { starts_at_s: 0.0, ..verdict }.to_string()
+        everything(&Verdict { starts_at_s: 0.0, ..verdict })
     };
     (0..studio.entries().len()).map(of).collect()
 }
@@ -28,7 +30,7 @@ fn starts_at_s(studio: &mut Studio) -> f64 {
 fn verdicts_on(scene: &Scene) -> Vec<String> {
     let judge = Judge::new(scene);
     let specs = scene.method_list();
-    specs.iter().map(|spec| judge.verdict(*spec, scene.tick_hz).to_string()).collect()
+    specs.iter().map(|spec| everything(&judge.verdict(*spec, scene.tick_hz))).collect()
 }
 
 /// The place of the parameter with this key, of the first body.

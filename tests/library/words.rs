@@ -57,6 +57,11 @@ fn failed(cause: &StepFailure) -> Finding {
     Finding::Failed { failure: RunFailure { t: 4.0, cause: cause.clone() }, by_energy: None }
 }
 
+/// The word, the number and the details of a verdict.
+pub(crate) fn everything(verdict: &Verdict) -> String {
+    [vec![verdict.to_string()], verdict.details()].concat().join("; ")
+}
+
 #[test]
 fn a_swing_that_is_much_too_wide_is_not_called_stable() {
     let found = Comparison {

@@ -8,6 +8,7 @@ use regatta::sim::bodies::{Custom, FalseClaims};
 use regatta::sim::integrators::{GENERAL_METHODS, METHODS};
 
 use super::{Orbit, Spring};
+use crate::words::everything;
 
 fn twins() -> [(Scene, Scene); 3] {
     let parse = |body: &str| {
@@ -72,9 +73,9 @@ fn own_bodies_have_the_verdicts_of_the_built_in_ones() {
         let judges = [&built_in, &own].map(Judge::new);
         for method in GENERAL_METHODS {
             for tick_hz in [15, 60] {
-                let [a, b] = judges
-                    .each_ref()
-                    .map(|judge| judge.verdict(LaneSpec::plain(method), tick_hz).to_string());
+                let spec = LaneSpec::plain(method);
+                let [a, b] =
+                    judges.each_ref().map(|judge| everything(&judge.verdict(spec, tick_hz)));
                 // What a method without an error is off by is the rounding of the truth, and that differs.
                 let rounding = "within rounding";
                 if method.exact_if_linear && a.starts_with(rounding) {

@@ -51,7 +51,7 @@ fn a_copy_is_judged_and_advised_as_its_original() {
     let judge = Judge::new(&scene);
     let adviser = Adviser::new(&scene, 60);
     for pair in scene.lanes.chunks(2) {
-        let [a, b] = [pair[0], pair[1]].map(|lane| judge.verdict(lane, 60).to_string());
+        let [a, b] = [pair[0], pair[1]].map(|lane| judge.verdict(lane, 60));
         assert_eq!(a, b, "{}", pair[1].method.id);
         let [a, b] = [pair[0], pair[1]].map(|lane| adviser.meets(lane, Criterion::LooksRight));
         assert_eq!(a, b, "{}", pair[1].method.id);

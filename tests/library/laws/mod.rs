@@ -12,6 +12,7 @@ mod random;
 mod truth;
 
 use crate::dice::Dice;
+use crate::words::everything;
 
 fn parse(text: &str) -> Result<Scene, String> {
     let text = format!("title = 'Mine'\ntick_hz = 60\nseconds = 10\n{text}");
@@ -90,7 +91,7 @@ fn verdicts_on_the_built_in_bodies_as_laws_are_equal_to_the_last_printed_digit()
         let judge = Judge::new(&scene);
         let methods = METHODS.iter().filter(|method| !method.is_engine());
         let verdicts = methods.map(|method| judge.verdict(LaneSpec::plain(method), 60));
-        verdicts.map(|verdict| verdict.to_string()).collect()
+        verdicts.map(|verdict| everything(&verdict)).collect()
     };
     for (built_in, law) in twins() {
         let methods = METHODS.iter().filter(|method| !method.is_engine());

@@ -29,8 +29,11 @@ fn answer(worker: &mut AnalysisWorker, request: &AnalysisRequest) -> (usize, Vec
     while worker.work() {}
     let findings = worker.findings();
     assert!(findings.complete && findings.request == *request);
-    let verdicts = findings.verdicts.iter().map(|found| found.as_ref().unwrap().to_string());
-    (findings.verdicts.len() - before, verdicts.collect())
+    let told = |found: &Option<Verdict>| {
+        let verdict = found.as_ref().unwrap();
+        [vec![verdict.to_string()], verdict.details()].concat().join("; ")
+    };
+    (findings.verdicts.len() - before, findings.verdicts.iter().map(told).collect())
 }
 
 #[test]
@@ -38,18 +41,18 @@ fn each_verdict_is_found_once_until_the_rate_the_run_or_the_scene_changes() {
     let first = request("harbour");
     let mut worker = AnalysisWorker::new(first.clone());
     let (count, fine) = answer(&mut worker, &first);
-    assert_eq!(count, for_games());
+    assert_eq!(count, GENERAL_METHODS.len());
     assert_eq!(answer(&mut worker, &first), (0, fine.clone()));
     let (count, coarse) = answer(&mut worker, &AnalysisRequest { tick_hz: 20, ..first.clone() });
-    assert_eq!(count, for_games());
+    assert_eq!(count, GENERAL_METHODS.len());
     assert!(coarse != fine);
     let mut race = Race::of_scene(&first.scene);
     race.act(Action::Throttle(0.5), &mut ());
     let by_hand = Interventions::in_race(&race);
     let slower = AnalysisRequest { tick_hz: 20, by_hand, ..first.clone() };
-    assert_eq!(answer(&mut worker, &slower).0, for_games());
-    assert_eq!(answer(&mut worker, &first), (for_games(), fine));
-    assert_eq!(answer(&mut worker, &request("spring")).0, for_games());
+    assert_eq!(answer(&mut worker, &slower).0, GENERAL_METHODS.len());
+    assert_eq!(answer(&mut worker, &first), (GENERAL_METHODS.len(), fine));
+    assert_eq!(answer(&mut worker, &request("spring")).0, GENERAL_METHODS.len());
 }
 
 #[test]
@@ -61,7 +64,7 @@ fn a_verdict_is_on_the_substeps_of_its_lane() {
     let lane = finer.entries.iter_mut().find(|spec| spec.method.id == "rk4").unwrap();
     lane.substeps = 8;
     let (count, finer) = answer(&mut worker, &finer);
-    assert_eq!(count, for_games());
+    assert_eq!(count, GENERAL_METHODS.len());
     let changed: Vec<_> = (0..once.len()).filter(|&i| once[i] != finer[i]).collect();
     let rk4 = plain.entries.iter().position(|spec| spec.method.id == "rk4").unwrap();
     assert_eq!(changed, [rk4]);

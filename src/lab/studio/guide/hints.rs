@@ -262,9 +262,13 @@ mod tests {
         studio.apply(StageCommand::InstrumentBeside(Step::Next));
         studio.apply(StageCommand::TickRate(Step::Next));
         assert!(text(&studio).contains("`F2`"));
-        studio.apply(StageCommand::SceneBeside(Step::Next));
+        let open = |studio: &mut Studio, name: &str| {
+            let place = SCENES.iter().position(|scene| scene.name == name);
+            studio.apply(StageCommand::Scene(place.unwrap()));
+        };
+        open(&mut studio, "damped");
         assert_eq!(studio.hint(), None, "a method in flight is not a race's");
-        studio.apply(StageCommand::SceneBeside(Step::Next));
+        open(&mut studio, "stiff");
         assert_eq!(studio.hint(), studio.scene().hint, "a rate is a race's too");
         studio.apply(StageCommand::ToggleRace);
         assert_eq!(studio.hint(), studio.scene().hint);
