@@ -13,7 +13,7 @@ fn what_is_typed_into_the_inspector_is_an_edit_and_works_no_other_key() {
     desk.press_and_see("e");
     desk.still();
     let type_in_the_tick_rate = |keys| {
-        desk.click(1185, 591);
+        desk.click(1185, 615);
         desk.still();
         desk.press(keys);
         desk.still();
