@@ -281,7 +281,7 @@ mod tests {
                 let numbers: Vec<f32> = words.map(|number| number.parse().unwrap()).collect();
                 let is_right = match kind {
                     "disc" | "ring" => numbers.len() == 3,
-                    "outline" => numbers.len() >= 6 && numbers.len() % 2 == 0,
+                    "outline" => numbers.len() >= 6 && numbers.len().is_multiple_of(2),
                     _ => false,
                 };
                 assert!(is_right && numbers.iter().all(|x| x.abs() <= 1.0), "{}: {part}", names[0]);
