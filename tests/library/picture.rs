@@ -268,9 +268,7 @@ fn a_lane_that_left_the_stage_has_a_badge_with_its_place_and_is_drawn_across_not
     let decade = libm::floor(libm::log10(x.abs())) as i32;
     assert!(decade >= 1, "{x}");
     let texts: Vec<&str> = picture.labels.iter().map(|label| &*label.text).collect();
-    let is_badge = |text: &&&str| {
-        text.ends_with(" m") && text.starts_with(['−', '1', '2', '3', '4', '5', '6', '7', '8', '9'])
-    };
+    let is_badge = |text: &&&str| text.starts_with("swings ±") && text.ends_with(" m");
     assert!(texts.iter().any(|text| is_badge(&text)), "{texts:?}");
     let colour = Theme::Dark.style(studio.entries()[0].method).0;
     let trails = picture.paths().filter(|path| path.points[0].colour[..3] == colour[..3]);
