@@ -65,7 +65,6 @@ fn the_menus_and_buttons_above_and_below_and_the_table_are_worked_by_the_mouse()
         "sort by error",
         "Race",
         "4 Runge-Kutta 4",
-        "side by side (V)",
         "Solo",
         "help (H)",
         "Close (Esc)",
@@ -128,7 +127,8 @@ fn the_guide_and_the_timeline_are_worked_by_the_mouse() {
     twin.click(&desk, "undo ");
     assert_eq!((twin.studio.timeline().end(), twin.studio.active()), (120, 0));
     same(&desk, &mut twin);
-    twin.click(&desk, "guide (F2)");
+    desk.press("F2");
+    twin.apply(ViewCommand::ToggleGuide);
     twin.click(&desk, "pause (Space)");
     // In the window time ran, so that there is a run to bring back.
     twin.studio.tick();
