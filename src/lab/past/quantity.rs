@@ -1,6 +1,7 @@
 //! What of a coordinate the motion instrument shows.
 
-use crate::sim::bodies::Coordinate;
+use crate::lab::race::LaneBody;
+use crate::sim::bodies::{Coordinate, Ship};
 
 /// What of a coordinate the motion instrument shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +15,12 @@ pub enum Quantity {
 impl Quantity {
     /// Both, the usual one first.
     pub const ALL: [Quantity; 2] = [Quantity::Position, Quantity::Velocity];
+
+    /// What a plot shows of a body unless a person chooses otherwise: of a ship on a straight course its speed, for it runs on
+    /// for ever.
+    pub fn usual(body: &LaneBody) -> Self {
+        if body.stepper.body().is::<Ship>() { Self::Velocity } else { Self::Position }
+    }
 
     /// Its name.
     pub fn name(self) -> &'static str {

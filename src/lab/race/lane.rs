@@ -9,11 +9,8 @@ use super::chase::Chase;
 use super::extent::Extent;
 use super::follow::Ticked;
 use crate::lab::action::Action;
-use crate::lab::past::Quantity;
 use crate::lab::scene::{Appearance, Drawing, Preview, Scene, SceneBody};
-use crate::sim::bodies::{
-    Coordinate, Coordinates, Custom, FalseClaims, Input, Kind, Law, Ship, Truth,
-};
+use crate::sim::bodies::{Coordinate, Coordinates, Custom, FalseClaims, Input, Kind, Law, Truth};
 use crate::sim::integrators::StepFailure;
 use crate::sim::number::superscript;
 use crate::sim::{Solver, Stepper};
@@ -158,15 +155,6 @@ impl LaneBody {
     /// in the first seconds, such as the height of the middle of a bridge, and of other bodies the first.
     pub fn plotted_coordinate(&self) -> usize {
         self.kind.net().map_or(0, |_| self.preview().farthest)
-    }
-
-    /// What of its coordinate a plot shows unless a person chooses otherwise: of a ship on a straight course its speed, for it
-    /// runs on for ever.
-    pub fn plotted_quantity(&self) -> Quantity {
-        match self.stepper.body().is::<Ship>() {
-            true => Quantity::Velocity,
-            false => Quantity::Position,
-        }
     }
 
     /// The values whose coordinate has the same unit as the first; `values` has one per coordinate.

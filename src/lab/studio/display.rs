@@ -47,7 +47,7 @@ pub struct Display {
     pub instrument: Instrument,
     /// Whether the instrument covers the stage too.
     pub enlarged: bool,
-    /// What the motion instrument shows of every body; `None` for what is [usual](crate::lab::race::LaneBody::plotted_quantity).
+    /// What the motion instrument shows of every body; `None` for what is [usual](Quantity::usual).
     pub quantity: Option<Quantity>,
     /// The metric of the error instrument, by its index in [`METRICS`](crate::lab::METRICS).
     pub metric: usize,

@@ -63,7 +63,7 @@ fn track(studio: &Studio, body: usize) -> Option<PlotModel> {
 fn plot(studio: &Studio, body: usize, detail: Detail) -> PlotModel {
     let truth = &studio.race().truth().bodies()[body];
     let (coordinate, _) = studio.past().coordinate(studio.race(), body);
-    let quantity = studio.display().quantity.unwrap_or_else(|| truth.plotted_quantity());
+    let quantity = studio.display().quantity.unwrap_or_else(|| Quantity::usual(truth));
     let mut tracks = Track::of_quantity(studio, body, quantity, detail);
     put_in_hand(studio, body, &mut tracks, |t, [q, v]| [t, quantity.among([q, v])]);
     let exact = ExactLine::of_quantity(studio, body, quantity);
