@@ -19,10 +19,7 @@ impl Quantity {
     /// What a plot shows of a body unless a person chooses otherwise: of a ship on a straight course its speed, for it runs on
     /// for ever.
     pub fn usual(body: &LaneBody) -> Self {
-        match body.stepper.body().is::<Ship>() {
-            true => Self::Velocity,
-            false => Self::Position,
-        }
+        if body.stepper.body().is::<Ship>() { Self::Velocity } else { Self::Position }
     }
 
     /// Its name.

@@ -15,7 +15,8 @@ pub(super) fn bands(stage: Rect, heights: &[f32]) -> Vec<Rect> {
     let band = heights.iter().map(|height| {
         let min = [stage.min[0], top];
         top += room * height / all;
-        Rect { min, max: [stage.max[0], top] }
+        // Not beyond the stage by a rounding.
+        Rect { min, max: [stage.max[0], top.min(stage.min[1] + room)] }
     });
     band.collect()
 }
