@@ -143,6 +143,10 @@ impl Studio {
         let spec = &self.entries()[entry];
         spec.distinct_name(spec.method.name, self.entries())
     }
+    /// How many methods of the menu a person meets at first: the scene's, and all up to the one that is active.
+    pub fn offered(&self) -> usize {
+        self.scene().lanes.len().max(self.active() + 1).min(self.entries().len())
+    }
     /// Solo or race.
     pub fn mode(&self) -> Mode {
         self.race().mode()

@@ -30,7 +30,7 @@ impl Studio {
     pub fn apply(&mut self, command: impl Into<Command>) -> Option<DriverRequest> {
         let command = command.into();
         self.viewer.hints.see(&command, self.start.scene.hint.as_deref());
-        if !self.viewer.pointer_is_down {
+        if !self.viewer.pointer_is_down() {
             self.timeline.close_change();
         }
         let ran = self.time_runs();
@@ -186,7 +186,6 @@ impl Studio {
             ViewCommand::TogglePause => self.running = !self.running,
             ViewCommand::PointerDown(is_down) => {
                 self.viewer.hz_at_press = is_down.then(|| self.timeline.session().race().tick_hz());
-                self.viewer.pointer_is_down = is_down;
             }
             ViewCommand::ToggleFutures => {
                 display.futures = !display.futures;

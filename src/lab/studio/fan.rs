@@ -78,8 +78,7 @@ impl Studio {
             moments
         };
         let h = 1.0 / f64::from(self.race().tick_hz());
-        let count = self.scene().lanes.len().max(self.active() + 1).min(MAX_METHODS);
-        let listed = self.entries().iter().take(count).enumerate();
+        let listed = self.entries().iter().take(self.offered().min(MAX_METHODS)).enumerate();
         let of_methods = listed.map(|(entry, spec)| Future {
             entry: Some(entry),
             moments: follow(spec.solver(), h, spec.substeps),

@@ -135,7 +135,6 @@ pub struct Viewer {
     pub(super) findings: Option<Findings>,
     /// The clouds that were found last.
     pub(super) cloud: Option<FoundCloud>,
-    pub(super) pointer_is_down: bool,
     /// The tick rate at which the pointer's button went down, in Hz, while it is.
     pub(super) hz_at_press: Option<u32>,
     /// The body that the person holds.
@@ -161,7 +160,6 @@ impl Viewer {
             live: LiveLoop::default(),
             findings: None,
             cloud: None,
-            pointer_is_down: false,
             hz_at_press: None,
             held: None,
             dialog: None,
@@ -188,7 +186,7 @@ impl Viewer {
 
     /// Whether the pointer's button is down, as [`ViewCommand::PointerDown`](super::ViewCommand::PointerDown) told last.
     pub fn pointer_is_down(&self) -> bool {
-        self.pointer_is_down
+        self.hz_at_press.is_some()
     }
 
     /// The language in which the next method is copied: that of the last or the one chosen since, and Rust at first.

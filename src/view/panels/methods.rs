@@ -22,8 +22,7 @@ const SIGN: f32 = 12.0;
 /// Shows the scene's methods, or else those with a digit: with their names where all have room, else the chosen one's alone.
 /// Returns the index of the method that the pointer or the keyboard's focus is on.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) -> Option<usize> {
-    let of_scene = studio.scene().lanes.len().max(studio.active() + 1);
-    let count = of_scene.min(studio.entries().len()).min(DIGITS);
+    let count = studio.offered().min(DIGITS);
     let room = ui.available_width();
     let chosen = studio.active();
     let width_of = |entry: usize, is_named: bool| width(ui, studio, entry, is_named) + BETWEEN;
