@@ -241,7 +241,8 @@ pub fn energy_gained_percent(lane: &LaneBody, truth: &LaneBody) -> Option<f64> {
     of_swing.or_else(|| {
         let [lane, exact] = both(lane, truth)?;
         let sum = |body: &LaneBody| Some(body.stepper.mechanical_energy()?.iter().sum::<f64>());
-        known(100.0 * (sum(lane)? - sum(exact)?) / exact.extent()?.most_j())
+        let most_j = exact.extent()?.most_j().max(exact.stepper.energy().unwrap_or(0.0));
+        known(100.0 * (sum(lane)? - sum(exact)?) / most_j)
     })
 }
 

@@ -11,7 +11,7 @@ const AT_REST: f64 = 0.01;
 #[derive(Clone, Debug, Default)]
 pub(in crate::lab) struct Extent {
     largest_speed: f64,
-    /// The largest sum of kinetic and potential energy, in joules.
+    /// The largest sum of kinetic and potential energy that is not conserved, in joules.
     most_j: f64,
     kinetic: Option<Kinetic>,
 }
@@ -38,7 +38,7 @@ impl Extent {
         }
     }
 
-    /// Adds a moment's kinetic and potential energy (J), conserved or not, if they are known.
+    /// Adds a moment's kinetic and potential energy (J), which are not conserved, if they are known.
     pub(in crate::lab) fn cover_energy(&mut self, energies: Option<[f64; 2]>) {
         let sum = energies.map_or(0.0, |[kinetic, potential]| kinetic + potential);
         self.most_j = self.most_j.max(sum);

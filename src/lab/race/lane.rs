@@ -292,8 +292,12 @@ impl LaneBody {
     /// Extends the range of the true motion by the present state.
     fn cover(&mut self) {
         if let Some(mut extent) = self.extent.take() {
-            extent.cover(self.speed(), self.stepper.kinetic_energy());
-            extent.cover_energy(self.stepper.mechanical_energy());
+            let kinetic_j = self.stepper.kinetic_energy();
+            extent.cover(self.speed(), kinetic_j);
+            // A conserved energy is known without.
+            if kinetic_j.is_none() {
+                extent.cover_energy(self.stepper.mechanical_energy());
+            }
             self.extent = Some(extent);
         }
     }
