@@ -318,9 +318,8 @@ impl Chip {
     fn draw(self, picture: &mut Picture, rect: Rect, palette: &Palette) {
         let (right, top) = (rect.max[0] - 10.0, rect.min[1] + 4.0);
         let left = right - self.width();
-        let shape = rounded([left, top], [right, top + CHIP], 7.0);
-        picture.shapes.push(fill(&shape, faded(palette.panel, 0.94), rect));
-        picture.shapes.push(ring(&shape, 1.6, self.colours[1], SOLID, rect));
+        let chip = Rect { min: [left, top], max: [right, top + CHIP] };
+        plate(picture, chip, self.colours[1], rect, palette);
         let middle = top + CHIP / 2.0;
         let mut write = |x, size, colour, words: String| {
             let label = text(palette, [x, middle], Align::Left, size, colour, words);
@@ -328,7 +327,7 @@ impl Chip {
         };
         write(left + 11.0, 12.5, self.colours[0], self.sign.into());
         write(left + 28.0, 13.5, palette.text, self.verdict);
-        picture.chip = Some(Rect { min: [left, top], max: [right, top + CHIP] });
+        picture.chip = Some(chip);
     }
 }
 
@@ -399,6 +398,33 @@ pub(super) fn course(picture: &mut Picture, camera: &Camera, palette: &Palette) 
     }
 }
 
+/// A plate for words with a rim of this colour.
+pub(super) fn plate(
+    picture: &mut Picture,
+    Rect { min, max }: Rect,
+    rim: Rgba,
+    clip: Rect,
+    palette: &Palette,
+) {
+    let shape = rounded(min, max, 7.0);
+    picture.shapes.push(fill(&shape, faded(palette.panel, 0.94), clip));
+    picture.shapes.push(ring(&shape, 1.6, rim, SOLID, clip));
+}
+
+/// A line of this width from side to side, with a stroke across each of its ends that reaches so far up and down.
+pub(super) fn span_line(
+    picture: &mut Picture,
+    ([left, right], y): ([f32; 2], f32),
+    (width, reach): (f32, f32),
+    colour: Rgba,
+    clip: Rect,
+) {
+    picture.shapes.push(line([left, y], [right, y], width, colour, clip));
+    for x in [left, right] {
+        picture.shapes.push(line([x, y - reach], [x, y + reach], width, colour, clip));
+    }
+}
+
 /// How long a round number of metres is.
 pub(super) fn scale_bar(picture: &mut Picture, camera: &Camera, palette: &Palette) {
     let Rect { min, max } = camera.rect;
@@ -415,10 +441,7 @@ pub(super) fn scale_bar(picture: &mut Picture, camera: &Camera, palette: &Palett
     if picture.labels.iter().any(is_taken) {
         return;
     }
-    picture.shapes.push(line([left, y], [right, y], 1.5, colour, camera.rect));
-    for x in [left, right] {
-        picture.shapes.push(line([x, y - 3.0], [x, y + 3.0], 1.5, colour, camera.rect));
-    }
+    span_line(picture, ([left, right], y), (1.5, 3.0), colour, camera.rect);
     let words = format!("{} {}", round(length_m, 4), camera.unit);
     picture.labels.push(text(palette, at, Align::Centre, 11.0, colour, words));
 }

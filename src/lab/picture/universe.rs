@@ -3,11 +3,11 @@
 
 use glam::DVec2;
 
-use super::captions::text;
+use super::captions::{self, text};
 use super::framed::BodyView;
 use super::moment::DrawContext;
-use super::sketch::{Camera, SOLID, circle, disc, fill, line, ring, rounded};
-use super::{Align, Label, Picture};
+use super::sketch::{Camera, SOLID, circle, disc, fill, ring};
+use super::{Align, Label, Picture, Rect};
 use crate::lab::palette::{Palette, faded, mixed};
 use crate::lab::race::Entrant;
 use crate::lab::studio::Motion;
@@ -22,6 +22,28 @@ struct Landmark {
     /// Its silhouette, in lengths of the whole from its left end: across, and up from its middle. A part is an outline of
     /// corners, which is seen whole from their mean, or a disc or a ring by its centre and radius.
     shape: &'static str,
+}
+
+impl Landmark {
+    /// The parts of its silhouette: what each is, and its numbers.
+    fn parts(&self) -> impl Iterator<Item = (&'static str, Vec<f32>)> {
+        self.shape.split(';').map(|part| {
+            let (kind, numbers) = part.trim().split_once(' ').unwrap_or_default();
+            let numbers = numbers.split_whitespace().map(|number| number.parse());
+            (kind, numbers.collect::<Result<_, _>>().expect("the tests below read them all"))
+        })
+    }
+
+    /// How far it reaches up and down from its middle, in its lengths.
+    fn half_height(&self) -> f32 {
+        let highest = |(kind, numbers): (&str, Vec<f32>)| match (kind, &numbers[..]) {
+            ("disc" | "ring", [_, y, radius]) => y.abs() + radius,
+            (_, corners) => {
+                corners.iter().skip(1).step_by(2).fold(0.0, |most, y| y.abs().max(most))
+            }
+        };
+        self.parts().map(highest).fold(0.0, f32::max)
+    }
 }
 
 const fn known(
@@ -103,6 +125,8 @@ static LANDMARKS: [Landmark; 11] = [
 const GROWN: f64 = 3.0;
 /// The longest and the shortest that a landmark lies there, as parts of the width; near both it fades.
 const LENGTHS: [f32; 2] = [0.42, 0.035];
+/// How far it may reach up and down, as a part of the height of the cell.
+const HEIGHT: f32 = 0.3;
 /// How far landmarks keep from the middle, where the true body is, and their middles, their measures and the sentence from
 /// the foot of the cell, in points.
 const ASIDE: f32 = 16.0;
@@ -121,8 +145,8 @@ pub(super) fn is_shown(moment: &DrawContext<'_>, view: &BodyView, camera: &Camer
 pub(super) fn landmarks(picture: &mut Picture, camera: &Camera, palette: &Palette) {
     let [width, height] = camera.rect.size().map(|side| side as f32);
     let fits = |landmark: &&Landmark| {
-        let is_round = landmark.shape.contains("c .5 0 .5") || landmark.shape.contains("g .5 0 .5");
-        let most = if is_round { LENGTHS[0].min(0.6 * height / width) } else { LENGTHS[0] };
+        // One that is high must have room for that.
+        let most = LENGTHS[0].min(HEIGHT * height / (landmark.half_height() * width));
         (LENGTHS[1] * width..most * width).contains(&camera.length(landmark.length_m))
     };
     let middle = camera.points(DVec2::ZERO)[0];
@@ -146,10 +170,7 @@ fn lay(
     let (length, clip) = (camera.length(landmark.length_m), camera.rect);
     let [y, below, _] = FEET.map(|foot| clip.max[1] - foot);
     let tone = faded(mixed(palette.chart, palette.sea[1], 0.25), 0.5 * strength);
-    for part in landmark.shape.split(';') {
-        let mut words = part.split_whitespace();
-        let kind = words.next().unwrap_or_default();
-        let numbers: Vec<f32> = words.filter_map(|number| number.parse().ok()).collect();
+    for (kind, numbers) in landmark.parts() {
         let places = numbers.chunks_exact(2).map(|at| [left + length * at[0], y - length * at[1]]);
         let corners: Vec<_> = places.collect();
         let radius = length * numbers.last().copied().unwrap_or_default();
@@ -159,12 +180,8 @@ fn lay(
             _ => fill(&corners, tone, clip),
         });
     }
-    let (right, colour) = (left + length, faded(palette.dim, strength));
-    let measure =
-        [([left, 0.0], [right, 0.0]), ([left, -4.0], [left, 4.0]), ([right, -4.0], [right, 4.0])];
-    for ends in measure.map(|(from, to)| [from, to].map(|[x, y]| [x, below + y])) {
-        picture.shapes.push(line(ends[0], ends[1], 1.0, colour, clip));
-    }
+    let colour = faded(palette.dim, strength);
+    captions::span_line(picture, ([left, left + length], below), (1.0, 4.0), colour, clip);
     let words = format!("{}, {}", landmark.names[0], landmark.length);
     let at = [left + length / 2.0, below + 13.0];
     picture.labels.push(text(palette, at, Align::Centre, 12.0, colour, words));
@@ -187,7 +204,9 @@ pub(super) fn sentence(
             format!("after {} s your {what} is 10{power} m long", round(halt.t, 3))
         }
         None => {
-            let width_m = 2.0 * view.reach_m.x;
+            let since = moment.history(lane, index).since(moment.t - moment.paper_s);
+            let furthest = since.map(|sample| sample.q.abs()).filter(|q| q.is_finite());
+            let width_m = 2.0 * furthest.fold(0.0, f64::max);
             let known = LANDMARKS.iter().rev().find(|landmark| landmark.length_m <= width_m);
             let Some(Landmark { names: [one, many], length_m, .. }) = known else { return };
             let as_wide = match width_m / length_m {
@@ -200,10 +219,9 @@ pub(super) fn sentence(
     let (palette, middle) = (moment.palette, camera.points(DVec2::ZERO)[0]);
     let half = LETTER / 2.0 * words.chars().count() as f32 + 16.0;
     let bottom = camera.rect.max[1] - FEET[2];
-    let frame = rounded([middle - half, bottom - SENTENCE], [middle + half, bottom], 7.0);
-    picture.shapes.push(fill(&frame, faded(palette.panel, 0.94), camera.rect));
+    let frame = Rect { min: [middle - half, bottom - SENTENCE], max: [middle + half, bottom] };
     let colour = moment.style(moment.studio.entry(lane)).0;
-    picture.shapes.push(ring(&frame, 1.6, colour, SOLID, camera.rect));
+    captions::plate(picture, frame, colour, camera.rect, palette);
     let at = [middle, bottom - SENTENCE / 2.0];
     let label = text(palette, at, Align::Centre, 13.0, palette.text, words);
     picture.labels.push(Label { is_strong: true, halo: [0; 4], ..label });
@@ -274,17 +292,15 @@ mod tests {
     #[test]
     fn every_landmark_is_a_silhouette_and_they_stand_from_small_to_large() {
         assert!(LANDMARKS.is_sorted_by_key(|landmark| landmark.length_m));
-        for Landmark { names, shape, .. } in &LANDMARKS {
-            for part in shape.split(';') {
-                let mut words = part.split_whitespace();
-                let kind = words.next().unwrap_or_default();
-                let numbers: Vec<f32> = words.map(|number| number.parse().unwrap()).collect();
+        for landmark in &LANDMARKS {
+            for (kind, numbers) in landmark.parts() {
                 let is_right = match kind {
                     "disc" | "ring" => numbers.len() == 3,
                     "outline" => numbers.len() >= 6 && numbers.len().is_multiple_of(2),
                     _ => false,
                 };
-                assert!(is_right && numbers.iter().all(|x| x.abs() <= 1.0), "{}: {part}", names[0]);
+                let name = landmark.names[0];
+                assert!(is_right && numbers.iter().all(|x| x.abs() <= 1.0), "{name}: {numbers:?}");
             }
         }
     }
