@@ -235,13 +235,14 @@ pub const METRICS: &[Metric] = &[
 ];
 
 /// The energy that a body in a lane has more than in truth, in percent of what the exact motion exchanges, or where it
-/// conserves or exchanges none of the most that it had; `None` where its energies are not known.
+/// conserves or exchanges none of the most that it had; `None` where its energies are not known, or have no zero of their own
+/// to be held against: those of a body that is not linear.
 pub fn energy_gained_percent(lane: &LaneBody, truth: &LaneBody) -> Option<f64> {
     let of_swing = (METRICS[Metric::ENERGY_DRIFT].measure)(lane, truth);
     of_swing.or_else(|| {
-        let [lane, exact] = both(lane, truth)?;
+        let [lane, exact] = both(lane, truth).filter(|_| truth.stepper.is_linear())?;
         let sum = |body: &LaneBody| Some(body.stepper.mechanical_energy()?.iter().sum::<f64>());
-        let most_j = exact.extent()?.most_j().max(exact.stepper.energy().unwrap_or(0.0));
+        let most_j = exact.stepper.energy().unwrap_or(exact.extent()?.most_j());
         known(100.0 * (sum(lane)? - sum(exact)?) / most_j)
     })
 }
@@ -267,7 +268,7 @@ fn largest_difference(a: impl Iterator<Item = f64>, b: impl Iterator<Item = f64>
 mod tests {
     use super::*;
     use crate::lab::scene::{Scene, SceneBody};
-    use crate::lab::{Action, Lane, Race};
+    use crate::lab::{Action, Lane, LaneSpec, Race};
     use crate::sim::Solver;
     use crate::sim::bodies::{Input, kind};
     use crate::sim::integrators::method;
@@ -316,6 +317,30 @@ mod tests {
         near("energy_drift", 100.0 * (v * v + 4.0 * q * q - 4.0) / 4.0);
         near("evaluations", 314.0);
         assert!(u.abs() < 0.01, "a speed to divide by that crosses zero: {u} m/s");
+    }
+
+    #[test]
+    fn the_energy_gained_is_known_of_linear_bodies_at_once_and_of_no_other_before_it_is_exchanged()
+    {
+        let gained = |scene: &str, id: &str, ticks: u64, body: usize| {
+            let scene = Scene::built_in(scene).unwrap();
+            let spec = LaneSpec::plain(method(id).unwrap());
+            let mut race = Race::of_scene(&Scene { lanes: vec![spec], ..scene });
+            race.run(ticks);
+            energy_gained_percent(
+                &race.entrants()[0].lane.bodies()[body],
+                &race.truth().bodies()[body],
+            )
+        };
+        // The first tick of explicit Euler adds (ω h)² of the energy, here (2 π / 60)².
+        let first = gained("harbour", "explicit-euler", 1, 0).unwrap();
+        assert!((first - 1.0966).abs() < 1e-3, "{first}");
+        // Kinetic alone: after many time constants that of the last speed, under any method.
+        let ship = gained("harbour", "explicit-euler", 60 * 200, 1).unwrap();
+        assert!(ship.abs() < 1e-6, "{ship}");
+        let damped = gained("damped", "explicit-euler", 600, 0).unwrap();
+        assert!(damped > 100.0, "it grows where it should rest: {damped}");
+        assert_eq!(gained("bouncing-bungee", "rk4", 40, 0), None, "its zero is where it jumps off");
     }
 
     #[test]
