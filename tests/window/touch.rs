@@ -41,9 +41,12 @@ fn patch(sight: &RgbaImage, colour: [u8; 4], half: u32) -> Option<([u32; 2], usi
     // The stage, at the size at which a window opens.
     let places = (40..500).flat_map(|y| (20..780).map(move |x| (x, y)));
     let inside: Vec<(u32, u32)> = places.filter(|&(x, y)| is_inside(x, y)).collect();
-    let count = inside.len() as u32;
-    let sum = inside.iter().fold((0, 0), |sum, at| (sum.0 + at.0, sum.1 + at.1));
-    (count > 0).then(|| ([sum.0 / count, sum.1 / count], inside.len()))
+    // The digit on a mass takes away from one side more than from the other.
+    let middle = |along: fn(&(u32, u32)) -> u32| {
+        let ends = [inside.iter().map(along).min()?, inside.iter().map(along).max()?];
+        Some((ends[0] + ends[1]) / 2)
+    };
+    Some(([middle(|at| at.0)?, middle(|at| at.1)?], inside.len()))
 }
 
 /// Waits for the body to be here, but for the line that joins it to the hand.
