@@ -49,6 +49,7 @@ use error::reason;
 use event::Event;
 use growing_recording::GrowingRecording;
 use keys::Modifiers;
+use opening::Asked;
 use pace::Meter;
 use tick_timer::TickTimer;
 use watch::FileWatch;
@@ -83,11 +84,10 @@ pub fn run(
         on_interrupt(Box::new(move || _ = window.send_event(Event::Interrupted)));
     }
     let SceneFiles { read, opened, keep } = files;
-    let watch = FileWatch::new(Arc::clone(&read), proxy.clone());
     if let Some((path, _)) = &opened {
         studio.list_as_file(path);
     }
-    watch.watch(opened);
+    let watch = FileWatch::new(read, opened, proxy.clone());
     studio.viewer_mut().preferences.is_recorded = keep.is_some();
     let analysed = studio.analysis_request();
     let analysis = AnalysisWorker::new(analysed.clone());
@@ -98,7 +98,6 @@ pub fn run(
         recording: keep.map(|keep| GrowingRecording::new(keep, proxy.clone())),
         tick_timer: TickTimer::new(proxy.clone()),
         studio,
-        read,
         watch,
         seconds,
         size,
@@ -132,7 +131,6 @@ struct App {
     clouds: WorkThread<CloudWorker>,
     recording: Option<GrowingRecording>,
     tick_timer: TickTimer,
-    read: ReadScene,
     watch: FileWatch,
     /// The end of the run, in simulated seconds.
     seconds: Option<f64>,
@@ -248,8 +246,9 @@ impl App {
                 Some(DriverRequest::ExportInstrument) => self.export_instrument(),
                 Some(DriverRequest::ToggleFullScreen) => self.toggle_full_screen(),
                 Some(DriverRequest::OpenTypedPath) => {
-                    let opened = opening::open_typed(&mut self.studio, &self.read);
-                    self.watch.watch(opened);
+                    if let Some(asked) = Asked::typed(&mut self.studio) {
+                        self.watch.open(asked);
+                    }
                 }
                 Some(DriverRequest::CompletePath) => {
                     let path = opening::completed(self.studio.viewer().typed_path());
@@ -381,9 +380,7 @@ impl ApplicationHandler<Event> for App {
                 }
             }
             WindowEvent::DroppedFile(path) => {
-                self.watch.watch(opening::open(&mut self.studio, &self.read, path));
-                self.stand_still();
-                return self.request_redraw();
+                return self.watch.open(Asked::dropped(&self.studio, path));
             }
             WindowEvent::ModifiersChanged(modifiers) => {
                 self.held = modifiers.state().into();

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use winit::event_loop::ActiveEventLoop;
 
 use super::App;
+use super::opening::Found;
 #[cfg(feature = "accessibility")]
 use super::screen_reader::{self, Request};
 use crate::lab::LaneSpec;
@@ -33,6 +34,8 @@ pub(super) enum Event {
     Interrupted,
     /// The run is not recorded as it grows, for this reason.
     NotRecorded(String),
+    /// A file that was asked for is read.
+    FileRead(Found),
     /// A watched scene file has changed; `read` is what it holds now.
     FileChanged { path: PathBuf, read: Result<(Scene, String), Vec<Mistake>> },
     /// A watched scene file cannot be read any more.
@@ -93,6 +96,12 @@ impl App {
                 if !self.studio.running() {
                     self.request_redraw();
                 }
+            }
+            Event::FileRead(found) => {
+                found.show(&mut self.studio);
+                // Neither what this took nor what its first frame takes is simulated.
+                (self.opened, self.last_frame) = (true, None);
+                self.request_redraw();
             }
             Event::FileGone(path) => {
                 self.studio.file_is_gone(&path);

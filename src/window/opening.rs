@@ -3,9 +3,9 @@
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use std::sync::Arc;
 
-use crate::lab::pacing::trace_file;
+use crate::lab::pacing::{FrameTrace, trace_file};
 use crate::lab::scene::{Mistake, SCENES, Scene};
-use crate::lab::studio::{StageCommand, Studio, ViewCommand};
+use crate::lab::studio::{SceneList, StageCommand, Studio, ViewCommand};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
 
 /// Reads a scene file and returns its scene and its text, or what the command line would print of its mistakes.
@@ -25,22 +25,78 @@ pub struct SceneFiles {
     pub keep: Option<KeepRecording>,
 }
 
-/// Opens the scene file at `path` and returns its path and text. If it cannot be opened, a dialog says why.
-pub(super) fn open(
-    studio: &mut Studio,
-    read: &ReadScene,
-    path: &Path,
-) -> Option<(PathBuf, String)> {
-    if is_trace(path) {
-        open_trace(studio, path).unwrap_or_else(|report| studio.show_mistakes(path, report));
-        return None;
+/// A file that was dropped on the window, or whose path was typed.
+pub(super) struct Asked {
+    path: PathBuf,
+    is_typed: bool,
+}
+
+/// What a file that was asked for holds, or what the command line would print of its mistakes.
+pub(super) struct Found {
+    asked: Asked,
+    held: Result<Held, Vec<Mistake>>,
+}
+
+enum Held {
+    Scene { scene: Box<Scene>, text: String },
+    Traces(Vec<FrameTrace>),
+}
+
+impl Asked {
+    /// The file at a path that was dropped.
+    pub(super) fn dropped(studio: &Studio, path: &Path) -> Self {
+        Self { path: known(studio, path), is_typed: false }
     }
-    let path = known(studio, path);
-    match open_listed(studio, read, &path) {
-        Ok(text) => Some((path, text)),
-        Err(report) => {
-            studio.show_mistakes(&path, report);
-            None
+
+    /// What was typed, as the command line takes it: the built-in scene of that name, which opens at once, or else the file
+    /// at that path.
+    pub(super) fn typed(studio: &mut Studio) -> Option<Self> {
+        let typed = studio.viewer().typed_path().trim().to_owned();
+        if let Some(index) = SCENES.iter().position(|scene| scene.name == typed) {
+            studio.apply(StageCommand::Scene(index));
+            return None;
+        }
+        Some(Self { path: known(studio, &from_home(&typed)), is_typed: true })
+    }
+
+    /// Reads the file, and whatever its first frame would wait for. A disk can be slow, and a large net takes longer than a
+    /// frame: this is no work for the thread that draws.
+    pub(super) fn read(self, read: &ReadScene) -> Found {
+        let held = if is_trace(&self.path) {
+            traces_in(&self.path).map(Held::Traces)
+        } else {
+            read(&self.path).map(|(scene, text)| {
+                SceneList::prepare_scene(&scene);
+                Held::Scene { scene: Box::new(scene), text }
+            })
+        };
+        Found { asked: self, held }
+    }
+}
+
+impl Found {
+    /// The path and text of a scene.
+    pub(super) fn scene(&self) -> Option<(PathBuf, String)> {
+        match &self.held {
+            Ok(Held::Scene { text, .. }) => Some((self.asked.path.clone(), text.clone())),
+            _ => None,
+        }
+    }
+
+    /// Opens the scene, or the loop lab on the traces. Of mistakes a dialog tells, which is the field for the path, still
+    /// open, if that was typed.
+    pub(super) fn show(self, studio: &mut Studio) {
+        let Asked { path, is_typed } = self.asked;
+        match self.held {
+            Ok(Held::Scene { scene, .. }) => studio.open_file(&path, *scene),
+            Ok(Held::Traces(traces)) => {
+                studio.open_traces(traces);
+                if is_typed {
+                    studio.apply(ViewCommand::CloseDialog);
+                }
+            }
+            Err(report) if is_typed => studio.refuse_typed_path(&path, report),
+            Err(report) => studio.show_mistakes(&path, report),
         }
     }
 }
@@ -52,49 +108,11 @@ fn is_trace(path: &Path) -> bool {
     is("csv") || is("txt")
 }
 
-/// Opens the loop lab on the traces in a CSV file.
-fn open_trace(studio: &mut Studio, path: &Path) -> Result<(), Vec<Mistake>> {
+fn traces_in(path: &Path) -> Result<Vec<FrameTrace>, Vec<Mistake>> {
     let bytes = regular_file::read(path, MAX_TABLE_BYTES)
         .map_err(|why| vec![format!("error: cannot read {}: {why}", path.display()).into()])?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let traces = trace_file::from_bytes(&name, &bytes);
-    studio.open_traces(traces.map_err(|error| vec![format!("error: {error}").into()])?);
-    Ok(())
-}
-
-fn open_listed(studio: &mut Studio, read: &ReadScene, path: &Path) -> Result<String, Vec<Mistake>> {
-    let (scene, text) = read(path)?;
-    studio.open_file(path, scene);
-    Ok(text)
-}
-
-/// Opens what was typed, as the command line does: the built-in scene of that name, or else the file at that path,
-/// whose path and text are returned. If it cannot be opened, the field stays open and says why.
-pub(super) fn open_typed(studio: &mut Studio, read: &ReadScene) -> Option<(PathBuf, String)> {
-    let typed = studio.viewer().typed_path().trim().to_owned();
-    match SCENES.iter().position(|scene| scene.name == typed) {
-        Some(index) => {
-            studio.apply(StageCommand::Scene(index));
-            None
-        }
-        None => {
-            let path = known(studio, &from_home(&typed));
-            if is_trace(&path) {
-                match open_trace(studio, &path) {
-                    Ok(()) => _ = studio.apply(ViewCommand::CloseDialog),
-                    Err(report) => studio.refuse_typed_path(&path, report),
-                }
-                return None;
-            }
-            match open_listed(studio, read, &path) {
-                Ok(text) => Some((path, text)),
-                Err(report) => {
-                    studio.refuse_typed_path(&path, report);
-                    None
-                }
-            }
-        }
-    }
+    trace_file::from_bytes(&name, &bytes).map_err(|error| vec![format!("error: {error}").into()])
 }
 
 /// The path under which the file is already on the list of scenes, or else `path` itself.
@@ -163,18 +181,21 @@ mod tests {
         std::fs::write(&good, text).unwrap();
         std::fs::write(&bad, "tick_hz = 0").unwrap();
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
-        let opened = open(&mut studio, &read(), &good);
-        assert_eq!(opened, Some((good, text.to_owned())));
+        let found = Asked::dropped(&studio, &good).read(&read());
+        assert_eq!(found.scene(), Some((good, text.to_owned())));
+        found.show(&mut studio);
         assert_eq!(studio.scene_name(), "ship.toml");
         studio.tick();
-        assert_eq!(open(&mut studio, &read(), &bad), None);
+        let found = Asked::dropped(&studio, &bad).read(&read());
+        assert_eq!(found.scene(), None);
+        found.show(&mut studio);
         assert_eq!((studio.scene_name().as_str(), studio.race().tick()), ("ship.toml", 1));
         let Some(Dialog::Mistakes { report, .. }) = studio.viewer().dialog() else { panic!() };
         let message = &report[0].message;
         assert!(message.starts_with(&format!("{}:1:", bad.display())), "{message}");
         studio.apply(ViewCommand::AskForPath);
         studio.apply(ViewCommand::TypePath(bad.display().to_string()));
-        assert_eq!(open_typed(&mut studio, &read()), None);
+        Asked::typed(&mut studio).unwrap().read(&read()).show(&mut studio);
         let Some(Dialog::Path { refused: Some(report) }) = studio.viewer().dialog() else {
             panic!()
         };
@@ -182,7 +203,7 @@ mod tests {
         assert!(message.starts_with(&format!("{}:1:", bad.display())), "{message}");
         // The name of a built-in scene opens that, as on the command line.
         studio.apply(ViewCommand::TypePath(" ship ".into()));
-        assert_eq!(open_typed(&mut studio, &read()), None);
+        assert!(Asked::typed(&mut studio).is_none());
         assert_eq!((studio.scene_name().as_str(), studio.viewer().dialog()), ("ship", None));
     }
 

@@ -1,4 +1,5 @@
-//! Watches the opened scene files for changes, on a thread of its own because a disk can be slow.
+//! Reads the files that are opened, and watches the scenes among them for changes, on a thread of its own because a disk can
+//! be slow.
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -8,7 +9,7 @@ use std::time::{Duration, SystemTime};
 use winit::event_loop::EventLoopProxy;
 
 use super::Event;
-use super::opening::ReadScene;
+use super::opening::{Asked, ReadScene};
 use crate::lab::scene::MAX_FILE_BYTES;
 use crate::regular_file::{self, Unreadable};
 
@@ -24,39 +25,52 @@ const MISSING_WHEN_GONE: u32 = 2;
 
 /// A handle to the thread that watches files. The thread ends when this is dropped.
 pub(super) struct FileWatch {
-    files: Sender<WatchedFile>,
+    files: Sender<Asked>,
 }
 
 impl FileWatch {
-    /// Starts the thread, which has no file to watch yet. It sends an event for each file that changes, is deleted or
-    /// comes back; changed files are read by `read`.
-    pub(super) fn new(read: ReadScene, events: EventLoopProxy<Event>) -> Self {
-        let (files, added) = channel();
-        thread::spawn(move || watch(&read, &added, &events));
+    /// Starts the thread, which has no file to watch but one that is open already, with its text. It sends an event for each
+    /// file that it has read, and for each that changes, is deleted or comes back; all are read by `read`.
+    pub(super) fn new(
+        read: ReadScene,
+        opened: Option<(PathBuf, String)>,
+        events: EventLoopProxy<Event>,
+    ) -> Self {
+        let (files, sent) = channel();
+        let watched = opened.map(|(path, text)| WatchedFile::new(path, text.into_bytes()));
+        thread::spawn(move || watch(&read, watched.into_iter().collect(), &sent, &events));
         Self { files }
     }
 
-    /// Adds a file that was opened, if one was, with the text that it had then.
-    pub(super) fn watch(&self, opened: Option<(PathBuf, String)>) {
-        if let Some((path, text)) = opened {
-            // If the thread has ended, changes go unnoticed; the window stays open.
-            _ = self.files.send(WatchedFile::new(path, text.into_bytes()));
-        }
+    /// Reads a file, and watches it if it is a scene.
+    pub(super) fn open(&self, asked: Asked) {
+        // If the thread has ended, so does the window.
+        _ = self.files.send(asked);
     }
 }
 
-fn watch(read: &ReadScene, added: &Receiver<WatchedFile>, events: &EventLoopProxy<Event>) {
-    let mut files: Vec<WatchedFile> = Vec::new();
+fn watch(
+    read: &ReadScene,
+    mut files: Vec<WatchedFile>,
+    sent: &Receiver<Asked>,
+    events: &EventLoopProxy<Event>,
+) {
     loop {
-        let file = if files.is_empty() {
-            added.recv().map_err(|_| RecvTimeoutError::Disconnected)
+        let asked = if files.is_empty() {
+            sent.recv().map_err(|_| RecvTimeoutError::Disconnected)
         } else {
-            added.recv_timeout(INTERVAL)
+            sent.recv_timeout(INTERVAL)
         };
-        match file {
-            Ok(file) => {
-                files.retain(|known| known.path != file.path);
-                files.push(file);
+        match asked {
+            Ok(asked) => {
+                let found = asked.read(read);
+                if let Some((path, text)) = found.scene() {
+                    files.retain(|known| known.path != path);
+                    files.push(WatchedFile::new(path, text.into_bytes()));
+                }
+                if events.send_event(Event::FileRead(found)).is_err() {
+                    return;
+                }
             }
             Err(RecvTimeoutError::Timeout) => {
                 for file in &mut files {

@@ -128,6 +128,16 @@ pub struct Region {
     pub seen: Vec<SeenLine>,
 }
 
+impl Region {
+    /// Whether this point is in one of its pieces.
+    pub fn contains(&self, [x, y]: [f64; 2]) -> bool {
+        let is_left = |(a, b): (&[f64; 2], &[f64; 2])| {
+            (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]) >= 0.0
+        };
+        self.pieces.iter().any(|piece| piece.iter().zip(piece.iter().cycle().skip(1)).all(is_left))
+    }
+}
+
 /// How much of a map a region covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {

@@ -45,11 +45,15 @@ impl SceneList {
     /// Reads every built-in scene, and follows bodies that are drawn by where they go, so that none of it is waited for
     /// where one of them opens.
     pub fn prepare() {
-        for scene in SCENES.iter().filter_map(|scene| Scene::built_in(scene.name)) {
-            let truth = Lane::new(&scene, Solver::Truth, 1);
-            let is_followed = |body: &&LaneBody| !matches!(body.kind.origin, Origin::Table);
-            truth.bodies().iter().filter(is_followed).for_each(|body| drop(body.preview()));
-        }
+        let scenes = SCENES.iter().filter_map(|scene| Scene::built_in(scene.name));
+        scenes.for_each(|scene| Self::prepare_scene(&scene));
+    }
+
+    /// [Prepares](Self::prepare) one scene.
+    pub fn prepare_scene(scene: &Scene) {
+        let truth = Lane::new(scene, Solver::Truth, 1);
+        let is_followed = |body: &&LaneBody| !matches!(body.kind.origin, Origin::Table);
+        truth.bodies().iter().filter(is_followed).for_each(|body| drop(body.preview()));
     }
 
     /// The number of scenes.

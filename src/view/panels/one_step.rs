@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use egui::{
-    Align2, Color32, FontId, Galley, Grid, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, Ui,
-    Vec2, pos2, vec2,
+    Align2, Color32, FontId, Galley, Grid, Label, Pos2, Rect, RichText, ScrollArea, Sense, Stroke,
+    Ui, Vec2, pos2, vec2,
 };
 
 use super::annotations::{arrow, label};
@@ -31,6 +31,9 @@ const MIN_PLOT: f32 = 108.0;
 /// The height of a row of the table and of a line of the formula, in points.
 const ROW: f32 = 20.0;
 const FORMULA: f32 = 20.0;
+/// The size of a formula beside numbers, and the room that those take with the badge, in points.
+const BESIDE_NUMBERS: f32 = 14.0;
+const NUMBERS: f32 = 185.0;
 /// The radius of a state and of the badge of an evaluation, in points.
 const STATE: f32 = 5.0;
 const BADGE: f32 = 8.0;
@@ -64,7 +67,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, room: Vec2) {
         // What the step does is seen whole; what the table has no room for is scrolled to.
         let said = said(ui, studio, &step, room.x);
         let left = height - said.size().y - ui.spacing().item_spacing.y;
-        let plot_height = (left - table_height(&step)).max(PLOT * left);
+        let plot_height = (left - table_height(ui, &step, room.x)).max(PLOT * left);
         plot(ui, studio, &step, vec2(room.x, plot_height.max(MIN_PLOT.min(0.58 * height))));
         // Where there is hardly room for the plot, the words are scrolled too.
         let scrolled = if plot_height < MIN_PLOT {
@@ -282,30 +285,79 @@ fn badge(painter: &egui::Painter, at: Pos2, number: usize, [colour, text]: [Colo
     painter.text(at, Align2::CENTER_CENTER, number.to_string(), strong_font(11.0), text);
 }
 
-/// The height of the table, in points.
-fn table_height(step: &OneStep) -> f32 {
-    let lines = step.spec.method.formula.len();
-    let rows = step.evaluations.len().min(MAX_DRAWN) + 3;
-    FORMULA * lines as f32 + ROW * rows as f32
+/// The height of a table of this width, in points.
+fn table_height(ui: &Ui, step: &OneStep, width: f32) -> f32 {
+    let evaluated = step.evaluations.len().min(MAX_DRAWN);
+    match rows_of_formula(ui, step, width) {
+        Some(rows) => {
+            ROW * rows.iter().map(|lines| lines.len().max(1)).sum::<usize>() as f32 + 2.0 * ROW
+        }
+        None => FORMULA * step.spec.method.formula.len() as f32 + ROW * (evaluated + 3) as f32,
+    }
 }
 
-/// The formula, every evaluation in numbers, and where the tick ends.
+/// The lines of a formula, each group beside the evaluation that it ends with, and those after the last. `None` if the
+/// formula does not tell of every evaluation, as where a solve takes as many as it needs.
+fn beside<'f>(formula: &[&'f str], evaluations: usize) -> Option<Vec<Vec<&'f str>>> {
+    let mut rows = vec![Vec::new()];
+    for line in formula {
+        let before = |at: usize| line[..at].chars().next_back().is_some_and(char::is_alphabetic);
+        let count = ["f(", "a("]
+            .iter()
+            .flat_map(|sign| line.match_indices(sign))
+            .filter(|(at, _)| !before(*at))
+            .count();
+        rows.last_mut()?.push(*line);
+        rows.extend((0..count).map(|_| Vec::new()));
+    }
+    (rows.len() == evaluations + 1 && evaluations <= MAX_DRAWN).then_some(rows)
+}
+
+/// How many figures the numbers of a table of this width have, and the gap between its columns in points.
+fn figures_and_gap(width: f32) -> (usize, f32) {
+    if width < breakpoints::FOUR_FIGURES { (3, 5.0) } else { (4, 14.0) }
+}
+
+/// [`beside`] of the step's method, if a table of this width has room for it.
+fn rows_of_formula(ui: &Ui, step: &OneStep, width: f32) -> Option<Vec<Vec<&'static str>>> {
+    let rows = beside(step.spec.method.formula, step.evaluations.len())?;
+    let line_width = |line: &&str| {
+        let job = formula::job(line, BESIDE_NUMBERS, Color32::WHITE);
+        ui.painter().layout_job(job).size().x
+    };
+    let widest = rows.iter().flatten().map(line_width).fold(0.0, f32::max);
+    (widest + NUMBERS + 4.0 * figures_and_gap(width).1 <= width).then_some(rows)
+}
+
+/// Every evaluation in numbers, beside its line of the formula, and where the tick ends.
 fn table(ui: &mut Ui, studio: &Studio, step: &OneStep, said: Option<Arc<Galley>>) {
     let coordinate = &shown_coordinate(studio);
     let (q, v) = (&coordinate.name, &coordinate.velocity);
     ui.spacing_mut().item_spacing.y = 1.0;
-    let (figures, gap) =
-        if ui.available_width() < breakpoints::FOUR_FIGURES { (3, 5.0) } else { (4, 14.0) };
+    let (figures, gap) = figures_and_gap(ui.available_width());
+    let line = |ui: &mut Ui, line: &str| {
+        let job = formula::job(line, BESIDE_NUMBERS, palette(ui).text);
+        drop(ui.add(Label::new(job).extend()));
+    };
+    let rows = rows_of_formula(ui, step, ui.available_width());
     ScrollArea::vertical().id_salt("one step").auto_shrink(false).show(ui, |ui| {
         said.into_iter().for_each(|said| drop(ui.label(said)));
-        for line in step.spec.method.formula {
-            ui.label(formula::job(line, 16.0, palette(ui).text));
+        if rows.is_none() {
+            for text in step.spec.method.formula {
+                ui.label(formula::job(text, 16.0, palette(ui).text));
+            }
         }
+        let beside = |ui: &mut Ui, row: usize, otherwise: RichText| match &rows {
+            Some(rows) => {
+                ui.vertical(|ui| rows[row].iter().for_each(|text| line(ui, text)));
+            }
+            None => drop(ui.label(otherwise)),
+        };
         let grid = Grid::new("evaluations").num_columns(5).spacing([gap, 1.0]).striped(true);
         grid.min_row_height(ROW - 2.0).show(ui, |ui| {
             for head in [
                 String::new(),
-                "at".into(),
+                if rows.is_some() { String::new() } else { "at".into() },
                 headed(q, coordinate.shown_unit()),
                 headed(v, &Unit::Velocity.on(coordinate)),
                 format!("a, {}/s²", coordinate.unit),
@@ -316,18 +368,24 @@ fn table(ui: &mut Ui, studio: &Studio, step: &OneStep, said: Option<Arc<Galley>>
             for (number, colour, slope) in drawn(ui, step) {
                 let (rect, _) = ui.allocate_exact_size(vec2(20.0, 18.0), Sense::hover());
                 badge(ui.painter(), rect.center(), number, [colour, palette(ui).background]);
-                ui.label(RichText::new(when(slope.when)).color(colour));
+                beside(ui, number - 1, RichText::new(when(slope.when)).color(colour));
                 for value in [slope.at[0], slope.at[1], slope.slope[1]] {
                     ui.label(RichText::new(signed(value, figures)).color(colour));
                 }
                 ui.end_row();
             }
-            for (name, point, colour) in [
-                ("lands at", step.landing, palette(ui).style(studio.entries(), &step.spec).0),
-                ("exact", step.exact_landing(), palette(ui).exact),
-            ] {
+            let own = palette(ui).style(studio.entries(), &step.spec).0;
+            let exact = palette(ui).exact;
+            for (name, point, colour) in
+                [("lands at", step.landing, own), ("exact", step.exact_landing(), exact)]
+            {
+                let name = RichText::new(name).color(colour);
                 ui.label("");
-                ui.label(RichText::new(name).color(colour));
+                if colour == own {
+                    beside(ui, step.evaluations.len(), name);
+                } else {
+                    ui.label(name);
+                }
                 for value in point.unwrap_or([f64::NAN; 2]) {
                     ui.label(RichText::new(signed(value, figures)).color(colour));
                 }
@@ -402,4 +460,26 @@ fn words(step: &OneStep, coordinate: &Coordinate) -> String {
         words += &format!(" {more} more evaluations are not drawn.");
     }
     words
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::prelude::METHODS;
+
+    #[test]
+    fn a_line_of_the_formula_stands_beside_the_evaluation_that_it_tells_of() {
+        let of = |id, evaluations| {
+            let method = METHODS.iter().find(|method| method.id == id).unwrap();
+            beside(method.formula, evaluations)
+        };
+        let midpoint = of("midpoint", 2).unwrap();
+        assert_eq!(midpoint[1], ["k₂ = f(t + ½h, y + ½h k₁)"]);
+        assert_eq!(midpoint[2], ["y′ = y + h k₂"]);
+        let verlet = of("velocity-verlet", 1).unwrap();
+        assert_eq!((verlet[0].len(), verlet[1].len()), (3, 1));
+        // A solve takes as many as it needs, and PEFRL tells of drifts and kicks.
+        assert_eq!(of("implicit-midpoint", 5), None);
+        assert_eq!(of("pefrl", 4), None);
+    }
 }

@@ -196,7 +196,7 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
         taken.push(at);
     }
     taken.extend(only_everywhere(ui, studio, map, area));
-    let mut named: Vec<usize> = Vec::new();
+    let (mut named, mut keyed): (Vec<usize>, Vec<usize>) = Default::default();
     for (entry, points) in order.iter().rev() {
         if named.contains(entry) {
             continue;
@@ -206,9 +206,8 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
         let others =
             lines.iter().filter(|(other, _)| other != entry).flat_map(|(_, points)| points);
         let others: Vec<Pos2> = others.copied().collect();
-        // The name alone where there is no room for both, and the number where it would lie at another's boundary.
-        let number = (*entry < 9).then(|| format!("{}", entry + 1));
-        let texts: Vec<String> = with_limit.into_iter().chain([name]).chain(number).collect();
+        // The name alone where there is no room for both.
+        let texts: Vec<String> = with_limit.into_iter().chain([name]).collect();
         let placed = |text: &String, is_at_all: bool| {
             let width = 7.0 * text.chars().count() as f32;
             let places = label_places(points, width, area.rect, &taken);
@@ -224,8 +223,12 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
             label(&painter, (at, angle), &text, [style(*entry).0, land]);
             taken.extend(along(at, angle, width));
             named.push(*entry);
+        } else if area.rect.intersects(Rect::from_points(points)) && !keyed.contains(entry) {
+            keyed.push(*entry);
         }
     }
+    keyed.retain(|entry| !named.contains(entry));
+    taken.extend(key(ui, studio, &keyed, area));
     let land = palette(ui).plot.gamma_multiply(0.8);
     for (ratio, points) in &seen {
         let others = seen.iter().filter(|(other, _)| other != ratio).map(|(_, points)| points);
@@ -242,6 +245,24 @@ fn boundaries(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) {
             }
         }
     }
+}
+
+/// Names the boundaries at which no name has room, each beside a piece of its line, in the corner where the rate is least and
+/// the parameter greatest. Returns the places along the names.
+fn key(ui: &Ui, studio: &Studio, entries: &[usize], area: &PlotArea) -> Vec<Pos2> {
+    let painter = ui.painter().with_clip_rect(area.rect);
+    let rows = entries.iter().enumerate().flat_map(|(row, entry)| {
+        let (colour, dash) = palette(ui).style(studio.entries(), &studio.entries()[*entry]);
+        let from = area.rect.left_top() + vec2(8.0, 30.0 + 16.0 * row as f32);
+        let line = LineStyle { dash, ..LineStyle::solid(colour, 2.2) };
+        let piece = ScreenCurve::new(line, vec![from, from + vec2(26.0, 0.0)]);
+        chart::paint(&painter, &[Primitive::Curves(vec![piece])]);
+        let name = numbered(*entry, &studio.lane_name(*entry));
+        let (at, font) = (from + vec2(32.0, 0.0), FontId::proportional(12.0));
+        let rect = painter.text(at, Align2::LEFT_CENTER, name, font, colour);
+        along(rect.center(), 0.0, rect.width())
+    });
+    rows.collect()
 }
 
 /// The lines along which a player sees the same damping ratio of the selected engine.
@@ -264,9 +285,11 @@ fn limit(map: &StabilityMap, entry: usize) -> Option<String> {
     Some(format!("ω h < {}", round(map.regions.get(index)?.limit?, 4)))
 }
 
-/// Points along a label.
+/// Points along a label, at most [`APART`] from each other.
 fn along(at: Pos2, angle: f32, width: f32) -> impl Iterator<Item = Pos2> {
-    (-4..=4).map(move |i| at + Vec2::angled(angle) * (width * i as f32 / 8.0))
+    let steps = (width / APART).ceil().max(1.0);
+    let ends = at - Vec2::angled(angle) * (width / 2.0);
+    (0..=steps as u32).map(move |i| ends + Vec2::angled(angle) * (width * i as f32 / steps))
 }
 
 /// Where the label of a boundary can stand, at which angle: beside it, within `rect`, off the places that are `taken`.
@@ -301,7 +324,7 @@ fn is_clear((at, angle): &(Pos2, f32), width: f32, others: &[Pos2]) -> bool {
     along(*at, *angle, width).all(|at| others.iter().all(|other| other.distance(at) >= BESIDE))
 }
 
-/// Names the methods that are stable everywhere. Returns the places along that.
+/// Names the methods that are stable everywhere, in the corner where as a rule no other is. Returns the places along that.
 fn only_everywhere(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea) -> Vec<Pos2> {
     let found = map.regions.iter().zip(&map.request.specs);
     let mut everywhere = found.filter(|(region, _)| region.coverage == Coverage::Everywhere);
@@ -310,11 +333,22 @@ fn only_everywhere(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea
     let others = if more > 0 { format!(" and {more} more") } else { String::new() };
     let verb = if more > 0 { "are" } else { "is" };
     let name = numbered(*entry, &studio.lane_name(*entry));
-    let text = format!("{name}{others} {verb} stable everywhere");
     let (colour, _) = palette(ui).style(studio.entries(), &studio.entries()[*entry]);
     let painter = ui.painter().with_clip_rect(area.rect);
     let at = area.rect.left_top() + vec2(8.0, 6.0);
-    let rect = painter.text(at, Align2::LEFT_TOP, text, strong_font(12.0), colour);
+    let laid_out = |text| painter.layout_no_wrap(text, strong_font(12.0), colour);
+    let only_here = laid_out(format!("only {name}{others} {verb} stable here"));
+    let mut partly = map.regions.iter().filter(|region| region.coverage == Coverage::Part);
+    let is_shared = partly.any(|region| {
+        along(at + only_here.size() / 2.0, 0.0, only_here.size().x)
+            .any(|at| region.contains(area.point(at)))
+    });
+    let words = match is_shared {
+        true => laid_out(format!("{name}{others} {verb} stable everywhere")),
+        false => only_here,
+    };
+    let rect = Rect::from_min_size(at, words.size());
+    painter.galley(at, words, colour);
     along(rect.center(), 0.0, rect.width()).collect()
 }
 

@@ -23,14 +23,7 @@ fn map(values: [f64; 6], parameter: usize, specs: Vec<LaneSpec>) -> StabilityMap
 
 /// Whether the point of this rate and value is in one of the pieces.
 fn holds(region: &Region, hz: f64, value: f64) -> bool {
-    let [x, y] = [hz, value].map(libm::log10);
-    region.pieces.iter().any(|piece| {
-        let next = piece.iter().cycle().skip(1);
-        piece
-            .iter()
-            .zip(next)
-            .all(|(a, b)| (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]) >= 0.0)
-    })
+    region.contains([hz, value].map(libm::log10))
 }
 
 /// That the region is where `is_stable` says, on both sides of its boundary: at points that agree with those a

@@ -130,3 +130,25 @@ fn the_lines_of_equal_damping_of_the_selected_engine_are_labelled_and_explained(
     studio.apply(StageCommand::Pick(6));
     assert!(!words(&studio).contains("damping 0."));
 }
+
+#[test]
+fn every_boundary_has_its_name() {
+    for scene in ["harbour", "stiff", "engines", "damped", "quarter-car"] {
+        let studio = studio(scene);
+        let map = studio.viewer().stability_map().expect("a map");
+        for size in [[1280.0, 720.0], [960.0, 600.0]] {
+            let words = TestWindow::new(size).panels(&studio, Vec::new()).1.words();
+            for (region, (entry, _)) in map.regions.iter().zip(&map.request.specs) {
+                let name = numbered(*entry, &studio.lane_name(*entry));
+                let is_named = words.iter().any(|text| text.starts_with(&name));
+                assert!(is_named || region.boundary.is_empty(), "{scene} {size:?}: {name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_corner_where_only_an_implicit_method_is_stable_says_so() {
+    let words = window().panels(&studio("quarter-car"), Vec::new()).1.words();
+    assert!(words.contains(&"only 5 Implicit midpoint is stable here".to_owned()), "{words:?}");
+}
