@@ -22,7 +22,7 @@ use super::{clip, scene_file, state_log};
 use crate::atomic_file::IfExists;
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
-use crate::lab::studio::{Motion, Studio};
+use crate::lab::studio::{Display, Motion, Studio};
 use crate::sim::number::counted;
 use crate::window::{self, Closed, SceneFiles, WindowError, WindowSettings};
 
@@ -114,7 +114,9 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         studio.show_clouds_of_scene();
     }
     let opens_at_work = args.race || args.loop_trace.is_some();
-    studio.viewer_mut().preferences.display.measure = preferences.measure || opens_at_work;
+    let display = &mut studio.viewer_mut().preferences.display;
+    display.measure = preferences.measure || opens_at_work;
+    display.splits = preferences.splits;
     if let Some(percent) = preferences.scale_percent {
         studio.viewer_mut().preferences.choose_scale(percent);
     }
@@ -151,8 +153,8 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
             let scene = if is_own { preferences.scene } else { preferences::scene_of(&studio) };
             let (theme, size) = (theme.or(preferences.theme), size.or(preferences.size));
             let scale_percent = Some(studio.display().scale_percent);
-            let measure = studio.display().measure;
-            SavedPreferences { scene, theme, scale_percent, size, measure }.save();
+            let &Display { measure, splits, .. } = studio.display();
+            SavedPreferences { scene, theme, scale_percent, size, measure, splits }.save();
             (studio, interrupted)
         }
     };

@@ -12,7 +12,7 @@ use super::terminal::print_status;
 use crate::atomic_file::{IfExists, write_file};
 use crate::lab::palette::Theme;
 use crate::lab::scene::MAX_FILE_BYTES;
-use crate::lab::studio::{SCALE_LADDER, Studio};
+use crate::lab::studio::{SCALE_LADDER, Splits, Studio};
 use crate::regular_file;
 
 /// The name of the file.
@@ -31,6 +31,8 @@ pub(super) struct SavedPreferences {
     pub(super) size: Option<[u32; 2]>,
     /// Whether instruments stood round the stage; on a first start it is alone.
     pub(super) measure: bool,
+    /// Where a person has put the boundaries between stage, instruments and table.
+    pub(super) splits: Splits,
 }
 
 impl SavedPreferences {
@@ -99,9 +101,27 @@ impl SavedPreferences {
                     size[usize::from(key == "height")] = points;
                 }
                 ("measure", DeValue::Boolean(measure)) => preferences.measure = *measure,
-                ("scene" | "theme" | "scale_percent" | "width" | "height" | "measure", _) => {
-                    return Err(wrong());
+                ("instruments_percent" | "table_percent", DeValue::Integer(percent)) => {
+                    let percent: u32 = percent.as_str().parse().map_err(|_| wrong())?;
+                    let splits = &mut preferences.splits;
+                    let is_table = key == "table_percent";
+                    *(if is_table { &mut splits.table } else { &mut splits.instruments }) =
+                        Some(percent);
+                    if splits.within() != *splits {
+                        return Err(wrong());
+                    }
                 }
+                (
+                    "scene"
+                    | "theme"
+                    | "scale_percent"
+                    | "width"
+                    | "height"
+                    | "measure"
+                    | "instruments_percent"
+                    | "table_percent",
+                    _,
+                ) => return Err(wrong()),
                 // Of a newer program.
                 _ => {}
             }
@@ -120,6 +140,8 @@ impl SavedPreferences {
             self.scale_percent.map(|percent| format!("scale_percent = {percent}\n")),
             self.size.map(|[width, height]| format!("width = {width}\nheight = {height}\n")),
             Some(format!("measure = {}\n", self.measure)),
+            self.splits.instruments.map(|percent| format!("instruments_percent = {percent}\n")),
+            self.splits.table.map(|percent| format!("table_percent = {percent}\n")),
         ]
         .into_iter()
         .flatten()
@@ -159,6 +181,7 @@ mod tests {
                 scale_percent: Some(125),
                 size: Some([1920, 1080]),
                 measure: true,
+                splits: Splits { instruments: Some(55), table: Some(20) },
             },
         ] {
             assert_eq!(SavedPreferences::parse(&preferences.to_text()), Ok(preferences));
@@ -184,6 +207,8 @@ mod tests {
             ("scale_percent = 0", "its scale_percent cannot be understood"),
             ("scale_percent = 1.5", "its scale_percent cannot be understood"),
             ("height = 0", "its height cannot be understood"),
+            ("table_percent = 61", "its table_percent cannot be understood"),
+            ("instruments_percent = 19", "its instruments_percent cannot be understood"),
         ] {
             assert_eq!(SavedPreferences::parse(text), Err(why.into()), "{text}");
         }

@@ -47,7 +47,7 @@ mod zoom_pan;
 pub use command::{
     Command, RunCommand, SCALE_LADDER, SPEED_LADDER, StageCommand, TICK_LADDER, ViewCommand,
 };
-pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, View};
+pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, Splits, View};
 pub use fan::{Future, FutureMoment};
 pub use gesture::{GESTURES, Gesture};
 pub use held::HeldBody;

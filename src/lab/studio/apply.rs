@@ -196,6 +196,7 @@ impl Studio {
                 display.measure = !display.measure || is_in_loop_lab;
                 display.enlarged &= !display.measure;
             }
+            ViewCommand::Split(splits) => display.splits = splits.within(),
             ViewCommand::ToggleGhost => display.ghost = !display.ghost,
             ViewCommand::ToggleTheme => {
                 display.theme = display.theme.other();

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::display::DriverRequest;
+use super::display::{DriverRequest, Splits};
 use super::held::HeldBody;
 use super::instrument::Instrument;
 use super::my_spring::MySpring;
@@ -148,6 +148,8 @@ pub enum ViewCommand {
     CloseDialog,
     /// Puts instruments, table and timeline round the stage, or lets the stage fill the window.
     ToggleMeasure,
+    /// Puts the boundaries between stage, instruments and table here, as far as they go.
+    Split(Splits),
     /// Shows the next second under each method, and pauses for it; or hides it.
     ToggleFutures,
     /// Shows or hides the exact ghost.

@@ -37,6 +37,8 @@ pub enum Motion {
 pub struct Display {
     /// Whether instruments, table and timeline stand round the stage; otherwise it fills the window, over the methods.
     pub measure: bool,
+    /// Where a person has put the boundaries between stage, instruments and table.
+    pub splits: Splits,
     /// Whether the next second under each method is drawn while time stands still.
     pub futures: bool,
     /// Whether the exact ghost is drawn.
@@ -67,6 +69,25 @@ pub struct Display {
     pub inspector: bool,
     /// What moves besides the bodies.
     pub motion: Motion,
+}
+
+/// The parts of the window that instruments and table have, in percent; `None` as it is usual.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Splits {
+    /// The width of the instruments, from 20 to 70.
+    pub instruments: Option<u32>,
+    /// The height of the table, from 8 to 60.
+    pub table: Option<u32>,
+}
+
+impl Splits {
+    /// The same, each within its range.
+    pub fn within(self) -> Self {
+        Self {
+            instruments: self.instruments.map(|percent| percent.clamp(20, 70)),
+            table: self.table.map(|percent| percent.clamp(8, 60)),
+        }
+    }
 }
 
 /// Where a person looks in a scene. It ends with the scene.

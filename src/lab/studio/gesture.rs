@@ -34,6 +34,10 @@ pub static GESTURES: &[Gesture] = &[
         shown: "Drag the cross",
         about: "stability map: set the tick rate and the parameter",
     },
+    Gesture {
+        shown: "Drag a boundary",
+        about: "more room for stage, instruments or table; double click: as usual",
+    },
     Gesture { shown: "Drag the timeline", about: "go to any tick that was run" },
     Gesture { shown: "Drop a file", about: "open a scene, or in the loop lab a frame log" },
 ];

@@ -1,7 +1,7 @@
 //! What a person looks at. It does not change a run and is not part of one.
 
 use super::command::{SCALE_LADDER, USUAL_SCALE_PERCENT};
-use super::display::{Arrangement, Display, Motion, Pace, View};
+use super::display::{Arrangement, Display, Motion, Pace, Splits, View};
 use super::guide::{Hints, Tour};
 use super::held::HeldBody;
 use super::instrument::Instrument;
@@ -84,6 +84,7 @@ impl Default for Preferences {
         Self {
             display: Display {
                 measure: true,
+                splits: Splits::default(),
                 futures: false,
                 ghost: true,
                 interpolation: Interpolation::default(),

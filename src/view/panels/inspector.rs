@@ -7,6 +7,7 @@ use egui::{
 
 pub(super) use self::number::NumberField;
 use self::rows::{Reach, Row, Spacing, Values, rows};
+pub(in crate::view) use self::sweep::is_under_way;
 use super::focus;
 use crate::lab::scene::edited_values;
 use crate::lab::studio::{Command, RunCommand, Studio};
@@ -17,6 +18,7 @@ mod engine;
 mod number;
 mod rows;
 mod run;
+mod sweep;
 
 /// The height of a line, in points.
 const LINE: f32 = 20.0;
@@ -125,7 +127,11 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
     };
     line(ui, &parameter.quantity(), &about, |ui, [room, number]| {
         let number = number.max(field.width(ui));
-        let slider = vec2(room - number - RESTORE - 2.0 * ui.spacing().item_spacing.x, LINE);
+        let buttons = RESTORE + sweep::BUTTON + 3.0 * ui.spacing().item_spacing.x;
+        let slider = vec2(room - number - buttons, LINE);
+        let reach = Reach::of(parameter.range, values);
+        let swept = sweep::show(ui, field.id, reach, values, &name);
+        commands.extend(swept.filter(|value| check(*value).is_ok()).map(set));
         let slid = show_slider(ui, row, values, &name, slider);
         commands.extend(slid.filter(|value| check(*value).is_ok()).map(set));
         let (_, entered) = field.show(ui, vec2(number, LINE), check);
@@ -296,5 +302,37 @@ mod tests {
         assert_eq!(studio.scene().seconds, studio.scene_as_opened().seconds);
         assert_eq!(studio.race().tick_hz(), studio.scene_as_opened().tick_hz);
         assert_eq!(studio.entries()[0], studio.scene_as_opened().lanes[0]);
+    }
+
+    #[test]
+    fn a_parameter_that_is_swept_goes_up_and_comes_back_to_the_last_digit() {
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        studio.apply(RunCommand::ToggleInspector);
+        let mut window = TestWindow::new([1280.0, 900.0]);
+        window.context.enable_accesskit();
+        window.panels(&studio, Vec::new());
+        let all = window.panels(&studio, Vec::new()).1.all();
+        let stiffness = all.iter().find(|(_, text)| text == "stiffness").expect("a row").0;
+        let is_beside = |rect: &egui::Rect| (rect.center().y - stiffness.center().y).abs() < 6.0;
+        let play =
+            all.iter().find(|(rect, text)| text == "▶" && is_beside(rect)).expect("a button").0;
+        let at = play.center();
+        for is_down in [true, false] {
+            let events =
+                vec![egui::Event::PointerMoved(at), crate::view::testing::button(at, is_down)];
+            assert_eq!(window.panels(&studio, events).0, []);
+        }
+        let before = studio.race().values(0).to_vec();
+        let (mut most, mut last) = (before[1], before[1]);
+        for _ in 0..100 {
+            window.time_s += 0.1;
+            for command in window.panels(&studio, Vec::new()).0 {
+                studio.apply(command);
+            }
+            last = studio.race().values(0)[1];
+            most = most.max(last);
+        }
+        assert!((9.0..=10.01).contains(&(most / before[1])), "{most} of {}", before[1]);
+        assert_eq!(last.to_bits(), before[1].to_bits());
     }
 }

@@ -1,11 +1,11 @@
 //! The panels round the stage: they read the studio and return commands, and touch nothing.
 
 use egui::epaint::PathShape;
-use egui::{Frame, Key, Margin, Rect, Stroke, Ui, Vec2, pos2, vec2};
+use egui::{Frame, Key, Margin, Pos2, Rect, Stroke, Ui, Vec2, pos2, vec2};
 
 use super::theme::palette;
 use crate::lab::race::Mode;
-use crate::lab::studio::{Command, Dialog, Studio, ViewCommand};
+use crate::lab::studio::{Command, Dialog, Splits, Studio, ViewCommand};
 
 mod advice;
 mod annotations;
@@ -38,6 +38,7 @@ mod verdict;
 
 #[cfg(test)]
 pub(super) use focus::RING;
+pub(super) use inspector::is_under_way;
 pub(super) use instruments::{csv, svg};
 
 /// What a frame shows beside the stage.
@@ -52,8 +53,11 @@ pub enum Panels {
     Instrument,
 }
 
-/// The part of the width that the instruments take.
+/// The part of the width that the instruments take, and the most of the height that the table takes, if nobody has moved
+/// their boundary; and how far from that a pointer takes hold of it, in points.
 pub(super) const INSTRUMENTS: f32 = 0.38;
+const TABLE: f32 = 0.4;
+const GRIP: f32 = 4.0;
 
 /// The handle at the right edge of a stage that stands alone, in points.
 const EDGE: Vec2 = vec2(16.0, 80.0);
@@ -158,13 +162,21 @@ fn round_the_stage(
     // An instrument that is enlarged has the table's room too.
     if size.y >= breakpoints::LANES && !studio.display().enlarged {
         let height = studio.loop_lab().map_or_else(|| lanes::height(studio), loops::table::height);
-        let height = height.min(size.y * 0.4);
+        let height = match studio.display().splits.table {
+            Some(percent) => size.y * percent as f32 / 100.0,
+            None => height.min(size.y * TABLE),
+        };
         // Without a margin: a row reaches from edge to edge.
         let frame = Frame::new().fill(palette(ui).panel);
         let panel = egui::Panel::bottom("lanes").exact_size(height).frame(frame);
-        panel.show(ui, |ui| match studio.loop_lab() {
+        let shown = panel.show(ui, |ui| match studio.loop_lab() {
             Some(loops) => loops::table::show(ui, loops, commands),
             None => pointed = lanes::show(ui, studio, commands),
+        });
+        let rect = shown.response.rect;
+        let edge = Rect::from_x_y_ranges(rect.x_range(), rect.top()..=rect.top());
+        split(ui, edge, studio, commands, |splits, at| {
+            splits.table = at.map(|at| (100.0 * (rect.bottom() - at.y) / size.y).round() as u32);
         });
     }
     if size.y >= breakpoints::TIMELINE {
@@ -180,7 +192,8 @@ fn round_the_stage(
         });
     }
     if size.x >= breakpoints::INSTRUMENTS {
-        let beside = size.x * INSTRUMENTS;
+        let part = studio.display().splits.instruments;
+        let beside = size.x * part.map_or(INSTRUMENTS, |percent| percent as f32 / 100.0);
         let (width, indent) = match studio.display().enlarged {
             // The tabs stay where they are, under the pointer.
             true => (size.x, size.x - beside),
@@ -189,15 +202,55 @@ fn round_the_stage(
         let panel = egui::Panel::right("instruments")
             .exact_size(width)
             .frame(parts::frame(palette(ui).background));
-        panel.show(ui, |ui| {
+        let shown = panel.show(ui, |ui| {
             // What is wider than the panel does not move its edge.
             let room = ui.available_rect_before_wrap();
             ui.allocate_rect(room, egui::Sense::hover());
             let mut inside = ui.new_child(egui::UiBuilder::new().max_rect(room));
             beside_the_stage(&mut inside, studio, indent, commands);
         });
+        if !studio.display().enlarged {
+            let rect = shown.response.rect;
+            let edge = Rect::from_x_y_ranges(rect.left()..=rect.left(), rect.y_range());
+            split(ui, edge, studio, commands, |splits, at| {
+                let percent = |at: Pos2| (100.0 * (rect.right() - at.x) / size.x).round() as u32;
+                splits.instruments = at.map(percent);
+            });
+        }
     }
     pointed
+}
+
+/// The boundary of a panel along `edge`, which is dragged to where `put` takes it, or by a double click to where it usually
+/// is.
+fn split(
+    ui: &Ui,
+    edge: Rect,
+    studio: &Studio,
+    commands: &mut Vec<Command>,
+    put: impl Fn(&mut Splits, Option<Pos2>),
+) {
+    let is_upright = edge.height() > edge.width();
+    let sense = egui::Sense::CLICK | egui::Sense::DRAG;
+    let id = egui::Id::unique(("split", is_upright));
+    let response = ui.interact(edge.expand(GRIP), id, sense);
+    let mut splits = studio.display().splits;
+    if response.double_clicked() {
+        put(&mut splits, None);
+    } else if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged()) {
+        put(&mut splits, Some(at));
+    }
+    let splits = splits.within();
+    if splits != studio.display().splits {
+        commands.push(Command::View(ViewCommand::Split(splits)));
+    }
+    if response.hovered() || response.dragged() {
+        ui.painter().rect_filled(edge.expand(1.0), 0.0, palette(ui).accent);
+        ui.ctx().set_cursor_icon(match is_upright {
+            true => egui::CursorIcon::ResizeHorizontal,
+            false => egui::CursorIcon::ResizeVertical,
+        });
+    }
 }
 
 /// A handle at the right edge of a stage that stands alone, from where the instruments slide in.
@@ -253,10 +306,37 @@ fn beside_the_stage(ui: &mut Ui, studio: &Studio, indent: f32, commands: &mut Ve
 
 #[cfg(test)]
 mod tests {
+    use egui::Event;
+
     use super::*;
     use crate::lab::studio::StageCommand;
     use crate::lab::{Scene, Studio};
-    use crate::view::testing::TestWindow;
+    use crate::view::testing::{TestWindow, button};
+
+    #[test]
+    fn a_boundary_goes_where_it_is_dragged_and_back_by_a_double_click() {
+        let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+        let mut window = TestWindow::new([1280.0, 720.0]);
+        let mut drag = |studio: &mut Studio, from: Pos2, to: Pos2, clicks: u32| {
+            window.time_s += 1.0;
+            for (at, is_down) in (0..clicks).flat_map(|_| [(from, true), (to, false)]) {
+                let moved = vec![Event::PointerMoved(at)];
+                let pressed = vec![button(at, is_down)];
+                let commands = [moved, pressed].map(|events| window.panels(studio, events).0);
+                for command in commands.into_iter().flatten() {
+                    studio.apply(command);
+                }
+            }
+        };
+        let edge = pos2((1280.0 * (1.0 - INSTRUMENTS)).round(), 300.0);
+        drag(&mut studio, edge, pos2(640.0, 300.0), 1);
+        assert_eq!(studio.display().splits.instruments, Some(50));
+        drag(&mut studio, pos2(640.0, 300.0), pos2(2.0, 300.0), 1);
+        assert_eq!(studio.display().splits, Splits { instruments: Some(70), table: None });
+        let at = pos2((1280.0_f32 * 0.3).round(), 300.0);
+        drag(&mut studio, at, at, 2);
+        assert_eq!(studio.display().splits, Splits::default());
+    }
 
     #[test]
     fn a_stage_that_stands_alone_is_as_wide_as_the_window_and_has_a_handle_at_its_right_edge() {

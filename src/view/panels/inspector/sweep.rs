@@ -1,0 +1,112 @@
+//! A parameter that goes up its slider and back by itself.
+
+use egui::{Button, Id, RichText, Ui};
+
+use super::rows::{Reach, Spacing, Values};
+use super::{LINE, named};
+use crate::view::theme::palette;
+
+/// The width of the button, in points.
+pub(super) const BUTTON: f32 = 18.0;
+/// How long it takes there and back, in seconds.
+const SECONDS: f64 = 8.0;
+/// It goes up to this many times the value, which is enough to see something change.
+const FACTOR: f64 = 10.0;
+/// From zero it goes this part of the way to the end of the slider.
+const PART_FROM_ZERO: f64 = 0.1;
+
+/// What the sweep is known by.
+const ID: &str = "sweep of a parameter";
+/// One that was shown no later than this is under way, in seconds.
+const FRESH_S: f64 = 0.5;
+
+/// The sweep that is under way. There is one at most.
+#[derive(Clone, Copy)]
+struct Sweep {
+    of: Id,
+    began_s: f64,
+    shown_s: f64,
+    from: f64,
+    to: f64,
+    is_logarithmic: bool,
+    is_whole: bool,
+}
+
+impl Sweep {
+    fn of(of: Id, began_s: f64, reach: Reach, Values { present: from, .. }: Values) -> Self {
+        let is_logarithmic = matches!(reach.spacing, Spacing::Logarithmic(_)) && from > 0.0;
+        let far = if from == 0.0 { PART_FROM_ZERO * reach.high } else { FACTOR * from };
+        // From the end of the slider it goes down, and so it does on the other side of zero.
+        let to = far.clamp(reach.low.min(from), reach.high.max(from));
+        let to = if to == from { from / FACTOR } else { to };
+        let is_whole = matches!(reach.spacing, Spacing::Whole);
+        Self { of, began_s, shown_s: began_s, from, to, is_logarithmic, is_whole }
+    }
+
+    /// The value at this moment, to three digits; at the end the one that it began with. `None` after that.
+    fn value_at(&self, now_s: f64) -> Option<f64> {
+        let part = (now_s - self.began_s) / SECONDS;
+        if part >= 1.0 {
+            return None;
+        }
+        let way = 1.0 - (1.0 - 2.0 * part).abs();
+        let value = match self.is_logarithmic {
+            true => self.from * libm::pow(self.to / self.from, way),
+            false => self.from + (self.to - self.from) * way,
+        };
+        match self.is_whole {
+            true => Some(value.round()),
+            false => format!("{value:.2e}").parse().ok(),
+        }
+    }
+}
+
+/// Whether a parameter is swept, which is one change, as if a pointer were held down.
+pub(in crate::view) fn is_under_way(ui: &Ui) -> bool {
+    let sweep = ui.data(|data| data.get_temp::<Sweep>(Id::unique(ID)));
+    sweep.is_some_and(|sweep| ui.input(|input| input.time) - sweep.shown_s < FRESH_S)
+}
+
+/// The button that starts the sweep of the parameter with this id, or stops it where it is. Returns the value that the
+/// parameter is to have now.
+pub(super) fn show(
+    ui: &mut Ui,
+    of: Id,
+    reach: Option<Reach>,
+    values: Values,
+    name: &str,
+) -> Option<f64> {
+    let Some(reach) = reach else {
+        ui.allocate_exact_size(egui::vec2(BUTTON, LINE), egui::Sense::hover());
+        return None;
+    };
+    let id = Id::unique(ID);
+    let now_s = ui.input(|input| input.time);
+    let under_way = ui.data(|data| data.get_temp::<Sweep>(id)).filter(|sweep| sweep.of == of);
+    let (sign, about) = match under_way {
+        Some(_) => ("⏸", format!("stop {name} where it is")),
+        None => ("▶", format!("sweep {name} there and back")),
+    };
+    let text = RichText::new(sign).size(10.0).color(palette(ui).dim);
+    let button = Button::new(text).frame(false).min_size(egui::vec2(BUTTON, LINE));
+    let is_clicked = named(ui, button, &about).clicked();
+    match under_way {
+        None if is_clicked => {
+            ui.data_mut(|data| data.insert_temp(id, Sweep::of(of, now_s, reach, values)));
+            ui.request_repaint();
+            None
+        }
+        None => None,
+        Some(sweep) => {
+            let value = sweep.value_at(now_s).filter(|_| !is_clicked);
+            ui.data_mut(|data| match value {
+                Some(_) => drop(data.insert_temp(id, Sweep { shown_s: now_s, ..sweep })),
+                None => data.remove::<Sweep>(id),
+            });
+            ui.request_repaint();
+            // To the last digit what it was, unless it was stopped.
+            let value = value.unwrap_or(if is_clicked { values.present } else { sweep.from });
+            (value != values.present).then_some(value)
+        }
+    }
+}
