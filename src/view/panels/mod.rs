@@ -54,10 +54,10 @@ pub enum Panels {
 }
 
 /// The part of the width that the instruments take, and the most of the height that the table takes, if nobody has moved
-/// their boundary; and how far from that a pointer takes hold of it, in points.
+/// their boundary; and how far into the panel a pointer takes hold of that, in points.
 pub(super) const INSTRUMENTS: f32 = 0.38;
 const TABLE: f32 = 0.4;
-const GRIP: f32 = 4.0;
+const GRIP: f32 = 6.0;
 
 /// The handle at the right edge of a stage that stands alone, in points.
 const EDGE: Vec2 = vec2(16.0, 80.0);
@@ -233,7 +233,10 @@ fn split(
     let is_upright = edge.height() > edge.width();
     let sense = egui::Sense::CLICK | egui::Sense::DRAG;
     let id = egui::Id::unique(("split", is_upright));
-    let response = ui.interact(edge.expand(GRIP), id, sense);
+    // Of the panel alone: the stage beside it is for the hand that moves bodies.
+    let grip = edge.with_max_x(edge.right().max(edge.left() + GRIP));
+    let grip = grip.with_max_y(edge.bottom().max(edge.top() + GRIP));
+    let response = ui.interact(grip, id, sense);
     let mut splits = studio.display().splits;
     if response.double_clicked() {
         put(&mut splits, None);
@@ -328,12 +331,12 @@ mod tests {
                 }
             }
         };
-        let edge = pos2((1280.0 * (1.0 - INSTRUMENTS)).round(), 300.0);
+        let edge = pos2((1280.0 * (1.0 - INSTRUMENTS)).ceil(), 300.0);
         drag(&mut studio, edge, pos2(640.0, 300.0), 1);
         assert_eq!(studio.display().splits.instruments, Some(50));
         drag(&mut studio, pos2(640.0, 300.0), pos2(2.0, 300.0), 1);
         assert_eq!(studio.display().splits, Splits { instruments: Some(70), table: None });
-        let at = pos2((1280.0_f32 * 0.3).round(), 300.0);
+        let at = pos2((1280.0_f32 * 0.3).ceil() + 1.0, 300.0);
         drag(&mut studio, at, at, 2);
         assert_eq!(studio.display().splits, Splits::default());
     }
