@@ -29,6 +29,7 @@ mod chapter;
 #[cfg(feature = "view")]
 mod cloud;
 mod completions;
+mod fixture;
 mod game_loop;
 mod help;
 mod identify;
@@ -105,6 +106,7 @@ Examples:
   regatta identify spring.csv --tick-hz 60 --k 40
   regatta port --frequency 2.5Hz       the settings of every engine for a spring
   regatta show rk4 --as csharp         the method's code, for your game
+  regatta fixture --as pytest          exact states, to test your engine by
   regatta chapter --out figures
   regatta verify clip
   regatta list methods
@@ -186,6 +188,7 @@ subcommands! {
     Identify(identify::IdentifyArgs) => identify::run,
     Port(port::PortArgs) => port::run,
     Show(show::ShowArgs) => show::run,
+    Fixture(fixture::FixtureArgs) => fixture::run,
     #[cfg(feature = "view")]
     Chapter(chapter::ChapterArgs) => chapter::run,
     List(list::ListArgs) => list::run,

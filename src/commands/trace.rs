@@ -160,13 +160,13 @@ fn method_id(solver: Solver, body: &LaneBody) -> &'static str {
 
 /// The accuracy that the truth of a body reached on a run: the largest coordinate and velocity, and their errors.
 #[derive(Clone, Copy, Default)]
-struct Reached {
-    largest: [f64; 2],
+pub(super) struct Reached {
+    pub(super) largest: [f64; 2],
     error: [f64; 2],
 }
 
 impl Reached {
-    fn note(&mut self, truth: &LaneBody) {
+    pub(super) fn note(&mut self, truth: &LaneBody) {
         let most = |so_far: f64, values: &[f64]| {
             values.iter().fold(so_far, |so_far, x| so_far.max(x.abs()))
         };
@@ -177,7 +177,7 @@ impl Reached {
     }
 
     /// The larger of the relative errors; 0 of what does not move.
-    fn relative(&self) -> f64 {
+    pub(super) fn relative(&self) -> f64 {
         let part =
             |i: usize| if self.error[i] == 0.0 { 0.0 } else { self.error[i] / self.largest[i] };
         part(0).max(part(1))

@@ -123,12 +123,12 @@ fn a_verdict_says_the_number_that_its_outcome_is_about_and_its_details_the_rest(
     );
     is(
         compared(Comparison { error: 2.81, last_error: 2.7, ..phase }),
-        "stable · 281 % off after 20 s",
+        "inaccurate · 281 % off after 20 s",
         &["off by up to 281 % at 3 s, by 270 % after 20 s"],
     );
     let fast = Comparison { error: 2.17, frequency_error: Some(0.05), ..phase };
     let past_all_phases = ["off by up to 217 % at 3 s, by 20 % after 20 s", "5.0 % fast"];
-    is(of_two(compared(fast)), "stable · 5.0 % fast (buoy)", &past_all_phases);
+    is(of_two(compared(fast)), "inaccurate · 5.0 % fast (buoy)", &past_all_phases);
     for (error, way, pitch) in [(-0.02, "late", "2.0 % slow"), (0.02, "early", "2.0 % fast")] {
         let found = compared(Comparison { frequency_error: Some(error), ..phase });
         let shown = format!("stable · 25 % {way} after 20 s");

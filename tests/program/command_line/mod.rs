@@ -11,6 +11,7 @@ mod chapter;
 mod cloud;
 mod examples;
 mod files;
+mod fixture;
 mod formats;
 mod help;
 mod identify;

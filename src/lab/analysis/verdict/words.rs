@@ -11,6 +11,8 @@ use crate::sim::number::{round, significant, superscript};
 
 /// The largest relative error of a frequency that may be rounding alone.
 const FREQUENCY_ROUNDING: f64 = 1e-9;
+/// The largest error that is called stable, in amplitudes: beyond it nobody would, though it stays bounded.
+const STABLE: f64 = 1.0;
 /// The largest error of a motion that is only out of phase, in amplitudes.
 const ANY_PHASE: f64 = 2.0;
 
@@ -90,7 +92,11 @@ impl Verdict {
     /// What it comes to, in a word or two.
     fn word(&self) -> &'static str {
         match (self.outcome(), &self.finding) {
-            (Outcome::OutOfPhase, _) if self.long_term.is_bounded == Some(true) => "stable",
+            (Outcome::OutOfPhase, Finding::Compared(found))
+                if self.long_term.is_bounded == Some(true) && found.error <= STABLE =>
+            {
+                "stable"
+            }
             (Outcome::OutOfPhase, Finding::Compared(found)) if !self.is_of_phase(found) => {
                 "inaccurate"
             }

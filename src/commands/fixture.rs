@@ -1,0 +1,261 @@
+//! `regatta fixture`: the states of a scene's truth, as a test for an engine.
+
+use clap::{Args, ValueEnum};
+use serde_json::{Value, json};
+
+use super::error::Error;
+use super::experiment::{self, ExperimentArgs, Lineup};
+use super::help::flowing;
+use super::output::print;
+use super::terminal::print_status;
+use super::trace::Reached;
+use crate::lab::{Scene, Studio};
+
+const ABOUT: &str = "\
+The table has ticks with coordinates and velocities, in metres or radians and per second, to the last
+digit. In pytest, gtest and rust it comes with a function `expect(step)`, which holds your engine's step
+against it, and a test that fails until you have filled that in. Where a body has no closed form its states
+are those of the reference, whose error on this run is the least tolerance. What a scene does on its way
+stands in its script, at the top of the file with every parameter.
+
+Examples:
+  regatta fixture --scene spring --as pytest > test_spring.py
+  regatta fixture --k 900 --c 4 --mass 12 --tick-hz 30 --as gtest --float > spring_test.cc
+  regatta fixture --scene pendulum --every 10 --as json";
+
+/// Write exact states as a test for your own engine
+///
+/// To standard output.
+#[derive(Debug, Args)]
+#[command(after_long_help = flowing(ABOUT))]
+pub(super) struct FixtureArgs {
+    #[command(flatten)]
+    experiment: ExperimentArgs,
+
+    /// Simulated seconds [default: the scene's]
+    ///
+    /// To the nearest tick.
+    #[arg(long, value_name = "s", value_parser = experiment::seconds)]
+    #[arg(allow_negative_numbers = true)]
+    seconds: Option<f64>,
+
+    /// Write only the ticks that are multiples of N
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    every: u64,
+
+    /// What to write: pytest, gtest, rust or json
+    #[arg(long = "as", value_name = "FORMAT", hide_possible_values = true)]
+    format: Format,
+
+    /// Numbers of single precision, as Unity and Godot have them
+    #[arg(long)]
+    float: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    Pytest,
+    Gtest,
+    Rust,
+    Json,
+}
+
+/// How a test in a language is written.
+struct Language {
+    /// The file, with `@NAME@` for what is put in.
+    template: &'static str,
+    comment: &'static str,
+    /// What a double and a float are called, and how a literal of each ends.
+    reals: [(&'static str, &'static str); 2],
+    /// What comes before and after the states of a body: `@` stands for its name in quotes, `%` for its largest coordinate and
+    /// velocity.
+    body: [&'static str; 2],
+    /// What comes round a state, and round a list.
+    state: [&'static str; 2],
+    list: [&'static str; 2],
+}
+
+impl Format {
+    fn language(self) -> Option<Language> {
+        Some(match self {
+            Self::Pytest => Language {
+                template: include_str!("../../assets/fixtures/pytest.py"),
+                comment: "#",
+                reals: [("float", ""); 2],
+                body: ["    @: ([%], [\n", "    ]),\n"],
+                state: ["        (", "),\n"],
+                list: ["[", "]"],
+            },
+            Self::Gtest => Language {
+                template: include_str!("../../assets/fixtures/gtest.cc"),
+                comment: "//",
+                reals: [("double", ""), ("float", "f")],
+                body: ["    {@, %, {\n", "    }},\n"],
+                state: ["        {", "},\n"],
+                list: ["{", "}"],
+            },
+            Self::Rust => Language {
+                template: include_str!("../../assets/fixtures/rust.rs"),
+                comment: "//",
+                reals: [("f64", ""), ("f32", "")],
+                body: ["    (@, [%], &[\n", "    ]),\n"],
+                state: ["        (", "),\n"],
+                list: ["&[", "]"],
+            },
+            Self::Json => return None,
+        })
+    }
+}
+
+/// The relative error that a state has by its rounding alone, in double and in single precision, with room for the order in
+/// which an engine adds.
+const ROUNDING: [f64; 2] = [1e-12, 1e-6];
+
+/// The states of a body's truth at some ticks.
+#[derive(Default)]
+struct States {
+    rows: Vec<(u64, Vec<f64>, Vec<f64>)>,
+    reached: Reached,
+}
+
+pub(super) fn run(args: &FixtureArgs) -> Result<(), Error> {
+    let experiment = args.experiment.load(Lineup::Solo)?;
+    let seconds = args.seconds.unwrap_or(experiment.scene.seconds);
+    let mut studio = experiment.studio();
+    let scene = Scene { seconds, ..studio.scene().clone() };
+    let last = studio.nearest_tick(seconds);
+    let mut states: Vec<States> = scene.bodies.iter().map(|_| States::default()).collect();
+    note(&mut states, &studio, args);
+    while studio.race().tick() < last {
+        studio.tick();
+        note(&mut states, &studio, args);
+    }
+    let mut least = ROUNDING[usize::from(args.float)];
+    let truths = studio.race().truth().bodies();
+    for ((states, body), truth) in states.iter().zip(&scene.bodies).zip(truths) {
+        let (name, error) = (&body.name, states.reached.relative());
+        match truth.halted() {
+            Some(halt) if halt.tick == 0 => {
+                return Err(Error::failed(format!("no states of {name}: it {}", halt.failure)));
+            }
+            Some(halt) => print_status(&format!(
+                "the states of {name} end at tick {}: it {}",
+                halt.tick, halt.failure
+            )),
+            None if error.is_finite() => {}
+            None => {
+                return Err(Error::failed(format!(
+                    "the error of the reference of {name} is not known"
+                )));
+            }
+        }
+        least = least.max(error);
+    }
+    match args.format.language() {
+        Some(language) => print(written(&language, args, &scene, &states, &studio, least)),
+        None => print(format!("{}\n", in_json(args, &scene, &states, &studio, least))),
+    }
+}
+
+/// Notes the present of every body that goes on.
+fn note(states: &mut [States], studio: &Studio, args: &FixtureArgs) {
+    let tick = studio.race().tick();
+    for (states, body) in states.iter_mut().zip(studio.race().truth().bodies()) {
+        if body.halted().is_some() {
+            continue;
+        }
+        states.reached.note(body);
+        if tick.is_multiple_of(args.every) {
+            states.rows.push((tick, body.stepper.q().to_vec(), body.stepper.v().to_vec()));
+        }
+    }
+}
+
+/// A number to its last digit.
+fn digits(value: f64, is_float: bool) -> String {
+    if is_float { format!("{:?}", value as f32) } else { format!("{value:?}") }
+}
+
+/// What the file says of where its numbers come from, line by line.
+fn about(scene: &Scene, studio: &Studio) -> Vec<String> {
+    let mut text =
+        format!("{}: exact states for a test of an engine, by regatta fixture.\n", scene.title);
+    for (body, truth) in scene.bodies.iter().zip(studio.race().truth().bodies()) {
+        let coordinates = truth.coordinates();
+        let names = coordinates.iter().map(|one| format!("{} in {}", one.name, one.unit));
+        let names: Vec<String> = names.collect();
+        let (name, about, kind) = (&body.name, &body.kind.about, truth.truth().id());
+        text += &format!("{name} ({kind}): {about}; q is {}\n", names.join(", "));
+    }
+    text += &format!("\n{}", scene.to_toml());
+    text.lines().map(str::to_owned).collect()
+}
+
+fn written(
+    language: &Language,
+    args: &FixtureArgs,
+    scene: &Scene,
+    states: &[States],
+    studio: &Studio,
+    least: f64,
+) -> String {
+    let (real, suffix) = language.reals[usize::from(args.float)];
+    let list = |values: &[f64]| {
+        let values = values.iter().map(|value| digits(*value, args.float) + suffix);
+        language.list[0].to_owned() + &values.collect::<Vec<_>>().join(", ") + language.list[1]
+    };
+    let mut table = String::new();
+    for (body, states) in scene.bodies.iter().zip(states) {
+        let [q, v] = states.reached.largest;
+        let begun = language.body[0].replace('%', &format!("{q:?}, {v:?}"));
+        table += &begun.replace('@', &format!("{:?}", body.name));
+        for (tick, q, v) in &states.rows {
+            let [before, after] = language.state;
+            table += &format!("{before}{tick}, {}, {}{after}", list(q), list(v));
+        }
+        table += language.body[1];
+    }
+    let comment = |line: String| format!("{} {line}", language.comment).trim_end().to_owned();
+    let about: Vec<String> = about(scene, studio).into_iter().map(comment).collect();
+    language
+        .template
+        .replace("@ABOUT@", &about.join("\n"))
+        .replace("@HZ@", &scene.tick_hz.to_string())
+        .replace("@LEAST@", &format!("{least:e}"))
+        .replace("@REAL@", real)
+        .replace("@STATES@", &table)
+}
+
+fn in_json(
+    args: &FixtureArgs,
+    scene: &Scene,
+    states: &[States],
+    studio: &Studio,
+    least: f64,
+) -> Value {
+    let list = |values: &[f64]| -> Vec<Value> {
+        let shortest = |value: &f64| digits(*value, args.float).parse::<f64>().expect("a number");
+        values.iter().map(|value| json!(shortest(value))).collect()
+    };
+    let truths = studio.race().truth().bodies();
+    let bodies = scene.bodies.iter().zip(states).zip(truths).map(|((body, states), truth)| {
+        let names: Vec<String> =
+            truth.coordinates().iter().map(|one| one.name.to_string()).collect();
+        let rows = states.rows.iter().map(|(tick, q, v)| json!([tick, list(q), list(v)]));
+        json!({
+            "name": body.name,
+            "equation": body.kind.about,
+            "truth": truth.truth().id(),
+            "coordinates": names,
+            "largest": states.reached.largest,
+            "states": rows.collect::<Vec<_>>(),
+        })
+    });
+    json!({
+        "scene": scene.to_toml(),
+        "tick_hz": scene.tick_hz,
+        "least_tolerance": least,
+        "bodies": bodies.collect::<Vec<_>>(),
+    })
+}
