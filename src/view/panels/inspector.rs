@@ -130,7 +130,9 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
         let buttons = RESTORE + sweep::BUTTON + 3.0 * ui.spacing().item_spacing.x;
         let slider = vec2(room - number - buttons, LINE);
         let reach = Reach::of(parameter.range, values);
-        let swept = sweep::show(ui, field.id, reach, values, &name);
+        // Of what acts from the next start nothing would be seen.
+        let swept_reach = reach.filter(|_| parameter.acts == Acts::AtOnce);
+        let swept = sweep::show(ui, field.id, swept_reach, values, &name);
         commands.extend(swept.filter(|value| check(*value).is_ok()).map(set));
         let slid = show_slider(ui, row, values, &name, slider);
         commands.extend(slid.filter(|value| check(*value).is_ok()).map(set));

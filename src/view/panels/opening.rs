@@ -25,8 +25,8 @@ pub(super) fn path(
         let id = Id::unique("path of a scene file");
         let is_new = !ui.memory(|memory| memory.has_focus(id));
         if is_new {
-            // What was typed last time can be edited or typed over; what was refused is edited at its end.
-            select(ctx, id, if refused.is_some() { usize::MAX } else { 0 });
+            // What was typed last time can be edited or typed over.
+            select(ctx, id, 0);
             ui.memory_mut(|memory| memory.request_focus(id));
         }
         let typed = studio.viewer().typed_path();
@@ -49,6 +49,9 @@ pub(super) fn path(
         }
         if ui.input(|input| input.key_pressed(Key::Enter)) {
             commands.push(Command::Ask(DriverRequest::OpenTypedPath));
+            // It is being read; what is refused is edited at its end.
+            ui.memory_mut(|memory| memory.request_focus(id));
+            select(ctx, id, usize::MAX);
         }
         let keys = "Enter opens, Tab completes, Esc closes. Or drop a file onto the window.";
         ui.label(RichText::new(keys).color(palette(ui).dim));
