@@ -20,7 +20,7 @@ stands in its script, at the top of the file with every parameter.
 
 Examples:
   regatta fixture --scene spring --as pytest > test_spring.py
-  regatta fixture --k 900 --c 4 --mass 12 --tick-hz 30 --as gtest --float > spring_test.cc
+  regatta fixture --k 900 --mass 12 --as gtest --float > spring_test.cc
   regatta fixture --scene pendulum --every 10 --as json";
 
 /// Write exact states as a test for your own engine
