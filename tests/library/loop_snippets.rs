@@ -26,6 +26,8 @@ pub mod hysteresis;
 pub mod lockstep;
 #[path = "../../assets/loops/median.rs"]
 pub mod median;
+#[path = "../../assets/loops/render-tick.rs"]
+pub mod render_tick;
 #[path = "../../assets/loops/semi-fixed.rs"]
 pub mod semi_fixed;
 #[path = "../../assets/loops/slow-down.rs"]
@@ -189,6 +191,11 @@ fn in_rust(id: &str, rates: Rates, trace: &[i64]) -> Vec<Answer> {
         "fixed-extrapolated" => {
             use fixed_extrapolated::GameLoop;
             let shown = |game_loop: &GameLoop, t| game_loop.drawn(t, 1.0);
+            whole_ticks(rates, trace, GameLoop::new(tick_hz), GameLoop::frame, shown)
+        }
+        "render-tick" => {
+            use render_tick::GameLoop;
+            let shown = |game_loop: &GameLoop, t| t + game_loop.owed_s();
             whole_ticks(rates, trace, GameLoop::new(tick_hz), GameLoop::frame, shown)
         }
         "snapped" => {

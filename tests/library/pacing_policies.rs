@@ -53,6 +53,7 @@ const EXPECTED: &[Expected] = &[
     expected("fixed-linear", Some([0.0, 1.0]), (0, 0.0), (15, 15.0, 585.0)),
     expected("fixed-hermite", Some([0.0, 1.0]), (0, 0.0), (15, 15.0, 585.0)),
     expected("fixed-extrapolated", Some([0.0, 1.0]), (0, 0.0), (15, 15.0, 585.0)),
+    expected("render-tick", Some([0.0, 1.0]), (0, 0.0), (15, 15.0, 585.0)),
     expected("snapped", Some([-0.02, 1.02]), (1, 1.0), (1, 1.0, 599.0)),
     expected("whole-refresh", Some([-0.02, 1.02]), (1, 1.0), (15, 15.0, 585.0)),
     expected("hysteresis", Some([-0.5, 1.5]), (0, 0.0), (8, 8.0, 591.0)),
@@ -332,7 +333,8 @@ fn timer_noise_at_the_edge_of_a_tick_repeats_and_doubles_frames() {
 fn interpolation_shows_the_noise_and_whole_refreshes_heal_it() {
     for (refresh, what) in [(rate(60, 1), "60 Hz"), (rate(2997, 50), "59.94 Hz")] {
         let deviation_ms = 0.5 / 3.0_f64.sqrt();
-        for id in ["variable", "fixed-linear", "fixed-hermite", "fixed-extrapolated"] {
+        for id in ["variable", "fixed-linear", "fixed-hermite", "fixed-extrapolated", "render-tick"]
+        {
             let known = 2.0_f64.sqrt() * deviation_ms;
             near(id, motion(id, refresh, half_a_ms()).error_ms, known, 0.02 * known);
         }
@@ -346,13 +348,18 @@ fn interpolation_shows_the_noise_and_whole_refreshes_heal_it() {
 }
 
 #[test]
-fn whole_ticks_are_half_a_tick_late_a_line_one_and_extrapolation_none() {
+fn whole_ticks_are_half_a_tick_late_a_line_one_and_what_is_drawn_ahead_none() {
     // No ratio of small numbers to the ticks, so that a frame begins anywhere in a tick.
     let refresh = RefreshRate::of_period(6_945_347);
     let late = |id| motion(id, refresh, || 0).latency;
     near("fixed", late("fixed"), 0.5, 0.005);
-    for (id, ticks) in [("fixed-linear", 1.0), ("fixed-hermite", 1.0), ("fixed-extrapolated", 0.0)]
-    {
+    let drawn = [
+        ("fixed-linear", 1.0),
+        ("fixed-hermite", 1.0),
+        ("fixed-extrapolated", 0.0),
+        ("render-tick", 0.0),
+    ];
+    for (id, ticks) in drawn {
         near(id, late(id), ticks, 1e-6);
     }
 }

@@ -28,6 +28,9 @@ namespace fixed_hermite {
 namespace fixed_extrapolated {
 #include "fixed-extrapolated.hpp"
 }
+namespace render_tick {
+#include "render-tick.hpp"
+}
 namespace whole_refresh {
 #include "whole-refresh.hpp"
 }
@@ -87,5 +90,7 @@ int main(int, char** arguments) {
                 [](const auto& game_loop, double t) { return game_loop.drawn(t - tick_s, t, 1, 1); });
     whole_ticks("fixed-extrapolated", fixed_extrapolated::GameLoop(tick_hz),
                 [](const auto& game_loop, double t) { return game_loop.drawn(t, 1); });
+    whole_ticks("render-tick", render_tick::GameLoop(tick_hz),
+                [](const auto& game_loop, double t) { return t + game_loop.owed_s(); });
     whole_ticks("whole-refresh", whole_refresh::GameLoop(tick_hz, numerator, denominator), between);
 }

@@ -63,6 +63,8 @@ static class Driver
         WholeTicks("fixed-linear", linear.Frame, t => linear.Drawn(t - tickSeconds, t));
         var ahead = new In_fixed_extrapolated.GameLoop(tickHz);
         WholeTicks("fixed-extrapolated", ahead.Frame, t => ahead.Drawn(t, 1));
+        var copied = new In_render_tick.GameLoop(tickHz);
+        WholeTicks("render-tick", copied.Frame, t => t + copied.OwedS);
         var refreshes = new In_whole_refresh.GameLoop(tickHz, numerator, denominator);
         WholeTicks("whole-refresh", refreshes.Frame, t => refreshes.Drawn(t - tickSeconds, t));
     }

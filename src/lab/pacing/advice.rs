@@ -15,8 +15,7 @@ const BLOWN_UP: f64 = 4.0;
 pub const USUAL_LATENCY_MS: f64 = 20.0;
 
 /// Why a loop that draws between two ticks is advised where one that draws beyond the last is as smooth.
-const NO_EXTRAPOLATION: &str =
-    "extrapolation would be as smooth and no tick late, but it overshoots at each kick";
+const NOT_AHEAD: &str = "extrapolation or a render tick would be as smooth and no tick late, but overshoots at each kick";
 
 /// The loop to take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,11 +51,10 @@ pub fn advised_loop(
             && report.keeps_speed() == Some(true)
             && report.position_error_rms.is_none_or(|distance| distance <= BLOWN_UP)
     };
-    let extrapolates = |card: &PolicyCard| card.drawing == Interpolation::Extrapolated;
     let rank = |card: &PolicyCard, report: &PacingReport| {
         let error = (report.animation_error_rms_ms? / ALIKE_MS).round();
         let distance = (report.position_error_rms.unwrap_or(f64::INFINITY) / AS_NEAR).round();
-        Some((error, !card.has_fixed_tick, extrapolates(card), distance))
+        Some((error, !card.has_fixed_tick, card.draws_ahead(), distance))
     };
     let fitting = measured.iter().enumerate().filter(|(_, (_, report))| fits(report));
     let ranked = fitting.filter_map(|(index, (card, report))| Some((rank(card, report)?, index)));
@@ -70,7 +68,7 @@ pub fn advised_loop(
     })?;
     let draws_between =
         matches!(measured[index].0.drawing, Interpolation::Linear | Interpolation::Hermite);
-    let has_rival = ranked.iter().any(|((e, ..), i)| *e == error && extrapolates(measured[*i].0));
-    let why = (draws_between && has_rival).then_some(NO_EXTRAPOLATION);
+    let has_rival = ranked.iter().any(|((e, ..), i)| *e == error && measured[*i].0.draws_ahead());
+    let why = (draws_between && has_rival).then_some(NOT_AHEAD);
     Some(AdvisedLoop { index, why })
 }

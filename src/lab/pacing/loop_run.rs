@@ -181,7 +181,7 @@ impl LoopRun {
 
     /// What was seen so far.
     pub fn report(&self) -> PacingReport {
-        let (steps, evaluations) = (self.lane.steps(), self.lane.lane().evaluations());
+        let (steps, evaluations) = (self.lane.steps(), self.lane.evaluations());
         let report = self.meter.report(self.lane.pacer(), steps, evaluations);
         PacingReport { position_error_rms: self.truth.position_error_rms(), ..report }
     }

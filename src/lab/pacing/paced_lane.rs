@@ -9,6 +9,10 @@ use crate::lab::race::Lane;
 pub struct PacedLane {
     pacer: Pacer,
     lane: Lane,
+    /// The copy that is drawn, of a loop that steps one.
+    ahead: Option<Lane>,
+    /// What the copies so far have evaluated.
+    evaluations_ahead: u64,
     steps: u64,
     /// The length of the last step in seconds, a tick at the start.
     last_step_s: f64,
@@ -18,7 +22,7 @@ impl PacedLane {
     /// A lane at its start in a loop before its first frame.
     pub fn new(pacer: Pacer, lane: Lane) -> Self {
         let last_step_s = pacer.base().seconds(pacer.base().tick());
-        Self { pacer, lane, steps: 0, last_step_s }
+        Self { pacer, lane, ahead: None, evaluations_ahead: 0, steps: 0, last_step_s }
     }
 
     /// The loop.
@@ -32,6 +36,11 @@ impl PacedLane {
     /// The steps made.
     pub fn steps(&self) -> u64 {
         self.steps
+    }
+
+    /// The evaluations of accelerations so far, those for what is only drawn among them.
+    pub fn evaluations(&self) -> u64 {
+        self.lane.evaluations() + self.evaluations_ahead
     }
 
     /// Makes the steps of a frame; `duration_ns` is that of the last frame in nanoseconds. Calls `before_step` with the
@@ -52,12 +61,21 @@ impl PacedLane {
             self.steps += 1;
             self.last_step_s = h;
         }
+        let (t, owed) = (self.pacer.simulated(), self.pacer.shown() - self.pacer.simulated());
+        let has_ahead = self.pacer.card().has_render_tick && owed > 0;
+        self.ahead = has_ahead.then(|| {
+            let mut ahead = self.lane.clone();
+            ahead.tick(self.steps, base.seconds(t), base.seconds(owed));
+            self.evaluations_ahead += ahead.evaluations() - self.lane.evaluations();
+            ahead
+        });
         steps
     }
 
     /// The coordinates of the body at this index of the scene as the picture shows them.
     pub fn drawn(&self, body: usize) -> Vec<f64> {
         let drawing = self.pacer.card().drawing;
-        drawing.coordinates(&self.lane.bodies()[body], self.pacer.alpha(), self.last_step_s)
+        let lane = self.ahead.as_ref().unwrap_or(&self.lane);
+        drawing.coordinates(&lane.bodies()[body], self.pacer.alpha(), self.last_step_s)
     }
 }

@@ -62,11 +62,11 @@ impl Pacer {
     /// The simulated moment that the picture shows. Interpolation shows one a tick before the first, too.
     pub fn shown(&self) -> i128 {
         match self.card.drawing {
-            Interpolation::Raw => self.simulated,
+            _ if self.card.draws_ahead() => self.simulated + self.policy.owed(),
+            Interpolation::Raw | Interpolation::Extrapolated => self.simulated,
             Interpolation::Linear | Interpolation::Hermite | Interpolation::Monotone => {
                 self.simulated - self.base.tick() + self.policy.owed()
             }
-            Interpolation::Extrapolated => self.simulated + self.policy.owed(),
         }
     }
 }

@@ -72,6 +72,8 @@ pub struct PolicyCard {
     pub source: &'static str,
     /// How the picture is drawn between ticks.
     pub drawing: Interpolation,
+    /// Whether it is drawn so of a copy that was stepped on to the moment to show, and is dropped.
+    pub has_render_tick: bool,
     /// Whether every step is a whole tick, so that the physics is the same to the bit at any frame rate.
     pub has_fixed_tick: bool,
     /// Whether `regatta loop` compares it where none is named.
@@ -79,6 +81,18 @@ pub struct PolicyCard {
     /// The loop, to be taken into a game.
     pub snippets: &'static [Snippet],
     pub(super) build: fn(TimeBase) -> Box<dyn Policy>,
+}
+
+impl PolicyCard {
+    /// How the picture is drawn between ticks, for people.
+    pub fn drawn(&self) -> &'static str {
+        if self.has_render_tick { "a copy stepped on" } else { self.drawing.name() }
+    }
+
+    /// Whether a moment is drawn that is beyond the last tick. It is drawn as if nothing would act on the bodies until then.
+    pub fn draws_ahead(&self) -> bool {
+        self.has_render_tick || self.drawing == Interpolation::Extrapolated
+    }
 }
 
 impl PartialEq for PolicyCard {

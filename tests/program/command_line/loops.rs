@@ -107,6 +107,32 @@ fn the_table_derived_by_hand_is_reproduced() {
 }
 
 #[test]
+fn a_render_tick_is_not_late_and_as_right_as_its_method_where_ticks_are_not_coarse() {
+    let ahead = |options: &str| {
+        let both = "--policy fixed-extrapolated --policy render-tick --seconds 8";
+        let rows = rows(&format!("--scene spring --trace steady-144 {both} {options}"));
+        for row in &rows {
+            near(row, "latency_mean_ms", 0.0);
+            near(row, "animation_error_rms_ms", 0.0);
+        }
+        [0, 1].map(|i| number(&rows[i], "position_error_rms"))
+    };
+    let [extrapolated, stepped] = ahead("--method rk4");
+    assert!(1e-3 < extrapolated && extrapolated < 2e-3, "{extrapolated}");
+    assert!(1e-5 < stepped && stepped < 3e-5, "{stepped}, and RK4 itself is off by that");
+    let [extrapolated, stepped] = ahead("--method rk4 --tick-hz 4");
+    assert!(0.4 < stepped && stepped < extrapolated && extrapolated < 0.6, "{stepped}");
+    // A step of explicit Euler moves a position by its velocity, which is what extrapolation does.
+    let [extrapolated, stepped] = ahead("--method explicit-euler");
+    assert!(stepped.is_finite() && (stepped - extrapolated).abs() < 1e-12, "{stepped}");
+    // The copies' evaluations are paid for: 480 ticks and a copy in each frame that is not at a tick.
+    let rows =
+        rows("--scene spring --method rk4 --trace steady-144 --policy render-tick --seconds 8");
+    near(&rows[0], "ticks", 480.0);
+    near(&rows[0], "evaluations", 4.0 * (480.0 + 1120.0));
+}
+
+#[test]
 fn every_frame_has_a_line_with_what_it_showed() {
     let folder = tempfile::tempdir().unwrap();
     let output = run_in(
@@ -173,7 +199,7 @@ fn advice_names_a_policy_within_the_latency_with_its_constants() {
 
 #[test]
 fn of_loops_as_smooth_one_that_draws_between_two_ticks_is_advised_and_why() {
-    let why = "extrapolation would be as smooth and no tick late, but it overshoots at each kick";
+    let why = "extrapolation or a render tick would be as smooth and no tick late, but overshoots";
     for trace in ["steady-75", "steady-144", "steady-240"] {
         let told = stderr(&run(&format!("loop --trace {trace} --seconds 5 --all")));
         assert!(told.contains("take fixed-linear: animation error 0 ms"), "{told}");
