@@ -149,6 +149,7 @@ pub static POLICIES: &[PolicyCard] = &[
         users: "J. Tomsu's games",
         source: "J. Tomsu, \"Fixed timestep without interpolation\", 2024",
         has_render_tick: true,
+        is_usual: true,
         snippets: snippets!("render-tick": "rust" "rs", "c++" "hpp", "c#" "cs"),
         ..FIXED
     },

@@ -58,7 +58,7 @@ fn each_trace_and_policy_has_a_row_in_that_order_as_csv_and_as_json() {
 fn without_a_policy_the_usual_ones_are_compared_and_advised_as_among_all_where_the_best_is_usual() {
     let compared = rows("--trace edge --seconds 0.5");
     let ids: Vec<&str> = compared.iter().map(|row| row["policy"].as_str().unwrap()).collect();
-    assert_eq!(ids, ["variable", "fixed", "fixed-linear", "whole-refresh"]);
+    assert_eq!(ids, ["variable", "fixed", "fixed-linear", "render-tick", "whole-refresh"]);
     let advised = |options: &str, says: &str| -> Vec<(String, String)> {
         let told = stderr(&run(&format!("loop {options} --seconds 20")));
         let takes = told.lines().filter_map(|line| line.split_once(says));
