@@ -29,6 +29,7 @@ mod chapter;
 #[cfg(feature = "view")]
 mod cloud;
 mod completions;
+mod diff;
 mod fixture;
 mod game_loop;
 mod help;
@@ -189,6 +190,7 @@ subcommands! {
     Port(port::PortArgs) => port::run,
     Show(show::ShowArgs) => show::run,
     Fixture(fixture::FixtureArgs) => fixture::run,
+    Diff(diff::DiffArgs) => diff::run,
     #[cfg(feature = "view")]
     Chapter(chapter::ChapterArgs) => chapter::run,
     List(list::ListArgs) => list::run,

@@ -91,7 +91,8 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
 }
 
 /// The columns of the table.
-const COLUMNS: [&str; 8] = ["tick", "t", "lane", "method", "body", "coordinate", "q", "v"];
+pub(super) const COLUMNS: [&str; 8] =
+    ["tick", "t", "lane", "method", "body", "coordinate", "q", "v"];
 
 /// The table being written.
 struct Trace<'a> {
@@ -113,45 +114,56 @@ impl<'a> Trace<'a> {
         if !race.tick().is_multiple_of(self.args.every) {
             return Ok(());
         }
-        (self.cells[0], self.cells[1]) = (race.tick().into(), race.t().into());
-        self.lane(0, race.truth(), None, studio)?;
-        for (n, entrant) in race.entrants().iter().enumerate() {
-            self.lane(n + 1, &entrant.lane, Some(race.truth()), studio)?;
-        }
-        Ok(())
+        let Self { rows, args, cells } = self;
+        (cells[0], cells[1]) = (race.tick().into(), race.t().into());
+        each_row(studio, args.metrics, &mut |row| {
+            cells[2] = row.lane.into();
+            (cells[3], cells[4]) = (row.method.into(), row.body.into());
+            (cells[5], cells[6], cells[7]) = (row.coordinate.into(), row.q.into(), row.v.into());
+            rows.row(cells)
+        })
     }
+}
 
-    fn lane(
-        &mut self,
-        number: usize,
-        lane: &Lane,
-        truth: Option<&Lane>,
-        studio: &Studio,
-    ) -> io::Result<()> {
-        self.cells[2] = number.into();
+/// A row of a trace at one tick.
+pub(super) struct TraceRow<'a> {
+    /// 0 is the truth.
+    pub(super) lane: usize,
+    pub(super) method: &'static str,
+    pub(super) body: &'a str,
+    pub(super) coordinate: &'a str,
+    pub(super) q: f64,
+    pub(super) v: Option<f64>,
+}
+
+/// Goes through the present of the truth and of every lane, but of bodies that have halted.
+pub(super) fn each_row<E>(
+    studio: &Studio,
+    with_metrics: bool,
+    row: &mut impl FnMut(TraceRow) -> Result<(), E>,
+) -> Result<(), E> {
+    let race = studio.race();
+    let lanes = race.entrants().iter().map(|entrant| &entrant.lane);
+    for (number, lane) in [race.truth()].into_iter().chain(lanes).enumerate() {
         let bodies = lane.bodies().iter().zip(&studio.scene().bodies).enumerate();
         for (n, (body, named)) in bodies.filter(|(_, (body, _))| body.halted().is_none()) {
-            self.cells[3] = method_id(lane.solver(), body).into();
-            self.cells[4] = named.name.as_str().into();
+            let method = method_id(lane.solver(), body);
+            let mut write = |coordinate: &str, q, v| {
+                row(TraceRow { lane: number, method, body: &named.name, coordinate, q, v })
+            };
             let values = body.stepper.q().iter().zip(body.stepper.v());
             for (coordinate, (&q, &v)) in body.coordinates().iter().zip(values) {
-                self.row(&coordinate.name, q, v.into())?;
+                write(&coordinate.name, q, Some(v))?;
             }
-            let Some(truth) = truth.filter(|_| self.args.metrics) else { continue };
-            for metric in METRICS {
-                let value = (metric.measure)(body, &truth.bodies()[n]);
+            for metric in METRICS.iter().filter(|_| with_metrics && number > 0) {
+                let value = (metric.measure)(body, &race.truth().bodies()[n]);
                 if let Some(value) = value.filter(|value| value.is_finite()) {
-                    self.row(metric.id, value, Value::Null)?;
+                    write(metric.id, value, None)?;
                 }
             }
         }
-        Ok(())
     }
-
-    fn row(&mut self, coordinate: &str, q: f64, v: Value) -> io::Result<()> {
-        (self.cells[5], self.cells[6], self.cells[7]) = (coordinate.into(), q.into(), v);
-        self.rows.row(&self.cells)
-    }
+    Ok(())
 }
 
 fn method_id(solver: Solver, body: &LaneBody) -> &'static str {

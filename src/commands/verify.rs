@@ -8,8 +8,10 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::error::Error;
+use super::experiment::Experiment;
 use super::frame_names::is_of_a_capture;
 use super::help::flowing;
+use super::manifest::Manifest;
 use super::numbers::number_that;
 
 mod clip;
@@ -107,6 +109,12 @@ pub(super) fn run(args: &VerifyArgs) -> Result<(), Error> {
     let report = if is_recording { recording::judge(&args.dir) } else { clip::judge(args) }?;
     files.into_iter().try_for_each(|file| file.write(&report))?;
     report.outcome()
+}
+
+/// The manifest of the capture in `dir`, and the run that it describes.
+pub(super) fn manifest_of(dir: &Path) -> Result<(Manifest, Experiment), Error> {
+    let rerun = clip::read_run(dir)?;
+    Ok((rerun.manifest, rerun.experiment))
 }
 
 /// Whether something is at the path that is no directory, or nothing and the path ends in `.toml`.

@@ -23,6 +23,7 @@ mod cloud_shape;
 #[cfg(any(feature = "cli", feature = "view"))]
 mod csv_row;
 pub mod custom;
+pub mod diff;
 pub mod identify;
 mod lane_id;
 mod lane_spec;

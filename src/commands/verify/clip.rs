@@ -33,7 +33,7 @@ fn unjudged(dir: &Path) -> impl Fn(String) -> Error {
 }
 
 /// The run of the capture in `dir`, as its manifest says.
-fn read_run(dir: &Path) -> Result<Rerun, Error> {
+pub(super) fn read_run(dir: &Path) -> Result<Rerun, Error> {
     let read = || {
         let manifest = read(&dir.join(FILE_NAME))?;
         let (experiment, capture) = settings::read(&manifest.settings)?;

@@ -1,0 +1,206 @@
+//! `regatta diff`: where two runs first differ, and how the difference grows.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde_json::{Value, json};
+
+use super::error::Error;
+use super::help::flowing;
+use super::numbers::number_that;
+use super::output::print;
+use super::output::table::TableFormat;
+use crate::lab::diff::{Comparison, Difference, LEVELS, Tolerance, diff};
+
+mod source;
+
+use source::Source;
+
+const ABOUT: &str = "\
+A run is a table as CSV, of `regatta trace` or with a column for each number; the run of a scene or of a
+recording, which is made again; the states in the manifest of a capture; or - for a table on standard
+input. Rows are the same row by tick, lane, body and coordinate, or by those of them that the tables have;
+without tick by t, else by their place. All other columns but method are compared. Whatever is on one side
+alone is counted under the side that lacks it.
+
+The last bit counts, unless --ulps or --relative says what is equal. NaN is the same as NaN, and -0 as 0.
+A difference reaches 1e-12 at the first tick where it is that part of the largest value that this column of
+this coordinate had until then; so does the worst count. A rate is told of a difference that grows
+exponentially through three decades, from the times of a column t.
+
+Exit code 0: the same. 1: different. 2: cannot be compared, as where nothing moves.
+
+Examples:
+  regatta diff before.csv after.csv
+  regatta trace --method rk4 | regatta diff before.csv -
+  regatta diff recording.toml log.csv --ulps 4
+  regatta diff clip clip-of-yesterday --format json";
+
+/// Say where two runs first differ
+///
+/// And how the difference grows.
+#[derive(Debug, Args)]
+#[command(after_long_help = flowing(ABOUT))]
+pub(super) struct DiffArgs {
+    /// A run: a CSV file, a scene or recording, the directory of a capture, or -
+    #[arg(value_name = "A")]
+    a: PathBuf,
+
+    /// The other
+    #[arg(value_name = "B")]
+    b: PathBuf,
+
+    /// Numbers with at most N doubles from one to the other are equal
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    ulps: u64,
+
+    /// Numbers that differ by at most this part of the larger are equal
+    #[arg(long, value_name = "R", default_value = "0", value_parser = part)]
+    #[arg(allow_negative_numbers = true)]
+    relative: f64,
+
+    /// The format: text or json
+    #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
+    format: TableFormat,
+}
+
+fn part(written: &str) -> Result<f64, String> {
+    number_that(written, |part| part >= 0.0, "a part of 0 or more, such as 1e-9")
+}
+
+pub(super) fn run(args: &DiffArgs) -> Result<(), Error> {
+    let paths = [&args.a, &args.b];
+    if paths.iter().all(|path| path.as_os_str() == "-") {
+        return Err(Error::mistake("both are standard input; give a file for one"));
+    }
+    let mut a = Source::open(&args.a)?;
+    let mut b = Source::open(&args.b)?;
+    let tolerance = Tolerance { ulps: args.ulps, relative: args.relative };
+    let found = diff(&mut a, &mut b, tolerance).map_err(|error: Error| {
+        error.and(format!("a is {}, b is {}", args.a.display(), args.b.display()))
+    })?;
+    print(match args.format {
+        TableFormat::Text => words(&found, &args.a, &args.b),
+        TableFormat::Json => object(&found),
+    })?;
+    let names = format!("{} and {}", args.a.display(), args.b.display());
+    match (found.is_comparable(), found.is_same()) {
+        (false, _) if found.rows < 2 => Err(Error::mistake(format!(
+            "nothing to compare: {names} have {} rows in common; give two logs of one run",
+            found.rows
+        ))),
+        (false, _) => Err(Error::mistake(format!(
+            "nothing to compare: nothing moves in the {} rows of {names}; log a motion",
+            found.rows
+        ))),
+        (true, false) => Err(Error::failed(format!("{names} differ"))),
+        (true, true) => Ok(()),
+    }
+}
+
+/// The words for a part of a number, which is infinite where one of two is.
+fn part_words(part: f64) -> String {
+    if part.is_finite() { format!("{part:.1e}") } else { "beyond all numbers".into() }
+}
+
+fn words(found: &Comparison, a: &Path, b: &Path) -> String {
+    let mut lines = vec![format!("a: {}", a.display()), format!("b: {}", b.display())];
+    match &found.first {
+        _ if !found.is_comparable() => lines.push("nothing to compare".into()),
+        None if found.is_same() => lines.push("the same".into()),
+        None => lines.push("equal wherever both have a value".into()),
+        Some(first) => {
+            lines.push(first_words(first));
+            let reached = LEVELS.iter().zip(found.reaches);
+            let reached =
+                reached.filter_map(|(level, tick)| Some(format!("{level:e} at tick {}", tick?)));
+            let reached: Vec<String> = reached.collect();
+            if !reached.is_empty() {
+                lines.push(format!("the difference reaches {}", reached.join(", ")));
+            }
+            if let Some(rate) = found.per_second {
+                lines.push(format!("it grows by e^({rate:.3} t), t in seconds"));
+            }
+        }
+    }
+    if let Some((column, part)) = &found.worst {
+        lines.push(format!("{column} differs most, by {} of its largest value", part_words(*part)));
+    }
+    lines.push(format!("{} rows compared; the farthest motion is {}", found.rows, found.moved));
+    for (side, name) in ["a", "b"].into_iter().enumerate() {
+        let tick = found.first_missing[side].map(|tick| format!(", the first at tick {tick}"));
+        if let (missing @ 1.., Some(tick)) = (found.missing[side], tick) {
+            lines.push(format!("{name} lacks {missing} rows{tick}"));
+        }
+        if !found.alone[side].is_empty() {
+            lines.push(format!("only {name} has the columns {}", found.alone[side].join(", ")));
+        }
+    }
+    for (count, what) in [
+        (found.displaced, "rows stand at another place"),
+        (found.zeros_of_two_signs, "zeros have another sign"),
+        (found.nans, "pairs of NaN count as equal"),
+    ] {
+        if count > 0 {
+            lines.push(format!("{count} {what}"));
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+fn first_words(first: &Difference) -> String {
+    let Difference { tick, row: [lane, body, coordinate], column, values, ulps, relative } = first;
+    let lane = lane.as_ref().map(|lane| format!("lane {lane}"));
+    let place: Vec<String> = [&lane, body, coordinate].into_iter().flatten().cloned().collect();
+    let place = if place.is_empty() { String::new() } else { format!(", {}", place.join(", ")) };
+    let [a, b] = values;
+    let value = |value: &Option<String>| value.clone().unwrap_or_else(|| "absent".into());
+    let ulps = ulps.map(|ulps| format!(", {ulps} doubles apart"));
+    let part = relative.map(|part| format!(", {part:.1e} relative"));
+    format!(
+        "first at tick {tick}{place}: {column} is {} in a and {} in b{}{}",
+        value(a),
+        value(b),
+        ulps.unwrap_or_default(),
+        part.unwrap_or_default()
+    )
+}
+
+/// As JSON, with the numbers as they are written in the tables.
+fn object(found: &Comparison) -> String {
+    const WRITTEN: [&str; 2] = ["written in a", "written in b"];
+    let finite = |part: f64| part.is_finite().then_some(part);
+    let first = found.first.as_ref().map(|first| {
+        let Difference { tick, row: [lane, body, coordinate], column, values, ulps, relative } =
+            first;
+        let lane = lane.as_ref().map(|lane| lane.parse::<u64>().map_or(json!(lane), Value::from));
+        let [a, b] = [0, 1].map(|side| values[side].as_ref().map(|_| WRITTEN[side]));
+        json!({
+            "tick": tick, "lane": lane, "body": body, "coordinate": coordinate, "column": column,
+            "a": a, "b": b, "ulps": ulps, "relative": relative,
+        })
+    });
+    let reaches = LEVELS.iter().zip(found.reaches);
+    let reaches = reaches.map(|(level, tick)| json!({ "relative": level, "tick": tick }));
+    let worst = found.worst.as_ref();
+    let object = json!({
+        "same": found.is_same(),
+        "comparable": found.is_comparable(),
+        "rows": found.rows,
+        "moved": found.moved,
+        "first": first,
+        "reaches": reaches.collect::<Vec<_>>(),
+        "per_second": found.per_second,
+        "missing": { "a": found.missing[0], "b": found.missing[1] },
+        "worst": worst.map(|(column, part)| json!({ "column": column, "relative": finite(*part) })),
+    });
+    let mut text = format!("{object:#}\n");
+    for (side, mark) in WRITTEN.into_iter().enumerate() {
+        let written = found.first.as_ref().and_then(|first| first.values[side].as_ref());
+        let Some(written) = written else { continue };
+        let is_number = serde_json::from_str::<serde_json::Number>(written).is_ok();
+        let value = if is_number { written.clone() } else { Value::from(&**written).to_string() };
+        text = text.replacen(&Value::from(mark).to_string(), &value, 1);
+    }
+    text
+}

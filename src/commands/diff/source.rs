@@ -1,0 +1,233 @@
+//! What is compared: the rows of a table, of a run, or of the states in a manifest.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread;
+
+use csv::ByteRecord;
+
+use crate::commands::error::Error;
+use crate::commands::experiment::{Experiment, Lineup};
+use crate::commands::manifest::Mark;
+use crate::commands::trace::{COLUMNS, each_row};
+use crate::commands::{scene_file, verify};
+use crate::lab::Studio;
+use crate::lab::diff::{NotComparable, Records};
+
+/// The rows that pass from thread to thread at once.
+const BATCH: usize = 1024;
+/// What is read of a file at once, in bytes.
+const BUFFER_BYTES: usize = 1 << 20;
+
+/// The rows of a run.
+pub(super) enum Source {
+    Table(Table),
+    Made(Made),
+}
+
+/// A table that is read on a thread of its own.
+pub(super) struct Table {
+    header: ByteRecord,
+    batch: Vec<ByteRecord>,
+    /// How many rows of the batch there are, and how many of them are taken.
+    filled: usize,
+    taken: usize,
+    batches: Receiver<Result<Batch, Error>>,
+    used: SyncSender<Vec<ByteRecord>>,
+}
+
+/// Rows, and how many of them are filled.
+type Batch = (Vec<ByteRecord>, usize);
+
+/// Rows that are made here, tick by tick.
+pub(super) struct Made {
+    header: ByteRecord,
+    rows: std::vec::IntoIter<ByteRecord>,
+    /// The rows of the next tick; `None` after the last.
+    tick: Box<dyn FnMut() -> Option<Vec<ByteRecord>>>,
+}
+
+impl Source {
+    /// The run at this path.
+    pub(super) fn open(path: &Path) -> Result<Self, Error> {
+        let is_scene = scene_file::is_built_in(path) && !path.exists()
+            || path.extension().is_some_and(|ending| ending == "toml");
+        if path.is_dir() {
+            return Ok(Self::Made(of_capture(path)?));
+        }
+        if is_scene {
+            return Ok(Self::Made(of_scene(path)?));
+        }
+        let input: Box<dyn Read + Send> = match path.as_os_str() == "-" {
+            true => Box::new(io::stdin()),
+            false => Box::new(File::open(path).map_err(|error| {
+                let path = path.display();
+                Error::mistake(format!("cannot read {path}: {error}; give a run that you may read"))
+            })?),
+        };
+        Table::begin(path.display().to_string(), input).map(Self::Table)
+    }
+}
+
+impl Records for Source {
+    type Error = Error;
+
+    fn header(&self) -> &ByteRecord {
+        match self {
+            Self::Table(Table { header, .. }) | Self::Made(Made { header, .. }) => header,
+        }
+    }
+
+    fn next(&mut self, row: &mut ByteRecord) -> Result<bool, Error> {
+        match self {
+            Self::Table(table) => table.next(row),
+            Self::Made(made) => Ok(made.next(row)),
+        }
+    }
+}
+
+impl From<NotComparable> for Error {
+    fn from(error: NotComparable) -> Self {
+        Error::mistake(error)
+    }
+}
+
+impl Table {
+    fn begin(name: String, input: Box<dyn Read + Send>) -> Result<Self, Error> {
+        let mut reader = csv::ReaderBuilder::new().buffer_capacity(BUFFER_BYTES).from_reader(input);
+        let fault = move |error: csv::Error| {
+            let line = error.position().map_or(1, csv::Position::line);
+            Error::mistake(format!("{name}:{line}: {error}; give each row the header's cells"))
+        };
+        let header = reader.byte_headers().map_err(&fault)?.clone();
+        let (send, batches) = sync_channel(2);
+        let (used, reuse) = sync_channel::<Vec<ByteRecord>>(4);
+        thread::spawn(move || {
+            loop {
+                let mut batch = reuse.try_recv().unwrap_or_default();
+                batch.resize_with(BATCH, ByteRecord::new);
+                let mut filled = 0;
+                let read = loop {
+                    match reader.read_byte_record(&mut batch[filled]) {
+                        Ok(true) => filled += 1,
+                        other => break other,
+                    }
+                    if filled == BATCH {
+                        break Ok(true);
+                    }
+                };
+                let has_more = matches!(read, Ok(true));
+                // Who no longer listens has found a fault in the other table.
+                let is_heard = send.send(Ok((batch, filled))).is_ok();
+                if let Err(error) = read {
+                    drop(send.send(Err(fault(error))));
+                }
+                if !has_more || !is_heard {
+                    return;
+                }
+            }
+        });
+        Ok(Self { header, batch: Vec::new(), filled: 0, taken: 0, batches, used })
+    }
+
+    fn next(&mut self, row: &mut ByteRecord) -> Result<bool, Error> {
+        if self.taken == self.filled {
+            let Ok(next) = self.batches.recv() else { return Ok(false) };
+            let (batch, filled) = next?;
+            // A batch that finds no place is made anew.
+            drop(self.used.try_send(std::mem::replace(&mut self.batch, batch)));
+            (self.filled, self.taken) = (filled, 0);
+            if filled == 0 {
+                return self.next(row);
+            }
+        }
+        std::mem::swap(row, &mut self.batch[self.taken]);
+        self.taken += 1;
+        Ok(true)
+    }
+}
+
+impl Made {
+    fn new(tick: impl FnMut() -> Option<Vec<ByteRecord>> + 'static) -> Self {
+        let header = ByteRecord::from(&COLUMNS[..]);
+        Self { header, rows: Vec::new().into_iter(), tick: Box::new(tick) }
+    }
+
+    fn next(&mut self, row: &mut ByteRecord) -> bool {
+        loop {
+            if let Some(next) = self.rows.next() {
+                *row = next;
+                return true;
+            }
+            let Some(rows) = (self.tick)() else { return false };
+            self.rows = rows.into_iter();
+        }
+    }
+}
+
+/// A row of a trace.
+fn row(at: [&str; 4], body: &str, coordinate: &str, [q, v]: [f64; 2]) -> ByteRecord {
+    let mut row = ByteRecord::new();
+    at.iter().chain([&body, &coordinate]).for_each(|cell| row.push_field(cell.as_bytes()));
+    [q, v].iter().for_each(|x| row.push_field(format!("{x:?}").as_bytes()));
+    row
+}
+
+/// The run of the scene or recording at `path`, to its end or to its last check.
+fn of_scene(path: &Path) -> Result<Made, Error> {
+    let (scene, text) = scene_file::load(path)?;
+    let lineup = Lineup::Everyone;
+    let experiment = Experiment { scene, text, selected: None, lineup, loop_trace: None };
+    let mut studio = experiment.studio();
+    let checked = experiment.scene.checks.iter().map(|check| check.tick).max().unwrap_or(0);
+    let last = studio.nearest_tick(experiment.scene.seconds).max(checked);
+    let mut has_begun = false;
+    Ok(Made::new(move || {
+        if std::mem::replace(&mut has_begun, true) {
+            if studio.race().tick() >= last {
+                return None;
+            }
+            studio.tick();
+        }
+        Some(present(&studio))
+    }))
+}
+
+/// The rows of a run's present.
+fn present(studio: &Studio) -> Vec<ByteRecord> {
+    let (tick, t) = (studio.race().tick().to_string(), format!("{:?}", studio.race().t()));
+    let mut rows = Vec::new();
+    let all: Result<(), std::convert::Infallible> = each_row(studio, false, &mut |it| {
+        let at = [&tick, &t, &it.lane.to_string(), it.method];
+        rows.push(row(at, it.body, it.coordinate, [it.q, it.v.unwrap_or_default()]));
+        Ok(())
+    });
+    match all {
+        Ok(()) => rows,
+    }
+}
+
+/// The states in the manifest of the capture in `dir`.
+fn of_capture(dir: &Path) -> Result<Made, Error> {
+    let (manifest, experiment) = verify::manifest_of(dir)?;
+    let studio = experiment.studio();
+    let tick_s = 1.0 / f64::from(manifest.settings.tick_hz);
+    let mut marks = manifest.marks.into_iter();
+    Ok(Made::new(move || {
+        let Mark { tick, lanes } = marks.next()?;
+        let (t, tick) = (format!("{:?}", tick as f64 * tick_s), tick.to_string());
+        let mut rows = Vec::new();
+        for ((number, mark), entrant) in (1..).zip(lanes).zip(studio.race().entrants()) {
+            let at = [&tick, &t, &format!("{number}"), entrant.spec.method.id];
+            let bodies = entrant.lane.bodies().iter().zip(&studio.scene().bodies);
+            for ((body, named), (q, v)) in bodies.zip(mark.q.iter().zip(&mark.v)) {
+                for (coordinate, values) in body.coordinates().iter().zip(q.iter().zip(v)) {
+                    rows.push(row(at, &named.name, &coordinate.name, [*values.0, *values.1]));
+                }
+            }
+        }
+        Some(rows)
+    }))
+}

@@ -1,0 +1,392 @@
+//! Where two runs first differ, and how the difference grows.
+//!
+//! A run is a table: columns that say which row it is (`tick`, or else `t`, or else its place, with `lane`, `body` and
+//! `coordinate` where they are there), `t` and `method`, which are told but not compared, and columns of values. Rows of one
+//! name are compared wherever they stand, up to [`MAX_WAITING`] rows apart, so that memory does not grow with the rows.
+
+use std::collections::HashMap;
+
+use csv::ByteRecord;
+
+mod growth;
+mod layout;
+mod number;
+
+use growth::Growth;
+use layout::Layout;
+pub use layout::NotComparable;
+pub use number::{distance_ulps, is_same_number};
+use number::{parsed, relative};
+
+/// The relative differences whose first ticks are told.
+pub const LEVELS: [f64; 5] = [1e-12, 1e-9, 1e-6, 1e-3, 1.0];
+/// The most rows of a side that wait for the row of their name on the other. A row that waits longer counts as missing there.
+pub const MAX_WAITING: usize = 1 << 16;
+
+/// The rows of a run, one after the other.
+pub trait Records {
+    /// Why the next row cannot be had.
+    type Error;
+
+    /// The names of the columns.
+    fn header(&self) -> &ByteRecord;
+
+    /// Reads the next row, with the cells of the header; `false` after the last.
+    ///
+    /// # Errors
+    /// Whatever keeps it from being read.
+    fn next(&mut self, row: &mut ByteRecord) -> Result<bool, Self::Error>;
+}
+
+/// What counts as equal: what is equal by either. By default only what is the same number; NaN is, and zero of either sign.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tolerance {
+    /// The most doubles from one to the other.
+    pub ulps: u64,
+    /// The largest difference as a part of the larger of both.
+    pub relative: f64,
+}
+
+/// Two values that differ.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// The tick; the row's place from 0 in a table without ticks.
+    pub tick: u64,
+    /// The cells `lane`, `body` and `coordinate` of the row, where there are such columns.
+    pub row: [Option<String>; 3],
+    /// The column of the values.
+    pub column: String,
+    /// The values as they are written; `None` where the column is not there.
+    pub values: [Option<String>; 2],
+    /// How many doubles lie from one to the other; `None` where one is no number, or not a number.
+    pub ulps: Option<u64>,
+    /// Their difference as a part of the larger; `None` where that has no meaning.
+    pub relative: Option<f64>,
+}
+
+/// What two runs have in common, and where they part.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Comparison {
+    /// How many rows both have.
+    pub rows: u64,
+    /// The farthest that any coordinate went from its first value, on either side; the value `q`, or where there is none, all.
+    pub moved: f64,
+    /// The first values that differ by more than the [`Tolerance`], by their tick and then by their place.
+    pub first: Option<Difference>,
+    /// For each of [`LEVELS`], the tick at which a value first differs by it, as a part of the largest that this column of
+    /// this coordinate had until then.
+    pub reaches: [Option<u64>; LEVELS.len()],
+    /// The rate of its growth in 1/s, if it grows exponentially through three decades and more.
+    pub per_second: Option<f64>,
+    /// How many rows each side lacks.
+    pub missing: [u64; 2],
+    /// The tick of the first row that a side lacks.
+    pub first_missing: [Option<u64>; 2],
+    /// The columns that only this side has.
+    pub alone: [Vec<String>; 2],
+    /// The column that differs most, and by how much, as in `reaches`.
+    pub worst: Option<(String, f64)>,
+    /// Pairs of values that are the same number but not the same bits: zeros of two signs, and NaN.
+    pub zeros_of_two_signs: u64,
+    /// See `zeros_of_two_signs`.
+    pub nans: u64,
+    /// Rows that stand at another place on the other side.
+    pub displaced: u64,
+}
+
+impl Comparison {
+    /// Whether there is something to compare: two common rows, and a motion.
+    pub fn is_comparable(&self) -> bool {
+        self.rows >= 2 && self.moved > 0.0
+    }
+
+    /// Whether both have the same rows with equal values.
+    pub fn is_same(&self) -> bool {
+        let is_whole = self.missing == [0; 2] && self.alone.iter().all(Vec::is_empty);
+        self.is_comparable() && self.first.is_none() && is_whole
+    }
+}
+
+/// The rows of one name: a coordinate of a body of a lane.
+struct Stream {
+    /// Its cells of the key columns, with a zero after each.
+    key: Vec<u8>,
+    /// Of each value column: the first value, and the largest so far.
+    values: Vec<Option<[f64; 2]>>,
+}
+
+/// A row, where it belongs.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+struct Place {
+    /// The tick or the time, as bits that are in order.
+    order: u64,
+    stream: usize,
+}
+
+/// A row that waits for the other side's.
+struct Waiting {
+    row: ByteRecord,
+    /// How many rows its side had before it.
+    number: u64,
+}
+
+/// A side of the comparison.
+#[derive(Default)]
+struct Side {
+    /// The stream that the next row is of, if streams come in turn.
+    next: usize,
+    number: u64,
+    waiting: HashMap<Place, Waiting>,
+}
+
+/// Compares two runs.
+///
+/// # Errors
+/// The first row that cannot be read, or the reason why these are not two tables of a kind.
+pub fn diff<A, B, E>(a: &mut A, b: &mut B, tolerance: Tolerance) -> Result<Comparison, E>
+where
+    A: Records,
+    B: Records,
+    E: From<A::Error> + From<B::Error> + From<NotComparable>,
+{
+    let layout = Layout::of([a.header(), b.header()])?;
+    let mut work = Work::new(layout, tolerance);
+    let mut rows = [ByteRecord::new(), ByteRecord::new()];
+    let mut places: [Option<(Place, u64)>; 2] = [None; 2];
+    loop {
+        for side in 0..2 {
+            if places[side].is_some() {
+                continue;
+            }
+            let row = &mut rows[side];
+            let is_there = if side == 0 { a.next(row)? } else { b.next(row)? };
+            if is_there {
+                places[side] = Some(work.place(side, row)?);
+            }
+        }
+        match places {
+            [None, None] => break,
+            [Some((one, number)), Some((other, _))] if one == other => {
+                work.pair(one, number, [&rows[0], &rows[1]]);
+                places = [None; 2];
+            }
+            // The one behind goes on alone, so that both are side by side again after a row that one lacks.
+            [one, other] => {
+                let order =
+                    |it: Option<(Place, u64)>| it.map_or(u64::MAX, |(place, _)| place.order);
+                let goes = [order(one) <= order(other), order(other) <= order(one)];
+                for side in (0..2).filter(|side| goes[*side]) {
+                    if let Some((place, number)) = places[side].take() {
+                        work.wait(side, place, number, &mut rows[side]);
+                    }
+                }
+            }
+        }
+    }
+    Ok(work.close())
+}
+
+/// A comparison on its way.
+struct Work {
+    layout: Layout,
+    tolerance: Tolerance,
+    streams: Vec<Stream>,
+    by_key: HashMap<Vec<u8>, usize>,
+    key: Vec<u8>,
+    sides: [Side; 2],
+    found: Comparison,
+    /// Where the first difference is.
+    first: Option<(u64, u64)>,
+    /// The largest relative difference of each value column.
+    worst: Vec<f64>,
+    growth: Growth,
+}
+
+impl Work {
+    fn new(layout: Layout, tolerance: Tolerance) -> Self {
+        let worst = vec![0.0; layout.values.len()];
+        let found = Comparison { alone: layout.alone.clone(), ..Comparison::default() };
+        Self {
+            layout,
+            tolerance,
+            streams: Vec::new(),
+            by_key: HashMap::new(),
+            key: Vec::new(),
+            sides: Default::default(),
+            found,
+            first: None,
+            worst,
+            growth: Growth::default(),
+        }
+    }
+
+    /// Where a row of a side belongs, and its number there.
+    fn place(&mut self, side: usize, row: &ByteRecord) -> Result<(Place, u64), NotComparable> {
+        self.key.clear();
+        for columns in &self.layout.keys {
+            self.key.extend_from_slice(&row[columns[side]]);
+            self.key.push(0);
+        }
+        let own = &mut self.sides[side];
+        let number = own.number;
+        own.number += 1;
+        let guess = own.next;
+        let stream = match self.streams.get(guess) {
+            Some(stream) if stream.key == self.key => guess,
+            _ => match self.by_key.get(&self.key) {
+                Some(stream) => *stream,
+                None => {
+                    let stream = self.streams.len();
+                    self.by_key.insert(self.key.clone(), stream);
+                    let values = vec![None; self.layout.values.len()];
+                    self.streams.push(Stream { key: self.key.clone(), values });
+                    stream
+                }
+            },
+        };
+        own.next = if stream + 1 < self.streams.len() { stream + 1 } else { 0 };
+        let order = self.layout.order(side, row, number)?;
+        Ok((Place { order, stream }, number))
+    }
+
+    /// Compares a row with one that waits on the other side, or lets it wait.
+    fn wait(&mut self, side: usize, place: Place, number: u64, row: &mut ByteRecord) {
+        if let Some(other) = self.sides[1 - side].waiting.remove(&place) {
+            self.found.displaced += 1;
+            match side {
+                0 => self.pair(place, number, [row, &other.row]),
+                _ => self.pair(place, other.number, [&other.row, row]),
+            }
+            return;
+        }
+        let row = std::mem::take(row);
+        let twice = self.sides[side].waiting.insert(place, Waiting { row, number });
+        let waiting = &mut self.sides[side].waiting;
+        let lost = match twice {
+            Some(twice) => Some((place, twice)),
+            None if waiting.len() > MAX_WAITING => {
+                let oldest = waiting.iter().min_by_key(|(_, row)| row.number).map(|(at, _)| *at);
+                oldest.and_then(|at| Some((at, waiting.remove(&at)?)))
+            }
+            None => None,
+        };
+        if let Some((place, lost)) = lost {
+            self.lack(1 - side, place, lost.number);
+        }
+    }
+
+    /// Counts a row that a side lacks.
+    fn lack(&mut self, side: usize, place: Place, number: u64) {
+        self.found.missing[side] += 1;
+        let tick = self.layout.tick(place.order, number);
+        let first = &mut self.found.first_missing[side];
+        *first = Some(first.map_or(tick, |first| first.min(tick)));
+    }
+
+    /// Compares two rows of one place; `number` is that of the first side's.
+    fn pair(&mut self, place: Place, number: u64, rows: [&ByteRecord; 2]) {
+        self.found.rows += 1;
+        let tick = self.layout.tick(place.order, number);
+        if let Some((side, column)) = self.layout.first_alone {
+            let mut values = [None, None];
+            values[side] = Some(&rows[side][column]);
+            self.differs(place, number, (rows[0], None), values, (None, None));
+        }
+        for column in 0..self.layout.values.len() {
+            let [a, b] = self.layout.values[column].at;
+            let cells = [&rows[0][a], &rows[1][b]];
+            let is_text_same = cells[0] == cells[1];
+            let first = parsed(cells[0]);
+            let second = if is_text_same { first } else { parsed(cells[1]) };
+            let numbers = [first, second];
+            let scale = self.note(place.stream, column, numbers);
+            if is_text_same {
+                continue;
+            }
+            let values = cells.map(Some);
+            let [Some(a), Some(b)] = numbers else {
+                self.differs(place, number, (rows[0], Some(column)), values, (None, None));
+                continue;
+            };
+            if is_same_number(a, b) {
+                self.found.zeros_of_two_signs +=
+                    u64::from(a == 0.0 && a.is_sign_negative() != b.is_sign_negative());
+                self.found.nans += u64::from(a.is_nan());
+                continue;
+            }
+            let of_scale = if (a - b).is_finite() { (a - b).abs() / scale } else { f64::INFINITY };
+            self.worst[column] = self.worst[column].max(of_scale);
+            for (level, reached) in LEVELS.iter().zip(&mut self.found.reaches) {
+                if of_scale >= *level && reached.is_none_or(|reached| tick < reached) {
+                    *reached = Some(tick);
+                }
+            }
+            self.growth.note(tick, self.layout.time(rows[0]), of_scale);
+            let ulps = distance_ulps(a, b);
+            let of_larger = relative(a, b);
+            let is_equal = ulps.is_some_and(|ulps| ulps <= self.tolerance.ulps)
+                || of_larger.is_some_and(|part| part <= self.tolerance.relative);
+            if !is_equal {
+                self.differs(place, number, (rows[0], Some(column)), values, (ulps, of_larger));
+            }
+        }
+    }
+
+    /// Takes in the values of a column of a stream, and returns the largest so far.
+    fn note(&mut self, stream: usize, column: usize, numbers: [Option<f64>; 2]) -> f64 {
+        let [Some(a), b] = numbers else { return 1.0 };
+        let b = b.unwrap_or(a);
+        let seen = self.streams[stream].values[column].get_or_insert([a, 0.0]);
+        let [from, largest] = *seen;
+        let size =
+            |largest: f64, x: f64| if x.is_finite() { largest.max(x.abs()) } else { largest };
+        seen[1] = size(size(largest, a), b);
+        if self.layout.values[column].moves {
+            let way = (a - from).abs().max((b - from).abs());
+            if way > self.found.moved && way.is_finite() {
+                self.found.moved = way;
+            }
+        }
+        seen[1]
+    }
+
+    /// Takes in the values of a column that differ by more than the tolerance; `None` is the first column that only one side
+    /// has; `far` is how far, in doubles and as a part.
+    fn differs(
+        &mut self,
+        place: Place,
+        number: u64,
+        (row, column): (&ByteRecord, Option<usize>),
+        values: [Option<&[u8]>; 2],
+        far: (Option<u64>, Option<f64>),
+    ) {
+        let at = (place.order, number);
+        if self.first.is_some_and(|first| first <= at) {
+            return;
+        }
+        self.first = Some(at);
+        let alone = || self.found.alone.concat()[0].clone();
+        let text = |cell: &[u8]| String::from_utf8_lossy(cell).trim().to_owned();
+        self.found.first = Some(Difference {
+            tick: self.layout.tick(place.order, number),
+            row: self.layout.named.map(|key| key.map(|key| text(&row[key]))),
+            column: column.map_or_else(alone, |column| self.layout.values[column].name.clone()),
+            values: values.map(|value| value.map(text)),
+            ulps: far.0,
+            relative: far.1,
+        });
+    }
+
+    fn close(mut self) -> Comparison {
+        for side in 0..2 {
+            let left: Vec<_> = self.sides[side].waiting.drain().collect();
+            left.into_iter().for_each(|(place, row)| self.lack(1 - side, place, row.number));
+        }
+        let most = self.worst.iter().enumerate().filter(|(_, part)| **part > 0.0);
+        let most = most.max_by(|(_, one), (_, other)| one.total_cmp(other));
+        self.found.worst =
+            most.map(|(column, part)| (self.layout.values[column].name.clone(), *part));
+        self.found.per_second = self.growth.per_second();
+        self.found
+    }
+}

@@ -1,0 +1,86 @@
+//! How a difference grows.
+
+/// The relative difference from which on it no longer grows as it did: the motions lose each other.
+const LARGE: f64 = 0.1;
+/// The least growth that is one, as a factor.
+const LEAST_GROWTH: f64 = 1e3;
+/// The least part of the variance of the logarithm that an exponential growth explains.
+const LEAST_EXPLAINED: f64 = 0.95;
+
+/// The sums of a line through points.
+#[derive(Clone, Copy, Default)]
+struct Line {
+    n: f64,
+    mean: [f64; 2],
+    /// The sums of squares and of products, about the means.
+    xx: f64,
+    xy: f64,
+    yy: f64,
+}
+
+impl Line {
+    /// Adds a point (Welford 1962).
+    fn add(&mut self, x: f64, y: f64) {
+        self.n += 1.0;
+        let [dx, dy] = [x - self.mean[0], y - self.mean[1]];
+        self.mean[0] += dx / self.n;
+        self.mean[1] += dy / self.n;
+        self.xx += dx * (x - self.mean[0]);
+        self.xy += dx * (y - self.mean[1]);
+        self.yy += dy * (y - self.mean[1]);
+    }
+
+    fn slope(&self) -> f64 {
+        self.xy / self.xx
+    }
+
+    /// The part of the variance that it explains.
+    fn explained(&self) -> f64 {
+        self.xy * self.xy / (self.xx * self.yy)
+    }
+}
+
+/// The largest differences so far, tick by tick, against the time and against its logarithm.
+#[derive(Default)]
+pub(super) struct Growth {
+    /// The tick of the present points, its time, and the largest difference until then.
+    present: Option<(u64, f64)>,
+    largest: f64,
+    /// The time of the first difference, and its size.
+    start: Option<(f64, f64)>,
+    exponential: Line,
+    power: Line,
+}
+
+impl Growth {
+    /// Takes in a difference at a time in seconds; without one there is no rate.
+    pub(super) fn note(&mut self, tick: u64, t: Option<f64>, difference: f64) {
+        let Some(t) = t.filter(|_| difference > 0.0) else { return };
+        if self.present.is_some_and(|(present, _)| present != tick) {
+            self.end_tick();
+        }
+        self.present = Some((tick, t));
+        self.largest = self.largest.max(difference);
+    }
+
+    fn end_tick(&mut self) {
+        let Some((_, t)) = self.present.filter(|_| self.largest < LARGE) else { return };
+        let (start, _) = *self.start.get_or_insert((t, self.largest));
+        let size = libm::log(self.largest);
+        self.exponential.add(t, size);
+        if t > start {
+            self.power.add(libm::log(t - start), size);
+        }
+    }
+
+    /// The rate in 1/s, if the difference grew exponentially.
+    pub(super) fn per_second(mut self) -> Option<f64> {
+        self.end_tick();
+        let (_, least) = self.start?;
+        let grew = self.largest.min(LARGE) >= LEAST_GROWTH * least;
+        let explained = self.exponential.explained();
+        let is_best = explained >= LEAST_EXPLAINED && explained > self.power.explained();
+        let slope = self.exponential.slope();
+        (grew && is_best && slope.is_finite()).then_some(slope)
+    }
+}

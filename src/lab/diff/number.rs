@@ -1,0 +1,57 @@
+//! Numbers as they are written, and how far two are apart.
+
+/// The number in a cell.
+pub(super) fn parsed(cell: &[u8]) -> Option<f64> {
+    std::str::from_utf8(cell).ok()?.trim().parse().ok()
+}
+
+/// Whether both are the same number, or both are not a number. Zeros of two signs are the same.
+pub fn is_same_number(a: f64, b: f64) -> bool {
+    a == b || a.is_nan() && b.is_nan()
+}
+
+/// How many doubles lie from one to the other: 1 for neighbours, 0 for zeros of two signs. `None` where one is not a number.
+pub fn distance_ulps(a: f64, b: f64) -> Option<u64> {
+    // The bits of numbers of one sign are in their order.
+    let at = |x: f64| {
+        let size = (x.to_bits() & (u64::MAX >> 1)) as i64;
+        if x.is_sign_negative() { -size } else { size }
+    };
+    (!a.is_nan() && !b.is_nan()).then(|| at(a).abs_diff(at(b)))
+}
+
+/// The difference as a part of the larger. `None` where it is not finite.
+pub(super) fn relative(a: f64, b: f64) -> Option<f64> {
+    let (far, larger) = ((a - b).abs(), a.abs().max(b.abs()));
+    // The difference of two huge numbers of two signs is beyond what a number can be, but not its part.
+    let part = if far.is_finite() { far / larger } else { (a / larger - b / larger).abs() };
+    if a == b { Some(0.0) } else { part.is_finite().then_some(part) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbours_are_an_ulp_apart_across_zero_too() {
+        let least = f64::from_bits(1);
+        for (a, b, ulps) in [
+            (1.0, 1.0 + f64::EPSILON, Some(1)),
+            (0.0, -0.0, Some(0)),
+            (-least, least, Some(2)),
+            (f64::MAX, f64::INFINITY, Some(1)),
+            (1.0, f64::NAN, None),
+        ] {
+            assert_eq!(distance_ulps(a, b), ulps, "{a} {b}");
+            assert_eq!(distance_ulps(b, a), ulps, "{b} {a}");
+        }
+    }
+
+    #[test]
+    fn the_part_of_a_difference_is_at_most_two() {
+        assert_eq!(relative(1.0, 3.0), Some(2.0 / 3.0));
+        assert_eq!(relative(-f64::MAX, f64::MAX), Some(2.0));
+        assert_eq!(relative(0.0, -0.0), Some(0.0));
+        assert_eq!(relative(1.0, f64::INFINITY), None);
+    }
+}
