@@ -11,6 +11,7 @@ use super::numbers::number_that;
 use super::output::print;
 use super::output::table::TableFormat;
 use crate::lab::diff::{Comparison, Difference, LEVELS, Tolerance, diff};
+use crate::sim::number::counted;
 
 mod source;
 
@@ -126,23 +127,24 @@ fn words(found: &Comparison, a: &Path, b: &Path) -> String {
     if let Some((column, part)) = &found.worst {
         lines.push(format!("{column} differs most, by {} of its largest value", part_words(*part)));
     }
-    lines.push(format!("{} rows compared; the farthest motion is {}", found.rows, found.moved));
+    let rows = counted(found.rows, "row");
+    lines.push(format!("{rows} compared; the farthest motion is {}", found.moved));
     for (side, name) in ["a", "b"].into_iter().enumerate() {
         let tick = found.first_missing[side].map(|tick| format!(", the first at tick {tick}"));
         if let (missing @ 1.., Some(tick)) = (found.missing[side], tick) {
-            lines.push(format!("{name} lacks {missing} rows{tick}"));
+            lines.push(format!("{name} lacks {}{tick}", counted(missing, "row")));
         }
         if !found.alone[side].is_empty() {
             lines.push(format!("only {name} has the columns {}", found.alone[side].join(", ")));
         }
     }
     for (count, what) in [
-        (found.displaced, "rows stand at another place"),
-        (found.zeros_of_two_signs, "zeros have another sign"),
-        (found.nans, "pairs of NaN count as equal"),
+        (found.displaced, "rows that stand elsewhere"),
+        (found.zeros_of_two_signs, "zeros of two signs, taken as equal"),
+        (found.nans, "NaN on both sides, taken as equal"),
     ] {
         if count > 0 {
-            lines.push(format!("{count} {what}"));
+            lines.push(format!("{what}: {count}"));
         }
     }
     lines.join("\n") + "\n"
@@ -155,7 +157,7 @@ fn first_words(first: &Difference) -> String {
     let place = if place.is_empty() { String::new() } else { format!(", {}", place.join(", ")) };
     let [a, b] = values;
     let value = |value: &Option<String>| value.clone().unwrap_or_else(|| "absent".into());
-    let ulps = ulps.map(|ulps| format!(", {ulps} doubles apart"));
+    let ulps = ulps.map(|ulps| format!(", {} apart", counted(ulps, "ulp")));
     let part = relative.map(|part| format!(", {part:.1e} relative"));
     format!(
         "first at tick {tick}{place}: {column} is {} in a and {} in b{}{}",

@@ -108,6 +108,7 @@ Examples:
   regatta port --frequency 2.5Hz       the settings of every engine for a spring
   regatta show rk4 --as csharp         the method's code, for your game
   regatta fixture --as pytest          exact states, to test your engine by
+  regatta diff before.csv after.csv    where two runs first differ
   regatta chapter --out figures
   regatta verify clip
   regatta list methods

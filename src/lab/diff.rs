@@ -4,7 +4,7 @@
 //! `coordinate` where they are there), `t` and `method`, which are told but not compared, and columns of values. Rows of one
 //! name are compared wherever they stand, up to [`MAX_WAITING`] rows apart, so that memory does not grow with the rows.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, VecDeque};
 
 use csv::ByteRecord;
 
@@ -137,6 +137,20 @@ struct Side {
     next: usize,
     number: u64,
     waiting: HashMap<Place, Waiting>,
+    /// The rows that wait, and some that did, as they came.
+    queue: VecDeque<(Place, u64)>,
+}
+
+impl Side {
+    /// Takes out the row that has waited longest.
+    fn oldest(&mut self) -> Option<(Place, Waiting)> {
+        while let Some((place, number)) = self.queue.pop_front() {
+            if self.waiting.get(&place).is_some_and(|row| row.number == number) {
+                return Some((place, self.waiting.remove(&place)?));
+            }
+        }
+        None
+    }
 }
 
 /// Compares two runs.
@@ -260,16 +274,16 @@ impl Work {
             return;
         }
         let row = std::mem::take(row);
-        let twice = self.sides[side].waiting.insert(place, Waiting { row, number });
-        let waiting = &mut self.sides[side].waiting;
-        let lost = match twice {
-            Some(twice) => Some((place, twice)),
-            None if waiting.len() > MAX_WAITING => {
-                let oldest = waiting.iter().min_by_key(|(_, row)| row.number).map(|(at, _)| *at);
-                oldest.and_then(|at| Some((at, waiting.remove(&at)?)))
-            }
-            None => None,
-        };
+        let own = &mut self.sides[side];
+        let twice = own.waiting.insert(place, Waiting { row, number });
+        own.queue.push_back((place, number));
+        if own.queue.len() > 2 * MAX_WAITING {
+            let Side { queue, waiting, .. } = own;
+            queue.retain(|(at, n)| waiting.get(at).is_some_and(|row| row.number == *n));
+        }
+        let is_full = own.waiting.len() > MAX_WAITING;
+        let lost =
+            twice.map(|twice| (place, twice)).or_else(|| if is_full { own.oldest() } else { None });
         if let Some((place, lost)) = lost {
             self.lack(1 - side, place, lost.number);
         }

@@ -17,6 +17,7 @@ mod conformance;
 mod custom;
 #[path = "../dice/mod.rs"]
 mod dice;
+mod diff;
 mod editing;
 mod engines;
 mod events;

@@ -97,11 +97,16 @@ impl From<NotComparable> for Error {
 impl Table {
     fn begin(name: String, input: Box<dyn Read + Send>) -> Result<Self, Error> {
         let mut reader = csv::ReaderBuilder::new().buffer_capacity(BUFFER_BYTES).from_reader(input);
+        let of = name.clone();
         let fault = move |error: csv::Error| {
+            let name = &of;
             let line = error.position().map_or(1, csv::Position::line);
             Error::mistake(format!("{name}:{line}: {error}; give each row the header's cells"))
         };
         let header = reader.byte_headers().map_err(&fault)?.clone();
+        if header.is_empty() {
+            return Err(Error::mistake(format!("{name} is empty; give a table with a header")));
+        }
         let (send, batches) = sync_channel(2);
         let (used, reuse) = sync_channel::<Vec<ByteRecord>>(4);
         thread::spawn(move || {

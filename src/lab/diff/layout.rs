@@ -106,7 +106,7 @@ impl Layout {
         let keys: Vec<_> = keys.into_iter().collect::<Result<Vec<_>, _>>()?;
         let is_value =
             |name: &str| !["tick", "t", "method"].contains(&name) && !NAMES.contains(&name);
-        let has_coordinate = names[0].iter().any(|name| name == COORDINATE);
+        let has_coordinate = matches!(find(COORDINATE), [Some(_), Some(_)]);
         let mut values = Vec::new();
         for (a, name) in names[0].iter().enumerate().filter(|(_, name)| is_value(name)) {
             if let [_, Some(b)] = find(name) {

@@ -9,6 +9,7 @@ mod bless;
 mod capture;
 mod chapter;
 mod cloud;
+mod diff;
 mod examples;
 mod files;
 mod fixture;

@@ -1,0 +1,81 @@
+//! What it takes to compare two logs, beside reading the same bytes with `csv` alone, which is the floor.
+//!
+//! `cargo bench --no-default-features --features lab --bench diff` prints millions of rows a second, those of both logs counted.
+
+use std::fmt::Write;
+use std::time::Instant;
+
+use csv::{ByteRecord, Reader};
+use regatta::lab::diff::{NotComparable, Records, Tolerance, diff};
+
+/// The rows of each log.
+const ROWS: u32 = 1_000_000;
+const TIMES: usize = 5;
+
+struct Table<'a> {
+    header: ByteRecord,
+    rows: Reader<&'a [u8]>,
+}
+
+impl<'a> Table<'a> {
+    fn new(text: &'a str) -> Self {
+        let mut rows = Reader::from_reader(text.as_bytes());
+        Self { header: rows.byte_headers().expect("a header").clone(), rows }
+    }
+}
+
+impl Records for Table<'_> {
+    type Error = NotComparable;
+
+    fn header(&self) -> &ByteRecord {
+        &self.header
+    }
+
+    fn next(&mut self, row: &mut ByteRecord) -> Result<bool, NotComparable> {
+        Ok(self.rows.read_byte_record(row).expect("rows of one length"))
+    }
+}
+
+/// Four lanes that swing; with `off`, each number differs in its last digits.
+fn log(off: f64) -> String {
+    let mut text = "tick,t,lane,method,body,coordinate,q,v\n".to_owned();
+    for n in 0..ROWS {
+        let (tick, lane) = (n / 4, n % 4);
+        let t = f64::from(tick) / 60.0;
+        let (v, q) = (t + f64::from(lane)).sin_cos();
+        let row = writeln!(text, "{tick},{t},{lane},rk4,spring,x,{},{}", q + off, v + off);
+        row.expect("text takes all");
+    }
+    text
+}
+
+/// The rate at which rows are done, the best of some runs.
+fn rate(mut work: impl FnMut()) -> f64 {
+    let time = || {
+        let start = Instant::now();
+        work();
+        f64::from(2 * ROWS) / start.elapsed().as_secs_f64()
+    };
+    std::iter::repeat_with(time).take(TIMES).fold(0.0, f64::max)
+}
+
+fn main() {
+    let [before, after] = [0.0, 1e-13].map(log);
+    let floor = rate(|| {
+        let mut row = ByteRecord::new();
+        for text in [&before, &before] {
+            let mut table = Table::new(text);
+            while table.next(&mut row).expect("a row") {}
+        }
+    });
+    println!("csv alone: {:.2} M rows/s", floor / 1e6);
+    for (what, other) in [("the same", &before), ("each row another", &after)] {
+        let of_both = rate(|| {
+            let found =
+                diff(&mut Table::new(&before), &mut Table::new(other), Tolerance::default());
+            let found: Result<_, NotComparable> = found;
+            assert_eq!(found.expect("two tables").rows, u64::from(ROWS));
+        });
+        println!("{what}: {:.2} M rows/s, {:.2} of csv alone", of_both / 1e6, of_both / floor);
+    }
+}

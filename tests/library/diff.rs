@@ -1,0 +1,227 @@
+//! Where two runs first differ: every change of a log is named, and nothing else. The seed is printed; `REGATTA_SEED` sets another.
+
+use crate::dice::Dice;
+use csv::{ByteRecord, Reader};
+use regatta::lab::diff::{Comparison, NotComparable, Records, Tolerance, diff};
+use regatta::lab::{Action, Scene, Session};
+
+struct Table {
+    header: ByteRecord,
+    rows: std::vec::IntoIter<ByteRecord>,
+}
+
+impl Table {
+    fn new(text: &str) -> Self {
+        let mut reader = Reader::from_reader(text.as_bytes());
+        let header = reader.byte_headers().unwrap().clone();
+        let rows: Vec<_> = reader.into_byte_records().map(Result::unwrap).collect();
+        Self { header, rows: rows.into_iter() }
+    }
+}
+
+impl Records for Table {
+    type Error = NotComparable;
+
+    fn header(&self) -> &ByteRecord {
+        &self.header
+    }
+
+    fn next(&mut self, row: &mut ByteRecord) -> Result<bool, NotComparable> {
+        Ok(self.rows.next().map(|next| *row = next).is_some())
+    }
+}
+
+fn within(a: &str, b: &str, tolerance: Tolerance) -> Result<Comparison, NotComparable> {
+    diff(&mut Table::new(a), &mut Table::new(b), tolerance)
+}
+
+fn compared(a: &str, b: &str) -> Comparison {
+    within(a, b, Tolerance::default()).unwrap()
+}
+
+const HEADER: &str = "tick,t,lane,method,body,coordinate,q,v";
+
+/// A tidy log of a scene's race: this many ticks of all its lanes and bodies.
+fn log(scene: &str, ticks: u64) -> Vec<String> {
+    let scene = Scene::built_in(scene).unwrap();
+    let mut session = Session::racing(scene.clone().into());
+    let mut lines = vec![HEADER.to_owned()];
+    for tick in 0..ticks {
+        for (lane, entrant) in (1..).zip(session.race().entrants()).take(3) {
+            for (body, named) in entrant.lane.bodies().iter().zip(&scene.bodies) {
+                let states = body.stepper.q().iter().zip(body.stepper.v());
+                for (coordinate, (q, v)) in body.coordinates().iter().zip(states) {
+                    let (t, method) = (tick as f64 / 60.0, entrant.spec.method.id);
+                    let place = format!("{tick},{t},{lane},{method},{}", named.name);
+                    lines.push(format!("{place},{},{q:?},{v:?}", coordinate.name));
+                }
+            }
+        }
+        session.tick();
+    }
+    lines
+}
+
+/// The number so many doubles above.
+fn above(x: f64, ulps: u64) -> f64 {
+    (0..ulps).fold(x, |x, _| x.next_up())
+}
+
+#[test]
+fn each_of_ten_thousand_changes_of_a_log_is_named() {
+    let mut dice = Dice::new(48);
+    let logs = ["spring", "orbit", "harbour"].map(|scene| log(scene, 12));
+    for n in 0..10_000 {
+        let before = &logs[dice.below(logs.len())];
+        let text = before.join("\n");
+        let mut after = before.clone();
+        let line = 1 + dice.below(before.len() - 1);
+        let cells: Vec<&str> = before[line].split(',').collect();
+        let rows = before.len() as u64 - 1;
+        let is_named = |found: &Comparison| {
+            let first = found.first.as_ref().unwrap();
+            assert_eq!(first.tick.to_string(), cells[0], "change {n}");
+            let row = first.row.clone().map(Option::unwrap);
+            assert_eq!(row, [cells[2], cells[4], cells[5]], "change {n}");
+        };
+        match n % 4 {
+            0 => {
+                let (column, ulps) = (6 + dice.below(2), 1 + dice.below(9) as u64);
+                let mut cells = cells.clone();
+                let changed = format!("{:?}", above(cells[column].parse().unwrap(), ulps));
+                let was = cells[column];
+                cells[column] = &changed;
+                after[line] = cells.join(",");
+                let found = compared(&text, &after.join("\n"));
+                is_named(&found);
+                let first = found.first.clone().unwrap();
+                assert_eq!(first.ulps, Some(ulps), "change {n}");
+                assert_eq!(first.column, ["q", "v"][column - 6], "change {n}");
+                assert_eq!(first.values, [was, &*changed].map(|it| Some(it.to_owned())));
+                assert!(!found.is_same() && found.rows == rows && found.missing == [0, 0]);
+                let enough = Tolerance { ulps, relative: 0.0 };
+                assert!(within(&text, &after.join("\n"), enough).unwrap().is_same());
+                let less = Tolerance { ulps: ulps - 1, relative: 0.0 };
+                assert!(!within(&text, &after.join("\n"), less).unwrap().is_same());
+            }
+            1 => {
+                after.remove(line);
+                let found = compared(&text, &after.join("\n"));
+                assert!(!found.is_same() && found.first.is_none(), "change {n}");
+                assert_eq!((found.missing, found.rows), ([0, 1], rows - 1), "change {n}");
+                assert_eq!(found.first_missing[1].unwrap().to_string(), cells[0], "change {n}");
+                let back = compared(&after.join("\n"), &text);
+                assert_eq!((back.missing, back.first_missing[1]), ([1, 0], None), "change {n}");
+            }
+            2 => {
+                let other = 1 + dice.below(before.len() - 1);
+                after.swap(line, other);
+                let found = compared(&text, &after.join("\n"));
+                assert!(found.is_same() && found.rows == rows, "change {n}: {found:?}");
+                assert_eq!(found.displaced > 0, line != other, "change {n}");
+            }
+            _ => {
+                let (column, name) = if dice.part() < 0.5 { ("q", "x") } else { ("v", "w") };
+                after[0] = HEADER.replace(&format!(",{column}"), &format!(",{name}"));
+                let found = compared(&text, &after.join("\n"));
+                let first = found.first.clone().unwrap();
+                assert_eq!((&*first.column, first.values[1].as_ref()), (column, None));
+                assert_eq!(found.alone, [[column.to_owned()], [name.to_owned()]]);
+                assert!(!found.is_same() && found.rows == rows, "change {n}");
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_is_called_the_same_where_nothing_moves_or_no_two_rows_are_common() {
+    let still: String = (0..5400).map(|tick| format!("{tick},1.5,0\n")).collect();
+    let still = format!("tick,x,v\n{still}");
+    let found = compared(&still, &still);
+    assert!(!found.is_comparable() && !found.is_same() && found.rows == 5400);
+    let one = compared("tick,x\n0,1\n1,2\n", "tick,x\n1,2\n2,3\n");
+    assert!(!one.is_comparable() && !one.is_same() && one.rows == 1 && one.missing == [1, 1]);
+    let two = compared("tick,x\n0,1\n1,2\n", "tick,x\n0,1\n1,2\n");
+    assert!(two.is_same() && two.moved == 1.0);
+}
+
+#[test]
+fn nan_is_the_same_as_nan_and_zero_as_minus_zero_and_both_are_counted() {
+    let found = compared("t,x,v\n0,0,NaN\n1,5,nan\n2,1,1", "t,x,v\n0,-0.0,-nan\n1,5,NaN\n2,1,1");
+    assert!(found.is_same(), "{found:?}");
+    assert_eq!((found.nans, found.zeros_of_two_signs), (2, 1));
+    let found = compared("t,x\n0,0\n1,5\n2,7", "t,x\n0,0\n1,NaN\n2,7");
+    let first = found.first.clone().unwrap();
+    assert_eq!((first.tick, first.ulps, first.relative), (1, None, None));
+    assert!(!found.is_same() && found.worst.unwrap().1.is_infinite());
+}
+
+#[test]
+fn numbers_count_and_not_how_they_are_written() {
+    let found = compared("t,x\n0,1\n1,2.50\n", "x, t\n1.0,0\n25e-1,1\n");
+    assert!(found.is_same() && found.rows == 2, "{found:?}");
+}
+
+#[test]
+fn tables_with_other_rows_or_without_a_common_column_are_refused() {
+    let refused = |a: &str, b: &str| within(a, b, Tolerance::default()).unwrap_err().to_string();
+    let told = refused("tick,lane,q\n0,1,2", "tick,q\n0,2");
+    assert!(told.contains("a has a column \"lane\" and b has none"), "{told}");
+    let told = refused("tick,x\n0,2", "tick,y\n0,2");
+    assert!(told.contains("no column of values is in both"), "{told}");
+    let told = refused("tick,x\nzero,2", "tick,x\n0,2");
+    assert!(told.contains("row 1 of a") && told.contains("zero"), "{told}");
+}
+
+#[test]
+fn an_exponential_growth_has_its_rate_and_another_has_none() {
+    let log = |off: &dyn Fn(f64) -> f64| -> String {
+        let rows = (0..3000).map(|tick| {
+            let t = f64::from(tick) / 60.0;
+            format!("{tick},{t},{}\n", (0.7 * t).cos() + off(t))
+        });
+        format!("tick,t,x\n{}", rows.collect::<String>())
+    };
+    let found = compared(&log(&|_| 0.0), &log(&|t| 1e-13 * (0.9 * t).exp()));
+    let rate = found.per_second.unwrap();
+    assert!((rate - 0.9).abs() < 0.02, "{rate}");
+    // e^(0.9 t) has grown from 1e-13 to each level.
+    for (level, reached) in [1e-12, 1e-9, 1e-6, 1e-3, 1.0_f64].into_iter().zip(found.reaches) {
+        let due = 60.0 * (level / 1e-13).ln() / 0.9;
+        assert!((reached.unwrap() as f64 - due).abs() < 6.0, "{level}: {reached:?}, not {due}");
+    }
+    assert_eq!(compared(&log(&|_| 0.0), &log(&|t| 1e-9 * t * t)).per_second, None);
+    assert_eq!(compared(&log(&|_| 0.0), &log(&|_| 1e-9)).per_second, None);
+}
+
+#[test]
+fn rows_that_one_side_lacks_for_ever_take_no_memory() {
+    let all: String = (0..200_000).map(|tick| format!("{tick},{}\n", tick % 7)).collect();
+    let some: String =
+        (0..200_000).step_by(7).map(|tick| format!("{tick},{}\n", tick % 7)).collect();
+    let last = "200000,3\n";
+    let found = compared(&format!("tick,x\n{all}{last}"), &format!("tick,x\n{some}{last}"));
+    let common = 200_000_u64.div_ceil(7) + 1;
+    assert_eq!((found.rows, found.missing), (common, [0, 200_001 - common]));
+    assert!(found.first.is_none() && !found.is_same());
+}
+
+#[test]
+fn a_run_and_its_copy_are_the_same_and_a_kick_is_found_in_its_tick() {
+    let run = |kick: Option<u64>| {
+        let mut session = Session::racing(Scene::built_in("spring").unwrap().into());
+        let mut text = "tick,x,v\n".to_owned();
+        for tick in 0..200 {
+            let body = &session.race().entrants()[0].lane.bodies()[0];
+            text += &format!("{tick},{:?},{:?}\n", body.stepper.q()[0], body.stepper.v()[0]);
+            if kick == Some(tick) {
+                session.act(Action::Kick(1e-9));
+            }
+            session.tick();
+        }
+        text
+    };
+    assert!(compared(&run(None), &run(None)).is_same());
+    let found = compared(&run(None), &run(Some(77)));
+    assert_eq!(found.first.unwrap().tick, 78);
+}

@@ -1,0 +1,151 @@
+//! `diff`: two runs of every kind, its words, its JSON and its exit codes.
+
+use super::{refusal, regatta, run, run_in, stderr};
+use serde_json::Value;
+use std::fs;
+use std::io::Write;
+use std::process::Stdio;
+
+/// Writes the log of a run into a folder.
+fn log(folder: &std::path::Path, name: &str, options: &str) -> String {
+    let output = run(&format!("trace --scene spring --seconds 2 {options}"));
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = String::from_utf8(output.stdout).unwrap();
+    fs::write(folder.join(name), &text).unwrap();
+    text
+}
+
+#[test]
+fn the_first_difference_of_two_logs_is_told_with_its_place_and_its_growth() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = log(folder.path(), "a.csv", "--method rk4");
+    log(folder.path(), "b.csv", "--method rk4 --tick-hz 60");
+    let same = run_in(folder.path(), "diff a.csv b.csv");
+    assert_eq!(same.status.code(), Some(0), "{}", stderr(&same));
+    let told = String::from_utf8(same.stdout).unwrap();
+    assert!(told.contains("the same\n") && told.contains("242 rows compared"), "{told}");
+
+    let line = text.lines().position(|line| line.starts_with("49,") && line.contains("rk4"));
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    let cells: Vec<&str> = text.lines().nth(line.unwrap()).unwrap().split(',').collect();
+    let q: f64 = cells[6].parse().unwrap();
+    let changed = format!("{:?}", q.next_up());
+    lines[line.unwrap()] = lines[line.unwrap()].replace(cells[6], &changed);
+    fs::write(folder.path().join("c.csv"), lines.join("\n")).unwrap();
+    let other = run_in(folder.path(), "diff a.csv c.csv --format json");
+    assert_eq!(other.status.code(), Some(1), "{}", stderr(&other));
+    let json = String::from_utf8(other.stdout).unwrap();
+    let digits = [format!("\"a\": {},", cells[6]), format!("\"b\": {changed},")];
+    assert!(digits.iter().all(|digits| json.contains(digits)), "{json}");
+    let found: Value = serde_json::from_str(&json).unwrap();
+    let keys = |value: &Value| value.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+    let mut all = keys(&found);
+    all.sort();
+    let known = [
+        "comparable",
+        "first",
+        "missing",
+        "moved",
+        "per_second",
+        "reaches",
+        "rows",
+        "same",
+        "worst",
+    ];
+    assert_eq!(all, known);
+    let first = &found["first"];
+    for (key, known) in [
+        ("tick", Value::from(49)),
+        ("lane", Value::from(1)),
+        ("body", "spring".into()),
+        ("coordinate", "x".into()),
+        ("column", "q".into()),
+        ("ulps", 1.into()),
+    ] {
+        assert_eq!(first[key], known, "{key}");
+    }
+    assert_eq!(keys(first).len(), 9);
+    assert_eq!((&found["same"], &found["comparable"]), (&false.into(), &true.into()));
+    assert_eq!((&found["rows"], &found["moved"]), (&242.into(), &2.0.into()));
+    assert_eq!(found["reaches"].as_array().unwrap().len(), 5);
+    assert!(found["per_second"].is_null() && found["missing"]["a"] == 0);
+    assert_eq!(found["worst"]["column"], "q");
+    let equal = run_in(folder.path(), "diff a.csv c.csv --ulps 1");
+    assert_eq!(equal.status.code(), Some(0), "{}", stderr(&equal));
+}
+
+#[test]
+fn a_log_a_recording_and_a_capture_of_one_run_are_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let traced = run("trace --scene spring");
+    fs::write(folder.path().join("log.csv"), traced.stdout).unwrap();
+    let text = run("trace --scene spring --seconds 2").stdout;
+    fs::write(folder.path().join("short.csv"), text).unwrap();
+    let scene = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/scenes/spring.toml");
+    fs::copy(scene, folder.path().join("mine.toml")).unwrap();
+    for same in ["diff spring log.csv", "diff log.csv mine.toml", "diff mine.toml spring"] {
+        let output = run_in(folder.path(), same);
+        assert_eq!(output.status.code(), Some(0), "{same}: {}", stderr(&output));
+    }
+    let lacks = run_in(folder.path(), "diff spring short.csv --format json");
+    assert_eq!(lacks.status.code(), Some(1), "{}", stderr(&lacks));
+    let found: Value = serde_json::from_slice(&lacks.stdout).unwrap();
+    assert!(found["first"].is_null() && found["missing"]["a"] == 0, "{found}");
+    assert!(found["missing"]["b"].as_u64().unwrap() > 1000, "{found}");
+
+    let size = "--frames 20 --size 160x100 --no-panels";
+    let made = run_in(folder.path(), &format!("capture --scene spring --race {size} --out clip"));
+    assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
+    let same = run_in(folder.path(), "diff clip clip");
+    assert_eq!(same.status.code(), Some(0), "{}", stderr(&same));
+    // A capture has no truth, and marks of the ticks that it drew.
+    let part = run_in(folder.path(), "diff spring clip --format json");
+    let found: Value = serde_json::from_slice(&part.stdout).unwrap();
+    assert!(found["first"].is_null() && found["missing"]["a"] == 0, "{found}");
+    assert!(found["rows"].as_u64().unwrap() > 100, "{found}");
+}
+
+#[test]
+fn one_may_be_standard_input_and_two_may_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = log(folder.path(), "a.csv", "--method rk4");
+    let mut child = regatta()
+        .current_dir(folder.path())
+        .args(["diff", "-", "a.csv"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    assert!(refusal("diff - -", 2).contains("give a file for one"));
+}
+
+#[test]
+fn what_cannot_be_compared_is_refused_with_its_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("still.csv", &format!("tick,x\n{}", "0,1\n1,1\n2,1\n"));
+    write("moves.csv", "tick,x\n0,1\n1,2\n2,1\n");
+    write("torn.csv", "tick,x\n0,1\n1\n");
+    write("empty.csv", "");
+    write("lanes.csv", "tick,lane,x\n0,1,1\n");
+    for (arguments, told) in [
+        ("diff still.csv still.csv", "nothing to compare: nothing moves in the 3 rows"),
+        ("diff moves.csv torn.csv", "torn.csv:3:"),
+        ("diff moves.csv empty.csv", "empty.csv is empty"),
+        ("diff moves.csv lanes.csv", "b has a column \"lane\" and a has none"),
+        ("diff moves.csv none.csv", "cannot read none.csv"),
+        ("diff moves.csv moves.csv --relative -1", "--relative"),
+    ] {
+        let output = run_in(folder.path(), arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments}");
+        assert!(stderr(&output).contains(told), "{arguments}: {}", stderr(&output));
+    }
+    let json = run_in(folder.path(), "diff still.csv still.csv --format json");
+    assert_eq!(json.status.code(), Some(2));
+    let found: Value = serde_json::from_slice(&json.stdout).unwrap();
+    assert_eq!((&found["comparable"], &found["same"]), (&false.into(), &false.into()));
+    assert!(found["first"].is_null() && found["worst"].is_null());
+}
