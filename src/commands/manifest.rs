@@ -33,6 +33,8 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+use crate::lab::diff::is_same_number;
+
 pub use super::fingerprint::fingerprint;
 
 mod any_number;
@@ -185,17 +187,12 @@ impl LaneMark {
     pub fn is_same(&self, other: &Self) -> bool {
         let rows = |a: &[Vec<f64>], b: &[Vec<f64>]| {
             let values = |a: &Vec<f64>, b: &Vec<f64>| {
-                a.len() == b.len() && a.iter().zip(b).all(|(&a, &b)| is_same_value(a, b))
+                a.len() == b.len() && a.iter().zip(b).all(|(&a, &b)| is_same_number(a, b))
             };
             a.len() == b.len() && a.iter().zip(b).all(|(a, b)| values(a, b))
         };
         self.hash == other.hash && rows(&self.q, &other.q) && rows(&self.v, &other.v)
     }
-}
-
-/// Whether both values are the same number, or both are NaN.
-pub(super) fn is_same_value(a: f64, b: f64) -> bool {
-    a == b || a.is_nan() && b.is_nan()
 }
 
 impl Manifest {

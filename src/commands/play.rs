@@ -69,7 +69,7 @@ pub(super) struct PlayArgs {
     record: Option<PathBuf>,
 
     /// Replace the --record FILE if it exists
-    #[arg(long, requires = "record")]
+    #[arg(long, requires = "record", hide_short_help = true)]
     force: bool,
 
     /// The theme: dark or light

@@ -129,6 +129,7 @@ complete -c regatta -n "__fish_regatta_needs_command" -f -a "identify" -d 'Say w
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "port" -d 'Say with what settings a spring moves alike in all engines'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "show" -d 'Print a method or a game loop as code for your game'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "fixture" -d 'Write exact states as a test for your own engine'
+complete -c regatta -n "__fish_regatta_needs_command" -f -a "diff" -d 'Say where two runs first differ'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "chapter" -d 'Print the chapter\'s tables, and draw its Figures 7-2 to 7-8'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "list" -d 'List scenes, methods, bodies, metrics, policies, traces or keys'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "completions" -d 'Print a completion script for a shell'
@@ -731,6 +732,7 @@ fixed\t''
 fixed-linear\t''
 fixed-hermite\t''
 fixed-extrapolated\t''
+render-tick\t''
 snapped\t''
 whole-refresh\t''
 hysteresis\t''
@@ -984,6 +986,11 @@ rust\t''
 json\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -l float -d 'Numbers of single precision, as Unity and Godot have them'
 complete -c regatta -n "__fish_regatta_using_subcommand fixture" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l ulps -d 'Numbers with at most N doubles from one to the other are equal' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l relative -d 'Numbers that differ by at most this part of the larger are equal' -r
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
+json\t'An array of objects, for programs'"
+complete -c regatta -n "__fish_regatta_using_subcommand diff" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand chapter" -l out -d 'The directory for the figures and their data' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand chapter" -l force -d 'Replace the figures that DIR holds; other files in it stay'
 complete -c regatta -n "__fish_regatta_using_subcommand chapter" -s h -l help -d 'Print help (see more with \'--help\')'

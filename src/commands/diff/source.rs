@@ -60,14 +60,16 @@ impl Source {
         if is_scene {
             return Ok(Self::Made(of_scene(path)?));
         }
-        let input: Box<dyn Read + Send> = match path.as_os_str() == "-" {
+        let is_standard = path.as_os_str() == "-";
+        let name = if is_standard { "standard input".into() } else { path.display().to_string() };
+        let input: Box<dyn Read + Send> = match is_standard {
             true => Box::new(io::stdin()),
             false => Box::new(File::open(path).map_err(|error| {
                 let path = path.display();
                 Error::mistake(format!("cannot read {path}: {error}; give a run that you may read"))
             })?),
         };
-        Table::begin(path.display().to_string(), input).map(Self::Table)
+        Table::begin(name, input).map(Self::Table)
     }
 }
 

@@ -1,8 +1,9 @@
 //! Compares the states of a run with the marks in a manifest.
 
-use super::super::manifest::{LaneEnd, LaneMark, Manifest, Mark, is_same_value};
+use super::super::manifest::{LaneEnd, LaneMark, Manifest, Mark};
 use super::super::state_log::{self, StateLog};
 use crate::lab::Studio;
+use crate::lab::diff::is_same_number;
 
 /// The first mark that differs.
 pub(super) struct PhysicsChange {
@@ -93,7 +94,7 @@ fn first_coordinate(then: &LaneMark, now: &LaneMark, studio: &Studio, lane: usiz
         let names = coordinates.iter();
         let names = names.clone().map(|c| c.name).chain(names.map(|c| c.velocity));
         for ((name, was), is) in names.zip(values(then)).zip(values(now)) {
-            if !is_same_value(was, is) {
+            if !is_same_number(was, is) {
                 let body = &studio.scene().bodies[n].name;
                 let off = (is - was).abs();
                 return format!("{body}, {name}: {was} in the manifest, {is} now, off by {off:e}");

@@ -93,7 +93,7 @@ fn a_log_a_recording_and_a_capture_of_one_run_are_the_same() {
     assert!(found["first"].is_null() && found["missing"]["a"] == 0, "{found}");
     assert!(found["missing"]["b"].as_u64().unwrap() > 1000, "{found}");
 
-    let size = "--frames 20 --size 160x100 --no-panels";
+    let size = "--frames 20 --size 160x100";
     let made = run_in(folder.path(), &format!("capture --scene spring --race {size} --out clip"));
     assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
     let same = run_in(folder.path(), "diff clip clip");
