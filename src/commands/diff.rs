@@ -20,14 +20,14 @@ use source::Source;
 const ABOUT: &str = "\
 A run is a table as CSV, of `regatta trace` or with a column for each number; the run of a scene or of a
 recording, which is made again; the states in the manifest of a capture; or - for a table on standard
-input. Rows are the same row by tick, lane, body and coordinate, or by those of them that the tables have;
-without tick by t, else by their place. All other columns but method are compared. Whatever is on one side
-alone is counted under the side that lacks it.
+input. Rows belong together by tick, lane, body and coordinate, or by those of them that the tables have. A
+table without tick is matched by t, and without t by the place of the row. All other columns but method are
+compared. A row on one side alone is counted under the side that lacks it.
 
 The last bit counts, unless --ulps or --relative says what is equal. NaN is the same as NaN, and -0 as 0.
 A difference reaches 1e-12 at the first tick where it is that part of the largest value that this column of
-this coordinate had until then; so does the worst count. A rate is told of a difference that grows
-exponentially through three decades, from the times of a column t.
+this coordinate had until then. The column that differs most is found by the same part. If the difference
+grows exponentially through three decades, its rate is told, by the times of a column t.
 
 Exit code 0: the same. 1: different. 2: cannot be compared, as where nothing moves.
 
@@ -99,11 +99,6 @@ pub(super) fn run(args: &DiffArgs) -> Result<(), Error> {
     }
 }
 
-/// The words for a part of a number, which is infinite where one of two is.
-fn part_words(part: f64) -> String {
-    if part.is_finite() { format!("{part:.1e}") } else { "beyond all numbers".into() }
-}
-
 fn words(found: &Comparison, a: &Path, b: &Path) -> String {
     let mut lines = vec![format!("a: {}", a.display()), format!("b: {}", b.display())];
     match &found.first {
@@ -125,7 +120,11 @@ fn words(found: &Comparison, a: &Path, b: &Path) -> String {
         }
     }
     if let Some((column, part)) = &found.worst {
-        lines.push(format!("{column} differs most, by {} of its largest value", part_words(*part)));
+        let how = match part.is_finite() {
+            true => format!("by {part:.1e} of its largest value"),
+            false => "since one of two values is not finite".into(),
+        };
+        lines.push(format!("{column} differs most, {how}"));
     }
     let rows = counted(found.rows, "row");
     lines.push(format!("{rows} compared; the farthest motion is {}", found.moved));

@@ -12,7 +12,7 @@ use super::output::Output;
 use super::output::table::{RowFormat, RowWriter};
 use super::terminal::print_status;
 use crate::lab::race::{Lane, LaneBody};
-use crate::lab::{METRICS, SceneBody, Studio};
+use crate::lab::{METRICS, Race, Scene, SceneBody, Studio};
 use crate::sim::Solver;
 use crate::sim::bodies::Truth;
 
@@ -116,7 +116,7 @@ impl<'a> Trace<'a> {
         }
         let Self { rows, args, cells } = self;
         (cells[0], cells[1]) = (race.tick().into(), race.t().into());
-        each_row(studio, args.metrics, &mut |row| {
+        each_row(race, studio.scene(), args.metrics, &mut |row| {
             cells[2] = row.lane.into();
             (cells[3], cells[4]) = (row.method.into(), row.body.into());
             (cells[5], cells[6], cells[7]) = (row.coordinate.into(), row.q.into(), row.v.into());
@@ -138,14 +138,14 @@ pub(super) struct TraceRow<'a> {
 
 /// Goes through the present of the truth and of every lane, but of bodies that have halted.
 pub(super) fn each_row<E>(
-    studio: &Studio,
+    race: &Race,
+    scene: &Scene,
     with_metrics: bool,
     row: &mut impl FnMut(TraceRow) -> Result<(), E>,
 ) -> Result<(), E> {
-    let race = studio.race();
     let lanes = race.entrants().iter().map(|entrant| &entrant.lane);
     for (number, lane) in [race.truth()].into_iter().chain(lanes).enumerate() {
-        let bodies = lane.bodies().iter().zip(&studio.scene().bodies).enumerate();
+        let bodies = lane.bodies().iter().zip(&scene.bodies).enumerate();
         for (n, (body, named)) in bodies.filter(|(_, (body, _))| body.halted().is_none()) {
             let method = method_id(lane.solver(), body);
             let mut write = |coordinate: &str, q, v| {

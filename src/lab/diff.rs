@@ -38,7 +38,38 @@ pub trait Records {
     fn next(&mut self, row: &mut ByteRecord) -> Result<bool, Self::Error>;
 }
 
-/// What counts as equal: what is equal by either. By default only what is the same number; NaN is, and zero of either sign.
+/// The text of a table as CSV.
+#[derive(Debug)]
+pub struct Table<'a> {
+    header: ByteRecord,
+    rows: csv::Reader<&'a [u8]>,
+}
+
+impl<'a> Table<'a> {
+    /// A table that begins with the names of its columns.
+    ///
+    /// # Errors
+    /// What keeps them from being read.
+    pub fn new(text: &'a str) -> csv::Result<Self> {
+        let mut rows = csv::Reader::from_reader(text.as_bytes());
+        Ok(Self { header: rows.byte_headers()?.clone(), rows })
+    }
+}
+
+impl Records for Table<'_> {
+    type Error = csv::Error;
+
+    fn header(&self) -> &ByteRecord {
+        &self.header
+    }
+
+    fn next(&mut self, row: &mut ByteRecord) -> csv::Result<bool> {
+        self.rows.read_byte_record(row)
+    }
+}
+
+/// What counts as equal: two numbers within either bound. By default they must be the same number, as two NaN and zeros of
+/// two signs are.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tolerance {
     /// The most doubles from one to the other.
@@ -86,9 +117,9 @@ pub struct Comparison {
     pub alone: [Vec<String>; 2],
     /// The column that differs most, and by how much, as in `reaches`.
     pub worst: Option<(String, f64)>,
-    /// Pairs of values that are the same number but not the same bits: zeros of two signs, and NaN.
+    /// Pairs of zeros of two signs, which count as equal.
     pub zeros_of_two_signs: u64,
-    /// See `zeros_of_two_signs`.
+    /// Pairs of NaN, which count as equal.
     pub nans: u64,
     /// Rows that stand at another place on the other side.
     pub displaced: u64,
@@ -315,6 +346,7 @@ impl Work {
             let numbers = [first, second];
             let scale = self.note(place.stream, column, numbers);
             if is_text_same {
+                self.found.nans += u64::from(first.is_some_and(f64::is_nan));
                 continue;
             }
             let values = cells.map(Some);

@@ -1,20 +1,21 @@
 //! What is compared: the rows of a table, of a run, or of the states in a manifest.
 
+use std::convert::Infallible;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
 use csv::ByteRecord;
 
 use crate::commands::error::Error;
-use crate::commands::experiment::{Experiment, Lineup};
 use crate::commands::manifest::Mark;
 use crate::commands::trace::{COLUMNS, each_row};
 use crate::commands::{scene_file, verify};
-use crate::lab::Studio;
 use crate::lab::diff::{NotComparable, Records};
+use crate::lab::{Race, Scene, Session, Studio};
 
 /// The rows that pass from thread to thread at once.
 const BATCH: usize = 1024;
@@ -184,36 +185,32 @@ fn row(at: [&str; 4], body: &str, coordinate: &str, [q, v]: [f64; 2]) -> ByteRec
 
 /// The run of the scene or recording at `path`, to its end or to its last check.
 fn of_scene(path: &Path) -> Result<Made, Error> {
-    let (scene, text) = scene_file::load(path)?;
-    let lineup = Lineup::Everyone;
-    let experiment = Experiment { scene, text, selected: None, lineup, loop_trace: None };
-    let mut studio = experiment.studio();
-    let checked = experiment.scene.checks.iter().map(|check| check.tick).max().unwrap_or(0);
-    let last = studio.nearest_tick(experiment.scene.seconds).max(checked);
+    let scene = Arc::new(scene_file::load(path)?.0);
+    let mut session = Session::racing(scene.clone());
+    let checked = scene.checks.iter().map(|check| check.tick).max().unwrap_or(0);
+    let last = Studio::new((*scene).clone()).nearest_tick(scene.seconds).max(checked);
     let mut has_begun = false;
     Ok(Made::new(move || {
         if std::mem::replace(&mut has_begun, true) {
-            if studio.race().tick() >= last {
+            if session.race().tick() >= last {
                 return None;
             }
-            studio.tick();
+            session.tick();
         }
-        Some(present(&studio))
+        Some(present(session.race(), &scene))
     }))
 }
 
 /// The rows of a run's present.
-fn present(studio: &Studio) -> Vec<ByteRecord> {
-    let (tick, t) = (studio.race().tick().to_string(), format!("{:?}", studio.race().t()));
+fn present(race: &Race, scene: &Scene) -> Vec<ByteRecord> {
+    let (tick, t) = (race.tick().to_string(), format!("{:?}", race.t()));
     let mut rows = Vec::new();
-    let all: Result<(), std::convert::Infallible> = each_row(studio, false, &mut |it| {
+    let Ok(()) = each_row(race, scene, false, &mut |it| {
         let at = [&tick, &t, &it.lane.to_string(), it.method];
         rows.push(row(at, it.body, it.coordinate, [it.q, it.v.unwrap_or_default()]));
-        Ok(())
+        Ok::<(), Infallible>(())
     });
-    match all {
-        Ok(()) => rows,
-    }
+    rows
 }
 
 /// The states in the manifest of the capture in `dir`.

@@ -156,10 +156,13 @@ impl Layout {
         })
     }
 
-    /// The tick of a row, or its place in a table without ticks.
+    /// The tick of a row, 0 for one below it, or the row's place in a table without ticks.
     pub(super) fn tick(&self, order: u64, place: u64) -> u64 {
         match self.order {
-            Order::By { column: "tick", .. } => f64::from_bits(order & (u64::MAX >> 1)) as u64,
+            Order::By { column: "tick", .. } if order >> 63 == 1 => {
+                f64::from_bits(order & (u64::MAX >> 1)) as u64
+            }
+            Order::By { column: "tick", .. } => 0,
             _ => place,
         }
     }

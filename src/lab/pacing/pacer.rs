@@ -61,11 +61,12 @@ impl Pacer {
 
     /// The simulated moment that the picture shows. Interpolation shows one a tick before the first, too.
     pub fn shown(&self) -> i128 {
+        let now = self.simulated + self.policy.owed();
         match self.card.drawing {
-            _ if self.card.draws_ahead() => self.simulated + self.policy.owed(),
-            Interpolation::Raw | Interpolation::Extrapolated => self.simulated,
+            Interpolation::Raw if !self.card.has_render_tick => self.simulated,
+            Interpolation::Raw | Interpolation::Extrapolated => now,
             Interpolation::Linear | Interpolation::Hermite | Interpolation::Monotone => {
-                self.simulated - self.base.tick() + self.policy.owed()
+                now - self.base.tick()
             }
         }
     }

@@ -110,20 +110,23 @@ fn the_table_derived_by_hand_is_reproduced() {
 fn a_render_tick_is_not_late_and_as_right_as_its_method_where_ticks_are_not_coarse() {
     let ahead = |options: &str| {
         let both = "--policy fixed-extrapolated --policy render-tick --seconds 8";
-        let rows = rows(&format!("--scene spring --trace steady-144 {both} {options}"));
+        let rows = rows(&format!("--trace steady-144 {both} {options}"));
         for row in &rows {
             near(row, "latency_mean_ms", 0.0);
             near(row, "animation_error_rms_ms", 0.0);
         }
         [0, 1].map(|i| number(&rows[i], "position_error_rms"))
     };
-    let [extrapolated, stepped] = ahead("--method rk4");
+    let [extrapolated, stepped] = ahead("--scene spring --method rk4");
     assert!(1e-3 < extrapolated && extrapolated < 2e-3, "{extrapolated}");
     assert!(1e-5 < stepped && stepped < 3e-5, "{stepped}, and RK4 itself is off by that");
-    let [extrapolated, stepped] = ahead("--method rk4 --tick-hz 4");
+    let [extrapolated, stepped] = ahead("--scene damped --method rk4");
+    assert!(1e-3 < extrapolated && extrapolated < 2e-3, "{extrapolated} with drag");
+    assert!(1e-5 < stepped && stepped < 3e-5, "{stepped} with drag");
+    let [extrapolated, stepped] = ahead("--scene spring --method rk4 --tick-hz 4");
     assert!(0.4 < stepped && stepped < extrapolated && extrapolated < 0.6, "{stepped}");
     // A step of explicit Euler moves a position by its velocity, which is what extrapolation does.
-    let [extrapolated, stepped] = ahead("--method explicit-euler");
+    let [extrapolated, stepped] = ahead("--scene spring --method explicit-euler");
     assert!(stepped.is_finite() && (stepped - extrapolated).abs() < 1e-12, "{stepped}");
     // The copies' evaluations are paid for: 480 ticks and a copy in each frame that is not at a tick.
     let rows =
