@@ -10,7 +10,9 @@ use super::identify::{LogArgs, rate};
 use super::numbers::{frequency, number, positive};
 use super::output::print;
 use super::output::table::TableFormat;
-use crate::lab::port::{DriveLimits, Ported, Setup, Wish, drive_limits, followers, setups};
+use crate::lab::port::{
+    DIALECTS, Dialect, DriveLimits, Ported, Setup, Wish, drive_limits, followers, setups,
+};
 use crate::lab::scene::MAX_SUBSTEPS;
 use crate::lab::{identify, port};
 use crate::sim::integrators::{METHODS, Method};
@@ -29,6 +31,9 @@ For each engine, the settings are sought under which its tick shows what is wish
   --from LOG.csv                   what is seen in a log, which is read as by `regatta identify`
   --from lerp:0.1@60fps            a value that chases a target: also smooth-damp:SECONDS and
                                    half-life:SECONDS
+  --from swiftui:KEY=VALUE,…       a spring of a user interface; what is left out is the library's own
+
+Springs of user interfaces: {dialects}.
 
 The frequency is the one at which the spring would swing without its damping; with a damping ratio d
 it swings √(1 - d²) times as fast. The word is
@@ -36,7 +41,7 @@ it swings √(1 - d²) times as fast. The word is
   reached      the engine shows the wish, to rounding
   nearest      it does not; these settings come nearest
   unreachable  it does not, because it damps more by itself: its floor is the least damping ratio
-               that it shows at this frequency
+               that it shows at this frequency; or it explodes
 
 Where an engine has no substeps, as Chipmunk and Godot, N of them are N ticks of dt / N that the
 game makes; in PhysX they are position iterations.
@@ -51,11 +56,13 @@ Examples:
   regatta port --from engine-godot:stiffness=1000,damping=80 --to engine-jolt
   regatta port --from spring.csv --tick-hz 60 --format json
   regatta port --frequency 5Hz --drive --decimation 4 --tick-hz 500
-  regatta port --from lerp:0.1@60fps";
+  regatta port --from lerp:0.1@60fps
+  regatta port --from swiftui:duration=0.5,bounce=0.3 --to compose,css
+  regatta port --from react-spring:tension=170,friction=26 --to ui --tick-hz 30";
 
 /// Say with what settings a spring moves alike in all engines
 #[derive(Debug, Args)]
-#[command(after_long_help = flowing(ABOUT))]
+#[command(after_long_help = flowing(&about()))]
 #[command(group = ArgGroup::new("wish").required(true))]
 pub(super) struct PortArgs {
     /// The frequency that a player is to see
@@ -70,9 +77,9 @@ pub(super) struct PortArgs {
     #[arg(allow_negative_numbers = true, requires = "frequency")]
     damping_ratio: Option<f64>,
 
-    /// An engine's settings, a log, or a chase
+    /// The settings of an engine or a user interface, a log, or a chase
     ///
-    /// ENGINE:KEY=VALUE,…, LOG.csv, or how a value chases its target.
+    /// ID:KEY=VALUE,…, LOG.csv, or how a value chases its target.
     #[arg(long, value_name = "SOURCE", group = "wish")]
     from: Option<String>,
 
@@ -81,7 +88,7 @@ pub(super) struct PortArgs {
     #[arg(allow_negative_numbers = true)]
     mass: f64,
 
-    /// Ticks per second of the engines, and of a log
+    /// Ticks per second of the engines and of a log, frames per second of user interfaces
     #[arg(long, value_name = "N", default_value = "60", value_parser = rate)]
     #[arg(allow_negative_numbers = true)]
     tick_hz: f64,
@@ -91,8 +98,10 @@ pub(super) struct PortArgs {
     #[arg(value_parser = RangedU64ValueParser::<u32>::new().range(1..=u64::from(MAX_SUBSTEPS)))]
     substeps: Option<u32>,
 
-    /// The engines (`regatta list methods`), or all
-    #[arg(long, value_name = "ID,…", default_value = "all", value_delimiter = ',')]
+    /// Engines and user interfaces, all engines, or all of the others: ui
+    ///
+    /// [default: all, or ui for what comes from one]
+    #[arg(long, value_name = "ID,…|all|ui", value_delimiter = ',')]
     #[arg(value_parser = ASKED, hide_possible_values = true)]
     to: Vec<Asked>,
 
@@ -113,11 +122,13 @@ pub(super) struct PortArgs {
     format: TableFormat,
 }
 
-/// One engine, or all of them.
+/// What the settings are sought of.
 #[derive(Clone, Copy, Debug)]
 enum Asked {
-    All,
-    One(&'static Method),
+    Engines,
+    Engine(&'static Method),
+    Dialects,
+    Dialect(&'static Dialect),
 }
 
 /// Whether the method is of an engine whose spring has settings.
@@ -125,24 +136,28 @@ fn has_modes(method: &Method) -> bool {
     method.engine.is_some_and(|engine| !engine.modes.is_empty())
 }
 
-/// Takes the id of an engine that has a spring.
-const ENGINE: Id<&Method> = Id {
-    thing: "engine with a spring",
-    lists: &[],
-    all: || METHODS.iter().filter(|it| has_modes(it)).map(|it| (it.id.into(), it)).collect(),
-    spellings: Vec::new,
-};
+/// The engines that have a spring.
+fn engines() -> impl Iterator<Item = &'static Method> {
+    METHODS.iter().filter(|method| has_modes(method))
+}
 
-/// The same, or that of all.
+/// Takes the id of what has a spring, or that of all of a kind.
 const ASKED: Id<Asked> = Id {
-    thing: ENGINE.thing,
+    thing: "engine or user interface with a spring",
     lists: &[],
     all: || {
-        let each = (ENGINE.all)().into_iter().map(|(id, engine)| (id, Asked::One(engine)));
-        [("all".into(), Asked::All)].into_iter().chain(each).collect()
+        let dialects = DIALECTS.iter().map(|it| (it.id.into(), Asked::Dialect(it)));
+        let all = [("all".into(), Asked::Engines), ("ui".into(), Asked::Dialects)];
+        let engines = engines().map(|it| (it.id.into(), Asked::Engine(it)));
+        all.into_iter().chain(engines).chain(dialects).collect()
     },
     spellings: Vec::new,
 };
+
+fn about() -> String {
+    let ids: Vec<&str> = DIALECTS.iter().map(|dialect| dialect.id).collect();
+    ABOUT.replace("{dialects}", &ids.join(", "))
+}
 
 /// An engine's setup with its settings; `None` if it shows nothing near the wish.
 struct PortedEngine {
@@ -161,7 +176,12 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         From::parse(written, args.tick_hz, args.mass)
             .map_err(|fault| Error::mistake(format!("--from {written}: {fault}")))
     });
-    let wish = match from.transpose()? {
+    let from = from.transpose()?;
+    let usual = match from {
+        Some(From::Dialect(_)) if !args.drive => Asked::Dialects,
+        _ => Asked::Engines,
+    };
+    let wish = match from {
         Some(From::Approach(_, _)) if args.drive => {
             return Err(Error::mistake(
                 "--drive is for a spring; give --frequency, or settings of an engine in --from",
@@ -171,7 +191,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             let ports = followers(approach, fps);
             return print(report::followers(approach, &ports, args.format));
         }
-        Some(From::Engine(wish)) => wish,
+        Some(From::Engine(wish) | From::Dialect(wish)) => wish,
         Some(From::Log(path)) => {
             let log = args.read.read(&path, args.tick_hz)?;
             let found = identify(&log, &args.read.body(args.mass), args.tick_hz);
@@ -190,16 +210,30 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             mass_kg: args.mass,
         },
     };
-    wish.check(args.tick_hz).map_err(Error::mistake)?;
-    let named: Option<Vec<&Method>> = args
-        .to
-        .iter()
-        .map(|asked| match asked {
-            Asked::One(method) => Some(*method),
-            Asked::All => None,
-        })
-        .collect();
-    let setups = setups(named.as_deref(), args.tick_hz, args.substeps);
+    let asked = if args.to.is_empty() { &[usual][..] } else { &args.to[..] };
+    let is_asked = |method: &&Method| {
+        let asks = |asked: &Asked| match asked {
+            Asked::Engines => true,
+            Asked::Engine(asked) => asked == method,
+            Asked::Dialects | Asked::Dialect(_) => false,
+        };
+        asked.iter().any(asks)
+    };
+    let methods: Vec<&Method> = engines().filter(is_asked).collect();
+    let setups = setups(Some(&methods), args.tick_hz, args.substeps);
+    let asked = asked.iter().flat_map(|asked| match asked {
+        Asked::Dialects => DIALECTS,
+        Asked::Dialect(dialect) => std::slice::from_ref(*dialect),
+        Asked::Engines | Asked::Engine(_) => &[],
+    });
+    let dialects: Vec<&Dialect> = asked.collect();
+    if args.drive && !dialects.is_empty() {
+        return Err(Error::mistake("--drive is for engines; user interfaces have no drives"));
+    }
+    match setups.is_empty() {
+        true => wish.check_numbers(args.tick_hz).map_err(Error::mistake)?,
+        false => wish.check(args.tick_hz).map_err(Error::mistake)?,
+    }
     let text = if args.drive {
         let limits = |setup: Setup| {
             let of = |held| drive_limits(setup, wish.joint(), held);
@@ -213,7 +247,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
     } else {
         let of = |setup| PortedEngine { setup, ported: port(&wish, setup) };
         let all: Vec<PortedEngine> = setups.into_iter().map(of).collect();
-        report::engines(&wish, args.tick_hz, &all, args.format)
+        report::springs(&wish, args.tick_hz, &all, &dialects, args.format)
     };
     print(text)
 }

@@ -8,11 +8,13 @@ use super::identify::Effective;
 use super::lane_spec::joint_per_mass;
 use crate::sim::integrators::{METHODS, Method};
 
+mod dialect;
 mod drive;
 mod follow;
 mod inverse;
 mod seen;
 
+pub use dialect::{DIALECTS, Dialect, DialectPort, Key};
 pub use drive::{DriveLimits, drive_limits};
 pub use follow::{Approach, FollowerPort, followers};
 use inverse::{Found, invert, min_damping};
@@ -88,11 +90,11 @@ const REACHED: f64 = 1e-8;
 const MAX_SUBSTEPS: u32 = 64;
 
 impl Wish {
-    /// Finds whether it can be seen at this tick rate in hertz.
+    /// Finds whether its numbers and a tick rate in hertz have a meaning.
     ///
     /// # Errors
-    /// The first reason against it.
-    pub fn check(&self, tick_hz: f64) -> Result<(), WishError> {
+    /// The first that has none.
+    pub fn check_numbers(&self, tick_hz: f64) -> Result<(), WishError> {
         let &Self { frequency_hz, damping_ratio, mass_kg } = self;
         let positive = |value: f64| value > 0.0 && value.is_finite();
         let numbers = [
@@ -109,6 +111,16 @@ impl Wish {
         if let Some((what, value, _, wanted)) = numbers.into_iter().find(|(.., fits, _)| !fits) {
             return Err(WishError::OutOfRange { what, value, wanted });
         }
+        Ok(())
+    }
+
+    /// Finds whether it can be seen at this tick rate in hertz.
+    ///
+    /// # Errors
+    /// The first reason against it.
+    pub fn check(&self, tick_hz: f64) -> Result<(), WishError> {
+        self.check_numbers(tick_hz)?;
+        let &Self { frequency_hz, damping_ratio, .. } = self;
         if 2.0 * frequency_hz >= tick_hz {
             return Err(WishError::BeyondNyquist { frequency_hz, tick_hz });
         }

@@ -15,6 +15,7 @@ mod clouds;
 mod compilers;
 mod conformance;
 mod custom;
+mod dialects;
 #[path = "../dice/mod.rs"]
 mod dice;
 mod diff;

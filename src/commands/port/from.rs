@@ -1,9 +1,9 @@
-//! What `--from` says: the settings of an engine, a log, or how a value chases its target.
+//! What `--from` says: the settings of an engine or of a user interface, a log, or how a value chases its target.
 
 use std::path::PathBuf;
 
-use super::ENGINE;
-use crate::lab::port::{Approach, Setup, Wish};
+use super::{ASKED, Asked};
+use crate::lab::port::{Approach, Dialect, Setup, Wish};
 use crate::lab::scene::MAX_SUBSTEPS;
 use crate::sim::integrators::{JointMode, Method, Setting};
 
@@ -11,6 +11,8 @@ use crate::sim::integrators::{JointMode, Method, Setting};
 pub(super) enum From {
     /// From what an engine shows.
     Engine(Wish),
+    /// From what a user interface is told.
+    Dialect(Wish),
     /// From a chase, and its rate of frames if it has one.
     Approach(Approach, Option<f64>),
     /// From a log.
@@ -36,9 +38,12 @@ impl From {
     /// Reads it, at this tick rate in hertz and of a body of this mass in kg.
     pub(super) fn parse(written: &str, tick_hz: f64, mass_kg: f64) -> Result<Self, String> {
         let Some((head, rest)) = written.split_once(':') else {
-            return match ENGINE.find(written) {
-                Ok(method) => Err(format!("give its settings too: {}", example(method))),
-                Err(_) => Ok(From::Log(written.into())),
+            return match ASKED.find(written) {
+                Ok(Asked::Engine(method)) => {
+                    Err(format!("give its settings too: {}", example(method)))
+                }
+                Ok(Asked::Dialect(dialect)) => of_dialect(dialect, "").map(From::Dialect),
+                _ => Ok(From::Log(written.into())),
             };
         };
         match head {
@@ -64,7 +69,13 @@ impl From {
             }
             // A drive of a path has one letter.
             _ if head.len() == 1 => Ok(From::Log(written.into())),
-            _ => of_engine(ENGINE.find(head)?, rest, tick_hz, mass_kg).map(From::Engine),
+            _ => match ASKED.find(head)? {
+                Asked::Engine(method) => {
+                    of_engine(method, rest, tick_hz, mass_kg).map(From::Engine)
+                }
+                Asked::Dialect(dialect) => of_dialect(dialect, rest).map(From::Dialect),
+                _ => Err(format!("{head} is all of a kind; name one")),
+            },
         }
     }
 }
@@ -74,6 +85,25 @@ fn example(method: &Method) -> String {
     let mode = &method.engine.expect("an engine with a spring").modes[0];
     let [stiffness, damping] = mode.settings().map(|setting| setting.name);
     format!("{}:{stiffness}=NUMBER,{damping}=NUMBER", method.id)
+}
+
+/// The motion of a user interface with settings that are written as `key=value,…`; those left out are the library's own.
+fn of_dialect(dialect: &Dialect, written: &str) -> Result<Wish, String> {
+    let mut values: Vec<f64> = dialect.keys.iter().map(|key| key.usual).collect();
+    let mut given = Vec::new();
+    for pair in written.split(',').filter(|_| !written.is_empty()) {
+        let (key, value) = pair.split_once('=').unwrap_or((pair, ""));
+        let names: Vec<&str> = dialect.keys.iter().map(|key| key.name).collect();
+        let index = names.iter().position(|name| *name == key.trim()).ok_or_else(|| {
+            format!("{} has no {key}; write {}=NUMBER", dialect.id, names.join("=NUMBER,"))
+        })?;
+        if given.contains(&index) {
+            return Err(format!("{key} is given twice"));
+        }
+        given.push(index);
+        values[index] = with_unit(value, "").map_err(|fault| format!("{key}: {fault}"))?;
+    }
+    dialect.read(&values)
 }
 
 /// What an engine shows with settings that are written as `key=value,…`.

@@ -5,7 +5,9 @@ use serde_json::{Map, Value, json};
 use super::{Drive, PortedEngine};
 use crate::commands::output::table::TableFormat;
 use crate::lab::identify::Effective;
-use crate::lab::port::{Approach, DriveLimits, FollowerPort, Ported, Reach, Setup, Wish};
+use crate::lab::port::{
+    Approach, Dialect, DialectPort, DriveLimits, FollowerPort, Ported, Reach, Setup, Wish,
+};
 use crate::sim::number::{round, significant};
 
 /// A frequency, a damping ratio and how long the energy lasts.
@@ -46,33 +48,76 @@ fn want(wish: &Wish, tick_hz: f64) -> String {
     format!("{hz} Hz, damping ratio {ratio}, {} kg, at {tick_hz} ticks per second\n", wish.mass_kg)
 }
 
-fn object(wish: &Wish, tick_hz: f64, key: &str, rows: Vec<Value>) -> String {
-    let object = json!({
+fn object(wish: &Wish, tick_hz: f64, rows: Value) -> String {
+    let mut object = json!({
         "want": {
             "frequency_hz": wish.frequency_hz,
             "damping_ratio": wish.damping_ratio,
             "mass_kg": wish.mass_kg,
         },
         "tick_hz": tick_hz,
-        key: rows,
     });
+    let Value::Object(rows) = rows else { unreachable!("rows have names") };
+    object.as_object_mut().expect("it is one").extend(rows);
     format!("{object:#}\n")
 }
 
-/// The settings of every engine.
-pub(super) fn engines(
+/// The settings of every engine and of these user interfaces.
+pub(super) fn springs(
     wish: &Wish,
     tick_hz: f64,
     all: &[PortedEngine],
+    dialects: &[&Dialect],
     format: TableFormat,
 ) -> String {
+    let dialects = dialects.iter().map(|dialect| (*dialect, dialect.port(wish, tick_hz)));
     match format {
-        TableFormat::Json => object(wish, tick_hz, "engines", all.iter().map(row).collect()),
+        TableFormat::Json => {
+            let engines: Vec<Value> = all.iter().map(row).collect();
+            let dialects: Vec<Value> = dialects.map(|(it, port)| dialect_row(it, &port)).collect();
+            object(wish, tick_hz, json!({ "engines": engines, "dialects": dialects }))
+        }
         TableFormat::Text => {
-            let blocks = all.iter().map(|engine| block(wish, engine));
-            want(wish, tick_hz) + &blocks.collect::<String>()
+            let engines = all.iter().map(|engine| block(wish, engine));
+            let dialects = dialects.map(|(it, port)| dialect_block(it, &port, tick_hz));
+            want(wish, tick_hz) + &engines.chain(dialects).collect::<String>()
         }
     }
+}
+
+fn dialect_row(dialect: &Dialect, port: &DialectPort) -> Value {
+    let settings: Map<String, Value> = dialect
+        .keys
+        .iter()
+        .zip(&port.values)
+        .map(|(key, value)| (key.name.to_owned(), Value::from(*value)))
+        .collect();
+    let seen = |seen: &Effective| json!({ "hz": seen.undamped_hz(), "damping_ratio": seen.damping_ratio() });
+    json!({
+        "id": dialect.id,
+        "settings": settings,
+        "word": port.reach.id(),
+        "steps": dialect.steps(),
+        "explodes_below_hz": port.explodes_below_hz,
+        "seen": port.seen.as_ref().map(seen),
+        "error": port.error,
+        "code": port.code,
+        "source": dialect.source,
+    })
+}
+
+fn dialect_block(dialect: &Dialect, port: &DialectPort, frame_hz: f64) -> String {
+    let pairs = dialect.keys.iter().zip(&port.values);
+    let set: Vec<String> =
+        pairs.map(|(key, value)| format!("{} = {}", key.name, round(*value, 6))).collect();
+    let mut lines = vec![format!("\n{}: {}", dialect.id, port.reach.id())];
+    lines.push(format!("  {}", set.join(", ")));
+    lines.push(format!("  {}", dialect.at_frame_rates(port, frame_hz)));
+    if port.reach != Reach::Reached {
+        lines.extend(port.seen.as_ref().map(|seen| format!("  a player sees: {}", sees(seen))));
+    }
+    lines.extend(port.code.lines().map(|line| format!("    {line}")));
+    lines.join("\n") + "\n"
 }
 
 fn row(PortedEngine { setup, ported }: &PortedEngine) -> Value {
@@ -172,7 +217,7 @@ pub(super) fn drives(wish: &Wish, tick_hz: f64, all: &[Drive], format: TableForm
                 })
             };
             let rows = all.iter().flat_map(|d| d.limits.iter().map(move |limits| row(d, limits)));
-            object(wish, tick_hz, "drives", rows.collect())
+            object(wish, tick_hz, json!({ "drives": rows.collect::<Vec<_>>() }))
         }
         TableFormat::Text => {
             let gains = format!("kp {} N/m, kv {} N s/m\n", round(kp, 6), round(kv, 6));

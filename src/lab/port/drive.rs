@@ -1,5 +1,6 @@
 //! How stiff and how damped a drive may be.
 
+use super::seen::NO_GROWTH;
 use super::{MAX_SUBSTEPS, Setup};
 use crate::lab::bisection::bisect;
 use crate::lab::identify::Effective;
@@ -19,8 +20,6 @@ pub struct DriveLimits {
     pub sees: Option<Effective>,
 }
 
-/// A motion that grows by no more than this in a tick does not grow.
-const NO_GROWTH: f64 = 1.0 + 1e-9;
 /// Gains beyond this multiple of the given one are not sought.
 const MAX_MULTIPLE: f64 = 1e9;
 /// The factor from gain to gain, and how often the last step is halved.

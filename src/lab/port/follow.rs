@@ -57,21 +57,25 @@ impl Approach {
     }
 }
 
-/// The time in which a follower with this rate halves the distance, in seconds; `None` if it overshoots within a frame.
-fn half_life(method: &Method, rate: f64, fps: f64) -> Option<f64> {
-    let order = method.law_order()?;
+/// The map of a frame of a follower with this rate, whose target rests; of the first order its velocity stays.
+pub(super) fn map_of_frame(method: &Method, rate: f64, fps: f64) -> Option<Matrix2<f64>> {
     // Its target rests at 0.
-    let system = problem(Follow { order: order as usize, rate, ..Follow::default() });
+    let order = method.law_order()? as usize;
+    let system = problem(Follow { order, rate, ..Follow::default() });
     let step = |x: f64, v: f64| {
         let mut state = State { q: x, v };
         fresh(method).steps(&system, 0.0, 1.0 / fps, 1, &mut state).ok()?;
         Some(Vector2::new(state.q, state.v))
     };
-    let first = step(1.0, 0.0)?;
-    if order == 1 {
-        return (first.x > 0.0).then(|| -std::f64::consts::LN_2 / libm::log(first.x) / fps);
+    Some(Matrix2::from_columns(&[step(1.0, 0.0)?, step(0.0, 1.0)?]))
+}
+
+/// The time in which a follower with this rate halves the distance, in seconds; `None` if it overshoots within a frame.
+fn half_life(method: &Method, rate: f64, fps: f64) -> Option<f64> {
+    let map = map_of_frame(method, rate, fps)?;
+    if method.law_order()? == 1 {
+        return (map.m11 > 0.0).then(|| -std::f64::consts::LN_2 / libm::log(map.m11) / fps);
     }
-    let map = Matrix2::from_columns(&[first, step(0.0, 1.0)?]);
     Some(CRITICAL_HALF / seen(map.trace(), map.determinant(), 1.0 / fps)?.omega)
 }
 

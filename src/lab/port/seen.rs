@@ -96,11 +96,27 @@ impl Setup {
     }
 }
 
+/// The map of a step in seconds of a method that is told a spring, per unit of mass, as a part of the acceleration.
+pub(super) fn map_of_step(method: &'static Method, joint: [f64; 2], step_s: f64) -> Option<Map> {
+    let candidate = Candidate { method, substeps: 1, spring: SpringAs::Acceleration };
+    let body = LoggedBody { spring: Some(joint), drag: 0.0, push: 0.0 };
+    let from = |start| run(candidate, &body, start, step_s, 0..=1);
+    columns(&from([SLOW, 0.0])?, &from([0.0, SLOW])?)?.pop()
+}
+
 /// The maps whose columns are these runs, without their starts.
 fn columns(first: &[[f64; 2]], second: &[[f64; 2]]) -> Option<Vec<Map>> {
     let map = |(a, b): (&[f64; 2], &[f64; 2])| Map::from([*a, *b]) / SLOW;
     let maps: Vec<Map> = first.iter().zip(second).skip(1).map(map).collect();
     maps.iter().flatten().all(|x| x.is_finite()).then_some(maps)
+}
+
+/// A motion that grows by no more than this in a step does not grow.
+pub(super) const NO_GROWTH: f64 = 1.0 + 1e-9;
+
+/// Whether no motion of a map with these invariants grows.
+pub(super) fn is_stable(trace: f64, determinant: f64) -> bool {
+    spectral_radius(trace, determinant) <= NO_GROWTH
 }
 
 /// The largest modulus of an eigenvalue.

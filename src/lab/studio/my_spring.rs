@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::lab::analysis::{Adviser, Criterion};
 use crate::lab::lane_spec::LaneSpec;
+use crate::lab::port::Wish;
 use crate::lab::scene::{Scene, SceneErrors, USUAL_SECONDS};
 use crate::sim::integrators::method;
 use crate::sim::number::round;
@@ -60,6 +61,17 @@ impl MySpring {
             damping_n_s_per_m: 2.0 * damping_ratio * self.mass_kg * omega,
             ..self
         }
+    }
+
+    /// What a player is to see of it.
+    pub fn wish(self) -> Wish {
+        let [frequency_hz, damping_ratio] = [self.frequency_hz(), self.damping_ratio()];
+        Wish { frequency_hz, damping_ratio, mass_kg: self.mass_kg }
+    }
+
+    /// The same start on a spring that shows a wish.
+    pub fn told(self, wish: &Wish) -> Self {
+        Self { mass_kg: wish.mass_kg, ..self }.swinging(wish.frequency_hz, wish.damping_ratio)
     }
 
     /// How far gravity stretches it at rest, in m.

@@ -151,6 +151,30 @@ fn a_drive_has_its_limits_and_a_chase_its_rate_in_every_follower() {
 }
 
 #[test]
+fn a_spring_of_a_user_interface_is_told_to_the_others_with_what_the_frame_rate_does() {
+    let found = json("--from swiftui:duration=0.5,bounce=0.3");
+    assert!(rows(&found, "engines").is_empty());
+    let ids: Vec<String> =
+        rows(&found, "dialects").iter().map(|row| row["id"].as_str().unwrap().to_owned()).collect();
+    assert!(ids.len() > 14 && ids[0] == "swiftui" && ids.contains(&"motion-duration".into()));
+    let found = json("--from swiftui --to engine-jolt,react-spring,core-animation --tick-hz 30");
+    assert_eq!(rows(&found, "engines").len(), 2);
+    let [react, apple] = &rows(&found, "dialects")[..] else { panic!("{found}") };
+    assert_eq!(
+        (&react["word"], &react["steps"]),
+        (&"nearest".into(), &"semi-implicit-euler".into())
+    );
+    assert!(react["explodes_below_hz"].is_null() && apple["steps"] == "exact");
+    // 34 ms in a frame of 33.3 ms.
+    let hz = react["seen"]["hz"].as_f64().unwrap();
+    assert!((hz / 2.0 / 1.02 - 1.0).abs() < 0.01, "{hz}");
+    assert!(apple["settings"]["stiffness"].as_f64().is_some_and(|k| (k - 157.9137).abs() < 1e-4));
+    let text = stdout_of("port --from flutter:mass=2,stiffness=8,damping=4 --to compose,css");
+    assert!(text.contains("spring(dampingRatio = 0.5f, stiffness = 4.0f)"), "{text}");
+    assert!(text.contains("linear(0, 0.0"), "{text}");
+}
+
+#[test]
 fn what_cannot_be_asked_is_one_error_with_a_remedy() {
     for (arguments, told) in [
         ("", "required arguments were not provided"),
@@ -188,6 +212,10 @@ fn what_cannot_be_asked_is_one_error_with_a_remedy() {
         ("--from nothing.csv", "cannot read the log nothing.csv"),
         ("--from lerp:2@60fps", "the part is 2; it must be between 0 and 1"),
         ("--from lerp:0.1", "give the frames too: lerp:0.1@60fps"),
+        ("--from swiftui:bounce=2", "bounce is 2; it must be above −1 and at most 1"),
+        ("--from swiftui:bouce=0", "swiftui has no bouce; write duration=NUMBER,bounce=NUMBER"),
+        ("--from css", "CSS linear() is points of a motion, from which it cannot be told"),
+        ("--frequency 2Hz --to ui --drive", "--drive is for engines"),
         ("--from half-life:1s --drive", "--drive is for a spring"),
     ] {
         let output = run(&format!("port {arguments}"));

@@ -1,0 +1,163 @@
+//! Springs of user interfaces: what each is told leads back to the motion, and each is stepped as its library steps it.
+
+use std::f64::consts::TAU;
+
+use regatta::lab::port::{DIALECTS, Dialect, Reach, Wish};
+
+use crate::dice::Dice;
+
+fn dialect(id: &str) -> &'static Dialect {
+    Dialect::of_id(id).unwrap()
+}
+
+fn swings(frequency_hz: f64, damping_ratio: f64) -> Wish {
+    Wish { frequency_hz, damping_ratio, mass_kg: 1.0 }
+}
+
+/// How far the largest of these is apart from what it is to be, as a part of it.
+fn apart(found: &[f64], wanted: &[f64]) -> f64 {
+    assert!(found.len() == wanted.len() && found.iter().all(|x| x.is_finite()), "{found:?}");
+    let parts = found.iter().zip(wanted).map(|(x, y)| (x - y).abs() / y.abs().max(1e-3));
+    parts.fold(0.0, f64::max)
+}
+
+#[test]
+fn a_spring_of_swift_ui_has_the_numbers_that_are_published() {
+    let wish = dialect("swiftui").read(&[0.5, 0.3]).unwrap();
+    let told = dialect("core-animation").port(&wish, 60.0);
+    assert!(apart(&told.values, &[1.0, 157.913_670, 17.592_919]) < 1e-8, "{told:?}");
+    // Beyond critical damping its bounce is negative: 1 / (1 − 0.5).
+    let wish = dialect("swiftui").read(&[0.5, -0.5]).unwrap();
+    assert!(apart(&[wish.frequency_hz, wish.damping_ratio], &[2.0, 2.0]) < 1e-15);
+}
+
+#[test]
+fn every_pair_of_dialects_that_can_express_a_motion_leads_back_to_it() {
+    let mut dice = Dice::new(483);
+    let mut pairs = 0;
+    for from in DIALECTS.iter().filter(|dialect| dialect.is_read()) {
+        for _ in 0..20 {
+            // Whole milliseconds, and a damping that most can express.
+            let period = dice.between(50.0, 2000.0).round() / 1e3;
+            let drawn = swings(1.0 / period, dice.between(0.06, 1.5));
+            let values = from.port(&drawn, 60.0).values;
+            let wish = from.read(&values).unwrap();
+            for to in DIALECTS.iter().filter(|dialect| dialect.is_read()) {
+                let told = to.read(&to.port(&wish, 60.0).values).unwrap();
+                let [a, b] = [wish, told].map(|wish| [wish.frequency_hz, wish.damping_ratio]);
+                let is_expressed = apart(&a, &b) < 1e-9;
+                let takes_any = to.keys.iter().any(|key| key.name.starts_with("stiff"));
+                assert!(is_expressed || !takes_any, "{} from {}: {told:?}", to.id, from.id);
+                if is_expressed {
+                    pairs += 1;
+                    let back = from.port(&told, 60.0).values;
+                    let apart = apart(&back, &values);
+                    assert!(apart < 1e-12, "{} by {}: {values:?} {back:?}", from.id, to.id);
+                }
+            }
+        }
+    }
+    assert!(pairs > 2000, "{pairs}");
+}
+
+/// What is left of the way after steps by semi-implicit Euler, or something large.
+fn stepped([stiffness, damping]: [f64; 2], step_s: f64, steps: usize) -> f64 {
+    let (mut x, mut v) = (1.0_f64, 0.0);
+    for _ in 0..steps {
+        v += (-stiffness * x - damping * v) * step_s;
+        x += v * step_s;
+        if x.abs() > 1e6 {
+            break;
+        }
+    }
+    x.abs()
+}
+
+#[test]
+fn a_spring_once_a_frame_explodes_below_the_rate_that_is_told() {
+    for (hz, ratio) in [(2.0, 0.7), (1.0, 0.05), (5.0, 3.0)] {
+        let wish = swings(hz, ratio);
+        let told = dialect("per-frame").port(&wish, 60.0).explodes_below_hz.unwrap();
+        let by_formula = TAU * hz / (2.0 * ((1.0 + ratio * ratio).sqrt() - ratio));
+        assert!((told - by_formula).abs() < 1e-6 * told, "{told} {by_formula}");
+        assert!(stepped(wish.joint(), 1.0 / (told - 0.1), 20_000) > 1e6, "{told}");
+        assert!(stepped(wish.joint(), 1.0 / (told + 0.1), 20_000) < 1.0, "{told}");
+    }
+}
+
+#[test]
+fn react_spring_explodes_at_no_frame_rate_or_at_all_and_its_clock_is_rounded_up() {
+    let of = dialect("react-spring");
+    for (tension, friction, is_stable) in
+        [(170.0, 26.0, true), (3.9e6, 0.1, true), (4.1e6, 0.1, false), (170.0, 2010.0, false)]
+    {
+        let port = of.port(&of.read(&[1.0, tension, friction]).unwrap(), 60.0);
+        assert_eq!(port.is_stable, is_stable, "{tension} {friction}");
+        assert_eq!(stepped([tension, friction], 1e-3, 20_000) < 10.0, is_stable);
+        assert_eq!(port.explodes_below_hz, None);
+    }
+    for (fps, steps) in [(60.0, 17), (144.0, 7), (240.0, 5), (100.0, 10), (10.0, 64)] {
+        let wish = swings(0.5, 0.02);
+        let seen = of.port(&wish, fps).seen.unwrap();
+        // An undamped turn later, at most a frame off, it is at its stretch again.
+        let frames = (fps / seen.frequency_hz().unwrap()).round();
+        let x = stepped(wish.joint(), 1e-3, frames as usize * steps);
+        let decayed = (-seen.decay * frames / fps).exp();
+        assert!((x / decayed - 1.0).abs() < 0.02, "{fps}: {x} {decayed}");
+    }
+}
+
+#[test]
+fn the_points_of_a_style_sheet_are_off_by_what_is_said_and_start_and_end_there() {
+    for (hz, ratio) in [(2.0, 0.7), (1.0, 1.0), (3.0, 2.0), (2.0, 0.2)] {
+        let port = dialect("css").port(&swings(hz, ratio), 60.0);
+        let [duration, points] = port.values[..] else { panic!("two") };
+        let list = port.code.split("linear(").nth(1).unwrap().trim_end_matches(')');
+        let list: Vec<f64> = list.split(", ").map(|point| point.parse().unwrap()).collect();
+        assert_eq!((list[0], list[list.len() - 1], list.len() as f64), (0.0, 1.0, points));
+        // The equation by small steps of the midpoint rule, against the lines.
+        let (steps, [k, c]) = (40_000, swings(hz, ratio).joint());
+        let step_s = duration / f64::from(steps);
+        let (mut x, mut v, mut most) = (-1.0_f64, 0.0_f64, 0.0_f64);
+        for step in 0..steps {
+            let place = f64::from(step) / f64::from(steps) * (points - 1.0);
+            let i = place as usize;
+            let line = list[i] + (list[i + 1] - list[i]) * place.fract();
+            most = most.max((line - (1.0 + x)).abs());
+            let half = [x + v * step_s / 2.0, v - (k * x + c * v) * step_s / 2.0];
+            x += half[1] * step_s;
+            v -= (k * half[0] + c * half[1]) * step_s;
+        }
+        let told = port.error.unwrap();
+        assert!(most <= told * 1.01 && most > 0.7 * told, "{hz} {ratio}: {most} {told}");
+        assert!(told < 0.006 || points == 100.0, "{told}");
+    }
+    let endless = dialect("css").port(&swings(2.0, 0.0), 60.0);
+    assert!(endless.reach == Reach::Unreachable && endless.code.is_empty(), "{endless:?}");
+}
+
+#[test]
+fn each_says_whether_it_shows_the_motion() {
+    let reach = |id: &str, ratio| dialect(id).port(&swings(2.0, ratio), 60.0).reach;
+    for (id, ratio, wanted) in [
+        ("compose", 0.0, Reach::Reached),
+        ("flutter-duration", 3.0, Reach::Reached),
+        ("slint-duration", 3.0, Reach::Nearest),
+        ("motion-duration", 0.01, Reach::Unreachable),
+        ("motion-duration", 2.0, Reach::Nearest),
+        ("unity-smooth-damp", 0.5, Reach::Unreachable),
+        ("unity-smooth-damp", 1.0, Reach::Nearest),
+        ("react-spring", 0.5, Reach::Nearest),
+    ] {
+        assert_eq!(reach(id, ratio), wanted, "{id} {ratio}");
+    }
+    let whole = dialect("flutter-duration").port(&swings(3.0, 0.5), 60.0);
+    assert_eq!((whole.reach, whole.values[0]), (Reach::Nearest, 0.333));
+    for Dialect { id, keys, source, .. } in DIALECTS {
+        assert!(!source.is_empty() && keys.len() <= 3, "{id}");
+        let usual: Vec<f64> = keys.iter().map(|key| key.usual).collect();
+        let read = dialect(id).read(&usual);
+        assert_eq!(read.is_ok(), dialect(id).is_read(), "{read:?}");
+        assert!(read.is_err() || dialect(id).read(&[-2.0, -2.0, -2.0]).is_err(), "{id}");
+    }
+}
