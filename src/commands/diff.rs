@@ -106,7 +106,7 @@ fn words(found: &Comparison, a: &Path, b: &Path) -> String {
         None if found.is_same() => lines.push("the same".into()),
         None => lines.push("equal wherever both have a value".into()),
         Some(first) => {
-            lines.push(first_words(first));
+            lines.push(format!("first {first}"));
             let reached = LEVELS.iter().zip(found.reaches);
             let reached =
                 reached.filter_map(|(level, tick)| Some(format!("{level:e} at tick {}", tick?)));
@@ -147,24 +147,6 @@ fn words(found: &Comparison, a: &Path, b: &Path) -> String {
         }
     }
     lines.join("\n") + "\n"
-}
-
-fn first_words(first: &Difference) -> String {
-    let Difference { tick, row: [lane, body, coordinate], column, values, ulps, relative } = first;
-    let lane = lane.as_ref().map(|lane| format!("lane {lane}"));
-    let place: Vec<String> = [&lane, body, coordinate].into_iter().flatten().cloned().collect();
-    let place = if place.is_empty() { String::new() } else { format!(", {}", place.join(", ")) };
-    let [a, b] = values;
-    let value = |value: &Option<String>| value.clone().unwrap_or_else(|| "absent".into());
-    let ulps = ulps.map(|ulps| format!(", {} apart", counted(ulps, "ulp")));
-    let part = relative.map(|part| format!(", {part:.1e} relative"));
-    format!(
-        "first at tick {tick}{place}: {column} is {} in a and {} in b{}{}",
-        value(a),
-        value(b),
-        ulps.unwrap_or_default(),
-        part.unwrap_or_default()
-    )
 }
 
 /// As JSON, with the numbers as they are written in the tables.

@@ -12,8 +12,8 @@ use super::output::Output;
 use super::output::table::{RowFormat, RowWriter};
 use super::terminal::print_status;
 use crate::lab::race::{Lane, LaneBody};
-use crate::lab::{METRICS, Race, Scene, SceneBody, Studio};
-use crate::sim::Solver;
+use crate::lab::trace::{COLUMNS, each_row, method_id};
+use crate::lab::{SceneBody, Studio};
 use crate::sim::bodies::Truth;
 
 const EXAMPLES: &str = "\
@@ -90,10 +90,6 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
     Ok(())
 }
 
-/// The columns of the table.
-pub(super) const COLUMNS: [&str; 8] =
-    ["tick", "t", "lane", "method", "body", "coordinate", "q", "v"];
-
 /// The table being written.
 struct Trace<'a> {
     rows: RowWriter<Output>,
@@ -123,51 +119,6 @@ impl<'a> Trace<'a> {
             rows.row(cells)
         })
     }
-}
-
-/// A row of a trace at one tick.
-pub(super) struct TraceRow<'a> {
-    /// 0 is the truth.
-    pub(super) lane: usize,
-    pub(super) method: &'static str,
-    pub(super) body: &'a str,
-    pub(super) coordinate: &'a str,
-    pub(super) q: f64,
-    pub(super) v: Option<f64>,
-}
-
-/// Goes through the present of the truth and of every lane, but of bodies that have halted.
-pub(super) fn each_row<E>(
-    race: &Race,
-    scene: &Scene,
-    with_metrics: bool,
-    row: &mut impl FnMut(TraceRow) -> Result<(), E>,
-) -> Result<(), E> {
-    let lanes = race.entrants().iter().map(|entrant| &entrant.lane);
-    for (number, lane) in [race.truth()].into_iter().chain(lanes).enumerate() {
-        let bodies = lane.bodies().iter().zip(&scene.bodies).enumerate();
-        for (n, (body, named)) in bodies.filter(|(_, (body, _))| body.halted().is_none()) {
-            let method = method_id(lane.solver(), body);
-            let mut write = |coordinate: &str, q, v| {
-                row(TraceRow { lane: number, method, body: &named.name, coordinate, q, v })
-            };
-            let values = body.stepper.q().iter().zip(body.stepper.v());
-            for (coordinate, (&q, &v)) in body.coordinates().iter().zip(values) {
-                write(&coordinate.name, q, Some(v))?;
-            }
-            for metric in METRICS.iter().filter(|_| with_metrics && number > 0) {
-                let value = (metric.measure)(body, &race.truth().bodies()[n]);
-                if let Some(value) = value.filter(|value| value.is_finite()) {
-                    write(metric.id, value, None)?;
-                }
-            }
-        }
-    }
-    Ok(())
-}
-
-fn method_id(solver: Solver, body: &LaneBody) -> &'static str {
-    solver.method().map_or(body.truth().id(), |method| method.id)
 }
 
 /// The accuracy that the truth of a body reached on a run: the largest coordinate and velocity, and their errors.

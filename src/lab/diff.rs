@@ -5,8 +5,11 @@
 //! name are compared wherever they stand, up to [`MAX_WAITING`] rows apart, so that memory does not grow with the rows.
 
 use std::collections::{HashMap, VecDeque};
+use std::fmt;
 
 use csv::ByteRecord;
+
+use crate::sim::number::counted;
 
 mod growth;
 mod layout;
@@ -93,6 +96,23 @@ pub struct Difference {
     pub ulps: Option<u64>,
     /// Their difference as a part of the larger; `None` where that has no meaning.
     pub relative: Option<f64>,
+}
+
+impl fmt::Display for Difference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "at tick {}", self.tick)?;
+        let [lane, body, coordinate] = &self.row;
+        let lane = lane.as_ref().map(|lane| format!("lane {lane}"));
+        for place in [&lane, body, coordinate].into_iter().flatten() {
+            write!(f, ", {place}")?;
+        }
+        let [a, b] = self.values.each_ref().map(|value| value.as_deref().unwrap_or("absent"));
+        write!(f, ": {} is {a} in a and {b} in b", self.column)?;
+        if let Some(ulps) = self.ulps {
+            write!(f, ", {} apart", counted(ulps, "ulp"))?;
+        }
+        self.relative.map_or(Ok(()), |part| write!(f, ", {part:.1e} relative"))
+    }
 }
 
 /// What two runs have in common, and where they part.

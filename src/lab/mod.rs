@@ -40,6 +40,7 @@ pub mod session;
 pub mod source_code;
 pub mod studio;
 mod time_scale;
+pub mod trace;
 
 // What the view, which sees nothing of `sim`, names of it.
 #[cfg(feature = "view")]

@@ -72,7 +72,7 @@ impl App {
     fn asks_for_path(&self) -> bool {
         let is_open = matches!(self.studio.viewer().dialog(), Some(Dialog::Path { .. }));
         self.asked.iter().fold(is_open, |is_open, command| match command {
-            Command::View(ViewCommand::AskForPath) => true,
+            Command::View(ViewCommand::AskForPath | ViewCommand::AskForRun) => true,
             // `OpenTypedPath` closes the field only if the scene can be opened.
             Command::View(ViewCommand::CloseDialog) => false,
             _ => is_open,

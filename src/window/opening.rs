@@ -3,9 +3,12 @@
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use std::sync::Arc;
 
+use crate::lab::diff::{Comparison, NotComparable, Tolerance, diff};
 use crate::lab::pacing::{FrameTrace, trace_file};
 use crate::lab::scene::{Mistake, SCENES, Scene};
+use crate::lab::session::RunToRecord;
 use crate::lab::studio::{SceneList, StageCommand, Studio, ViewCommand};
+use crate::lab::trace::{Made, last_tick};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
 
 /// Reads a scene file and returns its scene and its text, or what the command line would print of its mistakes.
@@ -29,6 +32,8 @@ pub struct SceneFiles {
 pub(super) struct Asked {
     path: PathBuf,
     is_typed: bool,
+    /// The run that it is to be compared with, if it is not to be opened.
+    compared: Option<RunToRecord>,
 }
 
 /// What a file that was asked for holds, or what the command line would print of its mistakes.
@@ -40,29 +45,36 @@ pub(super) struct Found {
 enum Held {
     Scene { scene: Box<Scene>, text: String },
     Traces(Vec<FrameTrace>),
+    Compared(Box<Comparison>),
 }
 
 impl Asked {
     /// The file at a path that was dropped.
     pub(super) fn dropped(studio: &Studio, path: &Path) -> Self {
-        Self { path: known(studio, path), is_typed: false }
+        Self { path: known(studio, path), is_typed: false, compared: None }
     }
 
     /// What was typed, as the command line takes it: the built-in scene of that name, which opens at once, or else the file
     /// at that path.
     pub(super) fn typed(studio: &mut Studio) -> Option<Self> {
         let typed = studio.viewer().typed_path().trim().to_owned();
+        if studio.viewer().compares_typed_path() {
+            let compared = Some(studio.to_record());
+            return Some(Self { path: from_home(&typed), is_typed: true, compared });
+        }
         if let Some(index) = SCENES.iter().position(|scene| scene.name == typed) {
             studio.apply(StageCommand::Scene(index));
             return None;
         }
-        Some(Self { path: known(studio, &from_home(&typed)), is_typed: true })
+        Some(Self { path: known(studio, &from_home(&typed)), is_typed: true, compared: None })
     }
 
     /// Reads the file, and whatever its first frame would wait for. A disk can be slow, and a large net takes longer than a
     /// frame: this is no work for the thread that draws.
     pub(super) fn read(self, read: &ReadScene) -> Found {
-        let held = if is_trace(&self.path) {
+        let held = if let Some(run) = &self.compared {
+            read(&self.path).map(|(scene, _)| Held::Compared(compared(scene, run.scene()).into()))
+        } else if is_trace(&self.path) {
             traces_in(&self.path).map(Held::Traces)
         } else {
             read(&self.path).map(|(scene, text)| {
@@ -86,7 +98,7 @@ impl Found {
     /// Opens the scene, or the loop lab on the traces. Of mistakes a dialog tells, which is the field for the path, still
     /// open, if that was typed.
     pub(super) fn show(self, studio: &mut Studio) {
-        let Asked { path, is_typed } = self.asked;
+        let Asked { path, is_typed, .. } = self.asked;
         match self.held {
             Ok(Held::Scene { scene, .. }) => studio.open_file(&path, *scene),
             Ok(Held::Traces(traces)) => {
@@ -95,10 +107,22 @@ impl Found {
                     studio.apply(ViewCommand::CloseDialog);
                 }
             }
+            Ok(Held::Compared(found)) => {
+                let name = path.file_name().unwrap_or_default().to_string_lossy();
+                studio.show_comparison(&name, &found);
+            }
             Err(report) if is_typed => studio.refuse_typed_path(&path, report),
             Err(report) => studio.show_mistakes(&path, report),
         }
     }
+}
+
+/// Compares two recordings through the end of the longer.
+fn compared(recording: Scene, run: Scene) -> Comparison {
+    let last = last_tick(&recording).max(last_tick(&run));
+    let [mut a, mut b] = [recording, run].map(|scene| Made::of_scene(scene, last));
+    let found = diff(&mut a, &mut b, Tolerance::default());
+    found.unwrap_or_else(|_: NotComparable| unreachable!("two traces have the same columns"))
 }
 
 /// Whether a file's name says that it holds a trace of frames.
@@ -174,6 +198,30 @@ mod tests {
     }
 
     #[test]
+    fn a_recording_that_is_typed_is_compared_with_the_run_to_its_first_other_tick() {
+        let folder = tempfile::tempdir().unwrap();
+        let recording = folder.path().join("clip.toml");
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        (0..90).for_each(|_| studio.tick());
+        let recorded = studio.recording().unwrap();
+        let mut compare = |text: &str| {
+            std::fs::write(&recording, text).unwrap();
+            studio.apply(ViewCommand::AskForRun);
+            studio.apply(ViewCommand::TypePath(recording.display().to_string()));
+            Asked::typed(&mut studio).unwrap().read(&read()).show(&mut studio);
+            let notice = studio.viewer().notice.as_deref().unwrap().to_owned();
+            (studio.viewer().parting().map(|(tick, _)| *tick), studio.race().tick(), notice)
+        };
+        let same = compare(&recorded);
+        assert!(same.0.is_none() && same.1 == 90, "{same:?}");
+        assert!(same.2.contains("clip.toml is the same in "), "{same:?}");
+        // Pulled in the middle of the tick before.
+        let pulled = compare(&format!("{recorded}\n[[command]]\nat_s = 1.0\nkick = 1.0\n"));
+        assert_eq!(pulled.0, Some(61), "{pulled:?}");
+        assert_eq!(pulled.1, 61, "{pulled:?}");
+    }
+
+    #[test]
     fn a_file_that_is_dropped_is_opened_and_one_with_mistakes_leaves_the_run_alone() {
         let folder = tempfile::tempdir().unwrap();
         let [good, bad] = ["ship.toml", "bad.toml"].map(|name| folder.path().join(name));
@@ -196,7 +244,7 @@ mod tests {
         studio.apply(ViewCommand::AskForPath);
         studio.apply(ViewCommand::TypePath(bad.display().to_string()));
         Asked::typed(&mut studio).unwrap().read(&read()).show(&mut studio);
-        let Some(Dialog::Path { refused: Some(report) }) = studio.viewer().dialog() else {
+        let Some(Dialog::Path { refused: Some(report), .. }) = studio.viewer().dialog() else {
             panic!()
         };
         let message = &report[0].message;

@@ -1,10 +1,8 @@
 //! What is compared: the rows of a table, of a run, or of the states in a manifest.
 
-use std::convert::Infallible;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
@@ -12,10 +10,9 @@ use csv::ByteRecord;
 
 use crate::commands::error::Error;
 use crate::commands::manifest::Mark;
-use crate::commands::trace::{COLUMNS, each_row};
 use crate::commands::{scene_file, verify};
 use crate::lab::diff::{NotComparable, Records};
-use crate::lab::{Race, Scene, Session, Studio};
+use crate::lab::trace::{Made, last_tick, row};
 
 /// The rows that pass from thread to thread at once.
 const BATCH: usize = 1024;
@@ -41,14 +38,6 @@ pub(super) struct Table {
 
 /// Rows, and how many of them are filled.
 type Batch = (Vec<ByteRecord>, usize);
-
-/// Rows that are made here, tick by tick.
-pub(super) struct Made {
-    header: ByteRecord,
-    rows: std::vec::IntoIter<ByteRecord>,
-    /// The rows of the next tick; `None` after the last.
-    tick: Box<dyn FnMut() -> Option<Vec<ByteRecord>>>,
-}
 
 impl Source {
     /// The run at this path.
@@ -79,14 +68,15 @@ impl Records for Source {
 
     fn header(&self) -> &ByteRecord {
         match self {
-            Self::Table(Table { header, .. }) | Self::Made(Made { header, .. }) => header,
+            Self::Table(Table { header, .. }) => header,
+            Self::Made(made) => made.header(),
         }
     }
 
     fn next(&mut self, row: &mut ByteRecord) -> Result<bool, Error> {
         match self {
             Self::Table(table) => table.next(row),
-            Self::Made(made) => Ok(made.next(row)),
+            Self::Made(made) => Ok(made.next(row)?),
         }
     }
 }
@@ -157,60 +147,11 @@ impl Table {
     }
 }
 
-impl Made {
-    fn new(tick: impl FnMut() -> Option<Vec<ByteRecord>> + 'static) -> Self {
-        let header = ByteRecord::from(&COLUMNS[..]);
-        Self { header, rows: Vec::new().into_iter(), tick: Box::new(tick) }
-    }
-
-    fn next(&mut self, row: &mut ByteRecord) -> bool {
-        loop {
-            if let Some(next) = self.rows.next() {
-                *row = next;
-                return true;
-            }
-            let Some(rows) = (self.tick)() else { return false };
-            self.rows = rows.into_iter();
-        }
-    }
-}
-
-/// A row of a trace.
-fn row(at: [&str; 4], body: &str, coordinate: &str, [q, v]: [f64; 2]) -> ByteRecord {
-    let mut row = ByteRecord::new();
-    at.iter().chain([&body, &coordinate]).for_each(|cell| row.push_field(cell.as_bytes()));
-    [q, v].iter().for_each(|x| row.push_field(format!("{x:?}").as_bytes()));
-    row
-}
-
 /// The run of the scene or recording at `path`, to its end or to its last check.
 fn of_scene(path: &Path) -> Result<Made, Error> {
-    let scene = Arc::new(scene_file::load(path)?.0);
-    let mut session = Session::racing(scene.clone());
-    let checked = scene.checks.iter().map(|check| check.tick).max().unwrap_or(0);
-    let last = Studio::new((*scene).clone()).nearest_tick(scene.seconds).max(checked);
-    let mut has_begun = false;
-    Ok(Made::new(move || {
-        if std::mem::replace(&mut has_begun, true) {
-            if session.race().tick() >= last {
-                return None;
-            }
-            session.tick();
-        }
-        Some(present(session.race(), &scene))
-    }))
-}
-
-/// The rows of a run's present.
-fn present(race: &Race, scene: &Scene) -> Vec<ByteRecord> {
-    let (tick, t) = (race.tick().to_string(), format!("{:?}", race.t()));
-    let mut rows = Vec::new();
-    let Ok(()) = each_row(race, scene, false, &mut |it| {
-        let at = [&tick, &t, &it.lane.to_string(), it.method];
-        rows.push(row(at, it.body, it.coordinate, [it.q, it.v.unwrap_or_default()]));
-        Ok::<(), Infallible>(())
-    });
-    rows
+    let scene = scene_file::load(path)?.0;
+    let last = last_tick(&scene);
+    Ok(Made::of_scene(scene, last))
 }
 
 /// The states in the manifest of the capture in `dir`.

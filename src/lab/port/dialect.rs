@@ -174,7 +174,6 @@ pub static DIALECTS: &[Dialect] = &[
         write: sampling,
         steps: Steps::Sampled,
         code: "transition: translate <duration>s linear(<curve>)",
-        ..EQUATION
     },
     Dialect {
         id: "compose",
@@ -278,7 +277,6 @@ pub static DIALECTS: &[Dialect] = &[
         write: |wish| [2.0 / wish.omega(), 0.0, 0.0],
         steps: Steps::SmoothDamp,
         code: "x = Mathf.SmoothDamp(x, target, ref velocity, <smoothTime>f);",
-        ..EQUATION
     },
     Dialect {
         id: "per-frame",

@@ -50,10 +50,7 @@ impl Session {
     /// An action that names a method without a lane is recorded as a switch of its lane, so that it takes effect in a race
     /// too.
     pub fn recording(&self, end: u64) -> Scene {
-        let run = self.to_record(end);
-        let mut repeated = Repeated::new(&run);
-        repeated.advance(end, &|| false);
-        repeated.scene(&run)
+        self.to_record(end).scene()
     }
 
     /// What a recording to tick `end` is made of.
@@ -75,6 +72,13 @@ pub struct RunToRecord {
 }
 
 impl RunToRecord {
+    /// As [`Session::recording`].
+    pub fn scene(&self) -> Scene {
+        let mut repeated = Repeated::new(self);
+        repeated.advance(self.end, &|| false);
+        repeated.scene(self)
+    }
+
     fn is_of_run_of(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.identity, &other.identity)
     }

@@ -231,7 +231,8 @@ impl Studio {
             ViewCommand::ZoomPan { body, zoom_pan } => {
                 self.viewer.view.set_zoom_pan(body, zoom_pan)
             }
-            ViewCommand::AskForPath => self.viewer.dialog = Some(Dialog::Path { refused: None }),
+            ViewCommand::AskForPath => self.viewer.dialog = Some(Dialog::path(false)),
+            ViewCommand::AskForRun => self.viewer.dialog = Some(Dialog::path(true)),
             ViewCommand::TypePath(path) => self.type_path(path),
             ViewCommand::AskForSpring => self.viewer.dialog = Some(Dialog::Spring),
             ViewCommand::DescribeSpring(spring) => self.viewer.preferences.my_spring = spring,

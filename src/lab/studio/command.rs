@@ -138,6 +138,8 @@ pub enum ViewCommand {
     PointerDown(bool),
     /// Opens a field for the path of a scene file.
     AskForPath,
+    /// Opens the same field for a recording that is to be compared with the run.
+    AskForRun,
     /// Sets the text of that field.
     TypePath(String),
     /// Opens a dialog with the numbers of a custom spring.

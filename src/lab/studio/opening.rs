@@ -2,12 +2,14 @@
 
 use std::path::Path;
 
+use super::RunCommand;
 use super::Studio;
 use super::instrument::Instrument;
 use super::restarting::is_by_hand;
 use super::scene_list::SceneList;
 use super::step::Step;
 use super::viewer::Dialog;
+use crate::lab::diff::Comparison;
 use crate::lab::race::Mode;
 use crate::lab::scene::{Mistake, Scene, SceneErrors};
 
@@ -119,11 +121,37 @@ impl Studio {
     /// path stays open.
     pub fn refuse_typed_path(&mut self, path: &Path, report: Vec<Mistake>) {
         self.scene_list.mark(path, report.clone());
-        self.viewer.dialog = Some(Dialog::Path { refused: Some(report) });
+        let compares = self.viewer.compares_typed_path();
+        self.viewer.dialog = Some(Dialog::Path { compares, refused: Some(report) });
+    }
+
+    /// Marks where the recording of this name, which is side a, first differs from the run, and goes there.
+    pub fn show_comparison(&mut self, name: &str, found: &Comparison) {
+        self.viewer.dialog = None;
+        self.viewer.parting = None;
+        let told = match &found.first {
+            _ if !found.is_comparable() => {
+                format!("{name} and this run have nothing to compare that moves")
+            }
+            None if found.is_same() => format!("{name} is the same in {} rows", found.rows),
+            None => {
+                format!("{name} and this run are equal in the {} rows that both have", found.rows)
+            }
+            Some(first) => {
+                let told = format!("{name} is a, this run is b; they first differ {first}");
+                self.viewer.parting = Some((first.tick, told.clone()));
+                self.apply(RunCommand::Seek(first.tick));
+                // The run may not have come so far yet.
+                let ahead = first.tick.saturating_sub(self.race().tick()).min(MAX_RERUN);
+                (0..ahead).for_each(|_| self.tick());
+                told
+            }
+        };
+        self.viewer.set_notice(told);
     }
 
     pub(super) fn type_path(&mut self, path: String) {
-        if let Some(Dialog::Path { refused }) = &mut self.viewer.dialog
+        if let Some(Dialog::Path { refused, .. }) = &mut self.viewer.dialog
             && path != self.viewer.preferences.typed_path
         {
             *refused = None;

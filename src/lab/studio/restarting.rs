@@ -14,7 +14,7 @@ impl Studio {
         self.record_chosen_coordinates();
         self.viewer.selected =
             self.picked(self.start.entry).unwrap_or(self.race().entrants()[0].id);
-        self.viewer.notice = None;
+        (self.viewer.notice, self.viewer.parting) = (None, None);
         self.viewer.live.jump();
         self.viewer.held = None;
         self.clock.set_tick_hz(self.start.tick_hz);

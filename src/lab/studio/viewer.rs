@@ -24,6 +24,8 @@ pub enum Dialog {
     Spring,
     /// A field for the path of a scene file.
     Path {
+        /// Whether it is a recording that is to be compared with the run.
+        compares: bool,
         /// Why the scene at the typed path could not be opened; `None` once the path is edited.
         refused: Option<Vec<Mistake>>,
     },
@@ -34,6 +36,12 @@ pub enum Dialog {
         /// The errors.
         report: Vec<Mistake>,
     },
+}
+
+impl Dialog {
+    pub(super) fn path(compares: bool) -> Self {
+        Self::Path { compares, refused: None }
+    }
 }
 
 /// What a person has chosen. It survives the scene.
@@ -134,6 +142,8 @@ pub struct Viewer {
     /// The last frames of the studio's own loop.
     pub live: LiveLoop,
     pub(super) findings: Option<Findings>,
+    /// The tick at which a recording first differs from the run, and in what.
+    pub(super) parting: Option<(u64, String)>,
     /// The clouds that were found last.
     pub(super) cloud: Option<FoundCloud>,
     /// The tick rate at which the pointer's button went down, in Hz, while it is.
@@ -160,6 +170,7 @@ impl Viewer {
             notice: None,
             live: LiveLoop::default(),
             findings: None,
+            parting: None,
             cloud: None,
             hz_at_press: None,
             held: None,
@@ -224,6 +235,17 @@ impl Viewer {
     /// describes; `None` until it has been [found](super::Studio::accept_findings).
     pub fn verdict(&self, entry: usize) -> Option<&Verdict> {
         self.findings.as_ref()?.verdicts.get(entry)?.as_ref()
+    }
+
+    /// Whether the path that is typed is of a recording to be compared with the run.
+    pub fn compares_typed_path(&self) -> bool {
+        matches!(self.dialog, Some(Dialog::Path { compares: true, .. }))
+    }
+
+    /// The tick at which the recording that was [compared](super::Studio::show_comparison) first differs from the run, and in
+    /// what; `None` if none was, or if the run has begun anew.
+    pub fn parting(&self) -> Option<&(u64, String)> {
+        self.parting.as_ref()
     }
 
     /// The advice on this scene, as far as it has been [found](super::Studio::accept_findings); `None` while it is not shown.

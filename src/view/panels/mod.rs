@@ -135,7 +135,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio) -> (Vec<Command>, Rect) {
         let over = Rect::from_x_y_ranges(along.x_range(), whole.y_range());
         match dialog {
             Dialog::Spring => my_spring::show(ui, studio, over, &mut commands),
-            Dialog::Path { refused } => {
+            Dialog::Path { refused, .. } => {
                 opening::path(ui, studio, refused.as_deref(), over, &mut commands)
             }
             Dialog::Mistakes { file, report } => {

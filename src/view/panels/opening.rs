@@ -20,7 +20,11 @@ pub(super) fn path(
 ) {
     let ctx = ui.ctx();
     let width = WIDTH.min(over.width() - 40.0).max(40.0);
-    window("Open a scene or a frame log", over).show(ctx, |ui| {
+    let (title, hint, does) = match studio.viewer().compares_typed_path() {
+        true => ("Compare the run with a recording", "path of a recording", "compares"),
+        false => ("Open a scene or a frame log", "path of a scene or of a frame log", "opens"),
+    };
+    window(title, over).show(ctx, |ui| {
         ui.set_min_width(width);
         let id = Id::unique("path of a scene file");
         let is_new = !ui.memory(|memory| memory.has_focus(id));
@@ -32,14 +36,8 @@ pub(super) fn path(
         let typed = studio.viewer().typed_path();
         let mut text = typed.to_owned();
         let field = TextEdit::singleline(&mut text).id(id).desired_width(width).lock_focus(true);
-        let field = field.hint_text("path of a scene or of a frame log").show(ui);
-        field.response.widget_info(|| {
-            egui::WidgetInfo::labeled(
-                egui::Role::TextInput,
-                true,
-                "path of a scene or of a frame log",
-            )
-        });
+        let field = field.hint_text(hint).show(ui);
+        field.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, hint));
         if text != typed {
             commands.push(Command::View(ViewCommand::TypePath(text)));
         }
@@ -53,7 +51,10 @@ pub(super) fn path(
             ui.memory_mut(|memory| memory.request_focus(id));
             select(ctx, id, usize::MAX);
         }
-        let keys = "Enter opens, Tab completes, Esc closes. Or drop a file onto the window.";
+        let mut keys = format!("Enter {does}, Tab completes, Esc closes.");
+        if !studio.viewer().compares_typed_path() {
+            keys += " Or drop a file onto the window.";
+        }
         ui.label(RichText::new(keys).color(palette(ui).dim));
         if let Some(report) = refused {
             ui.separator();
@@ -122,7 +123,7 @@ mod tests {
         let mut window = TestWindow::new([800.0, 600.0]);
         for _ in 0..3 {
             window.show(Vec::new(), |ui| match studio.viewer().dialog() {
-                Some(Dialog::Path { refused }) => {
+                Some(Dialog::Path { refused, .. }) => {
                     path(ui, studio, refused.as_deref(), ui.max_rect(), &mut Vec::new());
                 }
                 Some(Dialog::Mistakes { file, report }) => {

@@ -13,7 +13,7 @@ pub(super) use self::span::Span;
 use super::breakpoints;
 use crate::lab::race::{Mode, TimeScale};
 use crate::lab::session::Event;
-use crate::lab::studio::{Command, RunCommand, StageCommand, Step, Studio};
+use crate::lab::studio::{Command, RunCommand, StageCommand, Step, Studio, ViewCommand};
 use crate::view::chart::AxisScale;
 use crate::view::theme::{PanelPalette, palette};
 use crate::view::wheel;
@@ -62,11 +62,14 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         start: studio.timeline().start(),
         times: &times,
         palette: track.palette,
+        parting: studio.viewer().parting(),
     };
     let in_view = |x: f32| along.expand(1.0).contains(x);
     let end = studio.timeline().end();
     let end = studio.timeline().is_in_past().then(|| context.end(end));
-    let mut groups = grouped(context.marks().chain(end), |mark| track.x(mark.tick), MARKS_APART);
+    let mut marks: Vec<_> = context.marks().chain(end).chain(context.parting()).collect();
+    marks.sort_by_key(|mark| mark.tick);
+    let mut groups = grouped(marks.into_iter(), |mark| track.x(mark.tick), MARKS_APART);
     groups.retain(|group| in_view(group.x));
 
     let painter = ui.painter().clone();
@@ -83,6 +86,12 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         Rect::from_min_max(pos2(along.max + MARGIN, room.top()), room.max),
         commands,
     );
+    response.context_menu(|ui| {
+        if ui.button("Compare with…").clicked() {
+            commands.push(Command::View(ViewCommand::AskForRun));
+            ui.close();
+        }
+    });
     tooltip(ui, response, &track, (&context, &groups));
 }
 
@@ -236,7 +245,9 @@ pub(super) fn pressed(ui: &Ui, response: &Response, along: Rangef) -> Option<f32
     // of the same frame has gone on from there.
     let is_new = ui.input(|i| i.pointer.any_pressed() || i.pointer.delta() != Vec2::ZERO);
     let has_ended = response.clicked() || response.drag_stopped();
-    let is_pressed = response.is_pointer_button_down_on() || has_ended && is_new;
+    let is_other = ui.input(|i| i.pointer.secondary_down() || i.pointer.secondary_released());
+    let is_down = response.is_pointer_button_down_on() && !is_other;
+    let is_pressed = is_down || has_ended && is_new;
     let pointer = response.interact_pointer_pos().filter(|_| is_pressed)?;
     Some(along.clamp(pointer.x))
 }
@@ -340,6 +351,12 @@ fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
         Sign::Kick => polygon(&[[0.0, -5.2], [4.4, 0.0], [0.0, 5.2], [-4.4, 0.0]]),
         Sign::Switch => {
             painter.circle(centre, 4.2, colour, rim);
+        }
+        Sign::Parting => {
+            for dx in [-4.0, 4.0] {
+                let ends = [centre + vec2(-dx, -7.0), centre + vec2(dx, 1.0)];
+                painter.line_segment(ends, Stroke::new(2.0, colour));
+            }
         }
         Sign::Halt => polygon(&[[-0.7, -6.0], [8.0, -2.5], [-0.7, 1.0]]),
     }

@@ -133,7 +133,7 @@ fn a_rate_that_nobody_chose_follows_the_file_and_one_that_was_chosen_stays() {
 fn a_path_that_is_refused_stays_in_its_field_with_the_reason_until_it_is_edited() {
     let mut studio = studio(text("spring"));
     let refused = |studio: &Studio| match studio.viewer().dialog() {
-        Some(Dialog::Path { refused }) => refused.clone(),
+        Some(Dialog::Path { refused, .. }) => refused.clone(),
         other => panic!("{other:?}"),
     };
     studio.apply(ViewCommand::AskForPath);

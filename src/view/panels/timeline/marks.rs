@@ -26,6 +26,8 @@ pub(super) enum Sign {
     Switch,
     /// A flag: a body that halted.
     Halt,
+    /// A cross: where a recording differs.
+    Parting,
 }
 
 /// Something that happened.
@@ -34,7 +36,7 @@ pub(super) struct Mark {
     pub(super) tick: u64,
     pub(super) sign: Sign,
     pub(super) colour: Color32,
-    /// The index of its event; `None` at the end of what was run.
+    /// The index of its event; `None` at the end of what was run, and where a recording differs.
     event: Option<usize>,
 }
 
@@ -62,6 +64,8 @@ pub(super) struct Context<'a> {
     pub(super) start: &'a Race,
     pub(super) times: &'a TimeScale,
     pub(super) palette: &'static PanelPalette,
+    /// Where a recording differs, and in what.
+    pub(super) parting: Option<&'a (u64, String)>,
 }
 
 impl Context<'_> {
@@ -114,11 +118,18 @@ impl Context<'_> {
         Mark { tick, sign: Sign::End, colour: self.palette.text, event: None }
     }
 
+    /// The mark of the tick where a recording differs.
+    pub(super) fn parting(&self) -> Option<Mark> {
+        let (tick, _) = self.parting?;
+        Some(Mark { tick: *tick, sign: Sign::Parting, colour: self.palette.accent, event: None })
+    }
+
     /// When it happened, what and by whom.
     pub(super) fn text(&self, mark: &Mark) -> String {
         let what = match mark.event {
             Some(event) => self.events[event].kind.words(self.scene),
-            None => "the run has not gone further".into(),
+            None if mark.sign == Sign::End => "the run has not gone further".into(),
+            None => self.parting.map_or(String::new(), |(_, told)| told.clone()),
         };
         format!("{}: {what}", self.times.moment(mark.tick))
     }
@@ -210,7 +221,8 @@ mod tests {
         let timeline = studio.timeline();
         let (events, start, times) = (&timeline.events(), timeline.start(), &timeline.times());
         let palette = palette_of(studio.display().theme);
-        let context = Context { events, scene: studio.scene(), start, times, palette };
+        let context =
+            Context { events, scene: studio.scene(), start, times, palette, parting: None };
         context.marks().map(|mark| (mark.sign, context.text(&mark))).collect()
     }
 

@@ -1,6 +1,7 @@
 use egui::Event as Input;
 
 use super::*;
+use crate::lab::diff::{Comparison, Difference};
 use crate::lab::studio::{RunCommand, StageCommand, Step};
 use crate::lab::{Action, Scene};
 use crate::view::panels;
@@ -97,4 +98,45 @@ fn the_moment_under_the_pointer_is_told_above_the_track_on_one_line() {
         let rect = told.expect("the moment is told");
         assert!(rect.bottom() < height && rect.height() < 24.0, "{rect} above {height}");
     }
+}
+
+#[test]
+fn a_recording_is_compared_in_the_menu_and_its_first_difference_is_marked_and_gone_to() {
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    (0..200).for_each(|_| studio.tick());
+    let mut window = TestWindow::new(SIZE);
+    let at = pos2(400.0, track_y(&studio));
+    let other = |pressed| Input::PointerButton {
+        pos: at,
+        button: egui::PointerButton::Secondary,
+        pressed,
+        modifiers: egui::Modifiers::NONE,
+    };
+    for event in [Input::PointerMoved(at), other(true), other(false)] {
+        assert_eq!(window.panels(&studio, vec![event]).0, [], "a menu goes nowhere");
+    }
+    studio.apply(ViewCommand::AskForRun);
+    assert!(studio.viewer().compares_typed_path());
+    let other = Difference {
+        tick: 250,
+        row: [Some("1".into()), Some("spring".into()), Some("x".into())],
+        column: "q".into(),
+        values: [Some("1.5".into()), Some("1.25".into())],
+        ulps: Some(2),
+        relative: Some(0.2),
+    };
+    let found = Comparison { rows: 900, moved: 2.0, first: Some(other), ..Default::default() };
+    studio.show_comparison("clip.toml", &found);
+    // The run had not come so far, and goes on from there.
+    assert_eq!((studio.race().tick(), studio.timeline().end()), (250, 250));
+    let (tick, told) = studio.viewer().parting().unwrap().clone();
+    assert!(
+        tick == 250 && told.contains("at tick 250, lane 1, spring, x: q is 1.5 in a"),
+        "{told}"
+    );
+    assert!(studio.viewer().dialog().is_none());
+    studio.tick();
+    assert!(studio.viewer().parting().is_some());
+    studio.apply(StageCommand::Restart);
+    assert!(studio.viewer().parting().is_none());
 }
