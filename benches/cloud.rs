@@ -169,7 +169,7 @@ fn main() {
     let mut picture = || {
         let mut density = Density::new([512; 2], view);
         density.add(&places, &others);
-        black_box(density.picture(Theme::Dark, [90, 180, 240, 255], &[]));
+        black_box(density.picture_of_size([512; 2], Theme::Dark, [90, 180, 240, 255]));
     };
     let [seconds] = turns([&mut picture]);
     let word = if seconds <= 4e-3 { "met" } else { "missed" };

@@ -1,4 +1,4 @@
-//! `regatta cloud`: a shape of many starts under some methods, and what becomes of its area, as a table and as a GIF.
+//! `regatta cloud`: a shape of many starts under some methods, and what becomes of its area, as a table.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -9,27 +9,20 @@ use serde_json::json;
 
 use super::error::Error;
 use super::experiment::{ExperimentArgs, Lineup, some_seconds};
-use super::file_names::{ending, mislabelled};
+use super::file_names::{ending, row_format};
 use super::help::flowing;
 use super::id::SHAPE;
 use super::interrupt::watch_for_interrupt;
 use super::jobs;
-use super::movie::Gif;
 use super::numbers::number_that;
 use super::output::table::{Column, RowFormat, write_rows};
-use super::output::{Destination, Output, STDOUT};
+use super::output::{Destination, STDOUT};
 use super::terminal::print_status;
 use crate::atomic_file::IfExists;
-use crate::lab::analysis::Unit;
 use crate::lab::cloud::{
-    Cloud, CloudAxes, CloudBody, CloudBorder, CloudMeasure, CloudShape, CloudStart, Density,
-    NoCloud, PlaneView, ShownTicks, USUAL_POINTS, hidden_in_words,
+    Cloud, CloudBody, CloudMeasure, CloudShape, CloudStart, NoCloud, USUAL_POINTS,
 };
-use crate::lab::palette::{Rgba, Theme};
 use crate::lab::{LaneSpec, Scene, SceneBody};
-use crate::sim::bodies::Coordinate;
-use crate::sim::number::{round, significant};
-use crate::view::Lettering;
 
 const ABOUT: &str = "\
 The starts fill the shape evenly about the scene's start, in the plane of the coordinate and the
@@ -42,12 +35,11 @@ method:
   body_steps_per_s  measured here and now
   hash              of all states, to the bit: the same for any number of threads
 
-A GIF has the methods side by side, over the exact cloud in outline; the rows then go to standard
-output. `regatta capture --instrument cloud` draws stills and sections.
+`regatta capture --instrument cloud` draws it, and with --section a section after Poincaré.
 
 Examples:
-  regatta cloud --scene spring --points 1000000 --out cloud.csv
-  regatta cloud --scene liouville --out cat.gif";
+  regatta cloud --scene liouville
+  regatta cloud --scene spring --points 1000000 --out cloud.csv";
 
 /// Step a shape of many starts and show what becomes of its area
 #[derive(Debug, Args)]
@@ -88,9 +80,7 @@ pub(super) struct CloudArgs {
     #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
 
-    /// FILE.csv or - for the rows, or FILE.gif
-    ///
-    /// A GIF shows what becomes of the shape on the way.
+    /// The file of the rows, CSV or JSON by its ending, or -
     #[arg(long, value_name = "FILE", default_value = STDOUT)]
     out: PathBuf,
 
@@ -116,47 +106,22 @@ fn no_cloud(why: NoCloud) -> Error {
     })
 }
 
-/// What is written.
-#[derive(Clone, Copy, PartialEq)]
-enum Form {
-    Rows,
-    Gif,
-}
-
-fn form(out: &Path) -> Result<Form, Error> {
-    if out == Path::new(STDOUT) {
-        return Ok(Form::Rows);
-    }
+/// The format of the rows by the name of their file.
+fn format(out: &Path) -> Result<RowFormat, Error> {
     match ending(out).as_deref() {
-        Some("csv") => Ok(Form::Rows),
-        Some("gif") => Ok(Form::Gif),
-        Some("png") => Err(Error::mistake(format!(
-            "regatta cloud draws no still pictures; `regatta capture --instrument cloud` draws {}",
+        Some("png" | "gif") => Err(Error::mistake(format!(
+            "regatta cloud writes rows; `regatta capture --instrument cloud` draws {}",
             out.display()
         ))),
-        _ => Err(mislabelled(out, "give --out a name that ends in .gif or .csv")),
+        _ => row_format(out, None),
     }
 }
 
-/// Pixels of a method's picture, each way, and between two.
-const SIDE_PX: usize = 512;
-const GAP_PX: usize = 8;
-/// The pixels of the two lines above the pictures, and of those below.
-const HEAD_PX: usize = 2 * Lettering::LINE_PX + 6;
-const FOOT_PX: usize = 2 * Lettering::LINE_PX + 6;
-
-/// The most pictures of a GIF, and the hundredths of a second that each is shown.
-const MAX_FRAMES: u64 = 100;
-const SHOWN_CS: u32 = 8;
+/// The most moments at which the area is looked at.
+const MAX_LOOKS: u64 = 100;
 
 /// The longest default run, in seconds.
 const USUAL_SECONDS: f64 = 60.0;
-
-/// How far other clouds stretch the axes, in widths of what the exact one covers.
-const BESIDE: f64 = 1.0;
-
-/// The longest run that sets the axes, in seconds.
-const MAX_SCOUTED_S: u64 = 30;
 
 /// The time after which an interrupt is looked for, if a tick takes no longer.
 const LOOKED_EVERY: Duration = Duration::from_millis(50);
@@ -193,40 +158,19 @@ impl MethodCloud {
 }
 
 pub(super) fn run(args: &CloudArgs) -> Result<(), Error> {
-    let form = form(&args.out)?;
+    let format = format(&args.out)?;
     let scene = args.experiment.load(Lineup::Everyone)?.scene;
     let specs = match args.experiment.names_no_method() {
         true => scene.lanes.clone(),
         false => args.experiment.lanes_named(&scene),
     };
     let if_exists = if args.force { IfExists::Replace } else { IfExists::Keep };
-    let to = Destination { path: &args.out, option: "--out", if_exists };
-    let mut output = match form {
-        Form::Rows => to.open_for_text()?,
-        Form::Gif => to.open()?,
-    };
+    let output = Destination { path: &args.out, option: "--out", if_exists }.open_for_text()?;
     let interrupted = watch_for_interrupt();
     let threads = args.threads.map_or(0, usize::from);
     let pool = jobs::pool(threads)?;
-    let Made { rows, size_px, frames } =
-        pool.install(|| make(args, &scene, &specs, form, &interrupted))?;
-    let write_rows = |output| write_rows(output, RowFormat::Csv, COLUMNS, &rows);
-    if form == Form::Rows {
-        return write_rows(output);
-    }
-    let mut gif = Gif::begin(&mut output, size_px)?;
-    frames.into_iter().try_for_each(|rgba| gif.push(rgba, SHOWN_CS))?;
-    drop(gif);
-    output.finish(&format!("a picture of {}x{}", size_px[0], size_px[1]))?;
-    write_rows(Output::stdout())
-}
-
-/// The results of all methods.
-struct Made {
-    rows: Vec<Row>,
-    size_px: [u32; 2],
-    /// The pictures on the way, of which the last is of the end; none where none are asked for.
-    frames: Vec<Vec<u8>>,
+    let rows = pool.install(|| rows(args, &scene, &specs, &interrupted))?;
+    write_rows(output, format, COLUMNS, &rows)
 }
 
 /// A row of the table.
@@ -246,13 +190,12 @@ const COLUMNS: &[Column<Row>] = &[
     Column::new("hash", |row| json!(format!("{:016x}", row.measure.hash))),
 ];
 
-fn make(
+fn rows(
     args: &CloudArgs,
     scene: &Scene,
     specs: &[LaneSpec],
-    form: Form,
     interrupted: &AtomicBool,
-) -> Result<Made, Error> {
+) -> Result<Vec<Row>, Error> {
     let of_scene = scene_body(scene);
     let body = (of_scene.kind.build)(&of_scene.values, specs[0].solver());
     let of = CloudBody { name: &of_scene.name, kind: &of_scene.kind, body: &*body };
@@ -273,30 +216,7 @@ fn make(
     let mut runs = specs.iter().map(cloud).collect::<Result<Vec<_>, _>>().map_err(no_cloud)?;
     let seconds = args.seconds.unwrap_or(scene.seconds.min(USUAL_SECONDS));
     let ticks = ((seconds * f64::from(scene.tick_hz)).round() as u64).max(1);
-    // The first part of a long run is as wide as the rest.
-    let long = ticks.min(MAX_SCOUTED_S * u64::from(scene.tick_hz));
-    let times = long.min(MAX_FRAMES);
-    let shown = ShownTicks { ticks: long, times, beside: BESIDE, spread: f64::INFINITY };
-    let view = match form {
-        Form::Rows => None,
-        Form::Gif => {
-            let axes = CloudAxes::of_run(of, start, specs, scene.tick_hz, shown);
-            Some(axes.map_err(no_cloud)?.whole)
-        }
-    };
-    let paper = view.map(|view| Paper {
-        lettering: Lettering::default(),
-        view,
-        size_px: [runs.len() * (SIDE_PX + GAP_PX) - GAP_PX, HEAD_PX + SIDE_PX + FOOT_PX],
-        what: format!("{}, {} Hz, {points} points", scene.name, scene.tick_hz),
-        axes: axes_in_words(
-            &scene_body(scene).kind.coordinates(&scene_body(scene).values).at(0),
-            view,
-        ),
-    });
-    let mut frames = Vec::new();
-    let mut border = CloudBorder::exact(of, start, scene.tick_hz).map_err(no_cloud)?;
-    let every = ticks.div_ceil(MAX_FRAMES);
+    let every = ticks.div_ceil(MAX_LOOKS);
     let mut done = 0;
     while done < ticks {
         done = (done + every).min(ticks);
@@ -307,14 +227,9 @@ fn make(
             }
             run.areas.extend(run.cloud.area_ratio());
         }
-        let Some(paper) = &paper else { continue };
-        border.go_to(done);
-        let t = done as f64 / f64::from(scene.tick_hz);
-        frames.push(paper.picture(&runs, t, &border.lines()));
     }
-    let size_px = paper.map_or([0; 2], |paper| paper.size_px.map(|pixels| pixels as u32));
-    let rows = runs.iter().map(|run| row(run, specs, points, ticks, form)).collect();
-    Ok(Made { rows, size_px, frames })
+    let is_read = args.out == Path::new(STDOUT);
+    Ok(runs.iter().map(|run| row(run, specs, points, ticks, is_read)).collect())
 }
 
 /// The first body of one coordinate, else the first.
@@ -323,68 +238,8 @@ fn scene_body(scene: &Scene) -> &SceneBody {
     scene.bodies.iter().find(of_one).unwrap_or(&scene.bodies[0])
 }
 
-/// What lies along the axes of a picture.
-fn axes_in_words(coordinate: &Coordinate, view: PlaneView) -> String {
-    let axis = |way: &str, name: &str, [low, high]: [f64; 2], unit: &str| {
-        format!("{way} {name}, {} to {} {unit}", significant(low, 2), significant(high, 2))
-    };
-    let across = axis("across", &coordinate.name, view.q, coordinate.shown_unit());
-    let up = axis("up", &coordinate.velocity, view.v, &Unit::Velocity.on(coordinate));
-    format!("{}; {up}", across.trim_end())
-}
-
-/// What the pictures of all methods are drawn on.
-struct Paper {
-    lettering: Lettering,
-    view: PlaneView,
-    size_px: [usize; 2],
-    what: String,
-    axes: String,
-}
-
-impl Paper {
-    /// The clouds side by side at this time in seconds, each below its method and what has become of it.
-    fn picture(&self, runs: &[MethodCloud], t: f64, lines: &[Vec<[f64; 2]>]) -> Vec<u8> {
-        let Self { lettering, view, size_px: [width, height], what, axes } = self;
-        let (theme, width) = (Theme::default(), *width);
-        let palette = theme.palette();
-        let mut pixels: Vec<Rgba> = vec![palette.background; width * height];
-        let specs: Vec<LaneSpec> = runs.iter().map(|run| run.spec).collect();
-        for (column, run) in runs.iter().enumerate() {
-            let MethodCloud { spec, cloud, .. } = run;
-            let mut density = Density::new([SIDE_PX; 2], *view);
-            density.add(cloud.q(), cloud.v());
-            let (colour, _) = theme.style(spec.method);
-            let picture = density.picture(theme, colour, lines);
-            let left = column * (SIDE_PX + GAP_PX);
-            for (y, row) in picture.chunks_exact(SIDE_PX).enumerate() {
-                let at = (HEAD_PX + y) * width + left;
-                pixels[at..at + SIDE_PX].copy_from_slice(row);
-            }
-            let area = cloud.area_ratio();
-            let ratio = area.map(|ratio| format!("area ×{}: ", significant(ratio, 3)));
-            let hidden = hidden_in_words(cloud.hidden(&density), cloud.q().len());
-            let hidden = hidden.map(|words| format!("; {words}")).unwrap_or_default();
-            let words = format!("{}{}{hidden}", ratio.unwrap_or_default(), run.words(area));
-            let name = spec.distinct_name(spec.method.name, &specs);
-            for (line, (words, style)) in
-                [(name, (colour, true)), (words, (palette.text, false))].iter().enumerate()
-            {
-                let at = [left + 4, 2 + line * Lettering::LINE_PX];
-                lettering.write(&mut pixels, width, at, words, *style);
-            }
-        }
-        let what = format!("{what}, after {} s", round(t, 3));
-        for (line, words) in [&what, axes].into_iter().enumerate() {
-            let at = [4, HEAD_PX + SIDE_PX + 2 + line * Lettering::LINE_PX];
-            lettering.write(&mut pixels, width, at, words, (palette.dim, false));
-        }
-        pixels.concat()
-    }
-}
-
-/// A method's row; tells what has become of its area in words.
-fn row(run: &MethodCloud, specs: &[LaneSpec], points: usize, ticks: u64, form: Form) -> Row {
+/// A method's row. Tells in words what has become of its area where the rows go into a file, and of starts that are lost.
+fn row(run: &MethodCloud, specs: &[LaneSpec], points: usize, ticks: u64, is_read: bool) -> Row {
     let MethodCloud { spec, cloud, stepping, .. } = run;
     let measure = cloud.measure();
     let method = spec.distinct_name(spec.method.id, specs);
@@ -394,7 +249,7 @@ fn row(run: &MethodCloud, specs: &[LaneSpec], points: usize, ticks: u64, form: F
         lost => format!("; {lost} of {points} starts blew up and are left out"),
     };
     let how = cloud.measured_in_words();
-    if form != Form::Rows || !lost.is_empty() {
+    if !is_read || !lost.is_empty() {
         print_status(&format!("{method} {} ({how}){lost}", run.words(measure.area_ratio)));
     }
     let steps = points as f64 * ticks as f64 * f64::from(spec.substeps);

@@ -26,7 +26,6 @@ mod advise;
 mod capture;
 #[cfg(feature = "view")]
 mod chapter;
-#[cfg(feature = "view")]
 mod cloud;
 mod completions;
 mod diff;
@@ -184,7 +183,6 @@ subcommands! {
     Trace(trace::TraceArgs) => trace::run,
     Advise(advise::AdviseArgs) => advise::run,
     Sweep(sweep::SweepArgs) => sweep::run,
-    #[cfg(feature = "view")]
     Cloud(cloud::CloudArgs) => cloud::run,
     Loop(game_loop::LoopArgs) => game_loop::run,
     Identify(identify::IdentifyArgs) => identify::run,

@@ -66,19 +66,25 @@ pub(super) fn record(
 
 /// GIF, with a palette of 256 colours for each frame. Its encoder writes the last byte when it is dropped; the output tells
 /// when it is closed whether it could.
-struct GifMovie<'a> {
-    gif: Gif<&'a mut Output>,
+struct Gif<'a> {
+    encoder: GifEncoder<&'a mut Output>,
+    size_px: [u32; 2],
     fps: u32,
 }
 
 pub(super) fn gif<'a>(out: &'a mut Output, capture: &CaptureSettings) -> Begun<'a> {
-    let gif = Gif::begin(out, capture.size_px)?;
-    Ok(Box::new(GifMovie { gif, fps: capture.schedule.fps }))
+    let mut encoder = GifEncoder::new_with_speed(out, GIF_SPEED);
+    encoder.set_repeat(Repeat::Infinite).map_err(of_gif)?;
+    Ok(Box::new(Gif { encoder, size_px: capture.size_px, fps: capture.schedule.fps }))
 }
 
-impl Movie for GifMovie<'_> {
+impl Movie for Gif<'_> {
     fn push(&mut self, frame: &DrawnFrame) -> Result<(), Error> {
-        self.gif.push(frame.rgba.clone(), shown_cs(frame.frame, self.fps))
+        let [width, height] = self.size_px;
+        let picture = RgbaImage::from_raw(width, height, frame.rgba.clone());
+        let picture = picture.expect("a frame has as many pixels as it says");
+        let shown = Delay::from_numer_denom_ms(10 * shown_cs(frame.frame, self.fps), 1);
+        self.encoder.encode_frame(Frame::from_parts(picture, 0, 0, shown)).map_err(of_gif)
     }
 }
 
@@ -99,29 +105,6 @@ impl Movie for Y4m<'_> {
         to_yuv(&frame.rgba, &mut self.planes);
         self.out.write_all(b"FRAME\n")?;
         Ok(self.out.write_all(&self.planes)?)
-    }
-}
-
-/// A GIF that repeats, being encoded.
-pub(super) struct Gif<W: Write> {
-    encoder: GifEncoder<W>,
-    size_px: [u32; 2],
-}
-
-impl<W: Write> Gif<W> {
-    pub(super) fn begin(out: W, size_px: [u32; 2]) -> Result<Self, Error> {
-        let mut encoder = GifEncoder::new_with_speed(out, GIF_SPEED);
-        encoder.set_repeat(Repeat::Infinite).map_err(of_gif)?;
-        Ok(Self { encoder, size_px })
-    }
-
-    /// Adds a picture that is shown for this many hundredths of a second.
-    pub(super) fn push(&mut self, rgba: Vec<u8>, shown_cs: u32) -> Result<(), Error> {
-        let [width, height] = self.size_px;
-        let picture = RgbaImage::from_raw(width, height, rgba);
-        let picture = picture.expect("a frame has as many pixels as it says");
-        let shown = Delay::from_numer_denom_ms(10 * shown_cs, 1);
-        self.encoder.encode_frame(Frame::from_parts(picture, 0, 0, shown)).map_err(of_gif)
     }
 }
 

@@ -19,7 +19,7 @@ mod running;
 mod section;
 
 pub use super::cloud_shape::{CloudKind, CloudShape};
-pub use axes::{CloudAxes, ShownTicks};
+use axes::{CloudAxes, ShownTicks};
 pub use border::CloudBorder;
 use course::{Course, Memory, Subject, copies_of};
 pub use density::{Density, MAX_LINE_PART, PlaneView};

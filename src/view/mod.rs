@@ -11,7 +11,6 @@ mod frame;
 mod gpu;
 #[cfg(test)]
 mod legibility;
-mod lettering;
 mod lines;
 mod mesh_buffer;
 mod meshes;
@@ -42,7 +41,6 @@ pub use chart::AxisScale;
 pub use chart::figure::{Axis, Chart, Figure, FigureCurve, Legend};
 pub use frame::{FrameOutput, FrameRenderer, Layout};
 pub use gpu::{AdapterPreference, Gpu, GpuError};
-pub use lettering::Lettering;
 pub use offscreen::Offscreen;
 pub use offscreen_renderer::OffscreenRenderer;
 pub use panels::Panels;

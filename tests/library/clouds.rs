@@ -197,9 +197,8 @@ fn an_accurate_method_fills_the_exact_border_and_a_picture_shows_every_point() {
     density.add(cloud.q(), cloud.v());
     assert_eq!(density.counts().iter().sum::<u32>(), 900);
     let colour = [10, 200, 100, 255];
-    let picture = density.picture(Theme::Dark, colour, &[]);
-    let lit = |n: &usize| picture[*n] != Theme::Dark.palette().plot;
-    assert!((0..picture.len()).all(|n| lit(&n) == (density.counts()[n] > 0)));
+    let picture = density.picture_of_size([40, 30], Theme::Dark, colour);
+    assert!((0..picture.len()).all(|n| (picture[n][3] > 0) == (density.counts()[n] > 0)));
 }
 
 #[test]

@@ -721,7 +721,7 @@ ring\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l reach -d 'The reach of the shape' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l seconds -d 'Simulated seconds of the run' -r
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l threads -d 'Threads, 1 to 256 [default: one for each core]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l out -d 'FILE.csv or - for the rows, or FILE.gif' -r -F
+complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l out -d 'The file of the rows, CSV or JSON by its ending, or -' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -l force -d 'Replace the file if it is there'
 complete -c regatta -n "__fish_regatta_using_subcommand cloud" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l policy -d 'A policy, or several [default: the usual ones]' -r -f -a "variable\t''

@@ -14,20 +14,18 @@ const NARROWEST: f64 = 0.25;
 const MOMENTS: u64 = 60;
 /// The most ticks of a run through which they are found: a second of work or less.
 const MAX_TICKS: u64 = 3000;
-/// How far other clouds stretch these, in widths of what the exact one covers.
+/// How far other clouds stretch the axes, in widths of what the exact one covers.
 const BESIDE: f64 = 0.1;
 
 /// The moments that a picture shows: so many, evenly through the first ticks of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ShownTicks {
+pub(super) struct ShownTicks {
     /// The last.
-    pub ticks: u64,
+    pub(super) ticks: u64,
     /// How many moments.
-    pub times: u64,
-    /// How far other clouds stretch the axes, in widths of what the exact one covers.
-    pub beside: f64,
+    pub(super) times: u64,
     /// How many times as wide or as high as at the start the exact cloud is while it is shown.
-    pub spread: f64,
+    pub(super) spread: f64,
 }
 
 impl ShownTicks {
@@ -39,15 +37,15 @@ impl From<u64> for ShownTicks {
     /// What the axes of the clouds of a studio show, in a run of so many ticks.
     fn from(ticks: u64) -> Self {
         let ticks = ticks.min(MAX_TICKS);
-        Self { ticks, times: ticks.min(MOMENTS), beside: BESIDE, spread: f64::INFINITY }
+        Self { ticks, times: ticks.min(MOMENTS), spread: f64::INFINITY }
     }
 }
 
 /// The axes of a run of clouds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CloudAxes {
+pub(super) struct CloudAxes {
     /// Where the exact cloud comes, and the others near it.
-    pub whole: PlaneView,
+    pub(super) whole: PlaneView,
     /// How wide and how high the exact cloud gets.
     widest: [f64; 2],
 }
@@ -57,7 +55,7 @@ impl CloudAxes {
     ///
     /// # Errors
     /// As [`Cloud::new`].
-    pub fn of_run(
+    pub(super) fn of_run(
         of: CloudBody<'_>,
         start: CloudStart,
         specs: &[LaneSpec],
@@ -88,13 +86,13 @@ impl CloudAxes {
                 others.extend(scout.q().iter().zip(scout.v()).map(|(&q, &v)| [q, v]));
             }
         }
-        let whole = PlaneView::around(&exact, &others, shown.beside, is_angle);
+        let whole = PlaneView::around(&exact, &others, BESIDE, is_angle);
         Ok(Self { whole, widest })
     }
 
     /// The part of the plane that is shown while the exact border and the points of others are there: it follows those of
     /// them that the whole has, and is no wider or higher.
-    pub fn around(&self, border: &[[f64; 2]], others: &[[f64; 2]]) -> PlaneView {
+    pub(super) fn around(&self, border: &[[f64; 2]], others: &[[f64; 2]]) -> PlaneView {
         let mut view = self.whole;
         let is_within = |[q, v]: &[f64; 2]| {
             self.whole.place(*q, *v).iter().all(|part| (0.0..=1.0).contains(part))

@@ -174,19 +174,8 @@ impl Density {
         &self.counts
     }
 
-    /// The picture in a method's colour, brighter by the logarithm of the count, and these lines over it.
-    pub fn picture(&self, theme: Theme, colour: Rgba, lines: &[Vec<[f64; 2]>]) -> Vec<Rgba> {
-        let counts = self.counts.iter().map(|&count| count as f32);
-        let mut pixels = shaded(counts, self.points() as f32, theme, colour);
-        for line in lines {
-            for ends in line.windows(2) {
-                self.draw_line(&mut pixels, [ends[0], ends[1]], theme.palette().exact);
-            }
-        }
-        pixels
-    }
-
-    /// The picture in another size, transparent where no point is: what lies between two pixels falls on both.
+    /// The picture in a method's colour, brighter by the logarithm of the count, in another size and transparent where no
+    /// point is: what lies between two pixels falls on both.
     pub fn picture_of_size(&self, size_px: [usize; 2], theme: Theme, colour: Rgba) -> Vec<Rgba> {
         let [width, height] = self.size_px;
         let counts: Vec<f32> = self.counts.iter().map(|&count| count as f32).collect();
@@ -201,25 +190,5 @@ impl Density {
         let counted = pixels.iter_mut().zip(&all);
         counted.filter(|(_, count)| **count == 0.0).for_each(|(pixel, _)| pixel[3] = 0);
         pixels
-    }
-
-    /// A pixel for each step along a line.
-    fn draw_line(&self, pixels: &mut [Rgba], ends: [[f64; 2]; 2], colour: Rgba) {
-        let [from, to] = ends.map(|[q, v]| self.view.place(q, v));
-        let [width, height] = self.size_px.map(|pixels| pixels as f64);
-        let [dx, dy] = [(to[0] - from[0]) * width, (to[1] - from[1]) * height];
-        let steps = dx.abs().max(dy.abs()).ceil();
-        // A long line goes around the back of an angle or to infinity, or joins points too far apart to tell the way.
-        if !steps.is_finite() || steps > MAX_LINE_PART * width.max(height) {
-            return;
-        }
-        for step in 0..=steps as usize {
-            let part = if steps > 0.0 { step as f64 / steps } else { 0.0 };
-            let at = [0, 1].map(|i| from[i] + part * (to[i] - from[i]));
-            if at.iter().all(|place| (0.0..1.0).contains(place)) {
-                let [x, y] = [(at[0] * width) as usize, (at[1] * height) as usize];
-                pixels[(self.size_px[1] - 1 - y) * self.size_px[0] + x] = colour;
-            }
-        }
     }
 }

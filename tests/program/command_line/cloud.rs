@@ -1,10 +1,6 @@
-//! `cloud`: a table of what methods do to an area, and the film.
+//! `cloud`: a table of what methods do to an area.
 
 use std::fs;
-use std::io::BufReader;
-
-use image::AnimationDecoder;
-use image::codecs::gif::GifDecoder;
 
 use super::{refusal, run, run_in, stderr, stdout_of};
 
@@ -29,39 +25,17 @@ fn a_row_for_each_method_with_the_same_hash_for_any_number_of_threads() {
 }
 
 #[test]
-fn pictures_are_the_same_bytes_every_time_and_say_what_became_of_the_area() {
+fn rows_in_a_file_are_told_in_words() {
     let folder = tempfile::tempdir().unwrap();
-    let make = |name: &str, options: &str| {
-        let options =
-            format!("cloud --scene liouville --points 1200 --seconds 0.5 {options} --out {name}");
-        let done = run_in(folder.path(), &options);
+    let options = "cloud --scene liouville --points 1200 --seconds 0.5 --out";
+    let begins = |file: &str| {
+        let done = run_in(folder.path(), &format!("{options} {file}"));
         assert!(done.status.success(), "{}", stderr(&done));
-        (fs::read(folder.path().join(name)).unwrap(), stderr(&done))
+        assert!(stderr(&done).contains("explicit-euler grows ×2 in"), "{}", stderr(&done));
+        fs::read_to_string(folder.path().join(file)).unwrap()
     };
-    let (first, said) = make("a.gif", "--shape cat");
-    assert!(first.starts_with(b"GIF89a") && said.contains("explicit-euler grows ×2 in"), "{said}");
-    assert!(make("b.gif", "--shape cat").0 == first);
-    assert!(make("c.gif", "--shape disc").0 != first);
-    // Words stand above and below: the first method's name in its own colour.
-    let picture = image::load_from_memory(&first).unwrap().into_rgb8();
-    let is_orange = |[r, g, b]: [u8; 3]| r > 180 && g < 170 && b < 120;
-    let head = picture.enumerate_pixels().filter(|(_, y, pixel)| *y < 24 && is_orange(pixel.0));
-    let lefts: Vec<u32> = head.map(|(x, ..)| x).collect();
-    assert!(lefts.len() > 150 && lefts.iter().all(|x| *x < 200), "{}", lefts.len());
-    let foot = picture.rows().rev().take(40).flatten().filter(|pixel| pixel.0[1] > 100).count();
-    assert!(foot > 500, "{foot}");
-    assert!(make("e.csv", "").0.starts_with(b"method,points,"));
-}
-
-#[test]
-fn a_long_run_has_a_hundred_frames() {
-    let folder = tempfile::tempdir().unwrap();
-    let options = "cloud --scene kicked-rotor --method rk4 --points 20 --seconds 30 --out c.gif";
-    let done = run_in(folder.path(), options);
-    assert!(done.status.success(), "{}", stderr(&done));
-    let film = fs::File::open(folder.path().join("c.gif")).unwrap();
-    let frames = GifDecoder::new(BufReader::new(film)).unwrap().into_frames();
-    assert_eq!(frames.count(), 100);
+    assert!(begins("cat.csv").starts_with("method,points,"));
+    assert!(begins("cat.json").starts_with("[\n{\"method\":"));
 }
 
 #[test]
@@ -84,6 +58,7 @@ fn what_is_no_cloud_is_said_in_one_line() {
         ),
         ("--scene spring --points 1000000000", "1000000000 points do not fit into memory"),
         ("--out cat.png", "`regatta capture --instrument cloud` draws cat.png"),
+        ("--out cat.gif", "`regatta capture --instrument cloud` draws cat.gif"),
         ("--out cloud.svg", "cloud.svg would not hold what its name says"),
         ("--shape cow", "cow"),
         ("--reach 1e-300", "give a number from 1e-6 to 1e9"),
