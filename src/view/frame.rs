@@ -233,14 +233,10 @@ impl FrameRenderer {
         let meshes = self.context.tessellate(std::mem::take(&mut output.shapes), px_per_point);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let has_stage = stage.is_some();
-        let (start, stage_px) = stage.map_or((Start::Black, [0; 4]), |stage| {
-            let stage_of = &mut self.stage;
-            let start = stage_of.prepare(gpu, &mut encoder, target.texture(), stage, px_per_point);
-            (start, stage_of.scissor_px())
+        let start = stage.map_or(Start::Black, |stage| {
+            self.stage.prepare(gpu, &mut encoder, target.texture(), stage, px_per_point)
         });
-        let on = (target.texture(), size_px, stage_px);
-        self.panels.prepare(gpu, &meshes, on, px_per_point);
-        let start = self.panels.copy_still(&mut encoder, target, start);
+        self.panels.prepare(gpu, &meshes, size_px, px_per_point);
         {
             let mut pass = pass(&mut encoder, "frame", target, start);
             if has_stage {

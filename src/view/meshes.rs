@@ -13,9 +13,8 @@ use egui::{ClippedPrimitive, ImageData, TextureId};
 use super::gpu::Gpu;
 use super::mesh_buffer::MeshBuffer;
 use super::screen_transform::{ScreenBindGroup, ScreenTransform, pipeline};
-use super::still_tiles::{StillTiles, TileRect, Tiling};
 use super::strokes::{StrokeMesh, StrokePipeline};
-use super::textures::{Start, pass, texture};
+use super::textures::texture;
 
 const SHADER: &str = concat!(
     include_str!("../../shaders/screen_transform.wgsl"),
@@ -57,33 +56,10 @@ pub(super) struct MeshRenderer {
     pipelines: [wgpu::RenderPipeline; 2],
     atlas_layout: wgpu::BindGroupLayout,
     atlases: HashMap<TextureId, (wgpu::Texture, wgpu::BindGroup)>,
-    /// How often each texture has changed.
-    versions: HashMap<TextureId, u64>,
     screen: ScreenBindGroup,
     triangles: MeshBuffer<Vertex>,
     strokes: StrokePipeline,
-    still: StillTiles,
-    tiling: Tiling,
     draws: Vec<Draw>,
-}
-
-/// A primitive, and which tiles it touches.
-struct Touching<'a> {
-    scissor_px: [u32; 4],
-    what: Touched<'a>,
-}
-
-enum Touched<'a> {
-    /// From the first vertex on, triangle by triangle.
-    Mesh {
-        mesh: &'a Mesh,
-        first_vertex: u32,
-        triangles: Vec<(TileRect, DrawKind)>,
-    },
-    Strokes {
-        touched: TileRect,
-        indices: Range<u32>,
-    },
 }
 
 impl MeshRenderer {
@@ -120,12 +96,9 @@ impl MeshRenderer {
             pipelines,
             atlas_layout,
             atlases: HashMap::new(),
-            versions: HashMap::new(),
             strokes: StrokePipeline::new(gpu, &layout(&[Some(&screen.layout)]), format),
             screen,
             triangles: MeshBuffer::new(gpu, "panels"),
-            still: StillTiles::new(gpu, format),
-            tiling: Tiling::default(),
             draws: Vec::new(),
         }
     }
@@ -134,10 +107,6 @@ impl MeshRenderer {
     pub(super) fn set_texture(&mut self, gpu: &Gpu, id: TextureId, delta: &epaint::ImageDelta) {
         let ImageData::Color(image) = &delta.image;
         let [width, height] = image.size.map(|side| side as u32);
-        // What is added to the font's atlas changes nothing of what was in it.
-        if delta.pos.is_none() || id != TextureId::default() {
-            *self.versions.entry(id).or_default() += 1;
-        }
         if delta.pos.is_none() {
             let usage = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST;
             let format = wgpu::TextureFormat::Rgba8Unorm;
@@ -172,38 +141,24 @@ impl MeshRenderer {
 
     pub(super) fn free_texture(&mut self, id: TextureId) {
         self.atlases.remove(&id);
-        self.versions.remove(&id);
     }
 
-    /// Uploads what the next [`Self::paint`] is to draw on a target of this size, on which the stage has this left, top, width
-    /// and height.
+    /// Uploads what the next [`Self::paint`] is to draw on a target of this size.
     pub(super) fn prepare(
         &mut self,
         gpu: &Gpu,
         primitives: &[ClippedPrimitive],
-        (target, size_px, stage_px): (&wgpu::Texture, [u32; 2], [u32; 4]),
+        size_px: [u32; 2],
         px_per_point: f32,
     ) {
         self.triangles.clear();
         self.strokes.clear();
-        self.still.begin(size_px);
-        let touching = primitives.iter();
-        let touching: Vec<Touching<'_>> =
-            touching.filter_map(|it| self.look_at(it, size_px, px_per_point)).collect();
-        self.tiling = self.still.tiling(gpu, target, stage_px);
-        let mut draws = Vec::new();
-        for rect in &self.tiling.new {
-            let all = rect.part([0, 0, size_px[0], size_px[1]]);
-            let black = black(all.map(|px| px as f32 / px_per_point));
-            let (kind, texture) = (DrawKind::OpaqueFill, TextureId::default());
-            let indices = self.triangles.add(&black.vertices, &black.indices);
-            let what = Drawn::Triangles { kind, texture, indices };
-            draws.push(Draw { scissor_px: all, what });
-            add_draws(&mut self.triangles, &mut draws, &touching, *rect);
-        }
-        let new = draws.len();
-        for rect in &self.tiling.live {
-            add_draws(&mut self.triangles, &mut draws, &touching, *rect);
+        self.draws.clear();
+        for ClippedPrimitive { clip_rect, primitive } in primitives {
+            let scissor_px = scissor(*clip_rect, size_px, px_per_point);
+            if scissor_px[2] > 0 && scissor_px[3] > 0 {
+                self.add(primitive, scissor_px, px_per_point);
+            }
         }
         let [width, height] = size_px.map(|side| side as f32);
         let edges_px = [0.0, 0.0, width, height];
@@ -211,80 +166,40 @@ impl MeshRenderer {
             .write(gpu, &ScreenTransform { size_px, origin_px: [0.0; 2], px_per_point, edges_px });
         self.triangles.upload(gpu);
         self.strokes.upload(gpu);
-        self.draws = draws.split_off(new);
-        if let Some(view) = self.still.view().filter(|_| new > 0) {
-            // At once: whether this frame is ever submitted is the caller's business, and later ones need it.
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            self.paint_all(&draws, &mut pass(&mut encoder, "panels", &view, Start::AsItIs));
-            gpu.queue.submit([encoder.finish()]);
-        }
     }
 
-    /// Takes in a primitive, if something of it shows: its vertices, and which tiles it touches.
-    fn look_at<'a>(
-        &mut self,
-        ClippedPrimitive { clip_rect, primitive }: &'a ClippedPrimitive,
-        size_px: [u32; 2],
-        px_per_point: f32,
-    ) -> Option<Touching<'a>> {
-        let scissor_px = scissor(*clip_rect, size_px, px_per_point);
-        if scissor_px[2] == 0 || scissor_px[3] == 0 {
-            return None;
-        }
-        let what = match primitive {
+    /// Adds the draws of a primitive of which something shows.
+    fn add(&mut self, primitive: &Primitive, scissor_px: [u32; 4], px_per_point: f32) {
+        match primitive {
             Primitive::Mesh(mesh) => {
-                let version = self.versions.get(&mesh.texture_id);
-                let all = (scissor_px, px_per_point.to_bits(), mesh.texture_id, version);
-                let all = egui::util::hash(all);
-                let touched = mesh.indices.as_chunks().0.iter().map(|corners: &[u32; 3]| {
-                    let vertices = corners.map(|corner| mesh.vertices[corner as usize]);
-                    let bounds = egui::Rect::from_points(&vertices.map(|vertex| vertex.pos));
-                    let of_vertices = (all, bytemuck::bytes_of(&vertices));
-                    let touched =
-                        self.still.take_in(bounds * px_per_point, scissor_px, of_vertices);
-                    (touched, kind(mesh, corners, px_per_point))
-                });
-                let triangles = touched.collect();
                 let first_vertex = self.triangles.add_vertices(&mesh.vertices);
-                Touched::Mesh { mesh, first_vertex, triangles }
+                let triangles = mesh.indices.as_chunks().0;
+                let kinds =
+                    triangles.iter().map(|it: &[u32; 3]| (it, kind(mesh, it, px_per_point)));
+                let kinds: Vec<_> = kinds.collect();
+                for run in kinds.chunk_by(|a, b| a.1 == b.1) {
+                    let corners = run.iter().flat_map(|(corners, _)| **corners);
+                    let indices = self.triangles.add_indices(first_vertex, corners);
+                    let (kind, texture) = (run[0].1, mesh.texture_id);
+                    let what = Drawn::Triangles { kind, texture, indices };
+                    self.draws.push(Draw { scissor_px, what });
+                }
             }
             // Of callbacks, only the curves of plots are ours.
             Primitive::Callback(callback) => {
-                let mesh = callback.callback.downcast_ref::<StrokeMesh>()?;
-                let all = (scissor_px, px_per_point.to_bits(), mesh);
-                let touched = self.still.take_in(mesh.bounds() * px_per_point, scissor_px, all);
-                Touched::Strokes { touched, indices: self.strokes.add(mesh) }
+                if let Some(mesh) = callback.callback.downcast_ref::<StrokeMesh>() {
+                    let what = Drawn::Strokes(self.strokes.add(mesh));
+                    self.draws.push(Draw { scissor_px, what });
+                }
             }
-        };
-        Some(Touching { scissor_px, what })
+        }
     }
 
-    /// Puts what stays the same on the target. Returns what the pass begins with, which would begin with `start` without that.
-    pub(super) fn copy_still(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::TextureView,
-        start: Start,
-    ) -> Start {
-        if !self.tiling.has_still() {
-            return start;
-        }
-        if start == Start::Black {
-            drop(pass(encoder, "black", target, start));
-        }
-        self.still.copy(&self.tiling, encoder, target.texture());
-        Start::AsItIs
-    }
-
-    /// Draws what was prepared and was not copied.
+    /// Draws what was prepared.
     pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
-        self.paint_all(&self.draws, pass);
-    }
-
-    fn paint_all(&self, draws: &[Draw], pass: &mut wgpu::RenderPass<'_>) {
         pass.set_bind_group(0, &self.screen.group, &[]);
         let mut set = None;
-        for Draw { scissor_px: [left, top, width, height], what } in draws {
+        for Draw { scissor_px: [left, top, width, height], what } in &self.draws {
             pass.set_scissor_rect(*left, *top, *width, *height);
             match what {
                 Drawn::Triangles { kind, texture, indices } => {
@@ -303,52 +218,6 @@ impl MeshRenderer {
             }
         }
     }
-}
-
-/// Adds the draws of what touches a rectangle of tiles.
-fn add_draws(
-    buffer: &mut MeshBuffer<Vertex>,
-    draws: &mut Vec<Draw>,
-    touching: &[Touching<'_>],
-    rect: TileRect,
-) {
-    for Touching { scissor_px, what } in touching {
-        let scissor_px = rect.part(*scissor_px);
-        if scissor_px[2] == 0 || scissor_px[3] == 0 {
-            continue;
-        }
-        match what {
-            Touched::Mesh { mesh, first_vertex, triangles } => {
-                let corners = mesh.indices.as_chunks::<3>().0.iter().zip(triangles);
-                let here: Vec<([u32; 3], DrawKind)> = corners
-                    .filter(|(_, (touched, _))| touched.meets(rect))
-                    .map(|(corners, (_, kind))| (*corners, *kind))
-                    .collect();
-                for run in here.chunk_by(|a, b| a.1 == b.1) {
-                    let (kind, texture) = (run[0].1, mesh.texture_id);
-                    let corners = run.iter().flat_map(|(corners, _)| *corners);
-                    let indices = buffer.add_indices(*first_vertex, corners);
-                    draws.push(Draw {
-                        scissor_px,
-                        what: Drawn::Triangles { kind, texture, indices },
-                    });
-                }
-            }
-            Touched::Strokes { touched, indices } => {
-                if touched.meets(rect) {
-                    draws.push(Draw { scissor_px, what: Drawn::Strokes(indices.clone()) });
-                }
-            }
-        }
-    }
-}
-
-/// A black rectangle, by its left, top, width and height in points.
-fn black([left, top, width, height]: [f32; 4]) -> Mesh {
-    let rect = egui::Rect::from_min_size(egui::pos2(left, top), egui::vec2(width, height));
-    let mut mesh = Mesh::default();
-    mesh.add_colored_rect(rect, egui::Color32::BLACK);
-    mesh
 }
 
 fn kind(mesh: &Mesh, corners: &[u32; 3], px_per_point: f32) -> DrawKind {

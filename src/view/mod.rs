@@ -25,7 +25,6 @@ mod screen_transform;
 mod sea;
 mod shapes;
 mod stage;
-mod still_tiles;
 mod strokes;
 #[cfg(test)]
 mod testing;

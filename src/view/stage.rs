@@ -108,11 +108,6 @@ impl StageRenderer {
         Start::AsItIs
     }
 
-    /// The left, top, width and height on the target that were prepared.
-    pub(super) fn scissor_px(&self) -> [u32; 4] {
-        self.scissor_px
-    }
-
     /// Draws what was prepared, and nothing outside the stage.
     pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
         if !self.begin(pass) {

@@ -3,7 +3,6 @@
 //! A vertex says how wide its line is there, and how far across and along the line it lies, in pixels, so that
 //! a shader can tell how much of a pixel is covered.
 
-use std::hash::{Hash, Hasher};
 use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
@@ -50,22 +49,7 @@ pub(super) struct StrokeMesh {
     indices: Vec<u32>,
 }
 
-impl Hash for StrokeMesh {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        bytemuck::cast_slice::<_, u8>(&self.vertices).hash(state);
-        self.indices.hash(state);
-    }
-}
-
 impl StrokeMesh {
-    /// What it is all within, in points.
-    pub(super) fn bounds(&self) -> egui::Rect {
-        self.vertices.iter().fold(egui::Rect::NOTHING, |mut bounds, vertex| {
-            bounds.extend_with(vertex.at.into());
-            bounds
-        })
-    }
-
     /// Adds a filled outline that can be seen whole from the mean of its corners, its edge blurred over a pixel.
     pub(super) fn fill(&mut self, corners: &[(Pos2, Color32)], px_per_point: f32) {
         /// Wider than a pixel on both sides: it is all covered.
