@@ -66,7 +66,7 @@
 //!   [metrics](lab::METRICS), [scenes](lab::SCENES), [keys](lab::studio::KEYS), the [stops](lab::studio::guide::STOPS) of the guide,
 //!   [game loops](lab::pacing::POLICIES) with their [metrics](lab::pacing::PACING_METRICS), and [traces](lab::pacing::TRACES):
 //!   menus, help, command line and tests loop over them.
-//! - Who may import whom is enforced by `tests/library/tidy`.
+//! - Who may import whom is enforced by the features, each of which compiles alone, and by `clippy.toml`.
 //!
 //! # Adding a thing
 //!
@@ -144,6 +144,8 @@
 //! (`commands/sweep/round_off.rs`); and constraints, because a closed body with natural coordinates needs
 //! none.
 
+// Only `main` exits, and what is said to a person goes by way of the commands.
+#![warn(clippy::exit, clippy::print_stderr)]
 // docs.rs marks what needs a feature with its name.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
@@ -159,6 +161,8 @@ mod atomic_file;
 #[cfg(feature = "cli")]
 pub mod commands;
 #[cfg(feature = "lab")]
+#[cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
+#[warn(clippy::print_stdout)]
 pub mod lab;
 pub mod manual;
 #[cfg(any(feature = "cli", feature = "view"))]
@@ -166,8 +170,18 @@ mod picture_note;
 pub mod prelude;
 #[cfg(any(feature = "cli", feature = "window"))]
 mod regular_file;
+#[cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
+#[warn(clippy::print_stdout)]
 pub mod sim;
+#[cfg(any(feature = "cli", feature = "window"))]
+#[cfg_attr(
+    not(feature = "cli"),
+    allow(dead_code, reason = "only the commands tell how noisy it was")
+)]
+mod stopwatch;
 #[cfg(feature = "view")]
+#[cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]
+#[warn(clippy::print_stdout)]
 pub mod view;
 #[cfg(feature = "window")]
 pub mod window;

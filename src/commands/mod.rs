@@ -82,7 +82,6 @@ mod numbers;
 mod output;
 #[cfg(feature = "view")]
 mod plot;
-mod stopwatch;
 mod terminal;
 
 pub use error::Error;

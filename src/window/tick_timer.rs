@@ -11,13 +11,14 @@ use winit::event_loop::EventLoopProxy;
 use super::Event;
 use crate::lab::studio::{Instrument, Studio};
 use crate::lab::{Follow, Lane, LaneSpec};
+use crate::stopwatch;
 
 /// The time between two measurements.
 const PERIOD: Duration = Duration::from_secs(1);
-/// Ticks that are timed together, because reading the clock takes as long as a tick of a small body, and runs of them.
-/// Few enough that a lane that blows up is still timed before it does.
+/// Ticks that are timed together: few enough that a lane that blows up is still timed before it does.
 const TICKS: u64 = 64;
-const RUNS: u32 = 8;
+/// How long a lane is timed.
+const EFFORT: Duration = Duration::from_micros(200);
 
 /// Lanes to time, with the time in seconds at which they stand, and the tick rate in Hz.
 struct Lanes {
@@ -62,62 +63,40 @@ impl TickTimer {
     }
 }
 
+/// The nanoseconds of a tick of each lane; `None` of one that halts.
 fn timed(Lanes { lanes, t, tick_hz }: &Lanes) -> Vec<(LaneSpec, Option<f64>)> {
-    let begin = Instant::now();
-    let clock = || u64::try_from(begin.elapsed().as_nanos()).unwrap_or(u64::MAX);
-    let follow = |lane: &Lane| Follow::new(lane.clone(), *tick_hz).from_time(*t);
-    let time = |lane| ns_per_tick(&follow(lane), TICKS, RUNS, clock);
+    let time = |lane: &Lane| {
+        let made = |hz| Follow::new(lane.clone(), hz).from_time(*t);
+        let mut run = made(*tick_hz);
+        run.run(TICKS, |_, _| ControlFlow::Continue(()));
+        let timing = || stopwatch::time(made, *tick_hz, TICKS, EFFORT);
+        let timing = if run.body.halted().is_some() { None } else { timing() };
+        timing.map(|timing| timing.ns_per_s / f64::from(*tick_hz))
+    };
     lanes.iter().map(|(spec, lane)| (*spec, time(lane))).collect()
-}
-
-/// The time in nanoseconds of a tick, by a clock that says how many have passed: the least over `runs` runs of `ticks`
-/// ticks each, on copies. `None` if a body halts.
-fn ns_per_tick(
-    follow: &Follow<Lane>,
-    ticks: u64,
-    runs: u32,
-    clock: impl Fn() -> u64,
-) -> Option<f64> {
-    let mut least = f64::INFINITY;
-    for _ in 0..runs {
-        let mut run = follow.clone();
-        let start = clock();
-        run.run(ticks, |_, _| ControlFlow::Continue(()));
-        let passed = clock().saturating_sub(start);
-        if run.body.halted().is_some() {
-            return None;
-        }
-        least = least.min(passed as f64 / ticks as f64);
-    }
-    least.is_finite().then_some(least)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::cell::Cell;
-
     use crate::lab::Scene;
     use crate::lab::studio::StageCommand;
-    use crate::sim::Solver;
     use crate::sim::integrators::method;
 
-    fn lane(scene: &str, id: &str) -> Follow<'static, Lane> {
-        let scene = Scene::built_in(scene).unwrap();
-        Follow::new(Lane::new(&scene, Solver::Method(method(id).unwrap()), 1), scene.tick_hz)
-    }
-
     #[test]
-    fn the_time_of_a_tick_is_the_least_of_its_runs_and_a_halted_lane_has_none() {
-        let (reading, step) = (Cell::new(0), Cell::new(900));
-        // Each run takes 100 ns less than the one before.
-        let clock = || {
-            reading.set(reading.get() + step.get());
-            step.set(step.get() - 50);
-            reading.get()
-        };
-        assert_eq!(ns_per_tick(&lane("spring", "rk4"), 10, 3, clock), Some(65.0));
-        assert_eq!(ns_per_tick(&lane("stiff", "explicit-euler"), 700, 1, || 0), None);
+    fn a_lane_that_halts_meanwhile_has_no_cost() {
+        let scene = Scene::built_in("stiff").unwrap();
+        let spec = LaneSpec::plain(method("explicit-euler").unwrap());
+        let mut run = Follow::new(Lane::new(&scene, spec.solver(), spec.substeps), scene.tick_hz);
+        // On its last ticks.
+        while run.body.halted().is_none() {
+            let before = run.clone();
+            run.run(TICKS / 2, |_, _| ControlFlow::Continue(()));
+            if run.body.halted().is_some() {
+                let lanes = vec![(spec, before.body)];
+                assert_eq!(timed(&Lanes { lanes, t: 0.0, tick_hz: scene.tick_hz }), [(spec, None)]);
+            }
+        }
     }
 
     #[test]

@@ -36,6 +36,7 @@ mod keys;
 mod laws;
 mod layouts;
 mod loop_snippets;
+mod manual_tables;
 mod misuse;
 mod nets;
 mod pacing_policies;

@@ -7,11 +7,11 @@ use std::time::Duration;
 use rayon::ThreadPool;
 
 use crate::commands::jobs;
-use crate::commands::stopwatch::{self, Timing};
 use crate::commands::terminal::{print_status, progress};
 use crate::lab::analysis::{Adviser, CRITERIA, CriterionMet, MethodAdvice, ranked, recommended};
-use crate::lab::{LaneSpec, Scene};
+use crate::lab::{Follow, Lane, LaneSpec, Scene};
 use crate::sim::number::significant;
+use crate::stopwatch::{self, Timing};
 
 /// A method judged, and its measured costs.
 pub(super) struct Row {
@@ -90,7 +90,8 @@ impl Row {
                 Some(j) => self.timings[j],
                 None => {
                     let spec = LaneSpec { substeps: met.substeps, ..self.advised.spec };
-                    stopwatch::time(scene, spec, scene.tick_hz, ticks, EFFORT)
+                    let lane = || Lane::new(scene, spec.solver(), spec.substeps);
+                    stopwatch::time(|hz| Follow::new(lane(), hz), scene.tick_hz, ticks, EFFORT)
                 }
             };
         }

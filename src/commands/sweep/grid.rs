@@ -6,13 +6,14 @@ use std::time::Duration;
 
 use super::varied::Varied;
 use crate::commands::error::Error;
+use crate::commands::jobs;
 use crate::commands::terminal::progress;
-use crate::commands::{jobs, stopwatch};
 use crate::lab::analysis::{Judge, MAX_HORIZON_S, Verdict};
-use crate::lab::{LaneSpec, Scene, SceneBody};
+use crate::lab::{Follow, Lane, LaneSpec, Scene, SceneBody};
 use crate::sim::Clock;
 use crate::sim::bodies::Text;
 use crate::sim::integrators::Method;
+use crate::stopwatch;
 
 /// The scenes, methods and rates to run.
 pub(super) struct Swept {
@@ -153,7 +154,9 @@ impl Grid {
             varied: varied.clone(),
         };
         let ticks = (row.seconds() * f64::from(tick_hz)).round() as u64;
-        row.ns_per_s = stopwatch::ns_per_s(alone, spec, tick_hz, ticks, effort);
+        let lane = || Lane::new(alone, spec.solver(), spec.substeps);
+        let timed = stopwatch::time(|hz| Follow::new(lane(), hz), tick_hz, ticks, effort);
+        row.ns_per_s = timed.map(|timing| timing.ns_per_s);
         row
     }
 }

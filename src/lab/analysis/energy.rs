@@ -67,7 +67,8 @@ impl Means {
         let place = 4.0 * (tick as f64 - 0.5) / self.end as f64;
         let quarter = (place as usize).min(3);
         let part = place - quarter as f64;
-        let weight = (part * (1.0 - part)).powi(2);
+        let weight = part * (1.0 - part);
+        let weight = weight * weight;
         let (sum, weights) = &mut self.sums[quarter];
         *sum += weight * value;
         *weights += weight;

@@ -147,7 +147,7 @@ impl Effective {
                 pairs.map(|pair| ([pair[0].1[1], 1.0], pair[1].1[1])).collect();
             let driven = body.push != 0.0;
             let kept = solve(&rows, if driven { 2 } else { 1 })?[0];
-            return (kept > 0.0).then(|| Self { omega: 0.0, decay: -kept.ln() / tick_s });
+            return (kept > 0.0).then(|| Self { omega: 0.0, decay: -libm::log(kept) / tick_s });
         }
         // x″ = a x′ + b x + c, after three ticks in a row.
         let triples = states.windows(3).filter(|all| all[2].0 == all[0].0 + 2);
@@ -157,17 +157,17 @@ impl Effective {
         let (half, product) = (found[0] / 2.0, -found[1]);
         let square = half * half - product;
         if square < 0.0 {
-            let decay = -product.ln() / 2.0 / tick_s;
-            let turned = (-square).sqrt().atan2(half) / tick_s;
-            return Some(Self { omega: decay.hypot(turned), decay });
+            let decay = -libm::log(product) / 2.0 / tick_s;
+            let turned = libm::atan2((-square).sqrt(), half) / tick_s;
+            return Some(Self { omega: libm::hypot(decay, turned), decay });
         }
         let mut kept = [half + square.sqrt(), half - square.sqrt()];
         kept.sort_by(|a, b| b.abs().total_cmp(&a.abs()));
-        let rates = kept.map(|kept| -kept.abs().ln() / tick_s);
+        let rates = kept.map(|kept| -libm::log(kept.abs()) / tick_s);
         if kept[0] < 0.0 {
             // It jumps to the other side at every tick.
             let turned = std::f64::consts::PI / tick_s;
-            return Some(Self { omega: rates[0].hypot(turned), decay: rates[0] });
+            return Some(Self { omega: libm::hypot(rates[0], turned), decay: rates[0] });
         }
         let (product, sum) = (rates[0] * rates[1], rates[0] + rates[1]);
         (product > 0.0).then(|| Self { omega: product.sqrt(), decay: sum / 2.0 })

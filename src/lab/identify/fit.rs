@@ -103,7 +103,7 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
         let before = worth(&now);
         let halvings = if is_spring_known { 0 } else { HALVINGS };
         let nearer = (0..=halvings).find_map(|halving| {
-            let part = 0.5_f64.powi(halving as i32);
+            let part = libm::scalbn(1.0, -(halving as i32));
             let (mut there, mut other) = (start, body.clone());
             for (index, change) in change.iter().enumerate() {
                 displace(index, part * change * unit[index], &mut there, &mut other);
@@ -183,7 +183,7 @@ impl Fit {
     /// and none has less than `rounding`.
     pub(super) fn deviance(&self, rounding: f64) -> f64 {
         let of = |residuals: &Vec<f64>| {
-            residuals.len() as f64 * (mean_square(residuals) + rounding * rounding).ln()
+            residuals.len() as f64 * libm::log(mean_square(residuals) + rounding * rounding)
         };
         self.residuals.iter().map(of).sum()
     }

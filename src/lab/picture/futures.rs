@@ -42,7 +42,7 @@ pub(super) fn draw(
         let Some(entry) = entry else { continue };
         let mut last = places[0];
         for at in &places[1..] {
-            if (at[0] - last[0]).hypot(at[1] - last[1]) >= APART {
+            if libm::hypotf(at[0] - last[0], at[1] - last[1]) >= APART {
                 picture.shapes.push(disc(*at, DOT, colour, clip));
                 last = *at;
             }

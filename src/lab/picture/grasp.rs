@@ -75,7 +75,7 @@ impl Cell {
         if !self.rect.contains(at) {
             return None;
         }
-        let away = |grip: &Grip| (grip.at[0] - at[0]).hypot(grip.at[1] - at[1]);
+        let away = |grip: &Grip| libm::hypotf(grip.at[0] - at[0], grip.at[1] - at[1]);
         let rank = |grip: &Grip| match grip.whose {
             Whose::Lane { lane, .. } if lane == self.lane => 0,
             Whose::Lane { .. } => 1,

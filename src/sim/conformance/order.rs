@@ -98,7 +98,7 @@ fn errors<V: Vector>(method: &Method, course: &Course<V>, steps: u32) -> Result<
 fn orders(errors: impl Iterator<Item = f64>, halvings: usize) -> Vec<f64> {
     let above: Vec<f64> = errors.take_while(|&error| error > 1.0).collect();
     // Half an order is round-off's.
-    let orders: Vec<f64> = above.windows(2).map(|e| (e[0] / e[1]).log2() - 0.5).collect();
+    let orders: Vec<f64> = above.windows(2).map(|e| libm::log2(e[0] / e[1]) - 0.5).collect();
     orders[orders.len().saturating_sub(halvings)..].to_vec()
 }
 

@@ -139,7 +139,7 @@ fn water(ui: &Ui, map: &StabilityMap, area: &PlotArea) {
     let part: Vec<_> =
         map.regions.iter().filter(|region| region.coverage == Coverage::Part).collect();
     // As many layers as there are methods leave this much of the land.
-    let layer = 1.0 - (1.0 - DEEPEST).powf(1.0 / part.len().max(1) as f32);
+    let layer = 1.0 - libm::powf(1.0 - DEEPEST, 1.0 / part.len().max(1) as f32);
     let theme = palette(ui).theme;
     let [sea, blue] = [theme.palette().sea[0], theme.evaluation(1)].map(colour);
     let water = mixed(sea, blue, 0.3).gamma_multiply(layer);

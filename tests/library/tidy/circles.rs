@@ -10,7 +10,6 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::slice;
 
 use super::paths::named;
-use super::rules::LAYERS;
 use super::{Source, none, sources};
 
 /// A module's path from the crate's root, such as `["commands", "sweep", "grid"]`.
@@ -115,10 +114,9 @@ fn shown(circle: &[Module]) -> String {
 
 #[test]
 fn no_file_depends_on_itself() {
-    let circles: Vec<_> = LAYERS
-        .iter()
-        .flat_map(|layer| circles(&sources(&format!("src/{}", layer.name), &["rs"])))
-        .collect();
+    let layers = ["sim", "lab", "view", "window", "commands"];
+    let of = |layer| circles(&sources(&format!("src/{layer}"), &["rs"]));
+    let circles: Vec<_> = layers.into_iter().flat_map(of).collect();
     none(circles.iter().map(|circle| shown(circle)).collect());
 }
 

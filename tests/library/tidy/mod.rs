@@ -1,8 +1,7 @@
-//! Who may name whom, what is in which table, and how long a file may be: read off the
-//! sources.
+//! What is in which table, who goes in circles and how long a file may be: read off the sources. Who may name whom is held by
+//! the features, each of which compiles alone, and by `clippy.toml`.
 //!
-//! `main → commands, window → view → lab → sim`. Each rule is a function from a file's text to
-//! complaints, and is shown a bad text here too, so that it is known to see one.
+//! Each rule is a function from a file's text to complaints, and is shown a bad text here too, so that it is known to see one.
 
 mod circles;
 mod paths;
@@ -17,7 +16,7 @@ struct Source {
     text: String,
 }
 
-fn root() -> &'static Path {
+pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 

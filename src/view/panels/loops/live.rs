@@ -36,7 +36,8 @@ impl Summary {
         let mut times: Vec<f64> = frames.clone().map(time_ms).collect();
         times.sort_by(f64::total_cmp);
         let worst_ms = *times.last()?;
-        let squares = frames.map(|frame| frame.animation_error_ms.powi(2)).sum::<f64>();
+        let squares =
+            frames.map(|frame| frame.animation_error_ms * frame.animation_error_ms).sum::<f64>();
         Some(Self {
             mean_ms: times.iter().sum::<f64>() / count as f64,
             usual_ms: times[(99 * count).div_ceil(100) - 1],

@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use crate::lab::{Follow, Lane, LaneSpec, Scene};
+use crate::lab::{Follow, Lane};
 
 /// The fewest ticks that are timed together. Reading the clock takes as long as a few ticks of a small body, which is at
 /// most a hundredth of this many.
@@ -17,20 +17,19 @@ const PATIENCE: u32 = 20;
 
 /// The cost of a lane.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Timing {
+pub(crate) struct Timing {
     /// Nanoseconds per simulated second, in the fastest run.
-    pub(super) ns_per_s: f64,
+    pub(crate) ns_per_s: f64,
     /// The relative excess of the median run over the fastest.
-    pub(super) spread: f64,
+    pub(crate) spread: f64,
 }
 
-/// Times a lane at this rate, from its start to tick `ticks` or until `effort` has passed, and repeats that until
-/// `effort` has passed, and a few times more on a busy machine. `None` if `ticks` is 0.
+/// Times what is `made`, at this many ticks per second, for `ticks` ticks or until `effort` has passed, and repeats that until `effort` has passed, and a few
+/// times more on a busy machine. `None` if `ticks` is 0.
 ///
-/// The lane must not halt within these ticks: a halted lane costs nothing.
-pub(super) fn time(
-    scene: &Scene,
-    spec: LaneSpec,
+/// It must not halt within these ticks: a halted lane costs nothing.
+pub(crate) fn time(
+    made: impl Fn(u32) -> Follow<'static, Lane>,
     tick_hz: u32,
     ticks: u64,
     effort: Duration,
@@ -39,8 +38,7 @@ pub(super) fn time(
         return None;
     }
     let begin = Instant::now();
-    let runs =
-        runs(effort, || begin.elapsed(), || ns_per_tick(scene, spec, tick_hz, ticks, effort));
+    let runs = runs(effort, || begin.elapsed(), || ns_per_tick(&|| made(tick_hz), ticks, effort));
     let least = *runs.first()?;
     let spread = runs[runs.len() / 2] / least - 1.0;
     Some(Timing { ns_per_s: least * f64::from(tick_hz), spread })
@@ -64,39 +62,24 @@ fn runs(
     }
 }
 
-/// [`time`] without its spread.
-pub(super) fn ns_per_s(
-    scene: &Scene,
-    spec: LaneSpec,
-    tick_hz: u32,
-    ticks: u64,
-    effort: Duration,
-) -> Option<f64> {
-    Some(time(scene, spec, tick_hz, ticks, effort)?.ns_per_s)
-}
-
 /// Nanoseconds per tick, over as many runs as have [`TOGETHER`] ticks; over one, if that takes `effort`.
-fn ns_per_tick(scene: &Scene, spec: LaneSpec, tick_hz: u32, ticks: u64, effort: Duration) -> f64 {
+fn ns_per_tick(made: &impl Fn() -> Follow<'static, Lane>, ticks: u64, effort: Duration) -> f64 {
     // To make a lane may take longer than to step it.
-    let (mut elapsed, mut done) = elapsed_in(scene, spec, tick_hz, ticks, effort, 1);
+    let (mut elapsed, mut done) = elapsed_in(made, ticks, effort, 1);
     if done < TOGETHER && elapsed < effort {
-        let runs = TOGETHER.div_ceil(ticks);
-        (elapsed, done) = elapsed_in(scene, spec, tick_hz, ticks, effort, runs);
+        (elapsed, done) = elapsed_in(made, ticks, effort, TOGETHER.div_ceil(ticks));
     }
     elapsed.as_nanos() as f64 / done as f64
 }
 
 /// The time that this many runs take, until `effort` has passed, and their ticks.
 fn elapsed_in(
-    scene: &Scene,
-    spec: LaneSpec,
-    tick_hz: u32,
+    made: &impl Fn() -> Follow<'static, Lane>,
     ticks: u64,
     effort: Duration,
     runs: u64,
 ) -> (Duration, u64) {
-    let lane = |_| Follow::new(Lane::new(scene, spec.solver(), spec.substeps), tick_hz);
-    let mut lanes: Vec<Follow<Lane>> = (0..runs).map(lane).collect();
+    let mut lanes: Vec<Follow<'static, Lane>> = (0..runs).map(|_| made()).collect();
     let (start, mut done) = (Instant::now(), 0);
     for lane in &mut lanes {
         lane.run(ticks, |_, _| {
@@ -115,6 +98,8 @@ fn elapsed_in(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::Scene;
+    use crate::sim::Solver;
     use crate::sim::integrators::method;
 
     #[test]
@@ -141,11 +126,12 @@ mod tests {
     #[test]
     fn a_run_of_some_ticks_has_a_cost_and_one_of_none_has_not() {
         let scene = Scene::built_in("chain").unwrap();
-        let spec = LaneSpec::plain(method("rk4").unwrap());
+        let solver = Solver::Method(method("rk4").unwrap());
+        let made = |tick_hz| Follow::new(Lane::new(&scene, solver, 1), tick_hz);
         for ticks in [1, 60, 2 * TOGETHER] {
-            let cost = ns_per_s(&scene, spec, 60, ticks, Duration::from_millis(1));
+            let cost = time(made, 60, ticks, Duration::from_millis(1)).map(|it| it.ns_per_s);
             assert!(cost.is_some_and(|ns| ns.is_finite() && ns > 0.0), "{ticks} ticks: {cost:?}");
         }
-        assert_eq!(ns_per_s(&scene, spec, 60, 0, Duration::from_millis(1)), None);
+        assert!(time(made, 60, 0, Duration::from_millis(1)).is_none());
     }
 }

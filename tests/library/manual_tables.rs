@@ -1,0 +1,130 @@
+//! The tables of the manual and of the README say what the tables of the program do.
+
+use regatta::lab::SCENES;
+use regatta::lab::scene::SceneGroup;
+use regatta::manual::CHAPTERS;
+use regatta::sim::integrators::{Engine, Family, GENERAL_METHODS, METHODS, Method};
+
+use crate::tidy::root;
+
+/// The rows of the manual's table that `head` begins.
+fn manual_table(head: &str) -> Vec<String> {
+    let after = CHAPTERS.iter().find_map(|chapter| chapter.text.split_once(head));
+    let (_, after) = after.expect("the table");
+    let rows = after.lines().skip(2).take_while(|line| line.starts_with('|'));
+    rows.map(str::to_string).collect()
+}
+
+/// The ids at the heads of the rows of the manual's table that `head` begins.
+fn manual_rows(head: &str) -> Vec<String> {
+    let id = |row: &String| row.split('`').nth(1).expect("an id").to_string();
+    manual_table(head).iter().map(id).collect()
+}
+
+/// A number without zeros at the end.
+fn short(x: f64, decimals: usize) -> String {
+    let text = format!("{x:.decimals$}");
+    text.trim_end_matches('0').trim_end_matches('.').to_string()
+}
+
+/// Up to which step the manual calls a method stable.
+fn limit(method: &Method) -> String {
+    match (method.family, method.stability_limit) {
+        (Family::Adaptive, _) => "chooses its own step".into(),
+        (Family::Engine, _) if method.engine.is_some_and(|engine| engine.modes.is_empty()) => {
+            "has no spring".into()
+        }
+        (Family::Follower, None) => "follows at any step".into(),
+        (Family::Follower, Some(limit)) => format!("follows up to k h = {}", short(limit, 2)),
+        (_, None) => "at any step".into(),
+        (_, Some(0.0)) if method.order == 1 => "0: it grows at any step".into(),
+        (_, Some(0.0)) => "0: it grows, slowly at a fine step".into(),
+        (_, Some(limit)) => short(limit, 2),
+    }
+}
+
+/// The row of a method in the manual.
+fn method_row(method: &Method) -> String {
+    let Method { id, order, order_with_drag, .. } = method;
+    let evaluations = match (method.evaluations, method.family) {
+        (Some(evaluations), _) => evaluations.to_string(),
+        (None, Family::Implicit) => "solves".into(),
+        (None, Family::Linearised) => "takes derivatives".into(),
+        (None, _) => "as many as it needs".into(),
+    };
+    format!("| `{id}` | {order} | {order_with_drag} | {evaluations} | {} |", limit(method))
+}
+
+/// The row of an engine in the manual.
+fn engine_row(method: &Method) -> Option<String> {
+    let Method { id, order, order_with_drag, default_substeps, engine, .. } = method;
+    let Engine { tick_hz, damping_ratio, free_spin, version, logged, .. } = (*engine)?;
+    let version = match (version, logged) {
+        ("", _) => "a custom force".into(),
+        (version, Some(_)) => version.to_string(),
+        (version, None) => format!("{version}, read and not run"),
+    };
+    // Two digits that count.
+    let digits = |x: f64| (1.0 - x.abs().log10().floor()).clamp(0.0, 9.0) as usize;
+    let ratio = damping_ratio.map_or(String::new(), |ratio| match ratio {
+        0.0 => "0".into(),
+        _ => format!("{ratio:.*}", digits(ratio)).replace('-', "−"),
+    });
+    let maps = free_spin.map(|spin| [Some(spin.default), spin.opt_in]);
+    let maps = maps.into_iter().flatten().flatten().map(|map| format!("`{}`", map.id()));
+    let maps = maps.collect::<Vec<_>>().join(", or ");
+    Some(format!(
+        "| `{id}` | {version} | {tick_hz} × {default_substeps} | {order} | {order_with_drag} | {} | {ratio} | {maps} |",
+        limit(method)
+    ))
+}
+
+/// Holds the rows of the manual's table that `head` begins in a chapter against these; with `BLESS=1` they become these.
+fn hold_rows(chapter: &str, head: &str, rows: &[String]) {
+    let found = manual_table(head);
+    if std::env::var_os("BLESS").is_some_and(|value| value == "1") {
+        let path = root().join(format!("src/manual/{chapter}.md"));
+        let text = std::fs::read_to_string(&path).expect("a chapter");
+        let text = text.replace(&found.join("\n"), &rows.join("\n"));
+        std::fs::write(path, text).expect("a chapter that is written");
+        return;
+    }
+    assert_eq!(found, rows, "BLESS=1 cargo test --test library tables writes them again");
+}
+
+#[test]
+fn the_manual_says_of_every_method_and_engine_what_its_card_does() {
+    let (engines, methods): (Vec<&Method>, Vec<&Method>) =
+        METHODS.iter().partition(|method| method.is_engine());
+    let rows: Vec<String> = methods.into_iter().map(method_row).collect();
+    hold_rows("methods", "| method | order |", &rows);
+    let rows: Vec<String> = engines.into_iter().filter_map(engine_row).collect();
+    hold_rows("engines", "| engine | version |", &rows);
+}
+
+#[test]
+fn the_manual_lists_every_scene_and_times_every_general_method_in_the_order_of_the_table() {
+    let timed = manual_rows("| method | ship, ns |");
+    assert_eq!(timed, GENERAL_METHODS.iter().map(|method| method.id).collect::<Vec<_>>());
+    for group in SceneGroup::ALL {
+        let scenes = SCENES.iter().filter(|scene| scene.group == group);
+        let names: Vec<&str> = scenes.map(|scene| scene.name).collect();
+        assert_eq!(manual_rows(&format!("| {} | what it shows |", group.title())), names);
+    }
+    assert!(
+        SCENES.is_sorted_by_key(|scene| SceneGroup::ALL.iter().position(|g| *g == scene.group))
+    );
+}
+
+#[test]
+fn the_readme_lists_every_chapter_and_every_chapter_begins_with_its_title() {
+    let readme = std::fs::read_to_string(root().join("README.md")).expect("the README");
+    let (_, after) =
+        readme.split_once("| chapter | what it is about |\n|---|---|\n").expect("the table");
+    let listed: Vec<&str> = after.lines().take_while(|line| line.starts_with('|')).collect();
+    let rows = CHAPTERS.iter().map(|chapter| format!("| `{}` | {} |", chapter.id, chapter.about));
+    assert_eq!(listed, rows.collect::<Vec<_>>());
+    for chapter in CHAPTERS {
+        assert!(chapter.text.starts_with("# "), "{}", chapter.id);
+    }
+}
