@@ -33,9 +33,8 @@ solution. For each criterion the fewest substeps per tick, 1 to 64, are sought:
                the frequency within 1 %; what does not swing stays within 5 % of its range
   accurate     over the scene no coordinate or velocity is off by more than 1 % of its amplitude
 
-The recommended method has the least cost, of equal ones the fewest substeps. The cost is counted
-and not timed: evaluations of the acceleration per simulated second, each of 1 where a method solves
-no equations, 2 to 3 where it is linearised, 4 where it iterates.
+The recommended method has the least cost, of equal ones the fewest substeps. The cost is evaluations
+of the acceleration per simulated second, times 2 to 3 where a method is linearised, 4 where it iterates.
 
 With --all, HOLDS DOWN TO is the slowest tick rate at which the criterion still holds with the same
 substeps, and HOLDS UP TO the factor by which the named parameter may grow, 10 at most; NS/S is
@@ -48,9 +47,7 @@ else for bounded, follows as a function.
 Examples:
   regatta advise --scene harbour
   regatta advise --k 900 --c 4 --mass 12 --as csharp
-  regatta advise --frequency 1.5 --damping-ratio 0.3 --tick-hz 30
   regatta advise --scene my.toml --tick-hz 50 --format json
-  regatta advise --scene spring --method rk4 --rates
   regatta advise --scene engines --family engine";
 
 /// Recommend a method and its substeps for a scene at its tick rate

@@ -34,7 +34,6 @@ Exit code 0: the same. 1: different. 2: cannot be compared, as where nothing mov
 Examples:
   regatta diff before.csv after.csv
   regatta trace --method rk4 | regatta diff before.csv -
-  regatta diff recording.toml log.csv --ulps 4
   regatta diff clip clip-of-yesterday --format json";
 
 /// Say where two runs first differ

@@ -52,14 +52,12 @@ One row for each trace and policy, in the order asked for; times are in ms:
                       the range), of the worst body
   ticks, evaluations  steps made, and evaluations of the bodies' accelerations
 
-In --frame-rows q is the first coordinate of the scene's first body as the picture shows it. Below
-the rows stands which loop to take: the least animation error within --latency-ms. `regatta help
-loops` says why, and which logs are read.
+In --frame-rows q is the first coordinate of the scene's first body. Below the rows stands which loop
+to take: the least animation error within --latency-ms. `regatta help loops` says why.
 
 Examples:
   regatta loop > loops.csv
   regatta loop --trace steady-144 --policy fixed --policy fixed-linear
-  regatta loop --display-hz 90 --plot loops.png
   regatta loop --trace capture.csv --tick-hz 50";
 
 /// Measure what game loops do to motion on a display

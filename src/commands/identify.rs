@@ -32,13 +32,11 @@ The word is
   cannot tell   methods that differ explain it equally well, or the log is too short to tell
   unknown       none explains it
 
-In JSON, also are methods that do the same on this body, and unusual such as would explain it too,
-but are rare; held says that the game applies the spring's force itself, and mode how an engine is
-told the spring, as `regatta port` names it. What is not known is null.
+In JSON, also are methods that do the same on this body, unusual such as would too but are rare, and
+held says that the game applies the spring's force itself.
 
 Examples:
   regatta identify spring.csv --tick-hz 60 --k 40 --c 0.5 --mass 2
-  regatta identify drift.csv --tick-hz 50 --drag 0.1 --thrust 20000 --mass 10000
   regatta identify log.csv --tick-hz 60 --k 40 --x-column pos.x --format json";
 
 /// Where no method can be run on the body.

@@ -96,20 +96,13 @@ Examples:
   regatta                              open the harbour under explicit Euler
   regatta --scene stiff --race         race all methods on a stiff spring
   regatta --scene ship --method explicit-euler --tick-hz 2
-  regatta trace --scene ship --method rk4 > ship.csv
   regatta capture --scene spring --race --out clip
   regatta advise --scene stiff
   regatta sweep --scene spring --plot spring.png > spring.csv
-  regatta cloud --scene liouville      what becomes of an area under each method
-  regatta loop --trace steady-144 --policy fixed --policy fixed-linear
-  regatta identify spring.csv --tick-hz 60 --k 40
   regatta port --frequency 2.5Hz       the settings of every engine for a spring
   regatta show rk4 --as csharp         the method's code, for your game
   regatta fixture --as pytest          exact states, to test your engine by
   regatta diff before.csv after.csv    where two runs first differ
-  regatta chapter --out figures
-  regatta verify clip
-  regatta list methods
 
 In the window, H shows the keys. `regatta help COMMAND` explains a command;
 `regatta help help` lists the chapters of the manual.";

@@ -44,18 +44,13 @@ it swings √(1 - d²) times as fast. The word is
                that it shows at this frequency; or it explodes
 
 Where an engine has no substeps, as Chipmunk and Godot, N of them are N ticks of dt / N that the
-game makes; in PhysX they are position iterations.
-
-With --drive the wish is the gains of a drive, of the engine's own and of a force of user code that
-is held through --decimation ticks. Told are the largest stable stiffness with the damping of the
-wish, the largest stable damping with its stiffness, and the fewest substeps, up to 64.
+game makes; in PhysX they are position iterations. With --drive the wish is the gains of a drive, of
+the engine's own and of a force of user code that is held through --decimation ticks.
 
 Examples:
   regatta port --frequency 2.5Hz --damping-ratio 0.3 --mass 80
   regatta port --frequency 1Hz --to engine-box2d,engine-jolt --tick-hz 50
-  regatta port --from engine-godot:stiffness=1000,damping=80 --to engine-jolt
   regatta port --from spring.csv --tick-hz 60 --format json
-  regatta port --frequency 5Hz --drive --decimation 4 --tick-hz 500
   regatta port --from lerp:0.1@60fps
   regatta port --from swiftui:duration=0.5,bounce=0.3 --to compose,css
   regatta port --from react-spring:tension=170,friction=26 --to ui --tick-hz 30";

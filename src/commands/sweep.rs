@@ -51,7 +51,6 @@ One row for each scene, body, method and tick rate, in that order whatever the n
 Octaves are a quarter, half, 1, 2, 4 and 8 times the scene's own rate, rounded down.
 
 Examples:
-  regatta sweep > sweep.csv
   regatta sweep --scene spring --method rk4 --tick-hz 30,60,120
   regatta sweep --scene my.toml --seconds 5 --out sweep.json --plot sweep.png";
 

@@ -25,12 +25,8 @@ form and for a law with `exact` from its first input, edit or placing on. q is i
 radians, v in the same unit per second, t in seconds. With --metrics a row for each metric follows,
 its id as coordinate, its value as q, and v empty.
 
-The scene's script is played. A lane that runs alone switches methods by it; in a race each lane
-keeps its own.
-
 Examples:
   regatta trace --scene ship --method explicit-euler --seconds 8.5
-  regatta trace --scene spring --every 60 --metrics --format json
   regatta trace --scene my.toml --method rk4 > run.csv";
 
 /// Write the truth and every lane's numbers, tick by tick

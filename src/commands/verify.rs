@@ -34,9 +34,7 @@ Exit code 0: the same. 1: different. 2: cannot be judged; the message says why.
 
 Examples:
   regatta verify clip
-  regatta verify clip --physics-only
   regatta verify clip --report junit verify.xml --diff differences
-  regatta verify clip --bless
   regatta verify recording.toml";
 
 /// Run a capture or a recording again and say what has changed

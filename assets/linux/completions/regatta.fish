@@ -855,11 +855,12 @@ json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l frequency -d 'The frequency that a player is to see' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l damping-ratio -d 'The damping ratio to be seen [default: 0]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l from -d 'An engine\'s settings, a log, or a chase' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l from -d 'The settings of an engine or a user interface, a log, or a chase' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l mass -d 'The mass on the spring in kg' -r
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l tick-hz -d 'Ticks per second of the engines, and of a log' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l tick-hz -d 'Ticks per second of the engines and of a log, frames per second of user interfaces' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l substeps -d 'Substeps per tick, 1 to 1000 [default: each engine\'s own]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l to -d 'The engines (`regatta list methods`), or all' -r -f -a "all\t''
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l to -d 'Engines and user interfaces, all engines, or all of the others: ui' -r -f -a "all\t''
+ui\t''
 engine-box2d\t''
 engine-rapier\t''
 engine-avian\t''
@@ -874,7 +875,23 @@ engine-mujoco\t''
 engine-mujoco-rk4\t''
 engine-godot\t''
 engine-box3d\t''
-held-force\t''"
+held-force\t''
+swiftui\t''
+swiftui-response\t''
+core-animation\t''
+css\t''
+compose\t''
+android\t''
+flutter\t''
+flutter-duration\t''
+react-spring\t''
+motion\t''
+motion-duration\t''
+slint\t''
+slint-duration\t''
+gpui\t''
+unity-smooth-damp\t''
+per-frame\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l decimation -d 'The ticks through which a drive of user code holds its force' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l k -d 'The stiffness of the spring [default: fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l c -d 'The damping of the spring [default: fitted]' -r

@@ -194,8 +194,8 @@ fn what_cannot_be_asked_is_one_error_with_a_remedy() {
         ),
         ("--frequency 2Hz --damping-ratio -1", "give a number from 0 up"),
         ("--frequency 2Hz --mass -1", "give a number above 0"),
-        ("--frequency 2Hz --to engine-foo", "no such engine with a spring"),
-        ("--frequency 2Hz --to engine-pybullet", "no such engine with a spring"),
+        ("--frequency 2Hz --to engine-foo", "no such engine or user interface with a spring"),
+        ("--frequency 2Hz --to engine-pybullet", "no such engine or user interface with a spring"),
         ("--frequency 2Hz --decimation 2", "--drive"),
         ("--from engine-gdot:stiffness=1", "did you mean engine-godot?"),
         (
