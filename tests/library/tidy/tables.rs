@@ -7,6 +7,7 @@ use regatta::lab::{METRICS, SCENES, Scene};
 use regatta::sim::bodies::{BODIES, kind};
 use regatta::sim::integrators::METHODS;
 
+use super::paths::code;
 use super::{Source, none, root, sources};
 
 /// The files that hold `mark` but are not listed in `table` as `name::`, and those listed without one.
@@ -83,6 +84,30 @@ fn every_scene_file_is_built_in() {
         assert!(Scene::built_in(scene.name).is_some(), "{}", scene.name);
     }
     assert!(Scene::built_in("atlantis").is_none());
+}
+
+#[test]
+fn what_one_more_of_a_kind_touches_is_what_contributing_says() {
+    let text = std::fs::read_to_string(root().join("CONTRIBUTING.md")).expect("a text");
+    let (_, after) = text.split_once("| thing | example | files |\n|---|---|---|\n").unwrap();
+    let files = sources("src", &["rs"]);
+    for row in after.lines().take_while(|line| line.starts_with('|')) {
+        let mut ticked = row.split('`').skip(1).step_by(2);
+        let (name, told) = (ticked.next().unwrap(), ticked.collect::<BTreeSet<_>>());
+        let missing = told.iter().filter(|path| !root().join(path).exists());
+        none(missing.map(|path| format!("{path} of {name} is not there")).collect());
+        let own = format!("/{name}.rs");
+        let is_named = |source: &&Source| {
+            let code = code(&source.text);
+            code.contains(&format!("mod {name};")) || code.contains(&format!(" {name}::"))
+        };
+        let naming: BTreeSet<&str> =
+            files.iter().filter(is_named).map(|source| &*source.path).collect();
+        let is_module = told.iter().any(|path| path.ends_with(&own));
+        let rest = |path: &&&str| path.ends_with(".rs") && !path.ends_with(&own);
+        let wanted: BTreeSet<&str> = told.iter().filter(rest).copied().collect();
+        assert!(!is_module || naming == wanted, "{name}: {naming:?}");
+    }
 }
 
 #[test]
