@@ -84,227 +84,104 @@ pub struct Binding {
     pub repeats: bool,
 }
 
+/// A table of lines: how often, the keys as shown, what they do, and each key with its command.
+macro_rules! keys {
+    ($($often:ident $shown:literal $about:literal: $($key:ident $(($of:literal))? => $command:expr),+;)+) => {
+        &[$($often($shown, $about, &[$((Key::$key $(($of))?, $command)),+])),+]
+    };
+}
+
 /// Every key and its command.
-pub static KEYS: &[Binding] = &[
-    once(
-        "1 … 9, 0",
-        "solo: switch the bodies to that method, in flight; race, loop lab: select that lane",
-        &[
-            (Key::Digit(1), Stage(StageCommand::Pick(0))),
-            (Key::Digit(2), Stage(StageCommand::Pick(1))),
-            (Key::Digit(3), Stage(StageCommand::Pick(2))),
-            (Key::Digit(4), Stage(StageCommand::Pick(3))),
-            (Key::Digit(5), Stage(StageCommand::Pick(4))),
-            (Key::Digit(6), Stage(StageCommand::Pick(5))),
-            (Key::Digit(7), Stage(StageCommand::Pick(6))),
-            (Key::Digit(8), Stage(StageCommand::Pick(7))),
-            (Key::Digit(9), Stage(StageCommand::Pick(8))),
-            (Key::Digit(0), Stage(StageCommand::Pick(9))),
-        ],
-    ),
-    once(
-        "M, Shift M",
-        "next, previous method",
-        &[
-            (Key::Sign('m'), Stage(StageCommand::MethodBeside(Step::Next))),
-            (Key::ShiftSign('m'), Stage(StageCommand::MethodBeside(Step::Previous))),
-        ],
-    ),
-    once("C", "solo / race of all methods", &[(Key::Sign('c'), Stage(StageCommand::ToggleRace))]),
-    once("Space", "run / pause", &[(Key::Space, View(ViewCommand::TogglePause))]),
-    repeating(
-        ", .",
-        "one tick back, forward",
-        &[
-            (Key::Sign(','), Stage(StageCommand::Tick(Step::Previous))),
-            (Key::Sign('.'), Stage(StageCommand::Tick(Step::Next))),
-        ],
-    ),
-    repeating(
-        "Shift , .",
-        "one second back, forward",
-        &[
-            (Key::ShiftSign(','), Stage(StageCommand::Second(Step::Previous))),
-            (Key::ShiftSign('.'), Stage(StageCommand::Second(Step::Next))),
-        ],
-    ),
-    once(
-        "W",
-        "watch the selected lane blow up again",
-        &[(Key::Sign('w'), Run(RunCommand::WatchAgain))],
-    ),
-    once(
-        "Ctrl Z, Ctrl Shift Z",
-        "undo, redo the last change",
-        &[
-            (Key::ControlSign('z'), Run(RunCommand::Undo)),
-            (Key::ControlShiftSign('z'), Run(RunCommand::Redo)),
-        ],
-    ),
-    once("Home", "restart", &[(Key::Home, Stage(StageCommand::Restart))]),
-    repeating(
-        "[ ]",
-        "tick rate down, up",
-        &[
-            (Key::Sign('['), Stage(StageCommand::TickRate(Step::Previous))),
-            (Key::Sign(']'), Stage(StageCommand::TickRate(Step::Next))),
-        ],
-    ),
-    repeating(
-        "- =",
-        "speed down, up: ¼× to 16×",
-        &[
-            (Key::Sign('-'), Stage(StageCommand::Speed(Step::Previous))),
-            (Key::Sign('='), Stage(StageCommand::Speed(Step::Next))),
-        ],
-    ),
-    repeating(
-        "↑ ↓",
-        "throttle (ship, helm, a law that uses it)",
-        &[(Key::Up, Run(RunCommand::ThrottleUp)), (Key::Down, Run(RunCommand::ThrottleDown))],
-    ),
-    repeating(
-        "← →",
-        "rudder (helm, a law that uses it)",
-        &[(Key::Left, Run(RunCommand::RudderLeft)), (Key::Right, Run(RunCommand::RudderRight))],
-    ),
-    once(
-        "K",
-        "kick: an impulse at the next tick",
-        &[(Key::Sign('k'), Run(RunCommand::Act(Action::Kick(1.0))))],
-    ),
-    once(
-        "N, B",
-        "next, previous scene",
-        &[
-            (Key::Sign('n'), Stage(StageCommand::SceneBeside(Step::Next))),
-            (Key::Sign('b'), Stage(StageCommand::SceneBeside(Step::Previous))),
-        ],
-    ),
-    once(
-        "O",
-        "open a scene file; or drop one onto the window",
-        &[(Key::Sign('o'), View(ViewCommand::AskForPath))],
-    ),
-    once(
-        "S",
-        "a spring of your own: its numbers, the recommended method, and its code",
-        &[(Key::Sign('s'), View(ViewCommand::AskForSpring))],
-    ),
-    once(
-        "F",
-        "a fan of futures: the next second under each method, a dot a tick",
-        &[(Key::Sign('f'), View(ViewCommand::ToggleFutures))],
-    ),
-    once("G", "exact ghost on / off", &[(Key::Sign('g'), View(ViewCommand::ToggleGhost))]),
-    once(
-        "I",
-        "drawing between ticks: raw / extrapolated / linear / Hermite / monotone Hermite",
-        &[(Key::Sign('i'), Run(RunCommand::NextInterpolation))],
-    ),
-    once(
-        "L",
-        "loop lab: one motion under every game loop",
-        &[(Key::Sign('l'), Loop(LoopCommand::ToggleLab))],
-    ),
-    once(
-        "V",
-        "race, loop lab: lanes over each other / side by side",
-        &[(Key::Sign('v'), Stage(StageCommand::ToggleArrangement))],
-    ),
-    once("F3", "light / dark theme", &[(Key::Function(3), View(ViewCommand::ToggleTheme))]),
-    repeating(
-        "Ctrl + − 0",
-        "text and panels larger, smaller, back to normal",
-        &[
-            (Key::ControlSign('+'), View(ViewCommand::Scale(Step::Next))),
-            // The same key unshifted.
-            (Key::ControlSign('='), View(ViewCommand::Scale(Step::Next))),
-            (Key::ControlSign('-'), View(ViewCommand::Scale(Step::Previous))),
-            (Key::ControlSign('0'), View(ViewCommand::UsualScale)),
-        ],
-    ),
-    once(
-        "T",
-        "measure: instruments, table and timeline round the stage; or the stage alone",
-        &[(Key::Sign('t'), View(ViewCommand::ToggleMeasure))],
-    ),
-    once(
-        "D, Shift D",
-        "next, previous instrument; loop lab: display",
-        &[
-            (Key::Sign('d'), Stage(StageCommand::InstrumentBeside(Step::Next))),
-            (Key::ShiftSign('d'), Stage(StageCommand::InstrumentBeside(Step::Previous))),
-        ],
-    ),
-    once(
-        "Enter",
-        "enlarge the instrument over the stage",
-        &[(Key::Enter, View(ViewCommand::ToggleEnlarged))],
-    ),
-    once(
-        "Ctrl C, Ctrl E",
-        "copy the instrument's values, or on a lane its method, or an engine's settings, as code; save as PNG, SVG and CSV",
-        &[
-            (Key::ControlSign('c'), View(ViewCommand::Copy)),
-            (Key::ControlSign('e'), Ask(DriverRequest::ExportInstrument)),
-        ],
-    ),
-    once(
-        "E",
-        "inspector: parameters, methods and rates, edited while it runs",
-        &[(Key::Sign('e'), Run(RunCommand::ToggleInspector))],
-    ),
-    once(
-        "P, F12",
-        "screenshot; the file's name is shown",
-        &[
-            (Key::Sign('p'), Ask(DriverRequest::Screenshot)),
-            (Key::Function(12), Ask(DriverRequest::Screenshot)),
-        ],
-    ),
-    once(
-        "F5, Ctrl S",
-        "save the run as a scene file; its name is shown",
-        &[
-            (Key::Function(5), Ask(DriverRequest::Record)),
-            (Key::ControlSign('s'), Ask(DriverRequest::Record)),
-        ],
-    ),
-    once(
-        "X",
-        "equal cost of all lanes on / off: cheap lanes get more substeps",
-        &[(Key::Sign('x'), Run(RunCommand::ToggleEqualCost))],
-    ),
-    once("F11", "full screen", &[(Key::Function(11), Ask(DriverRequest::ToggleFullScreen))]),
-    once(
-        "F2",
-        "guide: the chapter in stops, each with a prediction and a key to press",
-        &[(Key::Function(2), View(ViewCommand::ToggleGuide))],
-    ),
-    once(
-        "Page Up, Down",
-        "previous, next stop of the guide, while it is open",
-        &[
-            (Key::PageUp, View(ViewCommand::StopBeside(Step::Previous))),
-            (Key::PageDown, View(ViewCommand::StopBeside(Step::Next))),
-        ],
-    ),
-    once(
-        "H, F1, ?",
-        "help",
-        &[
-            (Key::Sign('h'), View(ViewCommand::ToggleHelp)),
-            (Key::Function(1), View(ViewCommand::ToggleHelp)),
-            (Key::Sign('?'), View(ViewCommand::ToggleHelp)),
-        ],
-    ),
-    once(
-        "Esc",
-        "let go of a body, close the overlay, the guide, the instrument, the inspector, leave the loop lab, or quit: twice where something would be lost",
-        &[(Key::Escape, View(ViewCommand::Escape))],
-    ),
-];
+pub static KEYS: &[Binding] = keys! {
+    once "1 … 9, 0" "solo: switch the bodies to that method, in flight; race, loop lab: select that lane":
+        Digit(1) => Stage(StageCommand::Pick(0)), Digit(2) => Stage(StageCommand::Pick(1)),
+        Digit(3) => Stage(StageCommand::Pick(2)), Digit(4) => Stage(StageCommand::Pick(3)),
+        Digit(5) => Stage(StageCommand::Pick(4)), Digit(6) => Stage(StageCommand::Pick(5)),
+        Digit(7) => Stage(StageCommand::Pick(6)), Digit(8) => Stage(StageCommand::Pick(7)),
+        Digit(9) => Stage(StageCommand::Pick(8)), Digit(0) => Stage(StageCommand::Pick(9));
+    once "M, Shift M" "next, previous method":
+        Sign('m') => Stage(StageCommand::MethodBeside(Step::Next)),
+        ShiftSign('m') => Stage(StageCommand::MethodBeside(Step::Previous));
+    once "C" "solo / race of all methods":
+        Sign('c') => Stage(StageCommand::ToggleRace);
+    once "Space" "run / pause":
+        Space => View(ViewCommand::TogglePause);
+    repeating ", ." "one tick back, forward":
+        Sign(',') => Stage(StageCommand::Tick(Step::Previous)), Sign('.') => Stage(StageCommand::Tick(Step::Next));
+    repeating "Shift , ." "one second back, forward":
+        ShiftSign(',') => Stage(StageCommand::Second(Step::Previous)),
+        ShiftSign('.') => Stage(StageCommand::Second(Step::Next));
+    once "W" "watch the selected lane blow up again":
+        Sign('w') => Run(RunCommand::WatchAgain);
+    once "Ctrl Z, Ctrl Shift Z" "undo, redo the last change":
+        ControlSign('z') => Run(RunCommand::Undo), ControlShiftSign('z') => Run(RunCommand::Redo);
+    once "Home" "restart":
+        Home => Stage(StageCommand::Restart);
+    repeating "[ ]" "tick rate down, up":
+        Sign('[') => Stage(StageCommand::TickRate(Step::Previous)),
+        Sign(']') => Stage(StageCommand::TickRate(Step::Next));
+    repeating "- =" "speed down, up: ¼× to 16×":
+        Sign('-') => Stage(StageCommand::Speed(Step::Previous)), Sign('=') => Stage(StageCommand::Speed(Step::Next));
+    repeating "↑ ↓" "throttle (ship, helm, a law that uses it)":
+        Up => Run(RunCommand::ThrottleUp), Down => Run(RunCommand::ThrottleDown);
+    repeating "← →" "rudder (helm, a law that uses it)":
+        Left => Run(RunCommand::RudderLeft), Right => Run(RunCommand::RudderRight);
+    once "K" "kick: an impulse at the next tick":
+        Sign('k') => Run(RunCommand::Act(Action::Kick(1.0)));
+    once "N, B" "next, previous scene":
+        Sign('n') => Stage(StageCommand::SceneBeside(Step::Next)),
+        Sign('b') => Stage(StageCommand::SceneBeside(Step::Previous));
+    once "O" "open a scene file; or drop one onto the window":
+        Sign('o') => View(ViewCommand::AskForPath);
+    once "S" "a spring of your own: its numbers, the recommended method, and its code":
+        Sign('s') => View(ViewCommand::AskForSpring);
+    once "F" "a fan of futures: the next second under each method, a dot a tick":
+        Sign('f') => View(ViewCommand::ToggleFutures);
+    once "G" "exact ghost on / off":
+        Sign('g') => View(ViewCommand::ToggleGhost);
+    once "I" "drawing between ticks: raw / extrapolated / linear / Hermite / monotone Hermite":
+        Sign('i') => Run(RunCommand::NextInterpolation);
+    once "L" "loop lab: one motion under every game loop":
+        Sign('l') => Loop(LoopCommand::ToggleLab);
+    once "V" "race, loop lab: lanes over each other / side by side":
+        Sign('v') => Stage(StageCommand::ToggleArrangement);
+    once "F3" "light / dark theme":
+        Function(3) => View(ViewCommand::ToggleTheme);
+    repeating "Ctrl + − 0" "text and panels larger, smaller, back to normal":
+        ControlSign('+') => View(ViewCommand::Scale(Step::Next)),
+        ControlSign('=') => View(ViewCommand::Scale(Step::Next)),
+        ControlSign('-') => View(ViewCommand::Scale(Step::Previous)),
+        ControlSign('0') => View(ViewCommand::UsualScale);
+    once "T" "measure: instruments, table and timeline round the stage; or the stage alone":
+        Sign('t') => View(ViewCommand::ToggleMeasure);
+    once "D, Shift D" "next, previous instrument; loop lab: display":
+        Sign('d') => Stage(StageCommand::InstrumentBeside(Step::Next)),
+        ShiftSign('d') => Stage(StageCommand::InstrumentBeside(Step::Previous));
+    once "Enter" "enlarge the instrument over the stage":
+        Enter => View(ViewCommand::ToggleEnlarged);
+    once "Ctrl C, Ctrl E" "copy the instrument's values, or on a lane its method, or an engine's settings, as code; save as PNG, SVG and CSV":
+        ControlSign('c') => View(ViewCommand::Copy), ControlSign('e') => Ask(DriverRequest::ExportInstrument);
+    once "E" "inspector: parameters, methods and rates, edited while it runs":
+        Sign('e') => Run(RunCommand::ToggleInspector);
+    once "P, F12" "screenshot; the file's name is shown":
+        Sign('p') => Ask(DriverRequest::Screenshot), Function(12) => Ask(DriverRequest::Screenshot);
+    once "F5, Ctrl S" "save the run as a scene file; its name is shown":
+        Function(5) => Ask(DriverRequest::Record), ControlSign('s') => Ask(DriverRequest::Record);
+    once "X" "equal cost of all lanes on / off: cheap lanes get more substeps":
+        Sign('x') => Run(RunCommand::ToggleEqualCost);
+    once "F11" "full screen":
+        Function(11) => Ask(DriverRequest::ToggleFullScreen);
+    once "F2" "guide: the chapter in stops, each with a prediction and a key to press":
+        Function(2) => View(ViewCommand::ToggleGuide);
+    once "Page Up, Down" "previous, next stop of the guide, while it is open":
+        PageUp => View(ViewCommand::StopBeside(Step::Previous)),
+        PageDown => View(ViewCommand::StopBeside(Step::Next));
+    once "H, F1, ?" "help":
+        Sign('h') => View(ViewCommand::ToggleHelp), Function(1) => View(ViewCommand::ToggleHelp),
+        Sign('?') => View(ViewCommand::ToggleHelp);
+    once "Esc" "let go of a body, close the overlay, the guide, the instrument, the inspector, leave the loop lab, or quit: twice where something would be lost":
+        Escape => View(ViewCommand::Escape);
+};
 
 /// A line whose keys do nothing more while they are held.
 const fn once(
