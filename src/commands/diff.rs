@@ -10,7 +10,7 @@ use super::help::flowing;
 use super::numbers::number_that;
 use super::output::print;
 use super::output::table::TableFormat;
-use crate::lab::diff::{Comparison, Difference, LEVELS, Tolerance, diff};
+use crate::lab::diff::{Comparison, Difference, LEVELS, MAX_WAITING, Tolerance, diff};
 use crate::sim::number::counted;
 
 mod source;
@@ -18,11 +18,11 @@ mod source;
 use source::Source;
 
 const ABOUT: &str = "\
-A run is a table as CSV, of `regatta trace` or with a column for each number; the run of a scene or of a
+A run is a table, of `regatta trace` or with a column for each number, split by commas, semicolons or tabs; the run of a scene or of a
 recording, which is made again; the states in the manifest of a capture; or - for a table on standard
 input. Rows belong together by tick, lane, body and coordinate, or by those of them that the tables have. A
-table without tick is matched by t, and without t by the place of the row. All other columns but method are
-compared. A row on one side alone is counted under the side that lacks it.
+table without tick is matched by t, and without t by the place of the row. All other columns but t and
+method are compared. A row on one side alone is counted under the side that lacks it.
 
 The last bit counts, unless --ulps or --relative says what is equal. NaN is the same as NaN, and -0 as 0.
 A difference reaches 1e-12 at the first tick where it is that part of the largest value that this column of
@@ -82,12 +82,16 @@ pub(super) fn run(args: &DiffArgs) -> Result<(), Error> {
     print(match args.format {
         TableFormat::Text => words(&found, &args.a, &args.b),
         TableFormat::Json => object(&found),
-    })?;
+    })
+    .map_err(Error::into_mistake)?;
     let names = format!("{} and {}", args.a.display(), args.b.display());
     match (found.is_comparable(), found.is_same()) {
+        (false, _) if found.is_cut_off => Err(Error::mistake(format!(
+            "rows of one name stand more than {MAX_WAITING} rows apart in {names}; sort both alike"
+        ))),
         (false, _) if found.rows < 2 => Err(Error::mistake(format!(
-            "nothing to compare: {names} have {} rows in common; give two logs of one run",
-            found.rows
+            "nothing to compare: {names} have {} in common; give two logs of one run",
+            counted(found.rows, "row")
         ))),
         (false, _) => Err(Error::mistake(format!(
             "nothing to compare: nothing moves in the {} rows of {names}; log a motion",
@@ -150,7 +154,7 @@ fn words(found: &Comparison, a: &Path, b: &Path) -> String {
 
 /// As JSON, with the numbers as they are written in the tables.
 fn object(found: &Comparison) -> String {
-    const WRITTEN: [&str; 2] = ["written in a", "written in b"];
+    const WRITTEN: [&str; 2] = ["\u{1}a", "\u{1}b"];
     let finite = |part: f64| part.is_finite().then_some(part);
     let first = found.first.as_ref().map(|first| {
         let Difference { tick, row: [lane, body, coordinate], column, values, ulps, relative } =

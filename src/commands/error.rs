@@ -48,6 +48,14 @@ impl Error {
         Self::new(ExitReason::Mistake, message)
     }
 
+    /// A failed run as what it is where 1 says something else.
+    pub(super) fn into_mistake(self) -> Self {
+        match self.kind {
+            ExitReason::Failed => Self { kind: ExitReason::Mistake, ..self },
+            _ => self,
+        }
+    }
+
     /// An interrupt after part of the work, such as `3 of 10 frames`.
     pub(super) fn interrupted_after(done: impl Display) -> Self {
         Self::new(ExitReason::Interrupted, format!("interrupted after {done}"))

@@ -152,6 +152,11 @@ pub(super) fn run(args: &FixtureArgs) -> Result<(), Error> {
         }
         least = least.max(error);
     }
+    if states.iter().all(|states| states.rows.len() < 2) {
+        return Err(Error::mistake(
+            "no state after the start is written; lower --every, or give more --seconds",
+        ));
+    }
     match args.format.language() {
         Some(language) => print(written(&language, args, &scene, &states, &studio, least)),
         None => print(format!("{}\n", in_json(args, &scene, &states, &studio, least))),
@@ -192,6 +197,12 @@ fn about(scene: &Scene, studio: &Studio) -> Vec<String> {
     text.lines().map(str::to_owned).collect()
 }
 
+/// A name between quotation marks, as every one of the languages has it.
+fn quoted(name: &str) -> String {
+    let escaped = name.replace('\\', "\\\\").replace('"', "\\\"");
+    format!("\"{}\"", escaped.replace(char::is_control, " "))
+}
+
 fn written(
     language: &Language,
     args: &FixtureArgs,
@@ -209,7 +220,7 @@ fn written(
     for (body, states) in scene.bodies.iter().zip(states) {
         let [q, v] = states.reached.largest;
         let begun = language.body[0].replace('%', &format!("{q:?}, {v:?}"));
-        table += &begun.replace('@', &format!("{:?}", body.name));
+        table += &begun.replace('@', &quoted(&body.name));
         for (tick, q, v) in &states.rows {
             let [before, after] = language.state;
             table += &format!("{before}{tick}, {}, {}{after}", list(q), list(v));

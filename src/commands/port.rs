@@ -69,7 +69,7 @@ pub(super) struct PortArgs {
     ///
     /// At 1 it just swings no more.
     #[arg(long, alias = "zeta", value_name = "RATIO", value_parser = number)]
-    #[arg(allow_negative_numbers = true, requires = "frequency")]
+    #[arg(allow_negative_numbers = true, requires = "frequency", conflicts_with = "from")]
     damping_ratio: Option<f64>,
 
     /// The settings of an engine or a user interface, a log, or a chase
@@ -221,9 +221,18 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         Asked::Dialect(dialect) => std::slice::from_ref(*dialect),
         Asked::Engines | Asked::Engine(_) => &[],
     });
-    let dialects: Vec<&Dialect> = asked.collect();
-    if args.drive && !dialects.is_empty() {
-        return Err(Error::mistake("--drive is for engines; user interfaces have no drives"));
+    let mut dialects: Vec<&Dialect> = Vec::new();
+    for dialect in asked {
+        if !dialects.iter().any(|known| std::ptr::eq(*known, dialect)) {
+            dialects.push(dialect);
+        }
+    }
+    for (option, is_given) in [("--drive", args.drive), ("--substeps", args.substeps.is_some())] {
+        if is_given && setups.is_empty() || args.drive && !dialects.is_empty() {
+            return Err(Error::mistake(format!(
+                "{option} is for engines; leave it out, or name one"
+            )));
+        }
     }
     match setups.is_empty() {
         true => wish.check_numbers(args.tick_hz).map_err(Error::mistake)?,

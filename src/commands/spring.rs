@@ -17,7 +17,7 @@ pub(super) struct SpringArgs {
 
     /// The damping of the spring of --k [default: 0]
     #[arg(long, value_name = "N s/m", value_parser = number, allow_negative_numbers = true)]
-    #[arg(requires = "k")]
+    #[arg(requires = "k", conflicts_with_all = ["frequency", "scene"])]
     c: Option<f64>,
 
     /// A spring of this frequency in place of a scene
@@ -29,12 +29,12 @@ pub(super) struct SpringArgs {
     ///
     /// At 1 it just swings no more.
     #[arg(long, value_name = "RATIO", value_parser = number, allow_negative_numbers = true)]
-    #[arg(requires = "frequency")]
+    #[arg(requires = "frequency", conflicts_with_all = ["k", "scene"])]
     damping_ratio: Option<f64>,
 
     /// The mass on the spring [default: 1]
     #[arg(long, value_name = "kg", value_parser = positive, allow_negative_numbers = true)]
-    #[arg(requires = "spring")]
+    #[arg(requires = "spring", conflicts_with = "scene")]
     mass: Option<f64>,
 }
 

@@ -61,7 +61,7 @@ pub(super) struct SweepArgs {
     /// A scene, or several [default: all built-in ones]
     ///
     /// `regatta list scenes` has the names. What is no name is the path of a file. Give the option again for each.
-    #[arg(long = "scene", value_name = "NAME|FILE", value_parser = PathOrName(scene_names))]
+    #[arg(id = "scene", long = "scene", value_name = "NAME|FILE", value_parser = PathOrName(scene_names))]
     #[arg(hide_possible_values = true, conflicts_with = "spring")]
     scenes: Vec<PathBuf>,
 

@@ -19,7 +19,7 @@ use growth::Growth;
 use layout::Layout;
 pub use layout::NotComparable;
 pub use number::{distance_ulps, is_same_number};
-use number::{parsed, relative};
+use number::{hide_a_difference, parsed, relative};
 
 /// The relative differences whose first ticks are told.
 pub const LEVELS: [f64; 5] = [1e-12, 1e-9, 1e-6, 1e-3, 1.0];
@@ -141,6 +141,8 @@ pub struct Comparison {
     pub zeros_of_two_signs: u64,
     /// Pairs of NaN, which count as equal.
     pub nans: u64,
+    /// Whether a row counts as missing because its like, if there is one, stands too far away.
+    pub is_cut_off: bool,
     /// Rows that stand at another place on the other side.
     pub displaced: u64,
 }
@@ -148,7 +150,7 @@ pub struct Comparison {
 impl Comparison {
     /// Whether there is something to compare: two common rows, and a motion.
     pub fn is_comparable(&self) -> bool {
-        self.rows >= 2 && self.moved > 0.0
+        self.rows >= 2 && self.moved > 0.0 && !self.is_cut_off
     }
 
     /// Whether both have the same rows with equal values.
@@ -187,6 +189,8 @@ struct Side {
     /// The stream that the next row is of, if streams come in turn.
     next: usize,
     number: u64,
+    /// The order of the last row.
+    order: u64,
     waiting: HashMap<Place, Waiting>,
     /// The rows that wait, and some that did, as they came.
     queue: VecDeque<(Place, u64)>,
@@ -260,6 +264,9 @@ struct Work {
     key: Vec<u8>,
     sides: [Side; 2],
     found: Comparison,
+    /// Whether a row waited too long, and whether rows go back: then its like may be still to come.
+    is_cut_off: bool,
+    is_out_of_order: bool,
     /// Where the first difference is.
     first: Option<(u64, u64)>,
     /// The largest relative difference of each value column.
@@ -279,6 +286,8 @@ impl Work {
             key: Vec::new(),
             sides: Default::default(),
             found,
+            is_cut_off: false,
+            is_out_of_order: false,
             first: None,
             worst,
             growth: Growth::default(),
@@ -311,6 +320,9 @@ impl Work {
         };
         own.next = if stream + 1 < self.streams.len() { stream + 1 } else { 0 };
         let order = self.layout.order(side, row, number)?;
+        let own = &mut self.sides[side];
+        self.is_out_of_order |= order < own.order;
+        own.order = order;
         Ok((Place { order, stream }, number))
     }
 
@@ -333,6 +345,7 @@ impl Work {
             queue.retain(|(at, n)| waiting.get(at).is_some_and(|row| row.number == *n));
         }
         let is_full = own.waiting.len() > MAX_WAITING;
+        self.is_cut_off |= is_full;
         let lost =
             twice.map(|twice| (place, twice)).or_else(|| if is_full { own.oldest() } else { None });
         if let Some((place, lost)) = lost {
@@ -374,6 +387,10 @@ impl Work {
                 self.differs(place, number, (rows[0], Some(column)), values, (None, None));
                 continue;
             };
+            if is_same_number(a, b) && hide_a_difference(cells, a) {
+                self.differs(place, number, (rows[0], Some(column)), values, (None, None));
+                continue;
+            }
             if is_same_number(a, b) {
                 self.found.zeros_of_two_signs +=
                     u64::from(a == 0.0 && a.is_sign_negative() != b.is_sign_negative());
@@ -453,6 +470,7 @@ impl Work {
         self.found.worst =
             most.map(|(column, part)| (self.layout.values[column].name.clone(), *part));
         self.found.per_second = self.growth.per_second();
+        self.found.is_cut_off = self.is_cut_off && self.is_out_of_order;
         self.found
     }
 }

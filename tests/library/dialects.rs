@@ -148,6 +148,13 @@ fn each_says_whether_it_shows_the_motion() {
         ("unity-smooth-damp", 0.5, Reach::Unreachable),
         ("unity-smooth-damp", 1.0, Reach::Nearest),
         ("react-spring", 0.5, Reach::Nearest),
+        ("css", 0.2, Reach::Nearest),
+        ("css", 0.01, Reach::Unreachable),
+        // Newton's method has not come to its end.
+        ("motion-duration", 1.0 - 1e-8, Reach::Nearest),
+        // It decays, and changes sides at every frame.
+        ("per-frame", 4.0, Reach::Nearest),
+        ("per-frame", 0.0, Reach::Nearest),
     ] {
         assert_eq!(reach(id, ratio), wanted, "{id} {ratio}");
     }

@@ -1,7 +1,7 @@
 //! What is compared: the rows of a table, of a run, or of the states in a manifest.
 
 use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
@@ -12,6 +12,7 @@ use crate::commands::error::Error;
 use crate::commands::manifest::Mark;
 use crate::commands::{scene_file, verify};
 use crate::lab::diff::{NotComparable, Records};
+use crate::lab::pacing::trace_file::delimiter;
 use crate::lab::trace::{Made, last_tick, row};
 
 /// The rows that pass from thread to thread at once.
@@ -89,7 +90,17 @@ impl From<NotComparable> for Error {
 
 impl Table {
     fn begin(name: String, input: Box<dyn Read + Send>) -> Result<Self, Error> {
-        let mut reader = csv::ReaderBuilder::new().buffer_capacity(BUFFER_BYTES).from_reader(input);
+        let mut input = BufReader::with_capacity(BUFFER_BYTES, input);
+        let begun = input.fill_buf().map_err(|error| {
+            Error::mistake(format!("cannot read {name}: {error}; give a run that you may read"))
+        })?;
+        let begun = String::from_utf8_lossy(begun);
+        let header = begun.lines().find(|line| !line.starts_with('#')).unwrap_or_default();
+        let mut reader = csv::ReaderBuilder::new()
+            .buffer_capacity(BUFFER_BYTES)
+            .delimiter(delimiter(header))
+            .comment(Some(b'#'))
+            .from_reader(input);
         let of = name.clone();
         let fault = move |error: csv::Error| {
             let name = &of;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::{ASKED, Asked};
-use crate::lab::port::{Approach, Dialect, Setup, Wish};
+use crate::lab::port::{Approach, Dialect, Key, Setup, Wish};
 use crate::lab::scene::MAX_SUBSTEPS;
 use crate::sim::integrators::{JointMode, Method, Setting};
 
@@ -42,7 +42,7 @@ impl From {
                 Ok(Asked::Engine(method)) => {
                     Err(format!("give its settings too: {}", example(method)))
                 }
-                Ok(Asked::Dialect(dialect)) => of_dialect(dialect, "").map(From::Dialect),
+                Ok(Asked::Dialect(dialect)) => of_dialect(dialect, "", mass_kg).map(From::Dialect),
                 _ => Ok(From::Log(written.into())),
             };
         };
@@ -73,7 +73,7 @@ impl From {
                 Asked::Engine(method) => {
                     of_engine(method, rest, tick_hz, mass_kg).map(From::Engine)
                 }
-                Asked::Dialect(dialect) => of_dialect(dialect, rest).map(From::Dialect),
+                Asked::Dialect(dialect) => of_dialect(dialect, rest, mass_kg).map(From::Dialect),
                 _ => Err(format!("{head} is all of a kind; name one")),
             },
         }
@@ -87,23 +87,27 @@ fn example(method: &Method) -> String {
     format!("{}:{stiffness}=NUMBER,{damping}=NUMBER", method.id)
 }
 
-/// The motion of a user interface with settings that are written as `key=value,…`; those left out are the library's own.
-fn of_dialect(dialect: &Dialect, written: &str) -> Result<Wish, String> {
-    let mut values: Vec<f64> = dialect.keys.iter().map(|key| key.usual).collect();
+/// The motion of a user interface with settings that are written as `key=value,…`; those left out are the library's own,
+/// but for this mass in kg.
+fn of_dialect(dialect: &Dialect, written: &str, mass_kg: f64) -> Result<Wish, String> {
+    let usual = |key: &Key| if key.name == "mass" { mass_kg } else { key.usual };
+    let mut values: Vec<f64> = dialect.keys.iter().map(usual).collect();
     let mut given = Vec::new();
     for pair in written.split(',').filter(|_| !written.is_empty()) {
         let (key, value) = pair.split_once('=').unwrap_or((pair, ""));
         let names: Vec<&str> = dialect.keys.iter().map(|key| key.name).collect();
         let index = names.iter().position(|name| *name == key.trim()).ok_or_else(|| {
-            format!("{} has no {key}; write {}=NUMBER", dialect.id, names.join("=NUMBER,"))
+            let names = names.join("=NUMBER,");
+            format!("{} has no key \"{}\"; write {names}=NUMBER", dialect.id, key.trim())
         })?;
         if given.contains(&index) {
             return Err(format!("{key} is given twice"));
         }
         given.push(index);
-        values[index] = with_unit(value, "").map_err(|fault| format!("{key}: {fault}"))?;
+        values[index] = with_unit(value.trim(), "").map_err(|fault| format!("{key}: {fault}"))?;
     }
-    dialect.read(&values)
+    let wish = dialect.read(&values)?;
+    Ok(if dialect.has_mass() { wish } else { Wish { mass_kg, ..wish } })
 }
 
 /// What an engine shows with settings that are written as `key=value,…`.

@@ -25,8 +25,16 @@ pub enum NotComparable {
         /// Those of the other.
         b: String,
     },
-    /// A tick or a time is no number.
-    #[error("row {row} of {side}: column {column:?} has {cell:?}; write a number")]
+    /// Two columns of one have the same name.
+    #[error("{side} has two columns {column:?}; rename one")]
+    Twice {
+        /// `a` or `b`.
+        side: &'static str,
+        /// The column.
+        column: String,
+    },
+    /// A tick is no whole number, or a time is no number.
+    #[error("row {row} of {side}: column {column:?} has {cell:?}; write {}", wanted(column))]
     NoOrder {
         /// `a` or `b`.
         side: &'static str,
@@ -39,12 +47,22 @@ pub enum NotComparable {
     },
 }
 
+fn wanted(column: &str) -> &'static str {
+    if column == "tick" { "a whole number of 0 or more" } else { "a number" }
+}
+
 /// What sides are called.
 const SIDES: [&str; 2] = ["a", "b"];
+/// The last tick whose number is sure to the last digit.
+const MAX_TICK: f64 = 9_007_199_254_740_992.0;
 /// The columns of a row's name, beside its tick.
 const NAMES: [&str; 3] = ["lane", "body", "coordinate"];
 /// The column of a coordinate beside which others do not say how far it moves.
 const COORDINATE: &str = "q";
+
+/// Columns that count on, in whatever unit, while nothing moves.
+const CLOCKS: [&str; 9] =
+    ["frame", "frames", "index", "ms", "seconds", "step", "time", "time_s", "timestamp"];
 
 /// By what rows are in order.
 pub(super) enum Order {
@@ -82,6 +100,12 @@ impl Layout {
         let names = headers.map(|header| -> Vec<String> {
             header.iter().map(|cell| String::from_utf8_lossy(cell).trim().to_owned()).collect()
         });
+        for (side, names) in SIDES.into_iter().zip(&names) {
+            let twice = names.iter().enumerate().find(|(i, name)| names[..*i].contains(name));
+            if let Some((_, column)) = twice {
+                return Err(NotComparable::Twice { side, column: column.clone() });
+            }
+        }
         let find = |name: &str| [0, 1].map(|side| names[side].iter().position(|it| it == name));
         let common = |column: &'static str| match find(column) {
             [Some(a), Some(b)] => Ok(Some([a, b])),
@@ -110,7 +134,8 @@ impl Layout {
         let mut values = Vec::new();
         for (a, name) in names[0].iter().enumerate().filter(|(_, name)| is_value(name)) {
             if let [_, Some(b)] = find(name) {
-                let moves = !has_coordinate || name == COORDINATE;
+                let is_clock = CLOCKS.contains(&&*name.to_ascii_lowercase());
+                let moves = if has_coordinate { name == COORDINATE } else { !is_clock };
                 values.push(ValueColumn { name: name.clone(), at: [a, b], moves });
             }
         }
@@ -119,7 +144,8 @@ impl Layout {
             return Err(NotComparable::NoColumn { a, b });
         }
         let alone = [0, 1].map(|side| -> Vec<String> {
-            names[side].iter().filter(|name| !names[1 - side].contains(name)).cloned().collect()
+            let alone = names[side].iter().filter(|name| !names[1 - side].contains(name));
+            alone.filter(|name| is_value(name)).cloned().collect()
         });
         let first_alone = [0, 1].into_iter().find_map(|side| {
             let name = alone[side].first()?;
@@ -145,7 +171,11 @@ impl Layout {
     ) -> Result<u64, NotComparable> {
         let Order::By { column, at } = self.order else { return Ok(place) };
         let cell = &row[at[side]];
-        let bits = parsed(cell).filter(|x| !x.is_nan()).map(|x| (x + 0.0).to_bits());
+        let fits = |x: &f64| match column {
+            "tick" => (0.0..=MAX_TICK).contains(x) && *x == libm::floor(*x),
+            _ => !x.is_nan(),
+        };
+        let bits = parsed(cell).filter(fits).map(|x| (x + 0.0).to_bits());
         // The bits of numbers of one sign are in their order, and negative ones before them.
         let ordered = bits.map(|bits| if bits >> 63 == 0 { bits | 1 << 63 } else { !bits });
         ordered.ok_or_else(|| NotComparable::NoOrder {
@@ -156,13 +186,10 @@ impl Layout {
         })
     }
 
-    /// The tick of a row, 0 for one below it, or the row's place in a table without ticks.
+    /// The tick of a row, or the row's place in a table without ticks.
     pub(super) fn tick(&self, order: u64, place: u64) -> u64 {
         match self.order {
-            Order::By { column: "tick", .. } if order >> 63 == 1 => {
-                f64::from_bits(order & (u64::MAX >> 1)) as u64
-            }
-            Order::By { column: "tick", .. } => 0,
+            Order::By { column: "tick", .. } => f64::from_bits(order & (u64::MAX >> 1)) as u64,
             _ => place,
         }
     }

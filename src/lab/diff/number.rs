@@ -5,6 +5,17 @@ pub(super) fn parsed(cell: &[u8]) -> Option<f64> {
     std::str::from_utf8(cell).ok()?.trim().parse().ok()
 }
 
+/// Whether cells that are read as the same number may be written of two: whole numbers of more digits than a double has, and
+/// finite ones beyond it.
+pub(super) fn hide_a_difference(cells: [&[u8]; 2], number: f64) -> bool {
+    let has_digits = |cell: &[u8]| cell.iter().any(u8::is_ascii_digit);
+    let is_whole = |cell: &[u8]| cell.trim_ascii().iter().all(u8::is_ascii_digit);
+    match number.is_infinite() {
+        true => cells.into_iter().any(has_digits),
+        false => number.abs() >= 9_007_199_254_740_992.0 && cells.into_iter().all(is_whole),
+    }
+}
+
 /// Whether both are the same number, or both are not a number. Zeros of two signs are the same.
 pub fn is_same_number(a: f64, b: f64) -> bool {
     a == b || a.is_nan() && b.is_nan()

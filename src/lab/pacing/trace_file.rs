@@ -122,7 +122,7 @@ fn split_remarks(text: &str) -> (u64, &str) {
 }
 
 /// What separates the cells: where a comma is the decimal sign, tools write semicolons.
-fn delimiter(table: &str) -> u8 {
+pub(crate) fn delimiter(table: &str) -> u8 {
     let header = table.lines().find(|line| !line.is_empty()).unwrap_or_default();
     let count = |separator: &u8| header.bytes().filter(|byte| byte == separator).count();
     // Of equal counts the last is taken: the comma.

@@ -231,7 +231,7 @@ pub static DIALECTS: &[Dialect] = &[
         source: "motion, packages/motion-dom/src/animation/generators/spring.ts",
         read: Some(|[duration, bounce, _]| {
             let ratio = (1.0 - bounce).max(MOTION_MIN_RATIO);
-            wish(motion_angle(ratio) / duration, ratio)
+            wish(motion_omega(ratio, duration), ratio)
         }),
         write: |wish| {
             let ratio = wish.damping_ratio.clamp(MOTION_MIN_RATIO, 1.0);
@@ -295,8 +295,10 @@ const OVER: f64 = 1e-3;
 /// The error that points are to stay below as a part of the way, and the most points.
 const SAMPLED: f64 = 5e-3;
 const MAX_POINTS: f64 = 100.0;
-/// Where the error is looked for between two points.
-const PARTS: u32 = 16;
+/// In how many places the error is looked for.
+const PLACES: u32 = 20_000;
+/// Points that miss more of the way than this show another motion.
+const ASTRAY: f64 = 0.1;
 /// Frames per second between which an explosion is sought.
 const RATES: [f64; 2] = [1e-6, 1e12];
 const HALVINGS: u32 = 60;
@@ -344,6 +346,18 @@ fn motion_angle(ratio: f64) -> f64 {
     }
 }
 
+/// What Motion finds of that: by 11 steps of Newton's method, which are too few close to critical damping.
+fn motion_omega(ratio: f64, duration: f64) -> f64 {
+    if ratio >= 1.0 {
+        return motion_angle(ratio) / duration;
+    }
+    let scale = ratio / libm::sqrt(1.0 - ratio * ratio);
+    (0..11).fold(5.0 / duration, |omega, _| {
+        let left = scale * libm::exp(-ratio * omega * duration);
+        omega - (OVER - left) / (ratio * duration * left)
+    })
+}
+
 /// The seconds after which less than [`OVER`] is left, and how many points are enough.
 fn sampling(wish: &Wish) -> Values {
     let ratio = wish.damping_ratio;
@@ -365,11 +379,12 @@ fn curve(wish: &Wish, [duration, points, _]: Values) -> (String, f64) {
         false => (1e4 * at(f64::from(i) / f64::from(pieces))).round() / 1e4,
     };
     let (mut written, mut error) = ("0".to_owned(), 0.0_f64);
+    let parts = PLACES / pieces;
     for i in 0..pieces {
         let [from, to] = [point(i), point(i + 1)];
         write!(written, ", {to}").expect("a text takes all");
-        for part in 0..=PARTS {
-            let part = f64::from(part) / f64::from(PARTS);
+        for part in 0..=parts {
+            let part = f64::from(part) / f64::from(parts);
             let exact = at((f64::from(i) + part) / f64::from(pieces));
             error = error.max((from + (to - from) * part - exact).abs());
         }
@@ -428,11 +443,12 @@ impl Dialect {
         let values = (self.write)(wish);
         let is_told = values.iter().all(|value| value.is_finite());
         let told = self.read.map_or(*wish, |read| read(values));
-        let seen = self.seen(&told, frame_hz);
         let (points, error) = match self.steps {
             Steps::Sampled if is_told => curve(wish, values),
             _ => Default::default(),
         };
+        let seen = self.seen(&told, frame_hz).filter(|_| is_told && error <= ASTRAY);
+        let is_stable = self.is_stable(&told, frame_hz);
         let missed = seen.and_then(|seen| {
             let ratio = seen.damping_ratio()? - wish.damping_ratio;
             Some([(seen.undamped_hz() / wish.frequency_hz - 1.0).abs(), ratio])
@@ -440,7 +456,9 @@ impl Dialect {
         let near = REACHED * (1.0 + wish.damping_ratio);
         let reach = match missed {
             _ if !is_told => Reach::Unreachable,
+            _ if error > ASTRAY => Reach::Unreachable,
             _ if error > 0.0 => Reach::Nearest,
+            None if is_stable => Reach::Nearest,
             Some([of_hz, ratio]) if of_hz <= REACHED && ratio.abs() <= near => Reach::Reached,
             Some(_) if told.damping_ratio <= wish.damping_ratio + near => Reach::Nearest,
             _ => Reach::Unreachable,
@@ -454,7 +472,7 @@ impl Dialect {
             reach,
             values: values[..self.keys.len()].to_vec(),
             explodes_below_hz: self.explodes_below_hz(&told),
-            is_stable: self.is_stable(&told, frame_hz),
+            is_stable,
             seen,
             error: (error > 0.0).then_some(error),
             code: if is_told { code } else { String::new() },
@@ -525,8 +543,12 @@ impl Dialect {
             Steps::SmoothDamp => "a rational function for the exponential: never explodes".into(),
             Steps::PerFrame(_) => {
                 let below = port.explodes_below_hz.map_or("any".into(), |hz| significant(hz, 3));
+                let turns = match port.seen.is_none() && port.is_stable {
+                    true => "; changes sides at every frame",
+                    false => "",
+                };
                 format!(
-                    "semi-implicit Euler once a frame: explodes below {below} frames per second"
+                    "semi-implicit Euler once a frame: explodes below {below} frames per second{turns}"
                 )
             }
         }

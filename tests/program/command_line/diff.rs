@@ -131,7 +131,19 @@ fn what_cannot_be_compared_is_refused_with_its_place() {
     write("torn.csv", "tick,x\n0,1\n1\n");
     write("empty.csv", "");
     write("lanes.csv", "tick,lane,x\n0,1,1\n");
+    write("title.csv", "frame,time,x\n0,0,5\n1,0.1,5\n2,0.2,5\n");
+    write("twice.csv", "x,x\n1,1\n2,2\n");
+    write("below.csv", "tick,x\n-1,1\n0,2\n");
+    let rows = |of: fn(u32) -> (u32, u32)| -> String {
+        (0..140_000).map(of).map(|(tick, lane)| format!("{tick},{lane},{tick}\n")).collect()
+    };
+    write("by_tick.csv", &format!("tick,lane,q\n{}", rows(|i| (i / 2, i % 2))));
+    write("by_lane.csv", &format!("tick,lane,q\n{}", rows(|i| (i % 70_000, i / 70_000))));
     for (arguments, told) in [
+        ("diff title.csv title.csv", "nothing to compare: nothing moves in the 3 rows"),
+        ("diff twice.csv twice.csv", "a has two columns \"x\"; rename one"),
+        ("diff below.csv below.csv", "column \"tick\" has \"-1\"; write a whole number"),
+        ("diff by_tick.csv by_lane.csv", "stand more than 65536 rows apart"),
         ("diff still.csv still.csv", "nothing to compare: nothing moves in the 3 rows"),
         ("diff moves.csv torn.csv", "torn.csv:3:"),
         ("diff moves.csv empty.csv", "empty.csv is empty"),
@@ -148,4 +160,20 @@ fn what_cannot_be_compared_is_refused_with_its_place() {
     let found: Value = serde_json::from_slice(&json.stdout).unwrap();
     assert_eq!((&found["comparable"], &found["same"]), (&false.into(), &false.into()));
     assert!(found["first"].is_null() && found["worst"].is_null());
+}
+
+#[test]
+fn tables_with_semicolons_and_notes_are_read_and_numbers_beyond_a_double_are_told_apart() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("semicolons.csv", "# a note\ntick;h;x\n0;18446744073709551615;1\n1;7;2.5\n");
+    write("tabs.csv", "tick\th\tx\n0\t18446744073709551615\t1.0\n1\t7\t2.5\n");
+    write("hash.csv", "tick,h,x\n0,18446744073709551614,1\n1,7,2.5\n");
+    write("huge.csv", "tick,h,x\n0,18446744073709551615,1\n1,1e400,2.5\n");
+    write("larger.csv", "tick,h,x\n0,18446744073709551615,1\n1,2e400,2.5\n");
+    let code = |arguments: &str| run_in(folder.path(), arguments).status.code();
+    assert_eq!(code("diff semicolons.csv tabs.csv"), Some(0));
+    assert_eq!(code("diff tabs.csv hash.csv"), Some(1));
+    assert_eq!(code("diff huge.csv larger.csv"), Some(1));
+    assert_eq!(code("diff huge.csv huge.csv"), Some(0));
 }

@@ -7,7 +7,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use super::{refusal, stdout_of};
+use super::{refusal, run_in, stdout_of};
 
 /// A spring of 2 kg on 40 N/m with 0.5 N s/m.
 const SPRING: &str = "fixture --k 40 --c 0.5 --mass 2 --seconds 5";
@@ -138,4 +138,21 @@ fn a_fixture_has_the_states_of_a_trace_and_the_least_tolerance_of_its_truth() {
     let why = "no states of cloth: it has no reference solution";
     assert!(refusal("fixture --scene cloth --seconds 0.5 --as json", 1).contains(why));
     assert!(refusal("fixture --scene spring", 2).contains("--as"));
+}
+
+#[test]
+fn a_name_is_written_as_it_is_and_a_fixture_of_the_start_alone_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let name = "re\u{301}sort \\ \"2\"";
+    let scene = "title = 'A'\nabout = 'a'\ntick_hz = 60\nseconds = 1\nmethods = ['rk4']\n\
+        [[spring]]\nmass_kg = 1.0\nstiffness_n_per_m = 1.0\nx0_m = 1.0\nname = ";
+    let scene = format!("{scene}{name:?}\n").replace("\\u{301}", "\u{301}");
+    fs::write(folder.path().join("named.toml"), scene).unwrap();
+    for language in ["pytest", "gtest", "rust"] {
+        let arguments = format!("fixture --scene named.toml --as {language}");
+        let text = String::from_utf8(run_in(folder.path(), &arguments).stdout).unwrap();
+        assert!(text.contains("\"re\u{301}sort \\\\ \\\"2\\\"\""), "{text}");
+    }
+    let said = refusal("fixture --k 40 --every 100000 --as pytest", 2);
+    assert!(said.contains("no state after the start is written"), "{said}");
 }

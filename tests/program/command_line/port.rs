@@ -169,6 +169,8 @@ fn a_spring_of_a_user_interface_is_told_to_the_others_with_what_the_frame_rate_d
     let hz = react["seen"]["hz"].as_f64().unwrap();
     assert!((hz / 2.0 / 1.02 - 1.0).abs() < 0.01, "{hz}");
     assert!(apple["settings"]["stiffness"].as_f64().is_some_and(|k| (k - 157.9137).abs() < 1e-4));
+    let text = stdout_of("port --from swiftui --mass 5 --to flutter,flutter");
+    assert!(text.matches("mass: 5.0, stiffness: 789.5683").count() == 1, "{text}");
     let text = stdout_of("port --from flutter:mass=2,stiffness=8,damping=4 --to compose,css");
     assert!(text.contains("spring(dampingRatio = 0.5f, stiffness = 4.0f)"), "{text}");
     assert!(text.contains("linear(0, 0.0"), "{text}");
@@ -213,8 +215,13 @@ fn what_cannot_be_asked_is_one_error_with_a_remedy() {
         ("--from lerp:2@60fps", "the part is 2; it must be between 0 and 1"),
         ("--from lerp:0.1", "give the frames too: lerp:0.1@60fps"),
         ("--from swiftui:bounce=2", "bounce is 2; it must be above −1 and at most 1"),
-        ("--from swiftui:bouce=0", "swiftui has no bouce; write duration=NUMBER,bounce=NUMBER"),
+        (
+            "--from swiftui:bouce=0",
+            "swiftui has no key \"bouce\"; write duration=NUMBER,bounce=NUMBER",
+        ),
         ("--from css", "CSS linear() is points of a motion, from which it cannot be told"),
+        ("--from swiftui --damping-ratio 0.5", "cannot be used with '--damping-ratio"),
+        ("--from swiftui --substeps 4", "--substeps is for engines"),
         ("--frequency 2Hz --to ui --drive", "--drive is for engines"),
         ("--from half-life:1s --drive", "--drive is for a spring"),
     ] {
