@@ -240,6 +240,7 @@ impl App {
                     self.studio.viewer_mut().set_notice(notice);
                     self.stand_still();
                 }
+                Some(DriverRequest::CopyLink) => self.copy_link(),
                 Some(DriverRequest::CopyInstrument) => self.copy_instrument(),
                 Some(DriverRequest::CopyMethod(entry)) => self.copy_method(entry),
                 Some(DriverRequest::CopyJoint(entry)) => self.copy_joint(entry),

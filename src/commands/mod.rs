@@ -33,6 +33,7 @@ mod fixture;
 mod game_loop;
 mod help;
 mod identify;
+mod link;
 mod list;
 #[cfg(feature = "window")]
 mod play;
@@ -125,6 +126,8 @@ pub struct Cli {
 
 /// The most bytes of an argument: more than a path has. Messages quote arguments.
 const MAX_ARGUMENT_BYTES: usize = 4096;
+/// The commands whose first argument is a run, which may be a link.
+const TAKE_A_RUN: [&str; 3] = ["diff", "link", "verify"];
 
 impl Cli {
     /// Reads a command line, the program's name first.
@@ -133,9 +136,10 @@ impl Cli {
     ///
     /// What is to be shown in place of running it: a mistake, or the help or version that it asks for.
     pub fn read(arguments: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
-        let arguments: Vec<OsString> = arguments.into_iter().collect();
-        let long =
-            (1..).zip(arguments.iter().skip(1)).find(|(_, one)| one.len() > MAX_ARGUMENT_BYTES);
+        let mut arguments: Vec<OsString> = arguments.into_iter().collect();
+        let is_link = |one: &OsString| scene_file::is_link(one.as_ref());
+        let is_long = |one: &OsString| one.len() > MAX_ARGUMENT_BYTES && !is_link(one);
+        let long = (1..).zip(arguments.iter().skip(1)).find(|(_, one)| is_long(one));
         if let Some((place, long)) = long {
             let message = format!(
                 "argument {place} has {} bytes, and the most are {MAX_ARGUMENT_BYTES}; give a file in place of \"{}\"\n",
@@ -143,6 +147,12 @@ impl Cli {
                 shortened(&long.to_string_lossy()),
             );
             return Err(Self::command().error(ErrorKind::InvalidValue, message));
+        }
+        // A link alone stands for the scene that it is of.
+        let takes_a_run = arguments.get(1).is_some_and(|one| TAKE_A_RUN.iter().any(|it| one == it));
+        let link = arguments.iter().position(is_link).filter(|_| !takes_a_run);
+        if let Some(at) = link.filter(|at| *at > 0 && arguments[at - 1] != "--scene") {
+            arguments.insert(at, "--scene".into());
         }
         Self::try_parse_from(arguments)
     }
@@ -182,6 +192,7 @@ subcommands! {
     Show(show::ShowArgs) => show::run,
     Fixture(fixture::FixtureArgs) => fixture::run,
     Diff(diff::DiffArgs) => diff::run,
+    Link(link::LinkArgs) => link::run,
     #[cfg(feature = "view")]
     Chapter(chapter::ChapterArgs) => chapter::run,
     List(list::ListArgs) => list::run,

@@ -75,7 +75,7 @@ pub(super) struct PlayArgs {
     /// The theme: dark or light
     ///
     /// The default is the one chosen last, else the system's.
-    #[arg(long, value_name = "THEME", hide_possible_values = true)]
+    #[arg(long, value_name = "THEME", hide_possible_values = true, hide_short_help = true)]
     theme: Option<ThemeName>,
 
     /// Trails do not fade, and the camera zooms out in steps
@@ -191,7 +191,7 @@ fn refuse_to_record_over(
     record: Option<&Destination<'_>>,
 ) -> Result<(), Error> {
     let Some(Destination { path, .. }) = record else { return Ok(()) };
-    let is_played = !scene_file::is_built_in(options.scene())
+    let is_played = scene_file::is_file(options.scene())
         && options
             .scene()
             .canonicalize()
@@ -252,7 +252,7 @@ fn files(args: &ExperimentArgs, experiment: &Experiment) -> SceneFiles {
     let given = args.clone();
     let read =
         move |path: &Path| given.read(path).map_err(|error| error.mistakes(&Renderer::plain()));
-    let is_file = !scene_file::is_built_in(args.scene());
+    let is_file = scene_file::is_file(args.scene());
     let opened = is_file.then(|| (args.scene().to_owned(), experiment.text.clone()));
     SceneFiles { read: Arc::new(read), opened, keep: None }
 }

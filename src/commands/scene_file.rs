@@ -4,17 +4,18 @@ use std::path::Path;
 
 use super::error::Error;
 use super::terminal::print_status;
+use crate::lab::link;
 use crate::lab::scene::{BuiltIn, MAX_FILE_BYTES, SCENES, Scene, SceneErrors, nearest};
 use crate::regular_file::{self, Unreadable};
 use crate::sim::integrators::Method;
 
-/// The built-in scene of that name, or the scene in the file at that path, and its text.
+/// The built-in scene of that name, or the scene in the file at that path or in that link, and its text.
 pub(super) fn load(path: &Path) -> Result<(Scene, String), Error> {
     if let Some(built_in) = built_in(path) {
         return Ok((Scene::parse(built_in.name, built_in.text)?, built_in.text.to_owned()));
     }
     let bytes = read(path)?;
-    let scene = Scene::from_bytes(&path.display().to_string(), &bytes)?;
+    let scene = Scene::from_bytes(&shown(path), &bytes)?;
     let outdated = scene.outdated.iter().flat_map(|outdated| outdated.messages());
     outdated.for_each(|message| print_status(&format!("warning: {message}")));
     Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
@@ -41,11 +42,29 @@ pub(super) fn is_built_in(path: &Path) -> bool {
     built_in(path).is_some()
 }
 
+/// Whether `path` is the path of a file.
+pub(super) fn is_file(path: &Path) -> bool {
+    !is_built_in(path) && !is_link(path)
+}
+
+/// Whether `path` is no path, but a link to a run.
+pub(super) fn is_link(path: &Path) -> bool {
+    path.to_str().is_some_and(link::is_link)
+}
+
+/// The path for people; a link is as long as its run.
+pub(super) fn shown(path: &Path) -> String {
+    if is_link(path) { "the link".into() } else { path.display().to_string() }
+}
+
 fn built_in(path: &Path) -> Option<&'static BuiltIn> {
     SCENES.iter().find(|scene| path.to_str() == Some(scene.name))
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Error> {
+    if let Some(written) = path.to_str().filter(|written| link::is_link(written)) {
+        return link::text(written).map(String::into_bytes).map_err(Error::mistake);
+    }
     regular_file::read(path, MAX_FILE_BYTES).map_err(|error| {
         let shown = path.display();
         Error::mistake(match error {

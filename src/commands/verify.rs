@@ -115,9 +115,11 @@ pub(super) fn manifest_of(dir: &Path) -> Result<(Manifest, Experiment), Error> {
     Ok((rerun.manifest, rerun.experiment))
 }
 
-/// Whether something is at the path that is no directory, or nothing and the path ends in `.toml`.
+/// Whether something is at the path that is no directory, or nothing and the path ends in `.toml`, or it is a link.
 fn is_scene_file(path: &Path) -> bool {
-    !path.is_dir() && (path.exists() || path.extension().is_some_and(|ending| ending == "toml"))
+    super::scene_file::is_link(path)
+        || !path.is_dir()
+            && (path.exists() || path.extension().is_some_and(|ending| ending == "toml"))
 }
 
 /// The files that `--report` names, opened. None of them may be a file of a capture, or the recording that

@@ -27,6 +27,7 @@ pub mod diff;
 pub mod identify;
 mod lane_id;
 mod lane_spec;
+pub mod link;
 mod look;
 pub mod loop_lab;
 pub mod pacing;

@@ -242,6 +242,14 @@ impl Studio {
         self.timeline.session().recording_text(self.timeline.end())
     }
 
+    /// The link to the run up to the last tick reached.
+    ///
+    /// # Errors
+    /// As [`Session::link`](super::Session::link).
+    pub fn link(&self) -> Result<String, RecordingError> {
+        self.timeline.session().link(self.timeline.end())
+    }
+
     /// The whole run, for a [`Recorder`](super::session::Recorder).
     pub fn to_record(&self) -> RunToRecord {
         self.timeline.session().to_record(self.timeline.end())

@@ -41,6 +41,21 @@ impl App {
         );
     }
 
+    /// Puts the link to the run on the clipboard.
+    pub(super) fn copy_link(&mut self) {
+        let notice = match self.studio.link() {
+            Ok(link) => match self.clipboard.set_text(link.clone()) {
+                Ok(()) => format!("copied the run as a link of {} letters", link.len()),
+                Err(reason) => format!(
+                    "no clipboard: {reason}; Ctrl S saves the run, and `regatta link` prints it"
+                ),
+            },
+            Err(error) => error.to_string(),
+        };
+        self.studio.viewer_mut().set_notice(notice);
+        self.stand_still();
+    }
+
     /// Puts the lines of code that tell an engine the displayed spring on the clipboard.
     pub(super) fn copy_joint(&mut self, entry: usize) {
         let Some(code) = self.studio.joint_code(entry) else { return };

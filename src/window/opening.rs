@@ -4,6 +4,7 @@ use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use std::sync::Arc;
 
 use crate::lab::diff::{Comparison, NotComparable, Tolerance, diff};
+use crate::lab::link;
 use crate::lab::pacing::{FrameTrace, trace_file};
 use crate::lab::scene::{Mistake, SCENES, Scene};
 use crate::lab::session::RunToRecord;
@@ -69,6 +70,11 @@ impl Asked {
         Some(Self { path: known(studio, &from_home(&typed)), is_typed: true, compared: None })
     }
 
+    /// Whether it is no file, but a link to a run.
+    fn is_link(&self) -> bool {
+        self.path.to_str().is_some_and(link::is_link)
+    }
+
     /// Reads the file, and whatever its first frame would wait for. A disk can be slow, and a large net takes longer than a
     /// frame: this is no work for the thread that draws.
     pub(super) fn read(self, read: &ReadScene) -> Found {
@@ -87,10 +93,12 @@ impl Asked {
 }
 
 impl Found {
-    /// The path and text of a scene.
+    /// The path and text of the file of a scene.
     pub(super) fn scene(&self) -> Option<(PathBuf, String)> {
         match &self.held {
-            Ok(Held::Scene { text, .. }) => Some((self.asked.path.clone(), text.clone())),
+            Ok(Held::Scene { text, .. }) if !self.asked.is_link() => {
+                Some((self.asked.path.clone(), text.clone()))
+            }
             _ => None,
         }
     }
@@ -98,7 +106,9 @@ impl Found {
     /// Opens the scene, or the loop lab on the traces. Of mistakes a dialog tells, which is the field for the path, still
     /// open, if that was typed.
     pub(super) fn show(self, studio: &mut Studio) {
+        let name = self.asked.is_link().then(|| "a link".into());
         let Asked { path, is_typed, .. } = self.asked;
+        let path = name.unwrap_or(path);
         match self.held {
             Ok(Held::Scene { scene, .. }) => studio.open_file(&path, *scene),
             Ok(Held::Traces(traces)) => {
@@ -190,8 +200,12 @@ mod tests {
     /// Reads scene files without the command line's options.
     fn read() -> ReadScene {
         Arc::new(|path: &Path| {
-            let text =
-                std::fs::read_to_string(path).map_err(|error| vec![error.to_string().into()])?;
+            let written = path.to_str().filter(|written| link::is_link(written));
+            let text = match written {
+                Some(written) => link::text(written).map_err(|error| error.to_string()),
+                None => std::fs::read_to_string(path).map_err(|error| error.to_string()),
+            };
+            let text = text.map_err(|error| vec![error.into()])?;
             let scene = Scene::parse(&path.display().to_string(), &text);
             scene.map(|scene| (scene, text)).map_err(Vec::from)
         })
@@ -219,6 +233,20 @@ mod tests {
         let pulled = compare(&format!("{recorded}\n[[command]]\nat_s = 1.0\nkick = 1.0\n"));
         assert_eq!(pulled.0, Some(61), "{pulled:?}");
         assert_eq!(pulled.1, 61, "{pulled:?}");
+    }
+
+    #[test]
+    fn a_link_that_is_typed_opens_its_run_and_is_no_file() {
+        let mut studio = Studio::new(Scene::built_in("ship").unwrap());
+        (0..90).for_each(|_| studio.tick());
+        let link = studio.link().unwrap();
+        studio.apply(ViewCommand::AskForPath);
+        studio.apply(ViewCommand::TypePath(format!("https://example.org/{link}")));
+        let found = Asked::typed(&mut studio).unwrap().read(&read());
+        assert_eq!(found.scene(), None);
+        found.show(&mut studio);
+        assert_eq!((studio.scene_name().as_str(), studio.race().tick()), ("a link", 0));
+        assert_eq!(studio.scene().checks.last().unwrap().tick, 90);
     }
 
     #[test]

@@ -130,6 +130,7 @@ complete -c regatta -n "__fish_regatta_needs_command" -f -a "port" -d 'Say with 
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "show" -d 'Print a method or a game loop as code for your game'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "fixture" -d 'Write exact states as a test for your own engine'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "diff" -d 'Say where two runs first differ'
+complete -c regatta -n "__fish_regatta_needs_command" -f -a "link" -d 'Print a run as a link'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "chapter" -d 'Print the chapter\'s tables, and draw its Figures 7-2 to 7-8'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "list" -d 'List scenes, methods, bodies, metrics, policies, traces or keys'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "completions" -d 'Print a completion script for a shell'
@@ -1008,6 +1009,7 @@ complete -c regatta -n "__fish_regatta_using_subcommand diff" -l relative -d 'Nu
 complete -c regatta -n "__fish_regatta_using_subcommand diff" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand diff" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c regatta -n "__fish_regatta_using_subcommand link" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c regatta -n "__fish_regatta_using_subcommand chapter" -l out -d 'The directory for the figures and their data' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand chapter" -l force -d 'Replace the figures that DIR holds; other files in it stay'
 complete -c regatta -n "__fish_regatta_using_subcommand chapter" -s h -l help -d 'Print help (see more with \'--help\')'

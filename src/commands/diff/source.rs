@@ -43,7 +43,8 @@ type Batch = (Vec<ByteRecord>, usize);
 impl Source {
     /// The run at this path.
     pub(super) fn open(path: &Path) -> Result<Self, Error> {
-        let is_scene = scene_file::is_built_in(path) && !path.exists()
+        let is_scene = scene_file::is_link(path)
+            || scene_file::is_built_in(path) && !path.exists()
             || path.extension().is_some_and(|ending| ending == "toml");
         if path.is_dir() {
             return Ok(Self::Made(of_capture(path)?));

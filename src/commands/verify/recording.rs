@@ -111,7 +111,7 @@ pub(super) fn judge(path: &Path) -> Result<Report, Error> {
     if scene.checks.is_empty() {
         return Err(Error::mistake(format!(
             "{} has no [[check]] to be judged by; --bless writes one for each second and the end, or fewer if the scene is long",
-            path.display()
+            scene_file::shown(path)
         )));
     }
     check_ticks(path, &scene)?;
@@ -122,7 +122,7 @@ pub(super) fn judge(path: &Path) -> Result<Report, Error> {
         report.judged(lane.name(), lane.difference.as_ref().map(Difference::line));
     }
     report.field("lanes", lanes.iter().map(JudgedLane::object).collect());
-    let (shown, count) = (path.display(), report.differing());
+    let (shown, count) = (scene_file::shown(path), report.differing());
     let differ = match count {
         1 => format!("1 lane of {shown} differs"),
         _ => format!("{count} lanes of {shown} differ"),

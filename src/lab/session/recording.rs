@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::Session;
 use crate::lab::action::Action;
 use crate::lab::lane_id::LaneId;
+use crate::lab::link;
 use crate::lab::race::{Journal, Mode, Observer, Race};
 use crate::lab::scene::{AuthorText, Check, MAX_FILE_BYTES, MIN_SECONDS, Scene, Scripted};
 
@@ -51,6 +52,17 @@ impl Session {
     /// too.
     pub fn recording(&self, end: u64) -> Scene {
         self.to_record(end).scene()
+    }
+
+    /// The [link](crate::lab::link) to the [recording](Session::recording) to tick `end`.
+    ///
+    /// # Errors
+    /// If no text can say what the run is of.
+    pub fn link(&self, end: u64) -> Result<String, RecordingError> {
+        match self.scene.in_rust() {
+            Some(what) => Err(RecordingError::InRust { what: what.to_owned() }),
+            None => Ok(link::to(&self.recording(end))),
+        }
     }
 
     /// What a recording to tick `end` is made of.

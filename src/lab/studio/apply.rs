@@ -69,7 +69,9 @@ impl Studio {
         }
         match (command, &self.activity) {
             (Command::View(command), _) => return self.carry_out_on_view(command),
-            (Command::Ask(DriverRequest::Record), Activity::Loops(_)) => self.refuse_in_loop_lab(),
+            (Command::Ask(DriverRequest::Record | DriverRequest::CopyLink), Activity::Loops(_)) => {
+                self.refuse_in_loop_lab();
+            }
             (Command::Ask(request), _) => return self.possible(request),
             (Command::Run(command), Activity::Run) => self.carry_out_on_run(command),
             (Command::Run(_), Activity::Loops(_)) => self.refuse_in_loop_lab(),

@@ -149,6 +149,8 @@ pub enum DriverRequest {
     Screenshot,
     /// Save the run to a file.
     Record,
+    /// Copy the link to the run to the clipboard.
+    CopyLink,
     /// Copy the instrument's values to the clipboard.
     CopyInstrument,
     /// Copy the method with this index in the list to the clipboard, as source code in the viewer's

@@ -167,6 +167,8 @@ pub static KEYS: &[Binding] = keys! {
         Sign('p') => Ask(DriverRequest::Screenshot), Function(12) => Ask(DriverRequest::Screenshot);
     once "F5, Ctrl S" "save the run as a scene file; its name is shown":
         Function(5) => Ask(DriverRequest::Record), ControlSign('s') => Ask(DriverRequest::Record);
+    once "Ctrl L" "copy the run as a link, which `regatta play` opens":
+        ControlSign('l') => Ask(DriverRequest::CopyLink);
     once "X" "equal cost of all lanes on / off: cheap lanes get more substeps":
         Sign('x') => Run(RunCommand::ToggleEqualCost);
     once "F11" "full screen":

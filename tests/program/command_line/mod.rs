@@ -16,6 +16,7 @@ mod fixture;
 mod formats;
 mod help;
 mod identify;
+mod link;
 mod list;
 mod loops;
 mod manifest;

@@ -1,0 +1,41 @@
+//! `regatta link`: a run as an address.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::error::Error;
+use super::help::flowing;
+use super::output::print;
+use super::scene_file;
+use crate::lab::trace::last_tick;
+use crate::lab::{Session, link};
+
+const ABOUT: &str = "\
+The link holds the scene, its lanes, its script and the hashes at its end, so that `regatta verify LINK`
+says whether the run is the same to the bit here. It stands in the place of a scene, alone or after an
+address:
+
+  play, capture, trace, verify, diff … LINK
+
+Examples:
+  regatta link recording.toml
+  regatta play '#v1.…'";
+
+/// Print a run as a link
+#[derive(Debug, Args)]
+#[command(after_long_help = flowing(ABOUT))]
+pub(super) struct LinkArgs {
+    /// A scene, the file of one or of a recording, or a link
+    #[arg(value_name = "NAME|FILE")]
+    run: PathBuf,
+}
+
+pub(super) fn run(args: &LinkArgs) -> Result<(), Error> {
+    let (mut scene, _) = scene_file::load(&args.run)?;
+    if scene.checks.is_empty() {
+        let last = last_tick(&scene);
+        scene.checks = Session::racing(scene.clone().into()).recording(last).checks;
+    }
+    print(format!("{}\n", link::to(&scene)))
+}

@@ -1,0 +1,46 @@
+//! `link`: a run as an address, which every command takes in the place of a scene.
+
+use std::fs;
+
+use super::{refusal, run_in, stderr, stdout_of};
+
+#[test]
+fn a_link_stands_for_its_run_alone_and_after_an_address_and_is_verified_to_the_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = fs::read_to_string("assets/scenes/harbour.toml").unwrap();
+    let run = format!("{text}\n[[command]]\nat_s = 2.0\nkick = 1.0\n");
+    fs::write(folder.path().join("run.toml"), run).unwrap();
+    let made = run_in(folder.path(), "link run.toml");
+    let link = String::from_utf8(made.stdout).unwrap().trim().to_owned();
+    assert!(link.starts_with("#v1.") && link.len() < 1000, "{link}");
+    assert!(link[4..].bytes().all(|b| b.is_ascii_alphanumeric() || b == b'-' || b == b'_'));
+    let of_file = run_in(folder.path(), "trace --scene run.toml --seconds 3").stdout;
+    for written in [link.clone(), format!("https://example.org/{link}&panels=off&play")] {
+        assert_eq!(stdout_of(&format!("trace {written} --seconds 3")).into_bytes(), of_file);
+        assert_eq!(
+            stdout_of(&format!("trace --scene {written} --seconds 3")).into_bytes(),
+            of_file
+        );
+        assert!(stdout_of(&format!("verify {written}")).contains("same"), "{written}");
+    }
+    assert_eq!(stdout_of(&format!("link {link}")).trim(), link);
+    let same = run_in(folder.path(), &format!("diff {link} run.toml"));
+    assert_eq!(same.status.code(), Some(0), "{}", stderr(&same));
+    let other = run_in(folder.path(), &format!("diff harbour {link}"));
+    assert_eq!(other.status.code(), Some(1), "{}", stderr(&other));
+}
+
+#[test]
+fn a_link_that_leads_to_no_run_is_refused_in_a_sentence() {
+    let link = stdout_of("link spring").trim().to_owned();
+    for (written, told) in [
+        (link.replace("#v1.", "#v7."), "the link is of format 7, and this release reads up to 1"),
+        (link[..link.len() - 9].to_owned(), "the link is broken; copy it whole"),
+        ("#v1.!".to_owned(), "the link is broken; copy it whole"),
+    ] {
+        for command in ["trace", "verify", "advise --scene", "link"] {
+            let said = refusal(&format!("{command} {written}"), 2);
+            assert!(said.contains(told), "{command}: {said}");
+        }
+    }
+}
