@@ -54,7 +54,7 @@ impl Session {
         self.to_record(end).scene()
     }
 
-    /// The [link](crate::lab::link) to the [recording](Session::recording) to tick `end`.
+    /// The [link] to the [recording](Session::recording) to tick `end`.
     ///
     /// # Errors
     /// If no text can say what the run is of.
