@@ -48,7 +48,6 @@ pub use nearest::nearest;
 pub(super) use outline::Thread;
 pub use outline::{Mark, Outline};
 pub use refusal::Refusal;
-pub(in crate::lab) use saved::AuthorText;
 
 /// The largest scene file in bytes: tens of thousands of scripted commands. A file of nothing but
 /// mistakes takes the parser some hundred times its size in memory.

@@ -14,7 +14,7 @@ mod timeline;
 mod undo;
 
 pub use event::{Event, EventKind};
-pub use recording::{Recorder, RecordingError, RunToRecord};
+pub use recording::{RecordingError, text as recording_text};
 pub(in crate::lab) use start::StartSettings;
 pub use timeline::{SNAPSHOT_BYTES, Timeline};
 pub(in crate::lab) use undo::Exchanged;
@@ -26,8 +26,6 @@ pub struct Session {
     race: Race,
     /// The race at its start without a journal, from which a recording begins.
     start: Box<Race>,
-    /// The same one in all copies of this run.
-    identity: Arc<()>,
 }
 
 impl Session {
@@ -55,7 +53,7 @@ impl Session {
     pub(super) fn new(scene: Arc<Scene>, race: Race) -> Self {
         let mut start = race.clone();
         start.set_journal(Journal::default());
-        Self { scene, race, start: Box::new(start), identity: Arc::default() }
+        Self { scene, race, start: Box::new(start) }
     }
 
     /// The scene at its start with one lane, under the method at place `entry` of the scene's [list](Scene::method_list).

@@ -6,11 +6,12 @@
 //! [`View`], which does not. [`INSTRUMENTS`] stand beside the stage, and the [`guide`] leads through the scenes.
 
 use super::lane_spec::LaneSpec;
+use super::link;
 use super::loop_lab::LoopLab;
 use super::past::Past;
 use super::race::{Entrant, Mode, Race};
 use super::scene::Scene;
-use super::session::{RecordingError, RunToRecord, Session, StartSettings, Timeline};
+use super::session::{RecordingError, Session, StartSettings, Timeline, recording_text};
 use crate::sim::Clock;
 
 mod apply;
@@ -239,19 +240,18 @@ impl Studio {
     /// # Errors
     /// As [`Session::recording_text`](super::Session::recording_text).
     pub fn recording(&self) -> Result<String, RecordingError> {
-        self.timeline.session().recording_text(self.timeline.end())
+        recording_text(&self.timeline.recording())
     }
 
     /// The link to the run up to the last tick reached.
     ///
     /// # Errors
-    /// As [`Session::link`](super::Session::link).
+    /// As [`Session::recording_text`](super::Session::recording_text).
     pub fn link(&self) -> Result<String, RecordingError> {
-        self.timeline.session().link(self.timeline.end())
-    }
-
-    /// The whole run, for a [`Recorder`](super::session::Recorder).
-    pub fn to_record(&self) -> RunToRecord {
-        self.timeline.session().to_record(self.timeline.end())
+        let recording = self.timeline.recording();
+        match recording.in_rust() {
+            Some(what) => Err(RecordingError::InRust { what: what.to_owned() }),
+            None => Ok(link::to(&recording)),
+        }
     }
 }

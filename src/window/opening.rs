@@ -7,7 +7,6 @@ use crate::lab::diff::{Comparison, NotComparable, Tolerance, diff};
 use crate::lab::link;
 use crate::lab::pacing::{FrameTrace, trace_file};
 use crate::lab::scene::{Mistake, SCENES, Scene};
-use crate::lab::session::RunToRecord;
 use crate::lab::studio::{SceneList, StageCommand, Studio, ViewCommand};
 use crate::lab::trace::{Made, last_tick};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
@@ -34,7 +33,7 @@ pub(super) struct Asked {
     path: PathBuf,
     is_typed: bool,
     /// The run that it is to be compared with, if it is not to be opened.
-    compared: Option<RunToRecord>,
+    compared: Option<Box<Scene>>,
 }
 
 /// What a file that was asked for holds, or what the command line would print of its mistakes.
@@ -60,7 +59,7 @@ impl Asked {
     pub(super) fn typed(studio: &mut Studio) -> Option<Self> {
         let typed = studio.viewer().typed_path().trim().to_owned();
         if studio.viewer().compares_typed_path() {
-            let compared = Some(studio.to_record());
+            let compared = Some(studio.timeline().recording().into());
             return Some(Self { path: from_home(&typed), is_typed: true, compared });
         }
         if let Some(index) = SCENES.iter().position(|scene| scene.name == typed) {
@@ -79,7 +78,8 @@ impl Asked {
     /// frame: this is no work for the thread that draws.
     pub(super) fn read(self, read: &ReadScene) -> Found {
         let held = if let Some(run) = &self.compared {
-            read(&self.path).map(|(scene, _)| Held::Compared(compared(scene, run.scene()).into()))
+            read(&self.path)
+                .map(|(scene, _)| Held::Compared(compared(scene, (**run).clone()).into()))
         } else if is_trace(&self.path) {
             traces_in(&self.path).map(Held::Traces)
         } else {

@@ -146,8 +146,10 @@ fn tables_with_other_rows_or_without_a_common_column_are_refused() {
     assert!(told.contains("a has a column \"lane\" and b has none"), "{told}");
     let told = refused("tick,x\n0,2", "tick,y\n0,2");
     assert!(told.contains("no column of values is in both"), "{told}");
-    let below = compared("tick,x\n-2,1\n-1,2\n0,3", "tick,x\n-2,1\n-1,4\n0,3");
-    assert_eq!((below.first.unwrap().tick, below.rows), (0, 3));
+    for tick in ["-2", "0.25", "inf", "1e300"] {
+        let told = refused(&format!("tick,x\n{tick},1\n0,3"), "tick,x\n0,3");
+        assert!(told.contains("write a whole number of 0 or more"), "{tick}: {told}");
+    }
     let told = refused("tick,x\nzero,2", "tick,x\n0,2");
     assert!(told.contains("row 1 of a") && told.contains("zero"), "{told}");
 }

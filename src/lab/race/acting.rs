@@ -1,6 +1,6 @@
 //! The actions on a race, from its journal and by hand.
 
-use super::journal::Author;
+use super::journal::{Author, Journal};
 use super::lane::{LaneBody, Resumed};
 use super::observer::Observer;
 use super::{Mode, Race};
@@ -31,6 +31,25 @@ impl Race {
             self.perform(&row.action, observer);
             self.note_start(&row.action, row.author);
         }
+    }
+
+    /// A race at its start after a journal's actions to tick `end`, of whose ticks none is made: lanes, rate and parameters are
+    /// as then, and bodies are not. Where they were placed is not asked.
+    pub(in crate::lab) fn told(
+        mut self,
+        journal: &Journal,
+        end: u64,
+        observer: &mut impl Observer,
+    ) -> Self {
+        for row in journal.rows().iter().take_while(|row| row.tick <= end) {
+            self.tick = row.tick;
+            match row.action {
+                Action::Place { .. } => observer.before(&self, &row.action),
+                _ => drop(self.perform(&row.action, observer)),
+            }
+        }
+        self.tick = end;
+        self
     }
 
     /// Performs a person's action at the present tick, after the journal's actions at it, and adds it to the journal, from

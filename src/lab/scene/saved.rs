@@ -13,52 +13,37 @@ impl Scene {
     /// The text of a scene file that [reads](Scene::parse) as this scene. If the scene was read from a file, comments, order
     /// and spelling are the author's, and only what has changed since differs. Lines end as on Unix.
     pub fn to_saved_toml(&self) -> String {
-        AuthorText::of(self).save(self)
-    }
-}
-
-/// The text of the file that a scene was read from, in which the scene can be saved as often as it changes.
-pub(in crate::lab) struct AuthorText {
-    /// The author's and the plain text; `None` without a file, or if its text is not known here.
-    documents: Option<[DocumentMut; 2]>,
-}
-
-impl AuthorText {
-    pub(in crate::lab) fn of(scene: &Scene) -> Self {
-        let documents = scene.source.as_deref().and_then(|source| {
-            let source = source.replace("\r\n", "\n");
-            let scene = Scene::parse("", &source).ok()?;
-            let mut documents = [read(&source)?, read(&scene.to_toml())?];
-            if scene.outdated.is_some() {
-                documents.iter_mut().for_each(|document| _ = document.remove(COMMAND));
-            }
-            Some(documents)
-        });
-        Self { documents }
-    }
-
-    /// The text of a scene that the author's has become.
-    pub(in crate::lab) fn save(&self, scene: &Scene) -> String {
-        let plain = scene.to_toml();
+        let plain = self.to_toml();
         // An author's text may say things in a way that is not known here.
         let is_read = |saved: &String| {
-            Scene::parse(&scene.name, saved).is_ok_and(|read| read.to_toml() == plain)
+            Scene::parse(&self.name, saved).is_ok_and(|read| read.to_toml() == plain)
         };
-        self.changed_to(&plain).filter(is_read).unwrap_or(plain)
+        changed_to(self, &plain).filter(is_read).unwrap_or(plain)
     }
+}
 
-    /// The author's text with what is other in the `plain` text of a scene than in that of the author's own.
-    fn changed_to(&self, plain: &str) -> Option<String> {
-        let [author, before] = self.documents.as_ref()?;
-        let (mut author, after) = (author.clone(), read(plain)?);
-        // Lanes that are plain may be given as tables too.
-        let lanes = METHOD_LIST.key;
-        if !is_same(before.get(lanes), after.get(lanes)) {
-            author.remove(LANE);
-        }
-        change(author.as_table_mut(), before.as_table(), after.as_table());
-        Some(author.to_string())
+/// The author's text and the plain text of a scene as it was read; `None` without a file, or if its text is not known here.
+fn documents(scene: &Scene) -> Option<[DocumentMut; 2]> {
+    let source = scene.source.as_deref()?.replace("\r\n", "\n");
+    let scene = Scene::parse("", &source).ok()?;
+    let mut documents = [read(&source)?, read(&scene.to_toml())?];
+    if scene.outdated.is_some() {
+        documents.iter_mut().for_each(|document| _ = document.remove(COMMAND));
     }
+    Some(documents)
+}
+
+/// The author's text of a scene with what is other in its `plain` text now than in that of the author's own.
+fn changed_to(scene: &Scene, plain: &str) -> Option<String> {
+    let [mut author, before] = documents(scene)?;
+    let after = read(plain)?;
+    // Lanes that are plain may be given as tables too.
+    let lanes = METHOD_LIST.key;
+    if !is_same(before.get(lanes), after.get(lanes)) {
+        author.remove(LANE);
+    }
+    change(author.as_table_mut(), before.as_table(), after.as_table());
+    Some(author.to_string())
 }
 
 fn read(text: &str) -> Option<DocumentMut> {

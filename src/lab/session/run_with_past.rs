@@ -1,5 +1,6 @@
 //! A run as far as it was reached: its present, its drawn past, its snapshots and what happened in it.
 
+use super::recording::Hashes;
 use super::{Event, Session};
 use crate::lab::past::{Past, PastMark};
 use crate::lab::race::{Journal, Race};
@@ -13,12 +14,15 @@ pub(super) struct RunWithPast {
     /// The last tick reached.
     pub(super) end: u64,
     pub(super) halts: Vec<Event>,
+    /// By tick, as ticks were first made.
+    pub(super) hashes: Vec<Hashes>,
 }
 
 impl RunWithPast {
     pub(super) fn new(session: Session) -> Self {
         let past = Past::new(session.race(), session.scene().seconds);
-        let mut run = Self { session, past, snapshots: Vec::new(), end: 0, halts: Vec::new() };
+        let (snapshots, halts, hashes) = Default::default();
+        let mut run = Self { session, past, snapshots, end: 0, halts, hashes };
         run.snapshots.push(run.snapshot());
         run
     }

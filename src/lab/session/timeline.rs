@@ -3,6 +3,7 @@
 
 use std::mem::{replace, take};
 
+use super::recording::{Hashes, note_hashes};
 use super::run_with_past::{RunWithPast, Snapshot};
 use super::start::StartSettings;
 use super::undo::{Change, Exchanged, Future, Other, UndoStack};
@@ -135,6 +136,7 @@ impl Timeline {
         if tick > self.run.end {
             self.run.end = tick;
             self.note_halts();
+            note_hashes(&mut self.run.hashes, self.run.session.race());
         }
         if tick.is_multiple_of(self.spacing) {
             self.take_snapshot();
@@ -189,12 +191,14 @@ impl Timeline {
 
     /// Splits off the future from `tick` on, which has these rows after so many of the journal, and reached `end`.
     fn split_off(&mut self, tick: u64, (kept, rows): (usize, Vec<JournalRow>), end: u64) -> Future {
-        let RunWithPast { snapshots, halts, .. } = &mut self.run;
+        let RunWithPast { snapshots, halts, hashes, .. } = &mut self.run;
         // A snapshot holds the session as it reached a tick, before the actions there.
         let later = snapshots.partition_point(|snapshot| snapshot.race.tick() <= tick);
         let snapshots = snapshots.split_off(later);
         let later = halts.partition_point(|event| event.tick < tick);
-        Future { tick, kept, rows, end, snapshots, halts: halts.split_off(later) }
+        let halts = halts.split_off(later);
+        let later = hashes.partition_point(|it| it.tick <= tick);
+        Future { tick, kept, rows, end, snapshots, halts, hashes: hashes.split_off(later) }
     }
 
     /// Keeps a change of the next start for [`Timeline::undo`]; `settings` are those before it.
@@ -269,9 +273,10 @@ impl Timeline {
                 let mut journal = self.run.session.journal().clone();
                 let present = journal.replace_after(future.kept, take(&mut future.rows));
                 let left = self.split_off(future.tick, (future.kept, present), self.run.end);
-                let Future { tick, end, snapshots, halts, .. } = replace(future, left);
+                let Future { tick, end, snapshots, halts, hashes, .. } = replace(future, left);
                 self.run.snapshots.extend(snapshots);
                 self.run.halts.extend(halts);
+                self.run.hashes.extend(hashes);
                 self.run.session.race.set_journal(journal);
                 self.run.end = end;
                 self.restore(tick);
@@ -327,6 +332,25 @@ impl Timeline {
     fn begin_past(&mut self, coordinates: Vec<usize>) {
         let (race, span_s) = (&self.run.session.race, self.run.session.scene().seconds);
         self.run.past = Past::of_coordinates(race, span_s, coordinates.into_iter());
+    }
+
+    /// The hashes that were noted as ticks were first made, by tick.
+    pub(super) fn hashes(&self) -> &[Hashes] {
+        &self.run.hashes
+    }
+
+    /// The race at the last tick reached, before the actions at it.
+    pub(super) fn race_at_end(&self) -> Race {
+        let RunWithPast { session, snapshots, end, .. } = &self.run;
+        let before = session.journal().rows().partition_point(|row| row.tick < *end);
+        if session.race.tick() == *end && session.race.done() == before {
+            return session.race.clone();
+        }
+        let nearest = snapshots.partition_point(|snapshot| snapshot.race.tick() <= *end) - 1;
+        let mut race = snapshots[nearest].race.clone();
+        race.set_journal(session.journal().clone());
+        race.run(end - race.tick());
+        race
     }
 
     /// Goes to `tick` from a snapshot.

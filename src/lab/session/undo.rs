@@ -1,6 +1,7 @@
 //! The changes of a person that can be undone, and those that can be done again: one stack for all of them.
 
 use super::Event;
+use super::recording::Hashes;
 use super::run_with_past::{RunWithPast, Snapshot};
 use super::start::StartSettings;
 use crate::lab::race::JournalRow;
@@ -51,6 +52,8 @@ pub(super) struct Future {
     pub(super) snapshots: Vec<Snapshot>,
     /// Those from `tick` on.
     pub(super) halts: Vec<Event>,
+    /// Those after `tick`.
+    pub(super) hashes: Vec<Hashes>,
 }
 
 impl Other {
