@@ -7,10 +7,10 @@ use super::frame_names::{MAX_FRAMES, frame_name};
 use super::id::{CLOUD, INSTRUMENT, TRACE};
 use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings};
 use super::schedule::{MAX_FPS, Schedule};
-use crate::lab::LaneSpec;
 use crate::lab::palette::Theme;
 use crate::lab::scene::{MAX_LANES, MAX_SUBSTEPS, Scene, TOLERANCES};
 use crate::lab::studio::Instrument;
+use crate::lab::{LaneSpec, Swing};
 use crate::sim::Clock;
 use crate::sim::integrators::method;
 
@@ -24,7 +24,7 @@ pub(super) fn written(experiment: &Experiment, capture: &CaptureSettings) -> Set
         method: lane.method.id.to_owned(),
         substeps: lane.substeps,
         tolerance: lane.tolerance,
-        joint: lane.joint,
+        joint: lane.joint.map(|it| [it.frequency_hz, it.damping_ratio]),
     };
     Settings {
         scene: SceneText {
@@ -65,11 +65,8 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, CaptureSettings),
     let tolerance = |lane: &LaneEntry| {
         lane.tolerance.is_none_or(|given| (TOLERANCES.0..=TOLERANCES.1).contains(&given))
     };
-    let joint = |lane: &LaneEntry| {
-        let mut given =
-            lane.joint.into_iter().flat_map(|joint| LaneSpec::JOINT.into_iter().zip(joint));
-        given.all(|(range, value)| range.contains(value))
-    };
+    let swing = |[frequency_hz, damping_ratio]: [f64; 2]| Swing { frequency_hz, damping_ratio };
+    let joint = |lane: &LaneEntry| lane.joint.map(swing).is_none_or(Swing::is_in_range);
     for (key, is_in_range) in [
         ("tick_hz", Clock::TICK_HZ.contains(&settings.tick_hz)),
         ("frames", (1..=MAX_FRAMES).contains(&settings.frames)),
@@ -94,7 +91,8 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, CaptureSettings),
                 method.id
             ));
         }
-        let &LaneEntry { substeps, tolerance, joint, .. } = lane;
+        let &LaneEntry { substeps, tolerance, .. } = lane;
+        let joint = lane.joint.map(swing);
         Ok(LaneSpec { method, substeps, tolerance, joint })
     };
     // The lanes already have the substeps of equal cost.

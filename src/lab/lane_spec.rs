@@ -14,15 +14,38 @@ pub struct LaneSpec {
     /// Overrides the absolute and the relative tolerance of an adaptive method's card, within
     /// [`TOLERANCES`](super::scene::TOLERANCES); `None` keeps the card's tolerance, and is the only value for other methods.
     pub tolerance: Option<f64>,
-    /// The frequency in hertz and the damping ratio that an engine is told of every spring, in place of the body's own;
-    /// `None` is the only value for methods without a joint.
-    pub joint: Option<[f64; 2]>,
+    /// What an engine is told of every spring, in place of the body's own; `None` is the only value for methods without a
+    /// joint.
+    pub joint: Option<Swing>,
+}
+
+/// How a spring swings, whatever is on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Swing {
+    /// The frequency in hertz at which it would swing without its damping.
+    pub frequency_hz: f64,
+    /// The damping as a part of what just lets it swing no more.
+    pub damping_ratio: f64,
+}
+
+impl Swing {
+    /// The ranges of the frequency and the damping ratio.
+    pub const RANGES: [Range; 2] = [Range::POSITIVE, Range::NON_NEGATIVE];
+
+    /// Whether both are in their ranges.
+    pub fn is_in_range(self) -> bool {
+        let both = [self.frequency_hz, self.damping_ratio];
+        Self::RANGES.into_iter().zip(both).all(|(range, value)| range.contains(value))
+    }
+
+    /// The stiffness in 1/s² and the damping in 1/s, each per unit of mass.
+    pub fn per_mass(self) -> [f64; 2] {
+        let omega = std::f64::consts::TAU * self.frequency_hz;
+        [omega * omega, 2.0 * self.damping_ratio * omega]
+    }
 }
 
 impl LaneSpec {
-    /// The ranges of a joint's frequency and damping ratio.
-    pub const JOINT: [Range; 2] = [Range::POSITIVE, Range::NON_NEGATIVE];
-
     /// A method with its card's tolerance and substeps.
     pub fn plain(method: &'static Method) -> Self {
         Self { method, substeps: method.default_substeps, tolerance: None, joint: None }
@@ -44,7 +67,7 @@ impl LaneSpec {
     fn told(&self, lanes: &[LaneSpec]) -> String {
         let mut alike = lanes.iter().filter(|other| other.method == self.method);
         let told = self.joint.filter(|_| alike.any(|other| other.joint != self.joint));
-        told.map(|[hz, _]| format!(", told {} Hz", round(hz, 3))).unwrap_or_default()
+        told.map(|it| format!(", told {} Hz", round(it.frequency_hz, 3))).unwrap_or_default()
     }
 
     /// The method's name with the substeps, which are left out if there is one and no other of `lanes` has the method.
@@ -60,19 +83,12 @@ impl LaneSpec {
 
     /// The solver of the lane's bodies.
     pub fn solver(&self) -> Solver {
-        match (self.joint.map(joint_per_mass), self.tolerance) {
+        match (self.joint.map(Swing::per_mass), self.tolerance) {
             (Some(joint), _) => Solver::With(self.method, Override::Joint(joint)),
             (None, Some(bound)) => Solver::With(self.method, Override::tolerance(bound)),
             (None, None) => Solver::Method(self.method),
         }
     }
-}
-
-/// The stiffness in 1/s² and the damping in 1/s, each per unit of mass, of a joint of this frequency in hertz and this
-/// damping ratio.
-pub(in crate::lab) fn joint_per_mass([hz, damping_ratio]: [f64; 2]) -> [f64; 2] {
-    let omega = std::f64::consts::TAU * hz;
-    [omega * omega, 2.0 * damping_ratio * omega]
 }
 
 #[cfg(test)]
@@ -87,7 +103,8 @@ mod tests {
             tolerance,
             ..LaneSpec::plain(method(id).unwrap())
         };
-        let told = LaneSpec { joint: Some([1.0009, 0.074]), ..lane("engine-box2d", 4, None) };
+        let joint = Some(Swing { frequency_hz: 1.0009, damping_ratio: 0.074 });
+        let told = LaneSpec { joint, ..lane("engine-box2d", 4, None) };
         let lanes = [
             told,
             lane("held-force", 1, None),

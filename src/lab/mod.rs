@@ -58,7 +58,7 @@ pub(crate) use csv_row::csv_row;
 pub use custom::Options;
 pub use identify::identify;
 pub use lane_id::LaneId;
-pub use lane_spec::LaneSpec;
+pub use lane_spec::{LaneSpec, Swing};
 pub use port::port;
 pub use race::{Follow, Journal, Lane, Race};
 #[cfg(feature = "cli")]

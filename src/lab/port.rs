@@ -5,7 +5,7 @@
 //! what holds the spring rests.
 
 use super::identify::Effective;
-use super::lane_spec::joint_per_mass;
+use super::lane_spec::Swing;
 use crate::sim::integrators::{METHODS, Method};
 
 mod dialect;
@@ -141,7 +141,8 @@ impl Wish {
 
     /// The stiffness in 1/s² and damping in 1/s, each per unit of mass, by the equation of motion.
     pub fn joint(&self) -> [f64; 2] {
-        joint_per_mass([self.frequency_hz, self.damping_ratio])
+        let &Self { frequency_hz, damping_ratio, .. } = self;
+        Swing { frequency_hz, damping_ratio }.per_mass()
     }
 
     /// What a player is to see.

@@ -4,7 +4,7 @@ use regatta::lab::race::{Mode, equal_cost, lanes_that_race};
 use regatta::lab::scene::{SCENES, Scene, Scripted};
 use regatta::lab::session::{RecordingError, Session};
 use regatta::lab::studio::{Command, RunCommand, StageCommand, Studio};
-use regatta::lab::{Action, Journal, LaneId, LaneSpec};
+use regatta::lab::{Action, Journal, LaneId, LaneSpec, Swing};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 
 fn built_in(name: &str) -> Scene {
@@ -457,7 +457,7 @@ fn what_no_file_could_say_is_refused_where_it_enters() {
         of_lane(LaneSpec { substeps: 0, ..rk4 }),
         of_lane(LaneSpec { tolerance: Some(1e-6), ..rk4 }),
         of_lane(LaneSpec { tolerance: Some(2.0), ..adaptive }),
-        of_lane(LaneSpec { joint: Some([1.0, 0.0]), ..rk4 }),
+        of_lane(LaneSpec { joint: Some(Swing { frequency_hz: 1.0, damping_ratio: 0.0 }), ..rk4 }),
         Action::Throttle(f64::NAN),
         Action::Kick(f64::NAN),
         Action::Kick(1e16),

@@ -463,7 +463,7 @@ impl Dialect {
             Some(_) if told.damping_ratio <= wish.damping_ratio + near => Reach::Nearest,
             _ => Reach::Unreachable,
         };
-        let mut code = self.code.replace("<ms>", &(1e3 * values[0]).to_string());
+        let mut code = self.code.replace("<ms>", &(1e3 * values[0]).round().to_string());
         code = code.replace("<curve>", &points);
         for (key, value) in self.keys.iter().zip(values) {
             code = code.replace(&format!("<{}>", key.name), &in_code(value));

@@ -269,7 +269,7 @@ fn read_lanes(
 fn described(lane: &LaneSpec) -> String {
     let LaneSpec { method, substeps, tolerance, joint } = lane;
     let within = tolerance.map(|tolerance| format!(" and `tolerance = {tolerance:e}`"));
-    let told = joint.map(|[hz, _]| format!(" and `joint_hz = {hz}`"));
+    let told = joint.map(|joint| format!(" and `joint_hz = {}`", joint.frequency_hz));
     let beside = [within, told].into_iter().flatten().collect::<String>();
     format!("{:?} with `substeps = {substeps}`{beside}", method.id)
 }

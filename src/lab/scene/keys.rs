@@ -4,7 +4,7 @@ use super::nearest::listed;
 use super::table::Table;
 use super::wanted::{Field, Wanted};
 use super::{MAX_SUBSTEPS, TOLERANCES};
-use crate::lab::lane_spec::LaneSpec;
+use crate::lab::lane_spec::{LaneSpec, Swing};
 use crate::sim::bodies::Range;
 use crate::sim::integrators::{METHODS, Method};
 
@@ -68,12 +68,12 @@ pub(super) const TOLERANCE: Field = Field::optional(
 pub(super) const JOINT_HZ: Field = Field::optional(
     "joint_hz",
     "the frequency that an engine is told of every spring, in place of its own",
-    Wanted::Number(LaneSpec::JOINT[0]),
+    Wanted::Number(Swing::RANGES[0]),
 );
 const JOINT_DAMPING_RATIO: Field = Field::optional(
     "joint_damping_ratio",
     "the damping ratio that it is told beside that; 0 if left out",
-    Wanted::Number(LaneSpec::JOINT[1]),
+    Wanted::Number(Swing::RANGES[1]),
 );
 
 /// A lane as far as it has been read.
@@ -109,12 +109,12 @@ pub(super) static SPEC: [Key<SpecDraft, LaneSpec>; 5] = [
     Key {
         field: JOINT_HZ,
         read: |spec, row, field| spec.joint_hz = row.number(field),
-        write: |spec| Some(number(spec.joint?[0])),
+        write: |spec| Some(number(spec.joint?.frequency_hz)),
     },
     Key {
         field: JOINT_DAMPING_RATIO,
         read: |spec, row, field| spec.joint_damping_ratio = row.number(field),
-        write: |spec| Some(number(spec.joint?[1])),
+        write: |spec| Some(number(spec.joint?.damping_ratio)),
     },
 ];
 
@@ -126,7 +126,8 @@ pub(super) fn read_lane_spec(row: &mut Table<'_>) -> Option<LaneSpec> {
     let SpecDraft { method, substeps, tolerance, joint_hz, joint_damping_ratio } = draft;
     let method = method?;
     let substeps = substeps.unwrap_or(method.default_substeps);
-    let joint = joint_hz.map(|hz| [hz, joint_damping_ratio.unwrap_or(0.0)]);
+    let damping_ratio = joint_damping_ratio.unwrap_or(0.0);
+    let joint = joint_hz.map(|frequency_hz| Swing { frequency_hz, damping_ratio });
     Some(LaneSpec { method, substeps, tolerance, joint })
 }
 

@@ -2,7 +2,7 @@
 
 use super::{MAX_COORDINATE, MAX_SUBSTEPS, MAX_TICK_HZ, TOLERANCES};
 use crate::lab::action::Action;
-use crate::lab::lane_spec::LaneSpec;
+use crate::lab::lane_spec::{LaneSpec, Swing};
 use crate::sim::bodies::MAX_VALUE;
 
 impl Action {
@@ -35,10 +35,7 @@ impl LaneSpec {
         let takes = |given: f64| {
             method.tolerance.is_some() && (TOLERANCES.0..=TOLERANCES.1).contains(&given)
         };
-        let is_told = |joint: [f64; 2]| {
-            let mut told = Self::JOINT.into_iter().zip(joint);
-            method.has_joint() && told.all(|(range, value)| range.contains(value))
-        };
+        let is_told = |joint: Swing| method.has_joint() && joint.is_in_range();
         (1..=MAX_SUBSTEPS).contains(substeps)
             && tolerance.is_none_or(takes)
             && joint.is_none_or(is_told)

@@ -2,7 +2,7 @@
 
 use super::Studio;
 use crate::lab::action::Action;
-use crate::lab::lane_spec::joint_per_mass;
+use crate::lab::lane_spec::Swing;
 use crate::lab::port::{Setup, setups};
 use crate::lab::race::LaneBody;
 
@@ -58,7 +58,7 @@ impl Studio {
         let spec = self.entries().get(entry)?;
         let tick_hz = f64::from(self.race().tick_hz());
         let setup = *setups(Some(&[spec.method]), tick_hz, Some(spec.substeps)).first()?;
-        let joint = spec.joint.map_or(spring.joint, joint_per_mass);
+        let joint = spec.joint.map_or(spring.joint, Swing::per_mass);
         Some(setup.code(setup.mode.values(joint, spring.mass_kg)) + "\n")
     }
 }

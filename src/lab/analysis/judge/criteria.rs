@@ -98,7 +98,8 @@ impl Judge {
             let Ok(Some(modes)) = Modes::of(truth, spec, tick_hz).await else { return false };
             let is_met = match criterion {
                 Criterion::Bounded => modes.are_bounded(),
-                _ => {
+                Criterion::Accurate => false,
+                Criterion::LooksRight => {
                     let error = modes.frequency_error();
                     truth.swing.is_some()
                         && error.is_some_and(|error| error.abs() <= FREQUENCY_TOLERANCE)
