@@ -50,5 +50,10 @@ fn a_text_of_another_program_is_pasted_into_a_field_and_a_text_of_a_field_into_a
     desk.copy_elsewhere("orbit");
     desk.press("ctrl+v Return");
     desk.titled("Regatta - orbit - Explicit Euler - 30 Hz");
+    // The run as a link, which is pasted like a path.
+    desk.press("ctrl+l");
+    until("the link on the clipboard", || desk.clipboard().starts_with("#v1.").then_some(()));
+    desk.press("o ctrl+a ctrl+v Return");
+    desk.titled("Regatta - a link - Explicit Euler - 30 Hz");
     desk.quit();
 }

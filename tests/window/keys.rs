@@ -59,6 +59,7 @@ fn every_key_of_the_table_does_what_the_table_says() {
         let others = [
             Command::Ask(DriverRequest::Screenshot),
             Command::Ask(DriverRequest::Record),
+            Command::Ask(DriverRequest::CopyLink),
             Command::View(ViewCommand::Copy),
             Command::Ask(DriverRequest::ExportInstrument),
             Command::Ask(DriverRequest::ToggleFullScreen),
