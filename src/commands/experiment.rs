@@ -289,7 +289,7 @@ fn scene_help() -> String {
     let names: Vec<&str> = first.map(|scene| scene.name).collect();
     format!(
         "A scene or the file of one [default: {}]\n\nStart with {}; `regatta list scenes` has all. What is no name is the path \
-         of a file.",
+         of a file, or a link to a run.",
         names[0],
         names.join(", ")
     )
