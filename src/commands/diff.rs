@@ -10,6 +10,7 @@ use super::help::flowing;
 use super::numbers::number_that;
 use super::output::print;
 use super::output::table::TableFormat;
+use super::scene_file::shown;
 use crate::lab::diff::{Comparison, Difference, LEVELS, MAX_WAITING, Tolerance, diff};
 use crate::sim::number::counted;
 
@@ -77,14 +78,14 @@ pub(super) fn run(args: &DiffArgs) -> Result<(), Error> {
     let mut b = Source::open(&args.b)?;
     let tolerance = Tolerance { ulps: args.ulps, relative: args.relative };
     let found = diff(&mut a, &mut b, tolerance).map_err(|error: Error| {
-        error.and(format!("a is {}, b is {}", args.a.display(), args.b.display()))
+        error.and(format!("a is {}, b is {}", shown(&args.a), shown(&args.b)))
     })?;
     print(match args.format {
         TableFormat::Text => words(&found, &args.a, &args.b),
         TableFormat::Json => object(&found),
     })
     .map_err(Error::into_mistake)?;
-    let names = format!("{} and {}", args.a.display(), args.b.display());
+    let names = format!("{} and {}", shown(&args.a), shown(&args.b));
     match (found.is_comparable(), found.is_same()) {
         (false, _) if found.is_cut_off => Err(Error::mistake(format!(
             "rows of one name stand more than {MAX_WAITING} rows apart in {names}; sort both alike"
@@ -103,7 +104,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<(), Error> {
 }
 
 fn words(found: &Comparison, a: &Path, b: &Path) -> String {
-    let mut lines = vec![format!("a: {}", a.display()), format!("b: {}", b.display())];
+    let mut lines = vec![format!("a: {}", shown(a)), format!("b: {}", shown(b))];
     match &found.first {
         _ if !found.is_comparable() => lines.push("nothing to compare".into()),
         None if found.is_same() => lines.push("the same".into()),

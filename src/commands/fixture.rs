@@ -193,7 +193,8 @@ fn about(scene: &Scene, studio: &Studio) -> Vec<String> {
         let (name, about, kind) = (&body.name, &body.kind.about, truth.truth().id());
         text += &format!("{name} ({kind}): {about}; q is {}\n", names.join(", "));
     }
-    text += &format!("\n{}", scene.to_toml());
+    let unchecked = Scene { checks: Vec::new(), ..scene.clone() };
+    text += &format!("\n{}", unchecked.to_toml());
     text.lines().map(str::to_owned).collect()
 }
 

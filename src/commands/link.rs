@@ -8,8 +8,12 @@ use super::error::Error;
 use super::help::flowing;
 use super::output::print;
 use super::scene_file;
+use super::terminal::print_status;
 use crate::lab::trace::last_tick;
 use crate::lab::{Session, link};
+
+/// What fits in an argument on every system, roughly.
+const MOST_LETTERS: usize = 100_000;
 
 const ABOUT: &str = "\
 The link holds the scene, its lanes, its script and the hashes at its end, so that `regatta verify LINK`
@@ -37,5 +41,12 @@ pub(super) fn run(args: &LinkArgs) -> Result<(), Error> {
         let last = last_tick(&scene);
         scene.checks = Session::racing(scene.clone().into()).recording(last).checks;
     }
-    print(format!("{}\n", link::to(&scene)))
+    let link = link::to(&scene).map_err(Error::mistake)?;
+    if link.len() > MOST_LETTERS {
+        print_status(&format!(
+            "warning: the link has {} letters, and a command line takes some {MOST_LETTERS}; share the file",
+            link.len()
+        ));
+    }
+    print(link + "\n")
 }

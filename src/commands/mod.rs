@@ -126,8 +126,26 @@ pub struct Cli {
 
 /// The most bytes of an argument: more than a path has. Messages quote arguments.
 const MAX_ARGUMENT_BYTES: usize = 4096;
-/// The commands whose first argument is a run, which may be a link.
-const TAKE_A_RUN: [&str; 3] = ["diff", "link", "verify"];
+
+/// Where a link stands for the scene that it is of, without an option before it, in a command that takes a scene.
+fn lone_link(arguments: &[OsString]) -> Option<usize> {
+    let cli = Cli::command();
+    let named = arguments.get(1).and_then(|one| cli.find_subcommand(one));
+    let command = named.unwrap_or(&cli);
+    let option = |written: &OsString| {
+        let name = written.to_str()?.strip_prefix("--")?;
+        command.get_arguments().find(|argument| argument.get_long() == Some(name))
+    };
+    option(&"--scene".into())?;
+    let is_lone = |at: &usize| {
+        let is_option = arguments[*at].to_str().is_some_and(|one| one.starts_with('-'));
+        let before = option(&arguments[at - 1]);
+        !is_option && before.is_none_or(|before| !before.get_action().takes_values())
+    };
+    let end = arguments.iter().position(|one| one == "--").unwrap_or(arguments.len());
+    let is_link = |at: &usize| scene_file::is_link(arguments[*at].as_ref());
+    (1..end).filter(is_link).find(is_lone)
+}
 
 impl Cli {
     /// Reads a command line, the program's name first.
@@ -148,10 +166,7 @@ impl Cli {
             );
             return Err(Self::command().error(ErrorKind::InvalidValue, message));
         }
-        // A link alone stands for the scene that it is of.
-        let takes_a_run = arguments.get(1).is_some_and(|one| TAKE_A_RUN.iter().any(|it| one == it));
-        let link = arguments.iter().position(is_link).filter(|_| !takes_a_run);
-        if let Some(at) = link.filter(|at| *at > 0 && arguments[at - 1] != "--scene") {
+        if let Some(at) = lone_link(&arguments) {
             arguments.insert(at, "--scene".into());
         }
         Self::try_parse_from(arguments)

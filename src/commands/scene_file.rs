@@ -49,7 +49,7 @@ pub(super) fn is_file(path: &Path) -> bool {
 
 /// Whether `path` is no path, but a link to a run.
 pub(super) fn is_link(path: &Path) -> bool {
-    path.to_str().is_some_and(link::is_link)
+    path.to_str().is_some_and(link::is_link) && !path.exists()
 }
 
 /// The path for people; a link is as long as its run.
@@ -62,7 +62,7 @@ fn built_in(path: &Path) -> Option<&'static BuiltIn> {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Error> {
-    if let Some(written) = path.to_str().filter(|written| link::is_link(written)) {
+    if let Some(written) = path.to_str().filter(|_| is_link(path)) {
         return link::text(written).map(String::into_bytes).map_err(Error::mistake);
     }
     regular_file::read(path, MAX_FILE_BYTES).map_err(|error| {

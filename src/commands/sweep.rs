@@ -182,7 +182,7 @@ impl SweepArgs {
         };
         let mut scenes: Vec<(String, Scene)> = spring.into_iter().collect();
         for path in paths {
-            let name = path.display().to_string();
+            let name = scene_file::shown(&path);
             if scenes.iter().all(|(other, _)| *other != name) {
                 scenes.push((name, scene_file::load(&path)?.0));
             }

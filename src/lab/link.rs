@@ -2,10 +2,10 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::URL_SAFE_NO_PAD;
-use miniz_oxide::deflate::compress_to_vec;
-use miniz_oxide::inflate::{TINFLStatus, decompress_to_vec_with_limit};
+use miniz_oxide::deflate::compress_to_vec_zlib;
+use miniz_oxide::inflate::{TINFLStatus, decompress_to_vec_zlib_with_limit};
 
-use super::scene::{MAX_FILE_BYTES, Scene};
+use super::scene::{Check, MAX_FILE_BYTES, Scene};
 
 /// What stands before the version, which ends at a point.
 const MARK: &str = "#v";
@@ -42,30 +42,57 @@ pub fn is_link(written: &str) -> bool {
     parts(written).is_some()
 }
 
-/// The version of a link, and what follows it.
+/// The version of a link, and the letters of its run.
 fn parts(written: &str) -> Option<(u32, &str)> {
-    let (_, after) = written.split_once(MARK)?;
+    let (_, after) = written.rsplit_once(MARK)?;
     let (version, run) = after.split_once('.')?;
-    Some((version.parse().ok()?, run))
+    let is_version = !version.is_empty() && version.bytes().all(|digit| digit.is_ascii_digit());
+    let run = run.split(SETTINGS).next().unwrap_or_default().trim_end();
+    // A version of many digits is newer, whichever it is.
+    is_version.then(|| (version.parse().unwrap_or(u32::MAX), run))
 }
 
-/// The link to a run, `#v1.` and letters that an address may have: its scene with its script, and of its checks the last.
+/// The ticks of a run's checks that a link keeps: few that are early too, for a motion may have come to rest at the end.
+fn kept(scene: &Scene) -> Vec<u64> {
+    let mut ticks: Vec<u64> = scene.checks.iter().map(|check| check.tick).collect();
+    ticks.sort_unstable();
+    ticks.dedup();
+    let places = [0, ticks.len() / 8, ticks.len().saturating_sub(1)];
+    match ticks.len() <= places.len() {
+        true => ticks,
+        false => places.map(|place| ticks[place]).into(),
+    }
+}
+
+/// The link to a run, `#v1.` and letters that an address may have: its scene with its script, and some of its checks, each
+/// lane's last among them.
+///
+/// # Errors
+/// If its text is longer than a scene file may be.
 ///
 /// ```
 /// use regatta::lab::{Scene, link};
 ///
 /// let scene = Scene::built_in("spring").expect("a built-in scene");
-/// let link = link::to(&scene);
+/// let link = link::to(&scene).expect("a short scene");
 /// assert!(link.starts_with("#v1.") && link.len() < 1000);
 /// let text = link::text(&link).expect("it was made just now");
 /// assert_eq!(Scene::parse("spring", &text).expect("a scene").to_toml(), scene.to_toml());
 /// ```
-pub fn to(scene: &Scene) -> String {
-    let mut scene = scene.clone();
-    let last = scene.checks.iter().map(|check| check.tick).max();
-    scene.checks.retain(|check| Some(check.tick) == last);
-    let packed = compress_to_vec(scene.to_toml().as_bytes(), LEVEL);
-    format!("{MARK}{VERSION}.{}", URL_SAFE_NO_PAD.encode(packed))
+pub fn to(scene: &Scene) -> Result<String, LinkError> {
+    let (kept, mut short) = (kept(scene), scene.clone());
+    let is_last = |check: &Check| {
+        let of_lane = scene.checks.iter().filter(|other| other.lane == check.lane);
+        of_lane.map(|other| other.tick).max() == Some(check.tick)
+    };
+    short.checks.retain(|check| kept.contains(&check.tick) || is_last(check));
+    let text = short.to_toml();
+    if text.len() > MAX_FILE_BYTES {
+        return Err(LinkError::TooLong);
+    }
+    // With a checksum: a letter that was changed must not be another run.
+    let packed = compress_to_vec_zlib(text.as_bytes(), LEVEL);
+    Ok(format!("{MARK}{VERSION}.{}", URL_SAFE_NO_PAD.encode(packed)))
 }
 
 /// The text of the scene file that a [link](is_link) holds, or an address that ends in one.
@@ -74,17 +101,18 @@ pub fn to(scene: &Scene) -> String {
 /// Why it holds none. It never unpacks more than a scene file may have.
 pub fn text(written: &str) -> Result<String, LinkError> {
     let (version, run) = parts(written).ok_or(LinkError::Broken)?;
-    if version > VERSION {
-        return Err(LinkError::Newer { version });
+    match version {
+        VERSION => {}
+        0 => return Err(LinkError::Broken),
+        _ => return Err(LinkError::Newer { version }),
     }
-    let run = run.split(SETTINGS).next().unwrap_or_default().trim_end();
     let packed = URL_SAFE_NO_PAD.decode(run).map_err(|_| LinkError::Broken)?;
     let bytes =
-        decompress_to_vec_with_limit(&packed, MAX_FILE_BYTES).map_err(|error| {
-            match error.status {
-                TINFLStatus::HasMoreOutput => LinkError::TooLong,
-                _ => LinkError::Broken,
-            }
+        decompress_to_vec_zlib_with_limit(&packed, MAX_FILE_BYTES).map_err(|error| match error
+            .status
+        {
+            TINFLStatus::HasMoreOutput => LinkError::TooLong,
+            _ => LinkError::Broken,
         })?;
     String::from_utf8(bytes).map_err(|_| LinkError::Broken)
 }
@@ -103,7 +131,7 @@ mod tests {
         }
         session.run(1);
         let recording = session.recording(session.race().tick());
-        let link = to(&recording);
+        let link = to(&recording).unwrap();
         // A minute, with a kick five times a second.
         assert!(link.len() < 8_000, "{} bytes", link.len());
         let around = format!("https://example.org/play/{link}&panels=off&play");
@@ -112,17 +140,29 @@ mod tests {
         again.run(session.race().tick());
         assert_eq!(again.race().state_hash(), session.race().state_hash());
         let last = recording.checks.last().unwrap();
-        assert!(read.checks.len() == recording.lanes.len() && read.checks.contains(last));
+        assert!(read.checks.len() == 3 * recording.lanes.len() && read.checks.contains(last));
     }
 
     #[test]
     fn what_leads_to_no_run_is_refused_in_a_sentence() {
-        let link = to(&Scene::built_in("spring").unwrap());
+        let link = to(&Scene::built_in("spring").unwrap()).unwrap();
         assert_eq!(text(&link.replace("#v1.", "#v2.")), Err(LinkError::Newer { version: 2 }));
-        for broken in ["#v1.", "#v1.%%%", "#v1.AAAA", &link[..link.len() / 2], "spring.toml"] {
+        let far = text(&link.replace("#v1.", "#v99999999999."));
+        assert!(matches!(far, Err(LinkError::Newer { .. })), "{far:?}");
+        assert!(text(&format!("https://x.org/#video/{link}")).is_ok());
+        // Whichever letter is another, it is no other run.
+        for place in "#v1.".len()..link.len() {
+            let other = if link.as_bytes()[place] == b'A' { "B" } else { "A" };
+            let mut changed = link.clone();
+            changed.replace_range(place..=place, other);
+            assert!(text(&changed).is_err(), "{place}");
+        }
+        for broken in
+            ["#v1.", "#v0.AAAA", "#v1.%%%", "#v1.AAAA", &link[..link.len() / 2], "spring.toml"]
+        {
             assert_eq!(text(broken), Err(LinkError::Broken), "{broken}");
         }
-        let bomb = compress_to_vec(&vec![b' '; 64 << 20], LEVEL);
+        let bomb = compress_to_vec_zlib(&vec![b' '; 64 << 20], LEVEL);
         let bomb = format!("#v1.{}", URL_SAFE_NO_PAD.encode(bomb));
         assert_eq!(text(&bomb), Err(LinkError::TooLong));
         assert!(!is_link("a#b.toml") && !is_link("spring") && is_link("x#v9.y"));

@@ -7,6 +7,7 @@ use super::race::{ActionResult, Journal, Mode, Observer, Race};
 use super::scene::Scene;
 
 mod event;
+mod hashes;
 mod recording;
 mod run_with_past;
 mod start;

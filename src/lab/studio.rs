@@ -249,9 +249,9 @@ impl Studio {
     /// As [`Session::recording_text`](super::Session::recording_text).
     pub fn link(&self) -> Result<String, RecordingError> {
         let recording = self.timeline.recording();
-        match recording.in_rust() {
-            Some(what) => Err(RecordingError::InRust { what: what.to_owned() }),
-            None => Ok(link::to(&recording)),
-        }
+        // What no file can hold, no link can.
+        recording_text(&recording)?;
+        link::to(&recording)
+            .map_err(|_| RecordingError::TooLong { bytes: recording.to_toml().len() })
     }
 }

@@ -128,6 +128,7 @@ pub(super) fn judge(path: &Path) -> Result<Report, Error> {
         _ => format!("{count} lanes of {shown} differ"),
     };
     let remedy = match lanes.iter().find_map(|lane| Some((lane.number, lane.left_at?))) {
+        None if scene_file::is_link(path) => "the run is another than where it was made".to_owned(),
         None => "if that is meant, --bless".to_owned(),
         Some((lane, tick)) => of_no_lane(path, lane, tick),
     };
@@ -140,7 +141,7 @@ fn of_no_lane(path: &Path, lane: impl Display, tick: u64) -> String {
     format!(
         "lane {lane} of {} has left the race at tick {tick}, where a [[check]] names it; \
          take that check out, or the `solo` that removes the lane",
-        path.display()
+        scene_file::shown(path)
     )
 }
 
@@ -151,7 +152,7 @@ fn check_ticks(path: &Path, scene: &Scene) -> Result<(), Error> {
     if let Some(tick) = last.filter(|tick| *tick > MAX_TICKS) {
         return Err(Error::mistake(format!(
             "{} has a [[check]] at tick {tick}, and verify runs {MAX_TICKS} ticks at most; take it out",
-            path.display()
+            scene_file::shown(path)
         )));
     }
     let end = Studio::new(scene.clone()).nearest_tick(scene.seconds);
@@ -163,7 +164,7 @@ fn check_ticks(path: &Path, scene: &Scene) -> Result<(), Error> {
     };
     print_status(&format!(
         "{count} {are} beyond the end of {} at tick {end} ({} s); the race runs on to tick {last}",
-        path.display(),
+        scene_file::shown(path),
         scene.seconds
     ));
     Ok(())
@@ -172,6 +173,11 @@ fn check_ticks(path: &Path, scene: &Scene) -> Result<(), Error> {
 /// Replaces the hashes in the checks of the file at `path` by those of a run now. A file without checks gets those
 /// of a [recording](Session::recording): of each lane at every second; fewer in a long run; and at the end.
 pub(super) fn bless(path: &Path) -> Result<(), Error> {
+    if scene_file::is_link(path) {
+        return Err(Error::mistake(
+            "a link is not blessed; bless its recording, and print the link anew",
+        ));
+    }
     let (scene, text) = scene_file::load(path)?;
     let text = if scene.checks.is_empty() {
         let end = Studio::new(scene.clone()).nearest_tick(scene.seconds);

@@ -9,6 +9,7 @@ use serde_json::{Map, Value, json};
 use crate::atomic_file::IfExists;
 use crate::commands::error::Error;
 use crate::commands::output::{Destination, Output, print};
+use crate::commands::scene_file::shown;
 
 /// The format of a file that holds the result.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -91,7 +92,7 @@ impl Report {
 
     /// As JSON, for programs.
     fn to_json(&self) -> String {
-        let path = self.path.display().to_string();
+        let path = shown(&self.path);
         let mut object = json!({ self.key: path, "same": self.differing() == 0 });
         for (key, value) in &self.fields {
             object[key] = value.clone();
@@ -104,7 +105,7 @@ impl Report {
         let mut text = format!(
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
              <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\">\n",
-            escaped(&format!("regatta verify {}", self.path.display())),
+            escaped(&format!("regatta verify {}", shown(&self.path))),
             self.cases.len(),
             self.differing(),
         );

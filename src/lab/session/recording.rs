@@ -1,5 +1,6 @@
 //! A run as a scene: its start, its actions, and its states as checks.
 
+use super::hashes::Hashes;
 use super::{Session, Timeline};
 use crate::lab::action::Action;
 use crate::lab::lane_id::LaneId;
@@ -8,12 +9,6 @@ use crate::lab::scene::{Check, MAX_FILE_BYTES, MIN_SECONDS, Scene, Scripted};
 
 /// The most checks of a recording, so that its file is not too large to read. A long run has fewer than one per second.
 const MAX_CHECKS: usize = 8_000;
-
-/// The most hashes that are noted.
-const MAX_NOTED: usize = 4 * MAX_CHECKS;
-
-/// The tolerance in seconds for the end of a second: times may be off by their last bits.
-const ON_TIME_S: f64 = 1e-6;
 
 /// Why a run cannot be recorded.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -100,39 +95,6 @@ impl Timeline {
             scene.seconds = told.t().max(MIN_SECONDS);
         }
         scene
-    }
-}
-
-/// The hash of each lane of a run at a tick.
-#[derive(Clone)]
-pub(super) struct Hashes {
-    pub(super) tick: u64,
-    /// The second that has begun last.
-    second: f64,
-    of_lanes: Vec<(LaneId, u64)>,
-}
-
-impl Hashes {
-    pub(super) fn of(race: &Race) -> Self {
-        let ids = race.entrants().iter().map(|entrant| entrant.id);
-        let second = libm::floor(race.t() + ON_TIME_S);
-        Self { tick: race.tick(), second, of_lanes: ids.zip(race.lane_hashes()).collect() }
-    }
-}
-
-/// Notes the hashes of a race at a tick that it has just made first, once a second; of a long run, at fewer.
-pub(super) fn note_hashes(hashes: &mut Vec<Hashes>, race: &Race) {
-    let last = hashes.last().map_or(0.0, |last| last.second);
-    if race.t() + ON_TIME_S < last + 1.0 {
-        return;
-    }
-    hashes.push(Hashes::of(race));
-    if hashes.len() * race.entrants().len() > MAX_NOTED {
-        let mut is_odd = false;
-        hashes.retain(|_| {
-            is_odd = !is_odd;
-            !is_odd
-        });
     }
 }
 

@@ -1,6 +1,6 @@
 //! A run as far as it was reached: its present, its drawn past, its snapshots and what happened in it.
 
-use super::recording::Hashes;
+use super::hashes::Hashes;
 use super::{Event, Session};
 use crate::lab::past::{Past, PastMark};
 use crate::lab::race::{Journal, Race};

@@ -3,7 +3,7 @@
 
 use std::mem::{replace, take};
 
-use super::recording::{Hashes, note_hashes};
+use super::hashes::{Hashes, note_hashes};
 use super::run_with_past::{RunWithPast, Snapshot};
 use super::start::StartSettings;
 use super::undo::{Change, Exchanged, Future, Other, UndoStack};

@@ -1,7 +1,7 @@
 //! The changes of a person that can be undone, and those that can be done again: one stack for all of them.
 
 use super::Event;
-use super::recording::Hashes;
+use super::hashes::Hashes;
 use super::run_with_past::{RunWithPast, Snapshot};
 use super::start::StartSettings;
 use crate::lab::race::JournalRow;

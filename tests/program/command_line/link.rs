@@ -23,11 +23,30 @@ fn a_link_stands_for_its_run_alone_and_after_an_address_and_is_verified_to_the_b
         );
         assert!(stdout_of(&format!("verify {written}")).contains("same"), "{written}");
     }
+    assert_eq!(stdout_of(&format!("trace --scene={link} --seconds 3")).into_bytes(), of_file);
     assert_eq!(stdout_of(&format!("link {link}")).trim(), link);
     let same = run_in(folder.path(), &format!("diff {link} run.toml"));
     assert_eq!(same.status.code(), Some(0), "{}", stderr(&same));
     let other = run_in(folder.path(), &format!("diff harbour {link}"));
     assert_eq!(other.status.code(), Some(1), "{}", stderr(&other));
+}
+
+#[test]
+fn a_file_that_is_called_like_a_link_is_a_file_and_another_options_value_is_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::copy("assets/scenes/spring.toml", folder.path().join("a#v2.toml")).unwrap();
+    let done = run_in(folder.path(), "trace --scene a#v2.toml --seconds 0.1");
+    assert_eq!(done.status.code(), Some(0), "{}", stderr(&done));
+    let done = run_in(folder.path(), "sweep --scene spring --seconds 0.1 --out b#v1.csv");
+    assert_eq!(done.status.code(), Some(0), "{}", stderr(&done));
+    assert!(folder.path().join("b#v1.csv").exists());
+    let link = stdout_of("link spring");
+    let link = link.trim();
+    assert!(refusal(&format!("list {link}"), 2).contains("invalid value"));
+    assert!(refusal(&format!("verify {link} --bless"), 2).contains("a link is not blessed"));
+    let report = folder.path().join("report.json");
+    stdout_of(&format!("verify {link} --report json {}", report.display()));
+    assert!(fs::read_to_string(report).unwrap().contains("\"file\": \"the link\""));
 }
 
 #[test]
