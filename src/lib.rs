@@ -174,10 +174,6 @@ mod regular_file;
 #[warn(clippy::print_stdout)]
 pub mod sim;
 #[cfg(any(feature = "cli", feature = "window"))]
-#[cfg_attr(
-    not(feature = "cli"),
-    allow(dead_code, reason = "only the commands tell how noisy it was")
-)]
 mod stopwatch;
 #[cfg(feature = "view")]
 #[cfg_attr(not(test), warn(clippy::disallowed_methods, clippy::disallowed_types))]

@@ -4,8 +4,15 @@ use std::fs::{File, Metadata};
 use std::io::{self, Read};
 use std::path::Path;
 
+use crate::lab::link;
+
 /// The most bytes of a table that is read, a log of a motion or of frames: half an hour of frames at 144 Hz.
 pub(crate) const MAX_TABLE_BYTES: usize = 64 << 20;
+
+/// Whether a path that a person names is that of no file, but a link to a run.
+pub(crate) fn is_link(path: &Path) -> bool {
+    path.to_str().is_some_and(link::is_link) && !path.exists()
+}
 
 /// Why a file is not read, with the remedy.
 #[derive(Debug, thiserror::Error)]

@@ -15,33 +15,21 @@ const TOGETHER: u64 = 256;
 const MIN_RUNS: usize = 5;
 const PATIENCE: u32 = 20;
 
-/// The cost of a lane.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Timing {
-    /// Nanoseconds per simulated second, in the fastest run.
-    pub(crate) ns_per_s: f64,
-    /// The relative excess of the median run over the fastest.
-    pub(crate) spread: f64,
-}
-
-/// Times what is `made`, at this many ticks per second, for `ticks` ticks or until `effort` has passed, and repeats that until `effort` has passed, and a few
-/// times more on a busy machine. `None` if `ticks` is 0.
+/// The nanoseconds per tick of what is `made`, run by run, from least to most. A run is `ticks` ticks, or fewer where
+/// `effort` passes first; it is repeated until `effort` has passed, and a few times more on a busy machine. None if `ticks`
+/// is 0.
 ///
 /// It must not halt within these ticks: a halted lane costs nothing.
-pub(crate) fn time(
-    made: impl Fn(u32) -> Follow<'static, Lane>,
-    tick_hz: u32,
+pub(crate) fn ns_per_tick(
+    made: impl Fn() -> Follow<'static, Lane>,
     ticks: u64,
     effort: Duration,
-) -> Option<Timing> {
+) -> Vec<f64> {
     if ticks == 0 {
-        return None;
+        return Vec::new();
     }
     let begin = Instant::now();
-    let runs = runs(effort, || begin.elapsed(), || ns_per_tick(&|| made(tick_hz), ticks, effort));
-    let least = *runs.first()?;
-    let spread = runs[runs.len() / 2] / least - 1.0;
-    Some(Timing { ns_per_s: least * f64::from(tick_hz), spread })
+    runs(effort, || begin.elapsed(), || ns_per_tick_of_a_run(&made, ticks, effort))
 }
 
 /// What `run` returns, from least to most, repeated until `elapsed` is the `effort` and there are a few.
@@ -62,8 +50,12 @@ fn runs(
     }
 }
 
-/// Nanoseconds per tick, over as many runs as have [`TOGETHER`] ticks; over one, if that takes `effort`.
-fn ns_per_tick(made: &impl Fn() -> Follow<'static, Lane>, ticks: u64, effort: Duration) -> f64 {
+/// Nanoseconds per tick, over as many copies as have [`TOGETHER`] ticks; over one, if that takes `effort`.
+fn ns_per_tick_of_a_run(
+    made: &impl Fn() -> Follow<'static, Lane>,
+    ticks: u64,
+    effort: Duration,
+) -> f64 {
     // To make a lane may take longer than to step it.
     let (mut elapsed, mut done) = elapsed_in(made, ticks, effort, 1);
     if done < TOGETHER && elapsed < effort {
@@ -127,11 +119,11 @@ mod tests {
     fn a_run_of_some_ticks_has_a_cost_and_one_of_none_has_not() {
         let scene = Scene::built_in("chain").unwrap();
         let solver = Solver::Method(method("rk4").unwrap());
-        let made = |tick_hz| Follow::new(Lane::new(&scene, solver, 1), tick_hz);
+        let made = || Follow::new(Lane::new(&scene, solver, 1), 60);
         for ticks in [1, 60, 2 * TOGETHER] {
-            let cost = time(made, 60, ticks, Duration::from_millis(1)).map(|it| it.ns_per_s);
+            let cost = ns_per_tick(made, ticks, Duration::from_millis(1)).first().copied();
             assert!(cost.is_some_and(|ns| ns.is_finite() && ns > 0.0), "{ticks} ticks: {cost:?}");
         }
-        assert!(time(made, 60, 0, Duration::from_millis(1)).is_none());
+        assert!(ns_per_tick(made, 0, Duration::from_millis(1)).is_empty());
     }
 }

@@ -19,11 +19,12 @@ mod source;
 use source::Source;
 
 const ABOUT: &str = "\
-A run is a table, of `regatta trace` or with a column for each number, split by commas, semicolons or tabs; the run of a scene or of a
-recording, which is made again; the states in the manifest of a capture; or - for a table on standard
-input. Rows belong together by tick, lane, body and coordinate, or by those of them that the tables have. A
-table without tick is matched by t, and without t by the place of the row. All other columns but t and
-method are compared. A row on one side alone is counted under the side that lacks it.
+A run is a table, of `regatta trace` or with a column for each number, split by commas, semicolons or
+tabs; the run of a scene or of a recording, which is made again; the states in the manifest of a
+capture; or - for a table on standard input. Rows belong together by tick, lane, body and coordinate,
+or by those of them that the tables have. A table without tick is matched by t, and without t by the
+place of the row. All columns but these, t and method are compared. A row on one side alone is counted
+under the side that lacks it.
 
 The last bit counts, unless --ulps or --relative says what is equal. NaN is the same as NaN, and -0 as 0.
 A difference reaches 1e-12 at the first tick where it is that part of the largest value that this column of

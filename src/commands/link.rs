@@ -9,8 +9,8 @@ use super::help::flowing;
 use super::output::print;
 use super::scene_file;
 use super::terminal::print_status;
-use crate::lab::trace::last_tick;
-use crate::lab::{Session, link};
+use super::verify::recording::checks_of;
+use crate::lab::link;
 
 /// What fits in an argument on every system, roughly.
 const MOST_LETTERS: usize = 100_000;
@@ -38,8 +38,7 @@ pub(super) struct LinkArgs {
 pub(super) fn run(args: &LinkArgs) -> Result<(), Error> {
     let (mut scene, _) = scene_file::load(&args.run)?;
     if scene.checks.is_empty() {
-        let last = last_tick(&scene);
-        scene.checks = Session::racing(scene.clone().into()).recording(last).checks;
+        scene.checks = checks_of(&scene);
     }
     let link = link::to(&scene).map_err(Error::mistake)?;
     if link.len() > MOST_LETTERS {

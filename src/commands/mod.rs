@@ -129,6 +129,12 @@ const MAX_ARGUMENT_BYTES: usize = 4096;
 
 /// Where a link stands for the scene that it is of, without an option before it, in a command that takes a scene.
 fn lone_link(arguments: &[OsString]) -> Option<usize> {
+    let end = arguments.iter().position(|one| one == "--").unwrap_or(arguments.len());
+    let is_link = |at: &usize| scene_file::is_link(arguments[*at].as_ref());
+    let links: Vec<usize> = (1..end).filter(is_link).collect();
+    if links.is_empty() {
+        return None;
+    }
     let cli = Cli::command();
     let named = arguments.get(1).and_then(|one| cli.find_subcommand(one));
     let command = named.unwrap_or(&cli);
@@ -142,9 +148,7 @@ fn lone_link(arguments: &[OsString]) -> Option<usize> {
         let before = option(&arguments[at - 1]);
         !is_option && before.is_none_or(|before| !before.get_action().takes_values())
     };
-    let end = arguments.iter().position(|one| one == "--").unwrap_or(arguments.len());
-    let is_link = |at: &usize| scene_file::is_link(arguments[*at].as_ref());
-    (1..end).filter(is_link).find(is_lone)
+    links.into_iter().find(is_lone)
 }
 
 impl Cli {

@@ -6,6 +6,7 @@ use super::error::Error;
 use super::terminal::print_status;
 use crate::lab::link;
 use crate::lab::scene::{BuiltIn, MAX_FILE_BYTES, SCENES, Scene, SceneErrors, nearest};
+pub(super) use crate::regular_file::is_link;
 use crate::regular_file::{self, Unreadable};
 use crate::sim::integrators::Method;
 
@@ -45,11 +46,6 @@ pub(super) fn is_built_in(path: &Path) -> bool {
 /// Whether `path` is the path of a file.
 pub(super) fn is_file(path: &Path) -> bool {
     !is_built_in(path) && !is_link(path)
-}
-
-/// Whether `path` is no path, but a link to a run.
-pub(super) fn is_link(path: &Path) -> bool {
-    path.to_str().is_some_and(link::is_link) && !path.exists()
 }
 
 /// The path for people; a link is as long as its run.

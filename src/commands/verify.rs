@@ -18,7 +18,7 @@ mod clip;
 mod physics;
 #[cfg(feature = "view")]
 mod pixels;
-mod recording;
+pub(super) mod recording;
 mod report;
 mod rerun;
 

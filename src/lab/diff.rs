@@ -264,8 +264,7 @@ struct Work {
     key: Vec<u8>,
     sides: [Side; 2],
     found: Comparison,
-    /// Whether a row waited too long, and whether rows go back: then its like may be still to come.
-    is_cut_off: bool,
+    /// Whether rows go back: then the like of one that has waited too long may be still to come.
     is_out_of_order: bool,
     /// Where the first difference is.
     first: Option<(u64, u64)>,
@@ -286,7 +285,6 @@ impl Work {
             key: Vec::new(),
             sides: Default::default(),
             found,
-            is_cut_off: false,
             is_out_of_order: false,
             first: None,
             worst,
@@ -345,7 +343,7 @@ impl Work {
             queue.retain(|(at, n)| waiting.get(at).is_some_and(|row| row.number == *n));
         }
         let is_full = own.waiting.len() > MAX_WAITING;
-        self.is_cut_off |= is_full;
+        self.found.is_cut_off |= is_full;
         let lost =
             twice.map(|twice| (place, twice)).or_else(|| if is_full { own.oldest() } else { None });
         if let Some((place, lost)) = lost {
@@ -387,11 +385,10 @@ impl Work {
                 self.differs(place, number, (rows[0], Some(column)), values, (None, None));
                 continue;
             };
-            if is_same_number(a, b) && hide_a_difference(cells, a) {
-                self.differs(place, number, (rows[0], Some(column)), values, (None, None));
-                continue;
-            }
             if is_same_number(a, b) {
+                if hide_a_difference(cells, a) {
+                    self.differs(place, number, (rows[0], Some(column)), values, (None, None));
+                }
                 self.found.zeros_of_two_signs +=
                     u64::from(a == 0.0 && a.is_sign_negative() != b.is_sign_negative());
                 self.found.nans += u64::from(a.is_nan());
@@ -470,7 +467,7 @@ impl Work {
         self.found.worst =
             most.map(|(column, part)| (self.layout.values[column].name.clone(), *part));
         self.found.per_second = self.growth.per_second();
-        self.found.is_cut_off = self.is_cut_off && self.is_out_of_order;
+        self.found.is_cut_off &= self.is_out_of_order;
         self.found
     }
 }

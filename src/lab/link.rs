@@ -1,10 +1,13 @@
 //! A run in an address: the text of its recording, compressed, after `#v1.`, where no server sees it.
 
+use std::collections::BTreeMap;
+
 use base64::Engine;
 use base64::engine::general_purpose::URL_SAFE_NO_PAD;
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use miniz_oxide::inflate::{TINFLStatus, decompress_to_vec_zlib_with_limit};
 
+use super::LaneId;
 use super::scene::{Check, MAX_FILE_BYTES, Scene};
 
 /// What stands before the version, which ends at a point.
@@ -81,11 +84,13 @@ fn kept(scene: &Scene) -> Vec<u64> {
 /// ```
 pub fn to(scene: &Scene) -> Result<String, LinkError> {
     let (kept, mut short) = (kept(scene), scene.clone());
-    let is_last = |check: &Check| {
-        let of_lane = scene.checks.iter().filter(|other| other.lane == check.lane);
-        of_lane.map(|other| other.tick).max() == Some(check.tick)
-    };
-    short.checks.retain(|check| kept.contains(&check.tick) || is_last(check));
+    let mut last = BTreeMap::<LaneId, u64>::new();
+    for Check { tick, lane, .. } in &scene.checks {
+        let last = last.entry(*lane).or_default();
+        *last = (*last).max(*tick);
+    }
+    let stays = |check: &Check| kept.contains(&check.tick) || last[&check.lane] == check.tick;
+    short.checks.retain(stays);
     let text = short.to_toml();
     if text.len() > MAX_FILE_BYTES {
         return Err(LinkError::TooLong);

@@ -21,21 +21,29 @@ pub(super) struct GrowingRecording {
     asked: Option<Instant>,
 }
 
-/// What a recording is of: two that are alike have the same text.
+/// A recording, and what it is of: two that are of the same have the same text.
 #[derive(Clone)]
 pub(super) struct Grown {
     scene: Arc<Scene>,
     journal: Journal,
     end: u64,
-    recording: Option<Box<Scene>>,
+    recording: Box<Scene>,
 }
 
 impl Grown {
-    /// What the recording of a studio's run would be of, without that.
+    /// The recording of a studio's run so far.
     fn of(studio: &Studio) -> Self {
-        let session = studio.timeline().session();
-        let (scene, journal) = (Arc::clone(session.scene()), session.journal().clone());
-        Self { scene, journal, end: studio.timeline().end(), recording: None }
+        let (timeline, session) = (studio.timeline(), studio.timeline().session());
+        Self {
+            scene: Arc::clone(session.scene()),
+            journal: session.journal().clone(),
+            end: timeline.end(),
+            recording: timeline.recording().into(),
+        }
+    }
+
+    fn is_of(&self, scene: &Arc<Scene>, journal: &Journal, end: u64) -> bool {
+        Arc::ptr_eq(&self.scene, scene) && self.end == end && self.journal == *journal
     }
 }
 
@@ -45,19 +53,20 @@ impl GrowingRecording {
         Self { thread: WorkThread::new(keeper, None, events), asked: None }
     }
 
-    /// Records the run so far, if that is due.
+    /// Records the run so far, if that is due and it has grown.
     pub(super) fn update(&mut self, studio: &Studio, now: Instant) {
-        if self.asked.is_none_or(|asked| now.duration_since(asked) >= EVERY) {
+        if self.left(studio, now) == Some(Duration::ZERO) {
             self.asked = Some(now);
-            let recording = Some(studio.timeline().recording().into());
-            self.thread.ask(Some(Grown { recording, ..Grown::of(studio) }));
+            self.thread.ask(Some(Grown::of(studio)));
         }
     }
 
     /// The time until it is due again; `None` if all that was done is recorded.
     pub(super) fn left(&self, studio: &Studio, now: Instant) -> Option<Duration> {
         let passed = self.asked.map_or(EVERY, |asked| now.duration_since(asked));
-        let is_new = !Keeper::is_same(self.thread.request(), &Some(Grown::of(studio)));
+        let (end, session) = (studio.timeline().end(), studio.timeline().session());
+        let is_known = |grown: &Grown| grown.is_of(session.scene(), session.journal(), end);
+        let is_new = !self.thread.request().as_ref().is_some_and(is_known);
         is_new.then(|| EVERY.saturating_sub(passed))
     }
 }
@@ -73,11 +82,7 @@ impl Work for Keeper {
 
     fn is_same(one: &Self::Request, other: &Self::Request) -> bool {
         match (one, other) {
-            (Some(one), Some(other)) => {
-                Arc::ptr_eq(&one.scene, &other.scene)
-                    && one.end == other.end
-                    && one.journal == other.journal
-            }
+            (Some(one), Some(other)) => one.is_of(&other.scene, &other.journal, other.end),
             (one, other) => one.is_none() && other.is_none(),
         }
     }
@@ -87,11 +92,8 @@ impl Work for Keeper {
     }
 
     fn work(&mut self, _: &dyn Fn() -> bool) -> (Option<Event>, bool) {
-        let recording = self.run.as_ref().and_then(|run| run.recording.as_ref());
-        let (Some(keep), Some(recording)) = (&mut self.keep, recording) else {
-            return (None, false);
-        };
-        let text = recording_text(recording).map_err(|error| error.to_string());
+        let (Some(keep), Some(run)) = (&mut self.keep, &self.run) else { return (None, false) };
+        let text = recording_text(&run.recording).map_err(|error| error.to_string());
         if let Err(reason) = text.and_then(|text| keep(&text)) {
             // Said once. The window may still save the run when it is closed.
             self.keep = None;

@@ -4,7 +4,6 @@ use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use std::sync::Arc;
 
 use crate::lab::diff::{Comparison, NotComparable, Tolerance, diff};
-use crate::lab::link;
 use crate::lab::pacing::{FrameTrace, trace_file};
 use crate::lab::scene::{Mistake, SCENES, Scene};
 use crate::lab::studio::{SceneList, StageCommand, Studio, ViewCommand};
@@ -71,7 +70,7 @@ impl Asked {
 
     /// Whether it is no file, but a link to a run.
     fn is_link(&self) -> bool {
-        self.path.to_str().is_some_and(link::is_link)
+        regular_file::is_link(&self.path)
     }
 
     /// Reads the file, and whatever its first frame would wait for. A disk can be slow, and a large net takes longer than a
@@ -195,6 +194,7 @@ pub(super) fn completed(typed: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::link;
     use crate::lab::studio::Dialog;
 
     /// Reads scene files without the command line's options.

@@ -66,12 +66,12 @@ impl TickTimer {
 /// The nanoseconds of a tick of each lane; `None` of one that halts.
 fn timed(Lanes { lanes, t, tick_hz }: &Lanes) -> Vec<(LaneSpec, Option<f64>)> {
     let time = |lane: &Lane| {
-        let made = |hz| Follow::new(lane.clone(), hz).from_time(*t);
-        let mut run = made(*tick_hz);
+        let made = || Follow::new(lane.clone(), *tick_hz).from_time(*t);
+        let mut run = made();
         run.run(TICKS, |_, _| ControlFlow::Continue(()));
-        let timing = || stopwatch::time(made, *tick_hz, TICKS, EFFORT);
-        let timing = if run.body.halted().is_some() { None } else { timing() };
-        timing.map(|timing| timing.ns_per_s / f64::from(*tick_hz))
+        let is_halted = run.body.halted().is_some();
+        let least = || stopwatch::ns_per_tick(made, TICKS, EFFORT).first().copied();
+        if is_halted { None } else { least() }
     };
     lanes.iter().map(|(spec, lane)| (*spec, time(lane))).collect()
 }

@@ -158,6 +158,18 @@ fn each_says_whether_it_shows_the_motion() {
     ] {
         assert_eq!(reach(id, ratio), wanted, "{id} {ratio}");
     }
+    // What never explodes and what is the same at every frame rate.
+    for fps in [0.01, 1.0, 24.0, 60.0, 1000.0] {
+        let [smooth, exact] = ["unity-smooth-damp", "compose"].map(|id| {
+            let port = dialect(id).port(&swings(2.0, 1.0), fps);
+            assert!(port.is_stable && port.explodes_below_hz.is_none(), "{id}, {fps} fps");
+            port.seen
+        });
+        assert_eq!(exact.unwrap().damping_ratio(), Some(1.0));
+        // Within its rational function's error up to a step of 1 / ω.
+        let seen = smooth.map_or(0.0, |seen| seen.undamped_hz());
+        assert!(fps < 13.0 || (seen / 2.0 - 1.0).abs() < 0.01, "{fps} fps: {seen}");
+    }
     let whole = dialect("flutter-duration").port(&swings(3.0, 0.5), 60.0);
     assert_eq!((whole.reach, whole.values[0]), (Reach::Nearest, 0.333));
     for Dialect { id, keys, source, .. } in DIALECTS {

@@ -11,13 +11,31 @@ use crate::commands::terminal::{print_status, progress};
 use crate::lab::analysis::{Adviser, CRITERIA, CriterionMet, MethodAdvice, ranked, recommended};
 use crate::lab::{Follow, Lane, LaneSpec, Scene};
 use crate::sim::number::significant;
-use crate::stopwatch::{self, Timing};
+use crate::stopwatch;
+
+/// The measured cost of a lane.
+#[derive(Clone, Copy, Debug)]
+struct Timing {
+    /// Nanoseconds per simulated second, in the fastest run.
+    ns_per_s: f64,
+    /// The relative excess of the median run over the fastest.
+    spread: f64,
+}
+
+impl Timing {
+    /// Of runs in nanoseconds per tick, from least to most, at this many ticks per second; `None` if there are none.
+    fn of(runs: &[f64], tick_hz: u32) -> Option<Self> {
+        let least = *runs.first()?;
+        let spread = runs[runs.len() / 2] / least - 1.0;
+        Some(Self { ns_per_s: least * f64::from(tick_hz), spread })
+    }
+}
 
 /// A method judged, and its measured costs.
 pub(super) struct Row {
     pub(super) advised: MethodAdvice,
     /// For each criterion that is met.
-    pub(super) timings: [Option<Timing>; CRITERIA.len()],
+    timings: [Option<Timing>; CRITERIA.len()],
     /// For each criterion the slowest rate, where rates were asked for.
     pub(super) rates: Option<[Option<u32>; CRITERIA.len()]>,
 }
@@ -91,7 +109,8 @@ impl Row {
                 None => {
                     let spec = LaneSpec { substeps: met.substeps, ..self.advised.spec };
                     let lane = || Lane::new(scene, spec.solver(), spec.substeps);
-                    stopwatch::time(|hz| Follow::new(lane(), hz), scene.tick_hz, ticks, EFFORT)
+                    let made = || Follow::new(lane(), scene.tick_hz);
+                    Timing::of(&stopwatch::ns_per_tick(made, ticks, EFFORT), scene.tick_hz)
                 }
             };
         }

@@ -13,6 +13,7 @@ use crate::commands::scene_file;
 use crate::commands::terminal::print_status;
 use crate::lab::race::{Observer, Race, Resumed};
 use crate::lab::scene::{Check, Scene};
+use crate::lab::trace::last_tick;
 use crate::lab::{Action, Session, Studio};
 use crate::sim::number::counted;
 
@@ -180,9 +181,7 @@ pub(super) fn bless(path: &Path) -> Result<(), Error> {
     }
     let (scene, text) = scene_file::load(path)?;
     let text = if scene.checks.is_empty() {
-        let end = Studio::new(scene.clone()).nearest_tick(scene.seconds);
-        let checks = Session::racing(scene.clone().into()).recording(end).checks;
-        let rows: String = checks.iter().map(Check::to_toml).collect();
+        let rows: String = checks_of(&scene).iter().map(Check::to_toml).collect();
         with_line_ends_of(&text, &format!("{}\n{rows}", text.trim_end()))
     } else {
         let mut hashes: Vec<u64> = scene.checks.iter().map(|check| check.hash).collect();
@@ -198,6 +197,11 @@ pub(super) fn bless(path: &Path) -> Result<(), Error> {
     Destination { path, option: "FILE", if_exists: IfExists::Replace }.write(&text)?;
     print_status(&format!("blessed: {}", path.display()));
     Ok(())
+}
+
+/// The checks of a run of a scene that has none: of every lane, once a second and at the end.
+pub(in crate::commands) fn checks_of(scene: &Scene) -> Vec<Check> {
+    Session::racing(scene.clone().into()).recording(last_tick(scene)).checks
 }
 
 /// The text with CRLF at the end of every line if `before` ends its first line so, or else as it is.

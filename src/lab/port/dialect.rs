@@ -12,8 +12,10 @@ use super::seen::{is_stable, map_of_step, seen};
 use super::{REACHED, Reach, Wish};
 use crate::lab::bisection::bisect;
 use crate::lab::identify::Effective;
+use crate::sim::bodies::Spring;
 use crate::sim::integrators::{in_code, method};
 use crate::sim::number::significant;
+use crate::sim::{Body, State};
 
 /// A number that a library takes.
 #[derive(Debug)]
@@ -38,8 +40,8 @@ enum Steps {
     Exact,
     /// Along straight lines between points of the closed form.
     Sampled,
-    /// By this method once a frame.
-    PerFrame(&'static str),
+    /// By semi-implicit Euler once a frame.
+    PerFrame,
     /// By semi-implicit Euler in steps of 1 ms, whose count is rounded up, but no more than 64 a frame.
     Milliseconds,
     /// By the follower `smooth-damp` once a frame.
@@ -282,7 +284,7 @@ pub static DIALECTS: &[Dialect] = &[
         id: "per-frame",
         name: "two lines of your own, once a frame",
         source: "semi-implicit Euler with the force of the start of the frame",
-        steps: Steps::PerFrame("semi-implicit-euler"),
+        steps: Steps::PerFrame,
         code: "v += (<stiffness> * (target - x) - <damping> * v) / <mass> * dt; x += v * dt;",
         ..EQUATION
     },
@@ -314,26 +316,15 @@ fn whole_milliseconds([seconds, second, third]: Values) -> Values {
     [(1e3 * seconds).round().max(1.0) / 1e3, second, third]
 }
 
-/// How far the way of an undamped frequency of 1 rad/s from rest is from its end at this angle.
-fn left(ratio: f64, angle: f64) -> f64 {
-    let apart = libm::sqrt((ratio * ratio - 1.0).abs());
-    if apart < 1e-7 {
-        return (1.0 + angle) * libm::exp(-angle);
-    }
-    match ratio < 1.0 {
-        true => {
-            let (sin, cos) = (libm::sin(apart * angle), libm::cos(apart * angle));
-            libm::exp(-ratio * angle) * (cos + ratio / apart * sin)
-        }
-        // The slower rate by the product of both, which does not cancel.
-        false => {
-            let (fast, slow) = (ratio + apart, 1.0 / (ratio + apart));
-            (fast * libm::exp(-slow * angle) - slow * libm::exp(-fast * angle)) / (fast - slow)
-        }
-    }
+/// The part of the way that is left at this angle, the time times ω, to a spring of this damping ratio that began at rest.
+fn left(damping_ratio: f64, angle: f64) -> f64 {
+    let spring =
+        Spring { mass: 1.0, stiffness: 1.0, damping: 2.0 * damping_ratio, ..Spring::default() };
+    let left = spring.exact(angle, &State { q: 1.0, v: 0.0 });
+    left.expect("a spring has a closed form").q
 }
 
-/// The angle at which a ratio of 1 or more has so little left.
+/// The angle at which a spring of a damping ratio of 1 or more has [`OVER`] of its way left.
 fn angle_of(ratio: f64) -> f64 {
     bisect([0.0, 40.0 * ratio], HALVINGS, |angle| left(ratio, angle) > OVER)[0]
 }
@@ -431,8 +422,7 @@ impl Dialect {
     pub fn steps(&self) -> &'static str {
         match self.steps {
             Steps::Exact | Steps::Sampled => "exact",
-            Steps::PerFrame(id) => id,
-            Steps::Milliseconds => "semi-implicit-euler",
+            Steps::PerFrame | Steps::Milliseconds => "semi-implicit-euler",
             Steps::SmoothDamp => "smooth-damp",
         }
     }
@@ -447,8 +437,10 @@ impl Dialect {
             Steps::Sampled if is_told => curve(wish, values),
             _ => Default::default(),
         };
-        let seen = self.seen(&told, frame_hz).filter(|_| is_told && error <= ASTRAY);
-        let is_stable = self.is_stable(&told, frame_hz);
+        let map = self.map(&told, frame_hz);
+        let is_stable = map.as_ref().is_none_or(StepMap::is_stable);
+        let seen = map.map_or(Some(told.seen()), |map| map.seen());
+        let seen = seen.filter(|_| is_told && error <= ASTRAY);
         let missed = seen.and_then(|seen| {
             let ratio = seen.damping_ratio()? - wish.damping_ratio;
             Some([(seen.undamped_hz() / wish.frequency_hz - 1.0).abs(), ratio])
@@ -479,13 +471,11 @@ impl Dialect {
         }
     }
 
-    /// The map of a step of a motion that it is told, the seconds of that, and how fast its clock runs; `None` of a closed
-    /// form.
-    fn map(&self, told: &Wish, frame_hz: f64) -> Option<(Matrix2<f64>, f64, f64)> {
-        let frame_s = 1.0 / frame_hz;
+    /// The map of a step of a motion that it is told; `None` of a closed form.
+    fn map(&self, told: &Wish, frame_hz: f64) -> Option<StepMap> {
         let (step_s, pace) = match self.steps {
             Steps::Exact | Steps::Sampled => return None,
-            Steps::PerFrame(_) | Steps::SmoothDamp => (frame_s, 1.0),
+            Steps::PerFrame | Steps::SmoothDamp => (1.0 / frame_hz, 1.0),
             Steps::Milliseconds => (STEP_S, pace(frame_hz)),
         };
         let method = method(self.steps()).expect("a method of the table");
@@ -495,26 +485,13 @@ impl Dialect {
         };
         // A map beyond all numbers is of a motion that is.
         let map = map.unwrap_or(Matrix2::from_element(f64::INFINITY));
-        Some((map, step_s, pace))
-    }
-
-    /// Whether a motion that it is told does not explode.
-    fn is_stable(&self, told: &Wish, frame_hz: f64) -> bool {
-        let map = self.map(told, frame_hz);
-        map.is_none_or(|(map, ..)| is_stable(map.trace(), map.determinant()))
-    }
-
-    /// What is seen of a motion that it is told.
-    fn seen(&self, told: &Wish, frame_hz: f64) -> Option<Effective> {
-        let Some((map, step_s, pace)) = self.map(told, frame_hz) else { return Some(told.seen()) };
-        let Effective { omega, decay } = seen(map.trace(), map.determinant(), step_s)?;
-        Some(Effective { omega: pace * omega, decay: pace * decay })
+        Some(StepMap { map, step_s, pace })
     }
 
     /// The frames per second below which a motion that it is told explodes.
     fn explodes_below_hz(&self, told: &Wish) -> Option<f64> {
-        let Steps::PerFrame(_) = self.steps else { return None };
-        let explodes = |log| !self.is_stable(told, libm::exp(log));
+        let Steps::PerFrame = self.steps else { return None };
+        let explodes = |log| self.map(told, libm::exp(log)).is_some_and(|map| !map.is_stable());
         let [_, high] = bisect(RATES.map(libm::log), HALVINGS, explodes);
         Some(libm::exp(high))
     }
@@ -541,7 +518,7 @@ impl Dialect {
                 )
             }
             Steps::SmoothDamp => "a rational function for the exponential: never explodes".into(),
-            Steps::PerFrame(_) => {
+            Steps::PerFrame => {
                 let below = port.explodes_below_hz.map_or("any".into(), |hz| significant(hz, 3));
                 let turns = match port.seen.is_none() && port.is_stable {
                     true => "; changes sides at every frame",
@@ -552,6 +529,29 @@ impl Dialect {
                 )
             }
         }
+    }
+}
+
+/// What a step makes of distance and velocity.
+struct StepMap {
+    map: Matrix2<f64>,
+    /// The seconds that the step is told.
+    step_s: f64,
+    /// How many of them pass in a second.
+    pace: f64,
+}
+
+impl StepMap {
+    /// Whether no motion of it grows.
+    fn is_stable(&self) -> bool {
+        is_stable(self.map.trace(), self.map.determinant())
+    }
+
+    /// The damped spring that it looks like.
+    fn seen(&self) -> Option<Effective> {
+        let Self { map, step_s, pace } = self;
+        let Effective { omega, decay } = seen(map.trace(), map.determinant(), *step_s)?;
+        Some(Effective { omega: pace * omega, decay: pace * decay })
     }
 }
 

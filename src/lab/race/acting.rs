@@ -33,9 +33,9 @@ impl Race {
         }
     }
 
-    /// A race at its start after a journal's actions to tick `end`, of whose ticks none is made: lanes, rate and parameters are
-    /// as then, and bodies are not. Where they were placed is not asked.
-    pub(in crate::lab) fn told(
+    /// This race, at its start, after the actions of `journal` up to tick `end`, without a tick between them. Its lanes, rate
+    /// and parameters are those of that tick; its bodies are not, so that a placing is passed to the observer and not made.
+    pub(in crate::lab) fn after_actions(
         mut self,
         journal: &Journal,
         end: u64,

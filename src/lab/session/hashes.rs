@@ -3,7 +3,7 @@
 use crate::lab::lane_id::LaneId;
 use crate::lab::race::Race;
 
-/// The most that are noted: some times more than a recording has.
+/// The most hashes that are noted: more than a recording keeps as checks.
 const MAX_NOTED: usize = 32_000;
 
 /// The tolerance in seconds for the end of a second: times may be off by their last bits.

@@ -71,7 +71,7 @@ impl Timeline {
         let (session, start, end) = (self.session(), self.start(), self.end());
         let lanes = start.entrants().iter().map(|entrant| entrant.id).collect();
         let mut recorder = ScriptRecorder { lanes, script: Vec::new() };
-        let told = start.clone().told(session.journal(), end, &mut recorder);
+        let race = start.clone().after_actions(session.journal(), end, &mut recorder);
         let at_end = Hashes::of(&self.race_at_end());
         let mut scene = Scene {
             lanes: start.entrants().iter().map(|entrant| entrant.spec).collect(),
@@ -92,7 +92,7 @@ impl Timeline {
         }
         scene.script = recorder.script;
         if end > 0 {
-            scene.seconds = told.t().max(MIN_SECONDS);
+            scene.seconds = race.t().max(MIN_SECONDS);
         }
         scene
     }

@@ -4,7 +4,7 @@ use egui::{Align2, Button, ComboBox, FontId, Id, Rect, RichText, Sense, Ui, vec2
 
 use super::dialog::{select, window};
 use super::inspector::NumberField;
-use crate::lab::port::{DIALECTS, Dialect, Key, Wish};
+use crate::lab::port::{DIALECTS, Dialect, DialectPort, Key, Wish};
 use crate::lab::source_code::Language;
 use crate::lab::studio::{Command, MySpring, StageCommand, Studio, ViewCommand};
 use crate::view::theme::{TYPE, palette};
@@ -62,10 +62,9 @@ fn seen_as(spring: MySpring) -> [Number; 2] {
 }
 
 /// What a library takes of it. One that knows no mass keeps that of the spring.
-fn told_to(dialect: &'static Dialect, spring: MySpring) -> Vec<Number> {
-    let values = dialect.port(&spring.wish(), USUAL_FRAME_HZ).values;
+fn told_to(dialect: &'static Dialect, values: &[f64], spring: MySpring) -> Vec<Number> {
     let number = |(index, key): (usize, &'static Key)| {
-        let (value, values) = (values[index], values.clone());
+        let (value, values) = (values[index], values.to_vec());
         let with = move |value| {
             let mut told = values.clone();
             told[index] = value;
@@ -109,10 +108,10 @@ pub(super) fn show(ui: &Ui, studio: &Studio, over: Rect, commands: &mut Vec<Comm
         for number in seen_as(spring) {
             line(ui, "", number, false, commands);
         }
-        if let Some(dialect) = speaks(ui, spring)
+        if let Some((dialect, port)) = speaks(ui, spring)
             && dialect.is_read()
         {
-            for number in told_to(dialect, spring) {
+            for number in told_to(dialect, &port.values, spring) {
                 line(ui, dialect.id, number, false, commands);
             }
         }
@@ -156,11 +155,14 @@ fn is_new(ui: &Ui) -> bool {
     last.is_none_or(|last| last + 1 < now)
 }
 
-/// The library whose numbers are shown too, which a menu chooses, with a button that copies its line of code.
-fn speaks(ui: &mut Ui, spring: MySpring) -> Option<&'static Dialect> {
+/// The library whose numbers are shown too, which a menu chooses, and what it is told; with a button that copies its line
+/// of code.
+fn speaks(ui: &mut Ui, spring: MySpring) -> Option<(&'static Dialect, DialectPort)> {
     let id = Id::unique("my spring speaks");
     let chosen = ui.data(|data| data.get_temp::<Option<usize>>(id)).flatten();
     let name = |index: Option<usize>| index.map_or("as a UI spring of…", |i| DIALECTS[i].name);
+    let dialect = chosen.map(|index| &DIALECTS[index]);
+    let told = dialect.map(|dialect| (dialect, dialect.port(&spring.wish(), USUAL_FRAME_HZ)));
     ui.horizontal(|ui| {
         let menu =
             ComboBox::from_id_salt(id).selected_text(name(chosen)).width(NAME + NUMBER - 56.0);
@@ -173,8 +175,7 @@ fn speaks(ui: &mut Ui, spring: MySpring) -> Option<&'static Dialect> {
         });
         let about = format!("the library whose numbers are taken: {}", name(chosen));
         menu.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &about));
-        let port = chosen.map(|index| DIALECTS[index].port(&spring.wish(), USUAL_FRAME_HZ));
-        let code = port.map(|port| port.code).filter(|code| !code.is_empty());
+        let code = told.as_ref().map(|(_, port)| port.code.clone()).filter(|code| !code.is_empty());
         let copy = ui.add_enabled(code.is_some(), Button::new("Copy"));
         if let Some(code) = code
             && copy.on_hover_text(&code).clicked()
@@ -182,7 +183,7 @@ fn speaks(ui: &mut Ui, spring: MySpring) -> Option<&'static Dialect> {
             ui.copy_text(code);
         }
     });
-    chosen.map(|index| &DIALECTS[index])
+    told
 }
 
 fn line(ui: &mut Ui, among: &str, number: Number, takes_focus: bool, commands: &mut Vec<Command>) {
