@@ -21,6 +21,7 @@ pub(super) use hash::Fnv;
 pub use interpolation::Interpolation;
 pub(super) use interpolation::{hermite, slope};
 pub(super) use intervention::Interventions;
+pub(super) use journal::JournalTail;
 pub use journal::{Author, Journal, JournalRow};
 pub(super) use lane::advance_checked;
 pub use lane::{ESCAPE, Halt, Lane, LaneBody, Resumed, ResumedFrom};

@@ -18,7 +18,6 @@ pub use event::{Event, EventKind};
 pub use recording::{RecordingError, text as recording_text};
 pub(in crate::lab) use start::StartSettings;
 pub use timeline::{SNAPSHOT_BYTES, Timeline};
-pub(in crate::lab) use undo::Exchanged;
 
 /// A running scene, without a clock, a picture or a viewer.
 #[derive(Clone)]

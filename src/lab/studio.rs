@@ -68,7 +68,6 @@ pub use zoom_pan::ZoomPan;
 /// A scene being run and looked at.
 pub struct Studio {
     scene_list: SceneList,
-    start: StartSettings,
     timeline: Timeline,
     clock: Clock,
     running: bool,
@@ -87,11 +86,14 @@ impl Studio {
     /// [`Scene::opens_as_race`].
     pub fn new(scene: Scene) -> Self {
         let scene_list = SceneList::of(&scene);
-        let start = StartSettings::of(scene);
-        let timeline = Timeline::new(start.session());
+        Self::of_timeline(scene_list, Timeline::starting_with(StartSettings::of(scene)))
+    }
+
+    /// A person before the start of a run, which is running.
+    fn of_timeline(scene_list: SceneList, timeline: Timeline) -> Self {
         Self {
             scene_list,
-            clock: Clock::new(start.tick_hz),
+            clock: Clock::new(timeline.start().tick_hz()),
             running: true,
             dropped: 0,
             deeds: 0,
@@ -99,29 +101,25 @@ impl Studio {
             viewer: Viewer::new(timeline.session().race().entrants()[0].id),
             timeline,
             activity: Activity::Run,
-            start,
         }
     }
 
     /// Goes on with a run, where it is, in its mode.
     pub fn of_session(session: Session) -> Self {
         let tick = session.race().tick();
-        let mut studio = Self::new((**session.scene()).clone());
-        studio.start = StartSettings::of_session(&session);
-        studio.clock = Clock::new(studio.start.tick_hz);
-        studio.viewer = Viewer::new(session.race().entrants()[0].id);
-        studio.timeline = Timeline::new(session.before_its_first_tick());
+        let timeline = Timeline::new(session.before_its_first_tick());
+        let mut studio = Self::of_timeline(SceneList::of(session.scene()), timeline);
         (0..tick).for_each(|_| studio.timeline.tick());
         studio
     }
 
     /// The open scene with the parameters and the length that a person has set.
     pub fn scene(&self) -> &Scene {
-        &self.start.scene
+        &self.timeline.next().scene
     }
     /// The scene as it was opened.
     pub fn scene_as_opened(&self) -> &Scene {
-        &self.start.opened
+        &self.timeline.next().opened
     }
     /// The run, its past and its future.
     pub fn timeline(&self) -> &Timeline {

@@ -57,4 +57,5 @@ mod switching;
 mod tidy;
 mod undo;
 mod verdicts;
+mod walks;
 mod words;

@@ -28,6 +28,12 @@ pub struct JournalRow {
     pub author: Author,
 }
 
+/// The rows of one future of a run, which follow on those that it has in common with another.
+pub(in crate::lab) struct JournalTail {
+    kept: usize,
+    pub(in crate::lab) rows: Vec<JournalRow>,
+}
+
 /// The performed and the pending actions of a run, in order. Cheap to clone.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Journal {
@@ -94,21 +100,20 @@ impl Journal {
         (done, released)
     }
 
-    /// How many rows it has in common with another, from the first on.
-    pub(in crate::lab) fn rows_in_common(&self, other: &Self) -> usize {
-        self.rows.iter().zip(&*other.rows).take_while(|(own, other)| own == other).count()
+    /// What it has beside `other` after their first rows, of which at most `most` are in common.
+    pub(in crate::lab) fn tail_beside(&self, other: &Self, most: usize) -> JournalTail {
+        let alike =
+            self.rows.iter().zip(&other.rows[..most]).take_while(|(own, other)| own == other);
+        let kept = alike.count();
+        JournalTail { kept, rows: self.rows[kept..].to_vec() }
     }
 
-    /// Replaces what comes after the first `kept` rows, and returns what was there.
-    pub(in crate::lab) fn replace_after(
-        &mut self,
-        kept: usize,
-        rows: Vec<JournalRow>,
-    ) -> Vec<JournalRow> {
-        let own = Arc::make_mut(&mut self.rows);
-        let replaced = own.split_off(kept);
-        own.extend(rows);
-        replaced
+    /// Exchanges the last rows for those of another future.
+    pub(in crate::lab) fn swap_tail(&mut self, tail: &mut JournalTail) {
+        let rows = Arc::make_mut(&mut self.rows);
+        let replaced = rows.split_off(tail.kept);
+        rows.append(&mut tail.rows);
+        tail.rows = replaced;
     }
 
     /// Whether the script acts on this control after the first `done` rows.

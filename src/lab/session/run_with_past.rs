@@ -9,10 +9,16 @@ use crate::lab::race::{Journal, Race};
 pub(super) struct RunWithPast {
     pub(super) session: Session,
     pub(super) past: Past,
-    /// By tick; the first is the start.
-    pub(super) snapshots: Vec<Snapshot>,
+    pub(super) reached: Reached,
+}
+
+/// What was noted of a run as its ticks were made. All of it can be made again.
+#[derive(Default)]
+pub(super) struct Reached {
     /// The last tick reached.
     pub(super) end: u64,
+    /// By tick; of a whole run the first is the start.
+    pub(super) snapshots: Vec<Snapshot>,
     pub(super) halts: Vec<Event>,
     /// By tick, as ticks were first made.
     pub(super) hashes: Vec<Hashes>,
@@ -21,9 +27,8 @@ pub(super) struct RunWithPast {
 impl RunWithPast {
     pub(super) fn new(session: Session) -> Self {
         let past = Past::new(session.race(), session.scene().seconds);
-        let (snapshots, halts, hashes) = Default::default();
-        let mut run = Self { session, past, snapshots, end: 0, halts, hashes };
-        run.snapshots.push(run.snapshot());
+        let mut run = Self { session, past, reached: Reached::default() };
+        run.reached.snapshots.push(run.snapshot());
         run
     }
 
@@ -33,6 +38,30 @@ impl RunWithPast {
         let mark = self.past.mark();
         let bytes = race.bytes() + mark.heap_bytes() + size_of::<PastMark>();
         Snapshot { race, mark, bytes }
+    }
+}
+
+impl Reached {
+    /// Splits off what the actions at `tick` decide.
+    pub(super) fn split_off(&mut self, tick: u64) -> Self {
+        let Self { end, snapshots, halts, hashes } = self;
+        // A snapshot holds the session as it reached a tick, before the actions there, and so do hashes.
+        let later = snapshots.partition_point(|snapshot| snapshot.race.tick() <= tick);
+        let snapshots = snapshots.split_off(later);
+        let later = halts.partition_point(|event| event.tick < tick);
+        let halts = halts.split_off(later);
+        let later = hashes.partition_point(|it| it.tick <= tick);
+        let hashes = hashes.split_off(later);
+        Self { end: std::mem::replace(end, tick), snapshots, halts, hashes }
+    }
+
+    /// Adds what was split off.
+    pub(super) fn extend(&mut self, other: Self) {
+        let Self { end, snapshots, halts, hashes } = other;
+        self.end = end;
+        self.snapshots.extend(snapshots);
+        self.halts.extend(halts);
+        self.hashes.extend(hashes);
     }
 }
 

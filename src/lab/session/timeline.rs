@@ -1,16 +1,16 @@
 //! A session with its past and its future: it can go to any tick that it has reached, with identical bits, and takes back
 //! what a person did.
 
-use std::mem::{replace, take};
+use std::mem::{replace, swap};
 
 use super::hashes::{Hashes, note_hashes};
-use super::run_with_past::{RunWithPast, Snapshot};
+use super::run_with_past::{Reached, RunWithPast, Snapshot};
 use super::start::StartSettings;
-use super::undo::{Change, Exchanged, Future, Other, UndoStack};
+use super::undo::{Change, Future, Other, UndoStack};
 use super::{Event, EventKind, Session};
 use crate::lab::action::Action;
 use crate::lab::past::Past;
-use crate::lab::race::{ActionResult, JournalRow, Mode, Observer, Race, TimeScale};
+use crate::lab::race::{ActionResult, Mode, Observer, Race, TimeScale};
 
 /// The memory that snapshots and the drawn pasts of kept runs may take unless it is set, in bytes.
 pub const SNAPSHOT_BYTES: usize = 64 << 20;
@@ -32,6 +32,8 @@ const WORK_OF_AN_EVALUATION: u64 = 4;
 /// can be undone, and done again.
 pub struct Timeline {
     run: RunWithPast,
+    /// With what the next run starts.
+    next: StartSettings,
     spacing: u64,
     limit: usize,
     changes: UndoStack,
@@ -45,13 +47,31 @@ impl Timeline {
 
     /// Like [`Timeline::new`], with at most `limit` bytes for snapshots and kept runs.
     pub fn with_limit(session: Session, limit: usize) -> Self {
-        let run = RunWithPast::new(session);
-        Self { run, spacing: SPACING, limit, changes: UndoStack::default() }
+        Self { limit, ..Self::of(StartSettings::of_session(&session), session) }
+    }
+
+    /// The timeline of a run that starts with these settings.
+    pub(in crate::lab) fn starting_with(next: StartSettings) -> Self {
+        let session = next.session();
+        Self::of(next, session)
+    }
+
+    fn of(next: StartSettings, session: Session) -> Self {
+        let (run, changes) = (RunWithPast::new(session), UndoStack::default());
+        Self { run, next, spacing: SPACING, limit: SNAPSHOT_BYTES, changes }
     }
 
     /// The session at the present tick.
     pub fn session(&self) -> &Session {
         &self.run.session
+    }
+    /// With what the next run starts: how this one did, and what a person has set since.
+    pub(in crate::lab) fn next(&self) -> &StartSettings {
+        &self.next
+    }
+    /// The settings of the next start, to be set in a way that is not undone.
+    pub(in crate::lab) fn next_mut(&mut self) -> &mut StartSettings {
+        &mut self.next
     }
     /// The race at tick 0, before any action; without its journal.
     pub fn start(&self) -> &Race {
@@ -69,15 +89,15 @@ impl Timeline {
     }
     /// The last tick reached.
     pub fn end(&self) -> u64 {
-        self.run.end
+        self.run.reached.end
     }
     /// Whether the present tick is before the last tick reached.
     pub fn is_in_past(&self) -> bool {
-        self.run.session.race.tick() < self.run.end
+        self.run.session.race.tick() < self.run.reached.end
     }
     /// The memory that snapshots take, and the drawn pasts of the runs before a restart, in bytes.
     pub fn bytes(&self) -> usize {
-        let all = self.run.snapshots.iter().chain(self.changes.snapshots());
+        let all = self.run.reached.snapshots.iter().chain(self.changes.snapshots());
         all.map(|snapshot| snapshot.bytes).sum::<usize>() + self.changes.past_bytes()
     }
     /// The memory that [`Timeline::bytes`] may be.
@@ -102,14 +122,14 @@ impl Timeline {
         let rows = self.run.session.journal().rows().iter();
         let is_solo = self.start().mode() == Mode::Solo;
         let mut solo = is_solo.then(|| self.start().entrants()[0].id);
-        let done = rows.take_while(|row| row.tick <= self.run.end).map(|row| {
+        let done = rows.take_while(|row| row.tick <= self.run.reached.end).map(|row| {
             if let Action::Solo { lane } = row.action {
                 solo = Some(lane);
             }
             let (action, author) = (row.action.clone(), row.author);
             Event { tick: row.tick, kind: EventKind::Done { action, author, solo } }
         });
-        let mut events: Vec<Event> = done.chain(self.run.halts.iter().cloned()).collect();
+        let mut events: Vec<Event> = done.chain(self.run.reached.halts.iter().cloned()).collect();
         events.sort_by_key(|event| event.tick);
         events
     }
@@ -133,10 +153,10 @@ impl Timeline {
     pub fn tick_seen<O: Observer>(&mut self, observer: &mut O) {
         self.run.session.tick_seen(&mut (&mut self.run.past, observer));
         let tick = self.run.session.race.tick();
-        if tick > self.run.end {
-            self.run.end = tick;
+        if tick > self.run.reached.end {
+            self.run.reached.end = tick;
             self.note_halts();
-            note_hashes(&mut self.run.hashes, self.run.session.race());
+            note_hashes(&mut self.run.reached.hashes, self.run.session.race());
         }
         if tick.is_multiple_of(self.spacing) {
             self.take_snapshot();
@@ -146,7 +166,7 @@ impl Timeline {
     fn note_halts(&mut self) {
         let race = self.run.session.race();
         let halts = race.just_halted().filter(|(_, halt)| !halt.failure.is_foreseen());
-        self.run.halts.extend(halts.map(|(entrant, halt)| {
+        self.run.reached.halts.extend(halts.map(|(entrant, halt)| {
             let lane = entrant.map(|entrant| entrant.id);
             let is_blow_up = halt.is_blow_up();
             Event { tick: halt.tick, kind: EventKind::Halted { lane, body: halt.body, is_blow_up } }
@@ -157,72 +177,70 @@ impl Timeline {
     /// past, another future begins with it.
     pub fn act(&mut self, action: Action) -> bool {
         self.close_change();
-        let settings = StartSettings::of_session(&self.run.session);
-        self.act_seen(action, &settings, &mut ()) != ActionResult::Nothing
+        self.act_seen(action, &mut ()) != ActionResult::Nothing
     }
 
-    /// Performs an action. `settings` are those before the change that it belongs to, if it begins one.
+    /// Performs an action, as a part of the present change unless that is closed. A choice of a person is kept for the next
+    /// start.
     pub(in crate::lab) fn act_seen(
         &mut self,
         action: Action,
-        settings: &StartSettings,
         observer: &mut impl Observer,
     ) -> ActionResult {
         let was_past = self.is_in_past();
-        let (journal, end) = (self.run.session.journal().clone(), self.run.end);
+        let journal = self.run.session.journal().clone();
         let tick = self.run.session.race.tick();
-        let what = format!("{} at tick {tick}", action.noun());
-        let acted = self.run.session.act_seen(action, &mut (&mut self.run.past, observer));
+        let acted = self.run.session.act_seen(action.clone(), &mut (&mut self.run.past, observer));
         if acted == ActionResult::Nothing {
             return acted;
         }
         self.run.past.forget_future();
         let added = self.run.session.race.done() - 1;
-        let kept = journal.rows_in_common(self.run.session.journal()).min(added);
-        let before = self.split_off(tick, (kept, journal.rows()[kept..].to_vec()), end);
-        self.run.end = tick;
+        let rows = journal.tail_beside(self.run.session.journal(), added);
+        let reached = self.run.reached.split_off(tick);
         // A change that was made in the past has a future of its own to bring back.
         if was_past || !self.changes.has_future() {
-            let other = Other::Future(before);
-            self.changes.push(Change { what, settings: settings.clone(), other });
+            let what = format!("{} at tick {tick}", action.noun());
+            let other = Other::Future(Future { tick, rows, reached });
+            self.changes.push(Change { what, next: self.next.clone(), other });
         }
+        self.next.keep(&action, &self.run.session.race, self.run.past.menu());
         acted
     }
 
-    /// Splits off the future from `tick` on, which has these rows after so many of the journal, and reached `end`.
-    fn split_off(&mut self, tick: u64, (kept, rows): (usize, Vec<JournalRow>), end: u64) -> Future {
-        let RunWithPast { snapshots, halts, hashes, .. } = &mut self.run;
-        // A snapshot holds the session as it reached a tick, before the actions there.
-        let later = snapshots.partition_point(|snapshot| snapshot.race.tick() <= tick);
-        let snapshots = snapshots.split_off(later);
-        let later = halts.partition_point(|event| event.tick < tick);
-        let halts = halts.split_off(later);
-        let later = hashes.partition_point(|it| it.tick <= tick);
-        Future { tick, kept, rows, end, snapshots, halts, hashes: hashes.split_off(later) }
-    }
-
-    /// Keeps a change of the next start for [`Timeline::undo`]; `settings` are those before it.
-    pub(in crate::lab) fn keep_settings(&mut self, what: &str, settings: StartSettings) {
-        if !self.changes.is_open() {
-            let what = what.to_owned();
-            self.changes.push(Change { what, settings, other: Other::Settings });
+    /// Changes a setting of the next start, as a part of the present change unless that is closed. `set` returns whether it
+    /// changed anything, as this does.
+    pub(in crate::lab) fn set_next(
+        &mut self,
+        what: &str,
+        set: impl FnOnce(&mut StartSettings) -> bool,
+    ) -> bool {
+        let before = self.next.clone();
+        let is_changed = set(&mut self.next);
+        if is_changed && !self.changes.is_open() {
+            let change = Change { what: what.to_owned(), next: before, other: Other::Nothing };
+            self.changes.push(change);
         }
+        is_changed
     }
 
-    /// Keeps the run and its settings for [`Timeline::undo`] of a change for which another run takes its place.
-    pub(in crate::lab) fn keep_run(&mut self, what: &str, settings: StartSettings) {
-        let next = RunWithPast::new(settings.session());
-        let run = replace(&mut self.run, next);
-        let other = Other::Run(Box::new(run));
-        self.changes.push(Change { what: what.to_owned(), settings, other });
-        self.fit();
-    }
-
-    /// Puts another run in the place of the present one, which is lost unless it was [kept](Self::keep_run).
-    pub(in crate::lab) fn restart(&mut self, session: Session) {
-        self.run = RunWithPast::new(session);
-        self.spacing = SPACING;
+    /// Begins a run with the settings of the next start, after `set` has set them. The present run is kept for
+    /// [`Timeline::undo`] of the change `kept`, and lost if there is none.
+    pub(in crate::lab) fn restart(
+        &mut self,
+        kept: Option<&str>,
+        set: impl FnOnce(&mut StartSettings),
+    ) {
+        let before = self.next.clone();
+        set(&mut self.next);
+        let run = replace(&mut self.run, RunWithPast::new(self.next.session()));
         self.changes.undone.clear();
+        if let Some(what) = kept {
+            let other = Other::Run(Box::new(run));
+            self.changes.push(Change { what: what.to_owned(), next: before, other });
+            self.fit();
+        }
+        self.spacing = SPACING;
     }
 
     /// Ends the present change: what a person does next is undone by itself.
@@ -238,61 +256,44 @@ impl Timeline {
     /// Takes back the newest change, and goes to the tick at which it was made; the run before a restart comes back where
     /// it was. Returns whether there was a change.
     pub fn undo(&mut self) -> bool {
-        self.undo_with(StartSettings::of_session(&self.run.session)).is_some()
+        let Some(mut change) = self.changes.done.pop() else { return false };
+        self.exchange(&mut change);
+        self.changes.undone.push(change);
+        true
     }
 
     /// Makes the change again that was undone last, and goes to its tick. Returns whether there was one.
     pub fn redo(&mut self) -> bool {
-        self.redo_with(StartSettings::of_session(&self.run.session)).is_some()
-    }
-
-    /// Like [`Timeline::undo`]; `settings` are the present ones.
-    pub(in crate::lab) fn undo_with(&mut self, settings: StartSettings) -> Option<Exchanged> {
-        let change = self.changes.done.pop()?;
-        let (exchanged, change) = self.exchange(change, settings);
-        self.changes.undone.push(change);
-        Some(exchanged)
-    }
-
-    /// Like [`Timeline::redo`]; `settings` are the present ones.
-    pub(in crate::lab) fn redo_with(&mut self, settings: StartSettings) -> Option<Exchanged> {
-        let change = self.changes.undone.pop()?;
-        let (exchanged, change) = self.exchange(change, settings);
+        let Some(mut change) = self.changes.undone.pop() else { return false };
+        self.exchange(&mut change);
         self.changes.done.push(change);
-        Some(exchanged)
+        true
     }
 
-    /// Goes to the other side of a change. Returns it, and the way back.
-    fn exchange(&mut self, change: Change, present: StartSettings) -> (Exchanged, Change) {
+    /// Goes to the other side of a change, which becomes the way back.
+    fn exchange(&mut self, change: &mut Change) {
         self.changes.close();
-        let Change { what, settings, mut other } = change;
-        match &mut other {
-            Other::Settings => {}
-            Other::Run(run) => std::mem::swap(&mut self.run, run),
-            Other::Future(future) => {
+        swap(&mut self.next, &mut change.next);
+        match &mut change.other {
+            Other::Nothing => {}
+            Other::Run(run) => swap(&mut self.run, run),
+            Other::Future(Future { tick, rows, reached }) => {
+                let left = self.run.reached.split_off(*tick);
+                self.run.reached.extend(replace(reached, left));
                 let mut journal = self.run.session.journal().clone();
-                let present = journal.replace_after(future.kept, take(&mut future.rows));
-                let left = self.split_off(future.tick, (future.kept, present), self.run.end);
-                let Future { tick, end, snapshots, halts, hashes, .. } = replace(future, left);
-                self.run.snapshots.extend(snapshots);
-                self.run.halts.extend(halts);
-                self.run.hashes.extend(hashes);
+                journal.swap_tail(rows);
                 self.run.session.race.set_journal(journal);
-                self.run.end = end;
-                self.restore(tick);
+                self.restore(*tick);
                 // The recorded future is the one that has just been left.
                 self.run.past.forget_future();
                 self.catch_up(&mut ());
             }
         }
-        let is_restart = matches!(other, Other::Run(_));
-        let way_back = Change { what: what.clone(), settings: present, other };
-        (Exchanged { what, settings, is_restart }, way_back)
     }
 
     /// Goes to a tick, at most the last reached, in the state before the actions at that tick.
     pub fn seek(&mut self, tick: u64) {
-        let tick = tick.min(self.run.end);
+        let tick = tick.min(self.run.reached.end);
         if tick != self.run.session.race.tick() {
             self.restore(tick);
         }
@@ -315,11 +316,11 @@ impl Timeline {
         let (tick, journal) = (self.run.session.race.tick(), self.run.session.journal().clone());
         let done = self.run.session.race.done();
         // The other snapshots are marks of a past that was recorded otherwise.
-        self.run.snapshots.truncate(1);
+        self.run.reached.snapshots.truncate(1);
         self.changes.clear_futures();
-        self.run.session.race = self.run.snapshots[0].race.clone();
+        self.run.session.race = self.run.reached.snapshots[0].race.clone();
         self.begin_past(coordinates.to_vec());
-        self.run.snapshots[0].mark = self.run.past.mark();
+        self.run.reached.snapshots[0].mark = self.run.past.mark();
         self.run.session.race.set_journal(journal);
         self.repeat_to(tick);
         if self.run.session.race.done() < done {
@@ -336,12 +337,12 @@ impl Timeline {
 
     /// The hashes that were noted as ticks were first made, by tick.
     pub(super) fn hashes(&self) -> &[Hashes] {
-        &self.run.hashes
+        &self.run.reached.hashes
     }
 
     /// The race at the last tick reached, before the actions at it.
     pub(super) fn race_at_end(&self) -> Race {
-        let RunWithPast { session, snapshots, end, .. } = &self.run;
+        let RunWithPast { session, reached: Reached { snapshots, end, .. }, .. } = &self.run;
         let before = session.journal().rows().partition_point(|row| row.tick < *end);
         if session.race.tick() == *end && session.race.done() == before {
             return session.race.clone();
@@ -355,14 +356,15 @@ impl Timeline {
 
     /// Goes to `tick` from a snapshot.
     fn restore(&mut self, tick: u64) {
-        let nearest = self.run.snapshots.partition_point(|s| s.race.tick() <= tick) - 1;
+        let nearest = self.run.reached.snapshots.partition_point(|s| s.race.tick() <= tick) - 1;
         let present = self.run.session.race.tick();
-        let is_ahead = (self.run.snapshots[nearest].race.tick()..tick).contains(&present);
+        let is_ahead = (self.run.reached.snapshots[nearest].race.tick()..tick).contains(&present);
         if !is_ahead {
             // Starts so far back that the drawn past is complete again.
-            let wanted = &self.run.snapshots[nearest].mark;
+            let wanted = &self.run.reached.snapshots[nearest].mark;
             let fills = |snapshot: &Snapshot| self.run.past.fills(&snapshot.mark, wanted);
-            let from = self.run.snapshots[..=nearest].iter().rfind(|snapshot| fills(snapshot));
+            let from =
+                self.run.reached.snapshots[..=nearest].iter().rfind(|snapshot| fills(snapshot));
             let journal = self.run.session.journal().clone();
             match from {
                 Some(Snapshot { race, mark, .. }) => {
@@ -370,7 +372,7 @@ impl Timeline {
                     self.run.past.rewind(mark, &self.run.session.race);
                 }
                 None => {
-                    self.run.session.race = self.run.snapshots[0].race.clone();
+                    self.run.session.race = self.run.reached.snapshots[0].race.clone();
                     self.begin_past(self.run.past.coordinates().collect());
                 }
             }
@@ -392,11 +394,18 @@ impl Timeline {
     /// Adds a snapshot of the present if there is none, and thins the snapshots to their memory limit.
     fn take_snapshot(&mut self) {
         let tick = self.run.session.race.tick();
-        let index = self.run.snapshots.partition_point(|snapshot| snapshot.race.tick() < tick);
-        if self.run.snapshots.get(index).is_some_and(|snapshot| snapshot.race.tick() == tick) {
+        let index =
+            self.run.reached.snapshots.partition_point(|snapshot| snapshot.race.tick() < tick);
+        if self
+            .run
+            .reached
+            .snapshots
+            .get(index)
+            .is_some_and(|snapshot| snapshot.race.tick() == tick)
+        {
             return;
         }
-        self.run.snapshots.insert(index, self.run.snapshot());
+        self.run.reached.snapshots.insert(index, self.run.snapshot());
         self.fit();
     }
 
@@ -404,11 +413,11 @@ impl Timeline {
     fn fit(&mut self) {
         while self.bytes() > self.limit {
             if self.changes.past_bytes() <= self.limit / 2
-                && self.spacing <= self.run.end.max(self.changes.end())
+                && self.spacing <= self.run.reached.end.max(self.changes.end())
             {
                 self.spacing *= 2;
                 let stays = |snapshot: &Snapshot| snapshot.race.tick().is_multiple_of(self.spacing);
-                self.run.snapshots.retain(stays);
+                self.run.reached.snapshots.retain(stays);
                 self.changes.retain(stays);
             } else if !self.changes.drop_last() {
                 return;
@@ -438,7 +447,7 @@ mod tests {
         timeline.redo();
         let changes = timeline.changes.done.iter().chain(&timeline.changes.undone);
         let held = changes.map(|change| match &change.other {
-            Other::Future(future) => future.rows.len(),
+            Other::Future(future) => future.rows.rows.len(),
             _ => panic!("a kick changes the future"),
         });
         let held: Vec<usize> = held.collect();

@@ -1,10 +1,8 @@
 //! The changes of a person that can be undone, and those that can be done again: one stack for all of them.
 
-use super::Event;
-use super::hashes::Hashes;
-use super::run_with_past::{RunWithPast, Snapshot};
+use super::run_with_past::{Reached, RunWithPast, Snapshot};
 use super::start::StartSettings;
-use crate::lab::race::JournalRow;
+use crate::lab::race::JournalTail;
 
 /// The most changes that can be undone.
 const MAX_CHANGES: usize = 200;
@@ -12,28 +10,19 @@ const MAX_CHANGES: usize = 200;
 /// The most runs before a restart that are kept.
 const MAX_RUNS: usize = 4;
 
-/// A change that has been undone or done again.
-pub(in crate::lab) struct Exchanged {
-    /// Its name for people.
-    pub(in crate::lab) what: String,
-    /// The settings of the next start as they were on the other side of the change.
-    pub(in crate::lab) settings: StartSettings,
-    /// Whether it put another run in the place of the present one.
-    pub(in crate::lab) is_restart: bool,
-}
-
 /// A change of a person, with what is on its other side.
 pub(super) struct Change {
     /// Its name for people.
     pub(super) what: String,
-    pub(super) settings: StartSettings,
+    /// The settings of the next start.
+    pub(super) next: StartSettings,
     pub(super) other: Other,
 }
 
 /// What a change has replaced, or what undoing it has replaced.
 pub(super) enum Other {
     /// Nothing of the run: the change was one of the next start.
-    Settings,
+    Nothing,
     Future(Future),
     Run(Box<RunWithPast>),
 }
@@ -42,34 +31,17 @@ pub(super) enum Other {
 pub(super) struct Future {
     /// The tick of the change. Up to it, before its actions, both futures are the same.
     pub(super) tick: u64,
-    /// How many rows of the journal both futures have, and what comes after them in this one: not the whole journal, which
-    /// grows for as long as a run is steered.
-    pub(super) kept: usize,
-    pub(super) rows: Vec<JournalRow>,
-    /// The last tick that was reached.
-    pub(super) end: u64,
-    /// Those after `tick`.
-    pub(super) snapshots: Vec<Snapshot>,
-    /// Those from `tick` on.
-    pub(super) halts: Vec<Event>,
-    /// Those after `tick`.
-    pub(super) hashes: Vec<Hashes>,
+    /// Its rows of the journal: not the whole, which grows for as long as a run is steered.
+    pub(super) rows: JournalTail,
+    pub(super) reached: Reached,
 }
 
 impl Other {
-    fn snapshots(&self) -> &[Snapshot] {
+    fn reached(&self) -> Option<&Reached> {
         match self {
-            Other::Settings => &[],
-            Other::Future(future) => &future.snapshots,
-            Other::Run(run) => &run.snapshots,
-        }
-    }
-
-    fn end(&self) -> u64 {
-        match self {
-            Other::Settings => 0,
-            Other::Future(future) => future.end,
-            Other::Run(run) => run.end,
+            Other::Nothing => None,
+            Other::Future(future) => Some(&future.reached),
+            Other::Run(run) => Some(&run.reached),
         }
     }
 }
@@ -117,32 +89,37 @@ impl UndoStack {
         self.done.iter().chain(&self.undone)
     }
 
+    /// All that was replaced.
+    fn reached(&self) -> impl Iterator<Item = &Reached> {
+        self.changes().filter_map(|change| change.other.reached())
+    }
+
     /// The snapshots of all that was replaced.
     pub(super) fn snapshots(&self) -> impl Iterator<Item = &Snapshot> {
-        self.changes().flat_map(|change| change.other.snapshots())
+        self.reached().flat_map(|reached| &reached.snapshots)
     }
 
     /// The memory of the drawn pasts of the runs that are kept, in bytes.
     pub(super) fn past_bytes(&self) -> usize {
         let pasts = self.changes().filter_map(|change| match &change.other {
             Other::Run(run) => Some(run.past.heap_bytes()),
-            Other::Settings | Other::Future(_) => None,
+            Other::Nothing | Other::Future(_) => None,
         });
         pasts.sum()
     }
 
     /// The last tick of all that was replaced.
     pub(super) fn end(&self) -> u64 {
-        self.changes().map(|change| change.other.end()).max().unwrap_or(0)
+        self.reached().map(|reached| reached.end).max().unwrap_or(0)
     }
 
     /// Drops the snapshots that do not stay.
     pub(super) fn retain(&mut self, stays: impl Fn(&Snapshot) -> bool) {
         for change in self.done.iter_mut().chain(&mut self.undone) {
             match &mut change.other {
-                Other::Settings => {}
-                Other::Future(future) => future.snapshots.retain(&stays),
-                Other::Run(run) => run.snapshots.retain(&stays),
+                Other::Nothing => {}
+                Other::Future(future) => future.reached.snapshots.retain(&stays),
+                Other::Run(run) => run.reached.snapshots.retain(&stays),
             }
         }
     }
@@ -151,7 +128,7 @@ impl UndoStack {
     pub(super) fn clear_futures(&mut self) {
         for change in self.done.iter_mut().chain(&mut self.undone) {
             if let Other::Future(future) = &mut change.other {
-                future.snapshots.clear();
+                future.reached.snapshots.clear();
             }
         }
     }

@@ -29,7 +29,7 @@ impl Studio {
     /// Carries out a command. Returns what the driver has to do for it, if anything.
     pub fn apply(&mut self, command: impl Into<Command>) -> Option<DriverRequest> {
         let command = command.into();
-        self.viewer.hints.see(&command, self.start.scene.hint.as_deref());
+        self.viewer.hints.see(&command, self.timeline.next().scene.hint.as_deref());
         if !self.viewer.pointer_is_down() {
             self.timeline.close_change();
         }
@@ -139,15 +139,13 @@ impl Studio {
             }
             StageCommand::ToggleRace => match race.mode() {
                 Mode::Solo => {
-                    self.keep_run("the race");
-                    self.start.mode = Mode::Race;
-                    self.restart();
+                    self.restart(Some("the race"), |next| next.mode = Mode::Race);
                     self.select_best();
                 }
                 Mode::Race => {
                     let lane = self.selected().id;
                     self.act(Action::Solo { lane });
-                    self.start.mode = Mode::Solo;
+                    self.timeline.next_mut().mode = Mode::Solo;
                     // It may be about a lane that has left the race.
                     self.viewer.notice = None;
                 }
@@ -298,17 +296,15 @@ impl Studio {
             return self.viewer.set_notice(out_of_range(action.noun()));
         }
         let was_past = self.timeline.is_in_past();
-        let before = self.start.clone();
         let (is_input, rests) = (action.input().is_some(), self.comes_to_rest());
         let (acted, mut told) =
-            self.watched(|timeline, notices| timeline.act_seen(action.clone(), &before, notices));
+            self.watched(|timeline, notices| timeline.act_seen(action.clone(), notices));
         let ActionResult::Done { released } = acted else { return self.tell(told) };
         self.deeds += 1;
         // What a person does at rest is to be seen.
         self.running |= is_input && rests;
-        self.start.keep(&action, self.timeline.session().race(), self.timeline.past().menu());
         if let Action::Lane { .. } = action {
-            self.start.entry = self.active();
+            self.timeline.next_mut().entry = self.active();
         }
         let discarded = was_past.then(|| {
             let tick = self.race().tick();
@@ -326,11 +322,7 @@ impl Studio {
 
     /// Changes a setting of the next start by hand. `set` returns whether it changed anything.
     fn set_start(&mut self, what: &str, set: impl FnOnce(&mut StartSettings) -> bool) {
-        let before = self.start.clone();
-        if set(&mut self.start) {
-            self.deeds += 1;
-            self.timeline.keep_settings(what, before);
-        }
+        self.deeds += u64::from(self.timeline.set_next(what, set));
     }
 
     /// The lane that a pick of this index of the menu selects: in solo mode the only one.
@@ -350,7 +342,7 @@ impl Studio {
             let spec = self.entries()[entry];
             self.act(Action::Lane { lane, spec });
         }
-        self.start.entry = entry;
+        self.timeline.next_mut().entry = entry;
     }
 
     /// The index of a method on the list. If it is not there, a notice says why.
@@ -378,10 +370,10 @@ impl Studio {
         }
         match (self.mode(), self.flown(entry)) {
             (Mode::Race, None) => {
-                self.keep_run("the new race");
-                self.start.list[entry] = spec;
-                self.start.entry = entry;
-                self.restart();
+                self.restart(Some("the new race"), |next| {
+                    next.list[entry] = spec;
+                    next.entry = entry;
+                });
                 self.viewer
                     .set_notice(format!("the race restarted with {} in it", spec.method.name));
             }
@@ -414,7 +406,7 @@ impl Studio {
         }
         let lanes: Vec<(LaneId, LaneSpec)> =
             self.race().entrants().iter().map(|entrant| (entrant.id, entrant.spec)).collect();
-        let (wanted, before, notice) = match &self.start.before_equal_cost {
+        let (wanted, before, notice) = match &self.timeline.next().before_equal_cost {
             Some(before) => {
                 let of = |(lane, spec): &(LaneId, LaneSpec)| {
                     let own = before.iter().find(|(known, _)| known == lane);
@@ -438,7 +430,7 @@ impl Studio {
         for ((lane, _), spec) in lanes.into_iter().zip(wanted) {
             self.act(Action::Lane { lane, spec });
         }
-        self.start.before_equal_cost = before;
+        self.timeline.next_mut().before_equal_cost = before;
         self.viewer.set_notice(notice);
     }
 

@@ -20,7 +20,7 @@ impl Studio {
         let (tick_hz, choice) = (self.clock.tick_hz(), self.display().cloud);
         let seconds = (self.race().t() - changes.starts_at_s()).max(0.0);
         Some(CloudRequest {
-            scene: Arc::clone(&self.start.scene),
+            scene: Arc::clone(&self.timeline.next().scene),
             body: self.view().body,
             lanes: self.clouded_lanes().map(|entry| (entry, self.entries()[entry])).collect(),
             tick_hz,

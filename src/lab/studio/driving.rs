@@ -1,5 +1,7 @@
 //! Time in a studio: for each frame it makes the ticks that are due.
 
+use std::sync::Arc;
+
 use super::Studio;
 use super::live_loop::LiveFrame;
 use super::looping::Activity;
@@ -119,7 +121,8 @@ impl Studio {
         &mut self,
         change: impl FnOnce(&mut Timeline, &mut Notices<'_>) -> T,
     ) -> (T, Vec<String>) {
-        let mut notices = Notices::new(&self.start.scene);
+        let scene = Arc::clone(&self.timeline.next().scene);
+        let mut notices = Notices::new(&scene);
         let done = self.timeline.session().race().done();
         let changed = change(&mut self.timeline, &mut notices);
         let told = notices.told;

@@ -18,7 +18,7 @@ impl Studio {
     /// right after it.
     pub fn analysis_request(&self) -> AnalysisRequest {
         AnalysisRequest {
-            scene: Arc::clone(&self.start.scene),
+            scene: Arc::clone(&self.timeline.next().scene),
             by_hand: Interventions::in_race(self.race()),
             entries: self.entries().to_vec(),
             tick_hz: self.clock.tick_hz(),
@@ -83,7 +83,7 @@ impl Studio {
 
     /// Keeps findings, unless they are about another scene.
     pub fn accept_findings(&mut self, findings: Findings) {
-        if findings.request.is_of(&self.start.scene) {
+        if findings.request.is_of(&self.timeline.next().scene) {
             self.viewer.findings = Some(findings);
             self.select_best();
         }
@@ -113,7 +113,7 @@ impl Studio {
             judged.into_iter().reduce(|best, other| if other.0 < best.0 { other } else { best });
         let Some((_, (number, entry))) = best else { return };
         self.viewer.selected = number;
-        self.start.entry = entry;
+        self.timeline.next_mut().entry = entry;
         self.viewer.is_selected = true;
     }
 

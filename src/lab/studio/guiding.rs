@@ -104,12 +104,12 @@ impl Studio {
         let tour = Tour::at(index, before);
         let Stop { scene, method, tick_hz, mode, instrument, quantity, goal, .. } = *tour.stop();
         let listed = SCENES.iter().position(|built_in| built_in.name == scene);
-        self.open(listed.expect("a stop names a built-in scene"));
-        let method = self.entries().iter().position(|spec| spec.method.id == method);
-        self.start.entry = method.expect("a stop names a method");
-        self.start.tick_hz = tick_hz;
-        self.start.mode = mode;
-        self.restart();
+        self.open_with(listed.expect("a stop names a built-in scene"), |next| {
+            let method = next.list.iter().position(|spec| spec.method.id == method);
+            next.entry = method.expect("a stop names a method");
+            next.tick_hz = tick_hz;
+            next.mode = mode;
+        });
         self.clock.set_speed_percent(100);
         self.running = !matches!(goal, Goal::SteppedTo(_));
         // A scene of clouds opens with them in the place of the stage.

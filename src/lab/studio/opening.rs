@@ -12,6 +12,7 @@ use super::viewer::Dialog;
 use crate::lab::diff::Comparison;
 use crate::lab::race::Mode;
 use crate::lab::scene::{Mistake, Scene, SceneErrors};
+use crate::lab::session::{StartSettings, Timeline};
 
 /// The name of a custom spring on the list of scenes.
 const MY_SPRING: &str = "my spring";
@@ -66,9 +67,8 @@ impl Studio {
         let path = Path::new(MY_SPRING);
         match scene {
             Ok(scene) => {
-                self.open_file(path, scene);
-                self.start.mode = Mode::Solo;
-                self.restart();
+                let index = self.scene_list.put(path, scene);
+                self.open_with(index, |next| next.mode = Mode::Solo);
                 self.running = true;
                 self.viewer.preferences.display.instrument = Instrument::Advice;
             }
@@ -194,16 +194,16 @@ impl Studio {
     /// person has chosen, and without actions by hand.
     fn run_again(&mut self, index: usize, tick: u64) {
         let scene = self.scene_list.scene(index);
-        self.keep_run("the change of the file");
-        // Without a choice the scene's rate applies.
-        if self.start.tick_hz == self.start.scene.tick_hz {
-            self.start.tick_hz = scene.tick_hz;
-        }
-        self.start.opened = scene.clone().into();
-        self.start.scene = scene.into();
+        self.restart(Some("the change of the file"), |next| {
+            // Without a choice the scene's rate applies.
+            if next.tick_hz == next.scene.tick_hz {
+                next.tick_hz = scene.tick_hz;
+            }
+            next.opened = scene.clone().into();
+            next.scene = scene.into();
+        });
         self.viewer.findings = None;
         self.viewer.dialog = None;
-        self.restart();
         (0..tick).for_each(|_| self.tick());
         self.running &= !self.comes_to_rest();
         self.timeline.show_present();
@@ -225,11 +225,18 @@ impl Studio {
     /// Opens the scene with this index in the list, modulo its length, under the scene's opening method, and closes the
     /// guide, which is about another. The preferences stay, and so does the mode, unless the scene opens as a race.
     pub(super) fn open(&mut self, index: usize) {
-        let index = index % self.scene_list.count();
-        let mut studio = Studio::new(self.scene_list.scene(index));
-        studio.scene_list = self.scene_list.clone();
-        studio.scene_list.set_open(index);
-        studio.start.mode = if studio.scene().opens_as_race { Mode::Race } else { self.mode() };
+        self.open_with(index, |_| ());
+    }
+
+    /// Like [`Self::open`], with the settings of its start as `set` sets them.
+    pub(super) fn open_with(&mut self, index: usize, set: impl FnOnce(&mut StartSettings)) {
+        let mut scene_list = self.scene_list.clone();
+        let index = index % scene_list.count();
+        scene_list.set_open(index);
+        let mut next = StartSettings::of(scene_list.scene(index));
+        next.mode = if next.scene.opens_as_race { Mode::Race } else { self.mode() };
+        set(&mut next);
+        let mut studio = Self::of_timeline(scene_list, Timeline::starting_with(next));
         studio.viewer = self.viewer.before_next_scene(studio.viewer.selected);
         if self.scene().clouds.is_some() && studio.display().enlarged {
             let display = &mut studio.viewer.preferences.display;
@@ -239,7 +246,8 @@ impl Studio {
         studio.clock.set_speed_percent(self.clock.speed_percent());
         studio.running = self.runs_or_rests();
         studio.timeline.set_limit(self.timeline.limit());
-        studio.restart();
+        studio.record_chosen_coordinates();
+        studio.select_entry_of_start();
         let file = studio.scene_list.file(index);
         let mistakes = file.and_then(|file| Some((file.name(), file.mistakes.clone()?)));
         studio.viewer.dialog = mistakes.map(|(file, report)| Dialog::Mistakes { file, report });
