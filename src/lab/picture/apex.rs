@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::moment::DrawContext;
-use super::sketch::{Camera, path};
+use super::sketch::Camera;
 use super::{Align, Label, Picture, captions};
 use crate::lab::past::SweptRange;
 use crate::lab::race::Entrant;
@@ -45,7 +45,7 @@ pub(super) fn draw(
     for (height, colour) in [(exact_m, moment.palette.exact), (lane_m, colour)] {
         let [x, y] = camera.points(DVec2::new(0.0, height));
         let ends = [[x - APEX, y], [x + APEX, y]];
-        picture.shapes.push(path(ends, 1.6, colour, [5.0, 3.0], camera.rect));
+        picture.pen(camera.rect).dashed(ends, 1.6, colour, [5.0, 3.0]);
     }
     let percent = 100.0 * (lane_m / exact_m - 1.0);
     let differs = match percent.abs() < 0.05 {

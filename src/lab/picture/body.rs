@@ -3,8 +3,8 @@
 use super::coil::{Span, coil, silhouette, strut};
 use super::hull::{self, ShipPose};
 use super::mass::{self, LaneStyle};
-use super::sketch::{Camera, SOLID, line, path};
-use super::{Align, Label, Mark, Outline, Picture, Shape};
+use super::sketch::{Camera, SOLID};
+use super::{Align, Label, Mark, Outline, Picture};
 use crate::lab::palette::{Palette, Rgba, faded, is_bright, mixed};
 use crate::lab::scene::Thread;
 
@@ -90,51 +90,39 @@ impl OutlineView<'_> {
 
     /// What carries the body: springs, rods, and what does not move, with names. It is drawn below the exact solution.
     pub(super) fn carried(&self, picture: &mut Picture, coat: LaneStyle) {
-        let shapes = &mut picture.shapes;
-        let (camera, clip) = (self.camera, self.camera.rect);
+        let camera = self.camera;
+        let pen = &mut picture.pen(camera.rect);
         let still = mixed(self.palette.chart, self.palette.sea[1], 0.35);
         let thread = mixed(coat.colour, self.palette.text, 0.15);
         for Thread { points, is_border } in &self.outline.threads {
             let points = points.iter().map(|point| camera.points(*point));
             let width = if *is_border { BORDER } else { THREAD };
-            shapes.push(path(
-                points,
-                width,
-                faded(thread, if *is_border { 1.0 } else { 0.75 }),
-                SOLID,
-                clip,
-            ));
+            pen.path(points, width, faded(thread, if *is_border { 1.0 } else { 0.75 }));
         }
         for mark in &self.outline.marks {
             match *mark {
                 Mark::Wall { from, to } => {
                     let ends = [from, to].map(|end| camera.points(end));
-                    shapes.push(line(ends[0], ends[1], 5.0, still, clip));
+                    pen.line(ends[0], ends[1], 5.0, still);
                 }
                 Mark::Rail { from, to } => {
                     let ends = [from, to].map(|end| camera.points(end));
-                    shapes.push(line(ends[0], ends[1], 1.6, faded(still, 0.7), clip));
+                    pen.line(ends[0], ends[1], 1.6, faded(still, 0.7));
                 }
                 Mark::Rod { from, to } => {
                     let ends = [from, to].map(|end| camera.points(end));
-                    shapes.push(line(
-                        ends[0],
-                        ends[1],
-                        2.6,
-                        mixed(coat.colour, self.palette.text, 0.3),
-                        clip,
-                    ));
+                    pen.line(ends[0], ends[1], 2.6, mixed(coat.colour, self.palette.text, 0.3));
                 }
-                Mark::Sprung => coil(shapes, self.span(), self.palette, clip),
+                Mark::Sprung => coil(pen, self.span(), self.palette),
                 Mark::Anchor { centre, radius } => {
-                    mass::ball(shapes, camera.points(centre), camera.size(radius), still, clip);
+                    mass::ball(pen, camera.points(centre), camera.size(radius), still);
                 }
                 Mark::Planet { centre, radius } => {
-                    mass::planet(shapes, camera.points(centre), camera.size(radius), clip);
+                    mass::planet(pen, camera.points(centre), camera.size(radius));
                 }
                 Mark::Coil { from, to, radius } => {
                     let ends = [from, to].map(|end| camera.points(end));
-                    strut(shapes, ends, camera.size(radius), self.palette, clip);
+                    strut(pen, ends, camera.size(radius), self.palette);
                 }
                 Mark::Disc { .. } | Mark::Block { .. } | Mark::Hull { .. } => {}
             }
@@ -179,66 +167,71 @@ impl OutlineView<'_> {
     }
 
     /// The body itself, in front of everything.
-    pub(super) fn front(&self, shapes: &mut Vec<Shape>, coat: LaneStyle) {
-        let (camera, clip) = (self.camera, self.camera.rect);
+    pub(super) fn front(&self, picture: &mut Picture, LaneStyle { colour, .. }: LaneStyle) {
+        let camera = self.camera;
+        let pen = &mut picture.pen(camera.rect);
         for part in self.parts() {
             match part {
                 // It carries the body.
                 Part::Rod(_) => {}
-                Part::Disc(at, radius) => mass::ball(shapes, at, radius, coat.colour, clip),
-                Part::Sprung(span) => {
-                    mass::block(shapes, span.block, camera.block, coat.colour, clip);
-                }
-                Part::Block(corners) => mass::slab(shapes, corners, coat.colour, clip),
-                Part::Hull(berth) => hull::ship(shapes, berth, coat.colour, self.palette, clip),
+                Part::Disc(at, radius) => mass::ball(pen, at, radius, colour),
+                Part::Sprung(span) => mass::block(pen, span.block, camera.block, colour),
+                Part::Block(corners) => mass::slab(pen, corners, colour),
+                Part::Hull(berth) => hull::ship(pen, berth, colour, self.palette),
             }
         }
     }
 
     /// A lane behind, hollow: what tells where it is, and nothing of what does not move.
-    pub(super) fn behind(&self, shapes: &mut Vec<Shape>, coat: LaneStyle) {
-        let (camera, clip) = (self.camera, self.camera.rect);
+    pub(super) fn behind(&self, picture: &mut Picture, style: LaneStyle) {
+        let camera = self.camera;
+        let pen = &mut picture.pen(camera.rect);
+        // Something small has its pattern at half the length.
+        let [drawn, gap] = style.dash;
+        let dash = if gap > 0.0 { [(drawn / 2.0).max(2.0), 2.5] } else { style.dash };
+        let short = LaneStyle { dash, ..style };
         for Thread { points, .. } in self.outline.threads.iter().filter(|it| it.is_border) {
             let points = points.iter().map(|point| camera.points(*point));
-            shapes.push(path(points, 1.4, faded(coat.colour, 0.7), coat.dash, clip));
+            pen.dashed(points, 1.4, faded(style.colour, 0.7), style.dash);
         }
         for part in self.parts() {
             match part {
-                Part::Rod(ends) => {
-                    shapes.push(path(ends, 1.4, faded(coat.colour, 0.7), coat.dash, clip));
-                }
-                Part::Disc(at, radius) => mass::hollow_disc(shapes, at, radius, coat, clip),
+                Part::Rod(ends) => pen.dashed(ends, 1.4, faded(style.colour, 0.7), style.dash),
+                Part::Disc(at, radius) => pen.hollow(&mass::round(at, radius), 1.8, short),
                 Part::Sprung(span) => {
-                    mass::hollow_block(shapes, span.block, camera.block, coat, clip);
+                    let side = camera.block;
+                    let face = mass::square(span.block, 0.78 * side, 6.0 * side / 60.0);
+                    pen.hollow(&face, 2.2, short);
                 }
-                Part::Block(corners) => mass::hollow_slab(shapes, corners, coat, clip),
-                Part::Hull(berth) => hull::hollow(shapes, berth, coat, clip),
+                Part::Block(corners) => pen.hollow(&mass::box_round(corners, 0.0), 2.0, short),
+                Part::Hull(berth) => pen.hollow(&berth.hull(0.0), 1.8, style),
             }
         }
     }
 
     /// The exact solution: one line round it.
-    pub(super) fn ghost(&self, shapes: &mut Vec<Shape>) {
-        let (camera, clip, palette) = (self.camera, self.camera.rect, self.palette);
+    pub(super) fn ghost(&self, picture: &mut Picture) {
+        let (camera, palette) = (self.camera, self.palette);
+        let pen = &mut picture.pen(camera.rect);
         if !self.outline.course.is_empty() {
             let course = self.outline.course.iter().map(|at| camera.points(*at));
-            shapes.push(path(course, 1.3, faded(palette.exact, 0.6), [2.5, 4.0], clip));
+            pen.dashed(course, 1.3, faded(palette.exact, 0.6), [2.5, 4.0]);
         }
         for Thread { points, .. } in self.outline.threads.iter().filter(|it| it.is_border) {
             let points = points.iter().map(|point| camera.points(*point));
-            shapes.push(path(points.clone(), 3.6, faded(palette.sea[1], 0.6), SOLID, clip));
-            shapes.push(path(points, 1.4, faded(palette.exact, 0.8), SOLID, clip));
+            pen.path(points.clone(), 3.6, faded(palette.sea[1], 0.6));
+            pen.path(points, 1.4, faded(palette.exact, 0.8));
         }
         for part in self.parts() {
             match part {
                 Part::Rod(ends) => {
-                    shapes.push(path(ends, 3.6, faded(palette.sea[1], 0.6), SOLID, clip));
-                    shapes.push(path(ends, 1.4, faded(palette.exact, 0.8), SOLID, clip));
+                    pen.path(ends, 3.6, faded(palette.sea[1], 0.6));
+                    pen.path(ends, 1.4, faded(palette.exact, 0.8));
                 }
-                Part::Disc(at, radius) => mass::ghost_disc(shapes, at, radius, palette, clip),
-                Part::Sprung(span) => silhouette(shapes, span, palette, clip),
-                Part::Block(corners) => mass::ghost_slab(shapes, corners, palette, clip),
-                Part::Hull(berth) => hull::ghost(shapes, berth, palette, clip),
+                Part::Disc(at, radius) => pen.ghost(&mass::round(at, radius + 1.5), palette),
+                Part::Sprung(span) => silhouette(pen, span, palette),
+                Part::Block(corners) => pen.ghost(&mass::box_round(corners, 1.5), palette),
+                Part::Hull(berth) => pen.ghost(&berth.hull(-2.0), palette),
             }
         }
     }

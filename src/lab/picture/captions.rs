@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::moment::{DrawContext, turns};
-use super::sketch::{Camera, SOLID, fill, line, path, ring, rounded};
+use super::sketch::{Camera, rounded};
 use super::{Align, Label, Look, Mark, Picture, Rect, Rgba, breakpoints};
 use crate::lab::Studio;
 use crate::lab::analysis::Severity;
@@ -65,8 +65,7 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, 
     if entrant.id == studio.selected().id {
         let (top, bottom) = (rect.min[1] + 4.0, rect.max[1] - 4.0);
         let x = rect.min[0] + 2.5;
-        let bar = line([x, top], [x, bottom.max(top)], 3.0, colour, rect);
-        picture.shapes.push(bar);
+        picture.pen(rect).line([x, top], [x, bottom.max(top)], 3.0, colour);
     }
     // Of many lanes a row is lower than a line of the usual size.
     let size = (0.78 * (rect.max[1] - rect.min[1])).min(12.0);
@@ -356,7 +355,7 @@ pub(super) fn exact(
     }
     let at = [left, if is_above { above } else { below }];
     let from = [x + 0.7 * way * beside, if is_above { y - 0.7 * beside } else { y + 0.7 * beside }];
-    picture.shapes.push(line(from, [at[0] - 3.0 * way, at[1]], 1.0, palette.exact, camera.rect));
+    picture.pen(camera.rect).line(from, [at[0] - 3.0 * way, at[1]], 1.0, palette.exact);
     let label = text(palette, at, align, 12.0, palette.exact, "exact".into());
     picture.labels.push(Label { is_strong: true, ..label });
 }
@@ -366,7 +365,7 @@ pub(super) fn course(picture: &mut Picture, camera: &Camera, palette: &Palette) 
     let Rect { min, max } = camera.rect;
     let y = camera.points(DVec2::new(0.0, camera.centre_m.y))[1];
     let chart = faded(palette.chart, 0.45);
-    picture.shapes.push(path([[min[0], y], [max[0], y]], 1.0, chart, [8.0, 5.0], camera.rect));
+    picture.pen(camera.rect).dashed([[min[0], y], [max[0], y]], 1.0, chart, [8.0, 5.0]);
     if max[0] - min[0] < breakpoints::MARKS || max[1] - min[1] < breakpoints::SCALE_BAR {
         return;
     }
@@ -380,7 +379,7 @@ pub(super) fn course(picture: &mut Picture, camera: &Camera, palette: &Palette) 
         let [x, _] = camera.points(DVec2::new(x_m, 0.0));
         if x > min[0] + 30.0 && x < max[0] - 30.0 {
             let colour = palette.dim;
-            picture.shapes.push(line([x, y - 5.0], [x, y + 5.0], 1.5, colour, camera.rect));
+            picture.pen(camera.rect).line([x, y - 5.0], [x, y + 5.0], 1.5, colour);
             if !is_named(x_m) {
                 continue;
             }
@@ -407,8 +406,9 @@ pub(super) fn plate(
     palette: &Palette,
 ) {
     let shape = rounded(min, max, 7.0);
-    picture.shapes.push(fill(&shape, faded(palette.panel, 0.94), clip));
-    picture.shapes.push(ring(&shape, 1.6, rim, SOLID, clip));
+    let pen = &mut picture.pen(clip);
+    pen.fill(&shape, faded(palette.panel, 0.94));
+    pen.ring(&shape, 1.6, rim);
 }
 
 /// A line of this width from side to side, with a stroke across each of its ends that reaches so far up and down.
@@ -419,9 +419,9 @@ pub(super) fn span_line(
     colour: Rgba,
     clip: Rect,
 ) {
-    picture.shapes.push(line([left, y], [right, y], width, colour, clip));
+    picture.pen(clip).line([left, y], [right, y], width, colour);
     for x in [left, right] {
-        picture.shapes.push(line([x, y - reach], [x, y + reach], width, colour, clip));
+        picture.pen(clip).line([x, y - reach], [x, y + reach], width, colour);
     }
 }
 

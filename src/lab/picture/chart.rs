@@ -5,8 +5,8 @@ use std::sync::LazyLock;
 
 use glam::DVec2;
 
-use super::sketch::{Camera, SOLID, fill, line, path};
-use super::{Align, Label, Picture, Rect, Sea, Shape};
+use super::sketch::{Camera, Pen, SOLID};
+use super::{Align, Label, Picture, Rect, Sea};
 use crate::lab::palette::{Palette, faded, mixed};
 use crate::sim::number::round;
 
@@ -23,8 +23,9 @@ const AREA_OF_USUAL_WAVES: f32 = 800.0 * 480.0;
 /// The sea of the stage.
 pub(super) fn sea(picture: &mut Picture, stage: Rect, palette: &Palette) {
     picture.sea = Some(Sea { rect: stage, colours: palette.sea });
-    contours(&mut picture.shapes, stage, palette);
-    waves(&mut picture.shapes, stage, palette);
+    let pen = &mut picture.pen(stage);
+    contours(pen, stage, palette);
+    waves(pen, stage, palette);
 }
 
 /// Lines of equal depth round a shoal, from its middle, in widths of the stage.
@@ -42,13 +43,13 @@ static CONTOURS: LazyLock<[[[f32; 2]; 57]; 8]> = LazyLock::new(|| {
     })
 });
 
-fn contours(shapes: &mut Vec<Shape>, stage: Rect, palette: &Palette) {
+fn contours(pen: &mut Pen<'_>, stage: Rect, palette: &Palette) {
     let [width, height] = [0, 1].map(|axis| stage.max[axis] - stage.min[axis]);
     let middle = [stage.min[0] + 0.93 * width, stage.min[1] + 0.3 * height];
     for (n, contour) in CONTOURS.iter().enumerate() {
         let points = contour.iter().map(|[x, y]| [middle[0] + width * x, middle[1] + width * y]);
         let dash = if n % 2 == 0 { SOLID } else { [1.5, 5.0] };
-        shapes.push(path(points, 1.0, faded(palette.chart, 0.13), dash, stage));
+        pen.dashed(points, 1.0, faded(palette.chart, 0.13), dash);
     }
 }
 
@@ -80,22 +81,23 @@ static WAVES: LazyLock<Vec<Wave>> = LazyLock::new(|| {
     (0..4 * USUAL_WAVES).map(wave).collect()
 });
 
-fn waves(shapes: &mut Vec<Shape>, stage: Rect, palette: &Palette) {
+fn waves(pen: &mut Pen<'_>, stage: Rect, palette: &Palette) {
     let size = [0, 1].map(|axis| stage.max[axis] - stage.min[axis]);
     let count = f32::from(USUAL_WAVES) * size[0] * size[1] / AREA_OF_USUAL_WAVES;
     for wave in WAVES.iter().take(count as usize) {
         let [x, y] = [0, 1].map(|axis| stage.min[axis] + size[axis] * wave.at[axis]);
         let crest = [x + wave.length / 2.0, y - 1.6];
         let colour = faded(palette.chart, wave.strength);
-        shapes.push(line([x, y], crest, 1.0, colour, stage));
-        shapes.push(line(crest, [x + wave.length, y], 1.0, colour, stage));
+        pen.line([x, y], crest, 1.0, colour);
+        pen.line(crest, [x + wave.length, y], 1.0, colour);
     }
 }
 
 /// The quay to the left of a camera's cell, between these heights, with its shadow on the water.
-pub(super) fn quay(shapes: &mut Vec<Shape>, camera: &Camera, palette: &Palette) {
+pub(super) fn quay(picture: &mut Picture, camera: &Camera, palette: &Palette) {
     const SLAB: f32 = 36.0;
     let clip = camera.rect;
+    let pen = &mut picture.pen(clip);
     let edge = camera.points(DVec2::new(camera.quay_m, 0.0))[0];
     let (top, bottom) = (clip.min[1], clip.max[1]);
     if edge <= clip.min[0] {
@@ -106,37 +108,36 @@ pub(super) fn quay(shapes: &mut Vec<Shape>, camera: &Camera, palette: &Palette) 
     let shadow = |at: [f32; 2]| if at[0] > edge { [0; 4] } else { [0, 0, 0, 110] };
     let reach = edge + 22.0;
     let water = [[edge, top], [reach, top], [reach, bottom], [edge, bottom]];
-    shapes.push(super::sketch::shaded(&water, shadow, clip));
-    shapes.push(fill(&[[left, top], [edge, top], [edge, bottom], [left, bottom]], stone, clip));
+    pen.shaded(&water, shadow);
+    pen.fill(&[[left, top], [edge, top], [edge, bottom], [left, bottom]], stone);
     let joint = mixed(stone, [0, 0, 0, 255], 0.35);
     let first = (top / SLAB).floor() * SLAB;
     for i in 0..=((bottom - first) / SLAB) as u16 {
         let y = first + f32::from(i) * SLAB;
-        shapes.push(line([left, y], [edge - 6.0, y], 1.0, joint, clip));
+        pen.line([left, y], [edge - 6.0, y], 1.0, joint);
     }
-    shapes.push(line([edge - 3.0, top], [edge - 3.0, bottom], 5.0, rim, clip));
+    pen.line([edge - 3.0, top], [edge - 3.0, bottom], 5.0, rim);
 }
 
 /// The ring on the quay that a spring is moored to.
-pub(super) fn mooring(shapes: &mut Vec<Shape>, camera: &Camera, palette: &Palette) {
-    let clip = camera.rect;
+pub(super) fn mooring(picture: &mut Picture, camera: &Camera, palette: &Palette) {
+    let pen = &mut picture.pen(camera.rect);
     let [x, y] = camera.points(DVec2::new(camera.quay_m, 0.0));
     let radius = 0.17 * camera.block;
     let at = [x - 1.7 * radius, y];
     let rim = palette.quay[1];
-    shapes.push(super::sketch::disc(at, radius, mixed(rim, [0, 0, 0, 255], 0.5), clip));
-    shapes.push(super::sketch::disc(at, 0.72 * radius, rim, clip));
-    shapes.push(line(at, [x + 2.0, y], 0.4 * radius, mixed(rim, palette.text, 0.4), clip));
+    pen.disc(at, radius, mixed(rim, [0, 0, 0, 255], 0.5));
+    pen.disc(at, 0.72 * radius, rim);
+    pen.line(at, [x + 2.0, y], 0.4 * radius, mixed(rim, palette.text, 0.4));
 }
 
 /// A ruler along the top of the stage, in the metres that the camera shows below it.
 pub(super) fn ruler(picture: &mut Picture, strip: Rect, camera: &Camera, palette: &Palette) {
     let Rect { min, max } = strip;
-    picture.shapes.push(fill(
+    picture.pen(strip).fill(
         &[min, [max[0], min[1]], max, [min[0], max[1]]],
         mixed(palette.panel, palette.background, 0.4),
-        strip,
-    ));
+    );
     let step_m = camera.round_length_m(NAMED_APART * f64::from(max[0] - min[0]));
     let (left, right) = camera.span_m();
     let [top, bottom] = [max[1] - STRIPES, max[1]];
@@ -149,7 +150,7 @@ pub(super) fn ruler(picture: &mut Picture, strip: Rect, camera: &Camera, palette
         let (from, to) = (x(i).max(min[0]), x(i + 1).min(max[0]));
         if to > from {
             let stripe = [[from, top], [to, top], [to, bottom], [from, bottom]];
-            picture.shapes.push(fill(&stripe, shade, strip));
+            picture.pen(strip).fill(&stripe, shade);
         }
     }
     for i in (first..=last.min(first + 400)).filter(|i| i.rem_euclid(2) == 0) {

@@ -2,8 +2,8 @@
 
 use std::f32::consts::{PI, TAU};
 
-use super::sketch::{SOLID, fill, path, ring, rounded};
-use super::{Rect, Rgba, Shape};
+use super::Rgba;
+use super::sketch::{Pen, rounded};
 use crate::lab::palette::{Palette, faded};
 
 /// Turns of the wire. They stay as many; the pitch stretches.
@@ -44,14 +44,14 @@ impl Span {
 }
 
 /// The spring, in metal.
-pub(super) fn coil(shapes: &mut Vec<Shape>, span: Span, palette: &Palette, clip: Rect) {
+pub(super) fn coil(pen: &mut Pen<'_>, span: Span, palette: &Palette) {
     let Some(ends) = span.ends() else { return };
     let thick = (span.size / 60.0).clamp(0.25, 1.0);
     let [edge, shade, light, gleam] = palette.wire;
     let dark = faded(edge, 0.75);
     let y = span.block[1];
     for (from, to) in [(span.quay, ends.0), (ends.1, span.block[0])] {
-        shapes.push(path([[from, y], [to, y]], 5.0 * thick, shade, SOLID, clip));
+        pen.path([[from, y], [to, y]], 5.0 * thick, shade);
     }
     let half = |turn: u16, back: bool| {
         let first = f32::from(turn) * TAU + if back { PI } else { 0.0 };
@@ -59,7 +59,7 @@ pub(super) fn coil(shapes: &mut Vec<Shape>, span: Span, palette: &Palette, clip:
     };
     let mut layer = |back: bool, width: f32, colour: Rgba| {
         for turn in 0..TURNS {
-            shapes.push(path(half(turn, back), width * thick, colour, SOLID, clip));
+            pen.path(half(turn, back), width * thick, colour);
         }
     };
     layer(true, 6.0, dark);
@@ -70,13 +70,7 @@ pub(super) fn coil(shapes: &mut Vec<Shape>, span: Span, palette: &Palette, clip:
 }
 
 /// A spring between two points, seen from the side, with turns of this radius.
-pub(super) fn strut(
-    shapes: &mut Vec<Shape>,
-    [from, to]: [[f32; 2]; 2],
-    radius: f32,
-    palette: &Palette,
-    clip: Rect,
-) {
+pub(super) fn strut(pen: &mut Pen<'_>, [from, to]: [[f32; 2]; 2], radius: f32, palette: &Palette) {
     const BENDS: u8 = 12;
     let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
     let length = libm::hypotf(dx, dy).max(1.0);
@@ -93,29 +87,25 @@ pub(super) fn strut(
     let thick = (radius / 12.0).clamp(0.3, 1.0);
     let [edge, _, light, _] = palette.wire;
     for (width, colour) in [(6.0, faded(edge, 0.75)), (3.4, light)] {
-        shapes.push(path((0..=BENDS).map(bend), width * thick, colour, SOLID, clip));
+        pen.path((0..=BENDS).map(bend), width * thick, colour);
     }
 }
 
 /// The silhouette of a spring and its block, in one line round both.
-pub(super) fn silhouette(shapes: &mut Vec<Shape>, span: Span, palette: &Palette, clip: Rect) {
+pub(super) fn silhouette(pen: &mut Pen<'_>, span: Span, palette: &Palette) {
     let half = span.size / 2.0 + 1.5;
     let [x, y] = span.block;
     let block = rounded([x - half, y - half], [x + half, y + half], 0.15 * span.size);
     let dark = faded(palette.sea[1], 0.6);
     let exact = faded(palette.exact, 0.95);
     let veil = faded(palette.exact, 0.12);
-    shapes.push(fill(&block, veil, clip));
+    pen.fill(&block, veil);
     let mut round = block;
     if let Some((from, _)) = span.ends() {
         let (edge, swell) = (RADIUS * span.size + 3.0, 0.05 * span.size);
         let left = from - 2.0;
         let right = x - half;
-        shapes.push(fill(
-            &[[left, y - edge], [right, y - edge], [right, y + edge], [left, y + edge]],
-            veil,
-            clip,
-        ));
+        pen.fill(&[[left, y - edge], [right, y - edge], [right, y + edge], [left, y + edge]], veil);
         let scallop = |i: u16, side: f32| {
             let part = f32::from(i) / f32::from(4 * TURNS);
             let bulge = libm::fabsf(libm::sinf(PI * f32::from(i) / 4.0));
@@ -130,6 +120,6 @@ pub(super) fn silhouette(shapes: &mut Vec<Shape>, span: Span, palette: &Palette,
         round.extend(lower);
         round.extend(upper);
     }
-    shapes.push(ring(&round, 4.0, dark, SOLID, clip));
-    shapes.push(ring(&round, 1.8, exact, SOLID, clip));
+    pen.ring(&round, 4.0, dark);
+    pen.ring(&round, 1.8, exact);
 }

@@ -10,7 +10,7 @@ use super::layout::{bands, grid, mosaic};
 use super::loupe::LoupeLane;
 use super::mass::LaneStyle;
 use super::moment::DrawContext;
-use super::sketch::{Camera, line, path};
+use super::sketch::Camera;
 use super::{
     Cell, Framing, Look, Mark, Outline, Picture, Rect, Rgba, Whose, apex, breakpoints, captions,
     chart, futures, loop_stage, loupe, universe,
@@ -87,7 +87,7 @@ fn overlay(
     let mut cells = bands(room, &heights.collect::<Vec<f32>>());
     if let Some(moored) = views.iter().position(|view| view.recorded_m().is_some()) {
         let camera = moment.camera(cells[moored], moored, &views[moored]);
-        chart::quay(&mut picture.shapes, &Camera { rect: room, ..camera }, moment.palette);
+        chart::quay(picture, &Camera { rect: room, ..camera }, moment.palette);
         let afloat = cells.iter_mut().zip(&views).filter(|(_, view)| view.recorded_m().is_none());
         afloat.for_each(|(cell, _)| cell.min[0] += quay_width(room));
     }
@@ -134,7 +134,7 @@ fn side_by_side(
         let camera = moment.camera(cell, index, view);
         let lanes = std::slice::from_ref(entrant);
         if view.recorded_m().is_some() {
-            chart::quay(&mut picture.shapes, &camera, moment.palette);
+            chart::quay(picture, &camera, moment.palette);
         }
         BodyCell { moment, index, ghost, view, camera, lanes, front: entrant }.draw(picture);
         frame(picture, cell, faded(moment.palette.chart, 0.3));
@@ -171,7 +171,7 @@ fn side_by_side(
 fn frame(picture: &mut Picture, Rect { min, max }: Rect, colour: Rgba) {
     let corners = [min, [max[0], min[1]], max, [min[0], max[1]], min];
     let everywhere = Rect { min: [min[0] - 1.0, min[1] - 1.0], max: [max[0] + 1.0, max[1] + 1.0] };
-    picture.shapes.push(path(corners, 1.0, colour, super::sketch::SOLID, everywhere));
+    picture.pen(everywhere).path(corners, 1.0, colour);
 }
 
 /// One body of the scene in one cell: its ghost, and some lanes' bodies.
@@ -245,7 +245,7 @@ impl BodyCell<'_> {
             }
             near.push(LoupeLane::of(moment, lane, index, colour));
             if !is_front {
-                seen.behind(&mut picture.shapes, coat);
+                seen.behind(picture, coat);
                 flagged.push(flag);
                 if self.lanes.len() <= MAX_NUMBERED && outline.threads.is_empty() {
                     rivals.push((outline, LaneStyle { fill: 0.0, ..coat }));
@@ -257,18 +257,18 @@ impl BodyCell<'_> {
             if held.is_some() {
                 let left =
                     LaneStyle { colour: faded(colour, LEFT_BEHIND), dash, fill: self.fill() };
-                seen.behind(&mut picture.shapes, left);
+                seen.behind(picture, left);
             }
             shown.carried(picture, coat);
             self.draw_ghost(picture, shows_ghost);
-            shown.front(&mut picture.shapes, coat);
+            shown.front(picture, coat);
             // Those behind would be hidden by it.
             for (outline, coat) in rivals.drain(..) {
-                OutlineView { outline: &outline, ..shown }.behind(&mut picture.shapes, coat);
+                OutlineView { outline: &outline, ..shown }.behind(picture, coat);
             }
             if let Some(held) = held.filter(|held| held.lane == lane.id) {
                 let [handle, hand] = [held.handle, held.hand].map(|at| camera.points(at));
-                picture.shapes.push(line(handle, hand, 1.0, palette.text, camera.rect));
+                picture.pen(camera.rect).line(handle, hand, 1.0, palette.text);
             }
             // Flags of many lanes reach over the bodies.
             if self.lanes.len() <= MAX_NUMBERED {
@@ -363,7 +363,7 @@ impl BodyCell<'_> {
                 captions::course(picture, camera, moment.palette);
             }
             Framing::Recorder { .. } => {
-                chart::mooring(&mut picture.shapes, camera, moment.palette);
+                chart::mooring(picture, camera, moment.palette);
                 envelope(picture, camera, ghost.view.reach_m.x, faded(moment.palette.exact, 0.6));
             }
             Framing::Follow { .. } | Framing::Fixed { .. } => {}
@@ -380,7 +380,7 @@ impl BodyCell<'_> {
         if shows_ghost {
             let outline = &self.ghost.outline;
             let seen = OutlineView { outline, camera: &self.camera, palette: self.moment.palette };
-            seen.ghost(&mut picture.shapes);
+            seen.ghost(picture);
         }
     }
 
@@ -448,12 +448,6 @@ fn envelope(picture: &mut Picture, camera: &Camera, swing_m: f64, colour: Rgba) 
     let (top, bottom) = (camera.rect.min[1] + 4.0, camera.rect.max[1] - 4.0);
     for x in [-swing_m, swing_m] {
         let [x, _] = camera.points(DVec2::new(x, 0.0));
-        picture.shapes.push(path(
-            [[x, top], [x, bottom.max(top)]],
-            1.3,
-            colour,
-            [2.5, 4.0],
-            camera.rect,
-        ));
+        picture.pen(camera.rect).dashed([[x, top], [x, bottom.max(top)]], 1.3, colour, [2.5, 4.0]);
     }
 }

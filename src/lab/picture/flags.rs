@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::sketch::{Camera, SOLID, fill, line, ring, rounded};
+use super::sketch::{Camera, rounded};
 use super::{Align, Label, Picture, Rect, Rgba};
 use crate::lab::palette::{Palette, faded, mixed};
 use crate::sim::number::{significant, superscript};
@@ -92,7 +92,7 @@ pub(super) fn flags(
     for ((flags, [x, y]), width) in shared.iter().zip(places).zip(widths) {
         let colour = if flags.len() == 1 { flags[0].colour } else { palette.dim };
         let foot = [flags[0].at[0], flags[0].at[1] - lift + 6.0];
-        picture.shapes.push(line([x, y + half], foot, 1.4, colour, clip));
+        picture.pen(clip).line([x, y + half], foot, 1.4, colour);
         board(picture, [x, y], width, (text(flags), colour), palette, clip);
     }
 }
@@ -172,8 +172,9 @@ fn board(
 ) {
     let [wide, high] = [width / 2.0, FLAG / 2.0];
     let shape = rounded([x - wide, y - high], [x + wide, y + high], 0.22 * FLAG);
-    picture.shapes.push(fill(&shape, faded(palette.panel, 0.94), clip));
-    picture.shapes.push(ring(&shape, 1.5, colour, SOLID, clip));
+    let pen = &mut picture.pen(clip);
+    pen.fill(&shape, faded(palette.panel, 0.94));
+    pen.ring(&shape, 1.5, colour);
     picture.labels.push(Label {
         at: [x, y],
         align: Align::Centre,
@@ -319,8 +320,8 @@ pub(super) fn badges(
             let shoulder = tip + inwards * if badge.is_beside { 9.0 * scale } else { 0.0 };
             let shape =
                 [[tip, middle], [shoulder, y], [far, y], [far, y + high], [shoulder, y + high]];
-            picture.shapes.push(fill(&shape, faded(palette.panel, 0.94), clip));
-            picture.shapes.push(ring(&shape, 1.6, badge.flag.colour, SOLID, clip));
+            picture.pen(clip).fill(&shape, faded(palette.panel, 0.94));
+            picture.pen(clip).ring(&shape, 1.6, badge.flag.colour);
             let at = [if is_wide { far - inwards * 14.0 } else { (far + shoulder) / 2.0 }, middle];
             let (colour, dark) =
                 (badge.flag.colour, mixed(palette.background, [0, 0, 0, 255], 0.2));
@@ -328,7 +329,7 @@ pub(super) fn badges(
             let half = [if number.len() > 1 { 10.0 } else { 7.5 }, 7.5].map(|half| half * scale);
             let corner = |sign: f32| [0, 1].map(|axis| at[axis] + sign * half[axis]);
             let digit = rounded(corner(-1.0), corner(1.0), 3.0 * scale);
-            picture.shapes.push(fill(&digit, colour, clip));
+            picture.pen(clip).fill(&digit, colour);
             let mut write = |at, size, colour, text| {
                 let halo = [0; 4];
                 picture.labels.push(Label {

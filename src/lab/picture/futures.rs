@@ -2,7 +2,7 @@
 //! chart recorder it hangs from the mass in place of the trail.
 
 use super::moment::DrawContext;
-use super::sketch::{Camera, SOLID, disc, path};
+use super::sketch::Camera;
 use super::{Align, Framing, Label, Picture, captions};
 use crate::lab::studio::{Future, FutureMoment};
 
@@ -37,13 +37,13 @@ pub(super) fn draw(
         };
         let places: Vec<[f32; 2]> = moments.iter().map(place).collect();
         if places.len() > 1 {
-            picture.shapes.push(path(places.iter().copied(), width, colour, SOLID, clip));
+            picture.pen(clip).path(places.iter().copied(), width, colour);
         }
         let Some(entry) = entry else { continue };
         let mut last = places[0];
         for at in &places[1..] {
             if libm::hypotf(at[0] - last[0], at[1] - last[1]) >= APART {
-                picture.shapes.push(disc(*at, DOT, colour, clip));
+                picture.pen(clip).disc(*at, DOT, colour);
                 last = *at;
             }
         }

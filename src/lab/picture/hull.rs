@@ -3,10 +3,9 @@
 use std::f32::consts::FRAC_PI_2;
 use std::sync::LazyLock;
 
+use super::Rgba;
 use super::breakpoints;
-use super::mass::LaneStyle;
-use super::sketch::{SOLID, disc, fill, line, path, ring, rounded, shaded};
-use super::{Rect, Rgba, Shape};
+use super::sketch::{Pen, rounded};
 use crate::lab::palette::{BLACK, Palette, WHITE, faded, mixed};
 
 /// Planks of the deck, in the light and in the shade.
@@ -45,7 +44,7 @@ impl ShipPose {
     }
 
     /// The corners of the hull, drawn in by this many points.
-    fn hull(self, inset: f32) -> Vec<[f32; 2]> {
+    pub(super) fn hull(self, inset: f32) -> Vec<[f32; 2]> {
         let inset = inset / self.length;
         let side = |sign: f32| {
             WIDTHS.iter().map(move |[part, width]| {
@@ -64,32 +63,24 @@ impl ShipPose {
 }
 
 /// The ship itself.
-pub(super) fn ship(
-    shapes: &mut Vec<Shape>,
-    berth: ShipPose,
-    colour: Rgba,
-    palette: &Palette,
-    clip: Rect,
-) {
+pub(super) fn ship(pen: &mut Pen<'_>, berth: ShipPose, colour: Rgba, palette: &Palette) {
     let part = (berth.length / 150.0).clamp(0.2, 2.0);
     // Water that the bow throws aside.
     for (out, alpha) in [(7.0, 0.16), (3.5, 0.28)] {
         let crest: Vec<[f32; 2]> = berth.hull(-out * part);
         let bow = crest.len() / 2;
         let reach = crest.len() / 5;
-        shapes.push(path(
+        pen.path(
             crest[bow - reach..bow + reach].iter().copied(),
             3.0 * part,
             faded(palette.chart, 2.0 * alpha),
-            SOLID,
-            clip,
-        ));
+        );
     }
     let shadow = ShipPose { at: [berth.at[0] + 2.0 * part, berth.at[1] + 4.0 * part], ..berth };
-    shapes.push(fill(&shadow.hull(-2.0 * part), faded(BLACK, 0.22), clip));
+    pen.fill(&shadow.hull(-2.0 * part), faded(BLACK, 0.22));
     let hull = berth.hull(0.0);
-    shapes.push(fill(&hull, mixed(colour, BLACK, 0.08), clip));
-    shapes.push(ring(&hull, (1.6 * part).max(0.8), mixed(colour, BLACK, 0.5), SOLID, clip));
+    pen.fill(&hull, mixed(colour, BLACK, 0.08));
+    pen.ring(&hull, (1.6 * part).max(0.8), mixed(colour, BLACK, 0.5));
     if berth.length < breakpoints::DECK {
         return;
     }
@@ -98,54 +89,39 @@ pub(super) fn ship(
         let low = (y - berth.at[1]) / (BEAM * berth.length) + 0.5;
         mixed(DECK[0], DECK[1], low)
     };
-    shapes.push(shaded(&deck, plank, clip));
+    pen.shaded(&deck, plank);
     if berth.length >= breakpoints::PLANKS {
-        planks(shapes, berth, &deck, clip);
+        planks(pen, berth, &deck);
     }
     let house = berth.block((-0.36, -0.1), 0.078, 0.02);
-    shapes.push(fill(&berth.block((-0.35, -0.075), 0.085, 0.02), faded(BLACK, 0.25), clip));
-    shapes.push(fill(&house, [222, 230, 236, 255], clip));
-    shapes.push(ring(&house, 1.2 * part, [70, 84, 98, 255], SOLID, clip));
+    pen.fill(&berth.block((-0.35, -0.075), 0.085, 0.02), faded(BLACK, 0.25));
+    pen.fill(&house, [222, 230, 236, 255]);
+    pen.ring(&house, 1.2 * part, [70, 84, 98, 255]);
     let bridge = berth.block((-0.13, -0.085), 0.092, 0.012);
-    shapes.push(fill(&bridge, [96, 122, 144, 255], clip));
-    shapes.push(ring(&bridge, 1.0 * part, [40, 52, 64, 255], SOLID, clip));
+    pen.fill(&bridge, [96, 122, 144, 255]);
+    pen.ring(&bridge, 1.0 * part, [40, 52, 64, 255]);
     let funnel = berth.place(-0.26, 0.0);
-    shapes.push(disc(funnel, 0.045 * berth.length, [36, 44, 54, 255], clip));
-    shapes.push(disc(funnel, 0.034 * berth.length, colour, clip));
-    shapes.push(disc(funnel, 0.015 * berth.length, [20, 24, 30, 255], clip));
+    pen.disc(funnel, 0.045 * berth.length, [36, 44, 54, 255]);
+    pen.disc(funnel, 0.034 * berth.length, colour);
+    pen.disc(funnel, 0.015 * berth.length, [20, 24, 30, 255]);
     let stem = [berth.place(0.33, 0.0), berth.place(0.45, 0.0)];
-    shapes.push(line(stem[0], stem[1], 1.2 * part, faded(WHITE, 0.6), clip));
+    pen.line(stem[0], stem[1], 1.2 * part, faded(WHITE, 0.6));
 }
 
 /// The seams of the deck, its rail and its hatches.
-fn planks(shapes: &mut Vec<Shape>, berth: ShipPose, deck: &[[f32; 2]], clip: Rect) {
+fn planks(pen: &mut Pen<'_>, berth: ShipPose, deck: &[[f32; 2]]) {
     let part = (berth.length / 150.0).clamp(0.2, 2.0);
     for seam in -4..=4_i8 {
         let aside = f32::from(seam) * 0.022;
         let ends = 0.42 - 0.06 * libm::fabsf(f32::from(seam)) - 0.02;
         let ends = (-0.43, ends.max(0.1));
         let seam = [berth.place(ends.0, aside), berth.place(ends.1, aside)];
-        shapes.push(line(seam[0], seam[1], 0.6 * part, faded(BLACK, 0.16), clip));
+        pen.line(seam[0], seam[1], 0.6 * part, faded(BLACK, 0.16));
     }
-    shapes.push(ring(deck, 1.0 * part, faded(BLACK, 0.35), SOLID, clip));
+    pen.ring(deck, 1.0 * part, faded(BLACK, 0.35));
     for from in [0.03, 0.135] {
         let hatch = berth.block((from, from + 0.085), 0.05, 0.008);
-        shapes.push(fill(&hatch, HATCH, clip));
-        shapes.push(ring(&hatch, 1.0 * part, mixed(HATCH, BLACK, 0.5), SOLID, clip));
+        pen.fill(&hatch, HATCH);
+        pen.ring(&hatch, 1.0 * part, mixed(HATCH, BLACK, 0.5));
     }
-}
-
-/// The outline of a ship of a lane behind.
-pub(super) fn hollow(shapes: &mut Vec<Shape>, berth: ShipPose, coat: LaneStyle, clip: Rect) {
-    let hull = berth.hull(0.0);
-    shapes.push(fill(&hull, faded(coat.colour, coat.fill), clip));
-    shapes.push(ring(&hull, 1.8, coat.colour, coat.dash, clip));
-}
-
-/// The outline of the exact ship.
-pub(super) fn ghost(shapes: &mut Vec<Shape>, berth: ShipPose, palette: &Palette, clip: Rect) {
-    let hull = berth.hull(-2.0);
-    shapes.push(fill(&hull, faded(palette.exact, 0.12), clip));
-    shapes.push(ring(&hull, 4.0, faded(palette.sea[1], 0.6), SOLID, clip));
-    shapes.push(ring(&hull, 1.8, faded(palette.exact, 0.95), SOLID, clip));
 }

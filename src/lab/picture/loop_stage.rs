@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use super::body::OutlineView;
 use super::mass::LaneStyle;
-use super::sketch::{Camera, SOLID, line, path};
+use super::sketch::{Camera, SOLID};
 use super::{Align, Framing, Label, Look, Outline, Picture, Rect, Rgba, breakpoints, chart};
 use crate::lab::Studio;
 use crate::lab::analysis::Severity;
@@ -70,9 +70,8 @@ fn side_by_side(
         let from = ground.min[1] + height * row as f32;
         let rect = Rect { min: [0.0, from], max: [ground.max[0], from + height] };
         if row > 0 {
-            let ends = [[0.0, from], [ground.max[0], from]];
-            let edge = line(ends[0], ends[1], 1.0, faded(palette.chart, 0.35), rect);
-            picture.shapes.push(edge);
+            let edge = faded(palette.chart, 0.35);
+            picture.pen(rect).line([0.0, from], [ground.max[0], from], 1.0, edge);
         }
         let band = LoopBand::new(studio, loops, place, rect, FOOT);
         ruled = ruled.or(band.draw(picture, studio.display().ghost));
@@ -126,7 +125,7 @@ fn overlay(
         above -= LINE;
         let y = ground.max[1] - foot + 0.5 * FOOT + LINE * row as f32;
         let bar = [-6.0, 6.0].map(|up| [6.0, y + up]);
-        picture.shapes.push(line(bar[0], bar[1], 3.0, band.colour, ground));
+        picture.pen(ground).line(bar[0], bar[1], 3.0, band.colour);
         band.name(
             picture,
             y,
@@ -268,13 +267,13 @@ impl<'a> LoopBand<'a> {
         for (strength, before) in distinct_before(frames) {
             let outline = self.shown(before);
             let coat = LaneStyle { colour: faded(self.colour, strength), dash: SOLID, fill: 0.12 };
-            self.seen(camera, &outline).behind(&mut picture.shapes, coat);
+            self.seen(camera, &outline).behind(picture, coat);
         }
     }
 
     fn ghost(&self, picture: &mut Picture, camera: &Camera, exact: &Outline) {
         let coat = LaneStyle { colour: self.palette.exact, dash: SOLID, fill: 0.08 };
-        self.seen(camera, exact).behind(&mut picture.shapes, coat);
+        self.seen(camera, exact).behind(picture, coat);
     }
 
     fn body(&self, picture: &mut Picture, camera: &Camera, drawn: &Outline) {
@@ -284,7 +283,7 @@ impl<'a> LoopBand<'a> {
         if !self.is_recorded() {
             seen.carried(picture, coat());
         }
-        seen.front(&mut picture.shapes, coat());
+        seen.front(picture, coat());
     }
 
     /// Where the frames have shown the body, as a staircase in time, beside where it was.
@@ -308,8 +307,8 @@ impl<'a> LoopBand<'a> {
         held.extend(frames.last().map(|frame| [x(&frame.q), y(frame.displayed_ns)]));
         let ideal = frames.iter().map(|frame| [x(&frame.exact), y(frame.displayed_ns)]);
         let faint = faded(self.palette.exact, 0.75);
-        picture.shapes.push(path(ideal, 1.3, faint, SOLID, self.rect));
-        picture.shapes.push(path(held, 2.2, self.colour, SOLID, self.rect));
+        picture.pen(self.rect).path(ideal, 1.3, faint);
+        picture.pen(self.rect).path(held, 2.2, self.colour);
     }
 
     fn label(&self, at: [f32; 2], align: Align, size: f32, text: String) -> Label {
@@ -345,7 +344,7 @@ impl<'a> LoopBand<'a> {
     fn title(&self, picture: &mut Picture) {
         if self.loops.selected() == self.place {
             let [top, bottom] = [self.rect.min[1] + 4.0, self.rect.max[1] - 4.0];
-            picture.shapes.push(line([2.5, top], [2.5, bottom], 3.0, self.colour, self.rect));
+            picture.pen(self.rect).line([2.5, top], [2.5, bottom], 3.0, self.colour);
         }
         let name = match self.size()[0] >= breakpoints::METHOD_BESIDE_LOOP {
             true => format!("{} · {}", self.lane.card().name, self.loops.method().name),
@@ -364,7 +363,7 @@ impl<'a> LoopBand<'a> {
         if has_room && above > self.rect.min[1] + 6.0 {
             let (accent, rect) = (self.palette.accent, self.rect);
             let ends = [drawn[0], exact[0]].map(|x| [x, above]);
-            picture.shapes.push(line(ends[0], ends[1], 1.2, accent, rect));
+            picture.pen(rect).line(ends[0], ends[1], 1.2, accent);
             let right = drawn[0].max(exact[0]) + 8.0;
             let (x, align) = match right + LATENESS <= width {
                 true => (right.max(60.0), Align::Left),

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::moment::DrawContext;
-use super::sketch::{Camera, SOLID, circle, demote, disc, fill, line, ring};
+use super::sketch::{Camera, circle, demote};
 use super::{Align, Label, Picture, Rect, Rgba};
 use crate::lab::Metric;
 use crate::lab::palette::faded;
@@ -75,28 +75,29 @@ pub(super) fn draw(
         return;
     }
     let Some(times) = enlargement(furthest, REACH * f64::from(RADIUS)) else { return };
-    let (palette, clip) = (moment.palette, camera.rect);
+    let palette = moment.palette;
     let at = [room.max[0] - RADIUS - INSET, room.min[1] + RADIUS + INSET];
     if (0..2).all(|i| at[i] - RADIUS < busy.max[i] && at[i] + RADIUS > busy.min[i]) {
         return;
     }
     let [x, y] = at;
     let rim = circle(at, RADIUS, ROUND);
-    picture.shapes.push(fill(&rim, faded(palette.panel, 0.94), clip));
+    let pen = &mut picture.pen(camera.rect);
+    pen.fill(&rim, faded(palette.panel, 0.94));
     // The number stands below.
     let middle = y - 5.0;
     let hair = faded(palette.exact, 0.45);
     let reach = RADIUS - 12.0;
-    picture.shapes.push(line([x - reach, middle], [x + reach, middle], 1.0, hair, clip));
-    picture.shapes.push(line([x, middle - reach], [x, middle + reach], 1.0, hair, clip));
-    picture.shapes.push(ring(&circle([x, middle], 3.0, ROUND), 1.2, palette.exact, SOLID, clip));
+    pen.line([x - reach, middle], [x + reach, middle], 1.0, hair);
+    pen.line([x, middle - reach], [x, middle + reach], 1.0, hair);
+    pen.ring(&circle([x, middle], 3.0, ROUND), 1.2, palette.exact);
     for lane in lanes {
         let off = lane.off_m * (camera.points_per_metre * times);
         let place = [x + demote(off.x), middle - demote(off.y)];
-        picture.shapes.push(disc(place, LANE, lane.colour, clip));
-        picture.shapes.push(ring(&circle(place, LANE, ROUND), 1.0, palette.panel, SOLID, clip));
+        pen.disc(place, LANE, lane.colour);
+        pen.ring(&circle(place, LANE, ROUND), 1.0, palette.panel);
     }
-    picture.shapes.push(ring(&rim, 1.6, palette.dim, SOLID, clip));
+    pen.ring(&rim, 1.6, palette.dim);
     picture.labels.push(Label {
         at: [x, y + RADIUS - NUMBER],
         align: Align::Centre,

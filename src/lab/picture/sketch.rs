@@ -4,7 +4,9 @@ use std::sync::LazyLock;
 
 use glam::DVec2;
 
-use super::{FAR, Fill, Path, PathPoint, Rect, Rgba, Shape};
+use super::mass::LaneStyle;
+use super::{FAR, Fill, Path, PathPoint, Picture, Rect, Rgba, Shape};
+use crate::lab::palette::{Palette, faded};
 use crate::lab::studio::ZoomPan;
 
 /// From the middle of a block to the point of the pen under it, in blocks.
@@ -112,60 +114,110 @@ pub(super) fn demote(x: f64) -> f32 {
     if x.is_nan() { FAR } else { x.clamp(-far, far) as f32 }
 }
 
-/// A straight line, `width` points wide.
-pub(super) fn line(from: [f32; 2], to: [f32; 2], width: f32, colour: Rgba, clip: Rect) -> Shape {
-    path([from, to], width, colour, SOLID, clip)
-}
-
-/// A disc.
-pub(super) fn disc(at: [f32; 2], radius: f32, colour: Rgba, clip: Rect) -> Shape {
-    line(at, at, 2.0 * radius, colour, clip)
-}
-
-/// A line of one colour through points, with half its width at each.
-pub(super) fn taper(
-    points: impl IntoIterator<Item = ([f32; 2], f32)>,
-    colour: Rgba,
-    clip: Rect,
-) -> Shape {
-    let point = |(at, radius)| PathPoint { at, radius, colour };
-    Shape::Path(Path { points: points.into_iter().map(point).collect(), dash: SOLID, clip })
-}
-
 /// The dash pattern of an unbroken line.
 pub(super) const SOLID: [f32; 2] = [1.0, 0.0];
 
-/// A line through points, `width` points wide.
-pub(super) fn path(
-    points: impl IntoIterator<Item = [f32; 2]>,
-    width: f32,
-    colour: Rgba,
-    dash: [f32; 2],
+/// Draws shapes over those of a picture, and nothing outside a rectangle. Widths and radii are in points.
+pub(super) struct Pen<'a> {
+    shapes: &'a mut Vec<Shape>,
     clip: Rect,
-) -> Shape {
-    let point = |at| PathPoint { at, radius: width / 2.0, colour };
-    Shape::Path(Path { points: points.into_iter().map(point).collect(), dash, clip })
 }
 
-/// A line round the outline through these corners.
-pub(super) fn ring(
-    corners: &[[f32; 2]],
-    width: f32,
-    colour: Rgba,
-    dash: [f32; 2],
-    clip: Rect,
-) -> Shape {
-    path(corners.iter().chain(corners.first()).copied(), width, colour, dash, clip)
+impl Picture {
+    /// A pen that draws within `clip`.
+    pub(super) fn pen(&mut self, clip: Rect) -> Pen<'_> {
+        Pen { shapes: &mut self.shapes, clip }
+    }
 }
 
-/// A filled outline of one colour.
-pub(super) fn fill(corners: &[[f32; 2]], colour: Rgba, clip: Rect) -> Shape {
-    shaded(corners, |_| colour, clip)
-}
+impl Pen<'_> {
+    /// A straight line.
+    pub(super) fn line(&mut self, from: [f32; 2], to: [f32; 2], width: f32, colour: Rgba) {
+        self.path([from, to], width, colour);
+    }
 
-/// A filled outline with a colour for each place.
-pub(super) fn shaded(corners: &[[f32; 2]], colour: impl Fn([f32; 2]) -> Rgba, clip: Rect) -> Shape {
-    Shape::Fill(Fill { corners: corners.iter().map(|&at| (at, colour(at))).collect(), clip })
+    /// A disc.
+    pub(super) fn disc(&mut self, at: [f32; 2], radius: f32, colour: Rgba) {
+        self.line(at, at, 2.0 * radius, colour);
+    }
+
+    /// A line through points.
+    pub(super) fn path(
+        &mut self,
+        points: impl IntoIterator<Item = [f32; 2]>,
+        width: f32,
+        colour: Rgba,
+    ) {
+        self.dashed(points, width, colour, SOLID);
+    }
+
+    /// A line through points, of this dash pattern.
+    pub(super) fn dashed(
+        &mut self,
+        points: impl IntoIterator<Item = [f32; 2]>,
+        width: f32,
+        colour: Rgba,
+        dash: [f32; 2],
+    ) {
+        let point = |at| PathPoint { at, radius: width / 2.0, colour };
+        self.course(points.into_iter().map(point), dash);
+    }
+
+    /// A line of one colour through points, with half its width at each.
+    pub(super) fn taper(
+        &mut self,
+        points: impl IntoIterator<Item = ([f32; 2], f32)>,
+        colour: Rgba,
+    ) {
+        let point = |(at, radius)| PathPoint { at, radius, colour };
+        self.course(points.into_iter().map(point), SOLID);
+    }
+
+    /// A line of this dash pattern through points with a width and a colour each.
+    pub(super) fn course(&mut self, points: impl Iterator<Item = PathPoint>, dash: [f32; 2]) {
+        let path = Path { points: points.collect(), dash, clip: self.clip };
+        self.shapes.push(Shape::Path(path));
+    }
+
+    /// A line round the outline through these corners.
+    pub(super) fn ring(&mut self, corners: &[[f32; 2]], width: f32, colour: Rgba) {
+        self.dashed_ring(corners, width, colour, SOLID);
+    }
+
+    /// A line round the outline through these corners, of this dash pattern.
+    pub(super) fn dashed_ring(
+        &mut self,
+        corners: &[[f32; 2]],
+        width: f32,
+        colour: Rgba,
+        dash: [f32; 2],
+    ) {
+        self.dashed(corners.iter().chain(corners.first()).copied(), width, colour, dash);
+    }
+
+    /// A filled outline of one colour.
+    pub(super) fn fill(&mut self, corners: &[[f32; 2]], colour: Rgba) {
+        self.shaded(corners, |_| colour);
+    }
+
+    /// A filled outline with a colour for each place.
+    pub(super) fn shaded(&mut self, corners: &[[f32; 2]], colour: impl Fn([f32; 2]) -> Rgba) {
+        let corners = corners.iter().map(|&at| (at, colour(at))).collect();
+        self.shapes.push(Shape::Fill(Fill { corners, clip: self.clip }));
+    }
+
+    /// The outline of a body of a lane behind.
+    pub(super) fn hollow(&mut self, outline: &[[f32; 2]], width: f32, style: LaneStyle) {
+        self.fill(outline, faded(style.colour, style.fill));
+        self.dashed_ring(outline, width, style.colour, style.dash);
+    }
+
+    /// The outline of a body of the exact solution.
+    pub(super) fn ghost(&mut self, outline: &[[f32; 2]], palette: &Palette) {
+        self.fill(outline, faded(palette.exact, 0.12));
+        self.ring(outline, 4.0, faded(palette.sea[1], 0.6));
+        self.ring(outline, 1.8, faded(palette.exact, 0.95));
+    }
 }
 
 /// So many places on a circle.

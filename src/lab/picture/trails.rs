@@ -3,8 +3,8 @@
 use glam::{DVec2, Vec2};
 
 use super::moment::DrawContext;
-use super::sketch::{Camera, PEN, SOLID, demote, disc, taper};
-use super::{Framing, Path, PathPoint, Picture, Rect, Rgba, Shape};
+use super::sketch::{Camera, PEN, SOLID, demote};
+use super::{Framing, PathPoint, Picture, Rgba};
 use crate::lab::palette::{faded, mixed};
 use crate::lab::past::{History, Sample};
 use crate::lab::studio::Motion;
@@ -33,11 +33,6 @@ pub(super) struct Place {
     pub(super) at: DVec2,
     /// The colour of what got it there.
     pub(super) colour: Rgba,
-}
-
-/// A line through some places.
-fn trail(places: &[Place], clip: Rect, point: impl FnMut(&Place) -> PathPoint) -> Shape {
-    Shape::Path(Path { points: places.iter().map(point).collect(), dash: SOLID, clip })
 }
 
 impl DrawContext<'_> {
@@ -96,20 +91,22 @@ impl DrawContext<'_> {
         width: f32,
     ) {
         let radius = width / 2.0;
-        picture.shapes.push(match framing {
-            Framing::Follow { .. } => return,
-            Framing::Recorder { .. } => trail(places, camera.rect, |place| PathPoint {
-                at: self.on_paper(camera, place),
-                radius,
-                colour: faded(place.colour, self.fade(place.age, self.paper_s)),
-            }),
-            Framing::Fixed { trail_s, .. } => trail(places, camera.rect, |place| {
+        let point = |place: &Place| match framing {
+            Framing::Follow { .. } => None,
+            Framing::Recorder { .. } => {
+                let colour = faded(place.colour, self.fade(place.age, self.paper_s));
+                Some(PathPoint { at: self.on_paper(camera, place), radius, colour })
+            }
+            Framing::Fixed { trail_s, .. } => {
                 // Opaque, since where a trail crosses itself one piece covers the other.
                 let part = self.fade(place.age, trail_s) * f32::from(place.colour[3]) / 255.0;
                 let colour = mixed(self.palette.sea[1], place.colour, part);
-                PathPoint { at: camera.points(place.at), radius, colour }
-            }),
-        });
+                Some(PathPoint { at: camera.points(place.at), radius, colour })
+            }
+        };
+        if !matches!(framing, Framing::Follow { .. }) {
+            picture.pen(camera.rect).course(places.iter().filter_map(point), SOLID);
+        }
     }
 
     /// A dot on each sample of a lane's trail that is far enough from the next one for the line between
@@ -135,7 +132,7 @@ impl DrawContext<'_> {
             let older = Vec2::from(at(place));
             if newer.replace(older).is_some_and(|newer| newer.distance(older) >= SPARSE) {
                 let colour = faded(place.colour, self.fade(place.age, trail_s));
-                picture.shapes.push(disc(older.into(), DOT_RADIUS, colour, camera.rect));
+                picture.pen(camera.rect).disc(older.into(), DOT_RADIUS, colour);
             }
         }
     }
@@ -158,14 +155,12 @@ impl DrawContext<'_> {
         }
         let half_width = |age: f64| unit * (0.8 + 0.9 * age / wake_s);
         for (spread, part) in [(1.0, 0.24), (0.7, 0.16), (0.4, 0.22)] {
-            picture.shapes.push(trail(&course, camera.rect, |place| {
-                let colour = mixed(foam, place.colour, 0.35);
-                PathPoint {
-                    at: camera.points(place.at),
-                    radius: camera.size(spread * half_width(place.age)),
-                    colour: faded(colour, part * self.fade(place.age, wake_s)),
-                }
-            }));
+            let point = |place: &Place| PathPoint {
+                at: camera.points(place.at),
+                radius: camera.size(spread * half_width(place.age)),
+                colour: faded(mixed(foam, place.colour, 0.35), part * self.fade(place.age, wake_s)),
+            };
+            picture.pen(camera.rect).course(course.iter().map(point), SOLID);
         }
         for ends in course.windows(2) {
             let [newer, older] = [ends[0], ends[1]];
@@ -185,7 +180,7 @@ impl DrawContext<'_> {
                 let ends = [at, at - unit * (0.5 + dice(11.137)) * ahead];
                 let colour = faded(self.palette.text, 0.42 * self.fade(older.age, wake_s));
                 let [tip, tail] = ends.map(|end| camera.points(end));
-                picture.shapes.push(taper([(tip, 1.1), (tail, 0.3)], colour, camera.rect));
+                picture.pen(camera.rect).taper([(tip, 1.1), (tail, 0.3)], colour);
             }
         }
         for side in [-1.0, 1.0] {
@@ -226,7 +221,7 @@ impl DrawContext<'_> {
                 let colour = faded(self.palette.chart, 0.85 * fade);
                 let points = [(foot, 0.4), (bend, 1.2), (tip, 0.2)];
                 let points = points.map(|(at, radius)| (camera.points(at), radius));
-                picture.shapes.push(taper(points, colour, camera.rect));
+                picture.pen(camera.rect).taper(points, colour);
                 due += FEATHER * unit.abs();
             }
         }

@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::captions::{self, text};
 use super::framed::BodyView;
 use super::moment::DrawContext;
-use super::sketch::{Camera, SOLID, circle, disc, fill, ring};
+use super::sketch::{Camera, circle};
 use super::{Align, Label, Picture, Rect};
 use crate::lab::palette::{Palette, faded, mixed};
 use crate::lab::race::Entrant;
@@ -170,15 +170,16 @@ fn lay(
     let (length, clip) = (camera.length(landmark.length_m), camera.rect);
     let [y, below, _] = FEET.map(|foot| clip.max[1] - foot);
     let tone = faded(mixed(palette.chart, palette.sea[1], 0.25), 0.5 * strength);
+    let pen = &mut picture.pen(clip);
     for (kind, numbers) in landmark.parts() {
         let places = numbers.chunks_exact(2).map(|at| [left + length * at[0], y - length * at[1]]);
         let corners: Vec<_> = places.collect();
         let radius = length * numbers.last().copied().unwrap_or_default();
-        picture.shapes.push(match kind {
-            "disc" => disc(corners[0], radius, tone, clip),
-            "ring" => ring(&circle(corners[0], radius, 96), 1.6, tone, SOLID, clip),
-            _ => fill(&corners, tone, clip),
-        });
+        match kind {
+            "disc" => pen.disc(corners[0], radius, tone),
+            "ring" => pen.ring(&circle(corners[0], radius, 96), 1.6, tone),
+            _ => pen.fill(&corners, tone),
+        }
     }
     let colour = faded(palette.dim, strength);
     captions::span_line(picture, ([left, left + length], below), (1.0, 4.0), colour, clip);
@@ -293,6 +294,7 @@ mod tests {
     fn every_landmark_is_a_silhouette_and_they_stand_from_small_to_large() {
         assert!(LANDMARKS.is_sorted_by_key(|landmark| landmark.length_m));
         for landmark in &LANDMARKS {
+            let pen = &mut picture.pen(clip);
             for (kind, numbers) in landmark.parts() {
                 let is_right = match kind {
                     "disc" | "ring" => numbers.len() == 3,
