@@ -1,7 +1,7 @@
 //! A body of one type with its state and its propagator.
 
 use std::any::Any;
-use std::rc::Rc;
+use std::cell::RefCell;
 
 use glam::DVec2;
 
@@ -10,8 +10,8 @@ use super::body::Body;
 use super::cores;
 use super::exact_flow::ExactFlow;
 use super::integrators::{
-    AnySystem, Construct, Integrator, Method, Problem, StepFailure, Stepped, any_integrator,
-    construct, problem,
+    AnyIntegrator, AnySystem, Construct, Integrator, Method, StepFailure, Stepped, any_integrator,
+    construct,
 };
 use super::propagator::{AnyMethod, MethodPropagator, Propagator};
 use super::reference::{Reference, is_beyond_reference};
@@ -24,53 +24,64 @@ use crate::sim::system::StateOf;
 /// Puts `body` at its start, at time 0, under `solver`.
 pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
     let state = body.start();
-    let placed = Placed { body: Counted::new(body), state, lost_before: 0.0, lost_time: 0.0 };
-    with_solver(placed, solver, 0.0)
+    Placed { body: Counted::new(body), state, solver, lost_before: 0.0, lost_time: 0.0 }.begin(0.0)
 }
 
-/// Puts a body under `solver` at time `t` (s).
-pub(super) fn with_solver<B: Body>(placed: Placed<B>, solver: Solver, t: f64) -> Box<dyn Stepper> {
-    if let Some(method) = solver.method() {
-        let coupling = placed.body.coupling();
-        if const { <B::Vector as Vector>::IS_SMALL } {
-            return construct(method, coupling, UnderMethod { placed, solver });
+impl<B: Body> Placed<B> {
+    /// Begins under the solver at time `t` (s).
+    fn begin(self, t: f64) -> Box<dyn Stepper> {
+        if let Some(method) = self.solver.method() {
+            let coupling = self.body.coupling();
+            if const { <B::Vector as Vector>::IS_SMALL } {
+                return construct(method, coupling, self);
+            }
+            let mut integrator = any_integrator(method, B::CLASS, coupling, &self.state.q);
+            if let Solver::With(_, other) = self.solver {
+                integrator.set(other);
+            }
+            Box::new(BodyStepper { placed: self, propagator: AnyMethod(integrator) })
+        } else if B::HAS_EXACT {
+            let propagator = ExactFlow::new(&self.state, t);
+            Box::new(BodyStepper { placed: self, propagator })
+        } else {
+            let propagator = Reference::new(&self.body.system, &self.state, t);
+            Box::new(BodyStepper { placed: self, propagator })
         }
-        let mut integrator = any_integrator(method, B::CLASS, coupling, &placed.state.q);
-        if let Solver::With(_, other) = solver {
-            integrator.set(other);
-        }
-        Box::new(BodyStepper { placed, propagator: AnyMethod { id: method.id, integrator } })
-    } else if B::HAS_EXACT {
-        let propagator = ExactFlow::new(&placed.state, t);
-        Box::new(BodyStepper { placed, propagator })
-    } else {
-        let propagator = Reference::new(&placed.body.system, &placed.state, t);
-        Box::new(BodyStepper { placed, propagator })
+    }
+
+    /// A tick from a copy of a method.
+    fn recorded(
+        &self,
+        integrator: &dyn AnyIntegrator<B::Vector>,
+        t: f64,
+        h: f64,
+        substeps: u32,
+    ) -> RecordedTick {
+        let log = RefCell::default();
+        let system: AnySystem<'_, B::Vector> = &Logged { system: &self.body.system, log: &log };
+        let mut state = self.state.clone();
+        let stepped = integrator.boxed_clone().steps(&system, t, h, substeps, &mut state);
+        let State { q, v } = state;
+        let landing = stepped.map(|()| [q, v].map(|vector| vector.components().to_vec()));
+        RecordedTick { evaluations: log.take(), landing }
     }
 }
 
-/// A body that is put under a method, with what the solver sets of it.
-struct UnderMethod<B: Body> {
-    placed: Placed<B>,
-    solver: Solver,
-}
-
-impl<B: Body> Construct<Counted<B>> for UnderMethod<B> {
+impl<B: Body> Construct<Counted<B>> for Placed<B> {
     type Output = Box<dyn Stepper>;
 
     const CLASS: Option<BodyClass> = Some(B::CLASS);
 
     #[inline(always)]
-    fn of<I: Integrator<Counted<B>> + Clone + 'static>(
+    fn of<I: Integrator<Counted<B>> + AnyIntegrator<B::Vector> + Clone + 'static>(
         self,
         new: impl FnOnce(&B::Vector) -> I,
     ) -> Self::Output {
-        let Self { placed, solver } = self;
-        let mut integrator = new(&placed.state.q);
-        if let Solver::With(_, other) = solver {
-            integrator.set(other);
+        let mut integrator = new(&self.state.q);
+        if let Solver::With(_, other) = self.solver {
+            Integrator::<Counted<B>>::set(&mut integrator, other);
         }
-        Box::new(BodyStepper { placed, propagator: MethodPropagator(integrator) })
+        Box::new(BodyStepper { placed: self, propagator: MethodPropagator(integrator) })
     }
 }
 
@@ -85,7 +96,7 @@ impl<B: Body, D: Propagator<B>> BodyStepper<B, D> {
     /// Advances on the calling thread.
     #[inline]
     fn advance_here(&mut self, t: f64, h: f64, substeps: u32) -> Stepped {
-        let Self { placed: Placed { body, state, lost_before, lost_time }, propagator } = self;
+        let Self { placed: Placed { body, state, lost_before, lost_time, .. }, propagator } = self;
         let stepped = propagator.step(body, t, h, substeps, state);
         let lost = propagator.lost_time();
         if lost > 0.0 {
@@ -116,8 +127,27 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
         &self.placed
     }
 
-    fn memory(&self) -> &dyn Any {
-        &self.propagator
+    fn recorded(&self, method: &Method, t: f64, h: f64, substeps: u32) -> Option<RecordedTick> {
+        let is_under_it = self.placed.solver.method() == Some(method);
+        let integrator = self.propagator.integrator().filter(|_| is_under_it)?;
+        Some(self.placed.recorded(integrator, t, h, substeps))
+    }
+
+    fn is_closed_form(&self) -> bool {
+        self.propagator.is_closed_form()
+    }
+
+    fn truth_error(&self) -> Option<[f64; 2]> {
+        self.propagator.truth_error(&self.placed.body, &self.placed.state)
+    }
+
+    fn bytes(&self, solver: Solver) -> usize {
+        let (body, q) = (&self.placed.body, self.placed.q());
+        let kept =
+            solver.method().map_or(0, |method| method.numbers_kept(q.len(), body.coupling()));
+        bytes_with_vectors(size_of::<Self>() + self.propagator.heap_bytes(), q)
+            + body.system.heap_bytes()
+            + size_of::<f64>() * kept
     }
 
     fn boxed_clone(&self) -> Box<dyn Stepper> {
@@ -126,9 +156,10 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
 }
 
 /// A body and its state.
-pub(super) struct Placed<B: Body> {
-    pub(super) body: Counted<B>,
-    pub(super) state: StateOf<B>,
+struct Placed<B: Body> {
+    body: Counted<B>,
+    state: StateOf<B>,
+    solver: Solver,
     /// The time in seconds that methods left out of their steps: those before the present solver, and all.
     lost_before: f64,
     lost_time: f64,
@@ -138,13 +169,9 @@ impl<B: Body> Clone for Placed<B> {
     /// Apart from the methods, which would each have a copy of it.
     #[inline(never)]
     fn clone(&self) -> Self {
-        let Self { body, state, lost_before, lost_time } = self;
-        Self {
-            body: body.clone(),
-            state: state.clone(),
-            lost_before: *lost_before,
-            lost_time: *lost_time,
-        }
+        let Self { body, state, solver, lost_before, lost_time } = self;
+        let (body, state) = (body.clone(), state.clone());
+        Self { body, state, solver: *solver, lost_before: *lost_before, lost_time: *lost_time }
     }
 }
 
@@ -158,35 +185,11 @@ impl<B: Body> PlacedBody for Placed<B> {
 
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
         let mut at = self.state.clone();
-        write(&mut at, q, v);
+        at.q.components_mut().copy_from_slice(q);
+        at.v.components_mut().copy_from_slice(v);
         let mut acceleration = self.state.q.clone();
         self.body.system.acceleration(t, &at.q, &at.v, &mut acceleration);
         a.copy_from_slice(acceleration.components());
-    }
-
-    fn record(
-        &self,
-        memory: &dyn Any,
-        method: &Method,
-        t: f64,
-        h: f64,
-        substeps: u32,
-    ) -> Option<RecordedTick> {
-        let log = Rc::default();
-        let system = problem(Logged { system: self.body.system.clone(), log: Rc::clone(&log) });
-        let mut state = self.state.clone();
-        let stepped = if const { <B::Vector as Vector>::IS_SMALL } {
-            let of = Recording { system: &system, memory, state: &mut state, t, h, substeps };
-            construct(method, system.coupling(), of)?
-        } else {
-            let AnyMethod { id, integrator } = memory.downcast_ref::<AnyMethod<B::Vector>>()?;
-            let system: AnySystem<'_, B::Vector> = &system;
-            let step = || integrator.boxed_clone().steps(&system, t, h, substeps, &mut state);
-            (*id == method.id).then(step)?
-        };
-        let State { q, v } = state;
-        let landing = stepped.map(|()| [q, v].map(|vector| vector.components().to_vec()));
-        Some(RecordedTick { evaluations: log.take(), landing })
     }
 
     fn evaluations(&self) -> u64 {
@@ -206,14 +209,6 @@ impl<B: Body> PlacedBody for Placed<B> {
     }
     fn coupling(&self) -> Coupling {
         self.body.coupling()
-    }
-
-    fn is_closed_form_of(&self, memory: &dyn Any) -> bool {
-        truth::<B>(memory).is_some_and(Propagator::is_closed_form)
-    }
-
-    fn truth_error_of(&self, memory: &dyn Any) -> Option<[f64; 2]> {
-        truth::<B>(memory)?.truth_error(&self.body, &self.state)
     }
 
     fn energy(&self) -> Option<f64> {
@@ -242,51 +237,6 @@ impl<B: Body> PlacedBody for Placed<B> {
     }
 
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper> {
-        with_solver(Self { lost_before: self.lost_time, ..self.clone() }, solver, t)
+        Self { solver, lost_before: self.lost_time, ..self.clone() }.begin(t)
     }
-
-    fn bytes_with(&self, memory: &dyn Any) -> usize {
-        let own = bytes_with_vectors(self, self.q()) + self.body.system.heap_bytes();
-        let method = memory.downcast_ref::<AnyMethod<B::Vector>>();
-        let boxed = method.map_or(0, |method| bytes_with_vectors(&*method.integrator, self.q()));
-        let truth = truth::<B>(memory).map_or(0, Propagator::heap_bytes);
-        own + bytes_with_vectors(memory, self.q()) + boxed + truth
-    }
-}
-
-/// The propagator of a truth; `None` for a method.
-fn truth<B: Body>(memory: &dyn Any) -> Option<&dyn Propagator<B>> {
-    let exact = memory.downcast_ref::<ExactFlow<B::Vector>>().map(|truth| truth as _);
-    let reference = || memory.downcast_ref::<Reference<B::Vector>>().map(|truth| truth as _);
-    exact.or_else(reference)
-}
-
-/// A tick to take with a copy of a method's memory.
-struct Recording<'a, V: Vector> {
-    system: &'a Problem<V>,
-    memory: &'a dyn Any,
-    state: &'a mut State<V>,
-    t: f64,
-    h: f64,
-    substeps: u32,
-}
-
-impl<V: Vector> Construct<Problem<V>> for Recording<'_, V> {
-    type Output = Option<Stepped>;
-
-    fn of<I: Integrator<Problem<V>> + Clone + 'static>(
-        self,
-        _new: impl FnOnce(&V) -> I,
-    ) -> Self::Output {
-        // An integrator's type depends on the vector and not on the system, so that the one that steps
-        // the body can step a problem too.
-        let MethodPropagator(integrator) = self.memory.downcast_ref::<MethodPropagator<I>>()?;
-        let Self { system, state, t, h, substeps, .. } = self;
-        Some(integrator.clone().steps(system, t, h, substeps, state))
-    }
-}
-
-fn write<V: Vector>(state: &mut State<V>, q: &[f64], v: &[f64]) {
-    state.q.components_mut().copy_from_slice(q);
-    state.v.components_mut().copy_from_slice(v);
 }

@@ -30,7 +30,21 @@ pub(super) trait Propagator<B: Body>: Send + 'static {
 
     /// Applies `change` to the body and its state at time `t` (s), and restarts from the result. If nothing
     /// changed, the propagator keeps its memory. Returns whether anything changed.
-    fn jump(&mut self, t: f64, change: Change<'_>, body: &mut B, state: &mut StateOf<B>) -> bool;
+    fn jump(&mut self, t: f64, change: Change<'_>, body: &mut B, state: &mut StateOf<B>) -> bool {
+        let is_changed = change.apply(body, state);
+        if is_changed {
+            self.restart(t, change.is_placing(), body, state);
+        }
+        is_changed
+    }
+
+    /// What [`Propagator::jump`] does after a change; `is_placing` as [`Change::is_placing`].
+    fn restart(&mut self, _t: f64, _is_placing: bool, _body: &B, _state: &StateOf<B>) {}
+
+    /// The method; `None` for a truth.
+    fn integrator(&self) -> Option<&dyn AnyIntegrator<B::Vector>> {
+        None
+    }
 
     /// Whether the state is that of a closed form.
     fn is_closed_form(&self) -> bool {
@@ -47,41 +61,41 @@ pub(super) trait Propagator<B: Body>: Send + 'static {
         0.0
     }
 
-    /// Memory in bytes, without its own size and that of its coordinate vectors.
+    /// Memory on the heap in bytes, without its coordinate vectors.
     fn heap_bytes(&self) -> usize {
         0
     }
 }
 
 /// A method, compiled once for the type of the body's vector.
-pub(super) struct AnyMethod<V> {
-    /// That of its card.
-    pub(super) id: &'static str,
-    pub(super) integrator: Box<dyn AnyIntegrator<V>>,
-}
+pub(super) struct AnyMethod<V>(pub(super) Box<dyn AnyIntegrator<V>>);
 
 impl<V> Clone for AnyMethod<V> {
     fn clone(&self) -> Self {
-        Self { id: self.id, integrator: self.integrator.boxed_clone() }
+        Self(self.0.boxed_clone())
     }
 }
 
 impl<V: Vector, B: Body<Vector = V>> Propagator<B> for AnyMethod<V> {
     fn step(&mut self, body: &Counted<B>, t: f64, h: f64, n: u32, y: &mut State<V>) -> Stepped {
         let system: AnySystem<'_, V> = body;
-        self.integrator.steps(&system, t, h, n, y)
+        self.0.steps(&system, t, h, n, y)
     }
 
-    fn jump(&mut self, _t: f64, change: Change<'_>, body: &mut B, state: &mut State<V>) -> bool {
-        let is_changed = change.apply(body, state);
-        if is_changed {
-            self.integrator.reset();
-        }
-        is_changed
+    fn restart(&mut self, _t: f64, _is_placing: bool, _body: &B, _state: &State<V>) {
+        self.0.reset();
+    }
+
+    fn integrator(&self) -> Option<&dyn AnyIntegrator<V>> {
+        Some(&*self.0)
     }
 
     fn lost_time(&self) -> f64 {
-        self.integrator.lost_time()
+        self.0.lost_time()
+    }
+
+    fn heap_bytes(&self) -> usize {
+        size_of_val(&*self.0)
     }
 }
 
@@ -96,23 +110,26 @@ impl<I: Clone> Clone for MethodPropagator<I> {
     }
 }
 
-impl<B: Body, I: Integrator<Counted<B>> + Clone + 'static> Propagator<B> for MethodPropagator<I> {
+impl<B: Body, I> Propagator<B> for MethodPropagator<I>
+where
+    I: Integrator<Counted<B>> + AnyIntegrator<B::Vector> + 'static,
+{
     #[inline]
     fn step(&mut self, body: &Counted<B>, t: f64, h: f64, n: u32, y: &mut StateOf<B>) -> Stepped {
         self.0.steps(body, t, h, n, y)
     }
 
     #[inline]
-    fn jump(&mut self, _t: f64, change: Change<'_>, body: &mut B, state: &mut StateOf<B>) -> bool {
-        let is_changed = change.apply(body, state);
-        if is_changed {
-            self.0.reset();
-        }
-        is_changed
+    fn restart(&mut self, _t: f64, _is_placing: bool, _body: &B, _state: &StateOf<B>) {
+        Integrator::<Counted<B>>::reset(&mut self.0);
+    }
+
+    fn integrator(&self) -> Option<&dyn AnyIntegrator<B::Vector>> {
+        Some(&self.0)
     }
 
     #[inline]
     fn lost_time(&self) -> f64 {
-        self.0.lost_time()
+        Integrator::<Counted<B>>::lost_time(&self.0)
     }
 }

@@ -8,8 +8,7 @@ use super::body::Body;
 use super::exact_since_start::ExactSinceStart;
 use super::integrators::{StepFailure, Stepped};
 use super::propagator::Propagator;
-use super::state::{State, Vector, bytes_with_vectors, largest, nan_is_infinite};
-use super::stepper::Change;
+use super::state::{State, Vector, largest, nan_is_infinite};
 use super::system::Counted;
 
 use crate::sim::system::StateOf;
@@ -243,17 +242,15 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
         self.solve(body, t, h, y)
     }
 
-    fn jump(&mut self, t: f64, change: Change<'_>, body: &mut B, state: &mut StateOf<B>) -> bool {
-        let is_changed = change.apply(body, state);
-        if is_changed && change.is_placing() {
+    fn restart(&mut self, t: f64, is_placing: bool, body: &B, state: &StateOf<B>) {
+        if is_placing {
             self.place();
-        } else if is_changed {
+        } else {
             self.push(body, t, state);
         }
-        if let Some(exact) = self.exact.as_mut().filter(|_| is_changed) {
-            exact.jump(t, change.is_placing(), state);
+        if let Some(exact) = &mut self.exact {
+            exact.jump(t, is_placing, state);
         }
-        is_changed
     }
 
     fn is_closed_form(&self) -> bool {
@@ -266,11 +263,8 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
     }
 
     fn heap_bytes(&self) -> usize {
-        let Self { exact, solutions, .. } = self;
-        let exact = exact.as_deref().map(|it| bytes_with_vectors(it, it.start.q.components()));
-        let solutions = solutions.as_deref();
-        let solutions = solutions.map(|it| bytes_with_vectors(it, it.difference.q.components()));
-        exact.unwrap_or(0) + solutions.unwrap_or(0)
+        let solutions = self.solutions.as_deref().map_or(0, size_of_val);
+        self.exact.as_deref().map_or(solutions, |exact| solutions + size_of_val(exact))
     }
 }
 

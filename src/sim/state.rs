@@ -205,9 +205,8 @@ impl Vector for Vec<f64> {
     }
 }
 
-/// Upper bound on the size of `value` in bytes: its inline size, plus one heap vector as long as `like` for every 24 bytes of it.
-pub(in crate::sim) fn bytes_with_vectors(value: &impl ?Sized, like: &[f64]) -> usize {
-    let size = size_of_val(value);
+/// Upper bound on the memory of values of this inline `size` in bytes: one heap vector as long as `like` for every 24 of them.
+pub(in crate::sim) fn bytes_with_vectors(size: usize, like: &[f64]) -> usize {
     size + size / size_of::<Vec<f64>>() * size_of_val(like)
 }
 

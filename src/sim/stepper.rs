@@ -39,8 +39,22 @@ pub trait Stepper: Send {
     /// The body at its state.
     fn placed(&self) -> &(dyn PlacedBody + 'static);
 
-    /// What the solver keeps from tick to tick.
-    fn memory(&self) -> &dyn Any;
+    /// What [`Stepper::advance`] would do with the method's present memory, on a copy. The body and its
+    /// counts are unchanged. `None` unless the body is under `method`.
+    fn recorded(&self, method: &Method, t: f64, h: f64, substeps: u32) -> Option<RecordedTick>;
+
+    /// Whether the current state is that of a closed form; `false` under a reference solution or a method. A body
+    /// that knows its exact motion from the start only has none after an input, an edit or a placing.
+    fn is_closed_form(&self) -> bool;
+
+    /// The error of the truth at the current state: the largest of a coordinate and of a velocity, in
+    /// their own units. For a closed form it is a bound on rounding; for a reference solution it is an
+    /// estimate from a second solution with other steps. Infinite if nothing is known. `None` under a
+    /// method.
+    fn truth_error(&self) -> Option<[f64; 2]>;
+
+    /// An upper bound on its memory under its `solver`, in bytes.
+    fn bytes(&self, solver: Solver) -> usize;
 
     /// A copy with all memory of the solver: original and copy continue with the same bits.
     fn boxed_clone(&self) -> Box<dyn Stepper>;
@@ -71,32 +85,6 @@ impl dyn Stepper + '_ {
     /// start](super::bodies::Acts). `value` must be in the parameter's range and pass the kind's check.
     pub fn set_parameter(&mut self, t: f64, index: usize, value: f64) -> bool {
         self.change(t, Change::Parameter { index, value })
-    }
-
-    /// What [`Stepper::advance`] would do with the method's present memory, on a copy. The body and its
-    /// counts are unchanged. `None` unless the body is under `method`.
-    pub fn recorded(&self, method: &Method, t: f64, h: f64, substeps: u32) -> Option<RecordedTick> {
-        self.record(self.memory(), method, t, h, substeps)
-    }
-
-    /// Whether the current state is that of a closed form; `false` under a reference solution or a method. A body
-    /// that knows its exact motion from the start only has none after an input, an edit or a placing.
-    pub fn is_closed_form(&self) -> bool {
-        self.is_closed_form_of(self.memory())
-    }
-
-    /// The error of the truth at the current state: the largest of a coordinate and of a velocity, in
-    /// their own units. For a closed form it is a bound on rounding; for a reference solution it is an
-    /// estimate from a second solution with other steps. Infinite if nothing is known. `None` under a
-    /// method.
-    pub fn truth_error(&self) -> Option<[f64; 2]> {
-        self.truth_error_of(self.memory())
-    }
-
-    /// An upper bound on its memory under its `solver`, in bytes.
-    pub fn bytes(&self, solver: Solver) -> usize {
-        let kept = |method: &Method| method.numbers_kept(self.q().len(), self.coupling());
-        self.bytes_with(self.memory()) + size_of::<f64>() * solver.method().map_or(0, kept)
     }
 }
 
@@ -197,20 +185,4 @@ pub trait PlacedBody {
 
     /// A copy of the body under another solver, with the same input and the same state to the bit.
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper>;
-
-    /// A tick under `method` from a copy of its memory; see `recorded` of a [`Stepper`].
-    fn record(
-        &self,
-        memory: &dyn Any,
-        method: &Method,
-        t: f64,
-        h: f64,
-        substeps: u32,
-    ) -> Option<RecordedTick>;
-    /// Whether the state is that of a closed form, for a solver with this memory.
-    fn is_closed_form_of(&self, memory: &dyn Any) -> bool;
-    /// The error of the truth with this memory; `None` for that of a method.
-    fn truth_error_of(&self, memory: &dyn Any) -> Option<[f64; 2]>;
-    /// An upper bound on the memory of the body and of what the solver keeps, in bytes, less the matrices of a method.
-    fn bytes_with(&self, memory: &dyn Any) -> usize;
 }

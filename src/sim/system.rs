@@ -2,7 +2,6 @@
 
 use std::cell::{Cell, RefCell};
 use std::ops::Deref;
-use std::rc::Rc;
 
 use super::state::{Elementwise, State, Vector};
 
@@ -255,12 +254,12 @@ pub struct Evaluation {
 }
 
 /// A system that keeps every evaluation in a log, in order. It allocates.
-pub(super) struct Logged<S> {
+pub(super) struct Logged<'a, S> {
     pub(super) system: S,
-    pub(super) log: Rc<RefCell<Vec<Evaluation>>>,
+    pub(super) log: &'a RefCell<Vec<Evaluation>>,
 }
 
-impl<S: System<Vector: Vector>> System for Logged<S> {
+impl<S: System<Vector: Vector>> System for Logged<'_, S> {
     type Vector = S::Vector;
 
     fn coupling(&self) -> Coupling {

@@ -8,7 +8,7 @@ use super::instruction_set::{InstructionSet, Kernel, NARROW, WIDE};
 use super::parts::Parts;
 use super::{Advance, Ticks};
 use crate::sim::cores;
-use crate::sim::integrators::{Construct, Integrator, Method};
+use crate::sim::integrators::{AnyIntegrator, Construct, Integrator, Method};
 use crate::sim::state::State;
 use crate::sim::system::System;
 
@@ -57,7 +57,7 @@ struct Make<C, const W: usize> {
 impl<C: Copies, const W: usize> Construct<C::Block<W>> for Make<C, W> {
     type Output = Box<dyn Advance>;
 
-    fn of<I: Integrator<C::Block<W>> + Clone + 'static>(
+    fn of<I: Integrator<C::Block<W>> + AnyIntegrator<[f64; W]> + Clone + 'static>(
         self,
         new: impl FnOnce(&[f64; W]) -> I,
     ) -> Self::Output {

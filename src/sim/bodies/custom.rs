@@ -120,7 +120,8 @@ impl Body for Custom {
     }
 
     fn heap_bytes(&self) -> usize {
-        bytes_with_vectors(&*self.motion, &self.start.q) + 2 * size_of_val(&self.values[..])
+        bytes_with_vectors(size_of_val(&*self.motion), &self.start.q)
+            + 2 * size_of_val(&self.values[..])
     }
 
     fn start(&self) -> State<Vec<f64>> {

@@ -101,7 +101,7 @@ pub trait Construct<S: System> {
     const CLASS: Option<BodyClass> = None;
     /// Builds the result from integrators of the type `I`, which `new` makes for coordinate vectors shaped like the
     /// one that it is given.
-    fn of<I: Integrator<S> + Clone + 'static>(
+    fn of<I: Integrator<S> + AnyIntegrator<S::Vector> + Clone + 'static>(
         self,
         new: impl FnOnce(&S::Vector) -> I,
     ) -> Self::Output;
@@ -317,7 +317,7 @@ pub fn integrator_for<S: System<Vector: Vector> + 'static>(
     struct Boxed<'a, V>(&'a V);
     impl<S: System<Vector: Vector> + 'static> Construct<S> for Boxed<'_, S::Vector> {
         type Output = Box<dyn Integrator<S>>;
-        fn of<I: Integrator<S> + Clone + 'static>(
+        fn of<I: Integrator<S> + AnyIntegrator<S::Vector> + Clone + 'static>(
             self,
             new: impl FnOnce(&S::Vector) -> I,
         ) -> Self::Output {
