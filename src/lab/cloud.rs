@@ -255,8 +255,9 @@ impl Cloud {
             a
         };
         let around = CloudStart::around([start.q, start.v], force, shape, None);
-        let copies =
-            |solver, starts| Some(Batch::of_body(system, InstructionSet::widest(), solver, starts));
+        let copies = |solver, starts: Vec<State<f64>>| {
+            Some(Batch::on(InstructionSet::widest(), system, solver, starts.into_iter()))
+        };
         let subject = Subject::new("body", &copies);
         Self::of_subject(subject, false, spec, around, points, tick_hz)
     }

@@ -143,7 +143,9 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     }
 
     /// The conserved energy in joules; `None` if no energy is conserved.
-    fn energy(&self, state: &StateOf<Self>) -> Option<f64>;
+    fn energy(&self, _state: &StateOf<Self>) -> Option<f64> {
+        None
+    }
 
     /// The kinetic part of [`Body::energy`], in joules: the energy less that of the body at rest in the
     /// same place. A body with coordinates on the heap overrides this so that it does not allocate.
@@ -171,7 +173,10 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     fn input(&mut self, input: Input, state: &mut StateOf<Self>) -> bool;
 
     /// The position of the body in metres, to which the camera, trails and arrows refer.
-    fn place(&self, q: &Self::Vector) -> DVec2;
+    /// By default its first coordinate lies to the right.
+    fn place(&self, q: &Self::Vector) -> DVec2 {
+        DVec2::new(q.components()[0], 0.0)
+    }
 }
 
 /// An input from a person or a script.

@@ -8,7 +8,7 @@
 
 use crate::sim::piece::Distances;
 
-use compile::{Compiler, check_names};
+use compile::{Compiled, Compiler, check_names};
 use form::{is_angle, is_linear};
 use jet::Jet;
 use tape::Tape;
@@ -95,43 +95,30 @@ impl Equations {
     pub fn new(text: LawText) -> Result<Self, Vec<LawFault>> {
         let mut faults = check_names(&text);
         let compiler = Compiler { text: &text };
-        let motion = compiler.motion();
-        let energy = text.energy.as_ref().map(|_| compiler.energy()).transpose();
-        let is_given = text.coordinates.iter().any(|coordinate| coordinate.exact.is_some());
-        let exact = is_given.then(|| compiler.exact()).transpose();
-        let is_placed = text.coordinates.iter().any(|coordinate| coordinate.at.is_some());
-        let places = is_placed.then(|| compiler.places()).transpose();
-        match (motion, energy, exact, places) {
-            (Ok(motion), Ok(energy), Ok(exact), Ok(places)) if faults.is_empty() => {
-                let n = text.coordinates.len();
-                let inputs = inputs(&text);
-                let moves = FIRST_COORDINATE..FIRST_COORDINATE + 2 * n;
-                let uses = |input: usize| motion.reads(input);
-                Ok(Self {
-                    is_linear: is_linear(&motion, inputs, T, |input| moves.contains(&input)),
-                    angles: (0..n)
-                        .map(|i| {
-                            let in_energy = energy.as_ref().is_none_or(|tape| {
-                                !tape.reads(FIRST_COORDINATE + i)
-                                    || is_angle(tape, FIRST_COORDINATE + i)
-                            });
-                            is_angle(&motion, FIRST_COORDINATE + i) && in_energy
-                        })
-                        .collect(),
-                    is_steered: [uses(THROTTLE), uses(RUDDER)],
-                    text,
-                    motion,
-                    energy,
-                    exact,
-                    places,
-                })
-            }
-            (motion, energy, exact, places) => {
-                let found = [motion.err(), energy.err(), exact.err(), places.err()];
-                faults.extend(found.into_iter().flatten().flatten());
-                Err(faults)
-            }
-        }
+        let mut tape =
+            |compiled: Option<Compiled>| compiled?.map_err(|found| faults.extend(found)).ok();
+        let is_solved = text.coordinates.iter().any(|of| of.exact.is_some());
+        let is_placed = text.coordinates.iter().any(|of| of.at.is_some());
+        let motion = tape(Some(compiler.motion()));
+        let energy = tape(text.energy.as_ref().map(|_| compiler.energy()));
+        let exact = tape(is_solved.then(|| compiler.exact()));
+        let places = tape(is_placed.then(|| compiler.places()));
+        let Some(motion) = motion.filter(|_| faults.is_empty()) else { return Err(faults) };
+        let moves = text.slots_of_motion();
+        let is_angle = |input: usize| {
+            let mut energy = energy.iter().filter(|tape| tape.reads(input));
+            is_angle(&motion, input) && energy.all(|tape| is_angle(tape, input))
+        };
+        Ok(Self {
+            is_linear: is_linear(&motion, text.inputs(), T, |input| moves.contains(&input)),
+            angles: moves.clone().take(text.coordinates.len()).map(is_angle).collect(),
+            is_steered: [motion.reads(THROTTLE), motion.reads(RUDDER)],
+            text,
+            motion,
+            energy,
+            exact,
+            places,
+        })
     }
 
     /// The text.
@@ -182,19 +169,6 @@ impl Equations {
     pub(super) fn neighbour(&self, switch: usize, mode: i64, side: usize) -> i64 {
         self.motion.neighbour(switch, mode, side)
     }
-
-    fn coordinates(&self) -> usize {
-        self.text.coordinates.len()
-    }
-
-    fn first_constant(&self) -> usize {
-        FIRST_COORDINATE + 2 * self.coordinates()
-    }
-}
-
-/// How many inputs the tapes of a law have.
-fn inputs(text: &LawText) -> usize {
-    FIRST_COORDINATE + 4 * text.coordinates.len() + text.constants.len()
 }
 
 /// A moment of a motion.

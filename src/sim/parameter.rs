@@ -156,8 +156,7 @@ enum Slot<B> {
 
 impl<B> ParameterOf<B> {
     const fn new(key: &'static str, range: Range, acts: Acts, slot: Slot<B>) -> Self {
-        let unit = Cow::Borrowed(unit(key).1);
-        let key = Cow::Borrowed(key);
+        let (key, unit) = (Cow::Borrowed(key), Cow::Borrowed(""));
         let parameter =
             Parameter { key, symbol: None, about: "", unit, default: None, range, acts };
         Self { parameter, slot }
@@ -166,6 +165,11 @@ impl<B> ParameterOf<B> {
     /// A number without a default that acts at once.
     pub const fn number(key: &'static str, range: Range, field: fn(&mut B) -> &mut f64) -> Self {
         Self::new(key, range, Acts::AtOnce, Slot::Number(field))
+    }
+
+    /// A number of any sign that is part of the initial state, with its default.
+    pub const fn start(key: &'static str, default: f64, field: fn(&mut B) -> &mut f64) -> Self {
+        Self::number(key, Range::ANY, field).or(default).at_start()
     }
 
     /// A whole number from 1 to `most`, without a default, that acts at the start.
@@ -210,7 +214,7 @@ impl<B> ParameterOf<B> {
     /// The parameter without its field.
     #[cfg(feature = "lab")]
     pub(super) fn parameter(&self) -> Parameter {
-        self.parameter.clone()
+        Parameter { unit: unit(&self.parameter.key).1.into(), ..self.parameter.clone() }
     }
 
     /// The field of a parameter that acts at once; `None` for other parameters.
@@ -264,24 +268,6 @@ const UNITS: [(&str, &str); 15] = [
 ];
 
 /// The unit suffix of a key and its symbol; both empty if the key names no unit.
-const fn unit(key: &str) -> (&'static str, &'static str) {
-    let mut n = 0;
-    while n < UNITS.len() {
-        let (end, symbol) = UNITS[n];
-        if ends_with(key.as_bytes(), end.as_bytes()) {
-            return (end, symbol);
-        }
-        n += 1;
-    }
-    ("", "")
-}
-
-const fn ends_with(mut text: &[u8], mut end: &[u8]) -> bool {
-    while let [rest @ .., last] = end {
-        match text {
-            [before @ .., letter] if *letter == *last => (text, end) = (before, rest),
-            _ => return false,
-        }
-    }
-    true
+fn unit(key: &str) -> (&'static str, &'static str) {
+    UNITS.into_iter().find(|(end, _)| key.ends_with(end)).unwrap_or_default()
 }

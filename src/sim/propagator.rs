@@ -68,13 +68,8 @@ pub(super) trait Propagator<B: Body>: Send + 'static {
 }
 
 /// A method, compiled once for the type of the body's vector.
+#[derive(Clone)]
 pub(super) struct AnyMethod<V>(pub(super) Box<dyn AnyIntegrator<V>>);
-
-impl<V> Clone for AnyMethod<V> {
-    fn clone(&self) -> Self {
-        Self(self.0.boxed_clone())
-    }
-}
 
 impl<V: Vector, B: Body<Vector = V>> Propagator<B> for AnyMethod<V> {
     fn step(&mut self, body: &Counted<B>, t: f64, h: f64, n: u32, y: &mut State<V>) -> Stepped {

@@ -127,27 +127,6 @@ impl<V: Vector> Reference<V> {
         }
     }
 
-    /// Restarts, because the body was placed into a state.
-    fn place(&mut self) {
-        self.has_begun = false;
-        self.allowance.saved = self.allowance.most;
-        self.failed = None;
-        self.elapsed = 0.0;
-        (self.largest_difference, self.fastest) = ([0.0; 2], [0.0; 2]);
-    }
-
-    /// Restarts from `state` at time `t` (s) after a change of a force or an impulse, and keeps the difference of the
-    /// two solutions.
-    fn push<B: Body<Vector = V>>(&mut self, body: &B, t: f64, state: &State<V>) {
-        self.failed = None;
-        if let Some(solutions) = self.solutions.as_mut().filter(|_| self.has_begun) {
-            let Solutions { solution, check, difference, .. } = &mut **solutions;
-            check.subtract(solution, difference);
-            solution.begin(body, t, state);
-            check.begin_beside(body, t, solution, difference);
-        }
-    }
-
     /// Advances `y` from `t` to exactly `t + h` (s).
     ///
     /// After a failure every call fails at once, until the body is placed or pushed.
@@ -244,10 +223,18 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
 
     fn restart(&mut self, t: f64, is_placing: bool, body: &B, state: &StateOf<B>) {
         if is_placing {
-            self.place();
-        } else {
-            self.push(body, t, state);
+            let Self { exact, solutions, allowance: Allowance { per_call, most, .. }, .. } = self;
+            let (exact, solutions) = (exact.take(), solutions.take());
+            let allowance = Allowance::new(*per_call, *most);
+            *self = Self { exact, ..Self::with_allowance(solutions, allowance) };
+        } else if let Some(solutions) = self.solutions.as_mut().filter(|_| self.has_begun) {
+            // Keeps the difference of the two solutions.
+            let Solutions { solution, check, difference, .. } = &mut **solutions;
+            check.subtract(solution, difference);
+            solution.begin(body, t, state);
+            check.begin_beside(body, t, solution, difference);
         }
+        self.failed = None;
         if let Some(exact) = &mut self.exact {
             exact.jump(t, is_placing, state);
         }

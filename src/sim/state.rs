@@ -72,25 +72,45 @@ pub trait Vector: Elementwise {
     fn components_mut(&mut self) -> &mut [f64];
 }
 
-macro_rules! elementwise {
-    ($($Small:ty),+) => {$(
+/// A vector in registers, with its components as a slice.
+macro_rules! small {
+    ($($Small:ty: $components:expr, $components_mut:expr;)+) => {$(
         impl Elementwise for $Small {
             #[inline]
             fn assign(&mut self, from: &Self) {
                 *self = *from;
             }
+
             #[inline]
             fn add_scaled(&mut self, h: f64, x: &Self) {
                 *self += h * *x;
             }
+
             #[inline]
             fn scale(&mut self, h: f64) {
                 *self *= h;
             }
         }
+
+        impl Vector for $Small {
+            const IS_SMALL: bool = true;
+
+            fn components(&self) -> &[f64] {
+                $components(self)
+            }
+
+            fn components_mut(&mut self) -> &mut [f64] {
+                $components_mut(self)
+            }
+        }
     )+};
 }
-elementwise!(f64, glam::DVec2, glam::DVec3);
+
+small! {
+    f64: std::slice::from_ref, std::slice::from_mut;
+    glam::DVec2: AsRef::<[f64; 2]>::as_ref, AsMut::<[f64; 2]>::as_mut;
+    glam::DVec3: AsRef::<[f64; 3]>::as_ref, AsMut::<[f64; 3]>::as_mut;
+}
 
 /// One coordinate of each of `W` bodies.
 impl<const W: usize> Elementwise for [f64; W] {
@@ -109,33 +129,6 @@ impl<const W: usize> Elementwise for [f64; W] {
         self.iter_mut().for_each(|number| *number *= h);
     }
 }
-
-impl Vector for f64 {
-    const IS_SMALL: bool = true;
-
-    fn components(&self) -> &[f64] {
-        std::slice::from_ref(self)
-    }
-    fn components_mut(&mut self) -> &mut [f64] {
-        std::slice::from_mut(self)
-    }
-}
-
-macro_rules! glam_vector {
-    ($($Vector:ty),+) => {$(
-        impl Vector for $Vector {
-            const IS_SMALL: bool = true;
-
-            fn components(&self) -> &[f64] {
-                self.as_ref()
-            }
-            fn components_mut(&mut self) -> &mut [f64] {
-                self.as_mut()
-            }
-        }
-    )+};
-}
-glam_vector!(glam::DVec2, glam::DVec3);
 
 /// Long ones are shared by all cores.
 impl Elementwise for Vec<f64> {

@@ -145,31 +145,24 @@ impl Batch {
         method: &'static Method,
         starts: impl ExactSizeIterator<Item = State<f64>>,
     ) -> NewBatch {
-        Self::with(&Alike(system.clone()), Solver::Method(method), starts, InstructionSet::widest())
+        Self::on(InstructionSet::widest(), system, Solver::Method(method), starts)
     }
 
-    /// As [`Batch::new`], with an instruction set that this processor must [have](InstructionSet::is_available).
+    /// As [`Batch::new`], under a method with what it replaces of its card, on an instruction set that this processor must
+    /// [have](InstructionSet::is_available).
     ///
     /// # Errors
     /// As [`Batch::new`].
+    ///
+    /// # Panics
+    /// If the solver is the truth.
     pub fn on<S: OneCoordinate>(
         set: InstructionSet,
         system: &S,
-        method: &'static Method,
+        solver: Solver,
         starts: impl ExactSizeIterator<Item = State<f64>>,
     ) -> NewBatch {
-        Self::with(&Alike(system.clone()), Solver::Method(method), starts, set)
-    }
-
-    /// Copies of a body of one coordinate.
-    #[cfg(feature = "lab")]
-    pub(crate) fn of_body<S: OneCoordinate>(
-        body: &S,
-        set: InstructionSet,
-        solver: Solver,
-        starts: Vec<State<f64>>,
-    ) -> NewBatch {
-        Self::with(&Alike(body.clone()), solver, starts.into_iter(), set)
+        Self::with(&Alike(system.clone()), solver, starts, set)
     }
 
     pub(in crate::sim) fn with<C: Copies>(

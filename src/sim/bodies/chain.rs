@@ -54,9 +54,7 @@ const PARAMETERS: [Of; 7] = [
     Of::count("plucked_mass", MAX_MASSES, |chain| &mut chain.plucked)
         .or(1.0)
         .about("the mass that is held aside at the start, and that a kick hits"),
-    Of::number("x0_m", Range::ANY, |chain| &mut chain.x0)
-        .or(1.0)
-        .at_start()
+    Of::start("x0_m", 1.0, |chain| &mut chain.x0)
         .about("how far aside it is held; the others are in line between it and the walls"),
     Of::number("kick_n_s", Range::ANY, |chain| &mut chain.kick)
         .or(3.0)

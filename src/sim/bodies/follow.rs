@@ -29,19 +29,13 @@ const PARAMETERS: [Of; 9] = [
         .about("1 to move straight at the target, 2 with a velocity of its own"),
     Of::number("rate_per_s", RATES, |follow| &mut follow.rate)
         .about("k: it halves the distance in 0.693 / k by the law of order 1, in 1.678 / k by that of order 2"),
-    Of::number("step_m", Range::ANY, |follow| &mut follow.step)
-        .or(1.0)
-        .at_start()
+    Of::start("step_m", 1.0, |follow| &mut follow.step)
         .symbol("s")
         .about("where the target is from the start on"),
-    Of::number("ramp_m_per_s", Range::ANY, |follow| &mut follow.ramp)
-        .or(0.0)
-        .at_start()
+    Of::start("ramp_m_per_s", 0.0, |follow| &mut follow.ramp)
         .symbol("r")
         .about("how fast the target moves away"),
-    Of::number("sine_m", Range::ANY, |follow| &mut follow.sine)
-        .or(0.0)
-        .at_start()
+    Of::start("sine_m", 0.0, |follow| &mut follow.sine)
         .symbol("A")
         .about("how far the target swings to either side"),
     Of::number("sine_hz", Range::NonNegative(MAX_SINE_HZ), |follow| &mut follow.sine_hz)
@@ -49,13 +43,9 @@ const PARAMETERS: [Of; 9] = [
         .at_start()
         .symbol("f")
         .about("how often the target swings"),
-    Of::number("x0_m", Range::ANY, |follow| &mut follow.x0)
-        .or(0.0)
-        .at_start()
+    Of::start("x0_m", 0.0, |follow| &mut follow.x0)
         .about("where it starts"),
-    Of::number("v0_m_per_s", Range::ANY, |follow| &mut follow.v0)
-        .or(0.0)
-        .at_start()
+    Of::start("v0_m_per_s", 0.0, |follow| &mut follow.v0)
         .about("its velocity at the start; of order 1 the law gives it"),
     Of::number("kick_m", Range::ANY, |follow| &mut follow.kick)
         .or(0.5)
@@ -200,10 +190,6 @@ impl Body for Follow {
         true
     }
 
-    fn energy(&self, _state: &State<f64>) -> Option<f64> {
-        None
-    }
-
     /// By the law of first order a displacement changes the velocity too.
     fn input(&mut self, input: Input, state: &mut State<f64>) -> bool {
         let Input::Kick(times) = input else { return false };
@@ -212,9 +198,5 @@ impl Body for Follow {
             state.v -= self.rate * times * self.kick;
         }
         true
-    }
-
-    fn place(&self, x: &f64) -> DVec2 {
-        DVec2::new(*x, 0.0)
     }
 }

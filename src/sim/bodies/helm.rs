@@ -40,22 +40,11 @@ const PARAMETERS: [Of; 12] = [
     Of::number("rudder_n_s", Range::NON_NEGATIVE, |helm| &mut helm.rudder_moment)
         .symbol("L")
         .about("the moment of the full rudder per metre per second ahead"),
-    Of::number("x0_m", Range::ANY, |helm| &mut helm.q0.x)
-        .or(0.0)
-        .at_start()
-        .about("x at the start"),
-    Of::number("y0_m", Range::ANY, |helm| &mut helm.q0.y)
-        .or(0.0)
-        .at_start()
-        .about("y at the start"),
-    Of::number("psi0_rad", Range::ANY, |helm| &mut helm.q0.z)
-        .or(0.0)
-        .at_start()
+    Of::start("x0_m", 0.0, |helm| &mut helm.q0.x).about("x at the start"),
+    Of::start("y0_m", 0.0, |helm| &mut helm.q0.y).about("y at the start"),
+    Of::start("psi0_rad", 0.0, |helm| &mut helm.q0.z)
         .about("the heading at the start, counter-clockwise from x"),
-    Of::number("u0_m_per_s", Range::ANY, |helm| &mut helm.u0)
-        .or(0.0)
-        .at_start()
-        .about("the speed ahead at the start"),
+    Of::start("u0_m_per_s", 0.0, |helm| &mut helm.u0).about("the speed ahead at the start"),
     Of::number("kick_n_s", Range::ANY, |helm| &mut helm.kick)
         .or(20_000.0)
         .about("the impulse of one kick, ahead"),
@@ -169,10 +158,6 @@ impl Body for Helm {
     #[inline]
     fn acceleration_on(&self, piece: &Piece, _t: f64, q: &DVec3, v: &DVec3, a: &mut DVec3) {
         *a = self.acceleration_under(|u| self.thrust.on(piece.modes[0], u), q, v);
-    }
-
-    fn energy(&self, _state: &State<DVec3>) -> Option<f64> {
-        None
     }
 
     fn input(&mut self, input: Input, state: &mut State<DVec3>) -> bool {

@@ -180,7 +180,7 @@ impl Kind {
     /// As [`Kind::of`], of bodies of one coordinate whose copies are stepped in blocks.
     pub(super) fn of_one<B: Body<Vector = f64> + Sync>(blank: B) -> Self {
         let batch: MakeBatch = |body, set, solver, starts| {
-            Some(Batch::of_body(body.downcast_ref::<B>()?, set, solver, starts))
+            Some(Batch::on(set, body.downcast_ref::<B>()?, solver, starts.into_iter()))
         };
         Self { batch, ..Self::of(blank) }
     }

@@ -28,13 +28,8 @@ const PARAMETERS: [Of; 6] = [
         .symbol("μ")
         .about("the pull of the centre, at the origin, times the distance squared"),
     Of::number("x0_m", Range::ANY, |orbit| &mut orbit.q0.x).at_start().about("x at the start"),
-    Of::number("y0_m", Range::ANY, |orbit| &mut orbit.q0.y)
-        .or(0.0)
-        .at_start()
-        .about("y at the start"),
-    Of::number("vx0_m_per_s", Range::ANY, |orbit| &mut orbit.v0.x)
-        .or(0.0)
-        .at_start()
+    Of::start("y0_m", 0.0, |orbit| &mut orbit.q0.y).about("y at the start"),
+    Of::start("vx0_m_per_s", 0.0, |orbit| &mut orbit.v0.x)
         .about("the velocity along x at the start"),
     Of::number("vy0_m_per_s", Range::ANY, |orbit| &mut orbit.v0.y)
         .at_start()

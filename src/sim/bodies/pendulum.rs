@@ -30,13 +30,9 @@ const PARAMETERS: [Of; 7] = [
         .or(0.0)
         .symbol("c")
         .about("the damping coefficient: torque per radian per second"),
-    Of::number("theta0_rad", Range::ANY, |pendulum| &mut pendulum.theta0)
-        .or(1.0)
-        .at_start()
+    Of::start("theta0_rad", 1.0, |pendulum| &mut pendulum.theta0)
         .about("the angle at the start, from hanging down, counter-clockwise"),
-    Of::number("omega0_rad_per_s", Range::ANY, |pendulum| &mut pendulum.omega0)
-        .or(0.0)
-        .at_start()
+    Of::start("omega0_rad_per_s", 0.0, |pendulum| &mut pendulum.omega0)
         .about("the angular velocity at the start"),
     Of::number("kick_n_m_s", Range::ANY, |pendulum| &mut pendulum.kick)
         .or(1.0)

@@ -24,14 +24,8 @@ const PARAMETERS: [Of; 6] = [
         .or(0.0)
         .symbol("c")
         .about("the damping coefficient: force per metre per second"),
-    Of::number("x0_m", Range::ANY, |spring| &mut spring.x0)
-        .or(1.0)
-        .at_start()
-        .about("the stretch at the start"),
-    Of::number("v0_m_per_s", Range::ANY, |spring| &mut spring.v0)
-        .or(0.0)
-        .at_start()
-        .about("the velocity at the start"),
+    Of::start("x0_m", 1.0, |spring| &mut spring.x0).about("the stretch at the start"),
+    Of::start("v0_m_per_s", 0.0, |spring| &mut spring.v0).about("the velocity at the start"),
     Of::number("kick_n_s", Range::ANY, |spring| &mut spring.kick)
         .or(3.0)
         .about("the impulse of one kick"),
@@ -120,9 +114,5 @@ impl Body for Spring {
         let Input::Kick(times) = input else { return false };
         state.v += times * self.kick / self.mass;
         true
-    }
-
-    fn place(&self, x: &f64) -> DVec2 {
-        DVec2::new(*x, 0.0)
     }
 }

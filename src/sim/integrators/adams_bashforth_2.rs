@@ -14,7 +14,6 @@ pub(super) const CARD: Method = Method {
     damped_limits: Some([0.8, 1.394, 2.0]),
     source: "Bashforth & Adams, An Attempt to Test the Theories of Capillary Action (1883)",
     formula: &["k = f(t, y), k₋₁ = f(t − h, y₋₁)", "y′ = y + ½h (3 k − k₋₁)"],
-    code: include_str!("../../../assets/methods/adams-bashforth-2.step"),
     ..EXPLICIT
 };
 

@@ -18,7 +18,6 @@ pub(super) const CARD: Method = Method {
         "error = ½h |k₁ − k₂|",
         "y′ = y + h k₂ if the error is small",
     ],
-    code: include_str!("../../../assets/methods/adaptive-euler.step"),
     ..ADAPTIVE
 };
 

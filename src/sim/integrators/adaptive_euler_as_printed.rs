@@ -17,7 +17,6 @@ pub(super) const CARD: Method = Method {
         "s = h min(1, √(tolerance / e))",
         "v′ = v + s a, q′ = q + s v′",
     ],
-    code: include_str!("../../../assets/methods/adaptive-euler-as-printed.step"),
     ..AS_PRINTED
 };
 

@@ -32,7 +32,6 @@ pub(super) const CARD: Method = Method {
         "d = −x h² K / (1 + h² K), x = x + d",
         "v = (v + d / h) max(0, 1 − h c)",
     ],
-    code: include_str!("../../../assets/methods/engine-avian.step"),
     ..ENGINE
 };
 
@@ -50,7 +49,6 @@ pub(super) fn substep(length: f64, substeps: u32) -> f64 {
 impl Rule for Avian {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (substep(tick.length, tick.substeps), tick.settings);
         let (drag, stiff) = (1.0 + h * set.drag, h * h * set.stiffness);

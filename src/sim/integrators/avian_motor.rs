@@ -36,7 +36,6 @@ pub(super) const CARD: Method = Method {
         "x = x + h v, d = −h² (K x + c v) / D",
         "x = x + d, v = v + d / h, S = S + d",
     ],
-    code: include_str!("../../../assets/methods/engine-avian-motor.step"),
     ..ENGINE
 };
 
@@ -47,7 +46,6 @@ pub struct AvianMotor;
 impl Rule for AvianMotor {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (substep(tick.length, tick.substeps), tick.settings);
         let (drag, resistance) = (1.0 + h * set.drag, set.resistance(h));

@@ -15,7 +15,6 @@ pub(super) const CARD: Method = Method {
     ),
     source: "Curtiss & Hirschfelder, Integration of stiff equations (1952); started by Alexander, Diagonally implicit Runge-Kutta methods for stiff ODEs (1977), the SDIRK of two stages",
     formula: &["y′ = y + ⅓ (y − y₋₁) + ⅔h f(t + h, y′)"],
-    code: include_str!("../../../assets/methods/bdf2.step"),
     ..IMPLICIT
 };
 

@@ -17,7 +17,6 @@ pub(super) const CARD: Method = Method {
         "error = h |5 k₁ − 6 k₂ − 8 k₃ + 9 k₄| / 72",
         "y′ = y + h (2 k₁ + 3 k₂ + 4 k₃) / 9 if the error is small",
     ],
-    code: include_str!("../../../assets/methods/bogacki-shampine-32.step"),
     ..ADAPTIVE
 };
 

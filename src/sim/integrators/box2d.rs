@@ -35,7 +35,6 @@ pub(super) const CARD: Method = Method {
         "v = (p − h K x) / D, |v| ≤ 400, x = x + h v",
         "v = (p − h K x) / D",
     ],
-    code: include_str!("../../../assets/methods/engine-box2d.step"),
     ..card::ENGINE
 };
 
@@ -49,7 +48,6 @@ pub struct Box2d;
 impl Rule for Box2d {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let (drag, pull, resistance) = (1.0 + h * set.drag, h * set.stiffness, set.resistance(h));

@@ -15,7 +15,6 @@ pub(super) const CARD: Method = Method {
     }),
     source: "Box3D 0.1.0 in box3d-sys 0.1.16: solver.c b3IntegrateVelocitiesTask, b3IntegratePositionsTask; \
              distance_joint.c",
-    code: include_str!("../../../assets/methods/engine-box3d.step"),
     ..box2d::CARD
 };
 
@@ -26,7 +25,6 @@ pub struct Box3d;
 impl Rule for Box3d {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         Box2d::tick(tick, q, v);
     }

@@ -1,12 +1,9 @@
 //! Bullet: an explicit spring whose stiffness and damping are limited for the step.
 
-use super::joint_mode::JointQuantity::{Damping, Stiffness};
 use super::prelude::*;
 
-const MODES: [JointMode; 1] = [mode(
+const MODES: [JointMode; 1] = [si_mode(
     "6dof-spring",
-    ("stiffness", Stiffness),
-    ("damping", Damping),
     "spring->enableSpring(axis, true);\nspring->setStiffness(axis, {stiffness});\nspring->setDamping(axis, {damping});",
 )];
 
@@ -33,7 +30,6 @@ pub(super) const CARD: Method = Method {
         "if f ≠ 0: g = min(max(g − h f, min(g, b, 0)), max(g, b, 0))",
         "v = v + g + h f, x = x + h v",
     ],
-    code: include_str!("../../../assets/methods/engine-bullet.step"),
     ..ENGINE
 };
 
@@ -44,7 +40,6 @@ pub struct Bullet;
 impl Rule for Bullet {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let softest = 1.0 / (16.0 * h * h);

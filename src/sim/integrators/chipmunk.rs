@@ -1,12 +1,9 @@
 //! Chipmunk: the drift before the kick.
 
-use super::joint_mode::JointQuantity::{Damping, Stiffness};
 use super::prelude::*;
 
-const MODES: [JointMode; 1] = [mode(
+const MODES: [JointMode; 1] = [si_mode(
     "damped-spring",
-    ("stiffness", Stiffness),
-    ("damping", Damping),
     "cpDampedSpringNew(anchor, body, cpvzero, cpvzero, restLength, {stiffness}, {damping});",
 )];
 
@@ -29,7 +26,6 @@ pub(super) const CARD: Method = Method {
     }),
     source: "Chipmunk 2.0.1 in pymunk 7.3.1: cpBodyUpdatePosition, cpBodyUpdateVelocity, cpDampedSpring.c",
     formula: &["x′ = x + H v", "v′ = ((v − H K x′) e^(−C H) + H f) e^(−c H)"],
-    code: include_str!("../../../assets/methods/engine-chipmunk.step"),
     ..ENGINE
 };
 
@@ -40,7 +36,6 @@ pub struct Chipmunk;
 impl Rule for Chipmunk {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.length, tick.settings);
         let (kept, damped) = (libm::exp(-set.drag * h), libm::exp(-set.damping * h));

@@ -12,7 +12,6 @@ pub(super) const CARD: Method = Method {
         "x′ = g + (x − g + b) exp(−ω h)",
         "v′ = (v − ω b) exp(−ω h)",
     ],
-    code: include_str!("../../../assets/methods/critically-damped-spring.step"),
     follower: Some(FollowerSetting::rate(
         "(x, v) = critically_damped_spring(x, v, dt, target, {});",
     )),
@@ -26,7 +25,6 @@ pub struct CriticallyDampedSpring;
 impl FollowerRule for CriticallyDampedSpring {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn step(h: f64, omega: f64, g: f64, x: f64, v: f64) -> (f64, f64) {
         let e = libm::exp(-omega * h);
         let change = x - g;

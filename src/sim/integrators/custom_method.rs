@@ -67,7 +67,14 @@ pub fn custom_integrator<I: AnyIntegrator + 'static>(coordinates: usize) -> Box<
     Box::new(I::new(&vec![0.0; coordinates]))
 }
 
+impl<V> Clone for Box<dyn AnyIntegrator<V>> {
+    fn clone(&self) -> Self {
+        (**self).boxed_clone()
+    }
+}
+
 /// A custom method on systems with coordinates in a `V`.
+#[derive(Clone)]
 pub(super) struct CustomMethod<V> {
     integrator: Box<dyn AnyIntegrator>,
     state: State<Vec<f64>>,
@@ -82,17 +89,6 @@ impl<V: Vector> CustomMethod<V> {
             integrator: build(zero.len()),
             state: State { q: zero.clone(), v: zero },
             scratch: RefCell::new(Scratch::new(like)),
-        }
-    }
-}
-
-impl<V: Clone> Clone for CustomMethod<V> {
-    fn clone(&self) -> Self {
-        let Self { integrator, state, scratch } = self;
-        Self {
-            integrator: integrator.boxed_clone(),
-            state: state.clone(),
-            scratch: scratch.clone(),
         }
     }
 }

@@ -16,7 +16,6 @@ pub(super) const CARD: Method = Method {
         "error = h |Σ eⱼ kⱼ|",
         "y′ = y + h Σ a₇ⱼ kⱼ if the error is small",
     ],
-    code: include_str!("../../../assets/methods/dormand-prince-54.step"),
     ..ADAPTIVE
 };
 

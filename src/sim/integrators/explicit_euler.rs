@@ -13,7 +13,6 @@ pub(super) const CARD: Method = Method {
     source: "Euler, Institutionum calculi integralis I (1768); Bourg & Bywalec, Physics for Game Developers 2e, ch. 7, Figure 7-5",
     formula: &["y′ = y + h f(t, y)"],
     weights: &[1.0],
-    code: include_str!("../../../assets/methods/explicit-euler.step"),
     ..EXPLICIT
 };
 

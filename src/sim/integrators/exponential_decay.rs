@@ -8,7 +8,6 @@ pub(super) const CARD: Method = Method {
     about: "exact at any frame rate while the target rests, and as cheap as a lerp",
     source: "exact solution of x' = k (g - x); F. Holmér, Lerp smoothing is broken (2024)",
     formula: &["x′ = g + (x − g) exp(−k h)", "v′ = k (g − x′)"],
-    code: include_str!("../../../assets/methods/exponential-decay.step"),
     follower: Some(FollowerSetting::rate("x += (target - x) * (1.0 - exp(-{} * dt));")),
     ..FIRST_ORDER_FOLLOWER
 };
@@ -20,7 +19,6 @@ pub struct ExponentialDecay;
 impl FollowerRule for ExponentialDecay {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn step(h: f64, k: f64, g: f64, x: f64, _v: f64) -> (f64, f64) {
         lerp(-libm::expm1(-k * h), k, g, x)
     }

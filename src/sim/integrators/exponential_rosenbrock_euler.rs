@@ -19,7 +19,6 @@ pub(super) const CARD: Method = Method {
         "J = ∂f/∂y, fₜ = (f(t + h, y) − f(t, y)) / h",
         "φ₁(z) = (exp(z) − 1) / z, φ₂(z) = (φ₁(z) − 1) / z",
     ],
-    code: include_str!("../../../assets/methods/exponential-rosenbrock-euler.step"),
     ..LINEARISED
 };
 

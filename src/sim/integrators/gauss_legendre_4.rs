@@ -19,7 +19,6 @@ pub(super) const CARD: Method = Method {
         "k₂ = f(t + (½ + r) h, y + h ((¼ + r) k₁ + ¼k₂))",
         "y′ = y + ½h (k₁ + k₂), r = √3 / 6",
     ],
-    code: include_str!("../../../assets/methods/gauss-legendre-4.step"),
     ..IMPLICIT
 };
 

@@ -1,12 +1,9 @@
 //! Godot's own 2D physics.
 
-use super::joint_mode::JointQuantity::{Damping, Stiffness};
 use super::prelude::*;
 
-const MODES: [JointMode; 1] = [mode(
+const MODES: [JointMode; 1] = [si_mode(
     "damped-spring-joint-2d",
-    ("stiffness", Stiffness),
-    ("damping", Damping),
     "joint.stiffness = {stiffness}\njoint.damping = {damping}\nbody.linear_damp_mode = RigidBody2D.DAMP_MODE_REPLACE\nbody.linear_damp = 0.0",
 )];
 
@@ -32,7 +29,6 @@ pub(super) const CARD: Method = Method {
     }),
     source: "Godot 4.x: godot_body_2d.cpp, godot_joints_2d.cpp GodotDampedSpringJoint2D",
     formula: &["v = v max(0, 1 − H C) + H f − H K x", "v′ = v e^(−8 c H), x′ = x + H v′"],
-    code: include_str!("../../../assets/methods/engine-godot.step"),
     ..ENGINE
 };
 
@@ -46,7 +42,6 @@ pub struct Godot;
 impl Rule for Godot {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.length, tick.settings);
         let (kept, damped) = ((1.0 - h * set.drag).max(0.0), libm::exp(-set.damping * h));

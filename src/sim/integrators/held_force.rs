@@ -1,14 +1,8 @@
 //! A custom force, applied once a tick over an engine's substeps.
 
-use super::joint_mode::JointQuantity::{Damping, Stiffness};
 use super::prelude::*;
 
-const MODES: [JointMode; 1] = [mode(
-    "force",
-    ("stiffness", Stiffness),
-    ("damping", Damping),
-    "force = -{stiffness} * x - {damping} * v;",
-)];
+const MODES: [JointMode; 1] = [si_mode("force", "force = -{stiffness} * x - {damping} * v;")];
 
 pub(super) const CARD: Method = Method {
     id: "held-force",
@@ -30,7 +24,6 @@ pub(super) const CARD: Method = Method {
     source: "what Box2D, Rapier and Avian do with a force that is applied before the step; Jolt, Bullet and MuJoCo too where \
              they substep",
     formula: &["f = a(t, x, v)", "n times: v = v + h f, x = x + h v"],
-    code: include_str!("../../../assets/methods/held-force.step"),
     ..ENGINE
 };
 
@@ -41,7 +34,6 @@ pub struct HeldForce;
 impl Rule for HeldForce {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let h = tick.substep();
         for _ in 0..tick.substeps {

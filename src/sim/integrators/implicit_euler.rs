@@ -11,7 +11,6 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 1,
     source: "Curtiss & Hirschfelder, Integration of stiff equations (1952)",
     formula: &["y′ = y + h f(t + h, y′)"],
-    code: include_str!("../../../assets/methods/implicit-euler.step"),
     ..IMPLICIT
 };
 

@@ -13,7 +13,6 @@ pub(super) const CARD: Method = Method {
     reversible: true,
     source: "Feng Kang, On difference schemes and symplectic geometry (1985); Hairer, Lubich & Wanner, Geometric Numerical Integration, VI.4",
     formula: &["m = y + ½h f(t + ½h, m)", "y′ = 2 m − y"],
-    code: include_str!("../../../assets/methods/implicit-midpoint.step"),
     ..IMPLICIT
 };
 

@@ -13,7 +13,6 @@ pub(super) const CARD: Method = Method {
     source: "Heun, Neue Methoden zur approximativen Integration (1900); Bourg & Bywalec, Physics for Game Developers 2e, ch. 7",
     formula: &["k₁ = f(t, y)", "k₂ = f(t + h, y + h k₁)", "y′ = y + ½h (k₁ + k₂)"],
     weights: &[0.5, 0.5],
-    code: include_str!("../../../assets/methods/improved-euler.step"),
     ..EXPLICIT
 };
 

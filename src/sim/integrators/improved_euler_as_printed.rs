@@ -16,7 +16,6 @@ pub(super) const CARD: Method = Method {
         "v′ = v + ½h (k₁ + k₂)",
         "q′ = q + h v′",
     ],
-    code: include_str!("../../../assets/methods/improved-euler-as-printed.step"),
     ..AS_PRINTED
 };
 

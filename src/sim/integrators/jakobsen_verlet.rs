@@ -16,7 +16,6 @@ pub(super) const CARD: Method = Method {
     damped_limits: Some([1.897, 1.635, 0.825]),
     source: "Jakobsen, Advanced Character Physics (2001), with his drag of 0.99",
     formula: &["p = q − h v, q′ = q + 0.99 (q − p) + h² a", "v′ = (q′ − q) / h"],
-    code: include_str!("../../../assets/methods/jakobsen-verlet.step"),
     ..AS_PRINTED
 };
 

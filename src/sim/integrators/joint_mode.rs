@@ -132,6 +132,11 @@ pub(super) const fn mode(
     JointMode { id, stiffness, damping, is_explicit: false, code }
 }
 
+/// A [`mode`] whose settings are called `stiffness`, in N/m, and `damping`, in N s/m.
+pub(super) const fn si_mode(id: &'static str, code: &'static str) -> JointMode {
+    mode(id, ("stiffness", Stiffness), ("damping", Damping), code)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

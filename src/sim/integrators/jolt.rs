@@ -40,7 +40,6 @@ pub(super) const CARD: Method = Method {
         "n times: v = (v + h f) max(0, 1 − h C), |v| ≤ 500",
         "v = (v − h K x) / D, x = x + h v",
     ],
-    code: include_str!("../../../assets/methods/engine-jolt.step"),
     ..ENGINE
 };
 
@@ -54,7 +53,6 @@ pub struct Jolt;
 impl Rule for Jolt {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let (pull, resistance) = (h * set.stiffness, set.resistance(h));

@@ -9,7 +9,6 @@ pub(super) const CARD: Method = Method {
     stability_limit: Some(2.0),
     source: "folklore of game code; F. Holmér, Lerp smoothing is broken (2024)",
     formula: &["x′ = x + k h (g − x)", "v′ = k (g − x′)"],
-    code: include_str!("../../../assets/methods/lerp-dt.step"),
     follower: Some(FollowerSetting::rate("x += (target - x) * {} * dt;")),
     ..FIRST_ORDER_FOLLOWER
 };
@@ -21,7 +20,6 @@ pub struct LerpDt;
 impl FollowerRule for LerpDt {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn step(h: f64, k: f64, g: f64, x: f64, _v: f64) -> (f64, f64) {
         lerp(k * h, k, g, x)
     }

@@ -10,7 +10,6 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 0,
     source: "folklore of game code; R. Pavlov, Improved Lerp Smoothing, Game Developer (2016)",
     formula: &["x′ = x + 0.1 (g − x)", "v′ = k (g − x′)"],
-    code: include_str!("../../../assets/methods/lerp-per-frame.step"),
     follower: Some(FollowerSetting {
         name: "part",
         quantity: FollowerQuantity::Part,
@@ -29,7 +28,6 @@ pub struct LerpPerFrame;
 impl FollowerRule for LerpPerFrame {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn step(_h: f64, k: f64, g: f64, x: f64, _v: f64) -> (f64, f64) {
         lerp(PART, k, g, x)
     }

@@ -12,7 +12,6 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 1,
     source: "Rosenbrock, Some general implicit processes for the numerical solution of differential equations (1963); Baraff & Witkin, Large Steps in Cloth Simulation (1998); Macklin, Müller & Chentanez, XPBD (2016); Catto, Soft Constraints (2011)",
     formula: &["(I − h ∂f/∂y) (y′ − y) = h f(t + h, y)"],
-    code: include_str!("../../../assets/methods/linearly-implicit-euler.step"),
     ..LINEARISED
 };
 

@@ -13,7 +13,6 @@ pub(super) const CARD: Method = Method {
     source: "Runge, Über die numerische Auflösung von Differentialgleichungen (1895)",
     formula: &["k₁ = f(t, y)", "k₂ = f(t + ½h, y + ½h k₁)", "y′ = y + h k₂"],
     weights: &[0.0, 1.0],
-    code: include_str!("../../../assets/methods/midpoint.step"),
     ..EXPLICIT
 };
 

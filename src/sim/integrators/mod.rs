@@ -145,7 +145,10 @@ macro_rules! methods {
         $(pub use $file::$Type;)+
 
         /// Every method, in the order of the digit keys and of race lanes.
-        pub static METHODS: &[Method] = &[$($file::CARD),+];
+        pub static METHODS: &[Method] = &[$(Method {
+            code: include_str!(concat!("../../../assets/methods/", stringify!($file), ".step")),
+            ..$file::CARD
+        }),+];
 
         /// Calls `construct` with the integrator type of `method`, for systems with this coupling.
         ///

@@ -5,12 +5,7 @@ use super::prelude::*;
 use crate::sim::system::EngineSettings;
 
 const MODES: [JointMode; 3] = [
-    mode(
-        "joint",
-        ("stiffness", Stiffness),
-        ("damping", Damping),
-        "<joint type=\"slide\" stiffness=\"{stiffness}\" damping=\"{damping}\"/>",
-    ),
+    si_mode("joint", "<joint type=\"slide\" stiffness=\"{stiffness}\" damping=\"{damping}\"/>"),
     mode(
         "actuator",
         ("kp", Stiffness),
@@ -49,7 +44,6 @@ pub(super) const CARD: Method = Method {
         "if max(|x|, |v|, |a|) > 10¹⁰: x = 0, v = 0, f = 0",
         "v = (v + h (f − K x)) / (1 + h (c + C)), x = x + h v",
     ],
-    code: include_str!("../../../assets/methods/engine-mujoco.step"),
     ..ENGINE
 };
 
@@ -84,7 +78,6 @@ pub struct Mujoco;
 impl Rule for Mujoco {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let resistance = 1.0 + h * (set.damping + set.drag);

@@ -1,13 +1,10 @@
 //! MuJoCo with its Runge-Kutta integrator, which holds what user code applies.
 
-use super::joint_mode::JointQuantity::{Damping, Stiffness};
 use super::mujoco::puts_back;
 use super::prelude::*;
 
-const MODES: [JointMode; 1] = [mode(
+const MODES: [JointMode; 1] = [si_mode(
     "joint",
-    ("stiffness", Stiffness),
-    ("damping", Damping),
     "<option integrator=\"RK4\"/>\n<joint type=\"slide\" stiffness=\"{stiffness}\" damping=\"{damping}\"/>",
 )];
 
@@ -38,7 +35,6 @@ pub(super) const CARD: Method = Method {
         "x = x + h (v + 2 v₂ + 2 v₃ + v₄) / 6",
         "v = v + h (a₁ + 2 a₂ + 2 a₃ + a₄) / 6",
     ],
-    code: include_str!("../../../assets/methods/engine-mujoco-rk4.step"),
     ..ENGINE
 };
 
@@ -49,7 +45,6 @@ pub struct MujocoRk4;
 impl Rule for MujocoRk4 {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let damping = set.damping + set.drag;

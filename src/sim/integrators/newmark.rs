@@ -13,7 +13,6 @@ pub(super) const CARD: Method = Method {
     reversible: true,
     source: "Newmark, A method of computation for structural dynamics (1959)",
     formula: &["q′ = q + h v + ¼h² (a + a′)", "v′ = v + ½h (a + a′)", "a′ = a(t + h, q′, v′)"],
-    code: include_str!("../../../assets/methods/newmark.step"),
     ..IMPLICIT
 };
 

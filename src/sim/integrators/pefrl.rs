@@ -21,7 +21,6 @@ pub(super) const CARD: Method = Method {
         "λ = −0.2123418310626054",
         "χ = −0.0662645826698185",
     ],
-    code: include_str!("../../../assets/methods/pefrl.step"),
     ..SYMPLECTIC
 };
 

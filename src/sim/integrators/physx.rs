@@ -5,10 +5,8 @@ use super::prelude::*;
 
 /// The drives of PhysX itself, whatever its solver.
 pub(super) const DRIVES: [JointMode; 2] = [
-    mode(
+    si_mode(
         "force-drive",
-        ("stiffness", Stiffness),
-        ("damping", Damping),
         "joint->setDrive(PxD6Drive::eX, PxD6JointDrive({stiffness}f, {damping}f, PX_MAX_F32, false));\nbody->setLinearDamping(0.0f);",
     ),
     mode(
@@ -53,7 +51,6 @@ pub(super) const CARD: Method = Method {
         "v′ = (v − H K x) / D, x′ = x + H v′",
         "D = 1 + H c + H² K",
     ],
-    code: include_str!("../../../assets/methods/engine-physx.step"),
     ..ENGINE
 };
 
@@ -65,7 +62,6 @@ pub struct Physx;
 impl Rule for Physx {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.length, tick.settings);
         let (pull, resistance) = (h * set.stiffness, set.resistance(h));

@@ -30,7 +30,6 @@ pub(super) const CARD: Method = Method {
         "then x′ = x + d, v′ = v / D",
         "D = 1 + h c + h² K, E = 1 / (1 + h² (c + K))",
     ],
-    code: include_str!("../../../assets/methods/engine-physx-tgs.step"),
     ..ENGINE
 };
 
@@ -44,7 +43,6 @@ pub struct PhysxTgs;
 impl Rule for PhysxTgs {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let (pull, resistance) = (h * set.stiffness, set.resistance(h));

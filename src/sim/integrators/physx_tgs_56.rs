@@ -23,7 +23,6 @@ pub(super) const CARD: Method = Method {
         "v = (v + H f) max(0, 1 − H C), D = 1 + h c + h² K",
         "n times: v = (v − h K x) / D, x = x + h v",
     ],
-    code: include_str!("../../../assets/methods/engine-physx-tgs-56.step"),
     ..ENGINE
 };
 
@@ -35,7 +34,6 @@ pub struct PhysxTgs56;
 impl Rule for PhysxTgs56 {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let (pull, resistance) = (h * set.stiffness, set.resistance(h));

@@ -12,7 +12,6 @@ pub(super) const CARD: Method = Method {
     damped_limits: Some([1.902, 1.64, 0.828]),
     source: "Tuckerman, Berne & Martyna, Reversible multiple time scale molecular dynamics (1992)",
     formula: &["q½ = q + ½h v", "v′ = v + h a(t + ½h, q½, v)", "q′ = q½ + ½h v′"],
-    code: include_str!("../../../assets/methods/position-verlet.step"),
     ..SYMPLECTIC
 };
 

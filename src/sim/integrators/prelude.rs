@@ -10,7 +10,7 @@ pub(super) use super::failure::Stepped;
 pub(super) use super::follower::{FollowerRule, lerp};
 pub(super) use super::free_spin::{FreeSpin, SpinMap};
 pub(super) use super::integrator::{Integrator, Override};
-pub(super) use super::joint_mode::{JointMode, mode};
+pub(super) use super::joint_mode::{JointMode, mode, si_mode};
 pub(super) use super::tolerance::Tolerance;
 pub(super) use crate::sim::state::{Elementwise, State, Vector};
 pub(super) use crate::sim::system::{Coupling, StateOf, System};

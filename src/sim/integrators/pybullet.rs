@@ -25,7 +25,6 @@ pub(super) const CARD: Method = Method {
     }),
     source: "pybullet 3.2.7: btMultiBody.cpp, its default linear damping",
     formula: &["d = 1 − e^(−C)", "v′ = v + H (f − d v (1 + |v|))", "x′ = x + H v′"],
-    code: include_str!("../../../assets/methods/engine-pybullet.step"),
     ..ENGINE
 };
 
@@ -36,7 +35,6 @@ pub struct Pybullet;
 impl Rule for Pybullet {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, d) = (tick.length, -libm::expm1(-tick.settings.drag));
         let square: f64 = v.components().iter().map(|v| v * v).sum();

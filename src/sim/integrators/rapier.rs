@@ -1,15 +1,10 @@
 //! Rapier: implicit springs in every substep, and the drag once a tick.
 
-use super::joint_mode::JointQuantity::{Damping, DampingPerMass, Stiffness, StiffnessPerMass};
+use super::joint_mode::JointQuantity::{DampingPerMass, StiffnessPerMass};
 use super::prelude::*;
 
 const MODES: [JointMode; 2] = [
-    mode(
-        "force-based",
-        ("stiffness", Stiffness),
-        ("damping", Damping),
-        "SpringJointBuilder::new(rest_length, {stiffness}, {damping})",
-    ),
+    si_mode("force-based", "SpringJointBuilder::new(rest_length, {stiffness}, {damping})"),
     mode(
         "acceleration-based",
         ("stiffness", StiffnessPerMass),
@@ -40,7 +35,6 @@ pub(super) const CARD: Method = Method {
         "x = x + h v",
         "then v = v / (1 + H C)",
     ],
-    code: include_str!("../../../assets/methods/engine-rapier.step"),
     ..ENGINE
 };
 
@@ -54,7 +48,6 @@ pub struct Rapier;
 impl Rule for Rapier {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let (pull, resistance) = (h * set.stiffness, set.resistance(h));

@@ -20,7 +20,6 @@ pub(super) const CARD: Method = Method {
         "y′ = y + h (k₁ + 2 k₂ + 2 k₃ + k₄) / 6",
     ],
     weights: &[1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0],
-    code: include_str!("../../../assets/methods/rk4.step"),
     ..EXPLICIT
 };
 

@@ -17,7 +17,6 @@ pub(super) const CARD: Method = Method {
         "v′ = v + h (k₁ + 2 k₂ + 2 k₃ + k₄) / 6",
         "q′ = q + h v′",
     ],
-    code: include_str!("../../../assets/methods/rk4-as-printed.step"),
     ..AS_PRINTED
 };
 

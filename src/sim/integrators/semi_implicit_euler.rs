@@ -13,7 +13,6 @@ pub(super) const CARD: Method = Method {
     damped_limits: Some([1.902, 1.64, 0.828]),
     source: "de Vogelaere, Methods of integration which preserve the contact transformation property of the Hamilton equations (1956)",
     formula: &["v′ = v + h a(t, q, v)", "q′ = q + h v′"],
-    code: include_str!("../../../assets/methods/semi-implicit-euler.step"),
     ..SYMPLECTIC
 };
 

@@ -15,7 +15,6 @@ pub(super) const CARD: Method = Method {
     damped_limits: Some([2.102, 2.44, 4.828]),
     source: "Ascher, Ruuth & Wetton, Implicit-explicit methods for time-dependent partial differential equations (1995)",
     formula: &["(I − h ∂a/∂v) (v′ − v) = h a(t, q, v)", "q′ = q + h v′"],
-    code: include_str!("../../../assets/methods/semi-implicit-euler-implicit-drag.step"),
     ..LINEARISED
 };
 

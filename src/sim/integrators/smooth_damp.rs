@@ -14,7 +14,6 @@ pub(super) const CARD: Method = Method {
         "if (g > x) = (p > g): x′ = g, v′ = 0",
         "else: x′ = p, v′ = (v − ω b) e",
     ],
-    code: include_str!("../../../assets/methods/smooth-damp.step"),
     follower: Some(FollowerSetting {
         name: "smooth_time",
         quantity: FollowerQuantity::SmoothTime,
@@ -30,7 +29,6 @@ pub struct SmoothDamp;
 impl FollowerRule for SmoothDamp {
     const CARD: &'static Method = &CARD;
 
-    #[inline]
     fn step(h: f64, omega: f64, g: f64, x: f64, v: f64) -> (f64, f64) {
         let z = omega * h;
         let e = 1.0 / (1.0 + z + 0.48 * z * z + 0.235 * z * z * z);

@@ -20,7 +20,6 @@ pub(super) const CARD: Method = Method {
         "y′ = y + h (k₁ + k₂ + 4 k₃) / 6",
     ],
     weights: &[1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0],
-    code: include_str!("../../../assets/methods/ssp-rk3.step"),
     ..EXPLICIT
 };
 

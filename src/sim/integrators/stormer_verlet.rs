@@ -18,7 +18,6 @@ pub(super) const CARD: Method = Method {
         "a′ = a(t + h, q′, (3 q′ − 4 q + q₋₁) / (2 h))",
         "v′ = (q′ − q) / h + ½h a′",
     ],
-    code: include_str!("../../../assets/methods/stormer-verlet.step"),
     ..SYMPLECTIC
 };
 

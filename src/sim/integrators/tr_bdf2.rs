@@ -14,7 +14,6 @@ pub(super) const CARD: Method = Method {
         "Y = y + ½γh (f(t, y) + f(t + γ h, Y)), γ = 2 − √2",
         "y′ = y + (Y − y) / (γ (2 − γ)) + ½γh f(t + h, y′)",
     ],
-    code: include_str!("../../../assets/methods/tr-bdf2.step"),
     ..IMPLICIT
 };
 

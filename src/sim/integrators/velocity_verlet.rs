@@ -16,7 +16,6 @@ pub(super) const CARD: Method = Method {
     damped_limits: Some([1.912, 1.757, 1.0]),
     source: "Swope, Andersen, Berens & Wilson, A computer simulation method for the calculation of equilibrium constants for the formation of physical clusters of molecules (1982)",
     formula: &["v½ = v + ½h a", "q′ = q + h v½", "a′ = a(t + h, q′, v½ + ½h a)", "v′ = v½ + ½h a′"],
-    code: include_str!("../../../assets/methods/velocity-verlet.step"),
     ..SYMPLECTIC
 };
 

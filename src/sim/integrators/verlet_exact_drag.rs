@@ -23,7 +23,6 @@ pub(super) const CARD: Method = Method {
         "r′ = a(t + h, q′, u) − D u",
         "v′ = exp(½h D) (v½ + ½h r′)",
     ],
-    code: include_str!("../../../assets/methods/verlet-exact-drag.step"),
     ..LINEARISED
 };
 

@@ -19,7 +19,6 @@ pub(super) const CARD: Method = Method {
         "drift ½(1 − θ), kick θ, drift ½θ",
         "θ = 1 / (2 − ∛2)",
     ],
-    code: include_str!("../../../assets/methods/yoshida4.step"),
     ..SYMPLECTIC
 };
 

@@ -8,10 +8,13 @@ use super::function::Function;
 use super::op::is_word;
 use super::tape::{MAX_OPERATIONS, MAX_SWITCHES, Tape};
 use super::token::is_name_start;
-use super::{FIRST_COORDINATE, LawText, RUDDER, T, THROTTLE, inputs};
+use super::{LawText, T};
 
 /// The most characters of a name, which labels a marker.
 const MAX_NAME_CHARS: usize = 24;
+
+/// A tape, or all faults of its text.
+pub(super) type Compiled = Result<Tape, Vec<LawFault>>;
 
 /// Compiles the parts of one text.
 pub(super) struct Compiler<'t> {
@@ -25,37 +28,27 @@ struct PartScope<'t> {
 }
 
 impl PartScope<'_> {
-    /// All names with the slots of their inputs.
+    /// All names with the slots of their inputs, in that order: a constant comes before a start of the same name.
     fn all(&self) -> impl Iterator<Item = (String, usize)> {
-        let n = self.text.coordinates.len();
-        let first_constant = FIRST_COORDINATE + 2 * n;
-        let first_start = first_constant + self.text.constants.len();
         let names = self.text.coordinates.iter().map(|coordinate| &coordinate.name);
-        let plain = [("t".to_owned(), T), ("throttle".into(), THROTTLE), ("rudder".into(), RUDDER)];
-        let coordinates = names.clone().cloned().zip(FIRST_COORDINATE..);
-        let velocities = names.clone().map(|name| format!("v{name}")).zip(FIRST_COORDINATE + n..);
-        let constants = self.text.constants.iter().cloned().zip(first_constant..);
-        let starts = names.clone().map(|name| format!("{name}0")).zip(first_start..);
-        let pushes = names.map(|name| format!("v{name}0")).zip(first_start + n..);
-        // A constant comes before a start of the same name.
-        plain
+        ["t", "throttle", "rudder"]
             .into_iter()
-            .chain(coordinates)
-            .chain(velocities)
-            .chain(constants)
-            .chain(starts)
-            .chain(pushes)
+            .map(String::from)
+            .chain(names.clone().cloned())
+            .chain(names.clone().map(|name| format!("v{name}")))
+            .chain(self.text.constants.iter().cloned())
+            .chain(names.clone().map(|name| format!("{name}0")))
+            .chain(names.map(|name| format!("v{name}0")))
+            .zip(T..)
     }
 
     fn may_use(&self, slot: usize) -> bool {
-        let n = self.text.coordinates.len();
-        let moves = FIRST_COORDINATE..FIRST_COORDINATE + 2 * n;
-        let constants = moves.end..moves.end + self.text.constants.len();
+        let (moves, constants) = (self.text.slots_of_motion(), self.text.slots_of_constants());
         match self.part {
             Part::Acceleration(_) => slot < constants.end,
             Part::Energy => moves.contains(&slot) || constants.contains(&slot),
             Part::Place(..) => {
-                (FIRST_COORDINATE..FIRST_COORDINATE + n).contains(&slot)
+                moves.contains(&slot) && slot - moves.start < self.text.coordinates.len()
                     || constants.contains(&slot)
             }
             _ => slot == T || slot >= constants.start,
@@ -75,7 +68,6 @@ impl Scope for PartScope<'_> {
 
     fn why_not(&self, name: &str) -> Option<String> {
         let (_, slot) = self.all().find(|(known, _)| known == name)?;
-        let moves = FIRST_COORDINATE..FIRST_COORDINATE + 2 * self.text.coordinates.len();
         Some(match self.part {
             Part::Acceleration(_) => {
                 format!("`{name}` is the start of a coordinate, which only `exact` knows")
@@ -86,7 +78,7 @@ impl Scope for PartScope<'_> {
             Part::Place(..) => {
                 format!("a place is drawn by coordinates and constants alone, not by `{name}`")
             }
-            _ if moves.contains(&slot) => {
+            _ if self.text.slots_of_motion().contains(&slot) => {
                 format!(
                     "`{name}` is what `exact` finds, of `t`, constants and starts such as `{name}0`"
                 )
@@ -98,17 +90,17 @@ impl Scope for PartScope<'_> {
 
 impl Compiler<'_> {
     /// The tape of the accelerations.
-    pub(super) fn motion(&self) -> Result<Tape, Vec<LawFault>> {
+    pub(super) fn motion(&self) -> Compiled {
         let rows = self.text.coordinates.iter().enumerate();
         self.tape(rows.map(|(i, row)| (Part::Acceleration(i), &*row.acceleration)).collect())
     }
 
-    pub(super) fn energy(&self) -> Result<Tape, Vec<LawFault>> {
+    pub(super) fn energy(&self) -> Compiled {
         self.tape(self.text.energy.iter().map(|text| (Part::Energy, &**text)).collect())
     }
 
     /// The tape of the exact solution, which every coordinate must have.
-    pub(super) fn exact(&self) -> Result<Tape, Vec<LawFault>> {
+    pub(super) fn exact(&self) -> Compiled {
         let rows = self.text.coordinates.iter().enumerate();
         let missing = rows.clone().filter(|(_, row)| row.exact.is_none());
         let missing: Vec<LawFault> = missing
@@ -127,7 +119,7 @@ impl Compiler<'_> {
     }
 
     /// The tape of the places: x and y of each coordinate that has one.
-    pub(super) fn places(&self) -> Result<Tape, Vec<LawFault>> {
+    pub(super) fn places(&self) -> Compiled {
         let rows = self.text.coordinates.iter().enumerate();
         let placed = rows.filter_map(|(i, row)| Some((i, row.at.as_ref()?)));
         let parts =
@@ -135,7 +127,7 @@ impl Compiler<'_> {
         self.tape(parts.collect())
     }
 
-    fn tape(&self, parts: Vec<(Part, &str)>) -> Result<Tape, Vec<LawFault>> {
+    fn tape(&self, parts: Vec<(Part, &str)>) -> Compiled {
         let mut faults = Vec::new();
         let mut expressions: Vec<(Part, Expression)> = Vec::new();
         for (part, text) in &parts {
@@ -147,10 +139,9 @@ impl Compiler<'_> {
         if !faults.is_empty() {
             return Err(faults);
         }
-        let n = self.text.coordinates.len();
-        let first_constant = FIRST_COORDINATE + 2 * n;
+        let first_constant = self.text.slots_of_constants().start;
         let expressions: Vec<_> = expressions.iter().map(|(part, of)| (*part, of)).collect();
-        let tape = Tape::new(inputs(self.text), |input| input >= first_constant, &expressions);
+        let tape = Tape::new(self.text.inputs(), |input| input >= first_constant, &expressions);
         tape.map_err(|long| {
             let (part, text) = parts[long.expression];
             let (what, most) = if long.are_switches {

@@ -14,7 +14,7 @@ impl<const W: usize> LawLanes<W> {
     pub(in crate::sim) fn new(equations: &Equations, values: &[f64], steering: [f64; 2]) -> Self {
         let mut slots = vec![[0.0; W]; equations.motion.slots];
         [slots[THROTTLE], slots[RUDDER]] = steering.map(|part| [part; W]);
-        let from = equations.first_constant();
+        let from = equations.text.slots_of_constants().start;
         slots[from..].iter_mut().zip(values).for_each(|(slot, &value)| *slot = [value; W]);
         equations.motion.prepare(&mut slots);
         let moves = FIRST_COORDINATE..FIRST_COORDINATE + 2;

@@ -30,7 +30,7 @@ impl Registers {
 
     /// Sets the values. Never allocates.
     pub fn set(&mut self, equations: &Equations, values: &[f64]) {
-        let from = equations.first_constant();
+        let from = equations.text.slots_of_constants().start;
         for (tape, slots) in [
             (Some(&equations.motion), &mut self.motion),
             (equations.energy.as_ref(), &mut self.energy),

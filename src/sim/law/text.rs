@@ -1,5 +1,9 @@
 //! The text of a law, as a scene writes it.
 
+use std::ops::Range;
+
+use super::FIRST_COORDINATE;
+
 /// The text of a law: its structure, names and expressions, but no values.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct LawText {
@@ -13,6 +17,24 @@ pub struct LawText {
     pub plane: Option<[usize; 2]>,
     /// How the first coordinates lie in space.
     pub layout: Layout,
+}
+
+/// The inputs of its tapes, by their slots: after the time and the steering what moves, and then what is fixed.
+impl LawText {
+    /// The coordinates, then the velocities.
+    pub(super) fn slots_of_motion(&self) -> Range<usize> {
+        FIRST_COORDINATE..FIRST_COORDINATE + 2 * self.coordinates.len()
+    }
+
+    /// The constants, after which come the coordinates and the velocities at the start.
+    pub(super) fn slots_of_constants(&self) -> Range<usize> {
+        self.slots_of_motion().end..self.slots_of_motion().end + self.constants.len()
+    }
+
+    /// How many there are.
+    pub(super) fn inputs(&self) -> usize {
+        self.slots_of_constants().end + 2 * self.coordinates.len()
+    }
 }
 
 /// The text of one coordinate.

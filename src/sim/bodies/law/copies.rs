@@ -1,14 +1,14 @@
 //! Copies of a law of one coordinate: its tape runs over blocks.
 
 use std::any::Any;
+use std::array::{from_mut, from_ref};
 use std::cell::RefCell;
-use std::slice::{from_mut, from_ref};
 use std::sync::Arc;
 
 use super::{Law, known};
 use crate::sim::batch::{Batch, Copies, InstructionSet, Kernel, NewBatch};
 use crate::sim::integrators::{Problem, problem};
-use crate::sim::law::{At, Equations, LawLanes, Registers};
+use crate::sim::law::{Equations, LawLanes};
 use crate::sim::solver::Solver;
 use crate::sim::state::State;
 use crate::sim::system::System;
@@ -18,7 +18,7 @@ use crate::sim::system::System;
 struct LawCopies {
     /// The law.
     equations: Arc<Equations>,
-    /// Its values, as those of [`Registers`].
+    /// Its values, as those of [`Registers`](crate::sim::law::Registers).
     values: Arc<[f64]>,
     /// Throttle and rudder.
     steering: [f64; 2],
@@ -54,8 +54,7 @@ impl Copies for LawCopies {
     }
 
     fn alone(&self) -> Problem<f64> {
-        let registers = RefCell::new(Registers::new(&self.equations, &self.values));
-        problem(LawAlone { equations: self.equations.clone(), registers, steering: self.steering })
+        problem(LawAlone(self.block(InstructionSet::Portable)))
     }
 }
 
@@ -84,18 +83,13 @@ impl<const W: usize> Kernel for Evaluation<'_, W> {
     }
 }
 
-/// One copy, by its only coordinate.
-struct LawAlone {
-    equations: Arc<Equations>,
-    registers: RefCell<Registers>,
-    steering: [f64; 2],
-}
+/// One copy, as a block of one.
+struct LawAlone(LawBlock<1>);
 
 impl System for LawAlone {
     type Vector = f64;
 
     fn acceleration(&self, t: f64, q: &f64, v: &f64, a: &mut f64) {
-        let at = At { t, steering: self.steering, q: from_ref(q), v: from_ref(v) };
-        self.equations.accelerate(&mut self.registers.borrow_mut(), at, from_mut(a));
+        self.0.acceleration(t, from_ref(q), from_ref(v), from_mut(a));
     }
 }
