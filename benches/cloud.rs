@@ -12,7 +12,7 @@ use regatta::lab::cloud::{Density, PlaneView};
 use regatta::lab::palette::Theme;
 use regatta::lab::{Scene, SceneBody};
 use regatta::sim::batch::{Batch, InstructionSet, Ticks};
-use regatta::sim::bodies::MakeBatch;
+use regatta::sim::bodies::BatchFn;
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, State, Stepper};
 
@@ -40,7 +40,7 @@ fn print(what: &str, steps: f64, [ours, other]: [f64; 2], than: &str, aim: f64) 
 }
 
 /// A body with what makes copies of it.
-fn body(text: &str) -> (MakeBatch, Box<dyn Stepper>) {
+fn body(text: &str) -> (BatchFn, Box<dyn Stepper>) {
     let scene = format!("title = 'A'\ntick_hz = 60\nseconds = 10\n{text}");
     let scene = Scene::parse("a.toml", &scene).expect("a scene");
     let solver = Solver::Method(method("rk4").expect("a method"));
@@ -53,7 +53,7 @@ fn starts(count: usize) -> Vec<State<f64>> {
 }
 
 fn batch(
-    (make, body): &(MakeBatch, Box<dyn Stepper>),
+    (make, body): &(BatchFn, Box<dyn Stepper>),
     id: &str,
     set: InstructionSet,
     count: usize,

@@ -98,7 +98,7 @@ pub(super) const SHAPE: Id<CloudShape> =
     Id::new("shape", || CloudShape::ALL.map(|shape| (shape.id().into(), shape)).into());
 
 pub(super) const FAMILY: Id<Family> =
-    Id::new("family", || Family::ALL.map(|family| (family.id().into(), family)).into());
+    Id::new("family", || Family::ALL.map(|(id, family)| (id.into(), family)).into());
 
 pub(super) const LANGUAGE: Id<Language> =
     Id::new("language", || Language::ALL.map(|language| (language.id().into(), language)).into());

@@ -18,16 +18,18 @@ use super::reference::{Reference, is_beyond_reference};
 use super::solver::Solver;
 use super::state::{State, Vector, bytes_with_vectors};
 use super::stepper::{Change, PlacedBody, RecordedTick, Stepper};
-use super::system::{BodyClass, Counted, Coupling, EngineSettings, Logged, Pursuit, System};
-use crate::sim::system::StateOf;
+use super::system::{
+    BodyClass, Counted, Coupling, EngineSettings, Logged, Pursuit, StateOf, System,
+};
 
 /// Puts `body` at its start, at time 0, under `solver`.
 pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
     let state = body.start();
-    Placed { body: Counted::new(body), state, solver, lost_before: 0.0, lost_time: 0.0 }.begin(0.0)
+    BodyAtState { body: Counted::new(body), state, solver, lost_before: 0.0, lost_time: 0.0 }
+        .begin(0.0)
 }
 
-impl<B: Body> Placed<B> {
+impl<B: Body> BodyAtState<B> {
     /// Begins under the solver at time `t` (s).
     fn begin(self, t: f64) -> Box<dyn Stepper> {
         if let Some(method) = self.solver.method() {
@@ -67,7 +69,7 @@ impl<B: Body> Placed<B> {
     }
 }
 
-impl<B: Body> Construct<Counted<B>> for Placed<B> {
+impl<B: Body> Construct<Counted<B>> for BodyAtState<B> {
     type Output = Box<dyn Stepper>;
 
     const CLASS: Option<BodyClass> = Some(B::CLASS);
@@ -88,7 +90,7 @@ impl<B: Body> Construct<Counted<B>> for Placed<B> {
 /// The stepper of a body. Monomorphic, so that force law and method are compiled into one loop.
 #[derive(Clone)]
 struct BodyStepper<B: Body, D> {
-    placed: Placed<B>,
+    placed: BodyAtState<B>,
     propagator: D,
 }
 
@@ -96,7 +98,8 @@ impl<B: Body, D: Propagator<B>> BodyStepper<B, D> {
     /// Advances on the calling thread.
     #[inline]
     fn advance_here(&mut self, t: f64, h: f64, substeps: u32) -> Stepped {
-        let Self { placed: Placed { body, state, lost_before, lost_time, .. }, propagator } = self;
+        let Self { placed: BodyAtState { body, state, lost_before, lost_time, .. }, propagator } =
+            self;
         let stepped = propagator.step(body, t, h, substeps, state);
         let lost = propagator.lost_time();
         if lost > 0.0 {
@@ -112,14 +115,14 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
         #[cfg(feature = "lab")]
         if self.placed.body.coupling() == Coupling::Few && cores::is_large(self.placed.q().len()) {
             let mut stepped = Ok(());
-            cores::enter(&mut || stepped = self.advance_here(t, h, substeps));
+            cores::on_worker(&mut || stepped = self.advance_here(t, h, substeps));
             return stepped;
         }
         self.advance_here(t, h, substeps)
     }
 
     fn change(&mut self, t: f64, change: Change<'_>) -> bool {
-        let Self { placed: Placed { body, state, .. }, propagator } = self;
+        let Self { placed: BodyAtState { body, state, .. }, propagator } = self;
         propagator.jump(t, change, &mut body.system, state)
     }
 
@@ -156,7 +159,7 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
 }
 
 /// A body and its state.
-struct Placed<B: Body> {
+struct BodyAtState<B: Body> {
     body: Counted<B>,
     state: StateOf<B>,
     solver: Solver,
@@ -165,7 +168,7 @@ struct Placed<B: Body> {
     lost_time: f64,
 }
 
-impl<B: Body> Clone for Placed<B> {
+impl<B: Body> Clone for BodyAtState<B> {
     /// Apart from the methods, which would each have a copy of it.
     #[inline(never)]
     fn clone(&self) -> Self {
@@ -175,7 +178,7 @@ impl<B: Body> Clone for Placed<B> {
     }
 }
 
-impl<B: Body> PlacedBody for Placed<B> {
+impl<B: Body> PlacedBody for BodyAtState<B> {
     fn q(&self) -> &[f64] {
         self.state.q.components()
     }

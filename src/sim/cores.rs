@@ -14,7 +14,7 @@ pub(super) fn is_large(coordinates: usize) -> bool {
 
 /// Runs `work` on a worker of rayon's pool, so that nested [`split`]s do not inject work, and allocate, from outside.
 #[cfg(feature = "lab")]
-pub(super) fn enter(work: &mut (dyn FnMut() + Send)) {
+pub(super) fn on_worker(work: &mut (dyn FnMut() + Send)) {
     rayon::join(work, || ());
 }
 

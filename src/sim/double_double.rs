@@ -61,10 +61,6 @@ impl DoubleDouble {
     pub(super) fn scaled(self, power_of_two: f64) -> Self {
         Self { high: self.high * power_of_two, low: self.low * power_of_two }
     }
-
-    pub(super) fn squared(self) -> Self {
-        self * self
-    }
 }
 
 /// The upper and the lower half of a number's digits (Veltkamp).
@@ -174,7 +170,7 @@ mod tests {
         assert_ne!(third().low, 0.0);
         let x = third() + TWO_PI;
         assert_small(x / third() * third() - x, 1e-30);
-        assert_small(x.squared().sqrt() - x, 1e-30);
+        assert_small((x * x).sqrt() - x, 1e-30);
         assert_small((x.scaled(-0.25) * -4.0) - x, 0.0);
         assert_eq!(DoubleDouble::from(0.0).sqrt().high, 0.0);
     }

@@ -5,8 +5,7 @@ use super::integrators::Stepped;
 use super::propagator::Propagator;
 use super::state::{State, Vector, largest, nan_is_infinite};
 use super::stepper::Change;
-use super::system::Counted;
-use crate::sim::system::StateOf;
+use super::system::{Counted, StateOf};
 
 /// The exact flow. Each state is computed in one stride from the anchor, so that no error accumulates.
 #[derive(Clone)]

@@ -72,7 +72,7 @@ pub fn values() -> impl Iterator<Item = &'static str> {
 #[derive(Debug)]
 pub struct Equations {
     text: LawText,
-    motion: Tape,
+    pub(in crate::sim) motion: Tape,
     energy: Option<Tape>,
     exact: Option<Tape>,
     places: Option<Tape>,
@@ -163,11 +163,6 @@ impl Equations {
     /// How many parts of the accelerations have a corner or a jump.
     pub fn switches(&self) -> usize {
         self.motion.switches()
-    }
-
-    /// The mode of a switch beyond the lower (`side` 0) or the upper (1) boundary of a mode.
-    pub(super) fn neighbour(&self, switch: usize, mode: i64, side: usize) -> i64 {
-        self.motion.neighbour(switch, mode, side)
     }
 }
 

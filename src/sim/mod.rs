@@ -58,5 +58,5 @@ pub use solver::Solver;
 pub use state::{Elementwise, State, Vector};
 pub use stepper::{Change, PlacedBody, RecordedTick, Stepper};
 pub use system::{
-    BodyClass, Counted, Coupling, EngineSettings, Evaluation, Pursuit, Question, StateOf, System,
+    BodyClass, Counted, Coupling, EngineSettings, Evaluation, Pursuit, Query, StateOf, System,
 };

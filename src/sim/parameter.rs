@@ -37,6 +37,12 @@ pub struct Parameter {
 }
 
 impl Parameter {
+    /// A parameter without a letter, a unit and a default.
+    pub(super) const fn new(key: Text, about: &'static str, range: Range, acts: Acts) -> Self {
+        let unit = Cow::Borrowed("");
+        Self { key, symbol: None, about, unit, default: None, range, acts }
+    }
+
     /// What it is, after its letter: `m, the mass`.
     pub fn described(&self) -> String {
         self.symbol.map_or_else(|| self.about.into(), |symbol| format!("{symbol}, {}", self.about))
@@ -156,10 +162,7 @@ enum Slot<B> {
 
 impl<B> ParameterOf<B> {
     const fn new(key: &'static str, range: Range, acts: Acts, slot: Slot<B>) -> Self {
-        let (key, unit) = (Cow::Borrowed(key), Cow::Borrowed(""));
-        let parameter =
-            Parameter { key, symbol: None, about: "", unit, default: None, range, acts };
-        Self { parameter, slot }
+        Self { parameter: Parameter::new(Cow::Borrowed(key), "", range, acts), slot }
     }
 
     /// A number without a default that acts at once.

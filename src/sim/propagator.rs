@@ -20,8 +20,7 @@ use super::body::Body;
 use super::integrators::{AnyIntegrator, AnySystem, Integrator, Stepped};
 use super::state::{State, Vector};
 use super::stepper::Change;
-use super::system::Counted;
-use crate::sim::system::StateOf;
+use super::system::{Counted, StateOf};
 
 /// A method or a truth that advances bodies of type `B`.
 pub(super) trait Propagator<B: Body>: Send + 'static {

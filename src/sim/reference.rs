@@ -9,9 +9,8 @@ use super::exact_since_start::ExactSinceStart;
 use super::integrators::{StepFailure, Stepped};
 use super::propagator::Propagator;
 use super::state::{State, Vector, largest, nan_is_infinite};
-use super::system::Counted;
+use super::system::{Counted, StateOf};
 
-use crate::sim::system::StateOf;
 use extrapolation::Extrapolation;
 use trajectory::{Ended, StepControl, Trajectory};
 

@@ -9,8 +9,7 @@ use super::body::{Body, Input};
 use super::integrators::{Method, StepFailure, Stepped};
 use super::solver::Solver;
 use super::state::Vector;
-use super::system::{Coupling, EngineSettings, Evaluation, Pursuit};
-use crate::sim::system::StateOf;
+use super::system::{Coupling, EngineSettings, Evaluation, Pursuit, StateOf};
 
 /// A tick that was taken on a copy of a body.
 #[derive(Clone, Debug, PartialEq)]

@@ -23,10 +23,10 @@ pub trait System {
         self.acceleration(t, &state.q, &state.v, &mut d.v);
     }
 
-    /// Answers an optional question at time `t` (s). Returns `false` if the system has no answer. A system that wraps
+    /// Answers an optional query at time `t` (s). Returns `false` if the system has no answer. A system that wraps
     /// another forwards this, the coupling and the acceleration, and nothing else.
     #[inline]
-    fn answer(&self, _t: f64, _question: Question<'_, Self::Vector>) -> bool {
+    fn query(&self, _t: f64, _question: Query<'_, Self::Vector>) -> bool {
         false
     }
 
@@ -42,7 +42,7 @@ pub type StateOf<S> = State<<S as System>::Vector>;
 
 /// What is asked of a system. [`Counted`] counts an answer as an evaluation.
 #[derive(Debug)]
-pub enum Question<'a, V> {
+pub enum Query<'a, V> {
     /// The derivative of the acceleration at a state in the direction `along`. Methods take differences without it.
     Slope {
         /// The state.
@@ -97,8 +97,8 @@ impl<S: System + ?Sized, P: Deref<Target = S>> System for P {
         (**self).acceleration(t, q, v, a);
     }
 
-    fn answer(&self, t: f64, question: Question<'_, S::Vector>) -> bool {
-        (**self).answer(t, question)
+    fn query(&self, t: f64, query: Query<'_, S::Vector>) -> bool {
+        (**self).query(t, query)
     }
 
     fn coupling(&self) -> Coupling {
@@ -125,7 +125,7 @@ impl<V: Elementwise> Pursuit<V> {
     #[inline]
     pub fn of(system: &(impl System<Vector = V> + ?Sized), t: f64) -> Option<Self> {
         let mut pursuit = None;
-        system.answer(t, Question::Target(&mut pursuit));
+        system.query(t, Query::Target(&mut pursuit));
         pursuit
     }
 }
@@ -156,7 +156,7 @@ impl EngineSettings {
         force: &mut V,
     ) -> Self {
         let mut settings = Self::NONE;
-        if !system.answer(t, Question::Engine { state, settings: &mut settings, force }) {
+        if !system.query(t, Query::Engine { state, settings: &mut settings, force }) {
             system.acceleration(t, &state.q, &state.v, force);
         }
         settings
@@ -233,8 +233,8 @@ impl<S: System> System for Counted<S> {
     }
 
     #[inline]
-    fn answer(&self, t: f64, question: Question<'_, S::Vector>) -> bool {
-        let is_answered = self.system.answer(t, question);
+    fn query(&self, t: f64, query: Query<'_, S::Vector>) -> bool {
+        let is_answered = self.system.query(t, query);
         self.evaluations.set(self.evaluations.get() + u64::from(is_answered));
         is_answered
     }
@@ -273,16 +273,16 @@ impl<S: System<Vector: Vector>> System for Logged<'_, S> {
     }
 
     /// Kept as an evaluation: a slope and settings at their state, and a target at rest in it.
-    fn answer(&self, t: f64, question: Question<'_, S::Vector>) -> bool {
-        match question {
-            Question::Slope { state, .. } | Question::Engine { state, .. } => {
-                let is_answered = self.system.answer(t, question);
+    fn query(&self, t: f64, query: Query<'_, S::Vector>) -> bool {
+        match query {
+            Query::Slope { state, .. } | Query::Engine { state, .. } => {
+                let is_answered = self.system.query(t, query);
                 if is_answered {
                     self.acceleration(t, &state.q, &state.v, &mut state.v.clone());
                 }
                 is_answered
             }
-            Question::Target(pursuit) => {
+            Query::Target(pursuit) => {
                 *pursuit = Pursuit::of(&self.system, t);
                 if let Some(Pursuit { target, .. }) = pursuit {
                     let mut rest = target.clone();

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use super::cores::assert_length;
 use super::state::{State, Vector};
-use super::system::{Coupling, Pursuit, Question, System};
+use super::system::{Coupling, Pursuit, Query, System};
 
 /// A system as one of a `Vec`.
 pub(super) struct VecSystem<'a, S: System> {
@@ -56,23 +56,23 @@ impl<S: System<Vector: Vector>> System for VecSystem<'_, S> {
         self.system.coupling()
     }
 
-    fn answer(&self, t: f64, question: Question<'_, Vec<f64>>) -> bool {
+    fn query(&self, t: f64, query: Query<'_, Vec<f64>>) -> bool {
         let scratch = &mut *self.scratch.borrow_mut();
-        let (is_answered, to) = match question {
-            Question::Slope { state: State { q, v }, along: toward, slope } => {
+        let (is_answered, to) = match query {
+            Query::Slope { state: State { q, v }, along: toward, slope } => {
                 scratch.state(q, Some(v));
                 let Scratch { state, along, result } = scratch;
                 along.q.components_mut().copy_from_slice(&toward.q);
                 along.v.components_mut().copy_from_slice(&toward.v);
-                (self.system.answer(t, Question::Slope { state, along, slope: result }), slope)
+                (self.system.query(t, Query::Slope { state, along, slope: result }), slope)
             }
-            Question::Engine { state: State { q, v }, settings, force } => {
+            Query::Engine { state: State { q, v }, settings, force } => {
                 scratch.state(q, Some(v));
                 let Scratch { state, result, .. } = scratch;
-                let question = Question::Engine { state, settings, force: result };
-                (self.system.answer(t, question), force)
+                let query = Query::Engine { state, settings, force: result };
+                (self.system.query(t, query), force)
             }
-            Question::Target(pursuit) => {
+            Query::Target(pursuit) => {
                 *pursuit = Pursuit::of(self.system, t).map(|found| {
                     let Pursuit { target, rate, order, is_still } = found;
                     Pursuit { target: target.components().to_vec(), rate, order, is_still }

@@ -20,7 +20,7 @@ use std::marker::PhantomData;
 use evaluation::{Evaluation, Step, Values, acceleration};
 use regatta::conformance::problems::{fresh, problem};
 use regatta::sim::integrators::{DormandPrince54, EmbeddedPair, Family, METHODS, Method, Pair};
-use regatta::sim::{EngineSettings, Pursuit, Question, State, System};
+use regatta::sim::{EngineSettings, Pursuit, Query, State, System};
 use value::Value;
 
 mod evaluation;
@@ -49,16 +49,16 @@ impl System for Told {
     fn acceleration(&self, t: f64, q: &f64, v: &f64, a: &mut f64) {
         *a = acceleration(t, *q, *v);
     }
-    fn answer(&self, t: f64, question: Question<'_, f64>) -> bool {
+    fn query(&self, t: f64, query: Query<'_, f64>) -> bool {
         let Told { rate, order, .. } = *self;
-        match question {
-            Question::Engine { settings, force, .. } => {
+        match query {
+            Query::Engine { settings, force, .. } => {
                 (*settings, *force) = (self.settings, self.force);
             }
-            Question::Target(pursuit) => {
+            Query::Target(pursuit) => {
                 *pursuit = Some(Pursuit { target: target(t), rate, order, is_still: false });
             }
-            Question::Slope { .. } => return false,
+            Query::Slope { .. } => return false,
         }
         true
     }

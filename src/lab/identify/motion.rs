@@ -3,7 +3,7 @@
 use super::candidates::{Candidate, SpringAs};
 use super::logged_body::LoggedBody;
 use crate::sim::integrators::{fresh, problem};
-use crate::sim::{Question, State, System};
+use crate::sim::{Query, State, System};
 
 /// A body whose numbers are known, as a system.
 #[derive(Clone, Debug)]
@@ -22,8 +22,8 @@ impl System for Known {
         *a = self.push - (stiffness * x + damping * v) - self.drag * v;
     }
 
-    fn answer(&self, _t: f64, question: Question<'_, f64>) -> bool {
-        let Question::Engine { state: State { q: x, v }, settings, force } = question else {
+    fn query(&self, _t: f64, query: Query<'_, f64>) -> bool {
+        let Query::Engine { state: State { q: x, v }, settings, force } = query else {
             return false;
         };
         let [stiffness, damping] = self.spring;

@@ -3,9 +3,9 @@
 use std::marker::PhantomData;
 use std::ops::Range;
 
+use super::chunks::Chunks;
 use super::copies::Copies;
 use super::instruction_set::{InstructionSet, Kernel, NARROW, WIDE};
-use super::parts::Parts;
 use super::{Advance, Ticks};
 use crate::sim::cores;
 use crate::sim::integrators::{AnyIntegrator, Construct, Integrator, Method};
@@ -69,7 +69,7 @@ impl<C: Copies, const W: usize> Construct<C::Block<W>> for Make<C, W> {
             let (copies, integrator) = (copies.clone(), integrator.clone());
             Box::new(Blocks::<C, I, W> { copies, set, integrator, memory }) as _
         };
-        Box::new(Parts::new(GRAIN, count, part))
+        Box::new(Chunks::new(GRAIN, count, part))
     }
 }
 

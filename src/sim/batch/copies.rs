@@ -26,16 +26,16 @@ impl<S: System<Vector = f64> + Clone + Send + Sync + 'static> OneCoordinate for 
 
 /// Identical copies.
 #[derive(Clone)]
-pub(super) struct Alike<S>(pub(super) S);
+pub(super) struct Uniform<S>(pub(super) S);
 
-/// A block of [`Alike`].
-pub(in crate::sim) struct AlikeBlock<S, const W: usize>(pub(in crate::sim) S);
+/// A block of [`Uniform`].
+pub(in crate::sim) struct UniformBlock<S, const W: usize>(pub(in crate::sim) S);
 
-impl<S: OneCoordinate> Copies for Alike<S> {
-    type Block<const W: usize> = AlikeBlock<S, W>;
+impl<S: OneCoordinate> Copies for Uniform<S> {
+    type Block<const W: usize> = UniformBlock<S, W>;
 
-    fn block<const W: usize>(&self, _set: InstructionSet) -> AlikeBlock<S, W> {
-        AlikeBlock(self.0.clone())
+    fn block<const W: usize>(&self, _set: InstructionSet) -> UniformBlock<S, W> {
+        UniformBlock(self.0.clone())
     }
 
     fn alone(&self) -> Problem<f64> {
@@ -43,7 +43,7 @@ impl<S: OneCoordinate> Copies for Alike<S> {
     }
 }
 
-impl<S: System<Vector = f64>, const W: usize> System for AlikeBlock<S, W> {
+impl<S: System<Vector = f64>, const W: usize> System for UniformBlock<S, W> {
     type Vector = [f64; W];
 
     #[inline(always)]

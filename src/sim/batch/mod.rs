@@ -5,24 +5,24 @@
 //! Both share the work between the threads of rayon's pool. Neither instruction set nor number of threads changes a bit:
 //! each copy has the state that the body has alone.
 
-mod alone;
 mod blocks;
+mod chunks;
 mod copies;
 mod instruction_set;
-mod parts;
+mod one_by_one;
 
 use std::collections::TryReserveError;
 
-use alone::each_alone;
 use blocks::in_blocks;
-use copies::Alike;
-#[cfg(feature = "lab")]
-pub(in crate::sim) use copies::AlikeBlock;
 pub(in crate::sim) use copies::Copies;
 pub use copies::OneCoordinate;
+use copies::Uniform;
+#[cfg(feature = "lab")]
+pub(in crate::sim) use copies::UniformBlock;
 pub use instruction_set::InstructionSet;
 #[cfg(feature = "lab")]
 pub(in crate::sim) use instruction_set::Kernel;
+use one_by_one::one_by_one;
 
 use super::integrators::{Method, steps_in_blocks};
 use super::solver::Solver;
@@ -162,7 +162,7 @@ impl Batch {
         solver: Solver,
         starts: impl ExactSizeIterator<Item = State<f64>>,
     ) -> NewBatch {
-        Self::with(&Alike(system.clone()), solver, starts, set)
+        Self::with(&Uniform(system.clone()), solver, starts, set)
     }
 
     pub(in crate::sim) fn with<C: Copies>(
@@ -185,7 +185,7 @@ impl Batch {
             numbers.resize(padded, numbers.last().copied().unwrap_or(0.0));
         }
         let blocks = solver.method().and_then(|method| in_blocks(copies, method, set, padded));
-        let advance = blocks.or_else(|| each_alone(copies, solver, count)).expect("a method");
+        let advance = blocks.or_else(|| one_by_one(copies, solver, count)).expect("a method");
         Ok(Self { q, v, count, advance })
     }
 

@@ -92,8 +92,8 @@ impl System for Custom {
         self.motion.coupling()
     }
 
-    fn answer(&self, t: f64, question: Question<'_, Vec<f64>>) -> bool {
-        self.motion.answer(t, question)
+    fn query(&self, t: f64, query: Query<'_, Vec<f64>>) -> bool {
+        self.motion.query(t, query)
     }
 }
 

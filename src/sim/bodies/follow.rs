@@ -143,8 +143,8 @@ impl System for Follow {
     }
 
     #[inline]
-    fn answer(&self, t: f64, question: Question<'_, f64>) -> bool {
-        let Question::Target(pursuit) = question else { return false };
+    fn query(&self, t: f64, query: Query<'_, f64>) -> bool {
+        let Query::Target(pursuit) = query else { return false };
         let order = if self.order == 1 { 1 } else { 2 };
         let (rate, is_still) = (self.rate, self.is_still());
         *pursuit = Some(Pursuit { target: self.target(t), rate, order, is_still });

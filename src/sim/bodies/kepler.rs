@@ -201,7 +201,8 @@ impl Path {
     fn on_an_open_path(&self, dt: DoubleDouble) -> PositionAndVelocity {
         let Self { mu, q, v, eta, beta, .. } = *self;
         let momentum = q[0] * v[1] - q[1] * v[0];
-        let e = (DoubleDouble::ONE - beta * (momentum / mu).squared()).sqrt();
+        let size = momentum / mu;
+        let e = (DoubleDouble::ONE - beta * (size * size)).sqrt();
         let nearest = momentum * momentum / (mu * (DoubleDouble::ONE + e));
         let pull = mu * e;
         // In the frame whose x axis points to the periapsis.

@@ -62,7 +62,7 @@ pub type Build = dyn Fn(&[f64], Solver) -> Box<dyn Stepper> + Send + Sync;
 pub type Check = dyn Fn(&[f64]) -> Result<(), Fault> + Send + Sync;
 
 /// Makes copies of a body from these starts, on an instruction set; `None` if it cannot.
-pub type MakeBatch = fn(&dyn Any, InstructionSet, Solver, Vec<State<f64>>) -> Option<NewBatch>;
+pub type BatchFn = fn(&dyn Any, InstructionSet, Solver, Vec<State<f64>>) -> Option<NewBatch>;
 
 /// The card of a kind of body: its name, its coordinates, and its keys in a scene.
 pub struct Kind {
@@ -93,7 +93,7 @@ pub struct Kind {
     /// What the kind was made of.
     pub origin: Origin,
     /// Makes copies of a body of the kind, with its present parameters and inputs; none of one with several coordinates.
-    pub batch: MakeBatch,
+    pub batch: BatchFn,
 }
 
 /// What a kind was made of.
@@ -179,7 +179,7 @@ impl Kind {
 
     /// As [`Kind::of`], of bodies of one coordinate whose copies are stepped in blocks.
     pub(super) fn of_one<B: Body<Vector = f64> + Sync>(blank: B) -> Self {
-        let batch: MakeBatch = |body, set, solver, starts| {
+        let batch: BatchFn = |body, set, solver, starts| {
             Some(Batch::on(set, body.downcast_ref::<B>()?, solver, starts.into_iter()))
         };
         Self { batch, ..Self::of(blank) }
@@ -253,7 +253,7 @@ type Naming = dyn Fn(usize) -> [String; 2] + Send + Sync;
 #[derive(Clone)]
 enum Named {
     List(Arc<[Coordinate]>),
-    Rule { rule: Arc<Naming>, unit: &'static str },
+    Computed { naming: Arc<Naming>, unit: &'static str },
 }
 
 impl From<Vec<Coordinate>> for Coordinates {
@@ -264,8 +264,8 @@ impl From<Vec<Coordinate>> for Coordinates {
 
 impl Coordinates {
     /// So many coordinates of one unit, each named with its velocity by a rule from its index.
-    pub(super) fn by_rule(count: usize, unit: &'static str, rule: Arc<Naming>) -> Self {
-        Self { count, named: Named::Rule { rule, unit } }
+    pub(super) fn by_rule(count: usize, unit: &'static str, naming: Arc<Naming>) -> Self {
+        Self { count, named: Named::Computed { naming, unit } }
     }
 
     /// The first of them, at most all.
@@ -288,8 +288,8 @@ impl Coordinates {
     pub fn get(&self, index: usize) -> Option<Coordinate> {
         (index < self.count).then(|| match &self.named {
             Named::List(list) => list[index].clone(),
-            Named::Rule { rule, unit } => {
-                let [name, velocity] = rule(index);
+            Named::Computed { naming, unit } => {
+                let [name, velocity] = naming(index);
                 Coordinate::new(name, velocity, unit)
             }
         })
@@ -312,7 +312,7 @@ impl Coordinates {
     pub fn units(&self) -> impl Iterator<Item = &'static str> + Clone + '_ {
         (0..self.count).map(|index| match &self.named {
             Named::List(list) => list[index].unit,
-            Named::Rule { unit, .. } => unit,
+            Named::Computed { unit, .. } => unit,
         })
     }
 }

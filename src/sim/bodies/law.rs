@@ -172,7 +172,7 @@ impl Body for Law {
     }
 
     fn neighbour(&self, switch: usize, mode: i64, side: usize) -> i64 {
-        self.equations.neighbour(switch, mode, side)
+        self.equations.motion.neighbour(switch, mode, side)
     }
 
     fn has_jumps(&self) -> bool {

@@ -29,7 +29,7 @@ pub use custom::{Custom, CustomFault, Energy, Exact, Extras, custom_kind};
 pub use follow::Follow;
 pub use helm::Helm;
 pub use incompatibility::{incompatibility, stepped_kinds};
-pub use kind::{Build, Check, Coordinate, Coordinates, CustomInfo, Kind, MakeBatch, Origin, Truth};
+pub use kind::{BatchFn, Build, Check, Coordinate, Coordinates, CustomInfo, Kind, Origin, Truth};
 pub use law::{Law, check_law, law_kind};
 pub use net::{Net, net_kind};
 pub use orbit::{Ellipse, Orbit};

@@ -258,8 +258,8 @@ impl System for Net {
     }
 
     #[inline]
-    fn answer(&self, _t: f64, question: Question<'_, Vec<f64>>) -> bool {
-        let Question::Slope { state, along, slope } = question else { return false };
+    fn query(&self, _t: f64, query: Query<'_, Vec<f64>>) -> bool {
+        let Query::Slope { state, along, slope } = query else { return false };
         let vectors = [&state.q, &state.v, &along.q, &along.v].map(|vector| Self::nodes(vector));
         let forces = Derivatives { drag: self.drag / self.mass };
         self.sum(forces, vectors, Self::nodes_mut(slope));

@@ -6,4 +6,4 @@ pub(super) use super::kind::{Coordinate, Kind};
 pub(super) use crate::sim::body::{Body, Input};
 pub(super) use crate::sim::parameter::{Fault, ParameterOf, Range};
 pub(super) use crate::sim::state::State;
-pub(super) use crate::sim::system::{BodyClass, Coupling, Pursuit, Question, System};
+pub(super) use crate::sim::system::{BodyClass, Coupling, Pursuit, Query, System};

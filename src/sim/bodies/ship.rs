@@ -67,8 +67,8 @@ impl System for Ship {
 
     /// The drag is the damping setting of the body, and the thrust is held.
     #[inline]
-    fn answer(&self, _t: f64, question: Question<'_, f64>) -> bool {
-        let Question::Engine { settings, force, .. } = question else { return false };
+    fn query(&self, _t: f64, query: Query<'_, f64>) -> bool {
+        let Query::Engine { settings, force, .. } = query else { return false };
         settings.drag = self.drag / self.mass;
         *force = self.thrust * self.throttle / self.mass;
         true

@@ -68,8 +68,8 @@ impl System for Spring {
 
     /// A joint.
     #[inline]
-    fn answer(&self, _t: f64, question: Question<'_, f64>) -> bool {
-        let Question::Engine { settings, force, .. } = question else { return false };
+    fn query(&self, _t: f64, query: Query<'_, f64>) -> bool {
+        let Query::Engine { settings, force, .. } = query else { return false };
         settings.stiffness = self.stiffness / self.mass;
         settings.damping = self.damping / self.mass;
         *force = 0.0;

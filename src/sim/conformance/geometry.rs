@@ -43,9 +43,7 @@ fn area(method: &Method, system: Problem<f64>) -> Result<f64, StepFailure> {
 
 /// Whether both defects are zero; an error if one lies between the two thresholds.
 fn both_kept(off: [Result<f64, StepFailure>; 2], what: &str) -> Result<(bool, String), String> {
-    let [straight, curved] = off;
-    let off = [straight, curved].map(|off| off.map_err(|failure| failure.to_string()));
-    let [straight, curved] = off;
+    let [straight, curved] = off.map(|off| off.map_err(|failure| failure.to_string()));
     let off = [straight?, curved?];
     let words = format!("{what} {:.1e} on a spring, {:.1e} on a pendulum", off[0], off[1]);
     let is_decided = off.iter().all(|off| *off < KEPT || *off > LOST && off.is_finite());

@@ -46,9 +46,7 @@ pub(super) fn substep(length: f64, substeps: u32) -> f64 {
     whole(whole(length * 1e9) / f64::from(substeps)) / 1e9
 }
 
-impl Rule for Avian {
-    const CARD: &'static Method = &CARD;
-
+impl EngineRule for Avian {
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (substep(tick.length, tick.substeps), tick.settings);
         let (drag, stiff) = (1.0 + h * set.drag, h * h * set.stiffness);

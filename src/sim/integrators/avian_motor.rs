@@ -43,9 +43,7 @@ pub(super) const CARD: Method = Method {
 #[derive(Clone)]
 pub struct AvianMotor;
 
-impl Rule for AvianMotor {
-    const CARD: &'static Method = &CARD;
-
+impl EngineRule for AvianMotor {
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (substep(tick.length, tick.substeps), tick.settings);
         let (drag, resistance) = (1.0 + h * set.drag, set.resistance(h));

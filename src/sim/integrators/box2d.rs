@@ -45,9 +45,7 @@ const MAX_SPEED: f64 = 400.0;
 #[derive(Clone)]
 pub struct Box2d;
 
-impl Rule for Box2d {
-    const CARD: &'static Method = &CARD;
-
+impl EngineRule for Box2d {
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let (drag, pull, resistance) = (1.0 + h * set.drag, h * set.stiffness, set.resistance(h));

@@ -22,9 +22,7 @@ pub(super) const CARD: Method = Method {
 #[derive(Clone)]
 pub struct Box3d;
 
-impl Rule for Box3d {
-    const CARD: &'static Method = &CARD;
-
+impl EngineRule for Box3d {
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         Box2d::tick(tick, q, v);
     }

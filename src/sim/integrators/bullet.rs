@@ -37,9 +37,7 @@ pub(super) const CARD: Method = Method {
 #[derive(Clone)]
 pub struct Bullet;
 
-impl Rule for Bullet {
-    const CARD: &'static Method = &CARD;
-
+impl EngineRule for Bullet {
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let softest = 1.0 / (16.0 * h * h);

@@ -31,30 +31,21 @@ pub enum Family {
 }
 
 impl Family {
-    /// Every family, in the order of the table.
-    pub const ALL: [Family; 8] = [
-        Family::Explicit,
-        Family::Symplectic,
-        Family::Adaptive,
-        Family::Implicit,
-        Family::Linearised,
-        Family::AsPrinted,
-        Family::Follower,
-        Family::Engine,
+    /// Every family with its id, one lower-case word, in the order of the table.
+    pub const ALL: [(&str, Family); 8] = [
+        ("explicit", Family::Explicit),
+        ("symplectic", Family::Symplectic),
+        ("adaptive", Family::Adaptive),
+        ("implicit", Family::Implicit),
+        ("linearised", Family::Linearised),
+        ("as-printed", Family::AsPrinted),
+        ("follower", Family::Follower),
+        ("engine", Family::Engine),
     ];
 
-    /// Its id: one lower-case word.
+    /// Its id.
     pub fn id(self) -> &'static str {
-        match self {
-            Family::Explicit => "explicit",
-            Family::Symplectic => "symplectic",
-            Family::Adaptive => "adaptive",
-            Family::Implicit => "implicit",
-            Family::Linearised => "linearised",
-            Family::AsPrinted => "as-printed",
-            Family::Follower => "follower",
-            Family::Engine => "engine",
-        }
+        id_in(&Self::ALL, self)
     }
 
     /// The card that a method of the family starts from. It has no name, source, order and evaluations yet.
@@ -70,6 +61,11 @@ impl Family {
             Family::Engine => ENGINE,
         }
     }
+}
+
+/// The id of a value in the table of all.
+pub(super) fn id_in<T: PartialEq>(all: &[(&'static str, T)], value: T) -> &'static str {
+    all.iter().find(|(_, listed)| *listed == value).expect("the table has every value").0
 }
 
 /// The bodies that a method is for, if it does not step every body.
@@ -347,6 +343,12 @@ impl PartialEq for Method {
     fn eq(&self, other: &Self) -> bool {
         self.id == other.id
     }
+}
+
+/// A rule that the methods of a family step by.
+pub trait Carded {
+    /// The card of its method.
+    const CARD: &'static Method;
 }
 
 /// The common defaults: nothing conserved, no memory, no step size control.

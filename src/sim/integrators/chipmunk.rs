@@ -33,9 +33,7 @@ pub(super) const CARD: Method = Method {
 #[derive(Clone)]
 pub struct Chipmunk;
 
-impl Rule for Chipmunk {
-    const CARD: &'static Method = &CARD;
-
+impl EngineRule for Chipmunk {
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.length, tick.settings);
         let (kept, damped) = (libm::exp(-set.drag * h), libm::exp(-set.damping * h));

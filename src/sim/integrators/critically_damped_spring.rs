@@ -23,8 +23,6 @@ pub(super) const CARD: Method = Method {
 pub struct CriticallyDampedSpring;
 
 impl FollowerRule for CriticallyDampedSpring {
-    const CARD: &'static Method = &CARD;
-
     fn step(h: f64, omega: f64, g: f64, x: f64, v: f64) -> (f64, f64) {
         let e = libm::exp(-omega * h);
         let change = x - g;

@@ -10,7 +10,7 @@
 
 use std::marker::PhantomData;
 
-use super::card::{Method, Needs};
+use super::card::{Carded, Needs};
 use super::failure::{StepFailure, Stepped};
 use super::integrator::{Integrator, Override};
 use crate::sim::state::{State, Vector};
@@ -39,10 +39,7 @@ impl<V> EngineTick<'_, V> {
 }
 
 /// What a tick of an engine does.
-pub trait Rule: Clone + Send + 'static {
-    /// The engine's card.
-    const CARD: &'static Method;
-
+pub trait EngineRule: Carded + Clone + Send + 'static {
     /// Advances the coordinates `q` and the velocities `v` by a tick.
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V);
 }
@@ -57,7 +54,7 @@ pub struct EngineMethod<V, R> {
     rule: PhantomData<R>,
 }
 
-impl<S: System<Vector: Vector>, R: Rule> Integrator<S> for EngineMethod<S::Vector, R> {
+impl<S: System<Vector: Vector>, R: EngineRule> Integrator<S> for EngineMethod<S::Vector, R> {
     fn new(like: &S::Vector) -> Self {
         let mut zero = like.clone();
         zero.components_mut().fill(0.0);
@@ -90,7 +87,7 @@ impl<S: System<Vector: Vector>, R: Rule> Integrator<S> for EngineMethod<S::Vecto
     }
 }
 
-impl<V: Vector, R: Rule> EngineMethod<V, R> {
+impl<V: Vector, R: EngineRule> EngineMethod<V, R> {
     #[inline]
     fn tick<S: System<Vector = V>>(
         &mut self,

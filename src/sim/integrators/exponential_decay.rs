@@ -17,8 +17,6 @@ pub(super) const CARD: Method = Method {
 pub struct ExponentialDecay;
 
 impl FollowerRule for ExponentialDecay {
-    const CARD: &'static Method = &CARD;
-
     fn step(h: f64, k: f64, g: f64, x: f64, _v: f64) -> (f64, f64) {
         lerp(-libm::expm1(-k * h), k, g, x)
     }

@@ -2,17 +2,14 @@
 
 use std::marker::PhantomData;
 
-use super::card::{Method, Needs};
+use super::card::{Carded, Needs};
 use super::failure::{StepFailure, Stepped};
 use super::integrator::Integrator;
 use crate::sim::state::{State, Vector};
 use crate::sim::system::{Pursuit, StateOf, System};
 
 /// The rule by which a follower moves.
-pub trait FollowerRule: Clone + Send + 'static {
-    /// The method's card.
-    const CARD: &'static Method;
-
+pub trait FollowerRule: Carded + Clone + Send + 'static {
     /// Where a coordinate `x` with velocity `v` is a step of `h` (s) later, and its velocity there. The target is at `g` at
     /// the end of the step, and `rate` is k or ω of the law, per second.
     fn step(h: f64, rate: f64, g: f64, x: f64, v: f64) -> (f64, f64);

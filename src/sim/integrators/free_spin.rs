@@ -5,6 +5,8 @@
 //! the maps is exact. The cards name them, and the tests compute them: each is held against logs of engines
 //! (`tests/library/engines/tumble.rs`), except [`SpinMap::Constant`].
 
+use super::card::id_in;
+
 /// One step of the angular velocity of a body without torque. `'` marks values at the end of the step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpinMap {
@@ -24,24 +26,18 @@ pub enum SpinMap {
 }
 
 impl SpinMap {
-    /// Every map.
-    pub const ALL: [SpinMap; 5] = [
-        SpinMap::Constant,
-        SpinMap::ScaledMomentum,
-        SpinMap::NewtonStep,
-        SpinMap::Explicit,
-        SpinMap::RungeKutta,
+    /// Every map with its name.
+    pub const ALL: [(&str, SpinMap); 5] = [
+        ("constant", SpinMap::Constant),
+        ("scaled-momentum", SpinMap::ScaledMomentum),
+        ("newton-step", SpinMap::NewtonStep),
+        ("explicit", SpinMap::Explicit),
+        ("runge-kutta", SpinMap::RungeKutta),
     ];
 
-    /// Kebab-case name.
+    /// Its kebab-case name.
     pub fn id(self) -> &'static str {
-        match self {
-            SpinMap::Constant => "constant",
-            SpinMap::ScaledMomentum => "scaled-momentum",
-            SpinMap::NewtonStep => "newton-step",
-            SpinMap::Explicit => "explicit",
-            SpinMap::RungeKutta => "runge-kutta",
-        }
+        id_in(&Self::ALL, self)
     }
 }
 

@@ -39,9 +39,7 @@ const DAMPINGS: u32 = 8;
 #[derive(Clone)]
 pub struct Godot;
 
-impl Rule for Godot {
-    const CARD: &'static Method = &CARD;
-
+impl EngineRule for Godot {
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.length, tick.settings);
         let (kept, damped) = ((1.0 - h * set.drag).max(0.0), libm::exp(-set.damping * h));

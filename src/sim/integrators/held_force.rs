@@ -31,9 +31,7 @@ pub(super) const CARD: Method = Method {
 #[derive(Clone)]
 pub struct HeldForce;
 
-impl Rule for HeldForce {
-    const CARD: &'static Method = &CARD;
-
+impl EngineRule for HeldForce {
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let h = tick.substep();
         for _ in 0..tick.substeps {

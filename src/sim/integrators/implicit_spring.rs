@@ -17,8 +17,6 @@ pub(super) const CARD: Method = Method {
 pub struct ImplicitSpring;
 
 impl FollowerRule for ImplicitSpring {
-    const CARD: &'static Method = &CARD;
-
     fn step(h: f64, omega: f64, g: f64, x: f64, v: f64) -> (f64, f64) {
         let (pull, z) = (omega * omega * h, omega * h);
         let end = (v + pull * (g - x)) / (1.0 + 2.0 * z + z * z);

@@ -50,9 +50,7 @@ const MAX_SPEED: f64 = 500.0;
 #[derive(Clone)]
 pub struct Jolt;
 
-impl Rule for Jolt {
-    const CARD: &'static Method = &CARD;
-
+impl EngineRule for Jolt {
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let (pull, resistance) = (h * set.stiffness, set.resistance(h));

@@ -18,8 +18,6 @@ pub(super) const CARD: Method = Method {
 pub struct LerpDt;
 
 impl FollowerRule for LerpDt {
-    const CARD: &'static Method = &CARD;
-
     fn step(h: f64, k: f64, g: f64, x: f64, _v: f64) -> (f64, f64) {
         lerp(k * h, k, g, x)
     }

@@ -26,8 +26,6 @@ const PART: f64 = 0.1;
 pub struct LerpPerFrame;
 
 impl FollowerRule for LerpPerFrame {
-    const CARD: &'static Method = &CARD;
-
     fn step(_h: f64, k: f64, g: f64, x: f64, _v: f64) -> (f64, f64) {
         lerp(PART, k, g, x)
     }

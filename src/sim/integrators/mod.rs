@@ -79,11 +79,11 @@ mod verlet_exact_drag;
 mod yoshida4;
 
 pub use card::{
-    DAMPING_RATIOS, Engine, Family, FollowerQuantity, FollowerSetting, Method, Needs, Only,
+    Carded, DAMPING_RATIOS, Engine, Family, FollowerQuantity, FollowerSetting, Method, Needs, Only,
     Substeps,
 };
 pub use custom_method::{AnyIntegrator, AnySystem, custom_integrator};
-pub use engine::{EngineMethod, EngineTick, Rule};
+pub use engine::{EngineMethod, EngineRule, EngineTick};
 pub use failure::{StepFailure, Stepped};
 pub use follower::{Follower, FollowerRule};
 pub use free_spin::{FreeSpin, SpinMap};
@@ -121,6 +121,16 @@ macro_rules! method_type {
     ($V:ty, $Rule:ident, $Family:ident) => { $Family<$V, $Rule> };
 }
 
+/// Gives a rule the card of its file.
+macro_rules! carded {
+    ($file:ident, $Type:ident) => {};
+    ($file:ident, $Rule:ident, $Family:ident) => {
+        impl Carded for $Rule {
+            const CARD: &'static Method = &$file::CARD;
+        }
+    };
+}
+
 /// Returns the result of `construct` if `method` is this one, and is one that steps blocks.
 #[cfg(feature = "batch")]
 macro_rules! construct_in_blocks {
@@ -143,6 +153,7 @@ macro_rules! id_in_blocks {
 macro_rules! methods {
     ($($file:ident::$Type:ident $(as $Family:ident)? $(in $blocks:ident)?),+ $(,)?) => {
         $(pub use $file::$Type;)+
+        $(carded!($file, $Type $(, $Family)?);)+
 
         /// Every method, in the order of the digit keys and of race lanes.
         pub static METHODS: &[Method] = &[$(Method {

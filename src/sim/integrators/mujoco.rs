@@ -75,9 +75,7 @@ pub(super) fn puts_back<V: Vector>(
 #[derive(Clone)]
 pub struct Mujoco;
 
-impl Rule for Mujoco {
-    const CARD: &'static Method = &CARD;
-
+impl EngineRule for Mujoco {
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let resistance = 1.0 + h * (set.damping + set.drag);

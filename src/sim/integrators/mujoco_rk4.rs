@@ -42,9 +42,7 @@ pub(super) const CARD: Method = Method {
 #[derive(Clone)]
 pub struct MujocoRk4;
 
-impl Rule for MujocoRk4 {
-    const CARD: &'static Method = &CARD;
-
+impl EngineRule for MujocoRk4 {
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let damping = set.damping + set.drag;

@@ -3,6 +3,9 @@
 use super::joint_mode::JointQuantity::{Damping, DampingPerMass, Stiffness, StiffnessPerMass};
 use super::prelude::*;
 
+pub(super) const FREE_SPIN: Option<FreeSpin> =
+    Some(FreeSpin { default: SpinMap::Constant, opt_in: Some(SpinMap::ScaledMomentum) });
+
 /// The drives of PhysX itself, whatever its solver.
 pub(super) const DRIVES: [JointMode; 2] = [
     si_mode(
@@ -37,10 +40,7 @@ pub(super) const CARD: Method = Method {
         tick_hz: 60,
         damping_ratio: Some(0.05219),
         substeps: Substeps::Iterations,
-        free_spin: Some(FreeSpin {
-            default: SpinMap::Constant,
-            opt_in: Some(SpinMap::ScaledMomentum),
-        }),
+        free_spin: FREE_SPIN,
         version: "5.1.3",
         logged: Some("2026-11-21"),
         modes: &MODES,
@@ -59,9 +59,7 @@ pub(super) const CARD: Method = Method {
 #[derive(Clone)]
 pub struct Physx;
 
-impl Rule for Physx {
-    const CARD: &'static Method = &CARD;
-
+impl EngineRule for Physx {
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.length, tick.settings);
         let (pull, resistance) = (h * set.stiffness, set.resistance(h));

@@ -1,6 +1,6 @@
 //! PhysX 5.1 with its temporal Gauss-Seidel solver.
 
-use super::physx::DRIVES;
+use super::physx::{DRIVES, FREE_SPIN};
 use super::prelude::*;
 
 pub(super) const CARD: Method = Method {
@@ -14,10 +14,7 @@ pub(super) const CARD: Method = Method {
         tick_hz: 60,
         damping_ratio: Some(0.01636),
         substeps: Substeps::Iterations,
-        free_spin: Some(FreeSpin {
-            default: SpinMap::Constant,
-            opt_in: Some(SpinMap::ScaledMomentum),
-        }),
+        free_spin: FREE_SPIN,
         version: "5.1.3",
         logged: Some("2026-11-21"),
         modes: &DRIVES,
@@ -40,9 +37,7 @@ const VELOCITY_ITERATIONS: u32 = 1;
 #[derive(Clone)]
 pub struct PhysxTgs;
 
-impl Rule for PhysxTgs {
-    const CARD: &'static Method = &CARD;
-
+impl EngineRule for PhysxTgs {
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let (pull, resistance) = (h * set.stiffness, set.resistance(h));

@@ -31,9 +31,7 @@ pub(super) const CARD: Method = Method {
 #[derive(Clone)]
 pub struct PhysxTgs56;
 
-impl Rule for PhysxTgs56 {
-    const CARD: &'static Method = &CARD;
-
+impl EngineRule for PhysxTgs56 {
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let (pull, resistance) = (h * set.stiffness, set.resistance(h));

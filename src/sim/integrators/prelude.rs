@@ -5,7 +5,7 @@ pub(super) use super::card::{
     FollowerSetting, IMPLICIT, LINEARISED, Method, Needs, Only, SECOND_ORDER_FOLLOWER, SYMPLECTIC,
     Substeps,
 };
-pub(super) use super::engine::{EngineTick, Rule, cap, each, part_below};
+pub(super) use super::engine::{EngineRule, EngineTick, cap, each, part_below};
 pub(super) use super::failure::Stepped;
 pub(super) use super::follower::{FollowerRule, lerp};
 pub(super) use super::free_spin::{FreeSpin, SpinMap};

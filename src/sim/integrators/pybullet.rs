@@ -32,9 +32,7 @@ pub(super) const CARD: Method = Method {
 #[derive(Clone)]
 pub struct Pybullet;
 
-impl Rule for Pybullet {
-    const CARD: &'static Method = &CARD;
-
+impl EngineRule for Pybullet {
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, d) = (tick.length, -libm::expm1(-tick.settings.drag));
         let square: f64 = v.components().iter().map(|v| v * v).sum();

@@ -45,9 +45,7 @@ const MAX_SPEED: f64 = 400.0;
 #[derive(Clone)]
 pub struct Rapier;
 
-impl Rule for Rapier {
-    const CARD: &'static Method = &CARD;
-
+impl EngineRule for Rapier {
     fn tick<V: Vector>(tick: EngineTick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let (pull, resistance) = (h * set.stiffness, set.resistance(h));

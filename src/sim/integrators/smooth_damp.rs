@@ -27,8 +27,6 @@ pub(super) const CARD: Method = Method {
 pub struct SmoothDamp;
 
 impl FollowerRule for SmoothDamp {
-    const CARD: &'static Method = &CARD;
-
     fn step(h: f64, omega: f64, g: f64, x: f64, v: f64) -> (f64, f64) {
         let z = omega * h;
         let e = 1.0 / (1.0 + z + 0.48 * z * z + 0.235 * z * z * z);

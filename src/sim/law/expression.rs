@@ -186,7 +186,7 @@ impl Parser<'_> {
         let mut left = self.operand(outside)?;
         while let Some(infix) = self.infix().filter(|infix| Some(infix.level) > outside) {
             if infix.op == Op::Power {
-                left = self.power(left)?;
+                left = self.raised(left)?;
                 continue;
             }
             self.next += 1;
@@ -238,7 +238,7 @@ impl Parser<'_> {
     }
 
     /// The power of `base`, before whose sign the parser stands. It groups to the right.
-    fn power(&mut self, base: usize) -> Parsed<usize> {
+    fn raised(&mut self, base: usize) -> Parsed<usize> {
         self.next += 1;
         let base = self.want_number(base)?;
         let exponent = self.nested(|parser| parser.operation(Some(Level::Product)))?;

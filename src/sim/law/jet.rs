@@ -31,7 +31,7 @@ pub(super) fn root(a: Jet) -> Jet {
     [root, slope, (a[2] - 2.0 * slope * slope) / (2.0 * root)]
 }
 
-pub(super) fn power(a: Jet, b: Jet) -> Jet {
+pub(super) fn pow(a: Jet, b: Jet) -> Jet {
     let value = libm::pow(a[0], b[0]);
     if b[1] == 0.0 && b[2] == 0.0 {
         let (n, slope) = (b[0], b[0] * libm::pow(a[0], b[0] - 1.0));

@@ -41,7 +41,7 @@ pub(super) struct Origin {
 
 /// The operations of one or more expressions over the same inputs. The first slots hold the inputs.
 #[derive(Clone, Debug)]
-pub(super) struct Tape {
+pub(in crate::sim) struct Tape {
     numbers: Vec<(u16, f64)>,
     prelude: Vec<Instruction>,
     main: Vec<Instruction>,
@@ -217,7 +217,7 @@ impl Tape {
     }
 
     /// The mode of the switch with this index beyond a boundary of its mode.
-    pub(super) fn neighbour(&self, index: usize, mode: i64, side: usize) -> i64 {
+    pub(in crate::sim) fn neighbour(&self, index: usize, mode: i64, side: usize) -> i64 {
         self.switches[index].0.neighbour(mode, side)
     }
 
@@ -303,7 +303,7 @@ fn jet(op: Op, [a, b, c]: [Jet; 3], table: Option<&Curve>) -> Jet {
         Op::Subtract => jet::difference(a, b),
         Op::Multiply => jet::product(a, b),
         Op::Divide => jet::quotient(a, b),
-        Op::Power => jet::power(a, b),
+        Op::Power => jet::pow(a, b),
         Op::And => jet::constant(a[0] * b[0]),
         Op::Or => jet::constant(f64::from(u8::from(a[0] + b[0] > 0.0))),
         Op::Not => jet::constant(1.0 - a[0]),

@@ -68,7 +68,7 @@ impl Mode {
 
 /// A motion of a linear body whose coordinates a method steps together.
 #[derive(Clone, Debug)]
-pub(super) struct Motion {
+pub(super) struct LinearMotion {
     /// Its shapes, of length 1 and at right angles.
     pub(super) shapes: Vec<Vec<f64>>,
     pub(super) truth: Vec<Mode>,
@@ -76,7 +76,7 @@ pub(super) struct Motion {
     pub(super) rate: f64,
 }
 
-impl Motion {
+impl LinearMotion {
     /// The stability of a tick of `times` times `step` of the method of `stepper`, from runs that begin at this `amplitude`;
     /// and whether the method has memory.
     ///

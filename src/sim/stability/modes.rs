@@ -6,7 +6,7 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::comparison::{Mode, Motion, Stability};
+use super::comparison::{LinearMotion, Mode, Stability};
 use super::spectrum::{self, NEUTRAL_WITH_MEMORY};
 use super::tick::Tick;
 use super::trend::growth_of_energy;
@@ -105,9 +105,9 @@ impl NormalMode {
         Ok(self.motion().stability(&mut *stepper, steps, SMALL)?.0)
     }
 
-    fn motion(&self) -> Motion {
+    fn motion(&self) -> LinearMotion {
         let (shapes, truth) = (vec![self.shape.clone()], self.true_modes().into());
-        Motion { shapes, truth, rate: self.omega_squared.sqrt() }
+        LinearMotion { shapes, truth, rate: self.omega_squared.sqrt() }
     }
 }
 

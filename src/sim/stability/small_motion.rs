@@ -5,7 +5,7 @@ use std::fmt;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::comparison::{Mode, Motion, Stability};
+use super::comparison::{LinearMotion, Mode, Stability};
 use super::deviation::{self, acceleration_at, force_slopes};
 use super::modes::{NormalMode, modes_of, unforced};
 use super::spectrum::{self, Eigenvalue};
@@ -25,7 +25,7 @@ pub struct SmallMotion {
 #[derive(Clone, Debug)]
 pub struct CoupledMotion {
     jacobian: DMatrix<f64>,
-    motion: Motion,
+    motion: LinearMotion,
 }
 
 /// Why a body has no small motions about rest.
@@ -113,7 +113,7 @@ impl SmallMotion {
         let (truth, rate) = true_modes(&self.jacobian).ok_or(NoSmallMotion::NotFinite)?;
         let axes = DMatrix::identity(truth.len() / 2, truth.len() / 2);
         let shapes = axes.column_iter().map(|axis| axis.iter().copied().collect()).collect();
-        Ok(CoupledMotion { jacobian: self.jacobian, motion: Motion { shapes, truth, rate } })
+        Ok(CoupledMotion { jacobian: self.jacobian, motion: LinearMotion { shapes, truth, rate } })
     }
 }
 

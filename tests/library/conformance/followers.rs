@@ -8,7 +8,7 @@ use regatta::sim::bodies::{Body, Follow, kind};
 use regatta::sim::integrators::{
     Family, Integrator, METHODS, Method, StepFailure, integrator, method,
 };
-use regatta::sim::{Pursuit, Question, Solver, State, System, Vector};
+use regatta::sim::{Pursuit, Query, Solver, State, System, Vector};
 
 use super::systems::{Problem, bits, fresh, problem, spring};
 
@@ -125,9 +125,9 @@ fn a_follower_has_no_memory_and_looks_at_the_target_at_the_end_of_its_step() {
         fn acceleration(&self, _t: f64, _q: &f64, _v: &f64, _a: &mut f64) {
             panic!("a follower needs no acceleration");
         }
-        fn answer(&self, t: f64, question: Question<'_, f64>) -> bool {
+        fn query(&self, t: f64, query: Query<'_, f64>) -> bool {
             self.1.borrow_mut().push(t);
-            self.0.answer(t, question)
+            self.0.query(t, query)
         }
     }
     for method in followers() {
@@ -173,8 +173,8 @@ impl<V: Vector> System for Ones<V> {
     fn acceleration(&self, _t: f64, _q: &V, _v: &V, _a: &mut V) {
         panic!("a follower needs no acceleration");
     }
-    fn answer(&self, _t: f64, question: Question<'_, V>) -> bool {
-        let Question::Target(pursuit) = question else { return false };
+    fn query(&self, _t: f64, query: Query<'_, V>) -> bool {
+        let Query::Target(pursuit) = query else { return false };
         let mut target = self.0.clone();
         target.components_mut().fill(1.0);
         *pursuit = Some(Pursuit { target, rate: 3.0, order: self.1, is_still: true });

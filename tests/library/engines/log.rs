@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use regatta::conformance::problems::{Problem, fresh, problem};
 use regatta::sim::integrators::{Method, StepFailure, method};
-use regatta::sim::{Question, State, System};
+use regatta::sim::{Query, State, System};
 
 /// Where the logs are, with their manifest.
 fn folder() -> PathBuf {
@@ -40,8 +40,8 @@ impl System for Body {
         *a = self.push - (stiffness * x + damping * v) - self.drag * v;
     }
 
-    fn answer(&self, _t: f64, question: Question<'_, f64>) -> bool {
-        let Question::Engine { state: State { q: x, v }, settings, force } = question else {
+    fn query(&self, _t: f64, query: Query<'_, f64>) -> bool {
+        let Query::Engine { state: State { q: x, v }, settings, force } = query else {
             return false;
         };
         let [stiffness, damping] = self.spring;

@@ -2,7 +2,7 @@
 
 use regatta::sim::bodies::{Body, Input, Net};
 use regatta::sim::integrators::{Family, METHODS, Method, StepFailure};
-use regatta::sim::{Elementwise, Question, State, System, Vector};
+use regatta::sim::{Elementwise, Query, State, System, Vector};
 
 use super::*;
 
@@ -82,8 +82,8 @@ fn the_slope_of_the_force_is_that_of_its_differences() {
     here.q.add_scaled(1.0, &start.q);
     let along = State { q: wave(2.3, 1.0), v: wave(3.1, 5.0) };
     let mut slope = here.q.clone();
-    let question = Question::Slope { state: &here, along: &along, slope: &mut slope };
-    assert!(net.answer(0.0, question));
+    let query = Query::Slope { state: &here, along: &along, slope: &mut slope };
+    assert!(net.query(0.0, query));
     let at = |part: f64| {
         let mut moved = here.clone();
         moved.add_scaled(part, &along);

@@ -3,7 +3,7 @@
 use regatta::conformance::problems::{fresh, problem};
 use regatta::lab::source_code::MethodSource;
 use regatta::sim::integrators::{METHODS, Method};
-use regatta::sim::{Pursuit, Question, State, System};
+use regatta::sim::{Pursuit, Query, State, System};
 
 /// The acceleration of a run.
 pub(crate) struct Force {
@@ -87,20 +87,20 @@ impl System for Run {
         *a = (self.force)(*q, *v);
     }
 
-    fn answer(&self, t: f64, question: Question<'_, f64>) -> bool {
-        match question {
-            Question::Engine { settings, force, .. } => {
+    fn query(&self, t: f64, query: Query<'_, f64>) -> bool {
+        match query {
+            Query::Engine { settings, force, .. } => {
                 *force = FORCE;
                 settings.drag = SETTINGS[2];
                 if self.has_joint {
                     [settings.stiffness, settings.damping] = [SETTINGS[0], SETTINGS[1]];
                 }
             }
-            Question::Target(pursuit) => {
+            Query::Target(pursuit) => {
                 let (rate, order) = (RATE, self.order);
                 *pursuit = Some(Pursuit { target: target(t), rate, order, is_still: false });
             }
-            Question::Slope { .. } => return false,
+            Query::Slope { .. } => return false,
         }
         true
     }

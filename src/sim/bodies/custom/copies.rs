@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::Custom;
 use super::motion::Motion;
-use crate::sim::batch::{AlikeBlock, Batch, Copies, InstructionSet, NewBatch};
+use crate::sim::batch::{Batch, Copies, InstructionSet, NewBatch, UniformBlock};
 use crate::sim::integrators::Problem;
 use crate::sim::solver::Solver;
 use crate::sim::state::State;
@@ -28,10 +28,10 @@ pub(super) fn batch(
 
 impl Copies for CustomCopies {
     const IS_INTERPRETED: bool = true;
-    type Block<const W: usize> = AlikeBlock<Problem<f64>, W>;
+    type Block<const W: usize> = UniformBlock<Problem<f64>, W>;
 
-    fn block<const W: usize>(&self, _set: InstructionSet) -> AlikeBlock<Problem<f64>, W> {
-        AlikeBlock(self.alone())
+    fn block<const W: usize>(&self, _set: InstructionSet) -> UniformBlock<Problem<f64>, W> {
+        UniformBlock(self.alone())
     }
 
     fn alone(&self) -> Problem<f64> {

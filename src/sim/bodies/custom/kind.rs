@@ -77,15 +77,9 @@ fn with_default<S: System<Vector: Vector> + Clone>(
 }
 
 fn force_parameter() -> Parameter {
-    Parameter {
-        key: FORCE.into(),
-        symbol: None,
-        about: "what its acceleration is multiplied by",
-        unit: "".into(),
-        default: Some(1.0),
-        range: Range::POSITIVE,
-        acts: Acts::AtOnce,
-    }
+    let about = "what its acceleration is multiplied by";
+    let parameter = Parameter::new(FORCE.into(), about, Range::POSITIVE, Acts::AtOnce);
+    Parameter { default: Some(1.0), ..parameter }
 }
 
 fn kind(body: Custom, parameters: Vec<Parameter>) -> Kind {

@@ -8,7 +8,7 @@ use super::extras::{Energy, Exact, Extras};
 use crate::sim::integrators::{Problem, problem};
 use crate::sim::parameter::ParameterOf;
 use crate::sim::state::{Elementwise, State, Vector};
-use crate::sim::system::{Coupling, EngineSettings, Question, System};
+use crate::sim::system::{Coupling, EngineSettings, Query, System};
 use crate::sim::vec_system::{Scratch, VecSystem};
 
 /// The motion of a custom body. It answers for no target: a body that follows one has a kind of its own.
@@ -57,24 +57,24 @@ impl<S: System<Vector: Vector>> System for Scaled<S> {
         self.system.coupling()
     }
 
-    fn answer(&self, t: f64, question: Question<'_, S::Vector>) -> bool {
-        match question {
-            Question::Slope { state, along, slope } => {
-                let question = Question::Slope { state, along, slope: &mut *slope };
-                let is_answered = self.system.answer(t, question);
+    fn query(&self, t: f64, query: Query<'_, S::Vector>) -> bool {
+        match query {
+            Query::Slope { state, along, slope } => {
+                let query = Query::Slope { state, along, slope: &mut *slope };
+                let is_answered = self.system.query(t, query);
                 slope.scale(self.force);
                 is_answered
             }
-            Question::Engine { state, settings, force } => {
+            Query::Engine { state, settings, force } => {
                 let (engine, own) = (&mut *settings, &mut *force);
-                let question = Question::Engine { state, settings: engine, force: own };
-                let is_answered = self.system.answer(t, question);
+                let query = Query::Engine { state, settings: engine, force: own };
+                let is_answered = self.system.query(t, query);
                 force.scale(self.force);
                 let EngineSettings { stiffness, damping, drag } = settings;
                 [stiffness, damping, drag].into_iter().for_each(|setting| *setting *= self.force);
                 is_answered
             }
-            Question::Target(_) => false,
+            Query::Target(_) => false,
         }
     }
 }
@@ -116,8 +116,8 @@ impl<S: System<Vector: Vector>> System for Typed<S> {
         self.scaled.coupling()
     }
 
-    fn answer(&self, t: f64, question: Question<'_, Vec<f64>>) -> bool {
-        self.of_vec().answer(t, question)
+    fn query(&self, t: f64, query: Query<'_, Vec<f64>>) -> bool {
+        self.of_vec().query(t, query)
     }
 }
 

@@ -55,14 +55,8 @@ pub fn law_kind(text: LawText) -> Result<Arc<Kind>, Vec<LawFault>> {
 }
 
 fn parameters(text: &LawText) -> Vec<Parameter> {
-    let constant = |name: &String| Parameter {
-        key: name.clone().into(),
-        symbol: None,
-        about: "a constant of the law",
-        unit: "".into(),
-        default: None,
-        range: Range::ANY,
-        acts: Acts::AtOnce,
+    let constant = |name: &String| {
+        Parameter::new(name.clone().into(), "a constant of the law", Range::ANY, Acts::AtOnce)
     };
     let mut parameters: Vec<_> = text.constants.iter().map(constant).collect();
     for (key, about, per_s, acts) in [
@@ -71,16 +65,12 @@ fn parameters(text: &LawText) -> Vec<Parameter> {
         ("kick", "the change of its velocity by one kick", "/s", Acts::AtOnce),
     ] {
         parameters.extend(text.coordinates.iter().enumerate().map(|(index, of)| Parameter {
-            key: format!("{}.{key}", of.name).into(),
-            symbol: None,
-            about,
             unit: match (of.unit, per_s) {
                 ("1", "") => "".into(),
                 (unit, per_s) => format!("{unit}{per_s}").into(),
             },
             default: Some(f64::from(u8::from(key == "kick" && index == 0))),
-            range: Range::ANY,
-            acts,
+            ..Parameter::new(format!("{}.{key}", of.name).into(), about, Range::ANY, acts)
         }));
     }
     parameters

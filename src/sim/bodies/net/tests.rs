@@ -55,7 +55,7 @@ fn assert_same(plan: &NetPlan) {
         assert!(acceleration(&rows, state) == acceleration(&lists, state), "{said}");
         let slope = |net: &Net| {
             let mut slope = noise(state.q.len(), 8);
-            assert!(net.answer(0.0, Question::Slope { state, along, slope: &mut slope }));
+            assert!(net.query(0.0, Query::Slope { state, along, slope: &mut slope }));
             bits(&slope)
         };
         assert!(slope(&rows) == slope(&lists), "slope, {said}");

@@ -74,7 +74,7 @@ impl<S: System<Vector: Vector>, P: Pair<N>, const N: usize> Integrator<S>
         let Self { step_size, k, stage, error, .. } = self;
         let is_last_in_error = P::E[N - 1] != 0.0;
         let mut progress = step_size.begin_tick(h);
-        if !(is_last_in_error && progress.continues_the_last()) {
+        if !(is_last_in_error && progress.continues) {
             system.derivative(t, y, &mut k[0]);
         }
         while !progress.is_finished() {

@@ -9,7 +9,7 @@
 use crate::sim::cores::assert_length;
 use crate::sim::difference::quotient;
 use crate::sim::state::{State, Vector, largest};
-use crate::sim::system::{Question, System};
+use crate::sim::system::{Query, System};
 
 /// The reach of a difference as a part of the motion of a step. A larger part takes more of a bend for
 /// slope, a smaller one more rounding.
@@ -79,7 +79,7 @@ impl<V: Vector> Slopes<V> {
         forward: Option<Forward<'_, V>>,
         slope: &mut V,
     ) {
-        if system.answer(t, Question::Slope { state: y, along, slope: &mut *slope }) {
+        if system.query(t, Query::Slope { state: y, along, slope: &mut *slope }) {
             return;
         }
         let Self { reach, moved, behind } = self;

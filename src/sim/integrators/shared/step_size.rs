@@ -76,7 +76,8 @@ impl StepSize {
 /// The progress through a tick.
 pub(super) struct TickProgress<'a> {
     size: &'a mut StepSize,
-    continues: bool,
+    /// Whether memory from the last tick is valid in this one.
+    pub(super) continues: bool,
     h: f64,
     left: f64,
     carried: f64,
@@ -85,12 +86,6 @@ pub(super) struct TickProgress<'a> {
 }
 
 impl TickProgress<'_> {
-    /// Whether memory from the last tick is valid in this one.
-    #[inline]
-    pub(super) fn continues_the_last(&self) -> bool {
-        self.continues
-    }
-
     /// The substep to try next; the last one ends exactly where the tick does.
     #[inline]
     pub(super) fn trial(&mut self) -> Result<f64, StepFailure> {

@@ -7,7 +7,8 @@
 //! nonlinear eigenvalue problems*, 1977), it is followed through such folds. If the force is bounded
 //! and smooth, the curve cannot end before λ = 1.
 //!
-//! The scene `pendulum` needs it at 1, 2 and 3 Hz, where without it an implicit method halts within minutes.
+//! No built-in scene needs it at its own rate. At 1 to 3 Hz the scene `pendulum` does, and at 1 to 8 Hz `kicked-rotor`: without
+//! it an implicit method halts within minutes.
 
 use super::Newton;
 use crate::sim::difference::quotient;

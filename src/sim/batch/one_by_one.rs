@@ -2,15 +2,15 @@
 
 use std::ops::Range;
 
+use super::chunks::Chunks;
 use super::copies::Copies;
-use super::parts::Parts;
 use super::{Advance, Ticks};
 use crate::sim::integrators::{Integrator, Problem, fresh};
 use crate::sim::solver::Solver;
 use crate::sim::state::State;
 
 /// Neighbouring copies with an integrator each.
-struct Alone<C> {
+struct OneByOne<C> {
     copies: C,
     integrators: Vec<Box<dyn Integrator<Problem<f64>>>>,
 }
@@ -19,7 +19,7 @@ struct Alone<C> {
 const GRAIN: usize = 64;
 
 /// Makes what steps `count` copies under `solver`, each alone; `None` under the truth.
-pub(super) fn each_alone<C: Copies>(
+pub(super) fn one_by_one<C: Copies>(
     copies: &C,
     solver: Solver,
     count: usize,
@@ -33,12 +33,12 @@ pub(super) fn each_alone<C: Copies>(
         own
     };
     let part = |part: Range<usize>| {
-        Box::new(Alone { copies: copies.clone(), integrators: part.map(own).collect() }) as _
+        Box::new(OneByOne { copies: copies.clone(), integrators: part.map(own).collect() }) as _
     };
-    Some(Box::new(Parts::new(GRAIN, count, part)))
+    Some(Box::new(Chunks::new(GRAIN, count, part)))
 }
 
-impl<C: Copies> Advance for Alone<C> {
+impl<C: Copies> Advance for OneByOne<C> {
     fn advance(&mut self, ticks: Ticks, q: &mut [f64], v: &mut [f64]) {
         let Self { copies, integrators } = self;
         let system = copies.alone();

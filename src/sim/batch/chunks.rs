@@ -8,12 +8,12 @@ use super::{Advance, Ticks};
 
 /// Neighbouring copies, each part of which has its own way to advance: for methods and bodies of every type the threads
 /// are shared by the same code.
-pub(super) struct Parts {
+pub(super) struct Chunks {
     grain: usize,
     parts: Vec<Box<dyn Advance>>,
 }
 
-impl Parts {
+impl Chunks {
     /// `count` copies in parts of `grain` and a rest.
     pub(super) fn new(
         grain: usize,
@@ -28,7 +28,7 @@ impl Parts {
     }
 }
 
-impl Advance for Parts {
+impl Advance for Chunks {
     fn advance(&mut self, ticks: Ticks, q: &mut [f64], v: &mut [f64]) {
         let states = q.par_chunks_mut(self.grain).zip(v.par_chunks_mut(self.grain));
         let parts = self.parts.par_iter_mut().zip(states);
