@@ -3,6 +3,7 @@
 //! A method that does better than its card says is as wrong as one that does worse. What is measured are
 //! the [problems] with known solutions, and nothing is taken from the method's family.
 
+use std::error::Error;
 use std::fmt;
 
 use super::bodies::stepped_kinds;
@@ -132,12 +133,15 @@ fn named(method: &Method) -> Claim {
     Claim { field: "id", claimed: id.to_owned(), measured, holds }
 }
 
+/// Whether a claim is so, and how that was seen; or why it was not seen.
+type Measured = Result<(bool, String), Box<dyn Error>>;
+
 /// A yes-or-no claim; `found` has the measured answer and why.
-fn yes_or_no(field: &'static str, claimed: bool, found: Result<(bool, String), String>) -> Claim {
+fn yes_or_no(field: &'static str, claimed: bool, found: Measured) -> Claim {
     let word = if claimed { "yes" } else { "no" };
     let (measured, holds) = match found {
         Ok((is_so, how)) => (how, is_so == claimed),
-        Err(failure) => (failure, false),
+        Err(failure) => (failure.to_string(), false),
     };
     Claim { field, claimed: word.to_owned(), measured, holds }
 }

@@ -8,6 +8,7 @@ use std::array::from_fn;
 use std::sync::Arc;
 
 use super::prelude::*;
+use crate::sim::batch::InstructionSet;
 use crate::sim::net_plan::{PlannedSpring, distance};
 use forces::{Accelerations, Derivatives, Forces};
 use rows::{Nodes, RestLengths};
@@ -216,7 +217,7 @@ impl Net {
         let at = |node: usize| from_fn(|n| vectors[n][node]);
         let of_anchors = match &self.topology.storage {
             Storage::Rows(rows) => {
-                rows.sum(forces, (*shared, rest), vectors, sums);
+                rows.sum(InstructionSet::widest(), forces, (*shared, rest), vectors, sums);
                 &constants[..]
             }
             Storage::Arrays(arrays) => {

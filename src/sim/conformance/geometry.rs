@@ -1,7 +1,7 @@
 //! Phase-space area, and reversibility.
 
 use super::problems::{Problem, UnitPendulum, fixed_step, problem, spring};
-use super::{Claim, yes_or_no};
+use super::{Claim, Measured, yes_or_no};
 use crate::sim::difference::{OFFSETS, fourth_order};
 use crate::sim::integrators::{Method, StepFailure};
 use crate::sim::state::State;
@@ -42,12 +42,12 @@ fn area(method: &Method, system: Problem<f64>) -> Result<f64, StepFailure> {
 }
 
 /// Whether both defects are zero; an error if one lies between the two thresholds.
-fn both_kept(off: [Result<f64, StepFailure>; 2], what: &str) -> Result<(bool, String), String> {
-    let [straight, curved] = off.map(|off| off.map_err(|failure| failure.to_string()));
+fn both_kept(off: [Result<f64, StepFailure>; 2], what: &str) -> Measured {
+    let [straight, curved] = off;
     let off = [straight?, curved?];
     let words = format!("{what} {:.1e} on a spring, {:.1e} on a pendulum", off[0], off[1]);
     let is_decided = off.iter().all(|off| *off < KEPT || *off > LOST && off.is_finite());
-    if is_decided { Ok((off.iter().all(|off| *off < KEPT), words)) } else { Err(words) }
+    if is_decided { Ok((off.iter().all(|off| *off < KEPT), words)) } else { Err(words.into()) }
 }
 
 /// Whether a step conserves phase-space area, on a linear and on a nonlinear system.

@@ -1,7 +1,7 @@
 //! Whether a method is exact on linear systems.
 
 use super::problems::{SHIP, fresh, problem, spring};
-use super::{Claim, yes_or_no};
+use super::{Claim, Measured, yes_or_no};
 use crate::sim::body::Body;
 use crate::sim::integrators::{Method, StepFailure};
 use crate::sim::state::nan_is_infinite;
@@ -39,18 +39,20 @@ fn error<B: Body<Vector = f64> + 'static>(
 
 /// Whether the method is exact on springs, with drag and without, and on the ship.
 pub(super) fn exact_if_linear(method: &Method) -> Claim {
-    let errors = || -> Result<[f64; 4], StepFailure> {
-        Ok([
+    let measure = || -> Measured {
+        let errors = [
             error(method, &spring(1.0, 0.0), 0.7)?,
             error(method, &spring(1.0, 0.2), 0.7)?,
             error(method, &spring(9.0, 0.1), 0.7)?,
             error(method, &SHIP, 1.3)?,
-        ])
-    };
-    let found = errors().map_err(|failure| failure.to_string()).and_then(|errors| {
+        ];
         let most = errors.into_iter().fold(0.0, f64::max);
         let words = format!("off by {most:.1e} on springs and the ship");
-        if !(EXACT..=INEXACT).contains(&most) { Ok((most < EXACT, words)) } else { Err(words) }
-    });
-    yes_or_no("exact_if_linear", method.exact_if_linear, found)
+        if (EXACT..=INEXACT).contains(&most) {
+            Err(words.into())
+        } else {
+            Ok((most < EXACT, words))
+        }
+    };
+    yes_or_no("exact_if_linear", method.exact_if_linear, measure())
 }

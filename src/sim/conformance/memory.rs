@@ -1,7 +1,7 @@
 //! Whether a method carries something from step to step.
 
 use super::problems::{Problem, fresh, problem, spring};
-use super::{Claim, yes_or_no};
+use super::{Claim, Measured, yes_or_no};
 use crate::sim::integrators::{Integrator, Method, StepFailure, Stepped};
 use crate::sim::state::State;
 
@@ -42,16 +42,13 @@ fn forgets(method: &Method) -> Result<bool, StepFailure> {
 
 /// Whether the method has a memory, which a reset clears.
 pub(super) fn restart(method: &Method) -> Claim {
-    let measure = || -> Result<(bool, String), StepFailure> {
+    let measure = || -> Measured {
         let carries = carries(method)?;
         let words = if carries { "its steps depend on those before" } else { "it has no memory" };
+        if !forgets(method)? {
+            return Err("a reset leaves some of its memory".into());
+        }
         Ok((carries, words.to_owned()))
     };
-    let found = measure().map_err(|failure| failure.to_string());
-    let found = found.and_then(|found| match forgets(method) {
-        Ok(true) => Ok(found),
-        Ok(false) => Err("a reset leaves some of its memory".to_owned()),
-        Err(failure) => Err(failure.to_string()),
-    });
-    yes_or_no("restart", method.restart.is_some(), found)
+    yes_or_no("restart", method.restart.is_some(), measure())
 }

@@ -1,7 +1,7 @@
 //! Whether a method that chooses its steps meets its tolerance, and not by far.
 
 use super::problems::{Kepler, Problem, fresh, kepler_orbit, problem, spring};
-use super::{Claim, yes_or_no};
+use super::{Claim, Measured, yes_or_no};
 use crate::sim::body::Body;
 use crate::sim::integrators::{Method, Override, StepFailure, integrator};
 use crate::sim::state::{State, Vector, nan_is_infinite};
@@ -66,17 +66,14 @@ fn arcs(method: &Method) -> Result<(bool, String), StepFailure> {
 
 /// Whether the method has a tolerance, and meets it. A listing of the chapter is held to heeding it only.
 pub(super) fn tolerance(method: &Method) -> Claim {
-    let heeded = heeds(method).map_err(|failure| failure.to_string());
-    let found = heeded.and_then(|heeds| {
+    let measure = || -> Measured {
+        let heeds = heeds(method)?;
         if !heeds || method.tolerance.is_none() || method.is_as_printed() {
             let words = if heeds { "it heeds one" } else { "it heeds none" };
             return Ok((heeds, words.to_owned()));
         }
-        match arcs(method) {
-            Ok((true, words)) => Ok((true, words)),
-            Ok((false, words)) => Err(words),
-            Err(failure) => Err(failure.to_string()),
-        }
-    });
-    yes_or_no("tolerance", method.tolerance.is_some(), found)
+        let (holds, words) = arcs(method)?;
+        if holds { Ok((true, words)) } else { Err(words.into()) }
+    };
+    yes_or_no("tolerance", method.tolerance.is_some(), measure())
 }

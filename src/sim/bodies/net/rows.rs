@@ -129,19 +129,8 @@ impl Rows {
     }
 
     /// Overwrites `sums` with what acts on each node by itself and by the springs to free nodes, with vectors at the free
-    /// nodes.
+    /// nodes, on an instruction set that this processor has.
     pub(super) fn sum<const N: usize>(
-        &self,
-        forces: impl Forces<N>,
-        (constants, rest): ([f64; 2], &RestLengths),
-        vectors: [Nodes<'_>; N],
-        sums: &mut [[f64; 2]],
-    ) {
-        self.sum_on(InstructionSet::widest(), forces, (constants, rest), vectors, sums);
-    }
-
-    /// As [`Rows::sum`], with an instruction set that this processor has.
-    pub(super) fn sum_on<const N: usize>(
         &self,
         set: InstructionSet,
         forces: impl Forces<N>,

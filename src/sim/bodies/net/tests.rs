@@ -120,7 +120,7 @@ fn the_width_of_vectors_changes_no_bit_of_a_grid() {
     let sums = |set| {
         let mut sums = vec![0.0; state.q.len()];
         let vectors = [&state.q, &state.v].map(|vector| Net::nodes(vector));
-        rows.sum_on(set, forces, (*shared, rest), vectors, Net::nodes_mut(&mut sums));
+        rows.sum(set, forces, (*shared, rest), vectors, Net::nodes_mut(&mut sums));
         bits(&sums)
     };
     for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {

@@ -88,7 +88,7 @@ impl<V: Vector, const S: usize> Linearisation<V, S> {
                 }
             }
         }
-        matrix.factor();
+        matrix.lu.factor();
     }
 
     /// Overwrites the right-hand side `x` with the solution by the matrix last factored. A singular matrix gives values

@@ -132,7 +132,7 @@ impl Lu {
 /// stage, or coordinate by coordinate where that keeps the band narrow.
 #[derive(Clone)]
 pub(super) struct StageLu {
-    lu: Lu,
+    pub(super) lu: Lu,
     n: usize,
     /// How far from each other two coordinates that act on each other are.
     reach: usize,
@@ -199,11 +199,6 @@ impl StageLu {
     #[inline]
     fn index(&self, stage: usize, j: usize) -> usize {
         self.strides[0] * j + self.strides[1] * stage
-    }
-
-    #[inline]
-    pub(super) fn factor(&mut self) {
-        self.lu.factor();
     }
 
     /// Overwrites the right-hand side `x`, stage by stage, with the solution.
@@ -308,7 +303,7 @@ mod tests {
                     matrix.put([0, first], 0, &slopes, &mut |_, _| ());
                 }
                 let mut x = vec![1.0; n];
-                matrix.factor();
+                matrix.lu.factor();
                 matrix.solve(&mut x);
                 x
             });
