@@ -188,30 +188,6 @@ macro_rules! methods {
             construct.of(|_| Unfit { reason })
         }
 
-        /// An integrator of `method` for bodies of this class and coupling, compiled once for their type of vector.
-        ///
-        /// # Panics
-        /// As [`construct`].
-        pub(in crate::sim) fn any_integrator<V: Vector>(
-            method: &Method,
-            class: BodyClass,
-            coupling: Coupling,
-            like: &V,
-        ) -> Box<dyn AnyIntegrator<V>> {
-            if let Some(build) = method.custom {
-                return Box::new(CustomMethod::new(build, like));
-            }
-            if let Some(reason) = method.only.as_ref().and_then(|only| only.incompatibility(class)) {
-                return Box::new(Unfit { reason });
-            }
-            $(if method.id == $file::CARD.id {
-                return Box::new(
-                    <method_type!(V, $Type $(, $Family)?) as Integrator<AnySystem<'_, V>>>::coupled(like, coupling)
-                );
-            })+
-            panic!("{} is not in METHODS, and its card has no `custom`", method.id)
-        }
-
         /// Calls `construct` with the integrator type of a `method` that steps each number by itself, as blocks of bodies
         /// need. `None` for all others.
         #[cfg(feature = "batch")]
@@ -283,6 +259,33 @@ methods! {
     godot::Godot as EngineMethod,
     box3d::Box3d as EngineMethod,
     held_force::HeldForce as EngineMethod,
+}
+
+/// An integrator of `method` for bodies of this class and coupling, compiled once for their type of vector.
+///
+/// # Panics
+/// As [`construct`].
+pub(in crate::sim) fn any_integrator<V: Vector>(
+    method: &Method,
+    class: BodyClass,
+    coupling: Coupling,
+    like: &V,
+) -> Box<dyn AnyIntegrator<V>> {
+    struct Boxed<'a, V>(&'a V);
+    impl<V: Vector> Construct<Problem<V>> for Boxed<'_, V> {
+        type Output = Box<dyn AnyIntegrator<V>>;
+
+        fn of<I: Integrator<Problem<V>> + AnyIntegrator<V> + Clone + 'static>(
+            self,
+            new: impl FnOnce(&V) -> I,
+        ) -> Self::Output {
+            Box::new(new(self.0))
+        }
+    }
+    match method.only.and_then(|only| only.incompatibility(class)) {
+        Some(reason) if method.custom.is_none() => Box::new(Unfit { reason }),
+        _ => construct(method, coupling, Boxed(like)),
+    }
 }
 
 /// The number of leading [`METHODS`] that step every body.
