@@ -1,7 +1,7 @@
 //! A body of one type with its state and its propagator.
 
 use std::any::Any;
-use std::cell::RefCell;
+use std::rc::Rc;
 
 use glam::DVec2;
 
@@ -10,8 +10,8 @@ use super::body::Body;
 use super::cores;
 use super::exact_flow::ExactFlow;
 use super::integrators::{
-    AnyIntegrator, AnySystem, Construct, Integrator, Method, StepFailure, Stepped, any_integrator,
-    construct,
+    Construct, Integrator, Method, MethodOf, Problem, StepFailure, Stepped, any_integrator,
+    construct, problem,
 };
 use super::propagator::{AnyMethod, MethodPropagator, Propagator};
 use super::reference::{Reference, is_beyond_reference};
@@ -51,23 +51,20 @@ impl<B: Body> BodyAtState<B> {
         }
     }
 
-    /// A tick from a copy of a method.
-    fn recorded(
-        &self,
-        integrator: &dyn AnyIntegrator<B::Vector>,
-        t: f64,
-        h: f64,
-        substeps: u32,
-    ) -> RecordedTick {
-        let log = RefCell::default();
-        let system: AnySystem<'_, B::Vector> = &Logged { system: &self.body.system, log: &log };
+    /// A tick that `step` makes of a problem like the body, if it is of a method.
+    fn recorded(&self, step: &TryStep<'_, B::Vector>) -> Option<RecordedTick> {
+        let log = Rc::default();
+        let system = problem(Logged { system: self.body.system.clone(), log: Rc::clone(&log) });
         let mut state = self.state.clone();
-        let stepped = integrator.boxed_clone().steps(&system, t, h, substeps, &mut state);
+        let stepped = step(&system, &mut state)?;
         let State { q, v } = state;
         let landing = stepped.map(|()| [q, v].map(|vector| vector.components().to_vec()));
-        RecordedTick { evaluations: log.take(), landing }
+        Some(RecordedTick { evaluations: log.take(), landing })
     }
 }
+
+/// Steps a problem from a state; `None` of a truth.
+type TryStep<'a, V> = dyn Fn(&Problem<V>, &mut State<V>) -> Option<Stepped> + 'a;
 
 impl<B: Body> Construct<Counted<B>> for BodyAtState<B> {
     type Output = Box<dyn Stepper>;
@@ -75,10 +72,7 @@ impl<B: Body> Construct<Counted<B>> for BodyAtState<B> {
     const CLASS: Option<BodyClass> = Some(B::CLASS);
 
     #[inline(always)]
-    fn of<I: Integrator<Counted<B>> + AnyIntegrator<B::Vector> + Clone + 'static>(
-        self,
-        new: impl FnOnce(&B::Vector) -> I,
-    ) -> Self::Output {
+    fn of<I: MethodOf<Counted<B>>>(self, new: impl FnOnce(&B::Vector) -> I) -> Self::Output {
         let mut integrator = new(&self.state.q);
         if let Solver::With(_, other) = self.solver {
             Integrator::<Counted<B>>::set(&mut integrator, other);
@@ -131,9 +125,8 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
     }
 
     fn recorded(&self, method: &Method, t: f64, h: f64, substeps: u32) -> Option<RecordedTick> {
-        let is_under_it = self.placed.solver.method() == Some(method);
-        let integrator = self.propagator.integrator().filter(|_| is_under_it)?;
-        Some(self.placed.recorded(integrator, t, h, substeps))
+        self.placed.solver.method().filter(|own| *own == method)?;
+        self.placed.recorded(&|of, y| self.propagator.try_step(of, [t, h], substeps, y))
     }
 
     fn is_closed_form(&self) -> bool {
@@ -148,7 +141,10 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
         let (body, q) = (&self.placed.body, self.placed.q());
         let kept =
             solver.method().map_or(0, |method| method.numbers_kept(q.len(), body.coupling()));
-        bytes_with_vectors(size_of::<Self>() + self.propagator.heap_bytes(), q)
+        // All but the solver may be vectors.
+        let others = size_of::<Self>() - size_of::<Solver>() + self.propagator.heap_bytes();
+        size_of::<Solver>()
+            + bytes_with_vectors(others, q)
             + body.system.heap_bytes()
             + size_of::<f64>() * kept
     }

@@ -17,7 +17,7 @@
 //!   cost time at every tick.
 
 use super::body::Body;
-use super::integrators::{AnyIntegrator, AnySystem, Integrator, Stepped};
+use super::integrators::{AnyIntegrator, AnySystem, Integrator, Problem, Stepped};
 use super::state::{State, Vector};
 use super::stepper::Change;
 use super::system::{Counted, StateOf};
@@ -40,8 +40,14 @@ pub(super) trait Propagator<B: Body>: Send + 'static {
     /// What [`Propagator::jump`] does after a change; `is_placing` as [`Change::is_placing`].
     fn restart(&mut self, _t: f64, _is_placing: bool, _body: &B, _state: &StateOf<B>) {}
 
-    /// The method; `None` for a truth.
-    fn integrator(&self) -> Option<&dyn AnyIntegrator<B::Vector>> {
+    /// Steps a problem from the state `y` as a copy of the method steps the body; `None` of a truth.
+    fn try_step(
+        &self,
+        _of: &Problem<B::Vector>,
+        _from_t_by_h: [f64; 2],
+        _n: u32,
+        _y: &mut StateOf<B>,
+    ) -> Option<Stepped> {
         None
     }
 
@@ -80,8 +86,15 @@ impl<V: Vector, B: Body<Vector = V>> Propagator<B> for AnyMethod<V> {
         self.0.reset();
     }
 
-    fn integrator(&self) -> Option<&dyn AnyIntegrator<V>> {
-        Some(&*self.0)
+    fn try_step(
+        &self,
+        of: &Problem<V>,
+        [t, h]: [f64; 2],
+        n: u32,
+        y: &mut State<V>,
+    ) -> Option<Stepped> {
+        let system: AnySystem<'_, V> = of;
+        Some(self.0.boxed_clone().steps(&system, t, h, n, y))
     }
 
     fn lost_time(&self) -> f64 {
@@ -106,7 +119,7 @@ impl<I: Clone> Clone for MethodPropagator<I> {
 
 impl<B: Body, I> Propagator<B> for MethodPropagator<I>
 where
-    I: Integrator<Counted<B>> + AnyIntegrator<B::Vector> + 'static,
+    I: Integrator<Counted<B>> + Integrator<Problem<B::Vector>> + Clone + 'static,
 {
     #[inline]
     fn step(&mut self, body: &Counted<B>, t: f64, h: f64, n: u32, y: &mut StateOf<B>) -> Stepped {
@@ -118,8 +131,14 @@ where
         Integrator::<Counted<B>>::reset(&mut self.0);
     }
 
-    fn integrator(&self) -> Option<&dyn AnyIntegrator<B::Vector>> {
-        Some(&self.0)
+    fn try_step(
+        &self,
+        of: &Problem<B::Vector>,
+        [t, h]: [f64; 2],
+        n: u32,
+        y: &mut StateOf<B>,
+    ) -> Option<Stepped> {
+        Some(self.clone().0.steps(of, t, h, n, y))
     }
 
     #[inline]

@@ -2,6 +2,7 @@
 
 use std::cell::{Cell, RefCell};
 use std::ops::Deref;
+use std::rc::Rc;
 
 use super::state::{Elementwise, State, Vector};
 
@@ -254,12 +255,12 @@ pub struct Evaluation {
 }
 
 /// A system that keeps every evaluation in a log, in order. It allocates.
-pub(super) struct Logged<'a, S> {
+pub(super) struct Logged<S> {
     pub(super) system: S,
-    pub(super) log: &'a RefCell<Vec<Evaluation>>,
+    pub(super) log: Rc<RefCell<Vec<Evaluation>>>,
 }
 
-impl<S: System<Vector: Vector>> System for Logged<'_, S> {
+impl<S: System<Vector: Vector>> System for Logged<S> {
     type Vector = S::Vector;
 
     fn coupling(&self) -> Coupling {

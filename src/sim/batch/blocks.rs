@@ -8,7 +8,7 @@ use super::copies::Copies;
 use super::instruction_set::{InstructionSet, Kernel, NARROW, WIDE};
 use super::{Advance, Ticks};
 use crate::sim::cores;
-use crate::sim::integrators::{AnyIntegrator, Construct, Integrator, Method};
+use crate::sim::integrators::{Construct, Integrator, Method, MethodOf};
 use crate::sim::state::State;
 use crate::sim::system::System;
 
@@ -57,10 +57,7 @@ struct Make<C, const W: usize> {
 impl<C: Copies, const W: usize> Construct<C::Block<W>> for Make<C, W> {
     type Output = Box<dyn Advance>;
 
-    fn of<I: Integrator<C::Block<W>> + AnyIntegrator<[f64; W]> + Clone + 'static>(
-        self,
-        new: impl FnOnce(&[f64; W]) -> I,
-    ) -> Self::Output {
+    fn of<I: MethodOf<C::Block<W>>>(self, new: impl FnOnce(&[f64; W]) -> I) -> Self::Output {
         let Self { copies, set, count, has_memory } = self;
         let integrator = new(&[0.0; W]);
         let part = |copies_of: Range<usize>| {

@@ -93,6 +93,17 @@ pub use problem::{Problem, fresh, problem};
 pub use shared::embedded_pair::{EmbeddedPair, Pair};
 pub use tolerance::Tolerance;
 
+/// An integrator of systems of the type `S` that steps every other with its vector too, as all methods do.
+pub trait MethodOf<S: System>:
+    Integrator<S> + Integrator<Problem<S::Vector>> + AnyIntegrator<S::Vector> + Clone + 'static
+{
+}
+
+impl<S: System, I> MethodOf<S> for I where
+    I: Integrator<S> + Integrator<Problem<S::Vector>> + AnyIntegrator<S::Vector> + Clone + 'static
+{
+}
+
 /// What [`construct`] builds from an integrator whose type is chosen at run time.
 pub trait Construct<S: System> {
     /// The result.
@@ -101,10 +112,7 @@ pub trait Construct<S: System> {
     const CLASS: Option<BodyClass> = None;
     /// Builds the result from integrators of the type `I`, which `new` makes for coordinate vectors shaped like the
     /// one that it is given.
-    fn of<I: Integrator<S> + AnyIntegrator<S::Vector> + Clone + 'static>(
-        self,
-        new: impl FnOnce(&S::Vector) -> I,
-    ) -> Self::Output;
+    fn of<I: MethodOf<S>>(self, new: impl FnOnce(&S::Vector) -> I) -> Self::Output;
 }
 
 /// Why a method steps no system of the type for which `C` constructs; `None` if it may step some.
@@ -275,10 +283,7 @@ pub(in crate::sim) fn any_integrator<V: Vector>(
     impl<V: Vector> Construct<Problem<V>> for Boxed<'_, V> {
         type Output = Box<dyn AnyIntegrator<V>>;
 
-        fn of<I: Integrator<Problem<V>> + AnyIntegrator<V> + Clone + 'static>(
-            self,
-            new: impl FnOnce(&V) -> I,
-        ) -> Self::Output {
+        fn of<I: MethodOf<Problem<V>>>(self, new: impl FnOnce(&V) -> I) -> Self::Output {
             Box::new(new(self.0))
         }
     }
@@ -334,10 +339,7 @@ pub fn integrator_for<S: System<Vector: Vector> + 'static>(
     struct Boxed<'a, V>(&'a V);
     impl<S: System<Vector: Vector> + 'static> Construct<S> for Boxed<'_, S::Vector> {
         type Output = Box<dyn Integrator<S>>;
-        fn of<I: Integrator<S> + AnyIntegrator<S::Vector> + Clone + 'static>(
-            self,
-            new: impl FnOnce(&S::Vector) -> I,
-        ) -> Self::Output {
+        fn of<I: MethodOf<S>>(self, new: impl FnOnce(&S::Vector) -> I) -> Self::Output {
             Box::new(ResetOnChange::around(new(self.0), self.0))
         }
     }
