@@ -2,7 +2,8 @@
 
 use std::sync::LazyLock;
 
-use egui::{Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Stroke, Ui};
+use egui::{Color32, CornerRadius, Stroke, Ui};
+use egui::{FontData, FontDefinitions, FontFamily, FontId, FontTweak};
 
 use super::missing_glyph;
 use crate::lab::LaneSpec;
@@ -157,34 +158,42 @@ fn in_egui(theme: Theme) -> egui::Theme {
     }
 }
 
-/// Inter for all words and numbers, its figures of one width; a serif for formulas; what they lack from Inter and from
-/// egui's own fonts. Lines quoted from
-/// a file keep a fixed width.
+/// A face of `assets/fonts`.
+macro_rules! face {
+    ($file:literal) => {
+        FontData::from_static(include_bytes!(concat!("../../assets/fonts/", $file)))
+    };
+}
+
+/// Inter for all words and numbers, its figures of one width; a serif for formulas; one width for lines quoted from a file.
+/// What one lacks is taken from the others. `assets/fonts/subset.py` says where they come from.
 fn fonts() -> FontDefinitions {
-    let mut fonts = FontDefinitions::default();
-    let fallback: Vec<String> = [FontFamily::Proportional, FontFamily::Monospace]
-        .iter()
-        .flat_map(|family| fonts.families.get(family).into_iter().flatten().cloned())
-        .collect();
-    let inter: [(&str, FontFamily, &'static [u8]); 2] = [
-        ("Inter", FontFamily::Proportional, include_bytes!("../../assets/fonts/Inter-Regular.otf")),
-        ("Inter SemiBold", strong(), include_bytes!("../../assets/fonts/Inter-SemiBold.otf")),
+    // Larger than the letters beside it otherwise.
+    let transport = FontTweak { scale: 0.9, ..FontTweak::default() };
+    let font_data = [
+        ("Inter", face!("Inter-Regular.otf")),
+        ("Inter SemiBold", face!("Inter-SemiBold.otf")),
+        ("Formula", face!("Formula-Regular.otf")),
+        ("Quantity", face!("Formula-Italic.otf")),
+        ("Names", face!("Names-Regular.ttf")),
+        ("Quoted", face!("Quoted-Regular.ttf")),
+        ("Transport", face!("Transport.ttf").tweak(transport)),
     ];
-    for (name, family, data) in inter {
-        fonts.font_data.insert(name.into(), FontData::from_static(data).into());
-        let faces = std::iter::once(name.to_owned()).chain(fallback.iter().cloned());
-        fonts.families.insert(family, faces.collect());
-    }
-    let formula: [(&str, FontId, &'static [u8]); 2] = [
-        ("Formula", formula_font(TYPE), include_bytes!("../../assets/fonts/Formula-Regular.otf")),
-        ("Quantity", quantity_font(TYPE), include_bytes!("../../assets/fonts/Formula-Italic.otf")),
+    let families = [
+        (FontFamily::Proportional, ["Inter"].as_slice()),
+        (strong(), &["Inter SemiBold"]),
+        (FontFamily::Monospace, &["Quoted", "Inter"]),
+        (formula_font(TYPE).family, &["Formula", "Inter"]),
+        (quantity_font(TYPE).family, &["Quantity", "Inter"]),
     ];
-    for (name, font, data) in formula {
-        fonts.font_data.insert(name.into(), FontData::from_static(data).into());
-        let faces = [name, "Inter"].into_iter().map(str::to_owned).chain(fallback.iter().cloned());
-        fonts.families.insert(font.family, faces.collect());
+    let with_others = |first: &[&str]| {
+        first.iter().chain(&["Names", "Transport", "Quoted"]).map(ToString::to_string).collect()
+    };
+    FontDefinitions {
+        font_data: font_data.map(|(name, data)| (name.into(), data.into())).into(),
+        families: families.map(|(family, first)| (family, with_others(first))).into(),
+        ..FontDefinitions::empty()
     }
-    fonts
 }
 
 fn dress_style(style: &mut egui::Style, palette: &PanelPalette) {
@@ -233,8 +242,10 @@ fn dress_style(style: &mut egui::Style, palette: &PanelPalette) {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+    use std::path::{Path, PathBuf};
+
     use super::*;
-    use crate::prelude::METHODS;
 
     #[test]
     fn type_grows_with_the_window_and_never_shrinks() {
@@ -262,23 +273,39 @@ mod tests {
         }
     }
 
+    /// The signs of the texts under a folder of the package, without those of comments and tests.
+    fn signs_under(folder: PathBuf, signs: &mut BTreeSet<char>) {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                signs_under(path, signs);
+            } else if let Ok(text) = std::fs::read_to_string(&path) {
+                let shown = text.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
+                let lines = shown.lines().map(|line| line.split("//").next().unwrap_or_default());
+                signs.extend(lines.flat_map(str::chars).filter(|sign| !sign.is_control()));
+            }
+        }
+    }
+
     #[test]
-    fn every_sign_of_the_project_is_in_a_font() {
+    fn every_sign_of_the_project_and_of_european_names_is_in_a_font() {
         let context = egui::Context::default();
         apply_style(&context);
         context.run_ui(egui::RawInput::default(), |_| {}).textures_delta.clear();
-        let signs = "−×°²³⁰⁴⁵⁶⁷⁸⁹⁻₀₁₂ωΔζλμ←↑→↓↺…·⏮⏸⏭▶◀▲◆▼●✓½¼⅛×√≤≥";
+        let mut signs = BTreeSet::new();
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        for folder in ["src", "assets"] {
+            signs_under(root.join(folder), &mut signs);
+        }
+        assert!("∛⌈⅛ωé⏸↺".chars().all(|sign| signs.contains(&sign)), "{signs:?}");
+        signs.extend("Пружина в гавані Ґ Ёлка Ναυαγός Łódź Öre Ŝipo".chars());
         context.fonts_mut(|fonts| {
-            for family in [FontFamily::Proportional, strong()] {
-                for sign in signs.chars() {
-                    let font = FontId::new(13.0, family.clone());
-                    assert!(fonts.has_glyph(&font, sign), "{sign} in {family:?}");
-                }
-            }
-            let formulas = METHODS.iter().flat_map(|method| method.formula);
-            for sign in formulas.flat_map(|line| line.chars()) {
-                assert!(fonts.has_glyph(&formula_font(13.0), sign), "{sign} in formulas");
-                assert!(fonts.has_glyph(&quantity_font(13.0), sign), "{sign} in formulas");
+            let words = [FontFamily::Proportional, strong(), FontFamily::Monospace];
+            let words = words.map(|family| FontId::new(13.0, family));
+            for font in words.into_iter().chain([formula_font(13.0), quantity_font(13.0)]) {
+                let lacking: String =
+                    signs.iter().filter(|sign| !fonts.has_glyph(&font, **sign)).collect();
+                assert_eq!(lacking, "", "{font:?}; add them to assets/fonts/subset.py");
             }
         });
     }
