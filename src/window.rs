@@ -16,7 +16,10 @@ use winit::window::{Fullscreen, WindowId};
 use crate::lab::analysis::AnalysisWorker;
 use crate::lab::cloud::CloudWorker;
 use crate::lab::loop_lab::LoopWorker;
-use crate::lab::studio::{Command, DriverRequest, SceneList, StageCommand, Studio, ViewCommand};
+use crate::lab::studio::{
+    Command, DriverRequest, PaceMeter, SceneList, StageCommand, Studio, ViewCommand,
+};
+use crate::view::Modifiers;
 
 mod canvas;
 mod clipboard;
@@ -26,7 +29,6 @@ mod export;
 mod growing_recording;
 mod keys;
 mod opening;
-mod pace;
 mod recording;
 mod run_of_session;
 mod schedule;
@@ -48,9 +50,7 @@ use clipboard::Clipboard;
 use error::reason;
 use event::Event;
 use growing_recording::GrowingRecording;
-use keys::Modifiers;
 use opening::Asked;
-use pace::Meter;
 use tick_timer::TickTimer;
 use watch::FileWatch;
 use work_thread::WorkThread;
@@ -111,7 +111,7 @@ pub fn run(
         redraw_owed: false,
         occluded: false,
         minimised: false,
-        meter: Meter::default(),
+        meter: PaceMeter::default(),
         title: String::new(),
         screenshot: false,
         simulated: Instant::now(),
@@ -152,7 +152,7 @@ struct App {
     redraw_owed: bool,
     occluded: bool,
     minimised: bool,
-    meter: Meter,
+    meter: PaceMeter,
     title: String,
     screenshot: bool,
     started: Instant,
@@ -194,7 +194,8 @@ impl App {
                 if std::mem::take(&mut self.opened) {
                     self.stand_still();
                 }
-                self.meter.frame(now, &self.studio);
+                let now_ns = now.duration_since(self.started).as_nanos();
+                self.meter.frame(now_ns as u64, &self.studio);
                 let again = self.studio.running()
                     || !commands.is_empty()
                     || self.screenshot
@@ -240,10 +241,6 @@ impl App {
                     self.studio.viewer_mut().set_notice(notice);
                     self.stand_still();
                 }
-                Some(DriverRequest::CopyLink) => self.copy_link(),
-                Some(DriverRequest::CopyInstrument) => self.copy_instrument(),
-                Some(DriverRequest::CopyMethod(entry)) => self.copy_method(entry),
-                Some(DriverRequest::CopyJoint(entry)) => self.copy_joint(entry),
                 Some(DriverRequest::ExportInstrument) => self.export_instrument(),
                 Some(DriverRequest::ToggleFullScreen) => self.toggle_full_screen(),
                 Some(DriverRequest::OpenTypedPath) => {
@@ -255,6 +252,12 @@ impl App {
                     let path = opening::completed(self.studio.viewer().typed_path());
                     self.studio.apply(ViewCommand::TypePath(path));
                 }
+                Some(
+                    request @ (DriverRequest::CopyLink
+                    | DriverRequest::CopyInstrument
+                    | DriverRequest::CopyMethod(_)
+                    | DriverRequest::CopyJoint(_)),
+                ) => self.copy(request),
                 None => {}
             }
         }
@@ -373,7 +376,7 @@ impl ApplicationHandler<Event> for App {
             }
             WindowEvent::KeyboardInput { event, is_synthetic: false, .. } => {
                 let panels = canvas.egui.egui_ctx().clone();
-                if self.key(event, response.consumed, &panels)
+                if self.key(event, &panels)
                     && let Some(canvas) = &mut self.canvas
                 {
                     // A key that opens a field is not text for it.
@@ -384,7 +387,7 @@ impl ApplicationHandler<Event> for App {
                 return self.watch.open(Asked::dropped(&self.studio, path));
             }
             WindowEvent::ModifiersChanged(modifiers) => {
-                self.held = modifiers.state().into();
+                self.held = keys::modifiers(modifiers.state());
             }
             // The release of a key pressed here may go to another window.
             WindowEvent::Focused(false) => self.held = Modifiers::default(),

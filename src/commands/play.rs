@@ -14,7 +14,7 @@ use super::frame_folder::FrameFolder;
 use super::help::flowing;
 use super::interrupt::tell_of_interrupt;
 use super::output::{Destination, Output};
-use super::preferences::{self, SavedPreferences};
+use super::preferences;
 use super::schedule::{FPS, Schedule, frames_in};
 use super::terminal::print_status;
 use super::unfinished::{self, UnfinishedRecording};
@@ -22,7 +22,7 @@ use super::{clip, scene_file, state_log};
 use crate::atomic_file::IfExists;
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
-use crate::lab::studio::{Display, Motion, Studio};
+use crate::lab::studio::{Motion, SavedPreferences, Studio};
 use crate::sim::number::counted;
 use crate::window::{self, Closed, SceneFiles, WindowError, WindowSettings};
 
@@ -93,7 +93,7 @@ const SIZE_PX: [u32; 2] = [1280, 720];
 
 pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     let lineup = if args.race { Lineup::Everyone } else { Lineup::Solo };
-    let preferences = SavedPreferences::load();
+    let preferences = preferences::load();
     // A run of a given length is a script's, and is the same everywhere.
     let last_scene = preferences.scene.as_deref().filter(|_| args.seconds.is_none());
     let again = last_scene.map(|scene| args.experiment.or_scene(scene));
@@ -107,19 +107,16 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     let mut studio = experiment.studio();
     studio.viewer_mut().preferences.display.motion =
         if args.reduced_motion { Motion::Reduced } else { Motion::Live };
-    if let Some(theme) = args.theme.map(Theme::from).or(preferences.theme) {
-        studio.viewer_mut().preferences.choose_theme(theme);
-    }
     if args.loop_trace.is_none() {
         studio.show_clouds_of_scene();
     }
     let opens_at_work = args.race || args.loop_trace.is_some();
-    let display = &mut studio.viewer_mut().preferences.display;
-    display.measure = preferences.measure || opens_at_work;
-    display.splits = preferences.splits;
-    if let Some(percent) = preferences.scale_percent {
-        studio.viewer_mut().preferences.choose_scale(percent);
-    }
+    let shown = SavedPreferences {
+        theme: args.theme.map(Theme::from).or(preferences.theme),
+        measure: preferences.measure || opens_at_work,
+        ..preferences.clone()
+    };
+    shown.apply(&mut studio);
     let record = args.record.as_deref().map(|path| {
         let if_exists = if args.force { IfExists::Replace } else { IfExists::Beside };
         Destination { path, option: "--record", if_exists }
@@ -149,12 +146,11 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         done => {
             let Closed { studio, interrupted, size } = done.map_err(Error::failed)?;
             let is_own = args.seconds.is_some() || args.experiment.names_a_scene();
-            let theme = studio.viewer().preferences.chosen_theme().filter(|_| args.theme.is_none());
             let scene = if is_own { preferences.scene } else { preferences::scene_of(&studio) };
-            let (theme, size) = (theme.or(preferences.theme), size.or(preferences.size));
-            let scale_percent = Some(studio.display().scale_percent);
-            let &Display { measure, splits, .. } = studio.display();
-            SavedPreferences { scene, theme, scale_percent, size, measure, splits }.save();
+            let shown = SavedPreferences::of(&studio);
+            let theme = shown.theme.filter(|_| args.theme.is_none()).or(preferences.theme);
+            let size = size.or(preferences.size);
+            preferences::save(&SavedPreferences { scene, theme, size, ..shown });
             (studio, interrupted)
         }
     };

@@ -9,6 +9,7 @@ use super::scene::Scene;
 mod event;
 mod hashes;
 mod recording;
+mod replay;
 mod run_with_past;
 mod start;
 mod timeline;
@@ -16,6 +17,7 @@ mod undo;
 
 pub use event::{Event, EventKind};
 pub use recording::{RecordingError, text as recording_text};
+pub use replay::{Reached, Replay};
 pub(in crate::lab) use start::StartSettings;
 pub use timeline::{SNAPSHOT_BYTES, Timeline};
 

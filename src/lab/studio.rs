@@ -20,6 +20,7 @@ mod command;
 mod display;
 mod driving;
 mod fan;
+mod file_names;
 mod findings;
 mod gesture;
 pub mod guide;
@@ -35,14 +36,17 @@ mod notice;
 mod notices;
 mod one_step;
 mod opening;
+mod pace;
 mod plotting;
 mod restarting;
 mod resting;
+mod saved_preferences;
 mod scene_list;
 mod showing;
 mod slow_motion;
 mod step;
 mod viewer;
+mod work;
 mod zoom_pan;
 
 pub use command::{
@@ -60,9 +64,12 @@ use looping::Activity;
 pub use my_spring::MySpring;
 pub use notice::Notice;
 pub use one_step::{OneStep, Slope};
+pub use pace::PaceMeter;
+pub use saved_preferences::SavedPreferences;
 pub use scene_list::SceneList;
 pub use step::Step;
 pub use viewer::{Dialog, Preferences, Viewer};
+pub use work::{Found, Work};
 pub use zoom_pan::ZoomPan;
 
 /// A scene being run and looked at.

@@ -7,8 +7,10 @@
 
 mod backdrop;
 mod chart;
+mod copying;
 mod frame;
 mod gpu;
+mod keyboard;
 #[cfg(test)]
 mod legibility;
 mod lines;
@@ -38,8 +40,10 @@ pub use {egui, wgpu};
 
 pub use chart::AxisScale;
 pub use chart::figure::{Axis, Chart, Figure, FigureCurve, Legend};
+pub use copying::{Copied, copied};
 pub use frame::{FrameOutput, FrameRenderer, Layout};
 pub use gpu::{AdapterPreference, Gpu, GpuError};
+pub use keyboard::{Meaning, Modifiers, bound_key, command_of};
 pub use offscreen::Offscreen;
 pub use offscreen_renderer::OffscreenRenderer;
 pub use panels::Panels;

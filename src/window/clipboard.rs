@@ -6,7 +6,7 @@ use winit::keyboard::{Key as Logical, KeyCode, NamedKey, PhysicalKey};
 
 use super::App;
 use super::error::reason;
-use super::keys::Modifiers;
+use crate::view::Modifiers;
 
 /// The clipboard, opened when something is copied or pasted first.
 #[derive(Default)]

@@ -5,27 +5,20 @@ use std::path::PathBuf;
 use winit::event_loop::ActiveEventLoop;
 
 use super::App;
-use super::opening::Found;
+use super::opening::ReadFile;
 #[cfg(feature = "accessibility")]
 use super::screen_reader::{self, Request};
 use crate::lab::LaneSpec;
-use crate::lab::analysis::Findings;
-use crate::lab::cloud::FoundCloud;
-use crate::lab::loop_lab::FoundLoop;
 use crate::lab::scene::{Mistake, Scene, SceneErrors};
-use crate::lab::studio::Dialog;
+use crate::lab::studio::{Dialog, Found};
 
 /// An event from the program's own threads or from a screen reader.
 pub(super) enum Event {
     /// A screen reader asks for something.
     #[cfg(feature = "accessibility")]
     ScreenReader(Request),
-    /// The analysis has found more.
-    Analysed(Findings),
-    /// A loop of the loop lab was run.
-    LoopRun(FoundLoop),
-    /// Clouds were stepped.
-    Clouds(Box<FoundCloud>),
+    /// A worker has found something.
+    Found(Found),
     /// The ticks of these lanes were timed: nanoseconds per tick, `None` of a lane that halted.
     TicksTimed(Vec<(LaneSpec, Option<f64>)>),
     /// The spring that a person has described is advised on, as a scene.
@@ -35,13 +28,19 @@ pub(super) enum Event {
     /// The run is not recorded as it grows, for this reason.
     NotRecorded(String),
     /// A file that was asked for is read.
-    FileRead(Found),
+    FileRead(ReadFile),
     /// A watched scene file has changed; `read` is what it holds now.
     FileChanged { path: PathBuf, read: Result<(Scene, String), Vec<Mistake>> },
     /// A watched scene file cannot be read any more.
     FileGone(PathBuf),
     /// A scene file that was gone exists again, unchanged.
     FileBack(PathBuf),
+}
+
+impl From<Found> for Event {
+    fn from(found: Found) -> Self {
+        Self::Found(found)
+    }
 }
 
 impl App {
@@ -59,20 +58,8 @@ impl App {
                 self.interrupted = true;
                 self.end(event_loop, Ok(()));
             }
-            Event::Analysed(findings) => {
-                self.studio.accept_findings(findings);
-                if !self.studio.running() {
-                    self.request_redraw();
-                }
-            }
-            Event::LoopRun(found) => {
-                self.studio.accept_loop(found);
-                if !self.studio.running() {
-                    self.request_redraw();
-                }
-            }
-            Event::Clouds(found) => {
-                self.studio.accept_cloud(*found);
+            Event::Found(found) => {
+                self.studio.accept(found);
                 if !self.studio.running() {
                     self.request_redraw();
                 }

@@ -7,9 +7,10 @@ use winit::event_loop::EventLoopProxy;
 
 use super::Event;
 use super::opening::KeepRecording;
-use super::work_thread::{Work, WorkThread};
+use super::work_thread::WorkThread;
 use crate::lab::race::Journal;
 use crate::lab::session::recording_text;
+use crate::lab::studio::Work;
 use crate::lab::{Scene, Studio};
 
 /// The time between two recordings: what is lost at most.
@@ -79,6 +80,7 @@ struct Keeper {
 
 impl Work for Keeper {
     type Request = Option<Grown>;
+    type Found = Event;
 
     fn is_same(one: &Self::Request, other: &Self::Request) -> bool {
         match (one, other) {

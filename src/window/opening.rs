@@ -36,7 +36,7 @@ pub(super) struct Asked {
 }
 
 /// What a file that was asked for holds, or what the command line would print of its mistakes.
-pub(super) struct Found {
+pub(super) struct ReadFile {
     asked: Asked,
     held: Result<Held, Vec<Mistake>>,
 }
@@ -75,7 +75,7 @@ impl Asked {
 
     /// Reads the file, and whatever its first frame would wait for. A disk can be slow, and a large net takes longer than a
     /// frame: this is no work for the thread that draws.
-    pub(super) fn read(self, read: &ReadScene) -> Found {
+    pub(super) fn read(self, read: &ReadScene) -> ReadFile {
         let held = if let Some(run) = &self.compared {
             read(&self.path)
                 .map(|(scene, _)| Held::Compared(compared(scene, (**run).clone()).into()))
@@ -87,11 +87,11 @@ impl Asked {
                 Held::Scene { scene: Box::new(scene), text }
             })
         };
-        Found { asked: self, held }
+        ReadFile { asked: self, held }
     }
 }
 
-impl Found {
+impl ReadFile {
     /// The path and text of the file of a scene.
     pub(super) fn scene(&self) -> Option<(PathBuf, String)> {
         match &self.held {

@@ -17,7 +17,7 @@ pub(super) fn save(studio: &mut Studio) -> String {
 }
 
 fn try_save(studio: &Studio) -> Result<PathBuf, String> {
-    let name = format!("regatta-{}-recording.toml", studio.scene().name);
+    let name = studio.recording_file_name();
     let text = studio.recording().map_err(|error| error.to_string())?;
     write_file(name.as_ref(), text.as_bytes(), IfExists::Beside)
         .map_err(|error| format!("cannot write {name} here: {error}"))

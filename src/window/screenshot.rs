@@ -5,7 +5,6 @@ use std::path::PathBuf;
 
 use crate::atomic_file::{IfExists, write_file};
 use crate::lab::Studio;
-use crate::lab::race::Mode;
 use crate::view::{Gpu, OffscreenRenderer, png};
 
 /// Saves a picture under a new name, and returns a notice with the name or the error.
@@ -22,20 +21,7 @@ fn try_save(gpu: &Gpu, size_px: [u32; 2], scale: f32, studio: &Studio) -> Result
         .map_err(|error| error.to_string())?
         .draw(studio, &mut rgba)
         .map_err(|error| error.to_string())?;
-    let path = format!("{}.png", name(studio));
+    let path = format!("{}.png", studio.picture_file_name());
     write_file(path.as_ref(), &png::encode(size_px, &rgba), IfExists::Beside)
         .map_err(|error| format!("cannot write {path} here: {error}"))
-}
-
-/// A file name, without its ending, that says what the picture shows.
-fn name(studio: &Studio) -> String {
-    if let Some(loops) = studio.loop_lab() {
-        let (policy, ms) = (loops.selected_card().id, loops.now_ns() / 1_000_000);
-        return format!("regatta-{}-loop-{policy}-at-{ms}-ms", studio.scene().name);
-    }
-    let method = match studio.mode() {
-        Mode::Solo => studio.entries()[studio.active()].method.id,
-        Mode::Race => "race",
-    };
-    format!("regatta-{}-{method}-tick-{}", studio.scene().name, studio.race().tick())
 }

@@ -13,6 +13,7 @@ use crate::commands::scene_file;
 use crate::commands::terminal::print_status;
 use crate::lab::race::{Observer, Race, Resumed};
 use crate::lab::scene::{Check, Scene};
+use crate::lab::session::{Reached, Replay};
 use crate::lab::trace::last_tick;
 use crate::lab::{Action, Session, Studio};
 use crate::sim::number::counted;
@@ -231,27 +232,10 @@ impl Observer for MethodsSeen {
     }
 }
 
-/// A check, and the state of its lane as the race reached it.
-struct Reached {
-    /// Its index among the scene's checks.
-    row: usize,
-    /// The simulated time, in seconds.
-    t: f64,
-    /// The hash of its lane; `None` where the lane has left the race.
-    hash: Option<u64>,
-}
-
 /// Runs the race of a scene past all its checks, in the order of their ticks.
 fn replay(scene: &Scene, observer: &mut impl Observer) -> Vec<Reached> {
-    let mut session = Session::racing(scene.clone().into());
-    let mut rows: Vec<usize> = (0..scene.checks.len()).collect();
-    rows.sort_by_key(|&row| scene.checks[row].tick);
-    let reach = |row: usize| {
-        let Check { tick, lane, .. } = scene.checks[row];
-        (session.race().tick()..tick).for_each(|_| session.tick_seen(observer));
-        Reached { row, t: session.race().t(), hash: session.race().lane_hash(lane) }
-    };
-    rows.into_iter().map(reach).collect()
+    let mut replay = Replay::new(scene.clone().into());
+    std::iter::from_fn(|| replay.go_on(u64::MAX, observer)).collect()
 }
 
 /// Runs the race of a scene, and compares every lane with its checks.

@@ -1,33 +1,32 @@
 //! Measures the frame rate and the ratio of simulated to real time over the last second.
 
 use std::collections::VecDeque;
-use std::time::{Duration, Instant};
 
-use crate::lab::studio::{Pace, Studio};
+use super::{Pace, Studio};
 
-/// The shortest span to measure over: long enough for a steady figure, short enough to follow a change.
-const SPAN: Duration = Duration::from_secs(1);
+/// The shortest span to measure over, in nanoseconds: long enough for a steady figure, short enough to follow a change.
+const SPAN_NS: u64 = 1_000_000_000;
 
-/// Measures frames per second and the real-time factor.
+/// Measures a driver's frames per second and its real-time factor.
 #[derive(Debug, Default)]
-pub(super) struct Meter {
-    /// When each recent frame began, and the simulated time then in seconds, with the part of a tick that is owed:
-    /// counted in whole ticks the figure would jump at low rates.
-    frames: VecDeque<(Instant, f64)>,
+pub struct PaceMeter {
+    /// When each recent frame began, in nanoseconds, and the simulated time then in seconds, with the part of a tick that
+    /// is owed: counted in whole ticks the figure would jump at low rates.
+    frames: VecDeque<(u64, f64)>,
     /// The tick rate and the speed of those frames.
     under: (u32, u32),
     any: bool,
 }
 
-impl Meter {
+impl PaceMeter {
     /// Whether no frame was measured before this call.
-    pub(super) fn first_frame(&mut self) -> bool {
+    pub fn first_frame(&mut self) -> bool {
         !std::mem::replace(&mut self.any, true)
     }
 
-    /// Adds a frame of `lab` that began at `now`. A pause, a jump in time or a change of rate starts the measurement
-    /// again.
-    pub(super) fn frame(&mut self, now: Instant, studio: &Studio) {
+    /// Adds a frame that began at `now_ns`, in nanoseconds of real time. A pause, a jump in time or a change of rate starts
+    /// the measurement again.
+    pub fn frame(&mut self, now_ns: u64, studio: &Studio) {
         let under = (studio.clock().tick_hz(), studio.clock().speed_percent());
         let t = studio.time_with_owed_s();
         let went_back = self.frames.back().is_some_and(|&(_, last)| t < last);
@@ -38,23 +37,23 @@ impl Meter {
         if !studio.time_runs() {
             return;
         }
-        self.frames.push_back((now, t));
-        while self.frames.get(1).is_some_and(|&(second, _)| now.duration_since(second) >= SPAN) {
+        self.frames.push_back((now_ns, t));
+        while self.frames.get(1).is_some_and(|&(second, _)| now_ns - second >= SPAN_NS) {
             self.frames.pop_front();
         }
     }
 
     /// The pace, once a second has been measured.
-    pub(super) fn pace(&self) -> Pace {
+    pub fn pace(&self) -> Pace {
         let (Some(&(first, from)), Some(&(last, to))) = (self.frames.front(), self.frames.back())
         else {
             return Pace::Unknown;
         };
-        let span = last.duration_since(first);
-        if span < SPAN {
+        let span_ns = last - first;
+        if span_ns < SPAN_NS {
             return Pace::Unknown;
         }
-        let seconds = span.as_secs_f64();
+        let seconds = span_ns as f64 / 1e9;
         Pace::Measured {
             frames_per_second: (self.frames.len() - 1) as f64 / seconds,
             real_time_factor: (to - from) / seconds,
@@ -69,22 +68,21 @@ mod tests {
     use crate::lab::studio::{Command, RunCommand, StageCommand, Step, ViewCommand};
 
     /// A lab at this tick rate, its meter, and when the last frame began.
-    struct Run(Studio, Meter, Instant);
+    struct Run(Studio, PaceMeter, u64);
 
     impl Run {
         fn at(tick_hz: u32) -> Self {
             let mut studio = Studio::new(Scene::built_in("ship").unwrap());
             studio.apply(StageCommand::TickHz(tick_hz));
-            Self(studio, Meter::default(), Instant::now())
+            Self(studio, PaceMeter::default(), 0)
         }
 
         /// Draws frames of 20 ms, and returns the pace after each.
         fn frames(&mut self, count: u32) -> Vec<Pace> {
             let Run(studio, meter, now) = self;
-            let frame = Duration::from_millis(20);
             let frames = (0..count).map(|_| {
-                *now += frame;
-                studio.advance(frame.as_nanos() as i64);
+                *now += 20_000_000;
+                studio.advance(20_000_000);
                 meter.frame(*now, studio);
                 meter.pace()
             });
@@ -137,7 +135,7 @@ mod tests {
         let mut run = Run::at(60);
         let Run(studio, meter, now) = &mut run;
         for _ in 0..10 {
-            *now += Duration::from_millis(500);
+            *now += 500_000_000;
             studio.advance(500_000_000);
             meter.frame(*now, studio);
         }

@@ -1,0 +1,81 @@
+//! What is copied to the clipboard, and what is said of it.
+
+use super::panels;
+use crate::lab::source_code::{Precision, source_code};
+use crate::lab::studio::{DriverRequest, Studio};
+
+/// A text for the clipboard.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Copied {
+    /// The text.
+    pub text: String,
+    told: String,
+    otherwise: String,
+}
+
+impl Copied {
+    /// What is said once the clipboard has taken the text, or has not for a reason.
+    pub fn notice(&self, taken: Result<(), String>) -> String {
+        match taken {
+            Ok(()) => self.told.clone(),
+            Err(reason) => format!("no clipboard: {reason}; {}", self.otherwise),
+        }
+    }
+}
+
+/// What a request copies; `None` if it does not copy.
+///
+/// # Errors
+/// Why there is nothing to copy.
+pub fn copied(studio: &Studio, request: DriverRequest) -> Option<Result<Copied, String>> {
+    let (text, told, otherwise) = match request {
+        DriverRequest::CopyLink => match studio.link() {
+            Ok(link) => {
+                let told = format!("copied the run as a link of {} letters", link.len());
+                (link, told, "Ctrl S saves the run, and `regatta link` prints it".into())
+            }
+            Err(error) => return Some(Err(error.to_string())),
+        },
+        DriverRequest::CopyInstrument => match panels::csv(studio) {
+            Some(lines) => {
+                let told = format!("copied {} values as CSV", lines.len() - 1);
+                (lines.concat(), told, "Ctrl E saves the values".into())
+            }
+            None => return Some(Err("this instrument has no values to copy".into())),
+        },
+        DriverRequest::CopyMethod(entry) => {
+            let (language, method) = (studio.viewer().language(), studio.entries()[entry].method);
+            match source_code(method, language, Precision::Double) {
+                Ok(code) => {
+                    let shown = format!("`regatta show {} --as {}`", method.id, language.id());
+                    (code, format!("copied {} as {language}", method.name), shown + " prints it")
+                }
+                Err(refused) => return Some(Err(refused.to_string())),
+            }
+        }
+        DriverRequest::CopyJoint(entry) => {
+            let (code, method) = (studio.joint_code(entry)?, studio.entries()[entry].method);
+            let told = format!("copied the spring's settings of {}", method.name);
+            (code, told, format!("`regatta port --to {}` prints them", method.id))
+        }
+        _ => return None,
+    };
+    Some(Ok(Copied { text, told, otherwise }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::Scene;
+
+    #[test]
+    fn without_a_clipboard_a_notice_says_why_and_names_the_command_that_prints_the_method() {
+        let studio = Studio::new(Scene::built_in("spring").unwrap());
+        let entry = studio.entries().iter().position(|spec| spec.method.id == "rk4").unwrap();
+        let copied = copied(&studio, DriverRequest::CopyMethod(entry)).unwrap().unwrap();
+        assert!(copied.text.contains("fn "), "{}", copied.text);
+        let expected = "no clipboard: there is no display; `regatta show rk4 --as rust` prints it";
+        assert_eq!(copied.notice(Err("there is no display".into())), expected);
+        assert_eq!(copied.notice(Ok(())), "copied Runge-Kutta 4 as Rust");
+    }
+}

@@ -1,0 +1,177 @@
+//! From a keyboard, as a window or a browser tells of it, to the program's keys and their commands.
+
+use crate::lab::studio::{Command, Key, command_for};
+
+/// The modifier keys that are held down.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Modifiers {
+    /// Shift.
+    pub shift: bool,
+    /// Control, or Command on a Mac.
+    pub control: bool,
+    /// Any other modifier. The program binds no chord with it.
+    pub other: bool,
+}
+
+/// What a key means by the layout of the keyboard.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Meaning<'a> {
+    /// A key without a text.
+    Named(Key),
+    /// A text, mostly of one character.
+    Text(&'a str),
+}
+
+/// The key that can be bound to a command, if it is one. `place` is the character that a keyboard of the United States has
+/// at its place: it decides for digits, the comma and the point only.
+pub fn bound_key(place: Option<char>, meaning: Meaning<'_>, held: Modifiers) -> Option<Key> {
+    if held.other {
+        return None;
+    }
+    let shift = held.shift;
+    match meaning {
+        // By the layout, unless it turns the chord into a control character.
+        Meaning::Text(text) if held.control => {
+            let sign = text.chars().next().filter(|sign| !sign.is_control());
+            let sign = sign.and_then(|sign| sign.to_lowercase().next());
+            sign.map(|sign| match shift && sign.is_alphabetic() {
+                true => Key::ControlShiftSign(sign),
+                false => Key::ControlSign(sign),
+            })
+        }
+        Meaning::Named(_) if held.control => None,
+        Meaning::Text("<" | ">" | "," | ".") if shift && matches!(place, Some(',' | '.')) => {
+            place.map(Key::ShiftSign)
+        }
+        // By position, because some layouts have the digits behind Shift. But if a digit's key yields one of these signs,
+        // through Shift or AltGr, the sign is meant.
+        meaning => match (place.and_then(|place| place.to_digit(10)), meaning) {
+            (Some(digit), meaning) if !matches!(meaning, Meaning::Text("[" | "]" | "=")) => {
+                Some(Key::Digit(digit as u8))
+            }
+            (_, Meaning::Named(key)) => Some(key),
+            (_, Meaning::Text(text)) => {
+                let mut chars = text.chars();
+                let (Some(sign), None) = (chars.next(), chars.next()) else { return None };
+                let lower = sign.to_lowercase().next().unwrap_or(sign);
+                Some(match shift && sign.is_alphabetic() {
+                    true => Key::ShiftSign(lower),
+                    false => Key::Sign(lower),
+                })
+            }
+        },
+    }
+}
+
+/// What a pressed key asks for, unless it is for a panel or bound to nothing: a command, or nothing more where it is held
+/// and its command does not repeat.
+pub fn command_of(key: Key, is_repeated: bool, panels: &egui::Context) -> Option<Option<Command>> {
+    // Escape closes a menu.
+    let closes_menu = key == Key::Escape && egui::Popup::is_any_open(panels);
+    let focus = Focus::of(panels.egui_wants_keyboard_input(), panels.text_edit_focused());
+    if focus.takes(key) || closes_menu {
+        return None;
+    }
+    let (command, binding) = command_for(key)?;
+    Some((!is_repeated || binding.repeats).then_some(command))
+}
+
+/// The kind of widget that has the keyboard focus.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Focus {
+    /// No widget: every key is for the program.
+    Nothing,
+    /// A widget that responds to some keys.
+    Widget,
+    /// A text field.
+    Text,
+}
+
+impl Focus {
+    fn of(widget_has_focus: bool, text_is_typed: bool) -> Self {
+        match (widget_has_focus, text_is_typed) {
+            (_, true) => Focus::Text,
+            (true, false) => Focus::Widget,
+            (false, false) => Focus::Nothing,
+        }
+    }
+
+    /// Whether a key is for the focused widget.
+    fn takes(self, key: Key) -> bool {
+        match self {
+            Focus::Nothing => false,
+            Focus::Widget => works_widgets(key),
+            Focus::Text => !matches!(key, Key::Function(_)),
+        }
+    }
+}
+
+/// Whether a focused widget responds to this key.
+fn works_widgets(key: Key) -> bool {
+    matches!(
+        key,
+        Key::Space
+            | Key::Up
+            | Key::Down
+            | Key::Left
+            | Key::Right
+            | Key::Home
+            | Key::Enter
+            | Key::Escape
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::studio::{KEYS, StageCommand};
+
+    fn pressed(place: Option<char>, text: &str, shift: bool) -> Option<Key> {
+        held(place, text, Modifiers { shift, ..Modifiers::default() })
+    }
+
+    fn held(place: Option<char>, text: &str, held: Modifiers) -> Option<Key> {
+        bound_key(place, Meaning::Text(text), held)
+    }
+
+    #[test]
+    fn digits_go_by_place_and_letters_by_layout() {
+        assert_eq!(pressed(Some('1'), "&", false), Some(Key::Digit(1)));
+        assert_eq!(pressed(None, "a", false), Some(Key::Sign('a')));
+        assert_eq!(pressed(None, "M", true), Some(Key::ShiftSign('m')));
+        assert_eq!(pressed(None, "M", false), Some(Key::Sign('m')));
+        assert_eq!(pressed(None, "?", true), Some(Key::Sign('?')));
+        assert_eq!(pressed(Some('8'), "[", false), Some(Key::Sign('[')));
+        assert_eq!(pressed(Some('0'), "=", true), Some(Key::Sign('=')));
+        let end = bound_key(Some('1'), Meaning::Named(Key::Home), Modifiers::default());
+        assert_eq!(end, Some(Key::Digit(1)));
+    }
+
+    #[test]
+    fn shift_and_control_make_other_keys_and_other_modifiers_none() {
+        assert_eq!(pressed(Some(','), "<", true), Some(Key::ShiftSign(',')));
+        assert_eq!(pressed(Some('.'), ">", true), Some(Key::ShiftSign('.')));
+        assert_eq!(pressed(Some(','), ",", false), Some(Key::Sign(',')));
+        // If Shift and the comma's key make another sign, that sign is meant.
+        assert_eq!(pressed(Some(','), "?", true), Some(Key::Sign('?')));
+        let control = Modifiers { control: true, ..Modifiers::default() };
+        assert_eq!(held(None, "z", control), Some(Key::ControlSign('z')));
+        assert_eq!(bound_key(None, Meaning::Named(Key::Home), control), None);
+        let both = Modifiers { shift: true, ..control };
+        assert_eq!(held(None, "Z", both), Some(Key::ControlShiftSign('z')));
+        assert_eq!(held(None, "+", both), Some(Key::ControlSign('+')));
+        let alt = Modifiers { other: true, ..Modifiers::default() };
+        assert_eq!(held(None, "n", alt), None);
+    }
+
+    #[test]
+    fn every_bound_key_is_bound_once() {
+        let bound: Vec<Key> =
+            KEYS.iter().flat_map(|b| b.keys.iter().map(|(key, _)| *key)).collect();
+        for (i, key) in bound.iter().enumerate() {
+            assert!(!bound[..i].contains(key), "{key:?} is bound twice");
+        }
+        let (command, _) = command_for(Key::Digit(1)).unwrap();
+        assert_eq!(command, Command::Stage(StageCommand::Pick(0)));
+    }
+}
