@@ -117,11 +117,21 @@ impl Gpu {
         surface: Option<&wgpu::Surface<'_>>,
         preference: AdapterPreference,
     ) -> Result<Self, GpuError> {
-        let room = Vec::<u8>::new().try_reserve_exact(DRIVER_MIB << 20);
-        room.map_err(|_| GpuError::NoRoom { mib: DRIVER_MIB })?;
+        // A browser's driver has memory of its own, and what is reserved in ours is never given back.
+        if cfg!(not(target_arch = "wasm32")) {
+            let room = Vec::<u8>::new().try_reserve_exact(DRIVER_MIB << 20);
+            room.map_err(|_| GpuError::NoRoom { mib: DRIVER_MIB })?;
+        }
         let mut unfit = Vec::new();
         let mut candidates = Vec::new();
-        for adapter in instance.enumerate_adapters(wgpu::Backends::all()).await {
+        let mut adapters = instance.enumerate_adapters(wgpu::Backends::all()).await;
+        // A browser has no adapter but for a canvas.
+        if adapters.is_empty() && surface.is_some() {
+            let compatible_surface = surface;
+            let options = wgpu::RequestAdapterOptions { compatible_surface, ..Default::default() };
+            adapters.extend(instance.request_adapter(&options).await);
+        }
+        for adapter in adapters {
             let info = adapter.get_info();
             let is_cpu = info.device_type == wgpu::DeviceType::Cpu;
             if preference == AdapterPreference::CpuOnly && !is_cpu {

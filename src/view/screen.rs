@@ -1,4 +1,4 @@
-//! A window's surface, and the instance that can make it again.
+//! The surface of a window or a canvas, and the instance that can make it again.
 
 use super::gpu::{AdapterPreference, Gpu, GpuError, instance};
 
@@ -28,6 +28,16 @@ impl Screen {
                 Err(error) => Err(error),
             },
         }
+    }
+
+    /// A surface that needs no display: a browser's canvas.
+    ///
+    /// # Errors
+    /// [`GpuError::NoSurface`].
+    pub fn of_canvas(canvas: impl Into<wgpu::SurfaceTarget<'static>>) -> Result<Self, GpuError> {
+        let instance = instance(wgpu::InstanceDescriptor::new_without_display_handle());
+        let surface = instance.create_surface(canvas)?;
+        Ok(Self { instance, surface })
     }
 
     /// The best device that can present here. Asked again after the first was lost.

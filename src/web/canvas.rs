@@ -1,0 +1,78 @@
+//! The canvas and the renderer that draws on it.
+
+use regatta::lab::studio::{Command, Studio};
+use regatta::view::{FrameOutput, FrameRenderer, Gpu, Screen, egui, wgpu};
+use web_sys::HtmlCanvasElement;
+
+pub(crate) struct Canvas {
+    pub(crate) element: HtmlCanvasElement,
+    pub(crate) renderer: FrameRenderer,
+    screen: Screen,
+    gpu: Gpu,
+    size_px: [u32; 2],
+}
+
+impl Canvas {
+    /// # Errors
+    /// Why nothing can be drawn on it.
+    pub(crate) async fn new(element: HtmlCanvasElement) -> Result<Self, String> {
+        let refused = |reason: &dyn std::error::Error| {
+            format!(
+                "This browser draws no WebGL 2, which Regatta needs: {reason}. Another browser, or this one with \
+                 hardware acceleration, may."
+            )
+        };
+        let screen = Screen::of_canvas(target(element.clone())).map_err(|e| refused(&e))?;
+        let gpu = screen.gpu().await.map_err(|e| refused(&e))?;
+        let renderer = FrameRenderer::new(&gpu, screen.format(&gpu));
+        Ok(Self { element, renderer, screen, gpu, size_px: [0, 0] })
+    }
+
+    /// Draws a frame and shows it, with `scale` pixels to a point of the page. Returns what was asked for on the panels;
+    /// `None` if the canvas cannot be drawn on at present.
+    pub(crate) fn draw(
+        &mut self,
+        scale: f64,
+        input: egui::RawInput,
+        studio: &Studio,
+    ) -> Option<(Vec<Command>, FrameOutput)> {
+        let sides = [self.element.client_width(), self.element.client_height()];
+        let size_px = sides.map(|side| (f64::from(side) * scale).round() as u32);
+        if size_px.contains(&0) {
+            return None;
+        }
+        if size_px != self.size_px {
+            self.size_px = size_px;
+            self.element.set_width(size_px[0]);
+            self.element.set_height(size_px[1]);
+            self.screen.configure(&self.gpu, size_px);
+        }
+        let texture = match self.screen.surface().get_current_texture() {
+            wgpu::CurrentSurfaceTexture::Success(texture)
+            | wgpu::CurrentSurfaceTexture::Suboptimal(texture) => texture,
+            _ => {
+                self.screen.configure(&self.gpu, size_px);
+                return None;
+            }
+        };
+        let size_px = [texture.texture.width(), texture.texture.height()];
+        let view = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let (commands, mut output) =
+            self.renderer.draw(&self.gpu, &view, size_px, scale as f32, input, studio);
+        self.gpu.queue.submit(output.drawing.take());
+        self.gpu.queue.present(texture);
+        Some((commands, output))
+    }
+}
+
+/// What frames are shown on.
+#[cfg(target_arch = "wasm32")]
+fn target(element: HtmlCanvasElement) -> wgpu::SurfaceTarget<'static> {
+    wgpu::SurfaceTarget::Canvas(element)
+}
+
+/// Outside a browser this crate is read by lints, and tested without a canvas.
+#[cfg(not(target_arch = "wasm32"))]
+fn target(_: HtmlCanvasElement) -> wgpu::SurfaceTarget<'static> {
+    unreachable!("only a browser has a canvas")
+}

@@ -1,0 +1,138 @@
+//! Files: those that a person drops on the page or picks, and those that the page saves.
+
+use std::path::Path;
+
+use js_sys::{Array, Uint8Array};
+use regatta::lab::Scene;
+use regatta::lab::pacing::trace_file;
+use regatta::view::{instrument_csv, instrument_svg};
+use wasm_bindgen::JsCast;
+use wasm_bindgen::prelude::{Closure, JsValue};
+use wasm_bindgen_futures::{JsFuture, spawn_local};
+use web_sys::{
+    Blob, BlobPropertyBag, File, HtmlAnchorElement, HtmlCanvasElement, HtmlInputElement, Url,
+};
+
+use crate::driver::{Driver, with};
+
+/// Asks for a file, and opens it.
+pub(crate) fn ask() {
+    let Some(input) = element::<HtmlInputElement>("input") else { return };
+    input.set_type("file");
+    input.set_accept(".toml,.csv,.txt");
+    let picked = input.clone();
+    let picked = Closure::once_into_js(move || {
+        picked.files().and_then(|files| files.get(0)).into_iter().for_each(open);
+    });
+    input.set_onchange(Some(picked.unchecked_ref()));
+    input.click();
+}
+
+/// Opens a file once it is read.
+pub(crate) fn open(file: File) {
+    spawn_local(async move {
+        if let Ok(read) = JsFuture::from(file.array_buffer()).await {
+            with(|driver| driver.open_bytes(&file.name(), &Uint8Array::new(&read).to_vec()));
+        }
+    });
+}
+
+/// Saves what the canvas shows, which has to be asked in the same turn as it is drawn.
+pub(crate) fn save_picture(canvas: &HtmlCanvasElement, name: String) {
+    let save = Closure::once_into_js(move |picture: Option<Blob>| {
+        let notice = match picture {
+            Some(picture) => {
+                save_blob(&picture, &name);
+                format!("saved {name}")
+            }
+            None => "no screenshot: the browser gave no picture".into(),
+        };
+        with(|driver| {
+            driver.studio.viewer_mut().set_notice(notice);
+            driver.request_frame();
+        });
+    });
+    _ = canvas.to_blob(save.unchecked_ref());
+}
+
+fn element<T: JsCast>(tag: &str) -> Option<T> {
+    web_sys::window()?.document()?.create_element(tag).ok()?.dyn_into().ok()
+}
+
+/// Saves a text where the browser keeps downloads.
+fn save_text(text: &str, kind: &str, name: &str) {
+    let options = BlobPropertyBag::new();
+    options.set_type(kind);
+    let parts = Array::of1(&JsValue::from_str(text));
+    if let Ok(blob) = Blob::new_with_str_sequence_and_options(&parts, &options) {
+        save_blob(&blob, name);
+    }
+}
+
+fn save_blob(blob: &Blob, name: &str) {
+    let address = Url::create_object_url_with_blob(blob);
+    if let (Ok(address), Some(link)) = (address, element::<HtmlAnchorElement>("a")) {
+        link.set_href(&address);
+        link.set_download(name);
+        link.click();
+        _ = Url::revoke_object_url(&address);
+    }
+}
+
+impl Driver {
+    /// Opens a scene, or the loop lab on a trace of frames. Of mistakes a dialog tells.
+    fn open_bytes(&mut self, name: &str, bytes: &[u8]) {
+        let path = Path::new(name);
+        let is = |known| path.extension().is_some_and(|end| end.eq_ignore_ascii_case(known));
+        if is("csv") || is("txt") {
+            match trace_file::from_bytes(name, bytes) {
+                Ok(traces) => self.studio.open_traces(traces),
+                Err(error) => {
+                    let report = vec![format!("error: {error}").into()];
+                    self.studio.show_mistakes(path, report);
+                }
+            }
+        } else {
+            match Scene::from_bytes(name, bytes) {
+                Ok(scene) => self.studio.open_file(path, scene),
+                Err(errors) => self.studio.show_mistakes(path, errors.into()),
+            }
+        }
+        self.has_opened = true;
+        self.request_frame();
+    }
+
+    /// Saves the run so far.
+    pub(crate) fn save_recording(&mut self) {
+        let notice = match self.studio.recording() {
+            Ok(text) => {
+                let name = self.studio.recording_file_name();
+                save_text(&text, "text/plain", &name);
+                self.studio.note_saved();
+                format!("Saved {name}. Check it with: regatta verify {name}")
+            }
+            Err(error) => format!("no recording: {error}"),
+        };
+        self.studio.viewer_mut().set_notice(notice);
+    }
+
+    /// Saves the plots of the instrument as a drawing and a table.
+    pub(crate) fn save_instrument(&mut self) {
+        let name = self.studio.instrument_file_name();
+        let csv = instrument_csv(&self.studio).map(|lines| lines.concat());
+        let files =
+            [("svg", "image/svg+xml", instrument_svg(&self.studio)), ("csv", "text/csv", csv)];
+        let mut saved = Vec::new();
+        for (ending, kind, text) in files {
+            if let Some(text) = text {
+                let name = format!("{name}.{ending}");
+                save_text(&text, kind, &name);
+                saved.push(name);
+            }
+        }
+        self.studio.viewer_mut().set_notice(match saved.is_empty() {
+            true => "nothing saved: this instrument has no plots".into(),
+            false => format!("saved {}", saved.join(", ")),
+        });
+    }
+}

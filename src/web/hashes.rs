@@ -1,0 +1,27 @@
+//! The hashes by which a test knows that a browser steps the same bits.
+
+use regatta::lab::scene::SceneBody;
+use regatta::lab::{LaneSpec, Scene, Session};
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// The lines of a built-in scene in `tests/early_hashes.txt`, stepped here: its name, a method, and the hash of its lane; then
+/// the same at tick 0. Nothing if there is no such scene.
+#[wasm_bindgen]
+pub fn early_hashes(scene: &str) -> Vec<String> {
+    let Some(scene) = Scene::built_in(scene) else { return Vec::new() };
+    let spec = |method| LaneSpec { method, ..scene.lanes[0] };
+    let scene = Scene { lanes: scene.fitting_methods().map(spec).collect(), ..scene.clone() };
+    // As `tests/determinism.rs` has it, for a twentieth of the way.
+    let coordinates = |body: &SceneBody| body.kind.coordinates(&body.values).len() as u64;
+    let ticks = 400_000 / scene.bodies.iter().map(coordinates).sum::<u64>().max(4) / 20;
+    let lines = |ticks| {
+        let mut session = Session::racing(scene.clone().into());
+        session.run(ticks);
+        let hashes = session.race().lane_hashes();
+        let line = |(lane, hash): (&LaneSpec, u64)| {
+            format!("{} {} {hash:016x}\n", scene.name, lane.method.id)
+        };
+        scene.lanes.iter().zip(hashes).map(line).collect::<String>()
+    };
+    [ticks, 0].map(lines).into()
+}

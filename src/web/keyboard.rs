@@ -1,0 +1,129 @@
+//! The keys of a page, for the program and for its panels.
+
+use regatta::lab::studio::Key;
+use regatta::view::{Meaning, Modifiers, bound_key, egui};
+use web_sys::KeyboardEvent;
+
+/// A key that was pressed or released.
+pub(crate) struct Press {
+    /// As the browser names it by the layout, and by its place.
+    key: String,
+    code: String,
+    held: Modifiers,
+    pub(crate) is_repeated: bool,
+}
+
+impl Press {
+    pub(crate) fn of(event: &KeyboardEvent, is_mac: bool) -> Self {
+        // AltGr makes another sign of a key; on Windows it is told as Control and Alt.
+        let is_alt_gr = event.get_modifier_state("AltGraph");
+        let (control, other) = match is_mac {
+            true => (event.meta_key(), event.ctrl_key()),
+            false => (event.ctrl_key(), event.meta_key()),
+        };
+        let held = Modifiers {
+            shift: event.shift_key(),
+            control: control && !is_alt_gr,
+            other: (other || event.alt_key()) && !is_alt_gr,
+        };
+        Self { key: event.key(), code: event.code(), held, is_repeated: event.repeat() }
+    }
+
+    /// The program's key, unless the browser has a use for it that a visitor expects of every page: to load it again, to
+    /// look behind it, to fill the screen, and to enlarge it.
+    pub(crate) fn bound(&self) -> Option<Key> {
+        let place = self.code.strip_prefix("Digit").or(self.code.strip_prefix("Numpad"));
+        let place = match self.code.as_str() {
+            "Comma" => Some(','),
+            "Period" => Some('.'),
+            _ => place.and_then(|digit| digit.chars().next().filter(char::is_ascii_digit)),
+        };
+        let meaning = named(&self.key).map_or(Meaning::Text(&self.key), Meaning::Named);
+        let key = bound_key(place, meaning, self.held)?;
+        let is_browsers = matches!(
+            key,
+            Key::Function(5 | 11 | 12) | Key::ControlSign('+' | '=' | '-' | '0' | '1'..='9')
+        );
+        (!is_browsers).then_some(key)
+    }
+
+    /// Whether it is a chord, which writes nothing.
+    pub(crate) fn is_chord(&self) -> bool {
+        self.held.control || self.held.other
+    }
+
+    pub(crate) fn is_tab(&self) -> bool {
+        self.key == "Tab"
+    }
+
+    /// The modifiers, for panels.
+    pub(crate) fn modifiers(&self) -> egui::Modifiers {
+        let Modifiers { shift, control, other } = self.held;
+        egui::Modifiers { alt: other, ctrl: control, shift, mac_cmd: false, command: control }
+    }
+
+    /// What panels are told of it.
+    pub(crate) fn events(&self, pressed: bool) -> Vec<egui::Event> {
+        let modifiers = self.modifiers();
+        let event = |key| {
+            let (physical_key, repeat) = (egui::Key::from_name(&self.code), self.is_repeated);
+            egui::Event::Key { key, physical_key, pressed, repeat, modifiers }
+        };
+        let is_text = pressed && !self.is_chord() && self.key.chars().count() == 1;
+        let text = is_text.then(|| egui::Event::Text(self.key.clone()));
+        egui::Key::from_name(&self.key).map(event).into_iter().chain(text).collect()
+    }
+}
+
+fn named(key: &str) -> Option<Key> {
+    Some(match key {
+        " " => Key::Space,
+        "ArrowUp" => Key::Up,
+        "ArrowDown" => Key::Down,
+        "ArrowLeft" => Key::Left,
+        "ArrowRight" => Key::Right,
+        "Home" => Key::Home,
+        "PageUp" => Key::PageUp,
+        "PageDown" => Key::PageDown,
+        "Enter" => Key::Enter,
+        "Escape" => Key::Escape,
+        "F1" => Key::Function(1),
+        "F2" => Key::Function(2),
+        "F3" => Key::Function(3),
+        "F5" => Key::Function(5),
+        "F11" => Key::Function(11),
+        "F12" => Key::Function(12),
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bound(key: &str, code: &str, control: bool) -> Option<Key> {
+        let held = Modifiers { control, ..Modifiers::default() };
+        Press { key: key.into(), code: code.into(), held, is_repeated: false }.bound()
+    }
+
+    #[test]
+    fn a_key_is_the_programs_unless_it_is_the_browsers() {
+        assert_eq!(bound("&", "Digit1", false), Some(Key::Digit(1)));
+        assert_eq!(bound("End", "Numpad1", false), Some(Key::Digit(1)));
+        assert_eq!(bound("c", "KeyC", false), Some(Key::Sign('c')));
+        assert_eq!(bound(" ", "Space", false), Some(Key::Space));
+        assert_eq!(bound("l", "KeyL", true), Some(Key::ControlSign('l')));
+        assert_eq!(bound("F3", "F3", false), Some(Key::Function(3)));
+        for (key, code, control) in [
+            ("F5", "F5", false),
+            ("F12", "F12", false),
+            ("+", "Equal", true),
+            ("0", "Digit0", true),
+        ] {
+            assert_eq!(bound(key, code, control), None, "{key}");
+        }
+        // Neither a letter nor a name that is known.
+        assert_eq!(bound("Shift", "ShiftLeft", false), None);
+        assert_eq!(bound("Dead", "Quote", false), None);
+    }
+}

@@ -1,0 +1,56 @@
+//! Regatta in a browser: drives a [`Studio`](regatta::lab::Studio) by the frames and events of a page, and draws it with the
+//! [`FrameRenderer`](regatta::view::FrameRenderer) on a canvas, as the window of the program does.
+//!
+//! The page is one thread. What takes longer than a frame is done in slices between frames; see [`work`].
+
+mod address;
+mod arrival;
+mod canvas;
+mod clipboard;
+mod driver;
+mod files;
+mod frame;
+mod hashes;
+mod keyboard;
+mod listening;
+mod pointer;
+mod work;
+
+use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
+
+pub use hashes::early_hashes;
+
+/// Shows the program on the canvas of the page, and returns when its first frame is drawn.
+///
+/// # Errors
+/// Why nothing can be drawn, in a sentence for the page.
+#[wasm_bindgen]
+pub async fn start() -> Result<(), JsValue> {
+    std::panic::set_hook(Box::new(|panic| web_sys::console::error_1(&panic.to_string().into())));
+    log::set_logger(&Console).map_err(|_| "the page has been started before")?;
+    log::set_max_level(log::LevelFilter::Warn);
+    driver::start().await.map_err(|reason| reason.into())
+}
+
+/// The tick of the run on the page.
+#[wasm_bindgen]
+pub fn tick() -> f64 {
+    let mut tick = 0;
+    driver::with(|driver| tick = driver.studio.race().tick());
+    tick as f64
+}
+
+/// What wgpu complains of is in the browser's console.
+struct Console;
+
+impl log::Log for Console {
+    fn enabled(&self, metadata: &log::Metadata<'_>) -> bool {
+        metadata.level() <= log::Level::Warn
+    }
+
+    fn log(&self, record: &log::Record<'_>) {
+        web_sys::console::warn_1(&record.args().to_string().into());
+    }
+
+    fn flush(&self) {}
+}

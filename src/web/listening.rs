@@ -1,0 +1,153 @@
+//! What happens on the page: keys, pointers, files, and the page itself coming and going.
+
+use regatta::lab::link;
+use regatta::view::{command_of, egui};
+use wasm_bindgen::JsCast;
+use wasm_bindgen::convert::FromWasmAbi;
+use wasm_bindgen::prelude::Closure;
+use web_sys::{
+    ClipboardEvent, DragEvent, Event, EventTarget, KeyboardEvent, PointerEvent, WheelEvent,
+};
+
+use crate::driver::{Driver, theme_of, with};
+use crate::files;
+use crate::keyboard::Press;
+use crate::pointer::{self, Deed};
+
+/// Has the driver told of an event whenever it happens.
+fn on<E>(target: &EventTarget, name: &str, told: impl Fn(&mut Driver, E) + 'static)
+where
+    E: FromWasmAbi + 'static,
+{
+    let told = Closure::<dyn Fn(E)>::new(move |event| with(|driver| told(driver, event)));
+    _ = target.add_event_listener_with_callback(name, told.as_ref().unchecked_ref());
+    // As long as the page.
+    told.forget();
+}
+
+/// Listens to the page.
+pub(crate) fn listen() {
+    with(|driver| {
+        let canvas = driver.canvas.element.clone();
+        let window = driver.window.clone();
+        on(&window, "keydown", Driver::key_down);
+        on(&window, "keyup", |driver, event| driver.key_up(&event));
+        on(&window, "blur", |driver, _: Event| driver.hold(egui::Modifiers::default()));
+        for (name, deed) in [
+            ("pointerdown", Deed::Down),
+            ("pointermove", Deed::Move),
+            ("pointerup", Deed::Up),
+            ("pointercancel", Deed::Cancel),
+            ("pointerleave", Deed::Cancel),
+        ] {
+            on(&canvas, name, move |driver, event| driver.pointer(&event, deed));
+        }
+        if let Some(play) = window.document().and_then(|page| page.get_element_by_id("play")) {
+            on(&play, "click", |driver, _: Event| driver.play());
+        }
+        on(&canvas, "contextmenu", |_, event: Event| event.prevent_default());
+        on(&canvas, "wheel", |driver: &mut Driver, event: WheelEvent| {
+            if let Some(turned) = pointer::wheel_event(&event, driver.held) {
+                event.prevent_default();
+                driver.tell_panels([turned]);
+            }
+        });
+        on(&canvas, "webglcontextlost", |driver, _: Event| driver.start_again());
+        on(&window, "copy", |driver, _: Event| driver.tell_panels([egui::Event::Copy]));
+        on(&window, "cut", |driver, _: Event| driver.tell_panels([egui::Event::Cut]));
+        on(&window, "paste", |driver, event| driver.paste(&event));
+        on(&window, "dragover", |_, event: Event| event.prevent_default());
+        on(&window, "drop", |_, event: DragEvent| {
+            event.prevent_default();
+            let dropped = event.data_transfer().and_then(|dropped| dropped.files());
+            dropped.and_then(|files| files.get(0)).into_iter().for_each(files::open);
+        });
+        on(&window, "resize", |driver, _: Event| driver.request_frame());
+        // Another run in the address of the same page.
+        on(&window, "hashchange", |driver, _: Event| _ = driver.window.location().reload());
+        if let Some(document) = window.document() {
+            // Nothing is simulated of the time in which nobody could see it.
+            on(&document, "visibilitychange", |driver, _: Event| {
+                driver.last_frame_ns = None;
+                driver.remember();
+                driver.request_frame();
+            });
+        }
+        if let Ok(Some(light)) = window.match_media("(prefers-color-scheme: light)") {
+            on(&light, "change", |driver, _: Event| {
+                let theme = theme_of(&driver.window);
+                driver.studio.viewer_mut().preferences.follow_theme(theme);
+                driver.request_frame();
+            });
+        }
+    });
+}
+
+impl Driver {
+    /// Hands events to the panels with the next frame.
+    fn tell_panels(&mut self, events: impl IntoIterator<Item = egui::Event>) {
+        self.input.events.extend(events);
+        self.request_frame();
+    }
+
+    /// Takes in which modifier keys are held.
+    fn hold(&mut self, held: egui::Modifiers) {
+        if std::mem::replace(&mut self.held, held) != held {
+            self.tell_panels([egui::Event::ModifiersChanged(held)]);
+        }
+    }
+
+    fn key_down(&mut self, event: KeyboardEvent) {
+        let press = Press::of(&event, self.is_mac());
+        self.hold(press.modifiers());
+        let panels = self.canvas.renderer.context();
+        if let Some(key) = press.bound()
+            && let Some(command) = command_of(key, press.is_repeated, panels)
+        {
+            event.prevent_default();
+            self.asked.extend(command);
+            return self.request_frame();
+        }
+        // A page that shows the stage only has nothing to go to with it, and the page around it has.
+        let moves_focus = press.is_tab() && !self.is_embedded;
+        let is_typed = panels.egui_wants_keyboard_input() && !press.is_chord();
+        if moves_focus || is_typed && !press.is_tab() {
+            event.prevent_default();
+        }
+        self.tell_panels(press.events(true));
+    }
+
+    fn key_up(&mut self, event: &KeyboardEvent) {
+        let press = Press::of(event, self.is_mac());
+        self.hold(press.modifiers());
+        self.tell_panels(press.events(false));
+    }
+
+    fn is_mac(&self) -> bool {
+        self.window.navigator().platform().is_ok_and(|platform| platform.starts_with("Mac"))
+    }
+
+    fn pointer(&mut self, event: &PointerEvent, deed: Deed) {
+        let canvas = &self.canvas.element;
+        if deed == Deed::Down {
+            event.prevent_default();
+            _ = canvas.focus();
+            _ = canvas.set_pointer_capture(event.pointer_id());
+        }
+        let zoom = self.canvas.renderer.context().zoom_factor();
+        let at = egui::pos2(event.offset_x() as f32, event.offset_y() as f32) / zoom;
+        let modifiers = self.held;
+        let events = pointer::events(&mut self.fingers, event, deed, at, modifiers);
+        self.tell_panels(events);
+    }
+
+    fn paste(&mut self, event: &ClipboardEvent) {
+        let pasted = event.clipboard_data().and_then(|data| data.get_data("text").ok());
+        let Some(text) = pasted else { return };
+        event.prevent_default();
+        if link::is_link(&text) && !self.canvas.renderer.context().text_edit_focused() {
+            return self.open_link(&text);
+        }
+        self.tell_panels([egui::Event::Paste(text)]);
+    }
+}

@@ -1,0 +1,137 @@
+//! Mouse, pen and fingers on the canvas, as panels are told of them.
+
+use regatta::view::egui;
+use web_sys::{PointerEvent, WheelEvent};
+
+/// The fingers that are down.
+#[derive(Debug, Default)]
+pub(crate) struct Fingers {
+    down: Vec<i32>,
+    /// Whether the first of them presses, as a mouse would. Where two are down they zoom.
+    is_pressing: bool,
+}
+
+/// What a pointer did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Deed {
+    Down,
+    Move,
+    Up,
+    Cancel,
+}
+
+/// A pointer's event at a place of the frame, in points.
+pub(crate) fn events(
+    fingers: &mut Fingers,
+    event: &PointerEvent,
+    deed: Deed,
+    pos: egui::Pos2,
+    modifiers: egui::Modifiers,
+) -> Vec<egui::Event> {
+    if event.pointer_type() == "touch" {
+        return fingers.events(event.pointer_id(), deed, pos);
+    }
+    let button = match event.button() {
+        1 => egui::PointerButton::Middle,
+        2 => egui::PointerButton::Secondary,
+        _ => egui::PointerButton::Primary,
+    };
+    let pressed = deed == Deed::Down;
+    match deed {
+        Deed::Down | Deed::Up => {
+            vec![egui::Event::PointerButton { pos, button, pressed, modifiers }]
+        }
+        Deed::Move => vec![egui::Event::PointerMoved(pos)],
+        Deed::Cancel => vec![egui::Event::PointerGone],
+    }
+}
+
+impl Fingers {
+    fn events(&mut self, finger: i32, deed: Deed, pos: egui::Pos2) -> Vec<egui::Event> {
+        let press = |pressed| egui::Event::PointerButton {
+            pos,
+            button: egui::PointerButton::Primary,
+            pressed,
+            modifiers: egui::Modifiers::default(),
+        };
+        let phase = match deed {
+            Deed::Down => egui::TouchPhase::Start,
+            Deed::Move => egui::TouchPhase::Move,
+            Deed::Up => egui::TouchPhase::End,
+            Deed::Cancel => egui::TouchPhase::Cancel,
+        };
+        let mut events = vec![egui::Event::Touch {
+            device_id: egui::TouchDeviceId(0),
+            id: egui::TouchId(finger as u64),
+            phase,
+            pos,
+            force: None,
+        }];
+        match deed {
+            Deed::Down => {
+                self.down.push(finger);
+                let is_first = self.down.len() == 1;
+                if is_first {
+                    events.extend([egui::Event::PointerMoved(pos), press(true)]);
+                } else if self.is_pressing {
+                    events.push(press(false));
+                }
+                self.is_pressing = is_first;
+            }
+            Deed::Move if self.is_pressing => events.push(egui::Event::PointerMoved(pos)),
+            Deed::Move => {}
+            Deed::Up | Deed::Cancel => {
+                self.down.retain(|down| *down != finger);
+                if std::mem::take(&mut self.is_pressing) {
+                    events.push(press(false));
+                }
+                if self.down.is_empty() {
+                    events.push(egui::Event::PointerGone);
+                }
+            }
+        }
+        events
+    }
+}
+
+/// What a turn of the wheel, or a pinch on a touchpad, asks for; `None` if it is the browser's.
+pub(crate) fn wheel_event(event: &WheelEvent, modifiers: egui::Modifiers) -> Option<egui::Event> {
+    let delta = -egui::vec2(event.delta_x() as f32, event.delta_y() as f32);
+    // Browsers tell of a pinch as of a wheel with Control. With the key itself held it is the page that is enlarged.
+    if event.ctrl_key() {
+        return (!modifiers.ctrl).then(|| egui::Event::Zoom((delta.y / 200.0).exp()));
+    }
+    let unit = match event.delta_mode() {
+        WheelEvent::DOM_DELTA_LINE => egui::MouseWheelUnit::Line,
+        WheelEvent::DOM_DELTA_PAGE => egui::MouseWheelUnit::Page,
+        _ => egui::MouseWheelUnit::Point,
+    };
+    let (phase, source) = (egui::TouchPhase::Move, egui::MouseWheelSource::Unknown);
+    Some(egui::Event::MouseWheel { unit, delta, phase, source, modifiers })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn presses(events: &[egui::Event]) -> Vec<bool> {
+        let pressed = |event: &egui::Event| match event {
+            egui::Event::PointerButton { pressed, .. } => Some(*pressed),
+            _ => None,
+        };
+        events.iter().filter_map(pressed).collect()
+    }
+
+    #[test]
+    fn one_finger_presses_and_two_only_zoom() {
+        let mut fingers = Fingers::default();
+        let mut did = |finger, deed| fingers.events(finger, deed, egui::pos2(1.0, 2.0));
+        assert_eq!(presses(&did(7, Deed::Down)), [true]);
+        assert_eq!(presses(&did(8, Deed::Down)), [false]);
+        assert_eq!(did(7, Deed::Move).len(), 1);
+        assert_eq!(did(7, Deed::Up).len(), 1);
+        assert!(did(8, Deed::Up).contains(&egui::Event::PointerGone));
+        assert_eq!(presses(&did(9, Deed::Down)), [true]);
+        assert_eq!(presses(&did(9, Deed::Up)), [false]);
+    }
+}

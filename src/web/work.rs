@@ -1,0 +1,76 @@
+//! Work beside the run, in slices between frames: a page has one thread.
+
+use std::sync::Arc;
+
+use regatta::lab::analysis::AnalysisWorker;
+use regatta::lab::cloud::CloudWorker;
+use regatta::lab::loop_lab::LoopWorker;
+use regatta::lab::studio::{Found, Studio, Work};
+
+/// A worker, and what it was asked for last.
+struct Asked<W: Work> {
+    worker: W,
+    request: W::Request,
+    has_more: bool,
+}
+
+impl<W: Work<Found = Found>> Asked<W> {
+    fn new(worker: W, request: W::Request) -> Self {
+        Self { worker, request, has_more: true }
+    }
+
+    fn ask(&mut self, request: W::Request) {
+        if !W::is_same(&request, &self.request) {
+            self.request = request.clone();
+            self.worker.set_request(request);
+            self.has_more = true;
+        }
+    }
+
+    /// Does one step, if there is one to do. Returns whether something was found.
+    fn step(&mut self, studio: &mut Studio) -> bool {
+        if !self.has_more {
+            return false;
+        }
+        // A loop that was stopped would begin again with the next slice.
+        let (found, has_more) = self.worker.work(&|| false);
+        self.has_more = has_more;
+        found.map(|found| studio.accept(found)).is_some()
+    }
+}
+
+/// What is worked on beside the run.
+pub(crate) struct Workers {
+    analysis: Asked<AnalysisWorker>,
+    loops: Asked<LoopWorker>,
+    clouds: Asked<CloudWorker>,
+}
+
+impl Workers {
+    pub(crate) fn new(studio: &Studio) -> Self {
+        let request = studio.analysis_request();
+        Self {
+            analysis: Asked::new(AnalysisWorker::new(request.clone()), request),
+            loops: Asked::new(LoopWorker::default(), None),
+            clouds: Asked::new(CloudWorker::default(), None),
+        }
+    }
+
+    /// Takes in what a studio wants now.
+    pub(crate) fn ask(&mut self, studio: &Studio) {
+        self.analysis.ask(studio.analysis_request());
+        self.loops.ask(studio.loop_request());
+        self.clouds.ask(studio.cloud_request().map(Arc::new));
+    }
+
+    /// Whether there is more to do.
+    pub(crate) fn have_more(&self) -> bool {
+        self.analysis.has_more || self.loops.has_more || self.clouds.has_more
+    }
+
+    /// Does one step of each. Returns whether something was found.
+    pub(crate) fn step(&mut self, studio: &mut Studio) -> bool {
+        let found = [self.clouds.step(studio), self.loops.step(studio), self.analysis.step(studio)];
+        found.contains(&true)
+    }
+}
