@@ -9,12 +9,12 @@ use crate::lab::race::{Journal, Race};
 pub(super) struct RunWithPast {
     pub(super) session: Session,
     pub(super) past: Past,
-    pub(super) reached: Reached,
+    pub(super) noted: Noted,
 }
 
 /// What was noted of a run as its ticks were made. All of it can be made again.
 #[derive(Default)]
-pub(super) struct Reached {
+pub(super) struct Noted {
     /// The last tick reached.
     pub(super) end: u64,
     /// By tick; of a whole run the first is the start.
@@ -27,8 +27,8 @@ pub(super) struct Reached {
 impl RunWithPast {
     pub(super) fn new(session: Session) -> Self {
         let past = Past::new(session.race(), session.scene().seconds);
-        let mut run = Self { session, past, reached: Reached::default() };
-        run.reached.snapshots.push(run.snapshot());
+        let mut run = Self { session, past, noted: Noted::default() };
+        run.noted.snapshots.push(run.snapshot());
         run
     }
 
@@ -41,7 +41,7 @@ impl RunWithPast {
     }
 }
 
-impl Reached {
+impl Noted {
     /// Splits off what the actions at `tick` decide.
     pub(super) fn split_off(&mut self, tick: u64) -> Self {
         let Self { end, snapshots, halts, hashes } = self;

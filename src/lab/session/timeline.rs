@@ -4,7 +4,7 @@
 use std::mem::{replace, swap};
 
 use super::hashes::{Hashes, note_hashes};
-use super::run_with_past::{Reached, RunWithPast, Snapshot};
+use super::run_with_past::{Noted, RunWithPast, Snapshot};
 use super::start::StartSettings;
 use super::undo::{Change, Future, Other, UndoStack};
 use super::{Event, EventKind, Session};
@@ -89,15 +89,15 @@ impl Timeline {
     }
     /// The last tick reached.
     pub fn end(&self) -> u64 {
-        self.run.reached.end
+        self.run.noted.end
     }
     /// Whether the present tick is before the last tick reached.
     pub fn is_in_past(&self) -> bool {
-        self.run.session.race.tick() < self.run.reached.end
+        self.run.session.race.tick() < self.run.noted.end
     }
     /// The memory that snapshots take, and the drawn pasts of the runs before a restart, in bytes.
     pub fn bytes(&self) -> usize {
-        let all = self.run.reached.snapshots.iter().chain(self.changes.snapshots());
+        let all = self.run.noted.snapshots.iter().chain(self.changes.snapshots());
         all.map(|snapshot| snapshot.bytes).sum::<usize>() + self.changes.past_bytes()
     }
     /// The memory that [`Timeline::bytes`] may be.
@@ -122,14 +122,14 @@ impl Timeline {
         let rows = self.run.session.journal().rows().iter();
         let is_solo = self.start().mode() == Mode::Solo;
         let mut solo = is_solo.then(|| self.start().entrants()[0].id);
-        let done = rows.take_while(|row| row.tick <= self.run.reached.end).map(|row| {
+        let done = rows.take_while(|row| row.tick <= self.run.noted.end).map(|row| {
             if let Action::Solo { lane } = row.action {
                 solo = Some(lane);
             }
             let (action, author) = (row.action.clone(), row.author);
             Event { tick: row.tick, kind: EventKind::Done { action, author, solo } }
         });
-        let mut events: Vec<Event> = done.chain(self.run.reached.halts.iter().cloned()).collect();
+        let mut events: Vec<Event> = done.chain(self.run.noted.halts.iter().cloned()).collect();
         events.sort_by_key(|event| event.tick);
         events
     }
@@ -153,10 +153,10 @@ impl Timeline {
     pub fn tick_seen<O: Observer>(&mut self, observer: &mut O) {
         self.run.session.tick_seen(&mut (&mut self.run.past, observer));
         let tick = self.run.session.race.tick();
-        if tick > self.run.reached.end {
-            self.run.reached.end = tick;
+        if tick > self.run.noted.end {
+            self.run.noted.end = tick;
             self.note_halts();
-            note_hashes(&mut self.run.reached.hashes, self.run.session.race());
+            note_hashes(&mut self.run.noted.hashes, self.run.session.race());
         }
         if tick.is_multiple_of(self.spacing) {
             self.take_snapshot();
@@ -166,7 +166,7 @@ impl Timeline {
     fn note_halts(&mut self) {
         let race = self.run.session.race();
         let halts = race.just_halted().filter(|(_, halt)| !halt.failure.is_foreseen());
-        self.run.reached.halts.extend(halts.map(|(entrant, halt)| {
+        self.run.noted.halts.extend(halts.map(|(entrant, halt)| {
             let lane = entrant.map(|entrant| entrant.id);
             let is_blow_up = halt.is_blow_up();
             Event { tick: halt.tick, kind: EventKind::Halted { lane, body: halt.body, is_blow_up } }
@@ -197,11 +197,11 @@ impl Timeline {
         self.run.past.forget_future();
         let added = self.run.session.race.done() - 1;
         let rows = journal.tail_beside(self.run.session.journal(), added);
-        let reached = self.run.reached.split_off(tick);
+        let noted = self.run.noted.split_off(tick);
         // A change that was made in the past has a future of its own to bring back.
         if was_past || !self.changes.has_future() {
             let what = format!("{} at tick {tick}", action.noun());
-            let other = Other::Future(Future { tick, rows, reached });
+            let other = Other::Future(Future { tick, rows, noted });
             self.changes.push(Change { what, next: self.next.clone(), other });
         }
         self.next.keep(&action, &self.run.session.race, self.run.past.menu());
@@ -277,9 +277,9 @@ impl Timeline {
         match &mut change.other {
             Other::Nothing => {}
             Other::Run(run) => swap(&mut self.run, run),
-            Other::Future(Future { tick, rows, reached }) => {
-                let left = self.run.reached.split_off(*tick);
-                self.run.reached.extend(replace(reached, left));
+            Other::Future(Future { tick, rows, noted }) => {
+                let left = self.run.noted.split_off(*tick);
+                self.run.noted.extend(replace(noted, left));
                 let mut journal = self.run.session.journal().clone();
                 journal.swap_tail(rows);
                 self.run.session.race.set_journal(journal);
@@ -293,7 +293,7 @@ impl Timeline {
 
     /// Goes to a tick, at most the last reached, in the state before the actions at that tick.
     pub fn seek(&mut self, tick: u64) {
-        let tick = tick.min(self.run.reached.end);
+        let tick = tick.min(self.run.noted.end);
         if tick != self.run.session.race.tick() {
             self.restore(tick);
         }
@@ -316,11 +316,11 @@ impl Timeline {
         let (tick, journal) = (self.run.session.race.tick(), self.run.session.journal().clone());
         let done = self.run.session.race.done();
         // The other snapshots are marks of a past that was recorded otherwise.
-        self.run.reached.snapshots.truncate(1);
+        self.run.noted.snapshots.truncate(1);
         self.changes.clear_futures();
-        self.run.session.race = self.run.reached.snapshots[0].race.clone();
+        self.run.session.race = self.run.noted.snapshots[0].race.clone();
         self.begin_past(coordinates.to_vec());
-        self.run.reached.snapshots[0].mark = self.run.past.mark();
+        self.run.noted.snapshots[0].mark = self.run.past.mark();
         self.run.session.race.set_journal(journal);
         self.repeat_to(tick);
         if self.run.session.race.done() < done {
@@ -337,12 +337,12 @@ impl Timeline {
 
     /// The hashes that were noted as ticks were first made, by tick.
     pub(super) fn hashes(&self) -> &[Hashes] {
-        &self.run.reached.hashes
+        &self.run.noted.hashes
     }
 
     /// The race at the last tick reached, before the actions at it.
     pub(super) fn race_at_end(&self) -> Race {
-        let RunWithPast { session, reached: Reached { snapshots, end, .. }, .. } = &self.run;
+        let RunWithPast { session, noted: Noted { snapshots, end, .. }, .. } = &self.run;
         let before = session.journal().rows().partition_point(|row| row.tick < *end);
         if session.race.tick() == *end && session.race.done() == before {
             return session.race.clone();
@@ -356,15 +356,15 @@ impl Timeline {
 
     /// Goes to `tick` from a snapshot.
     fn restore(&mut self, tick: u64) {
-        let nearest = self.run.reached.snapshots.partition_point(|s| s.race.tick() <= tick) - 1;
+        let nearest = self.run.noted.snapshots.partition_point(|s| s.race.tick() <= tick) - 1;
         let present = self.run.session.race.tick();
-        let is_ahead = (self.run.reached.snapshots[nearest].race.tick()..tick).contains(&present);
+        let is_ahead = (self.run.noted.snapshots[nearest].race.tick()..tick).contains(&present);
         if !is_ahead {
             // Starts so far back that the drawn past is complete again.
-            let wanted = &self.run.reached.snapshots[nearest].mark;
+            let wanted = &self.run.noted.snapshots[nearest].mark;
             let fills = |snapshot: &Snapshot| self.run.past.fills(&snapshot.mark, wanted);
             let from =
-                self.run.reached.snapshots[..=nearest].iter().rfind(|snapshot| fills(snapshot));
+                self.run.noted.snapshots[..=nearest].iter().rfind(|snapshot| fills(snapshot));
             let journal = self.run.session.journal().clone();
             match from {
                 Some(Snapshot { race, mark, .. }) => {
@@ -372,7 +372,7 @@ impl Timeline {
                     self.run.past.rewind(mark, &self.run.session.race);
                 }
                 None => {
-                    self.run.session.race = self.run.reached.snapshots[0].race.clone();
+                    self.run.session.race = self.run.noted.snapshots[0].race.clone();
                     self.begin_past(self.run.past.coordinates().collect());
                 }
             }
@@ -395,17 +395,12 @@ impl Timeline {
     fn take_snapshot(&mut self) {
         let tick = self.run.session.race.tick();
         let index =
-            self.run.reached.snapshots.partition_point(|snapshot| snapshot.race.tick() < tick);
-        if self
-            .run
-            .reached
-            .snapshots
-            .get(index)
-            .is_some_and(|snapshot| snapshot.race.tick() == tick)
+            self.run.noted.snapshots.partition_point(|snapshot| snapshot.race.tick() < tick);
+        if self.run.noted.snapshots.get(index).is_some_and(|snapshot| snapshot.race.tick() == tick)
         {
             return;
         }
-        self.run.reached.snapshots.insert(index, self.run.snapshot());
+        self.run.noted.snapshots.insert(index, self.run.snapshot());
         self.fit();
     }
 
@@ -413,11 +408,11 @@ impl Timeline {
     fn fit(&mut self) {
         while self.bytes() > self.limit {
             if self.changes.past_bytes() <= self.limit / 2
-                && self.spacing <= self.run.reached.end.max(self.changes.end())
+                && self.spacing <= self.run.noted.end.max(self.changes.end())
             {
                 self.spacing *= 2;
                 let stays = |snapshot: &Snapshot| snapshot.race.tick().is_multiple_of(self.spacing);
-                self.run.reached.snapshots.retain(stays);
+                self.run.noted.snapshots.retain(stays);
                 self.changes.retain(stays);
             } else if !self.changes.drop_last() {
                 return;

@@ -1,6 +1,6 @@
 //! The changes of a person that can be undone, and those that can be done again: one stack for all of them.
 
-use super::run_with_past::{Reached, RunWithPast, Snapshot};
+use super::run_with_past::{Noted, RunWithPast, Snapshot};
 use super::start::StartSettings;
 use crate::lab::race::JournalTail;
 
@@ -33,15 +33,15 @@ pub(super) struct Future {
     pub(super) tick: u64,
     /// Its rows of the journal: not the whole, which grows for as long as a run is steered.
     pub(super) rows: JournalTail,
-    pub(super) reached: Reached,
+    pub(super) noted: Noted,
 }
 
 impl Other {
-    fn reached(&self) -> Option<&Reached> {
+    fn noted(&self) -> Option<&Noted> {
         match self {
             Other::Nothing => None,
-            Other::Future(future) => Some(&future.reached),
-            Other::Run(run) => Some(&run.reached),
+            Other::Future(future) => Some(&future.noted),
+            Other::Run(run) => Some(&run.noted),
         }
     }
 }
@@ -89,14 +89,14 @@ impl UndoStack {
         self.done.iter().chain(&self.undone)
     }
 
-    /// All that was replaced.
-    fn reached(&self) -> impl Iterator<Item = &Reached> {
-        self.changes().filter_map(|change| change.other.reached())
+    /// What was noted of all that was replaced.
+    fn noted(&self) -> impl Iterator<Item = &Noted> {
+        self.changes().filter_map(|change| change.other.noted())
     }
 
     /// The snapshots of all that was replaced.
     pub(super) fn snapshots(&self) -> impl Iterator<Item = &Snapshot> {
-        self.reached().flat_map(|reached| &reached.snapshots)
+        self.noted().flat_map(|noted| &noted.snapshots)
     }
 
     /// The memory of the drawn pasts of the runs that are kept, in bytes.
@@ -110,7 +110,7 @@ impl UndoStack {
 
     /// The last tick of all that was replaced.
     pub(super) fn end(&self) -> u64 {
-        self.reached().map(|reached| reached.end).max().unwrap_or(0)
+        self.noted().map(|noted| noted.end).max().unwrap_or(0)
     }
 
     /// Drops the snapshots that do not stay.
@@ -118,8 +118,8 @@ impl UndoStack {
         for change in self.done.iter_mut().chain(&mut self.undone) {
             match &mut change.other {
                 Other::Nothing => {}
-                Other::Future(future) => future.reached.snapshots.retain(&stays),
-                Other::Run(run) => run.reached.snapshots.retain(&stays),
+                Other::Future(future) => future.noted.snapshots.retain(&stays),
+                Other::Run(run) => run.noted.snapshots.retain(&stays),
             }
         }
     }
@@ -128,7 +128,7 @@ impl UndoStack {
     pub(super) fn clear_futures(&mut self) {
         for change in self.done.iter_mut().chain(&mut self.undone) {
             if let Other::Future(future) = &mut change.other {
-                future.reached.snapshots.clear();
+                future.noted.snapshots.clear();
             }
         }
     }
