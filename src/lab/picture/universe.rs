@@ -294,7 +294,6 @@ mod tests {
     fn every_landmark_is_a_silhouette_and_they_stand_from_small_to_large() {
         assert!(LANDMARKS.is_sorted_by_key(|landmark| landmark.length_m));
         for landmark in &LANDMARKS {
-            let pen = &mut picture.pen(clip);
             for (kind, numbers) in landmark.parts() {
                 let is_right = match kind {
                     "disc" | "ring" => numbers.len() == 3,
