@@ -45,7 +45,7 @@ impl Family {
 
     /// Its id.
     pub fn id(self) -> &'static str {
-        id_in(&Self::ALL, self)
+        super::id_in(&Self::ALL, self)
     }
 
     /// The card that a method of the family starts from. It has no name, source, order and evaluations yet.
@@ -61,11 +61,6 @@ impl Family {
             Family::Engine => ENGINE,
         }
     }
-}
-
-/// The id of a value in the table of all.
-pub(super) fn id_in<T: PartialEq>(all: &[(&'static str, T)], value: T) -> &'static str {
-    all.iter().find(|(_, listed)| *listed == value).expect("the table has every value").0
 }
 
 /// The bodies that a method is for, if it does not step every body.

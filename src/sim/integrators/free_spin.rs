@@ -5,8 +5,6 @@
 //! the maps is exact. The cards name them, and the tests compute them: each is held against logs of engines
 //! (`tests/library/engines/tumble.rs`), except [`SpinMap::Constant`].
 
-use super::card::id_in;
-
 /// One step of the angular velocity of a body without torque. `'` marks values at the end of the step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpinMap {
@@ -37,7 +35,7 @@ impl SpinMap {
 
     /// Its kebab-case name.
     pub fn id(self) -> &'static str {
-        id_in(&Self::ALL, self)
+        super::id_in(&Self::ALL, self)
     }
 }
 

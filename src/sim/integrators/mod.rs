@@ -305,6 +305,11 @@ const GENERAL_COUNT: usize = {
 /// The methods that step every body: those of [`METHODS`] that come before any that is for [`Only`] some.
 pub static GENERAL_METHODS: &[Method] = METHODS.split_at(GENERAL_COUNT).0;
 
+/// The id of a value in the table of all.
+fn id_in<T: PartialEq>(all: &[(&'static str, T)], value: T) -> &'static str {
+    all.iter().find(|(_, listed)| *listed == value).expect("the table has every value").0
+}
+
 /// The method with this id.
 pub fn method(id: &str) -> Option<&'static Method> {
     METHODS.iter().find(|method| method.id == id)
