@@ -41,6 +41,8 @@ pub(crate) struct Driver {
     goal: Option<u64>,
     /// Whether it stands on another's page.
     pub(crate) is_embedded: bool,
+    /// Whether what is shown is remembered: what an address has chosen is nobody's choice.
+    remembers: bool,
     /// Commands that the next frame applies before it simulates.
     pub(crate) asked: Vec<Command>,
     /// What panels are told with the next frame.
@@ -134,6 +136,9 @@ impl Driver {
             arrival: None,
             goal: address.tick,
             is_embedded: address.is_embedded,
+            remembers: !address.is_embedded
+                && address.theme.is_none()
+                && address.instrument.is_none(),
             asked: Vec::new(),
             input: egui::RawInput { focused: true, ..egui::RawInput::default() },
             held: egui::Modifiers::default(),
@@ -277,9 +282,9 @@ impl Driver {
         });
     }
 
-    /// Has the browser remember how the program is shown, unless it is on another's page.
+    /// Has the browser remember how the program is shown.
     pub(crate) fn remember(&self) {
-        if let Some(storage) = storage(&self.window).filter(|_| !self.is_embedded) {
+        if let Some(storage) = storage(&self.window).filter(|_| self.remembers) {
             _ = storage.set_item(STORED, &SavedPreferences::of(&self.studio).to_text());
         }
     }
