@@ -192,7 +192,6 @@ fn fonts() -> FontDefinitions {
     FontDefinitions {
         font_data: font_data.map(|(name, data)| (name.into(), data.into())).into(),
         families: families.map(|(family, first)| (family, with_others(first))).into(),
-        ..FontDefinitions::empty()
     }
 }
 
