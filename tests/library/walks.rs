@@ -85,7 +85,9 @@ fn repeats(studio: &mut Studio) -> Result<(), String> {
     if scene.to_toml() != studio.timeline().recording().to_toml() {
         return Err("its text is another when it was read".into());
     }
-    [0, u64::MAX].map(|tick| studio.apply(RunCommand::Seek(tick)));
+    for tick in [0, u64::MAX] {
+        studio.apply(RunCommand::Seek(tick));
+    }
     let race = studio.race();
     let lanes: Vec<u64> = race.lane_hashes().collect();
     let mut again = Session::racing(scene.clone().into());
