@@ -2,8 +2,8 @@
 
 use super::coil::{Span, coil, silhouette, strut};
 use super::hull::{self, ShipPose};
-use super::mass::{self, LaneStyle};
-use super::sketch::{Camera, SOLID};
+use super::mass;
+use super::sketch::{Camera, LaneStyle, SOLID};
 use super::{Align, Label, Mark, Outline, Picture};
 use crate::lab::palette::{Palette, Rgba, faded, is_bright, mixed};
 use crate::lab::scene::Thread;

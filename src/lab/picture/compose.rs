@@ -8,9 +8,8 @@ use super::framed::{BodyView, on_one_stage, quay_width};
 use super::ghost::Ghost;
 use super::layout::{bands, grid, mosaic};
 use super::loupe::LoupeLane;
-use super::mass::LaneStyle;
 use super::moment::DrawContext;
-use super::sketch::Camera;
+use super::sketch::{Camera, LaneStyle};
 use super::{
     Cell, Framing, Look, Mark, Outline, Picture, Rect, Rgba, Whose, apex, breakpoints, captions,
     chart, futures, loop_stage, loupe, universe,

@@ -4,8 +4,7 @@
 use glam::DVec2;
 
 use super::body::OutlineView;
-use super::mass::LaneStyle;
-use super::sketch::{Camera, SOLID};
+use super::sketch::{Camera, LaneStyle, SOLID};
 use super::{Align, Framing, Label, Look, Outline, Picture, Rect, Rgba, breakpoints, chart};
 use crate::lab::Studio;
 use crate::lab::analysis::Severity;

@@ -1,18 +1,8 @@
-//! A block with an edge and a weight, a bead, and how the lanes behind are drawn: hollow, in dashes.
+//! A block with an edge and a weight, a slab, a ball and a planet.
 
 use super::Rgba;
 use super::sketch::{Pen, circle, rounded};
 use crate::lab::palette::{BLACK, WHITE, faded, mixed};
-
-/// How a lane looks.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct LaneStyle {
-    pub(super) colour: Rgba,
-    /// Drawn length and gap in points; a gap of 0 is solid.
-    pub(super) dash: [f32; 2],
-    /// How much of its colour fills it, where it is behind.
-    pub(super) fill: f32,
-}
 
 /// A planet: its air, its water by day and by night, its land.
 const AIR: Rgba = [150, 200, 240, 255];

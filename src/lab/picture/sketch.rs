@@ -4,7 +4,6 @@ use std::sync::LazyLock;
 
 use glam::DVec2;
 
-use super::mass::LaneStyle;
 use super::{FAR, Fill, Path, PathPoint, Picture, Rect, Rgba, Shape};
 use crate::lab::palette::{Palette, faded};
 use crate::lab::studio::ZoomPan;
@@ -116,6 +115,16 @@ pub(super) fn demote(x: f64) -> f32 {
 
 /// The dash pattern of an unbroken line.
 pub(super) const SOLID: [f32; 2] = [1.0, 0.0];
+
+/// How a lane looks.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LaneStyle {
+    pub(super) colour: Rgba,
+    /// Drawn length and gap in points; a gap of 0 is solid.
+    pub(super) dash: [f32; 2],
+    /// How much of its colour fills it, where it is behind.
+    pub(super) fill: f32,
+}
 
 /// Draws shapes over those of a picture, and nothing outside a rectangle. Widths and radii are in points.
 pub(super) struct Pen<'a> {
