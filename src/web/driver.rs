@@ -37,8 +37,8 @@ pub(crate) struct Driver {
     pub(crate) workers: Workers,
     /// The run of a link, until it is known whether it is here what it was.
     pub(crate) arrival: Option<Replay>,
-    /// A tick to go to before time runs.
-    goal: Option<u64>,
+    /// A tick to go to before time runs, and whether it runs from there.
+    goal: Option<(u64, bool)>,
     /// Whether it stands on another's page.
     pub(crate) is_embedded: bool,
     /// Whether what is shown is remembered: what an address has chosen is nobody's choice.
@@ -134,7 +134,7 @@ impl Driver {
             workers,
             studio,
             arrival: None,
-            goal: address.tick,
+            goal: address.tick.map(|tick| (tick, address.plays)),
             is_embedded: address.is_embedded,
             remembers: !address.is_embedded
                 && address.theme.is_none()
@@ -161,7 +161,7 @@ impl Driver {
         if !runs && driver.goal.is_none() {
             driver.studio.apply(ViewCommand::TogglePause);
         }
-        if let Some(goal) = &mut driver.goal {
+        if let Some((goal, _)) = &mut driver.goal {
             // Beyond its end a run has nothing to show that an address could mean.
             *goal = (*goal).min(regatta::lab::trace::last_tick(driver.studio.scene()));
         }
@@ -224,7 +224,7 @@ impl Driver {
 
     /// Goes on to the tick that the address asks for, for a frame's time. Returns whether it is still on its way.
     fn go_to_goal(&mut self, now_ns: u64) -> bool {
-        let Some(goal) = self.goal else { return false };
+        let Some((goal, plays)) = self.goal else { return false };
         while self.studio.race().tick() < goal {
             if self.now_ns().saturating_sub(now_ns) > MAX_SIMULATION_NS {
                 return true;
@@ -233,7 +233,6 @@ impl Driver {
         }
         self.goal = None;
         self.last_frame_ns = None;
-        let plays = Address::of(&self.window.location().hash().unwrap_or_default()).plays;
         if self.studio.running() != plays {
             self.studio.apply(ViewCommand::TogglePause);
         }

@@ -9,6 +9,10 @@ use regatta::lab::{Action, SCENES, Scene, Session};
 use crate::dice::Dice;
 
 const STEPS: usize = 300;
+/// The run is held against its recording each time that so many more are done.
+const HELD: usize = 50;
+/// One new run in this many is begun: each forgets what went before.
+const BEGUN: usize = 8;
 /// Those that are stepped in no time.
 const LIGHT: [&str; 7] = ["harbour", "spring", "ship", "helm", "stiff", "orbit", "follow"];
 
@@ -41,7 +45,9 @@ fn action(dice: &mut Dice, studio: &Studio) -> Action {
 
 /// One thing that a person does, by its name.
 fn step(dice: &mut Dice, studio: &mut Studio) -> String {
-    let command: Command = match dice.below(40) {
+    let chosen = dice.below(40);
+    let begins = [33, 34].contains(&chosen) || chosen > 36;
+    let command: Command = match if begins && dice.below(BEGUN) > 0 { 0 } else { chosen } {
         0..12 => {
             let ticks = dice.below(40);
             (0..ticks).for_each(|_| studio.tick());
@@ -110,14 +116,17 @@ fn after_whatever_walk_a_run_is_what_its_recording_repeats_to_the_bit() {
     for walk in 0..walks() {
         let scene = LIGHT[walk % LIGHT.len()];
         let mut studio = Studio::new(Scene::built_in(scene).expect("a built-in scene"));
-        let steps: Vec<String> = (0..STEPS).map(|_| step(&mut dice, &mut studio)).collect();
-        // So that it has an end to which it can be sought, before what is done there.
-        studio.apply(RunCommand::Seek(u64::MAX));
-        studio.tick();
-        ticks += studio.timeline().end();
-        if let Err(why) = repeats(&mut studio) {
-            panic!("walk {walk}: {why}:\n{}", steps.join("\n"));
+        let mut steps = Vec::new();
+        for _ in 0..STEPS / HELD {
+            steps.extend((0..HELD).map(|_| step(&mut dice, &mut studio)));
+            // So that it has an end to which it can be sought, before what is done there.
+            studio.apply(RunCommand::Seek(u64::MAX));
+            studio.tick();
+            if let Err(why) = repeats(&mut studio) {
+                panic!("walk {walk}: {why}:\n{}", steps.join("\n"));
+            }
         }
+        ticks += studio.timeline().end();
     }
     assert!(ticks > 20 * walks() as u64, "{ticks} ticks at the ends of all walks");
 }

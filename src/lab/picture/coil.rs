@@ -96,8 +96,6 @@ pub(super) fn silhouette(pen: &mut Pen<'_>, span: Span, palette: &Palette) {
     let half = span.size / 2.0 + 1.5;
     let [x, y] = span.block;
     let block = rounded([x - half, y - half], [x + half, y + half], 0.15 * span.size);
-    let dark = faded(palette.sea[1], 0.6);
-    let exact = faded(palette.exact, 0.95);
     let veil = faded(palette.exact, 0.12);
     pen.fill(&block, veil);
     let mut round = block;
@@ -120,6 +118,5 @@ pub(super) fn silhouette(pen: &mut Pen<'_>, span: Span, palette: &Palette) {
         round.extend(lower);
         round.extend(upper);
     }
-    pen.ring(&round, 4.0, dark);
-    pen.ring(&round, 1.8, exact);
+    pen.ghost_rim(&round, palette);
 }

@@ -1,4 +1,4 @@
-//! From metres to points: the camera of one cell, and the marks of a body as lines and fills.
+//! From metres to points: the camera of one cell, and the pen that draws lines and fills in it.
 
 use std::sync::LazyLock;
 
@@ -224,6 +224,11 @@ impl Pen<'_> {
     /// The outline of a body of the exact solution.
     pub(super) fn ghost(&mut self, outline: &[[f32; 2]], palette: &Palette) {
         self.fill(outline, faded(palette.exact, 0.12));
+        self.ghost_rim(outline, palette);
+    }
+
+    /// The line round a body of the exact solution.
+    pub(super) fn ghost_rim(&mut self, outline: &[[f32; 2]], palette: &Palette) {
         self.ring(outline, 4.0, faded(palette.sea[1], 0.6));
         self.ring(outline, 1.8, faded(palette.exact, 0.95));
     }

@@ -91,21 +91,26 @@ impl DrawContext<'_> {
         width: f32,
     ) {
         let radius = width / 2.0;
-        let point = |place: &Place| match framing {
-            Framing::Follow { .. } => None,
+        let pen = &mut picture.pen(camera.rect);
+        match framing {
+            Framing::Follow { .. } => {}
             Framing::Recorder { .. } => {
-                let colour = faded(place.colour, self.fade(place.age, self.paper_s));
-                Some(PathPoint { at: self.on_paper(camera, place), radius, colour })
+                let point = |place: &Place| PathPoint {
+                    at: self.on_paper(camera, place),
+                    radius,
+                    colour: faded(place.colour, self.fade(place.age, self.paper_s)),
+                };
+                pen.course(places.iter().map(point), SOLID);
             }
             Framing::Fixed { trail_s, .. } => {
-                // Opaque, since where a trail crosses itself one piece covers the other.
-                let part = self.fade(place.age, trail_s) * f32::from(place.colour[3]) / 255.0;
-                let colour = mixed(self.palette.sea[1], place.colour, part);
-                Some(PathPoint { at: camera.points(place.at), radius, colour })
+                let point = |place: &Place| {
+                    // Opaque, since where a trail crosses itself one piece covers the other.
+                    let part = self.fade(place.age, trail_s) * f32::from(place.colour[3]) / 255.0;
+                    let colour = mixed(self.palette.sea[1], place.colour, part);
+                    PathPoint { at: camera.points(place.at), radius, colour }
+                };
+                pen.course(places.iter().map(point), SOLID);
             }
-        };
-        if !matches!(framing, Framing::Follow { .. }) {
-            picture.pen(camera.rect).course(places.iter().filter_map(point), SOLID);
         }
     }
 

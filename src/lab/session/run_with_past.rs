@@ -12,7 +12,7 @@ pub(super) struct RunWithPast {
     pub(super) noted: Noted,
 }
 
-/// What was noted of a run as its ticks were made. All of it can be made again.
+/// How far a run has come, and what was noted on its way, which can be made again.
 #[derive(Default)]
 pub(super) struct Noted {
     /// The last tick reached.
