@@ -227,9 +227,10 @@ impl AnalysisWorker {
         if !is_at_same_rate {
             self.advising = None;
         }
-        if !is_at_same_rate || request.entries != self.request.entries {
-            self.judged = 0;
-        }
+        let pairs = request.entries.iter().zip(&self.request.entries);
+        let unchanged = pairs.take_while(|(new, old)| new == old).count();
+        self.judged = if is_at_same_rate { self.judged.min(unchanged) } else { 0 };
+        self.verdicts.resize(request.entries.len(), None);
         if let Some(bodies) = request.advice {
             self.advising.take_if(|advising| advising.bodies != bodies);
         }

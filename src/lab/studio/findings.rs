@@ -10,17 +10,19 @@ use crate::lab::scene::SceneBody;
 use crate::sim::bodies::{Acts, Parameter, Range};
 
 impl Studio {
-    /// The verdicts and the advice that the studio wants at present, for a [`AnalysisWorker`]: a verdict on each method of the
-    /// list at the present tick rate, and advice while it is shown.
+    /// The verdicts and the advice that the studio wants at present, for a [`AnalysisWorker`]: a verdict at the present tick
+    /// rate on each method up to the last that is [offered](Self::offered) or flies, and advice while it is shown.
     ///
     /// They are of the scene from its start, with what a person has set since and the parameters that the script has set
     /// by the present tick. If a person has placed or kicked a body, they are of the run from there: from the true state
     /// right after it.
     pub fn analysis_request(&self) -> AnalysisRequest {
+        let flown = self.race().entrants().iter().map(|lane| self.entry(lane) + 1);
+        let judged = flown.max().unwrap_or_default().max(self.offered());
         AnalysisRequest {
             scene: Arc::clone(&self.timeline.next().scene),
             by_hand: Interventions::in_race(self.race()),
-            entries: self.entries().to_vec(),
+            entries: self.entries()[..judged].to_vec(),
             tick_hz: self.clock.tick_hz(),
             advice: (self.display().instrument == Instrument::Advice)
                 .then(|| self.advised_bodies()),
@@ -148,6 +150,22 @@ impl Studio {
 mod tests {
     use crate::lab::Scene;
     use crate::lab::studio::{StageCommand, Studio};
+
+    #[test]
+    fn the_methods_that_a_person_meets_are_judged_and_no_others() {
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        let wanted = |studio: &Studio| studio.analysis_request().entries.len();
+        let (few, all) = (studio.scene().lanes.len(), studio.entries().len());
+        assert_eq!(wanted(&studio), few);
+        studio.apply(StageCommand::Pick(few + 2));
+        assert_eq!(wanted(&studio), few + 3);
+        studio.apply(StageCommand::ToggleRace);
+        assert_eq!(wanted(&studio), few + 3);
+        let every = Scene { lanes: studio.entries().to_vec(), ..studio.scene().clone() };
+        let mut studio = Studio::new(every);
+        studio.apply(StageCommand::ToggleRace);
+        assert_eq!(wanted(&studio), all);
+    }
 
     #[test]
     fn of_a_race_the_best_lane_is_selected_unless_somebody_has_selected_one() {
