@@ -32,6 +32,7 @@ pub use compose::compose;
 pub use grasp::{Cell, Grasp, Grip, Whose};
 
 pub use super::palette::{self, Rgba};
+use super::palette::{Palette, faded};
 
 /// The largest coordinate in a picture, in points: far outside any stage, and exact in an f32.
 pub const FAR: f32 = 1e5;
@@ -168,4 +169,21 @@ pub struct Label {
     pub halo: Rgba,
     /// What it says.
     pub text: String,
+}
+
+impl Label {
+    /// Text of a usual weight without a halo.
+    fn new(at: [f32; 2], align: Align, size: f32, colour: Rgba, text: String) -> Self {
+        Self { at, align, size, colour, is_strong: false, halo: [0; 4], text }
+    }
+
+    /// The same, semibold.
+    fn strong(self) -> Self {
+        Self { is_strong: true, ..self }
+    }
+
+    /// The same, kept apart from what lies on the water under it.
+    fn on_water(self, palette: &Palette) -> Self {
+        Self { halo: faded(palette.sea[1], 0.85), ..self }
+    }
 }

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::moment::DrawContext;
 use super::sketch::Camera;
-use super::{Align, Label, Picture, captions};
+use super::{Align, Picture, captions};
 use crate::lab::past::SweptRange;
 use crate::lab::race::Entrant;
 use crate::sim::number::significant;
@@ -63,7 +63,7 @@ pub(super) fn draw(
     let whole = format!("{} m high, {differs}", significant(lane_m, 4));
     let Some(words) = [whole, differs].into_iter().find(fits) else { return };
     let label = captions::text(moment.palette, at, Align::Right, 13.0, moment.palette.text, words);
-    picture.labels.push(Label { is_strong: true, ..label });
+    picture.labels.push(label.strong());
 }
 
 #[cfg(test)]

@@ -77,15 +77,10 @@ impl OutlineView<'_> {
         let (Some(size), None) = (sizes.next().filter(|size| *size >= 9.0), sizes.next()) else {
             return;
         };
-        picture.labels.push(Label {
-            at: self.camera.points(self.outline.at),
-            align: Align::Centre,
-            size: size.min(26.0),
-            colour: if is_bright(on) { [16, 24, 32, 255] } else { [255; 4] },
-            is_strong: true,
-            halo: [0; 4],
-            text: number.to_string(),
-        });
+        let at = self.camera.points(self.outline.at);
+        let colour = if is_bright(on) { [16, 24, 32, 255] } else { [255; 4] };
+        let label = Label::new(at, Align::Centre, size.min(26.0), colour, number.to_string());
+        picture.labels.push(label.strong());
     }
 
     /// What carries the body: springs, rods, and what does not move, with names. It is drawn below the exact solution.
@@ -134,15 +129,9 @@ impl OutlineView<'_> {
     fn names(&self, picture: &mut Picture) {
         for (at, text) in &self.outline.names {
             let [x, y] = self.camera.points(*at);
-            picture.labels.push(Label {
-                at: [x - 6.0, y],
-                align: Align::Right,
-                size: 13.0,
-                colour: self.palette.text,
-                is_strong: true,
-                halo: faded(self.palette.sea[1], 0.85),
-                text: text.clone(),
-            });
+            let (at, colour) = ([x - 6.0, y], self.palette.text);
+            let label = Label::new(at, Align::Right, 13.0, colour, text.clone());
+            picture.labels.push(label.strong().on_water(self.palette));
         }
     }
 

@@ -39,7 +39,7 @@ pub(super) fn text(
     colour: Rgba,
     text: String,
 ) -> Label {
-    Label { at, align, size, colour, is_strong: false, halo: faded(palette.sea[1], 0.85), text }
+    Label::new(at, align, size, colour, text).on_water(palette)
 }
 
 fn lane_name(studio: &Studio, entrant: &Entrant) -> String {
@@ -149,7 +149,7 @@ pub(super) fn name(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, 
         let name = capitalised(&moment.studio.scene().bodies[index].name);
         let size = if inset(rect) > 0.0 { 14.0 } else { 11.5 };
         let label = text(moment.palette, at, Align::Left, size, moment.palette.text, name);
-        picture.labels.push(Label { is_strong: true, ..label });
+        picture.labels.push(label.strong());
     }
 }
 
@@ -244,7 +244,7 @@ pub(super) fn speed(
     };
     let is_within = camera.rect.contains([left, y]) && right < camera.rect.max[0];
     if is_within && !picture.labels.iter().any(is_taken) {
-        picture.labels.push(Label { is_strong: true, ..label });
+        picture.labels.push(label.strong());
     }
 }
 
@@ -357,7 +357,7 @@ pub(super) fn exact(
     let from = [x + 0.7 * way * beside, if is_above { y - 0.7 * beside } else { y + 0.7 * beside }];
     picture.pen(camera.rect).line(from, [at[0] - 3.0 * way, at[1]], 1.0, palette.exact);
     let label = text(palette, at, align, 12.0, palette.exact, "exact".into());
-    picture.labels.push(Label { is_strong: true, ..label });
+    picture.labels.push(label.strong());
 }
 
 /// The line of a ship's course with distance marks.

@@ -164,14 +164,7 @@ pub(super) fn ruler(picture: &mut Picture, strip: Rect, camera: &Camera, palette
             _ if camera.quay_m != 0.0 && metres > 0.0 => format!("+{}", round(metres, 6)),
             _ => round(metres, 6),
         };
-        picture.labels.push(Label {
-            at: [at, min[1] + 9.0],
-            align: Align::Centre,
-            size: 12.5,
-            colour: palette.text,
-            is_strong: false,
-            halo: [0; 4],
-            text,
-        });
+        let at = [at, min[1] + 9.0];
+        picture.labels.push(Label::new(at, Align::Centre, 12.5, palette.text, text));
     }
 }

@@ -175,15 +175,7 @@ fn board(
     let pen = &mut picture.pen(clip);
     pen.fill(&shape, faded(palette.panel, 0.94));
     pen.ring(&shape, 1.5, colour);
-    picture.labels.push(Label {
-        at: [x, y],
-        align: Align::Centre,
-        size: 0.68 * FLAG,
-        colour,
-        is_strong: true,
-        halo: [0; 4],
-        text,
-    });
+    picture.labels.push(Label::new([x, y], Align::Centre, 0.68 * FLAG, colour, text).strong());
 }
 
 /// What a badge says.
@@ -331,16 +323,7 @@ pub(super) fn badges(
             let digit = rounded(corner(-1.0), corner(1.0), 3.0 * scale);
             picture.pen(clip).fill(&digit, colour);
             let mut write = |at, size, colour, text| {
-                let halo = [0; 4];
-                picture.labels.push(Label {
-                    at,
-                    align: Align::Centre,
-                    size,
-                    colour,
-                    is_strong: true,
-                    halo,
-                    text,
-                });
+                picture.labels.push(Label::new(at, Align::Centre, size, colour, text).strong());
             };
             write(at, 12.0 * scale, dark, number);
             if let Some((words, ..)) = worded {
@@ -362,17 +345,7 @@ mod tests {
     /// What is told of a body that was at these places in a cell that shows 5 m to each side, and whether at the right.
     fn told(places: &[[f64; 2]]) -> Option<(String, bool)> {
         let rect = Rect { min: [0.0; 2], max: [100.0, 50.0] };
-        let camera = Camera {
-            rect,
-            centre_m: DVec2::ZERO,
-            at: [50.0, 25.0],
-            points_per_metre: 10.0,
-            paper: 0.0,
-            magnified: 1.0,
-            block: 10.0,
-            quay_m: 0.0,
-            unit: "m",
-        };
+        let camera = Camera { points_per_metre: 10.0, ..Camera::of(rect, 10.0) };
         let flag = Flag { at: [0.0; 2], number: 1, colour: [255; 4] };
         let places = places.iter().map(|place| DVec2::from(*place));
         Lost::of(flag, &camera, rect, places).map(|lost| (lost.words, lost.is_right))

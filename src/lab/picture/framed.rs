@@ -173,18 +173,9 @@ impl DrawContext<'_> {
 
     fn fitted(&self, rect: Rect, view: &BodyView) -> Camera {
         let [width, height] = rect.size();
-        let middle = [0, 1].map(|i| (rect.min[i] + rect.max[i]) / 2.0);
-        let plain = Camera {
-            rect,
-            centre_m: DVec2::ZERO,
-            at: middle,
-            points_per_metre: 1.0,
-            paper: 0.0,
-            magnified: 1.0,
-            block: (BLOCK * height as f32).clamp(BLOCKS.0, BLOCKS.1).min(MAX_BLOCK * height as f32),
-            quay_m: 0.0,
-            unit: "m",
-        };
+        let block = (BLOCK * height as f32).clamp(BLOCKS.0, BLOCKS.1);
+        let plain = Camera::of(rect, block.min(MAX_BLOCK * height as f32));
+        let middle = plain.at;
         match view.framing {
             Framing::Follow { width_m, height_m, .. } => {
                 let centre_m = if self.studio.display().motion != Motion::Reduced {

@@ -3,7 +3,7 @@
 
 use super::moment::DrawContext;
 use super::sketch::Camera;
-use super::{Align, Framing, Label, Picture, captions};
+use super::{Align, Framing, Picture, captions};
 use crate::lab::studio::{Future, FutureMoment};
 
 /// Half the width of a thread, and of the exact one, in points.
@@ -58,6 +58,6 @@ pub(super) fn draw(
         let colour = moment.style(entry).0;
         let digit =
             captions::text(palette, at, Align::Centre, 12.0, colour, format!("{}", entry + 1));
-        picture.labels.push(Label { is_strong: true, ..digit });
+        picture.labels.push(digit.strong());
     }
 }

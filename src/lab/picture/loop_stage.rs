@@ -119,7 +119,7 @@ fn overlay(
         let at = camera.points(band.shown(frame).at);
         let number = band.label([at[0], above], Align::Centre, 12.5, (place + 1).to_string());
         if above > ground.min[1] + 0.5 * LINE {
-            picture.labels.push(Label { colour: band.colour, is_strong: true, ..number });
+            picture.labels.push(Label { colour: band.colour, ..number }.strong());
         }
         above -= LINE;
         let y = ground.max[1] - foot + 0.5 * FOOT + LINE * row as f32;
@@ -199,25 +199,14 @@ impl<'a> LoopBand<'a> {
     /// What the band shows of the body's world.
     fn camera(&self, exact: DVec2) -> Camera {
         let [width, height] = self.size().map(f64::from);
-        let [x, y] = [0, 1].map(|axis| (self.rect.min[axis] + self.rect.max[axis]) / 2.0);
-        let plain = Camera {
-            rect: self.rect,
-            centre_m: DVec2::ZERO,
-            at: [x, y],
-            points_per_metre: 1.0,
-            paper: 0.0,
-            magnified: 1.0,
-            block: (BLOCK * height as f32).min(MAX_BLOCK_POINTS),
-            quay_m: 0.0,
-            unit: "m",
-        };
+        let plain = Camera::of(self.rect, (BLOCK * height as f32).min(MAX_BLOCK_POINTS));
         match self.framing() {
             Framing::Recorder { half_width_m } => {
                 let [least, most] = self.loops.range();
                 let reach = least.abs().max(most.abs());
                 let reach = if reach > 0.0 { reach } else { half_width_m };
                 let above = self.rect.min[1] + 0.38 * height as f32;
-                let at = if self.has_path() { [x, above] } else { plain.at };
+                let at = if self.has_path() { [plain.at[0], above] } else { plain.at };
                 Camera { at, points_per_metre: width / (2.0 * MARGIN * reach), ..plain }
             }
             Framing::Follow { width_m, height_m, .. } => {
@@ -311,8 +300,7 @@ impl<'a> LoopBand<'a> {
     }
 
     fn label(&self, at: [f32; 2], align: Align, size: f32, text: String) -> Label {
-        let halo = faded(self.palette.sea[1], 0.85);
-        Label { at, align, size, colour: self.palette.text, is_strong: false, halo, text }
+        Label::new(at, align, size, self.palette.text, text).on_water(self.palette)
     }
 
     /// The loop's name at this height, and as much of its verdict as there is room for.
@@ -320,7 +308,7 @@ impl<'a> LoopBand<'a> {
         let [left, right] = [self.rect.min[0] + 14.0, self.rect.max[0] - 14.0];
         let room = right - left - GAP - NAME_LETTER * name.chars().count() as f32;
         let name = self.label([left, y], Align::Left, 14.5, name.into());
-        picture.labels.push(Label { is_strong: true, ..name });
+        picture.labels.push(name.strong());
         let [width, height] = self.size();
         if width < breakpoints::WORDS_BESIDE_BODIES || height < breakpoints::LINE_OF_WORDS {
             return;

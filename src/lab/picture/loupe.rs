@@ -98,15 +98,8 @@ pub(super) fn draw(
         pen.ring(&circle(place, LANE, ROUND), 1.0, palette.panel);
     }
     pen.ring(&rim, 1.6, palette.dim);
-    picture.labels.push(Label {
-        at: [x, y + RADIUS - NUMBER],
-        align: Align::Centre,
-        size: NUMBER,
-        colour: palette.text,
-        is_strong: false,
-        halo: [0; 4],
-        text: format!("×{}", round(times, 1)),
-    });
+    let (at, words) = ([x, y + RADIUS - NUMBER], format!("×{}", round(times, 1)));
+    picture.labels.push(Label::new(at, Align::Centre, NUMBER, palette.text, words));
 }
 
 #[cfg(test)]

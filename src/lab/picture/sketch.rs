@@ -37,6 +37,21 @@ pub(super) struct Camera {
 }
 
 impl Camera {
+    /// A camera that shows the world's origin in the middle of `rect`, with blocks of this side in points.
+    pub(super) fn of(rect: Rect, block: f32) -> Self {
+        Self {
+            rect,
+            centre_m: DVec2::ZERO,
+            at: [0, 1].map(|axis| (rect.min[axis] + rect.max[axis]) / 2.0),
+            points_per_metre: 1.0,
+            paper: 0.0,
+            magnified: 1.0,
+            block,
+            quay_m: 0.0,
+            unit: "m",
+        }
+    }
+
     /// The same camera, of a stage that has grown so many times larger: bodies become smaller with it, and more slowly the
     /// further it goes.
     pub(super) fn grown(self, times: f64) -> Self {
