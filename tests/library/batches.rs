@@ -19,7 +19,7 @@ const BODIES: [&str; 6] = [
 ];
 
 const TICK_HZ: u32 = 30;
-const TICKS: u64 = 5;
+const TICKS: u64 = 3;
 const SUBSTEPS: u32 = 2;
 
 fn scene(text: &str) -> Scene {

@@ -40,6 +40,8 @@ pub struct AnalysisRequest {
     pub(in crate::lab) scene: Arc<Scene>,
     /// The lanes to judge.
     pub(in crate::lab) entries: Vec<LaneSpec>,
+    /// How many of them, from the first, share all the work that a bounded worker may do; the others have what is left.
+    pub(in crate::lab) first: usize,
     pub(in crate::lab) tick_hz: u32,
     /// What has changed in the run that is judged.
     pub(in crate::lab) by_hand: Interventions,
@@ -53,6 +55,7 @@ impl PartialEq for AnalysisRequest {
     fn eq(&self, other: &Self) -> bool {
         self.is_of(&other.scene)
             && self.entries == other.entries
+            && self.first == other.first
             && self.tick_hz == other.tick_hz
             && self.by_hand == other.by_hand
             && self.advice == other.advice
@@ -268,7 +271,7 @@ impl AnalysisWorker {
 
     /// The next part of the answer, if one is missing.
     fn next_part(&mut self) -> Option<Sliced<Part>> {
-        let AnalysisRequest { scene, by_hand, entries, tick_hz, advice, .. } = &self.request;
+        let AnalysisRequest { scene, by_hand, entries, first, tick_hz, advice, .. } = &self.request;
         let (tick_hz, meter) = (*tick_hz, Arc::<Meter>::default());
         if let Some(&spec) = entries.get(self.judged) {
             let Some(judge) = self.judge.clone() else {
@@ -280,7 +283,8 @@ impl AnalysisWorker {
             };
             // Work that earlier verdicts did not use is for the later ones.
             let left = self.max_work.saturating_sub(judge.meter().counted());
-            let share = (left / (entries.len() - self.judged) as u64).min(MAX_WORK);
+            let sharers = if self.judged < *first { *first } else { entries.len() };
+            let share = (left / (sharers - self.judged) as u64).min(MAX_WORK);
             return Some(Sliced::new(judge.meter().clone(), async move {
                 Part::Verdict(judge.verdict_within(share, spec, tick_hz).await.into())
             }));

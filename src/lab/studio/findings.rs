@@ -11,18 +11,24 @@ use crate::sim::bodies::{Acts, Parameter, Range};
 
 impl Studio {
     /// The verdicts and the advice that the studio wants at present, for a [`AnalysisWorker`]: a verdict at the present tick
-    /// rate on each method up to the last that is [offered](Self::offered) or flies, and advice while it is shown.
+    /// rate on each method that is [offered](Self::offered), in a race also on all others of the menu, and advice while it is
+    /// shown.
     ///
     /// They are of the scene from its start, with what a person has set since and the parameters that the script has set
     /// by the present tick. If a person has placed or kicked a body, they are of the run from there: from the true state
     /// right after it.
     pub fn analysis_request(&self) -> AnalysisRequest {
         let flown = self.race().entrants().iter().map(|lane| self.entry(lane) + 1);
-        let judged = flown.max().unwrap_or_default().max(self.offered());
+        let first = flown.max().unwrap_or_default().max(self.offered());
+        let entries = match self.mode() {
+            Mode::Solo => &self.entries()[..first],
+            Mode::Race => self.entries(),
+        };
         AnalysisRequest {
             scene: Arc::clone(&self.timeline.next().scene),
             by_hand: Interventions::in_race(self.race()),
-            entries: self.entries()[..judged].to_vec(),
+            entries: entries.to_vec(),
+            first,
             tick_hz: self.clock.tick_hz(),
             advice: (self.display().instrument == Instrument::Advice)
                 .then(|| self.advised_bodies()),
@@ -152,19 +158,18 @@ mod tests {
     use crate::lab::studio::{StageCommand, Studio};
 
     #[test]
-    fn the_methods_that_a_person_meets_are_judged_and_no_others() {
+    fn solo_the_methods_that_are_offered_are_judged_and_in_a_race_the_others_after_them() {
         let mut studio = Studio::new(Scene::built_in("spring").unwrap());
-        let wanted = |studio: &Studio| studio.analysis_request().entries.len();
+        let wanted = |studio: &Studio| {
+            let request = studio.analysis_request();
+            (request.first, request.entries.len())
+        };
         let (few, all) = (studio.scene().lanes.len(), studio.entries().len());
-        assert_eq!(wanted(&studio), few);
+        assert_eq!(wanted(&studio), (few, few));
         studio.apply(StageCommand::Pick(few + 2));
-        assert_eq!(wanted(&studio), few + 3);
+        assert_eq!(wanted(&studio), (few + 3, few + 3));
         studio.apply(StageCommand::ToggleRace);
-        assert_eq!(wanted(&studio), few + 3);
-        let every = Scene { lanes: studio.entries().to_vec(), ..studio.scene().clone() };
-        let mut studio = Studio::new(every);
-        studio.apply(StageCommand::ToggleRace);
-        assert_eq!(wanted(&studio), all);
+        assert_eq!(wanted(&studio), (few + 3, all));
     }
 
     #[test]

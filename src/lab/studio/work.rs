@@ -29,9 +29,9 @@ pub trait Work {
 /// What was found for a studio.
 pub enum Found {
     /// The analysis has found more.
-    Analysed(Findings),
+    Analysed(Box<Findings>),
     /// A loop of the loop lab was run.
-    LoopRun(FoundLoop),
+    LoopRun(Box<FoundLoop>),
     /// Clouds were stepped.
     Clouds(Box<FoundCloud>),
 }
@@ -40,8 +40,8 @@ impl Studio {
     /// Keeps what was found, if it is still wanted.
     pub fn accept(&mut self, found: Found) {
         match found {
-            Found::Analysed(findings) => self.accept_findings(findings),
-            Found::LoopRun(found) => self.accept_loop(found),
+            Found::Analysed(findings) => self.accept_findings(*findings),
+            Found::LoopRun(found) => self.accept_loop(*found),
             Found::Clouds(found) => self.accept_cloud(*found),
         }
     }
@@ -61,7 +61,7 @@ impl Work for AnalysisWorker {
 
     fn work(&mut self, _: &dyn Fn() -> bool) -> (Option<Found>, bool) {
         let more = self.work();
-        ((!self.is_within_a_part()).then(|| Found::Analysed(self.findings())), more)
+        ((!self.is_within_a_part()).then(|| Found::Analysed(self.findings().into())), more)
     }
 }
 
@@ -79,7 +79,7 @@ impl Work for LoopWorker {
 
     fn work(&mut self, stop: &dyn Fn() -> bool) -> (Option<Found>, bool) {
         let found = self.work(stop);
-        (found.map(Found::LoopRun), !self.is_done())
+        (found.map(|found| Found::LoopRun(found.into())), !self.is_done())
     }
 }
 
@@ -103,6 +103,6 @@ impl Work for CloudWorker {
 
     fn work(&mut self, _: &dyn Fn() -> bool) -> (Option<Found>, bool) {
         let found = self.work();
-        (found.map(|found| Found::Clouds(Box::new(found))), !self.is_done())
+        (found.map(|found| Found::Clouds(found.into())), !self.is_done())
     }
 }

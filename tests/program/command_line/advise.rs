@@ -3,6 +3,7 @@
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::process::Stdio;
+use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
 use regatta::lab::analysis::{AnalysisWorker, MethodAdvice, recommended as taken};
@@ -33,16 +34,19 @@ fn keys(value: &Value) -> Vec<&str> {
     value.as_object().unwrap().keys().map(String::as_str).collect()
 }
 
+/// The advice on the spring, which several tests read.
+pub(super) static ON_SPRING: LazyLock<Value> = LazyLock::new(|| advice("--scene spring --rates"));
+
 #[test]
 fn every_method_has_a_verdict_and_meets_criteria_with_so_many_substeps() {
-    let advice = advice("--scene spring --rates");
+    let advice = &*ON_SPRING;
     let rows = advice["methods"].as_array().unwrap();
     let ids: Vec<&str> = rows.iter().map(|row| row["method"].as_str().unwrap()).collect();
     assert_eq!(ids, for_games());
     assert_eq!((&advice["scene"], &advice["tick_hz"]), (&"spring".into(), &60.into()));
     assert_eq!((&advice["horizon_s"], &advice["bodies"]), (&20.0.into(), &["spring"][..].into()));
 
-    let explicit = row(&advice, "explicit-euler");
+    let explicit = row(advice, "explicit-euler");
     assert_eq!(explicit["verdict"]["word"], "gains-energy");
     assert_eq!(explicit["verdict"]["body"], "spring");
     assert_eq!(explicit["verdict"]["text"], "gains energy · ×2 in 2.1 s");
@@ -55,7 +59,7 @@ fn every_method_has_a_verdict_and_meets_criteria_with_so_many_substeps() {
     assert!(criteria.values().all(|found| *found == serde_json::json!({ "met": false })));
     assert!(explicit["rates"]["bounded"].is_null() && explicit["rates"]["accurate"].is_null());
 
-    let semi_implicit = row(&advice, "semi-implicit-euler");
+    let semi_implicit = row(advice, "semi-implicit-euler");
     let bounded = &semi_implicit["criteria"]["bounded"];
     assert_eq!((&bounded["substeps"], &bounded["evaluations_per_s"]), (&1.into(), &60.0.into()));
     // h ω < 2 from 3.15 Hz on, or up to (2 / 0.1047)² = 364.8 times the stiffness, of which ten are tried.
@@ -65,15 +69,15 @@ fn every_method_has_a_verdict_and_meets_criteria_with_so_many_substeps() {
     assert!(bounded["ns_per_s"].as_f64().unwrap() > 0.0);
     assert_eq!(semi_implicit["rates"]["bounded"], 4);
 
-    let runge_kutta = row(&advice, "rk4");
+    let runge_kutta = row(advice, "rk4");
     assert_eq!(runge_kutta["verdict"]["word"], "accurate");
     let halving = runge_kutta["verdict"]["halves_in_s"].as_f64().unwrap() / 86_400.0;
     assert!((14.5..14.7).contains(&halving), "{halving} days");
     assert_eq!(runge_kutta["rates"]["accurate"], 21);
     // z²/24 · 20 · 2π < 0.01 is about 150 Hz.
-    let accurate = row(&advice, "velocity-verlet")["rates"]["accurate"].as_u64().unwrap();
+    let accurate = row(advice, "velocity-verlet")["rates"]["accurate"].as_u64().unwrap();
     assert!((140..150).contains(&accurate), "{accurate}");
-    assert_eq!(row(&advice, "velocity-verlet")["criteria"]["accurate"]["substeps"], 3);
+    assert_eq!(row(advice, "velocity-verlet")["criteria"]["accurate"]["substeps"], 3);
 }
 
 /// Holds what the command recommends against the answers of the library and of the window.

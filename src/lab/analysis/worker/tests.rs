@@ -14,6 +14,7 @@ fn request(name: &str) -> AnalysisRequest {
     let entries = scene.method_list();
     AnalysisRequest {
         scene,
+        first: entries.len(),
         entries,
         tick_hz: 60,
         by_hand: Interventions::default(),
