@@ -219,7 +219,7 @@ fn the_error_falls_with_the_methods_order() {
 #[test]
 fn a_row_says_what_advise_says() {
     let some =
-        ["explicit-euler", "velocity-verlet", "rk4", "implicit-midpoint", "dormand-prince-54"];
+        ["explicit-euler", "rk4", "velocity-verlet", "dormand-prince-54", "implicit-midpoint"];
     let some: String = some.map(|id| format!("--method {id} ")).concat();
     let on_orbit = stdout_of(&format!("advise --scene orbit {some}--format json"));
     let on_orbit = serde_json::from_str(&on_orbit).unwrap();
