@@ -1,6 +1,6 @@
 // Loads the program, tells how far it is, and starts it.
 
-import init, { start } from "./regatta_web.js";
+import init, * as program from "./regatta_web.js";
 
 const loaded = document.getElementById("loaded");
 const told = document.getElementById("told");
@@ -13,8 +13,8 @@ function tell(sentence) {
     wait.hidden = false;
 }
 
-/** The program, compiled while it arrives; its bytes are counted as the browser hands them on, uncompressed. */
-async function program() {
+/** The program's bytes, compiled while they arrive; its bytes are counted as the browser hands them on, uncompressed. */
+async function arriving() {
     const response = await fetch("regatta_web_bg.wasm");
     if (!response.ok) {
         throw new Error(`the server says ${response.status} of regatta_web_bg.wasm`);
@@ -35,11 +35,16 @@ async function program() {
 const BYTES = 1;
 
 addEventListener("error", (event) => tell(`Regatta has stopped (${event.message}). Load the page again.`));
-try {
-    await init({ module_or_path: program() });
-    await start();
+
+/** What stands around a stage on another page can ask the program once its first frame is drawn. */
+globalThis.regatta = (async () => {
+    await init({ module_or_path: arriving() });
+    await program.start();
     wait.hidden = true;
     document.documentElement.dataset.firstFrameMs = Math.round(performance.now());
-} catch (reason) {
-    tell(`${reason.message ?? reason}`);
-}
+    // Scrolled out of sight on that page, a stage stands still.
+    const sight = new IntersectionObserver((seen) => program.set_in_sight(seen.at(-1).isIntersecting));
+    sight.observe(document.getElementById("stage"));
+    return program;
+})();
+regatta.catch((reason) => tell(`${reason.message ?? reason}`));

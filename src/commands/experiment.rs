@@ -13,9 +13,9 @@ use super::spring::SpringArgs;
 use crate::lab::LaneSpec;
 use crate::lab::pacing::{TRACES, TraceCard};
 use crate::lab::palette::Theme;
-use crate::lab::race::lanes_that_race;
+use crate::lab::race::{Mode, lanes_that_race};
 use crate::lab::scene::{MAX_SECONDS, SCENES, Scene, SceneGroup};
-use crate::lab::studio::{StageCommand, Studio};
+use crate::lab::studio::Studio;
 use crate::sim::Clock;
 use crate::sim::integrators::Method;
 
@@ -103,16 +103,7 @@ impl ExperimentArgs {
     fn applied_to(&self, mut scene: Scene) -> Result<Scene, Error> {
         scene.tick_hz = self.tick_hz.unwrap_or(scene.tick_hz);
         self.methods.iter().try_for_each(|method| scene_file::check_method(&scene, method))?;
-        if self.methods.len() > 1 {
-            scene.lanes = lanes_of(&scene, &self.methods);
-        }
-        // The methods of engines are on the list of no scene that does not name one.
-        for &method in self.methods.iter().filter(|method| method.is_engine()) {
-            if scene.lanes.iter().all(|lane| lane.method != method) {
-                scene.lanes.push(LaneSpec::plain(method));
-            }
-        }
-        Ok(scene)
+        Ok(scene.with_methods(&self.methods))
     }
 
     /// The scene as it was given, a name or a path, or else the first built-in scene.
@@ -139,7 +130,7 @@ impl ExperimentArgs {
 
     /// The lanes of the methods named, as `scene` has them.
     pub(super) fn lanes_named(&self, scene: &Scene) -> Vec<LaneSpec> {
-        lanes_of(scene, &self.methods)
+        scene.lanes_of(&self.methods)
     }
 
     /// Whether no method is named.
@@ -148,33 +139,10 @@ impl ExperimentArgs {
     }
 }
 
-/// The scene's lanes of the methods named, substeps and all, in the order named, each once; a plain
-/// lane for a method that the scene does not list.
-fn lanes_of(scene: &Scene, methods: &[&'static Method]) -> Vec<LaneSpec> {
-    let mut lanes: Vec<LaneSpec> = Vec::new();
-    for &method in methods {
-        if lanes.iter().any(|lane| lane.method == method) {
-            continue;
-        }
-        let listed = lanes.len();
-        lanes.extend(scene.lanes.iter().filter(|lane| lane.method == method));
-        if lanes.len() == listed {
-            lanes.push(LaneSpec::plain(method));
-        }
-    }
-    lanes
-}
-
-/// The lane that a scene opens with if no method is named.
-fn opening_lane(scene: &Scene) -> &LaneSpec {
-    let named = scene.lanes.iter().find(|lane| Some(lane.method) == scene.opening_method);
-    named.or(scene.lanes.first()).expect("a scene has a lane")
-}
-
 impl Experiment {
     /// The method that is flown alone, or selected in a race.
     pub(super) fn opening_method(&self) -> &'static Method {
-        self.selected.unwrap_or_else(|| opening_lane(&self.scene).method)
+        self.selected.unwrap_or_else(|| self.scene.opening_lane().method)
     }
 
     /// Whether lanes race and none was named, so that their verdicts select one.
@@ -184,18 +152,11 @@ impl Experiment {
 
     /// The lab at tick 0. A single lane is shown solo.
     pub(super) fn studio(&self) -> Studio {
-        let mut studio = Studio::new(self.scene.clone());
-        studio.apply(StageCommand::Method(self.opening_method()));
-        if self.lineup == Lineup::Everyone && studio.scene().lanes.len() > 1 {
-            studio.apply(StageCommand::ToggleRace);
-        } else {
-            studio.apply(StageCommand::Restart);
-        }
-        if self.leaves_selection() {
-            studio.leave_selection();
-        }
-        studio.begin_hints();
-        studio.forget_changes();
+        let mode = match self.lineup {
+            Lineup::Solo => Mode::Solo,
+            Lineup::Everyone => Mode::Race,
+        };
+        let mut studio = Studio::opened(self.scene.clone(), self.selected, mode);
         if let Some(card) = self.loop_trace {
             studio.open_loop_lab_on(card.id);
         }

@@ -1,14 +1,18 @@
-//! What the address of a page asks for after its `#`: a run, and how it is shown.
+//! What the address of a page asks for after its `#`: a run, or a scene with methods, and how it is shown.
 
 use regatta::lab::palette::Theme;
-use regatta::lab::studio::Instrument;
+use regatta::lab::race::Mode;
+use regatta::lab::studio::{Instrument, Studio};
 use regatta::lab::{Scene, link};
+use regatta::sim::Clock;
+use regatta::sim::integrators::{Method, method};
 
 /// What was asked for.
 #[derive(Debug, Default)]
 pub(crate) struct Address {
     /// The run of a link, or why the link leads to none.
     pub(crate) run: Option<Result<Scene, String>>,
+    opening: Opening,
     /// Whether the stage and the digits of its methods are to stand on another's page.
     pub(crate) is_embedded: bool,
     /// Whether time runs from the start where it would not by itself.
@@ -17,6 +21,17 @@ pub(crate) struct Address {
     /// The tick to go to.
     pub(crate) tick: Option<u64>,
     pub(crate) instrument: Option<Instrument>,
+}
+
+/// What is opened where no link is: the options of `regatta play`, by their names.
+#[derive(Debug, Default)]
+struct Opening {
+    scene: Option<String>,
+    methods: Vec<String>,
+    tick_hz: Option<String>,
+    races: bool,
+    /// The trace on which the loop lab opens.
+    loop_trace: Option<String>,
 }
 
 impl Address {
@@ -32,6 +47,11 @@ impl Address {
                 ("theme", "dark") => address.theme = Some(Theme::Dark),
                 ("tick", tick) => address.tick = tick.parse().ok(),
                 ("instrument", id) => address.instrument = Instrument::of_id(id),
+                ("scene", name) => address.opening.scene = Some(name.into()),
+                ("method", ids) => address.opening.methods.extend(ids.split(',').map(Into::into)),
+                ("tick-hz", hz) => address.opening.tick_hz = Some(hz.into()),
+                ("race", _) => address.opening.races = true,
+                ("loop", trace) => address.opening.loop_trace = Some(trace.into()),
                 _ => {}
             }
         }
@@ -40,11 +60,53 @@ impl Address {
         address
     }
 
+    /// The studio at tick 0 of the scene that is asked for.
+    ///
+    /// # Errors
+    /// What of it this page does not have, in a sentence.
+    pub(crate) fn studio(&self) -> Result<Studio, String> {
+        let Opening { scene, methods, tick_hz, races, loop_trace } = &self.opening;
+        let name = scene.as_deref().unwrap_or(HARBOUR);
+        let mut scene =
+            Scene::built_in(name).ok_or_else(|| format!("this page has no scene {name:?}"))?;
+        let known =
+            |id: &String| method(id).ok_or_else(|| format!("this page has no method {id:?}"));
+        let methods: Vec<&'static Method> = methods.iter().map(known).collect::<Result<_, _>>()?;
+        if let Some(refusal) = methods.iter().find_map(|method| scene.refusal(method)) {
+            return Err(refusal.to_string());
+        }
+        if let Some(hz) = tick_hz {
+            let is_one = |hz: &u32| Clock::TICK_HZ.contains(hz);
+            scene.tick_hz = hz.parse().ok().filter(is_one).ok_or("tick-hz is 1 to 10000")?;
+        }
+        let is_race = match methods.len() {
+            0 => *races || scene.opens_as_race,
+            1 => *races,
+            _ => true,
+        };
+        let mode = if is_race { Mode::Race } else { Mode::Solo };
+        let mut studio =
+            Studio::opened(scene.with_methods(&methods), methods.first().copied(), mode);
+        match loop_trace {
+            Some(trace) => studio.open_loop_lab_on(trace),
+            None => studio.show_clouds_of_scene(),
+        }
+        Ok(studio)
+    }
+
+    /// Whether it asks for panels that a person may not have open.
+    pub(crate) fn opens_at_work(&self) -> bool {
+        self.instrument.is_some() || self.opening.races || self.opening.loop_trace.is_some()
+    }
+
     /// Whether time runs at the start: a stage on another's page, and a tick that was asked for, wait until they are told.
     pub(crate) fn runs_at_first(&self) -> bool {
         self.plays || !self.is_embedded && self.tick.is_none()
     }
 }
+
+/// The scene of an address that names none.
+const HARBOUR: &str = "harbour";
 
 /// The recording that a link holds.
 ///
@@ -74,6 +136,27 @@ mod tests {
         let address = Address::of(&format!("#instrument={id}&theme=pink"));
         assert!(address.run.is_none() && address.theme.is_none() && address.runs_at_first());
         assert_eq!(address.instrument.unwrap().id(), id);
+    }
+
+    #[test]
+    fn an_address_opens_a_scene_as_the_options_of_the_program_do() {
+        let studio = Address::of("#scene=spring&method=rk4&tick-hz=30").studio().unwrap();
+        assert_eq!((studio.scene().name.as_str(), studio.race().tick_hz()), ("spring", 30));
+        assert_eq!((studio.mode(), studio.race().entrants().len()), (Mode::Solo, 1));
+        assert_eq!(studio.entries()[studio.active()].method.id, "rk4");
+        let studio = Address::of("#scene=spring&method=rk4,midpoint").studio().unwrap();
+        let racing: Vec<&str> = studio.scene().lanes.iter().map(|lane| lane.method.id).collect();
+        assert_eq!((studio.mode(), &racing[..]), (Mode::Race, &["rk4", "midpoint"][..]));
+        assert_eq!(Address::of("#scene=spring&race").studio().unwrap().mode(), Mode::Race);
+        assert_eq!(Address::of("#scene=engines").studio().unwrap().mode(), Mode::Race);
+        let studio = Address::of("#scene=spring&loop=steady-144").studio().unwrap();
+        let loops = studio.loop_lab().unwrap();
+        assert_eq!(loops.traces()[loops.trace()].name(), "steady-144");
+        assert_eq!(Address::of("").studio().unwrap().scene().name, HARBOUR);
+        for broken in ["#scene=tub", "#method=rk5", "#method=lerp-per-frame", "#tick-hz=0"] {
+            let refused = Address::of(broken).studio().err().unwrap();
+            assert!(!refused.is_empty() && !refused.contains('\n'), "{refused}");
+        }
     }
 
     #[test]

@@ -7,7 +7,7 @@ use regatta::lab::Scene;
 use regatta::lab::palette::Theme;
 use regatta::lab::session::Replay;
 use regatta::lab::studio::{
-    Command, DriverRequest, Motion, PaceMeter, SavedPreferences, Studio, ViewCommand,
+    Command, DriverRequest, Motion, PaceMeter, SavedPreferences, StageCommand, Studio, ViewCommand,
 };
 use regatta::view::{copied, egui};
 use wasm_bindgen::JsCast;
@@ -41,6 +41,8 @@ pub(crate) struct Driver {
     goal: Option<(u64, bool)>,
     /// Whether it stands on another's page.
     pub(crate) is_embedded: bool,
+    /// Whether a person who scrolls that page has it in sight.
+    pub(crate) is_in_sight: bool,
     /// Whether what is shown is remembered: what an address has chosen is nobody's choice.
     remembers: bool,
     /// Commands that the next frame applies before it simulates.
@@ -111,8 +113,10 @@ fn prefers(window: &Window, query: &str) -> bool {
 
 impl Driver {
     fn new(window: Window, canvas: Canvas, address: Address) -> Self {
-        let harbour = Scene::built_in("harbour").expect("a built-in scene");
-        let mut studio = Studio::new(harbour);
+        let opened = address.studio();
+        let refused = opened.as_ref().err().cloned();
+        let mut studio =
+            opened.unwrap_or_else(|_| Address::default().studio().expect("it has one"));
         // At first the stage is alone, as in the window.
         let remembered = storage(&window).and_then(|storage| storage.get_item(STORED).ok()?);
         let remembered = remembered.and_then(|text| SavedPreferences::parse(&text).ok());
@@ -125,8 +129,7 @@ impl Driver {
             false => Motion::Live,
         };
         let display = &mut preferences.display;
-        display.measure = !address.is_embedded && (display.measure || address.instrument.is_some());
-        studio.begin_hints();
+        display.measure = !address.is_embedded && (display.measure || address.opens_at_work());
         let workers = Workers::new(&studio);
         let mut driver = Self {
             window,
@@ -136,9 +139,8 @@ impl Driver {
             arrival: None,
             goal: address.tick.map(|tick| (tick, address.plays)),
             is_embedded: address.is_embedded,
-            remembers: !address.is_embedded
-                && address.theme.is_none()
-                && address.instrument.is_none(),
+            is_in_sight: true,
+            remembers: !address.is_embedded && address.theme.is_none() && !address.opens_at_work(),
             asked: Vec::new(),
             input: egui::RawInput { focused: true, ..egui::RawInput::default() },
             held: egui::Modifiers::default(),
@@ -151,6 +153,9 @@ impl Driver {
             frame_is_due: false,
             work_is_due: false,
         };
+        if let Some(refused) = refused {
+            driver.studio.viewer_mut().set_notice(refused);
+        }
         let runs = address.runs_at_first();
         if let Some(run) = address.run {
             driver.open_run(run);
@@ -304,6 +309,23 @@ impl Driver {
     pub(crate) fn play(&mut self) {
         self.asked.push(Command::View(ViewCommand::TogglePause));
         self.request_frame();
+    }
+
+    /// Starts the run again, and has time run.
+    pub(crate) fn begin_again(&mut self) {
+        self.asked.push(Command::Stage(StageCommand::Restart));
+        match self.studio.running() {
+            true => self.request_frame(),
+            false => self.play(),
+        }
+    }
+
+    pub(crate) fn set_in_sight(&mut self, is_in_sight: bool) {
+        self.is_in_sight = is_in_sight;
+        self.last_frame_ns = None;
+        if is_in_sight {
+            self.request_frame();
+        }
     }
 
     /// Has a frame drawn when the browser next shows one.

@@ -14,6 +14,9 @@ impl Driver {
     pub(crate) fn frame(&mut self) {
         let now_ns = self.now_ns();
         self.frame_is_due = false;
+        if !self.is_in_sight {
+            return;
+        }
         self.simulate(now_ns);
         self.input.time = Some(now_ns as f64 / 1e9);
         let next = egui::RawInput { focused: true, ..egui::RawInput::default() };

@@ -14,11 +14,13 @@ mod hashes;
 mod keyboard;
 mod listening;
 mod pointer;
+mod questions;
 mod work;
 
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 pub use hashes::early_hashes;
+pub use questions::number;
 
 /// Shows the program on the canvas of the page, and returns when its first frame is drawn.
 ///
@@ -38,6 +40,18 @@ pub fn tick() -> f64 {
     let mut tick = 0;
     driver::with(|driver| tick = driver.studio.race().tick());
     tick as f64
+}
+
+/// Starts the run again, and has time run.
+#[wasm_bindgen]
+pub fn again() {
+    driver::with(driver::Driver::begin_again);
+}
+
+/// Has the page know whether any of it is in sight; what is not is not drawn, and no time passes there.
+#[wasm_bindgen]
+pub fn set_in_sight(is_in_sight: bool) {
+    driver::with(|driver| driver.set_in_sight(is_in_sight));
 }
 
 /// What wgpu complains of is in the browser's console.

@@ -39,6 +39,43 @@ impl Scene {
         self.fitting_methods().filter(|method| method.is_for_games())
     }
 
+    /// The lanes of these methods, substeps and all, in the order named, each once; a plain lane for a method that the scene
+    /// does not list.
+    pub fn lanes_of(&self, methods: &[&'static Method]) -> Vec<LaneSpec> {
+        let mut lanes: Vec<LaneSpec> = Vec::new();
+        for &method in methods {
+            if lanes.iter().any(|lane| lane.method == method) {
+                continue;
+            }
+            let listed = lanes.len();
+            lanes.extend(self.lanes.iter().filter(|lane| lane.method == method));
+            if lanes.len() == listed {
+                lanes.push(LaneSpec::plain(method));
+            }
+        }
+        lanes
+    }
+
+    /// The scene with the lanes of these methods, if there are several; one alone joins the others.
+    pub fn with_methods(mut self, methods: &[&'static Method]) -> Self {
+        if methods.len() > 1 {
+            self.lanes = self.lanes_of(methods);
+        }
+        // The methods of engines are on the list of no scene that does not name one.
+        for &method in methods.iter().filter(|method| method.is_engine()) {
+            if self.lanes.iter().all(|lane| lane.method != method) {
+                self.lanes.push(LaneSpec::plain(method));
+            }
+        }
+        self
+    }
+
+    /// The lane that the scene opens with if no method is named.
+    pub fn opening_lane(&self) -> &LaneSpec {
+        let named = self.lanes.iter().find(|lane| Some(lane.method) == self.opening_method);
+        named.or(self.lanes.first()).expect("a scene has a lane")
+    }
+
     /// The lanes that advice is on: those of a body that is written in Rust, and of any other scene each of the
     /// [methods for games](Scene::methods_for_games), with its card's substeps.
     pub fn advised_lanes(&self) -> Vec<LaneSpec> {

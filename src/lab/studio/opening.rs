@@ -2,17 +2,17 @@
 
 use std::path::Path;
 
-use super::RunCommand;
-use super::Studio;
 use super::instrument::Instrument;
 use super::restarting::is_by_hand;
 use super::scene_list::SceneList;
 use super::step::Step;
 use super::viewer::Dialog;
+use super::{RunCommand, StageCommand, Studio};
 use crate::lab::diff::Comparison;
 use crate::lab::race::Mode;
 use crate::lab::scene::{Mistake, Scene, SceneErrors};
 use crate::lab::session::{StartSettings, Timeline};
+use crate::sim::integrators::Method;
 
 /// The name of a custom spring on the list of scenes.
 const MY_SPRING: &str = "my spring";
@@ -36,6 +36,25 @@ impl Studio {
         let index = self.scene_list.put(path, self.scene().clone());
         self.scene_list.set_open(index);
         self.tell_outdated();
+    }
+
+    /// At tick 0 of a scene, as options ask for it: under the method `selected`, or else the one that the scene opens with.
+    /// Of a race in which none was selected the verdicts select one. A single lane is shown solo.
+    pub fn opened(scene: Scene, selected: Option<&'static Method>, mode: Mode) -> Self {
+        let method = selected.unwrap_or_else(|| scene.opening_lane().method);
+        let mut studio = Self::new(scene);
+        studio.apply(StageCommand::Method(method));
+        if mode == Mode::Race && studio.scene().lanes.len() > 1 {
+            studio.apply(StageCommand::ToggleRace);
+        } else {
+            studio.apply(StageCommand::Restart);
+        }
+        if mode == Mode::Race && selected.is_none() {
+            studio.leave_selection();
+        }
+        studio.begin_hints();
+        studio.forget_changes();
+        studio
     }
 
     /// Opens a scene that was read from the file at `path`, and puts it on the list.

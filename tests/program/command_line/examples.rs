@@ -78,7 +78,7 @@ fn every_example_with_an_answer_prints_that_answer() {
         }
         compared.extend((count > 0).then_some((name, count)));
     }
-    assert_eq!(compared, [("commands", 2), ("questions", 13), ("code", 1), ("README", 1)]);
+    assert_eq!(compared, [("commands", 2), ("questions", 19), ("code", 1), ("README", 1)]);
 }
 
 #[test]
