@@ -1,71 +1,50 @@
 #!/usr/bin/env node
-// Holds target/web, which .ci/web makes, to the program: the bits of every scene under every method, a stage that is drawn, and
-// time that runs as in the world. `.ci/web-test.mjs firefox` takes that browser instead of Chromium. Needs one of them, and npm,
-// which installs the driver under target/tools; exits 2 where something is missing.
+// Holds target/web, which .ci/web makes, to the program: the bits of every scene under every method, the words of verdicts, the
+// numbers of the pages of questions, a stage that is drawn, and time that runs as in the world. `.ci/web-test.mjs firefox` and
+// `.ci/web-test.mjs webkit` take these browsers instead of Chromium, in which alone touch, a lost context and files are tried.
+// Needs the browser, and npm, which installs the driver under target/tools; WebKit is GTK's MiniBrowser with WebKitWebDriver,
+// and needs a display. Exits 2 where something is missing.
 
-import { execFileSync } from "node:child_process";
-import { createReadStream, existsSync, readFileSync, statSync } from "node:fs";
-import { createServer } from "node:http";
-import { createRequire } from "node:module";
-import { extname, join } from "node:path";
+import { existsSync, readFileSync } from "node:fs";
+import { drive } from "./web-browser.mjs";
+import { serve } from "./web-server.mjs";
 
-process.chdir(join(import.meta.dirname, ".."));
-const browsers = { chrome: ["chromium", "google-chrome"], firefox: ["firefox-esr", "firefox"] };
 const browser = process.argv[2] ?? "chrome";
-const paths = (process.env.PATH ?? "").split(":");
-const executablePath = browsers[browser]
-    ?.flatMap((name) => paths.map((path) => join(path, name)))
-    .find((path) => existsSync(path));
-if (!executablePath || !existsSync("target/web/regatta_web_bg.wasm")) {
-    console.error(`missing: ${executablePath ? "target/web; run .ci/web" : `a browser for ${browser}`}`);
+if (!existsSync("target/web/regatta_web_bg.wasm")) {
+    console.error("missing: target/web; run .ci/web");
     process.exit(2);
 }
-
-const tools = "target/tools/node";
-if (!existsSync(join(tools, "node_modules/puppeteer-core"))) {
-    execFileSync("npm", ["install", "--silent", "--prefix", tools, "puppeteer-core@24"], { stdio: "inherit" });
-}
-const puppeteer = createRequire(join(process.cwd(), tools, "package.json"))("puppeteer-core").default;
-
-const kinds = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm" };
-const server = createServer((request, response) => {
-    const path = new URL(request.url, "http://localhost").pathname.replace(/\/$/, "/index.html");
-    const file = join("target/web", path);
-    if (!existsSync(file) || !statSync(file).isFile()) {
-        response.writeHead(404).end();
-        return;
-    }
-    response.writeHead(200, { "Content-Type": kinds[extname(file)] ?? "application/octet-stream" });
-    createReadStream(file).pipe(response);
-});
-await new Promise((listening) => server.listen(0, "127.0.0.1", listening));
-const address = `http://127.0.0.1:${server.address().port}/`;
-
-const chromium = ["--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run",
-    "--disable-background-networking", "--disable-component-update", "--disable-sync"];
-const driven = await puppeteer.launch({ browser, executablePath, args: browser === "chrome" ? chromium : [] });
+const server = await serve("target/web");
+const driven = await drive(browser);
 
 let passed = 0;
 const failures = [];
 function hold(what, holds) {
     holds ? passed++ : failures.push(what);
 }
+const seconds = (many) => new Promise((later) => setTimeout(later, 1000 * many));
 
-/** The page, once its first frame is drawn, and what it complained of. */
-async function opened(fragment) {
-    const page = await driven.newPage();
-    await page.setViewport({ width: 960, height: 540 });
-    const complaints = [];
-    page.on("pageerror", (error) => complaints.push(error.message));
-    page.on("requestfailed", (request) => complaints.push(`not found: ${request.url()}`));
-    await page.goto(address + fragment);
-    await page.waitForFunction("document.documentElement.dataset.firstFrameMs", { timeout: 120_000 });
-    return { page, complaints };
+/** Waits until what is asked of a page is true, for a minute. Returns whether it was. */
+async function becomes(page, asked, ...given) {
+    for (let tries = 0; tries < 240; tries++) {
+        if (await page.evaluate(asked, ...given)) {
+            return true;
+        }
+        await seconds(0.25);
+    }
+    return false;
+}
+
+/** The page of an address, once its first frame is drawn. */
+async function opened(address, size) {
+    const page = await driven.open(server.address + address, size);
+    const drawn = await becomes(page, () => document.documentElement.dataset.firstFrameMs !== undefined);
+    hold(`${address}: no first frame: ${await page.evaluate(() => document.getElementById("told").textContent)}`, drawn);
+    return page;
 }
 
 /** How many colours a picture of the page has. */
 async function colours(page) {
-    const picture = await page.screenshot({ encoding: "base64" });
     return page.evaluate(async (picture) => {
         const image = new Image();
         image.src = `data:image/png;base64,${picture}`;
@@ -76,36 +55,97 @@ async function colours(page) {
         context.drawImage(image, 0, 0);
         const { data } = context.getImageData(0, 0, image.width, image.height);
         return new Set(new Uint32Array(data.buffer)).size;
-    }, picture);
+    }, await page.picture());
 }
 
-const tick = (page) => page.evaluate(async () => (await import("./regatta_web.js")).tick());
+const tick = (page) => page.evaluate(async () => (await regatta).tick());
 
-try {
-    const { page, complaints } = await opened("");
+/** That ticks pass as in the world, and a stage on another's page waits until it is told. */
+async function holdTime() {
+    const page = await opened("");
+    const firstFrameMs = await page.evaluate(() => document.documentElement.dataset.firstFrameMs);
     const seen = await colours(page);
     hold(`the stage is drawn: ${seen} colours`, seen > 100);
-    await new Promise((later) => setTimeout(later, 3000));
+    await seconds(3);
     const [from, began] = [await tick(page), performance.now()];
-    await new Promise((later) => setTimeout(later, 5000));
-    const rate = (1000 * (await tick(page) - from)) / (performance.now() - began);
+    await seconds(5);
+    const rate = (1000 * ((await tick(page)) - from)) / (performance.now() - began);
     hold(`ticks a second: ${rate}`, rate > 58 && rate < 62);
-    console.log(`${seen} colours, ${rate.toFixed(1)} ticks a second`);
+    console.log(`first frame after ${firstFrameMs} ms, ${seen} colours, ${rate.toFixed(1)} ticks a second`);
+    await page.close();
 
-    const stands = (await opened("#panels=off")).page;
+    const stands = await opened("#panels=off");
     hold("a stage on another's page waits", (await tick(stands)) === 0);
     await stands.close();
+}
 
-    const kept = readFileSync("tests/early_hashes.txt", "utf8");
-    for (const scene of new Set(kept.split("\n").filter(Boolean).map((line) => line.split(" ")[0]))) {
-        const [found, still] = await page.evaluate(
-            async (scene) => (await import("./regatta_web.js")).early_hashes(scene), scene);
-        const wanted = kept.split("\n").filter((line) => line.startsWith(`${scene} `)).join("\n") + "\n";
+/** That every scene has the bits of the program under every method, and verdicts its words. */
+async function holdBitsAndWords() {
+    const page = await opened("#panels=off");
+    const hashes = readFileSync("tests/early_hashes.txt", "utf8");
+    const words = readFileSync("tests/judged_words.txt", "utf8");
+    const of = (kept, scene) => kept.split("\n").filter((line) => line.startsWith(`${scene} `)).join("\n") + "\n";
+    const scenes = (kept) => new Set(kept.split("\n").filter(Boolean).map((line) => line.split(" ")[0]));
+    for (const scene of scenes(hashes)) {
+        const [found, still] = await page.evaluate(async (scene) => (await regatta).early_hashes(scene), scene);
+        const wanted = of(hashes, scene);
         hold(`${scene}: the bits are others:\n${found}instead of\n${wanted}`, found === wanted);
         hold(`${scene}: nothing moved`, found !== still);
         console.log(`${scene}: ${found.split("\n").length - 1} methods`);
     }
-    hold(`complaints: ${complaints.join("; ")}`, complaints.length === 0);
+    for (const scene of scenes(words)) {
+        const found = await page.evaluate(async (scene) => (await regatta).judged_words(scene), scene);
+        const wanted = of(words, scene);
+        hold(`${scene}: the words are others:\n${found}instead of\n${wanted}`, found === wanted);
+    }
+    console.log(`${scenes(words).size} scenes judged`);
+    await page.close();
+}
+
+/** That each page of questions computes the numbers of its text, below stages that move. */
+async function holdQuestions() {
+    const index = await driven.open(`${server.address}questions/`);
+    const links = await index.evaluate(() => [...document.querySelectorAll("li a")].map((link) => link.href));
+    hold(`pages of questions: ${links.length}`, links.length >= 6);
+    await index.close();
+    for (const link of links) {
+        const page = await driven.open(link);
+        const count = await page.evaluate(() => document.querySelectorAll("figure").length);
+        hold(`${link}: no claim`, count > 0);
+        for (let figure = 0; figure < count; figure++) {
+            await page.evaluate((figure) => document.querySelectorAll("figure")[figure].scrollIntoView(), figure);
+            const is = (figure) => !document.querySelectorAll(".computed")[figure].hidden;
+            const isThere = await becomes(page, is, figure);
+            const [claim, number, computed] = await page.evaluate((figure) => {
+                const { dataset, firstElementChild } = document.querySelectorAll(".computed")[figure];
+                return [dataset.claim, dataset.number, firstElementChild.textContent];
+            }, figure);
+            hold(`${claim}: ${computed} here, ${number} in the text`, isThere && computed === number);
+            // In the loop lab it is not the run that moves.
+            const moment = async (figure) => {
+                const { contentWindow, src } = document.querySelectorAll("iframe")[figure];
+                const program = await contentWindow.regatta;
+                return src.includes("loop=") ? program.frames() : program.tick();
+            };
+            const from = isThere ? await page.evaluate(moment, figure) : 0;
+            await seconds(1);
+            hold(`${claim}: its stage stands still`, isThere && (await page.evaluate(moment, figure)) > from);
+        }
+        console.log(`${link.split("/").at(-1)}: ${count} numbers`);
+        await page.close();
+    }
+}
+
+try {
+    await holdTime();
+    await holdQuestions();
+    await holdBitsAndWords();
+    if (browser === "chrome") {
+        const { holdDeeds } = await import("./web-deeds.mjs");
+        await holdDeeds({ opened, hold, becomes, seconds, tick, driven, server });
+    }
+    hold(`complaints: ${driven.complaints.join("; ")}`, driven.complaints.length === 0);
+    hold(`not found: ${server.missing.join(", ")}`, server.missing.length === 0);
 } finally {
     await driven.close();
     server.close();

@@ -38,13 +38,13 @@ addEventListener("error", (event) => tell(`Regatta has stopped (${event.message}
 
 /** What stands around a stage on another page can ask the program once its first frame is drawn. */
 globalThis.regatta = (async () => {
-    await init({ module_or_path: arriving() });
+    const { memory } = await init({ module_or_path: arriving() });
     await program.start();
     wait.hidden = true;
     document.documentElement.dataset.firstFrameMs = Math.round(performance.now());
     // Scrolled out of sight on that page, a stage stands still.
     const sight = new IntersectionObserver((seen) => program.set_in_sight(seen.at(-1).isIntersecting));
     sight.observe(document.getElementById("stage"));
-    return program;
+    return { ...program, memory };
 })();
 regatta.catch((reason) => tell(`${reason.message ?? reason}`));

@@ -128,7 +128,7 @@ mod tests {
     fn a_link_is_opened_with_the_settings_behind_it() {
         let link = link::to(&Scene::built_in("spring").unwrap()).unwrap();
         let address = Address::of(&format!("{link}&panels=off&theme=light&tick=90&new=1"));
-        assert_eq!(address.run.as_ref().unwrap().as_ref().unwrap().name, "spring");
+        assert_eq!(address.run.as_ref().unwrap().as_ref().unwrap().title, "A spring at 1 Hz");
         assert_eq!((address.is_embedded, address.theme), (true, Some(Theme::Light)));
         assert_eq!((address.tick, address.runs_at_first()), (Some(90), false));
         assert!(Address::of(&format!("{link}&tick=90&play")).runs_at_first());

@@ -52,6 +52,8 @@ pub(crate) struct Driver {
     pub(crate) held: egui::Modifiers,
     pub(crate) fingers: Fingers,
     pub(crate) meter: PaceMeter,
+    /// The frames drawn.
+    pub(crate) frames: u32,
     /// When the last frame began, in nanoseconds of the page's time; `None` if time did not run.
     pub(crate) last_frame_ns: Option<u64>,
     /// When the studio was last simulated, whether time ran or not.
@@ -146,6 +148,7 @@ impl Driver {
             held: egui::Modifiers::default(),
             fingers: Fingers::default(),
             meter: PaceMeter::default(),
+            frames: 0,
             last_frame_ns: None,
             simulated_ns: 0,
             has_opened: true,

@@ -34,6 +34,7 @@ impl Driver {
             self.last_frame_ns = self.last_frame_ns.map(|_| self.now_ns());
         }
         self.meter.frame(now_ns, &self.studio);
+        self.frames += 1;
         self.show(&output.platform);
         let is_next = self.studio.running() || !commands.is_empty() || self.saves_picture;
         self.asked.extend(commands);

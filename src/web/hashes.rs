@@ -1,5 +1,6 @@
-//! The hashes by which a test knows that a browser steps the same bits.
+//! The hashes and words by which a test knows that a browser steps the same bits, and finds the same.
 
+use regatta::lab::analysis::Judge;
 use regatta::lab::scene::SceneBody;
 use regatta::lab::{LaneSpec, Scene, Session};
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -24,4 +25,17 @@ pub fn early_hashes(scene: &str) -> Vec<String> {
         scene.lanes.iter().zip(hashes).map(line).collect::<String>()
     };
     [ticks, 0].map(lines).into()
+}
+
+/// The lines of a built-in scene in `tests/judged_words.txt`, judged here: its name, a method, and what is found of it. Nothing
+/// if there is no such scene.
+#[wasm_bindgen]
+pub fn judged_words(scene: &str) -> String {
+    let Some(scene) = Scene::built_in(scene) else { return String::new() };
+    let judge = Judge::new(&scene);
+    let line = |method| {
+        let verdict = judge.verdict(LaneSpec { method, ..scene.lanes[0] }, scene.tick_hz);
+        format!("{} {}: {verdict}\n", scene.name, method.id)
+    };
+    scene.fitting_methods().map(line).collect()
 }

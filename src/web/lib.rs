@@ -19,7 +19,7 @@ mod work;
 
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-pub use hashes::early_hashes;
+pub use hashes::{early_hashes, judged_words};
 pub use questions::number;
 
 /// Shows the program on the canvas of the page, and returns when its first frame is drawn.
@@ -40,6 +40,14 @@ pub fn tick() -> f64 {
     let mut tick = 0;
     driver::with(|driver| tick = driver.studio.race().tick());
     tick as f64
+}
+
+/// The frames drawn so far.
+#[wasm_bindgen]
+pub fn frames() -> u32 {
+    let mut frames = 0;
+    driver::with(|driver| frames = driver.frames);
+    frames
 }
 
 /// Starts the run again, and has time run.

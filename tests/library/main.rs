@@ -31,6 +31,7 @@ mod hints;
 mod histories;
 mod honesty;
 mod judged_runs;
+mod judged_words;
 mod judging;
 mod keys;
 mod laws;

@@ -5,6 +5,7 @@ pub(super) const PANELS: [f32; 2] = [96.0, 64.0];
 
 // Widths of the window.
 pub(super) const INSTRUMENTS: f32 = 420.0;
+pub(super) const TICK_FORWARD: f32 = 480.0;
 pub(super) const KEYS_BESIDE_HINT: f32 = 560.0;
 pub(super) const MENUS: f32 = 600.0;
 pub(super) const SPRING: f32 = 660.0;

@@ -26,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
             let words = if width >= breakpoints::MY_SPRING { "My spring" } else { "Spring" };
             button(ui, words, about, Command::View(ViewCommand::AskForSpring), commands);
         }
-        transport(ui, studio, width >= breakpoints::TICK_BACK, commands);
+        transport(ui, studio, width, commands);
         if width >= breakpoints::MENUS {
             word(ui, width, "speed");
             match studio.loop_lab() {
@@ -109,10 +109,10 @@ fn scene_menu(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     });
 }
 
-fn transport(ui: &mut Ui, studio: &Studio, has_back: bool, commands: &mut Vec<Command>) {
+fn transport(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) {
     let unit = if studio.loop_lab().is_some() { "frame" } else { "tick" };
     button(ui, "⏮", "restart (Home)", Command::Stage(StageCommand::Restart), commands);
-    if has_back {
+    if width >= breakpoints::TICK_BACK {
         button(
             ui,
             "◀",
@@ -124,13 +124,15 @@ fn transport(ui: &mut Ui, studio: &Studio, has_back: bool, commands: &mut Vec<Co
     let (sign, hover) =
         if studio.running() { ("⏸", "pause (Space)") } else { ("▶", "run (Space)") };
     button(ui, sign, hover, Command::View(ViewCommand::TogglePause), commands);
-    button(
-        ui,
-        "⏭",
-        &format!("one {unit} forward (.)"),
-        Command::Stage(StageCommand::Tick(Step::Next)),
-        commands,
-    );
+    if width >= breakpoints::TICK_FORWARD {
+        button(
+            ui,
+            "⏭",
+            &format!("one {unit} forward (.)"),
+            Command::Stage(StageCommand::Tick(Step::Next)),
+            commands,
+        );
+    }
 }
 
 /// Solo, race or loop lab: three parts of one control.
@@ -163,19 +165,20 @@ fn modes(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) 
     let frame = Frame::new().fill(palette(ui).raised).corner_radius(5.0);
     frame.show(ui, |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
+        let margin = if width >= breakpoints::TICK_FORWARD { 12.0 } else { 7.0 };
         for (name, about, is_chosen, command) in parts {
-            if part(ui, name, about, is_chosen) && !is_chosen {
+            if part(ui, name, margin, about, is_chosen) && !is_chosen {
                 commands.push(command);
             }
         }
     });
 }
 
-/// Shows a part of a control. Returns whether it was clicked.
-fn part(ui: &mut Ui, name: &str, about: &str, is_chosen: bool) -> bool {
+/// Shows a part of a control, with this margin left and right of its name. Returns whether it was clicked.
+fn part(ui: &mut Ui, name: &str, margin: f32, about: &str, is_chosen: bool) -> bool {
     let font = || if is_chosen { strong_font(TYPE) } else { egui::FontId::proportional(TYPE) };
     let text = ui.painter().layout_no_wrap(name.into(), font(), palette(ui).text);
-    let size = vec2(text.size().x + 24.0, 26.0);
+    let size = vec2(text.size().x + 2.0 * margin, 26.0);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response
         .widget_info(|| egui::WidgetInfo::selected(egui::Role::RadioButton, true, is_chosen, name));

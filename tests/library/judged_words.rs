@@ -1,0 +1,38 @@
+//! The verdicts of eight scenes in words. `.ci/web-test.mjs` holds browsers to the same file.
+//!
+//! `BLESS=1 cargo test --test library judged_words` writes it again.
+
+use std::path::Path;
+use std::thread;
+
+use regatta::lab::analysis::Judge;
+use regatta::lab::{LaneSpec, Scene};
+
+/// Of each kind that a verdict has words for, at least one.
+const SCENES: [&str; 8] =
+    ["spring", "ship", "stiff", "jump", "lerp", "follow", "alike", "pendulum"];
+
+/// A line for each method: the scene, the method, and what is found of it.
+fn words(scene: &str) -> String {
+    let scene = Scene::built_in(scene).unwrap();
+    let judge = Judge::new(&scene);
+    let line = |method| {
+        let verdict = judge.verdict(LaneSpec { method, ..scene.lanes[0] }, scene.tick_hz);
+        format!("{} {}: {verdict}\n", scene.name, method.id)
+    };
+    scene.fitting_methods().map(line).collect()
+}
+
+#[test]
+fn the_verdicts_of_eight_scenes_have_the_words_that_are_kept() {
+    let found: String = thread::scope(|threads| {
+        let scenes = SCENES.map(|scene| threads.spawn(move || words(scene)));
+        scenes.map(|words| words.join().unwrap()).concat()
+    });
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/judged_words.txt");
+    if std::env::var_os("BLESS").is_some_and(|value| value == "1") {
+        std::fs::write(&path, &found).unwrap();
+    }
+    let kept = std::fs::read_to_string(path).unwrap();
+    assert_eq!(found, kept, "BLESS=1 writes them again");
+}
