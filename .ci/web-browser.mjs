@@ -29,7 +29,9 @@ async function byPuppeteer(browser, executablePath) {
     const chromium = ["--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run",
         "--disable-background-networking", "--disable-component-update", "--disable-sync"];
     const args = browser === "chrome" ? chromium : [];
-    const driven = await puppeteer.launch({ browser, executablePath, args, protocolTimeout: 600_000 });
+    // Firefox takes a software driver for WebGL only if it is told to.
+    const extraPrefsFirefox = { "webgl.force-enabled": true };
+    const driven = await puppeteer.launch({ browser, executablePath, args, extraPrefsFirefox, protocolTimeout: 600_000 });
     const complaints = [];
     return {
         complaints,

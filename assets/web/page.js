@@ -6,6 +6,11 @@ const loaded = document.getElementById("loaded");
 const told = document.getElementById("told");
 const wait = document.getElementById("wait");
 
+// On another page it is a stage alone.
+document.getElementById("else").hidden = self !== top;
+// The still picture is of the scene that opens by itself.
+document.getElementById("still").hidden = /^#v|scene=|loop=/.test(location.hash);
+
 /** What keeps the page from being one, in its middle. */
 function tell(sentence) {
     told.textContent = sentence;

@@ -1,0 +1,77 @@
+// What a person does to the page, tried in Chromium: fingers, keys, files, what is remembered, and a canvas that is taken away.
+
+import { readFileSync } from "node:fs";
+
+/** What a page shows, as the bytes of a picture. */
+const seen = (page) => page.picture();
+
+export async function holdDeeds({ opened, hold, becomes, seconds, tick, driven, server }) {
+    await holdFingers();
+    await holdFiles();
+    await holdMemory();
+    await holdLostContext();
+
+    async function holdFingers() {
+        const phone = { width: 390, height: 844, deviceScaleFactor: 2, isMobile: true, hasTouch: true };
+        const page = await opened("#scene=spring&tick=0", phone);
+        const cdp = await page.puppeteer.createCDPSession();
+        const touch = async (type, ...fingers) => {
+            const touchPoints = fingers.map(([x, y], id) => ({ x, y, id }));
+            await cdp.send("Input.dispatchTouchEvent", { type, touchPoints });
+            await seconds(0.2);
+        };
+        const before = await seen(page);
+        await touch("touchStart", [150, 400]);
+        await touch("touchStart", [150, 400], [240, 400]);
+        for (const apart of [20, 40, 60]) {
+            await touch("touchMove", [150 - apart, 400], [240 + apart, 400]);
+        }
+        await touch("touchEnd");
+        await seconds(0.5);
+        hold("two fingers do not enlarge the stage", (await seen(page)) !== before);
+        await page.close();
+    }
+
+    async function holdFiles() {
+        const page = await opened("");
+        const text = readFileSync("assets/scenes/ship.toml", "utf8");
+        await page.evaluate((text) => {
+            const dataTransfer = new DataTransfer();
+            dataTransfer.items.add(new File([text], "dropped.toml"));
+            dispatchEvent(new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true }));
+        }, text);
+        const isOpen = await becomes(page, () => document.title.includes("dropped"));
+        hold(`a scene that was dropped is not open: ${await page.evaluate(() => document.title)}`, isOpen);
+        await page.close();
+    }
+
+    async function holdMemory() {
+        const page = await opened("");
+        await page.puppeteer.keyboard.press("t");
+        await seconds(10);
+        const bytes = () => page.evaluate(async () => (await regatta).memory.buffer.byteLength);
+        const from = await bytes();
+        await seconds(20);
+        hold(`memory grows from ${from} to ${await bytes()}`, (await bytes()) - from < 4e6);
+        // What is open is remembered when the page is left.
+        await page.evaluate(() => document.dispatchEvent(new Event("visibilitychange")));
+        const kept = await page.evaluate(() => localStorage.regatta ?? "");
+        hold(`not remembered that instruments are open: ${kept}`, /measure = true/.test(kept));
+        await page.evaluate(() => localStorage.clear());
+        await page.close();
+    }
+
+    async function holdLostContext() {
+        const page = await opened("#scene=spring&method=rk4");
+        await seconds(3);
+        const from = await tick(page);
+        const again = page.puppeteer.waitForNavigation({ timeout: 60_000 });
+        await page.evaluate(() => document.getElementById("stage").getContext("webgl2").getExtension("WEBGL_lose_context").loseContext());
+        await again;
+        await becomes(page, () => document.documentElement.dataset.firstFrameMs !== undefined);
+        const link = await page.evaluate(() => location.hash);
+        const goesOn = await becomes(page, async (from) => (await regatta).tick() > from, from);
+        hold(`a lost canvas does not come back at tick ${from}: ${link}`, /^#v1\..*&tick=\d+&play/.test(link) && goesOn);
+        await page.close();
+    }
+}
