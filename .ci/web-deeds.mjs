@@ -13,13 +13,31 @@ export async function holdDeeds({ opened, hold, becomes, seconds, tick, driven, 
 
     async function holdFingers() {
         const phone = { width: 390, height: 844, deviceScaleFactor: 2, isMobile: true, hasTouch: true };
-        const page = await opened("#scene=spring&tick=0", phone);
+        const page = await opened("#tick=0", phone);
         const cdp = await page.puppeteer.createCDPSession();
         const touch = async (type, ...fingers) => {
             const touchPoints = fingers.map(([x, y], id) => ({ x, y, id }));
             await cdp.send("Input.dispatchTouchEvent", { type, touchPoints });
             await seconds(0.2);
         };
+        // The body is where the exact one is, a metre from the middle.
+        const link = async () => {
+            await page.puppeteer.keyboard.down("Control");
+            await page.puppeteer.keyboard.press("l");
+            await page.puppeteer.keyboard.up("Control");
+            await becomes(page, () => location.hash.startsWith("#v1."));
+            return page.evaluate(() => location.hash);
+        };
+        const untouched = await link();
+        await touch("touchStart", [270, 108]);
+        for (const x of [230, 190, 150]) {
+            await touch("touchMove", [x, 108]);
+        }
+        await touch("touchEnd");
+        await seconds(0.5);
+        const thrown = await link();
+        hold(`a body is not thrown by a finger: ${untouched} and then ${thrown}`, thrown.length > untouched.length);
+
         const before = await seen(page);
         await touch("touchStart", [150, 400]);
         await touch("touchStart", [150, 400], [240, 400]);

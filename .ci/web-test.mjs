@@ -27,7 +27,8 @@ const seconds = (many) => new Promise((later) => setTimeout(later, 1000 * many))
 /** Waits until what is asked of a page is true, for a minute. Returns whether it was. */
 async function becomes(page, asked, ...given) {
     for (let tries = 0; tries < 240; tries++) {
-        if (await page.evaluate(asked, ...given)) {
+        // While a page loads there is nobody to ask.
+        if (await page.evaluate(asked, ...given).catch(() => false)) {
             return true;
         }
         await seconds(0.25);
