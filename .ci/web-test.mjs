@@ -60,6 +60,7 @@ async function colours(page) {
 }
 
 const tick = (page) => page.evaluate(async () => (await regatta).tick());
+const frames = (page) => page.evaluate(async () => (await regatta).frames());
 
 /** That ticks pass as in the world, and a stage on another's page waits until it is told. */
 async function holdTime() {
@@ -67,12 +68,18 @@ async function holdTime() {
     const firstFrameMs = await page.evaluate(() => document.documentElement.dataset.firstFrameMs);
     const seen = await colours(page);
     hold(`the stage is drawn: ${seen} colours`, seen > 100);
-    await seconds(3);
-    const [from, began] = [await tick(page), performance.now()];
-    await seconds(5);
-    const rate = (1000 * ((await tick(page)) - from)) / (performance.now() - began);
-    hold(`ticks a second: ${rate}`, rate > 58 && rate < 62);
-    console.log(`first frame after ${firstFrameMs} ms, ${seen} colours, ${rate.toFixed(1)} ticks a second`);
+    // Where something else keeps the machine busy, ticks are dropped for a while.
+    let [rate, frameRate] = [0, 0];
+    for (let tries = 0; tries < 5 && !(rate > 59 && rate < 61 && frameRate > 3); tries++) {
+        await seconds(2);
+        const [from, framesFrom, began] = [await tick(page), await frames(page), performance.now()];
+        await seconds(5);
+        const passed = (performance.now() - began) / 1000;
+        [rate, frameRate] = [((await tick(page)) - from) / passed, ((await frames(page)) - framesFrom) / passed];
+    }
+    hold(`ticks a second: ${rate}`, rate > 59 && rate < 61);
+    hold(`frames a second: ${frameRate}`, frameRate > 3);
+    console.log(`first frame after ${firstFrameMs} ms, ${seen} colours, ${rate.toFixed(1)} ticks and ${frameRate.toFixed(1)} frames a second`);
     await page.close();
 
     const stands = await opened("#panels=off");
@@ -123,14 +130,14 @@ async function holdQuestions() {
             }, figure);
             hold(`${claim}: ${computed} here, ${number} in the text`, isThere && computed === number);
             // In the loop lab it is not the run that moves.
-            const moment = async (figure) => {
+            const isBeyond = async (figure, from) => {
                 const { contentWindow, src } = document.querySelectorAll("iframe")[figure];
                 const program = await contentWindow.regatta;
-                return src.includes("loop=") ? program.frames() : program.tick();
+                const moment = src.includes("loop=") ? program.frames() : program.tick();
+                return from === undefined ? moment : moment > from;
             };
-            const from = isThere ? await page.evaluate(moment, figure) : 0;
-            await seconds(1);
-            hold(`${claim}: its stage stands still`, isThere && (await page.evaluate(moment, figure)) > from);
+            const from = await page.evaluate(isBeyond, figure);
+            hold(`${claim}: its stage stands still`, await becomes(page, isBeyond, figure, from));
         }
         console.log(`${link.split("/").at(-1)}: ${count} numbers`);
         await page.close();
