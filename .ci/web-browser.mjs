@@ -29,9 +29,9 @@ async function byPuppeteer(browser, executablePath) {
     const chromium = ["--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run",
         "--disable-background-networking", "--disable-component-update", "--disable-sync"];
     const args = browser === "chrome" ? chromium : [];
-    // Firefox takes a software driver for WebGL only if it is told to.
-    const extraPrefsFirefox = { "webgl.force-enabled": true };
-    const driven = await puppeteer.launch({ browser, executablePath, args, extraPrefsFirefox, protocolTimeout: 600_000 });
+    // Without a window Firefox has no driver for WebGL in software.
+    const headless = browser === "chrome";
+    const driven = await puppeteer.launch({ browser, executablePath, args, headless, protocolTimeout: 600_000 });
     const complaints = [];
     return {
         complaints,
@@ -124,6 +124,10 @@ const browsers = {
 };
 
 export function drive(browser) {
+    if (browser !== "chrome" && !process.env.DISPLAY && !process.env.WAYLAND_DISPLAY) {
+        console.error(`missing: a display; xvfb-run -a .ci/web-test.mjs ${browser}`);
+        process.exit(2);
+    }
     if (!browsers[browser]) {
         console.error(`no browser ${browser}; there are ${Object.keys(browsers).join(", ")}`);
         process.exit(2);

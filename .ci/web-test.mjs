@@ -2,8 +2,8 @@
 // Holds target/web, which .ci/web makes, to the program: the bits of every scene under every method, the words of verdicts, the
 // numbers of the pages of questions, a stage that is drawn, and time that runs as in the world. `.ci/web-test.mjs firefox` and
 // `.ci/web-test.mjs webkit` take these browsers instead of Chromium, in which alone touch, a lost context and files are tried.
-// Needs the browser, and npm, which installs the driver under target/tools; WebKit is GTK's MiniBrowser with WebKitWebDriver,
-// and needs a display. Exits 2 where something is missing.
+// Needs the browser, and npm, which installs the driver under target/tools; WebKit is GTK's MiniBrowser with WebKitWebDriver.
+// These two need a display, as xvfb-run has one. Exits 2 where something is missing.
 
 import { existsSync, readFileSync } from "node:fs";
 import { drive } from "./web-browser.mjs";

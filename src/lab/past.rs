@@ -39,7 +39,9 @@ const MAX_BYTES: usize = 64 << 20;
 
 /// The capacity with which so many histories fit into [`MAX_BYTES`].
 fn capacity_of(histories: usize) -> usize {
-    CAPACITY.min(CAPACITY * (MAX_BYTES / histories.max(1)) / History::heap_bytes(CAPACITY))
+    // In 64 bits, since in a browser a product in a `usize` is cut to 32.
+    let all = CAPACITY as u64 * (MAX_BYTES / histories.max(1)) as u64;
+    CAPACITY.min((all / History::heap_bytes(CAPACITY) as u64) as usize)
 }
 
 /// The recent past of a race.
