@@ -30,7 +30,7 @@ pub(super) enum Event {
     /// A file that was asked for is read.
     FileRead(ReadFile),
     /// A watched scene file has changed; `read` is what it holds now.
-    FileChanged { path: PathBuf, read: Result<(Scene, String), Vec<Mistake>> },
+    FileChanged { path: PathBuf, read: Box<Result<(Scene, String), Vec<Mistake>>> },
     /// A watched scene file cannot be read any more.
     FileGone(PathBuf),
     /// A scene file that was gone exists again, unchanged.
@@ -99,7 +99,7 @@ impl App {
                 self.request_redraw();
             }
             Event::FileChanged { path, read } => {
-                match read {
+                match *read {
                     Ok((scene, _)) => self.studio.reload_file(&path, scene),
                     Err(report) => self.studio.reload_failed(&path, report),
                 }

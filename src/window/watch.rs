@@ -77,7 +77,7 @@ fn watch(
                     let path = file.path.clone();
                     let event = match file.look() {
                         Look::Same => continue,
-                        Look::Changed => Event::FileChanged { read: read(&path), path },
+                        Look::Changed => Event::FileChanged { read: read(&path).into(), path },
                         Look::Gone => Event::FileGone(path),
                         Look::Back => Event::FileBack(path),
                     };
