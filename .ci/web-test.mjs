@@ -59,6 +59,28 @@ async function colours(page) {
     }, await page.picture());
 }
 
+/** How far a picture of the page is from a still one, which the program has drawn: the mean difference of a channel as a part of
+ * the whole range; and how far that still one is from one of a single colour. */
+async function differences(page, still) {
+    return page.evaluate(async (picture, still) => {
+        const pixels = async (source) => {
+            const image = new Image();
+            image.src = source;
+            await image.decode();
+            const canvas = document.createElement("canvas");
+            [canvas.width, canvas.height] = [image.width, image.height];
+            const context = canvas.getContext("2d");
+            context.drawImage(image, 0, 0);
+            return context.getImageData(0, 0, image.width, image.height).data;
+        };
+        // Below the stage the page has its methods.
+        const [drawn, wanted] = [await pixels(`data:image/png;base64,${picture}`), await pixels(still)];
+        const mean = [0, 1, 2, 3].map((channel) => wanted.reduce((sum, it, at) => sum + (at % 4 === channel ? it : 0), 0) / (wanted.length / 4));
+        const far = (other) => wanted.reduce((sum, it, at) => sum + Math.abs(it - other(at)), 0) / (wanted.length * 255);
+        return [far((at) => drawn[at]), far((at) => mean[at % 4])];
+    }, await page.picture(), still);
+}
+
 const tick = (page) => page.evaluate(async () => (await regatta).tick());
 const frames = (page) => page.evaluate(async () => (await regatta).frames());
 
@@ -84,8 +106,11 @@ async function holdTime() {
     console.log(`first frame after ${firstFrameMs} ms, ${seen} colours, ${rate.toFixed(1)} ticks and ${frameRate.toFixed(1)} frames a second`);
     await page.close();
 
-    const stands = await opened("#panels=off");
+    const stands = await opened("#panels=off&theme=dark");
     hold("a stage on another's page waits", (await tick(stands)) === 0);
+    const [off, blank] = await differences(stands, "still-dark.webp");
+    hold(`its picture is off the program's by ${off}, one without a motif by ${blank}`, off < 0.015 && blank > 3 * off);
+    console.log(`${(100 * off).toFixed(2)} % off the program's picture`);
     await stands.close();
 }
 
