@@ -6,8 +6,9 @@ use regatta::lab::{Action, Judge, Verdict};
 
 use crate::words::everything;
 
-fn opened(name: &str) -> Studio {
-    Studio::new(Scene::built_in(name).unwrap())
+/// A lab on a scene in which every method has a lane, so that all are judged.
+fn opened(scene: &Scene) -> Studio {
+    Studio::new(Scene { lanes: scene.method_list(), ..scene.clone() })
 }
 
 /// The lab's verdict on each method of its list, with times that count from where the run is judged.
@@ -55,7 +56,7 @@ fn truth(studio: &Studio) -> (f64, f64) {
 
 #[test]
 fn an_edited_parameter_gives_the_verdicts_of_the_edited_body() {
-    let mut studio = opened("spring");
+    let mut studio = opened(&Scene::built_in("spring").unwrap());
     let before = verdicts(&mut studio);
     (0..100).for_each(|_| studio.tick());
     let stiffness = parameter(studio.scene(), "stiffness_n_per_m");
@@ -72,7 +73,7 @@ fn a_parameter_set_by_hand_is_judged_without_the_scripts_changes_to_it() {
     let parameter = parameter(&scene, "stiffness_n_per_m");
     let set = |value| Action::Set { body: 0, parameter, value };
     scene.script.push(Scripted { at_s: 5.0, action: set(4.0) });
-    let mut studio = Studio::new(scene.clone());
+    let mut studio = opened(&scene);
     studio.apply(RunCommand::Act(set(90.0)));
     scene.script.clear();
     let edited = with(scene, &[("stiffness_n_per_m", 90.0)]);
@@ -91,8 +92,8 @@ fn damped_by_script() -> Scene {
 #[test]
 fn a_parameter_set_by_the_script_is_judged_like_one_set_by_hand() {
     let scene = damped_by_script();
-    let mut scripted = Studio::new(scene.clone());
-    let mut by_hand = Studio::new(Scene { script: Vec::new(), ..scene.clone() });
+    let mut scripted = opened(&scene);
+    let mut by_hand = opened(&Scene { script: Vec::new(), ..scene.clone() });
     let before = verdicts(&mut scripted);
     assert_ne!(before, verdicts(&mut by_hand), "the script is part of what is judged");
     (0..61).for_each(|_| scripted.tick());
@@ -120,7 +121,7 @@ fn growth_is_that_of_the_parameters_that_the_script_leaves_in_force() {
 
 #[test]
 fn a_body_placed_by_hand_is_judged_from_where_it_was_placed() {
-    let mut studio = opened("pendulum");
+    let mut studio = opened(&Scene::built_in("pendulum").unwrap());
     let before = verdicts(&mut studio);
     (0..77).for_each(|_| studio.tick());
     studio.apply(RunCommand::Act(Action::Place { body: 0, q: [0.1].into(), v: [0.5].into() }));
@@ -143,7 +144,7 @@ fn a_body_placed_by_hand_is_judged_from_where_it_was_placed() {
 
 #[test]
 fn a_body_placed_at_rest_is_judged_at_rest() {
-    let mut studio = opened("spring");
+    let mut studio = opened(&Scene::built_in("spring").unwrap());
     studio.tick();
     studio.apply(RunCommand::Act(Action::Place { body: 0, q: [0.0].into(), v: [0.0].into() }));
     for verdict in verdicts(&mut studio) {
@@ -153,7 +154,7 @@ fn a_body_placed_at_rest_is_judged_at_rest() {
 
 #[test]
 fn a_kicked_body_is_judged_from_its_true_state_after_the_kick() {
-    let mut studio = opened("spring");
+    let mut studio = opened(&Scene::built_in("spring").unwrap());
     (0..130).for_each(|_| studio.tick());
     assert_eq!(starts_at_s(&mut studio), 0.0);
     let (_, before) = truth(&studio);
@@ -174,7 +175,7 @@ fn a_run_judged_from_a_placement_keeps_its_throttle_and_the_rest_of_the_script()
         Scene { script, ..Scene::built_in("ship").unwrap() }
     };
     let hz = u64::from(scripted(&[]).tick_hz);
-    let mut studio = Studio::new(scripted(&[(1.0, 0.5), (9.0, -0.25)]));
+    let mut studio = opened(&scripted(&[(1.0, 0.5), (9.0, -0.25)]));
     (0..2 * hz).for_each(|_| studio.tick());
     studio.apply(RunCommand::Act(Action::Place { body: 0, q: [10.0].into(), v: [3.0].into() }));
     let rest = scripted(&[(0.0, 0.5), (7.0, -0.25)]);
