@@ -11,14 +11,14 @@ document.getElementById("else").hidden = self !== top;
 // The still picture is of the scene that opens by itself.
 document.getElementById("still").hidden = /^#v|scene=|loop=/.test(location.hash);
 
-/** What keeps the page from being one, in its middle. */
+/** Says why there is no stage, or none any more. */
 function tell(sentence) {
     told.textContent = sentence;
     loaded.hidden = true;
     wait.hidden = false;
 }
 
-/** The program's bytes, compiled while they arrive; its bytes are counted as the browser hands them on, uncompressed. */
+/** The bytes of the program as they arrive, from which it is compiled; they are counted uncompressed, as the browser hands them on. */
 async function arriving() {
     const response = await fetch("regatta_web_bg.wasm");
     if (!response.ok) {

@@ -6,13 +6,14 @@ use std::sync::atomic::Ordering;
 use clap::Args;
 
 use super::error::Error;
-use super::experiment::{ExperimentArgs, Lineup};
+use super::experiment::ExperimentArgs;
 use super::help::flowing;
 use super::id::{FAMILY, LANGUAGE};
 use super::interrupt::watch_for_interrupt;
 use super::output::print;
 use super::output::table::TableFormat;
 use super::{jobs, scene_file};
+use crate::lab::race::Mode;
 use crate::lab::source_code::Language;
 use crate::lab::{Adviser, LaneSpec, Scene};
 use crate::sim::integrators::{Family, METHODS};
@@ -100,7 +101,7 @@ fn of_family(scene: &Scene, family: Family) -> Result<Vec<LaneSpec>, Error> {
 }
 
 pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
-    let experiment = args.experiment.load(Lineup::Everyone)?;
+    let experiment = args.experiment.load(Mode::Race)?;
     let scene = &experiment.scene;
     let specs: Vec<LaneSpec> = match args.family {
         Some(family) => of_family(scene, family)?,

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 
 use super::capture_settings::CaptureSettings;
 use super::error::Error;
-use super::experiment::{self, Experiment, ExperimentArgs, Lineup, ThemeName, known_trace};
+use super::experiment::{self, Experiment, ExperimentArgs, ThemeName, known_trace};
 use super::frame_folder::{FolderPolicy, FrameFolder};
 use super::frame_names::MAX_FRAMES;
 use super::help::flowing;
@@ -20,6 +20,7 @@ use crate::atomic_file::IfExists;
 use crate::lab::cloud::{CloudKind, CloudShape};
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
+use crate::lab::race::Mode;
 use crate::lab::studio::Instrument;
 
 const EXAMPLES: &str = "\
@@ -165,13 +166,13 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
     }
     let format = PictureFormat::of(&args.out, args.format)?;
     let everyone = args.race || format.is_sheet() && args.experiment.names_no_method();
-    let lineup = if everyone { Lineup::Everyone } else { Lineup::Solo };
+    let mode = if everyone { Mode::Race } else { Mode::Solo };
     if args.loop_trace.is_some() && format.is_sheet() {
         return Err(Error::mistake(
             "a sheet shows methods and not loops; give --loop another format",
         ));
     }
-    let experiment = args.experiment.load(lineup)?;
+    let experiment = args.experiment.load(mode)?;
     let experiment = Experiment { loop_trace: args.loop_trace, ..experiment };
     let studio = experiment.studio();
     if args.loop_trace.is_some()

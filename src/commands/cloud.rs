@@ -8,7 +8,7 @@ use clap::Args;
 use serde_json::json;
 
 use super::error::Error;
-use super::experiment::{ExperimentArgs, Lineup, some_seconds};
+use super::experiment::{ExperimentArgs, some_seconds};
 use super::file_names::{ending, row_format};
 use super::help::flowing;
 use super::id::SHAPE;
@@ -22,6 +22,7 @@ use crate::atomic_file::IfExists;
 use crate::lab::cloud::{
     Cloud, CloudBody, CloudMeasure, CloudShape, CloudStart, NoCloud, USUAL_POINTS,
 };
+use crate::lab::race::Mode;
 use crate::lab::{LaneSpec, Scene, SceneBody};
 
 const ABOUT: &str = "\
@@ -159,7 +160,7 @@ impl MethodCloud {
 
 pub(super) fn run(args: &CloudArgs) -> Result<(), Error> {
     let format = format(&args.out)?;
-    let scene = args.experiment.load(Lineup::Everyone)?.scene;
+    let scene = args.experiment.load(Mode::Race)?.scene;
     let specs = match args.experiment.names_no_method() {
         true => scene.lanes.clone(),
         false => args.experiment.lanes_named(&scene),

@@ -15,12 +15,9 @@ use crate::lab::pacing::{TRACES, TraceCard};
 use crate::lab::palette::Theme;
 use crate::lab::race::{Mode, lanes_that_race};
 use crate::lab::scene::{MAX_SECONDS, SCENES, Scene, SceneGroup};
-use crate::lab::studio::Studio;
+use crate::lab::studio::{Studio, lineup};
 use crate::sim::Clock;
 use crate::sim::integrators::Method;
-
-/// With so many methods named, none of them is selected.
-const MANY_LANES: usize = 10;
 
 /// The options that choose a scene, its methods and its tick rate.
 #[derive(Clone, Debug, Args)]
@@ -49,16 +46,6 @@ pub(super) struct ExperimentArgs {
     tick_hz: Option<u32>,
 }
 
-/// Which lanes there are if fewer than two methods are named.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Lineup {
-    /// The one method named, else the one that the scene opens with. A scene that opens as a race races where no method
-    /// is named.
-    Solo,
-    /// All lanes of the scene; the named method, if any, is selected.
-    Everyone,
-}
-
 /// A scene with the command line's options applied, and the methods that run it.
 pub(super) struct Experiment {
     /// The scene, with the options applied.
@@ -67,25 +54,21 @@ pub(super) struct Experiment {
     pub(super) text: String,
     /// The first method named; `None` where none is, or many are.
     pub(super) selected: Option<&'static Method>,
-    pub(super) lineup: Lineup,
+    /// Whether the lanes of the scene race.
+    pub(super) mode: Mode,
     /// The trace on which the loop lab is open, if it is.
     pub(super) loop_trace: Option<&'static TraceCard>,
 }
 
 impl ExperimentArgs {
-    /// Reads the scene and applies the other options to it.
-    pub(super) fn load(&self, lineup: Lineup) -> Result<Experiment, Error> {
+    /// Reads the scene and applies the other options to it. `asked` is the mode where the methods leave it open.
+    pub(super) fn load(&self, asked: Mode) -> Result<Experiment, Error> {
         let (scene, text) = match self.spring.load()? {
             Some((scene, text)) => (self.applied_to(scene)?, text),
             None => self.read(self.scene())?,
         };
-        let lineup = match self.methods.len() {
-            0 if scene.opens_as_race => Lineup::Everyone,
-            0 | 1 => lineup,
-            _ => Lineup::Everyone,
-        };
-        let selected = self.methods.first().filter(|_| self.methods.len() < MANY_LANES).copied();
-        Ok(Experiment { scene, text, selected, lineup, loop_trace: None })
+        let (mode, selected) = lineup(&scene, &self.methods, asked);
+        Ok(Experiment { scene, text, selected, mode, loop_trace: None })
     }
 
     /// Reads a scene, and applies the other options to it if it is the one that was given.
@@ -147,16 +130,12 @@ impl Experiment {
 
     /// Whether lanes race and none was named, so that their verdicts select one.
     pub(super) fn leaves_selection(&self) -> bool {
-        self.lineup == Lineup::Everyone && self.selected.is_none()
+        self.mode == Mode::Race && self.selected.is_none()
     }
 
     /// The lab at tick 0. A single lane is shown solo.
     pub(super) fn studio(&self) -> Studio {
-        let mode = match self.lineup {
-            Lineup::Solo => Mode::Solo,
-            Lineup::Everyone => Mode::Race,
-        };
-        let mut studio = Studio::opened(self.scene.clone(), self.selected, mode);
+        let mut studio = Studio::opened(self.scene.clone(), self.selected, self.mode);
         if let Some(card) = self.loop_trace {
             studio.open_loop_lab_on(card.id);
         }
@@ -264,6 +243,7 @@ pub(super) fn trace_names() -> Vec<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::studio::MANY_LANES;
     use crate::sim::integrators::METHODS;
 
     #[derive(clap::Parser)]
@@ -279,7 +259,7 @@ mod tests {
             let named = ids[..count].iter().flat_map(|id| ["--method", id]);
             let words = ["", "--scene", "spring"].into_iter().chain(named);
             let line = <Line as clap::Parser>::parse_from(words);
-            let mut studio = line.experiment.load(Lineup::Solo).unwrap().studio();
+            let mut studio = line.experiment.load(Mode::Solo).unwrap().studio();
             assert_eq!(studio.entries()[studio.active()].method.id, ids[0]);
             studio.analyse();
             let outcome = |entry: usize| studio.viewer().verdict(entry).unwrap().outcome();
@@ -292,7 +272,7 @@ mod tests {
     #[test]
     fn a_race_of_a_scene_selects_the_lane_that_its_verdicts_put_first() {
         let line = <Line as clap::Parser>::parse_from(["", "--scene", "spring"]);
-        let mut studio = line.experiment.load(Lineup::Everyone).unwrap().studio();
+        let mut studio = line.experiment.load(Mode::Race).unwrap().studio();
         studio.analyse();
         let outcome = |entry: usize| studio.viewer().verdict(entry).unwrap().outcome();
         let best = (0..studio.race().entrants().len()).map(outcome).min().unwrap();

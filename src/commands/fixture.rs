@@ -4,11 +4,12 @@ use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
 use super::error::Error;
-use super::experiment::{self, ExperimentArgs, Lineup};
+use super::experiment::{self, ExperimentArgs};
 use super::help::flowing;
 use super::output::print;
 use super::terminal::print_status;
 use super::trace::Reached;
+use crate::lab::race::Mode;
 use crate::lab::{Scene, Studio};
 
 const ABOUT: &str = "\
@@ -120,7 +121,7 @@ struct States {
 }
 
 pub(super) fn run(args: &FixtureArgs) -> Result<(), Error> {
-    let experiment = args.experiment.load(Lineup::Solo)?;
+    let experiment = args.experiment.load(Mode::Solo)?;
     let seconds = args.seconds.unwrap_or(experiment.scene.seconds);
     let mut studio = experiment.studio();
     let scene = Scene { seconds, ..studio.scene().clone() };

@@ -9,7 +9,7 @@ use clap::Args;
 
 use super::capture_settings::CaptureSettings;
 use super::error::Error;
-use super::experiment::{self, Experiment, ExperimentArgs, Lineup, ThemeName, known_trace};
+use super::experiment::{self, Experiment, ExperimentArgs, ThemeName, known_trace};
 use super::frame_folder::FrameFolder;
 use super::help::flowing;
 use super::interrupt::tell_of_interrupt;
@@ -22,6 +22,7 @@ use super::{clip, scene_file, state_log};
 use crate::atomic_file::IfExists;
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
+use crate::lab::race::Mode;
 use crate::lab::studio::{Motion, SavedPreferences, Studio};
 use crate::sim::number::counted;
 use crate::window::{self, Closed, SceneFiles, WindowError, WindowSettings};
@@ -92,16 +93,16 @@ const FRAMES: u32 = 4 * FPS;
 const SIZE_PX: [u32; 2] = [1280, 720];
 
 pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
-    let lineup = if args.race { Lineup::Everyone } else { Lineup::Solo };
+    let mode = if args.race { Mode::Race } else { Mode::Solo };
     let preferences = preferences::load();
     // A run of a given length is a script's, and is the same everywhere.
     let last_scene = preferences.scene.as_deref().filter(|_| args.seconds.is_none());
     let again = last_scene.map(|scene| args.experiment.or_scene(scene));
     // A scene file may have gone since.
-    let again = again.and_then(|options| Some((options.load(lineup).ok()?, options)));
+    let again = again.and_then(|options| Some((options.load(mode).ok()?, options)));
     let (experiment, options) = match again {
         Some(opened) => opened,
-        None => (args.experiment.load(lineup)?, args.experiment.clone()),
+        None => (args.experiment.load(mode)?, args.experiment.clone()),
     };
     let experiment = Experiment { loop_trace: args.loop_trace, ..experiment };
     let mut studio = experiment.studio();

@@ -1,13 +1,14 @@
 //! Converts an experiment and the settings of a capture to those of a manifest, and back.
 
 use super::capture_settings::CaptureSettings;
-use super::experiment::{Experiment, Lineup};
+use super::experiment::Experiment;
 use super::fingerprint::fingerprint;
 use super::frame_names::{MAX_FRAMES, frame_name};
 use super::id::{CLOUD, INSTRUMENT, TRACE};
 use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings};
 use super::schedule::{MAX_FPS, Schedule};
 use crate::lab::palette::Theme;
+use crate::lab::race::Mode;
 use crate::lab::scene::{MAX_LANES, MAX_SUBSTEPS, Scene, TOLERANCES};
 use crate::lab::studio::Instrument;
 use crate::lab::{LaneSpec, Swing};
@@ -33,7 +34,7 @@ pub(super) fn written(experiment: &Experiment, capture: &CaptureSettings) -> Set
             text: experiment.text.clone(),
         },
         lanes: scene.lanes.iter().map(lane).collect(),
-        race: experiment.lineup == Lineup::Everyone,
+        race: experiment.mode == Mode::Race,
         loop_trace: experiment.loop_trace.map(|card| card.id.to_owned()),
         selected: (!experiment.leaves_selection())
             .then(|| experiment.opening_method().id.to_owned()),
@@ -102,7 +103,7 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, CaptureSettings),
         scene,
         text: text.clone(),
         selected: settings.selected.as_deref().map(known).transpose()?,
-        lineup: if settings.race { Lineup::Everyone } else { Lineup::Solo },
+        mode: if settings.race { Mode::Race } else { Mode::Solo },
         loop_trace: settings.loop_trace.as_deref().map(|id| TRACE.find(id)).transpose()?,
     };
     let capture = CaptureSettings {

@@ -5,12 +5,13 @@ use std::io::Write;
 use super::capture_settings::CaptureSettings;
 use super::drawing::{check_pixels, interrupted_after};
 use super::error::Error;
-use super::experiment::{Experiment, Lineup};
+use super::experiment::Experiment;
 use super::interrupt::watch_for_interrupt;
 use super::output::Output;
 use super::pipeline::complete_analysis;
 use super::terminal::{print_status, progress};
 use crate::lab::cloud::CloudWorker;
+use crate::lab::race::Mode;
 use crate::lab::{LaneSpec, Studio};
 use crate::view::png;
 
@@ -47,7 +48,7 @@ pub(super) fn draw(
             scene,
             text,
             selected: Some(lane.method),
-            lineup: Lineup::Solo,
+            mode: Mode::Solo,
             loop_trace: None,
         };
         let (mut studio, mut clouds) = (capture.dress(alone.studio()), CloudWorker::default());

@@ -6,11 +6,12 @@ use clap::Args;
 use serde_json::Value;
 
 use super::error::Error;
-use super::experiment::{self, ExperimentArgs, Lineup};
+use super::experiment::{self, ExperimentArgs};
 use super::help::flowing;
 use super::output::Output;
 use super::output::table::{RowFormat, RowWriter};
 use super::terminal::print_status;
+use crate::lab::race::Mode;
 use crate::lab::race::{Lane, LaneBody};
 use crate::lab::trace::{COLUMNS, each_row, method_id};
 use crate::lab::{SceneBody, Studio};
@@ -60,8 +61,8 @@ pub(super) struct TraceArgs {
 }
 
 pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
-    let lineup = if args.experiment.names_no_method() { Lineup::Everyone } else { Lineup::Solo };
-    let experiment = args.experiment.load(lineup)?;
+    let mode = if args.experiment.names_no_method() { Mode::Race } else { Mode::Solo };
+    let experiment = args.experiment.load(mode)?;
     let seconds = args.seconds.unwrap_or(experiment.scene.seconds);
     let mut studio = experiment.studio();
     let mut halts = Halts::default();

@@ -64,6 +64,7 @@ use looping::Activity;
 pub use my_spring::MySpring;
 pub use notice::Notice;
 pub use one_step::{OneStep, Slope};
+pub use opening::{MANY_LANES, lineup};
 pub use pace::PaceMeter;
 pub use saved_preferences::SavedPreferences;
 pub use scene_list::SceneList;

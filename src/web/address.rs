@@ -2,7 +2,7 @@
 
 use regatta::lab::palette::Theme;
 use regatta::lab::race::Mode;
-use regatta::lab::studio::{Instrument, Studio};
+use regatta::lab::studio::{Instrument, Studio, lineup};
 use regatta::lab::{Scene, link};
 use regatta::sim::Clock;
 use regatta::sim::integrators::{Method, method};
@@ -79,14 +79,9 @@ impl Address {
             let is_one = |hz: &u32| Clock::TICK_HZ.contains(hz);
             scene.tick_hz = hz.parse().ok().filter(is_one).ok_or("tick-hz is 1 to 10000")?;
         }
-        let is_race = match methods.len() {
-            0 => *races || scene.opens_as_race,
-            1 => *races,
-            _ => true,
-        };
-        let mode = if is_race { Mode::Race } else { Mode::Solo };
-        let mut studio =
-            Studio::opened(scene.with_methods(&methods), methods.first().copied(), mode);
+        let asked = if *races { Mode::Race } else { Mode::Solo };
+        let (mode, selected) = lineup(&scene, &methods, asked);
+        let mut studio = Studio::opened(scene.with_methods(&methods), selected, mode);
         match loop_trace {
             Some(trace) => studio.open_loop_lab_on(trace),
             None => studio.show_clouds_of_scene(),

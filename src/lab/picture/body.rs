@@ -4,7 +4,7 @@ use super::coil::{Span, coil, silhouette, strut};
 use super::hull::{self, ShipPose};
 use super::mass;
 use super::sketch::{Camera, LaneStyle, SOLID};
-use super::{Align, Label, Mark, Outline, Picture};
+use super::{Align, Label, Mark, Outline, Picture, captions};
 use crate::lab::palette::{Palette, Rgba, faded, is_bright, mixed};
 use crate::lab::scene::Thread;
 
@@ -130,8 +130,8 @@ impl OutlineView<'_> {
         for (at, text) in &self.outline.names {
             let [x, y] = self.camera.points(*at);
             let (at, colour) = ([x - 6.0, y], self.palette.text);
-            let label = Label::new(at, Align::Right, 13.0, colour, text.clone());
-            picture.labels.push(label.strong().on_water(self.palette));
+            let label = captions::text(self.palette, at, Align::Right, 13.0, colour, text.clone());
+            picture.labels.push(label.strong());
         }
     }
 

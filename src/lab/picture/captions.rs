@@ -321,8 +321,8 @@ impl Chip {
         plate(picture, chip, self.colours[1], rect, palette);
         let middle = top + CHIP / 2.0;
         let mut write = |x, size, colour, words: String| {
-            let label = text(palette, [x, middle], Align::Left, size, colour, words);
-            picture.labels.push(Label { is_strong: true, halo: [0; 4], ..label });
+            let label = Label::new([x, middle], Align::Left, size, colour, words);
+            picture.labels.push(label.strong());
         };
         write(left + 11.0, 12.5, self.colours[0], self.sign.into());
         write(left + 28.0, 13.5, palette.text, self.verdict);

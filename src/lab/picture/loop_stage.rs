@@ -5,7 +5,9 @@ use glam::DVec2;
 
 use super::body::OutlineView;
 use super::sketch::{Camera, LaneStyle, SOLID};
-use super::{Align, Framing, Label, Look, Outline, Picture, Rect, Rgba, breakpoints, chart};
+use super::{
+    Align, Framing, Label, Look, Outline, Picture, Rect, Rgba, breakpoints, captions, chart,
+};
 use crate::lab::Studio;
 use crate::lab::analysis::Severity;
 use crate::lab::loop_lab::{LoopFrame, LoopLab, LoopLane};
@@ -300,7 +302,7 @@ impl<'a> LoopBand<'a> {
     }
 
     fn label(&self, at: [f32; 2], align: Align, size: f32, text: String) -> Label {
-        Label::new(at, align, size, self.palette.text, text).on_water(self.palette)
+        captions::text(self.palette, at, align, size, self.palette.text, text)
     }
 
     /// The loop's name at this height, and as much of its verdict as there is room for.

@@ -224,8 +224,7 @@ pub(super) fn sentence(
     let colour = moment.style(moment.studio.entry(lane)).0;
     captions::plate(picture, frame, colour, camera.rect, palette);
     let at = [middle, bottom - SENTENCE / 2.0];
-    let label = text(palette, at, Align::Centre, 13.0, palette.text, words);
-    picture.labels.push(Label { is_strong: true, halo: [0; 4], ..label });
+    picture.labels.push(Label::new(at, Align::Centre, 13.0, palette.text, words).strong());
 }
 
 /// A number of things, in words where it is small.

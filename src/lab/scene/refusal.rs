@@ -1,4 +1,4 @@
-//! Methods that do not step every body: which of them a scene refuses, and why.
+//! Which methods a scene takes and refuses, and why, and the lanes that it has of them.
 
 use super::{Scene, SceneBody};
 use crate::lab::action::Action;

@@ -16,6 +16,8 @@ use crate::sim::integrators::Method;
 
 /// The name of a custom spring on the list of scenes.
 const MY_SPRING: &str = "my spring";
+/// With so many methods named, none of them is selected.
+pub const MANY_LANES: usize = 10;
 /// The most ticks for which a changed scene is run again: an hour at 60 Hz, which takes about a second.
 const MAX_RERUN: u64 = 60 * 3600;
 
@@ -273,6 +275,21 @@ impl Studio {
         studio.leave_guide();
         *self = studio;
     }
+}
+
+/// Whether the lanes of a scene race, and which method is selected, where options name these methods. Several race, and so does a
+/// scene that opens as a race where none is named; else it is as `asked`. The first is selected, unless they are [`MANY_LANES`].
+pub fn lineup(
+    scene: &Scene,
+    methods: &[&'static Method],
+    asked: Mode,
+) -> (Mode, Option<&'static Method>) {
+    let mode = match methods.len() {
+        0 if scene.opens_as_race => Mode::Race,
+        0 | 1 => asked,
+        _ => Mode::Race,
+    };
+    (mode, methods.first().filter(|_| methods.len() < MANY_LANES).copied())
 }
 
 /// Whether a run of one scene can continue in the other: they have equal lanes and bodies of the same kinds.

@@ -165,6 +165,7 @@ fn modes(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) 
     let frame = Frame::new().fill(palette(ui).raised).corner_radius(5.0);
     frame.show(ui, |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
+        // A bar that has no room for a tick forward has none for wide margins either.
         let margin = if width >= breakpoints::TICK_FORWARD { 12.0 } else { 7.0 };
         for (name, about, is_chosen, command) in parts {
             if part(ui, name, margin, about, is_chosen) && !is_chosen {
