@@ -5,7 +5,7 @@
 
 use super::action::Action;
 use super::lane_id::LaneId;
-use super::race::{Entrant, Observer, Race, Resumed, ResumedFrom};
+use super::race::{Author, Entrant, Observer, Race, Resumed, ResumedFrom, Starts};
 use crate::sim::bodies::Coordinate;
 use history::HistoryMark;
 
@@ -57,6 +57,7 @@ pub struct Past {
     /// When a body was last placed or a parameter last set, in seconds; before the start if neither was done.
     changed_s: f64,
     menu: Menu,
+    starts: Starts,
 }
 
 /// The end of the recorded past at some tick, to which it can be [rewound](Past::rewind).
@@ -67,6 +68,7 @@ pub(super) struct PastMark {
     truth_curves: Box<[TruthMark]>,
     changed_s: f64,
     menu: Menu,
+    starts: Starts,
 }
 
 impl PastMark {
@@ -77,6 +79,7 @@ impl PastMark {
             + self.histories.iter().map(row).sum::<usize>()
             + size_of_val(&self.truth_curves[..])
             + self.menu.heap_bytes()
+            + self.starts.heap_bytes()
     }
 }
 
@@ -105,6 +108,7 @@ impl Past {
             capacity,
             changed_s: f64::NEG_INFINITY,
             menu: Menu::new(race),
+            starts: Starts::default(),
         };
         past.sample(race);
         past
@@ -120,6 +124,11 @@ impl Past {
     /// The methods that the entries of samples refer to.
     pub fn menu(&self) -> &Menu {
         &self.menu
+    }
+
+    /// The states from which the run is told at present.
+    pub(super) fn starts(&self) -> &Starts {
+        &self.starts
     }
 
     /// The histories of the bodies of a lane that is in the race.
@@ -231,6 +240,7 @@ impl Past {
             truth_curves: self.truth_curves.iter().map(TruthCurve::mark).collect(),
             changed_s: self.changed_s,
             menu: self.menu.clone(),
+            starts: self.starts.clone(),
         }
     }
 
@@ -251,6 +261,7 @@ impl Past {
     pub(super) fn rewind(&mut self, mark: &PastMark, race: &Race) {
         self.changed_s = mark.changed_s;
         self.menu = mark.menu.clone();
+        self.starts = mark.starts.clone();
         self.leave_with(race);
         for (lane, marks) in &mark.histories {
             let index = self.index(*lane).unwrap_or_else(|| {
@@ -358,6 +369,10 @@ impl Observer for Past {
             let sample = Sample::new(race.t(), entry, curve.coordinate(), [body, truth]);
             history.begin_run(Sample { jumped, ..sample });
         }
+    }
+
+    fn acted(&mut self, race: &Race, action: &Action, author: Author) {
+        self.starts.acted(race, action, author);
     }
 
     fn ticked(&mut self, race: &Race) {

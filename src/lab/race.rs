@@ -41,6 +41,7 @@ mod run_start;
 
 pub(super) use acting::ActionResult;
 pub use observer::Observer;
+pub(super) use run_start::Starts;
 use run_start::{BodyStart, RunStart};
 
 /// One method at a time, or all of them at once.
@@ -92,10 +93,6 @@ pub struct Race {
     journal: Journal,
     /// The number of rows of the journal that have been performed.
     done: usize,
-    /// The state right after a person last placed or kicked a body.
-    judged_start: Option<Arc<RunStart>>,
-    /// The state right after anything last acted on the bodies.
-    cloud_start: Option<Arc<RunStart>>,
 }
 
 impl Race {
@@ -152,8 +149,6 @@ impl Race {
             last_step_s: 0.0,
             journal: Journal::default(),
             done: 0,
-            judged_start: None,
-            cloud_start: None,
         }
     }
 
@@ -268,12 +263,10 @@ impl Race {
         let lanes = self.entrants.iter().map(|entrant| &entrant.lane).chain([&self.truth]);
         let values =
             self.values.iter().map(|values| size_of_val(values) + size_of_val(&values[..]));
-        let starts = [&self.judged_start, &self.cloud_start].into_iter().flatten();
         size_of::<Self>()
             + self.entrants.len() * size_of::<Entrant>()
             + values.sum::<usize>()
             + lanes.map(Lane::heap_bytes).sum::<usize>()
-            + starts.map(|start| start.bytes()).sum::<usize>()
     }
 
     /// Performs the journal's actions at this tick, and steps every lane and the truth to the next. Never allocates.

@@ -29,7 +29,7 @@ impl Race {
         while let Some(row) = journal.rows().get(self.done).filter(|row| row.tick <= self.tick) {
             self.done += 1;
             self.perform(&row.action, observer);
-            self.note_start(&row.action, row.author);
+            observer.acted(self, &row.action, row.author);
         }
     }
 
@@ -74,7 +74,7 @@ impl Race {
         self.perform(&action, observer);
         // The rate is another now, or a change of it that was to come is none.
         self.journal.put_on_ticks(self.done, self.piece);
-        self.note_start(&action, Author::Person);
+        observer.acted(self, &action, Author::Person);
         ActionResult::Done { released }
     }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::journal::{Author, JournalRow};
-use super::{BodyStart, Race, RunStart};
+use super::{BodyStart, Race, RunStart, Starts};
 use crate::lab::action::Action;
 use crate::lab::scene::{Scene, Scripted};
 use crate::lab::time_scale::nearest_tick;
@@ -18,9 +18,9 @@ pub(in crate::lab) struct Interventions {
 }
 
 impl Interventions {
-    /// The changes in `race` by which it is judged. A parameter that the script has set is in force like one that a person has
+    /// The changes in `race`, whose run is told from `starts`, by which it is judged. A parameter that the script has set is in force like one that a person has
     /// set; what the script does to throttle, rudder and state is part of the motion that is judged.
-    pub(in crate::lab) fn in_race(race: &Race) -> Self {
+    pub(in crate::lab) fn in_race(race: &Race, starts: &Starts) -> Self {
         let mut settings: Vec<Action> = Vec::new();
         let is_in_force = |row: &&JournalRow| {
             row.author == Author::Person || matches!(row.action, Action::Set { .. })
@@ -33,12 +33,12 @@ impl Interventions {
                 settings.push(row.action.clone());
             }
         }
-        Self { start: race.judged_start().cloned(), settings }
+        Self { start: starts.judged.clone(), settings }
     }
 
-    /// All changes in `race`: the run is told from right after the last one on.
-    pub(in crate::lab) fn all_in_race(race: &Race) -> Self {
-        Self { start: race.cloud_start().cloned(), settings: Vec::new() }
+    /// All changes: the run is told from right after the last one on.
+    pub(in crate::lab) fn all(starts: &Starts) -> Self {
+        Self { start: starts.cloud.clone(), settings: Vec::new() }
     }
 
     /// The time of the run at which the scene begins that it is [applied to](Self::applied_to), in seconds.

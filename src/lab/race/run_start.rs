@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::Race;
 use super::journal::Author;
+use super::observer::Observer;
 use crate::lab::action::Action;
 
 /// The true state of a race right after an action on its bodies.
@@ -42,48 +43,52 @@ impl RunStart {
     }
 }
 
-impl Race {
-    /// The state right after a person last placed or kicked a body; `None` if nobody has.
-    pub(super) fn judged_start(&self) -> Option<&Arc<RunStart>> {
-        self.judged_start.as_ref()
+/// The states from which a run is told, as of its present tick.
+#[derive(Clone, Debug, Default)]
+pub(in crate::lab) struct Starts {
+    /// Right after a person last placed or kicked a body.
+    pub(super) judged: Option<Arc<RunStart>>,
+    /// Right after a person or the script last acted on a body.
+    pub(super) cloud: Option<Arc<RunStart>>,
+}
+
+impl Starts {
+    /// Their memory in bytes.
+    pub(in crate::lab) fn heap_bytes(&self) -> usize {
+        [&self.judged, &self.cloud].into_iter().flatten().map(|start| start.bytes()).sum()
     }
 
-    /// Whether a person has changed the run since it is judged, so that verdicts are of another run.
-    pub(in crate::lab) fn was_changed_since_judged(&self) -> bool {
-        let from = self.judged_start.as_ref().map_or(0, |start| start.tick);
-        let rows = &self.journal().rows()[..self.done()];
+    /// Whether a person has changed this run since it is judged, so that verdicts are of another run.
+    pub(in crate::lab) fn was_changed_since_judged(&self, race: &Race) -> bool {
+        let from = self.judged.as_ref().map_or(0, |start| start.tick);
+        let rows = &race.journal().rows()[..race.done()];
         rows.iter().any(|row| row.tick > from && row.author == Author::Person)
     }
+}
 
-    /// The state right after a person or the script last acted on a body; `None` if neither has.
-    pub(super) fn cloud_start(&self) -> Option<&Arc<RunStart>> {
-        self.cloud_start.as_ref()
-    }
-
-    /// Keeps the present state if `action` acted on a body: clouds start from it, and verdicts too if a person placed or
-    /// kicked a body.
-    pub(super) fn note_start(&mut self, action: &Action, author: Author) {
-        if !(0..self.values.len()).any(|body| action.acts_on(body)) {
+impl Observer for Starts {
+    fn acted(&mut self, race: &Race, action: &Action, author: Author) {
+        if !(0..race.values.len()).any(|body| action.acts_on(body)) {
             return;
         }
-        let is_placed = matches!(action, Action::Place { .. } | Action::Kick(_));
-        let bodies = self.truth.bodies().iter().zip(&self.values);
+        let bodies = race.truth.bodies().iter().zip(&race.values);
         let bodies = bodies.map(|(body, values)| BodyStart {
             values: values.clone(),
             q: body.stepper.q().into(),
             v: body.stepper.v().into(),
         });
         let start = Arc::new(RunStart {
-            tick: self.tick,
-            t: self.t(),
-            tick_hz: self.tick_hz(),
-            throttle: self.throttle,
-            rudder: self.rudder,
+            tick: race.tick,
+            t: race.t(),
+            tick_hz: race.tick_hz(),
+            throttle: race.throttle,
+            rudder: race.rudder,
             bodies: bodies.collect(),
         });
+        let is_placed = matches!(action, Action::Place { .. } | Action::Kick(_));
         if is_placed && author == Author::Person {
-            self.judged_start = Some(Arc::clone(&start));
+            self.judged = Some(Arc::clone(&start));
         }
-        self.cloud_start = Some(start);
+        self.cloud = Some(start);
     }
 }

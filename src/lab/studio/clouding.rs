@@ -16,7 +16,7 @@ impl Studio {
         if !is_shown || self.cloud_refusal().is_some() {
             return None;
         }
-        let changes = Interventions::all_in_race(self.race());
+        let changes = Interventions::all(self.past().starts());
         let (tick_hz, choice) = (self.clock.tick_hz(), self.display().cloud);
         let seconds = (self.race().t() - changes.starts_at_s()).max(0.0);
         Some(CloudRequest {

@@ -26,7 +26,7 @@ impl Studio {
         };
         AnalysisRequest {
             scene: Arc::clone(&self.timeline.next().scene),
-            by_hand: Interventions::in_race(self.race()),
+            by_hand: Interventions::in_race(self.race(), self.past().starts()),
             entries: entries.to_vec(),
             first,
             tick_hz: self.clock.tick_hz(),

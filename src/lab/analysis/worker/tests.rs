@@ -1,6 +1,7 @@
 //! What a worker keeps, and what it computes again.
 
 use super::*;
+use crate::lab::race::Starts;
 use crate::lab::{Action, Race};
 use crate::sim::integrators::{GENERAL_METHODS, method};
 
@@ -51,8 +52,9 @@ fn each_verdict_is_found_once_until_the_rate_the_run_or_the_scene_changes() {
     assert_eq!(count, GENERAL_METHODS.len());
     assert!(coarse != fine);
     let mut race = Race::of_scene(&first.scene);
-    race.act(Action::Throttle(0.5), &mut ());
-    let by_hand = Interventions::in_race(&race);
+    let mut starts = Starts::default();
+    race.act(Action::Throttle(0.5), &mut starts);
+    let by_hand = Interventions::in_race(&race, &starts);
     let slower = AnalysisRequest { tick_hz: 20, by_hand, ..first.clone() };
     assert_eq!(answer(&mut worker, &slower).0, GENERAL_METHODS.len());
     assert_eq!(answer(&mut worker, &first), (GENERAL_METHODS.len(), fine));
