@@ -52,4 +52,6 @@ globalThis.regatta = (async () => {
     sight.observe(document.getElementById("stage"));
     return { ...program, memory };
 })();
-regatta.catch((reason) => tell(`${reason.message ?? reason}`));
+regatta.catch((reason) => tell(reason instanceof WebAssembly.CompileError
+    ? `Regatta needs WebAssembly with vectors, as browsers have it since 2023 (${reason.message}).`
+    : `${reason.message ?? reason}`));
