@@ -89,9 +89,14 @@ async function byWebDriver(driver, binary) {
         complaints: [],
         // One window, whose page each address takes the place of.
         async open(address, size = SIZE) {
-            await window("POST", "/window/rect", { ...SIZE, ...size });
+            const wanted = { ...SIZE, ...size };
+            await window("POST", "/window/rect", wanted);
             // An address that differs by its fragment alone is no other page.
             await window("POST", "/url", { url: "about:blank" });
+            // A window is larger than the page in it.
+            const script = "return { width: outerWidth - innerWidth, height: outerHeight - innerHeight }";
+            const round = await window("POST", "/execute/sync", { script, args: [] });
+            await window("POST", "/window/rect", { width: wanted.width + round.width, height: wanted.height + round.height });
             await window("POST", "/url", { url: address });
             return {
                 async evaluate(asked, ...given) {
