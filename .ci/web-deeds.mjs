@@ -21,11 +21,11 @@ export async function holdDeeds({ opened, hold, becomes, seconds, tick, driven, 
             await seconds(0.2);
         };
         // The body is where the exact one is, a metre from the middle.
-        const link = async () => {
+        const link = async (before) => {
             await page.puppeteer.keyboard.down("Control");
             await page.puppeteer.keyboard.press("l");
             await page.puppeteer.keyboard.up("Control");
-            await becomes(page, () => location.hash.startsWith("#v1."));
+            await becomes(page, (before) => location.hash.startsWith("#v1.") && location.hash !== before, before);
             return page.evaluate(() => location.hash);
         };
         const untouched = await link();
@@ -35,7 +35,7 @@ export async function holdDeeds({ opened, hold, becomes, seconds, tick, driven, 
         }
         await touch("touchEnd");
         await seconds(0.5);
-        const thrown = await link();
+        const thrown = await link(untouched);
         hold(`a body is not thrown by a finger: ${untouched} and then ${thrown}`, thrown.length > untouched.length);
 
         const before = await seen(page);

@@ -4,9 +4,10 @@
 use std::future::{Future, poll_fn};
 use std::mem;
 use std::pin::{Pin, pin};
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Condvar, Mutex, OnceLock, PoisonError};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::task::{Context, Poll, Waker};
+use std::thread;
 
 /// Work in evaluations of one coordinate, as it is done.
 #[derive(Debug)]
@@ -65,10 +66,17 @@ impl Meter {
     /// Pauses if the slice is over after work that is not counted.
     pub(super) async fn pass(&self, work: u64) {
         self.passed.fetch_add(work, Ordering::Relaxed);
-        let mut goes_on = self.left() > 0;
-        poll_fn(|_| if mem::replace(&mut goes_on, true) { Poll::Ready(()) } else { Poll::Pending })
-            .await;
+        if self.left() == 0 {
+            pause().await;
+        }
     }
+}
+
+/// Ends the present poll, and goes on with the next.
+async fn pause() {
+    let mut goes_on = false;
+    poll_fn(|_| if mem::replace(&mut goes_on, true) { Poll::Ready(()) } else { Poll::Pending })
+        .await;
 }
 
 /// Work that is done slice by slice. Dropped, it is given up.
@@ -105,6 +113,8 @@ pub(super) fn at_once<T>(work: impl Future<Output = T>) -> T {
         if let Some(found) = poll(work.as_mut()) {
             return found;
         }
+        // What it waits for is found on another thread.
+        thread::yield_now();
     }
 }
 
@@ -115,16 +125,15 @@ fn poll<T>(work: Pin<&mut (impl Future<Output = T> + ?Sized)>) -> Option<T> {
     }
 }
 
-/// A value that is found once: by the first who asks for it, while others, on other threads, wait.
+/// A value that is found once: by the first who asks for it, while others pause.
 pub(super) struct Once<T> {
     found: OnceLock<T>,
-    is_sought: Mutex<bool>,
-    is_free: Condvar,
+    is_sought: AtomicBool,
 }
 
 impl<T> Default for Once<T> {
     fn default() -> Self {
-        Self { found: OnceLock::new(), is_sought: Mutex::default(), is_free: Condvar::new() }
+        Self { found: OnceLock::new(), is_sought: AtomicBool::new(false) }
     }
 }
 
@@ -136,31 +145,24 @@ impl<T> Once<T> {
 
     /// The value; `find` finds it if it is not known.
     pub(super) async fn get(&self, find: impl Future<Output = T>) -> &T {
-        let turn = self.found().is_none().then(|| Turn::of(self));
-        if self.found().is_none() {
-            _ = self.found.set(find.await);
+        while self.found().is_none() && self.is_sought.swap(true, Ordering::Acquire) {
+            pause().await;
         }
-        drop(turn);
-        self.found().expect("it was found")
+        if let Some(found) = self.found() {
+            return found;
+        }
+        let _turn = Turn(self);
+        let found = find.await;
+        self.found.get_or_init(|| found)
     }
 }
 
 /// The turn of the one who seeks the value. It is over when this is dropped, in the midst of work that is given up as well.
 struct Turn<'a, T>(&'a Once<T>);
 
-impl<'a, T> Turn<'a, T> {
-    fn of(once: &'a Once<T>) -> Self {
-        let is_sought = once.is_sought.lock().unwrap_or_else(PoisonError::into_inner);
-        let free = once.is_free.wait_while(is_sought, |is_sought| *is_sought);
-        *free.unwrap_or_else(PoisonError::into_inner) = true;
-        Self(once)
-    }
-}
-
 impl<T> Drop for Turn<'_, T> {
     fn drop(&mut self) {
-        *self.0.is_sought.lock().unwrap_or_else(PoisonError::into_inner) = false;
-        self.0.is_free.notify_all();
+        self.0.is_sought.store(false, Ordering::Release);
     }
 }
 
