@@ -18,7 +18,7 @@ const LIGHT: [&str; 7] = ["harbour", "spring", "ship", "helm", "stiff", "orbit",
 
 fn walks() -> usize {
     let wanted = std::env::var("REGATTA_WALKS").ok().and_then(|walks| walks.parse().ok());
-    wanted.unwrap_or(if cfg!(debug_assertions) { 24 } else { 200 })
+    wanted.unwrap_or(if cfg!(debug_assertions) { 60 } else { 200 })
 }
 
 fn action(dice: &mut Dice, studio: &Studio) -> Action {
