@@ -217,8 +217,11 @@ pub(super) fn sentence(
             format!("after {} s a {what} swings as wide as {as_wide}", significant(moment.t, 2))
         }
     };
-    let (palette, middle) = (moment.palette, camera.points(DVec2::ZERO)[0]);
+    let palette = moment.palette;
     let half = LETTER / 2.0 * words.chars().count() as f32 + 16.0;
+    // On a narrow stage it would reach beyond one side.
+    let [least, most] = [camera.rect.min[0] + half, camera.rect.max[0] - half];
+    let middle = camera.points(DVec2::ZERO)[0].max(least).min(most.max((least + most) / 2.0));
     let bottom = camera.rect.max[1] - FEET[2];
     let frame = Rect { min: [middle - half, bottom - SENTENCE], max: [middle + half, bottom] };
     let colour = moment.style(moment.studio.entry(lane)).0;
@@ -287,6 +290,19 @@ mod tests {
         let said = said(&studio);
         let last = "after 1.27 s your 1 m stiff spring is 10³⁶ m long";
         assert!(said.iter().any(|text| text == last), "{said:?}");
+    }
+
+    #[test]
+    fn on_a_narrow_stage_the_sentence_reaches_beyond_neither_side() {
+        let mut studio = watched("harbour", Motion::Live);
+        (0..350).for_each(|_| studio.tick());
+        for width in [320.0, 390.0, 460.0, 1280.0] {
+            let labels = compose(&studio, [width, 620.0]).labels;
+            let said = labels.iter().find(|label| label.text.starts_with("after")).unwrap();
+            let half = LETTER / 2.0 * said.text.chars().count() as f32;
+            let beside = [said.at[0] - half, width - said.at[0] - half];
+            assert!(beside.iter().all(|room| *room >= 0.0) || beside[0] == beside[1], "{beside:?}");
+        }
     }
 
     #[test]
