@@ -7,6 +7,8 @@ const seen = (page) => page.picture();
 
 export async function holdDeeds({ opened, hold, becomes, seconds, tick, driven, server }) {
     await holdFingers();
+    await holdSharing();
+    await holdScrolling();
     await holdFiles();
     await holdMemory();
     await holdLostContext();
@@ -47,6 +49,29 @@ export async function holdDeeds({ opened, hold, becomes, seconds, tick, driven, 
         await touch("touchEnd");
         await seconds(0.5);
         hold("two fingers do not enlarge the stage", (await seen(page)) !== before);
+        await page.close();
+    }
+
+    async function holdSharing() {
+        const page = await opened("#scene=spring&method=rk4&tick=30", { width: 390, height: 844, isMobile: true, hasTouch: true });
+        const isPaused = await becomes(page, () => getComputedStyle(document.getElementById("share")).display === "block");
+        await page.puppeteer.tap("#share");
+        const isShared = await becomes(page, () => location.hash.startsWith("#v1."));
+        hold(`a run is not shared by a button: ${isPaused}, ${isShared}`, isPaused && isShared);
+        await page.close();
+    }
+
+    async function holdScrolling() {
+        const page = await driven.open(`${server.address}questions/why-euler-explodes.html`, { height: 400 });
+        const stage = await page.puppeteer.$("iframe");
+        await stage.scrollIntoView();
+        const { x, y, width, height } = await stage.boundingBox();
+        await page.puppeteer.mouse.move(x + width / 2, y + height / 2);
+        await seconds(2);
+        const from = await page.evaluate(() => scrollY);
+        await page.puppeteer.mouse.wheel({ deltaY: from > 0 ? -from : 100 });
+        const isScrolled = await becomes(page, (from) => scrollY !== from, from);
+        hold(`the page around a stage is not scrolled over it, at ${from}`, isScrolled);
         await page.close();
     }
 

@@ -1,13 +1,12 @@
 // Loads the program, tells how far it is, and starts it.
 
-import init, * as program from "./regatta_web.js";
-
 const loaded = document.getElementById("loaded");
 const told = document.getElementById("told");
 const wait = document.getElementById("wait");
 
 // On another page it is a stage alone.
 document.getElementById("else").hidden = self !== top;
+document.documentElement.classList.toggle("embedded", self !== top);
 // The still picture is of the scene that opens by itself.
 document.getElementById("still").hidden = /^#v|scene=|loop=/.test(location.hash);
 
@@ -15,6 +14,7 @@ document.getElementById("still").hidden = /^#v|scene=|loop=/.test(location.hash)
 function tell(sentence) {
     told.textContent = sentence;
     loaded.hidden = true;
+    document.getElementById("still").hidden = true;
     wait.hidden = false;
 }
 
@@ -36,6 +36,9 @@ async function arriving() {
     return new Response(response.body.pipeThrough(counted), { headers });
 }
 
+/** The least program that computes with vectors. */
+const VECTORS = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11];
+
 /** The length of the program; `.ci/web` writes it. */
 const BYTES = 1;
 
@@ -43,6 +46,10 @@ addEventListener("error", (event) => tell(`Regatta has stopped (${event.message}
 
 /** What stands around a stage on another page can ask the program once its first frame is drawn. */
 globalThis.regatta = (async () => {
+    if (!WebAssembly.validate(new Uint8Array(VECTORS))) {
+        throw new Error("Regatta needs WebAssembly with vectors, as browsers have it since 2023.");
+    }
+    const { default: init, ...program } = await import("./regatta_web.js");
     const { memory } = await init({ module_or_path: arriving() });
     await program.start();
     wait.hidden = true;
@@ -52,6 +59,4 @@ globalThis.regatta = (async () => {
     sight.observe(document.getElementById("stage"));
     return { ...program, memory };
 })();
-regatta.catch((reason) => tell(reason instanceof WebAssembly.CompileError
-    ? `Regatta needs WebAssembly with vectors, as browsers have it since 2023 (${reason.message}).`
-    : `${reason.message ?? reason}`));
+regatta.catch((reason) => tell(`${reason.message ?? reason}`));

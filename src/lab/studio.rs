@@ -11,7 +11,7 @@ use super::loop_lab::LoopLab;
 use super::past::Past;
 use super::race::{Entrant, Mode, Race};
 use super::scene::Scene;
-use super::session::{RecordingError, Session, StartSettings, Timeline, recording_text};
+use super::session::{RecordingError, Session, StartSettings, Timeline, among, recording_text};
 use crate::sim::Clock;
 
 mod apply;
@@ -249,7 +249,7 @@ impl Studio {
         recording_text(&self.timeline.recording())
     }
 
-    /// The link to the run up to the last tick reached.
+    /// The link to the run up to the last tick reached, with the methods that stand beside it.
     ///
     /// # Errors
     /// As [`Session::recording_text`](super::Session::recording_text).
@@ -257,6 +257,10 @@ impl Studio {
         let recording = self.timeline.recording();
         // What no file can hold, no link can.
         recording_text(&recording)?;
+        let recording = match self.timeline.start().mode() {
+            Mode::Solo => among(recording, &self.scene().lanes),
+            Mode::Race => recording,
+        };
         link::to(&recording)
             .map_err(|_| RecordingError::TooLong { bytes: recording.to_toml().len() })
     }

@@ -2,7 +2,7 @@
 
 use super::panels;
 use crate::lab::source_code::{Precision, source_code};
-use crate::lab::studio::{DriverRequest, Studio};
+use crate::lab::studio::{Display, DriverRequest, Studio};
 
 /// A text for the clipboard.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,9 +30,15 @@ impl Copied {
 pub fn copied(studio: &Studio, request: DriverRequest) -> Option<Result<Copied, String>> {
     let (text, told, otherwise) = match request {
         DriverRequest::CopyLink => match studio.link() {
-            Ok(link) => {
-                let told = format!("copied the run as a link of {} letters", link.len());
-                (link, told, "Ctrl S saves the run, and `regatta link` prints it".into())
+            Ok(run) => {
+                let told = format!("copied the run as a link of {} letters", run.len());
+                let Display { measure, instrument, .. } = studio.display();
+                let seen = measure.then(|| format!("&instrument={}", instrument.id()));
+                (
+                    run + &seen.unwrap_or_default(),
+                    told,
+                    "Ctrl S saves the run, and `regatta link` prints it".into(),
+                )
             }
             Err(error) => return Some(Err(error.to_string())),
         },

@@ -38,7 +38,8 @@ impl Address {
     /// Reads a fragment, with its `#`. A setting that is not known is of a newer page, and is ignored.
     pub(crate) fn of(fragment: &str) -> Self {
         let mut address = Self::default();
-        let mut settings = fragment.trim_start_matches('#').split('&');
+        let settings = fragment.trim_start_matches('#').split('&');
+        let is_run = |setting: &&str| setting.starts_with('v') && !setting.contains('=');
         for setting in settings.clone() {
             match setting.split_once('=').unwrap_or((setting, "")) {
                 ("panels", "off") => address.is_embedded = true,
@@ -55,8 +56,7 @@ impl Address {
                 _ => {}
             }
         }
-        let run = settings.next().filter(|first| first.starts_with('v') && !first.contains('='));
-        address.run = run.map(|run| scene_of(&format!("#{run}")));
+        address.run = settings.clone().find(is_run).map(|run| scene_of(&format!("#{run}")));
         address
     }
 
@@ -83,7 +83,13 @@ impl Address {
         let (mode, selected) = lineup(&scene, &methods, asked);
         let mut studio = Studio::opened(scene.with_methods(&methods), selected, mode);
         match loop_trace {
-            Some(trace) => studio.open_loop_lab_on(trace),
+            Some(trace) => {
+                studio.open_loop_lab_on(trace);
+                let traces = studio.loop_lab().map_or(&[][..], |loops| loops.traces());
+                if !trace.is_empty() && !traces.iter().any(|known| known.name() == trace) {
+                    return Err(format!("this page has no frames {trace:?} for this scene"));
+                }
+            }
             None => studio.show_clouds_of_scene(),
         }
         Ok(studio)
@@ -148,7 +154,9 @@ mod tests {
         let loops = studio.loop_lab().unwrap();
         assert_eq!(loops.traces()[loops.trace()].name(), "steady-144");
         assert_eq!(Address::of("").studio().unwrap().scene().name, HARBOUR);
-        for broken in ["#scene=tub", "#method=rk5", "#method=lerp-per-frame", "#tick-hz=0"] {
+        for broken in
+            ["#scene=tub", "#method=rk5", "#method=lerp-per-frame", "#tick-hz=0", "#loop=x"]
+        {
             let refused = Address::of(broken).studio().err().unwrap();
             assert!(!refused.is_empty() && !refused.contains('\n'), "{refused}");
         }

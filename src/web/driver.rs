@@ -24,6 +24,9 @@ use crate::{clipboard, files, listening};
 /// page still answers.
 const MAX_SIMULATION_NS: u64 = 50_000_000;
 
+/// What a run may take to be rewound: phones have little, and a page that is left open is not to grow.
+const REWIND_BYTES: usize = 16 << 20;
+
 /// The name under which the browser keeps the preferences of a person.
 const STORED: &str = "regatta";
 
@@ -50,6 +53,8 @@ pub(crate) struct Driver {
     /// What panels are told with the next frame.
     pub(crate) input: egui::RawInput,
     pub(crate) held: egui::Modifiers,
+    /// Whether the last key was Escape.
+    pub(crate) was_escaped: bool,
     pub(crate) fingers: Fingers,
     pub(crate) meter: PaceMeter,
     /// The frames drawn.
@@ -123,6 +128,7 @@ impl Driver {
         let remembered = storage(&window).and_then(|storage| storage.get_item(STORED).ok()?);
         let remembered = remembered.and_then(|text| SavedPreferences::parse(&text).ok());
         remembered.unwrap_or_default().apply(&mut studio);
+        studio.set_rewind_bytes(REWIND_BYTES);
         let preferences = &mut studio.viewer_mut().preferences;
         preferences.follow_theme(theme_of(&window));
         address.theme.into_iter().for_each(|theme| preferences.choose_theme(theme));
@@ -146,6 +152,7 @@ impl Driver {
             asked: Vec::new(),
             input: egui::RawInput { focused: true, ..egui::RawInput::default() },
             held: egui::Modifiers::default(),
+            was_escaped: false,
             fingers: Fingers::default(),
             meter: PaceMeter::default(),
             frames: 0,
@@ -306,6 +313,12 @@ impl Driver {
             _ = history.replace_state_with_url(&JsValue::NULL, "", Some(&link));
         }
         _ = location.reload();
+    }
+
+    /// Puts the run into the address, and copies that.
+    pub(crate) fn share(&mut self) {
+        self.asked.push(Command::Ask(DriverRequest::CopyLink));
+        self.request_frame();
     }
 
     /// Has time run.

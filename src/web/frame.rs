@@ -57,9 +57,13 @@ impl Driver {
             if document.title() != title {
                 document.set_title(&title);
             }
-            // Without a keyboard and a bar of buttons a stage that stands still has one of the page's own.
+            // Without a keyboard and a bar of buttons a stage that stands still has some of the page's own.
             let is_still = !self.studio.running() && !self.studio.display().measure;
-            let class = if is_still { "still" } else { "" };
+            let class = match is_still {
+                true if self.is_embedded => "still",
+                true => "still whole",
+                false => "",
+            };
             if let Some(body) = document.body().filter(|body| body.class_name() != class) {
                 body.set_class_name(class);
             }

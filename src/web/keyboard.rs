@@ -56,6 +56,22 @@ impl Press {
         self.key == "Tab"
     }
 
+    pub(crate) fn is_escape(&self) -> bool {
+        self.key == "Escape"
+    }
+
+    /// Whether it writes in a field, or goes about in one.
+    pub(crate) fn writes(&self) -> bool {
+        let is_one =
+            self.key.chars().count() == 1 || named(&self.key).is_some() && !self.is_function();
+        let edits = matches!(self.key.as_str(), "Backspace" | "Delete" | "End");
+        (is_one || edits) && !self.is_chord()
+    }
+
+    fn is_function(&self) -> bool {
+        matches!(named(&self.key), Some(Key::Function(_)))
+    }
+
     /// The modifiers, for panels.
     pub(crate) fn modifiers(&self) -> egui::Modifiers {
         let Modifiers { shift, control, other } = self.held;

@@ -45,9 +45,15 @@ pub(crate) fn listen() {
         if let Some(play) = window.document().and_then(|page| page.get_element_by_id("play")) {
             on(&play, "click", |driver, _: Event| driver.play());
         }
+        if let Some(share) = window.document().and_then(|page| page.get_element_by_id("share")) {
+            on(&share, "click", |driver, _: Event| driver.share());
+        }
         on(&canvas, "contextmenu", |_, event: Event| event.prevent_default());
         on(&canvas, "wheel", |driver: &mut Driver, event: WheelEvent| {
-            if let Some(turned) = pointer::wheel_event(&event, driver.held) {
+            // A page around a stage is scrolled where nobody has gone into the stage.
+            let is_passed = driver.is_embedded && !driver.has_focus();
+            let turned = pointer::wheel_event(&event, driver.held).filter(|_| !is_passed);
+            if let Some(turned) = turned {
                 event.prevent_default();
                 driver.tell_panels([turned]);
             }
@@ -84,6 +90,11 @@ pub(crate) fn listen() {
 }
 
 impl Driver {
+    /// Whether keys are for the stage.
+    fn has_focus(&self) -> bool {
+        self.window.document().is_some_and(|document| document.has_focus().unwrap_or(false))
+    }
+
     /// Hands events to the panels with the next frame.
     fn tell_panels(&mut self, events: impl IntoIterator<Item = egui::Event>) {
         self.input.events.extend(events);
@@ -109,9 +120,11 @@ impl Driver {
             return self.request_frame();
         }
         // A page that shows the stage only has nothing to go to with it, and the page around it has.
-        let moves_focus = press.is_tab() && !self.is_embedded;
-        let is_typed = panels.egui_wants_keyboard_input() && !press.is_chord();
-        if moves_focus || is_typed && !press.is_tab() {
+        // Escape and then Tab lead out of the stage everywhere.
+        let was_escaped = std::mem::replace(&mut self.was_escaped, press.is_escape());
+        let moves_focus = press.is_tab() && !self.is_embedded && !was_escaped;
+        let is_typed = panels.egui_wants_keyboard_input() && press.writes();
+        if moves_focus || is_typed {
             event.prevent_default();
         }
         self.tell_panels(press.events(true));

@@ -4,7 +4,7 @@ use regatta::lab::race::{Mode, equal_cost, lanes_that_race};
 use regatta::lab::scene::{SCENES, Scene, Scripted};
 use regatta::lab::session::{RecordingError, Session};
 use regatta::lab::studio::{Command, RunCommand, StageCommand, Studio};
-use regatta::lab::{Action, Journal, LaneId, LaneSpec, Swing};
+use regatta::lab::{Action, Journal, LaneId, LaneSpec, Swing, link};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 
 fn built_in(name: &str) -> Scene {
@@ -528,4 +528,40 @@ fn a_method_that_is_not_on_the_list_is_told_of_and_changes_nothing() {
     let mut session = Session::racing(built_in("spring").into());
     let spec = LaneSpec::plain(method("lerp-dt").unwrap());
     assert!(!session.act(Action::Lane { lane: LaneId(1), spec }));
+}
+
+#[test]
+fn a_link_to_a_solo_run_opens_with_the_methods_that_stood_beside_it() {
+    let mut studio = Studio::new(built_in("harbour"));
+    let ids = |studio: &Studio| -> Vec<&str> {
+        studio.scene().lanes.iter().map(|lane| lane.method.id).collect()
+    };
+    let menu = ids(&studio);
+    studio.apply(StageCommand::Pick(2));
+    studio.apply(StageCommand::Restart);
+    (0..50).for_each(|_| studio.tick());
+    studio.apply(RunCommand::Act(Action::Kick(0.5)));
+    studio.apply(StageCommand::Pick(1));
+    (0..70).for_each(|_| studio.tick());
+
+    let text = link::text(&studio.link().unwrap()).unwrap();
+    let scene = parsed(&text);
+    let mut opened = Studio::new(scene.clone());
+    assert_eq!((ids(&opened), opened.active()), (menu, 2));
+    (0..120).for_each(|_| opened.tick());
+    assert_eq!(opened.active(), 1);
+    assert_eq!(opened.race().state_hash(), studio.race().state_hash());
+    assert!(!scene.checks.is_empty());
+    assert_eq!(wrong_lanes(&scene), []);
+
+    // One that is told from none by its method is alone, as in a file.
+    let plain = LaneSpec::plain(method("rk4").unwrap());
+    let lanes = vec![LaneSpec { substeps: 4, ..plain }, plain];
+    let mut studio = Studio::new(Scene { lanes, ..built_in("spring") });
+    for (entry, count) in [(0, 2), (1, 1)] {
+        studio.apply(StageCommand::Pick(entry));
+        studio.apply(StageCommand::Restart);
+        let text = link::text(&studio.link().unwrap()).unwrap();
+        assert_eq!(parsed(&text).lanes.len(), count);
+    }
 }

@@ -4,6 +4,7 @@ use super::hashes::Hashes;
 use super::{Session, Timeline};
 use crate::lab::action::Action;
 use crate::lab::lane_id::LaneId;
+use crate::lab::lane_spec::LaneSpec;
 use crate::lab::race::{Mode, Observer, Race};
 use crate::lab::scene::{Check, MAX_FILE_BYTES, MIN_SECONDS, Scene, Scripted};
 
@@ -96,6 +97,27 @@ impl Timeline {
         }
         scene
     }
+}
+
+/// A recording of one lane as one of `lanes`, so that whoever opens it meets the methods that were on the menu: it opens
+/// with its own, and its script and its checks are that lane's. Where that cannot be told from another by its method, it
+/// stays alone.
+pub(in crate::lab) fn among(recording: Scene, lanes: &[LaneSpec]) -> Scene {
+    let [flown] = recording.lanes[..] else { return recording };
+    let mut lanes = lanes.to_vec();
+    if !lanes.contains(&flown) {
+        lanes.push(flown);
+    }
+    let index = lanes.iter().position(|lane| lane.method == flown.method);
+    let Some(index) = index.filter(|&index| lanes[index] == flown) else { return recording };
+    let mut scene = Scene { lanes, opening_method: Some(flown.method), ..recording };
+    scene.checks.iter_mut().for_each(|check| check.lane = LaneId::of_index(index));
+    for Scripted { action, .. } in &mut scene.script {
+        if let Action::Lane { lane, .. } = action {
+            *lane = LaneId::of_index(index);
+        }
+    }
+    scene
 }
 
 /// Records the actions on a race as the script of a scene.

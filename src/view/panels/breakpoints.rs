@@ -4,6 +4,8 @@
 pub(super) const PANELS: [f32; 2] = [96.0, 64.0];
 
 // Widths of the window.
+/// A long name of a scene has its width.
+pub(super) const SCENE_NAME: f32 = 360.0;
 pub(super) const INSTRUMENTS: f32 = 420.0;
 pub(super) const TICK_FORWARD: f32 = 480.0;
 pub(super) const KEYS_BESIDE_HINT: f32 = 560.0;
@@ -28,6 +30,7 @@ pub(super) const TIMELINE: f32 = 420.0;
 pub(super) const TIMES_OF_TIMELINE: f32 = 560.0;
 
 // Widths of a panel, or of a part of it.
+pub(super) const TIME_IN_TOP_BAR: f32 = 48.0;
 /// A name at the left of the timeline, and the memory at its right.
 pub(super) const WORDS_BESIDE_TIMELINE: f32 = 700.0;
 /// Buttons name their keys, and the title stands beside them.

@@ -12,14 +12,16 @@ pub(super) const HEIGHT: f32 = 40.0;
 
 /// The methods that have a digit.
 const DIGITS: usize = 10;
-/// The height of a method, the room between two, and the room beside its parts, in points.
+/// The height of a method, the room between two, also where it is scarce, and the room beside its parts, in points.
 const BUTTON: f32 = 30.0;
 const BETWEEN: f32 = 10.0;
+const CLOSE: f32 = 4.0;
 const PADDING: f32 = 7.0;
 /// The room that the sign of its verdict takes, in points.
 const SIGN: f32 = 12.0;
 
-/// Shows the scene's methods, or else those with a digit: with their names where all have room, else the chosen one's alone.
+/// Shows the scene's methods, or else those with a digit: with their names where all have room, else the chosen one's alone,
+/// or none where that would leave a method out.
 /// Returns the index of the method that the pointer or the keyboard's focus is on.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) -> Option<usize> {
     let count = studio.offered().min(DIGITS);
@@ -28,11 +30,13 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) ->
     let width_of = |entry: usize, is_named: bool| width(ui, studio, entry, is_named) + BETWEEN;
     let all: f32 = (0..count).map(|entry| width_of(entry, true)).sum();
     let are_named = all <= room;
+    let unnamed: f32 = (0..count).map(|entry| width_of(entry, entry == chosen)).sum();
+    let is_chosen_named = unnamed - BETWEEN <= room;
     let mut pointed = None;
     ui.horizontal_centered(|ui| {
-        ui.spacing_mut().item_spacing.x = BETWEEN;
+        ui.spacing_mut().item_spacing.x = if is_chosen_named { BETWEEN } else { CLOSE };
         for entry in 0..count {
-            let is_named = are_named || entry == chosen;
+            let is_named = are_named || is_chosen_named && entry == chosen;
             if width(ui, studio, entry, is_named) > ui.available_width() {
                 break;
             }

@@ -13,7 +13,9 @@ pub(super) use self::span::Span;
 use super::breakpoints;
 use crate::lab::race::{Mode, TimeScale};
 use crate::lab::session::Event;
-use crate::lab::studio::{Command, RunCommand, StageCommand, Step, Studio, ViewCommand};
+use crate::lab::studio::{
+    Command, DriverRequest, RunCommand, StageCommand, Step, Studio, ViewCommand,
+};
 use crate::view::chart::AxisScale;
 use crate::view::theme::{PanelPalette, palette};
 use crate::view::wheel;
@@ -87,6 +89,10 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
         commands,
     );
     response.context_menu(|ui| {
+        if ui.button("Share: copy a link (Ctrl L)").clicked() {
+            commands.push(Command::Ask(DriverRequest::CopyLink));
+            ui.close();
+        }
         if ui.button("Compare with…").clicked() {
             commands.push(Command::View(ViewCommand::AskForRun));
             ui.close();

@@ -19,7 +19,7 @@ pub(super) const HEIGHT: f32 = 40.0;
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let width = ui.available_width();
     ui.horizontal_centered(|ui| {
-        scene_menu(ui, studio, commands);
+        scene_menu(ui, studio, width, commands);
         // Below that the menu of scenes has it.
         if width >= breakpoints::SPRING {
             let about = "a spring of your own: the recommended method, and its code (S)";
@@ -62,7 +62,9 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
                     }
                 }
             };
-            ui.add(Label::new(RichText::new(time).font(strong_font(TYPE))).truncate());
+            if ui.available_width() >= breakpoints::TIME_IN_TOP_BAR {
+                ui.add(Label::new(RichText::new(time).font(strong_font(TYPE))).truncate());
+            }
         });
     });
 }
@@ -74,9 +76,13 @@ fn word(ui: &mut Ui, width: f32, word: &str) {
 }
 
 /// Each scene by its name, with its title beside it, below the heading of its group.
-fn scene_menu(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
+fn scene_menu(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) {
     let name = studio.scene_name();
-    let menu = ComboBox::from_id_salt("scene").selected_text(&name).width(92.0).height(480.0);
+    let menu = ComboBox::from_id_salt("scene").selected_text(&name).height(480.0);
+    let menu = match width >= breakpoints::SCENE_NAME {
+        true => menu.width(92.0),
+        false => menu.width(60.0).truncate(),
+    };
     let response = menu.show_ui(ui, |ui| {
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         if ui
@@ -166,7 +172,11 @@ fn modes(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) 
     frame.show(ui, |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         // A bar that has no room for a tick forward has none for wide margins either.
-        let margin = if width >= breakpoints::TICK_FORWARD { 12.0 } else { 7.0 };
+        let margin = match width {
+            _ if width >= breakpoints::TICK_FORWARD => 12.0,
+            _ if width >= breakpoints::SCENE_NAME => 7.0,
+            _ => 4.0,
+        };
         for (name, about, is_chosen, command) in parts {
             if part(ui, name, margin, about, is_chosen) && !is_chosen {
                 commands.push(command);
