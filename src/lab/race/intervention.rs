@@ -18,8 +18,9 @@ pub(in crate::lab) struct Interventions {
 }
 
 impl Interventions {
-    /// The changes in `race`, whose run is told from `starts`, by which it is judged. A parameter that the script has set is in force like one that a person has
-    /// set; what the script does to throttle, rudder and state is part of the motion that is judged.
+    /// The changes in `race`, whose run is told from `starts`, by which it is judged. A parameter that the script has set is in
+    /// force like one that a person has set; what the script does to throttle, rudder and state is part of the motion that
+    /// is judged.
     pub(in crate::lab) fn in_race(race: &Race, starts: &Starts) -> Self {
         let mut settings: Vec<Action> = Vec::new();
         let is_in_force = |row: &&JournalRow| {
