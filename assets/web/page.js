@@ -59,4 +59,6 @@ globalThis.regatta = (async () => {
     sight.observe(document.getElementById("stage"));
     return { ...program, memory };
 })();
-regatta.catch((reason) => tell(`${reason.message ?? reason}`));
+regatta.catch((reason) => tell(reason instanceof WebAssembly.CompileError
+    ? `The program has not arrived whole (${reason.message}). Load the page again.`
+    : `${reason.message ?? reason}`));

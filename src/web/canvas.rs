@@ -16,14 +16,10 @@ impl Canvas {
     /// # Errors
     /// Why nothing can be drawn on it.
     pub(crate) async fn new(element: HtmlCanvasElement) -> Result<Self, String> {
-        // What the program advises is of no use on a page.
         let refused = |reason: &dyn std::error::Error| {
-            let reason = reason.to_string();
-            let reason = reason.split(';').next().unwrap_or_default();
-            format!(
-                "This browser draws no WebGL 2, which Regatta needs ({reason}). Another browser may, or this one with \
-                 hardware acceleration."
-            )
+            log::error!("{reason}");
+            "This browser draws no WebGL 2, which Regatta needs. Another browser may, or this one with hardware acceleration."
+                .to_owned()
         };
         let screen = Screen::of_canvas(target(element.clone())).map_err(|e| refused(&e))?;
         let gpu = screen.gpu().await.map_err(|e| refused(&e))?;
