@@ -95,8 +95,8 @@ async function byWebDriver(driver, binary) {
             await window("POST", "/url", { url: "about:blank" });
             // A window is larger than the page in it.
             const script = "return { width: outerWidth - innerWidth, height: outerHeight - innerHeight }";
-            const round = await window("POST", "/execute/sync", { script, args: [] });
-            await window("POST", "/window/rect", { width: wanted.width + round.width, height: wanted.height + round.height });
+            const border = await window("POST", "/execute/sync", { script, args: [] });
+            await window("POST", "/window/rect", { width: wanted.width + border.width, height: wanted.height + border.height });
             await window("POST", "/url", { url: address });
             return {
                 async evaluate(asked, ...given) {

@@ -9,6 +9,7 @@ export async function holdDeeds({ opened, hold, becomes, seconds, tick, driven, 
     await holdFingers();
     await holdSharing();
     await holdScrolling();
+    await holdKeys();
     await holdFiles();
     await holdMemory();
     await holdLostContext();
@@ -72,6 +73,18 @@ export async function holdDeeds({ opened, hold, becomes, seconds, tick, driven, 
         await page.puppeteer.mouse.wheel({ deltaY: from > 0 ? -from : 100 });
         const isScrolled = await becomes(page, (from) => scrollY !== from, from);
         hold(`the page around a stage is not scrolled over it, at ${from}`, isScrolled);
+        await page.close();
+    }
+
+    async function holdKeys() {
+        const page = await opened("#scene=spring&method=rk4&tick=30");
+        const focused = () => page.evaluate(() => document.activeElement?.id);
+        await page.evaluate(() => document.getElementById("stage").focus());
+        await page.puppeteer.keyboard.press("Tab");
+        const from = await focused();
+        await page.puppeteer.keyboard.press("Escape");
+        await page.puppeteer.keyboard.press("Tab");
+        hold(`Escape and Tab do not lead out of the stage: ${from}, ${await focused()}`, from === "stage" && (await focused()) !== "stage");
         await page.close();
     }
 

@@ -3,18 +3,19 @@
 const loaded = document.getElementById("loaded");
 const told = document.getElementById("told");
 const wait = document.getElementById("wait");
+const still = document.getElementById("still");
 
 // On another page it is a stage alone.
 document.getElementById("else").hidden = self !== top;
 document.documentElement.classList.toggle("embedded", self !== top);
 // The still picture is of the scene that opens by itself.
-document.getElementById("still").hidden = /^#v|scene=|loop=/.test(location.hash);
+still.hidden = /[#&]v\d|scene=|loop=/.test(location.hash);
 
 /** Says why there is no stage, or none any more. */
 function tell(sentence) {
     told.textContent = sentence;
     loaded.hidden = true;
-    document.getElementById("still").hidden = true;
+    still.hidden = true;
     wait.hidden = false;
 }
 

@@ -16,7 +16,7 @@ mod timeline;
 mod undo;
 
 pub use event::{Event, EventKind};
-pub(in crate::lab) use recording::among;
+pub(in crate::lab) use recording::among as recording_among;
 pub use recording::{RecordingError, text as recording_text};
 pub use replay::{Reached, Replay};
 pub(in crate::lab) use start::StartSettings;

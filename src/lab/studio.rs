@@ -11,7 +11,9 @@ use super::loop_lab::LoopLab;
 use super::past::Past;
 use super::race::{Entrant, Mode, Race};
 use super::scene::Scene;
-use super::session::{RecordingError, Session, StartSettings, Timeline, among, recording_text};
+use super::session::{
+    RecordingError, Session, StartSettings, Timeline, recording_among, recording_text,
+};
 use crate::sim::Clock;
 
 mod apply;
@@ -257,10 +259,7 @@ impl Studio {
         let recording = self.timeline.recording();
         // What no file can hold, no link can.
         recording_text(&recording)?;
-        let recording = match self.timeline.start().mode() {
-            Mode::Solo => among(recording, &self.scene().lanes),
-            Mode::Race => recording,
-        };
+        let recording = recording_among(recording, &self.scene().lanes);
         link::to(&recording)
             .map_err(|_| RecordingError::TooLong { bytes: recording.to_toml().len() })
     }

@@ -31,14 +31,11 @@ pub fn copied(studio: &Studio, request: DriverRequest) -> Option<Result<Copied, 
     let (text, told, otherwise) = match request {
         DriverRequest::CopyLink => match studio.link() {
             Ok(run) => {
-                let told = format!("copied the run as a link of {} letters", run.len());
                 let Display { measure, instrument, .. } = studio.display();
                 let seen = measure.then(|| format!("&instrument={}", instrument.id()));
-                (
-                    run + &seen.unwrap_or_default(),
-                    told,
-                    "Ctrl S saves the run, and `regatta link` prints it".into(),
-                )
+                let link = run + &seen.unwrap_or_default();
+                let told = format!("copied the run as a link of {} letters", link.len());
+                (link, told, "Ctrl S saves the run, and `regatta link` prints it".into())
             }
             Err(error) => return Some(Err(error.to_string())),
         },

@@ -39,7 +39,11 @@ impl Address {
     pub(crate) fn of(fragment: &str) -> Self {
         let mut address = Self::default();
         let settings = fragment.trim_start_matches('#').split('&');
-        let is_run = |setting: &&str| setting.starts_with('v') && !setting.contains('=');
+        // With its version: a setting of a newer page may have that letter too.
+        let is_run = |setting: &&str| {
+            let version = setting.strip_prefix('v');
+            version.is_some_and(|version| version.starts_with(|first: char| first.is_ascii_digit()))
+        };
         for setting in settings.clone() {
             match setting.split_once('=').unwrap_or((setting, "")) {
                 ("panels", "off") => address.is_embedded = true,
@@ -133,6 +137,8 @@ mod tests {
         assert_eq!((address.is_embedded, address.theme), (true, Some(Theme::Light)));
         assert_eq!((address.tick, address.runs_at_first()), (Some(90), false));
         assert!(Address::of(&format!("{link}&tick=90&play")).runs_at_first());
+        let behind = link.trim_start_matches('#');
+        assert!(Address::of(&format!("#panels=off&{behind}")).run.unwrap().is_ok());
         let id = Instrument::all().next().unwrap().id();
         let address = Address::of(&format!("#instrument={id}&theme=pink"));
         assert!(address.run.is_none() && address.theme.is_none() && address.runs_at_first());
@@ -168,6 +174,8 @@ mod tests {
             let refused = Address::of(broken).run.unwrap().unwrap_err();
             assert!(refused.starts_with("the link ") && !refused.contains('\n'), "{refused}");
         }
-        assert!(Address::of("").run.is_none() && Address::of("#").run.is_none());
+        for other in ["", "#", "#view", "#vsync=1&play"] {
+            assert!(Address::of(other).run.is_none(), "{other}");
+        }
     }
 }

@@ -61,7 +61,7 @@ impl Driver {
             let is_still = !self.studio.running() && !self.studio.display().measure;
             let class = match is_still {
                 true if self.is_embedded => "still",
-                true => "still whole",
+                true => "still sharing",
                 false => "",
             };
             if let Some(body) = document.body().filter(|body| body.class_name() != class) {

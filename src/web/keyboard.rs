@@ -60,16 +60,16 @@ impl Press {
         self.key == "Escape"
     }
 
-    /// Whether it writes in a field, or goes about in one.
-    pub(crate) fn writes(&self) -> bool {
-        let is_one =
-            self.key.chars().count() == 1 || named(&self.key).is_some() && !self.is_function();
-        let edits = matches!(self.key.as_str(), "Backspace" | "Delete" | "End");
-        (is_one || edits) && !self.is_chord()
+    /// Whether it is a letter or another sign that is written.
+    fn is_sign(&self) -> bool {
+        self.key.chars().count() == 1 && !self.is_chord()
     }
 
-    fn is_function(&self) -> bool {
-        matches!(named(&self.key), Some(Key::Function(_)))
+    /// Whether it changes the text of a field, or moves in one.
+    pub(crate) fn edits(&self) -> bool {
+        let moves = named(&self.key).is_some_and(|key| !matches!(key, Key::Function(_)));
+        let is_named = moves || matches!(self.key.as_str(), "Backspace" | "Delete" | "End");
+        self.is_sign() || is_named && !self.is_chord()
     }
 
     /// The modifiers, for panels.
@@ -85,8 +85,7 @@ impl Press {
             let (physical_key, repeat) = (egui::Key::from_name(&self.code), self.is_repeated);
             egui::Event::Key { key, physical_key, pressed, repeat, modifiers }
         };
-        let is_text = pressed && !self.is_chord() && self.key.chars().count() == 1;
-        let text = is_text.then(|| egui::Event::Text(self.key.clone()));
+        let text = (pressed && self.is_sign()).then(|| egui::Event::Text(self.key.clone()));
         egui::Key::from_name(&self.key).map(event).into_iter().chain(text).collect()
     }
 }

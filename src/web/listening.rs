@@ -42,11 +42,10 @@ pub(crate) fn listen() {
         ] {
             on(&canvas, name, move |driver, event| driver.pointer(&event, deed));
         }
-        if let Some(play) = window.document().and_then(|page| page.get_element_by_id("play")) {
-            on(&play, "click", |driver, _: Event| driver.play());
-        }
-        if let Some(share) = window.document().and_then(|page| page.get_element_by_id("share")) {
-            on(&share, "click", |driver, _: Event| driver.share());
+        for (id, does) in [("play", Driver::play as fn(&mut Driver)), ("share", Driver::share)] {
+            if let Some(button) = window.document().and_then(|page| page.get_element_by_id(id)) {
+                on(&button, "click", move |driver, _: Event| does(driver));
+            }
         }
         on(&canvas, "contextmenu", |_, event: Event| event.prevent_default());
         on(&canvas, "wheel", |driver: &mut Driver, event: WheelEvent| {
@@ -111,6 +110,7 @@ impl Driver {
     fn key_down(&mut self, event: KeyboardEvent) {
         let press = Press::of(&event, self.is_mac());
         self.hold(press.modifiers());
+        let was_escaped = std::mem::replace(&mut self.was_escaped, press.is_escape());
         let panels = self.canvas.renderer.context();
         if let Some(key) = press.bound()
             && let Some(command) = command_of(key, press.is_repeated, panels)
@@ -121,9 +121,8 @@ impl Driver {
         }
         // A page that shows the stage only has nothing to go to with it, and the page around it has.
         // Escape and then Tab lead out of the stage everywhere.
-        let was_escaped = std::mem::replace(&mut self.was_escaped, press.is_escape());
         let moves_focus = press.is_tab() && !self.is_embedded && !was_escaped;
-        let is_typed = panels.egui_wants_keyboard_input() && press.writes();
+        let is_typed = panels.egui_wants_keyboard_input() && press.edits();
         if moves_focus || is_typed {
             event.prevent_default();
         }

@@ -1,5 +1,5 @@
-//! Long work in slices: an `async` function counts its work on a [`Meter`] as it goes, and pauses where the slice is over.
-//! It waits for nothing else, so that it needs no runtime: what goes on with it polls it.
+//! Long work in slices: an `async` function counts its work on a [`Meter`] as it goes, and pauses where the slice is over,
+//! or where another seeks a value that it needs. It needs no runtime: what goes on with it polls it.
 
 use std::future::{Future, poll_fn};
 use std::mem;

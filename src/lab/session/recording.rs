@@ -99,12 +99,14 @@ impl Timeline {
     }
 }
 
-/// A recording of one lane as one of `lanes`, so that whoever opens it meets the methods that were on the menu: it opens
+/// A solo recording with its lane as one of `lanes`, so that whoever opens it meets the methods that were on the menu: it opens
 /// with its own, and its script and its checks are that lane's. Where that cannot be told from another by its method, it
 /// stays alone.
 pub(in crate::lab) fn among(recording: Scene, lanes: &[LaneSpec]) -> Scene {
-    let [flown] = recording.lanes[..] else { return recording };
-    let mut lanes = lanes.to_vec();
+    let ([flown], false) = (&recording.lanes[..], recording.opens_as_race) else {
+        return recording;
+    };
+    let (flown, mut lanes) = (*flown, lanes.to_vec());
     if !lanes.contains(&flown) {
         lanes.push(flown);
     }

@@ -4,8 +4,8 @@
 pub(super) const PANELS: [f32; 2] = [96.0, 64.0];
 
 // Widths of the window.
-/// A long name of a scene has its width.
-pub(super) const SCENE_NAME: f32 = 360.0;
+/// The whole name of the scene, and margins in the control of the modes.
+pub(super) const WIDE_PARTS_OF_TOP_BAR: f32 = 360.0;
 pub(super) const INSTRUMENTS: f32 = 420.0;
 pub(super) const TICK_FORWARD: f32 = 480.0;
 pub(super) const KEYS_BESIDE_HINT: f32 = 560.0;

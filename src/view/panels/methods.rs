@@ -21,8 +21,8 @@ const PADDING: f32 = 7.0;
 const SIGN: f32 = 12.0;
 
 /// Shows the scene's methods, or else those with a digit: with their names where all have room, else the chosen one's alone,
-/// or none where that would leave a method out.
-/// Returns the index of the method that the pointer or the keyboard's focus is on.
+/// or none where that would leave a method out. Returns the index of the method that the pointer or the keyboard's focus is
+/// on.
 pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) -> Option<usize> {
     let count = studio.offered().min(DIGITS);
     let room = ui.available_width();
@@ -30,8 +30,8 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) ->
     let width_of = |entry: usize, is_named: bool| width(ui, studio, entry, is_named) + BETWEEN;
     let all: f32 = (0..count).map(|entry| width_of(entry, true)).sum();
     let are_named = all <= room;
-    let unnamed: f32 = (0..count).map(|entry| width_of(entry, entry == chosen)).sum();
-    let is_chosen_named = unnamed - BETWEEN <= room;
+    let with_one_name: f32 = (0..count).map(|entry| width_of(entry, entry == chosen)).sum();
+    let is_chosen_named = with_one_name - BETWEEN <= room;
     let mut pointed = None;
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = if is_chosen_named { BETWEEN } else { CLOSE };

@@ -79,7 +79,7 @@ fn word(ui: &mut Ui, width: f32, word: &str) {
 fn scene_menu(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) {
     let name = studio.scene_name();
     let menu = ComboBox::from_id_salt("scene").selected_text(&name).height(480.0);
-    let menu = match width >= breakpoints::SCENE_NAME {
+    let menu = match width >= breakpoints::WIDE_PARTS_OF_TOP_BAR {
         true => menu.width(92.0),
         false => menu.width(60.0).truncate(),
     };
@@ -174,7 +174,7 @@ fn modes(ui: &mut Ui, studio: &Studio, width: f32, commands: &mut Vec<Command>) 
         // A bar that has no room for a tick forward has none for wide margins either.
         let margin = match width {
             _ if width >= breakpoints::TICK_FORWARD => 12.0,
-            _ if width >= breakpoints::SCENE_NAME => 7.0,
+            _ if width >= breakpoints::WIDE_PARTS_OF_TOP_BAR => 7.0,
             _ => 4.0,
         };
         for (name, about, is_chosen, command) in parts {
