@@ -42,8 +42,8 @@ One row for each scene, body, method and tick rate, in that order whatever the n
                         where the body conserves no energy
   evaluations_per_s     evaluations of the acceleration per simulated second
   ns_per_s              nanoseconds per simulated second, measured here and now
-  verdict               rounding, accurate, out-of-phase, loses-energy, gains-energy, blew-up,
-                        gave-up, no-truth or not-judged, as `regatta advise` judges
+  verdict               accurate, looks-right, bounded, dies-away, grows, blows-up, gives-up,
+                        no-truth or not-judged, as `regatta advise` judges
   halted                why, if it blew up or gave up
   half_life_ms, overshoot_percent  of a follower
   parameter, value      what --vary sets

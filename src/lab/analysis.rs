@@ -33,14 +33,14 @@ mod worker;
 pub use advice::{
     Adviser, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS, MethodAdvice, ranked, recommended,
 };
-pub use amplitude::Trend;
+pub use amplitude::{Measure, Trend};
 pub use chase_finding::ChaseFinding;
 pub use criterion::{CRITERIA, Criterion};
 pub use energy_finding::EnergyFinding;
 pub use judge::{Judge, MAX_HORIZON_S};
 pub use limits::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 pub use metrics::{METRICS, Metric, Scale, Unit, energy_gained_percent};
-pub use outcome::{Outcome, Severity};
+pub use outcome::{Outcome, Severity, Sign};
 pub use report::{Criteria, MethodReport, Recommendation, Report, advise, try_advise};
 pub use run::MAX_WORK;
 pub use stability_map::{Coverage, Here, MapRequest, Region, SeenLine, StabilityMap};

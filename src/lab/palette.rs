@@ -5,6 +5,7 @@
 
 use std::sync::LazyLock;
 
+use super::analysis::Severity;
 use super::lane_spec::LaneSpec;
 use crate::sim::integrators::{METHODS, Method};
 
@@ -111,8 +112,23 @@ pub struct Palette {
     pub warn: Rgba,
     /// What is right.
     pub good: Rgba,
+    /// What looks right.
+    pub fair: Rgba,
     /// Of methods.
     methods: [Rgba; 7],
+}
+
+impl Palette {
+    /// The colour of a verdict of this severity.
+    pub fn of_severity(&self, severity: Severity) -> Rgba {
+        match severity {
+            Severity::Fine => self.good,
+            Severity::Fair => self.fair,
+            Severity::Doubtful => self.warn,
+            Severity::Bad => self.bad,
+            Severity::Unknown => self.dim,
+        }
+    }
 }
 
 /// Whether black is read better on it than white.
@@ -144,6 +160,7 @@ static DARK: Palette = Palette {
     bad: rgb(0xFF7A70),
     warn: rgb(0xF0C050),
     good: rgb(0x5FD6A4),
+    fair: rgb(0xB9EFD6),
     methods: [
         rgb(0xFF8242),
         rgb(0x5BB8F0),
@@ -174,6 +191,7 @@ static LIGHT: Palette = Palette {
     bad: rgb(0xA8221B),
     warn: rgb(0x7A5200),
     good: rgb(0x00663F),
+    fair: rgb(0x2C7A55),
     methods: [
         rgb(0x9A3C06),
         rgb(0x085A93),

@@ -19,7 +19,7 @@ const NUMBERS: &[(&str, Number)] = &[
     }),
     ("semi-implicit-early", || {
         let verdict = Judge::new(&spring()).verdict(lane("semi-implicit-euler")?, 60);
-        Some(significant(100.0 * verdict.error()?, 2))
+        Some(significant(1e3 * verdict.comparison()?.early_s?, 2))
     }),
     ("bounded-down-to", || slowest_hz("semi-implicit-euler", Criterion::Bounded)),
     ("looks-right-down-to", || slowest_hz("semi-implicit-euler", Criterion::LooksRight)),

@@ -251,7 +251,7 @@ fn the_ships_settle_at_half_the_step_only() {
 fn the_verdicts_on_the_springs_are_those_that_the_guide_names() {
     let outcome = |scene: &str, id: &str, hz: u32| verdict(scene, id, hz).outcome();
     for hz in [60, 100, 1000] {
-        assert_eq!(outcome("spring", "explicit-euler", hz), Outcome::GainsEnergy, "{hz}");
+        assert_eq!(outcome("spring", "explicit-euler", hz), Outcome::Grows, "{hz}");
     }
     let (at_60, at_100) =
         (verdict("spring", "explicit-euler", 60), verdict("spring", "explicit-euler", 100));
@@ -272,7 +272,7 @@ fn the_verdicts_on_the_springs_are_those_that_the_guide_names() {
         assert_eq!(implicit.long_term.is_bounded, Some(true), "{hz}");
     }
     let implicit = verdict("stiff", "implicit-euler", 30);
-    assert_eq!(implicit.outcome(), Outcome::LosesEnergy);
+    assert_eq!(implicit.outcome(), Outcome::DiesAway);
     assert!(
         implicit.long_term.halves_in_s.is_some_and(|s| s < 0.2),
         "{:?}",
@@ -427,13 +427,13 @@ fn after_its_keys(title: &str) -> Studio {
 
 #[test]
 fn what_a_stop_answers_is_what_the_verdict_beside_it_says() {
-    use Outcome::{Accurate, BlewUp, GainsEnergy, LosesEnergy, OutOfPhase, Rounding};
+    use Outcome::{Accurate, BlewUp, Bounded, DiesAway, Grows, LooksRight, Rounding};
     for (title, outcome) in [
-        ("The spring that Euler blows up", GainsEnergy),
-        ("The same lines in another order", OutOfPhase),
+        ("The spring that Euler blows up", Grows),
+        ("The same lines in another order", LooksRight),
         ("A stiff spring", BlewUp),
-        ("The stability map", GainsEnergy),
-        ("Implicit methods", LosesEnergy),
+        ("The stability map", Bounded),
+        ("Implicit methods", DiesAway),
         ("Round-off", Rounding),
         ("Runge-Kutta", Accurate),
     ] {

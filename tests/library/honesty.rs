@@ -2,7 +2,7 @@
 //! judges. The seed is printed; `REGATTA_SEED` sets another.
 
 use crate::dice::Dice;
-use regatta::lab::analysis::{Adviser, CRITERIA, Judge, Outcome, Verdict};
+use regatta::lab::analysis::{Adviser, CRITERIA, Judge, Measure, Outcome, Verdict};
 use regatta::lab::{LaneSpec, Scene};
 use regatta::sim::bodies::{Input, Truth};
 use regatta::sim::integrators::GENERAL_METHODS;
@@ -227,7 +227,7 @@ fn lies(scene: &Scene, spec: LaneSpec, tick_hz: u32, verdict: &Verdict) -> Vec<S
         let most = |part: &[f64]| part.iter().fold(0.0_f64, |most, x| most.max(*x));
         let (early, late) = (most(&plain.reach[..tenth]), most(&plain.reach[tenth..]));
         let most = if matches!(kind.id, "spring" | "chain") { 1.3 } else { 2.0 };
-        let swings = verdict.long_term.swings;
+        let swings = verdict.long_term.measure != Measure::Deviation;
         check(!swings || late <= most * early.max(1.0), format!("bounded: {early} then {late}"));
     }
     if verdict.long_term.is_bounded == Some(false) {
@@ -236,7 +236,7 @@ fn lies(scene: &Scene, spec: LaneSpec, tick_hz: u32, verdict: &Verdict) -> Vec<S
     let undamped_spring = kind.id == "spring" && scene.bodies[0].values[2] == 0.0;
     if let Some(doubles) = verdict.long_term.doubles_in_s
         && doubles * hz < 0.9 * plain.reach.len() as f64
-        && verdict.long_term.swings
+        && verdict.long_term.measure != Measure::Deviation
     {
         let at = if undamped_spring {
             let start = stepper(scene, Solver::Truth).energy().unwrap();

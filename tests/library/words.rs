@@ -1,8 +1,8 @@
 //! What verdicts say, word by word.
 
 use regatta::lab::analysis::{
-    Comparison, Finding, LongTerm, NoTruth, NotJudged, Outcome, RunFailure, Severity, TOLERANCE,
-    Trend, Verdict,
+    CRITERIA, Comparison, Finding, LongTerm, Measure, NoTruth, NotJudged, Outcome, RunFailure,
+    Severity, Sign, TOLERANCE, Trend, Verdict,
 };
 use regatta::lab::studio::KEYS;
 use regatta::manual::chapter;
@@ -14,14 +14,16 @@ const COMPARED: Comparison = Comparison {
     last_error: 0.2,
     truth_error: 0.0,
     change: Trend::None,
-    leap: None,
+    looks_right: Some(false),
+    width: Some(1.0),
+    early_s: None,
     energy_change: None,
     energy_drift_percent: None,
     frequency_error: None,
 };
 
 const SWINGS: LongTerm = LongTerm {
-    swings: true,
+    measure: Measure::Swing,
     doubles_in_s: None,
     halves_in_s: None,
     parasite_doubles_in_s: None,
@@ -63,28 +65,34 @@ pub(crate) fn everything(verdict: &Verdict) -> String {
 }
 
 #[test]
-fn a_swing_that_is_much_too_wide_is_not_called_stable() {
-    let found = Comparison {
-        change: Trend::Grows,
-        leap: Some(1.8),
-        energy_change: Some(0.0),
-        frequency_error: Some(0.18),
-        error: 2.81,
-        ..COMPARED
-    };
-    let verdict = compared(found);
-    assert_eq!(verdict.to_string(), "gains energy · up to ×1.8");
-    assert_eq!(verdict.details(), ["18 % fast"]);
-    assert_eq!(verdict.outcome().severity(), Severity::Bad);
+fn a_swing_that_is_too_wide_or_too_narrow_says_how_wide_it_is() {
+    let off = "off by up to 281 % at 3 s, by 20 % after 20 s";
+    for (width, shown) in [
+        (1.8, "bounded · swings 1.8 × too wide"),
+        (0.7, "bounded · swings 0.70 × as wide"),
+        (1.04, "bounded · off by 281 % at 3 s"),
+    ] {
+        let found = Comparison {
+            width: Some(width),
+            energy_change: Some(0.0),
+            frequency_error: Some(0.18),
+            error: 2.81,
+            ..COMPARED
+        };
+        let verdict = compared(found);
+        assert_eq!(verdict.to_string(), shown);
+        assert_eq!(verdict.details(), [off, "18 % fast"]);
+        assert_eq!(verdict.outcome().severity(), Severity::Doubtful);
+    }
 }
 
 #[test]
 fn beside_a_run_that_was_changed_each_wording_tells_of_which_run_it_is() {
-    let found = compared(Comparison { energy_change: Some(0.0), ..COMPARED });
+    let found = compared(Comparison { early_s: Some(0.02), ..COMPARED });
     for (starts_at_s, from) in [(0.0, "from the start: "), (3.0, "from 3 s: ")] {
         let verdict = Verdict { starts_at_s, ..found.clone() };
         let wordings = verdict.wordings_of_another_run(true);
-        let said = ["stable · 25 % out of phase after 20 s", "stable"];
+        let said = ["bounded · 20 ms early after 20 s", "bounded"];
         assert_eq!(wordings, said.map(|words| format!("{from}{words}")));
     }
 }
@@ -95,71 +103,91 @@ fn a_verdict_says_the_number_that_its_outcome_is_about_and_its_details_the_rest(
         assert_eq!(verdict.to_string(), shown);
         assert_eq!(verdict.details(), details, "{shown}");
     };
-    is(compared(Comparison { error: 3e-12, ..COMPARED }), "within rounding · 10⁻¹¹", &[]);
+    is(compared(Comparison { error: 3e-12, ..COMPARED }), "accurate · within 10⁻¹¹", &[]);
     is(
         compared(Comparison { error: 0.004, ..COMPARED }),
-        "accurate · 0.40 %",
+        "accurate · within 0.40 %",
         &["largest error 0.40 % of the amplitude, at 3 s"],
     );
 
-    let phase = Comparison { energy_change: Some(0.0), ..COMPARED };
-    is(compared(phase), "stable · 25 % out of phase after 20 s", &[]);
+    let faded = "off by up to 25 % at 3 s, by 20 % after 20 s";
+    is(compared(COMPARED), "bounded · off by 25 % at 3 s", &[faded]);
+    let right = Comparison { looks_right: Some(true), ..COMPARED };
+    is(compared(right), "looks right · off by 25 % at 3 s", &[faded]);
     let unknown = LongTerm { is_bounded: None, ..SWINGS };
-    let unbounded = Verdict { long_term: unknown, ..compared(phase) };
-    is(unbounded, "out of phase · 25 % after 20 s", &[]);
-    let faded = ["off by up to 25 % at 3 s, by 20 % after 20 s"];
-    is(compared(COMPARED), "stable · 25 % off at 3 s", &faded);
-    let long_term = unknown;
-    is(Verdict { long_term, ..compared(COMPARED) }, "inaccurate · 25 % off at 3 s", &faded);
+    let open = Verdict { long_term: unknown, ..compared(COMPARED) };
+    is(open, "inaccurate · off by 25 % at 3 s", &[faded]);
     is(
         compared(Comparison { last_error: 0.25, ..COMPARED }),
-        "stable · 25 % off after 20 s",
+        "bounded · off by 25 %",
         &["off by up to 25 % at 3 s, by 25 % after 20 s"],
     );
     is(
         compared(Comparison { last_error: TOLERANCE, ..COMPARED }),
-        "stable · 25 % off at 3 s",
+        "bounded · off by 25 % at 3 s",
         &["off by 25 % at 3 s, settled by 20 s"],
     );
-    is(
-        compared(Comparison { error: 2.81, last_error: 2.7, ..phase }),
-        "inaccurate · 281 % off after 20 s",
-        &["off by up to 281 % at 3 s, by 270 % after 20 s"],
-    );
-    let fast = Comparison { error: 2.17, frequency_error: Some(0.05), ..phase };
-    let past_all_phases = ["off by up to 217 % at 3 s, by 20 % after 20 s", "5.0 % fast"];
-    is(of_two(compared(fast)), "inaccurate · 5.0 % fast (buoy)", &past_all_phases);
-    for (error, way, pitch) in [(-0.02, "late", "2.0 % slow"), (0.02, "early", "2.0 % fast")] {
-        let found = compared(Comparison { frequency_error: Some(error), ..phase });
-        let shown = format!("stable · 25 % {way} after 20 s");
-        is(found.clone(), &shown, &[pitch]);
-        is(of_two(found), &format!("{shown} (buoy)"), &[pitch]);
+    for (early_s, time) in [
+        (0.0174, "17 ms early"),
+        (-0.0174, "17 ms late"),
+        (0.9994, "999 ms early"),
+        (-1.25, "1.2 s late"),
+        (2.0, "2.0 s early"),
+    ] {
+        let found = Comparison { early_s: Some(early_s), ..right };
+        let shown = format!("looks right · {time} after 20 s");
+        is(compared(found), &shown, &[faded]);
+        is(of_two(compared(found)), &format!("{shown} (buoy)"), &[faded]);
+    }
+    for (error, pitch) in [(-0.02, "2.0 % slow"), (0.02, "2.0 % fast")] {
+        let found = Comparison { frequency_error: Some(error), ..COMPARED };
+        for (measure, shown) in [
+            (Measure::Modes, format!("bounded · main mode {pitch}")),
+            (Measure::Reach, format!("bounded · {pitch}")),
+            (Measure::Swing, "bounded · off by 25 % at 3 s".to_owned()),
+        ] {
+            let long_term = LongTerm { measure, ..SWINGS };
+            is(Verdict { long_term, ..compared(found) }, &shown, &[faded, pitch]);
+        }
     }
     let doubling = LongTerm { doubles_in_s: Some(90.0), ..SWINGS };
     is(
         Verdict {
             long_term: LongTerm { parasite_doubles_in_s: Some(7.0), ..doubling },
-            ..compared(phase)
+            ..compared(right)
         },
-        "stable · 25 % out of phase after 20 s",
-        &["grows slowly: swing ×2 in 90 s", "a faint mode grows: ×2 in 7 s"],
+        "looks right · off by 25 % at 3 s",
+        &[faded, "grows slowly: swing ×2 in 90 s", "a faint mode grows: ×2 in 7 s"],
     );
 
-    let gains = Comparison { change: Trend::Grows, ..COMPARED };
-    let of_energy = Comparison { energy_change: Some(0.5), ..gains };
-    is(compared(gains), "grows · 25 % off in 20 s", &[]);
-    is(compared(of_energy), "gains energy · +50 % in 20 s", &[]);
+    let grows = Comparison { change: Trend::Grows, ..COMPARED };
+    let of_energy = Comparison { energy_change: Some(0.5), ..grows };
+    is(compared(grows), "grows · off by 25 %", &[]);
+    is(compared(of_energy), "grows · energy +50 % in 20 s", &[]);
+    for (measure, name) in [
+        (Measure::Swing, "swing"),
+        (Measure::Modes, "swing"),
+        (Measure::Reach, "reach"),
+        (Measure::Deviation, "deviation"),
+    ] {
+        is(
+            Verdict { long_term: LongTerm { measure, ..doubling }, ..compared(of_energy) },
+            &format!("grows · {name} ×2 in 90 s"),
+            &[&format!("its {name} doubles in 90 s")],
+        );
+    }
+    let faint = LongTerm { parasite_doubles_in_s: Some(7.0), is_bounded: Some(false), ..SWINGS };
     is(
-        Verdict { long_term: LongTerm { swings: false, ..doubling }, ..compared(of_energy) },
-        "gains energy · ×2 in 90 s",
-        &["its deviation doubles in 90 s"],
+        Verdict { long_term: faint, ..compared(grows) },
+        "grows · a faint mode ×2 in 7.0 s",
+        &["a faint mode grows: ×2 in 7 s"],
     );
     let loses = Comparison { energy_change: Some(-0.5), change: Trend::Dies, ..COMPARED };
-    is(compared(loses), "loses energy · −50 % in 20 s", &[]);
+    is(compared(loses), "dies away · energy −50 % in 20 s", &[]);
     let all = Comparison { energy_change: Some(-0.998), ..loses };
-    is(compared(all), "loses energy · all of it in 20 s", &[]);
+    is(compared(all), "dies away · all its energy in 20 s", &[]);
     let long_term = LongTerm { halves_in_s: Some(5.04), ..SWINGS };
-    is(Verdict { long_term, ..compared(loses) }, "loses energy · ½ in 5.0 s", &[]);
+    is(Verdict { long_term, ..compared(loses) }, "dies away · swing ½ in 5.0 s", &[]);
 
     let escaped = StepFailure::NotFinite { coordinate: "x".into(), value: f64::NAN };
     let unsolved = StepFailure::LinearSolveFailed;
@@ -201,16 +229,42 @@ fn a_verdict_says_the_number_that_its_outcome_is_about_and_its_details_the_rest(
 }
 
 #[test]
-fn only_the_two_best_words_are_accurate_and_four_are_bad() {
-    for word in Outcome::ALL {
-        let is_fine = matches!(word, Outcome::Rounding | Outcome::Accurate);
-        assert_eq!(word.severity() == Severity::Fine, is_fine, "{}", word.id());
-        // A verdict tells what will be, and an id what was found.
-        let said = word.text().replace("gives", "gave").replace("blows", "blew");
-        assert_eq!(word.id(), said.replace("within ", "").replace(' ', "-"));
+fn each_outcome_has_the_sign_and_the_colour_of_the_criterion_that_it_meets() {
+    use Severity::{Bad, Doubtful, Fair, Fine, Unknown};
+    use Sign::{Cross, Diamond, Disc, Falling, Ring, Rising};
+    let wanted = [
+        (Disc, Fine),
+        (Disc, Fine),
+        (Disc, Fair),
+        (Ring, Unknown),
+        (Ring, Unknown),
+        (Diamond, Doubtful),
+        (Falling, Bad),
+        (Rising, Bad),
+        (Cross, Bad),
+        (Cross, Bad),
+    ];
+    let found = Outcome::ALL.map(|outcome| (outcome.sign(), outcome.severity()));
+    assert_eq!(found, wanted);
+    assert!(Outcome::ALL.is_sorted());
+    for outcome in Outcome::ALL {
+        assert_eq!(outcome.id(), outcome.text().replace(' ', "-"));
     }
-    let bad = Outcome::ALL.iter().filter(|word| word.severity() == Severity::Bad);
-    assert_eq!(bad.count(), 4);
+    for criterion in CRITERIA {
+        assert_eq!(criterion.outcome().id(), criterion.id());
+    }
+    let glyphs = [Disc, Diamond, Rising, Falling, Cross, Ring].map(Sign::glyph);
+    assert_eq!(glyphs.concat(), "●◆▲▼×○");
+}
+
+#[test]
+fn the_manual_has_the_table_of_the_verdicts() {
+    let commands = chapter("commands").unwrap().text;
+    for outcome in Outcome::ALL.into_iter().skip(1) {
+        let row =
+            format!("| {} | `{}` | {} |", outcome.sign().glyph(), outcome.id(), outcome.about());
+        assert!(commands.contains(&row), "{row}");
+    }
 }
 
 #[test]

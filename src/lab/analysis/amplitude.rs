@@ -1,4 +1,4 @@
-//! The change of the amplitude of a swing within the horizon.
+//! The change of an amplitude within the horizon, and the quantity of which it is one.
 
 use super::limits::VISIBLE;
 
@@ -16,12 +16,32 @@ pub enum Trend {
     Dies,
 }
 
-impl Trend {
-    /// The widest swing of a run, in units of the true one, if it is a [leap](LEAP).
-    pub(super) fn leap(widest: f64) -> Option<f64> {
-        Some(widest).filter(|&widest| widest >= LEAP)
-    }
+/// The quantity of a body whose growth and decay a verdict measures.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Measure {
+    /// The swing of one coordinate, or of one mode of a linear body.
+    Swing,
+    /// The swing of several modes of a linear body: the root of their energy.
+    Modes,
+    /// The largest distance of any coordinate from its centre, in its amplitudes: of several that swing together.
+    Reach,
+    /// The distance from a motion that does not swing.
+    #[default]
+    Deviation,
+}
 
+impl Measure {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Measure::Swing | Measure::Modes => "swing",
+            Measure::Reach => "reach",
+            Measure::Deviation => "deviation",
+        }
+    }
+}
+
+impl Trend {
     /// The change of a swing whose amplitude has changed by this factor.
     pub(super) fn of(amplitude: f64) -> Self {
         match amplitude {

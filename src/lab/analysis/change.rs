@@ -20,6 +20,8 @@ pub(super) struct MotionChange {
     pub(super) within: Trend,
     pub(super) energy_change: Option<f64>,
     pub(super) frequency_error: Option<f64>,
+    /// By how many seconds the motion is early at the end of the horizon.
+    pub(super) early_s: Option<f64>,
 }
 
 impl MotionChange {
@@ -30,7 +32,7 @@ impl MotionChange {
         // The swing stays small for some turns, after so many turns that the time of halving is sharp.
         let died = |t: f64| end - t >= 4.0 * period && t >= 10.0 * period;
         let long_term = LongTerm {
-            swings: truth.swing.is_some(),
+            measure: truth.measure(),
             doubles_in_s: run.doubled_at.or_else(|| steadily_doubles_in_s(truth, run)),
             halves_in_s: run.halved_at.filter(|&t| died(t)),
             parasite_doubles_in_s: None,
@@ -45,11 +47,14 @@ impl MotionChange {
             true => Trend::between(first, last),
             false => Trend::None,
         };
-        let frequency_error = frequency_error(truth, run).filter(FrequencyError::is_steady);
+        let frequency_error = frequency_error(truth, run);
+        let early_s = frequency_error.as_ref().and_then(|measured| measured.early_s);
+        let frequency_error = frequency_error.filter(FrequencyError::is_steady);
         Self {
             long_term,
             within,
             energy_change: Some(run.quarters[3]).filter(|change| conserves && change.is_finite()),
+            early_s: early_s.filter(|_| conserves),
             frequency_error: frequency_error.map(|measured| measured.error),
         }
     }

@@ -68,10 +68,10 @@ fn true_half_life_s(truth: &BodyTruth) -> Option<f64> {
 }
 
 impl ChaseFinding {
-    /// The one number of a body that closes on its target: its half-life.
-    pub(super) fn number(&self) -> Option<String> {
+    /// The half-life in seconds and in words: the one number of a body that closes on its target.
+    pub(super) fn number(&self) -> Option<(f64, String)> {
         let half = self.half_life_s.filter(|_| self.beyond_limit.is_none())?;
-        Some(format!("half-life {}", milliseconds(half)))
+        Some((half, format!("half-life {}", milliseconds(half))))
     }
 }
 

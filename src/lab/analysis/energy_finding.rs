@@ -30,8 +30,8 @@ pub struct EnergyFinding {
 impl EnergyFinding {
     pub(super) fn outcome(&self) -> Outcome {
         match self.trend {
-            Trend::Grows => Outcome::GainsEnergy,
-            Trend::Dies => Outcome::LosesEnergy,
+            Trend::Grows => Outcome::Grows,
+            Trend::Dies => Outcome::DiesAway,
             Trend::None => Outcome::NoTruth,
         }
     }

@@ -10,6 +10,8 @@ const FEWEST_CROSSINGS: usize = 3;
 /// The relative frequency error of a lane, positive if it is too fast: over all its turns and over each half of them.
 pub(super) struct FrequencyError {
     pub(super) error: f64,
+    /// By how many seconds it is early at the end of the horizon; `None` if that is uncertain by a tenth.
+    pub(super) early_s: Option<f64>,
     halves: [f64; 2],
     /// The uncertainty of the error, from interpolating between ticks.
     blur: f64,
@@ -40,10 +42,18 @@ pub(super) fn frequency_error(truth: &BodyTruth, run: &Run) -> Option<FrequencyE
     };
     let middle = count / 2;
     let span = lane[count - 1].at - lane[0].at;
+    let halves = [error(0, middle), error(middle, count - 1)];
+    // Either may have one crossing more before the first that both have.
+    let early_at_first = libm::remainder(swing.crossings[0] - h * lane[0].at, swing.period());
+    let last = swing.crossings[count - 1];
+    let gained = last - swing.crossings[0] - h * span;
+    let early_s = early_at_first + gained + halves[1] * (run.horizon_s - last);
+    let blur = lane[0].blur + lane[count - 1].blur;
     Some(FrequencyError {
         error: error(0, count - 1),
-        halves: [error(0, middle), error(middle, count - 1)],
-        blur: (lane[0].blur + lane[count - 1].blur) / span,
+        early_s: Some(early_s).filter(|early_s| h * blur <= 0.1 * early_s.abs()),
+        halves,
+        blur: blur / span,
     })
 }
 

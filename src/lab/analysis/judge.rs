@@ -23,6 +23,7 @@ use crate::lab::scene::{Scene, Scripted};
 mod criteria;
 
 pub(super) use criteria::CriterionFinding;
+use criteria::CriterionMiss;
 
 /// The longest horizon in simulated seconds. A shorter scene is judged over its whole length.
 pub const MAX_HORIZON_S: f64 = 60.0;
@@ -183,9 +184,10 @@ impl Judge {
         }
         let found = Modes::of(truth, spec, tick_hz).await;
         let max_work = if found.is_ok() { max_work } else { 0 };
-        let by_modes = found.ok().flatten().map(|modes| {
-            modes.change(truth.swing.is_some(), self.horizon_s - truth.last_input_s())
-        });
+        let by_modes = found
+            .ok()
+            .flatten()
+            .map(|modes| modes.change(truth.measure(), self.horizon_s - truth.last_input_s()));
         let until = if by_modes.is_some() { Until::Horizon } else { Until::LongRun };
         let run = follow(truth, spec, tick_hz, until, max_work).await;
         self.compared(body, spec, tick_hz, &run, by_modes).await
@@ -201,9 +203,19 @@ impl Judge {
         by_modes: Option<MotionChange>,
     ) -> Verdict {
         let truth = &self.truths[body];
-        let MotionChange { long_term, within, energy_change, frequency_error } =
+        let is_horizon = by_modes.is_some();
+        let MotionChange { long_term, within, energy_change, frequency_error, early_s } =
             by_modes.unwrap_or_else(|| MotionChange::of_run(truth, run, self.horizon_s));
-        let leap = Trend::leap(run.widest).filter(|_| within == Trend::None);
+        // What has grown once and goes on within bounds is bounded, and what has yet to grow is not.
+        let change = match (within, long_term.is_bounded) {
+            (Trend::Grows, Some(true)) => Trend::None,
+            (Trend::None, Some(false)) => Trend::Grows,
+            _ => within,
+        };
+        let swing = truth.swing.as_ref();
+        // Half of the error at least, or something else is the worse.
+        let is_of_phase =
+            |early_s: f64| swing.is_some_and(|swing| swing.error_when(early_s) >= run.error / 2.0);
         let truth_error = truth.gap(run.seconds, tick_hz).await;
         let not_judged = self.not_judged(tick_hz, run.is_cut_short());
         let finding = if let Some(failure) = run.failure.clone() {
@@ -213,13 +225,22 @@ impl Judge {
         } else if let Some(why) = without_truth(truth, run, truth_error) {
             Finding::NoTruth(why)
         } else {
+            let known = Some(run).filter(|_| is_horizon);
+            let looks_right = self.looks_right(body, spec, tick_hz, known).await;
+            let looks_right = match looks_right {
+                Ok(_) => Some(true),
+                Err(CriterionMiss::Fails) => Some(false),
+                Err(CriterionMiss::Unknown) => None,
+            };
             Finding::Compared(Comparison {
                 error: run.error,
                 error_at_s: run.error_at_s,
                 last_error: run.last_error,
                 truth_error,
-                change: if leap.is_some() { Trend::Grows } else { within },
-                leap,
+                change,
+                looks_right,
+                width: swing.map(|swing| swing.width_of(&run.half_turns)),
+                early_s: early_s.filter(|&early_s| is_of_phase(early_s)),
                 energy_change,
                 energy_drift_percent: run.energy_drift,
                 frequency_error,

@@ -1,6 +1,6 @@
 //! The long-term motion of a linear body under a method of equal steps, from its normal modes.
 
-use super::amplitude::Trend;
+use super::amplitude::{Measure, Trend};
 use super::change::MotionChange;
 use super::limits::VISIBLE;
 use super::run::MAX_WORK;
@@ -21,8 +21,8 @@ const ENVELOPE_MOMENTS: u32 = 256;
 /// The steps from which a mode's map is computed: three from each of two states.
 pub(super) const STEPS_PER_MODE: u64 = 6;
 
-/// The step from which its width is.
-const STEPS_PER_WIDTH: u64 = 1;
+/// The step from which its curve is.
+const STEPS_PER_CURVE: u64 = 1;
 
 /// The normal modes of a linear body, and their stability under a method of equal steps.
 pub(super) struct Modes<'a> {
@@ -33,9 +33,20 @@ pub(super) struct Modes<'a> {
 struct SteppedMode<'a> {
     moved: &'a MovedMode,
     stability: Stability,
-    /// Its amplitude at the start under the method, in units of the true one: the curve on which its steps lie need not be
-    /// the true one.
+    curve: Curve,
+}
+
+/// The curve on which the steps of a mode lie, beside the true one: both begin in the same state.
+struct Curve {
+    /// Its amplitude at the start, in units of the true one.
     width: f64,
+    /// By how many seconds it is early at the start.
+    early_s: f64,
+}
+
+impl Curve {
+    /// That of a mode that does not swing under both.
+    const TRUE: Self = Self { width: 1.0, early_s: 0.0 };
 }
 
 impl SteppedMode<'_> {
@@ -45,7 +56,7 @@ impl SteppedMode<'_> {
 
     /// Its energy after `t` seconds, in units of that of the true motion at the start.
     fn energy(&self, t: f64) -> f64 {
-        self.width * self.width * self.moved.energy(self.stability.growth_per_s, t)
+        self.curve.width * self.curve.width * self.moved.energy(self.stability.growth_per_s, t)
     }
 }
 
@@ -55,34 +66,37 @@ impl MovedMode {
         self.share * libm::exp(2.0 * growth_per_s * t)
     }
 
-    /// Its amplitude at the start under the method of `stepper`, in units of the true one, from one `step`: both begin in the
-    /// same state, and a curve rⁿ (q cos nθ + b sin nθ) through the first two states of the method is that of all its
-    /// states. 1 if it does not swing under both.
+    /// Its curve under the method of `stepper`, from one `step`: a curve rⁿ (q cos nθ + b sin nθ) through the first two states
+    /// of the method is that of all its states.
     ///
     /// # Errors
     /// The failure of the method in the step.
-    fn width(
+    fn curve(
         &self,
         stepper: &mut dyn Stepper,
         step: Tick,
         stability: &Stability,
-    ) -> Result<f64, StepFailure> {
+    ) -> Result<Curve, StepFailure> {
         let (Some(swing), Some(error)) = (self.mode.swing(), stability.frequency_error) else {
-            return Ok(1.0);
+            return Ok(Curve::TRUE);
         };
         let Self { q, v, .. } = *self;
-        let truth = libm::hypot(q, (v + self.mode.damping_per_s / 2.0 * q) / swing);
+        let side = (v + self.mode.damping_per_s / 2.0 * q) / swing;
+        let truth = libm::hypot(q, side);
         let sides = [q / truth, v / truth];
         if sides.iter().any(|side| !side.is_finite()) {
-            return Ok(1.0);
+            return Ok(Curve::TRUE);
         }
         let [q, v] = sides;
+        let true_phase = libm::atan2(side / truth, q);
         let along = |part: f64| self.mode.shape.iter().map(|x| part * x).collect::<Vec<_>>();
         stepper.set(step.t, &along(q), &along(v));
         stepper.advance(step.t, step.h, step.substeps)?;
         let next = self.mode.part(stepper.q()) * libm::exp(-stability.growth_per_s * step.h);
         let angle = (1.0 + error) * swing * step.h;
-        Ok(libm::hypot(q, (next - q * libm::cos(angle)) / libm::sin(angle)))
+        let side = (next - q * libm::cos(angle)) / libm::sin(angle);
+        let ahead = libm::remainder(true_phase - libm::atan2(side, q), std::f64::consts::TAU);
+        Ok(Curve { width: libm::hypot(q, side), early_s: ahead / swing })
     }
 }
 
@@ -104,7 +118,7 @@ impl<'a> Modes<'a> {
         let n = modes.len() as u64;
         // An implicit step takes differences of the force along every coordinate.
         let evaluations = u64::from(spec.method.evaluations.unwrap_or(modes.len() as u32));
-        let steps = STEPS_PER_MODE + STEPS_PER_WIDTH;
+        let steps = STEPS_PER_MODE + STEPS_PER_CURVE;
         let work_of_mode = work_of(steps * evaluations, n, spec.solver());
         if work_of_mode.saturating_mul(n) > MAX_WORK {
             return Err(TooMuch);
@@ -118,10 +132,10 @@ impl<'a> Modes<'a> {
             let Ok(stability) = moved.mode.stability(&*free, spec.solver(), tick) else {
                 return Ok(None);
             };
-            let Ok(width) = moved.width(&mut *stepper, step, &stability) else {
+            let Ok(curve) = moved.curve(&mut *stepper, step, &stability) else {
                 return Ok(None);
             };
-            found.push(SteppedMode { moved, stability, width });
+            found.push(SteppedMode { moved, stability, curve });
             truth.meter.pass(work_of_mode).await;
         }
         Ok(Some(Self { modes: found }))
@@ -131,11 +145,21 @@ impl<'a> Modes<'a> {
         self.modes.iter().all(|mode| mode.stability.is_bounded())
     }
 
-    /// The frequency error of the swinging mode with the most energy.
-    pub(super) fn frequency_error(&self) -> Option<f64> {
+    /// The swinging mode with the most energy.
+    fn main(&self) -> Option<&SteppedMode<'a>> {
         let swinging = self.modes.iter().filter(|mode| mode.mode().swing().is_some());
-        let most = swinging.max_by(|a, b| a.moved.share.total_cmp(&b.moved.share));
-        most?.stability.frequency_error
+        swinging.max_by(|a, b| a.moved.share.total_cmp(&b.moved.share))
+    }
+
+    /// The frequency error of the main mode.
+    pub(super) fn frequency_error(&self) -> Option<f64> {
+        self.main()?.stability.frequency_error
+    }
+
+    /// By how many seconds the main mode is early after `seconds`.
+    fn early_s(&self, seconds: f64) -> Option<f64> {
+        let main = self.main()?;
+        Some(main.curve.early_s + main.stability.frequency_error? * seconds)
     }
 
     /// Whether the amplitude stays within [`VISIBLE`] of the true one for `seconds`, as the root of the energies of all modes
@@ -188,7 +212,7 @@ impl<'a> Modes<'a> {
     }
 
     /// The change of the motion within the horizon and later.
-    pub(super) fn change(&self, swings: bool, horizon_s: f64) -> MotionChange {
+    pub(super) fn change(&self, measure: Measure, horizon_s: f64) -> MotionChange {
         let moves = self.modes.iter().any(|mode| mode.moved.share > 0.0);
         let is_conserved = moves && self.are_conserved();
         let reaches = |is_wanted: bool, is_past: fn(f64) -> bool| {
@@ -200,7 +224,7 @@ impl<'a> Modes<'a> {
         let amplitude = if moves { self.amplitude(horizon_s) } else { 1.0 };
         MotionChange {
             long_term: LongTerm {
-                swings,
+                measure,
                 doubles_in_s,
                 halves_in_s: reaches(is_conserved, |amplitude| amplitude <= 0.5),
                 // A mode that has no energy at the start grows out of rounding.
@@ -211,6 +235,7 @@ impl<'a> Modes<'a> {
             within: Trend::of(amplitude),
             energy_change: is_conserved.then_some(amplitude * amplitude - 1.0),
             frequency_error: self.frequency_error(),
+            early_s: self.early_s(horizon_s).filter(|_| is_conserved && measure == Measure::Swing),
         }
     }
 }

@@ -64,8 +64,6 @@ pub(super) struct Run {
     pub(super) horizon_s: f64,
     /// The failure of the body after the horizon.
     pub(super) later: Option<RunFailure>,
-    /// The widest swing within the horizon of a body that conserves its energy, in units of the true one.
-    pub(super) widest: f64,
     /// When a coordinate, and when a velocity, first reached twice its true amplitude.
     pub(super) doubled_at: Option<f64>,
     pub(super) velocity_doubled_at: Option<f64>,
@@ -226,7 +224,6 @@ impl Run {
             horizon_s,
             followed_s: 0.0,
             later: None,
-            widest: 0.0,
             doubled_at: None,
             velocity_doubled_at: None,
             halved_at: None,
@@ -278,9 +275,6 @@ impl Run {
             Some(drift) if truth.is_oscillator() => (1.0 + drift).max(0.0).sqrt(),
             _ => truth.reach.of_coordinates(stepper.q()),
         };
-        if truth.energy_scale.is_some() && t <= self.horizon_s {
-            self.widest = self.widest.max(swing);
-        }
         if swing >= TWICE && self.doubled_at.is_none() {
             self.doubled_at = Some(t);
         }

@@ -1,6 +1,6 @@
 //! The verdict on a method on a scene: its outcome and the numbers behind it.
 
-use super::amplitude::Trend;
+use super::amplitude::{Measure, Trend};
 use super::chase_finding::ChaseFinding;
 use super::energy_finding::EnergyFinding;
 use super::limits::TOLERANCE;
@@ -93,11 +93,15 @@ pub struct Comparison {
     pub last_error: f64,
     /// The largest error of the truth itself.
     pub truth_error: f64,
-    /// The change of the amplitude.
+    /// How the amplitude changes, within the horizon and, where it grows or stays bounded, beyond it.
     pub change: Trend,
-    /// The widest swing in units of the true one, of a body that swings much too wide without growing further; `None` of any
-    /// other.
-    pub leap: Option<f64>,
+    /// Whether it meets [`Criterion::LooksRight`](super::Criterion::LooksRight); `None` if that is not known.
+    pub looks_right: Option<bool>,
+    /// The widest swing in units of the true one; `None` if nothing swings.
+    pub width: Option<f64>,
+    /// By how many seconds the motion is early at the end of the horizon, negative if it is late. `None` if this is not the
+    /// cause of most of the error.
+    pub early_s: Option<f64>,
     /// The change of the energy, in units of the largest true kinetic energy; `None` if energy is not conserved.
     pub energy_change: Option<f64>,
     /// The energy drift of largest magnitude, in percent of the energy that the motion exchanges; `None` if energy is not
@@ -113,9 +117,10 @@ impl Comparison {
         match self.change {
             _ if self.error.max(self.truth_error) <= ROUNDING => Outcome::Rounding,
             _ if self.error <= TOLERANCE => Outcome::Accurate,
-            Trend::Grows => Outcome::GainsEnergy,
-            Trend::Dies => Outcome::LosesEnergy,
-            Trend::None => Outcome::OutOfPhase,
+            _ if self.looks_right == Some(true) => Outcome::LooksRight,
+            Trend::Grows => Outcome::Grows,
+            Trend::Dies => Outcome::DiesAway,
+            Trend::None => Outcome::Bounded,
         }
     }
 }
@@ -124,8 +129,8 @@ impl Comparison {
 /// halves in half the time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LongTerm {
-    /// Whether the body swings in truth.
-    pub swings: bool,
+    /// The quantity that doubles and halves.
+    pub measure: Measure,
     /// The time in which the amplitude doubles, if it does not in truth; `None` if it does not double within a year or if
     /// that is not known.
     pub doubles_in_s: Option<f64>,
@@ -139,7 +144,8 @@ pub struct LongTerm {
 }
 
 /// The verdict on a lane over a horizon; displayed as one line. With the feature `serde` it is written as one flat object,
-/// by the commands too: its `word` is the id of its outcome, its `text` the line, and a field without a meaning is null.
+/// by the commands too: `word` is the id of its outcome, `text` the line, and `quantity`, `value` and `unit` the number in it.
+/// A field without a meaning is null.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// What is found of the worst body, which the verdict is about.

@@ -6,7 +6,7 @@ use super::moment::{DrawContext, turns};
 use super::sketch::{Camera, rounded};
 use super::{Align, Label, Look, Mark, Picture, Rect, Rgba, breakpoints};
 use crate::lab::Studio;
-use crate::lab::analysis::Severity;
+use crate::lab::analysis::{Outcome, Severity};
 use crate::lab::palette::{Palette, faded};
 use crate::lab::race::{Entrant, Halt, LaneBody};
 use crate::sim::number::{round, significant};
@@ -275,25 +275,22 @@ struct Chip {
 }
 
 impl Chip {
-    /// The chip of a body whose method does not do what it should.
+    /// The chip of a body whose method is not accurate.
     fn of(moment: &DrawContext<'_>, index: usize, entrant: &Entrant) -> Option<Self> {
         let entry = moment.studio.entry(entrant);
         let verdict = moment.studio.viewer().verdict(entry)?;
         let palette = moment.palette;
-        let (sign, tone) = match verdict.outcome().severity() {
-            Severity::Bad => ("▲", palette.bad),
-            Severity::Doubtful => ("◆", palette.warn),
-            Severity::Fine | Severity::Unknown => return None,
-        };
-        if verdict.body != index {
+        let halt = entrant.lane.bodies()[index].halted();
+        let outcome = halt.map_or(verdict.outcome(), Outcome::of_halt);
+        let severity = outcome.severity();
+        if verdict.body != index || matches!(severity, Severity::Fine | Severity::Unknown) {
             return None;
         }
         // The run on the screen is another than the judged one.
         let is_other = moment.studio.is_judged_apart();
-        let halt = entrant.lane.bodies()[index].halted();
         Some(Self {
-            sign,
-            colours: [tone, moment.style(entry).0],
+            sign: outcome.sign().glyph(),
+            colours: [palette.of_severity(severity), moment.style(entry).0],
             verdict: match halt {
                 Some(halt) => halt.fate(),
                 None if is_other => verdict.wordings_of_another_run(false)[0].clone(),

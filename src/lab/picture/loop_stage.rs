@@ -9,7 +9,6 @@ use super::{
     Align, Framing, Label, Look, Outline, Picture, Rect, Rgba, breakpoints, captions, chart,
 };
 use crate::lab::Studio;
-use crate::lab::analysis::Severity;
 use crate::lab::loop_lab::{LoopFrame, LoopLab, LoopLane};
 use crate::lab::palette::{Palette, faded};
 use crate::sim::number::round;
@@ -316,12 +315,7 @@ impl<'a> LoopBand<'a> {
             return;
         }
         let verdict = self.loops.verdict(self.place);
-        let colour = match verdict.severity {
-            Severity::Fine => self.palette.good,
-            Severity::Doubtful => self.palette.warn,
-            Severity::Bad => self.palette.bad,
-            Severity::Unknown => self.palette.dim,
-        };
+        let colour = self.palette.of_severity(verdict.severity);
         let fits = |words: &String| VERDICT_LETTER * words.chars().count() as f32 <= room;
         if let Some(words) = verdict.wordings().into_iter().find(fits) {
             let verdict = self.label([right, y], Align::Right, 12.5, words);

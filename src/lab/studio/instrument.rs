@@ -59,7 +59,7 @@ pub static INSTRUMENTS: &[InstrumentCard] = &[
         group: See,
         name: "Motion",
         about: "Where every body is over time. A method that follows the exact curve is right; one that swings wider \
-                gains energy, one that slides sideways is out of phase.",
+                and wider grows, one that slides sideways is early or late.",
     },
     InstrumentCard {
         instrument: Instrument::Error,
@@ -86,7 +86,7 @@ pub static INSTRUMENTS: &[InstrumentCard] = &[
         instrument: Instrument::StabilityMap,
         group: Why,
         name: "Stability map",
-        about: "Where each method is stable: tick rates across, a parameter of the body up. Drag the cross to change \
+        about: "Where each method is bounded: tick rates across, a parameter of the body up. Drag the cross to change \
                 both values.",
     },
     InstrumentCard {

@@ -133,20 +133,19 @@ fn answer(
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 copy_button(ui, studio, spec, commands);
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                    taken_line(ui, spec.method.name, met);
+                    taken_line(ui, spec.method.name, met, tone(ui, criterion.outcome()));
                 });
             });
         });
     }
 }
 
-/// A method and its substeps, with a mark if they leave no reserve, of which the name gives way.
-fn taken_line(ui: &mut Ui, name: &str, met: &CriterionMet) {
+/// A method and its substeps in this colour, with a mark if they leave no reserve. The name gives way to both.
+fn taken_line(ui: &mut Ui, name: &str, met: &CriterionMet, colour: Color32) {
     let font = strong_font(TYPE);
-    let strong = |words: &str| RichText::new(words).font(font.clone()).color(palette(ui).good);
-    let width = |words: &str| {
-        ui.painter().layout_no_wrap(words.to_owned(), font.clone(), palette(ui).good).size().x
-    };
+    let strong = |words: &str| RichText::new(words).font(font.clone()).color(colour);
+    let width =
+        |words: &str| ui.painter().layout_no_wrap(words.to_owned(), font.clone(), colour).size().x;
     let room =
         |substeps: &str| ui.available_width() - width(substeps) - ui.spacing().item_spacing.x;
     let marks: &[&str] = if met.has_no_reserve() { &[", no reserve", " !"] } else { &[""] };
@@ -285,7 +284,8 @@ impl Row<'_> {
             }
         };
         let is_best = self.best[criterion] == Some(self.index);
-        let colour = if is_best { palette(&ui).good } else { palette(&ui).text };
+        let of_criterion = tone(&ui, CRITERIA[criterion].outcome());
+        let colour = if is_best { of_criterion } else { palette(&ui).text };
         let text = cell_text(met, self.has_rates);
         let used = ui.button(RichText::new(text).color(colour).size(SMALL));
         let name = format!("{}: {}", CRITERIA[criterion].name(), spec.method.name);

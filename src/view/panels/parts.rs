@@ -6,7 +6,7 @@ use egui::text::{LayoutJob, TextWrapping};
 use egui::{Color32, FontId, Frame, Galley, Margin, TextFormat, Ui};
 
 use crate::lab::analysis::{Outcome, Severity};
-use crate::view::theme::palette;
+use crate::view::theme::{colour, palette};
 
 /// The tag of a panel that is a picture of an instrument.
 pub(super) const PICTURE: &str = "picture of an instrument";
@@ -48,10 +48,5 @@ pub(super) fn tone(ui: &Ui, word: Outcome) -> Color32 {
 
 /// The colour of a severity.
 pub(super) fn severity_tone(ui: &Ui, severity: Severity) -> Color32 {
-    match severity {
-        Severity::Fine => palette(ui).good,
-        Severity::Doubtful => palette(ui).warn,
-        Severity::Bad => palette(ui).bad,
-        Severity::Unknown => palette(ui).dim,
-    }
+    colour(palette(ui).theme.palette().of_severity(severity))
 }

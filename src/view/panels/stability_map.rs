@@ -337,14 +337,14 @@ fn only_everywhere(ui: &Ui, studio: &Studio, map: &StabilityMap, area: &PlotArea
     let painter = ui.painter().with_clip_rect(area.rect);
     let at = area.rect.left_top() + vec2(8.0, 6.0);
     let laid_out = |text| painter.layout_no_wrap(text, strong_font(12.0), colour);
-    let only_here = laid_out(format!("only {name}{others} {verb} stable here"));
+    let only_here = laid_out(format!("only {name}{others} {verb} bounded here"));
     let mut partly = map.regions.iter().filter(|region| region.coverage == Coverage::Part);
     let is_shared = partly.any(|region| {
         along(at + only_here.size() / 2.0, 0.0, only_here.size().x)
             .any(|at| region.contains(area.point(at)))
     });
     let words = match is_shared {
-        true => laid_out(format!("{name}{others} {verb} stable everywhere")),
+        true => laid_out(format!("{name}{others} {verb} bounded everywhere")),
         false => only_here,
     };
     let rect = Rect::from_min_size(at, words.size());

@@ -4,7 +4,7 @@ use egui::epaint::PathShape;
 use egui::{Color32, FontId, Pos2, Rect, Stroke, Ui, pos2, vec2};
 
 use super::parts::{severity_tone, short};
-use crate::lab::analysis::{Outcome, Severity};
+use crate::lab::analysis::{Severity, Sign};
 use crate::view::theme::{TYPE, palette};
 
 /// Half the size of a sign, and the room that it takes, in points.
@@ -21,62 +21,23 @@ pub(super) struct VerdictText {
     pub(super) rank: Option<f64>,
 }
 
-/// A shape that tells verdicts apart without their colours.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Sign {
-    /// It is right.
-    Disc,
-    /// It drifts, or is doubtful.
-    Diamond,
-    /// It gains, or is bad.
-    Rising,
-    /// It loses.
-    Falling,
-    /// It is lost.
-    Cross,
-    /// It is not known.
-    Ring,
-}
-
-impl Sign {
-    pub(super) fn of(outcome: Outcome) -> Self {
-        match outcome {
-            Outcome::Rounding | Outcome::Accurate => Self::Disc,
-            Outcome::NotJudged | Outcome::NoTruth => Self::Ring,
-            Outcome::OutOfPhase => Self::Diamond,
-            Outcome::GainsEnergy => Self::Rising,
-            Outcome::LosesEnergy => Self::Falling,
-            Outcome::GaveUp | Outcome::BlewUp => Self::Cross,
+fn paint(sign: Sign, ui: &Ui, at: Pos2, colour: Color32) {
+    let polygon = |corners: &[(f32, f32)]| {
+        let corners = corners.iter().map(|(x, y)| at + HALF * vec2(*x, *y)).collect();
+        ui.painter().add(PathShape::convex_polygon(corners, colour, Stroke::NONE));
+    };
+    match sign {
+        Sign::Disc => drop(ui.painter().circle_filled(at, HALF, colour)),
+        Sign::Ring => {
+            ui.painter().circle_stroke(at, HALF - 1.0, Stroke::new(1.5, colour));
         }
-    }
-
-    pub(super) fn of_severity(severity: Severity) -> Self {
-        match severity {
-            Severity::Fine => Self::Disc,
-            Severity::Doubtful => Self::Diamond,
-            Severity::Bad => Self::Rising,
-            Severity::Unknown => Self::Ring,
-        }
-    }
-
-    fn paint(self, ui: &Ui, at: Pos2, colour: Color32) {
-        let polygon = |corners: &[(f32, f32)]| {
-            let corners = corners.iter().map(|(x, y)| at + HALF * vec2(*x, *y)).collect();
-            ui.painter().add(PathShape::convex_polygon(corners, colour, Stroke::NONE));
-        };
-        match self {
-            Self::Disc => drop(ui.painter().circle_filled(at, HALF, colour)),
-            Self::Ring => {
-                ui.painter().circle_stroke(at, HALF - 1.0, Stroke::new(1.5, colour));
-            }
-            Self::Diamond => polygon(&[(0.0, -1.15), (1.15, 0.0), (0.0, 1.15), (-1.15, 0.0)]),
-            Self::Rising => polygon(&[(0.0, -1.0), (1.1, 0.9), (-1.1, 0.9)]),
-            Self::Falling => polygon(&[(-1.1, -0.9), (1.1, -0.9), (0.0, 1.0)]),
-            Self::Cross => {
-                for side in [-1.0, 1.0] {
-                    let ends = [-1.0, 1.0].map(|end| at + 0.9 * HALF * vec2(side * end, end));
-                    ui.painter().line_segment(ends, Stroke::new(2.2, colour));
-                }
+        Sign::Diamond => polygon(&[(0.0, -1.15), (1.15, 0.0), (0.0, 1.15), (-1.15, 0.0)]),
+        Sign::Rising => polygon(&[(0.0, -1.0), (1.1, 0.9), (-1.1, 0.9)]),
+        Sign::Falling => polygon(&[(-1.1, -0.9), (1.1, -0.9), (0.0, 1.0)]),
+        Sign::Cross => {
+            for side in [-1.0, 1.0] {
+                let ends = [-1.0, 1.0].map(|end| at + 0.9 * HALF * vec2(side * end, end));
+                ui.painter().line_segment(ends, Stroke::new(2.2, colour));
             }
         }
     }
@@ -91,7 +52,7 @@ impl VerdictText {
     /// Shows the sign alone, with its middle here.
     pub(super) fn paint_sign(&self, ui: &Ui, at: Pos2) {
         if let Some((sign, severity)) = self.sign {
-            sign.paint(ui, at, severity_tone(ui, severity));
+            paint(sign, ui, at, severity_tone(ui, severity));
         }
     }
 

@@ -26,7 +26,7 @@ fn a_net_without_a_reference_is_judged_by_energy_and_spectral_radius_and_says_so
     for (id, outcome, radius) in [
         ("explicit-euler", Outcome::BlewUp, 5.0..15.0),
         ("semi-implicit-euler", Outcome::BlewUp, 50.0..200.0),
-        ("implicit-euler", Outcome::LosesEnergy, 0.8..1.005),
+        ("implicit-euler", Outcome::DiesAway, 0.8..1.005),
         ("implicit-midpoint", Outcome::NoTruth, 0.99..1.01),
     ] {
         let verdict = verdict(&scene, id);

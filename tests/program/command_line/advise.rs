@@ -47,9 +47,9 @@ fn every_method_has_a_verdict_and_meets_criteria_with_so_many_substeps() {
     assert_eq!((&advice["horizon_s"], &advice["bodies"]), (&20.0.into(), &["spring"][..].into()));
 
     let explicit = row(advice, "explicit-euler");
-    assert_eq!(explicit["verdict"]["word"], "gains-energy");
+    assert_eq!(explicit["verdict"]["word"], "grows");
     assert_eq!(explicit["verdict"]["body"], "spring");
-    assert_eq!(explicit["verdict"]["text"], "gains energy · ×2 in 2.1 s");
+    assert_eq!(explicit["verdict"]["text"], "grows · swing ×2 in 2.1 s");
     let doubles = explicit["verdict"]["doubles_in_s"].as_f64().unwrap();
     let z = std::f64::consts::TAU / 60.0;
     let expected = 2.0 * std::f64::consts::LN_2 / (1.0 + z * z).ln() / 60.0;
@@ -128,7 +128,7 @@ fn the_verdict_follows_the_tick_rate_and_the_rates_do_not() {
     };
     let (coarse, fine) = (only(&coarse), only(&fine));
     let words = [&coarse, &fine].map(|row| row["verdict"]["word"].clone());
-    assert_eq!(words, ["blew-up", "gains-energy"]);
+    assert_eq!(words, ["blows-up", "grows"]);
     assert!(coarse["verdict"]["error"].is_null());
     assert_eq!(coarse["rates"], fine["rates"]);
     // The limit itself is at 50 Hz.
@@ -146,7 +146,7 @@ fn text_is_a_table_of_verdicts_one_for_each_criterion_and_a_line_for_each() {
     let table = &lines[4..];
     assert!(table[0].starts_with("METHOD") && table[0].ends_with("VERDICT"), "{text}");
     let places = |line: &str, word: &str| line.find(word).map(|at| line[..at].chars().count());
-    assert_eq!(places(table[0], "VERDICT"), places(table[1], "gains energy"), "{text}");
+    assert_eq!(places(table[0], "VERDICT"), places(table[1], "grows"), "{text}");
     assert_eq!(places(table[0], "VERDICT"), places(table[2], "blows up · at "), "{text}");
     let taken = "at 60 Hz: bounded: semi-implicit-euler ×1 \
                  (60 evaluations/s; holds down to 50 Hz, or 1.4 × stiffness)";
@@ -392,7 +392,7 @@ fn a_camera_is_told_its_half_life_at_30_60_and_144_hz_and_that_it_explodes_above
     assert!(text.contains("half-life 219 ms"), "{text}");
     // k dt = 2.5 is above 2.
     let exploding = of("lerp-dt", 4);
-    assert_eq!(exploding["word"], "gains-energy");
+    assert_eq!(exploding["word"], "grows");
     assert!(exploding["doubles_in_s"].is_f64(), "{exploding}");
     // k dt = 5/3 overshoots by 2/3.
     let overshoot = of("lerp-dt", 6)["overshoot_percent"].as_f64().unwrap();

@@ -30,7 +30,7 @@ impl CriterionFinding {
 
 /// Why a body is not known to meet a criterion.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum CriterionMiss {
+pub(super) enum CriterionMiss {
     /// It does not meet it.
     Fails,
     /// Not known: it would take too much work, or there is no truth.
@@ -59,7 +59,7 @@ impl Judge {
         for (body, truth) in self.truths.iter().enumerate() {
             let met = match criterion {
                 Criterion::Bounded => self.is_bounded(truth, spec, tick_hz).await,
-                Criterion::LooksRight => self.looks_right(body, spec, tick_hz).await,
+                Criterion::LooksRight => self.looks_right(body, spec, tick_hz, None).await,
                 Criterion::Accurate => self.is_accurate(truth, spec, tick_hz).await,
             };
             match met {
@@ -181,20 +181,29 @@ impl Judge {
 
     /// Whether a body has the true amplitude within [`VISIBLE`] and the true frequency within [`FREQUENCY_TOLERANCE`]. A
     /// body that makes too few swings for that is followed over its first; one that does not swing has to stay within
-    /// [`VISIBLE`] of its range. What is accurate looks right.
-    async fn looks_right(
+    /// [`VISIBLE`] of its range. What is accurate looks right. `known` is its run over the horizon beside a usable truth, if
+    /// there is one already.
+    pub(super) async fn looks_right(
         &self,
         body: usize,
         spec: LaneSpec,
         tick_hz: u32,
+        known: Option<&Run>,
     ) -> Result<f64, CriterionMiss> {
         let truth = &self.truths[body];
-        let run = self.beside_truth(truth, spec, tick_hz, Until::Horizon).await?;
+        let own;
+        let run = match known {
+            Some(run) => run,
+            None => {
+                own = self.beside_truth(truth, spec, tick_hz, Until::Horizon).await?;
+                &own
+            }
+        };
         if run.failure.is_some() || run.error <= TOLERANCE {
-            return cost_if(run.failure.is_none(), &run);
+            return cost_if(run.failure.is_none(), run);
         }
         let Some(first_swings_s) = truth.first_swings_s else {
-            return cost_if(self.swings_alike(truth, &run, spec, tick_hz).await?, &run);
+            return cost_if(self.swings_alike(truth, run, spec, tick_hz).await?, run);
         };
         let inputs = truth.inputs_at_start();
         let find = BodyTruth::find(
@@ -208,7 +217,7 @@ impl Judge {
         let longer_run = self.beside_truth(longer, spec, tick_hz, Until::Horizon).await?;
         let is_alike = longer_run.failure.is_none()
             && self.swings_alike(longer, &longer_run, spec, tick_hz).await?;
-        if longer_run.is_too_much { Err(CriterionMiss::Unknown) } else { cost_if(is_alike, &run) }
+        if longer_run.is_too_much { Err(CriterionMiss::Unknown) } else { cost_if(is_alike, run) }
     }
 
     /// Whether a run over the horizon of `truth` swings like it, or is as near to it if that does not swing.

@@ -7,11 +7,11 @@ use crate::lab::analysis::duration;
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::number::counted;
 
-/// `stable`, `grows ×2 in 3.1 s`, `fails at once`.
+/// `bounded`, `grows ×2 in 3.1 s`, `fails at once`.
 impl fmt::Display for Here {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Here::Stable => f.write_str("stable"),
+            Here::Stable => f.write_str("bounded"),
             Here::Doubles(seconds) if seconds > 0.0 => {
                 write!(f, "grows ×2 in {}", duration(seconds))
             }
@@ -34,12 +34,12 @@ impl StabilityMap {
         lines.map(|(name, here)| format!("{name}: {here}")).collect::<Vec<_>>().join("\n")
     }
 
-    /// How many methods are stable at the present point, and which grows fastest.
+    /// How many methods are bounded at the present point, and which grows fastest.
     pub fn stable_here(&self) -> String {
         let of = |kind: Here| self.here.iter().filter(|here| **here == kind).count();
         let (all, stable, own) = (self.here.len(), of(Here::Stable), of(Here::OwnSteps));
         if stable == all && all > 1 {
-            return format!("all {all} methods are stable.");
+            return format!("all {all} methods are bounded.");
         }
         let verb = if stable == 1 { "is" } else { "are" };
         let growing = self.method_names().into_iter().zip(&self.here);
@@ -55,7 +55,7 @@ impl StabilityMap {
             _ => format!(", {own} pick their own steps"),
         };
         let all = counted(all, "method");
-        format!("{stable} of {all} {verb} stable{own}.{}", fastest.unwrap_or_default())
+        format!("{stable} of {all} {verb} bounded{own}.{}", fastest.unwrap_or_default())
     }
 
     /// What the map does not draw: a sentence each, with a blank before it.
@@ -69,7 +69,7 @@ impl StabilityMap {
         let mut notes = String::new();
         if !nowhere.is_empty() {
             let verb = if nowhere.len() == 1 { "is" } else { "are" };
-            notes += &format!(" {} {verb} stable nowhere on this map.", nowhere.join(", "));
+            notes += &format!(" {} {verb} bounded nowhere on this map.", nowhere.join(", "));
         }
         if !own.is_empty() {
             let verb = if own.len() == 1 { "picks its" } else { "pick their" };

@@ -1,8 +1,12 @@
 //! The true swing of a body: its crossings and the width of its half turns.
 
 use super::{BodyTruth, TruthNode};
+use crate::lab::analysis::amplitude::Measure;
 use crate::lab::bisection::bisect;
 use crate::sim::Solver;
+
+/// The share of the energy from which on a mode is all of the motion.
+const ONE_MODE: f64 = 0.99;
 
 /// A crossing slower than this part of the largest speed does not count as a swing.
 const FAINT: f64 = 1e-3;
@@ -18,7 +22,33 @@ pub(in crate::lab::analysis) struct Swing {
     pub(in crate::lab::analysis) half_turns: Vec<f64>,
 }
 
+impl Swing {
+    /// The widest of these half turns of a lane, in units of the widest true one.
+    pub(in crate::lab::analysis) fn width_of(&self, lane: &[f64]) -> f64 {
+        let widest = |half_turns: &[f64]| half_turns.iter().copied().fold(0.0, f64::max);
+        widest(lane) / widest(&self.half_turns)
+    }
+
+    /// The largest error, in amplitudes, of a harmonic motion that is this many seconds early or late.
+    pub(in crate::lab::analysis) fn error_when(&self, early_s: f64) -> f64 {
+        let half_turns = (early_s.abs() / self.period()).min(0.5);
+        2.0 * libm::sin(std::f64::consts::PI * half_turns)
+    }
+}
+
 impl BodyTruth {
+    /// The quantity that grows or dies away.
+    pub(in crate::lab::analysis) fn measure(&self) -> Measure {
+        match (&self.swing, &self.modes) {
+            (None, _) => Measure::Deviation,
+            (Some(_), Some(modes)) if modes.iter().all(|moved| moved.share < ONE_MODE) => {
+                Measure::Modes
+            }
+            (Some(_), None) if self.coordinates().len() > 1 => Measure::Reach,
+            _ => Measure::Swing,
+        }
+    }
+
     /// The swing about `middles`, one per coordinate, from the moments that were `seen` if they were kept.
     pub(super) async fn watch(
         &self,

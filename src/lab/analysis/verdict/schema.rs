@@ -9,6 +9,10 @@ use super::{Finding, LongTerm, Verdict};
 struct Schema<'a> {
     /// The id of the outcome.
     word: &'static str,
+    /// The number of the text, in `unit`.
+    quantity: Option<String>,
+    value: Option<f64>,
+    unit: Option<&'static str>,
     body: &'a str,
     error: Option<f64>,
     error_at_s: Option<f64>,
@@ -16,6 +20,10 @@ struct Schema<'a> {
     energy_change: Option<f64>,
     energy_drift_percent: Option<f64>,
     frequency_error: Option<f64>,
+    looks_right: Option<bool>,
+    width: Option<f64>,
+    early_s: Option<f64>,
+    measure: &'static str,
     doubles_in_s: Option<f64>,
     halves_in_s: Option<f64>,
     parasite_doubles_in_s: Option<f64>,
@@ -39,8 +47,12 @@ impl Serialize for Verdict {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let compared = self.comparison();
         let LongTerm { doubles_in_s, halves_in_s, parasite_doubles_in_s, .. } = self.long_term;
+        let number = self.number();
         Schema {
             word: self.outcome().id(),
+            value: number.as_ref().map(|number| number.value),
+            unit: number.as_ref().map(|number| number.unit),
+            quantity: number.map(|number| number.quantity),
             body: &self.body_name,
             error: self.error(),
             error_at_s: compared.map(|found| found.error_at_s),
@@ -48,6 +60,10 @@ impl Serialize for Verdict {
             energy_change: self.energy_change(),
             energy_drift_percent: self.energy_drift_percent(),
             frequency_error: compared.and_then(|found| found.frequency_error),
+            looks_right: compared.and_then(|found| found.looks_right),
+            width: compared.and_then(|found| found.width),
+            early_s: compared.and_then(|found| found.early_s),
+            measure: self.long_term.measure.name(),
             doubles_in_s,
             halves_in_s,
             parasite_doubles_in_s,

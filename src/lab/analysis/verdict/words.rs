@@ -3,18 +3,36 @@
 use std::fmt;
 
 use super::{Comparison, Finding, LongTerm, NoTruth, NotJudged, Verdict};
+use crate::lab::analysis::amplitude::Measure;
 use crate::lab::analysis::chase_finding::ChaseFinding;
 use crate::lab::analysis::energy_finding::EnergyFinding;
-use crate::lab::analysis::limits::TOLERANCE;
+use crate::lab::analysis::limits::{TOLERANCE, VISIBLE};
 use crate::lab::analysis::outcome::Outcome;
 use crate::sim::number::{round, significant, superscript};
 
 /// The largest relative error of a frequency that may be rounding alone.
 const FREQUENCY_ROUNDING: f64 = 1e-9;
-/// The largest error that is called stable, in amplitudes: beyond it nobody would, though it stays bounded.
-const STABLE: f64 = 1.0;
-/// The largest error of a motion that is only out of phase, in amplitudes.
-const ANY_PHASE: f64 = 2.0;
+
+/// The number of a verdict: what is measured, its value, and how it reads.
+pub(super) struct Number {
+    /// The measured quantity, as in `swing doubles`.
+    pub(super) quantity: String,
+    /// In `unit`; not finite where there is none.
+    pub(super) value: f64,
+    pub(super) unit: &'static str,
+    text: String,
+}
+
+impl Number {
+    fn new(quantity: impl Into<String>, value: f64, unit: &'static str, text: String) -> Self {
+        Self { quantity: quantity.into(), value, unit, text }
+    }
+
+    /// A part of something, in percent.
+    fn part(quantity: impl Into<String>, part: f64, text: String) -> Self {
+        Self::new(quantity, 100.0 * part, "%", text)
+    }
+}
 
 impl fmt::Display for NoTruth {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -38,26 +56,17 @@ impl fmt::Display for NotJudged {
 }
 
 impl Comparison {
-    /// The frequency error, if there is one beyond rounding: `0.18 % fast`.
+    /// The frequency error of a motion that keeps its size, unless it is rounding: `0.18 % fast`.
     fn pitch(&self) -> Option<String> {
-        let beyond = self.frequency_error.filter(|error| error.abs() > FREQUENCY_ROUNDING);
-        let is_told = self.outcome() == Outcome::OutOfPhase || self.leap.is_some();
-        beyond.filter(|_| is_told).map(|error| {
-            let how = if error > 0.0 { "fast" } else { "slow" };
-            format!("{} {how}", percent(error.abs()))
-        })
-    }
-
-    /// The frequency error where it says more than the error, which is past all phases and stays.
-    fn pitch_that_tells(&self) -> Option<String> {
-        let tells = self.error > ANY_PHASE && self.last_error > TOLERANCE && self.leap.is_none();
-        self.pitch().filter(|_| tells)
-    }
-
-    /// Which way a motion is out of phase, if that is known.
-    fn way(&self) -> Option<&'static str> {
         let error = self.frequency_error.filter(|error| error.abs() > FREQUENCY_ROUNDING)?;
-        Some(if error > 0.0 { "early" } else { "late" })
+        let how = if error > 0.0 { "fast" } else { "slow" };
+        matches!(self.outcome(), Outcome::LooksRight | Outcome::Bounded)
+            .then(|| format!("{} {how}", percent(error.abs())))
+    }
+
+    /// The widest swing in units of the true one, where the difference can be seen.
+    fn wrong_width(&self) -> Option<f64> {
+        self.width.filter(|width| (width - 1.0).abs() > VISIBLE)
     }
 }
 
@@ -80,104 +89,131 @@ impl Verdict {
         self.failure().map(|_| format!("{}, if run from {}", self.word(), self.start()))
     }
 
-    fn what_grows(&self) -> &'static str {
-        if self.long_term.swings { "swing" } else { "deviation" }
-    }
-
-    /// Whether its error is one of phase: such a one is at most twice the amplitude, and a motion that dies away has others too.
-    fn is_of_phase(&self, found: &Comparison) -> bool {
-        self.long_term.swings && found.energy_change.is_some() && found.error <= ANY_PHASE
+    /// Whether nothing grows of the body that the verdict is about; of several, `long_term` is about all.
+    fn is_bounded(&self) -> Option<bool> {
+        self.of_bodies.get(self.body).unwrap_or(self).long_term.is_bounded
     }
 
     /// What it comes to, in a word or two.
     fn word(&self) -> &'static str {
         match (self.outcome(), &self.finding) {
-            (Outcome::OutOfPhase, Finding::Compared(found))
-                if self.long_term.is_bounded == Some(true) && found.error <= STABLE =>
-            {
-                "stable"
-            }
-            (Outcome::OutOfPhase, Finding::Compared(found)) if !self.is_of_phase(found) => {
-                "inaccurate"
-            }
-            // Without a swing and an energy nobody can say what it gains.
-            (Outcome::GainsEnergy, Finding::Compared(found))
-                if found.leap.is_none()
-                    && self.long_term.doubles_in_s.is_none()
-                    && found.energy_change.is_none() =>
-            {
-                "grows"
-            }
+            (Outcome::Bounded, _) if self.is_bounded().is_none() => "inaccurate",
             (Outcome::NoTruth, Finding::ByEnergy(found)) => found.word(),
             (outcome, _) => outcome.text(),
         }
     }
 
-    /// The change of the swing: its doubling or halving time, or else its energy change, or else its error.
-    fn swing(&self, time: Option<f64>, factor: &str) -> String {
+    /// The change of the amplitude: the time in which it changes by this factor, or else that of the energy, or else the error.
+    fn change(&self, time: Option<f64>, [factor, verb]: [&str; 2]) -> Number {
         let horizon = duration(self.horizon_s);
+        let measure = self.long_term.measure.name();
         match (time, self.energy_change()) {
-            (Some(time), _) => format!("{factor} in {}", brief_duration(time)),
+            (Some(time), _) => {
+                let text = format!("{measure} {factor} in {}", brief_duration(time));
+                Number::new(format!("{measure} {verb}"), time, "s", text)
+            }
             (None, Some(change)) => {
                 let sign = if change > 0.0 { "+" } else { "" };
-                match percent(change).as_str() {
-                    "\u{2212}100 %" => format!("all of it in {horizon}"),
-                    part => format!("{sign}{part} in {horizon}"),
-                }
+                let text = match percent(change).as_str() {
+                    "\u{2212}100 %" => format!("all its energy in {horizon}"),
+                    part => format!("energy {sign}{part} in {horizon}"),
+                };
+                Number::part("energy change", change, text)
             }
             (None, None) => {
-                format!("{} off in {horizon}", percent(self.error().unwrap_or(f64::INFINITY)))
+                let error = self.error().unwrap_or(f64::INFINITY);
+                Number::part("largest error", error, format!("off by {}", percent(error)))
             }
         }
     }
 
-    /// How far a motion is off that keeps its size, and when.
-    fn gap(&self, found: &Comparison) -> String {
+    /// How far a motion is off that keeps its size: its width, or else its delay, or else its largest error.
+    fn gap(&self, found: &Comparison) -> Number {
         let (error, horizon) = (percent(found.error), duration(self.horizon_s));
-        if self.is_of_phase(found) {
-            // Unless its word says so.
-            let word = (self.word() != Outcome::OutOfPhase.text()).then_some("out of phase");
-            let way = found.way().or(word).map_or(String::new(), |way| format!(" {way}"));
-            return format!("{error}{way} after {horizon}");
+        if let Some(width) = found.wrong_width().filter(|_| found.looks_right != Some(true)) {
+            let how = if width > 1.0 { "too wide" } else { "as wide" };
+            let text = format!("swings {} × {how}", significant(width, 2));
+            return Number::new("width", width, "×", text);
         }
-        if let Some(pitch) = found.pitch_that_tells() {
-            return pitch;
+        if let Some(early_s) = found.early_s {
+            let (way, quantity) = if early_s < 0.0 { ("late", "delay") } else { ("early", "lead") };
+            let late_s = early_s.abs();
+            let text = format!("{} {way} after {horizon}", short_duration(late_s));
+            return Number::new(quantity, late_s, "s", text);
         }
-        match found.last_error < 0.9 * found.error {
-            true => format!("{error} off at {}", self.moment(found.error_at_s)),
-            false => format!("{error} off after {horizon}"),
+        let of_mode = match self.long_term.measure {
+            Measure::Modes => Some(("main mode ", "frequency error of the main mode")),
+            Measure::Reach => Some(("", "frequency error")),
+            Measure::Swing | Measure::Deviation => None,
+        };
+        let pitch = found.frequency_error.zip(found.pitch());
+        if let Some(((mode, quantity), (error, pitch))) = of_mode.zip(pitch) {
+            return Number::part(quantity, error, format!("{mode}{pitch}"));
         }
+        let text = match found.last_error < 0.9 * found.error {
+            true => format!("off by {error} at {}", self.moment(found.error_at_s)),
+            false => format!("off by {error}"),
+        };
+        Number::part("largest error", found.error, text)
     }
 
     /// The number that its word is about.
-    fn number(&self) -> Option<String> {
+    pub(super) fn number(&self) -> Option<Number> {
         let chased = self.chase.as_ref().and_then(ChaseFinding::number);
+        let within =
+            |quantity, part, bound| Number::part(quantity, part, format!("within {bound}"));
         match (self.outcome(), &self.finding) {
-            (Outcome::Accurate | Outcome::OutOfPhase, _) if chased.is_some() => chased,
+            (Outcome::Accurate | Outcome::LooksRight | Outcome::Bounded, _) if chased.is_some() => {
+                let (half_life_s, text) = chased?;
+                Some(Number::new("half-life", half_life_s, "s", text))
+            }
             (Outcome::Rounding, Finding::Compared(found)) => {
                 let bound = libm::ceil(libm::log10(found.error.max(1e-15))) as i32;
-                Some(format!("10{}", superscript(bound)))
+                Some(within("largest error", found.error, format!("10{}", superscript(bound))))
             }
-            (Outcome::Accurate, Finding::Compared(found)) => Some(percent(found.error)),
-            (Outcome::OutOfPhase, Finding::Compared(found)) => Some(self.gap(found)),
-            (Outcome::GainsEnergy, Finding::Compared(Comparison { leap: Some(widest), .. })) => {
-                Some(format!("up to ×{}", significant(*widest, 2)))
+            (Outcome::Accurate, Finding::Compared(found)) => {
+                Some(within("largest error", found.error, percent(found.error)))
             }
-            (Outcome::GainsEnergy, _) => Some(self.swing(self.long_term.doubles_in_s, "×2")),
-            (Outcome::LosesEnergy, _) => Some(self.swing(self.long_term.halves_in_s, "½")),
-            (_, Finding::Failed { failure, .. }) => Some(format!("at {}", self.moment(failure.t))),
-            (_, Finding::ByEnergy(found)) => found.number(),
-            (_, Finding::NoTruth(NoTruth::Vague(part))) if part.is_finite() => {
-                Some(format!("known to {}", percent(*part)))
+            (Outcome::LooksRight | Outcome::Bounded, Finding::Compared(found)) => {
+                Some(self.gap(found))
             }
-            (_, Finding::NoTruth(_) | Finding::Compared(_)) => None,
-            (_, Finding::NotJudged(why)) => Some(why.to_string()),
+            (Outcome::Grows, _) => {
+                let LongTerm { doubles_in_s, parasite_doubles_in_s, .. } = self.long_term;
+                Some(match (doubles_in_s, parasite_doubles_in_s) {
+                    (None, Some(time)) => {
+                        let text = format!("a faint mode ×2 in {}", brief_duration(time));
+                        Number::new("faint mode doubles", time, "s", text)
+                    }
+                    (time, _) => self.change(time, ["×2", "doubles"]),
+                })
+            }
+            (Outcome::DiesAway, _) => {
+                Some(self.change(self.long_term.halves_in_s, ["½", "halves"]))
+            }
+            (_, Finding::Failed { failure, .. }) => {
+                let text = format!("at {}", self.moment(failure.t));
+                Some(Number::new("end of the run", self.starts_at_s + failure.t, "s", text))
+            }
+            (_, Finding::ByEnergy(found)) => {
+                let text = found.number()?;
+                Some(Number::part("energy change", found.change.abs(), text))
+            }
+            (_, Finding::NoTruth(NoTruth::Vague(part))) if part.is_finite() => Some(Number::part(
+                "error of the truth",
+                *part,
+                format!("known to {}", percent(*part)),
+            )),
+            (_, Finding::NoTruth(_) | Finding::Compared(_) | Finding::NotJudged(_)) => None,
         }
     }
 
-    /// The word and the number.
+    /// The word and the number, or the reason why there is none.
     fn words(&self) -> String {
-        let words = [Some(self.word().to_owned()), self.number()];
+        let number = match &self.finding {
+            Finding::NotJudged(why) => Some(why.to_string()),
+            _ => self.number().map(|number| number.text),
+        };
+        let words = [Some(self.word().to_owned()), number];
         words.into_iter().flatten().collect::<Vec<_>>().join(BETWEEN)
     }
 
@@ -191,14 +227,14 @@ impl Verdict {
     /// What else is found, each in a sentence of its own: for whoever wants to know more than the word and the number.
     pub fn details(&self) -> Vec<String> {
         let outcome = self.outcome();
-        let is_told = outcome == Outcome::GainsEnergy || self.failure().is_some();
+        let is_told = outcome == Outcome::Grows || self.failure().is_some();
         let LongTerm { doubles_in_s, parasite_doubles_in_s, .. } = self.long_term;
-        let grows = self.what_grows();
+        let grows = self.long_term.measure.name();
         let growth = doubles_in_s.filter(|_| outcome != Outcome::BlewUp).map(|s| match is_told {
             true => format!("its {grows} doubles in {}", duration(s)),
             false => format!("grows slowly: {grows} ×2 in {}", duration(s)),
         });
-        let faint = parasite_doubles_in_s.filter(|_| outcome <= Outcome::GainsEnergy);
+        let faint = parasite_doubles_in_s.filter(|_| outcome <= Outcome::Grows);
         [
             self.failure().map(|_| format!("if run from {}", self.start())),
             self.failure().map(|failure| failure.cause.to_string()),
@@ -224,10 +260,10 @@ impl Verdict {
         let at = self.moment(found.error_at_s);
         match self.outcome() {
             Outcome::Accurate => Some(format!("largest error {error} of the amplitude, at {at}")),
-            Outcome::OutOfPhase if found.last_error <= TOLERANCE => {
+            Outcome::LooksRight | Outcome::Bounded if found.last_error <= TOLERANCE => {
                 Some(format!("off by {error} at {at}, settled by {}", self.moment(self.horizon_s)))
             }
-            Outcome::OutOfPhase if !self.is_of_phase(found) => {
+            Outcome::LooksRight | Outcome::Bounded => {
                 let last = percent(found.last_error);
                 Some(format!("off by up to {error} at {at}, by {last} after {horizon}"))
             }
@@ -265,6 +301,14 @@ impl fmt::Display for Verdict {
 
 fn percent(part: f64) -> String {
     format!("{} %", significant(100.0 * part, 2))
+}
+
+/// A duration to two digits, in milliseconds if it is shorter than a second.
+fn short_duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 0.9995 => format!("{} ms", significant(1e3 * s, 2)),
+        s => brief_duration(s),
+    }
 }
 
 /// A duration to two digits, where it is the rate of something.
@@ -324,35 +368,20 @@ mod tests {
     #[test]
     fn a_verdict_shows_as_its_outcome_and_the_number_behind_it() {
         for (scene, id, tick_hz, shown) in [
-            ("spring", "explicit-euler", 60, "gains energy · ×2 in 2.1 s"),
-            ("spring", "semi-implicit-euler", 60, "stable · 11 % early after 20 s"),
-            ("spring", "improved-euler", 60, "out of phase · 23 % early after 20 s"),
-            ("spring", "improved-euler", 300, "accurate · 0.92 %"),
-            ("spring", "rk4", 60, "accurate · 0.013 %"),
-            ("spring", "rk4", 10, "loses energy · ½ in 171 s"),
+            ("spring", "explicit-euler", 60, "grows · swing ×2 in 2.1 s"),
+            ("spring", "semi-implicit-euler", 60, "looks right · 17 ms early after 20 s"),
+            ("spring", "improved-euler", 60, "looks right · 36 ms early after 20 s"),
+            ("spring", "improved-euler", 300, "accurate · within 0.92 %"),
+            ("spring", "rk4", 60, "accurate · within 0.013 %"),
+            ("spring", "rk4", 10, "dies away · swing ½ in 171 s"),
             ("stiff", "semi-implicit-euler", 49, "blows up · at 4.14 s"),
-            ("stiff", "semi-implicit-euler", 60, "gains energy · up to ×2.4"),
-            ("ship", "explicit-euler", 2, "stable · 1.9 % off at 10 s"),
+            ("stiff", "semi-implicit-euler", 60, "bounded · swings 1.8 × too wide"),
+            ("ship", "explicit-euler", 2, "looks right · off by 1.9 % at 10 s"),
             // The verdict is that of the worst body.
-            ("harbour", "explicit-euler", 60, "gains energy · ×2 in 2.1 s (spring)"),
+            ("harbour", "explicit-euler", 60, "grows · swing ×2 in 2.1 s (spring)"),
         ] {
             assert_eq!(verdict(scene, id, tick_hz).to_string(), shown, "{scene} {id} {tick_hz} Hz");
         }
-    }
-
-    #[test]
-    fn a_frequency_that_is_right_but_for_rounding_is_told_of_no_error() {
-        let found = verdict("spring", "semi-implicit-euler", 60);
-        let Finding::Compared(compared) = found.finding else { panic!("{found}") };
-        let told = |error| {
-            let finding =
-                Finding::Compared(Comparison { frequency_error: Some(error), ..compared });
-            Verdict { finding, ..found.clone() }.to_string()
-        };
-        assert!(told(4e-15).ends_with("out of phase after 20 s"));
-        assert!(
-            told(1e-6).ends_with("early after 20 s") && told(-1e-6).ends_with("late after 20 s")
-        );
     }
 
     #[test]
@@ -360,10 +389,17 @@ mod tests {
         let found = verdict("harbour", "improved-euler", 60);
         assert_eq!(
             found.wordings(true),
-            ["out of phase · 23 % early after 20 s (spring)", "out of phase (spring)"]
+            ["looks right · 36 ms early after 20 s (spring)", "looks right (spring)"]
         );
         assert!(found.wordings(false).iter().all(|said| !said.contains("spring")));
-        assert_eq!(found.details(), ["0.18 % fast", "grows slowly: swing ×2 in 769 s"]);
+        assert_eq!(
+            found.details(),
+            [
+                "off by up to 23 % at 20 s, by 23 % after 20 s",
+                "0.18 % fast",
+                "grows slowly: swing ×2 in 769 s"
+            ]
+        );
         let Finding::Compared(compared) = found.finding else { panic!("{found}") };
         let by_energy = EnergyFinding {
             change: 0.5,
@@ -374,7 +410,8 @@ mod tests {
         };
         let escaped = StepFailure::NotFinite { coordinate: "x".into(), value: f64::NAN };
         let stopped = StepFailure::LinearSolveFailed;
-        let of_change = |change| Finding::Compared(Comparison { change, ..compared });
+        let of_change =
+            |change| Finding::Compared(Comparison { change, looks_right: None, ..compared });
         let of_trend = |trend| Finding::ByEnergy(EnergyFinding { trend, ..by_energy });
         let failed = |cause: &StepFailure, by_energy| Finding::Failed {
             failure: RunFailure { t: 4.0, cause: cause.clone() },
@@ -406,9 +443,9 @@ mod tests {
     #[test]
     fn moments_are_times_of_the_run_and_lengths_count_from_where_it_is_judged() {
         for (scene, id, tick_hz, shown) in [
-            ("spring", "explicit-euler", 60, "gains energy · ×2 in 2.1 s"),
+            ("spring", "explicit-euler", 60, "grows · swing ×2 in 2.1 s"),
             ("stiff", "semi-implicit-euler", 49, "blows up · at 104 s"),
-            ("ship", "explicit-euler", 2, "stable · 1.9 % off at 110 s"),
+            ("ship", "explicit-euler", 2, "looks right · off by 1.9 % at 110 s"),
         ] {
             let verdict = verdict(scene, id, tick_hz).starting_at(100.0);
             assert_eq!(verdict.to_string(), shown, "{scene} {id} {tick_hz} Hz");

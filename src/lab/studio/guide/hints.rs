@@ -184,9 +184,10 @@ fn is_so(hint: &str, now: &Situation<'_>) -> bool {
 fn reaction(outcome: Option<Outcome>) -> Option<&'static str> {
     match outcome? {
         Outcome::Rounding | Outcome::Accurate => Some("keeps to the exact motion"),
-        Outcome::OutOfPhase => Some("stays bounded, a little out of step"),
-        Outcome::LosesEnergy => Some("loses energy"),
-        Outcome::GainsEnergy => Some("gains energy"),
+        Outcome::LooksRight => Some("looks right"),
+        Outcome::Bounded => Some("stays bounded"),
+        Outcome::DiesAway => Some("dies away"),
+        Outcome::Grows => Some("grows"),
         Outcome::GaveUp | Outcome::BlewUp => Some("is lost"),
         Outcome::NotJudged | Outcome::NoTruth => None,
     }

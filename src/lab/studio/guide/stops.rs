@@ -216,7 +216,7 @@ pub static STOPS: &[Stop] = &[
         title: "A stiff spring",
         scene: "stiff",
         method: "semi-implicit-euler",
-        question: "This spring swings 16 times per second, and semi-implicit Euler holds it at 60 ticks per second. Will it hold at 49?",
+        question: "This spring swings 16 times per second, and semi-implicit Euler is bounded at 60 ticks per second. Is it at 49?",
         choices: &["yes", "no"],
         right: 1,
         task: "Press `[` twice, for 49 ticks per second, and `Home` to start again.",
@@ -231,13 +231,13 @@ pub static STOPS: &[Stop] = &[
         method: "semi-implicit-euler",
         tick_hz: 30,
         instrument: Instrument::StabilityMap,
-        question: "Tick rates across, stiffness up: a line is the limit of a method, which is stable to the right of it. The cross is this spring. If it were 4 times as stiff, how many times the tick rate would it need?",
+        question: "Tick rates across, stiffness up: a line is the limit of a method, which is bounded to the right of it. The cross is this spring. If it were 4 times as stiff, how many times the tick rate would it need?",
         choices: &["the same", "2 times", "4 times"],
         right: 1,
         task: "Press `]` twice, for 50 ticks per second, or drag the cross over the line, and `Home` to start again.",
         keys: &[Key::Sign(']'), Key::Sign(']'), Key::Home],
         goal: Goal::TickHzFrom(50),
-        answer: "2 times: the limit is h ω = 2, and ω goes with the root of the stiffness. Explicit Euler has no line for a spring without damping: it is stable nowhere.",
+        answer: "2 times: the limit is h ω = 2, and ω goes with the root of the stiffness. Explicit Euler has no line for a spring without damping: it is bounded nowhere.",
         ..SPRING
     },
     Stop {
@@ -250,7 +250,7 @@ pub static STOPS: &[Stop] = &[
         task: "Press `[` three times, for 30 ticks per second, and `Home` to start again.",
         keys: &[Key::Sign('['), Key::Sign('['), Key::Sign('['), Key::Home],
         goal: Goal::TickHzTo(30),
-        answer: "It never blows up, at any step. But it takes energy out, and the swing is gone within a second. Stable is not accurate.",
+        answer: "It never blows up, at any step. But it takes energy out, and the swing is gone within a second. Bounded is not accurate.",
         ..SPRING
     },
     Stop {

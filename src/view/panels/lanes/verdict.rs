@@ -3,7 +3,7 @@
 use crate::lab::Studio;
 use crate::lab::analysis::Outcome;
 use crate::lab::race::Entrant;
-use crate::view::panels::verdict::{Sign, VerdictText};
+use crate::view::panels::verdict::VerdictText;
 
 /// What is said of the method on this index of the list, and of the lane under it if there is one. The judged body is
 /// named, unless the row is the body's own or it is the one `named_above`.
@@ -30,10 +30,9 @@ pub(super) fn text_of(
             format!("{name} {}", bodies[halt.body].fate().unwrap_or_default())
         });
         let short = format!("{}{}", first.fate(), name(first.body));
-        let outcome = if first.is_blow_up() { Outcome::BlewUp } else { Outcome::GaveUp };
         let all: Vec<String> = all.collect();
         let wordings = vec![all.join("; "), short, did.into()];
-        return text(outcome, wordings);
+        return text(Outcome::of_halt(first), wordings);
     }
     let verdict = studio.viewer().verdict(entry);
     let verdict = match body {
@@ -53,5 +52,5 @@ pub(super) fn text_of(
 
 fn text(outcome: Outcome, wordings: Vec<String>) -> VerdictText {
     let rank = Outcome::ALL.iter().position(|known| *known == outcome).map(|index| index as f64);
-    VerdictText { sign: Some((Sign::of(outcome), outcome.severity())), wordings, rank }
+    VerdictText { sign: Some((outcome.sign(), outcome.severity())), wordings, rank }
 }

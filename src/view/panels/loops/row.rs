@@ -6,7 +6,7 @@ use crate::lab::analysis::Severity;
 use crate::lab::loop_lab::{LoopCommand, LoopLab, LoopLane};
 use crate::lab::studio::Command;
 use crate::view::panels::table::TableRow;
-use crate::view::panels::verdict::{Sign, VerdictText};
+use crate::view::panels::verdict::VerdictText;
 use crate::view::theme::{PanelPalette, TYPE, colour, palette, strong_font};
 
 /// A loop as a row.
@@ -23,12 +23,12 @@ impl<'a> Row<'a> {
         let lane = &loops.lanes()[index];
         let verdict = loops.verdict(index);
         let rank = match verdict.severity {
-            Severity::Fine => Some(0.0),
+            Severity::Fine | Severity::Fair => Some(0.0),
             Severity::Doubtful => Some(1.0),
             Severity::Bad => Some(2.0),
             Severity::Unknown => None,
         };
-        let sign = Some((Sign::of_severity(verdict.severity), verdict.severity));
+        let sign = Some((verdict.severity.sign(), verdict.severity));
         let verdict = VerdictText { sign, wordings: verdict.wordings(), rank };
         let is_on_stage = loops.on_stage().contains(&index);
         Self { loops, index, lane, is_on_stage, verdict }

@@ -52,10 +52,10 @@ fn the_sentence_counts_the_stable_methods() {
     assert_eq!(
         map.stable_here().split(" Explicit").next().unwrap(),
         // At 60 Hz ω h is 1.67.
-        "2 of 5 methods are stable, 1 picks its own steps."
+        "2 of 5 methods are bounded, 1 picks its own steps."
     );
     assert!(
-        map.not_drawn().contains("Explicit Euler, Improved Euler are stable nowhere on this map.")
+        map.not_drawn().contains("Explicit Euler, Improved Euler are bounded nowhere on this map.")
     );
     assert!(map.not_drawn().contains("Adaptive Euler picks its own steps"));
     assert_eq!(point_in_words(&studio, 1, 20, 90.0), "20 Hz, k = 90 N/m");
@@ -150,5 +150,5 @@ fn every_boundary_has_its_name() {
 #[test]
 fn a_corner_where_only_an_implicit_method_is_stable_says_so() {
     let words = window().panels(&studio("quarter-car"), Vec::new()).1.words();
-    assert!(words.contains(&"only 5 Implicit midpoint is stable here".to_owned()), "{words:?}");
+    assert!(words.contains(&"only 5 Implicit midpoint is bounded here".to_owned()), "{words:?}");
 }

@@ -95,7 +95,7 @@ fn longest(studio: &Studio, map: &StabilityMap) -> [String; 2] {
     let name = names.into_iter().max_by_key(|name| name.chars().count()).unwrap_or_default();
     let all = specs.len();
     let does = format!(
-        "{all} of {all} methods are stable, {all} pick their own steps. {name} {}.",
+        "{all} of {all} methods are bounded, {all} pick their own steps. {name} {}.",
         Here::Doubles(0.001_23)
     );
     [here.into_iter().max_by_key(|here| here.chars().count()).unwrap_or_default(), does]
