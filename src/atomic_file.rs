@@ -12,7 +12,7 @@ const MARK: &str = ".regatta-";
 const ENDING: &str = ".part";
 
 /// Random characters in a temporary name.
-const RANDOM_CHARS: usize = 6;
+pub(crate) const RANDOM_CHARS: usize = 6;
 
 /// File systems take names of 255 bytes; a longer stem leaves no room for the random characters.
 const MAX_STEM: usize = 200;
