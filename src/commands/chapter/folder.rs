@@ -121,8 +121,8 @@ mod tests {
             ("figure-7-4.csv.regatta-aB3dE6.part", Vec::new()),
         ];
         let kept = [
+            ("figure-7-3.png.backup.part", picture.clone()),
             ("figure-7-3.png.regatta-aB3dE7.part", b"mine".to_vec()),
-            ("figure-7-3.png.regatta-backup.part", picture.clone()),
             ("figure-7-9.png.regatta-aB3dE7.part", picture),
         ];
         for (name, bytes) in left.iter().chain(&kept) {
