@@ -1,8 +1,10 @@
-//! The files of a table and of its picture: their formats by their names, and whether two names are one file.
+//! The files of a table and of its picture: their formats by their names.
 
-use std::path::{self, Path, PathBuf};
+use std::path::Path;
 
+use crate::commands::argument::brief;
 use crate::commands::error::Error;
+use crate::commands::output::same_file_path;
 use crate::commands::output::table::RowFormat;
 
 /// The endings of files that hold pictures; all others promise nothing.
@@ -34,7 +36,7 @@ pub(super) fn holds_no_picture(ending: &str) -> bool {
 
 /// The error of a name that promises another format than the one asked for.
 pub(super) fn mislabelled(path: &Path, remedy: &str) -> Error {
-    Error::mistake(format!("{} would not hold what its name says; {remedy}", path.display()))
+    Error::mistake(format!("{} would not hold what its name says; {remedy}", brief(path)))
 }
 
 /// The format asked for, else the one that the name of `out` asks for, else CSV.
@@ -64,7 +66,7 @@ pub(super) fn row_format(out: &Path, asked: Option<RowFormat>) -> Result<RowForm
 pub(super) fn check_picture_name(plot: &Path, out: &Path) -> Result<(), Error> {
     match plot.extension() {
         Some(ending) if !ending.eq_ignore_ascii_case("png") => {
-            let plot = plot.display();
+            let plot = brief(plot);
             let remedy = "give --plot a name that ends in .png";
             Err(Error::mistake(format!("{plot} would hold PNG; {remedy}")))
         }
@@ -72,14 +74,5 @@ pub(super) fn check_picture_name(plot: &Path, out: &Path) -> Result<(), Error> {
             "rows and picture would go to the same place; give another --out or --plot",
         )),
         _ => Ok(()),
-    }
-}
-
-/// A path that is the same for one file however it is written, also through links to its folder.
-pub(super) fn same_file_path(path: &Path) -> PathBuf {
-    let whole = path::absolute(path).unwrap_or_else(|_| path.into());
-    match (whole.parent().and_then(|folder| folder.canonicalize().ok()), whole.file_name()) {
-        (Some(folder), Some(name)) => folder.join(name),
-        _ => whole,
     }
 }

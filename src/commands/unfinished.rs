@@ -1,7 +1,8 @@
 //! The recording of a run while it goes on: a scene file beside the final one. It is replaced by a longer one every few
 //! seconds, and removed when the recording is whole. The next start tells of one that a killed program left behind.
 //!
-//! Where it is stands in a note of its own beside the settings, which is locked as long as the program runs.
+//! Where it is stands in a note of its own beside the settings, which is locked as long as the program runs. Only files that
+//! have both the name and the text of a note are ever removed there.
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
@@ -9,14 +10,36 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::output::begin_file;
 use super::preferences;
-use crate::atomic_file::{IfExists, write_file};
-use crate::lab::scene::MAX_FILE_BYTES;
+use crate::atomic_file::{IfExists, RANDOM_CHARS, is_random};
 use crate::regular_file;
 use crate::window::KeepRecording;
 
-/// The folder of the notes.
-const NOTES: &str = "recordings";
+/// What stands between the stem and the number of an unfinished recording's name, and what it ends in.
+const UNFINISHED: &str = ".unfinished";
+const ENDING: &str = ".toml";
+
+/// How notes are kept: in which folder beside the settings, under which names, and with which first words.
+struct Notes {
+    folder: &'static str,
+    /// What stands before the random characters of a note's name, and behind them.
+    name: [&'static str; 2],
+    heading: &'static str,
+}
+
+/// The notes that are written. Their folder is hidden, so that nobody takes it for a store of recordings.
+const NOTES: Notes = Notes {
+    folder: ".unfinished-notes",
+    name: ["recording-", ".note"],
+    heading: "regatta has an unfinished recording in\n",
+};
+
+/// Those of earlier releases, in a folder that a person may keep recordings in.
+const OLDER_NOTES: Notes = Notes { folder: "recordings", name: [".tmp", ""], heading: "" };
+
+/// More than a path has.
+const MAX_NOTE_BYTES: usize = 1 << 16;
 
 /// A recording that grows.
 pub(super) struct UnfinishedRecording {
@@ -40,7 +63,8 @@ impl UnfinishedRecording {
             _ => recording.file_name(),
         };
         let mut name = stem.unwrap_or(OsStr::new("regatta")).to_owned();
-        name.push(".unfinished.toml");
+        name.push(UNFINISHED);
+        name.push(ENDING);
         let state = RecordingState::Wanted(recording.with_file_name(name));
         Self { state: Arc::new(Mutex::new(state)) }
     }
@@ -72,14 +96,14 @@ impl RecordingState {
     fn keep(&mut self, text: &str) -> io::Result<()> {
         match self {
             RecordingState::Wanted(path) => {
-                let path = write_file(path, text.as_bytes(), IfExists::Beside)?;
-                let note = notes().and_then(|folder| Note::new(&folder, &path));
+                let path = begin_file(path)?.write_whole(text.as_bytes(), IfExists::Beside)?;
+                let note = NOTES.folder().and_then(|folder| Note::new(&folder, &path));
                 let note = note.inspect_err(|error| log::info!("no note of it: {error}")).ok();
                 *self = RecordingState::Growing { path, note };
                 Ok(())
             }
             RecordingState::Growing { path, .. } => {
-                write_file(path, text.as_bytes(), IfExists::Replace).map(drop)
+                begin_file(path)?.write_whole(text.as_bytes(), IfExists::Replace).map(drop)
             }
             RecordingState::Finished => Ok(()),
         }
@@ -94,10 +118,15 @@ struct Note {
 
 impl Note {
     fn new(folder: &Path, recording: &Path) -> io::Result<Self> {
+        let text = NOTES.text(&recording.canonicalize()?).ok_or(io::ErrorKind::InvalidFilename)?;
         fs::create_dir_all(folder)?;
-        let (mut file, path) = tempfile::NamedTempFile::new_in(folder)?.keep()?;
-        file.lock()?;
-        file.write_all(recording.canonicalize()?.as_os_str().as_encoded_bytes())?;
+        let mut builder = tempfile::Builder::new();
+        let [before, behind] = NOTES.name;
+        builder.prefix(before).suffix(behind).rand_bytes(RANDOM_CHARS);
+        let mut file = builder.tempfile_in(folder)?;
+        file.as_file().lock()?;
+        file.write_all(text.as_bytes())?;
+        let (file, path) = file.keep()?;
         Ok(Self { path, _locked: file })
     }
 
@@ -106,28 +135,66 @@ impl Note {
     }
 }
 
-fn notes() -> io::Result<PathBuf> {
-    preferences::folder().map(|folder| folder.join(NOTES)).ok_or(io::ErrorKind::NotFound.into())
+impl Notes {
+    fn folder(&self) -> io::Result<PathBuf> {
+        let settings = preferences::folder().ok_or(io::ErrorKind::NotFound)?;
+        Ok(settings.join(self.folder))
+    }
+
+    /// The text of the note on a recording; `None` if its path does not fit into a line.
+    fn text(&self, recording: &Path) -> Option<String> {
+        let path = recording.to_str().filter(|path| !path.contains(char::is_control))?;
+        Some(format!("{}{path}", self.heading))
+    }
+
+    /// The recording that the file at `path` is a note on; `None` if it is not a note, by its name or by its text.
+    fn recording_in(&self, path: &Path) -> Option<PathBuf> {
+        let [before, behind] = self.name;
+        let name = path.file_name()?.to_str()?;
+        let random = name.strip_prefix(before)?.strip_suffix(behind)?;
+        if !is_random(random) || !fs::symlink_metadata(path).is_ok_and(|entry| entry.is_file()) {
+            return None;
+        }
+        let text = String::from_utf8(regular_file::read(path, MAX_NOTE_BYTES).ok()?).ok()?;
+        let recording = PathBuf::from(text.strip_prefix(self.heading)?);
+        let is_noted = self.text(&recording).is_some_and(|noted| noted == text);
+        (is_noted && recording.is_absolute() && is_unfinished(&recording)).then_some(recording)
+    }
+
+    /// Removes the note at `path` if the program that wrote it is gone. Returns the message about its recording, if that is
+    /// still there.
+    fn left_behind_in(&self, path: &Path) -> Option<String> {
+        let recording = self.recording_in(path)?;
+        // The program that has written it would hold the lock.
+        File::open(path).ok()?.try_lock().ok()?;
+        fs::remove_file(path).ok()?;
+        let name = recording.display();
+        let message = format!(
+            "a recording was not finished when its window ended; what there is of it is in {name}"
+        );
+        recording.is_file().then_some(message)
+    }
+
+    fn left_behind(&self) -> Vec<String> {
+        let Ok(notes) = self.folder().and_then(fs::read_dir) else { return Vec::new() };
+        let notes = notes.filter_map(|entry| Some(entry.ok()?.path()));
+        notes.filter_map(|note| self.left_behind_in(&note)).collect()
+    }
+}
+
+/// Whether a recording of this name may be [unfinished](UnfinishedRecording::beside): `x.unfinished.toml`, or
+/// `x.unfinished-2.toml` where that was taken.
+fn is_unfinished(recording: &Path) -> bool {
+    let name = recording.file_name().and_then(OsStr::to_str).unwrap_or_default();
+    let stem = name.strip_suffix(ENDING).unwrap_or_default();
+    stem.rsplit_once(UNFINISHED).is_some_and(|(_, number)| {
+        number.is_empty() || number.strip_prefix('-').is_some_and(|n| n.parse::<u32>().is_ok())
+    })
 }
 
 /// What to say, once, of the recordings that programs have left behind.
 pub(super) fn left_behind() -> Vec<String> {
-    let Ok(notes) = notes().and_then(fs::read_dir) else { return Vec::new() };
-    let notes = notes.filter_map(|entry| Some(entry.ok()?.path()));
-    notes.filter_map(|note| left_behind_in(&note)).collect()
-}
-
-fn left_behind_in(note: &Path) -> Option<String> {
-    // The program that has written it would hold the lock.
-    let is_free = File::open(note).is_ok_and(|file| file.try_lock().is_ok());
-    let text = is_free.then(|| regular_file::read(note, MAX_FILE_BYTES).ok())??;
-    let recording = PathBuf::from(String::from_utf8(text).ok()?);
-    fs::remove_file(note).ok()?;
-    let name = recording.display();
-    let told = format!(
-        "a recording was not finished when its window ended; what there is of it is in {name}"
-    );
-    recording.is_file().then_some(told)
+    [NOTES, OLDER_NOTES].iter().flat_map(Notes::left_behind).collect()
 }
 
 #[cfg(test)]
@@ -156,15 +223,63 @@ mod tests {
     #[test]
     fn a_note_is_told_of_once_when_its_program_is_gone() {
         let folder = tempfile::tempdir().unwrap();
-        let recording = folder.path().join("run.unfinished.toml");
+        let recording = folder.path().canonicalize().unwrap().join("run.unfinished.toml");
         fs::write(&recording, "").unwrap();
-        let note = Note::new(&folder.path().join(NOTES), &recording).unwrap();
+        let note = Note::new(&folder.path().join(NOTES.folder), &recording).unwrap();
         let path = note.path.clone();
-        assert_eq!(left_behind_in(&path), None, "its program runs");
+        assert_eq!(NOTES.left_behind_in(&path), None, "its program runs");
+        assert!(path.exists());
         drop(note);
-        let told = left_behind_in(&path).unwrap();
-        assert!(told.ends_with("run.unfinished.toml"), "{told}");
-        assert_eq!(left_behind_in(&path), None, "it was told");
+        let message = NOTES.left_behind_in(&path).unwrap();
+        assert!(message.ends_with("run.unfinished.toml"), "{message}");
+        assert!(!path.exists());
+        let older = folder.path().join(".tmpaB3dE6");
+        fs::write(&older, recording.to_str().unwrap()).unwrap();
+        assert!(OLDER_NOTES.left_behind_in(&older).is_some());
+        assert!(!older.exists());
+    }
+
+    #[test]
+    fn only_a_file_with_name_and_text_of_a_note_is_removed() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path().canonicalize().unwrap();
+        let path = |name: &str| folder.join(name).display().to_string();
+        let recording = path("run.unfinished.toml");
+        let note = format!("{}{recording}", NOTES.heading);
+        for (name, text) in [
+            ("run.toml", note.clone()),
+            ("recording-aB3dE6.note.toml", note.clone()),
+            ("recording-aB3dE.note", note.clone()),
+            ("recording-aB3dE7.note", recording.clone()),
+            ("recording-aB3dE8.note", format!("{note}\n")),
+            ("recording-aB3dE9.note", format!("{}run.unfinished.toml", NOTES.heading)),
+            ("recording-aB3d10.note", format!("{}{}", NOTES.heading, path("run.toml"))),
+            ("recording-aB3d11.note", format!("my notes\n{note}")),
+            (".tmpaB3dE6", path("run.toml")),
+            (".tmpaB3dE7", path("run.unfinished-x.toml")),
+            (".tmpaB3dE8", format!("{recording}\n{recording}")),
+            (".tmpaB3dE9", String::new()),
+            ("run.unfinished.toml", recording.clone()),
+        ] {
+            fs::write(folder.join(name), &text).unwrap();
+            for notes in [NOTES, OLDER_NOTES] {
+                assert_eq!(notes.left_behind_in(&folder.join(name)), None, "{name}");
+            }
+            assert_eq!(fs::read_to_string(folder.join(name)).unwrap(), text, "{name}");
+        }
+        // The recording may have gone since: its note goes too.
+        for (notes, name, text) in [
+            (
+                NOTES,
+                "recording-aB3d12.note",
+                format!("{}{}", NOTES.heading, path("x.unfinished-12.toml")),
+            ),
+            (OLDER_NOTES, ".tmpaB3d12", path("x.unfinished.toml")),
+        ] {
+            fs::write(folder.join(name), text).unwrap();
+            assert_eq!(notes.left_behind_in(&folder.join(name)), None);
+            assert!(!folder.join(name).exists(), "{name}");
+        }
     }
 
     #[test]

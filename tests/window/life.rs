@@ -228,8 +228,15 @@ fn a_killed_program_leaves_its_recording_and_the_next_start_says_where() {
     let is_kept = || std::fs::read_to_string(&file).is_ok_and(|text| text.contains("[[command]]"));
     // Paused, too, what was done last is kept.
     until("the recording", || is_kept().then_some(()));
-    let mut notes = desk.folder().join("config/regatta/recordings").read_dir().unwrap();
-    assert!(notes.next().is_some());
+    let settings = desk.folder().join("config/regatta");
+    let notes = || settings.join(".unfinished-notes").read_dir().unwrap().count();
+    assert_eq!(notes(), 1);
+    // A person keeps recordings beside the settings.
+    let kept = [("run.toml", "mine"), (".tmpaB3dE6", "/home/me/recordings/run.toml")];
+    std::fs::create_dir(settings.join("recordings")).unwrap();
+    for (name, text) in kept {
+        std::fs::write(settings.join("recordings").join(name), text).unwrap();
+    }
     let display = desk.kill();
     let mut verified = display.start("verify run.unfinished.toml", &[]);
     let status = until("the end", || verified.ended());
@@ -245,6 +252,11 @@ fn a_killed_program_leaves_its_recording_and_the_next_start_says_where() {
     let mut once = display.start("--scene spring --seconds 0.1", &[]);
     until("the end", || once.ended());
     assert_eq!(once.said(), "", "told once");
+    for (name, text) in kept {
+        let left = std::fs::read_to_string(settings.join("recordings").join(name)).unwrap();
+        assert_eq!(left, text, "{name}");
+    }
+    assert_eq!(notes(), 0);
     let folder = display.folder();
     let left: Vec<_> = folder.read_dir().unwrap().map(|file| file.unwrap().file_name()).collect();
     let is_unfinished = |name: &&std::ffi::OsString| name.to_string_lossy().contains("unfinished");

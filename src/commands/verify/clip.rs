@@ -9,14 +9,18 @@ use super::VerifyArgs;
 use super::physics::{PhysicsChange, first_change};
 #[cfg(feature = "view")]
 use super::pixels;
-use super::report::{Report, print_line};
+use super::report::{DIRECTORY, Report, print_line};
 use super::rerun::{Frames, Rerun};
 #[cfg(feature = "view")]
+use crate::commands::argument::brief;
 use crate::commands::clip::record;
 use crate::commands::error::Error;
 #[cfg(feature = "view")]
+use crate::commands::error::PlaceOf;
+#[cfg(feature = "view")]
 use crate::commands::frame_folder::{FolderPolicy, FrameFolder};
 use crate::commands::frame_names::{in_the_way, is_pending};
+use crate::commands::interrupt::watch_for_interrupt;
 use crate::commands::manifest::{self, FILE_NAME, Manifest, SCHEMA};
 use crate::commands::output::DirectoryLock;
 use crate::commands::state_log::StateLog;
@@ -29,7 +33,7 @@ use crate::sim::number::counted;
 /// The error of a capture in `dir` that cannot be judged, for this reason.
 fn unjudged(dir: &Path) -> impl Fn(String) -> Error {
     let manifest = dir.join(FILE_NAME);
-    move |reason| Error::mistake(format!("cannot judge {}: {reason}", manifest.display()))
+    move |reason| Error::mistake(format!("cannot judge {}: {reason}", brief(&manifest)))
 }
 
 /// The run of the capture in `dir`, as its manifest says.
@@ -67,14 +71,15 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
     };
     #[cfg(not(feature = "view"))]
     let redrawn = Ok::<Option<(Frames, (Studio, StateLog))>, Error>(None);
+    let run = || rerun.run(&watch_for_interrupt()).ok_or_else(Error::nothing_written);
     let (frames, (studio, state_log), failed) = match redrawn {
         Ok(Some((frames, run))) => (Some(frames), run, None),
-        Ok(None) => (None, rerun.run(), None),
+        Ok(None) => (None, run()?, None),
         // The physics is judged even where the pixels cannot be.
-        Err(error) if error.is_mistake() => (None, rerun.run(), Some(error)),
+        Err(error) if error.is_mistake() => (None, run()?, Some(error)),
         Err(error) => return Err(error),
     };
-    let mut report = Report::new("dir", dir);
+    let mut report = Report::new(DIRECTORY, dir);
     add_physics(&mut report, &rerun, &studio, state_log)?;
     let physics_differs = report.differing() > 0;
     match failed {
@@ -159,7 +164,7 @@ pub(super) fn bless(dir: &Path) -> Result<(), Error> {
     if !dir.join(FILE_NAME).exists() && !is_pending(dir) {
         read_run(dir)?;
     }
-    let folder = FrameFolder::inspect(dir, FolderPolicy::Bless, "DIR")?;
+    let folder = FrameFolder::inspect(dir, FolderPolicy::Bless, PlaceOf::Blessed)?;
     let Rerun { experiment, capture, .. } = read_run(dir)?;
     let drawn = record(&experiment, experiment.studio(), capture, folder);
     drawn.map(drop).map_err(|error| error.within("not blessed"))

@@ -4,14 +4,15 @@ use std::fs;
 
 use super::VerifyArgs;
 use super::rerun::{Frames, Rerun};
-use crate::atomic_file::{IfExists, write_file};
+use crate::atomic_file::IfExists;
+use crate::commands::argument::brief;
 use crate::commands::drawing::{adapter, interrupted_after};
-use crate::commands::error::Error;
+use crate::commands::error::{Error, PlaceOf};
 use crate::commands::fingerprint::fingerprint;
-use crate::commands::frame_folder::not_ours;
-use crate::commands::frame_names::{frames_claimed, is_marked};
+use crate::commands::frame_names::{frames_claimed, is_marked, not_ours};
 use crate::commands::interrupt::watch_for_interrupt;
 use crate::commands::manifest::{Adapter, FILE_NAME, FrameEntry, Manifest};
+use crate::commands::output::begin_file;
 use crate::commands::pipeline::{DrawnFrame, Pipeline};
 use crate::commands::schedule::Schedule;
 use crate::commands::state_log::StateLog;
@@ -134,7 +135,7 @@ fn limits(args: &VerifyArgs, was: &Adapter, is: &Adapter) -> Limits {
 fn check_differences(args: &VerifyArgs, manifest: &Manifest) -> Result<(), Error> {
     let Some(path) = &args.diff else { return Ok(()) };
     let refused =
-        |what| Err(Error::mistake(format!("{} {what}; give another --diff", path.display())));
+        |what| Err(Error::mistake(format!("{} {what}; give another --diff", brief(path))));
     if path.canonicalize().is_ok_and(|it| args.dir.canonicalize().is_ok_and(|dir| dir == it)) {
         return refused("holds the frames that are judged");
     }
@@ -143,7 +144,7 @@ fn check_differences(args: &VerifyArgs, manifest: &Manifest) -> Result<(), Error
     }
     let mut pictures = manifest.frames.iter().map(|entry| path.join(&entry.file));
     if let Some(other) = pictures.find(|picture| picture.exists() && !is_marked(picture)) {
-        return Err(not_ours(&other, "--diff"));
+        return Err(not_ours(&other, PlaceOf::Option("--diff")));
     }
     fs::create_dir_all(path).map_err(Error::of_file("make the directory", path, "--diff"))
 }
@@ -182,7 +183,9 @@ fn compare(
     if let Some(directory) = args.diff.as_ref().filter(|_| difference.off > 0) {
         let path = directory.join(&entry.file);
         let picture = png::encode(size_px, &picture_of(&then, now, difference.worst));
-        what += &match write_file(&path, &picture, IfExists::Replace) {
+        let written =
+            begin_file(&path).and_then(|file| file.write_whole(&picture, IfExists::Replace));
+        what += &match written {
             Ok(written) => format!("; see {}", written.display()),
             Err(error) => format!("; {}", Error::of_file("write", &path, "--diff")(error)),
         };

@@ -5,9 +5,11 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::report::{Report, print_line};
+use super::report::{FILE, Report, print_line};
 use crate::atomic_file::IfExists;
 use crate::commands::error::Error;
+use crate::commands::interrupt::watch_for_interrupt;
+use crate::commands::jobs;
 use crate::commands::output::Destination;
 use crate::commands::scene_file;
 use crate::commands::terminal::print_status;
@@ -117,8 +119,9 @@ pub(super) fn judge(path: &Path) -> Result<Report, Error> {
         )));
     }
     check_ticks(path, &scene)?;
-    let lanes = compare(&scene);
-    let mut report = Report::new("file", path);
+    let judged = jobs::result(&watch_for_interrupt(), move || compare(&scene));
+    let lanes = judged.ok_or_else(Error::nothing_written)?;
+    let mut report = Report::new(FILE, path);
     for lane in &lanes {
         print_line(&lane.line())?;
         report.judged(lane.name(), lane.difference.as_ref().map(Difference::line));
@@ -195,7 +198,7 @@ pub(super) fn bless(path: &Path) -> Result<(), Error> {
         }
         Scene::with_hashes(&text, &hashes)
     };
-    Destination { path, option: "FILE", if_exists: IfExists::Replace }.write(&text)?;
+    Destination { path, option: "FILE", if_exists: IfExists::Replace, inputs: &[] }.write(&text)?;
     print_status(&format!("blessed: {}", path.display()));
     Ok(())
 }
