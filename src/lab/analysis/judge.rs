@@ -32,8 +32,6 @@ pub struct Judge {
     horizon_s: f64,
     throttle: f64,
     max_work: u64,
-    /// The part of [`TOLERANCE`] that what is accurate leaves.
-    spare: f64,
     truths: Vec<BodyTruth>,
     /// The same of bodies that make too few swings within the horizon, over their first swings, once that is asked for.
     of_swings: Vec<Once<BodyTruth>>,
@@ -87,7 +85,7 @@ impl Judge {
             truths.push(BodyTruth::find(body, &inputs, throttle, horizon_s, meter).await);
         }
         let of_swings = truths.iter().map(|_| Once::default()).collect();
-        Self { horizon_s, throttle, max_work: MAX_WORK, spare: 0.0, truths, of_swings, meter }
+        Self { horizon_s, throttle, max_work: MAX_WORK, truths, of_swings, meter }
     }
 
     /// Limits the work of each run to less than [`MAX_WORK`]; what takes more is not known.
@@ -99,13 +97,6 @@ impl Judge {
     /// Whether a body is not linear, so that its errors may have bumps.
     pub(super) fn has_bumps(&self) -> bool {
         self.truths.iter().any(|truth| truth.modes.is_none())
-    }
-
-    /// Takes nothing for accurate that does not leave this part of [`TOLERANCE`]. The errors of linear bodies need none: they
-    /// change with a parameter without bumps.
-    pub(super) fn sparing(mut self, spare: f64) -> Self {
-        self.spare = spare;
-        self
     }
 
     /// Whether a tick at this rate fits into the horizon.

@@ -4,6 +4,7 @@ use super::amplitude::Trend;
 use super::change::MotionChange;
 use super::limits::VISIBLE;
 use super::run::MAX_WORK;
+use super::swing_curve::SwingCurve;
 use super::truth::{BodyTruth, MovedMode, work_of};
 use super::verdict::LongTerm;
 use crate::lab::bisection::bisect;
@@ -21,21 +22,23 @@ const ENVELOPE_MOMENTS: u32 = 256;
 /// The steps from which a mode's map is computed: three from each of two states.
 pub(super) const STEPS_PER_MODE: u64 = 6;
 
-/// The step from which its width is.
-const STEPS_PER_WIDTH: u64 = 1;
+/// The step from which its curve is.
+const STEPS_PER_CURVE: u64 = 1;
 
 /// The normal modes of a linear body, and their stability under a method of equal steps.
 pub(super) struct Modes<'a> {
     modes: Vec<SteppedMode<'a>>,
+    /// A step of the method, in seconds.
+    step_s: f64,
 }
 
 /// A normal mode under a method.
 struct SteppedMode<'a> {
     moved: &'a MovedMode,
     stability: Stability,
-    /// Its amplitude at the start under the method, in units of the true one: the curve on which its steps lie need not be
-    /// the true one.
-    width: f64,
+    /// The true curve, and that on which the states of the method lie, in units of the true amplitude at the start; `None` if
+    /// it does not swing under both.
+    curves: Option<[SwingCurve; 2]>,
 }
 
 impl SteppedMode<'_> {
@@ -45,7 +48,8 @@ impl SteppedMode<'_> {
 
     /// Its energy after `t` seconds, in units of that of the true motion at the start.
     fn energy(&self, t: f64) -> f64 {
-        self.width * self.width * self.moved.energy(self.stability.growth_per_s, t)
+        let width = self.curves.map_or(1.0, |[_, own]| own.width());
+        width * width * self.moved.energy(self.stability.growth_per_s, t)
     }
 }
 
@@ -55,38 +59,54 @@ impl MovedMode {
         self.share * libm::exp(2.0 * growth_per_s * t)
     }
 
-    /// Its amplitude at the start under the method of `stepper`, in units of the true one, from one `step`: both begin in the
-    /// same state, and a curve rⁿ (q cos nθ + b sin nθ) through the first two states of the method is that of all its
-    /// states. 1 if it does not swing under both.
+    /// Its true curve, and its curve under the method of `stepper`, from one `step`: both begin in the same state, and a curve
+    /// through the first two states of the method is that of all its states. `None` if it does not swing under both.
     ///
     /// # Errors
     /// The failure of the method in the step.
-    fn width(
+    fn curves(
         &self,
         stepper: &mut dyn Stepper,
         step: Tick,
         stability: &Stability,
-    ) -> Result<f64, StepFailure> {
+    ) -> Result<Option<[SwingCurve; 2]>, StepFailure> {
         let (Some(swing), Some(error)) = (self.mode.swing(), stability.frequency_error) else {
-            return Ok(1.0);
+            return Ok(None);
         };
         let Self { q, v, .. } = *self;
-        let truth = libm::hypot(q, (v + self.mode.damping_per_s / 2.0 * q) / swing);
-        let sides = [q / truth, v / truth];
+        let decay_per_s = self.mode.decay_per_s();
+        let amplitude = libm::hypot(q, (v + decay_per_s * q) / swing);
+        let sides = [q / amplitude, v / amplitude];
         if sides.iter().any(|side| !side.is_finite()) {
-            return Ok(1.0);
+            return Ok(None);
         }
         let [q, v] = sides;
+        let b = (v + decay_per_s * q) / swing;
+        let truth = SwingCurve { q, b, growth_per_s: -decay_per_s, frequency: swing };
         let along = |part: f64| self.mode.shape.iter().map(|x| part * x).collect::<Vec<_>>();
         stepper.set(step.t, &along(q), &along(v));
         stepper.advance(step.t, step.h, step.substeps)?;
-        let next = self.mode.part(stepper.q()) * libm::exp(-stability.growth_per_s * step.h);
-        let angle = (1.0 + error) * swing * step.h;
-        Ok(libm::hypot(q, (next - q * libm::cos(angle)) / libm::sin(angle)))
+        let (growth_per_s, frequency) = (stability.growth_per_s, (1.0 + error) * swing);
+        let next = self.mode.part(stepper.q()) * libm::exp(-growth_per_s * step.h);
+        let angle = frequency * step.h;
+        let b = (next - q * libm::cos(angle)) / libm::sin(angle);
+        Ok(Some([truth, SwingCurve { q, b, growth_per_s, frequency }]))
     }
 }
 
 impl<'a> Modes<'a> {
+    /// The true modes, on each of which the method acts alone.
+    fn modes_of(truth: &BodyTruth, spec: LaneSpec) -> Option<&Vec<MovedMode>> {
+        let chooses = spec.method.tolerance.is_some() || !spec.method.keeps_time;
+        let is_follower = spec.method.family == Family::Follower;
+        truth.modes.as_ref().filter(|_| !chooses && !is_follower)
+    }
+
+    /// Whether the modes tell how wide the body swings: no input changes that.
+    pub(super) fn tell_the_width(truth: &BodyTruth, spec: LaneSpec) -> bool {
+        Self::modes_of(truth, spec).is_some() && truth.inputs.is_empty()
+    }
+
     /// `None` if the body is not linear, or if the method chooses its own steps, follows a target or fails.
     ///
     /// # Errors
@@ -96,15 +116,11 @@ impl<'a> Modes<'a> {
         spec: LaneSpec,
         tick_hz: u32,
     ) -> Result<Option<Self>, TooMuch> {
-        let chooses = spec.method.tolerance.is_some() || !spec.method.keeps_time;
-        let is_follower = spec.method.family == Family::Follower;
-        let Some(modes) = truth.modes.as_ref().filter(|_| !chooses && !is_follower) else {
-            return Ok(None);
-        };
+        let Some(modes) = Self::modes_of(truth, spec) else { return Ok(None) };
         let n = modes.len() as u64;
         // An implicit step takes differences of the force along every coordinate.
         let evaluations = u64::from(spec.method.evaluations.unwrap_or(modes.len() as u32));
-        let steps = STEPS_PER_MODE + STEPS_PER_WIDTH;
+        let steps = STEPS_PER_MODE + STEPS_PER_CURVE;
         let work_of_mode = work_of(steps * evaluations, n, spec.solver());
         if work_of_mode.saturating_mul(n) > MAX_WORK {
             return Err(TooMuch);
@@ -118,13 +134,13 @@ impl<'a> Modes<'a> {
             let Ok(stability) = moved.mode.stability(&*free, spec.solver(), tick) else {
                 return Ok(None);
             };
-            let Ok(width) = moved.width(&mut *stepper, step, &stability) else {
+            let Ok(curves) = moved.curves(&mut *stepper, step, &stability) else {
                 return Ok(None);
             };
-            found.push(SteppedMode { moved, stability, width });
+            found.push(SteppedMode { moved, stability, curves });
             truth.meter.pass(work_of_mode).await;
         }
-        Ok(Some(Self { modes: found }))
+        Ok(Some(Self { modes: found, step_s: step.h }))
     }
 
     pub(super) fn are_bounded(&self) -> bool {
@@ -138,11 +154,15 @@ impl<'a> Modes<'a> {
         most?.stability.frequency_error
     }
 
-    /// Whether the amplitude stays within [`VISIBLE`] of the true one for `seconds`, as the root of the energies of all modes
-    /// tells, each with its own width at the start and its own rate of growth or decay. `None` if no mode moves.
+    /// Whether the amplitude stays within [`VISIBLE`] of the true one for `seconds`. That of one mode is compared half turn by
+    /// half turn. That of several is the root of their energies, each with its own width at the start and its own rate of
+    /// growth or decay. `None` if no mode moves.
     pub(super) fn are_as_wide(&self, seconds: f64) -> Option<bool> {
         let moving = || self.modes.iter().filter(|mode| mode.moved.share > 0.0);
         moving().next()?;
+        if let [SteppedMode { curves: Some([truth, own]), .. }] = &self.modes[..] {
+            return Some(truth.misfit(own, self.step_s, seconds) <= VISIBLE);
+        }
         let off = |t: f64| {
             let own: f64 = moving().map(|mode| mode.energy(t)).sum();
             let decay = |mode: &SteppedMode| mode.moved.energy(-mode.mode().decay_per_s(), t);
