@@ -21,7 +21,7 @@ use crate::sim::integrators::{Family, METHODS};
 mod judged;
 mod report;
 
-use judged::{judge_all, recommendations, search_margins, warn_of_load};
+use judged::{decide, judge_all, search_margins, warn_of_load};
 
 const ABOUT: &str = "\
 Each method is judged on the scene from its start, with its script's inputs, against the exact
@@ -30,12 +30,18 @@ solution. For each criterion the fewest substeps per tick, 1 to 64, are sought:
   bounded      nothing grows that should not, over the scene and in the long run: no mode of a
                linear body doubles within a year; any other body is followed for 20 times the
                scene's length, and one that loses its swing for up to 2000 times, until it rests
-  looks-right  over the scene each swing is as wide as the truth's, within 5 % of the widest, and
-               the frequency within 1 %; what does not swing stays within 5 % of its range
+  looks-right  over the scene each swing is as wide as the truth's, within 5 % of the widest, its
+               peak found between the steps, and the frequency within 1 %; of several modes the
+               root of all their energies and the frequency of the one with the most; what does
+               not swing stays within 5 % of its range
   accurate     over the scene no coordinate or velocity is off by more than 1 % of its amplitude
 
-The recommended method has the least cost, of equal ones the fewest substeps. The cost is evaluations
-of the acceleration per simulated second, times 2 to 3 where a method is linearised, 4 where it iterates.
+The recommended method has the least cost, of equal ones the largest reserve, then the fewest substeps.
+The cost is evaluations of the acceleration per simulated second, times 2 to 3 where a method is linearised,
+4 where it iterates. The reserve is the factor by which the bodies may be stiffer, 10 at most, or the square
+of that by which the ticks may be slower, if that is less: a spring of four times the stiffness needs twice
+the rate. A method with a reserve below 1.5 is not recommended where another of up to twice its cost has a
+larger one; the answer then names it, in JSON as instead_of.
 
 With --all, HOLDS DOWN TO is the slowest tick rate at which the criterion still holds with the same
 substeps, and HOLDS UP TO the factor by which the named parameter may grow, 10 at most; NS/S is
@@ -118,15 +124,15 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     let pool = jobs::pool(0)?;
     let mut rows = judge_all(&pool, &adviser, specs, args.rates, &interrupted);
     let is_whole = args.all || args.format == TableFormat::Json;
-    let margins = match is_whole {
-        true => adviser.worth_margins(&judged::advised(&rows)),
-        false => recommendations(&rows),
-    };
     if is_whole {
         let rows = rows.iter_mut().take_while(|_| !interrupted.load(Ordering::Relaxed));
         rows.for_each(|row| row.time(scene));
     }
-    search_margins(&pool, &adviser, &mut rows, margins, &interrupted);
+    decide(&pool, &adviser, &mut rows, &interrupted);
+    if is_whole {
+        let margins = adviser.worth_margins(&judged::advised(&rows));
+        search_margins(&pool, &adviser, &mut rows, margins, &interrupted);
+    }
     let text = match args.format {
         TableFormat::Text => {
             let usual = args.experiment.is_a_spring().then(Language::default);

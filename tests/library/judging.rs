@@ -10,14 +10,14 @@ use regatta::sim::{Solver, Stepper};
 
 use crate::dice::Dice;
 
-const LOOKS_RIGHT: usize = 1;
+pub(super) const LOOKS_RIGHT: usize = 1;
 
-fn scene(seconds: f64, bodies: &str) -> Scene {
+pub(super) fn scene(seconds: f64, bodies: &str) -> Scene {
     let text = format!("title = \"t\"\ntick_hz = 60\nseconds = {seconds}\n{bodies}\n");
     Scene::parse("t", &text).unwrap()
 }
 
-fn spec(id: &str) -> LaneSpec {
+pub(super) fn spec(id: &str) -> LaneSpec {
     LaneSpec::plain(method(id).unwrap())
 }
 
@@ -30,7 +30,7 @@ fn body(scene: &Scene, solver: Solver) -> Box<dyn Stepper> {
 }
 
 /// What `see` makes of the first body after each tick of a plain run.
-fn run<T>(
+pub(super) fn run<T>(
     scene: &Scene,
     solver: Solver,
     tick_hz: u32,

@@ -36,6 +36,7 @@ mod judging;
 mod keys;
 mod laws;
 mod layouts;
+mod looks_right;
 mod loop_snippets;
 mod manual_tables;
 mod misuse;

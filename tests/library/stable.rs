@@ -90,8 +90,10 @@ fn a_report_has_the_fields_that_are_promised() {
     assert_eq!((name.as_str(), tick_hz, horizon_s), ("body", 60, 3.0));
     let Criteria { bounded, looks_right, accurate } = recommended;
     for recommendation in [bounded, looks_right, accurate] {
-        let Recommendation { method, with } = recommendation.expect("one of the two does");
+        let Recommendation { method, with, instead_of } =
+            recommendation.expect("one of the two does");
         assert!(two.contains(&method));
+        assert_eq!(instead_of, None);
         let CriterionMet {
             tick_hz,
             substeps,

@@ -1,14 +1,14 @@
 //! Judges and times the methods.
 
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use rayon::ThreadPool;
 
 use crate::commands::jobs;
 use crate::commands::terminal::{print_status, progress};
-use crate::lab::analysis::{Adviser, CRITERIA, CriterionMet, MethodAdvice, ranked, recommended};
+use crate::lab::analysis::{Adviser, CRITERIA, MethodAdvice, Recommendation, ranked, recommended};
 use crate::lab::{Follow, Lane, LaneSpec, Scene};
 use crate::sim::number::significant;
 use crate::stopwatch;
@@ -59,6 +59,22 @@ pub(super) fn judge_all(
     let progress = progress(methods as u32, "methods judged");
     let rows = jobs::results(pool, methods, &progress, interrupted, judge);
     rows.into_iter().flatten().collect()
+}
+
+/// Searches margins until it is decided what is recommended; after an interrupt some are missing.
+pub(super) fn decide(
+    pool: &ThreadPool,
+    adviser: &Arc<Adviser>,
+    rows: &mut [Row],
+    interrupted: &AtomicBool,
+) {
+    while !interrupted.load(Ordering::Relaxed) {
+        let undecided = adviser.undecided_margins(&advised(rows));
+        if undecided.is_empty() {
+            return;
+        }
+        search_margins(pool, adviser, rows, undecided, interrupted);
+    }
 }
 
 /// Searches these margins, each told by its row and its criterion; after an interrupt the others are missing.
@@ -141,16 +157,11 @@ pub(super) fn advised(rows: &[Row]) -> Vec<MethodAdvice> {
     rows.iter().map(|row| row.advised.clone()).collect()
 }
 
-/// The recommended row for a criterion, and how it meets it.
-pub(super) fn recommended_row(rows: &[Row], criterion: usize) -> Option<(&Row, &CriterionMet)> {
-    let row = &rows[recommended(&advised(rows), criterion)?];
-    Some((row, row.advised.met[criterion].met()?))
-}
-
-/// The recommendations: for each criterion that a row meets, the row and the criterion.
-pub(super) fn recommendations(rows: &[Row]) -> Vec<(usize, usize)> {
+/// The recommendation for a criterion, and its row.
+pub(super) fn recommended_row(rows: &[Row], criterion: usize) -> Option<(&Row, Recommendation)> {
     let advised = advised(rows);
-    (0..CRITERIA.len()).filter_map(|i| Some((recommended(&advised, i)?, i))).collect()
+    let row = &rows[recommended(&advised, criterion)?];
+    Some((row, Recommendation::of(&advised, criterion)?))
 }
 
 /// The best rows, `most` at most: those recommended for each criterion, then those that come second, and so on; then what

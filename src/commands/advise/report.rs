@@ -94,10 +94,7 @@ fn recommendations(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
     for (i, criterion) in CRITERIA.iter().enumerate() {
         text += &format!("at {} Hz: {}: ", adviser.tick_hz(), criterion.id());
         text += &match recommended_row(rows, i) {
-            Some((row, met)) => {
-                let (method, with) = (row.advised.spec.method.id, met.clone());
-                Recommendation { method, with }.to_string()
-            }
+            Some((_, recommendation)) => recommendation.to_string(),
             None => why_none(scene, rows, i),
         };
         text.push('\n');
@@ -109,7 +106,7 @@ fn recommendations(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
 fn code(adviser: &Adviser, rows: &[Row], language: Language) -> Option<String> {
     let index = |criterion| CRITERIA.iter().position(|one| *one == criterion);
     let wanted = [Criterion::LooksRight, Criterion::Bounded];
-    let (row, met) =
+    let (row, Recommendation { with: met, .. }) =
         wanted.into_iter().find_map(|criterion| recommended_row(rows, index(criterion)?))?;
     let code = source_code(row.advised.spec.method, language, Precision::Double).ok()?;
     let (steps, hz) = (met.substeps, u64::from(adviser.tick_hz()) * u64::from(met.substeps));
@@ -136,10 +133,7 @@ fn why_none(scene: &Scene, rows: &[Row], criterion: usize) -> String {
 pub(super) fn object(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize) -> Value {
     let recommended = CRITERIA.iter().enumerate().map(|(i, criterion)| {
         let take = match recommended_row(rows, i) {
-            Some((row, met)) => {
-                let method = row.advised.spec.method.id;
-                json!(Recommendation { method, with: met.clone() })
-            }
+            Some((_, recommendation)) => json!(recommendation),
             None => json!({ "none": why_none(scene, rows, i) }),
         };
         (criterion.id().to_owned(), take)

@@ -6,13 +6,16 @@ use std::sync::Arc;
 use super::criterion::{CRITERIA, Criterion};
 pub use super::criterion_met::CriterionMet;
 use super::judge::{CriterionFinding, FULL_THROTTLE, Judge, horizon_s};
+use super::rank::Ranking;
 use super::run::MAX_WORK;
-use super::searches::{FACTORS, RatesDown, tried_substeps};
+use super::searches::{
+    FACTORS, FINE_FACTORS, PARTS_OF_STRIDE, RatesDown, fine_factor, tried_substeps,
+};
 use super::slices::{Meter, Once, at_once};
 use super::verdict::{Finding, NotJudged, Verdict};
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::{Scene, SceneBody, edited_values};
-use crate::sim::integrators::{METHODS, Method};
+use crate::sim::integrators::Method;
 use crate::sim::stability::RateSearch;
 
 /// The most substeps per tick that are tried.
@@ -24,14 +27,14 @@ const FEW_SUBSTEPS: u32 = 8;
 /// The most work for one run of a stiffer scene, in the unit of [`MAX_WORK`](super::MAX_WORK). There are many such runs.
 const WORK_WHEN_STIFFER: u64 = 10_000_000;
 
-/// The part of the tolerance that a stiffer scene must leave to be accurate: the error at coarse ticks has bumps between the
-/// factors that are tried.
+/// A scene that is accurate but leaves less than this part of the tolerance is so by a hair: the error at coarse ticks has
+/// bumps, and the factors between those that are tried are tried, too.
 const SPARE_WHEN_STIFFER: f64 = 0.2;
 
 /// A body of more coordinates has its margins searched for methods of about the least cost only: its runs are dear.
 const MANY_COORDINATES: usize = 8;
 
-/// The most times the cost of the recommended method that one of about the least cost has.
+/// The most times the least cost that a method of about the least cost has.
 const MAX_TIMES_CHEAPEST: f64 = 4.0;
 
 /// The advice on one method on a scene.
@@ -79,8 +82,8 @@ pub struct Adviser {
     scene: Scene,
     judge: Judge,
     tick_hz: u32,
-    /// Judges of the scene made stiffer, by the index of their factor; `None` if no scene can be so stiff.
-    stiffer: [Once<Option<Judge>>; FACTORS.len()],
+    /// Judges of the scene made stiffer, by the index of their [factor](fine_factor); `None` if no scene can be so stiff.
+    stiffer: [Once<Option<Judge>>; FINE_FACTORS],
 }
 
 impl Adviser {
@@ -103,7 +106,8 @@ impl Adviser {
     /// As [`Self::new`], with its work counted by `meter`.
     pub(super) async fn find(scene: Scene, throttle: f64, tick_hz: u32, meter: Arc<Meter>) -> Self {
         let judge = Judge::find(&scene, throttle, horizon_s(&scene), meter).await;
-        Self { scene, judge, tick_hz, stiffer: Default::default() }
+        let stiffer = std::array::from_fn(|_| Once::default());
+        Self { scene, judge, tick_hz, stiffer }
     }
 
     pub(super) fn scene(&self) -> &Scene {
@@ -134,9 +138,8 @@ impl Adviser {
         result
     }
 
-    /// The lane of `methods` that meets a criterion at the least [cost](CriterionMet::cost_per_s), with its fewest substeps; of
-    /// several the one with the fewest substeps, and of those the first. It is [`recommended`], found without judging dearer
-    /// ones.
+    /// The lane of `methods` that is recommended for a criterion, with its fewest substeps. It is [`recommended`], found
+    /// without judging dearer ones.
     pub fn cheapest(
         &self,
         criterion: Criterion,
@@ -145,24 +148,34 @@ impl Adviser {
         let least =
             |method: &Method| method.evaluations_per_tick(1).unwrap_or(1) * method.evaluation_cost;
         let mut methods: Vec<_> = methods.filter(|method| !method.is_as_printed()).collect();
-        methods.sort_by_key(|method| least(method));
-        let mut best: Option<(CriterionMet, LaneSpec)> = None;
-        for method in methods {
-            let at_least = f64::from(least(method)) * f64::from(self.tick_hz);
-            if best.as_ref().is_some_and(|(best, _)| best.cost_per_s < at_least) {
-                break;
-            }
-            let spec = LaneSpec::plain(method);
-            let CriterionResult::With(met) = at_once(self.fewest_substeps(spec, criterion)) else {
-                continue;
+        methods.sort_by_key(|method| std::cmp::Reverse(least(method)));
+        let mut judged: Vec<(LaneSpec, CriterionMet)> = Vec::new();
+        loop {
+            let met = judged.iter().map(|(spec, met)| (spec.method, met)).enumerate();
+            let ranking = Ranking::new(met);
+            let (first, undecided) = (ranking.first(), ranking.undecided());
+            let most = match undecided.is_empty() {
+                true => ranking.most_cost_of_a_rival(),
+                false => ranking.least_cost().unwrap_or(f64::INFINITY),
             };
-            let cost = |met: &CriterionMet| (met.cost_per_s, met.substeps);
-            if best.as_ref().is_none_or(|(best, _)| cost(&met) < cost(best)) {
-                let spec = LaneSpec { substeps: met.substeps, ..spec };
-                best = Some((met, spec));
+            let at_least = |method: &&Method| {
+                f64::from(least(method)) * f64::from(self.tick_hz) * self.scene.bodies.len() as f64
+            };
+            if let Some(method) = methods.pop_if(|method| at_least(&&**method) <= most) {
+                let spec = LaneSpec::plain(method);
+                if let CriterionResult::With(met) = at_once(self.fewest_substeps(spec, criterion)) {
+                    judged.push((spec, met));
+                }
+            } else if undecided.is_empty() || self.is_spent() {
+                let (spec, met) = &judged[first?];
+                return Some(LaneSpec { substeps: met.substeps, ..*spec });
+            } else {
+                for row in undecided {
+                    let (spec, met) = &mut judged[row];
+                    at_once(self.add_margins(*spec, criterion, met));
+                }
             }
         }
-        best.map(|(_, spec)| spec)
     }
 
     /// The verdict on a lane, and whether its method meets each criterion, with how many substeps. No margin is searched.
@@ -183,20 +196,48 @@ impl Adviser {
         MethodAdvice { spec, verdict, met }
     }
 
-    /// The margins that are worth a search: each the index of a method in `advised` and of a criterion that it meets. With a
-    /// body of more than eight coordinates they are those of the methods that cost at most four times what is
-    /// [`recommended`].
+    /// The margins that decide what is [`recommended`] and are not searched: each the index of a method in
+    /// `advised` and of a criterion that it meets. Once they are, more may be to be searched.
+    pub fn undecided_margins(&self, advised: &[MethodAdvice]) -> Vec<(usize, usize)> {
+        if self.is_spent() {
+            return Vec::new();
+        }
+        let of = |i: usize| ranking(advised, i).undecided().into_iter().map(move |row| (row, i));
+        (0..CRITERIA.len()).flat_map(of).collect()
+    }
+
+    /// Searches margins until it is decided what is recommended.
+    pub fn decide(&self, advised: &mut [MethodAdvice]) {
+        loop {
+            let undecided = self.undecided_margins(advised);
+            if undecided.is_empty() {
+                return;
+            }
+            for (row, criterion) in undecided {
+                advised[row].search_margins(self, criterion);
+            }
+        }
+    }
+
+    /// The margins that are worth a search and are not searched, as [`Self::undecided_margins`]. With a body of more than
+    /// eight coordinates they are those of the methods that cost at most four times the least.
     pub fn worth_margins(&self, advised: &[MethodAdvice]) -> Vec<(usize, usize)> {
+        if self.is_spent() {
+            return Vec::new();
+        }
         let is_dear =
             |body: &SceneBody| body.kind.coordinates(&body.values).len() > MANY_COORDINATES;
         let has_dear = self.scene.bodies.iter().any(is_dear);
-        let cost = |row: usize, i: usize| advised[row].met[i].met().map(|met| met.cost_per_s);
         let most = [0, 1, 2].map(|i| {
-            let least = recommended(advised, i).and_then(|row| cost(row, i)).filter(|_| has_dear);
+            let least = ranking(advised, i).least_cost().filter(|_| has_dear);
             least.map_or(f64::INFINITY, |least| MAX_TIMES_CHEAPEST * least)
         });
+        let is_worth = |&(row, i): &(usize, usize)| {
+            let met = advised[row].met[i].met();
+            met.is_some_and(|met| met.cost_per_s <= most[i] && !met.are_margins_searched)
+        };
         let margins = (0..advised.len()).flat_map(|row| (0..CRITERIA.len()).map(move |i| (row, i)));
-        margins.filter(|&(row, i)| cost(row, i).is_some_and(|cost| cost <= most[i])).collect()
+        margins.filter(is_worth).collect()
     }
 
     /// As [`MethodAdvice::search_margins`].
@@ -296,20 +337,26 @@ impl Adviser {
     /// limits it; `None` if it is not known whether the criterion holds with the next.
     async fn stiffest(&self, spec: LaneSpec, criterion: Criterion) -> Option<(f64, String)> {
         let (mut held, mut last_miss) = (0, None);
-        // What is accurate by a hair may not be a hair beyond.
-        if criterion == Criterion::Accurate
-            && self.judge.has_bumps()
-            && let Some(judge) = self.stiffer(0).await
-        {
-            last_miss = judge.misses(criterion, spec, self.tick_hz).await;
-        }
-        while held + 1 < FACTORS.len()
-            && last_miss.is_none()
-            && !self.is_spent()
-            && let Some(judge) = self.stiffer(held + 1).await
-        {
-            last_miss = judge.misses(criterion, spec, self.tick_hz).await;
-            held += usize::from(last_miss.is_none());
+        let has_hairs = criterion == Criterion::Accurate && self.judge.has_bumps();
+        let mut is_by_a_hair = has_hairs && !self.spares(spec, 0).await;
+        while held + 1 < FACTORS.len() && last_miss.is_none() && !self.is_spent() {
+            let next = (held + 1) * PARTS_OF_STRIDE;
+            let Some(judge) = self.stiffer(next).await else { break };
+            let was_by_a_hair = is_by_a_hair;
+            is_by_a_hair = has_hairs && !self.spares(spec, next).await;
+            if is_by_a_hair || !has_hairs {
+                last_miss = judge.misses(criterion, spec, self.tick_hz).await;
+            }
+            let mut between = held * PARTS_OF_STRIDE + 1..next;
+            while (was_by_a_hair || is_by_a_hair)
+                && last_miss.is_none()
+                && !self.is_spent()
+                && let Some(index) = between.next()
+                && let Some(judge) = self.stiffer(index).await
+            {
+                last_miss = judge.misses(criterion, spec, self.tick_hz).await;
+            }
+            held += usize::from(last_miss.is_none() && !self.is_spent());
         }
         let culprit = match last_miss {
             Some(CriterionFinding::Unknown) => return None,
@@ -343,12 +390,20 @@ impl Adviser {
     /// The judge of the scene with every body stiffer by the factor with this index.
     async fn stiffer(&self, index: usize) -> Option<&Judge> {
         let find = async {
-            let scene = self.stiffen(FACTORS[index])?;
+            let scene = self.stiffen(fine_factor(index))?;
             let (throttle, horizon_s) = (self.judge.throttle(), self.judge.horizon_s());
             let judge = Judge::find(&scene, throttle, horizon_s, self.judge.meter().clone()).await;
-            Some(judge.within(WORK_WHEN_STIFFER).sparing(SPARE_WHEN_STIFFER))
+            Some(judge.within(WORK_WHEN_STIFFER))
         };
         self.stiffer[index].get(find).await.as_ref()
+    }
+
+    /// Whether a lane is accurate on the scene of this factor, and not by a hair.
+    async fn spares(&self, spec: LaneSpec, factor: usize) -> bool {
+        match self.stiffer(factor).await {
+            Some(judge) => judge.is_accurate_sparing(SPARE_WHEN_STIFFER, spec, self.tick_hz).await,
+            None => false,
+        }
     }
 
     fn stiffen(&self, factor: f64) -> Option<Scene> {
@@ -362,23 +417,29 @@ impl Adviser {
     }
 }
 
-/// The recommended method for a criterion, by its index in `advised`: the first that is [ranked].
-pub fn recommended(advised: &[MethodAdvice], criterion: usize) -> Option<usize> {
-    ranked(advised, criterion).first().copied()
+/// The ranking for the criterion with this index.
+fn ranking(advised: &[MethodAdvice], criterion: usize) -> Ranking<'_> {
+    Ranking::new(
+        advised.iter().enumerate().filter_map(|(i, advice)| {
+            Some((i, (advice.spec.method, advice.met[criterion].met()?)))
+        }),
+    )
 }
 
-/// The methods that meet a criterion, by their indices in `advised`, whoever asks and in whatever order they stand: without
-/// the listings as printed, from the least [cost](CriterionMet::cost_per_s) on; of equal costs from the fewest substeps on,
-/// and of these in the order of the table of methods.
+/// The recommended method for a criterion, by its index in `advised`. Margins that are not searched count as no reserve.
+pub fn recommended(advised: &[MethodAdvice], criterion: usize) -> Option<usize> {
+    ranking(advised, criterion).first()
+}
+
+/// The methods that meet a criterion, by their indices in `advised`, whoever asks and in whatever order they stand: the
+/// [`recommended`] one, then the others from the least cost on. The listings as printed are left out.
 pub fn ranked(advised: &[MethodAdvice], criterion: usize) -> Vec<usize> {
-    let place = |advice: &MethodAdvice| METHODS.iter().position(|one| one == advice.spec.method);
-    let rank = |(i, advice): (usize, &MethodAdvice)| {
-        let met = advice.met[criterion].met().filter(|_| !advice.spec.method.is_as_printed())?;
-        Some((i, met.cost_per_s, (met.substeps, place(advice).unwrap_or(METHODS.len()))))
-    };
-    let mut all: Vec<_> = advised.iter().enumerate().filter_map(rank).collect();
-    all.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.2.cmp(&b.2)));
-    all.into_iter().map(|(i, ..)| i).collect()
+    ranking(advised, criterion).indices()
+}
+
+/// The cheapest method, by its index in `advised`, if it is passed over for the [`recommended`] one for want of a reserve.
+pub(super) fn passed_over(advised: &[MethodAdvice], criterion: usize) -> Option<usize> {
+    ranking(advised, criterion).passed_over()
 }
 
 #[cfg(test)]

@@ -22,6 +22,8 @@ pub(super) struct MotionChange {
     pub(super) frequency_error: Option<f64>,
     /// By how many seconds the motion is early at the end of the horizon.
     pub(super) early_s: Option<f64>,
+    /// The widest swing in units of the true one, where modes tell it.
+    pub(super) width: Option<f64>,
 }
 
 impl MotionChange {
@@ -55,6 +57,7 @@ impl MotionChange {
             within,
             energy_change: Some(run.quarters[3]).filter(|change| conserves && change.is_finite()),
             early_s: early_s.filter(|_| conserves),
+            width: None,
             frequency_error: frequency_error.map(|measured| measured.error),
         }
     }

@@ -43,9 +43,10 @@ impl Criterion {
                  for up to 2000 times, comes to rest"
             }
             Criterion::LooksRight => {
-                "each swing as wide as the truth's, within 5 % of the widest, and the frequency within 1 %, of several \
-                 modes that of the one with the most energy, a body that swings less than three times in the scene being \
-                 followed until it has; without a swing, within 5 % of the range"
+                "each swing as wide as the truth's, within 5 % of the widest, its peak found between the steps, and the \
+                 frequency within 1 %; of several modes the root of all their energies within 5 %, and the frequency of the \
+                 one with the most energy; a body that swings less than three times in the scene is followed until it has; \
+                 without a swing, within 5 % of the range"
             }
             Criterion::Accurate => {
                 "no coordinate or velocity off by more than 1 % of its amplitude"

@@ -13,9 +13,9 @@ pub struct CriterionMet {
     pub tick_hz: u32,
     /// Steps per tick.
     pub substeps: u32,
-    /// Evaluations of all bodies' accelerations per simulated second.
+    /// Evaluations of all bodies' accelerations per simulated second, of a method of equal steps in the long run.
     pub evaluations_per_s: f64,
-    /// These evaluations times [what one costs](crate::sim::integrators::Method::evaluation_cost): methods are ranked by it.
+    /// These evaluations times [what one costs](crate::sim::integrators::Method::evaluation_cost): methods are ranked by it first.
     pub cost_per_s: f64,
     /// Whether the margins have been searched. Where that is dear, they are for methods of about the least cost only.
     #[cfg_attr(feature = "serde", serde(rename = "margins_searched"))]
@@ -66,6 +66,22 @@ impl CriterionMet {
         let more = if factor >= MAX_STIFFER { "more than " } else { "" };
         let mark = if factor <= 1.0 { format!(" {NO_RESERVE}") } else { String::new() };
         Some(format!("{more}{} × {}{mark}", round(factor, 3), self.limited_by.as_deref()?))
+    }
+
+    /// Its reserve: the factor, 1 to 10, by which the bodies may be stiffer at this rate, or at once as much slower. It is the
+    /// lesser of the two margins that are known, and `None` if neither is.
+    ///
+    /// Both are factors of stiffness: a spring of f times the stiffness takes steps of the same angle at √f times the rate,
+    /// so that a rate counts by its square. That rate is the next lower whole one, at which the criterion fails: at a few
+    /// hertz one hertz is a large part.
+    pub fn reserve(&self) -> Option<f64> {
+        let of_rate = self.slowest_hz.map(|hz| {
+            let ratio = f64::from(self.tick_hz) / f64::from(hz.saturating_sub(1));
+            // To one digit after the point, as factors are tried.
+            libm::floor(10.0 * ratio * ratio) / 10.0
+        });
+        let least = [of_rate, self.stiffness_factor].into_iter().flatten().reduce(f64::min)?;
+        Some(least.min(MAX_STIFFER))
     }
 
     /// Whether one of its margins leaves nothing: the next rate or the next factor that was tried fails.

@@ -86,6 +86,14 @@ fn cubic(y: &[f64; 4], s: f64) -> f64 {
 }
 
 impl Swing {
+    /// The relative frequency error of a swing that crosses its centre upwards at these times (s), over all its turns;
+    /// positive if it is too fast. `None` if one of the two makes too few turns.
+    pub(super) fn frequency_error(&self, crossings: &[f64]) -> Option<f64> {
+        let count = crossings.len().min(self.crossings.len());
+        let span = |crossings: &[f64]| crossings[count - 1] - crossings[0];
+        (count >= FEWEST_CROSSINGS).then(|| span(&self.crossings) / span(crossings) - 1.0)
+    }
+
     /// Whether it has crossings enough for its frequency.
     pub(super) fn has_a_frequency(&self) -> bool {
         self.crossings.len() >= FEWEST_CROSSINGS

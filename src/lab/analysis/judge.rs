@@ -33,8 +33,6 @@ pub struct Judge {
     horizon_s: f64,
     throttle: f64,
     max_work: u64,
-    /// The part of [`TOLERANCE`] that what is accurate leaves.
-    spare: f64,
     truths: Vec<BodyTruth>,
     /// The same of bodies that make too few swings within the horizon, over their first swings, once that is asked for.
     of_swings: Vec<Once<BodyTruth>>,
@@ -88,7 +86,7 @@ impl Judge {
             truths.push(BodyTruth::find(body, &inputs, throttle, horizon_s, meter).await);
         }
         let of_swings = truths.iter().map(|_| Once::default()).collect();
-        Self { horizon_s, throttle, max_work: MAX_WORK, spare: 0.0, truths, of_swings, meter }
+        Self { horizon_s, throttle, max_work: MAX_WORK, truths, of_swings, meter }
     }
 
     /// Limits the work of each run to less than [`MAX_WORK`]; what takes more is not known.
@@ -100,13 +98,6 @@ impl Judge {
     /// Whether a body is not linear, so that its errors may have bumps.
     pub(super) fn has_bumps(&self) -> bool {
         self.truths.iter().any(|truth| truth.modes.is_none())
-    }
-
-    /// Takes nothing for accurate that does not leave this part of [`TOLERANCE`]. The errors of linear bodies need none: they
-    /// change with a parameter without bumps.
-    pub(super) fn sparing(mut self, spare: f64) -> Self {
-        self.spare = spare;
-        self
     }
 
     /// Whether a tick at this rate fits into the horizon.
@@ -203,8 +194,8 @@ impl Judge {
         by_modes: Option<MotionChange>,
     ) -> Verdict {
         let truth = &self.truths[body];
-        let is_horizon = by_modes.is_some();
-        let MotionChange { long_term, within, energy_change, frequency_error, early_s } =
+        let are_swings_known = by_modes.is_some() && truth.inputs.is_empty();
+        let MotionChange { long_term, within, energy_change, frequency_error, early_s, width } =
             by_modes.unwrap_or_else(|| MotionChange::of_run(truth, run, self.horizon_s));
         // What has grown once and goes on within bounds is bounded, and what has yet to grow is not.
         let change = match (within, long_term.is_bounded) {
@@ -213,6 +204,8 @@ impl Judge {
             _ => within,
         };
         let swing = truth.swing.as_ref();
+        // The peaks between ticks are wider, so that only what is too wide is known.
+        let too_wide = swing.map(|swing| run.widest / swing.widest()).filter(|&width| width > 1.0);
         // Half of the error at least, or something else is the worse.
         let is_of_phase =
             |early_s: f64| swing.is_some_and(|swing| swing.error_when(early_s) >= run.error / 2.0);
@@ -225,7 +218,7 @@ impl Judge {
         } else if let Some(why) = without_truth(truth, run, truth_error) {
             Finding::NoTruth(why)
         } else {
-            let known = Some(run).filter(|_| is_horizon);
+            let known = Some(run).filter(|_| are_swings_known);
             let looks_right = self.looks_right(body, spec, tick_hz, known).await;
             let looks_right = match looks_right {
                 Ok(_) => Some(true),
@@ -239,7 +232,7 @@ impl Judge {
                 truth_error,
                 change,
                 looks_right,
-                width: swing.map(|swing| swing.width_of(&run.half_turns)),
+                width: width.or(too_wide),
                 early_s: early_s.filter(|&early_s| is_of_phase(early_s)),
                 energy_change,
                 energy_drift_percent: run.energy_drift,

@@ -4,6 +4,7 @@ use super::amplitude::{Measure, Trend};
 use super::change::MotionChange;
 use super::limits::VISIBLE;
 use super::run::MAX_WORK;
+use super::swing_curve::SwingCurve;
 use super::truth::{BodyTruth, MovedMode, work_of};
 use super::verdict::LongTerm;
 use crate::lab::bisection::bisect;
@@ -27,26 +28,17 @@ const STEPS_PER_CURVE: u64 = 1;
 /// The normal modes of a linear body, and their stability under a method of equal steps.
 pub(super) struct Modes<'a> {
     modes: Vec<SteppedMode<'a>>,
+    /// A step of the method, in seconds.
+    step_s: f64,
 }
 
 /// A normal mode under a method.
 struct SteppedMode<'a> {
     moved: &'a MovedMode,
     stability: Stability,
-    curve: Curve,
-}
-
-/// The curve on which the steps of a mode lie, beside the true one: both begin in the same state.
-struct Curve {
-    /// Its amplitude at the start, in units of the true one.
-    width: f64,
-    /// By how many seconds it is early at the start.
-    early_s: f64,
-}
-
-impl Curve {
-    /// That of a mode that does not swing under both.
-    const TRUE: Self = Self { width: 1.0, early_s: 0.0 };
+    /// The true curve, and that on which the states of the method lie, in units of the true amplitude at the start; `None` if
+    /// it does not swing under both.
+    curves: Option<[SwingCurve; 2]>,
 }
 
 impl SteppedMode<'_> {
@@ -56,7 +48,8 @@ impl SteppedMode<'_> {
 
     /// Its energy after `t` seconds, in units of that of the true motion at the start.
     fn energy(&self, t: f64) -> f64 {
-        self.curve.width * self.curve.width * self.moved.energy(self.stability.growth_per_s, t)
+        let width = self.curves.map_or(1.0, |[_, own]| own.width());
+        width * width * self.moved.energy(self.stability.growth_per_s, t)
     }
 }
 
@@ -66,41 +59,54 @@ impl MovedMode {
         self.share * libm::exp(2.0 * growth_per_s * t)
     }
 
-    /// Its curve under the method of `stepper`, from one `step`: a curve rⁿ (q cos nθ + b sin nθ) through the first two states
-    /// of the method is that of all its states.
+    /// Its true curve, and its curve under the method of `stepper`, from one `step`: both begin in the same state, and a curve
+    /// through the first two states of the method is that of all its states. `None` if it does not swing under both.
     ///
     /// # Errors
     /// The failure of the method in the step.
-    fn curve(
+    fn curves(
         &self,
         stepper: &mut dyn Stepper,
         step: Tick,
         stability: &Stability,
-    ) -> Result<Curve, StepFailure> {
+    ) -> Result<Option<[SwingCurve; 2]>, StepFailure> {
         let (Some(swing), Some(error)) = (self.mode.swing(), stability.frequency_error) else {
-            return Ok(Curve::TRUE);
+            return Ok(None);
         };
         let Self { q, v, .. } = *self;
-        let side = (v + self.mode.damping_per_s / 2.0 * q) / swing;
-        let truth = libm::hypot(q, side);
-        let sides = [q / truth, v / truth];
+        let decay_per_s = self.mode.decay_per_s();
+        let amplitude = libm::hypot(q, (v + decay_per_s * q) / swing);
+        let sides = [q / amplitude, v / amplitude];
         if sides.iter().any(|side| !side.is_finite()) {
-            return Ok(Curve::TRUE);
+            return Ok(None);
         }
         let [q, v] = sides;
-        let true_phase = libm::atan2(side / truth, q);
+        let b = (v + decay_per_s * q) / swing;
+        let truth = SwingCurve { q, b, growth_per_s: -decay_per_s, frequency: swing };
         let along = |part: f64| self.mode.shape.iter().map(|x| part * x).collect::<Vec<_>>();
         stepper.set(step.t, &along(q), &along(v));
         stepper.advance(step.t, step.h, step.substeps)?;
-        let next = self.mode.part(stepper.q()) * libm::exp(-stability.growth_per_s * step.h);
-        let angle = (1.0 + error) * swing * step.h;
-        let side = (next - q * libm::cos(angle)) / libm::sin(angle);
-        let ahead = libm::remainder(true_phase - libm::atan2(side, q), std::f64::consts::TAU);
-        Ok(Curve { width: libm::hypot(q, side), early_s: ahead / swing })
+        let (growth_per_s, frequency) = (stability.growth_per_s, (1.0 + error) * swing);
+        let next = self.mode.part(stepper.q()) * libm::exp(-growth_per_s * step.h);
+        let angle = frequency * step.h;
+        let b = (next - q * libm::cos(angle)) / libm::sin(angle);
+        Ok(Some([truth, SwingCurve { q, b, growth_per_s, frequency }]))
     }
 }
 
 impl<'a> Modes<'a> {
+    /// The true modes, on each of which the method acts alone.
+    fn modes_of(truth: &BodyTruth, spec: LaneSpec) -> Option<&Vec<MovedMode>> {
+        let chooses = spec.method.tolerance.is_some() || !spec.method.keeps_time;
+        let is_follower = spec.method.family == Family::Follower;
+        truth.modes.as_ref().filter(|_| !chooses && !is_follower)
+    }
+
+    /// Whether the modes tell how wide the body swings: no input changes that.
+    pub(super) fn tell_the_width(truth: &BodyTruth, spec: LaneSpec) -> bool {
+        Self::modes_of(truth, spec).is_some() && truth.inputs.is_empty()
+    }
+
     /// `None` if the body is not linear, or if the method chooses its own steps, follows a target or fails.
     ///
     /// # Errors
@@ -110,11 +116,7 @@ impl<'a> Modes<'a> {
         spec: LaneSpec,
         tick_hz: u32,
     ) -> Result<Option<Self>, TooMuch> {
-        let chooses = spec.method.tolerance.is_some() || !spec.method.keeps_time;
-        let is_follower = spec.method.family == Family::Follower;
-        let Some(modes) = truth.modes.as_ref().filter(|_| !chooses && !is_follower) else {
-            return Ok(None);
-        };
+        let Some(modes) = Self::modes_of(truth, spec) else { return Ok(None) };
         let n = modes.len() as u64;
         // An implicit step takes differences of the force along every coordinate.
         let evaluations = u64::from(spec.method.evaluations.unwrap_or(modes.len() as u32));
@@ -132,13 +134,13 @@ impl<'a> Modes<'a> {
             let Ok(stability) = moved.mode.stability(&*free, spec.solver(), tick) else {
                 return Ok(None);
             };
-            let Ok(curve) = moved.curve(&mut *stepper, step, &stability) else {
+            let Ok(curves) = moved.curves(&mut *stepper, step, &stability) else {
                 return Ok(None);
             };
-            found.push(SteppedMode { moved, stability, curve });
+            found.push(SteppedMode { moved, stability, curves });
             truth.meter.pass(work_of_mode).await;
         }
-        Ok(Some(Self { modes: found }))
+        Ok(Some(Self { modes: found, step_s: step.h }))
     }
 
     pub(super) fn are_bounded(&self) -> bool {
@@ -156,17 +158,20 @@ impl<'a> Modes<'a> {
         self.main()?.stability.frequency_error
     }
 
-    /// By how many seconds the main mode is early after `seconds`.
-    fn early_s(&self, seconds: f64) -> Option<f64> {
-        let main = self.main()?;
-        Some(main.curve.early_s + main.stability.frequency_error? * seconds)
+    /// The true curve of the main mode, and its own.
+    fn main_curves(&self) -> Option<&[SwingCurve; 2]> {
+        self.main()?.curves.as_ref()
     }
 
-    /// Whether the amplitude stays within [`VISIBLE`] of the true one for `seconds`, as the root of the energies of all modes
-    /// tells, each with its own width at the start and its own rate of growth or decay. `None` if no mode moves.
+    /// Whether the amplitude stays within [`VISIBLE`] of the true one for `seconds`. That of one mode is compared half turn by
+    /// half turn. That of several is the root of their energies, each with its own width at the start and its own rate of
+    /// growth or decay. `None` if no mode moves.
     pub(super) fn are_as_wide(&self, seconds: f64) -> Option<bool> {
         let moving = || self.modes.iter().filter(|mode| mode.moved.share > 0.0);
         moving().next()?;
+        if let [SteppedMode { curves: Some([truth, own]), .. }] = &self.modes[..] {
+            return Some(truth.misfit(own, self.step_s, seconds) <= VISIBLE);
+        }
         let off = |t: f64| {
             let own: f64 = moving().map(|mode| mode.energy(t)).sum();
             let decay = |mode: &SteppedMode| mode.moved.energy(-mode.mode().decay_per_s(), t);
@@ -222,6 +227,7 @@ impl<'a> Modes<'a> {
         let worst = self.modes.iter().filter_map(|mode| mode.stability.doubling_s());
         let worst = worst.min_by(f64::total_cmp);
         let amplitude = if moves { self.amplitude(horizon_s) } else { 1.0 };
+        let curves = self.main_curves().filter(|_| measure == Measure::Swing);
         MotionChange {
             long_term: LongTerm {
                 measure,
@@ -235,7 +241,10 @@ impl<'a> Modes<'a> {
             within: Trend::of(amplitude),
             energy_change: is_conserved.then_some(amplitude * amplitude - 1.0),
             frequency_error: self.frequency_error(),
-            early_s: self.early_s(horizon_s).filter(|_| is_conserved && measure == Measure::Swing),
+            early_s: curves
+                .filter(|_| is_conserved)
+                .map(|[truth, own]| own.lead_s(truth, horizon_s)),
+            width: curves.map(|[truth, own]| own.widest() / truth.widest()),
         }
     }
 }

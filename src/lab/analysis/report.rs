@@ -2,12 +2,14 @@
 
 use std::fmt;
 
+use super::advice::passed_over;
 use super::{
     Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS,
     MethodAdvice, Verdict, recommended,
 };
 use crate::lab::custom::{Options, OptionsError};
 use crate::lab::scene::Scene;
+use crate::sim::number::round;
 use crate::sim::{State, System, Vector};
 
 /// One value for each [`Criterion`].
@@ -50,8 +52,8 @@ pub struct Report {
     pub horizon_s: f64,
     /// Every method, in the order of the table or as they were given.
     pub methods: Vec<MethodReport>,
-    /// The method of the least [cost](CriterionMet::cost_per_s) that meets each criterion; `None` if none does, or if it is
-    /// not known.
+    /// The method to take for each criterion, as [`ranked`](super::ranked) has it; `None` if none meets it, or if it is not
+    /// known.
     pub recommended: Criteria<Option<Recommendation>>,
     /// Ids of the methods with an unknown result: no truth, or too much work.
     pub not_known: Criteria<Vec<&'static str>>,
@@ -69,6 +71,31 @@ pub struct MethodReport {
     pub criteria: Criteria<Option<CriterionMet>>,
 }
 
+/// A cheaper method that is not recommended for want of a reserve.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct PassedOver {
+    /// Its id.
+    pub method: &'static str,
+    /// Its steps per tick.
+    pub substeps: u32,
+    /// Its [cost](CriterionMet::cost_per_s).
+    pub cost_per_s: f64,
+    /// Its [reserve](CriterionMet::reserve); `None` if it is not known.
+    pub reserve: Option<f64>,
+}
+
+/// The reason, as a part of a sentence.
+impl fmt::Display for PassedOver {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ×{} costs less, but its reserve is ", self.method, self.substeps)?;
+        match self.reserve {
+            Some(reserve) => write!(f, "only {} ×", round(reserve, 2)),
+            None => write!(f, "not known"),
+        }
+    }
+}
+
 /// A method for a criterion.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -78,14 +105,43 @@ pub struct Recommendation {
     /// How it meets the criterion.
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub with: CriterionMet,
+    /// The cheapest method that has too little reserve, if it is taken instead of that.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub instead_of: Option<PassedOver>,
+}
+
+impl Recommendation {
+    /// The recommendation for the criterion with this index; `None` if no method is known to meet it.
+    pub fn of(advised: &[MethodAdvice], criterion: usize) -> Option<Self> {
+        let found = |row: usize| {
+            let MethodAdvice { spec, met, .. } = &advised[row];
+            Some((spec.method.id, met[criterion].met()?))
+        };
+        let (method, with) = found(recommended(advised, criterion)?)?;
+        let instead_of = passed_over(advised, criterion).and_then(found);
+        Some(Self {
+            method,
+            with: with.clone(),
+            instead_of: instead_of.map(|(method, met)| PassedOver {
+                method,
+                substeps: met.substeps,
+                cost_per_s: met.cost_per_s,
+                reserve: met.reserve(),
+            }),
+        })
+    }
 }
 
 /// One line, for a design note.
 impl fmt::Display for Recommendation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { method, with } = self;
+        let Self { method, with, instead_of } = self;
         let evaluations = with.evaluations_per_s.round();
-        write!(f, "{method} ×{} ({evaluations} evaluations/s; {})", with.substeps, with.margins())
+        write!(f, "{method} ×{} ({evaluations} evaluations/s; {}", with.substeps, with.margins())?;
+        match instead_of {
+            Some(passed_over) => write!(f, "; {passed_over})"),
+            None => write!(f, ")"),
+        }
     }
 }
 
@@ -153,6 +209,7 @@ impl Report {
         let adviser = Adviser::within(max_work, scene, scene.tick_hz);
         let mut judged: Vec<MethodAdvice> =
             scene.advised_lanes().into_iter().map(|spec| adviser.judged(spec)).collect();
+        adviser.decide(&mut judged);
         for (row, i) in adviser.worth_margins(&judged) {
             judged[row].search_margins(&adviser, i);
         }
@@ -161,11 +218,7 @@ impl Report {
             name: scene.name.clone(),
             tick_hz: adviser.tick_hz(),
             horizon_s: adviser.judge().horizon_s(),
-            recommended: Criteria::of(|criterion| {
-                let advice = &judged[recommended(&judged, index(criterion))?];
-                let with = advice.met[index(criterion)].met()?.clone();
-                Some(Recommendation { method: advice.spec.method.id, with })
-            }),
+            recommended: Criteria::of(|criterion| Recommendation::of(&judged, index(criterion))),
             not_known: Criteria::of(|criterion| {
                 let is_open = |advice: &&MethodAdvice| {
                     advice.met[index(criterion)] == CriterionResult::Unknown
@@ -207,5 +260,24 @@ impl fmt::Display for Report {
             }
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_reason_names_the_cheaper_method_and_its_reserve() {
+        let mut passed_over = PassedOver {
+            method: "explicit-euler",
+            substeps: 2,
+            cost_per_s: 60.0,
+            reserve: Some(1.1),
+        };
+        let reason = "explicit-euler ×2 costs less, but its reserve is";
+        assert_eq!(passed_over.to_string(), format!("{reason} only 1.1 ×"));
+        passed_over.reserve = None;
+        assert_eq!(passed_over.to_string(), format!("{reason} not known"));
     }
 }

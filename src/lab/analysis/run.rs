@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::energy::Energy;
-use super::peaks::Peaks;
+use super::swings::Swings;
 use super::truth::{BodyTruth, FollowedBody, LONG_RUN, TruthSeries, ticks};
 use super::verdict::RunFailure;
 use crate::lab::lane_spec::LaneSpec;
@@ -32,6 +32,8 @@ pub(super) enum Until {
     Error(f64),
     /// At the end of the horizon.
     Horizon,
+    /// At the end of the horizon, with the swings measured step by step.
+    Swings,
     /// At the end of the long run, or when the swing has grown.
     Grown,
     /// At the end of the long run.
@@ -64,6 +66,8 @@ pub(super) struct Run {
     pub(super) horizon_s: f64,
     /// The failure of the body after the horizon.
     pub(super) later: Option<RunFailure>,
+    /// The largest distance of a coordinate from its centre after a tick of the horizon, in amplitudes.
+    pub(super) widest: f64,
     /// When a coordinate, and when a velocity, first reached twice its true amplitude.
     pub(super) doubled_at: Option<f64>,
     pub(super) velocity_doubled_at: Option<f64>,
@@ -80,8 +84,8 @@ pub(super) struct Run {
     pub(super) chase: Option<Chase>,
     /// The swinging coordinate after each tick of the horizon.
     pub(super) series: Vec<f64>,
-    /// The largest swing in each half turn within the horizon, in amplitudes; empty if the body does not swing.
-    pub(super) half_turns: Vec<f64>,
+    /// The swings within the horizon, if they were to be measured and the body swings.
+    pub(super) swings: Option<Swings>,
 }
 
 /// Runs `truth`'s body under `spec` from its start.
@@ -95,7 +99,7 @@ pub(super) async fn follow(
     let hz = f64::from(tick_hz);
     let horizon = ticks(truth.horizon_s, tick_hz);
     let end = match until {
-        Until::Error(_) | Until::Horizon => horizon,
+        Until::Error(_) | Until::Horizon | Until::Swings => horizon,
         Until::Grown | Until::LongRun => ticks(LONG_RUN * truth.horizon_s, tick_hz).max(horizon),
     };
     // A run that is judged without its error needs no truth.
@@ -109,16 +113,20 @@ pub(super) async fn follow(
     }
     let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).within(max_work);
     let stepper = &*followed.body.stepper;
+    let swings = truth.swing.as_ref().filter(|_| until == Until::Swings).map(|swing| {
+        let amplitudes = truth.amplitudes[..truth.centres.len()].to_vec();
+        Swings::new(swing.coordinate, truth.centres.clone(), amplitudes, stepper)
+    });
     let mut measured = Measured {
         chased_s: truth.inputs.first().map_or(truth.horizon_s, |input| input.at_s),
         energy: Energy::of(stepper, truth, horizon, end),
-        peaks: Peaks::new(truth, stepper),
         run: Run { chase: Chase::new(stepper, 0.0), ..Run::new(horizon as f64 / hz) },
         series,
         until,
         horizon,
         hz,
     };
+    followed.body.swings = swings;
     let see = |body: &FollowedBody, tick| measured.take_in(truth, body, tick);
     let mut stop = truth.go_on(&mut followed, end, see).await;
     if stop == StopReason::End && end > horizon {
@@ -130,6 +138,7 @@ pub(super) async fn follow(
             stop = truth.go_on(&mut followed, FOLLOWED_ON * end, see).await;
         }
     }
+    measured.run.swings = followed.body.swings.take();
     measured.end(stop, followed.ticks(), followed.t())
 }
 
@@ -137,7 +146,6 @@ pub(super) async fn follow(
 struct Measured {
     run: Run,
     energy: Energy,
-    peaks: Option<Peaks>,
     series: Option<Arc<TruthSeries>>,
     until: Until,
     horizon: u64,
@@ -163,8 +171,11 @@ impl Measured {
                 run.compare(stepper, series, truth, tick, horizon, t);
                 if let Some(swing) = &truth.swing {
                     run.series.push(stepper.q()[swing.coordinate]);
+                    let places = stepper.q().iter().zip(&truth.centres).zip(&truth.amplitudes);
+                    let parts =
+                        places.map(|((q, centre), amplitude)| (q - centre).abs() / amplitude);
+                    run.widest = parts.fold(run.widest, f64::max);
                 }
-                self.peaks.iter_mut().for_each(|peaks| peaks.take_in(stepper, truth));
                 if let Until::Error(enough) = self.until
                     && (run.error > enough || run.no_truth.is_some())
                 {
@@ -191,8 +202,7 @@ impl Measured {
 
     /// The run, which has stopped after so many ticks, at time `t` (s).
     fn end(self, stop: StopReason, ticks: u64, t: f64) -> Run {
-        let Self { mut run, energy, peaks, horizon, .. } = self;
-        run.half_turns = peaks.map_or(Vec::new(), |peaks| peaks.half_turns);
+        let Self { mut run, energy, horizon, .. } = self;
         (run.quarters, run.long_quarters) = (energy.horizon.means(), energy.long.means());
         run.is_too_much = stop == StopReason::TooMuchWork;
         let failure = RunFailure::of(stop, t);
@@ -224,6 +234,7 @@ impl Run {
             horizon_s,
             followed_s: 0.0,
             later: None,
+            widest: 0.0,
             doubled_at: None,
             velocity_doubled_at: None,
             halved_at: None,
@@ -233,7 +244,7 @@ impl Run {
             long_quarters: [0.0; 4],
             chase: None,
             series: Vec::new(),
-            half_turns: Vec::new(),
+            swings: None,
         }
     }
 

@@ -45,6 +45,22 @@ pub(super) const FACTORS: [f64; 30] = [
     MAX_STIFFER,
 ];
 
+/// The parts into which a stride between two of these factors is divided where what holds at both holds by a hair.
+pub(super) const PARTS_OF_STRIDE: usize = 5;
+
+/// The number of factors, those within strides counted.
+pub(super) const FINE_FACTORS: usize = PARTS_OF_STRIDE * (FACTORS.len() - 1) + 1;
+
+/// The factor with this index, [`PARTS_OF_STRIDE`] to a stride.
+pub(super) fn fine_factor(index: usize) -> f64 {
+    let (stride, part) = (index / PARTS_OF_STRIDE, index % PARTS_OF_STRIDE);
+    if part == 0 {
+        return FACTORS[stride];
+    }
+    let part = part as f64 / PARTS_OF_STRIDE as f64;
+    FACTORS[stride] + part * (FACTORS[stride + 1] - FACTORS[stride])
+}
+
 /// A search for the lowest rate, going down from one at which a property is true. Each stride is the rate divided by
 /// `strides`, and the last of them is gone hertz by hertz: no rate that was tried above the one found has failed.
 pub(super) struct RatesDown {
@@ -117,6 +133,14 @@ mod tests {
         assert_eq!(slowest_down(150, 60, |hz| !(110..113).contains(&hz)), 113);
         // The last stride ends at a failure, and a gap within it is seen, too.
         assert_eq!(slowest_down(60, 6, |hz| hz > 44 && hz != 47), 48);
+    }
+
+    #[test]
+    fn fine_factors_divide_the_strides_and_end_with_the_last() {
+        assert_eq!((fine_factor(0), fine_factor(FINE_FACTORS - 1)), (1.0, MAX_STIFFER));
+        let fine: Vec<f64> = (0..FINE_FACTORS).map(fine_factor).collect();
+        assert!(fine.windows(2).all(|pair| (1.0..1.03).contains(&(pair[1] / pair[0]))), "{fine:?}");
+        assert!(FACTORS.iter().enumerate().all(|(i, &it)| fine[i * PARTS_OF_STRIDE] == it));
     }
 
     #[test]

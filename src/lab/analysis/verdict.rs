@@ -97,7 +97,8 @@ pub struct Comparison {
     pub change: Trend,
     /// Whether it meets [`Criterion::LooksRight`](super::Criterion::LooksRight); `None` if that is not known.
     pub looks_right: Option<bool>,
-    /// The widest swing in units of the true one; `None` if nothing swings.
+    /// The widest swing in units of the true one; `None` if nothing swings. Of a body that is not linear it is known at ticks
+    /// only, and `None` where it is not wider.
     pub width: Option<f64>,
     /// By how many seconds the motion is early at the end of the horizon, negative if it is late. `None` if this is not the
     /// cause of most of the error.

@@ -182,14 +182,25 @@ impl AdviceInProgress {
         if let Some(margins) = &mut self.margins {
             self.advised[row] = advice;
             margins.pop();
-            return;
+            if !margins.is_empty() {
+                return;
+            }
+        } else {
+            self.advised.push(advice);
         }
-        self.advised.push(advice);
         if self.advised.len() == self.lanes.len() {
-            let mut margins = self.adviser.worth_margins(&self.advised);
-            margins.reverse();
-            self.margins = Some(margins);
+            self.margins = Some(self.next_margins());
         }
+    }
+
+    /// The margins to search next, the first one last: those that decide what is recommended come before the others.
+    fn next_margins(&self) -> Vec<(usize, usize)> {
+        let mut margins = self.adviser.undecided_margins(&self.advised);
+        if margins.is_empty() {
+            margins = self.adviser.worth_margins(&self.advised);
+        }
+        margins.reverse();
+        margins
     }
 
     fn is_done(&self) -> bool {

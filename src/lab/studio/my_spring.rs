@@ -197,9 +197,9 @@ fn hint(best: LaneSpec) -> String {
         ("explicit-euler", 1) => {
             "Even Explicit Euler looks right here. Press `C` to race all methods.".into()
         }
-        (_, 1) => format!("{name} looks right at the least cost. Press `1` for Explicit Euler."),
+        (_, 1) => format!("{name} looks right at little cost. Press `1` for Explicit Euler."),
         (_, n) => {
-            format!("{name} ×{n} looks right at the least cost. Press `1` for Explicit Euler.")
+            format!("{name} ×{n} looks right at little cost. Press `1` for Explicit Euler.")
         }
     }
 }
@@ -267,7 +267,8 @@ mod tests {
             let adviser = Adviser::new(&scene, tick_hz);
             // No dearer one can be it.
             let methods = scene.methods_for_games().filter(|it| it.evaluations == Some(1));
-            let all: Vec<_> = methods.map(|it| adviser.judged(LaneSpec::plain(it))).collect();
+            let mut all: Vec<_> = methods.map(|it| adviser.judged(LaneSpec::plain(it))).collect();
+            adviser.decide(&mut all);
             let looks_right = CRITERIA.iter().position(|it| *it == Criterion::LooksRight).unwrap();
             let best = recommended(&all, looks_right);
             let best = &all[best.expect("some look right")];

@@ -11,7 +11,7 @@ use super::table::{Column, GAP, MARGIN, SortKey, Table, TableRow, show_name};
 use crate::lab::LaneSpec;
 use crate::lab::analysis::{
     Advice, AdvisedBodies, CRITERIA, Criterion, CriterionMet, CriterionResult,
-    MAX_ADVISED_SUBSTEPS, MethodAdvice, recommended,
+    MAX_ADVISED_SUBSTEPS, MethodAdvice, PassedOver, Recommendation, recommended,
 };
 use crate::lab::number::{counted, significant};
 use crate::lab::source_code::Language;
@@ -133,15 +133,24 @@ fn answer(
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 copy_button(ui, studio, spec, commands);
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                    taken_line(ui, spec.method.name, met, tone(ui, criterion.outcome()));
+                    let recommendation = Recommendation::of(&advice.advised, i);
+                    let instead_of = recommendation.and_then(|it| it.instead_of);
+                    let colour = tone(ui, criterion.outcome());
+                    taken_line(ui, (spec.method.name, colour), met, instead_of.as_ref());
                 });
             });
         });
     }
 }
 
-/// A method and its substeps in this colour, with a mark if they leave no reserve. The name gives way to both.
-fn taken_line(ui: &mut Ui, name: &str, met: &CriterionMet, colour: Color32) {
+/// A method and its substeps in this colour, with a mark if they leave no reserve. The name gives way to both. The tooltip has
+/// the cheaper method that it is taken instead of.
+fn taken_line(
+    ui: &mut Ui,
+    (name, colour): (&str, Color32),
+    met: &CriterionMet,
+    instead_of: Option<&PassedOver>,
+) {
     let font = strong_font(TYPE);
     let strong = |words: &str| RichText::new(words).font(font.clone()).color(colour);
     let width =
@@ -155,8 +164,10 @@ fn taken_line(ui: &mut Ui, name: &str, met: &CriterionMet, colour: Color32) {
     let substeps = fits.or_else(|| substeps.next_back()).expect("there is a mark");
     let room = room(&substeps);
     let (name_width, name, substeps) = (width(name).min(room), strong(name), strong(&substeps));
-    slot(ui, name_width, |ui| line(ui, name)).on_hover_text(told_of(met));
-    line(ui, substeps).on_hover_text(told_of(met));
+    let reason = instead_of.map_or(String::new(), |passed_over| format!("; {passed_over}"));
+    let about = told_of(met) + &reason;
+    slot(ui, name_width, |ui| line(ui, name)).on_hover_text(&about);
+    line(ui, substeps).on_hover_text(about);
 }
 
 /// The language in which methods are copied.
@@ -512,7 +523,7 @@ mod tests {
             };
             assert_eq!(told_of(&met).matches("no reserve").count(), marks, "{}", told_of(&met));
             let mut window = TestWindow::new([1280.0, 720.0]);
-            let mut frame = || window.show(Vec::new(), |ui| taken_line(ui, "Euler", &met)).1;
+            let mut frame = || window.show(Vec::new(), |ui| taken_line(ui, "Euler", &met, None)).1;
             drop(frame());
             let shown = frame().whole().into_iter().filter(|(_, text)| text.contains("no reserve"));
             assert_eq!(shown.count(), marks, "{slowest_hz} Hz, {factor}");

@@ -229,6 +229,59 @@ fn a_spring_stands_in_the_place_of_a_scene_and_has_possible_numbers() {
     }
 }
 
+/// The factor by which a body may be stiffer or, squared, the ticks slower: the lesser of both.
+fn reserve(met: &Value) -> f64 {
+    let factor = met["stiffness_factor"].as_f64().unwrap_or(10.0);
+    let [hz, slowest_hz] = ["tick_hz", "slowest_hz"].map(|key| met[key].as_f64().unwrap());
+    factor.min((hz / (slowest_hz - 1.0)).powi(2))
+}
+
+#[test]
+fn no_method_of_little_reserve_is_recommended_where_another_has_more_for_little() {
+    for (spring, worse) in [
+        ("--k 900 --c 62.3538 --mass 12", "adams-bashforth-2"),
+        ("--frequency 0.5 --damping-ratio 0.5", "explicit-euler"),
+        ("--frequency 2 --damping-ratio 0.1", ""),
+    ] {
+        let advice = advice(spring);
+        for criterion in CRITERIA {
+            let taken = &advice["recommended"][criterion];
+            assert!(criterion != "looks-right" || taken["method"] != worse, "{spring}: {taken}");
+            let cost = |met: &Value| met["cost_per_s"].as_f64().unwrap();
+            for row in advice["methods"].as_array().unwrap() {
+                let met = &row["criteria"][criterion];
+                if met["met"] != true || row["method"] == taken["method"] {
+                    continue;
+                }
+                let (more, little) = (reserve(met) - reserve(taken), reserve(taken) < 1.5);
+                let what = format!("{spring}: {criterion}: {taken}, not {row}");
+                // Reserves are compared to a tenth.
+                assert!(cost(met) != cost(taken) || more < 0.11, "{what}");
+                assert!(!little || cost(met) > 2.0 * cost(taken) || more < 0.11, "{what}");
+                assert!(cost(met) >= cost(taken) || reserve(met) < 1.5, "{what}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_answer_says_which_cheaper_method_has_too_little_reserve() {
+    let two = "advise --k 900 --c 62.3538 --mass 12 --method adams-bashforth-2 --method midpoint";
+    let text = stdout_of(two);
+    let line = text.lines().find(|line| line.contains("looks-right")).unwrap();
+    assert!(line.starts_with("at 60 Hz: looks-right: midpoint ×1 (120 evaluations/s; "), "{text}");
+    let reason = "; adams-bashforth-2 ×1 costs less, but its reserve is only 1.3 ×)";
+    assert!(line.ends_with(reason), "{text}");
+    assert!(text.contains("fn midpoint"), "the code is of the same method: {text}");
+    let advice: Value = serde_json::from_str(&stdout_of(&format!("{two} --format json"))).unwrap();
+    let wanted = serde_json::json!(
+        { "method": "adams-bashforth-2", "substeps": 1, "cost_per_s": 60.0, "reserve": 1.3 }
+    );
+    assert_eq!(advice["recommended"]["looks-right"]["instead_of"], wanted);
+    let one = stdout_of("advise --k 900 --c 62.3538 --mass 12 --method adams-bashforth-2");
+    assert!(one.contains("looks-right: adams-bashforth-2 ×1"), "nothing else is better: {one}");
+}
+
 #[test]
 fn of_several_bodies_the_one_that_decides_is_named() {
     let advice = advice("--scene harbour --method explicit-euler --method semi-implicit-euler");

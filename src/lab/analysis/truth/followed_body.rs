@@ -4,9 +4,11 @@ use std::ops::ControlFlow;
 
 use super::BodyTruth;
 use crate::lab::action::Action;
+use crate::lab::analysis::swings::Swings;
 use crate::lab::race::{Follow, StopReason, Ticked, advance_checked};
 use crate::sim::bodies::Coordinates;
 use crate::sim::integrators::{Family, StepFailure};
+use crate::sim::stability::Tick;
 use crate::sim::{Solver, Stepper};
 
 /// The work of a tick beside its evaluations, for each coordinate: comparing it with the truth, and its energy.
@@ -35,6 +37,8 @@ pub(in crate::lab::analysis) struct FollowedBody {
     substeps: u32,
     /// The energy at the start and what the inputs have added, in joules.
     pub(in crate::lab::analysis) base_j: f64,
+    /// Its swings, if they are measured.
+    pub(in crate::lab::analysis) swings: Option<Swings>,
     /// The work of each tick of a true motion, by which all its work is counted.
     work_of_moment: u64,
     /// The work that was counted.
@@ -58,6 +62,7 @@ impl BodyTruth {
             solver,
             substeps,
             base_j: 0.0,
+            swings: None,
             work_of_moment: self.work_of_moment(),
             counted: 0,
         };
@@ -119,12 +124,28 @@ impl FollowedBody {
 impl Ticked for FollowedBody {
     fn act(&mut self, _: u64, t: f64, action: &Action) {
         let before = self.energy();
+        if let Some(swings) = &mut self.swings {
+            swings.end(&*self.stepper);
+        }
         action.apply_to(&mut *self.stepper, t);
+        if let Some(swings) = &mut self.swings {
+            swings.go_on(&*self.stepper, t);
+        }
         self.base_j += self.energy() - before;
     }
 
     fn tick(&mut self, _: u64, t: f64, h: f64) -> Result<(), StepFailure> {
-        advance_checked(&mut *self.stepper, &self.coordinates, (t, h), self.substeps)
+        let Self { stepper, coordinates, solver, substeps, swings, .. } = self;
+        let Some(swings) = swings else {
+            return advance_checked(&mut **stepper, coordinates, (t, h), *substeps);
+        };
+        let (step, times) = Tick { t, h, substeps: *substeps }.repeated(solver.method());
+        for i in 0..times {
+            let t = t + f64::from(i) * step.h;
+            advance_checked(&mut **stepper, coordinates, (t, step.h), step.substeps)?;
+            swings.add(&**stepper, t + step.h);
+        }
+        Ok(())
     }
 
     fn has_worked_more(&self, than: u64, ticks: u64) -> bool {

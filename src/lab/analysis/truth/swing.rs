@@ -2,6 +2,7 @@
 
 use super::{BodyTruth, TruthNode};
 use crate::lab::analysis::amplitude::Measure;
+use crate::lab::analysis::limits::{FREQUENCY_TOLERANCE, VISIBLE};
 use crate::lab::bisection::bisect;
 use crate::sim::Solver;
 
@@ -23,10 +24,9 @@ pub(in crate::lab::analysis) struct Swing {
 }
 
 impl Swing {
-    /// The widest of these half turns of a lane, in units of the widest true one.
-    pub(in crate::lab::analysis) fn width_of(&self, lane: &[f64]) -> f64 {
-        let widest = |half_turns: &[f64]| half_turns.iter().copied().fold(0.0, f64::max);
-        widest(lane) / widest(&self.half_turns)
+    /// The largest distance of any coordinate from its centre, in amplitudes.
+    pub(in crate::lab::analysis) fn widest(&self) -> f64 {
+        self.half_turns.iter().copied().fold(0.0, f64::max)
     }
 
     /// The largest error, in amplitudes, of a harmonic motion that is this many seconds early or late.
@@ -96,6 +96,28 @@ impl BodyTruth {
             *half_turn = half_turn.max(peak);
         }
         Some(Swing { coordinate, crossings, half_turns })
+    }
+}
+
+impl Swing {
+    /// Whether a lane swings as wide as the truth in each of its half turns from the one with index `first` on, within
+    /// [`VISIBLE`] of the widest; they may come earlier or later. The last of each may be cut off by the end of the horizon.
+    pub(in crate::lab::analysis) fn is_as_wide(&self, lane: &[f64], first: usize) -> bool {
+        let whole = |half_turns: &[f64]| half_turns.len().saturating_sub(1).max(1);
+        let widest = |half_turns: &[f64]| half_turns.iter().copied().fold(0.0, f64::max);
+        let (wanted, found) = (whole(&self.half_turns), whole(lane));
+        let most = VISIBLE * self.widest();
+        let both = wanted.min(found);
+        let mut pairs = lane.iter().zip(&self.half_turns).take(both).skip(first);
+        // A slow lane makes fewer half turns and a fast one more. What has come to rest makes no more.
+        let unpaired = |half_turns: &[f64], count: usize| {
+            let fewest = (1.0 - FREQUENCY_TOLERANCE) * count as f64 - 2.0;
+            widest(half_turns.get(both..(fewest.max(both as f64) as usize)).unwrap_or_default())
+        };
+        !lane.is_empty()
+            && pairs.all(|(lane, truth)| (lane - truth).abs() <= most)
+            && unpaired(&self.half_turns, wanted) <= most
+            && unpaired(lane, found) <= most
     }
 }
 

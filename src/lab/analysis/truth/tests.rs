@@ -91,3 +91,41 @@ fn the_long_run_is_as_far_as_by_a_reference() {
         }
     }
 }
+
+#[test]
+fn half_turns_are_compared_one_by_one_and_what_is_left_over_is_at_rest() {
+    let turns = 50;
+    let decaying = |rate: f64, count: usize| -> Vec<f64> {
+        (0..count).map(|i| libm::exp(-rate * i as f64)).collect()
+    };
+    let swing = |half_turns: Vec<f64>| Swing {
+        coordinate: 0,
+        crossings: (0..=turns).map(f64::from).collect(),
+        half_turns,
+    };
+    for (truth, lane, is_as_wide) in [
+        (decaying(0.1, 100), decaying(0.1, 100), true),
+        (decaying(0.1, 100), decaying(0.11, 100), true),
+        (decaying(0.1, 100), decaying(0.12, 100), false),
+        (decaying(0.1, 100), decaying(0.08, 100), false),
+        // One in a hundred more or fewer, and those at the ends.
+        (decaying(0.0, 100), decaying(0.0, 98), true),
+        (decaying(0.0, 98), decaying(0.0, 100), true),
+        (decaying(0.0, 100), decaying(0.0, 90), false),
+        (decaying(0.0, 90), decaying(0.0, 100), false),
+        (decaying(0.1, 100), decaying(0.1, 40), true),
+        (decaying(0.1, 40), decaying(0.1, 100), true),
+        (decaying(0.0, 4), Vec::new(), false),
+    ] {
+        let found = swing(truth.clone()).is_as_wide(&lane, 0);
+        assert_eq!(found, is_as_wide, "{truth:?}\n{lane:?}");
+        // The limit is a part of the widest, whatever the unit.
+        let thrice = |half_turns: Vec<f64>| half_turns.into_iter().map(|x| 3.0 * x).collect();
+        let lane: Vec<f64> = thrice(lane);
+        assert_eq!(swing(thrice(truth)).is_as_wide(&lane, 0), is_as_wide, "{lane:?}");
+    }
+    let narrow_first = [vec![0.9], decaying(0.0, 9)].concat();
+    for (first, is_as_wide) in [(0, false), (1, true)] {
+        assert_eq!(swing(decaying(0.0, 10)).is_as_wide(&narrow_first, first), is_as_wide);
+    }
+}

@@ -1,0 +1,125 @@
+//! The order in which methods that meet a criterion are recommended: the one rule of command, library and window.
+//!
+//! The least [cost](CriterionMet::cost_per_s) comes first; of equal costs the larger [reserve](CriterionMet::reserve); of
+//! equal reserves the fewest substeps; then the place in the table of methods. A method whose reserve is below
+//! [`LITTLE_RESERVE`] is passed over where another of up to [`TIMES_ITS_COST`] its cost has a larger one.
+
+use super::criterion_met::CriterionMet;
+use crate::sim::integrators::{METHODS, Method};
+
+/// A reserve below this is little: a body half as stiff again is as much as a designer changes in an afternoon.
+const LITTLE_RESERVE: f64 = 1.5;
+
+/// How much more a larger reserve may cost: that of one substep more for most methods.
+const TIMES_ITS_COST: f64 = 2.0;
+
+/// The methods that meet a criterion, in order. Margins that are not searched count as no reserve.
+pub(super) struct Ranking<'a> {
+    all: Vec<Ranked<'a>>,
+}
+
+struct Ranked<'a> {
+    index: usize,
+    met: &'a CriterionMet,
+    reserve: f64,
+}
+
+impl Ranked<'_> {
+    /// Whether another has a larger reserve at little more cost.
+    fn is_outdone_by(&self, other: &Self) -> bool {
+        self.reserve < LITTLE_RESERVE
+            && other.reserve > self.reserve
+            && other.met.cost_per_s <= TIMES_ITS_COST * self.met.cost_per_s
+    }
+}
+
+impl<'a> Ranking<'a> {
+    /// The ranking of these methods, each with its index and how it meets the criterion.
+    pub(super) fn new(
+        methods: impl Iterator<Item = (usize, (&'static Method, &'a CriterionMet))>,
+    ) -> Self {
+        let place = |method: &Method| METHODS.iter().position(|one| one == method);
+        let mut all: Vec<_> = methods
+            .filter(|(_, (method, _))| !method.is_as_printed())
+            .map(|(index, (method, met))| {
+                let reserve = met.reserve().unwrap_or(0.0);
+                let ties = (met.substeps, place(method).unwrap_or(METHODS.len()), index);
+                (Ranked { index, met, reserve }, ties)
+            })
+            .collect();
+        all.sort_by(|(a, a_ties), (b, b_ties)| {
+            let by_cost = a.met.cost_per_s.total_cmp(&b.met.cost_per_s);
+            let by_reserve = b.reserve.total_cmp(&a.reserve);
+            by_cost.then(by_reserve).then(a_ties.cmp(b_ties))
+        });
+        Self { all: all.into_iter().map(|(ranked, _)| ranked).collect() }
+    }
+
+    /// The least cost.
+    pub(super) fn least_cost(&self) -> Option<f64> {
+        Some(self.all.first()?.met.cost_per_s)
+    }
+
+    /// The index of the method that is recommended.
+    pub(super) fn first(&self) -> Option<usize> {
+        let is_outdone = |one: &Ranked| self.all.iter().any(|other| one.is_outdone_by(other));
+        self.all.iter().find(|one| !is_outdone(one)).map(|one| one.index)
+    }
+
+    /// All indices: the method that is recommended, then the others in order.
+    pub(super) fn indices(&self) -> Vec<usize> {
+        let first = self.first();
+        let rest = self.all.iter().map(|it| it.index).filter(|&index| Some(index) != first);
+        first.into_iter().chain(rest).collect()
+    }
+
+    /// The index of the cheapest method, if it is passed over.
+    pub(super) fn passed_over(&self) -> Option<usize> {
+        let cheapest = self.all.first()?.index;
+        (self.first() != Some(cheapest)).then_some(cheapest)
+    }
+
+    /// The most that a method may cost to come before the first that was judged: another that costs more changes nothing.
+    pub(super) fn most_cost_of_a_rival(&self) -> f64 {
+        let first = self.first();
+        let taken = self.all.iter().find(|it| Some(it.index) == first);
+        taken.map_or(f64::INFINITY, |taken| {
+            let is_little = taken.reserve < LITTLE_RESERVE;
+            if is_little { TIMES_ITS_COST * taken.met.cost_per_s } else { taken.met.cost_per_s }
+        })
+    }
+
+    /// The methods whose margins are to be searched next, by their indices, until it is known which is recommended. They cost
+    /// the same: dearer ones are searched only if the reserve of these is little.
+    pub(super) fn undecided(&self) -> Vec<usize> {
+        let is_open = |it: &&Ranked| !it.met.are_margins_searched;
+        let cost = |it: &Ranked| it.met.cost_per_s;
+        for alike in self.all.chunk_by(|a, b| cost(a) == cost(b)) {
+            let open: Vec<usize> = alike.iter().filter(is_open).map(|it| it.index).collect();
+            if !open.is_empty() {
+                return open;
+            }
+            let best = &alike[0];
+            if best.reserve >= LITTLE_RESERVE {
+                return Vec::new();
+            }
+            let rivals = || {
+                let most = TIMES_ITS_COST * cost(best);
+                self.all.iter().filter(move |it| cost(it) > cost(best) && cost(it) <= most)
+            };
+            if rivals().any(|rival| best.is_outdone_by(rival)) {
+                continue;
+            }
+            let Some(next) = rivals().find(is_open).map(cost) else { return Vec::new() };
+            return rivals()
+                .filter(is_open)
+                .filter(|it| cost(it) == next)
+                .map(|it| it.index)
+                .collect();
+        }
+        Vec::new()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,99 @@
+use super::*;
+use crate::sim::integrators::method;
+
+/// How a method meets a criterion at this cost, in one step a tick; its margins, if they are searched.
+fn met(cost_per_s: f64, reserve: Option<f64>) -> CriterionMet {
+    CriterionMet {
+        tick_hz: 60,
+        substeps: 1,
+        evaluations_per_s: cost_per_s,
+        cost_per_s,
+        are_margins_searched: reserve.is_some(),
+        slowest_hz: reserve.map(|_| 1),
+        stiffness_factor: reserve,
+        limited_by: reserve.map(|_| "stiffness".into()),
+    }
+}
+
+/// The methods in the order of the table.
+const IDS: [&str; 5] =
+    ["explicit-euler", "midpoint", "rk4", "adams-bashforth-2", "velocity-verlet"];
+
+fn with_ranking<T>(mets: &[CriterionMet], see: impl FnOnce(&Ranking) -> T) -> T {
+    let methods = IDS.map(|id| method(id).expect("a method of the table"));
+    see(&Ranking::new(methods.into_iter().zip(mets).enumerate()))
+}
+
+/// The index of the first, of methods with these costs and reserves.
+fn first(costs: &[(f64, f64)]) -> Option<usize> {
+    let mets: Vec<_> = costs.iter().map(|&(cost, reserve)| met(cost, Some(reserve))).collect();
+    with_ranking(&mets, |it| it.first())
+}
+
+#[test]
+fn of_equal_costs_the_larger_reserve_is_first_and_then_the_place_in_the_table() {
+    assert_eq!(first(&[(60.0, 1.6), (60.0, 10.0)]), Some(1));
+    assert_eq!(first(&[(60.0, 10.0), (60.0, 10.0)]), Some(0));
+    assert_eq!(first(&[(60.0, 1.6), (61.0, 10.0)]), Some(0), "the cost comes before the reserve");
+    assert_eq!(first(&[]), None);
+}
+
+#[test]
+fn little_reserve_yields_to_more_at_up_to_twice_the_cost() {
+    for (costs, wanted) in [
+        (&[(60.0, 1.4), (120.0, 1.5)][..], 1),
+        (&[(60.0, 1.4), (121.0, 10.0)], 0),
+        (&[(60.0, 1.5), (120.0, 10.0)], 0),
+        (&[(60.0, 1.4), (120.0, 1.4)], 0),
+        // The cheapest with more, not the one with the most.
+        (&[(60.0, 1.1), (90.0, 1.6), (120.0, 10.0)], 1),
+        // What is taken instead may be passed over for the same reason.
+        (&[(60.0, 1.1), (100.0, 1.3), (200.0, 1.7), (400.0, 10.0)], 2),
+        (&[(60.0, 1.1), (100.0, 1.3), (201.0, 1.7)], 1),
+    ] {
+        assert_eq!(first(costs), Some(wanted), "{costs:?}");
+    }
+}
+
+#[test]
+fn margins_are_searched_until_the_first_is_known_and_no_further() {
+    // Costs and reserves that a search finds, and the methods whose margins are searched for the first.
+    for (all, wanted, searched) in [
+        (&[(60.0, 2.0), (60.0, 3.0), (61.0, 10.0)][..], 1, &[0, 1][..]),
+        (&[(60.0, 1.4), (60.0, 1.2), (100.0, 2.0), (110.0, 9.0)], 2, &[0, 1, 2]),
+        (&[(60.0, 1.4), (100.0, 1.3), (110.0, 1.2), (121.0, 9.0)], 0, &[0, 1, 2]),
+        (&[(60.0, 1.1), (100.0, 1.3), (200.0, 1.7), (300.0, 9.0)], 2, &[0, 1, 2]),
+    ] {
+        let mut mets: Vec<_> = all.iter().map(|&(cost, _)| met(cost, None)).collect();
+        loop {
+            let undecided = with_ranking(&mets, |it| it.undecided());
+            if undecided.is_empty() {
+                break;
+            }
+            for index in undecided {
+                assert!(!mets[index].are_margins_searched);
+                mets[index] = met(all[index].0, Some(all[index].1));
+            }
+        }
+        assert_eq!(with_ranking(&mets, |it| it.first()), Some(wanted), "{all:?}");
+        let found: Vec<usize> = (0..mets.len()).filter(|&i| mets[i].are_margins_searched).collect();
+        assert_eq!(found, searched, "{all:?}");
+        assert_eq!(first(all), Some(wanted), "all searched: {all:?}");
+    }
+}
+
+#[test]
+fn a_reserve_is_the_lesser_margin_and_a_rate_counts_by_its_square() {
+    let of = |tick_hz, slowest_hz, stiffness_factor| {
+        CriterionMet { tick_hz, slowest_hz, stiffness_factor, ..met(60.0, None) }.reserve()
+    };
+    // 60 / 48, 14 / 13, 4 / 3 and 2 / 1, squared.
+    assert_eq!(of(60, Some(49), Some(10.0)), Some(1.5));
+    assert_eq!(of(60, Some(49), Some(1.3)), Some(1.3));
+    assert_eq!(of(14, Some(14), None), Some(1.1));
+    assert_eq!(of(4, Some(4), Some(1.6)), Some(1.6));
+    assert_eq!(of(2, Some(2), Some(3.0)), Some(3.0));
+    assert_eq!(of(60, Some(1), None), Some(10.0));
+    assert_eq!(of(60, None, Some(2.0)), Some(2.0));
+    assert_eq!(of(60, None, None), None);
+}

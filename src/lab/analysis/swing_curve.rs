@@ -1,0 +1,193 @@
+//! The swing of a linear body of one coordinate as a curve, by which its peaks are known exactly.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// The curve e^(gt) (q cos ωt + b sin ωt) about the place of rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct SwingCurve {
+    /// Where it begins.
+    pub(super) q: f64,
+    /// The part that is a quarter of a turn ahead.
+    pub(super) b: f64,
+    /// g, per second: negative if it dies away.
+    pub(super) growth_per_s: f64,
+    /// ω, in radians per second; positive.
+    pub(super) frequency: f64,
+}
+
+impl SwingCurve {
+    /// Its amplitude at the start, if it were at a peak there.
+    pub(super) fn width(&self) -> f64 {
+        libm::hypot(self.q, self.b)
+    }
+
+    /// By how many seconds it is ahead of `other` after `seconds`, in turns of `other`.
+    pub(super) fn lead_s(&self, other: &Self, seconds: f64) -> f64 {
+        let phase = |curve: &Self| libm::atan2(curve.b, curve.q);
+        let at_start = libm::remainder(phase(other) - phase(self), 2.0 * PI);
+        (at_start + (self.frequency - other.frequency) * seconds) / other.frequency
+    }
+
+    /// The angle, in 0 to π, at which it first passes the place of rest.
+    fn first_passage(&self) -> f64 {
+        let angle = libm::atan2(self.b, self.q);
+        [-FRAC_PI_2, FRAC_PI_2, PI + FRAC_PI_2]
+            .map(|quarter| angle + quarter)
+            .into_iter()
+            .find(|&passage| passage > 0.0)
+            .unwrap_or(PI)
+    }
+
+    /// The half turns that are complete after `seconds`; the first begins at the start.
+    fn half_turns(&self, seconds: f64) -> f64 {
+        let turned = self.frequency * seconds - self.first_passage();
+        (libm::floor(turned / PI) + 1.0).max(0.0)
+    }
+
+    /// Its largest distance from the place of rest in the half turn with this index.
+    fn reach(&self, half_turn: f64) -> f64 {
+        let slope = self.growth_per_s / self.frequency;
+        let peak = self.first_passage() - FRAC_PI_2 + libm::atan(slope);
+        let cos = 1.0 / libm::hypot(1.0, slope);
+        let at_peak = |angle: f64| self.width() * cos * libm::exp(slope * angle);
+        match half_turn {
+            first if first < 1.0 && peak <= 0.0 => self.q.abs(),
+            half_turn => at_peak(peak + half_turn * PI),
+        }
+    }
+
+    /// Its largest distance from the place of rest, if it does not grow.
+    pub(super) fn widest(&self) -> f64 {
+        self.reach(0.0).max(self.reach(1.0))
+    }
+
+    /// As [`Self::reach`] of the first half turn, of states `step_s` apart: a first step that turns back at once shows no peak.
+    fn first_reach(&self, step_s: f64) -> f64 {
+        let (sin, cos) = libm::sincos(self.frequency * step_s);
+        let next = libm::exp(self.growth_per_s * step_s) * (self.q * cos + self.b * sin);
+        let turns_back = self.q != 0.0 && next * self.q.signum() <= self.q.abs();
+        if turns_back { self.q.abs() } else { self.reach(0.0) }
+    }
+
+    /// The largest difference in width between a half turn of this curve and the same of `other`, whose states are `step_s`
+    /// apart, within `seconds`, as a part of the widest of this one. What does not decay swings as wide in each half turn, and
+    /// the first, which begins in its midst, is not compared.
+    pub(super) fn misfit(&self, other: &Self, step_s: f64, seconds: f64) -> f64 {
+        let last = self.half_turns(seconds).min(other.half_turns(seconds)).max(1.0) - 1.0;
+        let first = match self.growth_per_s {
+            0.0 => 0.0,
+            _ => (self.reach(0.0) - other.first_reach(step_s)).abs(),
+        };
+        // From the second half turn on each is a geometric sequence, and their difference has one extreme.
+        let [own, others] = [self, other].map(|curve| {
+            let decay = curve.growth_per_s * PI / curve.frequency;
+            (libm::log(curve.reach(1.0).max(f64::MIN_POSITIVE) * decay.abs()) - decay, decay)
+        });
+        let extreme = (others.0 - own.0) / (own.1 - others.1);
+        let looked_at = [1.0, libm::floor(extreme), libm::ceil(extreme), last];
+        let gaps = looked_at
+            .into_iter()
+            .filter(|half_turn| (1.0..=last).contains(half_turn))
+            .map(|half_turn| (self.reach(half_turn) - other.reach(half_turn)).abs());
+        gaps.fold(first, f64::max) / self.widest()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The largest distance in each complete half turn, by small steps.
+    fn stepped(curve: &SwingCurve, seconds: f64) -> Vec<f64> {
+        let at = |t: f64| {
+            let turned = curve.frequency * t;
+            libm::exp(curve.growth_per_s * t)
+                * (curve.q * libm::cos(turned) + curve.b * libm::sin(turned))
+        };
+        let mut widest = vec![0.0_f64];
+        let steps = 200_000;
+        let mut was_below = curve.q < 0.0;
+        for step in 0..=steps {
+            let x = at(seconds * f64::from(step) / f64::from(steps));
+            if (x < 0.0) != was_below {
+                widest.push(0.0);
+                was_below = x < 0.0;
+            }
+            let last = widest.last_mut().expect("the first begins at the start");
+            *last = last.max(x.abs());
+        }
+        widest.pop();
+        widest
+    }
+
+    #[test]
+    fn the_peaks_of_a_curve_are_those_of_small_steps_along_it() {
+        for growth_per_s in [-3.0, -0.4, 0.0, 0.3] {
+            for start in 0..16 {
+                let angle = (f64::from(start) + 0.3) * PI / 8.0;
+                let (b, q) = libm::sincos(angle);
+                let curve = SwingCurve { q, b, growth_per_s, frequency: 4.0 };
+                let wanted = stepped(&curve, 10.0);
+                assert_eq!(curve.half_turns(10.0), wanted.len() as f64, "{curve:?}");
+                for (half_turn, wanted) in wanted.into_iter().enumerate() {
+                    let found = curve.reach(half_turn as f64);
+                    assert!((found / wanted - 1.0).abs() < 1e-5, "{curve:?}: {half_turn}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_lead_is_the_time_by_which_peaks_come_earlier() {
+        let truth = SwingCurve { q: 1.0, b: 0.0, growth_per_s: 0.0, frequency: 5.0 };
+        for (angle, frequency) in [(0.0, 5.0), (0.3, 5.0), (-0.3, 5.1), (3.0, 4.9), (0.1, 7.0)] {
+            let (b, q) = libm::sincos(angle);
+            let other = SwingCurve { q, b, frequency, ..truth };
+            for seconds in [0.0, 2.0, 60.0] {
+                // ω₀ (t + lead) = ω t - angle.
+                let wanted = ((frequency - 5.0) * seconds - angle) / 5.0;
+                let found = other.lead_s(&truth, seconds);
+                assert!((found - wanted).abs() < 1e-12, "{other:?}: {found}, not {wanted}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_misfit_is_the_largest_of_all_half_turns_wherever_it_is() {
+        let truth = SwingCurve { q: 0.6, b: 0.8, growth_per_s: -0.1, frequency: 5.0 };
+        for (width, growth_per_s) in
+            [(1.0, -0.15), (1.1, -0.1), (1.1, -0.12), (0.9, -0.08), (1.0, 0.0), (1.0, -0.1)]
+        {
+            let (q, b) = (width * truth.q, width * truth.b);
+            let other = SwingCurve { q, b, growth_per_s, ..truth };
+            for seconds in [2.0, 12.0, 60.0] {
+                let last = truth.half_turns(seconds).min(other.half_turns(seconds)) as u32;
+                let gaps =
+                    (0..last).map(f64::from).map(|k| (truth.reach(k) - other.reach(k)).abs());
+                let wanted = gaps.fold(0.0, f64::max) / truth.widest();
+                let found = truth.misfit(&other, 1e-9, seconds);
+                assert!(
+                    (found - wanted).abs() <= 1e-12,
+                    "{other:?}, {seconds} s: {found}, {wanted}"
+                );
+            }
+        }
+        // The difference of two decays is largest on the way: (r/s)^(s/(s-r)) - (r/s)^(r/(s-r)) of the start.
+        let slow = SwingCurve { q: 1.0, b: 0.0, growth_per_s: -0.1, frequency: 100.0 };
+        let fast = SwingCurve { growth_per_s: -0.15, ..slow };
+        let wanted = libm::pow(2.0 / 3.0, 2.0) - libm::pow(2.0 / 3.0, 3.0);
+        assert!((slow.misfit(&fast, 1e-9, 60.0) / wanted - 1.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn a_peak_that_the_first_step_leaves_behind_counts_where_the_swing_decays() {
+        let (b, q) = libm::sincos(0.3);
+        let truth = SwingCurve { q, b, growth_per_s: -0.01, frequency: 1.0 };
+        let gap = 1.0 - libm::cos(0.3);
+        // Within 0.6 s it has come back to where it began.
+        assert!(truth.misfit(&truth, 0.59, 60.0) < 1e-12);
+        assert!((truth.misfit(&truth, 0.61, 60.0) - gap).abs() < 0.005);
+        let kept = SwingCurve { growth_per_s: 0.0, ..truth };
+        assert_eq!(kept.misfit(&kept, 0.61, 60.0), 0.0);
+    }
+}
