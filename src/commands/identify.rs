@@ -7,7 +7,6 @@ use clap::Args;
 use super::error::Error;
 use super::help::flowing;
 use super::numbers::{number, number_that, positive};
-use super::output::print;
 use super::output::table::TableFormat;
 use crate::lab::identify::{ColumnNames, Log, LogError, LogSetting, LoggedBody, identify};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
@@ -174,5 +173,5 @@ pub(super) fn run(args: &IdentifyArgs) -> Result<(), Error> {
         (TableFormat::Text, None) => NOTHING_RUNS.to_owned(),
         (TableFormat::Json, found) => format!("{:#}\n", object(found.as_ref(), args.mass)),
     };
-    print(text)
+    args.format.print(&text)
 }
