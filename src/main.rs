@@ -18,7 +18,13 @@ const LOG_FILTER: &str =
 
 fn main() -> ExitCode {
     panic::set_hook(Box::new(report_bug));
-    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or(LOG_FILTER)).init();
+    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or(LOG_FILTER))
+        .format(|out, record| {
+            let message = record.args().to_string();
+            let message = commands::visible(&message);
+            writeln!(out, "[{} {}] {message}", record.level(), record.target())
+        })
+        .init();
     panic::catch_unwind(run).unwrap_or(ExitCode::FAILURE)
 }
 
@@ -43,7 +49,7 @@ fn run() -> ExitCode {
     match commands::run(cli) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            commands::print_status(&error.report(&commands::stderr_renderer()));
+            commands::print_error(&error);
             ExitCode::from(error.exit_code())
         }
     }
@@ -79,9 +85,8 @@ fn report_bug(panic: &PanicHookInfo<'_>) {
         );
     }
     // Not `eprintln!`, which panics in its turn where standard error is closed.
-    let _ = writeln!(
-        io::stderr(),
+    commands::print_status(&format!(
         "error: regatta has a bug, and stopped: {panic}\n\
          Please report it with these lines and the command that you gave."
-    );
+    ));
 }

@@ -58,6 +58,13 @@ pub(crate) fn read(path: &Path, max_bytes: usize) -> Result<Vec<u8>, Unreadable>
 
 /// The first bytes of a regular file, at most `max_bytes`.
 pub(crate) fn read_start(path: &Path, max_bytes: usize) -> Result<Vec<u8>, Unreadable> {
+    let mut bytes = Vec::new();
+    open(path)?.take(max_bytes as u64).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// A regular file, of whatever size: nothing of a file whose length is 0.
+pub(crate) fn open(path: &Path) -> Result<io::Take<File>, Unreadable> {
     if is_link(path) {
         return Err(Unreadable::Link);
     }
@@ -67,12 +74,8 @@ pub(crate) fn read_start(path: &Path, max_bytes: usize) -> Result<Vec<u8>, Unrea
     let found = file.metadata()?;
     check(&found)?;
     // What says that it is empty may be the kernel's, as /proc/kmsg is, and reading it could wait for ever too.
-    if found.len() == 0 {
-        return Ok(Vec::new());
-    }
-    let mut bytes = Vec::new();
-    file.take(max_bytes as u64).read_to_end(&mut bytes)?;
-    Ok(bytes)
+    let most = if found.len() == 0 { 0 } else { u64::MAX };
+    Ok(file.take(most))
 }
 
 fn check(found: &Metadata) -> Result<(), Unreadable> {

@@ -10,7 +10,6 @@ use super::experiment::ExperimentArgs;
 use super::help::flowing;
 use super::id::{FAMILY, LANGUAGE};
 use super::interrupt::watch_for_interrupt;
-use super::output::print;
 use super::output::table::TableFormat;
 use super::{jobs, scene_file};
 use crate::lab::race::Mode;
@@ -141,7 +140,7 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
         }
         TableFormat::Json => format!("{:#}\n", report::object(scene, &adviser, &rows, wanted)),
     };
-    print(text)?;
+    args.format.print(&text)?;
     warn_of_load(&rows);
     if interrupted.load(Ordering::Relaxed) { stopped(rows.len()) } else { Ok(()) }
 }

@@ -8,9 +8,9 @@ use serde_json::{Value, json};
 use super::error::Error;
 use super::help::flowing;
 use super::numbers::number_that;
-use super::output::print;
 use super::output::table::TableFormat;
 use super::scene_file::shown;
+use super::visible::visible_in_a_line;
 use crate::lab::diff::{Comparison, Difference, LEVELS, MAX_WAITING, Tolerance, diff};
 use crate::sim::number::counted;
 
@@ -24,14 +24,17 @@ tabs; the run of a scene or of a recording, which is made again; the states in t
 capture; or - for a table on standard input. Rows belong together by tick, lane, body and coordinate,
 or by those of them that the tables have. A table without tick is matched by t, and without t by the
 place of the row. All columns but these, t and method are compared. A row on one side alone is counted
-under the side that lacks it.
+under the side that lacks it. Lines that begin with # are notes above the header, and rows below it.
+A file must be a regular one, and a row has at most 1 MiB.
 
 The last bit counts, unless --ulps or --relative says what is equal. NaN is the same as NaN, and -0 as 0.
 A difference reaches 1e-12 at the first tick where it is that part of the largest value that this column of
 this coordinate had until then. The column that differs most is found by the same part. If the difference
 grows exponentially through three decades, its rate is told, by the times of a column t.
 
-Exit code 0: the same. 1: different. 2: cannot be compared, as where nothing moves.
+Exit code 0: the same. 1: different. 2: cannot be compared, as where nothing moves: a column that is called
+like a clock and never goes back does not, nor does one of several that grows by the same amount in each row,
+unless it is called like a coordinate, such as x or position.
 
 Examples:
   regatta diff before.csv after.csv
@@ -81,15 +84,15 @@ pub(super) fn run(args: &DiffArgs) -> Result<(), Error> {
     let found = diff(&mut a, &mut b, tolerance).map_err(|error: Error| {
         error.and(format!("a is {}, b is {}", shown(&args.a), shown(&args.b)))
     })?;
-    print(match args.format {
+    let text = match args.format {
         TableFormat::Text => words(&found, &args.a, &args.b),
         TableFormat::Json => object(&found),
-    })
-    .map_err(Error::into_mistake)?;
+    };
+    args.format.print(&text).map_err(Error::into_mistake)?;
     let names = format!("{} and {}", shown(&args.a), shown(&args.b));
     match (found.is_comparable(), found.is_same()) {
         (false, _) if found.is_cut_off => Err(Error::mistake(format!(
-            "rows of one name stand more than {MAX_WAITING} rows apart in {names}; sort both alike"
+            "rows of one name stand more than {MAX_WAITING} rows apart, or 64 MiB, in {names}; sort both alike"
         ))),
         (false, _) if found.rows < 2 => Err(Error::mistake(format!(
             "nothing to compare: {names} have {} in common; give two logs of one run",
@@ -151,7 +154,8 @@ fn words(found: &Comparison, a: &Path, b: &Path) -> String {
             lines.push(format!("{what}: {count}"));
         }
     }
-    lines.join("\n") + "\n"
+    // A cell or a name of a file may have ends of lines in it.
+    lines.iter().map(|line| visible_in_a_line(line) + "\n").collect()
 }
 
 /// As JSON, with the numbers as they are written in the tables.

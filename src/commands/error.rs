@@ -7,6 +7,7 @@ use std::path::Path;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::argument::brief;
+use super::visible::visible;
 use crate::lab::scene::{Mistake, SceneErrors};
 #[cfg(feature = "view")]
 use crate::view::{GpuError, ReadbackError};
@@ -181,18 +182,23 @@ impl Error {
         parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join("\n")
     }
 
-    /// The messages, each with the lines of the scene file that it is about.
+    /// The messages, each with the lines of the scene file that it is about. Control characters are signs, but for those of
+    /// the renderer's colours.
     pub(super) fn mistakes(&self, renderer: &Renderer) -> Vec<Mistake> {
         let Some(errors) = &self.scene else {
-            let title = Level::ERROR.primary_title(&self.message);
+            let title = Level::ERROR.primary_title(visible(&self.message));
             return vec![renderer.render(&[Group::with_title(title)]).into()];
         };
-        let mut spans = errors.errors.iter().map(|error| error.span.clone());
-        let mistake = |message| {
+        let text = visible(&errors.text);
+        let place = |at: usize| errors.text.get(..at).map_or(at, |before| visible(before).len());
+        let spans = errors.errors.iter().map(|error| error.span.clone());
+        let mut spans = spans.map(|span| place(span.start)..place(span.end));
+        let mistake = |message: String| {
+            let message = visible(&message).into_owned();
             let span = spans.next().filter(|_| !errors.text.is_empty());
             let quoted = span.map(|span| {
                 let annotation = AnnotationKind::Primary.span(span);
-                let snippet = Snippet::source(&errors.text).annotation(annotation);
+                let snippet = Snippet::source(&*text).annotation(annotation);
                 renderer.render(&[Group::with_level(Level::ERROR).element(snippet)])
             });
             Mistake { message, quoted: quoted.unwrap_or_default() }

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::error::Error;
 use super::experiment::{self, ExperimentArgs};
 use super::help::flowing;
-use super::output::print;
+use super::output::{print, print_json};
 use super::terminal::print_status;
 use super::trace::Reached;
 use crate::lab::race::Mode;
@@ -160,7 +160,7 @@ pub(super) fn run(args: &FixtureArgs) -> Result<(), Error> {
     }
     match args.format.language() {
         Some(language) => print(written(&language, args, &scene, &states, &studio, least)),
-        None => print(format!("{}\n", in_json(args, &scene, &states, &studio, least))),
+        None => print_json(format!("{}\n", in_json(args, &scene, &states, &studio, least))),
     }
 }
 

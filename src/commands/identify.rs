@@ -8,7 +8,6 @@ use super::argument::brief;
 use super::error::Error;
 use super::help::flowing;
 use super::numbers::{number, number_that, positive};
-use super::output::print;
 use super::output::table::TableFormat;
 use crate::lab::identify::{ColumnNames, Log, LogError, LogSetting, LoggedBody, identify};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
@@ -175,5 +174,5 @@ pub(super) fn run(args: &IdentifyArgs) -> Result<(), Error> {
         (TableFormat::Text, None) => NOTHING_RUNS.to_owned(),
         (TableFormat::Json, found) => format!("{:#}\n", object(found.as_ref(), args.mass)),
     };
-    print(text)
+    args.format.print(&text)
 }

@@ -9,7 +9,7 @@ use super::help::flowing;
 use super::output::print;
 use super::scene_file;
 use super::terminal::print_status;
-use super::verify::recording::checks_of;
+use super::verify::recording::{checks_of, refuse_late_checks};
 use crate::lab::link;
 
 /// What fits in an argument on every system, roughly.
@@ -37,8 +37,9 @@ pub(super) struct LinkArgs {
 
 pub(super) fn run(args: &LinkArgs) -> Result<(), Error> {
     let (mut scene, _) = scene_file::load(&args.run)?;
+    refuse_late_checks(&args.run, &scene)?;
     if scene.checks.is_empty() {
-        scene.checks = checks_of(&scene);
+        scene.checks = checks_of(&args.run, &scene)?;
     }
     let link = link::to(&scene).map_err(Error::mistake)?;
     if link.len() > MOST_LETTERS {

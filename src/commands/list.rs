@@ -7,7 +7,6 @@ use serde_json::{Value, json};
 
 use super::error::Error;
 use super::help::flowing;
-use super::output::print;
 use super::output::table::{self, Column, TableFormat};
 use crate::lab::analysis::{METRICS, Metric, Scale};
 use crate::lab::pacing::{POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
@@ -67,7 +66,7 @@ pub(super) fn run(args: &ListArgs) -> Result<(), Error> {
         Listing::Traces => write(TRACE, TRACES, args.format),
         Listing::Keys => write(KEY, KEYS, args.format),
     };
-    print(&listing)
+    args.format.print(&listing)
 }
 
 fn write<T>(columns: &[Column<T>], items: &[T], format: TableFormat) -> String {

@@ -85,11 +85,13 @@ mod output;
 #[cfg(feature = "view")]
 mod plot;
 mod terminal;
+mod visible;
 
 pub use error::Error;
 #[cfg(feature = "window")]
 use play::PlayArgs;
-pub use terminal::{print_status, stderr_renderer};
+pub use terminal::{print_error, print_status, stderr_renderer};
+pub use visible::visible;
 
 use crate::lab::clip as shortened;
 
@@ -174,7 +176,18 @@ impl Cli {
         if let Some(at) = lone_link(&arguments) {
             arguments.insert(at, "--scene".into());
         }
-        Self::try_parse_from(arguments).map_err(argument::with_brief_arguments)
+        Self::try_parse_from(&arguments).map_err(|error| {
+            // The message quotes them.
+            let texts: Vec<_> = arguments.iter().map(|one| one.to_string_lossy()).collect();
+            let shown: Vec<_> = texts.iter().map(|text| visible(text)).collect();
+            let error = match shown.iter().zip(&texts).all(|(shown, text)| shown == text) {
+                true => error,
+                false => {
+                    Self::try_parse_from(shown.iter().map(|one| &**one)).err().unwrap_or(error)
+                }
+            };
+            argument::with_brief_arguments(error)
+        })
     }
 }
 

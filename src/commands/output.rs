@@ -6,6 +6,6 @@ mod directory_lock;
 pub(super) mod table;
 
 pub(super) use destination::{
-    Destination, Input, Output, STDOUT, begin_file, print, same_file_path,
+    Destination, Input, Output, STDOUT, begin_file, print, print_json, same_file_path,
 };
 pub(super) use directory_lock::{DirectoryLock, is_lock};

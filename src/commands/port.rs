@@ -9,7 +9,6 @@ use super::help::flowing;
 use super::id::Id;
 use super::identify::{LogArgs, rate};
 use super::numbers::{frequency, number, positive};
-use super::output::print;
 use super::output::table::TableFormat;
 use crate::lab::port::{
     DIALECTS, Dialect, DriveLimits, Ported, Setup, Wish, drive_limits, followers, setups,
@@ -34,7 +33,7 @@ For each engine, the settings are sought under which its tick shows what is wish
                                    half-life:SECONDS
   --from swiftui:KEY=VALUE,…       a spring of a user interface; what is left out is the library's own
 
-Springs of user interfaces: {dialects}.
+Springs of user interfaces, with the version that each is held against: {dialects}.
 
 The frequency is the one at which the spring would swing without its damping; with a damping ratio d
 it swings √(1 - d²) times as fast. The word is
@@ -142,7 +141,8 @@ const ASKED: Id<Asked> = Id {
     thing: "engine or user interface with a spring",
     lists: &[],
     all: || {
-        let dialects = DIALECTS.iter().map(|it| (it.id.into(), Asked::Dialect(it)));
+        let dialects = DIALECTS.iter().flat_map(|it| it.ids().map(move |id| (id, it)));
+        let dialects = dialects.map(|(id, it)| (id.into(), Asked::Dialect(it)));
         let all = [("all".into(), Asked::Engines), ("ui".into(), Asked::Dialects)];
         let engines = engines().map(|it| (it.id.into(), Asked::Engine(it)));
         all.into_iter().chain(engines).chain(dialects).collect()
@@ -151,8 +151,12 @@ const ASKED: Id<Asked> = Id {
 };
 
 fn about() -> String {
-    let ids: Vec<&str> = DIALECTS.iter().map(|dialect| dialect.id).collect();
-    ABOUT.replace("{dialects}", &ids.join(", "))
+    let with_version = |dialect: &Dialect| match dialect.version {
+        "" => dialect.id.to_owned(),
+        version => format!("{} ({version})", dialect.id),
+    };
+    let dialects: Vec<String> = DIALECTS.iter().map(with_version).collect();
+    ABOUT.replace("{dialects}", &dialects.join(", "))
 }
 
 /// An engine's setup with its settings; `None` if it shows nothing near the wish.
@@ -185,7 +189,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         }
         Some(From::Approach(approach, fps)) => {
             let ports = followers(approach, fps);
-            return print(report::followers(approach, &ports, args.format));
+            return args.format.print(&report::followers(approach, &ports, args.format));
         }
         Some(From::Engine(wish) | From::Dialect(wish)) => wish,
         Some(From::Log(path)) => {
@@ -254,5 +258,5 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         let all: Vec<PortedEngine> = setups.into_iter().map(of).collect();
         report::springs(&wish, args.tick_hz, &all, &dialects, args.format)
     };
-    print(text)
+    args.format.print(&text)
 }

@@ -9,9 +9,17 @@ use std::path::Path;
 use annotate_snippets::Renderer;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::error::Error;
+use super::visible::visible;
+
 /// Writes a line to standard error. A closed standard error is ignored.
 pub fn print_status(line: &str) {
-    let _ = writeln!(io::stderr(), "{line}");
+    let _ = writeln!(io::stderr(), "{}", visible(line));
+}
+
+/// Writes the report of an error to standard error, in colour where it is [styled](stderr_renderer).
+pub fn print_error(error: &Error) {
+    let _ = writeln!(io::stderr(), "{}", error.report(&stderr_renderer()));
 }
 
 /// Tells which entries of a folder no command made.

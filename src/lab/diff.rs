@@ -2,7 +2,8 @@
 //!
 //! A run is a table: columns that say which row it is (`tick`, or else `t`, or else its place, with `lane`, `body` and
 //! `coordinate` where they are there), `t` and `method`, which are told but not compared, and columns of values. Rows of one
-//! name are compared wherever they stand, up to [`MAX_WAITING`] rows apart, so that memory does not grow with the rows.
+//! name are compared wherever they stand, up to [`MAX_WAITING`] rows apart, so that memory does not grow with the rows. It
+//! grows with their names, up to a bound.
 
 use std::collections::{HashMap, VecDeque};
 use std::fmt;
@@ -11,10 +12,12 @@ use csv::ByteRecord;
 
 use crate::sim::number::counted;
 
+mod clock;
 mod growth;
 mod layout;
 mod number;
 
+use clock::{Course, Moves};
 use growth::Growth;
 use layout::Layout;
 pub use layout::NotComparable;
@@ -25,6 +28,12 @@ use number::{hide_a_difference, parsed, relative};
 pub const LEVELS: [f64; 5] = [1e-12, 1e-9, 1e-6, 1e-3, 1.0];
 /// The most rows of a side that wait for the row of their name on the other. A row that waits longer counts as missing there.
 pub const MAX_WAITING: usize = 1 << 16;
+/// The most bytes of the cells of such rows, which long rows reach first.
+const MAX_WAITING_BYTES: usize = 64 << 20;
+/// The most bytes of what is kept for the names of rows: 256 MiB, of a million names with few columns.
+const MAX_NAME_BYTES: usize = 256 << 20;
+/// What a name takes beside its cells and values: its entry in a table and the heads of its lists.
+const NAME_BYTES: usize = 192;
 
 /// The rows of a run, one after the other.
 pub trait Records {
@@ -164,8 +173,10 @@ impl Comparison {
 struct Stream {
     /// Its cells of the key columns, with a zero after each.
     key: Vec<u8>,
-    /// Of each value column: the first value, and the largest so far.
-    values: Vec<Option<[f64; 2]>>,
+    /// Of each value column: the first value that is finite, or NaN, and the largest size so far.
+    values: Vec<[f64; 2]>,
+    /// Of each value column that may be a clock's: how it goes.
+    courses: Vec<Course>,
 }
 
 /// A row, where it belongs.
@@ -192,16 +203,42 @@ struct Side {
     /// The order of the last row.
     order: u64,
     waiting: HashMap<Place, Waiting>,
+    /// The bytes of the rows that wait.
+    waiting_bytes: usize,
     /// The rows that wait, and some that did, as they came.
     queue: VecDeque<(Place, u64)>,
 }
 
 impl Side {
+    /// Lets a row wait. Returns the one of the same name that it replaces.
+    fn insert(&mut self, place: Place, row: Waiting) -> Option<Waiting> {
+        self.waiting_bytes += row.row.as_slice().len();
+        self.queue.push_back((place, row.number));
+        let twice = self.waiting.insert(place, row);
+        self.waiting_bytes -= twice.as_ref().map_or(0, |twice| twice.row.as_slice().len());
+        if self.queue.len() > 2 * MAX_WAITING {
+            let Side { queue, waiting, .. } = self;
+            queue.retain(|(at, n)| waiting.get(at).is_some_and(|row| row.number == *n));
+        }
+        twice
+    }
+
+    /// Takes out the row of this name.
+    fn remove(&mut self, place: &Place) -> Option<Waiting> {
+        let row = self.waiting.remove(place)?;
+        self.waiting_bytes -= row.row.as_slice().len();
+        Some(row)
+    }
+
+    fn is_full(&self) -> bool {
+        self.waiting.len() > MAX_WAITING || self.waiting_bytes > MAX_WAITING_BYTES
+    }
+
     /// Takes out the row that has waited longest.
     fn oldest(&mut self) -> Option<(Place, Waiting)> {
         while let Some((place, number)) = self.queue.pop_front() {
             if self.waiting.get(&place).is_some_and(|row| row.number == number) {
-                return Some((place, self.waiting.remove(&place)?));
+                return Some((place, self.remove(&place)?));
             }
         }
         None
@@ -270,12 +307,26 @@ struct Work {
     first: Option<(u64, u64)>,
     /// The largest relative difference of each value column.
     worst: Vec<f64>,
+    /// How far each value column went from its first value.
+    moved: Vec<f64>,
+    /// The place of each value column in the courses of a stream, as long as it may be a clock's.
+    courses: Vec<Option<usize>>,
+    /// How many columns have a course, and the bytes of the names.
+    course_count: usize,
+    name_bytes: usize,
     growth: Growth,
 }
 
 impl Work {
     fn new(layout: Layout, tolerance: Tolerance) -> Self {
         let worst = vec![0.0; layout.values.len()];
+        let mut course_count = 0;
+        let course = |moves: Moves| {
+            let is_watched = matches!(moves, Moves::Back | Moves::Unevenly);
+            course_count += usize::from(is_watched);
+            is_watched.then(|| course_count - 1)
+        };
+        let courses = layout.values.iter().map(|column| column.moves).map(course).collect();
         let found = Comparison { alone: layout.alone.clone(), ..Comparison::default() };
         Self {
             layout,
@@ -287,7 +338,11 @@ impl Work {
             found,
             is_out_of_order: false,
             first: None,
+            moved: worst.clone(),
             worst,
+            courses,
+            course_count,
+            name_bytes: 0,
             growth: Growth::default(),
         }
     }
@@ -308,10 +363,19 @@ impl Work {
             _ => match self.by_key.get(&self.key) {
                 Some(stream) => *stream,
                 None => {
-                    let stream = self.streams.len();
+                    let (stream, columns) = (self.streams.len(), self.layout.values.len());
+                    let values = columns * size_of::<[f64; 2]>();
+                    let courses = self.course_count * size_of::<Course>();
+                    self.name_bytes += NAME_BYTES + 2 * self.key.len() + values + courses;
+                    if self.name_bytes > MAX_NAME_BYTES && stream > 0 {
+                        return Err(NotComparable::TooManyNames { names: stream, columns });
+                    }
                     self.by_key.insert(self.key.clone(), stream);
-                    let values = vec![None; self.layout.values.len()];
-                    self.streams.push(Stream { key: self.key.clone(), values });
+                    self.streams.push(Stream {
+                        key: self.key.clone(),
+                        values: vec![[f64::NAN, 0.0]; columns],
+                        courses: vec![Course::default(); self.course_count],
+                    });
                     stream
                 }
             },
@@ -326,7 +390,7 @@ impl Work {
 
     /// Compares a row with one that waits on the other side, or lets it wait.
     fn wait(&mut self, side: usize, place: Place, number: u64, row: &mut ByteRecord) {
-        if let Some(other) = self.sides[1 - side].waiting.remove(&place) {
+        if let Some(other) = self.sides[1 - side].remove(&place) {
             self.found.displaced += 1;
             match side {
                 0 => self.pair(place, number, [row, &other.row]),
@@ -336,17 +400,12 @@ impl Work {
         }
         let row = std::mem::take(row);
         let own = &mut self.sides[side];
-        let twice = own.waiting.insert(place, Waiting { row, number });
-        own.queue.push_back((place, number));
-        if own.queue.len() > 2 * MAX_WAITING {
-            let Side { queue, waiting, .. } = own;
-            queue.retain(|(at, n)| waiting.get(at).is_some_and(|row| row.number == *n));
+        if let Some(twice) = own.insert(place, Waiting { row, number }) {
+            self.lack(1 - side, place, twice.number);
         }
-        let is_full = own.waiting.len() > MAX_WAITING;
-        self.found.is_cut_off |= is_full;
-        let lost =
-            twice.map(|twice| (place, twice)).or_else(|| if is_full { own.oldest() } else { None });
-        if let Some((place, lost)) = lost {
+        while self.sides[side].is_full() {
+            self.found.is_cut_off = true;
+            let Some((place, lost)) = self.sides[side].oldest() else { break };
             self.lack(1 - side, place, lost.number);
         }
     }
@@ -375,7 +434,7 @@ impl Work {
             let first = parsed(cells[0]);
             let second = if is_text_same { first } else { parsed(cells[1]) };
             let numbers = [first, second];
-            let scale = self.note(place.stream, column, numbers);
+            let scale = self.note(place, number, column, cells, numbers);
             if is_text_same {
                 self.found.nans += u64::from(first.is_some_and(f64::is_nan));
                 continue;
@@ -412,22 +471,38 @@ impl Work {
         }
     }
 
-    /// Takes in the values of a column of a stream, and returns the largest so far.
-    fn note(&mut self, stream: usize, column: usize, numbers: [Option<f64>; 2]) -> f64 {
+    /// Adds the values of a column of a stream, and returns the largest size so far.
+    fn note(
+        &mut self,
+        place: Place,
+        number: u64,
+        column: usize,
+        cells: [&[u8]; 2],
+        numbers: [Option<f64>; 2],
+    ) -> f64 {
         let [Some(a), b] = numbers else { return 1.0 };
-        let b = b.unwrap_or(a);
-        let seen = self.streams[stream].values[column].get_or_insert([a, 0.0]);
-        let [from, largest] = *seen;
-        let size =
-            |largest: f64, x: f64| if x.is_finite() { largest.max(x.abs()) } else { largest };
-        seen[1] = size(size(largest, a), b);
-        if self.layout.values[column].moves {
-            let way = (a - from).abs().max((b - from).abs());
-            if way > self.found.moved && way.is_finite() {
-                self.found.moved = way;
+        let values = [a, b.unwrap_or(a)];
+        let stream = &mut self.streams[place.stream];
+        let [from, largest] = &mut stream.values[column];
+        for value in values.into_iter().filter(|value| value.is_finite()) {
+            // A logger may write NaN into its first row.
+            if from.is_nan() {
+                *from = value;
+            }
+            *largest = largest.max(value.abs());
+            let way = (value - *from).abs();
+            if way > self.moved[column] && way.is_finite() {
+                self.moved[column] = way;
             }
         }
-        seen[1]
+        if let Some(course) = self.courses[column] {
+            let moves = self.layout.values[column].moves;
+            let at = self.layout.place(place.order, number);
+            if !stream.courses[course].add(moves, at, values, cells) {
+                self.courses[column] = None;
+            }
+        }
+        stream.values[column][1]
     }
 
     /// Takes in the values of a column that differ by more than the tolerance; `None` is the first column that only one side
@@ -466,8 +541,19 @@ impl Work {
         let most = most.max_by(|(_, one), (_, other)| one.total_cmp(other));
         self.found.worst =
             most.map(|(column, part)| (self.layout.values[column].name.clone(), *part));
+        let moved = (0..self.moved.len()).filter(|column| self.is_motion(*column));
+        self.found.moved = moved.map(|column| self.moved[column]).fold(0.0, f64::max);
         self.found.per_second = self.growth.per_second();
         self.found.is_cut_off &= self.is_out_of_order;
         self.found
+    }
+
+    /// Whether the changes of a value column are a motion, and not a clock's.
+    fn is_motion(&self, column: usize) -> bool {
+        let moves = self.layout.values[column].moves;
+        let goes_as_a_clock = self.courses[column].is_some_and(|course| {
+            self.streams.iter().all(|stream| stream.courses[course].is_of_a_clock(moves))
+        });
+        moves != Moves::Never && !goes_as_a_clock
     }
 }

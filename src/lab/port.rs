@@ -14,7 +14,7 @@ mod follow;
 mod inverse;
 mod seen;
 
-pub use dialect::{DIALECTS, Dialect, DialectPort, Key};
+pub use dialect::{DIALECTS, Departure, Dialect, DialectPort, Key, Switch};
 pub use drive::{DriveLimits, drive_limits};
 pub use follow::{Approach, FollowerPort, followers};
 use inverse::{Found, invert, min_damping};

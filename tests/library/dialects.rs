@@ -25,7 +25,7 @@ fn apart(found: &[f64], wanted: &[f64]) -> f64 {
 fn a_spring_of_swift_ui_has_the_numbers_that_are_published() {
     let wish = dialect("swiftui").read(&[0.5, 0.3]).unwrap();
     let told = dialect("core-animation").port(&wish, 60.0);
-    assert!(apart(&told.values, &[1.0, 157.913_670, 17.592_919]) < 1e-8, "{told:?}");
+    assert!(apart(&told.values[..3], &[1.0, 157.913_670, 17.592_919]) < 1e-8, "{told:?}");
     // Beyond critical damping its bounce is negative: 1 / (1 − 0.5).
     let wish = dialect("swiftui").read(&[0.5, -0.5]).unwrap();
     assert!(apart(&[wish.frequency_hz, wish.damping_ratio], &[2.0, 2.0]) < 1e-15);
@@ -142,9 +142,13 @@ fn each_says_whether_it_shows_the_motion() {
     for (id, ratio, wanted) in [
         ("compose", 0.0, Reach::Reached),
         ("flutter-duration", 3.0, Reach::Reached),
-        ("slint-duration", 3.0, Reach::Nearest),
+        ("slint", 0.5, Reach::Reached),
+        ("slint", 3.0, Reach::Nearest),
+        ("slint", 0.05, Reach::Unreachable),
         ("motion-duration", 0.01, Reach::Unreachable),
-        ("motion-duration", 2.0, Reach::Nearest),
+        ("motion-duration", 2.0, Reach::Reached),
+        ("motion-duration", 30.0, Reach::Nearest),
+        ("core-animation", 2.0, Reach::Reached),
         ("unity-smooth-damp", 0.5, Reach::Unreachable),
         ("unity-smooth-damp", 1.0, Reach::Nearest),
         ("react-spring", 0.5, Reach::Nearest),
@@ -172,11 +176,90 @@ fn each_says_whether_it_shows_the_motion() {
     }
     let whole = dialect("flutter-duration").port(&swings(3.0, 0.5), 60.0);
     assert_eq!((whole.reach, whole.values[0]), (Reach::Nearest, 0.333));
-    for Dialect { id, keys, source, .. } in DIALECTS {
-        assert!(!source.is_empty() && keys.len() <= 3, "{id}");
+    for Dialect { id, keys, source, version, evidence, .. } in DIALECTS {
+        assert!(!source.is_empty() && keys.len() <= 4, "{id}");
+        // Two lines of your own have no version.
+        assert_eq!(version.is_empty(), *id == "per-frame", "{id}");
+        assert_eq!(version.is_empty(), evidence.is_empty(), "{id}");
         let usual: Vec<f64> = keys.iter().map(|key| key.usual).collect();
         let read = dialect(id).read(&usual);
         assert_eq!(read.is_ok(), dialect(id).is_read(), "{read:?}");
         assert!(read.is_err() || dialect(id).read(&[-2.0, -2.0, -2.0]).is_err(), "{id}");
     }
+}
+
+#[test]
+fn the_line_of_slint_is_one_that_its_compiler_takes() {
+    // Compiled by slint-ui 1.18.1: a number without an exponent from -1 to 1, and whole milliseconds.
+    let (slint, small) = (dialect("slint"), 2.0_f64.powi(-22));
+    for (wish, line) in [
+        (swings(2.0, 0.7), "animate x { easing: spring(0.3); duration: 500ms; }"),
+        (swings(2.0, 9.0), "animate x { easing: spring(-1); duration: 500ms; }"),
+        (
+            swings(3.0, 1.0 - small),
+            "animate x { easing: spring(0.000000238418579); duration: 333ms; }",
+        ),
+    ] {
+        assert_eq!(slint.port(&wish, 60.0).code, line);
+    }
+    assert!(std::ptr::eq(dialect("slint-duration"), slint));
+    // A duration is cut to whole milliseconds, and 290 of them are no 289.
+    for (seconds, cut) in [(0.5004, 0.5), (0.29, 0.29)] {
+        assert_eq!(slint.read(&[seconds, 0.3]).unwrap().frequency_hz, 1.0 / cut);
+        let flutter = dialect("flutter-duration").read(&[seconds, 0.3]).unwrap();
+        assert_eq!(flutter.frequency_hz, 1.0 / cut);
+    }
+}
+
+#[test]
+fn slint_goes_on_with_another_damping_after_its_duration() {
+    let departure = |ratio| dialect("slint").port(&swings(2.0, ratio), 60.0).departure;
+    assert_eq!((departure(0.13), departure(0.5), departure(1.0)), (None, None, None));
+    for (ratio, later) in [(0.05, 0.13), (0.0, 0.13), (1.1, 1.0), (2.0, 1.0)] {
+        let found = departure(ratio).unwrap();
+        assert_eq!((found.at_s, found.damping_ratio), (0.5, Some(later)), "{ratio}");
+    }
+}
+
+#[test]
+fn core_animation_is_critically_damped_unless_it_allows_overdamping() {
+    let of = dialect("core-animation");
+    let switched = "; spring.allowsOverdamping = true";
+    for (ratio, is_on) in [(0.7, false), (1.0, false), (1.4, true), (20.0, true)] {
+        let port = of.port(&swings(2.0, ratio), 60.0);
+        assert_eq!((port.values[3] == 1.0, port.code.ends_with(switched)), (is_on, is_on));
+        assert_eq!(port.reach, Reach::Reached, "{ratio}");
+    }
+    let ratio = |allowed| of.read(&[1.0, 100.0, 40.0, allowed]).unwrap().damping_ratio;
+    assert_eq!((ratio(0.0), ratio(1.0)), (1.0, 2.0));
+}
+
+#[test]
+fn motion_has_the_numbers_of_its_generator() {
+    // getSpringOptions and the generator of motion-dom 14.14.0.
+    let of = dialect("motion-duration");
+    for (bounce, stiffness, ratio) in [
+        (0.0, 341.023_697_708_471, 1.0),
+        (-0.3, 1_205.796_752_825_017_8, 1.428_571_428_571_428_6),
+        (-0.6, 4_438.341_221_993_417, 2.5),
+    ] {
+        let wish = of.read(&[0.5, bounce]).unwrap();
+        let found = [wish.joint()[0], wish.damping_ratio];
+        assert!(apart(&found, &[stiffness, ratio]) < 1e-12, "{bounce}: {found:?}");
+        assert!(apart(&of.port(&wish, 60.0).values, &[0.5, bounce]) < 1e-12);
+    }
+    assert_eq!(of.read(&[0.5, -1.0]).unwrap().damping_ratio, 20.0);
+    // 0.4864 of the way at 0.2 s, and 0.9994 at 0.205 s.
+    let cut = |values: &[f64]| {
+        let motion = dialect("motion");
+        motion.port(&motion.read(values).unwrap(), 60.0).departure
+    };
+    let found = cut(&[1.0, 10_000.0, 3_000.0]).unwrap();
+    assert!(
+        (found.at_s - 0.200_446).abs() < 1e-6 && (found.left - 0.512_84).abs() < 1e-4,
+        "{found:?}"
+    );
+    assert_eq!(found.damping_ratio, None);
+    // Below 1000 rad/s it is not cut, and of a little damping nothing is left by then.
+    assert_eq!((cut(&[1.0, 100.0, 300.0]), cut(&[1.0, 1e6, 4_000.0])), (None, None));
 }

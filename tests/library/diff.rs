@@ -206,3 +206,58 @@ fn a_run_and_its_copy_are_the_same_and_a_kick_is_found_in_its_tick() {
     let found = compared(&run(None), &run(Some(77)));
     assert_eq!(found.first.unwrap().tick, 78);
 }
+
+#[test]
+fn a_column_that_begins_with_nan_moves_from_its_first_number_on() {
+    let log = |last: u32| format!("tick,x,y\n0,NaN,0\n1,1,0\n2,{last},0\n");
+    let found = compared(&log(2), &log(7));
+    assert_eq!((found.moved, found.first.unwrap().tick), (6.0, 2));
+    let found = compared(&log(2), &log(2));
+    assert!(found.is_same() && found.moved == 1.0 && found.nans == 1, "{found:?}");
+    let none = compared("tick,x\n0,NaN\n1,NaN\n2,inf\n", "tick,x\n0,NaN\n1,NaN\n2,inf\n");
+    assert!(!none.is_comparable() && none.moved == 0.0, "{none:?}");
+}
+
+#[test]
+fn a_clock_alone_is_no_motion_whatever_it_is_called() {
+    let log = |column: &str, cell: &dyn Fn(u32) -> String| -> String {
+        let rows = (0..40).map(|row| format!("{row},{},5\n", cell(row)));
+        format!("tick,{column},hp\n{}", rows.collect::<String>())
+    };
+    let even = |row: u32| format!("{:.6}", f64::from(row) / 60.0);
+    let uneven = |row: u32| (row * row + 16 * row).to_string();
+    let milliseconds = |row: u32| format!("{:.0}", f64::from(row) * 1e3 / 60.0);
+    for name in ["sim_time", "gameTimeMs", "uptime", "T", "game.clock", "n"] {
+        for text in [log(name, &even), log(name, &milliseconds)] {
+            assert!(!compared(&text, &text).is_comparable(), "{name}");
+        }
+    }
+    assert!(!compared(&log("wall_ms", &uneven), &log("wall_ms", &uneven)).is_comparable());
+    // What is called like a coordinate may go evenly, and what goes unevenly is no clock.
+    for (name, text) in [("x", log("pos_x", &even)), ("energy", log("energy", &uneven))] {
+        assert!(compared(&text, &text).is_same(), "{name}");
+    }
+    // A clock that goes back, or is uneven on one side, is compared.
+    let back = log("sim_time", &even).replace("0.200000", "9");
+    assert!(compared(&back, &back).is_same());
+    let kicked = log("T", &even).replace("0.200000", "0.21");
+    let found = compared(&log("T", &even), &kicked);
+    assert_eq!(found.first.unwrap().tick, 12);
+    // The only column with values, and two rows, are no clock.
+    for text in ["tick,T\n0,1\n1,2\n2,3\n", "tick,T,hp\n0,1,5\n1,2,5\n"] {
+        assert!(compared(text, text).is_same(), "{text}");
+    }
+}
+
+#[test]
+fn more_names_of_rows_than_memory_has_room_for_are_refused() {
+    let rows: String = (0..1_500_000).map(|i| format!("0,{i},1\n")).collect();
+    let text = format!("tick,body,q\n{rows}");
+    let told = within(&text, &text, Tolerance::default()).unwrap_err().to_string();
+    assert!(told.contains("names by lane, body and coordinate"), "{told}");
+    assert!(told.contains("compare fewer bodies or columns at a time"), "{told}");
+    // As many rows with few names take no memory.
+    let rows: String = (0..300_000).map(|i| format!("{},{},{}\n", i / 3, i % 3, i % 7)).collect();
+    let text = format!("tick,body,q\n{rows}");
+    assert!(compared(&text, &text).is_same());
+}

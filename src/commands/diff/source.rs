@@ -1,7 +1,6 @@
 //! What is compared: the rows of a table, of a run, or of the states in a manifest.
 
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read};
+use std::io::{self, BufRead, BufReader, Cursor, Read};
 use std::path::Path;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
@@ -13,12 +12,20 @@ use crate::commands::manifest::Mark;
 use crate::commands::{scene_file, verify};
 use crate::lab::diff::{NotComparable, Records};
 use crate::lab::pacing::trace_file::delimiter;
-use crate::lab::trace::{Made, last_tick, row};
+use crate::lab::trace::{Made, row};
+use crate::regular_file::{self, Unreadable};
 
 /// The rows that pass from thread to thread at once.
 const BATCH: usize = 1024;
+/// The bytes of rows that pass at once, which long rows reach first.
+const BATCH_BYTES: usize = 1 << 20;
+/// A row of more bytes has its room given back.
+const LARGE_ROW_BYTES: usize = 1 << 14;
 /// What is read of a file at once, in bytes.
 const BUFFER_BYTES: usize = 1 << 20;
+/// The most bytes of a row, of the header or of a note above it. A log has none of that length; what has no ends of lines,
+/// such as a device, does.
+const MAX_ROW_BYTES: usize = 1 << 20;
 
 /// The rows of a run.
 pub(super) enum Source {
@@ -56,9 +63,13 @@ impl Source {
         let name = if is_standard { "standard input".into() } else { path.display().to_string() };
         let input: Box<dyn Read + Send> = match is_standard {
             true => Box::new(io::stdin()),
-            false => Box::new(File::open(path).map_err(|error| {
+            false => Box::new(regular_file::open(path).map_err(|error| {
                 let path = path.display();
-                Error::mistake(format!("cannot read {path}: {error}; give a run that you may read"))
+                let or_pipe = match error {
+                    Unreadable::NotRegular => ", or give - for standard input",
+                    _ => "",
+                };
+                Error::mistake(format!("cannot read {path}: {error}{or_pipe}"))
             })?),
         };
         Table::begin(name, input).map(Self::Table)
@@ -89,26 +100,79 @@ impl From<NotComparable> for Error {
     }
 }
 
+/// Fails where a row does not end.
+struct BoundedRows<R> {
+    input: R,
+    /// What was read since the row began.
+    in_row: usize,
+}
+
+impl<R: Read> Read for BoundedRows<R> {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        if self.in_row >= MAX_ROW_BYTES {
+            return Err(io::Error::other(TooLong));
+        }
+        let read = self.input.read(bytes)?;
+        self.in_row += read;
+        Ok(read)
+    }
+}
+
+/// A row of more than [`MAX_ROW_BYTES`].
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "a row of more than {MAX_ROW_BYTES} bytes, which no log has; end each row, and close each quotation mark"
+)]
+struct TooLong;
+
+/// Reads past the notes above the header, and lines without anything. Returns how many lines these were, and the first
+/// line of the header.
+fn header_line(input: &mut impl BufRead) -> io::Result<(u64, Vec<u8>)> {
+    for above in 0.. {
+        let mut line = Vec::new();
+        input.take(MAX_ROW_BYTES as u64).read_until(b'\n', &mut line)?;
+        if line.len() == MAX_ROW_BYTES {
+            return Err(io::Error::other(TooLong));
+        }
+        if above == 0 && line.starts_with("\u{feff}".as_bytes()) {
+            line.drain(.."\u{feff}".len());
+        }
+        let is_blank = !line.is_empty() && line.trim_ascii().is_empty();
+        if !is_blank && !line.starts_with(b"#") {
+            return Ok((above, line));
+        }
+    }
+    unreachable!("the numbers have no end")
+}
+
+/// The bytes that a row takes.
+fn footprint(row: &ByteRecord) -> usize {
+    row.as_slice().len() + row.len() * size_of::<usize>()
+}
+
 impl Table {
     fn begin(name: String, input: Box<dyn Read + Send>) -> Result<Self, Error> {
         let mut input = BufReader::with_capacity(BUFFER_BYTES, input);
-        let begun = input.fill_buf().map_err(|error| {
-            Error::mistake(format!("cannot read {name}: {error}; give a run that you may read"))
+        let (above, line) = header_line(&mut input).map_err(|error| {
+            let is_ours = error.get_ref().is_some_and(|inner| inner.is::<TooLong>());
+            let remedy = if is_ours { "" } else { "; give a run that you may read" };
+            Error::mistake(format!("cannot read {name}: {error}{remedy}"))
         })?;
-        let begun = String::from_utf8_lossy(begun);
-        let header = begun.lines().find(|line| !line.starts_with('#')).unwrap_or_default();
         let mut reader = csv::ReaderBuilder::new()
             .buffer_capacity(BUFFER_BYTES)
-            .delimiter(delimiter(header))
-            .comment(Some(b'#'))
-            .from_reader(input);
+            .delimiter(delimiter(&String::from_utf8_lossy(&line)))
+            .from_reader(BoundedRows { input: Cursor::new(line).chain(input), in_row: 0 });
         let of = name.clone();
-        let fault = move |error: csv::Error| {
+        let fault = move |error: csv::Error, here: u64| {
             let name = &of;
-            let line = error.position().map_or(1, csv::Position::line);
-            Error::mistake(format!("{name}:{line}: {error}; give each row the header's cells"))
+            let line = above + error.position().map_or(here, csv::Position::line);
+            let remedy = match error.kind() {
+                csv::ErrorKind::Io(_) => "",
+                _ => "; give each row the header's cells, and notes a place above the header",
+            };
+            Error::mistake(format!("{name}:{line}: {error}{remedy}"))
         };
-        let header = reader.byte_headers().map_err(&fault)?.clone();
+        let header = reader.byte_headers().map_err(|error| fault(error, 1))?.clone();
         if header.is_empty() {
             return Err(Error::mistake(format!("{name} is empty; give a table with a header")));
         }
@@ -118,13 +182,21 @@ impl Table {
             loop {
                 let mut batch = reuse.try_recv().unwrap_or_default();
                 batch.resize_with(BATCH, ByteRecord::new);
-                let mut filled = 0;
+                let large = batch.iter_mut().filter(|row| footprint(row) > LARGE_ROW_BYTES);
+                large.for_each(|row| *row = ByteRecord::new());
+                let (mut filled, mut bytes) = (0, 0);
+                let mut line;
                 let read = loop {
+                    reader.get_mut().in_row = 0;
+                    line = reader.position().line();
                     match reader.read_byte_record(&mut batch[filled]) {
-                        Ok(true) => filled += 1,
+                        Ok(true) => {
+                            bytes += footprint(&batch[filled]);
+                            filled += 1;
+                        }
                         other => break other,
                     }
-                    if filled == BATCH {
+                    if filled == BATCH || bytes >= BATCH_BYTES {
                         break Ok(true);
                     }
                 };
@@ -132,7 +204,7 @@ impl Table {
                 // Who no longer listens has found a fault in the other table.
                 let is_heard = send.send(Ok((batch, filled))).is_ok();
                 if let Err(error) = read {
-                    drop(send.send(Err(fault(error))));
+                    drop(send.send(Err(fault(error, line))));
                 }
                 if !has_more || !is_heard {
                     return;
@@ -162,7 +234,7 @@ impl Table {
 /// The run of the scene or recording at `path`, to its end or to its last check.
 fn of_scene(path: &Path) -> Result<Made, Error> {
     let scene = scene_file::load(path)?.0;
-    let last = last_tick(&scene);
+    let last = verify::recording::end_of(path, &scene)?;
     Ok(Made::of_scene(scene, last))
 }
 

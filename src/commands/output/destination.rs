@@ -11,6 +11,7 @@ use crate::commands::argument::brief;
 use crate::commands::error::Error;
 use crate::commands::interrupt;
 use crate::commands::terminal::print_status;
+use crate::commands::visible::{visible, visible_json};
 
 /// The path that means standard output.
 pub(crate) const STDOUT: &str = "-";
@@ -269,10 +270,19 @@ fn explain(explain: impl Fn(io::Error) -> Error) -> impl Fn(io::Error) -> Error 
     move |error| error.downcast::<Error>().unwrap_or_else(&explain)
 }
 
-/// Writes to standard output.
-pub(crate) fn print(text: impl AsRef<[u8]>) -> Result<(), Error> {
+/// Writes text to standard output, with signs for control characters.
+pub(crate) fn print(text: impl AsRef<str>) -> Result<(), Error> {
+    print_bytes(visible(text.as_ref()).as_bytes())
+}
+
+/// Writes JSON to standard output, with escapes for control characters.
+pub(crate) fn print_json(text: impl AsRef<str>) -> Result<(), Error> {
+    print_bytes(visible_json(text.as_ref()).as_bytes())
+}
+
+fn print_bytes(bytes: &[u8]) -> Result<(), Error> {
     let mut out = Output::stdout();
-    out.write_all(text.as_ref())?;
+    out.write_all(bytes)?;
     out.close().map(drop)
 }
 

@@ -7,7 +7,7 @@ use std::mem;
 use clap::ValueEnum;
 use serde_json::{Map, Value};
 
-use super::Output;
+use super::{Output, print, print_json};
 use crate::commands::error::Error;
 use crate::lab::csv_row;
 use crate::sim::number::counted;
@@ -19,6 +19,16 @@ pub(crate) enum TableFormat {
     Text,
     /// An array of objects, for programs
     Json,
+}
+
+impl TableFormat {
+    /// Writes what is in this format to standard output.
+    pub(crate) fn print(self, text: &str) -> Result<(), Error> {
+        match self {
+            Self::Text => print(text),
+            Self::Json => print_json(text),
+        }
+    }
 }
 
 /// How a tidy table is written.

@@ -98,14 +98,21 @@ fn of_dialect(dialect: &Dialect, written: &str, mass_kg: f64) -> Result<Wish, St
         let (key, value) = pair.split_once('=').unwrap_or((pair, ""));
         let names: Vec<&str> = dialect.keys.iter().map(|key| key.name).collect();
         let index = names.iter().position(|name| *name == key.trim()).ok_or_else(|| {
-            let names = names.join("=NUMBER,");
-            format!("{} has no key \"{}\"; write {names}=NUMBER", dialect.id, clip(key.trim()))
+            let value = |key: &Key| if key.switch.is_some() { "true" } else { "NUMBER" };
+            let pairs = dialect.keys.iter().map(|key| format!("{}={}", key.name, value(key)));
+            let pairs = pairs.collect::<Vec<_>>().join(",");
+            format!("{} has no key \"{}\"; write {pairs}", dialect.id, clip(key.trim()))
         })?;
         if given.contains(&index) {
             return Err(format!("{key} is given twice"));
         }
         given.push(index);
-        values[index] = with_unit(value.trim(), "").map_err(|fault| format!("{key}: {fault}"))?;
+        values[index] = match (&dialect.keys[index].switch, value.trim()) {
+            (Some(_), "true") => 1.0,
+            (Some(_), "false") => 0.0,
+            (Some(_), other) => return Err(format!("{key} is \"{other}\"; write true or false")),
+            (None, number) => with_unit(number, "").map_err(|fault| format!("{key}: {fault}"))?,
+        };
     }
     let wish = dialect.read(&values)?;
     Ok(if dialect.has_mass() { wish } else { Wish { mass_kg, ..wish } })

@@ -6,7 +6,8 @@ use super::{Drive, PortedEngine};
 use crate::commands::output::table::TableFormat;
 use crate::lab::identify::Effective;
 use crate::lab::port::{
-    Approach, Dialect, DialectPort, DriveLimits, FollowerPort, Ported, Reach, Setup, Wish,
+    Approach, Departure, Dialect, DialectPort, DriveLimits, FollowerPort, Ported, Reach, Setup,
+    Wish,
 };
 use crate::sim::number::{round, significant};
 
@@ -90,8 +91,12 @@ fn dialect_row(dialect: &Dialect, port: &DialectPort) -> Value {
         .keys
         .iter()
         .zip(&port.values)
-        .map(|(key, value)| (key.name.to_owned(), Value::from(*value)))
+        .map(|(key, value)| match key.switch {
+            Some(_) => (key.name.to_owned(), Value::from(*value == 1.0)),
+            None => (key.name.to_owned(), Value::from(*value)),
+        })
         .collect();
+    let departs = |it: Departure| json!({ "at_s": it.at_s, "left": it.left, "damping_ratio": it.damping_ratio });
     let seen = |seen: &Effective| json!({ "hz": seen.undamped_hz(), "damping_ratio": seen.damping_ratio() });
     json!({
         "id": dialect.id,
@@ -100,23 +105,31 @@ fn dialect_row(dialect: &Dialect, port: &DialectPort) -> Value {
         "steps": dialect.steps(),
         "explodes_below_hz": port.explodes_below_hz,
         "seen": port.seen.as_ref().map(seen),
+        "departs": port.departure.map(departs),
         "error": port.error,
         "code": port.code,
         "source": dialect.source,
+        "version": dialect.version,
+        "evidence": dialect.evidence,
     })
 }
 
 fn dialect_block(dialect: &Dialect, port: &DialectPort, frame_hz: f64) -> String {
     let pairs = dialect.keys.iter().zip(&port.values);
-    let set: Vec<String> =
-        pairs.map(|(key, value)| format!("{} = {}", key.name, round(*value, 6))).collect();
+    let set = pairs.map(|(key, value)| match key.switch {
+        Some(_) => format!("{} = {}", key.name, *value == 1.0),
+        None => format!("{} = {}", key.name, round(*value, 6)),
+    });
+    let set: Vec<String> = set.collect();
     let mut lines = vec![format!("\n{}: {}", dialect.id, port.reach.id())];
     lines.push(format!("  {}", set.join(", ")));
     lines.push(format!("  {}", dialect.at_frame_rates(port, frame_hz)));
     if port.reach != Reach::Reached {
         lines.extend(port.seen.as_ref().map(|seen| format!("  a player sees: {}", sees(seen))));
     }
+    lines.extend(dialect.switched_on(&port.values).map(|switch| format!("  {}", switch.note)));
     lines.extend(port.code.lines().map(|line| format!("    {line}")));
+    lines.extend(dialect.held_against().map(|held| format!("  {held}")));
     lines.join("\n") + "\n"
 }
 

@@ -150,16 +150,35 @@ fn of_no_lane(path: &Path, lane: impl Display, tick: u64) -> String {
     )
 }
 
+/// Fails where a check lies later than a race is run.
+pub(in crate::commands) fn refuse_late_checks(path: &Path, scene: &Scene) -> Result<(), Error> {
+    let last = scene.checks.iter().map(|check| check.tick).max();
+    match last.filter(|tick| *tick > MAX_TICKS) {
+        None => Ok(()),
+        Some(tick) => Err(Error::mistake(format!(
+            "{} has a [[check]] at tick {tick}, and verify runs {MAX_TICKS} ticks at most; take it out",
+            scene_file::shown(path)
+        ))),
+    }
+}
+
+/// The tick at which the run of a scene is over: its end, or its last check. Fails where that takes too long.
+pub(in crate::commands) fn end_of(path: &Path, scene: &Scene) -> Result<u64, Error> {
+    refuse_late_checks(path, scene)?;
+    let last = last_tick(scene);
+    match last <= MAX_TICKS {
+        true => Ok(last),
+        false => Err(Error::mistake(format!(
+            "{} runs for {last} ticks, and verify runs {MAX_TICKS} at most; lower its seconds, or its tick_hz",
+            scene_file::shown(path)
+        ))),
+    }
+}
+
 /// Says that checks lie beyond the scene's end, if some do: they are judged all the same, which can take longer than
 /// the scene. Fails where it would take too long.
 fn check_ticks(path: &Path, scene: &Scene) -> Result<(), Error> {
-    let last = scene.checks.iter().map(|check| check.tick).max();
-    if let Some(tick) = last.filter(|tick| *tick > MAX_TICKS) {
-        return Err(Error::mistake(format!(
-            "{} has a [[check]] at tick {tick}, and verify runs {MAX_TICKS} ticks at most; take it out",
-            scene_file::shown(path)
-        )));
-    }
+    refuse_late_checks(path, scene)?;
     let end = Studio::new(scene.clone()).nearest_tick(scene.seconds);
     let late = scene.checks.iter().map(|check| check.tick).filter(|tick| *tick > end);
     let Some(last) = late.clone().max() else { return Ok(()) };
@@ -185,7 +204,7 @@ pub(super) fn bless(path: &Path) -> Result<(), Error> {
     }
     let (scene, text) = scene_file::load(path)?;
     let text = if scene.checks.is_empty() {
-        let rows: String = checks_of(&scene).iter().map(Check::to_toml).collect();
+        let rows: String = checks_of(path, &scene)?.iter().map(Check::to_toml).collect();
         with_line_ends_of(&text, &format!("{}\n{rows}", text.trim_end()))
     } else {
         let mut hashes: Vec<u64> = scene.checks.iter().map(|check| check.hash).collect();
@@ -204,8 +223,9 @@ pub(super) fn bless(path: &Path) -> Result<(), Error> {
 }
 
 /// The checks of a run of a scene that has none: of every lane, once a second and at the end.
-pub(in crate::commands) fn checks_of(scene: &Scene) -> Vec<Check> {
-    Session::racing(scene.clone().into()).recording(last_tick(scene)).checks
+pub(in crate::commands) fn checks_of(path: &Path, scene: &Scene) -> Result<Vec<Check>, Error> {
+    let last = end_of(path, scene)?;
+    Ok(Session::racing(scene.clone().into()).recording(last).checks)
 }
 
 /// The text with CRLF at the end of every line if `before` ends its first line so, or else as it is.

@@ -1,8 +1,12 @@
 //! Which columns of two tables say which row it is, and which are compared.
 
+use std::collections::HashMap;
+
 use csv::ByteRecord;
 
+use super::clock::Moves;
 use super::number::parsed;
+use crate::sim::number::counted;
 
 /// Why two tables cannot be compared row by row.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -33,6 +37,17 @@ pub enum NotComparable {
         /// The column.
         column: String,
     },
+    /// The rows have too many names.
+    #[error(
+        "the rows have more than {names} names by lane, body and coordinate, too many to keep with {}; compare fewer bodies or columns at a time",
+        counted(*columns, "column")
+    )]
+    TooManyNames {
+        /// How many there were.
+        names: usize,
+        /// The columns of values.
+        columns: usize,
+    },
     /// A tick is no whole number, or a time is no number.
     #[error("row {row} of {side}: column {column:?} has {cell:?}; write {}", wanted(column))]
     NoOrder {
@@ -60,10 +75,6 @@ const NAMES: [&str; 3] = ["lane", "body", "coordinate"];
 /// The column of a coordinate beside which others do not say how far it moves.
 const COORDINATE: &str = "q";
 
-/// Columns that count on, in whatever unit, while nothing moves.
-const CLOCKS: [&str; 9] =
-    ["frame", "frames", "index", "ms", "seconds", "step", "time", "time_s", "timestamp"];
-
 /// By what rows are in order.
 pub(super) enum Order {
     /// These columns of both: `tick`, or `t` where there are no ticks.
@@ -76,8 +87,8 @@ pub(super) enum Order {
 pub(super) struct ValueColumn {
     pub(super) name: String,
     pub(super) at: [usize; 2],
-    /// Whether it says how far a coordinate has moved.
-    pub(super) moves: bool,
+    /// When it says that something moves.
+    pub(super) moves: Moves,
 }
 
 /// Where the columns of both are.
@@ -100,13 +111,16 @@ impl Layout {
         let names = headers.map(|header| -> Vec<String> {
             header.iter().map(|cell| String::from_utf8_lossy(cell).trim().to_owned()).collect()
         });
-        for (side, names) in SIDES.into_iter().zip(&names) {
-            let twice = names.iter().enumerate().find(|(i, name)| names[..*i].contains(name));
-            if let Some((_, column)) = twice {
-                return Err(NotComparable::Twice { side, column: column.clone() });
+        let mut places: [HashMap<&str, usize>; 2] = Default::default();
+        for (side, places) in places.iter_mut().enumerate() {
+            for (i, name) in names[side].iter().enumerate() {
+                if places.insert(name, i).is_some() {
+                    let (side, column) = (SIDES[side], name.clone());
+                    return Err(NotComparable::Twice { side, column });
+                }
             }
         }
-        let find = |name: &str| [0, 1].map(|side| names[side].iter().position(|it| it == name));
+        let find = |name: &str| [0, 1].map(|side| places[side].get(name).copied());
         let common = |column: &'static str| match find(column) {
             [Some(a), Some(b)] => Ok(Some([a, b])),
             [None, None] => Ok(None),
@@ -131,26 +145,30 @@ impl Layout {
         let is_value =
             |name: &str| !["tick", "t", "method"].contains(&name) && !NAMES.contains(&name);
         let has_coordinate = matches!(find(COORDINATE), [Some(_), Some(_)]);
-        let mut values = Vec::new();
-        for (a, name) in names[0].iter().enumerate().filter(|(_, name)| is_value(name)) {
-            if let [_, Some(b)] = find(name) {
-                let is_clock = CLOCKS.contains(&&*name.to_ascii_lowercase());
-                let moves = if has_coordinate { name == COORDINATE } else { !is_clock };
-                values.push(ValueColumn { name: name.clone(), at: [a, b], moves });
-            }
-        }
+        let own = names[0].iter().enumerate().filter(|(_, name)| is_value(name));
+        let both: Vec<(&String, [usize; 2])> =
+            own.filter_map(|(a, name)| Some((name, [a, find(name)[1]?]))).collect();
+        let moves = |name: &str| match (has_coordinate, name == COORDINATE) {
+            (true, true) => Moves::Always,
+            (true, false) => Moves::Never,
+            (false, _) => Moves::of_name(name, both.len() == 1),
+        };
+        let column = |(name, at): &(&String, _)| ValueColumn {
+            name: (*name).clone(),
+            at: *at,
+            moves: moves(name),
+        };
+        let values: Vec<ValueColumn> = both.iter().map(column).collect();
         if values.is_empty() {
             let [a, b] = [0, 1].map(|side| names[side].join(", "));
             return Err(NotComparable::NoColumn { a, b });
         }
         let alone = [0, 1].map(|side| -> Vec<String> {
-            let alone = names[side].iter().filter(|name| !names[1 - side].contains(name));
+            let alone = names[side].iter().filter(|name| find(name)[1 - side].is_none());
             alone.filter(|name| is_value(name)).cloned().collect()
         });
-        let first_alone = [0, 1].into_iter().find_map(|side| {
-            let name = alone[side].first()?;
-            Some((side, names[side].iter().position(|it| it == name)?))
-        });
+        let first_alone =
+            [0, 1].into_iter().find_map(|side| Some((side, find(alone[side].first()?)[side]?)));
         Ok(Self {
             order,
             t: t.map(|[a, _]| a),
@@ -191,6 +209,15 @@ impl Layout {
         match self.order {
             Order::By { column: "tick", .. } => f64::from_bits(order & (u64::MAX >> 1)) as u64,
             _ => place,
+        }
+    }
+
+    /// The tick or the time of a row, or its place, which a clock goes with.
+    pub(super) fn place(&self, order: u64, place: u64) -> f64 {
+        match self.order {
+            Order::By { .. } if order >> 63 == 0 => f64::from_bits(!order),
+            Order::By { .. } => f64::from_bits(order & (u64::MAX >> 1)),
+            Order::Place => place as f64,
         }
     }
 

@@ -2,7 +2,6 @@
 //!
 //! Each takes the distance to the target for the stretch, on a mass of 1 where it has none of its own.
 
-use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use nalgebra::Matrix2;
@@ -17,6 +16,10 @@ use crate::sim::integrators::{in_code, method};
 use crate::sim::number::significant;
 use crate::sim::{Body, State};
 
+mod cards;
+
+pub use cards::DIALECTS;
+
 /// A number that a library takes.
 #[derive(Debug)]
 pub struct Key {
@@ -28,16 +31,29 @@ pub struct Key {
     pub range: [f64; 2],
     /// The range in words.
     pub wanted: &'static str,
+    /// What it is if it is a switch, whose values are 0 and 1.
+    pub switch: Option<Switch>,
+}
+
+/// A number that is on or off.
+#[derive(Debug)]
+pub struct Switch {
+    /// The statement of code that turns it on.
+    code: &'static str,
+    /// What a person is to know where it is on.
+    pub note: &'static str,
 }
 
 /// The values of the keys of a dialect; where it has fewer, the others are 0.
-type Values = [f64; 3];
+type Values = [f64; 4];
 
 /// How a library comes from frame to frame.
 #[derive(Clone, Copy, Debug)]
 enum Steps {
     /// By the closed form.
     Exact,
+    /// By the closed form, at times that are cut to whole milliseconds.
+    WholeMilliseconds,
     /// Along straight lines between points of the closed form.
     Sampled,
     /// By semi-implicit Euler once a frame.
@@ -53,19 +69,39 @@ enum Steps {
 pub struct Dialect {
     /// Its id on the command line.
     pub id: &'static str,
+    /// An id that it had in an earlier release, which stands for it still.
+    pub former_id: Option<&'static str>,
     /// Its name.
     pub name: &'static str,
-    /// The numbers that it takes, up to three.
+    /// The numbers that it takes, up to four.
     pub keys: &'static [Key],
     /// The file or page that says how it reads them and how it steps.
     pub source: &'static str,
+    /// The release, or the commit, that all of this is held against; empty for code of your own.
+    pub version: &'static str,
+    /// What was done with that version.
+    pub evidence: &'static str,
     /// What they mean; `None` if they do not tell the motion.
     read: Option<fn(Values) -> Wish>,
     /// Those that come nearest to a motion.
     write: fn(&Wish) -> Values,
     steps: Steps,
-    /// A line of code, with the names of keys in `<>` where their values stand.
+    /// Where it leaves a motion that it is told.
+    departure: fn(&Wish) -> Option<Departure>,
+    /// A line of code, with the names of keys in `<>` where their values stand; `:decimal` follows the name where the
+    /// language has no exponents.
     code: &'static str,
+}
+
+/// Where a library leaves the closed form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Departure {
+    /// When, in seconds from the start.
+    pub at_s: f64,
+    /// The part of the way that is left then.
+    pub left: f64,
+    /// The damping ratio from then on; `None` if it jumps to its end.
+    pub damping_ratio: Option<f64>,
 }
 
 /// What a library is told for a wish, and what is seen then.
@@ -79,224 +115,17 @@ pub struct DialectPort {
     pub explodes_below_hz: Option<f64>,
     /// Whether it does not explode at the frame rate.
     pub is_stable: bool,
-    /// What is seen at the frame rate; `None` if nothing swings, or decays without changing sides at each step.
+    /// What is seen at the frame rate; `None` if nothing swings, or decays without changing sides at each step, or if it is
+    /// not one motion.
     pub seen: Option<Effective>,
+    /// Where it leaves the motion.
+    pub departure: Option<Departure>,
     /// How far what is shown is off at most, as a part of the way, where it is drawn through points.
     pub error: Option<f64>,
     /// The line of code.
     pub code: String,
 }
 
-const fn key(name: &'static str, usual: f64) -> Key {
-    Key { name, usual, range: [f64::MIN_POSITIVE, f64::MAX], wanted: "above 0" }
-}
-
-const fn ratio(name: &'static str, usual: f64) -> Key {
-    Key { name, usual, range: [0.0, f64::MAX], wanted: "0 or more" }
-}
-
-const fn bounce(usual: f64) -> Key {
-    let range = [f64::EPSILON - 1.0, 1.0];
-    Key { name: "bounce", usual, range, wanted: "above −1 and at most 1" }
-}
-
-const PHYSICAL: &[Key] = &[key("mass", 1.0), key("stiffness", 100.0), ratio("damping", 10.0)];
-
-/// A spring with a mass, by its equation of motion.
-const EQUATION: Dialect = Dialect {
-    id: "",
-    name: "",
-    keys: PHYSICAL,
-    source: "",
-    read: Some(|[mass_kg, stiffness, damping]| {
-        let ratio = damping / libm::sqrt(stiffness * mass_kg) / 2.0;
-        Wish { mass_kg, ..wish(libm::sqrt(stiffness / mass_kg), ratio) }
-    }),
-    write: |wish| {
-        let [stiffness, damping] = wish.joint().map(|per_kg| per_kg * wish.mass_kg);
-        [wish.mass_kg, stiffness, damping]
-    },
-    steps: Steps::Exact,
-    code: "",
-};
-
-/// A spring by its damping ratio and its stiffness, which is the square of ω.
-const RATIO: Dialect = Dialect {
-    read: Some(|[ratio, stiffness, _]| wish(libm::sqrt(stiffness), ratio)),
-    write: |wish| [wish.damping_ratio, wish.omega() * wish.omega(), 0.0],
-    keys: &[ratio("dampingRatio", 1.0), key("stiffness", 1500.0)],
-    ..EQUATION
-};
-
-/// A spring by its period and its bounce: 1 less the damping ratio, or beyond 1 the reciprocal of that less 1.
-const BOUNCE: Dialect = Dialect {
-    read: Some(|[duration, bounce, _]| {
-        wish(TAU / duration, if bounce < 0.0 { 1.0 / (1.0 + bounce) } else { 1.0 - bounce })
-    }),
-    write: |wish| {
-        let ratio = wish.damping_ratio;
-        [1.0 / wish.frequency_hz, if ratio > 1.0 { 1.0 / ratio - 1.0 } else { 1.0 - ratio }, 0.0]
-    },
-    keys: &[key("duration", 0.5), bounce(0.0)],
-    ..EQUATION
-};
-
-/// The springs of user interfaces.
-pub static DIALECTS: &[Dialect] = &[
-    Dialect {
-        id: "swiftui",
-        name: "SwiftUI, duration and bounce",
-        source: "developer.apple.com/documentation/swiftui/spring; its numbers as Flutter's withDurationAndBounce has them",
-        code: ".spring(duration: <duration>, bounce: <bounce>)",
-        ..BOUNCE
-    },
-    Dialect {
-        id: "swiftui-response",
-        name: "SwiftUI, response and damping fraction",
-        keys: &[key("response", 0.5), ratio("dampingFraction", 0.825)],
-        source: "developer.apple.com/documentation/swiftui/animation/spring(response:dampingfraction:blendduration:)",
-        read: Some(|[response, fraction, _]| wish(TAU / response, fraction)),
-        write: |wish| [1.0 / wish.frequency_hz, wish.damping_ratio, 0.0],
-        code: ".spring(response: <response>, dampingFraction: <dampingFraction>)",
-        ..EQUATION
-    },
-    Dialect {
-        id: "core-animation",
-        name: "Core Animation and UIKit",
-        source: "developer.apple.com/documentation/quartzcore/caspringanimation; UISpringTimingParameters has the same three",
-        code: "spring.mass = <mass>; spring.stiffness = <stiffness>; spring.damping = <damping>",
-        ..EQUATION
-    },
-    Dialect {
-        id: "css",
-        name: "CSS linear()",
-        keys: &[key("duration", 0.5), key("points", 50.0)],
-        source: "drafts.csswg.org/css-easing-2/#the-linear-easing-function",
-        read: None,
-        write: sampling,
-        steps: Steps::Sampled,
-        code: "transition: translate <duration>s linear(<curve>)",
-    },
-    Dialect {
-        id: "compose",
-        name: "Jetpack Compose",
-        source: "androidx, compose/animation/animation-core: SpringSimulation.kt, AnimationSpec.kt",
-        code: "spring(dampingRatio = <dampingRatio>f, stiffness = <stiffness>f)",
-        ..RATIO
-    },
-    Dialect {
-        id: "android",
-        name: "Android SpringForce",
-        keys: &[ratio("dampingRatio", 0.5), key("stiffness", 1500.0)],
-        source: "androidx, dynamicanimation/dynamicanimation: SpringForce.java",
-        code: "new SpringForce(target).setDampingRatio(<dampingRatio>f).setStiffness(<stiffness>f)",
-        ..RATIO
-    },
-    Dialect {
-        id: "flutter",
-        name: "Flutter",
-        source: "flutter, packages/flutter/lib/src/physics/spring_simulation.dart",
-        code: "SpringDescription(mass: <mass>, stiffness: <stiffness>, damping: <damping>)",
-        ..EQUATION
-    },
-    Dialect {
-        id: "flutter-duration",
-        name: "Flutter, duration and bounce",
-        source: "flutter, packages/flutter/lib/src/physics/spring_simulation.dart; the duration in whole milliseconds",
-        write: |wish| whole_milliseconds((BOUNCE.write)(wish)),
-        code: "SpringDescription.withDurationAndBounce(duration: Duration(milliseconds: <ms>), bounce: <bounce>)",
-        ..BOUNCE
-    },
-    Dialect {
-        id: "react-spring",
-        name: "react-spring",
-        keys: &[key("mass", 1.0), key("tension", 170.0), ratio("friction", 26.0)],
-        source: "react-spring 9, packages/core/src: SpringValue.ts, constants.ts; packages/rafz/src/index.ts",
-        steps: Steps::Milliseconds,
-        code: "config: { mass: <mass>, tension: <tension>, friction: <friction> }",
-        ..EQUATION
-    },
-    Dialect {
-        id: "motion",
-        name: "Motion",
-        source: "motion, packages/motion-dom/src/animation/generators/spring.ts",
-        code: "transition: { type: \"spring\", mass: <mass>, stiffness: <stiffness>, damping: <damping> }",
-        ..EQUATION
-    },
-    Dialect {
-        id: "motion-duration",
-        name: "Motion, duration and bounce",
-        keys: &[
-            Key { range: [0.01, 10.0], wanted: "0.01 to 10", ..key("duration", 0.8) },
-            Key { range: [0.0, 1.0], wanted: "0 to 1", ..bounce(0.3) },
-        ],
-        source: "motion, packages/motion-dom/src/animation/generators/spring.ts",
-        read: Some(|[duration, bounce, _]| {
-            let ratio = (1.0 - bounce).max(MOTION_MIN_RATIO);
-            wish(motion_omega(ratio, duration), ratio)
-        }),
-        write: |wish| {
-            let ratio = wish.damping_ratio.clamp(MOTION_MIN_RATIO, 1.0);
-            let duration = motion_angle(ratio) / wish.omega();
-            [duration.clamp(0.01, 10.0), 1.0 - ratio, 0.0]
-        },
-        code: "transition: { type: \"spring\", duration: <duration>, bounce: <bounce> }",
-        ..EQUATION
-    },
-    Dialect {
-        id: "slint",
-        name: "Slint",
-        source: "slint, internal/core/animations/simulations/spring.rs and its use in properties",
-        code: "animate x { easing: spring; mass: <mass>; stiffness: <stiffness>; damping: <damping>; }",
-        ..EQUATION
-    },
-    Dialect {
-        id: "slint-duration",
-        name: "Slint, duration and bounce",
-        keys: &[key("duration", 0.5), Key { range: [-1.0, 1.0], wanted: "−1 to 1", ..bounce(0.0) }],
-        source: "slint, internal/core/animations/simulations/spring.rs; the duration in whole milliseconds",
-        read: Some(|[duration, bounce, _]| wish(TAU / duration, 1.0 - bounce)),
-        write: |wish| {
-            let bounce = 1.0 - wish.damping_ratio.min(2.0);
-            whole_milliseconds([1.0 / wish.frequency_hz, bounce, 0.0])
-        },
-        code: "animate x { easing: spring; duration: <ms>ms; bounce: <bounce>; }",
-        ..EQUATION
-    },
-    Dialect {
-        id: "gpui",
-        name: "gpui",
-        source: "zed, crates/gpui/src/spring.rs",
-        code: "SpringConfig::new(<stiffness>, <damping>, <mass>)",
-        ..EQUATION
-    },
-    Dialect {
-        id: "unity-smooth-damp",
-        name: "Unity SmoothDamp",
-        keys: &[key("smoothTime", 0.3)],
-        source: "UnityCsReference, Runtime/Export/Math/Mathf.cs",
-        read: Some(|[smooth_time, ..]| wish(2.0 / smooth_time, 1.0)),
-        write: |wish| [2.0 / wish.omega(), 0.0, 0.0],
-        steps: Steps::SmoothDamp,
-        code: "x = Mathf.SmoothDamp(x, target, ref velocity, <smoothTime>f);",
-    },
-    Dialect {
-        id: "per-frame",
-        name: "two lines of your own, once a frame",
-        source: "semi-implicit Euler with the force of the start of the frame",
-        steps: Steps::PerFrame,
-        code: "v += (<stiffness> * (target - x) - <damping> * v) / <mass> * dt; x += v * dt;",
-        ..EQUATION
-    },
-];
-
-/// The least damping ratio that Motion takes from a bounce.
-const MOTION_MIN_RATIO: f64 = 0.05;
-/// What is left of the way where it is over.
-const OVER: f64 = 1e-3;
-/// The error that points are to stay below as a part of the way, and the most points.
-const SAMPLED: f64 = 5e-3;
-const MAX_POINTS: f64 = 100.0;
 /// In how many places the error is looked for.
 const PLACES: u32 = 20_000;
 /// Points that miss more of the way than this show another motion.
@@ -308,14 +137,6 @@ const HALVINGS: u32 = 60;
 const STEP_S: f64 = 1e-3;
 const MAX_STEPS: f64 = 64.0;
 
-fn wish(omega: f64, damping_ratio: f64) -> Wish {
-    Wish { frequency_hz: omega / TAU, damping_ratio, mass_kg: 1.0 }
-}
-
-fn whole_milliseconds([seconds, second, third]: Values) -> Values {
-    [(1e3 * seconds).round().max(1.0) / 1e3, second, third]
-}
-
 /// The part of the way that is left at this angle, the time times ω, to a spring of this damping ratio that began at rest.
 fn left(damping_ratio: f64, angle: f64) -> f64 {
     let spring =
@@ -324,45 +145,14 @@ fn left(damping_ratio: f64, angle: f64) -> f64 {
     left.expect("a spring has a closed form").q
 }
 
-/// The angle at which a spring of a damping ratio of 1 or more has [`OVER`] of its way left.
-fn angle_of(ratio: f64) -> f64 {
-    bisect([0.0, 40.0 * ratio], HALVINGS, |angle| left(ratio, angle) > OVER)[0]
-}
-
-/// ω times the duration by which Motion has a spring swing out: where ζ / √(1 − ζ²) exp(−ζ ω t) is what is left.
-fn motion_angle(ratio: f64) -> f64 {
-    match ratio < 1.0 {
-        true => -libm::log(OVER * libm::sqrt(1.0 - ratio * ratio) / ratio) / ratio,
-        false => angle_of(1.0),
-    }
-}
-
-/// What Motion finds of that: by 11 steps of Newton's method, which are too few close to critical damping.
-fn motion_omega(ratio: f64, duration: f64) -> f64 {
-    if ratio >= 1.0 {
-        return motion_angle(ratio) / duration;
-    }
-    let scale = ratio / libm::sqrt(1.0 - ratio * ratio);
-    (0..11).fold(5.0 / duration, |omega, _| {
-        let left = scale * libm::exp(-ratio * omega * duration);
-        omega - (OVER - left) / (ratio * duration * left)
-    })
-}
-
-/// The seconds after which less than [`OVER`] is left, and how many points are enough.
-fn sampling(wish: &Wish) -> Values {
-    let ratio = wish.damping_ratio;
-    let angle = match ratio < 1.0 {
-        true => -libm::log(OVER * libm::sqrt(1.0 - ratio * ratio)) / ratio,
-        false => angle_of(ratio),
-    };
-    // A straight line is off by an eighth of the curvature, 1 at most, times the square of its length.
-    let points = libm::ceil(angle / libm::sqrt(8.0 * SAMPLED)) + 1.0;
-    [angle / wish.omega(), points.clamp(2.0, MAX_POINTS), 0.0]
+/// A number as [`in_code`], without an exponent.
+fn decimal(value: f64) -> String {
+    let rounded = format!("{value:.8e}").parse::<f64>();
+    rounded.unwrap_or(value).to_string()
 }
 
 /// The points of a way, written as in a style sheet, and how far the lines between them are off.
-fn curve(wish: &Wish, [duration, points, _]: Values) -> (String, f64) {
+fn curve(wish: &Wish, [duration, points, ..]: Values) -> (String, f64) {
     let pieces = points as u32 - 1;
     let at = |place: f64| 1.0 - left(wish.damping_ratio, wish.omega() * duration * place);
     let point = |i: u32| match i == pieces {
@@ -386,7 +176,18 @@ fn curve(wish: &Wish, [duration, points, _]: Values) -> (String, f64) {
 impl Dialect {
     /// The dialect with this id.
     pub fn of_id(id: &str) -> Option<&'static Self> {
-        DIALECTS.iter().find(|dialect| dialect.id == id)
+        DIALECTS.iter().find(|dialect| dialect.ids().any(|own| own == id))
+    }
+
+    /// Its id, and the one that it had.
+    pub fn ids(&self) -> impl Iterator<Item = &'static str> + use<> {
+        [self.id].into_iter().chain(self.former_id)
+    }
+
+    /// The version that it is held against and how, in words; `None` of code of your own.
+    pub fn held_against(&self) -> Option<String> {
+        let Self { version, evidence, .. } = self;
+        (!version.is_empty()).then(|| format!("held against {version}, {evidence}"))
     }
 
     /// Whether a motion can be read from it.
@@ -421,7 +222,7 @@ impl Dialect {
     /// How it steps: `exact`, or a method's id.
     pub fn steps(&self) -> &'static str {
         match self.steps {
-            Steps::Exact | Steps::Sampled => "exact",
+            Steps::Exact | Steps::WholeMilliseconds | Steps::Sampled => "exact",
             Steps::PerFrame | Steps::Milliseconds => "semi-implicit-euler",
             Steps::SmoothDamp => "smooth-damp",
         }
@@ -437,10 +238,11 @@ impl Dialect {
             Steps::Sampled if is_told => curve(wish, values),
             _ => Default::default(),
         };
+        let departure = (self.departure)(&told);
         let map = self.map(&told, frame_hz);
         let is_stable = map.as_ref().is_none_or(StepMap::is_stable);
         let seen = map.map_or(Some(told.seen()), |map| map.seen());
-        let seen = seen.filter(|_| is_told && error <= ASTRAY);
+        let seen = seen.filter(|_| is_told && error <= ASTRAY && departure.is_none());
         let missed = seen.and_then(|seen| {
             let ratio = seen.damping_ratio()? - wish.damping_ratio;
             Some([(seen.undamped_hz() / wish.frequency_hz - 1.0).abs(), ratio])
@@ -449,6 +251,9 @@ impl Dialect {
         let reach = match missed {
             _ if !is_told => Reach::Unreachable,
             _ if error > ASTRAY => Reach::Unreachable,
+            _ if departure.is_some_and(|it| it.damping_ratio > Some(wish.damping_ratio + near)) => {
+                Reach::Unreachable
+            }
             _ if error > 0.0 => Reach::Nearest,
             None if is_stable => Reach::Nearest,
             Some([of_hz, ratio]) if of_hz <= REACHED && ratio.abs() <= near => Reach::Reached,
@@ -459,6 +264,10 @@ impl Dialect {
         code = code.replace("<curve>", &points);
         for (key, value) in self.keys.iter().zip(values) {
             code = code.replace(&format!("<{}>", key.name), &in_code(value));
+            code = code.replace(&format!("<{}:decimal>", key.name), &decimal(value));
+        }
+        for switch in self.switched_on(&values) {
+            code = format!("{code}; {}", switch.code);
         }
         DialectPort {
             reach,
@@ -466,15 +275,23 @@ impl Dialect {
             explodes_below_hz: self.explodes_below_hz(&told),
             is_stable,
             seen,
+            departure,
             error: (error > 0.0).then_some(error),
             code: if is_told { code } else { String::new() },
         }
     }
 
+    /// The switches that are on in these values of its keys.
+    pub fn switched_on(&self, values: &[f64]) -> impl Iterator<Item = &'static Switch> {
+        let is_on =
+            |(key, value): (&'static Key, &f64)| key.switch.as_ref().filter(|_| *value == 1.0);
+        self.keys.iter().zip(values).filter_map(is_on)
+    }
+
     /// The map of a step of a motion that it is told; `None` of a closed form.
     fn map(&self, told: &Wish, frame_hz: f64) -> Option<StepMap> {
         let (step_s, pace) = match self.steps {
-            Steps::Exact | Steps::Sampled => return None,
+            Steps::Exact | Steps::WholeMilliseconds | Steps::Sampled => return None,
             Steps::PerFrame | Steps::SmoothDamp => (1.0 / frame_hz, 1.0),
             Steps::Milliseconds => (STEP_S, pace(frame_hz)),
         };
@@ -500,7 +317,24 @@ impl Dialect {
     pub fn at_frame_rates(&self, port: &DialectPort, frame_hz: f64) -> String {
         let percent = |part: f64| significant(100.0 * part.abs(), 2);
         match self.steps {
-            Steps::Exact => "the closed form: the same at every frame rate".into(),
+            Steps::Exact | Steps::WholeMilliseconds => {
+                let times = match (self.steps, port.departure) {
+                    (Steps::Exact, None) => ": the same at every frame rate",
+                    (Steps::Exact, Some(_)) => "",
+                    _ => " at whole milliseconds: up to 1 ms behind",
+                };
+                let departs = port.departure.map(|Departure { at_s, left, damping_ratio }| {
+                    let at = significant(at_s, 4);
+                    match damping_ratio {
+                        Some(ratio) => format!("; from {at} s on with a damping ratio of {ratio}"),
+                        None => {
+                            let left = percent(left);
+                            format!(", cut to its end at {at} s, with {left} % of the way left")
+                        }
+                    }
+                });
+                format!("the closed form{times}{}", departs.unwrap_or_default())
+            }
             Steps::Sampled => match port.error {
                 Some(error) => format!("off by {} % of the way at most", percent(error)),
                 None => "without damping it never ends, and has no last point".into(),
@@ -511,8 +345,9 @@ impl Dialect {
             Steps::Milliseconds => {
                 let off = pace(frame_hz) - 1.0;
                 let way = if off < 0.0 { "slow" } else { "fast" };
+                let turns = if port.seen.is_none() { "; changes sides at every step" } else { "" };
                 format!(
-                    "semi-implicit Euler by 1 ms, rounded up: {} % {way} at {frame_hz} frames per second; lags below {} of them",
+                    "semi-implicit Euler by 1 ms, rounded up: {} % {way} at {frame_hz} frames per second; lags below {} of them{turns}",
                     percent(off),
                     1.0 / (MAX_STEPS * STEP_S),
                 )

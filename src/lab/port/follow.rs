@@ -2,7 +2,6 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::seen::seen;
 use crate::lab::bisection::bisect;
 use crate::sim::State;
 use crate::sim::bodies::Follow;
@@ -39,6 +38,11 @@ const FRAME_RATES: [f64; 5] = [30.0, 60.0, 120.0, 144.0, 240.0];
 /// The rates per second between which a follower's is sought, and how often the interval of their logarithms is halved.
 const RATES: [f64; 2] = [1e-6, 1e9];
 const HALVINGS: u32 = 60;
+/// Frames after which half of the way is looked for first, and how often they are doubled: to a year at 240 a second.
+const FIRST_SPAN: f64 = 1.0 / 64.0;
+const DOUBLINGS: u32 = 40;
+/// Logarithms of eigenvalues that are closer than this are those of a double one: their difference is rounding.
+const SAME: f64 = 1e-7;
 
 impl Approach {
     /// Of a value that goes this part of the way in each of `fps` frames per second.
@@ -76,7 +80,41 @@ fn half_life(method: &Method, rate: f64, fps: f64) -> Option<f64> {
     if method.law_order()? == 1 {
         return (map.m11 > 0.0).then(|| -std::f64::consts::LN_2 / libm::log(map.m11) / fps);
     }
-    Some(CRITICAL_HALF / seen(map.trace(), map.determinant(), 1.0 / fps)?.omega)
+    Some(frames_to_half(&map)? / fps)
+}
+
+/// The frames after which half of the distance is left, from rest; between two frames by the map's own powers. `None` if
+/// the map changes sides, or does not decay.
+fn frames_to_half(map: &Matrix2<f64>) -> Option<f64> {
+    let (half, determinant) = (map.trace() / 2.0, map.determinant());
+    let square = half * half - determinant;
+    if determinant <= 0.0 || square >= 0.0 && half <= 0.0 {
+        return None;
+    }
+    // The map is exp(log_scale) times a map of determinant 1, whose eigenvalues are exp(±apart) or exp(±i apart).
+    let (log_scale, root) = (libm::log(determinant) / 2.0, libm::sqrt(square.abs()));
+    let swings = square < 0.0;
+    let apart = if swings { libm::atan2(root, half) } else { libm::atanh(root / half) };
+    let beside = (map.m11 - half) / libm::sqrt(determinant);
+    let left = |frames: f64| {
+        let of = |log: f64| libm::exp(frames * log);
+        let [even, odd] = match apart {
+            apart if apart < SAME => [of(log_scale), of(log_scale) * frames],
+            apart if swings => {
+                let [even, odd] = [libm::cos(frames * apart), libm::sin(frames * apart)];
+                [of(log_scale) * even, of(log_scale) * odd / libm::sin(apart)]
+            }
+            apart => {
+                let [slow, fast] = [of(log_scale + apart), of(log_scale - apart)];
+                [(slow + fast) / 2.0, (slow - fast) / 2.0 / libm::sinh(apart)]
+            }
+        };
+        even + beside * odd
+    };
+    let spans = (0..DOUBLINGS).map(|i| FIRST_SPAN * libm::exp2(f64::from(i)));
+    let high = spans.into_iter().find(|frames| left(*frames) <= 0.5)?;
+    let [_, high] = bisect([0.0, high], HALVINGS, |frames| left(frames) > 0.5);
+    Some(high)
 }
 
 /// The setting of every follower at 30 to 240 frames per second, and at `fps`, with which it halves the distance in the

@@ -68,13 +68,17 @@ fn told_to(dialect: &'static Dialect, values: &[f64], spring: MySpring) -> Vec<N
         let with = move |value| {
             let mut told = values.clone();
             told[index] = value;
+            // The line of code turns a switch on where the motion wants it.
+            let switches =
+                dialect.keys.iter().zip(&mut told).filter(|(key, _)| key.switch.is_some());
+            switches.for_each(|(_, told)| *told = 1.0);
             let wish = dialect.read(&told)?;
             let mass_kg = if dialect.has_mass() { wish.mass_kg } else { spring.mass_kg };
             Ok(spring.told(&Wish { mass_kg, ..wish }))
         };
         Number { name: key.name, unit: "", value, with: Box::new(with) }
     };
-    dialect.keys.iter().enumerate().map(number).collect()
+    dialect.keys.iter().enumerate().filter(|(_, key)| key.switch.is_none()).map(number).collect()
 }
 
 /// How it starts, and what pulls at it.

@@ -9,6 +9,34 @@ const MAX_LINES: usize = 600;
 /// Names for "did not think".
 const NO_NAMES: [&str; 6] = ["utils", "util", "common", "helpers", "helper", "misc"];
 
+/// The files that name a standard stream: those that print, with signs for control characters, and tests that say why they
+/// are skipped.
+const PRINTERS: [&str; 5] = [
+    "src/commands/output/destination.rs",
+    "src/commands/pipeline.rs",
+    "src/commands/terminal.rs",
+    "src/main.rs",
+    "src/view/testing.rs",
+];
+const STREAMS: [&str; 6] =
+    ["io::stdout()", "io::stderr()", "println!", "print!", "eprintln!", "eprint!"];
+
+/// Standard streams that are written past the functions that print.
+fn streams(source: &Source) -> Vec<String> {
+    let code = code(&source.text);
+    let found = STREAMS.iter().find(|stream| code.contains(*stream));
+    let is_printer = PRINTERS.contains(&&*source.path);
+    let complaint = |stream| format!("{}: {stream}, which a printer is for", source.path);
+    found.filter(|_| !is_printer).map(complaint).into_iter().collect()
+}
+
+#[test]
+fn what_is_printed_goes_through_one_function() {
+    none(sources("src", &["rs"]).iter().flat_map(streams).collect());
+    let bad = |path| streams(&source(path, "fn f() { writeln!(io::stderr(), x); }"));
+    assert_eq!((bad("src/commands/trace.rs").len(), bad(PRINTERS[2]).len()), (1, 0));
+}
+
 /// Names and lengths.
 fn shapes(source: &Source) -> Vec<String> {
     let mut complaints = Vec::new();

@@ -177,3 +177,78 @@ fn tables_with_semicolons_and_notes_are_read_and_numbers_beyond_a_double_are_tol
     assert_eq!(code("diff huge.csv larger.csv"), Some(1));
     assert_eq!(code("diff huge.csv huge.csv"), Some(0));
 }
+
+#[test]
+fn a_row_that_begins_with_a_number_sign_is_compared_and_a_note_stands_above_the_header() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    let rows = |q: u32| format!("body,tick,q\n#1,0,1\n#1,1,{q}\nb,0,0\nb,1,1\n");
+    write("a.csv", &rows(2));
+    write("b.csv", &format!("\u{feff}# a note\n\n# and another\n{}", rows(99)));
+    write("c.csv", &rows(2).replace("b,0", "# a note below\nb,0"));
+    let found = run_in(folder.path(), "diff a.csv b.csv");
+    let text = String::from_utf8(found.stdout).unwrap();
+    assert_eq!(found.status.code(), Some(1), "{text}");
+    assert!(text.contains("first at tick 1, #1: q is 2 in a and 99 in b"), "{text}");
+    assert!(text.contains("4 rows compared"), "{text}");
+    let refused = run_in(folder.path(), "diff a.csv c.csv");
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(stderr(&refused).contains("c.csv:4:"), "{}", stderr(&refused));
+    assert!(stderr(&refused).contains("notes a place above the header"), "{}", stderr(&refused));
+}
+
+#[cfg(unix)]
+#[test]
+fn what_has_no_end_is_refused_before_it_fills_the_memory() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("a.csv", "tick,x\n0,1\n1,2\n");
+    write("open.csv", &format!("tick,x\n0,\"1\n{}", "1,2\n".repeat(1 << 20)));
+    write("note.csv", &format!("#{}\ntick,x\n0,1\n1,2\n", "-".repeat(1 << 21)));
+    // A long row is one, up to the bound.
+    let wide = |last: &str| {
+        let names: String = (0..60_000).map(|i| format!(",x{i}")).collect();
+        let cells = |x: &str| format!(",{x}").repeat(60_000);
+        format!("tick{names}\n0{}\n1{}\n", cells("1"), cells(last))
+    };
+    write("wide.csv", &wide("2"));
+    write("wider.csv", &wide("3"));
+    let sparse = fs::File::create(folder.path().join("zeros.csv")).unwrap();
+    sparse.set_len(1 << 30).unwrap();
+    for (arguments, told) in [
+        ("diff /dev/zero a.csv", "it is no regular file but a pipe or a device"),
+        ("diff a.csv /dev/null", "or give - for standard input"),
+        ("diff a.csv open.csv", "open.csv:2: a row of more than 1048576 bytes"),
+        ("diff note.csv a.csv", "a row of more than 1048576 bytes"),
+        ("diff zeros.csv a.csv", "a row of more than 1048576 bytes"),
+    ] {
+        let output = run_in(folder.path(), arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {}", stderr(&output));
+        assert!(stderr(&output).contains(told), "{arguments}: {}", stderr(&output));
+    }
+    let same = run_in(folder.path(), "diff wide.csv wide.csv");
+    assert_eq!(same.status.code(), Some(0), "{}", stderr(&same));
+    assert_eq!(run_in(folder.path(), "diff wide.csv wider.csv").status.code(), Some(1));
+}
+
+#[test]
+fn control_characters_of_a_table_are_signs_in_text_and_escapes_in_json() {
+    let folder = tempfile::tempdir().unwrap();
+    let body = "\u{1b}[31m\u{7}\u{9b}2J\u{202e}";
+    for (name, last) in [("a.csv", "2"), ("b.csv", "\"3\nthe same\"")] {
+        let text = format!("tick,body,q\n0,{body},1\n1,{body},{last}\n");
+        fs::write(folder.path().join(name), text).unwrap();
+    }
+    let found = run_in(folder.path(), "diff a.csv b.csv");
+    let text = String::from_utf8(found.stdout).unwrap();
+    assert!(
+        text.contains("first at tick 1, ␛[31m␇�2J�: q is 2 in a and 3␊the same in b"),
+        "{text}"
+    );
+    assert!(!text.contains(|sign: char| sign.is_control() && sign != '\n'), "{text}");
+    let found = run_in(folder.path(), "diff a.csv b.csv --format json");
+    let text = String::from_utf8(found.stdout).unwrap();
+    assert!(!text.contains(|sign: char| sign.is_control() && sign != '\n'), "{text}");
+    let json: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(json["first"]["body"], body);
+}

@@ -63,3 +63,33 @@ fn a_link_that_leads_to_no_run_is_refused_in_a_sentence() {
         }
     }
 }
+
+#[test]
+fn a_run_longer_than_verify_takes_is_refused_before_it_is_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, seconds: u32, check: &str| {
+        let head = format!("title = \"t\"\ntick_hz = 10000\nseconds = {seconds}\n");
+        let text = format!("{head}[[spring]]\nmass_kg = 1.0\nstiffness_n_per_m = 40.0\n{check}");
+        fs::write(folder.path().join(name), text).unwrap();
+    };
+    write("long.toml", 10_001, "");
+    write("late.toml", 1, "[[check]]\ntick = 100000001\nlane = 1\nhash = \"0000000000000000\"\n");
+    for (arguments, told) in [
+        ("link long.toml", "long.toml runs for 100010000 ticks"),
+        ("diff long.toml spring", "long.toml runs for 100010000 ticks"),
+        (
+            "diff spring long.toml",
+            "verify runs 100000000 at most; lower its seconds, or its tick_hz",
+        ),
+        ("verify --bless long.toml", "long.toml runs for 100010000 ticks"),
+        ("link late.toml", "late.toml has a [[check]] at tick 100000001"),
+        ("diff late.toml spring", "verify runs 100000000 ticks at most; take it out"),
+    ] {
+        let output = run_in(folder.path(), arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {}", stderr(&output));
+        assert!(stderr(&output).contains(told), "{arguments}: {}", stderr(&output));
+    }
+    write("short.toml", 1, "");
+    let done = run_in(folder.path(), "link short.toml");
+    assert_eq!(done.status.code(), Some(0), "{}", stderr(&done));
+}

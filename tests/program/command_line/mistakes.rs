@@ -363,3 +363,33 @@ fn units_that_stand_for_values_keep_their_case() {
     }
     assert_eq!(found.len(), UNITS.len(), "{found:?}");
 }
+
+#[cfg(unix)]
+#[test]
+fn control_characters_of_names_and_of_scenes_are_signs_in_messages() {
+    let folder = tempfile::tempdir().unwrap();
+    let name = "a\u{1b}[31m\u{9b}2J.toml";
+    let scene = "title = \"\u{88}\u{202e}t\"\r\ntick_hz = \"\u{9b}2J\"\r\n";
+    fs::write(folder.path().join(name), scene).unwrap();
+    let run = |arguments: &[&str]| {
+        let output = regatta().current_dir(folder.path()).args(arguments).output().unwrap();
+        let text = String::from_utf8([output.stdout, output.stderr].concat()).unwrap();
+        let is_raw = |sign: char| sign.is_control() && !"\r\n".contains(sign) || sign == '\u{202e}';
+        assert!(!text.contains(is_raw), "{arguments:?}: {text:?}");
+        text
+    };
+    let told = run(&["trace", "--scene", name]);
+    assert!(told.contains("a␛[31m�2J.toml:"), "{told}");
+    for arguments in [
+        &["link", name][..],
+        &["diff", name, "spring"],
+        &["diff", "spring", "b\u{1b}]0;c\u{7}.csv"],
+        &["port", "--from", "_\u{88}:\u{1b}[2J"],
+        &["port", "--to", "\u{1b}[31mred\u{9b}"],
+        &["trace", "--\u{1b}[31mred"],
+        &["help", "\u{1b}[31m\u{9b}"],
+    ] {
+        let told = run(arguments);
+        assert!(told.contains('␛'), "{arguments:?}: {told}");
+    }
+}

@@ -1,0 +1,76 @@
+//! Control characters as signs: what is printed cannot steer a terminal.
+
+use std::borrow::Cow;
+use std::fmt::Write;
+
+/// Whether a terminal may obey this character, or turn the order of others: control characters but ends of lines and
+/// tabs, and those of the direction of writing.
+fn is_hidden(sign: char) -> bool {
+    sign.is_control() && !matches!(sign, '\n' | '\t')
+        || matches!(sign, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+/// The text with a sign in the place of each such character: its picture where Unicode has one. An end of a line of two
+/// characters stays.
+pub fn visible(text: &str) -> Cow<'_, str> {
+    if !text.contains(is_hidden) {
+        return text.into();
+    }
+    let next = text.chars().skip(1).map(Some).chain([None]);
+    let shown = text.chars().zip(next).map(|(sign, next)| match sign {
+        '\r' if next == Some('\n') => sign,
+        '\0'..='\u{1f}' if is_hidden(sign) => picture(u32::from(sign)),
+        '\u{7f}' => '\u{2421}',
+        sign if is_hidden(sign) => char::REPLACEMENT_CHARACTER,
+        sign => sign,
+    });
+    shown.collect()
+}
+
+/// The text as it stands within a line, whose ends are signs too.
+pub(super) fn visible_in_a_line(text: &str) -> String {
+    visible(text).replace('\r', "\u{240d}").replace('\n', "\u{240a}")
+}
+
+fn picture(code: u32) -> char {
+    char::from_u32(0x2400 + code).unwrap_or(char::REPLACEMENT_CHARACTER)
+}
+
+/// JSON with the same value, whose strings have escapes in the place of such characters.
+pub(super) fn visible_json(text: &str) -> Cow<'_, str> {
+    if !text.contains(is_hidden) {
+        return text.into();
+    }
+    let mut shown = String::with_capacity(text.len());
+    for sign in text.chars() {
+        if is_hidden(sign) {
+            write!(shown, "\\u{:04x}", u32::from(sign)).expect("a text takes all");
+        } else {
+            shown.push(sign);
+        }
+    }
+    shown.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn control_characters_are_signs_and_lines_stay() {
+        assert_eq!(visible("a\tb\r\nc\n"), "a\tb\r\nc\n");
+        assert_eq!(visible("\u{1b}[31m\u{7}\0\r\u{7f}"), "␛[31m␇␀␍␡");
+        assert_eq!(visible("\u{88}\u{9b}2J\u{202e}\u{2066}"), "��2J��");
+        assert_eq!(visible_in_a_line("a\nthe same\r\n"), "a␊the same␍␊");
+        assert!(matches!(visible("ü → ␛ e\u{301}"), Cow::Borrowed(_)));
+    }
+
+    #[test]
+    fn json_keeps_its_value() {
+        let text = "\u{9b}\u{7f}\u{202e}\u{1b}\n\"";
+        let json = serde_json::to_string(text).unwrap();
+        let shown = visible_json(&json);
+        assert!(shown.is_ascii() && !shown.contains(is_hidden), "{shown}");
+        assert_eq!(serde_json::from_str::<String>(&shown).unwrap(), text);
+    }
+}

@@ -1,0 +1,212 @@
+//! Columns that count on as a clock does, while nothing moves.
+
+/// Names of clocks and counters, in whatever unit: words of a column's name.
+const CLOCKS: [&str; 27] = [
+    "clock",
+    "date",
+    "elapsed",
+    "epoch",
+    "frame",
+    "frames",
+    "index",
+    "micros",
+    "millis",
+    "milliseconds",
+    "ms",
+    "nanos",
+    "ns",
+    "sec",
+    "second",
+    "seconds",
+    "secs",
+    "step",
+    "steps",
+    "tick",
+    "ticks",
+    "time",
+    "timestamp",
+    "ts",
+    "uptime",
+    "us",
+    "wall",
+];
+/// Ends of such words, as of `simtime`.
+const CLOCK_ENDS: [&str; 3] = ["time", "clock", "stamp"];
+/// Names of coordinates, which may grow evenly: words of a column's name.
+const PLACES: [&str; 18] = [
+    "altitude",
+    "angle",
+    "coordinate",
+    "depth",
+    "distance",
+    "height",
+    "phi",
+    "place",
+    "pos",
+    "position",
+    "px",
+    "py",
+    "pz",
+    "q",
+    "theta",
+    "x",
+    "y",
+    "z",
+];
+/// The part of a value that a clock in single precision may be off at each step.
+const SINGLE: f64 = 2.4e-7;
+
+/// When a column of values says that something moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Moves {
+    /// It does not: another column is the coordinate.
+    Never,
+    /// Whenever it changes.
+    Always,
+    /// When it ever goes back: it is called like a clock.
+    Back,
+    /// When it changes unevenly: a clock of any name grows by the same amount in each row.
+    Unevenly,
+}
+
+impl Moves {
+    /// Of a column with this name, which may be the only one with values.
+    pub(super) fn of_name(name: &str, is_only: bool) -> Self {
+        let words = words(name);
+        let has = |known: &[&str]| words.iter().any(|word| known.contains(&&**word));
+        let is_clock = || words.iter().any(|word| CLOCK_ENDS.iter().any(|end| word.ends_with(end)));
+        if has(&PLACES) {
+            return Self::Always;
+        }
+        if has(&CLOCKS) || is_clock() {
+            return Self::Back;
+        }
+        if is_only { Self::Always } else { Self::Unevenly }
+    }
+}
+
+/// The words of a name: `simTime`, `sim_time` and `sim.time` have the same two.
+fn words(name: &str) -> Vec<String> {
+    let mut words = vec![String::new()];
+    let mut was_lower = false;
+    for sign in name.chars() {
+        let begins = !sign.is_alphanumeric() || sign.is_uppercase() && was_lower;
+        if begins {
+            words.push(String::new());
+        }
+        was_lower = sign.is_lowercase();
+        let last = words.last_mut().expect("there is one");
+        last.extend(sign.to_lowercase().filter(|sign| sign.is_alphanumeric()));
+    }
+    words
+}
+
+/// How a column has gone in the rows of one name.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Course {
+    /// The place of the last row and its values.
+    last: Option<(f64, [f64; 2])>,
+    /// The least and the most by which it grows in each row, if that is the same; the ends excluded.
+    growth: [f64; 2],
+    /// How many steps were taken.
+    steps: u32,
+    /// The unit of the last digit of the last values.
+    unit: f64,
+}
+
+impl Default for Course {
+    fn default() -> Self {
+        Self { last: None, growth: [f64::NEG_INFINITY, f64::INFINITY], steps: 0, unit: 0.0 }
+    }
+}
+
+impl Course {
+    /// Adds the values of both sides at a place, as they are written in these cells. Returns whether it may still be a
+    /// clock's.
+    pub(super) fn add(
+        &mut self,
+        moves: Moves,
+        place: f64,
+        values: [f64; 2],
+        cells: [&[u8]; 2],
+    ) -> bool {
+        if !values.iter().all(|value| value.is_finite()) {
+            return true;
+        }
+        let last = self.last.replace((place, values));
+        // Most columns do not change, or are called like a clock.
+        if moves == Moves::Unevenly && last.is_none_or(|(_, last)| last != values) {
+            self.unit = cells.map(unit_of).into_iter().fold(0.0, f64::max);
+        }
+        let Some((before, last)) = last else { return true };
+        let (rows, unit) = (place - before, self.unit);
+        let of_clock = |(value, last): (f64, f64)| match moves {
+            Moves::Back => (value - last) * rows >= 0.0,
+            _ => {
+                let rounding = unit + SINGLE * value.abs().max(last.abs());
+                let ends = [-rounding, rounding].map(|off| (value - last + off) / rows);
+                let [least, most] = &mut self.growth;
+                *least = least.max(ends[0].min(ends[1]));
+                *most = most.min(ends[0].max(ends[1]));
+                rows != 0.0 && *least < *most
+            }
+        };
+        self.steps = self.steps.saturating_add(1);
+        values.into_iter().zip(last).map(of_clock).fold(true, |all, is_clock| all && is_clock)
+    }
+
+    /// Whether it went as a clock goes, as far as it was followed: two values alone always do.
+    pub(super) fn is_of_a_clock(&self, moves: Moves) -> bool {
+        let [least, most] = self.growth;
+        moves == Moves::Back || self.steps >= 2 && (least >= 0.0 || most <= 0.0)
+    }
+}
+
+/// The unit of the last digit of a number as it is written.
+fn unit_of(cell: &[u8]) -> f64 {
+    let cell = cell.trim_ascii();
+    let exponent_at = cell.iter().position(|sign| matches!(sign, b'e' | b'E'));
+    let (digits, exponent) = cell.split_at(exponent_at.unwrap_or(cell.len()));
+    let exponent = std::str::from_utf8(exponent.get(1..).unwrap_or_default());
+    let exponent: i32 = exponent.ok().and_then(|text| text.parse().ok()).unwrap_or(0);
+    let point = digits.iter().position(|sign| *sign == b'.');
+    let decimals = point.map_or(0, |point| digits.len() - point - 1);
+    libm::pow(10.0, f64::from(exponent) - decimals as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_column_is_called_like_a_clock_or_like_a_coordinate_by_its_words() {
+        for name in ["time", "sim_time", "gameTimeMs", "time_ms", "elapsed", "sim_frame", "ts"] {
+            assert_eq!(Moves::of_name(name, false), Moves::Back, "{name}");
+        }
+        for name in ["x", "pos.y", "position_m", "frame_x", "playerX"] {
+            assert_eq!(Moves::of_name(name, false), Moves::Always, "{name}");
+        }
+        for name in ["crc", "vx2", "T", "energy", "v_m_per_s"] {
+            assert_eq!(Moves::of_name(name, false), Moves::Unevenly, "{name}");
+            assert_eq!(Moves::of_name(name, true), Moves::Always, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_clock_grows_evenly_to_its_rounding_and_a_motion_does_not() {
+        let is_clock = |cells: &[&str]| {
+            let mut course = Course::default();
+            let goes_on = cells.iter().zip(0..).all(|(cell, place)| {
+                let value: f64 = cell.parse().unwrap();
+                course.add(Moves::Unevenly, f64::from(place), [value; 2], [cell.as_bytes(); 2])
+            });
+            goes_on && course.is_of_a_clock(Moves::Unevenly)
+        };
+        assert!(is_clock(&["0.0", "0.016667", "0.033333", "0.05"]));
+        assert!(is_clock(&["0", "17", "33", "50", "67"]) && is_clock(&["0", "1", "2", "3"]));
+        assert!(is_clock(&["1.6e9", "1.7e9", "1.8e9"]) && is_clock(&["3", "2", "1"]));
+        assert!(!is_clock(&["0", "0", "0"]) && !is_clock(&["1.5", "1.5", "1.5"]));
+        assert!(!is_clock(&["0", "1"]) && !is_clock(&["0", "0", "1", "1", "0"]));
+        assert!(!is_clock(&["0.0", "0.16", "0.33", "0.49", "0.64", "0.78"]));
+    }
+}
