@@ -53,7 +53,8 @@ One row for each trace and policy, in the order asked for; times are in ms:
   ticks, evaluations  steps made, and evaluations of the bodies' accelerations
 
 In --frame-rows q is the first coordinate of the scene's first body. Below the rows stands which loop
-to take: the least animation error within --latency-ms. `regatta help loops` says why.
+to take: of those with a fixed tick that are smooth within --latency-ms the one with the least animation
+error, or why there is none. `regatta help loops` says more.
 
 Examples:
   regatta loop > loops.csv

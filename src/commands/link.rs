@@ -10,10 +10,7 @@ use super::output::print;
 use super::scene_file;
 use super::terminal::print_status;
 use super::verify::recording::{checks_of, refuse_late_checks};
-use crate::lab::link;
-
-/// What fits in an argument on every system, roughly.
-const MOST_LETTERS: usize = 100_000;
+use crate::lab::link::{self, MAX_LETTERS};
 
 const ABOUT: &str = "\
 The link holds the scene, its lanes, its script and the hashes at its end, so that `regatta verify LINK`
@@ -42,9 +39,9 @@ pub(super) fn run(args: &LinkArgs) -> Result<(), Error> {
         scene.checks = checks_of(&args.run, &scene)?;
     }
     let link = link::to(&scene).map_err(Error::mistake)?;
-    if link.len() > MOST_LETTERS {
+    if link.len() > MAX_LETTERS {
         print_status(&format!(
-            "warning: the link has {} letters, and a command line takes some {MOST_LETTERS}; share the file",
+            "warning: the link has {} letters, and a command line takes some {MAX_LETTERS}; share the file",
             link.len()
         ));
     }

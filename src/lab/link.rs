@@ -19,6 +19,9 @@ const SETTINGS: char = '&';
 /// How hard it is compressed, 0 to 10.
 const LEVEL: u8 = 10;
 
+/// The most letters of a link that every system takes as an argument, roughly. A field of the window takes no more.
+pub const MAX_LETTERS: usize = 100_000;
+
 /// Why a link leads to no run.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LinkError {

@@ -6,8 +6,8 @@
 use std::sync::Arc;
 
 use super::pacing::{
-    AdvisedLoop, FrameTrace, POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard,
-    USUAL_LATENCY_MS, advised_loop, latency_origin_ms,
+    AdvisedLoop, FrameTrace, LoopVerdict, MeasuredLoops, NoLoop, POLICIES, PolicyCard, RefreshRate,
+    TRACES, TraceCard, USUAL_LATENCY_MS,
 };
 use super::race::LaneBody;
 use super::scene::{MAX_TICK_HZ, Scene};
@@ -17,18 +17,18 @@ use crate::sim::integrators::Method;
 mod frame_metrics;
 mod lane;
 mod running;
-mod words;
 
 pub use frame_metrics::{FRAME_METRICS, FrameMetric};
 pub use lane::{LoopFrame, LoopLane, LoopState};
 pub use running::{FoundLoop, LoopRequest, LoopWorker};
-pub use words::LoopVerdict;
 
 /// The traces that come first, with the policies on the stage: noise that makes raw ticks flip between none and two, under
 /// the raw loop and the one that heals noise; then a display for which ticks are too few, under the raw loop and the usual
 /// remedy.
 const OPENING: [(&str, [&str; 2]); 2] =
-    [("edge", ["fixed", "whole-refresh"]), ("steady-144", ["fixed", "fixed-linear"])];
+    [("edge", [RAW, "whole-refresh"]), ("steady-144", [RAW, "fixed-linear"])];
+/// The loop whose ticks are drawn as they come.
+pub const RAW: &str = "fixed";
 /// How much of a trace the opening shows before it goes on, in nanoseconds of the display: long enough to see a judder.
 const OPENING_NS: i64 = 1_500_000_000;
 /// The most policies on the stage.
@@ -69,6 +69,8 @@ pub struct LoopLab {
     /// The loops that are wanted.
     request: Arc<LoopRequest>,
     lanes: Vec<LoopLane>,
+    /// The loop to take, or why none, once all were run.
+    advice: Option<Result<AdvisedLoop, NoLoop>>,
     /// The range of the exact first coordinate.
     range: [f64; 2],
     on_stage: Vec<usize>,
@@ -106,6 +108,7 @@ impl LoopLab {
             traces,
             trace: 0,
             lanes: Vec::new(),
+            advice: None,
             range: [0.0; 2],
             selected: 0,
             on_stage: Vec::new(),
@@ -153,6 +156,7 @@ impl LoopLab {
             first: self.on_stage.clone(),
         });
         self.lanes = POLICIES.iter().map(LoopLane::awaited).collect();
+        self.advice = None;
         self.end_ns = 0;
         self.range = [f64::INFINITY, f64::NEG_INFINITY];
     }
@@ -175,7 +179,26 @@ impl LoopLab {
         self.lanes[index] = lane;
         if self.is_complete() {
             self.now_ns = self.now_ns.min(self.end_ns);
+            self.advice = self.measured().map(|loops| loops.advised(USUAL_LATENCY_MS));
+            self.bring_advised_on_stage();
         }
+    }
+
+    /// Compares the raw loop with the one to take, or the nearest to it, unless a person chose what is on the stage.
+    fn bring_advised_on_stage(&mut self) {
+        let raw = index_of(RAW);
+        if let Some(best) = self.best().filter(|best| *best != raw && !self.is_stage_chosen) {
+            self.on_stage = vec![raw.min(best), raw.max(best)];
+            self.selected = raw;
+        }
+    }
+
+    /// All loops as they were measured; `None` before all were run.
+    fn measured(&self) -> Option<MeasuredLoops<'_>> {
+        let measured = self.lanes.iter().map(|lane| Some((lane.card(), lane.report()?)));
+        let measured: Vec<_> = measured.collect::<Option<_>>()?;
+        let has_one_clock = self.traces[self.trace].has_one_clock();
+        Some(MeasuredLoops::new(measured, self.scene.tick_hz, has_one_clock))
     }
 
     /// Whether every loop was run.
@@ -218,17 +241,37 @@ impl LoopLab {
     }
     /// The loop to take, by its index in [`POLICIES`]; `None` before all were run, or if none will do.
     pub fn advised(&self) -> Option<AdvisedLoop> {
-        let measured = self.lanes.iter().map(|lane| Some((lane.card(), lane.report()?)));
-        let measured: Vec<_> = measured.collect::<Option<_>>()?;
-        let reports = measured.iter().map(|(_, report)| *report);
-        let origin_ms = latency_origin_ms(self.traces[self.trace].has_one_clock(), reports);
-        advised_loop(&measured, origin_ms + USUAL_LATENCY_MS)
+        self.advice?.ok()
     }
-    /// The indices of the lanes as they are listed: the one to take, then all others in the order of [`POLICIES`].
+    /// Why no loop is advised, and the reasons clause by clause; `None` before all were run, or if one is.
+    pub fn none_advised(&self) -> Option<(NoLoop, Vec<String>)> {
+        let none = self.advice?.err()?;
+        Some((none, self.measured()?.reasons(none, USUAL_LATENCY_MS, |card| card.name)))
+    }
+    /// The index of the loop to take, or of the nearest to it.
+    fn best(&self) -> Option<usize> {
+        self.advice?.map_or_else(NoLoop::nearest, |advised| Some(advised.index))
+    }
+    /// The indices of the lanes as they are listed: the one to take, or the nearest to it, then all others in the order of
+    /// [`POLICIES`].
     pub fn listed(&self) -> Vec<usize> {
-        let first = self.advised().map(|advised| advised.index);
+        let first = self.best();
         let others = (0..self.lanes.len()).filter(|index| Some(*index) != first);
         first.into_iter().chain(others).collect()
+    }
+    /// The words in the place of plots until every loop on the stage was run.
+    pub fn waiting(&self) -> Option<&'static str> {
+        (!self.is_stage_complete()).then_some("Running the loops on the stage…")
+    }
+    /// The verdict on the loop with this index in [`POLICIES`].
+    pub fn verdict(&self, index: usize) -> LoopVerdict {
+        let lane = &self.lanes[index];
+        let Some(report) = lane.report() else { return LoopVerdict::awaited() };
+        let mut verdict = LoopVerdict::of(lane.card(), report, self.scene.tick_hz);
+        if self.advised().is_some_and(|advised| advised.index == index) {
+            verdict.parts.insert(0, "recommended".into());
+        }
+        verdict
     }
     /// The indices of the lanes on the stage, from top to bottom.
     pub fn on_stage(&self) -> &[usize] {
@@ -279,8 +322,7 @@ impl LoopLab {
         let name = self.traces[self.trace].name();
         let opening = OPENING.iter().find(|(id, _)| *id == name && !self.is_stage_chosen);
         if let Some((_, ids)) = opening {
-            let index = |id: &&str| POLICIES.iter().position(|card| card.id == *id);
-            self.on_stage = ids.iter().filter_map(index).collect();
+            self.on_stage = ids.map(index_of).into();
             self.selected = self.on_stage[0];
         }
         self.ask();
@@ -385,6 +427,11 @@ impl LoopLab {
     pub fn selected_card(&self) -> &'static PolicyCard {
         self.lanes[self.selected].card()
     }
+}
+
+/// The index of the loop with this id in [`POLICIES`].
+fn index_of(id: &str) -> usize {
+    POLICIES.iter().position(|card| card.id == id).expect("a built-in loop")
 }
 
 /// The one body of a scene at its start.

@@ -19,9 +19,10 @@ mod time_base;
 mod timed_script;
 mod trace;
 pub mod trace_file;
+mod verdict;
 
 pub use crate::sim::{Accumulator, Due, MAX_FRAME_MS};
-pub use advice::{AdvisedLoop, USUAL_LATENCY_MS, advised_loop, latency_origin_ms};
+pub use advice::{AdvisedLoop, MeasuredLoops, NoLoop, USUAL_LATENCY_MS};
 pub use frame::Frame;
 pub use loop_run::{LoopRun, MIN_RUN_S};
 pub use metrics::{FrameRecord, PACING_METRICS, PacingMetric, PacingReport};
@@ -32,3 +33,4 @@ pub use policies::{POLICIES, policy};
 pub use policy::{Policy, PolicyCard, Snippet, Steps};
 pub use time_base::{RefreshRate, TimeBase};
 pub use trace::{FrameTrace, Frames};
+pub use verdict::LoopVerdict;

@@ -6,6 +6,7 @@ use winit::keyboard::{Key as Logical, KeyCode, NamedKey, PhysicalKey};
 
 use super::App;
 use super::error::reason;
+use crate::lab::link::MAX_LETTERS;
 use crate::view::Modifiers;
 
 /// The clipboard, opened when something is copied or pasted first.
@@ -35,10 +36,11 @@ impl Clipboard {
         }
     }
 
-    /// The text on the clipboard, empty if it holds something else; `None` if there is no clipboard.
+    /// As much of the text on the clipboard as the longest field takes, empty if it holds something else; `None` if there is
+    /// no clipboard.
     fn text(&mut self) -> Option<String> {
         match self.opened().ok()?.get_text() {
-            Ok(text) => Some(text),
+            Ok(text) => Some(text.chars().take(MAX_LETTERS).collect()),
             Err(arboard::Error::ContentNotAvailable) => Some(String::new()),
             Err(error) => {
                 log::warn!("nothing is pasted from other programs: {}", reason(&error));

@@ -7,8 +7,10 @@ use std::sync::LazyLock;
 use std::{env, fs};
 
 use regatta::lab::{Race, Scene};
-
 use regatta::manual::{CHAPTERS, chapter};
+
+use crate::printed::texts;
+
 const SCENE: &str = include_str!("../../assets/scenes/stiff.toml");
 /// No lane of the scene.
 const OTHER: &str = "midpoint";
@@ -199,6 +201,42 @@ fn the_examples_run_and_need_nothing_but_the_library() {
         "{}",
         said(&output)
     );
+}
+
+/// What a program prints that is named above a block of output, as `examples/NAME.rs`, or stands there.
+fn printed_by(above: &str, number: usize) -> String {
+    let paragraph = above.trim_end().rsplit("\n\n").next().unwrap_or_default();
+    let named = paragraph.rsplit_once("`examples/").and_then(|(_, rest)| rest.split_once(".rs`"));
+    let program = match named {
+        Some((name, _)) => {
+            let made = MADE.1.iter().find(|made| made.0 == name);
+            made.expect("it is made beside the tests").1.clone()
+        }
+        None => {
+            let (_, rust) = above.rsplit_once("```rust\n").expect("a program stands above");
+            let (rust, _) = rust.split_once("```").expect("a block ends");
+            compile(&format!("printed_{number}"), &format!("fn main() {{\n{rust}}}\n"), &[])
+        }
+    };
+    let output = Command::new(program).current_dir(env!("CARGO_MANIFEST_DIR")).output();
+    let output = output.expect("it was just made");
+    assert!(output.status.success(), "{}", said(&output));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn every_program_of_the_manual_prints_what_stands_below_it() {
+    let mut compared = Vec::new();
+    for text in texts() {
+        for block in text.blocks() {
+            let is_synopsis = block.body.starts_with("regatta ");
+            if block.language == "text" && !is_synopsis {
+                text.hold(block.body, &printed_by(block.above, compared.len()));
+                compared.push(text.name);
+            }
+        }
+    }
+    assert_eq!(compared, ["library", "stable"]);
 }
 
 /// The scene with another method in this one's lane.

@@ -344,6 +344,10 @@ fn every_fault_is_named_with_its_line_and_a_remedy() {
             "log:2: column Dropped: expected 0 or 1, found \"yes\"; write 1 for a frame that was not displayed".into(),
         ),
         (
+            row("1,1").replace("\n1,1", "\n0,1"),
+            "log:2: no time passes from here to the last of these 2 frames; capture them again".into(),
+        ),
+        (
             row(&["86000000,1"; 367].join("\n")),
             "log:369: from here on the frames last more than a year in all; split the log".into(),
         ),

@@ -45,6 +45,9 @@ mod pacing_policies;
 mod picture;
 mod pinned;
 mod port;
+#[cfg(feature = "cli")]
+#[path = "../printed/mod.rs"]
+mod printed;
 mod recordings;
 mod restart;
 mod robot;

@@ -7,3 +7,6 @@ mod dice;
 mod golden;
 mod memory;
 mod packaging;
+#[cfg(unix)]
+#[path = "../printed/mod.rs"]
+mod printed;

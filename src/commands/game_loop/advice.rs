@@ -2,7 +2,7 @@
 
 use super::measured::Measured;
 use crate::commands::terminal::print_status;
-use crate::lab::pacing::{POLICIES, PacingReport, PolicyCard, advised_loop, latency_origin_ms};
+use crate::lab::pacing::{MeasuredLoops, NoLoop, POLICIES};
 use crate::sim::number::round;
 
 /// Tells which of the policies measured on one trace to take.
@@ -10,27 +10,34 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
     let Some(first) = rows.first() else { return };
     let trace =
         format!("{} ({} Hz display, {} Hz ticks)", first.trace, first.refresh, first.tick_hz);
-    let measured: Vec<(&'static PolicyCard, &PacingReport)> =
-        rows.iter().map(|row| (row.card, &row.report)).collect();
-    let origin_ms = latency_origin_ms(first.has_one_clock, rows.iter().map(|row| &row.report));
-    match advised_loop(&measured, origin_ms + latency_ms) {
-        Some(advised) => {
-            // The window advises among all.
-            let among = if rows.len() < POLICIES.len() { "of these take" } else { "take" };
-            print_status(&format!("{trace}: {among} {}", words(&rows[advised.index], origin_ms)));
+    let measured = rows.iter().map(|row| (row.card, &row.report));
+    let loops = MeasuredLoops::new(measured, first.tick_hz, first.has_one_clock);
+    // The window advises among all.
+    let are_all = rows.len() == POLICIES.len();
+    match loops.advised(latency_ms) {
+        Ok(advised) => {
+            let among = if are_all { "take" } else { "of these take" };
+            let latency_ms = loops.latency_ms(advised.index);
+            print_status(&format!("{trace}: {among} {}", words(&rows[advised.index], latency_ms)));
             if let Some(why) = advised.why {
                 print_status(&format!("  {why}"));
             }
         }
-        None if rows.iter().all(|row| row.report.animation_error_rms_ms.is_none()) => {
-            print_status(&format!(
-                "{trace}: fewer than two frames were displayed, too few to measure"
-            ));
+        Err(none) => {
+            let mut clauses = loops.reasons(none, latency_ms, |card| card.id);
+            let remedy = match none {
+                NoLoop::TooFewFrames => None,
+                NoLoop::MotionLost => Some("give more --tick-hz or another --method".into()),
+                NoLoop::Unfit { late: Some(index), .. } => {
+                    let least = loops.latency_ms(index).map(f64::ceil).unwrap_or_default();
+                    Some(format!("--latency-ms {least} takes {}", rows[index].card.id))
+                }
+                _ => (!are_all).then(|| "try --all".into()),
+            };
+            clauses.extend(remedy);
+            let among = if are_all { "none" } else { "none of these" };
+            print_status(&format!("{trace}: take {among}: {}", clauses.join("; ")));
         }
-        None => print_status(&format!(
-            "{trace}: no policy here keeps the game's speed at half the frame rate, stays stable, and has a mean latency \
-             of {latency_ms} ms or less; try --all, or a larger --latency-ms"
-        )),
     }
     if let Some(missing) = first.missing_display {
         print_status(&format!("  {missing}"));
@@ -54,15 +61,15 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
     }
 }
 
-/// A policy with what was measured and its constants. Latencies are counted from `origin_ms`.
-fn words(row: &Measured, origin_ms: f64) -> String {
+/// A policy with what was measured and its constants.
+fn words(row: &Measured, latency_ms: Option<f64>) -> String {
     // Traces are counted in whole nanoseconds: what is less than a microsecond is their rounding.
     let to_microseconds = |ms: f64| (1000.0 * ms).round() / 1000.0;
     let ms = |value: Option<f64>| {
         value.map_or("unknown".into(), |ms| format!("{} ms", round(to_microseconds(ms), 3)))
     };
     let error = ms(row.report.animation_error_rms_ms);
-    let latency = ms(row.report.latency_mean_ms().map(|latency| latency - origin_ms));
+    let latency = ms(latency_ms);
     let constants = match row.card.constants {
         "" => String::new(),
         constants => format!("; {constants}"),

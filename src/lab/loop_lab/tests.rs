@@ -1,6 +1,7 @@
 use super::*;
 use crate::lab::Action;
-use crate::lab::pacing::policy;
+use crate::lab::analysis::Severity;
+use crate::lab::pacing::{policy, trace_file};
 use crate::lab::studio::{Command, RunCommand, StageCommand, Step, Studio};
 use crate::sim::integrators::method;
 
@@ -57,9 +58,74 @@ fn the_list_begins_with_the_loop_to_take_and_a_step_of_the_frame_says_that_its_p
         let verdict = studio.verdict(index);
         let says = verdict.to_string().contains("physics varies with the rate");
         assert_eq!(says, !lane.card().has_fixed_tick, "{}: {verdict}", lane.card().id);
-        let is_green = verdict.severity == crate::lab::analysis::Severity::Fine;
+        let is_green = verdict.severity == Severity::Fine;
         assert!(!(says && is_green), "{}: {verdict}", lane.card().id);
     }
+}
+
+#[test]
+fn what_is_recommended_is_green_with_a_fixed_tick_and_compared_on_the_stage() {
+    let mut reasons = Vec::new();
+    for (name, tick_hz) in
+        [("spring", 60), ("spring", 30), ("stiff", 30), ("ship", 2), ("orbit", 7)]
+    {
+        let scene = Scene { tick_hz, ..Scene::built_in(name).unwrap() };
+        let mut studio = lab_of(&scene);
+        studio.add_traces(trace_file::read("own.txt", &"7.1\n".repeat(600)).unwrap());
+        for trace in 0..studio.traces().len() {
+            studio.choose_trace(trace);
+            run(&mut studio);
+            let words = studio.verdict(studio.listed()[0]).to_string();
+            let place =
+                format!("{name} at {tick_hz} Hz on {}: {words}", studio.traces()[trace].name());
+            assert!(on_stage(&studio).contains(&"fixed"), "{place}");
+            let Some(advised) = studio.advised() else {
+                let recommended = (0..POLICIES.len())
+                    .filter(|&i| studio.verdict(i).to_string().contains("recommended"));
+                assert_eq!(recommended.count(), 0, "{place}");
+                let (none, told) = studio.none_advised().expect("either one or none");
+                assert!(
+                    none.nearest().is_none_or(|near| studio.on_stage().contains(&near)),
+                    "{place}"
+                );
+                reasons.push((place, told.join("; ")));
+                continue;
+            };
+            assert_eq!(
+                (studio.listed()[0], studio.none_advised()),
+                (advised.index, None),
+                "{place}"
+            );
+            assert!(words.starts_with("recommended, smooth"), "{place}");
+            assert_eq!(studio.verdict(advised.index).severity, Severity::Fine, "{place}");
+            assert!(studio.lanes()[advised.index].card().has_fixed_tick, "{place}");
+            assert!(studio.on_stage().contains(&advised.index), "{place}");
+        }
+    }
+    let told = |of: &str| {
+        let found = reasons.iter().find(|(place, _)| place.starts_with(of));
+        found.map(|(_, told)| &**told)
+    };
+    let lost = Some("in every loop with a fixed tick the motion is lost");
+    assert_eq!(told("stiff at 30 Hz on own.txt"), lost);
+    assert_eq!(
+        told("ship at 2 Hz on edge"),
+        Some(
+            "no loop with a fixed tick is smooth within 20 ms; Whole refreshes is smooth and 500 ms late; in time \
+             Fixed, extrapolated is the smoothest: uneven by 0.41 ms"
+        )
+    );
+    assert!(reasons.len() < 40 && told("spring at 60 Hz on edge").is_none(), "{reasons:?}");
+}
+
+#[test]
+fn a_motion_that_is_lost_is_never_green() {
+    let scene = Scene { tick_hz: 30, ..Scene::built_in("stiff").unwrap() };
+    let studio = lab_of(&scene);
+    let linear = index_of("fixed-linear");
+    let verdict = studio.verdict(linear);
+    assert_eq!(verdict.to_string(), "the motion is lost, more ticks or another method keep it");
+    assert_eq!(verdict.severity, Severity::Bad);
 }
 
 fn on_stage(studio: &LoopLab) -> Vec<&'static str> {

@@ -45,6 +45,8 @@ pub struct PacingReport {
 /// Time by which a game is off at half the frame rate that shows that it runs at another speed, in milliseconds: more
 /// than a few ticks.
 const OTHER_SPEED_MS: f64 = 100.0;
+/// A motion that is further off than this, in amplitudes, is lost: one that is shown late is off by two at most.
+const LOST: f64 = 4.0;
 /// A difference of the motion at half the frame rate that is no rounding, in amplitudes.
 const OTHER_MOTION: f64 = 1e-9;
 
@@ -63,6 +65,11 @@ impl PacingReport {
     /// Whether the game runs as fast at half the frame rate; `None` where it was not measured.
     pub fn keeps_speed(&self) -> Option<bool> {
         self.time_difference_ms.map(|difference| difference.abs() <= OTHER_SPEED_MS)
+    }
+
+    /// Whether the motion has nothing to do with the exact one any more, as where a method is too coarse for the tick.
+    pub fn loses_motion(&self) -> bool {
+        self.position_error_rms.is_some_and(|distance| distance.is_nan() || distance > LOST)
     }
 
     /// The [difference of the motion](Self::state_difference) at half the frame rate, if it is more than rounding.

@@ -86,7 +86,7 @@ pub fn read(name: &str, text: &str) -> Result<Vec<FrameTrace>, TraceFileError> {
             Some(&number) => number,
             None => {
                 numbers.insert(key.clone(), streams.len());
-                streams.push(Stream::new(&cells));
+                streams.push(Stream::new(&cells, line));
                 streams.len() - 1
             }
         };
@@ -95,6 +95,9 @@ pub fn read(name: &str, text: &str) -> Result<Vec<FrameTrace>, TraceFileError> {
     streams.retain(|stream| !stream.is_empty());
     if streams.is_empty() {
         return Err(at(header_line, Fault::NoRows));
+    }
+    if let Some(still) = streams.iter().find(|stream| stream.stands_still()) {
+        return Err(at(still.line(), Fault::NoTimePasses { frames: still.frames() }));
     }
     let names = names(name, &streams);
     let has_display = columns.has_display();

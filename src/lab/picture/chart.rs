@@ -145,7 +145,9 @@ pub(super) fn ruler(picture: &mut Picture, strip: Rect, camera: &Camera, palette
     let light = mixed(palette.panel, palette.text, 0.75);
     let first = libm::floor(2.0 * left / step_m) as i64;
     let last = libm::ceil(2.0 * right / step_m) as i64;
-    for i in first..last.min(first + 400) {
+    // Beyond 10¹⁸ of them both ends are the last whole number.
+    let last = last.min(first.saturating_add(400));
+    for i in first..last {
         let shade = if i.rem_euclid(2) == 0 { light } else { palette.line };
         let (from, to) = (x(i).max(min[0]), x(i + 1).min(max[0]));
         if to > from {
@@ -153,7 +155,7 @@ pub(super) fn ruler(picture: &mut Picture, strip: Rect, camera: &Camera, palette
             picture.pen(strip).fill(&stripe, shade);
         }
     }
-    for i in (first..=last.min(first + 400)).filter(|i| i.rem_euclid(2) == 0) {
+    for i in (first..=last).filter(|i| i.rem_euclid(2) == 0) {
         let at = x(i);
         if at < min[0] + 22.0 || at > max[0] - 22.0 {
             continue;
@@ -166,5 +168,28 @@ pub(super) fn ruler(picture: &mut Picture, strip: Rect, camera: &Camera, palette
         };
         let at = [at, min[1] + 9.0];
         picture.labels.push(Label::new(at, Align::Centre, 12.5, palette.text, text));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::palette::Theme;
+
+    #[test]
+    fn a_ruler_has_marks_wherever_whole_numbers_reach_and_none_beyond() {
+        let rect = Rect { min: [0.0, 0.0], max: [800.0, RULER] };
+        let marks = |x: f64| {
+            let camera = Camera { centre_m: DVec2::new(x, 0.0), ..Camera::of(rect, 50.0) };
+            let mut picture = Picture::default();
+            ruler(&mut picture, rect, &camera, Theme::Dark.palette());
+            picture.labels.len()
+        };
+        for x in [0.0, -3e6, 1e12] {
+            assert!((2..=8).contains(&marks(x)), "{} at {x}", marks(x));
+        }
+        for x in [1e30, -1e30, 1e300, -1e300] {
+            assert_eq!(marks(x), 0, "{x}");
+        }
     }
 }

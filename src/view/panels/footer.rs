@@ -50,7 +50,7 @@ fn told(studio: &Studio) -> (Vec<String>, bool) {
     if let Some(loops) = studio.loop_lab()
         && studio.viewer().tour().is_none()
     {
-        return (loops::hints::parts(loops).into(), true);
+        return (loops::hints::parts(loops), true);
     }
     match studio.hint() {
         Some(hint) => (vec![hint], true),

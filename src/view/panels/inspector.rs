@@ -128,7 +128,7 @@ fn show_row(ui: &mut Ui, studio: &Studio, row: &Row, commands: &mut Vec<Command>
     line(ui, &parameter.quantity(), &about, |ui, [room, number]| {
         let number = number.max(field.width(ui));
         let buttons = RESTORE + sweep::BUTTON + 3.0 * ui.spacing().item_spacing.x;
-        let slider = vec2(room - number - buttons, LINE);
+        let slider = vec2((room - number - buttons).max(1.0), LINE);
         let reach = Reach::of(parameter.range, values);
         // Of what acts from the next start nothing would be seen.
         let swept_reach = reach.filter(|_| parameter.acts == Acts::AtOnce);
@@ -158,7 +158,7 @@ fn show_slider(ui: &mut Ui, row: &Row, values: Values, name: &str, size: Vec2) -
         Spacing::Logarithmic(least) => slider.logarithmic(true).smallest_positive(least),
         Spacing::Whole => slider.step_by(1.0),
     };
-    ui.spacing_mut().slider_width = size.x.max(1.0);
+    ui.spacing_mut().slider_width = size.x;
     let response = ui.add_sized(size, slider);
     response.widget_info(|| egui::WidgetInfo::slider(true, values.present, name));
     if response.dragged() {
@@ -241,6 +241,21 @@ mod tests {
         // A header learns in the first frame how high it is.
         window.panels(studio, Vec::new());
         window.panels(studio, Vec::new()).1.words()
+    }
+
+    #[test]
+    fn it_is_laid_out_in_windows_of_every_width() {
+        let mut studio = Studio::new(Scene::built_in("bridge").unwrap());
+        studio.apply(RunCommand::ToggleInspector);
+        for width in (100..1300).step_by(40) {
+            let mut window = TestWindow::new([width as f32, 900.0]);
+            for _ in 0..2 {
+                window.show(Vec::new(), |ui| {
+                    ui.set_max_width(width as f32 / 4.0);
+                    show(ui, &studio, &mut Vec::new());
+                });
+            }
+        }
     }
 
     #[test]

@@ -31,6 +31,7 @@ mod ranges;
 mod series_styles;
 mod stability_map;
 mod table;
+mod text_field;
 mod timeline;
 mod top_bar;
 mod tracks;

@@ -1,8 +1,10 @@
 //! Opening a scene file: a field for its path, and what is wrong with it.
 
-use egui::{Id, Key, Label, Rect, RichText, ScrollArea, TextEdit, TextStyle, TextWrapMode, Ui};
+use egui::{Id, Key, Label, Rect, RichText, ScrollArea, TextStyle, TextWrapMode, Ui};
 
 use super::dialog::{select, window};
+use super::text_field::text_field;
+use crate::lab::link::MAX_LETTERS;
 use crate::lab::scene::Mistake;
 use crate::lab::studio::{Command, DriverRequest, Studio, ViewCommand};
 use crate::view::theme::palette;
@@ -35,7 +37,7 @@ pub(super) fn path(
         }
         let typed = studio.viewer().typed_path();
         let mut text = typed.to_owned();
-        let field = TextEdit::singleline(&mut text).id(id).desired_width(width).lock_focus(true);
+        let field = text_field(&mut text, id, MAX_LETTERS).desired_width(width).lock_focus(true);
         let field = field.hint_text(hint).show(ui);
         field.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, hint));
         if text != typed {
@@ -149,6 +151,24 @@ mod tests {
         let quoted = format!("1 | {}", "words ".repeat(80));
         let quoted = shown(Mistake { message: message(8), quoted });
         assert!(quoted.x <= 800.0 && quoted.y < long.y, "{quoted:?} {long:?}");
+    }
+
+    #[test]
+    fn a_long_paste_is_cut_where_no_link_is_longer() {
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        studio.apply(ViewCommand::AskForPath);
+        let mut window = TestWindow::new([800.0, 600.0]);
+        for _ in 0..6 {
+            let mut commands = Vec::new();
+            let paste = egui::Event::Paste("tick,x,v\n".repeat(3000));
+            window.show(vec![paste], |ui| {
+                path(ui, &studio, None, ui.max_rect(), &mut commands);
+            });
+            for command in commands {
+                studio.apply(command);
+            }
+        }
+        assert_eq!(studio.viewer().typed_path().chars().count(), MAX_LETTERS);
     }
 
     #[test]

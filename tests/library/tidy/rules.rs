@@ -65,6 +65,25 @@ fn files_are_short_and_named_for_what_they_hold() {
     none(sources.iter().flat_map(shapes).collect());
 }
 
+/// The one file that makes an editor of text: there it gets its bound.
+const TEXT_FIELD: &str = "src/view/panels/text_field.rs";
+
+/// Editors of text of any length.
+fn unbounded_editors(source: &Source) -> Vec<String> {
+    let is_elsewhere = source.path != TEXT_FIELD && code(&source.text).contains("TextEdit::");
+    let complaint = format!("{}: an editor without a bound; take text_field", source.path);
+    is_elsewhere.then_some(complaint).into_iter().collect()
+}
+
+#[test]
+fn every_text_field_has_a_bound() {
+    let sources = sources("src/view", &["rs"]);
+    assert!(sources.iter().any(|source| source.path == TEXT_FIELD));
+    none(sources.iter().flat_map(unbounded_editors).collect());
+    let editor = "TextEdit::singleline(&mut text)";
+    assert_eq!(unbounded_editors(&source("src/view/panels/guide.rs", editor)).len(), 1);
+}
+
 fn source(path: &str, text: &str) -> Source {
     Source { path: path.into(), text: text.into() }
 }

@@ -1,35 +1,65 @@
-//! What README and the chapters of the manual print below a command is what the command prints.
+//! What README and the chapters of the manual print below a command is what the command prints, and each block of theirs is
+//! held by a test.
 #![cfg(unix)]
 
 use std::collections::HashMap;
+use std::path::Path;
 use std::process::Command;
-use std::{env, fs, path::Path};
+use std::{env, fs};
 
-use regatta::manual::CHAPTERS;
+use regatta::lab::{Scene, Session};
 
-/// The files of a reader's own that examples are about.
-const OWN_FILES: [&str; 3] = ["spring.csv", "clip", "run.toml"];
+use super::capture::drawn_or_skip;
+use super::stdout_of;
+use crate::printed::texts;
 
-/// Whether `said` has the lines that are `printed`, in this order. An ellipsis stands for any lines, or for the end of one.
-fn has_lines(said: &str, printed: &[&str]) -> Result<(), String> {
-    let mut lines = said.lines();
-    let mut may_skip = false;
-    for line in printed {
-        if *line == "…" {
-            may_skip = true;
-            continue;
-        }
-        let is_line = |said: &str| match line.strip_suffix('…') {
-            Some(begin) => said.starts_with(begin),
-            None => said == *line,
-        };
-        let found = if may_skip { lines.any(is_line) } else { lines.next().is_some_and(is_line) };
-        if !found {
-            return Err(format!("not said: {line}"));
-        }
-        may_skip = false;
+/// How many blocks of each language a text has, and how they are held:
+/// - `console`: each command runs below, and its output is compared.
+/// - `text`: the options of the synopsis are compared with the help of their commands, below; output of a program with that of
+///   the program, in `tests/library/ci_recipe.rs`.
+/// - `rust`: compiled and run in `tests/library/ci_recipe.rs`.
+/// - `sh` and `yaml`: options are compared with the help of their commands, below; the table above the command of `loops` with
+///   its rows, in `loops.rs`; the pipe to ffmpeg is run in `formats.rs`.
+/// - `toml`: scenes are read, below; dependencies are resolved in `tests/library/ci_recipe.rs`.
+const BLOCKS: [(&str, &str, usize); 18] = [
+    ("scenes", "toml", 3),
+    ("commands", "console", 6),
+    ("commands", "sh", 2),
+    ("commands", "text", 1),
+    ("loops", "sh", 1),
+    ("logs", "console", 1),
+    ("questions", "console", 15),
+    ("code", "console", 1),
+    ("library", "rust", 1),
+    ("library", "text", 1),
+    ("library", "toml", 1),
+    ("ci", "rust", 1),
+    ("ci", "yaml", 1),
+    ("stable", "rust", 1),
+    ("stable", "text", 1),
+    ("README", "console", 1),
+    ("README", "sh", 1),
+    ("README", "toml", 1),
+];
+
+/// A log of Box2D: a spring of 1 Hz and a damping ratio of 0.05.
+const LOG: &str = include_str!("../../data/engines/box2d__spring_1hz_z005_60hz.csv");
+
+/// Makes the files of a reader's own that examples are about. Without a driver there is no `clip`.
+fn make_own_files(test: &str, folder: &Path) -> Vec<&'static str> {
+    fs::write(folder.join("spring.csv"), LOG).unwrap();
+    let mut session = Session::new(Scene::built_in("harbour").unwrap().into());
+    session.run(640);
+    fs::write(folder.join("run.toml"), session.recording(640).to_toml()).unwrap();
+    // Smaller than by the manual's command, to be quick.
+    let capture = "capture --scene spring --race --seconds 10 --size 64x36 --out clip";
+    let captured = drawn_or_skip(test, folder, capture).map(|output| output.status.code());
+    assert!(captured.is_none_or(|code| code == Some(0)));
+    if captured.is_some() {
+        vec!["clip", "run.toml", "spring.csv"]
+    } else {
+        vec!["run.toml", "spring.csv"]
     }
-    Ok(())
 }
 
 /// What a shell command prints, data first, in a folder where `regatta` is the program.
@@ -48,42 +78,98 @@ fn said_by(command: &str, folder: &Path) -> String {
 
 #[test]
 fn every_example_with_an_answer_prints_that_answer() {
-    let readme = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md"));
-    let texts = CHAPTERS.iter().map(|chapter| (chapter.id, chapter.text.to_owned()));
+    let test = "every_example_with_an_answer_prints_that_answer";
     let folder = tempfile::tempdir().unwrap();
+    let own = make_own_files(test, folder.path());
     let mut known: HashMap<String, String> = HashMap::new();
     let mut compared: Vec<(&str, usize)> = Vec::new();
-    for (name, text) in texts.chain([("README", readme.unwrap())]) {
-        let blocks = text.split("```console\n").skip(1).filter_map(|rest| rest.split_once("```"));
+    for text in texts() {
         let mut count = 0;
-        for example in blocks.flat_map(|(block, _)| block.split("$ ").skip(1)) {
-            let mut lines = example.lines().map(str::trim_start);
-            let command = lines.next().unwrap();
-            let printed: Vec<&str> = lines.filter(|line| !line.is_empty()).collect();
-            let is_own = |word: &str| OWN_FILES.contains(&word);
-            if printed.is_empty() || command.split(' ').any(is_own) {
-                continue;
+        for block in text.blocks().iter().filter(|block| block.language == "console") {
+            for example in block.body.split("$ ").skip(1) {
+                let (command, printed) = example.split_once('\n').unwrap();
+                // Up to the indentation of the next command.
+                let printed = &printed[..printed.rfind('\n').map_or(0, |end| end + 1)];
+                let needs_clip = command.split(' ').any(|word| word == "clip");
+                if printed.trim().is_empty() || needs_clip && !own.contains(&"clip") {
+                    continue;
+                }
+                assert!(printed.lines().any(|line| line.trim() != "…"), "{command}");
+                let said =
+                    known.entry(command.into()).or_insert_with(|| said_by(command, folder.path()));
+                text.hold(printed, said);
+                count += 1;
             }
-            assert!(printed.iter().any(|line| *line != "…"), "{command}");
-            let said =
-                known.entry(command.into()).or_insert_with(|| said_by(command, folder.path()));
-            let said: String = said
-                .lines()
-                .map(str::trim_start)
-                .filter(|l| !l.is_empty())
-                .map(|l| format!("{l}\n"))
-                .collect();
-            has_lines(&said, &printed).unwrap_or_else(|e| panic!("{name}: {command}: {e}\n{said}"));
-            count += 1;
         }
-        compared.extend((count > 0).then_some((name, count)));
+        compared.extend((count > 0).then_some((text.name, count)));
     }
-    assert_eq!(compared, [("commands", 2), ("questions", 19), ("code", 1), ("README", 1)]);
+    let of_commands = if own.contains(&"clip") { 4 } else { 3 };
+    let expected =
+        [("commands", of_commands), ("logs", 1), ("questions", 19), ("code", 1), ("README", 1)];
+    assert_eq!(compared, expected);
 }
 
 #[test]
-fn a_line_that_is_not_said_is_found() {
-    assert!(has_lines("a\nb\nc 1\n", &["a", "…", "c…"]).is_ok());
-    assert!(has_lines("a\nb\nc 1\n", &["a", "c…"]).is_err());
-    assert!(has_lines("a\n", &["a", "b"]).is_err());
+fn every_block_of_the_manual_is_of_a_kind_that_a_test_holds() {
+    let mut found: Vec<(&str, String, usize)> = Vec::new();
+    for text in texts() {
+        let mut languages: Vec<&str> = text.blocks().iter().map(|block| block.language).collect();
+        languages.sort_unstable();
+        for group in languages.chunk_by(|one, other| one == other) {
+            found.push((text.name, group[0].into(), group.len()));
+        }
+    }
+    let found: Vec<_> = found.iter().map(|(name, of, count)| (*name, &**of, *count)).collect();
+    assert_eq!(found, BLOCKS);
+}
+
+/// The options that are named in a text.
+fn options(text: &str) -> impl Iterator<Item = &str> {
+    let is_of_name = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    let words = text.split(move |c| !is_of_name(c));
+    words.filter(|word| word.starts_with("--") && word.len() > 2)
+}
+
+#[test]
+fn every_option_of_the_manual_is_one_of_its_command() {
+    let mut helps: HashMap<String, String> = HashMap::new();
+    let mut checked = 0;
+    for text in texts() {
+        let mut commands: Vec<&str> = Vec::new();
+        let blocks = text.blocks();
+        for block in blocks.iter().filter(|block| ["text", "sh", "yaml"].contains(&block.language))
+        {
+            commands.extend(block.body.split("regatta ").skip(1));
+        }
+        let in_prose = text.text.split("`regatta ").skip(1);
+        commands.extend(in_prose.map(|rest| rest.split('`').next().unwrap_or_default()));
+        for command in commands {
+            let name = command.split_whitespace().next().unwrap_or_default();
+            let name = name.trim_matches(['[', ']']);
+            let name = if name.starts_with("--") { "play" } else { name };
+            for option in options(command) {
+                let help =
+                    helps.entry(name.into()).or_insert_with(|| stdout_of(&format!("help {name}")));
+                let is_known = options(help).any(|known| known == option);
+                assert!(is_known, "{}: regatta {command}: {name} has no {option}", text.name);
+                checked += 1;
+            }
+        }
+    }
+    assert!(checked > 150, "{checked} options");
+}
+
+#[test]
+fn every_scene_of_the_manual_is_read() {
+    let texts = texts();
+    let scenes = texts.iter().find(|text| text.name == "scenes").expect("a chapter");
+    for block in scenes.blocks() {
+        let head = if block.body.contains("title = ") {
+            ""
+        } else {
+            "title = 'x'\ntick_hz = 60\nseconds = 1\n"
+        };
+        let read = Scene::parse("manual.toml", &format!("{head}{}", block.body));
+        assert!(read.is_ok(), "{}: {:?}", block.body, read.err());
+    }
 }

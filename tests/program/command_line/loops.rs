@@ -3,6 +3,7 @@
 use std::fs;
 
 use regatta::lab::pacing::{POLICIES, TRACES};
+use regatta::manual::chapter;
 use serde_json::Value;
 
 use super::capture::{dimensions, drawn_or_skip};
@@ -107,6 +108,47 @@ fn the_table_derived_by_hand_is_reproduced() {
 }
 
 #[test]
+fn the_manuals_table_is_what_its_command_measures() {
+    let manual = chapter("loops").unwrap().text;
+    let (_, command) = manual.split_once("```sh\nregatta loop ").unwrap();
+    let (command, _) = command.split_once("```").unwrap();
+    let measured = rows(&command.replace('\\', ""));
+    let value = |policy: &str, trace: &str, column: &str| {
+        let row = measured.iter().find(|row| row["policy"] == policy && row["trace"] == trace);
+        number(row.unwrap_or_else(|| panic!("{policy} on {trace}")), column)
+    };
+    let (_, table) = manual.split_once("\n| display |").unwrap();
+    let lines = table.lines().skip(2).take_while(|line| line.starts_with('|'));
+    let error = "animation_error_rms_ms";
+    let mut compared = 0;
+    for line in lines {
+        let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
+        let steady = format!("steady-{}", cells[0].trim_end_matches(" Hz"));
+        let trace = if cells[0].contains("begin within") { "edge" } else { &steady };
+        for (cell, (policy, column)) in cells[1..].iter().zip([
+            ("fixed", "repeated_percent"),
+            ("fixed", "double_percent"),
+            ("fixed", error),
+            ("fixed-linear", error),
+            ("whole-refresh", error),
+        ]) {
+            let printed = cell.split(' ').next().unwrap();
+            let decimals = printed.split_once('.').map_or(0, |(_, after)| after.len());
+            let half = 0.5 * 0.1_f64.powi(decimals as i32);
+            // What is less than a microsecond is the rounding of traces.
+            let half = if printed == "0" { 1e-3 } else { half };
+            let found = value(policy, trace, column);
+            assert!(
+                (found - printed.parse::<f64>().unwrap()).abs() <= half,
+                "{trace}: {cell}, {found}"
+            );
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 5 * 5);
+}
+
+#[test]
 fn a_render_tick_is_not_late_and_as_right_as_its_method_where_ticks_are_not_coarse() {
     let ahead = |options: &str| {
         let both = "--policy fixed-extrapolated --policy render-tick --seconds 8";
@@ -188,16 +230,65 @@ fn advice_names_a_policy_within_the_latency_with_its_constants() {
     assert!(!at_once.contains("take whole-refresh"), "{at_once}");
     // A game in lockstep with the display has no error on it, and another speed on any other.
     let lockstep = told("--trace edge --policy lockstep --seconds 5");
-    assert!(lockstep.contains("no policy here keeps the game's speed"), "{lockstep}");
+    let speed = "take none of these: in every loop with a fixed tick the speed depends on the frame rate; try --all";
+    assert!(lockstep.contains(speed), "{lockstep}");
     let variable = told("--trace steady-144 --policy variable --policy fixed --seconds 5");
     assert!(variable.contains("(amplitudes): variable by"), "{variable}");
-    assert!(variable.contains("take variable") && !variable.contains("fixed by"), "{variable}");
+    assert!(!variable.contains("take variable") && !variable.contains("fixed by"), "{variable}");
     // Whole periods of the spring later it is where it was, but not on the way there.
     let periods = told("--trace steady-60 --policy lockstep --seconds 20");
     assert!(periods.contains("lockstep by 2"), "{periods}");
     // A step of five seconds is as smooth as any, and throws the spring out of the world.
     let thrown = told("--trace alt-tab-5s --policy variable");
     assert!(!thrown.contains("take variable"), "{thrown}");
+}
+
+#[test]
+fn a_loop_without_a_fixed_tick_or_that_judders_is_never_advised_and_the_reason_is_told() {
+    let told = |options: &str| stderr(&run(&format!("loop {options}")));
+    let of_all = told("--all --scene stiff --tick-hz 30");
+    let lost = "take none: in every loop with a fixed tick the motion is lost; give more --tick-hz or another --method";
+    assert!(of_all.matches(lost).count() >= 10, "{of_all}");
+    assert!(!of_all.contains("try --all") && !of_all.contains("take variable"), "{of_all}");
+    let coarse = told("--all --scene ship --trace edge");
+    assert!(
+        coarse.contains(
+            "edge (60 Hz display, 2 Hz ticks): take none: no loop with a fixed tick is smooth within 20 ms; \
+             whole-refresh is smooth and 500 ms late; in time fixed-extrapolated is the smoothest: \
+             uneven by 0.41 ms; --latency-ms 501 takes whole-refresh"
+        ),
+        "{coarse}"
+    );
+    let late = told("--all --scene ship --trace edge --latency-ms 501");
+    assert!(late.contains("take whole-refresh: animation error 0 ms"), "{late}");
+    let variable = told("--trace steady-60 --policy variable");
+    let varies =
+        "take none of these: without a fixed tick the physics varies with the rate; try --all";
+    assert!(variable.contains(varies), "{variable}");
+    // What is asked of all, in every scene and at odd rates.
+    for (scene, tick_hz) in [("spring", 7), ("stiff", 120), ("pendulum", 30), ("orbit", 10)] {
+        let told = told(&format!("--all --scene {scene} --tick-hz {tick_hz} --seconds 10"));
+        for line in told.lines().filter_map(|line| line.split_once("): take ")) {
+            let taken = line.1.split(':').next().unwrap();
+            let card = POLICIES.iter().find(|card| card.id == taken);
+            assert!(taken == "none" || card.is_some_and(|card| card.has_fixed_tick), "{line:?}");
+        }
+    }
+}
+
+#[test]
+fn a_log_in_which_no_time_passes_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, head) in [("list.txt", ""), ("log.csv", "MsBetweenPresents\n")] {
+        fs::write(folder.path().join(name), format!("{head}{}", "0\n".repeat(100))).unwrap();
+        let output = run_in(folder.path(), &format!("loop --trace {name}"));
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+        let line = 1 + u32::from(!head.is_empty());
+        let refused = format!(
+            "error: {name}:{line}: no time passes from here to the last of these 100 frames; capture them again\n"
+        );
+        assert_eq!(stderr(&output), refused);
+    }
 }
 
 #[test]

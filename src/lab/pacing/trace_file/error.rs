@@ -41,6 +41,8 @@ pub(super) enum Fault {
         "column {column}: expected 0 or 1, found \"{cell}\"; write 1 for a frame that was not displayed"
     )]
     NotAFlag { column: String, cell: String },
+    #[error("no time passes from here to the last of these {frames} frames; capture them again")]
+    NoTimePasses { frames: usize },
     #[error("from here on the frames last more than a year in all; split the log")]
     TooLong,
 }

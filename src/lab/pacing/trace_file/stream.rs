@@ -12,6 +12,8 @@ const YEAR_NS: i64 = 365 * 86_400_000_000_000;
 pub(super) struct Stream {
     application: String,
     process: String,
+    /// The line of its first row.
+    line: u64,
     frames: Vec<Frame>,
     /// When the last displayed frame appeared.
     last_shown_ns: Option<i64>,
@@ -28,11 +30,12 @@ fn printable(name: &str) -> String {
 }
 
 impl Stream {
-    /// The stream before its first row, which is this one.
-    pub(super) fn new(first: &Cells) -> Self {
+    /// The stream before its first row, which is this one in this line.
+    pub(super) fn new(first: &Cells, line: u64) -> Self {
         Self {
             application: printable(first.application),
             process: printable(first.process),
+            line,
             frames: Vec::new(),
             last_shown_ns: None,
             next_began_ns: Ok(0),
@@ -48,6 +51,22 @@ impl Stream {
     /// Its process; empty where the log does not say.
     pub(super) fn process(&self) -> &str {
         &self.process
+    }
+
+    /// The line of its first row.
+    pub(super) fn line(&self) -> u64 {
+        self.line
+    }
+
+    /// The number of its frames.
+    pub(super) fn frames(&self) -> usize {
+        self.frames.len()
+    }
+
+    /// Whether it has several frames and no time passes between them.
+    pub(super) fn stands_still(&self) -> bool {
+        let ends = self.frames.first().zip(self.frames.last());
+        self.frames.len() > 1 && ends.is_some_and(|(first, last)| first.began_ns == last.began_ns)
     }
 
     /// Whether it has no frame of the program.

@@ -1,9 +1,12 @@
 //! A number with a unit that can be dragged and typed in. What cannot be is said under it.
 
-use std::cell::RefCell;
+use egui::accesskit::Action;
+use egui::class::HasClasses as _;
+use egui::emath::round_to_decimals;
+use egui::{DragValue, Id, Key, Modifiers, Response, RichText, Ui, Vec2, WidgetInfo};
 
-use egui::{DragValue, Id, Response, RichText, Ui, Vec2};
-
+use crate::view::panels::dialog::select;
+use crate::view::panels::text_field::{MAX_NUMBER, text_field};
 use crate::view::theme::palette;
 
 /// What one point of a drag changes, as a part of the number.
@@ -17,6 +20,16 @@ struct Fault {
     text: String,
     /// The number that the field had then, and kept.
     value: f64,
+}
+
+/// The text of a field that has the focus.
+#[derive(Clone, Default)]
+struct Typed {
+    text: String,
+    /// The number that the field had then: after it changed otherwise, the text is of no use.
+    value: f64,
+    /// The frame that showed it.
+    frame: u64,
 }
 
 /// A number as a field shows it.
@@ -39,45 +52,30 @@ impl NumberField<'_> {
         size: Vec2,
         check: impl Fn(f64) -> Result<(), String>,
     ) -> (Response, Option<f64>) {
-        let fault = RefCell::new(None);
-        let mut value = self.value;
-        let speed = match self.is_whole {
-            true => 0.1,
-            false => (SPEED * self.value.abs()).max(MIN_SPEED),
-        };
-        let suffix = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
-        let is_left = is_left_by_escape(ui, self.id);
-        let drag = DragValue::new(&mut value)
-            .speed(speed)
-            .suffix(suffix)
-            .update_while_editing(false)
-            .custom_formatter(|value, _| plain(value))
-            .custom_parser(|text| {
-                if is_left {
-                    return None;
-                }
-                // What was not touched stays what it is, to the last digit.
-                if text.trim() == plain(self.value) {
-                    return Some(self.value);
-                }
-                let typed = parsed(text, self.unit);
-                if typed.is_none() {
-                    *fault.borrow_mut() = Some(format!("`{}` is not a number", text.trim()));
-                }
-                typed
-            });
-        let response = ui.add_sized(size, drag);
-        ui.ctx().accesskit_node_builder(response.id, |node| node.set_label(self.name));
-        let dragged = response.dragged() && self.is_whole;
-        let entered = if dragged { value.round() } else { value };
-        let mut taken = None;
-        if entered != self.value {
-            match check(entered) {
-                Ok(()) => taken = Some(entered),
-                Err(wrong) => *fault.borrow_mut() = Some(wrong),
+        let mut entered = Ok(self.value);
+        let response = ui.add_sized(size, |ui: &mut Ui| {
+            let id = ui.next_auto_id();
+            let has_focus = ui.is_enabled()
+                && ui.memory_mut(|memory| {
+                    memory.interested_in_focus(id, ui.layer_id());
+                    memory.has_focus(id)
+                });
+            let typed = self.typed(ui, id);
+            match has_focus {
+                true => self.edit(ui, id, typed, &mut entered),
+                false => self.drag(ui, typed, &mut entered),
             }
-        }
-        if let Some(text) = fault.into_inner() {
+        });
+        ui.ctx().accesskit_node_builder(response.id, |node| node.set_label(self.name));
+        let mut taken = None;
+        let entered = entered.and_then(|value| {
+            if value != self.value {
+                check(value)?;
+                taken = Some(value);
+            }
+            Ok(())
+        });
+        if let Err(text) = entered {
             let fault = Fault { text, value: self.value };
             ui.data_mut(|data| data.insert_temp(self.id, fault));
         } else {
@@ -88,6 +86,100 @@ impl NumberField<'_> {
             }
         }
         (response, taken)
+    }
+
+    /// Takes the text that the frame before showed in the editor.
+    fn typed(&self, ui: &Ui, id: Id) -> Option<String> {
+        let typed = ui.data_mut(|data| data.remove_temp::<Typed>(id))?;
+        let is_of_last_frame = typed.frame + 1 >= ui.ctx().cumulative_frame_nr();
+        (is_of_last_frame && typed.value == self.value).then_some(typed.text)
+    }
+
+    /// Shows an editor, not egui's own of a [`DragValue`], whose text has no bound.
+    fn edit(
+        &self,
+        ui: &mut Ui,
+        id: Id,
+        typed: Option<String>,
+        entered: &mut Result<f64, String>,
+    ) -> Response {
+        let steps = ui.input_mut(|input| {
+            let mut count = |key, action| {
+                let asked = input.num_accesskit_action_requests(id, action);
+                (input.count_and_consume_key(Modifiers::NONE, key) + asked) as f64
+            };
+            count(Key::ArrowUp, Action::Increment) - count(Key::ArrowDown, Action::Decrement)
+        });
+        if steps != 0.0 {
+            let decimals = libm::log10(1.0 / self.speed()).ceil().clamp(0.0, 15.0) as usize;
+            *entered = Ok(round_to_decimals(self.value + self.speed() * steps, decimals));
+        }
+        let is_new = typed.is_none();
+        let mut text = typed.unwrap_or_else(|| plain(self.value));
+        if is_new {
+            select(ui.ctx(), id, 0);
+        }
+        let style = ui.style().drag_value_text_style.clone();
+        let field = text_field(&mut text, id, MAX_NUMBER)
+            .with_class(DragValue::CLASS)
+            .clip_text(false)
+            .align(ui.layout().align2())
+            .min_size(ui.spacing().interact_size)
+            .desired_width(0.0)
+            .font(style);
+        let response = ui.add(field);
+        response.widget_info(|| WidgetInfo::drag_value(ui.is_enabled(), self.value));
+        ui.ctx().accesskit_node_builder(response.id, |node| {
+            node.add_action(Action::Increment);
+            node.add_action(Action::Decrement);
+        });
+        // Enter leaves the field in this frame.
+        if response.lost_focus() {
+            *entered = self.parsed(&text);
+        } else {
+            let frame = ui.ctx().cumulative_frame_nr();
+            let typed = Typed { text, value: self.value, frame };
+            ui.data_mut(|data| data.insert_temp(id, typed));
+        }
+        response
+    }
+
+    /// Shows the number. What was typed before the focus left is entered, unless Escape took it away.
+    fn drag(
+        &self,
+        ui: &mut Ui,
+        typed: Option<String>,
+        entered: &mut Result<f64, String>,
+    ) -> Response {
+        let typed = typed.filter(|_| !ui.input(|input| input.key_pressed(Key::Escape)));
+        if let Some(text) = typed {
+            *entered = self.parsed(&text);
+        }
+        let mut value = self.value;
+        let suffix = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        let drag = DragValue::new(&mut value)
+            .speed(self.speed())
+            .suffix(suffix)
+            .custom_formatter(|value, _| plain(value));
+        let response = ui.add(drag);
+        if value != self.value {
+            let is_rounded = response.dragged() && self.is_whole;
+            *entered = Ok(if is_rounded { value.round() } else { value });
+        }
+        response
+    }
+
+    /// What one point of a drag changes.
+    fn speed(&self) -> f64 {
+        if self.is_whole { 0.1 } else { (SPEED * self.value.abs()).max(MIN_SPEED) }
+    }
+
+    /// The number that was typed. What was not touched stays what it is, to the last digit.
+    fn parsed(&self, text: &str) -> Result<f64, String> {
+        if text.trim() == plain(self.value) {
+            return Ok(self.value);
+        }
+        parsed(text, self.unit).ok_or_else(|| format!("`{}` is not a number", text.trim()))
     }
 
     /// The width of the number with its unit, in points.
@@ -116,18 +208,6 @@ impl NumberField<'_> {
     }
 }
 
-/// Whether Escape was pressed in the frame before: egui takes what was typed for entered in the frame after, by which
-/// it has forgotten why the field lost the focus.
-fn is_left_by_escape(ui: &Ui, field: Id) -> bool {
-    let id = field.with("escape");
-    let is_pressed = ui.input(|input| input.key_pressed(egui::Key::Escape));
-    ui.data_mut(|data| {
-        let was_pressed = data.get_temp::<bool>(id).unwrap_or_default();
-        data.insert_temp(id, is_pressed);
-        was_pressed
-    })
-}
-
 /// The shortest text of a number that can be typed back in.
 fn plain(value: f64) -> String {
     let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
@@ -146,6 +226,8 @@ fn parsed(text: &str, unit: &str) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use egui::{Event, vec2};
+
     use super::*;
     use crate::view::testing::TestWindow;
 
@@ -187,6 +269,54 @@ mod tests {
         assert!(!told(2.0, |_| ()), "it was restored");
         fail();
         assert!(!told(1.0, NumberField::forget_faults));
+    }
+
+    /// The words of a window that shows a field of this value after each of these frames of events, and what was entered.
+    fn typed(value: f64, frames: Vec<Vec<Event>>) -> (Vec<String>, Vec<f64>) {
+        let mut window = TestWindow::new([400.0, 300.0]);
+        let (mut words, mut taken) = (Vec::new(), Vec::new());
+        let first = vec![vec![], vec![pressed(Key::Tab)]];
+        for events in first.into_iter().chain(frames).chain([vec![]]) {
+            let id = Id::unique("field");
+            let (entered, shown) = window.show(events, |ui| {
+                let field = NumberField { id, value, unit: "kg", name: "mass", is_whole: false };
+                let (_, entered) = field.show(ui, vec2(150.0, 22.0), |_| Ok(()));
+                NumberField::show_fault(id, ui);
+                entered
+            });
+            taken.extend(entered);
+            words = shown.words();
+        }
+        (words, taken)
+    }
+
+    fn pressed(key: Key) -> Event {
+        let modifiers = Modifiers::NONE;
+        Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers }
+    }
+
+    #[test]
+    fn a_number_is_entered_by_enter_or_where_the_focus_leaves_but_not_by_escape() {
+        let text = || vec![Event::Text("2.5".into())];
+        for (key, entered) in [(Key::Enter, &[2.5][..]), (Key::Tab, &[2.5]), (Key::Escape, &[])] {
+            let (words, taken) = typed(1.0, vec![text(), vec![pressed(key)], vec![]]);
+            assert_eq!(taken, entered, "{key:?}");
+            assert_eq!(words, ["1 kg"], "{key:?}");
+        }
+        assert_eq!(typed(1.0, vec![text()]), (vec!["2.5".into()], vec![]));
+        let (_, taken) = typed(40.0, vec![vec![pressed(Key::ArrowUp)]]);
+        assert!(taken.len() == 1 && taken[0] > 40.0 && taken[0] < 41.0, "{taken:?}");
+    }
+
+    #[test]
+    fn a_long_paste_is_cut_and_is_still_a_fault() {
+        let paste = || vec![Event::Paste("tick,x,v\n1,2.5,3\n".repeat(5000))];
+        let (words, taken) = typed(1.0, (0..30).map(|_| paste()).collect());
+        assert_eq!((words[0].chars().count(), taken.len()), (MAX_NUMBER, 0), "{words:?}");
+        let (words, taken) = typed(1.0, vec![paste(), vec![pressed(Key::Enter)], vec![]]);
+        assert_eq!((&*words[0], taken.len()), ("1 kg", 0));
+        assert!(words[1].starts_with("`tick,x,v 1,2.5") && words[1].ends_with("is not a number"));
+        assert!(words[1].chars().count() < 2 * MAX_NUMBER, "{words:?}");
     }
 
     #[test]

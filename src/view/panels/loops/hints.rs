@@ -1,42 +1,49 @@
 //! What to try next in the loop lab.
 
-use crate::lab::loop_lab::LoopLab;
+use crate::lab::loop_lab::{LoopLab, RAW};
 use crate::lab::number::round;
-use crate::lab::pacing::POLICIES;
+use crate::lab::pacing::{NoLoop, POLICIES};
 
-/// The raw loop, and the one that draws between ticks.
-const RAW: &str = "fixed";
+/// The loop that draws between ticks.
 const SMOOTH: &str = "fixed-linear";
 /// The trace in which frames and ticks nearly coincide.
 const EDGE: &str = "edge";
-/// A share of repeated frames that is worth a word, in percent.
+/// A share of frames that is worth a word, in percent.
 const MANY_PERCENT: f64 = 1.0;
 
-/// What is to be seen, and what to do next. Keys stand between backticks.
-pub(in crate::view::panels) fn parts(loops: &LoopLab) -> [String; 2] {
+/// What is to be seen, and what to do next, the most important first. Keys stand between backticks.
+pub(in crate::view::panels) fn parts(loops: &LoopLab) -> Vec<String> {
+    if let Some((none, mut reasons)) = loops.none_advised() {
+        reasons[0].insert_str(0, "None is recommended: ");
+        if none == NoLoop::MotionLost {
+            reasons.push("`]` raises the tick rate, `M` changes the method.".into());
+        }
+        return reasons;
+    }
     let index = |id: &str| POLICIES.iter().position(|card| card.id == id).unwrap_or_default();
     let hz = |trace: usize| round(loops.traces()[trace].refresh().hz(), 4);
     let next = (loops.trace() + 1) % loops.traces().len();
     let (raw, smooth) = (index(RAW), index(SMOOTH));
     let is_new = loops.selected() == raw;
-    if is_new && loops.traces()[loops.trace()].name() == EDGE {
+    let many = |percent: Option<f64>| percent.filter(|percent| *percent > MANY_PERCENT);
+    let report = loops.lanes()[raw].report().filter(|_| is_new);
+    let doubled = report.and_then(|report| many(report.double_percent));
+    if doubled.is_some() && loops.traces()[loops.trace()].name() == EDGE {
         let next = hz(next);
-        return [
+        return vec![
             "Raw ticks flip between none and two a frame".into(),
             format!("press `D` for a {next} Hz display."),
         ];
     }
-    let repeated = loops.lanes()[raw].report().and_then(|report| report.repeated_percent);
-    let repeated = repeated.unwrap_or_default();
-    if is_new && repeated > MANY_PERCENT {
+    if let Some(repeated) = report.and_then(|report| many(report.repeated_percent)) {
         let (hz, percent) = (hz(loops.trace()), round(repeated, 2));
         let key = (smooth + 1) % 10;
-        return [
+        return vec![
             format!("At {hz} Hz, {percent} % of raw frames repeat the one before"),
             format!("press `{key}` to draw between ticks."),
         ];
     }
-    [
+    vec![
         "The same motion in different loops".into(),
         "`D`: the next display, `1` … `9`: a loop, `L`: leave.".into(),
     ]

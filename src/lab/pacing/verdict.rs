@@ -1,9 +1,9 @@
-//! What is said of a loop in a line.
+//! The verdict on a loop: a line of words, and how bad it is.
 
 use std::fmt;
 
-use super::LoopLab;
-use super::lane::LoopLane;
+use super::metrics::PacingReport;
+use super::policy::PolicyCard;
 use crate::lab::analysis::Severity;
 use crate::sim::number::round;
 
@@ -14,55 +14,21 @@ const JUDDER_MS: f64 = 2.0;
 /// A latency that is worth a word, in ticks.
 const LATE_TICKS: f64 = 0.25;
 
-/// What is said of a loop, and how bad it is.
+/// A verdict on a loop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoopVerdict {
     /// How bad it is.
     pub severity: Severity,
-    /// What is said, the most important first.
+    /// The words, the most important first.
     pub parts: Vec<String>,
 }
 
 impl LoopVerdict {
-    fn new<const N: usize>(severity: Severity, parts: [Option<String>; N]) -> Self {
-        Self { severity, parts: parts.into_iter().flatten().collect() }
-    }
-
-    /// The words, from all of them to those of the first part alone.
-    pub fn wordings(&self) -> Vec<String> {
-        (1..=self.parts.len()).rev().map(|count| self.parts[..count].join(", ")).collect()
-    }
-}
-
-impl fmt::Display for LoopVerdict {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.parts.join(", "))
-    }
-}
-
-impl LoopLab {
-    /// What is said in the place of plots until every loop on the stage was run.
-    pub fn waiting(&self) -> Option<&'static str> {
-        (!self.is_stage_complete()).then_some("Running the loops on the stage…")
-    }
-
-    /// What is said of the loop with this index in [`POLICIES`](crate::lab::pacing::POLICIES).
-    pub fn verdict(&self, index: usize) -> LoopVerdict {
-        let mut verdict = self.lanes()[index].verdict(self.scene().tick_hz);
-        if self.advised().is_some_and(|advised| advised.index == index) {
-            verdict.parts.insert(0, "recommended".into());
-        }
-        verdict
-    }
-}
-
-impl LoopLane {
-    /// What is said of it, at this tick rate in Hz.
-    fn verdict(&self, tick_hz: u32) -> LoopVerdict {
-        let mut verdict = self.seen(tick_hz);
-        let report = self.report().filter(|report| report.keeps_speed() != Some(false));
-        let differs = report.is_some_and(|report| report.other_motion().is_some());
-        if differs && !self.card().has_fixed_tick {
+    /// The verdict on a loop by its report at this tick rate in Hz.
+    pub fn of(card: &PolicyCard, report: &PacingReport, tick_hz: u32) -> Self {
+        let mut verdict = Self::seen(report, tick_hz);
+        let differs = report.keeps_speed() != Some(false) && report.other_motion().is_some();
+        if differs && !card.has_fixed_tick {
             verdict.parts.push("physics varies with the rate".into());
             if verdict.severity == Severity::Fine {
                 verdict.severity = Severity::Doubtful;
@@ -71,12 +37,23 @@ impl LoopLane {
         verdict
     }
 
-    /// What is seen of it.
-    fn seen(&self, tick_hz: u32) -> LoopVerdict {
-        let said = |severity, words: &str| LoopVerdict::new(severity, [Some(words.into())]);
-        let Some(report) = self.report() else {
-            return said(Severity::Unknown, "running…");
-        };
+    /// The verdict on a loop that was not run yet.
+    pub(in crate::lab) fn awaited() -> Self {
+        Self::new(Severity::Unknown, [Some("running…".into())])
+    }
+
+    fn new<const N: usize>(severity: Severity, parts: [Option<String>; N]) -> Self {
+        Self { severity, parts: parts.into_iter().flatten().collect() }
+    }
+
+    /// The words, from all of them to those of the first part alone.
+    pub fn wordings(&self) -> Vec<String> {
+        (1..=self.parts.len()).rev().map(|count| self.parts[..count].join(", ")).collect()
+    }
+
+    /// The verdict on what a viewer sees.
+    fn seen(report: &PacingReport, tick_hz: u32) -> Self {
+        let said = |severity, words: &str| Self::new(severity, [Some(words.into())]);
         if report.keeps_speed() == Some(false) && report.animation_error_rms_ms.is_some() {
             return said(Severity::Bad, "speed depends on the frame rate");
         }
@@ -84,6 +61,11 @@ impl LoopLane {
         let Some((error, latency)) = measured else {
             return said(Severity::Unknown, "nothing displayed");
         };
+        if report.loses_motion() {
+            let remedy = "more ticks or another method keep it";
+            let parts = ["the motion is lost", remedy].map(|part| Some(part.to_owned()));
+            return Self::new(Severity::Bad, parts);
+        }
         let late = match latency * f64::from(tick_hz) / 1000.0 {
             late if late < LATE_TICKS => None,
             late if (late - 1.0).abs() < 0.1 => Some("one tick late".into()),
@@ -96,7 +78,7 @@ impl LoopLane {
                 }
                 _ => (Severity::Fine, "smooth".into()),
             };
-            return LoopVerdict::new(severity, [Some(how), late]);
+            return Self::new(severity, [Some(how), late]);
         }
         let severity = if error < JUDDER_MS { Severity::Doubtful } else { Severity::Bad };
         let many = |percent: Option<f64>| {
@@ -105,11 +87,17 @@ impl LoopLane {
         if let Some(repeated) = many(report.repeated_percent) {
             let repeated = format!("judders: {repeated} % of frames repeat");
             let doubled = many(report.double_percent).map(|percent| format!("{percent} % jump"));
-            return LoopVerdict::new(severity, [Some(repeated), doubled]);
+            return Self::new(severity, [Some(repeated), doubled]);
         }
         let how = if error < JUDDER_MS { "uneven" } else { "judders" };
         let how = format!("{how} by {} ms", round(error, 2));
-        LoopVerdict::new(severity, [Some(how), late])
+        Self::new(severity, [Some(how), late])
+    }
+}
+
+impl fmt::Display for LoopVerdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.parts.join(", "))
     }
 }
 
