@@ -84,6 +84,12 @@ impl AtomicFile {
         unreachable!("no folder holds as many files")
     }
 
+    /// Writes all of the file, and commits it. Returns its final name.
+    pub(crate) fn write_whole(mut self, bytes: &[u8], if_exists: IfExists) -> io::Result<PathBuf> {
+        self.write_all(bytes)?;
+        self.commit(if_exists)
+    }
+
     /// Syncs the file, renames it, and syncs the directory. Returns its final name.
     pub(crate) fn commit(self, if_exists: IfExists) -> io::Result<PathBuf> {
         let path = self.rename(if_exists)?;
@@ -104,9 +110,7 @@ impl Write for AtomicFile {
 
 /// Writes a file whole, and returns its final name.
 pub(crate) fn write_file(path: &Path, bytes: &[u8], if_exists: IfExists) -> io::Result<PathBuf> {
-    let mut file = AtomicFile::create(path)?;
-    file.write_all(bytes)?;
-    file.commit(if_exists)
+    AtomicFile::create(path)?.write_whole(bytes, if_exists)
 }
 
 /// The final name of the file with the temporary name `name`; `None` if that is not a temporary name.

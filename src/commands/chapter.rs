@@ -4,12 +4,14 @@
 //! Bourg & Bywalec, *Physics for Game Developers*, 2nd edition, chapter 7.
 
 use std::path::PathBuf;
+use std::sync::atomic::Ordering;
 
 use clap::Args;
 
 use super::drawing::gpu;
 use super::error::Error;
 use super::help::flowing;
+use super::interrupt::watch_for_interrupt;
 use super::output::print;
 use super::terminal::{print_status, report_left_alone};
 use crate::view::{OffscreenRenderer, png};
@@ -68,10 +70,14 @@ const SCALE: f32 = 1.6;
 
 fn draw(mut folder: FigureFolder) -> Result<(), Error> {
     let mut renderer = OffscreenRenderer::new(gpu()?, SIZE_PX, SCALE)?;
+    let interrupted = watch_for_interrupt();
     folder.clear()?;
     let mut rgba = Vec::new();
     let diagrams = figures::all();
-    for Diagram { number, figure } in &diagrams {
+    for (done, Diagram { number, figure }) in diagrams.iter().enumerate() {
+        if interrupted.load(Ordering::Relaxed) {
+            return Err(Error::interrupted_after(format!("{done} of {} figures", diagrams.len())));
+        }
         renderer.draw_figure(figure, &mut rgba)?;
         let name = format!("figure-{number}");
         folder.write(&format!("{name}.csv"), &figures::csv(figure)?)?;

@@ -27,9 +27,10 @@ pub(super) fn record(
     let CaptureSettings { schedule, size_px, .. } = capture;
     let mut renderer = capture.renderer()?;
     let adapter = adapter(&renderer);
+    // Before the first entry of the folder is made, which would stay.
+    let interrupted = watch_for_interrupt();
     folder.clear()?;
 
-    let interrupted = watch_for_interrupt();
     let mut studio = capture.dress(studio);
     let mut state_log = StateLog::new(capture.mark_every, studio.race());
     let mut entries = Vec::new();

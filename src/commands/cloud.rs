@@ -1,7 +1,8 @@
 //! `regatta cloud`: a shape of many starts under some methods, and what becomes of its area, as a table.
 
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use clap::Args;
@@ -43,7 +44,7 @@ Examples:
   regatta cloud --scene spring --points 1000000 --out cloud.csv";
 
 /// Step a shape of many starts and show what becomes of its area
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 #[command(after_long_help = flowing(ABOUT))]
 pub(super) struct CloudArgs {
     #[command(flatten)]
@@ -124,16 +125,11 @@ const MAX_LOOKS: u64 = 100;
 /// The longest default run, in seconds.
 const USUAL_SECONDS: f64 = 60.0;
 
-/// The time after which an interrupt is looked for, if a tick takes no longer.
-const LOOKED_EVERY: Duration = Duration::from_millis(50);
-
 /// A method's cloud while it is stepped.
 struct MethodCloud {
     spec: LaneSpec,
     cloud: Cloud,
     stepping: Duration,
-    /// The ticks that are stepped at once.
-    part: u64,
     /// The areas on the way, where they are known.
     areas: Vec<f64>,
 }
@@ -144,17 +140,20 @@ impl MethodCloud {
         self.cloud.in_words(area_ratio, self.areas.iter().copied())
     }
 
-    /// Steps to a tick; returns whether it came there before an interrupt.
-    fn go_to(&mut self, tick: u64, interrupted: &AtomicBool) -> bool {
-        while self.cloud.tick() < tick && !interrupted.load(Ordering::Relaxed) {
-            let part = self.part.min(tick - self.cloud.tick());
-            let begun = Instant::now();
-            self.cloud.advance(part);
-            let took = begun.elapsed();
-            self.stepping += took;
-            self.part = if took < LOOKED_EVERY { part * 2 } else { part.div_ceil(2) };
-        }
-        self.cloud.tick() >= tick
+    /// Steps to a tick, and looks at the area there.
+    fn go_to(&mut self, tick: u64) {
+        let begun = Instant::now();
+        self.cloud.go_to(tick);
+        self.stepping += begun.elapsed();
+        self.areas.extend(self.cloud.area_ratio());
+    }
+}
+
+impl CloudArgs {
+    /// The ticks of the run.
+    fn ticks(&self, scene: &Scene) -> u64 {
+        let seconds = self.seconds.unwrap_or(scene.seconds.min(USUAL_SECONDS));
+        ((seconds * f64::from(scene.tick_hz)).round() as u64).max(1)
     }
 }
 
@@ -170,8 +169,15 @@ pub(super) fn run(args: &CloudArgs) -> Result<(), Error> {
     let interrupted = watch_for_interrupt();
     let threads = args.threads.map_or(0, usize::from);
     let pool = jobs::pool(threads)?;
-    let rows = pool.install(|| rows(args, &scene, &specs, &interrupted))?;
-    write_rows(output, format, COLUMNS, &rows)
+    let (ticks, reached) = (args.ticks(&scene), Arc::new(AtomicU64::new(0)));
+    // Not waited for after an interrupt: a tick of many points takes seconds, and so does what is measured of them.
+    let (args, noted) = (args.clone(), Arc::clone(&reached));
+    let rows = move || pool.install(|| rows(&args, &scene, &specs, &noted));
+    let Some(rows) = jobs::result(&interrupted, rows) else {
+        let tick = reached.load(Ordering::Relaxed);
+        return Err(Error::interrupted_after(format!("{tick} of {ticks} ticks")));
+    };
+    write_rows(output, format, COLUMNS, &rows?)
 }
 
 /// A row of the table.
@@ -191,11 +197,12 @@ const COLUMNS: &[Column<Row>] = &[
     Column::new("hash", |row| json!(format!("{:016x}", row.measure.hash))),
 ];
 
+/// The rows of all methods. The tick that all have come to is noted in `reached`.
 fn rows(
     args: &CloudArgs,
     scene: &Scene,
     specs: &[LaneSpec],
-    interrupted: &AtomicBool,
+    reached: &AtomicU64,
 ) -> Result<Vec<Row>, Error> {
     let of_scene = scene_body(scene);
     let body = (of_scene.kind.build)(&of_scene.values, specs[0].solver());
@@ -210,24 +217,17 @@ fn rows(
             spec: *spec,
             cloud,
             stepping: Duration::ZERO,
-            part: 1,
             areas: Vec::new(),
         })
     };
     let mut runs = specs.iter().map(cloud).collect::<Result<Vec<_>, _>>().map_err(no_cloud)?;
-    let seconds = args.seconds.unwrap_or(scene.seconds.min(USUAL_SECONDS));
-    let ticks = ((seconds * f64::from(scene.tick_hz)).round() as u64).max(1);
+    let ticks = args.ticks(scene);
     let every = ticks.div_ceil(MAX_LOOKS);
     let mut done = 0;
     while done < ticks {
         done = (done + every).min(ticks);
-        for run in &mut runs {
-            if !run.go_to(done, interrupted) {
-                let tick = run.cloud.tick();
-                return Err(Error::interrupted_after(format!("{tick} of {ticks} ticks")));
-            }
-            run.areas.extend(run.cloud.area_ratio());
-        }
+        runs.iter_mut().for_each(|run| run.go_to(done));
+        reached.store(done, Ordering::Relaxed);
     }
     let is_read = args.out == Path::new(STDOUT);
     Ok(runs.iter().map(|run| row(run, specs, points, ticks, is_read)).collect())

@@ -160,6 +160,7 @@ fn remedy(error: &io::Error, option: &str) -> String {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
             format!("free some space, or give another {option}")
         }
+        io::ErrorKind::FileTooLarge => "raise the limit of a file's size (ulimit -f)".into(),
         io::ErrorKind::NotFound => format!("give another {option}, in a directory that is there"),
         _ => format!("give another {option} that you may write to"),
     }

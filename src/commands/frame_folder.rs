@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 
 use super::error::Error;
 use super::manifest;
-use super::output::DirectoryLock;
-use crate::atomic_file::{AtomicFile, IfExists, sync_directory, write_file};
+use super::output::{DirectoryLock, begin_file};
+use crate::atomic_file::{IfExists, sync_directory};
 
 pub(super) mod blessing;
 mod entries;
@@ -179,7 +179,7 @@ impl FrameFolder {
     /// Adds the next frame.
     pub(super) fn push(&mut self, picture: &[u8]) -> Result<(), Error> {
         let name = frame_name(self.frames);
-        let written = AtomicFile::create(&self.place().join(&name)).and_then(|mut file| {
+        let written = begin_file(&self.place().join(&name)).and_then(|mut file| {
             file.write_all(picture)?;
             file.rename(IfExists::Replace)
         });
@@ -192,7 +192,7 @@ impl FrameFolder {
     pub(super) fn finish(mut self, manifest: &str) -> Result<(), Error> {
         let path = self.place().join(manifest::FILE_NAME);
         sync_directory(self.place())
-            .and_then(|()| write_file(&path, manifest.as_bytes(), IfExists::Replace))
+            .and_then(|()| begin_file(&path)?.write_whole(manifest.as_bytes(), IfExists::Replace))
             .map_err(|error| self.unwritten(manifest::FILE_NAME, error))?;
         let swapped = self.blessing.take().map_or(Ok(()), Blessing::swap);
         swapped.map_err(Error::of_file("put the new frames into", &self.path, self.option))

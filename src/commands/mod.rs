@@ -224,6 +224,7 @@ subcommands! {
 /// # Errors
 /// If the command fails. A closed standard output is not an error.
 pub fn run(cli: Cli) -> Result<(), Error> {
+    interrupt::survive_large_files();
     #[cfg(feature = "window")]
     let command = cli.command.unwrap_or(Command::Play(cli.play));
     #[cfg(not(feature = "window"))]

@@ -5,5 +5,5 @@ mod destination;
 mod directory_lock;
 pub(super) mod table;
 
-pub(super) use destination::{Destination, Output, STDOUT, print};
+pub(super) use destination::{Destination, Output, STDOUT, begin_file, print};
 pub(super) use directory_lock::{DirectoryLock, is_lock};

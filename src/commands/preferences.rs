@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 
 use directories::ProjectDirs;
 
+use super::output::begin_file;
 use super::terminal::print_status;
-use crate::atomic_file::{IfExists, write_file};
+use crate::atomic_file::IfExists;
 use crate::lab::scene::MAX_FILE_BYTES;
 use crate::lab::studio::{SavedPreferences, Studio};
 use crate::regular_file;
@@ -40,7 +41,7 @@ pub(super) fn save(preferences: &SavedPreferences) {
         let folder = path.parent().unwrap_or(path);
         std::fs::create_dir_all(folder)?;
         // Whole or not at all, as another window may close at the same time.
-        write_file(path, preferences.to_text().as_bytes(), IfExists::Replace)
+        begin_file(path)?.write_whole(preferences.to_text().as_bytes(), IfExists::Replace)
     };
     if let Err(error) = write(&path) {
         log::info!("cannot write {}: {error}", path.display());

@@ -10,8 +10,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::output::begin_file;
 use super::preferences;
-use crate::atomic_file::{IfExists, RANDOM_CHARS, is_random, write_file};
+use crate::atomic_file::{IfExists, RANDOM_CHARS, is_random};
 use crate::regular_file;
 use crate::window::KeepRecording;
 
@@ -95,14 +96,14 @@ impl RecordingState {
     fn keep(&mut self, text: &str) -> io::Result<()> {
         match self {
             RecordingState::Wanted(path) => {
-                let path = write_file(path, text.as_bytes(), IfExists::Beside)?;
+                let path = begin_file(path)?.write_whole(text.as_bytes(), IfExists::Beside)?;
                 let note = NOTES.folder().and_then(|folder| Note::new(&folder, &path));
                 let note = note.inspect_err(|error| log::info!("no note of it: {error}")).ok();
                 *self = RecordingState::Growing { path, note };
                 Ok(())
             }
             RecordingState::Growing { path, .. } => {
-                write_file(path, text.as_bytes(), IfExists::Replace).map(drop)
+                begin_file(path)?.write_whole(text.as_bytes(), IfExists::Replace).map(drop)
             }
             RecordingState::Finished => Ok(()),
         }

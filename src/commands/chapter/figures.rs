@@ -86,6 +86,9 @@ fn figure(
     Figure { title: title.into(), note, columns: 1, charts: vec![chart] }
 }
 
+/// How each table begins.
+pub(super) const CSV_BEGINS: &str = "curve,time_s,";
+
 /// The points of all curves in one tidy table: `curve`, then the axes.
 pub(super) fn csv(figure: &Figure) -> io::Result<Vec<u8>> {
     let chart = &figure.charts[0];

@@ -5,8 +5,12 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::atomic_file::{IfExists, final_name, write_file};
+use super::figures::CSV_BEGINS;
+use crate::atomic_file::{IfExists, final_name};
 use crate::commands::error::Error;
+use crate::commands::frame_names::is_marked;
+use crate::commands::output::begin_file;
+use crate::regular_file;
 
 /// A folder for figures.
 pub(super) struct FigureFolder {
@@ -37,7 +41,8 @@ impl FigureFolder {
             let entry = entry.map_err(&fail)?;
             let is_file = !entry.file_type().map_err(&fail)?.is_dir();
             let name = entry.file_name();
-            let is_old = is_file && name.to_str().is_some_and(is_ours);
+            let text = name.to_str().unwrap_or_default();
+            let is_old = is_file && (is_a_figures(text) || is_left_over(&entry.path()));
             let list = if is_old { &mut folder.old } else { &mut folder.others };
             list.push(name);
         }
@@ -67,7 +72,7 @@ impl FigureFolder {
     /// Writes a file: under a name of its own until it is whole.
     pub(super) fn write(&self, name: &str, bytes: &[u8]) -> Result<(), Error> {
         let path = self.path.join(name);
-        let written = write_file(&path, bytes, IfExists::Replace);
+        let written = begin_file(&path).and_then(|file| file.write_whole(bytes, IfExists::Replace));
         written.map(drop).map_err(Error::of_file("write", &path, "--out"))
     }
 
@@ -82,10 +87,53 @@ impl FigureFolder {
     }
 }
 
-/// Whether a file of this name is a figure or its data, whole or under way.
-fn is_ours(name: &str) -> bool {
-    let whole = final_name(name).unwrap_or(name);
-    let stem = whole.strip_suffix(".png").or_else(|| whole.strip_suffix(".csv"));
+/// Whether this is the name of a figure or of its data.
+fn is_a_figures(name: &str) -> bool {
+    let stem = name.strip_suffix(".png").or_else(|| name.strip_suffix(".csv"));
     let number = stem.and_then(|stem| stem.strip_prefix("figure-7-"));
     number.is_some_and(|n| n.len() == 1 && n.bytes().all(|b| (b'2'..=b'8').contains(&b)))
+}
+
+/// Whether a run that was killed left the file at `path`: by its name, and by what is in it, if anything is.
+fn is_left_over(path: &Path) -> bool {
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let begins = || regular_file::read_start(path, CSV_BEGINS.len());
+    final_name(name).is_some_and(is_a_figures)
+        && (is_marked(path)
+            || begins().is_ok_and(|it| it.is_empty() || it == CSV_BEGINS.as_bytes()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::commands::chapter::figures;
+    use crate::view::png;
+
+    #[test]
+    fn what_a_killed_run_left_makes_way_and_what_only_looks_like_it_does_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let picture = png::encode([1, 1], &[0; 4]);
+        let csv = figures::csv(&figures::all()[0].figure).unwrap();
+        let left = [
+            ("figure-7-2.png.regatta-aB3dE6.part", picture.clone()),
+            ("figure-7-3.csv.regatta-aB3dE6.part", csv),
+            ("figure-7-4.csv.regatta-aB3dE6.part", Vec::new()),
+        ];
+        let kept = [
+            ("figure-7-3.png.backup.part", picture.clone()),
+            ("figure-7-3.png.regatta-aB3dE7.part", b"mine".to_vec()),
+            ("figure-7-9.png.regatta-aB3dE7.part", picture),
+        ];
+        for (name, bytes) in left.iter().chain(&kept) {
+            fs::write(folder.path().join(name), bytes).unwrap();
+        }
+        let mut figures = FigureFolder::inspect(folder.path()).unwrap();
+        figures.clear().unwrap();
+        let others: Vec<_> = kept.iter().map(|(name, _)| OsString::from(name)).collect();
+        assert_eq!(figures.others(), others);
+        for (name, bytes) in &kept {
+            assert_eq!(&fs::read(folder.path().join(name)).unwrap(), bytes, "{name}");
+        }
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), kept.len());
+    }
 }

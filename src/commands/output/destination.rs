@@ -20,6 +20,13 @@ const OPEN_ALREADY: [&str; 4] = ["/dev/fd", "/dev/stdout", "/dev/stderr", "/proc
 /// A longer chain of links is a ring, on every system.
 const MAX_LINKS: usize = 40;
 
+/// Begins a file that appears whole or not at all. Watches for an interrupt first: one that ends the process would leave the
+/// temporary name.
+pub(crate) fn begin_file(path: &Path) -> io::Result<AtomicFile> {
+    interrupt::watch_for_interrupt();
+    AtomicFile::create(path)
+}
+
 /// Where an output goes, and the option to name in its errors.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Destination<'a> {
@@ -74,7 +81,7 @@ impl Destination<'_> {
     /// link stays.
     pub(crate) fn begin(self) -> Result<Output, Error> {
         let begin = || {
-            let file = AtomicFile::create(&end_of_links(self.path)?)?;
+            let file = begin_file(&end_of_links(self.path)?)?;
             if let Ok(older) = fs::metadata(self.path) {
                 file.set_permissions_of(&older)?;
             }

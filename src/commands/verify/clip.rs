@@ -17,6 +17,7 @@ use crate::commands::error::Error;
 #[cfg(feature = "view")]
 use crate::commands::frame_folder::{FolderPolicy, FrameFolder};
 use crate::commands::frame_names::{in_the_way, is_pending};
+use crate::commands::interrupt::watch_for_interrupt;
 use crate::commands::manifest::{self, FILE_NAME, Manifest, SCHEMA};
 use crate::commands::output::DirectoryLock;
 use crate::commands::state_log::StateLog;
@@ -67,11 +68,12 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
     };
     #[cfg(not(feature = "view"))]
     let redrawn = Ok::<Option<(Frames, (Studio, StateLog))>, Error>(None);
+    let run = || rerun.run(&watch_for_interrupt()).ok_or_else(Error::nothing_written);
     let (frames, (studio, state_log), failed) = match redrawn {
         Ok(Some((frames, run))) => (Some(frames), run, None),
-        Ok(None) => (None, rerun.run(), None),
+        Ok(None) => (None, run()?, None),
         // The physics is judged even where the pixels cannot be.
-        Err(error) if error.is_mistake() => (None, rerun.run(), Some(error)),
+        Err(error) if error.is_mistake() => (None, run()?, Some(error)),
         Err(error) => return Err(error),
     };
     let mut report = Report::new("dir", dir);

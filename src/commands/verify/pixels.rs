@@ -4,7 +4,7 @@ use std::fs;
 
 use super::VerifyArgs;
 use super::rerun::{Frames, Rerun};
-use crate::atomic_file::{IfExists, write_file};
+use crate::atomic_file::IfExists;
 use crate::commands::drawing::{adapter, interrupted_after};
 use crate::commands::error::Error;
 use crate::commands::fingerprint::fingerprint;
@@ -12,6 +12,7 @@ use crate::commands::frame_folder::not_ours;
 use crate::commands::frame_names::{frames_claimed, is_marked};
 use crate::commands::interrupt::watch_for_interrupt;
 use crate::commands::manifest::{Adapter, FILE_NAME, FrameEntry, Manifest};
+use crate::commands::output::begin_file;
 use crate::commands::pipeline::{DrawnFrame, Pipeline};
 use crate::commands::schedule::Schedule;
 use crate::commands::state_log::StateLog;
@@ -182,7 +183,9 @@ fn compare(
     if let Some(directory) = args.diff.as_ref().filter(|_| difference.off > 0) {
         let path = directory.join(&entry.file);
         let picture = png::encode(size_px, &picture_of(&then, now, difference.worst));
-        what += &match write_file(&path, &picture, IfExists::Replace) {
+        let written =
+            begin_file(&path).and_then(|file| file.write_whole(&picture, IfExists::Replace));
+        what += &match written {
             Ok(written) => format!("; see {}", written.display()),
             Err(error) => format!("; {}", Error::of_file("write", &path, "--diff")(error)),
         };

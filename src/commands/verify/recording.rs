@@ -8,6 +8,8 @@ use serde_json::{Value, json};
 use super::report::{Report, print_line};
 use crate::atomic_file::IfExists;
 use crate::commands::error::Error;
+use crate::commands::interrupt::watch_for_interrupt;
+use crate::commands::jobs;
 use crate::commands::output::Destination;
 use crate::commands::scene_file;
 use crate::commands::terminal::print_status;
@@ -117,7 +119,8 @@ pub(super) fn judge(path: &Path) -> Result<Report, Error> {
         )));
     }
     check_ticks(path, &scene)?;
-    let lanes = compare(&scene);
+    let judged = jobs::result(&watch_for_interrupt(), move || compare(&scene));
+    let lanes = judged.ok_or_else(Error::nothing_written)?;
     let mut report = Report::new("file", path);
     for lane in &lanes {
         print_line(&lane.line())?;

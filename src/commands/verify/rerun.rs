@@ -1,5 +1,7 @@
 //! The run of a capture, repeated.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use crate::commands::capture_settings::CaptureSettings;
 use crate::commands::experiment::Experiment;
 use crate::commands::manifest::Manifest;
@@ -29,12 +31,15 @@ impl Rerun {
         (studio, state_log)
     }
 
-    /// The lab at the end of the run and its log, where nothing is drawn.
-    pub(super) fn run(&self) -> (Studio, StateLog) {
+    /// The lab at the end of the run and its log, where nothing is drawn; `None` after an interrupt.
+    pub(super) fn run(&self, interrupted: &AtomicBool) -> Option<(Studio, StateLog)> {
         let (mut studio, mut state_log) = self.begin();
         for frame in 0..self.manifest.frames.len() as u32 {
+            if interrupted.load(Ordering::Relaxed) {
+                return None;
+            }
             self.capture.schedule.advance(&mut studio, frame, &mut state_log);
         }
-        (studio, state_log)
+        Some((studio, state_log))
     }
 }

@@ -25,6 +25,7 @@ mod mistakes;
 mod port;
 mod recordings;
 mod show;
+mod signals;
 mod sweep;
 mod sweep_plots;
 mod trace;

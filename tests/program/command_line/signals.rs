@@ -1,0 +1,165 @@
+//! Signals and limits of the system: whatever ends a command, no temporary file stays.
+#![cfg(unix)]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use super::capture::{drawn_or_skip, names};
+use super::mishaps::XorShift;
+use super::{regatta, stderr};
+
+const SIGNALS: [&str; 3] = ["-TERM", "-HUP", "-INT"];
+
+/// A race whose check lies days away.
+const LONG: &str = "title = 'x'\ntick_hz = 1000\nseconds = 1\nmethods = ['rk4']\n\
+    [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\nx0_m = 1\n\
+    [[check]]\ntick = 90000000\nlane = 1\nhash = '0000000000000000'\n";
+
+/// Files that never end by themselves, or after seconds.
+const ENDLESS: [&str; 7] = [
+    "capture --scene spring --frames 100000 --size 32x18 --out run.gif",
+    "capture --scene spring --frames 100000 --size 32x18 --out run.y4m",
+    "capture --scene harbour --frames 400 --size 32x18 --out run.png",
+    "sweep --out rows.csv --plot rows.png",
+    "loop --seconds 100000 --out rows.csv --frame-rows frames.csv",
+    "cloud --scene liouville --points 1000000 --out cloud.csv",
+    "verify long.toml --report json report.json",
+];
+
+fn start(folder: &Path, arguments: &str) -> Child {
+    let mut command = regatta();
+    command.current_dir(folder).args(arguments.split(' '));
+    command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+}
+
+/// Sends a signal, and returns what the program leaves and how long it took.
+fn ended_by(signal: &str, child: Child) -> (Output, Duration) {
+    let sent = Command::new("kill").args([signal, &child.id().to_string()]).status();
+    assert!(sent.unwrap().success());
+    let asked = Instant::now();
+    (child.wait_with_output().unwrap(), asked.elapsed())
+}
+
+/// The temporary files in a folder and in those that it holds.
+fn parts(folder: &Path) -> Vec<String> {
+    let mut found = Vec::new();
+    // What is renamed or removed meanwhile is no part any more.
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name().into_string().unwrap();
+        if entry.path().is_dir() {
+            found.extend(parts(&entry.path()));
+        }
+        if name.ends_with(".part") || name.starts_with(".regatta-bless") {
+            found.push(name);
+        }
+    }
+    found
+}
+
+/// Waits for the first temporary file.
+#[track_caller]
+fn until_begun(folder: &Path, child: &mut Child) {
+    while parts(folder).is_empty() {
+        assert_eq!(child.try_wait().unwrap(), None, "it goes on");
+        std::thread::sleep(Duration::from_micros(100));
+    }
+}
+
+#[test]
+fn a_signal_as_soon_as_a_file_is_begun_leaves_nothing_of_it() {
+    let test = "a_signal_as_soon_as_a_file_is_begun_leaves_nothing_of_it";
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let probe = "capture --scene spring --frames 1 --size 32x18 --out probe";
+    let Some(_) = drawn_or_skip(test, folder, probe) else { return };
+    fs::write(folder.join("long.toml"), LONG).unwrap();
+    let before = names(folder);
+    for (arguments, signal) in ENDLESS.iter().zip(SIGNALS.iter().cycle()) {
+        let mut child = start(folder, arguments);
+        until_begun(folder, &mut child);
+        let (output, _) = ended_by(signal, child);
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(130), "{arguments}, {signal}: {said}");
+        assert!(said.contains("interrupted"), "{arguments}: {said}");
+        assert_eq!(names(folder), before, "{arguments}, {signal}");
+    }
+}
+
+#[test]
+fn a_signal_at_any_moment_leaves_no_temporary_file() {
+    let test = "a_signal_at_any_moment_leaves_no_temporary_file";
+    let mut random = XorShift::new(test);
+    let commands = [
+        "capture --scene spring --frames 12 --size 64x36 --out run.gif",
+        "capture --scene harbour --frames 3 --size 64x36 --out run.png",
+        "sweep --scene spring --out rows.csv --plot plot.png",
+        "chapter --out figures",
+    ];
+    let whole = commands.map(|arguments| {
+        let folder = tempfile::tempdir().unwrap();
+        let begun = Instant::now();
+        drawn_or_skip(test, folder.path(), arguments).map(|_| begun.elapsed())
+    });
+    for n in 0..20 {
+        let folder = tempfile::tempdir().unwrap();
+        let (arguments, Some(whole)) = (commands[n % 4], whole[n % 4]) else { return };
+        let signal = SIGNALS[random.below(3) as usize];
+        let child = start(folder.path(), arguments);
+        std::thread::sleep(Duration::from_micros(random.below(whole.as_micros() as u64)));
+        let (output, _) = ended_by(signal, child);
+        let (code, said) = (output.status.code(), stderr(&output));
+        // Before anything is begun the signal itself ends the program.
+        assert!(matches!(code, Some(0 | 130) | None), "{arguments}, {signal}: {code:?} {said}");
+        assert_eq!(parts(folder.path()), [""; 0], "{arguments}, {signal}: {code:?}");
+    }
+}
+
+#[test]
+fn a_cloud_of_any_size_ends_within_a_second_of_a_signal() {
+    let test = "a_cloud_of_any_size_ends_within_a_second_of_a_signal";
+    let folder = tempfile::tempdir().unwrap();
+    let mut random = XorShift::new(test);
+    for signal in SIGNALS {
+        let cloud = "cloud --scene liouville --points 1000000 --out cloud.csv";
+        let mut child = start(folder.path(), cloud);
+        until_begun(folder.path(), &mut child);
+        std::thread::sleep(Duration::from_millis(random.below(3000)));
+        let (output, took) = ended_by(signal, child);
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(130), "{signal}: {said}");
+        assert!(took < Duration::from_secs(1), "{signal}: {took:?}");
+        assert!(said.contains(" of 72 ticks") && said.lines().count() == 1, "{signal}: {said}");
+        assert_eq!(names(folder.path()), [""; 0], "{signal}");
+    }
+}
+
+#[test]
+fn a_limit_of_a_files_size_ends_in_a_sentence_and_leaves_nothing() {
+    let test = "a_limit_of_a_files_size_ends_in_a_sentence_and_leaves_nothing";
+    let folder = tempfile::tempdir().unwrap();
+    for arguments in [
+        "sweep --scene spring --method rk4 --out rows.csv",
+        "capture --scene spring --frames 3 --size 64x36 --out run.gif",
+        "capture --scene harbour --frames 3 --size 64x36 --out run.png",
+        "capture --scene spring --frames 3 --size 640x360 --out clip",
+        "loop --trace edge --policy fixed --seconds 2 --out rows.csv --plot plot.png",
+        "chapter --out figures",
+    ] {
+        let limited = "ulimit -f 1; exec \"$0\" \"$@\"";
+        let mut command = Command::new("sh");
+        command.args(["-c", limited]).arg(regatta().get_program()).args(arguments.split(' '));
+        command.current_dir(folder.path()).env("XDG_RUNTIME_DIR", std::env::temp_dir());
+        let output = command.output().unwrap();
+        let said = stderr(&output);
+        if said.contains("graphics") {
+            eprintln!("SKIPPED {test}, {arguments}: {said}");
+            continue;
+        }
+        assert_eq!(output.status.code(), Some(1), "{arguments}: {:?} {said}", output.status);
+        assert!(said.contains("cannot write "), "{arguments}: {said}");
+        assert!(said.contains("a file's size (ulimit -f)"), "{arguments}: {said}");
+        assert_eq!(parts(folder.path()), [""; 0], "{arguments}");
+    }
+}
