@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::capture_settings::CaptureSettings;
-use super::error::Error;
+use super::error::{Error, PlaceOf};
 use super::experiment::{self, Experiment, ExperimentArgs, ThemeName, known_trace};
 use super::frame_folder::{FolderPolicy, FrameFolder};
 use super::frame_names::MAX_FRAMES;
@@ -205,7 +205,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
     match format.writing {
         Writing::Folder => {
             let existing = if args.force { FolderPolicy::Replace } else { FolderPolicy::Refuse };
-            let folder = FrameFolder::inspect(&args.out, existing, "--out")?;
+            let folder = FrameFolder::inspect(&args.out, existing, PlaceOf::Option("--out"))?;
             clip::record(&experiment, studio, capture, folder).map(drop)
         }
         Writing::Sheet => sheet::draw(&experiment, &studio, capture, open(args)?),
@@ -215,7 +215,8 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
 
 fn open(args: &CaptureArgs) -> Result<Output, Error> {
     let if_exists = if args.force { IfExists::Replace } else { IfExists::Keep };
-    Destination { path: &args.out, option: "--out", if_exists }.open()
+    let inputs = Vec::from_iter(args.experiment.input());
+    Destination { path: &args.out, option: "--out", if_exists, inputs: &inputs }.open()
 }
 
 fn size(written: &str) -> Result<[u32; 2], String> {

@@ -165,7 +165,9 @@ pub(super) fn run(args: &CloudArgs) -> Result<(), Error> {
         false => args.experiment.lanes_named(&scene),
     };
     let if_exists = if args.force { IfExists::Replace } else { IfExists::Keep };
-    let output = Destination { path: &args.out, option: "--out", if_exists }.open_for_text()?;
+    let inputs = Vec::from_iter(args.experiment.input());
+    let to = Destination { path: &args.out, option: "--out", if_exists, inputs: &inputs };
+    let output = to.open_for_text()?;
     let interrupted = watch_for_interrupt();
     let threads = args.threads.map_or(0, usize::from);
     let pool = jobs::pool(threads)?;

@@ -23,6 +23,42 @@ enum ExitReason {
     ClosedPipe,
 }
 
+/// What names the place of an output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum PlaceOf {
+    /// An option, which may name another place.
+    Option(&'static str),
+    /// The clip that is blessed: it cannot be at another place.
+    Blessed,
+}
+
+impl PlaceOf {
+    /// The remedy, which another place is too if there can be one.
+    pub(super) fn or_another(self, remedy: &str) -> String {
+        match self {
+            Self::Option(option) => format!("{remedy}, or give another {option}"),
+            Self::Blessed => remedy.to_owned(),
+        }
+    }
+
+    /// The remedy for an error of the system.
+    fn remedy(self, error: &io::Error) -> String {
+        match (error.kind(), self) {
+            (io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded, _) => {
+                self.or_another("free some space")
+            }
+            (io::ErrorKind::FileTooLarge, _) => {
+                "raise the limit of a file's size (ulimit -f)".into()
+            }
+            (io::ErrorKind::NotFound, Self::Option(option)) => {
+                format!("give another {option}, in a directory that is there")
+            }
+            (_, Self::Option(option)) => format!("give another {option} that you may write to"),
+            (_, Self::Blessed) => "make it one that you may write to".into(),
+        }
+    }
+}
+
 /// The error that ends a command: its exit code and its message.
 #[derive(Debug, thiserror::Error)]
 #[error("{message}")]
@@ -85,9 +121,18 @@ impl Error {
         path: &Path,
         option: &'static str,
     ) -> impl Fn(io::Error) -> Self + use<> {
+        Self::of_place(doing, path, PlaceOf::Option(option))
+    }
+
+    /// The same of a place that perhaps no option names.
+    pub(super) fn of_place(
+        doing: &'static str,
+        path: &Path,
+        place: PlaceOf,
+    ) -> impl Fn(io::Error) -> Self + use<> {
         let path = path.display().to_string();
         move |error| {
-            let remedy = remedy(&error, option);
+            let remedy = place.remedy(&error);
             Self::unwritten(&error, format!("cannot {doing} {path}: {error}; {remedy}"))
         }
     }
@@ -152,17 +197,6 @@ impl Error {
             Mistake { message, quoted: quoted.unwrap_or_default() }
         };
         errors.messages().map(mistake).collect()
-    }
-}
-
-fn remedy(error: &io::Error, option: &str) -> String {
-    match error.kind() {
-        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
-            format!("free some space, or give another {option}")
-        }
-        io::ErrorKind::FileTooLarge => "raise the limit of a file's size (ulimit -f)".into(),
-        io::ErrorKind::NotFound => format!("give another {option}, in a directory that is there"),
-        _ => format!("give another {option} that you may write to"),
     }
 }
 

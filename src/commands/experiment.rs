@@ -8,6 +8,7 @@ use clap::{Args, ValueEnum};
 
 use super::error::Error;
 use super::id::{METHOD, TRACE};
+use super::output::Input;
 use super::scene_file;
 use super::spring::SpringArgs;
 use crate::lab::LaneSpec;
@@ -92,6 +93,11 @@ impl ExperimentArgs {
     /// The scene as it was given, a name or a path, or else the first built-in scene.
     pub(super) fn scene(&self) -> &Path {
         self.scene.as_deref().unwrap_or(Path::new(SCENES[0].name))
+    }
+
+    /// The file of the scene that is run, if it is one.
+    pub(super) fn input(&self) -> Option<Input<'_>> {
+        scene_file::input(self.scene()).filter(|_| !self.is_a_spring())
     }
 
     /// The same options with this scene, unless they choose the scene, its methods or its tick rate.

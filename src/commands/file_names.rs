@@ -1,8 +1,9 @@
-//! The files of a table and of its picture: their formats by their names, and whether two names are one file.
+//! The files of a table and of its picture: their formats by their names.
 
-use std::path::{self, Path, PathBuf};
+use std::path::Path;
 
 use crate::commands::error::Error;
+use crate::commands::output::same_file_path;
 use crate::commands::output::table::RowFormat;
 
 /// The endings of files that hold pictures; all others promise nothing.
@@ -72,14 +73,5 @@ pub(super) fn check_picture_name(plot: &Path, out: &Path) -> Result<(), Error> {
             "rows and picture would go to the same place; give another --out or --plot",
         )),
         _ => Ok(()),
-    }
-}
-
-/// A path that is the same for one file however it is written, also through links to its folder.
-pub(super) fn same_file_path(path: &Path) -> PathBuf {
-    let whole = path::absolute(path).unwrap_or_else(|_| path.into());
-    match (whole.parent().and_then(|folder| folder.canonicalize().ok()), whole.file_name()) {
-        (Some(folder), Some(name)) => folder.join(name),
-        _ => whole,
     }
 }

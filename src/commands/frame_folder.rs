@@ -6,7 +6,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::error::Error;
+use super::error::{Error, PlaceOf};
 use super::manifest;
 use super::output::{DirectoryLock, begin_file};
 use crate::atomic_file::{IfExists, sync_directory};
@@ -16,7 +16,7 @@ mod entries;
 #[cfg(test)]
 mod tests;
 
-use super::frame_names::{frame_name, in_the_way, is_a_captures, is_pending};
+use super::frame_names::{frame_name, in_the_way, is_a_captures, is_pending, not_ours};
 use blessing::Blessing;
 use entries::Entries;
 
@@ -36,8 +36,8 @@ pub(super) enum FolderPolicy {
 pub(super) struct FrameFolder {
     path: PathBuf,
     existing: FolderPolicy,
-    /// The command-line option that names the folder.
-    option: &'static str,
+    /// What names the folder on the command line.
+    place: PlaceOf,
     entries: Entries,
     /// How many frames were added.
     frames: u32,
@@ -48,18 +48,17 @@ pub(super) struct FrameFolder {
 }
 
 impl FrameFolder {
-    /// Examines the folder at `path`, which need not exist yet and which the command-line option `option`
-    /// names. Changes nothing, except that a blessing interrupted during its swap is completed, where frames may be
-    /// replaced.
+    /// Examines the folder at `path`, which need not exist yet and which `place` names. Changes nothing, except that a
+    /// blessing interrupted during its swap is completed, where frames may be replaced.
     pub(super) fn inspect(
         path: &Path,
         existing: FolderPolicy,
-        option: &'static str,
+        place: PlaceOf,
     ) -> Result<Self, Error> {
         let mut folder = Self {
             path: path.to_owned(),
             existing,
-            option,
+            place,
             entries: Entries::default(),
             frames: 0,
             blessing: None,
@@ -72,7 +71,7 @@ impl FrameFolder {
             Ok(_) => folder.look().map(|()| folder),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(folder),
             Err(error) if error.kind() == io::ErrorKind::NotADirectory => Err(no_directory()),
-            Err(error) => Err(Error::of_file("read", path, option)(error)),
+            Err(error) => Err(Error::of_place("read", path, place)(error)),
         }
     }
 
@@ -80,7 +79,8 @@ impl FrameFolder {
     pub(super) fn beside(name: &str) -> Result<Self, Error> {
         let siblings = (2..).map(|n: u32| format!("{name}-{n}"));
         for sibling in std::iter::once(name.to_owned()).chain(siblings) {
-            match Self::inspect(Path::new(&sibling), FolderPolicy::Refuse, "working directory") {
+            let place = PlaceOf::Option("working directory");
+            match Self::inspect(Path::new(&sibling), FolderPolicy::Refuse, place) {
                 Err(taken) if taken.is_mistake() => {}
                 found => return found,
             }
@@ -90,16 +90,14 @@ impl FrameFolder {
 
     /// Locks the folder and reads its entries.
     fn look(&mut self) -> Result<(), Error> {
-        let (path, option) = (&self.path, self.option);
-        let lock = DirectoryLock::exclusive(path).map_err(Error::of_file("lock", path, option))?;
+        let (path, place) = (&self.path, self.place);
+        let lock = DirectoryLock::exclusive(path).map_err(Error::of_place("lock", path, place))?;
         if lock.is_none() {
-            let path = path.display();
-            return Err(Error::mistake(format!(
-                "another regatta is writing to {path}; wait until it has finished, or give another {option}"
-            )));
+            let (path, remedy) = (path.display(), place.or_another("wait until it has finished"));
+            return Err(Error::mistake(format!("another regatta is writing to {path}; {remedy}")));
         }
         self.lock = lock;
-        let read = || Entries::read(path).map_err(Error::of_file("read", path, option));
+        let read = || Entries::read(path).map_err(Error::of_place("read", path, place));
         let mut entries = read()?;
         if self.existing == FolderPolicy::Refuse && !entries.is_empty() {
             let path = path.display();
@@ -112,15 +110,15 @@ impl FrameFolder {
             entries.foreign = entries.foreign.or(entries.in_the_way.take());
         }
         if let Some(path) = entries.foreign {
-            return Err(not_ours(&path, option));
+            return Err(not_ours(&path, place));
         }
         if self.existing == FolderPolicy::Bless
             && let Some(path) = in_the_way(path)
         {
-            return Err(not_ours(&path, option));
+            return Err(not_ours(&path, place));
         }
         if self.existing != FolderPolicy::Refuse && is_pending(path) {
-            let fail = Error::of_file("finish the --bless in", path, option);
+            let fail = Error::of_place("finish the --bless in", path, place);
             blessing::complete(path).map_err(fail)?;
             entries = read()?;
         }
@@ -147,14 +145,14 @@ impl FrameFolder {
     /// captures.
     pub(super) fn clear(&mut self) -> Result<(), Error> {
         if self.lock.is_none() {
-            fs::create_dir_all(&self.path).map_err(Error::of_file(
+            fs::create_dir_all(&self.path).map_err(Error::of_place(
                 "make the directory",
                 &self.path,
-                self.option,
+                self.place,
             ))?;
             self.look()?;
         }
-        let fail = |path: &Path| Error::of_file("replace", path, self.option);
+        let fail = |path: &Path| Error::of_place("replace", path, self.place);
         for name in self.entries.our_directories.drain(..) {
             let path = self.path.join(name);
             fs::remove_dir_all(&path).map_err(fail(&path))?;
@@ -170,7 +168,7 @@ impl FrameFolder {
         }
         if self.existing == FolderPolicy::Bless {
             let blessing = Blessing::begin(&self.path);
-            let failed = Error::of_file("make a directory in", &self.path, self.option);
+            let failed = Error::of_place("make a directory in", &self.path, self.place);
             self.blessing = Some(blessing.map_err(failed)?);
         }
         Ok(())
@@ -195,12 +193,12 @@ impl FrameFolder {
             .and_then(|()| begin_file(&path)?.write_whole(manifest.as_bytes(), IfExists::Replace))
             .map_err(|error| self.unwritten(manifest::FILE_NAME, error))?;
         let swapped = self.blessing.take().map_or(Ok(()), Blessing::swap);
-        swapped.map_err(Error::of_file("put the new frames into", &self.path, self.option))
+        swapped.map_err(Error::of_place("put the new frames into", &self.path, self.place))
     }
 
     /// The error of a file of this name that could not be written.
     fn unwritten(&self, name: &str, error: io::Error) -> Error {
-        let error = Error::of_file("write", &self.path.join(name), self.option)(error);
+        let error = Error::of_place("write", &self.path.join(name), self.place)(error);
         if !self.takes_a_part() {
             return error;
         }
@@ -224,12 +222,4 @@ impl FrameFolder {
     pub(super) fn others(&self) -> &[OsString] {
         &self.entries.others
     }
-}
-
-/// The error of a file that has the name of a frame or of the manifest, and that no capture made.
-pub(super) fn not_ours(path: &Path, option: &str) -> Error {
-    let path = path.display();
-    Error::mistake(format!(
-        "{path} was not made by regatta and is not replaced; move it away, or give another {option}"
-    ))
 }

@@ -2,13 +2,14 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
 use crate::atomic_file::final_name;
+use crate::commands::error::{Error, PlaceOf};
 use crate::commands::manifest;
+use crate::commands::output::same_file_path;
 use crate::picture_note::{NOTED_WITHIN, is_encoded_here};
 use crate::regular_file;
 
@@ -100,25 +101,21 @@ pub(crate) fn in_the_way(clip: &Path) -> Option<PathBuf> {
     })
 }
 
+/// The error of a file that has the name of one of ours, and that no command made.
+pub(crate) fn not_ours(path: &Path, place: PlaceOf) -> Error {
+    let (path, remedy) = (path.display(), place.or_another("move it away"));
+    Error::mistake(format!("{path} was not made by regatta and is not replaced; {remedy}"))
+}
+
 /// Whether `path` is the place of the manifest or of a frame in `clip`, existing or not, or a file that any
 /// capture made.
 pub(crate) fn is_of_a_capture(path: &Path, clip: &Path) -> bool {
-    let resolved = resolved(path);
+    let resolved = same_file_path(path);
     let name = name_of(&resolved).unwrap_or_default();
     let is_in_clip = resolved
         .parent()
         .is_some_and(|parent| fs::canonicalize(clip).is_ok_and(|clip| clip == parent));
     is_in_clip && is_a_captures(name) || is_of_ours(&resolved)
-}
-
-/// The path without links, as far as it exists.
-fn resolved(path: &Path) -> PathBuf {
-    let parent = path.parent().filter(|parent| *parent != Path::new("")).unwrap_or(Path::new("."));
-    fs::canonicalize(path)
-        .or_else(|_| {
-            Ok::<_, io::Error>(fs::canonicalize(parent)?.join(path.file_name().unwrap_or_default()))
-        })
-        .unwrap_or_else(|_| path.to_owned())
 }
 
 #[cfg(test)]

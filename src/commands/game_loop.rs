@@ -8,13 +8,13 @@ use serde_json::{Value, json};
 
 use super::error::Error;
 use super::experiment::{PathOrName, range_of, scene_names, some_seconds, trace_names};
-use super::file_names::{check_picture_name, row_format, same_file_path};
+use super::file_names::{check_picture_name, row_format};
 use super::help::flowing;
 use super::id::{METHOD, POLICY};
 use super::interrupt::watch_for_interrupt;
 use super::numbers::number_that;
 use super::output::table::{RowFormat, RowWriter};
-use super::output::{Destination, Output, STDOUT};
+use super::output::{Destination, Input, Output, STDOUT, same_file_path};
 #[cfg(feature = "view")]
 use super::plot::Plot;
 use super::scene_file;
@@ -166,19 +166,12 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
             "two outputs would go to the same place; give each of --out, --frame-rows and --plot its own",
         ));
     }
-    let files = args.traces.iter().filter(|path| path.to_str().and_then(trace_card).is_none());
-    let read: Vec<PathBuf> = files.map(|path| same_file_path(path)).collect();
-    if let Some(path) = places.iter().find(|place| read.contains(place)) {
-        let path = path.display();
-        return Err(Error::mistake(format!(
-            "{path} is read as a trace; give the output another name"
-        )));
-    }
+    let inputs = args.inputs();
     let interrupted = watch_for_interrupt();
     let stop = || interrupted.load(Ordering::Relaxed);
     // Before the first run: a refusal should not come late.
     let if_exists = if args.force { IfExists::Replace } else { IfExists::Keep };
-    let to = |path, option| Destination { path, option, if_exists };
+    let to = |path, option| Destination { path, option, if_exists, inputs: &inputs };
     let out = to(&args.out, "--out").open_for_text()?;
     let frames = args.frame_rows.as_deref().map(|path| to(path, "--frame-rows").open_for_text());
     let mut frames = match frames.transpose()? {
@@ -218,6 +211,13 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
 }
 
 impl LoopArgs {
+    /// The files that are read.
+    fn inputs(&self) -> Vec<Input<'_>> {
+        let files = self.traces.iter().filter(|path| path.to_str().and_then(trace_card).is_none());
+        let traces = files.map(|path| (&**path, "read as a trace"));
+        traces.chain(scene_file::input(&self.scene)).collect()
+    }
+
     /// Where the picture goes, if one is asked for.
     fn plot(&self) -> Option<&Path> {
         #[cfg(feature = "view")]

@@ -5,5 +5,7 @@ mod destination;
 mod directory_lock;
 pub(super) mod table;
 
-pub(super) use destination::{Destination, Output, STDOUT, begin_file, print};
+pub(super) use destination::{
+    Destination, Input, Output, STDOUT, begin_file, print, same_file_path,
+};
 pub(super) use directory_lock::{DirectoryLock, is_lock};

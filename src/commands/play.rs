@@ -118,11 +118,11 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         ..preferences.clone()
     };
     shown.apply(&mut studio);
+    let inputs = Vec::from_iter(options.input());
     let record = args.record.as_deref().map(|path| {
         let if_exists = if args.force { IfExists::Replace } else { IfExists::Beside };
-        Destination { path, option: "--record", if_exists }
+        Destination { path, option: "--record", if_exists, inputs: &inputs }
     });
-    refuse_to_record_over(&options, record.as_ref())?;
     // Opened before the run, which could otherwise turn out impossible to save. A file is begun again when the run is over,
     // so that a killed program leaves only what grows beside it.
     let opened = record.map(Destination::open_for_text).transpose()?;
@@ -180,24 +180,6 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         true => Err(Error::interrupted_after(ticks(&studio))),
         false => Ok(()),
     }
-}
-
-/// Fails if the recording would replace the scene file that is played.
-fn refuse_to_record_over(
-    options: &ExperimentArgs,
-    record: Option<&Destination<'_>>,
-) -> Result<(), Error> {
-    let Some(Destination { path, .. }) = record else { return Ok(()) };
-    let is_played = scene_file::is_file(options.scene())
-        && options
-            .scene()
-            .canonicalize()
-            .is_ok_and(|scene| path.canonicalize().ok() == Some(scene));
-    if !is_played {
-        return Ok(());
-    }
-    let path = path.display();
-    Err(Error::mistake(format!("{path} is the scene that is played; give another --record")))
 }
 
 /// The length of a run in words.

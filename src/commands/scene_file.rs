@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::error::Error;
+use super::output::Input;
 use super::terminal::print_status;
 use crate::lab::link;
 use crate::lab::scene::{BuiltIn, MAX_FILE_BYTES, SCENES, Scene, SceneErrors, nearest};
@@ -46,6 +47,11 @@ pub(super) fn is_built_in(path: &Path) -> bool {
 /// Whether `path` is the path of a file.
 pub(super) fn is_file(path: &Path) -> bool {
     !is_built_in(path) && !is_link(path)
+}
+
+/// The scene at `path` as an input of a command, if it is a file.
+pub(super) fn input(path: &Path) -> Option<Input<'_>> {
+    is_file(path).then_some((path, "the scene that is run"))
 }
 
 /// The path for people; a link is as long as its run.

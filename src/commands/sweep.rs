@@ -144,9 +144,11 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
     let interrupted = watch_for_interrupt();
     // Before the first run: a refusal should not come minutes late.
     let if_exists = if args.force { IfExists::Replace } else { IfExists::Keep };
-    let out = Destination { path: &args.out, option: "--out", if_exists }.open_for_text()?;
+    let inputs: Vec<_> = args.scenes.iter().filter_map(|path| scene_file::input(path)).collect();
+    let to = |path, option| Destination { path, option, if_exists, inputs: &inputs };
+    let out = to(&args.out, "--out").open_for_text()?;
     #[cfg(feature = "view")]
-    let plot = args.plot().map(|path| Destination { path, option: "--plot", if_exists });
+    let plot = args.plot().map(|path| to(path, "--plot"));
     #[cfg(feature = "view")]
     let plot = plot
         .map(|to| Plot::open(to, swept.scenes.len() + usize::from(args.round_off)))

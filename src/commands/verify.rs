@@ -13,6 +13,7 @@ use super::frame_names::is_of_a_capture;
 use super::help::flowing;
 use super::manifest::Manifest;
 use super::numbers::number_that;
+use super::output::same_file_path;
 
 mod clip;
 mod physics;
@@ -53,7 +54,7 @@ pub(super) struct VerifyArgs {
 
     /// Also write the result to FILE, as junit or json
     ///
-    /// Give the option again for both.
+    /// Give the option again for both. An older report makes way, and no other file does.
     #[arg(long, num_args = 2, value_names = ["FORMAT", "FILE"])]
     report: Option<Vec<String>>,
 
@@ -122,8 +123,8 @@ fn is_scene_file(path: &Path) -> bool {
             && (path.exists() || path.extension().is_some_and(|ending| ending == "toml"))
 }
 
-/// The files that `--report` names, opened. None of them may be a file of a capture, or the recording that
-/// is judged.
+/// The files that `--report` names, opened. None of them may be a file of a capture, the recording that is judged, or
+/// anything else than an older report.
 fn report_files(args: &VerifyArgs) -> Result<Vec<ReportFile>, Error> {
     let mut files: Vec<(ReportFormat, &Path)> = Vec::new();
     for words in args.report.as_deref().unwrap_or_default().chunks_exact(2) {
@@ -134,7 +135,7 @@ fn report_files(args: &VerifyArgs) -> Result<Vec<ReportFile>, Error> {
                 "no report format is called {format:?}; give junit or json"
             )));
         };
-        if files.iter().any(|(_, other)| *other == path) {
+        if files.iter().any(|(_, other)| same_file_path(other) == same_file_path(path)) {
             return Err(Error::mistake(format!(
                 "two reports would go to {}; give each a file of its own",
                 path.display()
@@ -143,13 +144,11 @@ fn report_files(args: &VerifyArgs) -> Result<Vec<ReportFile>, Error> {
         if is_of_a_capture(path, &args.dir) {
             return refused("is a file of a capture; give another --report");
         }
-        let judged = args.dir.canonicalize().ok().filter(|judged| !judged.is_dir());
-        if judged.is_some_and(|judged| path.canonicalize().is_ok_and(|path| path == judged)) {
-            return refused("is the recording that is judged; give another --report");
-        }
         files.push((format, path));
     }
-    files.into_iter().map(|(format, path)| ReportFile::open(format, path)).collect()
+    let judged = [(&*args.dir, "the recording that is judged")];
+    let inputs = &judged[usize::from(!is_scene_file(&args.dir))..];
+    files.into_iter().map(|(format, path)| ReportFile::open(format, path, inputs)).collect()
 }
 
 fn percent(written: &str) -> Result<f64, String> {

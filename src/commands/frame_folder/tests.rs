@@ -4,7 +4,7 @@ use super::*;
 use crate::view::png;
 
 fn inspect(path: &Path, existing: FolderPolicy) -> Result<FrameFolder, Error> {
-    FrameFolder::inspect(path, existing, "--out")
+    FrameFolder::inspect(path, existing, PlaceOf::Option("--out"))
 }
 
 /// A picture as a capture writes it, one pixel of this grey.

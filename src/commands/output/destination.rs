@@ -36,7 +36,12 @@ pub(crate) struct Destination<'a> {
     pub(crate) option: &'static str,
     /// What happens to an existing file.
     pub(crate) if_exists: IfExists,
+    /// What the command reads, which is never replaced.
+    pub(crate) inputs: &'a [Input<'a>],
 }
+
+/// A file that a command reads, and what it is to the command, such as `the scene that is run`.
+pub(crate) type Input<'a> = (&'a Path, &'static str);
 
 impl Destination<'_> {
     /// Opens it for binary data, which may not go to a terminal.
@@ -52,16 +57,21 @@ impl Destination<'_> {
 
     /// Opens it for text, which may go to a terminal.
     pub(crate) fn open_for_text(self) -> Result<Output, Error> {
-        let Self { path, option, if_exists } = self;
+        let Self { path, option, if_exists, inputs } = self;
         if path == Path::new(STDOUT) {
             return Ok(self.output(Target::Stdout));
+        }
+        let place = same_file_path(path);
+        if let Some((_, input)) = inputs.iter().find(|(input, _)| same_file_path(input) == place) {
+            let path = path.display();
+            return Err(Error::mistake(format!("{path} is {input}; give another {option}")));
         }
         match fs::metadata(path) {
             Ok(entry) if entry.is_dir() => {
                 let path = path.display();
                 Err(Error::mistake(format!("{path} is a directory; give {option} a file")))
             }
-            Ok(entry) if !entry.is_file() || OPEN_ALREADY.iter().any(|o| path.starts_with(o)) => {
+            Ok(_) if self.replaces().is_none() => {
                 // A pipe is open once something reads it.
                 let (name, device) = (path.display().to_string(), path.to_owned());
                 let open = move || File::options().append(true).open(device);
@@ -75,6 +85,13 @@ impl Destination<'_> {
             }
             _ => self.begin(),
         }
+    }
+
+    /// The file that it would replace: neither standard output nor a device, a pipe or what the process has open.
+    pub(crate) fn replaces(&self) -> Option<&Path> {
+        let is_open = OPEN_ALREADY.iter().any(|open| self.path.starts_with(open));
+        let is_replaced = self.path != Path::new(STDOUT) && !is_open && self.path.is_file();
+        is_replaced.then_some(self.path)
     }
 
     /// Begins a file, whether or not there is one of its name. If that is a link, the file it leads to is written and the
@@ -126,8 +143,8 @@ enum Target {
 impl Output {
     /// Standard output.
     pub(crate) fn stdout() -> Self {
-        let place =
-            Destination { path: Path::new(STDOUT), option: "--out", if_exists: IfExists::Keep };
+        let (path, if_exists) = (Path::new(STDOUT), IfExists::Keep);
+        let place = Destination { path, option: "--out", if_exists, inputs: &[] };
         place.output(Target::Stdout)
     }
 
@@ -269,6 +286,18 @@ fn taken(path: &Path, option: &str) -> Error {
     Error::mistake(format!(
         "{path} already exists; give another {option}, or --force to replace it"
     ))
+}
+
+/// A path that is the same for one file however it is written, also through links, whether it exists or not.
+pub(crate) fn same_file_path(path: &Path) -> PathBuf {
+    let of_new = |_| {
+        let end = end_of_links(path)?;
+        let folder = end.parent().filter(|folder| *folder != Path::new(""));
+        let folder = folder.unwrap_or(Path::new(".")).canonicalize()?;
+        Ok(folder.join(end.file_name().unwrap_or_default()))
+    };
+    let found: io::Result<PathBuf> = path.canonicalize().or_else(of_new);
+    found.unwrap_or_else(|_| path.to_owned())
 }
 
 /// The end of the chain of links at `path`, whether a file exists there or not.

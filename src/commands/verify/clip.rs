@@ -9,11 +9,13 @@ use super::VerifyArgs;
 use super::physics::{PhysicsChange, first_change};
 #[cfg(feature = "view")]
 use super::pixels;
-use super::report::{Report, print_line};
+use super::report::{DIRECTORY, Report, print_line};
 use super::rerun::{Frames, Rerun};
 #[cfg(feature = "view")]
 use crate::commands::clip::record;
 use crate::commands::error::Error;
+#[cfg(feature = "view")]
+use crate::commands::error::PlaceOf;
 #[cfg(feature = "view")]
 use crate::commands::frame_folder::{FolderPolicy, FrameFolder};
 use crate::commands::frame_names::{in_the_way, is_pending};
@@ -76,7 +78,7 @@ pub(super) fn judge(args: &VerifyArgs) -> Result<Report, Error> {
         Err(error) if error.is_mistake() => (None, run()?, Some(error)),
         Err(error) => return Err(error),
     };
-    let mut report = Report::new("dir", dir);
+    let mut report = Report::new(DIRECTORY, dir);
     add_physics(&mut report, &rerun, &studio, state_log)?;
     let physics_differs = report.differing() > 0;
     match failed {
@@ -161,7 +163,7 @@ pub(super) fn bless(dir: &Path) -> Result<(), Error> {
     if !dir.join(FILE_NAME).exists() && !is_pending(dir) {
         read_run(dir)?;
     }
-    let folder = FrameFolder::inspect(dir, FolderPolicy::Bless, "DIR")?;
+    let folder = FrameFolder::inspect(dir, FolderPolicy::Bless, PlaceOf::Blessed)?;
     let Rerun { experiment, capture, .. } = read_run(dir)?;
     let drawn = record(&experiment, experiment.studio(), capture, folder);
     drawn.map(drop).map_err(|error| error.within("not blessed"))

@@ -6,10 +6,9 @@ use super::VerifyArgs;
 use super::rerun::{Frames, Rerun};
 use crate::atomic_file::IfExists;
 use crate::commands::drawing::{adapter, interrupted_after};
-use crate::commands::error::Error;
+use crate::commands::error::{Error, PlaceOf};
 use crate::commands::fingerprint::fingerprint;
-use crate::commands::frame_folder::not_ours;
-use crate::commands::frame_names::{frames_claimed, is_marked};
+use crate::commands::frame_names::{frames_claimed, is_marked, not_ours};
 use crate::commands::interrupt::watch_for_interrupt;
 use crate::commands::manifest::{Adapter, FILE_NAME, FrameEntry, Manifest};
 use crate::commands::output::begin_file;
@@ -144,7 +143,7 @@ fn check_differences(args: &VerifyArgs, manifest: &Manifest) -> Result<(), Error
     }
     let mut pictures = manifest.frames.iter().map(|entry| path.join(&entry.file));
     if let Some(other) = pictures.find(|picture| picture.exists() && !is_marked(picture)) {
-        return Err(not_ours(&other, "--diff"));
+        return Err(not_ours(&other, PlaceOf::Option("--diff")));
     }
     fs::create_dir_all(path).map_err(Error::of_file("make the directory", path, "--diff"))
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::report::{Report, print_line};
+use super::report::{FILE, Report, print_line};
 use crate::atomic_file::IfExists;
 use crate::commands::error::Error;
 use crate::commands::interrupt::watch_for_interrupt;
@@ -121,7 +121,7 @@ pub(super) fn judge(path: &Path) -> Result<Report, Error> {
     check_ticks(path, &scene)?;
     let judged = jobs::result(&watch_for_interrupt(), move || compare(&scene));
     let lanes = judged.ok_or_else(Error::nothing_written)?;
-    let mut report = Report::new("file", path);
+    let mut report = Report::new(FILE, path);
     for lane in &lanes {
         print_line(&lane.line())?;
         report.judged(lane.name(), lane.difference.as_ref().map(Difference::line));
@@ -198,7 +198,7 @@ pub(super) fn bless(path: &Path) -> Result<(), Error> {
         }
         Scene::with_hashes(&text, &hashes)
     };
-    Destination { path, option: "FILE", if_exists: IfExists::Replace }.write(&text)?;
+    Destination { path, option: "FILE", if_exists: IfExists::Replace, inputs: &[] }.write(&text)?;
     print_status(&format!("blessed: {}", path.display()));
     Ok(())
 }

@@ -7,9 +7,11 @@ use clap::ValueEnum;
 use serde_json::{Map, Value, json};
 
 use crate::atomic_file::IfExists;
-use crate::commands::error::Error;
-use crate::commands::output::{Destination, Output, print};
+use crate::commands::error::{Error, PlaceOf};
+use crate::commands::frame_names::not_ours;
+use crate::commands::output::{Destination, Input, Output, print};
 use crate::commands::scene_file::shown;
+use crate::regular_file;
 
 /// The format of a file that holds the result.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -26,9 +28,17 @@ pub(super) struct ReportFile {
 
 impl ReportFile {
     /// Opens it, before the work: a refusal should not come after that.
-    pub(super) fn open(format: ReportFormat, path: &Path) -> Result<Self, Error> {
-        let to = Destination { path, option: "--report", if_exists: IfExists::Replace };
-        Ok(Self { format, output: to.open_for_text()? })
+    pub(super) fn open(
+        format: ReportFormat,
+        path: &Path,
+        inputs: &[Input<'_>],
+    ) -> Result<Self, Error> {
+        let to = Destination { path, option: "--report", if_exists: IfExists::Replace, inputs };
+        let output = to.open_for_text()?;
+        match to.replaces().is_some_and(|older| !is_report(older)) {
+            true => Err(not_ours(path, PlaceOf::Option("--report"))),
+            false => Ok(Self { format, output }),
+        }
     }
 
     pub(super) fn write(mut self, report: &Report) -> Result<(), Error> {
@@ -39,6 +49,33 @@ impl ReportFile {
         self.output.write_all(text.as_bytes())?;
         self.output.close().map(drop)
     }
+}
+
+/// What a report begins with in XML.
+const JUNIT_BEGINS: &str =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"regatta verify ";
+
+/// The keys of the path in JSON: of a capture and of a recording.
+pub(super) const DIRECTORY: &str = "dir";
+pub(super) const FILE: &str = "file";
+
+/// The most bytes from which a report is known: more than a path has, and its escapes.
+const KNOWN_WITHIN: usize = 1 << 16;
+
+/// Whether the file at `path` is empty or begins as a report does, in either format.
+fn is_report(path: &Path) -> bool {
+    let Ok(start) = regular_file::read_start(path, KNOWN_WITHIN) else { return false };
+    let start = String::from_utf8_lossy(&start);
+    let is_json = || {
+        let mut lines = start.lines().map(str::trim_start);
+        let begins = |line: Option<&str>, key: &str| {
+            line.is_some_and(|line| line.starts_with(&format!("\"{key}\": ")))
+        };
+        let (brace, path, same) = (lines.next(), lines.next(), lines.next());
+        let is_of_a_path = [DIRECTORY, FILE].iter().any(|key| begins(path, key));
+        brace == Some("{") && is_of_a_path && begins(same, "same")
+    };
+    start.is_empty() || start.starts_with(JUNIT_BEGINS) || is_json()
 }
 
 /// The result, which is told line by line on standard output as it is found.
@@ -103,9 +140,8 @@ impl Report {
     /// As JUnit's XML, a test for each case.
     fn to_junit(&self) -> String {
         let mut text = format!(
-            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
-             <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\">\n",
-            escaped(&format!("regatta verify {}", shown(&self.path))),
+            "{JUNIT_BEGINS}{}\" tests=\"{}\" failures=\"{}\" errors=\"0\">\n",
+            escaped(&shown(&self.path)),
             self.cases.len(),
             self.differing(),
         );

@@ -168,6 +168,8 @@ fn a_file_in_the_directory_of_a_swap_never_replaces_another() {
             let strange = "clip/.regatta-blessed/notes.txt";
             let is_told = said.contains(&format!("{strange} was not made by regatta"));
             assert_eq!(is_told, command.ends_with("--bless"), "{said}");
+            // The clip that is blessed cannot be another.
+            assert!(!is_told || said.ends_with("is not replaced; move it away\n"), "{said}");
             let is_advised = said.contains(&format!("move {strange} away"));
             assert_eq!(is_advised, (command, code) == ("verify clip", 2), "{said}");
         }
@@ -202,6 +204,6 @@ fn a_clip_that_cannot_be_written_is_a_run_that_failed() {
     assert_eq!(blessed.status.code(), Some(1), "{}", stderr(&blessed));
     let said = stderr(&blessed);
     assert!(said.contains("Read-only file system"), "{said}");
-    assert!(said.contains("give another DIR that you may write to"), "{said}");
+    assert!(said.contains("; make it one that you may write to"), "{said}");
     assert_eq!(judged.status.code(), Some(0), "{}", stderr(&judged));
 }

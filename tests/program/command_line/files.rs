@@ -6,6 +6,8 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
+use regatta::lab::Scene;
+
 use super::capture::{drawn_or_skip, names};
 use super::{regatta, run_in, stderr};
 
@@ -217,4 +219,55 @@ fn a_request_to_end_is_heeded_while_nothing_reads_a_pipe() {
         drop(reader);
         assert_eq!(names(folder.path()), ["pipe"], "{arguments}");
     }
+}
+
+#[test]
+fn an_output_never_replaces_what_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let scene = Scene::built_in("spring").unwrap().to_toml();
+    fs::create_dir(path("x")).unwrap();
+    fs::write(path("in"), &scene).unwrap();
+    let mut forms = vec!["in", "./in", "./x/../in"];
+    #[cfg(unix)]
+    for (link, target) in [("link", "in"), ("x/far", "../link")] {
+        std::os::unix::fs::symlink(target, path(link)).unwrap();
+        forms.push(link);
+    }
+    let sweep = "sweep --method rk4 --tick-hz 60 --seconds 0.1 --scene";
+    let game_loop = "loop --trace edge --policy fixed --seconds 1 --scene";
+    let cloud = "cloud --points 10 --seconds 0.1 --scene";
+    for (command, option) in [
+        (format!("{sweep} spring --scene"), "--out"),
+        (sweep.to_owned(), "--plot"),
+        (cloud.to_owned(), "--out"),
+        (game_loop.to_owned(), "--out"),
+        (game_loop.to_owned(), "--frame-rows"),
+        (game_loop.to_owned(), "--plot"),
+        ("capture --format gif --scene".to_owned(), "--out"),
+        ("capture --format sheet --scene".to_owned(), "--out"),
+        ("play --seconds 0.1 --scene".to_owned(), "--record"),
+    ] {
+        for form in &forms {
+            for (read, written) in [("in", *form), (*form, "in")] {
+                let command = format!("{command} {read} {option} {written}");
+                for command in [command.clone(), format!("{command} --force")] {
+                    let output = run_in(folder.path(), &command);
+                    let said = stderr(&output);
+                    assert_eq!(output.status.code(), Some(2), "{command}: {said}");
+                    let why =
+                        format!("{written} is the scene that is run; give another {option}\n");
+                    assert!(said.ends_with(&why), "{command}: {said}");
+                    assert_eq!(fs::read_to_string(path("in")).unwrap(), scene, "{command}");
+                }
+            }
+        }
+    }
+    // A built-in scene is read whatever file has its name.
+    fs::write(path("spring"), "mine").unwrap();
+    let output = run_in(folder.path(), &format!("{cloud} spring --out spring --force"));
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let same = "loop --trace edge --policy fixed --seconds 1 --out a.csv --frame-rows ./x/../a.csv";
+    let output = run_in(folder.path(), same);
+    assert!(stderr(&output).contains("two outputs would go to the same place"));
 }

@@ -264,7 +264,7 @@ fn a_recording_never_replaces_the_scene_that_is_played() {
             &format!("play --scene run.toml --seconds 1 --record {path} --force"),
         );
         assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
-        let message = format!("{path} is the scene that is played; give another --record");
+        let message = format!("{path} is the scene that is run; give another --record");
         assert!(stderr(&output).contains(&message), "{}", stderr(&output));
     }
     assert_eq!(fs::read_to_string(folder.path().join("run.toml")).unwrap(), before);
@@ -274,10 +274,42 @@ fn a_recording_never_replaces_the_scene_that_is_played() {
 fn a_report_never_replaces_the_recording_that_is_judged() {
     let folder = recorded();
     let before = fs::read_to_string(folder.path().join("run.toml")).unwrap();
-    for path in ["run.toml", "./run.toml"] {
+    fs::create_dir(folder.path().join("x")).unwrap();
+    for path in ["run.toml", "./run.toml", "./x/../run.toml"] {
         let (code, _, messages) = verify(&folder, &format!("--report json {path}"));
         assert_eq!(code, Some(2), "{messages}");
         assert!(messages.contains("is the recording that is judged; give another --report"));
     }
     assert_eq!(fs::read_to_string(folder.path().join("run.toml")).unwrap(), before);
+}
+
+#[test]
+fn a_report_replaces_a_report_or_an_empty_file_and_nothing_else() {
+    let folder = recorded();
+    let report = folder.path().join("report");
+    for mine in [
+        "mine",
+        "{\n  \"file\": \"a.rs\",\n  \"name\": 1\n}\n",
+        "{\"file\": \"run.toml\", \"same\": true}",
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"jest\"></testsuite>\n",
+    ] {
+        for format in ["json", "junit"] {
+            fs::write(&report, mine).unwrap();
+            let (code, data, messages) = verify(&folder, &format!("--report {format} report"));
+            assert_eq!((code, &*data), (Some(2), ""), "{mine}: {messages}");
+            let remedy = "report was not made by regatta and is not replaced; move it away, or give \
+                          another --report\n";
+            assert!(messages.ends_with(remedy), "{messages}");
+            assert_eq!(fs::read_to_string(&report).unwrap(), mine);
+        }
+    }
+    fs::write(&report, "").unwrap();
+    let mut before = String::new();
+    for format in ["json", "junit", "junit", "json", "json"] {
+        let (code, _, messages) = verify(&folder, &format!("--report {format} report"));
+        assert_eq!(code, Some(0), "{format} over {before}: {messages}");
+        before = fs::read_to_string(&report).unwrap();
+        assert_eq!(before.starts_with('{'), format == "json", "{before}");
+    }
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
 }
