@@ -3,6 +3,10 @@
 
 use std::io::{self, Write};
 use std::panic::{self, PanicHookInfo};
+#[cfg(target_os = "linux")]
+use std::path::Path;
+#[cfg(target_os = "linux")]
+use std::process::Command;
 use std::process::ExitCode;
 
 use regatta::commands::{self, Cli};
@@ -34,12 +38,35 @@ fn run() -> ExitCode {
             return ExitCode::from(u8::try_from(answer.exit_code()).unwrap_or(1));
         }
     };
+    #[cfg(target_os = "linux")]
+    restart_without_wayland(&cli);
     match commands::run(cli) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             commands::print_status(&error.report(&commands::stderr_renderer()));
             ExitCode::from(error.exit_code())
         }
+    }
+}
+
+/// Restarts the program with a folder in `XDG_RUNTIME_DIR` in which there is no Wayland, where the variable is unset and no
+/// window is opened. Mesa looks for Wayland before it lists its adapters, and libwayland complains of the variable on standard
+/// error. It is set before drivers and threads are there, by the only call that is safe.
+#[cfg(target_os = "linux")]
+fn restart_without_wayland(cli: &Cli) {
+    use std::os::unix::process::CommandExt;
+
+    const NOWHERE: &str = "/nonexistent";
+    let is_path = |name| std::env::var_os(name).is_some_and(|it| Path::new(&it).is_absolute());
+    let names_a_socket = is_path("WAYLAND_DISPLAY") || std::env::var_os("WAYLAND_SOCKET").is_some();
+    if !cli.draws_without_a_window() || is_path("XDG_RUNTIME_DIR") || names_a_socket {
+        return;
+    }
+    let mut arguments = std::env::args_os();
+    if let (Ok(program), Some(name)) = (std::env::current_exe(), arguments.next()) {
+        let mut again = Command::new(program);
+        let failed = again.arg0(name).args(arguments).env("XDG_RUNTIME_DIR", NOWHERE).exec();
+        log::info!("libwayland may complain: {failed}");
     }
 }
 

@@ -20,6 +20,9 @@ pub(crate) enum Unreadable {
     /// The system refuses, or there is no such file.
     #[error("{0}; give one that you may read")]
     System(#[from] io::Error),
+    /// There is no such file, and a link to a run in the place of its path.
+    #[error("it is a link to a run; give a file")]
+    Link,
     /// The path is that of a directory.
     #[error("it is a directory; give a file in it")]
     Directory,
@@ -55,6 +58,9 @@ pub(crate) fn read(path: &Path, max_bytes: usize) -> Result<Vec<u8>, Unreadable>
 
 /// The first bytes of a regular file, at most `max_bytes`.
 pub(crate) fn read_start(path: &Path, max_bytes: usize) -> Result<Vec<u8>, Unreadable> {
+    if is_link(path) {
+        return Err(Unreadable::Link);
+    }
     // Before it is opened: opening a pipe waits for its other end.
     check(&path.metadata()?)?;
     let file = File::open(path)?;

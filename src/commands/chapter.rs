@@ -8,6 +8,7 @@ use std::sync::atomic::Ordering;
 
 use clap::Args;
 
+use super::argument::brief;
 use super::drawing::gpu;
 use super::error::Error;
 use super::help::flowing;
@@ -55,7 +56,7 @@ pub(super) fn run(args: &ChapterArgs) -> Result<(), Error> {
         if !folder.is_empty() && !args.force {
             return Err(Error::mistake(format!(
                 "{} is not empty; give another --out, or --force to replace the figures in it",
-                out.display()
+                brief(out)
             )));
         }
         draw(folder)?;

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use serde_json::json;
 
+use super::argument::brief;
 use super::error::Error;
 use super::experiment::{ExperimentArgs, some_seconds};
 use super::file_names::{ending, row_format};
@@ -113,7 +114,7 @@ fn format(out: &Path) -> Result<RowFormat, Error> {
     match ending(out).as_deref() {
         Some("png" | "gif") => Err(Error::mistake(format!(
             "regatta cloud writes rows; `regatta capture --instrument cloud` draws {}",
-            out.display()
+            brief(out)
         ))),
         _ => row_format(out, None),
     }

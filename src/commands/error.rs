@@ -6,6 +6,7 @@ use std::path::Path;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
+use super::argument::brief;
 use crate::lab::scene::{Mistake, SceneErrors};
 #[cfg(feature = "view")]
 use crate::view::{GpuError, ReadbackError};
@@ -130,7 +131,7 @@ impl Error {
         path: &Path,
         place: PlaceOf,
     ) -> impl Fn(io::Error) -> Self + use<> {
-        let path = path.display().to_string();
+        let path = brief(path);
         move |error| {
             let remedy = place.remedy(&error);
             Self::unwritten(&error, format!("cannot {doing} {path}: {error}; {remedy}"))

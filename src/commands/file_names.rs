@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::commands::argument::brief;
 use crate::commands::error::Error;
 use crate::commands::output::same_file_path;
 use crate::commands::output::table::RowFormat;
@@ -35,7 +36,7 @@ pub(super) fn holds_no_picture(ending: &str) -> bool {
 
 /// The error of a name that promises another format than the one asked for.
 pub(super) fn mislabelled(path: &Path, remedy: &str) -> Error {
-    Error::mistake(format!("{} would not hold what its name says; {remedy}", path.display()))
+    Error::mistake(format!("{} would not hold what its name says; {remedy}", brief(path)))
 }
 
 /// The format asked for, else the one that the name of `out` asks for, else CSV.
@@ -65,7 +66,7 @@ pub(super) fn row_format(out: &Path, asked: Option<RowFormat>) -> Result<RowForm
 pub(super) fn check_picture_name(plot: &Path, out: &Path) -> Result<(), Error> {
     match plot.extension() {
         Some(ending) if !ending.eq_ignore_ascii_case("png") => {
-            let plot = plot.display();
+            let plot = brief(plot);
             let remedy = "give --plot a name that ends in .png";
             Err(Error::mistake(format!("{plot} would hold PNG; {remedy}")))
         }

@@ -6,6 +6,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use super::argument::brief;
 use super::error::{Error, PlaceOf};
 use super::manifest;
 use super::output::{DirectoryLock, begin_file};
@@ -65,7 +66,7 @@ impl FrameFolder {
             lock: None,
         };
         let no_directory =
-            || Error::mistake(format!("{} is not a directory; give another --out", path.display()));
+            || Error::mistake(format!("{} is not a directory; give another --out", brief(path)));
         match fs::metadata(path) {
             Ok(entry) if !entry.is_dir() => Err(no_directory()),
             Ok(_) => folder.look().map(|()| folder),
@@ -93,14 +94,14 @@ impl FrameFolder {
         let (path, place) = (&self.path, self.place);
         let lock = DirectoryLock::exclusive(path).map_err(Error::of_place("lock", path, place))?;
         if lock.is_none() {
-            let (path, remedy) = (path.display(), place.or_another("wait until it has finished"));
+            let (path, remedy) = (brief(path), place.or_another("wait until it has finished"));
             return Err(Error::mistake(format!("another regatta is writing to {path}; {remedy}")));
         }
         self.lock = lock;
         let read = || Entries::read(path).map_err(Error::of_place("read", path, place));
         let mut entries = read()?;
         if self.existing == FolderPolicy::Refuse && !entries.is_empty() {
-            let path = path.display();
+            let path = brief(path);
             return Err(Error::mistake(format!(
                 "{path} is not empty; give another --out, or --force to replace the frames in it"
             )));

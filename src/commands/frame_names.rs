@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use crate::atomic_file::final_name;
+use crate::commands::argument::brief;
 use crate::commands::error::{Error, PlaceOf};
 use crate::commands::manifest;
 use crate::commands::output::same_file_path;
@@ -103,7 +104,7 @@ pub(crate) fn in_the_way(clip: &Path) -> Option<PathBuf> {
 
 /// The error of a file that has the name of one of ours, and that no command made.
 pub(crate) fn not_ours(path: &Path, place: PlaceOf) -> Error {
-    let (path, remedy) = (path.display(), place.or_another("move it away"));
+    let (path, remedy) = (brief(path), place.or_another("move it away"));
     Error::mistake(format!("{path} was not made by regatta and is not replaced; {remedy}"))
 }
 

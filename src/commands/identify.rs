@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::argument::brief;
 use super::error::Error;
 use super::help::flowing;
 use super::numbers::{number, number_that, positive};
@@ -140,7 +141,7 @@ impl LogArgs {
     /// Reads the log at `path`, of a game with this tick rate in hertz.
     pub(super) fn read(&self, path: &Path, tick_hz: f64) -> Result<Log, Error> {
         let bytes = regular_file::read(path, MAX_TABLE_BYTES).map_err(|error| {
-            Error::mistake(format!("cannot read the log {}: {error}", path.display()))
+            Error::mistake(format!("cannot read the log {}: {error}", brief(path)))
         })?;
         let text = String::from_utf8_lossy(&bytes);
         let columns = ColumnNames {
@@ -149,7 +150,7 @@ impl LogArgs {
             x: self.x_column.clone(),
             v: self.v_column.clone(),
         };
-        let name = path.display().to_string();
+        let name = brief(path);
         let parsed = Log::parse(&name, &text, &columns, tick_hz);
         parsed.map_err(|error| Error::mistake(format!("{error}{}", remedy(&error))))
     }

@@ -75,6 +75,7 @@ mod settings;
 mod sheet;
 mod state_log;
 
+mod argument;
 mod error;
 mod file_names;
 mod interrupt;
@@ -173,7 +174,26 @@ impl Cli {
         if let Some(at) = lone_link(&arguments) {
             arguments.insert(at, "--scene".into());
         }
-        Self::try_parse_from(arguments)
+        Self::try_parse_from(arguments).map_err(argument::with_brief_arguments)
+    }
+}
+
+impl Cli {
+    /// Whether the command draws and opens no window, as `play` does where the environment names no display.
+    pub fn draws_without_a_window(&self) -> bool {
+        match &self.command {
+            #[cfg(feature = "view")]
+            Some(Command::Capture(_) | Command::Chapter(_)) => true,
+            Some(Command::Sweep(_) | Command::Loop(_) | Command::Verify(_)) => {
+                cfg!(feature = "view")
+            }
+            #[cfg(feature = "window")]
+            None | Some(Command::Play(_)) => {
+                let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+                !["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"].into_iter().any(is_set)
+            }
+            _ => false,
+        }
     }
 }
 

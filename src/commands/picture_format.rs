@@ -4,6 +4,7 @@ use std::path::Path;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
+use super::argument::brief;
 use super::error::Error;
 use super::file_names::{ending, holds_no_picture, is_of_pictures, mislabelled};
 use super::movie::{self, Begin};
@@ -73,7 +74,7 @@ impl PictureFormat {
 
     /// The format asked for, else the one that the name of `out` asks for, else numbered pictures.
     pub(super) fn of(out: &Path, asked: Option<&'static Self>) -> Result<&'static Self, Error> {
-        let path = out.display();
+        let path = brief(out);
         if out == Path::new(STDOUT) {
             return asked.filter(|format| !matches!(format.writing, Folder)).ok_or_else(|| {
                 Error::mistake(

@@ -3,6 +3,7 @@
 use clap::builder::RangedU64ValueParser;
 use clap::{ArgGroup, Args};
 
+use super::argument::brief;
 use super::error::Error;
 use super::help::flowing;
 use super::id::Id;
@@ -169,7 +170,7 @@ struct Drive {
 pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
     let from = args.from.as_deref().map(|written| {
         From::parse(written, args.tick_hz, args.mass)
-            .map_err(|fault| Error::mistake(format!("--from {written}: {fault}")))
+            .map_err(|fault| Error::mistake(format!("--from {}: {fault}", brief(written.as_ref()))))
     });
     let from = from.transpose()?;
     let usual = match from {
@@ -194,7 +195,7 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
             let none = || {
                 Error::mistake(format!(
                     "{}: no spring can be seen in it; give --k, log v too, or log for longer",
-                    path.display()
+                    brief(&path)
                 ))
             };
             Wish::of(seen.ok_or_else(none)?, args.mass)

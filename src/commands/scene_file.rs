@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::argument::brief;
 use super::error::Error;
 use super::output::Input;
 use super::terminal::print_status;
@@ -56,7 +57,7 @@ pub(super) fn input(path: &Path) -> Option<Input<'_>> {
 
 /// The path for people; a link is as long as its run.
 pub(super) fn shown(path: &Path) -> String {
-    if is_link(path) { "the link".into() } else { path.display().to_string() }
+    if is_link(path) { "the link".into() } else { brief(path) }
 }
 
 fn built_in(path: &Path) -> Option<&'static BuiltIn> {
@@ -68,14 +69,14 @@ fn read(path: &Path) -> Result<Vec<u8>, Error> {
         return link::text(written).map(String::into_bytes).map_err(Error::mistake);
     }
     regular_file::read(path, MAX_FILE_BYTES).map_err(|error| {
-        let shown = path.display();
+        let shown = brief(path);
         Error::mistake(match error {
             Unreadable::Directory => format!("{shown} is a directory; give a scene file in it"),
             Unreadable::TooLarge { .. } => {
-                return SceneErrors::too_large(&shown.to_string()).into();
+                return SceneErrors::too_large(&shown).into();
             }
             missing if missing.is_missing() => format!(
-                "no file and no built-in scene ({}) is called {path:?}; {}",
+                "no file and no built-in scene ({}) is called {shown:?}; {}",
                 names(),
                 remedy(path)
             ),

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::argument::brief;
 use super::error::Error;
 use crate::lab::pacing::{FrameTrace, RefreshRate, TRACES, steady_trace, trace_card, trace_file};
 use crate::lab::scene::nearest;
@@ -48,8 +49,12 @@ fn named(path: &Path, display: Option<RefreshRate>) -> Result<Vec<FrameTrace>, E
     }
     let bytes = regular_file::read(path, MAX_TABLE_BYTES).map_err(|error| {
         Error::mistake(match error.is_missing() {
-            true => format!("no file and no built-in trace is called {path:?}; {}", remedy(path)),
-            false => format!("cannot read the trace {}: {error}", path.display()),
+            true => format!(
+                "no file and no built-in trace is called {:?}; {}",
+                brief(path),
+                remedy(path)
+            ),
+            false => format!("cannot read the trace {}: {error}", brief(path)),
         })
     })?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();

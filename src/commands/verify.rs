@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
+use super::argument::brief;
 use super::error::Error;
 use super::experiment::Experiment;
 use super::frame_names::is_of_a_capture;
@@ -129,16 +130,17 @@ fn report_files(args: &VerifyArgs) -> Result<Vec<ReportFile>, Error> {
     let mut files: Vec<(ReportFormat, &Path)> = Vec::new();
     for words in args.report.as_deref().unwrap_or_default().chunks_exact(2) {
         let (format, path) = (&words[0], Path::new(&words[1]));
-        let refused = |why| Err(Error::mistake(format!("{} {why}", path.display())));
+        let refused = |why| Err(Error::mistake(format!("{} {why}", brief(path))));
         let Ok(format) = ReportFormat::from_str(format, false) else {
             return Err(Error::mistake(format!(
-                "no report format is called {format:?}; give junit or json"
+                "no report format is called {:?}; give junit or json",
+                brief(format.as_ref())
             )));
         };
         if files.iter().any(|(_, other)| same_file_path(other) == same_file_path(path)) {
             return Err(Error::mistake(format!(
                 "two reports would go to {}; give each a file of its own",
-                path.display()
+                brief(path)
             )));
         }
         if is_of_a_capture(path, &args.dir) {

@@ -24,10 +24,11 @@ const LEVEL: u8 = 10;
 pub enum LinkError {
     /// It was made by a newer release.
     #[error(
-        "the link is of format {version}, and this release reads up to {VERSION}; update regatta"
+        "the link is of {}, and this release reads up to {VERSION}; update regatta",
+        format_name(*version)
     )]
     Newer {
-        /// Its format.
+        /// Its format; the largest stands for those beyond.
         version: u32,
     },
     /// A part of it is missing or was changed.
@@ -38,6 +39,13 @@ pub enum LinkError {
         "the link unpacks to more than {MAX_FILE_BYTES} bytes, the most of a scene file; make a shorter run"
     )]
     TooLong,
+}
+
+fn format_name(version: u32) -> String {
+    match version {
+        u32::MAX => "a much newer format".into(),
+        version => format!("format {version}"),
+    }
 }
 
 /// Whether a text is a link, or an address that ends in one.
@@ -153,7 +161,8 @@ mod tests {
         let link = to(&Scene::built_in("spring").unwrap()).unwrap();
         assert_eq!(text(&link.replace("#v1.", "#v2.")), Err(LinkError::Newer { version: 2 }));
         let far = text(&link.replace("#v1.", "#v99999999999."));
-        assert!(matches!(far, Err(LinkError::Newer { .. })), "{far:?}");
+        let far = far.unwrap_err().to_string();
+        assert!(far.starts_with("the link is of a much newer format, and this"), "{far}");
         assert!(text(&format!("https://x.org/#video/{link}")).is_ok());
         // Whichever letter is another, it is no other run.
         for place in "#v1.".len()..link.len() {

@@ -62,7 +62,7 @@ pub use lane_spec::{LaneSpec, Swing};
 pub use port::port;
 pub use race::{Follow, Journal, Lane, Race};
 #[cfg(feature = "cli")]
-pub(crate) use scene::clip::clip;
+pub(crate) use scene::clip::{clip, cut};
 pub use scene::{SCENES, Scene, SceneBody, SceneErrors};
 pub use session::{Session, Timeline};
 pub use source_code::source_code;

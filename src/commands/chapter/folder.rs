@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use super::figures::CSV_BEGINS;
 use crate::atomic_file::{IfExists, final_name};
+use crate::commands::argument::brief;
 use crate::commands::error::Error;
 use crate::commands::frame_names::is_marked;
 use crate::commands::output::begin_file;
@@ -32,7 +33,7 @@ impl FigureFolder {
             Err(error) if error.kind() == io::ErrorKind::NotADirectory => {
                 return Err(Error::mistake(format!(
                     "{} is not a directory; give another --out",
-                    path.display()
+                    brief(path)
                 )));
             }
             Err(error) => return Err(fail(error)),

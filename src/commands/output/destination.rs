@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::atomic_file::{AtomicFile, IfExists};
+use crate::commands::argument::brief;
 use crate::commands::error::Error;
 use crate::commands::interrupt;
 use crate::commands::terminal::print_status;
@@ -63,17 +64,17 @@ impl Destination<'_> {
         }
         let place = same_file_path(path);
         if let Some((_, input)) = inputs.iter().find(|(input, _)| same_file_path(input) == place) {
-            let path = path.display();
+            let path = brief(path);
             return Err(Error::mistake(format!("{path} is {input}; give another {option}")));
         }
         match fs::metadata(path) {
             Ok(entry) if entry.is_dir() => {
-                let path = path.display();
+                let path = brief(path);
                 Err(Error::mistake(format!("{path} is a directory; give {option} a file")))
             }
             Ok(_) if self.replaces().is_none() => {
                 // A pipe is open once something reads it.
-                let (name, device) = (path.display().to_string(), path.to_owned());
+                let (name, device) = (brief(path), path.to_owned());
                 let open = move || File::options().append(true).open(device);
                 let device = interrupt::wait_for(&name, open)
                     .map_err(explain(Error::of_file("write", path, option)))?;
@@ -207,7 +208,7 @@ impl Sink {
     fn name(&self) -> String {
         match self.target {
             Target::Stdout => "standard output".into(),
-            Target::Device(_) | Target::File(..) => self.path.display().to_string(),
+            Target::Device(_) | Target::File(..) => brief(&self.path),
         }
     }
 
@@ -282,7 +283,7 @@ fn unfinished(path: &Path, option: &'static str, error: io::Error) -> Error {
 }
 
 fn taken(path: &Path, option: &str) -> Error {
-    let path = path.display();
+    let path = brief(path);
     Error::mistake(format!(
         "{path} already exists; give another {option}, or --force to replace it"
     ))

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::{ASKED, Asked};
+use crate::lab::clip;
 use crate::lab::port::{Approach, Dialect, Key, Setup, Wish};
 use crate::lab::scene::MAX_SUBSTEPS;
 use crate::sim::integrators::{JointMode, Method, Setting};
@@ -24,8 +25,8 @@ fn with_unit(written: &str, unit: &str) -> Result<f64, String> {
     let number = written.strip_suffix(unit).unwrap_or(written).trim_end();
     let found = number.parse::<f64>().ok().filter(|number| number.is_finite());
     found.ok_or_else(|| match unit {
-        "" => format!("\"{written}\" is no number without a unit"),
-        unit => format!("\"{written}\" is no number of {unit}; write it as 2.5{unit}"),
+        "" => format!("\"{}\" is no number without a unit", clip(written)),
+        unit => format!("\"{}\" is no number of {unit}; write it as 2.5{unit}", clip(written)),
     })
 }
 
@@ -98,7 +99,7 @@ fn of_dialect(dialect: &Dialect, written: &str, mass_kg: f64) -> Result<Wish, St
         let names: Vec<&str> = dialect.keys.iter().map(|key| key.name).collect();
         let index = names.iter().position(|name| *name == key.trim()).ok_or_else(|| {
             let names = names.join("=NUMBER,");
-            format!("{} has no key \"{}\"; write {names}=NUMBER", dialect.id, key.trim())
+            format!("{} has no key \"{}\"; write {names}=NUMBER", dialect.id, clip(key.trim()))
         })?;
         if given.contains(&index) {
             return Err(format!("{key} is given twice"));
@@ -121,19 +122,22 @@ fn of_engine(
     let (mut mode, mut tick_hz, mut substeps) = (None, tick_hz, method.default_substeps);
     let mut values: Vec<(&str, &str)> = Vec::new();
     for pair in written.split(',') {
-        let wrong = || format!("\"{pair}\" is no KEY=VALUE; write {}", example(method));
+        let wrong = || format!("\"{}\" is no KEY=VALUE; write {}", clip(pair), example(method));
         let (key, value) = pair.split_once('=').ok_or_else(wrong)?;
         match key.trim() {
             "mode" => {
                 let known = modes.iter().find(|mode| mode.id == value);
                 let ids = || modes.iter().map(|mode| mode.id).collect::<Vec<_>>().join(", ");
-                mode = Some(known.ok_or_else(|| format!("no mode {value}; there are {}", ids()))?);
+                mode = Some(
+                    known.ok_or_else(|| format!("no mode {}; there are {}", clip(value), ids()))?,
+                );
             }
             "tick_hz" => tick_hz = above_0(value, "Hz", "tick_hz")?,
             "substeps" => {
                 let number = value.parse().ok().filter(|n| (1..=MAX_SUBSTEPS).contains(n));
-                substeps =
-                    number.ok_or(format!("substeps is {value}; give 1 to {MAX_SUBSTEPS}"))?;
+                substeps = number.ok_or_else(|| {
+                    format!("substeps is {}; give 1 to {MAX_SUBSTEPS}", clip(value))
+                })?;
             }
             key if values.iter().any(|(known, _)| *known == key) => {
                 return Err(format!("{key} is given twice"));
@@ -147,7 +151,7 @@ fn of_engine(
     let Some(mode) = tried().find(fits) else {
         let known: Vec<String> = tried().map(|mode| names(mode).join(" and ")).collect();
         let keys: Vec<&str> = values.iter().map(|(key, _)| *key).collect();
-        let (keys, known) = (keys.join(" and "), known.join(", or "));
+        let (keys, known) = (clip(&keys.join(" and ")), known.join(", or "));
         return Err(format!("{} has no {keys}; it has {known}", method.id));
     };
     let [stiffness, damping] = mode.settings();

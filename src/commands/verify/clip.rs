@@ -12,6 +12,7 @@ use super::pixels;
 use super::report::{DIRECTORY, Report, print_line};
 use super::rerun::{Frames, Rerun};
 #[cfg(feature = "view")]
+use crate::commands::argument::brief;
 use crate::commands::clip::record;
 use crate::commands::error::Error;
 #[cfg(feature = "view")]
@@ -32,7 +33,7 @@ use crate::sim::number::counted;
 /// The error of a capture in `dir` that cannot be judged, for this reason.
 fn unjudged(dir: &Path) -> impl Fn(String) -> Error {
     let manifest = dir.join(FILE_NAME);
-    move |reason| Error::mistake(format!("cannot judge {}: {reason}", manifest.display()))
+    move |reason| Error::mistake(format!("cannot judge {}: {reason}", brief(&manifest)))
 }
 
 /// The run of the capture in `dir`, as its manifest says.

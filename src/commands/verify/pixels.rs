@@ -5,6 +5,7 @@ use std::fs;
 use super::VerifyArgs;
 use super::rerun::{Frames, Rerun};
 use crate::atomic_file::IfExists;
+use crate::commands::argument::brief;
 use crate::commands::drawing::{adapter, interrupted_after};
 use crate::commands::error::{Error, PlaceOf};
 use crate::commands::fingerprint::fingerprint;
@@ -134,7 +135,7 @@ fn limits(args: &VerifyArgs, was: &Adapter, is: &Adapter) -> Limits {
 fn check_differences(args: &VerifyArgs, manifest: &Manifest) -> Result<(), Error> {
     let Some(path) = &args.diff else { return Ok(()) };
     let refused =
-        |what| Err(Error::mistake(format!("{} {what}; give another --diff", path.display())));
+        |what| Err(Error::mistake(format!("{} {what}; give another --diff", brief(path))));
     if path.canonicalize().is_ok_and(|it| args.dir.canonicalize().is_ok_and(|dir| dir == it)) {
         return refused("holds the frames that are judged");
     }

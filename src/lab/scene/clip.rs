@@ -18,16 +18,21 @@ pub(in crate::lab) fn clip_list<'a>(names: impl Iterator<Item = &'a str>) -> Str
     clip_to(MAX_LISTED_CHARS, &shown)
 }
 
+/// The first characters of a text, with a sign where more follow.
+pub(crate) fn cut(max_chars: usize, text: &str) -> String {
+    match text.char_indices().nth(max_chars) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
 fn clip_to(max_chars: usize, text: &str) -> String {
     let mut shown = String::new();
-    for character in text.chars().take(max_chars) {
+    for character in cut(max_chars, text).chars() {
         match character {
             '"' | '\'' | '\\' => shown.push(character),
             _ => shown.extend(character.escape_debug()),
         }
-    }
-    if text.chars().nth(max_chars).is_some() {
-        shown.push('…');
     }
     shown
 }

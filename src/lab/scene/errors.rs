@@ -9,6 +9,9 @@ use super::fault::SceneFault;
 /// How many errors of one file are shown: as many as a person mends before trying again.
 pub const MAX_SHOWN: usize = 10;
 
+/// A longer remedy, such as the list of all methods, stands once in the errors of a file.
+const MAX_REPEATED_BYTES: usize = 200;
+
 /// Everything that is wrong with one scene file. Its display has one line for each error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneErrors {
@@ -70,6 +73,16 @@ impl SceneErrors {
         errors.sort_by_key(|error| error.span.start);
         let more = errors.len().saturating_sub(MAX_SHOWN);
         errors.truncate(MAX_SHOWN);
+        for n in (1..errors.len()).rev() {
+            let (before, [error, ..]) = errors.split_at_mut(n) else { break };
+            let remedy = &error.fault.remedy;
+            if remedy.len() > MAX_REPEATED_BYTES
+                && let Some(first) = before.iter().find(|first| first.fault.remedy == *remedy)
+            {
+                let (line, _) = position(text, first.span.start);
+                error.fault.remedy = format!("mend it as on line {line}");
+            }
+        }
         Self { file: file.into(), text: text.into(), errors, more }
     }
 

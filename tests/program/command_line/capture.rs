@@ -221,3 +221,39 @@ fn a_capture_shows_the_cloud_that_is_chosen_and_refuses_a_shape_of_other_instrum
     let verified = run_in(folder.path(), "verify section");
     assert_eq!(verified.status.code(), Some(0), "{}", stderr(&verified));
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn nothing_is_said_of_wayland_where_no_window_is_opened() {
+    let test = "nothing_is_said_of_wayland_where_no_window_is_opened";
+    let folder = tempfile::tempdir().unwrap();
+    let probe = "capture --scene spring --frames 1 --size 32x18 --out clip";
+    let Some(_) = drawn_or_skip(test, folder.path(), probe) else { return };
+    for arguments in [
+        "capture --scene spring --frames 1 --size 32x18 --out run.gif",
+        "sweep --scene spring --method rk4 --tick-hz 60 --plot plot.png",
+        "verify clip",
+        "chapter --out figures",
+        "play --scene spring --seconds 0.1",
+    ] {
+        for value in [None, Some(""), Some("relative")] {
+            let mut command = regatta();
+            command.current_dir(folder.path()).args(arguments.split(' '));
+            match value {
+                Some(value) => command.env("XDG_RUNTIME_DIR", value),
+                None => command.env_remove("XDG_RUNTIME_DIR"),
+            };
+            let output = command.args(forced(arguments)).output().unwrap();
+            let said = stderr(&output);
+            assert_eq!(output.status.code(), Some(0), "{arguments}: {said}");
+            assert!(!said.contains("XDG_RUNTIME_DIR"), "{arguments}, {value:?}: {said}");
+        }
+    }
+}
+
+/// What lets a command write where it has written before.
+#[cfg(target_os = "linux")]
+fn forced(arguments: &str) -> Option<&'static str> {
+    let is_forced = ["capture", "sweep", "chapter"].iter().any(|it| arguments.starts_with(it));
+    is_forced.then_some("--force")
+}

@@ -224,6 +224,57 @@ fn an_argument_longer_than_any_path_is_refused_in_a_line() {
 }
 
 #[test]
+fn a_link_where_none_is_taken_and_every_long_argument_is_cut() {
+    let folder = tempfile::tempdir().unwrap();
+    let link = format!("#v1.{}", "A".repeat(87_000));
+    let (path, word) = ("x/".repeat(1500), "x".repeat(3000));
+    for (command, why) in [
+        (format!("loop --trace {link}"), "#v1.AAA"),
+        (format!("loop --trace {link}"), "…: it is a link to a run; give a file"),
+        (format!("identify {link} --tick-hz 60"), "…: it is a link to a run; give a file"),
+        (format!("port --from {link}"), "…: it is a link to a run; give a file"),
+        (format!("port --from swiftui:{link}"), "has no key \"#v1.AAA"),
+        (format!("trace --method {link}"), "no such method"),
+        (format!("show {link}"), "no such"),
+        (format!("capture --out x --size {link}"), "such as 1280x720"),
+        (
+            format!("trace --scene #v{}.A", "9".repeat(400)),
+            "the link is of a much newer format, and",
+        ),
+        (format!("trace --{word}"), "unexpected argument"),
+        (format!("{word} x"), "unrecognized subcommand"),
+        (format!("trace --method {word}"), "no such method"),
+        (format!("trace --scene {path}"), "no built-in scene"),
+        (format!("loop --trace {path}"), "no built-in trace"),
+        (format!("identify {path} --tick-hz 60"), "cannot read the log"),
+        (format!("verify {path}"), "cannot judge x/x/"),
+        (format!("cloud --points 10 --seconds 0.1 --out {path}y"), "cannot write x/x/"),
+        (format!("capture --frames 1 --out {path}y.avi"), "regatta writes no .avi files"),
+    ] {
+        let output = run_in(folder.path(), &command);
+        assert!(matches!(output.status.code(), Some(1 | 2)), "{command:.60}");
+        let said = stderr(&output);
+        assert!(said.contains(why), "{command:.60}: {said:.900}");
+        assert!(said.chars().count() < 1200, "{command:.60}: {said:.1500}");
+    }
+}
+
+#[test]
+fn the_list_of_all_methods_stands_once_in_the_errors_of_a_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "title = 'x'\ntick_hz = 60\nseconds = 1\nmethods = ['qqq', 'rk5', 'zzz']\n\
+        [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\nx0_m = 1\n\
+        [[lane]]\nmethod = 'www'\n";
+    fs::write(folder.path().join("bad.toml"), scene).unwrap();
+    let said = stderr(&run_in(folder.path(), "trace --scene bad.toml"));
+    assert_eq!(said.matches("\"velocity-verlet\"").count(), 1, "{said}");
+    assert!(said.contains("4:12: unknown method \"qqq\" in `methods`; write one of"), "{said}");
+    assert!(said.contains("unknown method \"rk5\" in `methods`; did you mean \"rk4\"?"), "{said}");
+    assert!(said.contains("unknown method \"zzz\" in `methods`; mend it as on line 4\n"), "{said}");
+    assert!(said.contains("unknown method \"www\" in `method`; mend it as on line 4\n"), "{said}");
+}
+
+#[test]
 fn files_that_are_no_text_or_too_large_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     for (bytes, said) in [
