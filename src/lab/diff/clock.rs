@@ -53,8 +53,8 @@ const PLACES: [&str; 18] = [
     "y",
     "z",
 ];
-/// The part of a value that a clock in single precision may be off at each step.
-const SINGLE: f64 = 2.4e-7;
+/// The parts of a value that a clock in double and in single precision may be off at each step.
+const PRECISIONS: [f64; 2] = [1e-15, 2.4e-7];
 
 /// When a column of values says that something moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,8 +106,9 @@ fn words(name: &str) -> Vec<String> {
 pub(super) struct Course {
     /// The place of the last row and its values.
     last: Option<(f64, [f64; 2])>,
-    /// The least and the most by which it grows in each row, if that is the same; the ends excluded.
-    growth: [f64; 2],
+    /// The least and the most by which it grows in each row, if that is the same, for each of [`PRECISIONS`]; the ends
+    /// excluded.
+    growth: [[f64; 2]; 2],
     /// How many steps were taken.
     steps: u32,
     /// The unit of the last digit of the last values.
@@ -116,7 +117,7 @@ pub(super) struct Course {
 
 impl Default for Course {
     fn default() -> Self {
-        Self { last: None, growth: [f64::NEG_INFINITY, f64::INFINITY], steps: 0, unit: 0.0 }
+        Self { last: None, growth: [[f64::NEG_INFINITY, f64::INFINITY]; 2], steps: 0, unit: 0.0 }
     }
 }
 
@@ -143,12 +144,14 @@ impl Course {
         let of_clock = |(value, last): (f64, f64)| match moves {
             Moves::Back => (value - last) * rows >= 0.0,
             _ => {
-                let rounding = unit + SINGLE * value.abs().max(last.abs());
-                let ends = [-rounding, rounding].map(|off| (value - last + off) / rows);
-                let [least, most] = &mut self.growth;
-                *least = least.max(ends[0].min(ends[1]));
-                *most = most.min(ends[0].max(ends[1]));
-                rows != 0.0 && *least < *most
+                let size = value.abs().max(last.abs());
+                for (precision, [least, most]) in PRECISIONS.into_iter().zip(&mut self.growth) {
+                    let rounding = unit.max(precision * size);
+                    let ends = [-rounding, rounding].map(|off| (value - last + off) / rows);
+                    *least = least.max(ends[0].min(ends[1]));
+                    *most = most.min(ends[0].max(ends[1]));
+                }
+                rows != 0.0 && self.growth.iter().any(|[least, most]| least < most)
             }
         };
         self.steps = self.steps.saturating_add(1);
@@ -157,8 +160,8 @@ impl Course {
 
     /// Whether it went as a clock goes, as far as it was followed: two values alone always do.
     pub(super) fn is_of_a_clock(&self, moves: Moves) -> bool {
-        let [least, most] = self.growth;
-        moves == Moves::Back || self.steps >= 2 && (least >= 0.0 || most <= 0.0)
+        let grows = |[least, most]: [f64; 2]| least < most && (least >= 0.0 || most <= 0.0);
+        moves == Moves::Back || self.steps >= 2 && self.growth.into_iter().any(grows)
     }
 }
 
@@ -205,6 +208,17 @@ mod tests {
         assert!(is_clock(&["0.0", "0.016667", "0.033333", "0.05"]));
         assert!(is_clock(&["0", "17", "33", "50", "67"]) && is_clock(&["0", "1", "2", "3"]));
         assert!(is_clock(&["1.6e9", "1.7e9", "1.8e9"]) && is_clock(&["3", "2", "1"]));
+        // Seconds since 1970, and a step of 1/60 that is added up in single precision.
+        assert!(is_clock(&["1700000000", "1700000001", "1700000002"]));
+        assert!(is_clock(&["1700000000.016667", "1700000000.033333", "1700000000.05"]));
+        let mut single = 0.0_f32;
+        let cells: Vec<String> = std::iter::repeat_with(|| {
+            single += 1.0 / 60.0;
+            f64::from(single).to_string()
+        })
+        .take(5000)
+        .collect();
+        assert!(is_clock(&cells.iter().map(|cell| &**cell).collect::<Vec<_>>()));
         assert!(!is_clock(&["0", "0", "0"]) && !is_clock(&["1.5", "1.5", "1.5"]));
         assert!(!is_clock(&["0", "1"]) && !is_clock(&["0", "0", "1", "1", "0"]));
         assert!(!is_clock(&["0.0", "0.16", "0.33", "0.49", "0.64", "0.78"]));
