@@ -523,7 +523,11 @@ mod tests {
             };
             assert_eq!(told_of(&met).matches("no reserve").count(), marks, "{}", told_of(&met));
             let mut window = TestWindow::new([1280.0, 720.0]);
-            let mut frame = || window.show(Vec::new(), |ui| taken_line(ui, "Euler", &met, None)).1;
+            let mut frame = || {
+                window
+                    .show(Vec::new(), |ui| taken_line(ui, ("Euler", Color32::WHITE), &met, None))
+                    .1
+            };
             drop(frame());
             let shown = frame().whole().into_iter().filter(|(_, text)| text.contains("no reserve"));
             assert_eq!(shown.count(), marks, "{slowest_hz} Hz, {factor}");
