@@ -279,6 +279,12 @@ fn every_follower_halves_the_distance_in_the_same_time_at_every_rate_of_frames()
         let has_setting = |port: &FollowerPort| port.method == method;
         assert!(followers(exact, None).iter().any(has_setting), "{} has no setting", method.id);
     }
+    // Half of the way within a sixth of a frame: a frame leaves a 64th.
+    let quick = followers(Approach { half_life_s: 1.0 / 180.0 }, None);
+    let of = |port: &&FollowerPort| port.method.id == "smooth-damp" && port.fps == 30.0;
+    let z = 2.0 / quick.iter().find(of).unwrap().value / 30.0;
+    let left = (1.0 + z) / (1.0 + z + 0.48 * z * z + 0.235 * z * z * z);
+    assert!((left * 64.0 - 1.0).abs() < 1e-6, "{left}");
     for _ in 0..40 {
         // Half of the way is a whole number of frames, so that own steps end there.
         let fps = [30.0, 50.0, 75.0, 100.0, 165.0, 240.0][dice.below(6)];

@@ -155,7 +155,7 @@ impl Course {
             }
         };
         self.steps = self.steps.saturating_add(1);
-        values.into_iter().zip(last).map(of_clock).fold(true, |all, is_clock| all && is_clock)
+        values.into_iter().zip(last).all(of_clock)
     }
 
     /// Whether it went as a clock goes, as far as it was followed: two values alone always do.

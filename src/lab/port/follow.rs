@@ -147,6 +147,15 @@ fn value(approach: Approach, method: &Method, quantity: FollowerQuantity, fps: f
 /// The rate with which a follower is as fast as wished, per second.
 fn rate(approach: Approach, method: &Method, fps: f64) -> f64 {
     let is_slow = |rate| half_life(method, rate, fps).is_some_and(|s| s > approach.half_life_s);
-    let [_, high] = bisect(RATES.map(libm::log), HALVINGS, |log| is_slow(libm::exp(log)));
-    libm::exp(high)
+    let search = |is_low: &dyn Fn(f64) -> bool| {
+        let [_, high] = bisect(RATES.map(libm::log), HALVINGS, |log| is_low(libm::exp(log)));
+        libm::exp(high)
+    };
+    let found = search(&is_slow);
+    if !is_slow(found) {
+        return found;
+    }
+    // Smooth-damp halves nothing in less than a third of a frame: then a frame leaves as much as an exponential does.
+    let left = libm::exp(-approach.rate() / fps);
+    search(&|rate| map_of_frame(method, rate, fps).is_some_and(|map| map.m11 > left))
 }

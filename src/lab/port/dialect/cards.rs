@@ -252,7 +252,6 @@ pub static DIALECTS: &[Dialect] = &[
         steps: Steps::WholeMilliseconds,
         departure: slint_departure,
         code: "animate x { easing: spring(<bounce:decimal>); duration: <ms>ms; }",
-        ..EQUATION
     },
     Dialect {
         id: "gpui",
