@@ -48,7 +48,7 @@ const LOG: &str = include_str!("../../data/engines/box2d__spring_1hz_z005_60hz.c
 /// Makes the files of a reader's own that examples are about. Without a driver there is no `clip`.
 fn make_own_files(test: &str, folder: &Path) -> Vec<&'static str> {
     fs::write(folder.join("spring.csv"), LOG).unwrap();
-    let mut session = Session::new(Scene::built_in("harbour").unwrap().into());
+    let mut session = Session::solo(Scene::built_in("harbour").unwrap().into(), 0);
     session.run(640);
     fs::write(folder.join("run.toml"), session.recording(640).to_toml()).unwrap();
     // Smaller than by the manual's command, to be quick.
