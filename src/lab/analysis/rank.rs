@@ -4,7 +4,7 @@
 //! equal reserves the fewest substeps; then the place in the table of methods. A method whose reserve is below
 //! [`LITTLE_RESERVE`] is passed over where another of up to [`TIMES_ITS_COST`] its cost has a larger one.
 
-use super::criterion_met::CriterionMet;
+use super::criterion_met::{CriterionMet, MAX_STIFFER};
 use crate::sim::integrators::{METHODS, Method};
 
 /// A reserve below this is little: a body half as stiff again is as much as a designer changes in an afternoon.
@@ -22,6 +22,8 @@ struct Ranked<'a> {
     index: usize,
     met: &'a CriterionMet,
     reserve: f64,
+    /// What decides between equal costs and reserves: substeps, the place in the table, the index.
+    ties: (u32, usize, usize),
 }
 
 impl Ranked<'_> {
@@ -41,18 +43,19 @@ impl<'a> Ranking<'a> {
         let place = |method: &Method| METHODS.iter().position(|one| one == method);
         let mut all: Vec<_> = methods
             .filter(|(_, (method, _))| !method.is_as_printed())
-            .map(|(index, (method, met))| {
-                let reserve = met.reserve().unwrap_or(0.0);
-                let ties = (met.substeps, place(method).unwrap_or(METHODS.len()), index);
-                (Ranked { index, met, reserve }, ties)
+            .map(|(index, (method, met))| Ranked {
+                index,
+                met,
+                reserve: met.reserve().unwrap_or(0.0),
+                ties: (met.substeps, place(method).unwrap_or(METHODS.len()), index),
             })
             .collect();
-        all.sort_by(|(a, a_ties), (b, b_ties)| {
+        all.sort_by(|a, b| {
             let by_cost = a.met.cost_per_s.total_cmp(&b.met.cost_per_s);
             let by_reserve = b.reserve.total_cmp(&a.reserve);
-            by_cost.then(by_reserve).then(a_ties.cmp(b_ties))
+            by_cost.then(by_reserve).then(a.ties.cmp(&b.ties))
         });
-        Self { all: all.into_iter().map(|(ranked, _)| ranked).collect() }
+        Self { all }
     }
 
     /// The least cost.
@@ -95,11 +98,17 @@ impl<'a> Ranking<'a> {
         let is_open = |it: &&Ranked| !it.met.are_margins_searched;
         let cost = |it: &Ranked| it.met.cost_per_s;
         for alike in self.all.chunk_by(|a, b| cost(a) == cost(b)) {
-            let open: Vec<usize> = alike.iter().filter(is_open).map(|it| it.index).collect();
+            // No reserve is above the largest that is searched for.
+            let best = &alike[0];
+            let may_win = |it: &&Ranked| best.reserve < MAX_STIFFER || it.ties < best.ties;
+            let mut open: Vec<usize> =
+                alike.iter().filter(is_open).filter(may_win).map(|it| it.index).collect();
+            if alike.iter().all(|it| is_open(&it)) {
+                open.truncate(1);
+            }
             if !open.is_empty() {
                 return open;
             }
-            let best = &alike[0];
             if best.reserve >= LITTLE_RESERVE {
                 return Vec::new();
             }
