@@ -186,8 +186,14 @@ fn a_verdict_says_the_number_that_its_outcome_is_about_and_its_details_the_rest(
     is(compared(loses), "dies away · energy −50 % in 20 s", &[]);
     let all = Comparison { energy_change: Some(-0.998), ..loses };
     is(compared(all), "dies away · all its energy in 20 s", &[]);
-    let long_term = LongTerm { halves_in_s: Some(5.04), ..SWINGS };
-    is(Verdict { long_term, ..compared(loses) }, "dies away · swing ½ in 5.0 s", &[]);
+    let more = Comparison { energy_change: Some(-1.08), ..loses };
+    is(compared(more), "dies away · all its energy in 20 s", &[]);
+    for (halves_in_s, shown) in
+        [(5.04, "swing ½ in 5.0 s"), (400.0, "swing ½ in 400 s"), (401.0, "energy −50 % in 20 s")]
+    {
+        let long_term = LongTerm { halves_in_s: Some(halves_in_s), ..SWINGS };
+        is(Verdict { long_term, ..compared(loses) }, &format!("dies away · {shown}"), &[]);
+    }
 
     let escaped = StepFailure::NotFinite { coordinate: "x".into(), value: f64::NAN };
     let unsolved = StepFailure::LinearSolveFailed;

@@ -20,6 +20,7 @@ pub(crate) struct Block<'t> {
     /// Its lines, with the indentation of the fence.
     pub(crate) body: &'t str,
     /// The text above it.
+    #[allow(dead_code, reason = "tests/library finds a program by it; tests/program needs none")]
     pub(crate) above: &'t str,
 }
 

@@ -13,6 +13,12 @@ use crate::sim::number::{round, significant, superscript};
 /// The largest relative error of a frequency that may be rounding alone.
 const FREQUENCY_ROUNDING: f64 = 1e-9;
 
+/// A swing that dies away within the horizon, by 5 % at least, halves in 13.5 horizons at a constant rate: a halving time beyond this
+/// many is that of something else.
+const MOST_HALVING_HORIZONS: f64 = 20.0;
+/// A change of the energy at or below this leaves nothing that can be seen: it is in units of the largest kinetic energy.
+const ALL_ENERGY: f64 = -0.995;
+
 /// The number of a verdict: what is measured, its value, and how it reads.
 pub(super) struct Number {
     /// The measured quantity, as in `swing doubles`.
@@ -114,9 +120,9 @@ impl Verdict {
             }
             (None, Some(change)) => {
                 let sign = if change > 0.0 { "+" } else { "" };
-                let text = match percent(change).as_str() {
-                    "\u{2212}100 %" => format!("all its energy in {horizon}"),
-                    part => format!("energy {sign}{part} in {horizon}"),
+                let text = match change <= ALL_ENERGY {
+                    true => format!("all its energy in {horizon}"),
+                    false => format!("energy {sign}{} in {horizon}", percent(change)),
                 };
                 Number::part("energy change", change, text)
             }
@@ -188,7 +194,10 @@ impl Verdict {
                 })
             }
             (Outcome::DiesAway, _) => {
-                Some(self.change(self.long_term.halves_in_s, ["½", "halves"]))
+                // What loses its fast modes at once may keep the slow ones for days.
+                let most_s = MOST_HALVING_HORIZONS * self.horizon_s;
+                let halves_in_s = self.long_term.halves_in_s.filter(|&time| time <= most_s);
+                Some(self.change(halves_in_s, ["½", "halves"]))
             }
             (_, Finding::Failed { failure, .. }) => {
                 let text = format!("at {}", self.moment(failure.t));
