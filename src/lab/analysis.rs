@@ -48,6 +48,6 @@ pub use run::MAX_WORK;
 pub use stability_map::{Coverage, Here, MapRequest, Region, SeenLine, StabilityMap};
 pub use truth::LONG_RUN;
 pub use verdict::{
-    Comparison, Finding, LongTerm, NoTruth, NotJudged, RunFailure, Verdict, duration,
+    Comparison, Finding, LongTerm, NoTruth, NotJudged, RunFailure, Verdict, VerdictNumber, duration,
 };
 pub use worker::{Advice, AdvisedBodies, AnalysisRequest, AnalysisWorker, Findings};

@@ -11,8 +11,8 @@ use super::physics::{PhysicsChange, first_change};
 use super::pixels;
 use super::report::{DIRECTORY, Report, print_line};
 use super::rerun::{Frames, Rerun};
-#[cfg(feature = "view")]
 use crate::commands::argument::brief;
+#[cfg(feature = "view")]
 use crate::commands::clip::record;
 use crate::commands::error::Error;
 #[cfg(feature = "view")]

@@ -13,7 +13,7 @@ use crate::sim::integrators::StepFailure;
 mod schema;
 mod words;
 
-pub use words::duration;
+pub use words::{VerdictNumber, duration};
 
 /// The largest error in amplitudes that counts as rounding.
 const ROUNDING: f64 = 1e-9;

@@ -19,17 +19,25 @@ const MOST_HALVING_HORIZONS: f64 = 20.0;
 /// A change of the energy at or below this leaves nothing that can be seen: it is in units of the largest kinetic energy.
 const ALL_ENERGY: f64 = -0.995;
 
-/// The number of a verdict: what is measured, its value, and how it reads.
-pub(super) struct Number {
+/// The number of a verdict, displayed as in its line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VerdictNumber {
     /// The measured quantity, as in `swing doubles`.
-    pub(super) quantity: String,
-    /// In `unit`; not finite where there is none.
-    pub(super) value: f64,
-    pub(super) unit: &'static str,
+    pub quantity: String,
+    /// Its value in `unit`.
+    pub value: f64,
+    /// `s`, `%`, or `×` for a multiple of the true quantity.
+    pub unit: &'static str,
     text: String,
 }
 
-impl Number {
+impl fmt::Display for VerdictNumber {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+impl VerdictNumber {
     fn new(quantity: impl Into<String>, value: f64, unit: &'static str, text: String) -> Self {
         Self { quantity: quantity.into(), value, unit, text }
     }
@@ -110,13 +118,13 @@ impl Verdict {
     }
 
     /// The change of the amplitude: the time in which it changes by this factor, or else that of the energy, or else the error.
-    fn change(&self, time: Option<f64>, [factor, verb]: [&str; 2]) -> Number {
+    fn change(&self, time: Option<f64>, [factor, verb]: [&str; 2]) -> VerdictNumber {
         let horizon = duration(self.horizon_s);
         let measure = self.long_term.measure.name();
         match (time, self.energy_change()) {
             (Some(time), _) => {
                 let text = format!("{measure} {factor} in {}", brief_duration(time));
-                Number::new(format!("{measure} {verb}"), time, "s", text)
+                VerdictNumber::new(format!("{measure} {verb}"), time, "s", text)
             }
             (None, Some(change)) => {
                 let sign = if change > 0.0 { "+" } else { "" };
@@ -124,28 +132,28 @@ impl Verdict {
                     true => format!("all its energy in {horizon}"),
                     false => format!("energy {sign}{} in {horizon}", percent(change)),
                 };
-                Number::part("energy change", change, text)
+                VerdictNumber::part("energy change", change, text)
             }
             (None, None) => {
                 let error = self.error().unwrap_or(f64::INFINITY);
-                Number::part("largest error", error, format!("off by {}", percent(error)))
+                VerdictNumber::part("largest error", error, format!("off by {}", percent(error)))
             }
         }
     }
 
     /// How far a motion is off that keeps its size: its width, or else its delay, or else its largest error.
-    fn gap(&self, found: &Comparison) -> Number {
+    fn gap(&self, found: &Comparison) -> VerdictNumber {
         let (error, horizon) = (percent(found.error), duration(self.horizon_s));
         if let Some(width) = found.wrong_width().filter(|_| found.looks_right != Some(true)) {
             let how = if width > 1.0 { "too wide" } else { "as wide" };
             let text = format!("swings {} × {how}", significant(width, 2));
-            return Number::new("width", width, "×", text);
+            return VerdictNumber::new("width", width, "×", text);
         }
         if let Some(early_s) = found.early_s {
             let (way, quantity) = if early_s < 0.0 { ("late", "delay") } else { ("early", "lead") };
             let late_s = early_s.abs();
             let text = format!("{} {way} after {horizon}", short_duration(late_s));
-            return Number::new(quantity, late_s, "s", text);
+            return VerdictNumber::new(quantity, late_s, "s", text);
         }
         let of_mode = match self.long_term.measure {
             Measure::Modes => Some(("main mode ", "frequency error of the main mode")),
@@ -154,24 +162,24 @@ impl Verdict {
         };
         let pitch = found.frequency_error.zip(found.pitch());
         if let Some(((mode, quantity), (error, pitch))) = of_mode.zip(pitch) {
-            return Number::part(quantity, error, format!("{mode}{pitch}"));
+            return VerdictNumber::part(quantity, error, format!("{mode}{pitch}"));
         }
         let text = match found.last_error < 0.9 * found.error {
             true => format!("off by {error} at {}", self.moment(found.error_at_s)),
             false => format!("off by {error}"),
         };
-        Number::part("largest error", found.error, text)
+        VerdictNumber::part("largest error", found.error, text)
     }
 
-    /// The number that its word is about.
-    pub(super) fn number(&self) -> Option<Number> {
+    /// The number that its word is about, if it is about one.
+    pub fn number(&self) -> Option<VerdictNumber> {
         let chased = self.chase.as_ref().and_then(ChaseFinding::number);
         let within =
-            |quantity, part, bound| Number::part(quantity, part, format!("within {bound}"));
+            |quantity, part, bound| VerdictNumber::part(quantity, part, format!("within {bound}"));
         match (self.outcome(), &self.finding) {
             (Outcome::Accurate | Outcome::LooksRight | Outcome::Bounded, _) if chased.is_some() => {
                 let (half_life_s, text) = chased?;
-                Some(Number::new("half-life", half_life_s, "s", text))
+                Some(VerdictNumber::new("half-life", half_life_s, "s", text))
             }
             (Outcome::Rounding, Finding::Compared(found)) => {
                 let bound = libm::ceil(libm::log10(found.error.max(1e-15))) as i32;
@@ -188,7 +196,7 @@ impl Verdict {
                 Some(match (doubles_in_s, parasite_doubles_in_s) {
                     (None, Some(time)) => {
                         let text = format!("a faint mode ×2 in {}", brief_duration(time));
-                        Number::new("faint mode doubles", time, "s", text)
+                        VerdictNumber::new("faint mode doubles", time, "s", text)
                     }
                     (time, _) => self.change(time, ["×2", "doubles"]),
                 })
@@ -201,17 +209,19 @@ impl Verdict {
             }
             (_, Finding::Failed { failure, .. }) => {
                 let text = format!("at {}", self.moment(failure.t));
-                Some(Number::new("end of the run", self.starts_at_s + failure.t, "s", text))
+                Some(VerdictNumber::new("end of the run", self.starts_at_s + failure.t, "s", text))
             }
             (_, Finding::ByEnergy(found)) => {
                 let text = found.number()?;
-                Some(Number::part("energy change", found.change.abs(), text))
+                Some(VerdictNumber::part("energy change", found.change.abs(), text))
             }
-            (_, Finding::NoTruth(NoTruth::Vague(part))) if part.is_finite() => Some(Number::part(
-                "error of the truth",
-                *part,
-                format!("known to {}", percent(*part)),
-            )),
+            (_, Finding::NoTruth(NoTruth::Vague(part))) if part.is_finite() => {
+                Some(VerdictNumber::part(
+                    "error of the truth",
+                    *part,
+                    format!("known to {}", percent(*part)),
+                ))
+            }
             (_, Finding::NoTruth(_) | Finding::Compared(_) | Finding::NotJudged(_)) => None,
         }
     }
