@@ -2,6 +2,7 @@
 
 use clap::{Args, Command};
 
+use super::argument::brief;
 use super::error::Error;
 use super::output::print;
 use crate::lab::scene::nearest;
@@ -74,6 +75,7 @@ pub(super) fn run(args: &HelpArgs, cli: Command) -> Result<(), Error> {
         let known = commands.chain(CHAPTERS.iter().map(|chapter| chapter.id));
         let meant = nearest(topic, known.map(|name| (name, name)));
         let meant = meant.map_or(String::new(), |name| format!("; did you mean `{name}`?"));
+        let topic = brief(topic.as_ref());
         return Err(Error::mistake(format!(
             "no command and no chapter is called `{topic}`{meant}\n`regatta help help` lists the chapters"
         )));

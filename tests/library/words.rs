@@ -103,7 +103,7 @@ fn a_verdict_says_the_number_that_its_outcome_is_about_and_its_details_the_rest(
         assert_eq!(verdict.to_string(), shown);
         assert_eq!(verdict.details(), details, "{shown}");
     };
-    is(compared(Comparison { error: 3e-12, ..COMPARED }), "accurate · within 10⁻¹¹", &[]);
+    is(compared(Comparison { error: 3e-12, ..COMPARED }), "accurate · within 10⁻⁹ %", &[]);
     is(
         compared(Comparison { error: 0.004, ..COMPARED }),
         "accurate · within 0.40 %",

@@ -1,5 +1,6 @@
 //! One description of a table's columns, written as aligned text, as CSV or as JSON.
 
+use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::mem;
@@ -9,6 +10,7 @@ use serde_json::{Map, Value};
 
 use super::{Output, print, print_json};
 use crate::commands::error::Error;
+use crate::commands::visible::{visible, visible_json};
 use crate::lab::csv_row;
 use crate::sim::number::counted;
 
@@ -102,20 +104,20 @@ impl<W: Write> RowWriter<W> {
     pub(crate) fn row(&mut self, cells: &[Value]) -> io::Result<()> {
         let Self { out, format, keys, is_first } = self;
         if *format == RowFormat::Csv {
-            let cells = cells.iter().map(|cell| -> &dyn Display {
-                match in_a_cell(cell) {
-                    Value::Null => &"",
-                    Value::String(text) => text,
-                    // Numbers as in JSON, so that they read back the same.
-                    cell => cell,
-                }
+            let cells = cells.iter().map(|cell| match in_a_cell(cell) {
+                Value::Null => "".into(),
+                Value::String(text) => visible(text),
+                // Numbers as in JSON, so that they read back the same.
+                cell => Cow::Owned(cell.to_string()),
             });
+            let cells: Vec<Cow<'_, str>> = cells.collect();
+            let cells = cells.iter().map(|cell| -> &dyn Display { cell });
             return out.write_all(csv_row(&cells.collect::<Vec<_>>()).as_bytes());
         }
         out.write_all(if mem::take(is_first) { b"\n{" } else { b",\n{" })?;
         for (column, (key, cell)) in keys.iter().zip(cells).enumerate() {
             write!(out, "{}\"{key}\":", if column == 0 { "" } else { "," })?;
-            serde_json::to_writer(&mut *out, cell)?;
+            out.write_all(visible_json(&cell.to_string()).as_bytes())?;
         }
         out.write_all(b"}")
     }

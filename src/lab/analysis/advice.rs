@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::criterion::{CRITERIA, Criterion};
 pub use super::criterion_met::CriterionMet;
 use super::judge::{CriterionFinding, FULL_THROTTLE, Judge, horizon_s};
+use super::outcome::Outcome;
 use super::rank::Ranking;
 use super::run::MAX_WORK;
 use super::searches::{
@@ -49,6 +50,13 @@ pub struct MethodAdvice {
 }
 
 impl MethodAdvice {
+    /// The outcome of the method with this many substeps a tick, by the hardest criterion that it is known to meet with them.
+    pub fn outcome_with(&self, substeps: u32) -> Outcome {
+        let meets = |i: &usize| self.met[*i].met().is_some_and(|met| met.substeps <= substeps);
+        let hardest = (0..CRITERIA.len()).rev().find(meets);
+        hardest.map_or(self.verdict.outcome(), |i| CRITERIA[i].outcome())
+    }
+
     /// Searches the margins of the criterion with this index, if the method meets it.
     pub fn search_margins(&mut self, adviser: &Adviser, criterion: usize) {
         at_once(adviser.search_margins(self, criterion));

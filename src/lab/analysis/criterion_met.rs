@@ -56,7 +56,7 @@ impl CriterionMet {
     /// The rate down to which it holds, in words; `None` if it is not known.
     pub fn slower(&self) -> Option<String> {
         let hz = self.slowest_hz?;
-        let mark = if hz >= self.tick_hz { format!(" {NO_RESERVE}") } else { String::new() };
+        let mark = if self.has_no_slower() { format!(" {NO_RESERVE}") } else { String::new() };
         Some(format!("{hz} Hz{mark}"))
     }
 
@@ -72,11 +72,10 @@ impl CriterionMet {
     /// lesser of the two margins that are known, and `None` if neither is.
     ///
     /// Both are factors of stiffness: a spring of f times the stiffness takes steps of the same angle at √f times the rate,
-    /// so that a rate counts by its square. That rate is the next lower whole one, at which the criterion fails: at a few
-    /// hertz one hertz is a large part.
+    /// so that a rate counts by its square. At 1 Hz, below which none is searched, the stiffness decides alone.
     pub fn reserve(&self) -> Option<f64> {
-        let of_rate = self.slowest_hz.map(|hz| {
-            let ratio = f64::from(self.tick_hz) / f64::from(hz.saturating_sub(1));
+        let of_rate = self.slowest_hz.filter(|_| self.tick_hz > 1).map(|hz| {
+            let ratio = f64::from(self.tick_hz) / f64::from(hz);
             // To one digit after the point, as factors are tried.
             libm::floor(10.0 * ratio * ratio) / 10.0
         });
@@ -86,7 +85,11 @@ impl CriterionMet {
 
     /// Whether one of its margins leaves nothing: the next rate or the next factor that was tried fails.
     pub fn has_no_reserve(&self) -> bool {
-        self.slowest_hz.is_some_and(|hz| hz >= self.tick_hz)
-            || self.stiffness_factor.is_some_and(|factor| factor <= 1.0)
+        self.has_no_slower() || self.stiffness_factor.is_some_and(|factor| factor <= 1.0)
+    }
+
+    /// Whether the next lower rate fails. Below 1 Hz none is searched.
+    fn has_no_slower(&self) -> bool {
+        self.tick_hz > 1 && self.slowest_hz.is_some_and(|hz| hz >= self.tick_hz)
     }
 }

@@ -43,11 +43,12 @@ pub(super) fn frequency_error(truth: &BodyTruth, run: &Run) -> Option<FrequencyE
     let middle = count / 2;
     let span = lane[count - 1].at - lane[0].at;
     let halves = [error(0, middle), error(middle, count - 1)];
-    // Either may have one crossing more before the first that both have.
-    let early_at_first = libm::remainder(swing.crossings[0] - h * lane[0].at, swing.period());
-    let last = swing.crossings[count - 1];
-    let gained = last - swing.crossings[0] - h * span;
-    let early_s = early_at_first + gained + halves[1] * (run.horizon_s - last);
+    // Either may have crossings more before the first that both have.
+    let more = (h * lane[0].at - swing.crossings[0]) / swing.period();
+    let [skipped, skipped_of_lane] = [more, -more].map(|more| libm::round(more.max(0.0)) as usize);
+    let pairs = swing.crossings.iter().skip(skipped).zip(lane.iter().skip(skipped_of_lane));
+    let (last, of_lane) = pairs.last()?;
+    let early_s = last - h * of_lane.at + halves[1] * (run.horizon_s - last);
     let blur = lane[0].blur + lane[count - 1].blur;
     Some(FrequencyError {
         error: error(0, count - 1),

@@ -114,13 +114,13 @@ fn answer(
     for (i, (criterion, best)) in CRITERIA.iter().zip(best).enumerate() {
         let taken = best.and_then(|row| {
             let advised = &advice.advised[row];
-            Some((advised.spec, advised.met[i].met()?))
+            Some((advised, advised.met[i].met()?))
         });
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = APART;
             let name = RichText::new(criterion.name()).color(palette(ui).dim);
             slot(ui, CRITERION, |ui| line(ui, name)).on_hover_text(criterion.about());
-            let Some((spec, met)) = taken else {
+            let Some((advised, met)) = taken else {
                 let all_miss = advice.advised.iter().all(|row| row.met[i] == CriterionResult::No);
                 let none = match () {
                     () if done < wanted => "none yet".to_owned(),
@@ -131,12 +131,12 @@ fn answer(
                 return;
             };
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                copy_button(ui, studio, spec, commands);
+                copy_button(ui, studio, advised.spec, commands);
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                     let recommendation = Recommendation::of(&advice.advised, i);
                     let instead_of = recommendation.and_then(|it| it.instead_of);
-                    let colour = tone(ui, criterion.outcome());
-                    taken_line(ui, (spec.method.name, colour), met, instead_of.as_ref());
+                    let colour = tone(ui, advised.outcome_with(met.substeps));
+                    taken_line(ui, (advised.spec.method.name, colour), met, instead_of.as_ref());
                 });
             });
         });
@@ -295,8 +295,8 @@ impl Row<'_> {
             }
         };
         let is_best = self.best[criterion] == Some(self.index);
-        let of_criterion = tone(&ui, CRITERIA[criterion].outcome());
-        let colour = if is_best { of_criterion } else { palette(&ui).text };
+        let of_lane = tone(&ui, self.advised.outcome_with(met.substeps));
+        let colour = if is_best { of_lane } else { palette(&ui).text };
         let text = cell_text(met, self.has_rates);
         let used = ui.button(RichText::new(text).color(colour).size(SMALL));
         let name = format!("{}: {}", CRITERIA[criterion].name(), spec.method.name);

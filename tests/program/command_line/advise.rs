@@ -233,7 +233,7 @@ fn a_spring_stands_in_the_place_of_a_scene_and_has_possible_numbers() {
 fn reserve(met: &Value) -> f64 {
     let factor = met["stiffness_factor"].as_f64().unwrap_or(10.0);
     let [hz, slowest_hz] = ["tick_hz", "slowest_hz"].map(|key| met[key].as_f64().unwrap());
-    factor.min((hz / (slowest_hz - 1.0)).powi(2))
+    factor.min((hz / slowest_hz).powi(2))
 }
 
 #[test]

@@ -89,12 +89,13 @@ fn a_reserve_is_the_lesser_margin_and_a_rate_counts_by_its_square() {
     let of = |tick_hz, slowest_hz, stiffness_factor| {
         CriterionMet { tick_hz, slowest_hz, stiffness_factor, ..met(60.0, None) }.reserve()
     };
-    // 60 / 48, 14 / 13, 4 / 3 and 2 / 1, squared.
-    assert_eq!(of(60, Some(49), Some(10.0)), Some(1.5));
-    assert_eq!(of(60, Some(49), Some(1.3)), Some(1.3));
-    assert_eq!(of(14, Some(14), None), Some(1.1));
-    assert_eq!(of(4, Some(4), Some(1.6)), Some(1.6));
-    assert_eq!(of(2, Some(2), Some(3.0)), Some(3.0));
+    // 60 / 48, 14 / 14 and 4 / 3, squared.
+    assert_eq!(of(60, Some(48), Some(10.0)), Some(1.5));
+    assert_eq!(of(60, Some(48), Some(1.3)), Some(1.3));
+    assert_eq!(of(14, Some(14), None), Some(1.0));
+    assert_eq!(of(4, Some(4), Some(1.6)), Some(1.0));
+    assert_eq!(of(4, Some(3), Some(3.0)), Some(1.7));
+    assert_eq!(of(1, Some(1), Some(3.0)), Some(3.0));
     assert_eq!(of(60, Some(1), None), Some(10.0));
     assert_eq!(of(60, None, Some(2.0)), Some(2.0));
     assert_eq!(of(60, None, None), None);

@@ -10,8 +10,8 @@ use crate::lab::analysis::limits::{TOLERANCE, VISIBLE};
 use crate::lab::analysis::outcome::Outcome;
 use crate::sim::number::{round, significant, superscript};
 
-/// The largest relative error of a frequency that may be rounding alone.
-const FREQUENCY_ROUNDING: f64 = 1e-9;
+/// The largest relative error of a frequency that is too small to be the cause of anything.
+const FAINT_PITCH: f64 = 1e-4;
 
 /// A swing that dies away within the horizon, by 5 % at least, halves in 13.5 horizons at a constant rate: a halving time beyond this
 /// many is that of something else.
@@ -70,9 +70,9 @@ impl fmt::Display for NotJudged {
 }
 
 impl Comparison {
-    /// The frequency error of a motion that keeps its size, unless it is rounding: `0.18 % fast`.
+    /// The frequency error of a motion that keeps its size, unless it is faint: `0.18 % fast`.
     fn pitch(&self) -> Option<String> {
-        let error = self.frequency_error.filter(|error| error.abs() > FREQUENCY_ROUNDING)?;
+        let error = self.frequency_error.filter(|error| error.abs() > FAINT_PITCH)?;
         let how = if error > 0.0 { "fast" } else { "slow" };
         matches!(self.outcome(), Outcome::LooksRight | Outcome::Bounded)
             .then(|| format!("{} {how}", percent(error.abs())))
@@ -182,8 +182,8 @@ impl Verdict {
                 Some(VerdictNumber::new("half-life", half_life_s, "s", text))
             }
             (Outcome::Rounding, Finding::Compared(found)) => {
-                let bound = libm::ceil(libm::log10(found.error.max(1e-15))) as i32;
-                Some(within("largest error", found.error, format!("10{}", superscript(bound))))
+                let bound = libm::ceil(libm::log10(100.0 * found.error.max(1e-15))) as i32;
+                Some(within("largest error", found.error, format!("10{} %", superscript(bound))))
             }
             (Outcome::Accurate, Finding::Compared(found)) => {
                 Some(within("largest error", found.error, percent(found.error)))
