@@ -86,7 +86,7 @@ pub struct Dialect {
     /// Those that come nearest to a motion.
     write: fn(&Wish) -> Values,
     steps: Steps,
-    /// Where it leaves a motion that it is told.
+    /// The motion at which it departs from the closed form.
     departure: fn(&Wish) -> Option<Departure>,
     /// A line of code, with the names of keys in `<>` where their values stand; `:decimal` follows the name where the
     /// language has no exponents.
