@@ -46,8 +46,8 @@ pub(super) fn frequency_error(truth: &BodyTruth, run: &Run) -> Option<FrequencyE
     // Either may have crossings more before the first that both have.
     let more = (h * lane[0].at - swing.crossings[0]) / swing.period();
     let [skipped, skipped_of_lane] = [more, -more].map(|more| libm::round(more.max(0.0)) as usize);
-    let pairs = swing.crossings.iter().skip(skipped).zip(lane.iter().skip(skipped_of_lane));
-    let (last, of_lane) = pairs.last()?;
+    let mut pairs = swing.crossings.iter().skip(skipped).zip(lane.iter().skip(skipped_of_lane));
+    let (last, of_lane) = pairs.next_back()?;
     let early_s = last - h * of_lane.at + halves[1] * (run.horizon_s - last);
     let blur = lane[0].blur + lane[count - 1].blur;
     Some(FrequencyError {
