@@ -197,16 +197,16 @@ impl Judge {
         let are_swings_known = by_modes.is_some() && truth.inputs.is_empty();
         let MotionChange { long_term, within, energy_change, frequency_error, early_s, width } =
             by_modes.unwrap_or_else(|| MotionChange::of_run(truth, run, self.horizon_s));
-        // What has grown once and goes on within bounds is bounded, and what has yet to grow is not.
+        // A motion that grew once and stays within bounds is bounded; one that has yet to grow is not.
         let change = match (within, long_term.is_bounded) {
             (Trend::Grows, Some(true)) => Trend::None,
             (Trend::None, Some(false)) => Trend::Grows,
             _ => within,
         };
         let swing = truth.swing.as_ref();
-        // The peaks between ticks are wider, so that only what is too wide is known.
+        // Peaks lie between ticks, so that only an excess is certain.
         let too_wide = swing.map(|swing| run.widest / swing.widest()).filter(|&width| width > 1.0);
-        // Half of the error at least, or something else is the worse.
+        // A shift in time that makes less than half of the error is not its cause.
         let is_of_phase =
             |early_s: f64| swing.is_some_and(|swing| swing.error_when(early_s) >= run.error / 2.0);
         let truth_error = truth.gap(run.seconds, tick_hz).await;

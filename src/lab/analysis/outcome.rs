@@ -182,7 +182,7 @@ pub enum Severity {
 }
 
 impl Severity {
-    /// The sign of what has no outcome, such as a game loop.
+    /// The sign of a result without an outcome, such as that of a game loop.
     pub fn sign(self) -> Sign {
         match self {
             Severity::Fine | Severity::Fair => Sign::Disc,

@@ -34,6 +34,26 @@ impl Swing {
         let half_turns = (early_s.abs() / self.period()).min(0.5);
         2.0 * libm::sin(std::f64::consts::PI * half_turns)
     }
+
+    /// Whether a lane swings as wide as the truth in each of its half turns from the one with index `first` on, within
+    /// [`VISIBLE`] of the widest; they may come earlier or later. The last of each may be cut off by the end of the horizon.
+    pub(in crate::lab::analysis) fn is_as_wide(&self, lane: &[f64], first: usize) -> bool {
+        let whole = |half_turns: &[f64]| half_turns.len().saturating_sub(1).max(1);
+        let widest = |half_turns: &[f64]| half_turns.iter().copied().fold(0.0, f64::max);
+        let (wanted, found) = (whole(&self.half_turns), whole(lane));
+        let most = VISIBLE * self.widest();
+        let both = wanted.min(found);
+        let mut pairs = lane.iter().zip(&self.half_turns).take(both).skip(first);
+        // A slow lane makes fewer half turns and a fast one more. What has come to rest makes no more.
+        let unpaired = |half_turns: &[f64], count: usize| {
+            let fewest = (1.0 - FREQUENCY_TOLERANCE) * count as f64 - 2.0;
+            widest(half_turns.get(both..(fewest.max(both as f64) as usize)).unwrap_or_default())
+        };
+        !lane.is_empty()
+            && pairs.all(|(lane, truth)| (lane - truth).abs() <= most)
+            && unpaired(&self.half_turns, wanted) <= most
+            && unpaired(lane, found) <= most
+    }
 }
 
 impl BodyTruth {
@@ -96,28 +116,6 @@ impl BodyTruth {
             *half_turn = half_turn.max(peak);
         }
         Some(Swing { coordinate, crossings, half_turns })
-    }
-}
-
-impl Swing {
-    /// Whether a lane swings as wide as the truth in each of its half turns from the one with index `first` on, within
-    /// [`VISIBLE`] of the widest; they may come earlier or later. The last of each may be cut off by the end of the horizon.
-    pub(in crate::lab::analysis) fn is_as_wide(&self, lane: &[f64], first: usize) -> bool {
-        let whole = |half_turns: &[f64]| half_turns.len().saturating_sub(1).max(1);
-        let widest = |half_turns: &[f64]| half_turns.iter().copied().fold(0.0, f64::max);
-        let (wanted, found) = (whole(&self.half_turns), whole(lane));
-        let most = VISIBLE * self.widest();
-        let both = wanted.min(found);
-        let mut pairs = lane.iter().zip(&self.half_turns).take(both).skip(first);
-        // A slow lane makes fewer half turns and a fast one more. What has come to rest makes no more.
-        let unpaired = |half_turns: &[f64], count: usize| {
-            let fewest = (1.0 - FREQUENCY_TOLERANCE) * count as f64 - 2.0;
-            widest(half_turns.get(both..(fewest.max(both as f64) as usize)).unwrap_or_default())
-        };
-        !lane.is_empty()
-            && pairs.all(|(lane, truth)| (lane - truth).abs() <= most)
-            && unpaired(&self.half_turns, wanted) <= most
-            && unpaired(lane, found) <= most
     }
 }
 

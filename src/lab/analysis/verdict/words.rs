@@ -202,7 +202,7 @@ impl Verdict {
                 })
             }
             (Outcome::DiesAway, _) => {
-                // What loses its fast modes at once may keep the slow ones for days.
+                // A body may lose its fast modes at once and keep the slow ones for days.
                 let most_s = MOST_HALVING_HORIZONS * self.horizon_s;
                 let halves_in_s = self.long_term.halves_in_s.filter(|&time| time <= most_s);
                 Some(self.change(halves_in_s, ["½", "halves"]))
