@@ -8,7 +8,8 @@ use std::process::{Command, Stdio};
 use std::time::Instant;
 
 use regatta::commands::manifest::fingerprint;
-use regatta::lab::{self, Scene, Studio};
+use regatta::scene::Scene;
+use regatta::studio::{StageCommand, Studio};
 use regatta::view::{AdapterPreference, Gpu, OffscreenRenderer, Panels, png};
 
 const ROUNDS: usize = 5;
@@ -87,7 +88,7 @@ fn stages(panels: Panels) -> Result<(f64, f64), String> {
     let renderer = OffscreenRenderer::new(gpu, SIZE_PX, 1.0).map_err(|error| error.to_string())?;
     let mut renderer = renderer.with_panels(panels);
     let mut studio = Studio::new(Scene::built_in("harbour").expect("a built-in scene"));
-    studio.apply(lab::studio::StageCommand::ToggleRace);
+    studio.apply(StageCommand::ToggleRace);
     studio.analyse();
     // All frames first drawn and then encoded: the system counts processor time too coarsely for one frame.
     let mut frames = Vec::new();

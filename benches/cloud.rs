@@ -8,9 +8,10 @@ use std::time::Instant;
 
 use multiversion::multiversion;
 use rayon::ThreadPoolBuilder;
-use regatta::lab::cloud::{Density, PlaneView};
-use regatta::lab::palette::Theme;
-use regatta::lab::{Scene, SceneBody};
+use regatta::look::density_picture;
+use regatta::look::palette::Theme;
+use regatta::measure::cloud::{Density, PlaneView};
+use regatta::scene::{Scene, SceneBody};
 use regatta::sim::batch::{Batch, InstructionSet, Ticks};
 use regatta::sim::bodies::BatchFn;
 use regatta::sim::integrators::method;
@@ -169,7 +170,7 @@ fn main() {
     let mut picture = || {
         let mut density = Density::new([512; 2], view);
         density.add(&places, &others);
-        black_box(density.picture_of_size([512; 2], Theme::Dark, [90, 180, 240, 255]));
+        black_box(density_picture(&density, [512; 2], Theme::Dark, [90, 180, 240, 255]));
     };
     let [seconds] = turns([&mut picture]);
     let word = if seconds <= 4e-3 { "met" } else { "missed" };

@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::time::Instant;
 
 use csv::ByteRecord;
-use regatta::lab::diff::{Records, Table, Tolerance, diff};
+use regatta::run::diff::{Records, Table, Tolerance, diff};
 
 /// The rows of each log.
 const ROWS: u32 = 1_000_000;

@@ -4,9 +4,10 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use regatta::lab::studio::{RunCommand, StageCommand, Studio};
-use regatta::lab::{LaneSpec, Scene, picture};
+use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::integrators::GENERAL_METHODS;
+use regatta::stage;
+use regatta::studio::{RunCommand, StageCommand, Studio};
 use regatta::view::{
     AdapterPreference, FrameRenderer, Gpu, Offscreen, OffscreenRenderer, Panels, Readback, png,
 };
@@ -53,7 +54,7 @@ fn measure(gpu: &Gpu, scene: Scene) {
     for _ in 0..WARM_UP {
         studio.advance(FRAME_NS);
     }
-    let shapes = picture::compose(&studio, STAGE_POINTS).shapes.len();
+    let shapes = stage::compose(&studio, STAGE_POINTS).shapes.len();
     let lanes = studio.race().entrants().len();
     for panels in [Panels::Shown, Panels::Off] {
         println!("\nharbour, {lanes} lanes, {shapes} shapes, 1280x720, panels {panels:?}");
@@ -119,7 +120,7 @@ fn frames(
         studio.apply(RunCommand::ThrottleUp);
         studio.advance(FRAME_NS);
         lap();
-        black_box(picture::compose(studio, STAGE_POINTS));
+        black_box(stage::compose(studio, STAGE_POINTS));
         lap();
         let input = egui::RawInput { time: Some(studio.race().t()), ..Default::default() };
         let (_, layout) = renderer.lay_out(gpu, SIZE_PX, 1.0, input, studio);

@@ -9,7 +9,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use regatta::lab::Scene;
+use regatta::scene::Scene;
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, Stepper};
 

@@ -5,7 +5,8 @@
 
 use std::time::{Duration, Instant};
 
-use regatta::lab::{LaneSpec, Scene, Session, Timeline};
+use regatta::run::{Session, Timeline};
+use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::integrators::GENERAL_METHODS;
 
 /// Ticks in ten minutes.

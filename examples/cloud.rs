@@ -1,6 +1,6 @@
 //! A cloud of a custom body: what two methods do to the area of two thousand starts.
 
-use regatta::lab::cloud::{Cloud, CloudShape, NoCloud};
+use regatta::measure::cloud::{Cloud, CloudShape, NoCloud};
 use regatta::prelude::*;
 
 /// A buoy in the swell, which floats up to its rim.

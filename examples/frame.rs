@@ -2,8 +2,8 @@
 
 use std::error::Error;
 
-use regatta::lab::Studio;
 use regatta::prelude::*;
+use regatta::studio::Studio;
 use regatta::view::{OffscreenRenderer, png};
 
 fn main() -> Result<(), Box<dyn Error>> {

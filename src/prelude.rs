@@ -5,12 +5,13 @@
 pub use glam;
 
 #[cfg(feature = "lab")]
-pub use crate::lab::picture::Mark;
+pub use crate::measure::{Adviser, CRITERIA, Judge, Report, Verdict};
 #[cfg(feature = "lab")]
-pub use crate::lab::{
-    Adviser, CRITERIA, Judge, Lane, LaneSpec, METRICS, Options, Race, Report, SCENES, Scene,
-    Session, Verdict,
-};
+pub use crate::run::{Lane, METRICS, Race, Session};
+#[cfg(feature = "lab")]
+pub use crate::scene::Mark;
+#[cfg(feature = "lab")]
+pub use crate::scene::{LaneSpec, Options, SCENES, Scene};
 #[cfg(feature = "lab")]
 pub use crate::sim::bodies::{BODIES, Extras};
 pub use crate::sim::integrators::{

@@ -4,7 +4,7 @@ use std::fs::{File, Metadata};
 use std::io::{self, Read};
 use std::path::Path;
 
-use crate::lab::link;
+use crate::run::link;
 
 /// The most bytes of a table that is read, a log of a motion or of frames: half an hour of frames at 144 Hz.
 pub(crate) const MAX_TABLE_BYTES: usize = 64 << 20;

@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use crate::lab::{Follow, Lane};
+use crate::run::{Follow, Lane};
 
 /// The fewest ticks that are timed together. Reading the clock takes as long as a few ticks of a small body, which is at
 /// most a hundredth of this many.
@@ -90,7 +90,7 @@ fn elapsed_in(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::Scene;
+    use crate::scene::Scene;
     use crate::sim::Solver;
     use crate::sim::integrators::method;
 

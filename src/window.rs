@@ -13,10 +13,10 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Fullscreen, WindowId};
 
-use crate::lab::analysis::AnalysisWorker;
-use crate::lab::cloud::CloudWorker;
-use crate::lab::loop_lab::LoopWorker;
-use crate::lab::studio::{
+use crate::loops::loop_lab::LoopWorker;
+use crate::measure::AnalysisWorker;
+use crate::measure::cloud::CloudWorker;
+use crate::studio::{
     Command, DriverRequest, PaceMeter, SceneList, StageCommand, Studio, ViewCommand,
 };
 use crate::view::Modifiers;
@@ -64,7 +64,7 @@ const MAX_SIMULATION: Duration = Duration::from_millis(50);
 /// The simulated length of the first frame after a pause, whose real length includes the pause.
 const FIRST_FRAME: Duration = Duration::ZERO;
 
-/// Opens a window on `lab` and runs it until it is closed. `files` reads the scene files that are opened in the window.
+/// Opens a window on `studio` and runs it until it is closed. `files` reads the scene files that are opened in the window.
 ///
 /// # Errors
 /// [`WindowError::NoDisplay`] if there is none, before any other error; the others at any time.
@@ -161,7 +161,7 @@ struct App {
 }
 
 impl App {
-    /// One frame: events → commands → lab → picture → screen.
+    /// One frame: events → commands → studio → picture → screen.
     fn frame(&mut self, event_loop: &ActiveEventLoop) {
         let now = Instant::now();
         self.redraw_owed = false;
@@ -275,7 +275,7 @@ impl App {
         if !self.studio.time_runs() {
             self.studio.viewer_mut().pass(i64::try_from(passed.as_nanos()).unwrap_or(i64::MAX));
         }
-        let last = self.seconds.map_or(u64::MAX, |s| self.studio.nearest_tick(s));
+        let last = self.seconds.map_or(u64::MAX, |s| self.studio.race().nearest_tick(s));
         let frame_ns = i64::try_from(frame.as_nanos()).unwrap_or(i64::MAX);
         self.studio.advance_in_time(last, frame_ns, &mut || now.elapsed() < MAX_SIMULATION);
         self.studio.viewer_mut().pace = Some(self.meter.pace());

@@ -8,10 +8,10 @@
 
 use std::path::PathBuf;
 
-use regatta::lab::scene::{BuiltIn, SCENES, Scene, SceneBody, Scripted};
-use regatta::lab::studio::{RunCommand, StageCommand, Studio};
-use regatta::lab::{Action, LaneSpec, Race};
+use regatta::run::Race;
+use regatta::scene::{Action, BuiltIn, LaneSpec, SCENES, Scene, SceneBody, Scripted};
 use regatta::sim::integrators::{GENERAL_METHODS, Method, method};
+use regatta::studio::{RunCommand, StageCommand, Studio};
 
 /// Ticks after which the hash is taken: 28 minutes at 60 Hz. For a scene of many coordinates fewer, so
 /// that it takes no longer than one of four.

@@ -12,10 +12,11 @@ use super::id::{FAMILY, LANGUAGE};
 use super::interrupt::watch_for_interrupt;
 use super::output::table::TableFormat;
 use super::{jobs, scene_file};
-use crate::lab::race::Mode;
-use crate::lab::source_code::Language;
-use crate::lab::{Adviser, LaneSpec, Scene};
+use crate::measure::Adviser;
+use crate::run::race::Mode;
+use crate::scene::{LaneSpec, Scene};
 use crate::sim::integrators::{Family, METHODS};
+use crate::tools::source_code::Language;
 
 mod judged;
 mod report;

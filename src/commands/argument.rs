@@ -4,8 +4,8 @@ use std::path::Path;
 
 use clap::error::{ContextKind, ContextValue};
 
-use crate::lab::{clip, cut};
 use crate::regular_file::is_link;
+use crate::scene::{clip, cut};
 
 /// The most characters of an argument in a message: more than a person writes, and no more than a few lines.
 const MAX_SHOWN_CHARS: usize = 300;

@@ -17,11 +17,11 @@ use super::picture_format::{self, PictureFormat, Writing};
 use super::schedule::{FPS, MAX_FPS, Schedule, frames_in};
 use super::{clip, movie, sheet, state_log};
 use crate::atomic_file::IfExists;
-use crate::lab::cloud::{CloudKind, CloudShape};
-use crate::lab::pacing::TraceCard;
-use crate::lab::palette::Theme;
-use crate::lab::race::Mode;
-use crate::lab::studio::Instrument;
+use crate::look::palette::Theme;
+use crate::loops::TraceCard;
+use crate::measure::cloud::{CloudKind, CloudShape};
+use crate::run::race::Mode;
+use crate::studio::Instrument;
 
 const EXAMPLES: &str = "\
 Frame i shows the run at i / fps seconds. The same command makes the same bytes. manifest.json,

@@ -1,9 +1,9 @@
 //! The settings with which a run is drawn.
 
 use super::schedule::Schedule;
-use crate::lab::cloud::{CloudChoice, CloudKind};
-use crate::lab::palette::Theme;
-use crate::lab::studio::{Instrument, Motion, RunCommand, Studio};
+use crate::look::palette::Theme;
+use crate::measure::cloud::{CloudChoice, CloudKind};
+use crate::studio::{Instrument, Motion, RunCommand, Studio};
 
 /// How a run is drawn: its frames, their size and what they show.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +26,7 @@ pub(super) struct CaptureSettings {
 }
 
 impl CaptureSettings {
-    /// The lab of an experiment at the start of the run, as it is drawn.
+    /// The studio of an experiment at the start of the run, as it is drawn.
     pub(super) fn dress(&self, mut studio: Studio) -> Studio {
         studio.viewer_mut().preferences.display.motion =
             if self.motion { Motion::Recorded } else { Motion::Reduced };

@@ -13,7 +13,7 @@ use super::pipeline::{DrawnFrame, Pipeline};
 use super::settings;
 use super::state_log::{self, StateLog};
 use super::terminal::{print_status, report_left_alone};
-use crate::lab::Studio;
+use crate::studio::Studio;
 use crate::view::png;
 
 /// Draws the run of `studio`, which the experiment begins, into `folder` and reports on standard error what it wrote.

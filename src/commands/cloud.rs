@@ -21,11 +21,11 @@ use super::output::table::{Column, RowFormat, write_rows};
 use super::output::{Destination, STDOUT};
 use super::terminal::print_status;
 use crate::atomic_file::IfExists;
-use crate::lab::cloud::{
+use crate::measure::cloud::{
     Cloud, CloudBody, CloudMeasure, CloudShape, CloudStart, NoCloud, USUAL_POINTS,
 };
-use crate::lab::race::Mode;
-use crate::lab::{LaneSpec, Scene, SceneBody};
+use crate::run::race::Mode;
+use crate::scene::{LaneSpec, Scene, SceneBody};
 
 const ABOUT: &str = "\
 The starts fill the shape evenly about the scene's start, in the plane of the coordinate and the

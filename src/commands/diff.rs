@@ -11,7 +11,7 @@ use super::numbers::number_that;
 use super::output::table::TableFormat;
 use super::scene_file::shown;
 use super::visible::visible_in_a_line;
-use crate::lab::diff::{Comparison, Difference, LEVELS, MAX_WAITING, Tolerance, diff};
+use crate::run::diff::{Comparison, Difference, LEVELS, MAX_WAITING, Tolerance, diff};
 use crate::sim::number::counted;
 
 mod source;

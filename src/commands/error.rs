@@ -8,7 +8,7 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::argument::brief;
 use super::visible::visible;
-use crate::lab::scene::{Mistake, SceneErrors};
+use crate::scene::{Mistake, SceneErrors};
 #[cfg(feature = "view")]
 use crate::view::{GpuError, ReadbackError};
 

@@ -11,14 +11,13 @@ use super::id::{METHOD, TRACE};
 use super::output::Input;
 use super::scene_file;
 use super::spring::SpringArgs;
-use crate::lab::LaneSpec;
-use crate::lab::pacing::{TRACES, TraceCard};
-use crate::lab::palette::Theme;
-use crate::lab::race::{Mode, lanes_that_race};
-use crate::lab::scene::{MAX_SECONDS, SCENES, Scene, SceneGroup};
-use crate::lab::studio::{Studio, lineup};
+use crate::look::palette::Theme;
+use crate::loops::{TRACES, TraceCard};
+use crate::run::race::{Mode, lanes_that_race};
+use crate::scene::{LaneSpec, MAX_SECONDS, SCENES, Scene, SceneGroup};
 use crate::sim::Clock;
 use crate::sim::integrators::Method;
+use crate::studio::{Studio, lineup};
 
 /// The options that choose a scene, its methods and its tick rate.
 #[derive(Clone, Debug, Args)]
@@ -139,7 +138,7 @@ impl Experiment {
         self.mode == Mode::Race && self.selected.is_none()
     }
 
-    /// The lab at tick 0. A single lane is shown solo.
+    /// The studio at tick 0. A single lane is shown solo.
     pub(super) fn studio(&self) -> Studio {
         let mut studio = Studio::opened(self.scene.clone(), self.selected, self.mode);
         if let Some(card) = self.loop_trace {
@@ -249,8 +248,8 @@ pub(super) fn trace_names() -> Vec<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::studio::MANY_LANES;
     use crate::sim::integrators::METHODS;
+    use crate::studio::MANY_LANES;
 
     #[derive(clap::Parser)]
     struct Line {

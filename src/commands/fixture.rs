@@ -9,8 +9,9 @@ use super::help::flowing;
 use super::output::{print, print_json};
 use super::terminal::print_status;
 use super::trace::Reached;
-use crate::lab::race::Mode;
-use crate::lab::{Scene, Studio};
+use crate::run::race::Mode;
+use crate::scene::Scene;
+use crate::studio::Studio;
 
 const ABOUT: &str = "\
 The table has ticks with coordinates and velocities, in metres or radians and per second, to the last
@@ -125,7 +126,7 @@ pub(super) fn run(args: &FixtureArgs) -> Result<(), Error> {
     let seconds = args.seconds.unwrap_or(experiment.scene.seconds);
     let mut studio = experiment.studio();
     let scene = Scene { seconds, ..studio.scene().clone() };
-    let last = studio.nearest_tick(seconds);
+    let last = studio.race().nearest_tick(seconds);
     let mut states: Vec<States> = scene.bodies.iter().map(|_| States::default()).collect();
     note(&mut states, &studio, args);
     while studio.race().tick() < last {

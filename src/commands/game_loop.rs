@@ -20,12 +20,12 @@ use super::plot::Plot;
 use super::scene_file;
 use super::trace_source::traces;
 use crate::atomic_file::IfExists;
-use crate::lab::analysis::Unit;
-use crate::lab::pacing::{
+use crate::loops::{
     FrameTrace, MIN_RUN_S, PACING_METRICS, POLICIES, PacingMetric, PolicyCard, RefreshRate,
     USUAL_LATENCY_MS, trace_card,
 };
-use crate::lab::{LaneSpec, Scene};
+use crate::run::Unit;
+use crate::scene::{LaneSpec, Scene};
 use crate::sim::Clock;
 use crate::sim::integrators::Method;
 use crate::sim::number::counted;

@@ -5,8 +5,8 @@ use clap::{Args, Command};
 use super::argument::brief;
 use super::error::Error;
 use super::output::print;
-use crate::lab::scene::nearest;
 use crate::manual::{CHAPTERS, chapter};
+use crate::scene::nearest;
 
 const EXAMPLES: &str = "\
 Examples:

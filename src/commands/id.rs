@@ -4,12 +4,12 @@ use std::ffi::OsStr;
 
 use clap::builder::{PossibleValue, TypedValueParser};
 
-use crate::lab::cloud::{CloudKind, CloudShape};
-use crate::lab::pacing::{POLICIES, PolicyCard, TRACES, TraceCard};
-use crate::lab::scene::nearest;
-use crate::lab::source_code::Language;
-use crate::lab::studio::Instrument;
+use crate::loops::{POLICIES, PolicyCard, TRACES, TraceCard};
+use crate::measure::cloud::{CloudKind, CloudShape};
+use crate::scene::nearest;
 use crate::sim::integrators::{Family, METHODS, Method};
+use crate::studio::Instrument;
+use crate::tools::source_code::Language;
 
 /// One kind of ids, and what each stands for.
 #[derive(Clone, Copy)]

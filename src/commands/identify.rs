@@ -9,8 +9,8 @@ use super::error::Error;
 use super::help::flowing;
 use super::numbers::{number, number_that, positive};
 use super::output::table::TableFormat;
-use crate::lab::identify::{ColumnNames, Log, LogError, LogSetting, LoggedBody, identify};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
+use crate::tools::identify::{ColumnNames, Log, LogError, LogSetting, LoggedBody, identify};
 
 mod findings;
 

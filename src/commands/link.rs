@@ -10,7 +10,8 @@ use super::output::print;
 use super::scene_file;
 use super::terminal::print_status;
 use super::verify::recording::{checks_of, refuse_late_checks};
-use crate::lab::link::{self, MAX_LETTERS};
+use crate::run::link;
+use crate::run::link::MAX_LETTERS;
 
 const ABOUT: &str = "\
 The link holds the scene, its lanes, its script and the hashes at its end, so that `regatta verify LINK`

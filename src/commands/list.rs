@@ -8,14 +8,14 @@ use serde_json::{Value, json};
 use super::error::Error;
 use super::help::flowing;
 use super::output::table::{self, Column, TableFormat};
-use crate::lab::analysis::{METRICS, Metric, Scale};
-use crate::lab::pacing::{POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
-use crate::lab::scene::{BuiltIn, SCENES, Scene, SceneKey, scene_tables};
-use crate::lab::studio::{Binding, KEYS};
+use crate::loops::{POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
+use crate::run::{METRICS, Metric, Scale};
+use crate::scene::{BuiltIn, SCENES, Scene, SceneKey, scene_tables};
 use crate::sim::BodyClass;
 use crate::sim::bodies::{BODIES, Body, Coordinate, Kind, Net, Parameter, stepped_kinds};
 use crate::sim::integrators::{FreeSpin, METHODS, Method, SpinMap};
 use crate::sim::law::{UNITS, functions, operators, values};
+use crate::studio::{Binding, KEYS};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -27,13 +27,13 @@
 //!   `lanes` its `hash` and, body by body, `q` and `v`; a value that is not finite, which JSON cannot
 //!   write as a number, is one of the strings `inf`, `-inf` and `NaN`.
 //!
-//! A lane's `hash` is [`Race::lane_hashes`](crate::lab::Race::lane_hashes). The other hashes are XXH3's
+//! A lane's `hash` is [`Race::lane_hashes`](crate::run::Race::lane_hashes). The other hashes are XXH3's
 //! 64 bits ([`fingerprint`]). All are hexadecimal. There is no seed, because nothing in a run is random.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use crate::lab::diff::is_same_number;
+use crate::run::diff::is_same_number;
 
 pub use super::fingerprint::fingerprint;
 

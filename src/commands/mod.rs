@@ -93,7 +93,7 @@ use play::PlayArgs;
 pub use terminal::{print_error, print_status, stderr_renderer};
 pub use visible::visible;
 
-use crate::lab::clip as shortened;
+use crate::scene::clip as shortened;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -14,7 +14,7 @@ use super::pipeline::{DrawnFrame, Pipeline};
 use super::schedule::Schedule;
 use super::state_log::StateLog;
 use super::terminal::print_status;
-use crate::lab::Studio;
+use crate::studio::Studio;
 
 /// A stream of frames being encoded.
 pub(super) trait Movie: Send {

@@ -16,8 +16,8 @@ use super::jobs;
 use super::schedule::Schedule;
 use super::state_log::StateLog;
 use super::terminal::progress;
-use crate::lab::Studio;
-use crate::lab::cloud::CloudWorker;
+use crate::measure::cloud::CloudWorker;
+use crate::studio::Studio;
 use crate::view::{OffscreenRenderer, Panels, ReadbackError};
 
 /// Frames that the device draws at a time. More gain nothing on a software adapter and cost memory.
@@ -213,8 +213,8 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use crate::lab::Scene;
-    use crate::lab::studio::StageCommand;
+    use crate::scene::Scene;
+    use crate::studio::StageCommand;
     use crate::view::{AdapterPreference, Gpu};
 
     /// More frames than there are buffers.

@@ -14,17 +14,16 @@ use super::frame_folder::FrameFolder;
 use super::help::flowing;
 use super::interrupt::tell_of_interrupt;
 use super::output::{Destination, Output};
-use super::preferences;
 use super::schedule::{FPS, Schedule, frames_in};
 use super::terminal::print_status;
 use super::unfinished::{self, UnfinishedRecording};
-use super::{clip, scene_file, state_log};
+use super::{clip, preferences, scene_file, state_log};
 use crate::atomic_file::IfExists;
-use crate::lab::pacing::TraceCard;
-use crate::lab::palette::Theme;
-use crate::lab::race::Mode;
-use crate::lab::studio::{Motion, SavedPreferences, Studio};
+use crate::look::palette::Theme;
+use crate::loops::TraceCard;
+use crate::run::race::Mode;
 use crate::sim::number::counted;
+use crate::studio::{Motion, SavedPreferences, Studio};
 use crate::window::{self, Closed, SceneFiles, WindowError, WindowSettings};
 
 const EXAMPLES: &str = "\
@@ -216,7 +215,7 @@ fn without_display(
         theme: args.theme.map(Theme::from).unwrap_or_default(),
         mark_every: state_log::usual_stride(schedule.ticks(&studio)),
     };
-    let last = args.seconds.map(|seconds| studio.nearest_tick(seconds));
+    let last = args.seconds.map(|seconds| studio.race().nearest_tick(seconds));
     let mut studio = clip::record(experiment, studio, capture, folder)?;
     // The last frame is before the end.
     while last.is_some_and(|last| studio.race().tick() < last) {

@@ -10,12 +10,12 @@ use super::id::Id;
 use super::identify::{LogArgs, rate};
 use super::numbers::{frequency, number, positive};
 use super::output::table::TableFormat;
-use crate::lab::port::{
+use crate::scene::MAX_SUBSTEPS;
+use crate::sim::integrators::{METHODS, Method};
+use crate::tools::port::{
     DIALECTS, Dialect, DriveLimits, Ported, Setup, Wish, drive_limits, followers, setups,
 };
-use crate::lab::scene::MAX_SUBSTEPS;
-use crate::lab::{identify, port};
-use crate::sim::integrators::{METHODS, Method};
+use crate::tools::{identify, port};
 
 mod from;
 mod report;

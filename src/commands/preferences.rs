@@ -10,9 +10,9 @@ use directories::ProjectDirs;
 use super::output::begin_file;
 use super::terminal::print_status;
 use crate::atomic_file::IfExists;
-use crate::lab::scene::MAX_FILE_BYTES;
-use crate::lab::studio::{SavedPreferences, Studio};
 use crate::regular_file;
+use crate::scene::MAX_FILE_BYTES;
+use crate::studio::{SavedPreferences, Studio};
 
 /// The name of the file.
 const FILE_NAME: &str = "window.toml";

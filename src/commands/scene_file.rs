@@ -6,10 +6,10 @@ use super::argument::brief;
 use super::error::Error;
 use super::output::Input;
 use super::terminal::print_status;
-use crate::lab::link;
-use crate::lab::scene::{BuiltIn, MAX_FILE_BYTES, SCENES, Scene, SceneErrors, nearest};
 pub(super) use crate::regular_file::is_link;
 use crate::regular_file::{self, Unreadable};
+use crate::run::link;
+use crate::scene::{BuiltIn, MAX_FILE_BYTES, SCENES, Scene, SceneErrors, nearest};
 use crate::sim::integrators::Method;
 
 /// The built-in scene of that name, or the scene in the file at that path or in that link, and its text.

@@ -3,9 +3,9 @@
 
 use super::error::Error;
 use super::frame_names::MAX_FRAMES;
-use crate::lab::Studio;
-use crate::lab::pacing::MAX_FRAME_MS;
-use crate::lab::race::Observer;
+use crate::loops::MAX_FRAME_MS;
+use crate::run::race::Observer;
+use crate::studio::Studio;
 
 /// The usual frames per simulated second: smooth enough for every scene, at half the files and half the time of 60.
 pub(super) const FPS: u32 = 30;
@@ -42,7 +42,7 @@ impl Schedule {
 
     /// The tick nearest to the last frame, for a studio that stands at the start.
     pub(super) fn ticks(self, studio: &Studio) -> u64 {
-        studio.nearest_tick(f64::from(self.frames.saturating_sub(1)) / f64::from(self.fps))
+        studio.race().nearest_tick(f64::from(self.frames.saturating_sub(1)) / f64::from(self.fps))
     }
 
     /// Advances a studio that stands at the frame before `frame`, or at the start, to `frame`, before the eyes of an
@@ -76,7 +76,8 @@ fn until_rate_changes(studio: &Studio) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Race, Scene};
+    use crate::run::Race;
+    use crate::scene::Scene;
 
     #[test]
     fn a_frame_shows_its_moment_whatever_tick_rates_a_script_sets() {

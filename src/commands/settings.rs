@@ -7,13 +7,12 @@ use super::frame_names::{MAX_FRAMES, frame_name};
 use super::id::{CLOUD, INSTRUMENT, TRACE};
 use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings};
 use super::schedule::{MAX_FPS, Schedule};
-use crate::lab::palette::Theme;
-use crate::lab::race::Mode;
-use crate::lab::scene::{MAX_LANES, MAX_SUBSTEPS, Scene, TOLERANCES};
-use crate::lab::studio::Instrument;
-use crate::lab::{LaneSpec, Swing};
+use crate::look::palette::Theme;
+use crate::run::race::Mode;
+use crate::scene::{LaneSpec, MAX_LANES, MAX_SUBSTEPS, Scene, Swing, TOLERANCES};
 use crate::sim::Clock;
 use crate::sim::integrators::method;
+use crate::studio::Instrument;
 
 /// The light theme in a manifest; the dark one is not written.
 const LIGHT: &str = "light";

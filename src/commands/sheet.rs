@@ -10,9 +10,10 @@ use super::interrupt::watch_for_interrupt;
 use super::output::Output;
 use super::pipeline::complete_analysis;
 use super::terminal::{print_status, progress};
-use crate::lab::cloud::CloudWorker;
-use crate::lab::race::Mode;
-use crate::lab::{LaneSpec, Studio};
+use crate::measure::cloud::CloudWorker;
+use crate::run::race::Mode;
+use crate::scene::LaneSpec;
+use crate::studio::Studio;
 use crate::view::png;
 
 /// The most pixels of a sheet, a gigabyte of memory.

@@ -7,9 +7,9 @@ use super::help::flowing;
 use super::id::{Id, LANGUAGE, METHOD, POLICY};
 use super::output::print;
 use super::terminal::print_status;
-use crate::lab::pacing::PolicyCard;
-use crate::lab::source_code::{Language, Precision, source_code};
+use crate::loops::PolicyCard;
 use crate::sim::integrators::{METHODS, Method};
+use crate::tools::source_code::{Language, Precision, source_code};
 
 const ABOUT: &str = "\
 The function makes one step of h seconds for one coordinate: of its position x, its velocity v and

@@ -4,8 +4,8 @@ use clap::Args;
 
 use super::error::Error;
 use super::numbers::{frequency, number, positive};
-use crate::lab::Scene;
-use crate::lab::studio::MySpring;
+use crate::scene::Scene;
+use crate::studio::MySpring;
 
 /// The options that describe a spring.
 #[derive(Clone, Copy, Debug, Default, Args)]

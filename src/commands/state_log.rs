@@ -3,9 +3,10 @@
 use serde_json::{Map, Value};
 
 use super::manifest::{LaneEnd, LaneMark, Mark};
-use crate::lab::race::{Observer, Race};
-use crate::lab::{METRICS, Studio};
+use crate::run::METRICS;
+use crate::run::race::{Observer, Race};
 use crate::sim::Solver;
+use crate::studio::Studio;
 
 /// The default number of marks in a run. They locate a difference to within a few ticks, and the manifest of a race stays
 /// below a megabyte.
@@ -61,7 +62,7 @@ fn mark(race: &Race) -> Mark {
 /// Each lane at the end, with its metrics against the truth.
 pub(super) fn ends(studio: &Studio) -> Vec<LaneEnd> {
     let race = studio.race();
-    let end = |(entrant, hash): (&crate::lab::race::Entrant, u64)| {
+    let end = |(entrant, hash): (&crate::run::race::Entrant, u64)| {
         let lane = &entrant.lane;
         let bodies = lane.bodies().iter().zip(race.truth().bodies()).zip(&studio.scene().bodies);
         let bodies = bodies.map(|((body, truth), named)| {
@@ -93,7 +94,7 @@ fn method_id(solver: Solver) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::Scene;
+    use crate::scene::Scene;
 
     #[test]
     fn marks_are_made_at_the_start_at_each_stride_and_at_the_end() {

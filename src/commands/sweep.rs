@@ -18,7 +18,7 @@ use super::plot::Plot;
 use super::scene_file;
 use super::spring::SpringArgs;
 use crate::atomic_file::IfExists;
-use crate::lab::{SCENES, Scene, SceneBody};
+use crate::scene::{SCENES, Scene, SceneBody};
 use crate::sim::Clock;
 use crate::sim::bodies::incompatibility;
 use crate::sim::integrators::{METHODS, Method};

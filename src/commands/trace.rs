@@ -11,11 +11,11 @@ use super::help::flowing;
 use super::output::Output;
 use super::output::table::{RowFormat, RowWriter};
 use super::terminal::print_status;
-use crate::lab::race::Mode;
-use crate::lab::race::{Lane, LaneBody};
-use crate::lab::trace::{COLUMNS, each_row, method_id};
-use crate::lab::{SceneBody, Studio};
+use crate::run::race::{Lane, LaneBody, Mode};
+use crate::run::trace::{COLUMNS, each_row, method_id};
+use crate::scene::SceneBody;
 use crate::sim::bodies::Truth;
+use crate::studio::Studio;
 
 const EXAMPLES: &str = "\
 One row for each tick, lane, body and coordinate:
@@ -70,7 +70,7 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
     let at_start: Vec<Truth> = studio.race().truth().bodies().iter().map(LaneBody::truth).collect();
     let mut trace = Trace::begin(args)?;
     trace.tick(&studio)?;
-    let last = studio.nearest_tick(seconds);
+    let last = studio.race().nearest_tick(seconds);
     let mut reached = vec![Reached::default(); experiment.scene.bodies.len()];
     while studio.race().tick() < last {
         studio.tick();

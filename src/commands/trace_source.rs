@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use super::argument::brief;
 use super::error::Error;
-use crate::lab::pacing::{FrameTrace, RefreshRate, TRACES, steady_trace, trace_card, trace_file};
-use crate::lab::scene::nearest;
+use crate::loops::{FrameTrace, RefreshRate, TRACES, steady_trace, trace_card, trace_file};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
+use crate::scene::nearest;
 
 /// The refresh rate of a trace that any display will do for.
 const USUAL: RefreshRate = RefreshRate::new(60, 1);

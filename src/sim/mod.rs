@@ -8,6 +8,8 @@ mod accumulator;
 #[cfg(feature = "batch")]
 pub mod batch;
 #[cfg(feature = "lab")]
+pub(crate) mod bisection;
+#[cfg(feature = "lab")]
 pub mod bodies;
 mod body;
 mod body_stepper;

@@ -4,7 +4,7 @@
 use super::gpu::Gpu;
 use super::screen_transform::ScreenTransform;
 use super::textures::{takes_copies, texture};
-use crate::lab::picture::{Picture, Sea, Shape};
+use crate::stage::{Picture, Sea, Shape};
 
 /// The texture is drawn again once this many more shapes have been still for this many frames.
 const WORTH_DRAWING: (usize, u32) = (16, 8);
@@ -123,7 +123,8 @@ impl Scenery {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::picture::{Path, PathPoint, Rect, Rgba};
+    use crate::look::palette::Rgba;
+    use crate::stage::{Path, PathPoint, Rect};
     use crate::view::Offscreen;
     use crate::view::stage::{Stage, StageRenderer};
     use crate::view::testing::{EVERYWHERE, draw_next, draw_picture, gpu_or_skip};

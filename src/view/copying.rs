@@ -1,8 +1,8 @@
 //! What is copied to the clipboard, and what is said of it.
 
 use super::panels;
-use crate::lab::source_code::{Precision, source_code};
-use crate::lab::studio::{Display, DriverRequest, Studio};
+use crate::studio::{Display, DriverRequest, Studio};
+use crate::tools::source_code::{Precision, source_code};
 
 /// A text for the clipboard.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -69,7 +69,7 @@ pub fn copied(studio: &Studio, request: DriverRequest) -> Option<Result<Copied, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::Scene;
+    use crate::scene::Scene;
 
     #[test]
     fn without_a_clipboard_a_notice_says_why_and_names_the_command_that_prints_the_method() {

@@ -12,8 +12,9 @@ use super::stage::{Stage, StageRenderer};
 use super::textures::{Start, pass};
 use super::theme::{self, auto_zoom, colour};
 use super::touch::Touch;
-use crate::lab::picture::{self, Align, Label};
-use crate::lab::studio::{Command, Studio, ViewCommand};
+use crate::stage;
+use crate::stage::{Align, Label};
+use crate::studio::{Command, Studio, ViewCommand};
 
 /// Where the copies of a label lie that make its halo, in points.
 const HALO: [[f32; 2]; 4] = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
@@ -124,7 +125,7 @@ impl FrameRenderer {
                 }
             };
             let size = rect.size().max(egui::Vec2::ZERO);
-            let picture = picture::compose(studio, size.into());
+            let picture = stage::compose(studio, size.into());
             touch.show(ui, rect, &picture, studio, &mut commands);
             if was_down && !is_down {
                 commands.push(Command::View(ViewCommand::PointerDown(false)));

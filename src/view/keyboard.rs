@@ -1,6 +1,6 @@
 //! From a keyboard, as a window or a browser tells of it, to the program's keys and their commands.
 
-use crate::lab::studio::{Command, Key, command_for};
+use crate::studio::{Command, Key, command_for};
 
 /// The modifier keys that are held down.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -124,7 +124,7 @@ fn works_widgets(key: Key) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::studio::{KEYS, StageCommand};
+    use crate::studio::{KEYS, StageCommand};
 
     fn pressed(place: Option<char>, text: &str, shift: bool) -> Option<Key> {
         held(place, text, Modifiers { shift, ..Modifiers::default() })

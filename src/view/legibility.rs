@@ -8,16 +8,16 @@ use rayon::prelude::*;
 use super::frame::write;
 use super::testing::{ShownText, TestWindow};
 use super::{panels, theme};
-use crate::lab::cloud::{CloudChoice, CloudKind, CloudWorker};
-use crate::lab::loop_lab::LoopCommand;
-use crate::lab::palette::Theme;
-use crate::lab::picture::compose;
-use crate::lab::studio::guide::STOPS;
-use crate::lab::studio::{
+use crate::look::palette::Theme;
+use crate::loops::loop_lab::LoopCommand;
+use crate::measure::cloud::{CloudChoice, CloudKind, CloudWorker};
+use crate::scene::{SCENES, Scene};
+use crate::stage::compose;
+use crate::studio::guide::STOPS;
+use crate::studio::{
     Arrangement, Command, INSTRUMENTS, Instrument, InstrumentGroup, Motion, RunCommand,
     SCALE_LADDER, StageCommand, Step, Studio, ViewCommand,
 };
-use crate::lab::{SCENES, Scene};
 
 /// Sizes of windows in points: the first is the least, the last has four times the usual pixels.
 const SIZES: [Vec2; 4] =
@@ -120,7 +120,7 @@ fn faults(studio: &Studio, size: Vec2) -> Vec<String> {
     faults
 }
 
-/// A lab on the scene of this name, some seconds after its start.
+/// A studio on the scene of this name, some seconds after its start.
 fn run(name: &str, race: bool) -> Studio {
     started(Scene::built_in(name).expect("a built-in scene"), race)
 }

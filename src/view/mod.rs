@@ -1,4 +1,4 @@
-//! Pixels: a graphics device, the pipelines that draw a [`Picture`](crate::lab::picture::Picture),
+//! Pixels: a graphics device, the pipelines that draw a [`Picture`](crate::stage::Picture),
 //! and the one function that draws a frame.
 //!
 //! A window, a screenshot and a capture all call [`FrameRenderer::draw`] on a texture view; what
@@ -51,11 +51,11 @@ pub use readback::{Readback, ReadbackError};
 pub use screen::Screen;
 
 /// The values of the instrument shown, as lines of comma-separated text under a heading; `None` if it has no plots.
-pub fn instrument_csv(studio: &crate::lab::Studio) -> Option<Vec<String>> {
+pub fn instrument_csv(studio: &crate::studio::Studio) -> Option<Vec<String>> {
     panels::csv(studio)
 }
 
 /// The plots of the instrument shown, as an SVG file; `None` if it has none.
-pub fn instrument_svg(studio: &crate::lab::Studio) -> Option<String> {
+pub fn instrument_svg(studio: &crate::studio::Studio) -> Option<String> {
     panels::svg(studio)
 }

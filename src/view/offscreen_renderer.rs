@@ -4,7 +4,7 @@ use super::{
     AdapterPreference, Figure, FrameRenderer, Gpu, GpuError, Offscreen, Panels, Readback,
     ReadbackError,
 };
-use crate::lab::Studio;
+use crate::studio::Studio;
 
 /// Draws a studio into memory.
 pub struct OffscreenRenderer {

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::gpu::Gpu;
-use crate::lab::picture::Rect;
+use crate::stage::Rect;
 
 /// `ScreenTransform` in `shaders/screen_transform.wgsl`.
 #[repr(C)]

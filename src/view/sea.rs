@@ -7,7 +7,7 @@ use bytemuck::{Pod, Zeroable};
 use super::gpu::Gpu;
 use super::mesh_buffer::MeshBuffer;
 use super::screen_transform::{ScreenTransform, pipeline};
-use crate::lab::picture::Sea;
+use crate::stage::Sea;
 
 const SHADER: &str = concat!(
     include_str!("../../shaders/screen_transform.wgsl"),
@@ -69,7 +69,7 @@ impl SeaPipeline {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::picture::{Picture, Rect};
+    use crate::stage::{Picture, Rect};
     use crate::view::testing::{draw_picture, gpu_or_skip};
 
     #[test]

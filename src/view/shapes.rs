@@ -9,7 +9,8 @@ use super::lines::{Joint, shown};
 use super::screen_transform::ScreenTransform;
 use super::strokes::{StrokeMesh, StrokePipeline};
 use super::theme::colour;
-use crate::lab::picture::{self, PathPoint, Shape};
+use crate::stage;
+use crate::stage::{PathPoint, Shape};
 
 /// Draws a picture's shapes.
 #[derive(Debug)]
@@ -26,7 +27,7 @@ struct Draw {
     indices: Range<u32>,
 }
 
-fn clip(shape: &Shape) -> picture::Rect {
+fn clip(shape: &Shape) -> stage::Rect {
     match shape {
         Shape::Path(path) => path.clip,
         Shape::Fill(fill) => fill.clip,
@@ -103,7 +104,8 @@ fn joint(point: &PathPoint) -> Joint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::picture::{self, Fill, Path, Picture};
+    use crate::stage;
+    use crate::stage::{Fill, Path, Picture};
     use crate::view::testing::{EVERYWHERE, Pixels, draw_picture, gpu_or_skip};
 
     const SOLID: [f32; 2] = [1.0, 0.0];
@@ -112,7 +114,7 @@ mod tests {
         PathPoint { at, radius, colour: [255; 4] }
     }
 
-    fn draw(gpu: &Gpu, points: &[PathPoint], clip: picture::Rect) -> Pixels {
+    fn draw(gpu: &Gpu, points: &[PathPoint], clip: stage::Rect) -> Pixels {
         let path = Path { points: points.to_vec(), dash: SOLID, clip };
         draw_picture(
             gpu,
@@ -147,7 +149,7 @@ mod tests {
     #[test]
     fn nothing_is_drawn_outside_the_clip() {
         let Some(gpu) = gpu_or_skip("nothing_is_drawn_outside_the_clip") else { return };
-        let clip = picture::Rect { min: [20.0, 30.0], max: [40.0, 34.0] };
+        let clip = stage::Rect { min: [20.0, 30.0], max: [40.0, 34.0] };
         let pixels = draw(&gpu, &[[-9e4, 32.0], [9e4, 32.0]].map(|at| point(at, 10.0)), clip);
         assert_eq!(pixels.lit(), 20 * 4);
         assert_eq!((pixels.at(20, 30)[0], pixels.at(39, 33)[0]), (255, 255));

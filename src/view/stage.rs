@@ -8,7 +8,7 @@ use super::screen_transform::{ScreenBindGroup, ScreenTransform};
 use super::sea::SeaPipeline;
 use super::shapes::ShapeRenderer;
 use super::textures::{Start, pass};
-use crate::lab::picture::{FAR, Picture, Rect};
+use crate::stage::{FAR, Picture, Rect};
 
 /// What clips nothing.
 const EVERYWHERE: Rect = Rect { min: [-FAR; 2], max: [FAR; 2] };

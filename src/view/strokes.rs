@@ -212,7 +212,8 @@ impl StrokePipeline {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::picture::{Path, PathPoint, Picture, Rect, Rgba, Shape};
+    use crate::look::palette::Rgba;
+    use crate::stage::{Path, PathPoint, Picture, Rect, Shape};
     use crate::view::testing::{EVERYWHERE, Pixels, draw_picture, gpu_or_skip};
 
     const SOLID: [f32; 2] = [1.0, 0.0];

@@ -8,8 +8,8 @@ use egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Ui, Vec2};
 use super::panels::RING;
 use super::stage::Stage;
 use super::{AdapterPreference, Gpu, Offscreen, Readback, panels, theme};
-use crate::lab::picture::{Picture, Rect};
-use crate::lab::studio::{Command, Studio};
+use crate::stage::{Picture, Rect};
+use crate::studio::{Command, Studio};
 use crate::view::stage::StageRenderer;
 use crate::view::textures::pass;
 

@@ -2,14 +2,14 @@
 
 use std::sync::LazyLock;
 
-use egui::{Color32, CornerRadius, Stroke, Ui};
-use egui::{FontData, FontDefinitions, FontFamily, FontId, FontTweak};
+use egui::{
+    Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, FontTweak, Stroke, Ui,
+};
 
 use super::missing_glyph;
-use crate::lab::LaneSpec;
-use crate::lab::palette::{Palette, Theme};
-use crate::lab::picture::Rgba;
-use crate::lab::studio::Display;
+use crate::look::palette::{Palette, Rgba, Theme};
+use crate::scene::LaneSpec;
+use crate::studio::Display;
 
 /// The colours of panels, as egui wants them.
 #[derive(Debug)]

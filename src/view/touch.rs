@@ -7,10 +7,10 @@ use egui::{Align2, CursorIcon, Event, FontId, PointerButton, Pos2, Rect, Stroke,
 
 use super::theme::{TYPE, palette};
 use super::wheel;
-use crate::lab::Action;
-use crate::lab::picture::{Cell, Grasp, Picture, Whose};
-use crate::lab::race::Mode;
-use crate::lab::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand, ZoomPan};
+use crate::run::race::Mode;
+use crate::scene::Action;
+use crate::stage::{Cell, Grasp, Picture, Whose};
+use crate::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand, ZoomPan};
 
 /// From this distance on, in points, a press is a drag: less is a hand that trembles.
 const DRAG: f32 = 3.0;
@@ -125,7 +125,7 @@ impl Touch {
         self.point_out(ui, &stage, hover, time);
     }
 
-    /// The lab may have released the body itself (Escape), or may still hold one that this state forgot.
+    /// The studio may have released the body itself (Escape), or may still hold one that this state forgot.
     fn agree_with(&mut self, studio: &Studio, commands: &mut Vec<Command>) {
         let holds = matches!(self.press, Some(Press { on: Pressed::Body { .. }, .. }));
         match studio.viewer().held() {

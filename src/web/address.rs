@@ -1,11 +1,12 @@
 //! What the address of a page asks for after its `#`: a run, or a scene with methods, and how it is shown.
 
-use regatta::lab::palette::Theme;
-use regatta::lab::race::Mode;
-use regatta::lab::studio::{Instrument, Studio, lineup};
-use regatta::lab::{Scene, link};
+use regatta::look::palette::Theme;
+use regatta::run::link;
+use regatta::run::race::Mode;
+use regatta::scene::Scene;
 use regatta::sim::Clock;
 use regatta::sim::integrators::{Method, method};
+use regatta::studio::{Instrument, Studio, lineup};
 
 /// What was asked for.
 #[derive(Debug, Default)]

@@ -1,7 +1,7 @@
 //! Whether the run of a link is here what it was where it was made.
 
-use regatta::lab::scene::Check;
-use regatta::lab::session::Replay;
+use regatta::run::session::Replay;
+use regatta::scene::Check;
 
 /// The ticks of a slice of the race: a moment's work, even of many lanes.
 const TICKS: u64 = 50;
@@ -22,7 +22,8 @@ pub(crate) fn told_after_slice(replay: &mut Replay) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use regatta::lab::{Scene, Session};
+    use regatta::run::Session;
+    use regatta::scene::Scene;
 
     #[test]
     fn the_run_is_the_same_or_parts_at_a_tick() {

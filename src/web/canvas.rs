@@ -1,6 +1,6 @@
 //! The canvas and the renderer that draws on it.
 
-use regatta::lab::studio::{Command, Studio};
+use regatta::studio::{Command, Studio};
 use regatta::view::{FrameOutput, FrameRenderer, Gpu, Screen, egui, wgpu};
 use web_sys::HtmlCanvasElement;
 

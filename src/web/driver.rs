@@ -3,10 +3,10 @@
 use std::cell::RefCell;
 use std::path::Path;
 
-use regatta::lab::Scene;
-use regatta::lab::palette::Theme;
-use regatta::lab::session::Replay;
-use regatta::lab::studio::{
+use regatta::look::palette::Theme;
+use regatta::run::session::Replay;
+use regatta::scene::Scene;
+use regatta::studio::{
     Command, DriverRequest, Motion, PaceMeter, SavedPreferences, StageCommand, Studio, ViewCommand,
 };
 use regatta::view::{copied, egui};
@@ -178,7 +178,7 @@ impl Driver {
         }
         if let Some((goal, _)) = &mut driver.goal {
             // Beyond its end a run has nothing to show that an address could mean.
-            *goal = (*goal).min(regatta::lab::trace::last_tick(driver.studio.scene()));
+            *goal = (*goal).min(regatta::run::trace::last_tick(driver.studio.scene()));
         }
         driver.simulated_ns = driver.now_ns();
         driver

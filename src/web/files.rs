@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use js_sys::{Array, Uint8Array};
-use regatta::lab::Scene;
-use regatta::lab::pacing::trace_file;
+use regatta::loops::trace_file;
+use regatta::scene::Scene;
 use regatta::view::{instrument_csv, instrument_svg};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::prelude::{Closure, JsValue};

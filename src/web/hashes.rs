@@ -1,8 +1,9 @@
 //! The hashes and words by which a test knows that a browser steps the same bits, and finds the same.
 
-use regatta::lab::analysis::Judge;
-use regatta::lab::scene::SceneBody;
-use regatta::lab::{LaneSpec, Scene, Session};
+use regatta::measure::Judge;
+use regatta::run::Session;
+use regatta::scene::SceneBody;
+use regatta::scene::{LaneSpec, Scene};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// The lines of a built-in scene in `tests/early_hashes.txt`, stepped here: its name, a method, and the hash of its lane; then

@@ -1,6 +1,6 @@
 //! The keys of a page, for the program and for its panels.
 
-use regatta::lab::studio::Key;
+use regatta::studio::Key;
 use regatta::view::{Meaning, Modifiers, bound_key, egui};
 use web_sys::KeyboardEvent;
 

@@ -1,4 +1,4 @@
-//! Regatta in a browser: drives a [`Studio`](regatta::lab::Studio) by the frames and events of a page, and draws it with the
+//! Regatta in a browser: drives a [`Studio`](regatta::studio::Studio) by the frames and events of a page, and draws it with the
 //! [`FrameRenderer`](regatta::view::FrameRenderer) on a canvas, as the window of the program does.
 //!
 //! The page is one thread. What takes longer than a frame is done in slices between frames; see [`work`].

@@ -1,6 +1,6 @@
 //! What happens on the page: keys, pointers, files, and the page itself coming and going.
 
-use regatta::lab::link;
+use regatta::run::link;
 use regatta::view::{command_of, egui};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::convert::FromWasmAbi;

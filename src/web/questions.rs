@@ -1,11 +1,12 @@
 //! The numbers of the pages of questions, computed where they are read.
 
-use regatta::lab::analysis::{Adviser, Criterion, Judge};
-use regatta::lab::pacing::{LoopRun, RefreshRate, policy, trace_card};
-use regatta::lab::port::{Approach, Setup, Wish, port, setups};
-use regatta::lab::{LaneSpec, Scene, Session};
+use regatta::loops::{LoopRun, RefreshRate, policy, trace_card};
+use regatta::measure::{Adviser, Criterion, Judge};
+use regatta::run::Session;
+use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::integrators::method;
 use regatta::sim::number::significant;
+use regatta::tools::port::{Approach, Setup, Wish, port, setups};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// Computes a number, with as many digits as the text has.
@@ -92,7 +93,7 @@ fn percent_lower(tick_hz: u32) -> Option<f64> {
     let mut session = Session::racing(jump.into());
     session.run(u64::from(tick_hz / 2));
     let race = session.race();
-    let height = |lane: &regatta::lab::Lane| lane.bodies()[0].stepper.q()[0];
+    let height = |lane: &regatta::run::Lane| lane.bodies()[0].stepper.q()[0];
     Some(100.0 * (1.0 - height(&race.entrants()[0].lane) / height(race.truth())))
 }
 

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use regatta::lab::analysis::AnalysisWorker;
-use regatta::lab::cloud::CloudWorker;
-use regatta::lab::loop_lab::LoopWorker;
-use regatta::lab::studio::{Found, Studio, Work};
+use regatta::loops::loop_lab::LoopWorker;
+use regatta::measure::AnalysisWorker;
+use regatta::measure::cloud::CloudWorker;
+use regatta::studio::{Found, Studio, Work};
 
 /// A worker, and what it was asked for last.
 struct Asked<W: Work> {

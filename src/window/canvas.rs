@@ -10,7 +10,7 @@ use winit::window::Window;
 
 use super::clipboard::Clipboard;
 use super::{Event, WindowError};
-use crate::lab::studio::{Command, Studio};
+use crate::studio::{Command, Studio};
 use crate::view::{FrameRenderer, Gpu, Screen};
 
 pub(super) struct Canvas {

@@ -6,7 +6,7 @@ use winit::keyboard::{Key as Logical, KeyCode, NamedKey, PhysicalKey};
 
 use super::App;
 use super::error::reason;
-use crate::lab::link::MAX_LETTERS;
+use crate::run::link::MAX_LETTERS;
 use crate::view::Modifiers;
 
 /// The clipboard, opened when something is copied or pasted first.

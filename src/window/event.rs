@@ -8,9 +8,8 @@ use super::App;
 use super::opening::ReadFile;
 #[cfg(feature = "accessibility")]
 use super::screen_reader::{self, Request};
-use crate::lab::LaneSpec;
-use crate::lab::scene::{Mistake, Scene, SceneErrors};
-use crate::lab::studio::{Dialog, Found};
+use crate::scene::{LaneSpec, Mistake, Scene, SceneErrors};
+use crate::studio::{Dialog, Found};
 
 /// An event from the program's own threads or from a screen reader.
 pub(super) enum Event {

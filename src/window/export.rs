@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::App;
 use crate::atomic_file::{IfExists, write_file};
-use crate::lab::studio::{DriverRequest, Studio};
+use crate::studio::{DriverRequest, Studio};
 use crate::view::{Gpu, OffscreenRenderer, Panels, copied, instrument_csv, instrument_svg, png};
 
 /// The size of the picture, in pixels, and its pixels per point.

@@ -8,10 +8,10 @@ use winit::event_loop::EventLoopProxy;
 use super::Event;
 use super::opening::KeepRecording;
 use super::work_thread::WorkThread;
-use crate::lab::race::Journal;
-use crate::lab::session::recording_text;
-use crate::lab::studio::Work;
-use crate::lab::{Scene, Studio};
+use crate::run::race::Journal;
+use crate::run::session::recording_text;
+use crate::scene::Scene;
+use crate::studio::{Studio, Work};
 
 /// The time between two recordings: what is lost at most.
 const EVERY: Duration = Duration::from_secs(2);

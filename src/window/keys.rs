@@ -4,7 +4,7 @@ use winit::event::{ElementState, KeyEvent};
 use winit::keyboard::{Key as Logical, KeyCode, ModifiersState, NamedKey, PhysicalKey};
 
 use super::App;
-use crate::lab::studio::{Command, Dialog, Key, ViewCommand};
+use crate::studio::{Command, Dialog, Key, ViewCommand};
 use crate::view::{Meaning, Modifiers, bound_key, command_of};
 
 /// The modifier keys that the window system tells of.

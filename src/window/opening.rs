@@ -3,12 +3,12 @@
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use std::sync::Arc;
 
-use crate::lab::diff::{Comparison, NotComparable, Tolerance, diff};
-use crate::lab::pacing::{FrameTrace, trace_file};
-use crate::lab::scene::{Mistake, SCENES, Scene};
-use crate::lab::studio::{SceneList, StageCommand, Studio, ViewCommand};
-use crate::lab::trace::{Made, last_tick};
+use crate::loops::{FrameTrace, trace_file};
 use crate::regular_file::{self, MAX_TABLE_BYTES};
+use crate::run::diff::{Comparison, NotComparable, Tolerance, diff};
+use crate::run::trace::{Made, last_tick};
+use crate::scene::{Mistake, SCENES, Scene};
+use crate::studio::{SceneList, StageCommand, Studio, ViewCommand};
 
 /// Reads a scene file and returns its scene and its text, or what the command line would print of its mistakes.
 pub type ReadScene = Arc<dyn Fn(&Path) -> Result<(Scene, String), Vec<Mistake>> + Send + Sync>;
@@ -21,7 +21,7 @@ pub type KeepRecording = Box<dyn FnMut(&str) -> Result<(), String> + Send>;
 pub struct SceneFiles {
     /// The function that reads a file.
     pub read: ReadScene,
-    /// The file that the window's lab was read from, and its text.
+    /// The file that the studio of the window was read from, and its text.
     pub opened: Option<(PathBuf, String)>,
     /// The function that keeps the recording of the run as it grows, if it is recorded.
     pub keep: Option<KeepRecording>,
@@ -194,8 +194,8 @@ pub(super) fn completed(typed: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::link;
-    use crate::lab::studio::Dialog;
+    use crate::run::link;
+    use crate::studio::Dialog;
 
     /// Reads scene files without the command line's options.
     fn read() -> ReadScene {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::atomic_file::{IfExists, write_file};
-use crate::lab::Studio;
+use crate::studio::Studio;
 
 /// Saves the run so far under a new name, and returns a notice with the name or the error.
 pub(super) fn save(studio: &mut Studio) -> String {

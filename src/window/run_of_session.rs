@@ -4,9 +4,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::{Closed, SceneFiles, WindowError, WindowSettings, run};
-use crate::lab::scene::{MAX_FILE_BYTES, Scene};
-use crate::lab::{Session, Studio};
 use crate::regular_file;
+use crate::run::Session;
+use crate::scene::{MAX_FILE_BYTES, Scene};
+use crate::studio::Studio;
 
 /// The window of the program.
 #[derive(Debug)]

@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 
 use crate::atomic_file::{IfExists, write_file};
-use crate::lab::Studio;
+use crate::studio::Studio;
 use crate::view::{Gpu, OffscreenRenderer, png};
 
 /// Saves a picture under a new name, and returns a notice with the name or the error.

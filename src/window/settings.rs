@@ -3,8 +3,8 @@
 use winit::dpi::{LogicalSize, PhysicalSize};
 use winit::window::{Window, WindowAttributes};
 
-use crate::lab::Studio;
-use crate::lab::palette::Theme;
+use crate::look::palette::Theme;
+use crate::studio::Studio;
 
 /// How a window opens, and when it closes by itself.
 #[derive(Clone, Copy, Debug, Default)]
@@ -23,7 +23,7 @@ pub type OnInterrupt = fn(close: Box<dyn Fn() + Send>);
 
 /// What a closed window returns.
 pub struct Closed {
-    /// The lab in its last state.
+    /// The studio in its last state.
     pub studio: Studio,
     /// Whether it was closed by Ctrl-C.
     pub interrupted: bool,

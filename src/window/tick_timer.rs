@@ -9,9 +9,10 @@ use std::time::{Duration, Instant};
 use winit::event_loop::EventLoopProxy;
 
 use super::Event;
-use crate::lab::studio::{Instrument, Studio};
-use crate::lab::{Follow, Lane, LaneSpec};
+use crate::run::{Follow, Lane};
+use crate::scene::LaneSpec;
 use crate::stopwatch;
+use crate::studio::{Instrument, Studio};
 
 /// The time between two measurements.
 const PERIOD: Duration = Duration::from_secs(1);
@@ -79,9 +80,9 @@ fn timed(Lanes { lanes, t, tick_hz }: &Lanes) -> Vec<(LaneSpec, Option<f64>)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::Scene;
-    use crate::lab::studio::StageCommand;
+    use crate::scene::Scene;
     use crate::sim::integrators::method;
+    use crate::studio::StageCommand;
 
     #[test]
     fn a_lane_that_halts_meanwhile_has_no_cost() {

@@ -10,8 +10,8 @@ use winit::event_loop::EventLoopProxy;
 
 use super::Event;
 use super::opening::{Asked, ReadScene};
-use crate::lab::scene::MAX_FILE_BYTES;
 use crate::regular_file::{self, Unreadable};
+use crate::scene::MAX_FILE_BYTES;
 
 /// The time between two looks at the files: short enough for a change to seem immediate.
 const INTERVAL: Duration = Duration::from_millis(400);

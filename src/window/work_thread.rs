@@ -9,7 +9,7 @@ use std::thread;
 use winit::event_loop::EventLoopProxy;
 
 use super::Event;
-use crate::lab::studio::Work;
+use crate::studio::Work;
 
 /// A handle to a thread that works. The thread ends when this is dropped.
 pub(super) struct WorkThread<W: Work> {

@@ -4,15 +4,16 @@
 use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
 use std::cell::Cell;
 
-use regatta::lab::past::Past;
-use regatta::lab::studio::{StageCommand, Studio};
-use regatta::lab::{Action, Options, Race, SCENES, Scene};
+use regatta::run::Race;
+use regatta::run::past::Past;
+use regatta::scene::{Action, Options, SCENES, Scene};
 use regatta::sim::bodies::{Follow, Form, Grid, NetPlan, Pin, Ship, Spring, net_kind};
 use regatta::sim::integrators::{
     GENERAL_METHODS, ImplicitMidpoint, Integrator, METHODS, Method, Rk4, StepFailure,
     custom_integrator, integrator, method,
 };
 use regatta::sim::{Elementwise, Solver, State, Stepper, System, Vector};
+use regatta::studio::{StageCommand, Studio};
 
 use super::conformance::systems::{Sparse, fresh, problem, springs};
 

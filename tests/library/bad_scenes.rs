@@ -6,7 +6,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use regatta::lab::scene::{MAX_BODIES, MAX_FILE_BYTES, MAX_SHOWN, Scene, SceneErrors};
+use regatta::scene::{MAX_BODIES, MAX_FILE_BYTES, MAX_SHOWN, Scene, SceneErrors};
 
 /// A bad scene and what is said of it.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! A copy in a batch has the bits of its body alone, whatever the instruction set and the number of threads.
 
 use rayon::ThreadPoolBuilder;
-use regatta::lab::Scene;
+use regatta::scene::Scene;
 use regatta::sim::batch::{Batch, InstructionSet, Ticks};
 use regatta::sim::integrators::{GENERAL_METHODS, Method, method};
 use regatta::sim::{Solver, State, Stepper, System};

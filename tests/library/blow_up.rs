@@ -1,11 +1,11 @@
 //! A method that blows up hurts nobody else: it halts, once, and says when and why.
 
-use regatta::lab::past::Past;
-use regatta::lab::race::{ESCAPE, LaneBody, Mode, Race};
-use regatta::lab::studio::{RunCommand, StageCommand, Studio};
-use regatta::lab::{Action, LaneId, LaneSpec, Scene};
+use regatta::run::past::Past;
+use regatta::run::race::{ESCAPE, LaneBody, Mode, Race};
+use regatta::scene::{Action, LaneId, LaneSpec, Scene};
 use regatta::sim::Clock;
 use regatta::sim::integrators::{GENERAL_METHODS, StepFailure, method};
+use regatta::studio::{RunCommand, StageCommand, Studio};
 
 /// Ticks of the long race: 83 min at 60 Hz.
 const TICKS: u64 = 60_000;

@@ -6,8 +6,9 @@ use std::process::{Command, Output};
 use std::sync::LazyLock;
 use std::{env, fs};
 
-use regatta::lab::{Race, Scene};
 use regatta::manual::{CHAPTERS, chapter};
+use regatta::run::Race;
+use regatta::scene::Scene;
 
 use crate::printed::texts;
 

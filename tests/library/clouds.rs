@@ -5,18 +5,18 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use rayon::ThreadPoolBuilder;
-use regatta::lab::cloud::{
+use regatta::look::density_picture;
+use regatta::look::palette::Theme;
+use regatta::measure::cloud::{
     Cloud, CloudBody, CloudBorder, CloudChoice, CloudKind, CloudPicture, CloudShape, CloudStart,
     CloudWorker, Density, NoCloud, PlaneView,
 };
-use regatta::lab::palette::Theme;
-use regatta::lab::scene::{Scene, Scripted};
-use regatta::lab::studio::{Command, Instrument, RunCommand, StageCommand, Studio, ViewCommand};
-use regatta::lab::{Action, LaneSpec};
 use regatta::prelude::Options;
+use regatta::scene::{Action, LaneSpec, Scene, Scripted};
 use regatta::sim::bodies::Kind;
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, State, Stepper, System};
+use regatta::studio::{Command, Instrument, RunCommand, StageCommand, Studio, ViewCommand};
 
 /// The first body of a scene, with its kind.
 struct Built(Arc<Kind>, Box<dyn Stepper>);
@@ -197,7 +197,7 @@ fn an_accurate_method_fills_the_exact_border_and_a_picture_shows_every_point() {
     density.add(cloud.q(), cloud.v());
     assert_eq!(density.counts().iter().sum::<u32>(), 900);
     let colour = [10, 200, 100, 255];
-    let picture = density.picture_of_size([40, 30], Theme::Dark, colour);
+    let picture = density_picture(&density, [40, 30], Theme::Dark, colour);
     assert!((0..picture.len()).all(|n| (picture[n][3] > 0) == (density.counts()[n] > 0)));
 }
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use regatta::lab::port::{DIALECTS, Dialect, Reach, Wish};
+use regatta::tools::port::{DIALECTS, Dialect, Reach, Wish};
 
 use crate::dice::Dice;
 

@@ -3,8 +3,9 @@
 use std::error::Error;
 
 use crate::dice::Dice;
-use regatta::lab::diff::{Comparison, Table, Tolerance, diff};
-use regatta::lab::{Action, Scene, Session};
+use regatta::run::Session;
+use regatta::run::diff::{Comparison, Table, Tolerance, diff};
+use regatta::scene::{Action, Scene};
 
 fn within(a: &str, b: &str, tolerance: Tolerance) -> Result<Comparison, Box<dyn Error>> {
     diff(&mut Table::new(a)?, &mut Table::new(b)?, tolerance)

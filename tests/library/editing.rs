@@ -1,9 +1,10 @@
 //! Edits during a run: they are in the journal, and a restart keeps them.
 
-use regatta::lab::race::Mode;
-use regatta::lab::studio::{RunCommand, StageCommand, Studio, ViewCommand};
-use regatta::lab::{Action, LaneId, LaneSpec, Scene, Session};
+use regatta::run::Session;
+use regatta::run::race::Mode;
+use regatta::scene::{Action, LaneId, LaneSpec, Scene};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
+use regatta::studio::{RunCommand, StageCommand, Studio, ViewCommand};
 
 fn stiffness(value: f64) -> Action {
     Action::Set { body: 0, parameter: 1, value }

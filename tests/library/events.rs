@@ -1,10 +1,11 @@
 //! What happens in a scene happens at its time, whatever the tick rate and whoever changes it.
 
-use regatta::lab::race::{Author, Race};
-use regatta::lab::scene::{SCENES, Scene, Scripted};
-use regatta::lab::studio::{RunCommand, StageCommand, Studio};
-use regatta::lab::{Action, Journal, Judge, LaneSpec};
+use regatta::measure::Judge;
+use regatta::run::Journal;
+use regatta::run::race::{Author, Race};
+use regatta::scene::{Action, LaneSpec, SCENES, Scene, Scripted};
 use regatta::sim::integrators::method;
+use regatta::studio::{RunCommand, StageCommand, Studio};
 
 /// The first coordinates and velocities of the truth after each tick of the scene's own rate, run at `times` that rate.
 fn truth(scene: &Scene, times: u32, ticks: u64) -> Vec<Vec<f64>> {

@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use regatta::lab::past::{Past, TruthSample};
-use regatta::lab::picture::{Grip, Picture, Whose, compose};
-use regatta::lab::race::{Interpolation, Race};
-use regatta::lab::studio::{RunCommand, StageCommand, Studio};
-use regatta::lab::{Action, Scene};
+use regatta::run::past::{Past, TruthSample};
+use regatta::run::race::{Interpolation, Race};
+use regatta::scene::{Action, Scene};
+use regatta::stage::{Grip, Picture, Whose, compose};
+use regatta::studio::{RunCommand, StageCommand, Studio};
 
 fn open(scene: &str, tick_hz: u32) -> Studio {
     let mut studio = Studio::new(Scene::built_in(scene).unwrap());

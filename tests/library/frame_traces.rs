@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::time::Instant;
 
-use regatta::lab::pacing::trace_file::read;
-use regatta::lab::pacing::{Frame, FrameTrace, Pacer, TimeBase, policy};
+use regatta::loops::trace_file::read;
+use regatta::loops::{Frame, FrameTrace, Pacer, TimeBase, policy};
 
 const FILES: [&str; 6] = [
     include_str!("../data/frame-traces/presentmon_test_case_0.csv"),
@@ -35,7 +35,7 @@ struct Row {
     animation_error: Option<f64>,
 }
 
-/// The rows of each stream, read without the lab.
+/// The rows of each stream, read without the studio.
 fn streams(text: &str) -> Vec<Vec<Row>> {
     let (mut streams, mut numbers) = (Vec::<Vec<Row>>::new(), HashMap::new());
     for line in text.lines().skip(1) {
@@ -84,7 +84,7 @@ fn by_the_columns(rows: &[Row]) -> Vec<(f64, f64)> {
     pictures
 }
 
-/// The same from the lab.
+/// The same from the studio.
 fn by_the_lab(trace: &FrameTrace) -> Vec<(f64, f64)> {
     let base = TimeBase::new(TICK_HZ, trace.refresh());
     let mut pacer = Pacer::new(policy("fixed-linear").expect("in the table"), base);

@@ -1,17 +1,19 @@
 //! The guide: every stop is done by its keys and by nothing less, and what it claims is so.
 
-use regatta::lab::analysis::{Judge, METRICS, Outcome, Verdict};
-use regatta::lab::cloud::{CloudChoice, CloudKind, CloudWorker};
-use regatta::lab::loop_lab::{LoopCommand, LoopLab};
-use regatta::lab::past::Quantity;
-use regatta::lab::port::{Wish, setups};
-use regatta::lab::studio::guide::{Goal, STOPS};
-use regatta::lab::studio::{
-    Command, Instrument, KEYS, Key, OneStep, RunCommand, StageCommand, Step, Studio, ViewCommand,
+use regatta::loops::loop_lab::{LoopCommand, LoopLab};
+use regatta::measure::cloud::{CloudChoice, CloudKind, CloudWorker};
+use regatta::measure::{Judge, OneStep, Outcome, Verdict};
+use regatta::run::past::Quantity;
+use regatta::run::{METRICS, Race};
+use regatta::scene::{LaneSpec, SCENES, Scene};
+use regatta::sim::integrators::method;
+use regatta::studio::guide::{Goal, STOPS};
+use regatta::studio::{
+    Command, Instrument, KEYS, Key, RunCommand, StageCommand, Step, Studio, ViewCommand,
     command_for,
 };
-use regatta::lab::{LaneSpec, Race, SCENES, Scene, port};
-use regatta::sim::integrators::method;
+use regatta::tools::port;
+use regatta::tools::port::{Wish, setups};
 
 fn lab_at(stop: usize) -> Studio {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
@@ -208,7 +210,7 @@ fn the_errors_on_the_ship_are_those_that_the_guide_names() {
     scene.tick_hz = 2;
     let mut race = Race::new(&scene, [LaneSpec::plain(method("explicit-euler").unwrap())]);
     race.run(17);
-    let position = |lane: &regatta::lab::Lane| lane.bodies()[0].stepper.q()[0];
+    let position = |lane: &regatta::run::Lane| lane.bodies()[0].stepper.q()[0];
     assert!(position(&race.entrants()[0].lane) < position(race.truth()), "it is behind");
     let rk4 = error_percent("rk4", 2).abs();
     assert!((3e-6..5e-6).contains(&rk4), "{rk4}");
@@ -413,7 +415,7 @@ fn engines_do_to_a_spring_what_the_guide_says() {
     assert!(held[2] > held[1], "{held:?}");
 }
 
-/// The lab at a stop, a tick into it, after its keys.
+/// The studio at a stop, a tick into it, after its keys.
 fn after_its_keys(title: &str) -> Studio {
     let at = STOPS.iter().position(|stop| stop.title == title).expect("a stop");
     let mut studio = lab_at(at);
@@ -448,7 +450,7 @@ fn what_a_stop_answers_is_what_the_verdict_beside_it_says() {
 
 #[test]
 fn a_stop_that_asks_for_home_is_done_by_a_run_from_its_start_and_not_before() {
-    let asks = |stop: &&regatta::lab::studio::guide::Stop| stop.keys.last() == Some(&Key::Home);
+    let asks = |stop: &&regatta::studio::guide::Stop| stop.keys.last() == Some(&Key::Home);
     let count = STOPS.iter().filter(asks).count();
     assert!(count >= 9, "{count}");
     for (index, stop) in STOPS.iter().enumerate().filter(|(_, stop)| asks(stop)) {

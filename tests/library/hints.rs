@@ -1,13 +1,13 @@
 //! The built-in scenes open on the method that makes their point, and what their hints promise comes about
 //! when the keys are pressed as they say.
 
-use regatta::lab::race::Mode;
-use regatta::lab::studio::{
+use regatta::run::race::Mode;
+use regatta::scene::{Action, SCENES, Scene};
+use regatta::sim::integrators::{GENERAL_METHODS, METHODS};
+use regatta::studio::{
     Arrangement, Command, KEYS, Key, RunCommand, StageCommand, Step, Studio, ViewCommand,
     command_for,
 };
-use regatta::lab::{Action, SCENES, Scene};
-use regatta::sim::integrators::{GENERAL_METHODS, METHODS};
 
 const C: Key = Key::Sign('c');
 const LOWER_RATE: Key = Key::Sign('[');

@@ -1,9 +1,9 @@
 //! What trails and plots are drawn from: every sample knows the method that it was flown under, a switch leaves a
 //! mark, and the newest sample is the present.
 
-use regatta::lab::past::History;
-use regatta::lab::studio::{StageCommand, Step, Studio};
-use regatta::lab::{LaneId, Scene};
+use regatta::run::past::History;
+use regatta::scene::{LaneId, Scene};
+use regatta::studio::{StageCommand, Step, Studio};
 
 fn studio(seconds: f64, tick_hz: u32) -> Studio {
     let scene = Scene { seconds, tick_hz, ..Scene::built_in("spring").unwrap() };
@@ -41,7 +41,7 @@ fn a_swing_as_fast_as_the_samples_shows_in_what_they_swept_over() {
     let mut studio = Studio::new(Scene::parse("fast.toml", text).unwrap());
     (0..3000).for_each(|_| studio.tick());
     let least =
-        |q: f64| move |least: f64, sample: &regatta::lab::past::Sample| least.min(q * sample.q);
+        |q: f64| move |least: f64, sample: &regatta::run::past::Sample| least.min(q * sample.q);
     assert!(history(&studio).samples().fold(0.0, least(1.0)) > -1.0, "no sample is at the far end");
     let samples: Vec<[f64; 2]> = history(&studio).samples().map(|s| s.swept.ends()).collect();
     assert!(samples[1..].iter().all(|&[low, high]| low < -0.8 && high > 0.8), "{samples:?}");

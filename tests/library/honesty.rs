@@ -2,8 +2,8 @@
 //! judges. The seed is printed; `REGATTA_SEED` sets another.
 
 use crate::dice::Dice;
-use regatta::lab::analysis::{Adviser, CRITERIA, Judge, Measure, Outcome, Verdict};
-use regatta::lab::{LaneSpec, Scene};
+use regatta::measure::{Adviser, CRITERIA, Judge, Measure, Outcome, Verdict};
+use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::bodies::{Input, Truth};
 use regatta::sim::integrators::GENERAL_METHODS;
 use regatta::sim::{Solver, Stepper};

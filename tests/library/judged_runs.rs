@@ -1,17 +1,17 @@
 //! Verdicts are of the run on the stage: of the scene as it is edited, and from where a person last moved a body.
 
-use regatta::lab::scene::{Scene, Scripted};
-use regatta::lab::studio::{RunCommand, StageCommand, Step, Studio};
-use regatta::lab::{Action, Judge, Verdict};
+use regatta::measure::{Judge, Verdict};
+use regatta::scene::{Action, Scene, Scripted};
+use regatta::studio::{RunCommand, StageCommand, Step, Studio};
 
 use crate::words::everything;
 
-/// A lab on a scene in which every method has a lane, so that all are judged.
+/// A studio on a scene in which every method has a lane, so that all are judged.
 fn opened(scene: &Scene) -> Studio {
     Studio::new(Scene { lanes: scene.method_list(), ..scene.clone() })
 }
 
-/// The lab's verdict on each method of its list, with times that count from where the run is judged.
+/// The studio's verdict on each method of its list, with times that count from where the run is judged.
 fn verdicts(studio: &mut Studio) -> Vec<String> {
     studio.analyse();
     let of = |entry| {

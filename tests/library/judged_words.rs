@@ -5,8 +5,8 @@
 use std::path::Path;
 use std::thread;
 
-use regatta::lab::analysis::Judge;
-use regatta::lab::{LaneSpec, Scene};
+use regatta::measure::Judge;
+use regatta::scene::{LaneSpec, Scene};
 
 /// Of each kind that a verdict has words for, at least one.
 const SCENES: [&str; 8] =

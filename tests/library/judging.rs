@@ -1,10 +1,10 @@
 //! Verdicts and advice against plain runs: energies, amplitudes and errors counted out here once more.
 
-use regatta::lab::analysis::{
+use regatta::measure::{
     Adviser, CRITERIA, CriterionResult, Finding, Judge, MAX_HORIZON_S, NoTruth, NotJudged, Outcome,
     TOLERANCE, Verdict,
 };
-use regatta::lab::{LaneSpec, Scene};
+use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, Stepper};
 

@@ -1,7 +1,7 @@
 //! What keys do to a run, as the title tells. That the window knows every key is tested with one.
 
-use regatta::lab::studio::{Instrument, KEYS, Key, StageCommand, Studio, TICK_LADDER, ViewCommand};
-use regatta::lab::{SCENES, Scene};
+use regatta::scene::{SCENES, Scene};
+use regatta::studio::{Instrument, KEYS, Key, StageCommand, Studio, TICK_LADDER, ViewCommand};
 
 /// Does what the table says of a key.
 fn press(studio: &mut Studio, key: Key) {

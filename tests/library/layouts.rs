@@ -1,10 +1,10 @@
 //! Solo and race: which lanes there are, what they are under, and what a restart keeps of it.
 
-use regatta::lab::race::{Lane, Mode};
-use regatta::lab::studio::{Command, RunCommand, StageCommand, Step, Studio};
-use regatta::lab::{Action, LaneSpec, Scene};
+use regatta::run::race::{Lane, Mode};
+use regatta::scene::{Action, LaneSpec, Scene};
 use regatta::sim::Solver;
 use regatta::sim::integrators::{GENERAL_METHODS, method};
+use regatta::studio::{Command, RunCommand, StageCommand, Step, Studio};
 
 fn scene(name: &str) -> Scene {
     Scene::built_in(name).expect("a built-in scene")

@@ -1,8 +1,8 @@
 //! What advice has of *looks right* and of reserves, against peaks and errors that another program found or that are counted
 //! out here.
 
-use regatta::lab::Scene;
-use regatta::lab::analysis::{Adviser, CRITERIA};
+use regatta::measure::{Adviser, CRITERIA};
+use regatta::scene::Scene;
 use regatta::sim::Solver;
 
 use crate::dice::Dice;

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use crate::compilers::{build_folder, compiled_or_skip};
-use regatta::lab::pacing::{POLICIES, Pacer, PolicyCard, RefreshRate, TimeBase, policy};
+use regatta::loops::{POLICIES, Pacer, PolicyCard, RefreshRate, TimeBase, policy};
 
 #[path = "../../assets/loops/clamped-variable.rs"]
 pub mod clamped_variable;

@@ -1,8 +1,7 @@
 //! The tables of the manual and of the README say what the tables of the program do.
 
-use regatta::lab::SCENES;
-use regatta::lab::scene::SceneGroup;
 use regatta::manual::CHAPTERS;
+use regatta::scene::{SCENES, SceneGroup};
 use regatta::sim::integrators::{Engine, Family, GENERAL_METHODS, METHODS, Method};
 
 use crate::tidy::root;

@@ -2,7 +2,7 @@
 
 use std::panic::{UnwindSafe, catch_unwind};
 
-use regatta::lab::{Options, Scene};
+use regatta::scene::{Options, Scene};
 use regatta::sim::batch::{Batch, Ticks};
 use regatta::sim::bodies::Ship;
 use regatta::sim::integrators::{GENERAL_METHODS, StepFailure, integrator, method};

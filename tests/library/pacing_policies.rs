@@ -1,6 +1,6 @@
 //! What every game loop of the table does to time: over a day, with odd frames, and to the motion on an even display.
 
-use regatta::lab::pacing::{POLICIES, Pacer, RefreshRate, TimeBase, policy};
+use regatta::loops::{POLICIES, Pacer, RefreshRate, TimeBase, policy};
 
 /// The ticks per second in all tests.
 const TICK_HZ: u32 = 60;

@@ -1,11 +1,11 @@
 //! What reaches the stage: finite, within reach of an f32, and where the bodies are.
 
-use regatta::lab::loop_lab::LoopCommand;
-use regatta::lab::palette::Theme;
-use regatta::lab::picture::{FAR, Picture, Shape, Whose, compose};
-use regatta::lab::race::{ESCAPE, Mode};
-use regatta::lab::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand};
-use regatta::lab::{Action, SCENES, Scene};
+use regatta::look::palette::Theme;
+use regatta::loops::loop_lab::LoopCommand;
+use regatta::run::race::{ESCAPE, Mode};
+use regatta::scene::{Action, SCENES, Scene};
+use regatta::stage::{FAR, Picture, Shape, Whose, compose};
+use regatta::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand};
 
 fn assert_drawable(picture: &Picture, what: &str) {
     let finite = |values: &[f32]| values.iter().all(|x| x.is_finite() && x.abs() <= 2.0 * FAR);
@@ -286,7 +286,7 @@ fn the_ghost_shows_only_when_it_is_asked_for() {
     studio.advance(100_000_000);
     let drawn = |studio: &Studio| {
         let picture = compose(studio, [780.0, 500.0]);
-        let is_ghost = |grip: &regatta::lab::picture::Grip| grip.whose == Whose::Truth;
+        let is_ghost = |grip: &regatta::stage::Grip| grip.whose == Whose::Truth;
         let ghosts =
             picture.cells.iter().flat_map(|cell| cell.grips(studio)).filter(is_ghost).count();
         (picture.shapes.len(), ghosts)

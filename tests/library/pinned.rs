@@ -4,7 +4,8 @@
 //! If one of these hashes changes, so do states, and hashes that users have committed.
 
 use glam::{DVec2, DVec3};
-use regatta::lab::{Race, Scene};
+use regatta::run::Race;
+use regatta::scene::Scene;
 
 /// 64-bit FNV-1a over little-endian words. NaNs, of which there are many, are one.
 struct Fnv(u64);

@@ -3,13 +3,13 @@
 use std::f64::consts::TAU;
 
 use regatta::conformance::problems::{fresh, problem};
-use regatta::lab::port::{
-    Approach, FollowerPort, Ported, Reach, Setup, Wish, WishError, drive_limits, followers, port,
-    setups,
-};
 use regatta::sim::bodies::Follow;
 use regatta::sim::integrators::{Family, METHODS, method};
 use regatta::sim::{State, least_squares};
+use regatta::tools::port::{
+    Approach, FollowerPort, Ported, Reach, Setup, Wish, WishError, drive_limits, followers, port,
+    setups,
+};
 
 use crate::dice::Dice;
 use crate::engines::Body;

@@ -1,11 +1,11 @@
 //! A run as a scene file: it is read back unchanged, repeats the run to the bit, and contains its actions.
 
-use regatta::lab::race::{Mode, equal_cost, lanes_that_race};
-use regatta::lab::scene::{SCENES, Scene, Scripted};
-use regatta::lab::session::{RecordingError, Session};
-use regatta::lab::studio::{Command, RunCommand, StageCommand, Studio};
-use regatta::lab::{Action, Journal, LaneId, LaneSpec, Swing, link};
+use regatta::run::race::{Mode, equal_cost, lanes_that_race};
+use regatta::run::session::{RecordingError, Session};
+use regatta::run::{Journal, link};
+use regatta::scene::{Action, LaneId, LaneSpec, SCENES, Scene, Scripted, Swing};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
+use regatta::studio::{Command, RunCommand, StageCommand, Studio};
 
 fn built_in(name: &str) -> Scene {
     Scene::built_in(name).expect("a built-in scene")
@@ -312,7 +312,7 @@ fn an_action_that_is_out_of_range_or_does_not_fit_is_ignored() {
 fn equal_cost_brings_each_lane_as_near_as_possible_to_the_dearest() {
     let scene = built_in("harbour");
     let cost = |spec: &LaneSpec| {
-        let mut lane = regatta::lab::Lane::new(&scene, spec.solver(), spec.substeps);
+        let mut lane = regatta::run::Lane::new(&scene, spec.solver(), spec.substeps);
         (0..60).for_each(|tick| lane.tick(tick, tick as f64 / 60.0, 1.0 / 60.0));
         lane.evaluations() as f64
     };

@@ -1,7 +1,7 @@
 //! A restart goes back to the start line, and keeps what a person chose and nothing of what the script did.
 
-use regatta::lab::studio::{RunCommand, StageCommand, Studio};
-use regatta::lab::{Action, SCENES, Scene};
+use regatta::scene::{Action, SCENES, Scene};
+use regatta::studio::{RunCommand, StageCommand, Studio};
 
 /// The ship, whose script changes method and tick rate.
 fn scripted() -> Studio {

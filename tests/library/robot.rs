@@ -2,10 +2,11 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use regatta::lab::identify::{ColumnNames, Log};
-use regatta::lab::pacing::trace_file;
-use regatta::lab::studio::{RunCommand, Studio};
-use regatta::lab::{Action, Race, SCENES, Scene};
+use regatta::loops::trace_file;
+use regatta::run::Race;
+use regatta::scene::{Action, SCENES, Scene};
+use regatta::studio::{RunCommand, Studio};
+use regatta::tools::identify::{ColumnNames, Log};
 
 use super::bad_scenes::check_places;
 use super::dice::Dice;

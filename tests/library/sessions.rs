@@ -4,12 +4,12 @@
 use std::sync::Arc;
 
 use crate::dice::Dice;
-use regatta::lab::past::{Past, TruthSample};
-use regatta::lab::session::{Event, EventKind, SNAPSHOT_BYTES, Session, Timeline};
-use regatta::lab::studio::{Command, RunCommand, StageCommand, Studio};
-use regatta::lab::{Action, LaneId, LaneSpec, Scene};
+use regatta::run::past::{Past, TruthSample};
+use regatta::run::session::{Event, EventKind, SNAPSHOT_BYTES, Session, Timeline};
+use regatta::scene::{Action, LaneId, LaneSpec, Scene};
 use regatta::sim::bodies::BODIES;
 use regatta::sim::integrators::GENERAL_METHODS;
+use regatta::studio::{Command, RunCommand, StageCommand, Studio};
 
 impl Dice {
     fn spec(&mut self) -> LaneSpec {

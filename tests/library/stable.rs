@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use regatta::lab::analysis::{Criteria, CriterionMet, MethodReport, Recommendation};
+use regatta::measure::{Criteria, CriterionMet, MethodReport, Recommendation};
 use regatta::prelude::*;
 
 /// Every name that the prelude brings where all features are on.
@@ -62,10 +62,14 @@ fn the_prelude_brings_what_is_promised_and_nothing_else() {
     assert_eq!(names, BTreeSet::from(PRELUDE), "a change for everybody who imports the prelude");
 }
 
+/// Compiles only while a game that names the former paths does.
 #[test]
-fn few_names_of_the_lab_stand_outside_its_rooms() {
-    let names = exported(include_str!("../../src/lab/mod.rs"));
-    assert!((20..=40).contains(&names.len()), "{names:?}");
+fn the_former_paths_lead_to_the_same_items() {
+    use regatta::lab::{analysis, cloud, loop_lab, pacing, palette, past, picture, race, session};
+    let _: Option<(past::Past, session::Replay, race::Entrant, cloud::Density, analysis::Unit)> =
+        None;
+    let _: Option<(palette::Theme, loop_lab::LoopLab, picture::Framing)> = None;
+    assert_eq!(pacing::POLICIES.len(), regatta::loops::POLICIES.len());
 }
 
 /// Patterns without `..`: a field that is added, renamed or taken away does not compile here.

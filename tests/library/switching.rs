@@ -1,13 +1,13 @@
 //! Switching in flight: the state is carried to the bit, and the truth goes on from where an input
 //! left it.
 
-use regatta::lab::past::Past;
-use regatta::lab::race::{Lane, LaneBody, Observer, Race, Resumed, ResumedFrom};
-use regatta::lab::studio::{Command, RunCommand, StageCommand, Step, Studio};
-use regatta::lab::{Action, LaneId, LaneSpec, Scene, SceneBody};
+use regatta::run::past::Past;
+use regatta::run::race::{Lane, LaneBody, Observer, Race, Resumed, ResumedFrom};
+use regatta::scene::{Action, LaneId, LaneSpec, Scene, SceneBody};
 use regatta::sim::bodies::{Body, Ship, Spring};
 use regatta::sim::integrators::{GENERAL_METHODS, Method, method};
 use regatta::sim::{Solver, State};
+use regatta::studio::{Command, RunCommand, StageCommand, Step, Studio};
 
 fn scene(name: &str) -> Scene {
     Scene::built_in(name).expect("a built-in scene")

@@ -1,7 +1,7 @@
 //! Whatever a person changes can be undone and done again, in one order.
 
-use regatta::lab::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand};
-use regatta::lab::{Action, Scene};
+use regatta::scene::{Action, Scene};
+use regatta::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand};
 
 use crate::dice::Dice;
 

@@ -1,7 +1,7 @@
 //! Verdicts that were false once, each on the scene where it was.
 
-use regatta::lab::analysis::{Adviser, CRITERIA, Judge, Outcome, Verdict};
-use regatta::lab::{LaneSpec, Scene};
+use regatta::measure::{Adviser, CRITERIA, Judge, Outcome, Verdict};
+use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::Solver;
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 
@@ -207,14 +207,14 @@ fn what_takes_too_much_work_is_not_judged() {
 
 #[test]
 fn the_recommended_lanes_meet_their_criterion_in_a_race() {
-    use regatta::lab::Race;
-    use regatta::lab::analysis::{TOLERANCE, recommended};
+    use regatta::measure::{TOLERANCE, recommended};
+    use regatta::run::Race;
     for name in ["spring", "stiff", "ship", "harbour", "orbit"] {
         let scene = built_in(name);
         let adviser = Adviser::new(&scene, scene.tick_hz);
         let accurate = 2;
         let advised: Vec<_> = ["rk4", "velocity-verlet", "pefrl", "position-verlet"]
-            .map(|id| regatta::lab::analysis::MethodAdvice {
+            .map(|id| regatta::measure::MethodAdvice {
                 spec: spec(id),
                 verdict: adviser.verdict(spec(id)),
                 met: CRITERIA.map(|criterion| adviser.meets(spec(id), criterion)),

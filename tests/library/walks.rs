@@ -1,10 +1,11 @@
 //! Whatever a person does in a studio, its run is what its recording repeats. The seed is printed; `REGATTA_SEED` sets another,
 //! and `REGATTA_WALKS` the number of walks.
 
-use regatta::lab::race::Mode;
-use regatta::lab::studio::guide::STOPS;
-use regatta::lab::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand};
-use regatta::lab::{Action, SCENES, Scene, Session};
+use regatta::run::Session;
+use regatta::run::race::Mode;
+use regatta::scene::{Action, SCENES, Scene};
+use regatta::studio::guide::STOPS;
+use regatta::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand};
 
 use crate::dice::Dice;
 

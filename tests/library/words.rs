@@ -1,12 +1,12 @@
 //! What verdicts say, word by word.
 
-use regatta::lab::analysis::{
+use regatta::manual::chapter;
+use regatta::measure::{
     CRITERIA, Comparison, Finding, LongTerm, Measure, NoTruth, NotJudged, Outcome, RunFailure,
     Severity, Sign, TOLERANCE, Trend, Verdict,
 };
-use regatta::lab::studio::KEYS;
-use regatta::manual::chapter;
 use regatta::sim::integrators::StepFailure;
+use regatta::studio::KEYS;
 
 const COMPARED: Comparison = Comparison {
     error: 0.25,

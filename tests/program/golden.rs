@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{DynamicImage, RgbaImage};
-use regatta::lab::studio::{RunCommand, StageCommand, Step, Studio};
-use regatta::lab::{Action, SCENES, Scene};
+use regatta::scene::{Action, SCENES, Scene};
+use regatta::studio::{RunCommand, StageCommand, Step, Studio};
 use regatta::view::{AdapterPreference, Gpu, OffscreenRenderer, Panels};
 
 const SIZE_PX: [u32; 2] = [400, 225];

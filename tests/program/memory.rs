@@ -10,8 +10,8 @@ use egui::{
     Event, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, RawInput, TouchPhase, pos2,
     vec2,
 };
-use regatta::lab::Scene;
-use regatta::lab::studio::{KEYS, Studio, ViewCommand};
+use regatta::scene::Scene;
+use regatta::studio::{KEYS, Studio, ViewCommand};
 use regatta::view::{AdapterPreference, FrameRenderer, Gpu, Offscreen};
 
 use crate::dice::Dice;

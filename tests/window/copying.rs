@@ -1,7 +1,7 @@
 //! Copying in the window and pasting in another program, and the other way round.
 
-use regatta::lab::source_code::{Language, Precision, source_code};
 use regatta::sim::integrators::method;
+use regatta::tools::source_code::{Language, Precision, source_code};
 
 use crate::desk::{Desk, until};
 use crate::widgets::paused;

@@ -1,12 +1,10 @@
-//! What keys do, read from the title; the lab, given the same commands, says what it should be.
+//! What keys do, read from the title; the studio, given the same commands, says what it should be.
 
 use std::time::{Duration, Instant};
 
-use regatta::lab::Scene;
-use regatta::lab::loop_lab::LoopCommand;
-use regatta::lab::studio::{
-    Command, DriverRequest, KEYS, Key, StageCommand, Step, Studio, ViewCommand,
-};
+use regatta::loops::loop_lab::LoopCommand;
+use regatta::scene::Scene;
+use regatta::studio::{Command, DriverRequest, KEYS, Key, StageCommand, Step, Studio, ViewCommand};
 
 use crate::desk::Desk;
 

@@ -6,8 +6,8 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use image::{Rgba, RgbaImage};
-use regatta::lab::palette::Theme;
-use regatta::lab::studio::ViewCommand;
+use regatta::look::palette::Theme;
+use regatta::studio::ViewCommand;
 
 use crate::desk::{Desk, Display, skip, until};
 use crate::widgets::paused_with;

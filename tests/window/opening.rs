@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use regatta::lab::SCENES;
+use regatta::scene::SCENES;
 use tempfile::TempDir;
 
 use crate::desk::{Desk, until};

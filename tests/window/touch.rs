@@ -1,7 +1,7 @@
 //! Bodies grabbed with the mouse, and the stage zoomed and panned.
 
 use image::RgbaImage;
-use regatta::lab::palette::{Theme, mixed};
+use regatta::look::palette::{Theme, mixed};
 use regatta::sim::integrators::method;
 
 use crate::desk::{Desk, until};

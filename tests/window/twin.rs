@@ -3,7 +3,7 @@
 use egui::accesskit::{Action, Node, Role};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect};
 use image::RgbaImage;
-use regatta::lab::studio::{Command, Pace, Studio};
+use regatta::studio::{Command, Pace, Studio};
 use regatta::view::{AdapterPreference, FrameOutput, FrameRenderer, Gpu, Offscreen, Readback};
 
 use crate::desk::Desk;
@@ -13,7 +13,7 @@ const SIZE_PX: [u32; 2] = [1280, 720];
 /// On the stage, beside all bodies: what is under the pointer is lit.
 const ASIDE: Pos2 = Pos2::new(40.0, 300.0);
 
-/// A lab and its panels, which are given what the window is given.
+/// A studio and its panels, which are given what the window is given.
 pub(crate) struct Twin {
     pub(crate) studio: Studio,
     gpu: Gpu,

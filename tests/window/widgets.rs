@@ -1,7 +1,7 @@
 //! Every kind of widget worked by the mouse, in the window and in its twin: both come to the same run, and look alike.
 
-use regatta::lab::Scene;
-use regatta::lab::studio::{
+use regatta::scene::Scene;
+use regatta::studio::{
     INSTRUMENTS, Instrument, InstrumentGroup, MySpring, StageCommand, Step, Studio, ViewCommand,
 };
 

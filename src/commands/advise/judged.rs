@@ -8,8 +8,9 @@ use rayon::ThreadPool;
 
 use crate::commands::jobs;
 use crate::commands::terminal::{print_status, progress};
-use crate::lab::analysis::{Adviser, CRITERIA, MethodAdvice, Recommendation, ranked, recommended};
-use crate::lab::{Follow, Lane, LaneSpec, Scene};
+use crate::measure::{Adviser, CRITERIA, MethodAdvice, Recommendation, ranked, recommended};
+use crate::run::{Follow, Lane};
+use crate::scene::{LaneSpec, Scene};
 use crate::sim::number::significant;
 use crate::stopwatch;
 

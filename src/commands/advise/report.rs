@@ -4,12 +4,13 @@ use serde_json::{Map, Value, json};
 
 use super::judged::{Row, best_rows, recommended_row};
 use crate::commands::output::table::{self, Column};
-use crate::lab::analysis::{
+use crate::measure::{
     Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS,
     Recommendation,
 };
-use crate::lab::source_code::{Language, Precision};
-use crate::lab::{Scene, source_code};
+use crate::scene::Scene;
+use crate::tools::source_code;
+use crate::tools::source_code::{Language, Precision};
 
 /// The most rows that are printed without `--all`.
 const MOST_ROWS: usize = 8;

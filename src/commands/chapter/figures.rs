@@ -4,8 +4,8 @@ use std::io;
 
 use super::run::{Moment, by_method, exactly, method_of, scene};
 use crate::commands::output::table::{RowFormat, RowWriter};
-use crate::lab::Scene;
-use crate::lab::palette::Theme;
+use crate::look::palette::Theme;
+use crate::scene::Scene;
 use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
 
 /// A figure of the chapter.

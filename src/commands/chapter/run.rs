@@ -2,7 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use crate::lab::{Follow, Lane, Scene};
+use crate::run::{Follow, Lane};
+use crate::scene::Scene;
 use crate::sim::Solver;
 use crate::sim::integrators::{Method, method};
 

@@ -10,10 +10,10 @@ use csv::ByteRecord;
 use crate::commands::error::Error;
 use crate::commands::manifest::Mark;
 use crate::commands::{scene_file, verify};
-use crate::lab::diff::{NotComparable, Records};
-use crate::lab::pacing::trace_file::delimiter;
-use crate::lab::trace::{Made, row};
+use crate::loops::trace_file::delimiter;
 use crate::regular_file::{self, Unreadable};
+use crate::run::diff::{NotComparable, Records};
+use crate::run::trace::{Made, row};
 
 /// The rows that pass from thread to thread at once.
 const BATCH: usize = 1024;

@@ -2,7 +2,7 @@
 
 use super::measured::Measured;
 use crate::commands::terminal::print_status;
-use crate::lab::pacing::{MeasuredLoops, NoLoop, POLICIES};
+use crate::loops::{MeasuredLoops, NoLoop, POLICIES};
 use crate::sim::number::round;
 
 /// Tells which of the policies measured on one trace to take.

@@ -1,8 +1,8 @@
 //! The picture of `regatta loop`: the moment shown against the moment of display, and what each policy costs.
 
 use super::measured::Measured;
-use crate::lab::Scene;
-use crate::lab::palette::Theme;
+use crate::look::palette::Theme;
+use crate::scene::Scene;
 use crate::sim::number::round;
 use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
 

@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 
 use crate::commands::output::Output;
 use crate::commands::output::table::RowWriter;
-use crate::lab::pacing::{FrameRecord, FrameTrace, LoopRun, PacingReport, PolicyCard, RefreshRate};
-use crate::lab::{LaneSpec, Scene};
+use crate::loops::{FrameRecord, FrameTrace, LoopRun, PacingReport, PolicyCard, RefreshRate};
+use crate::scene::{LaneSpec, Scene};
 
 /// How many frames the picture of a run shows, and how many of them are before a long one.
 const DRAWN: usize = 30;

@@ -2,11 +2,11 @@
 
 use serde_json::{Value, json};
 
-use crate::lab::identify::{
-    Candidate, Conclusion, Effective, Fitted, Identification, Log, SpringAs,
-};
 use crate::sim::integrators::Method;
 use crate::sim::number::significant;
+use crate::tools::identify::{
+    Candidate, Conclusion, Effective, Fitted, Identification, Log, SpringAs,
+};
 
 /// A residual beyond which no method is named as the nearest.
 const FAR: f64 = 0.1;

@@ -11,7 +11,7 @@ use serde_json::{Map, Value};
 use super::{Output, print, print_json};
 use crate::commands::error::Error;
 use crate::commands::visible::{visible, visible_json};
-use crate::lab::csv_row;
+use crate::run::csv_row;
 use crate::sim::number::counted;
 
 /// How data is written.

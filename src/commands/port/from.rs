@@ -3,10 +3,9 @@
 use std::path::PathBuf;
 
 use super::{ASKED, Asked};
-use crate::lab::clip;
-use crate::lab::port::{Approach, Dialect, Key, Setup, Wish};
-use crate::lab::scene::MAX_SUBSTEPS;
+use crate::scene::{MAX_SUBSTEPS, clip};
 use crate::sim::integrators::{JointMode, Method, Setting};
+use crate::tools::port::{Approach, Dialect, Key, Setup, Wish};
 
 /// Where a wish comes from.
 pub(super) enum From {

@@ -4,12 +4,12 @@ use serde_json::{Map, Value, json};
 
 use super::{Drive, PortedEngine};
 use crate::commands::output::table::TableFormat;
-use crate::lab::identify::Effective;
-use crate::lab::port::{
+use crate::sim::number::{round, significant};
+use crate::tools::identify::Effective;
+use crate::tools::port::{
     Approach, Departure, Dialect, DialectPort, DriveLimits, FollowerPort, Ported, Reach, Setup,
     Wish,
 };
-use crate::sim::number::{round, significant};
 
 /// A frequency, a damping ratio and how long the energy lasts.
 fn sees(seen: &Effective) -> String {

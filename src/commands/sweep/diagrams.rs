@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use super::grid::{Row, Swept};
 use super::round_off::{ErrorCurve, Width};
 use crate::commands::plot::columns;
-use crate::lab::palette::Theme;
+use crate::look::palette::Theme;
 use crate::sim::integrators::Method;
 use crate::sim::number::round;
 use crate::view::{Axis, AxisScale, Chart, Figure, FigureCurve, Legend};
@@ -136,7 +136,7 @@ mod tests {
     use super::super::grid::Grid;
     use super::super::round_off::error_curves;
     use super::*;
-    use crate::lab::Scene;
+    use crate::scene::Scene;
     use crate::sim::integrators::method;
 
     fn swept(scene: &str, id: &str, rates: &[u32]) -> (Swept, Vec<Row>) {

@@ -10,7 +10,7 @@
 use std::ops::{Add, Div, Mul, RangeInclusive, Sub};
 
 use super::grid::Swept;
-use crate::lab::Scene;
+use crate::scene::Scene;
 use crate::sim::State;
 use crate::sim::bodies::{Body, Ship};
 use crate::sim::integrators::Method;

@@ -1,7 +1,7 @@
 //! A parameter that takes several values in a sweep.
 
 use crate::commands::error::Error;
-use crate::lab::scene::{Scene, edited_values, nearest};
+use crate::scene::{Scene, edited_values, nearest};
 
 /// A parameter by its key, and its values.
 #[derive(Clone, Debug)]

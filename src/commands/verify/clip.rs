@@ -26,9 +26,9 @@ use crate::commands::output::DirectoryLock;
 use crate::commands::state_log::StateLog;
 use crate::commands::terminal::print_status;
 use crate::commands::{scene_file, settings};
-use crate::lab::Studio;
 use crate::regular_file::{self, Unreadable};
 use crate::sim::number::counted;
+use crate::studio::Studio;
 
 /// The error of a capture in `dir` that cannot be judged, for this reason.
 fn unjudged(dir: &Path) -> impl Fn(String) -> Error {

@@ -2,8 +2,8 @@
 
 use super::super::manifest::{LaneEnd, LaneMark, Manifest, Mark};
 use super::super::state_log::{self, StateLog};
-use crate::lab::Studio;
-use crate::lab::diff::is_same_number;
+use crate::run::diff::is_same_number;
+use crate::studio::Studio;
 
 /// The first mark that differs.
 pub(super) struct PhysicsChange {
@@ -13,7 +13,7 @@ pub(super) struct PhysicsChange {
     pub(super) what: String,
 }
 
-/// The first mark in which the run, whose lab is at its end, differs from the manifest, or else the first lane that ended
+/// The first mark in which the run, whose studio is at its end, differs from the manifest, or else the first lane that ended
 /// differently.
 pub(super) fn first_change(
     manifest: &Manifest,

@@ -17,8 +17,8 @@ use crate::commands::pipeline::{DrawnFrame, Pipeline};
 use crate::commands::schedule::Schedule;
 use crate::commands::state_log::StateLog;
 use crate::commands::terminal::print_status;
-use crate::lab::Studio;
 use crate::regular_file;
+use crate::studio::Studio;
 use crate::view::png;
 
 /// The limits on another driver: a little more than the differences that were seen.

@@ -9,16 +9,16 @@ use super::report::{FILE, Report, print_line};
 use crate::atomic_file::IfExists;
 use crate::commands::error::Error;
 use crate::commands::interrupt::watch_for_interrupt;
-use crate::commands::jobs;
 use crate::commands::output::Destination;
-use crate::commands::scene_file;
 use crate::commands::terminal::print_status;
-use crate::lab::race::{Observer, Race, Resumed};
-use crate::lab::scene::{Check, Scene};
-use crate::lab::session::{Reached, Replay};
-use crate::lab::trace::last_tick;
-use crate::lab::{Action, Session, Studio};
+use crate::commands::{jobs, scene_file};
+use crate::run::Session;
+use crate::run::race::{Observer, Race, Resumed};
+use crate::run::session::{Reached, Replay};
+use crate::run::trace::last_tick;
+use crate::scene::{Action, Check, Scene};
 use crate::sim::number::counted;
+use crate::studio::Studio;
 
 /// The most ticks that a race is run for its checks: a day at 1000 Hz and more, which takes a body minutes.
 const MAX_TICKS: u64 = 100_000_000;
@@ -179,7 +179,7 @@ pub(in crate::commands) fn end_of(path: &Path, scene: &Scene) -> Result<u64, Err
 /// the scene. Fails where it would take too long.
 fn check_ticks(path: &Path, scene: &Scene) -> Result<(), Error> {
     refuse_late_checks(path, scene)?;
-    let end = Studio::new(scene.clone()).nearest_tick(scene.seconds);
+    let end = Studio::new(scene.clone()).race().nearest_tick(scene.seconds);
     let late = scene.checks.iter().map(|check| check.tick).filter(|tick| *tick > end);
     let Some(last) = late.clone().max() else { return Ok(()) };
     let (are, count) = match late.count() {

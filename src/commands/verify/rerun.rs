@@ -6,7 +6,7 @@ use crate::commands::capture_settings::CaptureSettings;
 use crate::commands::experiment::Experiment;
 use crate::commands::manifest::Manifest;
 use crate::commands::state_log::StateLog;
-use crate::lab::Studio;
+use crate::studio::Studio;
 
 /// The run of a manifest, to be repeated.
 pub(super) struct Rerun {
@@ -24,14 +24,14 @@ pub(super) struct Frames {
 }
 
 impl Rerun {
-    /// The lab at the start of the run, and the log of its states.
+    /// The studio at the start of the run, and the log of its states.
     pub(super) fn begin(&self) -> (Studio, StateLog) {
         let studio = self.capture.dress(self.experiment.studio());
         let state_log = StateLog::new(self.capture.mark_every, studio.race());
         (studio, state_log)
     }
 
-    /// The lab at the end of the run and its log, where nothing is drawn; `None` after an interrupt.
+    /// The studio at the end of the run and its log, where nothing is drawn; `None` after an interrupt.
     pub(super) fn run(&self, interrupted: &AtomicBool) -> Option<(Studio, StateLog)> {
         let (mut studio, mut state_log) = self.begin();
         for frame in 0..self.manifest.frames.len() as u32 {

@@ -1,7 +1,7 @@
 //! The bodies: one file each, one line each in the table below.
 //!
 //! A body is a closed system with natural coordinates, and with an exact flow if it has a closed form.
-//! Its [`Kind`] card says how a scene describes it; [`Look`](crate::lab::picture::Look) says how it is
+//! Its [`Kind`] card says how a scene describes it; [`Look`](crate::look::Look) says how it is
 //! drawn. To add one, copy `pendulum.rs`, declare it, and name it in [`BODIES`].
 
 use std::sync::{Arc, LazyLock};

@@ -61,7 +61,7 @@ pub enum StepFailure {
         /// Its value.
         value: f64,
     },
-    /// A value left the range in which bodies are simulated; `lab::race::ESCAPE`.
+    /// A value left the range in which bodies are simulated; `run::race::ESCAPE`.
     Escaped {
         /// The coordinate's name.
         coordinate: Arc<str>,

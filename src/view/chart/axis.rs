@@ -1,6 +1,6 @@
 //! How values lie along an axis, and where they are marked: at round values, at least three of them wherever they fit.
 
-use crate::lab::number::{grouped, round, superscript};
+use crate::stage::number::{grouped, round, superscript};
 
 /// How values lie along an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]

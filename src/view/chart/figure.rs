@@ -6,7 +6,7 @@ use egui::{
 };
 
 use super::{Arrow, AxisScale, Curve, Dots, Drawing, LineStyle, PlotArea, legend, paint, plot};
-use crate::lab::picture::Rgba;
+use crate::look::palette::Rgba;
 use crate::view::theme::{colour, palette};
 
 /// A picture of one chart or several.

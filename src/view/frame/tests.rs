@@ -1,7 +1,7 @@
 use super::*;
-use crate::lab::Scene;
-use crate::lab::picture::{Fill, Picture, Shape};
-use crate::lab::studio::StageCommand;
+use crate::scene::Scene;
+use crate::stage::{Fill, Picture, Shape};
+use crate::studio::StageCommand;
 use crate::view::chart::{self, LineStyle, Primitive, ScreenCurve};
 use crate::view::testing::{EVERYWHERE, Pixels, gpu_or_skip, read};
 use crate::view::textures::texture;

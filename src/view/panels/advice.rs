@@ -8,14 +8,14 @@ use egui::{
 use super::breakpoints;
 use super::parts::{is_picture, tone};
 use super::table::{Column, GAP, MARGIN, SortKey, Table, TableRow, show_name};
-use crate::lab::LaneSpec;
-use crate::lab::analysis::{
+use crate::measure::{
     Advice, AdvisedBodies, CRITERIA, Criterion, CriterionMet, CriterionResult,
     MAX_ADVISED_SUBSTEPS, MethodAdvice, PassedOver, Recommendation, recommended,
 };
-use crate::lab::number::{counted, significant};
-use crate::lab::source_code::Language;
-use crate::lab::studio::{Command, RunCommand, Studio, ViewCommand};
+use crate::scene::LaneSpec;
+use crate::stage::number::{counted, significant};
+use crate::studio::{Command, RunCommand, Studio, ViewCommand};
+use crate::tools::source_code::Language;
 use crate::view::theme::{PanelPalette, TYPE, palette, strong_font};
 
 /// What is written in a cell, where there is room for it and where there is not.
@@ -361,9 +361,9 @@ mod tests {
     use egui::{FontFamily, Pos2, Rect};
 
     use super::*;
-    use crate::lab::Scene;
-    use crate::lab::analysis::AnalysisWorker;
-    use crate::lab::studio::{Instrument, StageCommand};
+    use crate::measure::AnalysisWorker;
+    use crate::scene::Scene;
+    use crate::studio::{Instrument, StageCommand};
     use crate::view::panels;
     use crate::view::testing::{ShownText, TestWindow};
 

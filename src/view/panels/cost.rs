@@ -4,10 +4,10 @@
 use egui::{Color32, Label, Rect, RichText, Ui, Vec2, vec2};
 
 use super::table::{Column, SortKey, Table, TableRow, show_words};
-use crate::lab::LaneSpec;
-use crate::lab::number::significant;
-use crate::lab::race::Entrant;
-use crate::lab::studio::{Command, StageCommand, Studio};
+use crate::run::race::Entrant;
+use crate::scene::LaneSpec;
+use crate::stage::number::significant;
+use crate::studio::{Command, StageCommand, Studio};
 use crate::view::theme::{PanelPalette, palette, strong_font};
 
 /// The height of a row and the size of type in the heads, in points.

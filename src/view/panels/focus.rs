@@ -45,8 +45,8 @@ mod tests {
 
     use egui::{Event, Key, Modifiers, Rect};
 
-    use crate::lab::Scene;
-    use crate::lab::studio::{StageCommand, Studio};
+    use crate::scene::Scene;
+    use crate::studio::{StageCommand, Studio};
     use crate::view::testing::TestWindow;
 
     #[test]

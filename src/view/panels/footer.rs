@@ -4,10 +4,10 @@ use egui::{Align, Layout, Sense, Ui, vec2};
 
 use super::parts::short;
 use super::{breakpoints, keycap, loops};
-use crate::lab::loop_lab::LoopCommand;
-use crate::lab::number::round;
-use crate::lab::race::Mode;
-use crate::lab::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand};
+use crate::loops::loop_lab::LoopCommand;
+use crate::run::race::Mode;
+use crate::stage::number::round;
+use crate::studio::{Command, RunCommand, StageCommand, Studio, ViewCommand};
 use crate::view::theme::{TYPE, palette};
 
 pub(super) const HEIGHT: f32 = 32.0;
@@ -131,7 +131,7 @@ fn show_hint(ui: &mut Ui, hint: KeyHint, commands: &mut Vec<Command>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::Scene;
+    use crate::scene::Scene;
 
     #[test]
     fn the_throttle_is_told_of_a_ship_that_is_looked_at_or_whose_throttle_is_not_full() {

@@ -3,8 +3,8 @@
 use egui::{Align, Button, Layout, RichText, ScrollArea, Ui, vec2};
 
 use super::{breakpoints, focus, keycap};
-use crate::lab::studio::guide::{STOPS, Tour};
-use crate::lab::studio::{Command, Step, ViewCommand};
+use crate::studio::guide::{STOPS, Tour};
+use crate::studio::{Command, Step, ViewCommand};
 use crate::view::theme::{palette, strong_font};
 
 /// The usual height, the least, and what is left for the stage where that is possible, in points.

@@ -5,7 +5,7 @@ use egui::{Align2, FontId, Order, RichText, ScrollArea, Ui, Vec2, Window, pos2, 
 
 use super::parts::short;
 use super::{breakpoints, keycap};
-use crate::lab::studio::{Command, GESTURES, KEYS, ViewCommand};
+use crate::studio::{Command, GESTURES, KEYS, ViewCommand};
 use crate::view::theme::{TYPE, palette};
 
 /// The width of a column, and of the keys in it.
@@ -87,8 +87,8 @@ mod tests {
     use egui::Pos2;
 
     use super::*;
-    use crate::lab::Scene;
-    use crate::lab::studio::Studio;
+    use crate::scene::Scene;
+    use crate::studio::Studio;
     use crate::view::testing::TestWindow;
 
     #[test]

@@ -9,9 +9,9 @@ pub(super) use self::number::NumberField;
 use self::rows::{Reach, Row, Spacing, Values, rows};
 pub(in crate::view) use self::sweep::is_under_way;
 use super::focus;
-use crate::lab::scene::edited_values;
-use crate::lab::studio::{Command, RunCommand, Studio};
-use crate::lab::{Action, Acts};
+use crate::scene::{Action, edited_values};
+use crate::stage::Acts;
+use crate::studio::{Command, RunCommand, Studio};
 use crate::view::theme::palette;
 
 mod engine;
@@ -231,8 +231,8 @@ fn restoring(studio: &Studio) -> Vec<Command> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::studio::StageCommand;
-    use crate::lab::{LaneId, SCENES, Scene};
+    use crate::scene::{LaneId, SCENES, Scene};
+    use crate::studio::StageCommand;
     use crate::view::testing::TestWindow;
 
     /// Every text that is seen in a frame that is high enough for all of the inspector.

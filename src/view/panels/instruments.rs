@@ -9,10 +9,10 @@ use super::parts::{is_picture, numbered};
 use super::series_styles::{SeriesStyle, SeriesStyles};
 use super::tracks::Detail;
 use super::{advice, breakpoints, cost, loops, one_step, stability_map};
-use crate::lab::METRICS;
-use crate::lab::loop_lab::FRAME_METRICS;
-use crate::lab::past::Quantity;
-use crate::lab::studio::{
+use crate::loops::loop_lab::FRAME_METRICS;
+use crate::run::METRICS;
+use crate::run::past::Quantity;
+use crate::studio::{
     Command, INSTRUMENTS, Instrument, InstrumentCard, InstrumentGroup, StageCommand, Studio,
     ViewCommand,
 };

@@ -5,9 +5,9 @@ use egui::{Color32, RichText, Ui};
 use super::formula;
 use super::table::{Table, TableRow};
 use super::verdict::VerdictText;
-use crate::lab::race::{LaneBody, Mode};
-use crate::lab::source_code::Language;
-use crate::lab::studio::{Command, DriverRequest, StageCommand, Studio, ViewCommand};
+use crate::run::race::{LaneBody, Mode};
+use crate::studio::{Command, DriverRequest, StageCommand, Studio, ViewCommand};
+use crate::tools::source_code::Language;
 use crate::view::theme::{PanelPalette, TYPE, palette, strong_font};
 
 use row::Row;

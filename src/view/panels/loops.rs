@@ -3,8 +3,8 @@
 use egui::{Color32, Rect, RichText, Sense, Ui, Vec2, vec2};
 
 use super::breakpoints;
-use crate::lab::loop_lab::{LoopLab, LoopLane};
-use crate::lab::studio::{Command, Studio};
+use crate::loops::loop_lab::{LoopLab, LoopLane};
+use crate::studio::{Command, Studio};
 use crate::view::chart::Primitive;
 use crate::view::chart::legend::{self, Entry};
 use crate::view::theme::{PanelPalette, colour, palette, strong_font};

@@ -5,7 +5,7 @@ use egui::{FontId, Rect, Response, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
 use super::parts::short;
 use super::verdict::VerdictText;
 use super::{keycap, lanes};
-use crate::lab::studio::{Command, StageCommand, Studio};
+use crate::studio::{Command, StageCommand, Studio};
 use crate::view::theme::{TYPE, palette, strong_font};
 
 pub(super) const HEIGHT: f32 = 40.0;

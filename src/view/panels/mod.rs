@@ -4,8 +4,8 @@ use egui::epaint::PathShape;
 use egui::{Frame, Key, Margin, Pos2, Rect, Stroke, Ui, Vec2, pos2, vec2};
 
 use super::theme::palette;
-use crate::lab::race::Mode;
-use crate::lab::studio::{Command, Dialog, Splits, Studio, ViewCommand};
+use crate::run::race::Mode;
+use crate::studio::{Command, Dialog, Splits, Studio, ViewCommand};
 
 mod advice;
 mod annotations;
@@ -313,8 +313,8 @@ mod tests {
     use egui::Event;
 
     use super::*;
-    use crate::lab::studio::StageCommand;
-    use crate::lab::{Scene, Studio};
+    use crate::scene::Scene;
+    use crate::studio::{StageCommand, Studio};
     use crate::view::testing::{TestWindow, button};
 
     #[test]

@@ -4,9 +4,9 @@ use egui::{Align2, Button, ComboBox, FontId, Id, Rect, RichText, Sense, Ui, vec2
 
 use super::dialog::{select, window};
 use super::inspector::NumberField;
-use crate::lab::port::{DIALECTS, Dialect, DialectPort, Key, Wish};
-use crate::lab::source_code::Language;
-use crate::lab::studio::{Command, MySpring, StageCommand, Studio, ViewCommand};
+use crate::studio::{Command, MySpring, StageCommand, Studio, ViewCommand};
+use crate::tools::port::{DIALECTS, Dialect, DialectPort, Key, Wish};
+use crate::tools::source_code::Language;
 use crate::view::theme::{TYPE, palette};
 
 const TITLE: &str = "My spring";

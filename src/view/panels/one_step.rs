@@ -9,10 +9,11 @@ use egui::{
 
 use super::annotations::{arrow, label};
 use super::{breakpoints, formula};
-use crate::lab::Coordinate;
-use crate::lab::analysis::Unit;
-use crate::lab::number::{round, significant};
-use crate::lab::studio::{OneStep, Slope, Studio};
+use crate::measure::{OneStep, Slope};
+use crate::run::Unit;
+use crate::stage::Coordinate;
+use crate::stage::number::{round, significant};
+use crate::studio::Studio;
 use crate::view::chart::{self, AxisScale, Curve, Drawing, LineStyle, PlotArea};
 use crate::view::theme::{TYPE, colour, palette, strong_font};
 

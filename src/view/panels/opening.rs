@@ -4,9 +4,9 @@ use egui::{Id, Key, Label, Rect, RichText, ScrollArea, TextStyle, TextWrapMode, 
 
 use super::dialog::{select, window};
 use super::text_field::text_field;
-use crate::lab::link::MAX_LETTERS;
-use crate::lab::scene::Mistake;
-use crate::lab::studio::{Command, DriverRequest, Studio, ViewCommand};
+use crate::run::link::MAX_LETTERS;
+use crate::scene::Mistake;
+use crate::studio::{Command, DriverRequest, Studio, ViewCommand};
 use crate::view::theme::palette;
 
 /// The width of a path that can be read without scrolling, in points.
@@ -116,11 +116,11 @@ fn report_within(ui: &mut Ui, report: &[Mistake], room: egui::Vec2) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::Scene;
-    use crate::lab::studio::Dialog;
+    use crate::scene::Scene;
+    use crate::studio::Dialog;
     use crate::view::testing::TestWindow;
 
-    /// The size of the only window over the lab, in points.
+    /// The size of the only window over the studio, in points.
     fn size_of_dialog(studio: &Studio, title: &str) -> egui::Vec2 {
         let mut window = TestWindow::new([800.0, 600.0]);
         for _ in 0..3 {

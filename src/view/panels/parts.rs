@@ -5,7 +5,7 @@ use std::sync::Arc;
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{Color32, FontId, Frame, Galley, Margin, TextFormat, Ui};
 
-use crate::lab::analysis::{Outcome, Severity};
+use crate::measure::{Outcome, Severity};
 use crate::view::theme::{colour, palette};
 
 /// The tag of a panel that is a picture of an instrument.

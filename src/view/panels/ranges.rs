@@ -109,8 +109,9 @@ fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::studio::{StageCommand, Studio};
-    use crate::lab::{METRICS, Metric, Scene};
+    use crate::run::{METRICS, Metric};
+    use crate::scene::Scene;
+    use crate::studio::{StageCommand, Studio};
 
     fn lanes(studio: &Studio, metric: usize) -> Vec<Track> {
         Track::of(studio, 0, |s| [s.t, s.metrics[metric]])

@@ -2,10 +2,10 @@
 
 use egui::Color32;
 
-use crate::lab::Studio;
-use crate::lab::loop_lab::LoopLab;
-use crate::lab::pacing::POLICIES;
-use crate::lab::race::Mode;
+use crate::loops::POLICIES;
+use crate::loops::loop_lab::LoopLab;
+use crate::run::race::Mode;
+use crate::studio::Studio;
 use crate::view::theme::{colour, palette_of};
 
 /// Whose curves the plots show.

@@ -11,11 +11,11 @@ use egui::{
 use super::annotations::{label, mixed, polygon};
 use super::breakpoints;
 use super::parts::{is_picture, numbered};
-use crate::lab::analysis::{Coverage, MapRequest, SeenLine, StabilityMap};
-use crate::lab::number::round;
-use crate::lab::scene::edited_values;
-use crate::lab::studio::{Command, RunCommand, StageCommand, Step, Studio};
-use crate::lab::{Action, Parameter};
+use crate::measure::{Coverage, MapRequest, SeenLine, StabilityMap};
+use crate::scene::{Action, edited_values};
+use crate::stage::Parameter;
+use crate::stage::number::round;
+use crate::studio::{Command, RunCommand, StageCommand, Step, Studio};
 use crate::view::chart::{self, AxisScale, LineStyle, PlotArea, Primitive, ScreenCurve};
 use crate::view::theme::{colour, palette, strong_font};
 use words::{full_name, point_in_words, sentence, short_sentence};

@@ -5,7 +5,7 @@ use egui::{Align2, Color32, FontId, Id, Rect, Response, ScrollArea, Sense, Ui, V
 
 use super::parts::short;
 use super::{focus, keycap};
-use crate::lab::studio::Command;
+use crate::studio::Command;
 use crate::view::chart;
 use crate::view::chart::legend::swatch;
 use crate::view::theme::{PanelPalette, TYPE, palette, strong_font};

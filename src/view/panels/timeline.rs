@@ -11,11 +11,9 @@ use egui::{
 use self::marks::{Context, Group, Sign, grouped};
 pub(super) use self::span::Span;
 use super::breakpoints;
-use crate::lab::race::{Mode, TimeScale};
-use crate::lab::session::Event;
-use crate::lab::studio::{
-    Command, DriverRequest, RunCommand, StageCommand, Step, Studio, ViewCommand,
-};
+use crate::run::race::{Mode, TimeScale};
+use crate::run::session::Event;
+use crate::studio::{Command, DriverRequest, RunCommand, StageCommand, Step, Studio, ViewCommand};
 use crate::view::chart::AxisScale;
 use crate::view::theme::{PanelPalette, palette};
 use crate::view::wheel;

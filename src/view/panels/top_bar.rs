@@ -6,12 +6,12 @@ use egui::{
 
 use super::breakpoints;
 use super::loops::controls;
-use crate::lab::loop_lab::LoopCommand;
-use crate::lab::race::Mode;
-use crate::lab::studio::{
+use crate::loops::loop_lab::LoopCommand;
+use crate::run::race::Mode;
+use crate::scene::{SCENES, Scene};
+use crate::studio::{
     Command, RunCommand, SPEED_LADDER, StageCommand, Step, Studio, TICK_LADDER, ViewCommand,
 };
-use crate::lab::{SCENES, Scene};
 use crate::view::theme::{TYPE, palette, strong_font};
 
 pub(super) const HEIGHT: f32 = 40.0;

@@ -4,7 +4,7 @@ use egui::epaint::PathShape;
 use egui::{Color32, FontId, Pos2, Rect, Stroke, Ui, pos2, vec2};
 
 use super::parts::{severity_tone, short};
-use crate::lab::analysis::{Severity, Sign};
+use crate::measure::{Severity, Sign};
 use crate::view::theme::{TYPE, palette};
 
 /// Half the size of a sign, and the room that it takes, in points.

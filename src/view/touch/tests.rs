@@ -1,12 +1,12 @@
 use egui::{Modifiers, pos2};
 
 use super::*;
-use crate::lab::Scene;
-use crate::lab::picture::{Whose, compose};
-use crate::lab::studio::{HeldBody, RunCommand, StageCommand, Step, ViewCommand};
+use crate::scene::Scene;
+use crate::stage::{Whose, compose};
+use crate::studio::{HeldBody, RunCommand, StageCommand, Step, ViewCommand};
 use crate::view::testing::TestWindow;
 
-/// A lab with a stage, and the pointer over it.
+/// A studio with a stage, and the pointer over it.
 struct Table {
     studio: Studio,
     touch: Touch,

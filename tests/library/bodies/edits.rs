@@ -1,7 +1,7 @@
 //! Setting a parameter of a body that moves: it goes on from its state as a body would that had the value from
 //! the start.
 
-use regatta::lab::Scene;
+use regatta::scene::Scene;
 use regatta::sim::bodies::{Acts, BODIES, Input, Kind, MAX_VALUE, Range, kind};
 use regatta::sim::integrators::GENERAL_METHODS;
 use regatta::sim::{Solver, Stepper};

@@ -1,7 +1,7 @@
 //! The accuracy of reference solutions, against a closed form and against Runge-Kutta at a step so fine
 //! that its own error is known from two steps.
 
-use regatta::lab::{SCENES, Scene, SceneBody};
+use regatta::scene::{SCENES, Scene, SceneBody};
 use regatta::sim::bodies::{BODIES, Body, Input, Pendulum, Truth, kind};
 use regatta::sim::integrators::{StepFailure, method};
 use regatta::sim::{REFERENCE_ACCURACY, Solver, State, stepper};

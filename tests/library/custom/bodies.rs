@@ -1,8 +1,10 @@
 //! Custom bodies beside the built-in ones that move by the same equation.
 
 use glam::DVec2;
-use regatta::lab::{Judge, LaneSpec, Race, Scene};
+use regatta::measure::Judge;
 use regatta::prelude::{Extras, Options, ParameterOf, Range, State};
+use regatta::run::Race;
+use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::Solver;
 use regatta::sim::bodies::{Custom, FalseClaims};
 use regatta::sim::integrators::{GENERAL_METHODS, METHODS};

@@ -1,6 +1,8 @@
 //! Custom methods in a race, a verdict and a run that is gone back in.
 
-use regatta::lab::{Adviser, Criterion, Judge, LaneSpec, Race, Scene, Session, Timeline};
+use regatta::measure::{Adviser, Criterion, Judge};
+use regatta::run::{Race, Session, Timeline};
+use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::integrators::{
     AdamsBashforth2, BogackiShampine32, Family, ImplicitMidpoint, Integrator, Method, Rk4,
     StepFailure, VelocityVerlet, custom_integrator, method,

@@ -1,8 +1,8 @@
 //! Options that cannot be are refused with the field and the remedy.
 
 use glam::DVec2;
-use regatta::lab::custom::OptionsError;
 use regatta::prelude::{Extras, Options, ParameterOf, Range, Scene, State, System};
+use regatta::scene::custom::OptionsError;
 use regatta::sim::integrators::{Family, Method, Rk4, custom_integrator, method};
 
 use super::{Orbit, Spring};

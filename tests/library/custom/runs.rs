@@ -1,13 +1,15 @@
-//! Reports, recordings, pictures and the lab on a custom body.
+//! Reports, recordings, pictures and the studio on a custom body.
 
 use glam::DVec2;
-use regatta::lab::picture::{Look, Mark, Outline};
-use regatta::lab::race::{Lane, Mode};
-use regatta::lab::session::RecordingError;
-use regatta::lab::{Adviser, CRITERIA, LaneSpec, Report, Studio};
+use regatta::look::Look;
+use regatta::measure::{Adviser, CRITERIA, Report};
 use regatta::prelude::{Options, Scene, Session, State};
+use regatta::run::race::{Lane, Mode};
+use regatta::run::session::RecordingError;
+use regatta::scene::{LaneSpec, Mark, Outline};
 use regatta::sim::Solver;
 use regatta::sim::integrators::method;
+use regatta::studio::Studio;
 
 use super::{Orbit, Spring};
 
@@ -99,7 +101,7 @@ fn a_run_of_a_custom_body_is_not_recorded_and_the_reason_is_told() {
 #[test]
 fn the_lab_goes_on_with_a_run_where_it_is() {
     let mut session = Session::racing(scene().into());
-    session.act(regatta::lab::Action::Kick(2.0));
+    session.act(regatta::scene::Action::Kick(2.0));
     session.run(100);
     let mut studio = Studio::of_session(session.clone());
     assert_eq!((studio.mode(), studio.race().tick()), (Mode::Race, 100));

@@ -1,9 +1,9 @@
 //! The engine that made a log is found by its motion alone.
 
-use regatta::lab::identify::{
+use regatta::tools::identify::{
     Candidate, ColumnNames, Conclusion, Identification, Log as Text, LoggedBody, SpringAs, identify,
 };
-use regatta::lab::port::{Setup, setups};
+use regatta::tools::port::{Setup, setups};
 
 use super::log::{Log, Row};
 use crate::dice::Dice;

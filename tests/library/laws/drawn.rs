@@ -1,8 +1,9 @@
 //! A scene says how a law is drawn, and the picture is so.
 
 use glam::DVec2;
-use regatta::lab::picture::{Framing, Look, Mark, Outline, Pull};
-use regatta::lab::{Lane, Scene};
+use regatta::look::{Framing, Look, Pull};
+use regatta::run::Lane;
+use regatta::scene::{Mark, Outline, Scene};
 use regatta::sim::Solver;
 
 const HEAD: &str = "title = 'Mine'\ntick_hz = 60\nseconds = 10\n[[law]]\n";

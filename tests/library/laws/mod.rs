@@ -1,10 +1,11 @@
 //! Equations of motion that a scene writes itself.
 
-use regatta::lab::studio::TICK_LADDER;
-use regatta::lab::{Judge, LaneSpec, Scene, SceneBody};
+use regatta::measure::Judge;
+use regatta::scene::{LaneSpec, Scene, SceneBody};
 use regatta::sim::bodies::kind;
 use regatta::sim::integrators::METHODS;
 use regatta::sim::{Solver, Stepper};
+use regatta::studio::TICK_LADDER;
 
 mod drawn;
 mod language;

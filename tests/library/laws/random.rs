@@ -1,6 +1,6 @@
 //! Random laws against an independent integrator, and random text against the parser.
 
-use regatta::lab::SceneBody;
+use regatta::scene::SceneBody;
 use regatta::sim::Solver;
 use regatta::sim::law::{CoordinateText, Equations, LawText, Layout, Part};
 

@@ -1,6 +1,7 @@
 //! What a law claims of its motion, and the truth that methods are compared with.
 
-use regatta::lab::{Judge, LaneSpec, Scene, SceneBody};
+use regatta::measure::Judge;
+use regatta::scene::{LaneSpec, Scene, SceneBody};
 use regatta::sim::Solver;
 use regatta::sim::bodies::Input;
 use regatta::sim::integrators::METHODS;

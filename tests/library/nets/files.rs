@@ -1,7 +1,9 @@
 //! Nets in scene files.
 
-use regatta::lab::{LaneSpec, Race, Scene, Studio};
+use regatta::run::Race;
+use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::integrators::method;
+use regatta::studio::Studio;
 
 fn parse(net: &str) -> Scene {
     let text = format!("title = 't'\ntick_hz = 60\nseconds = 1\n[[net]]\n{net}\n");

@@ -1,9 +1,8 @@
 //! What is said of a net that has no reference solution.
 
-use regatta::lab::analysis::{
-    Adviser, Criterion, CriterionResult, Judge, Outcome, Severity, Verdict,
-};
-use regatta::lab::{LaneSpec, Race, Scene};
+use regatta::measure::{Adviser, Criterion, CriterionResult, Judge, Outcome, Severity, Verdict};
+use regatta::run::Race;
+use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::integrators::{StepFailure, method};
 use regatta::sim::number::round;
 

@@ -4,11 +4,12 @@ use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 
-use regatta::lab::studio::{StageCommand, Studio, TICK_LADDER};
-use regatta::lab::{Action, Judge, LaneSpec, SCENES, Scene, SceneBody};
+use regatta::measure::Judge;
+use regatta::scene::{Action, LaneSpec, SCENES, Scene, SceneBody};
 use regatta::sim::bodies::{Body, Chain};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 use regatta::sim::{Solver, Stepper};
+use regatta::studio::{StageCommand, Studio, TICK_LADDER};
 
 use super::built_in;
 

@@ -1,6 +1,6 @@
 //! What a scene file may say, and what the built-in ones claim.
 
-use regatta::lab::Scene;
+use regatta::scene::Scene;
 
 mod built_in;
 mod reading;

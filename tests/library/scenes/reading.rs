@@ -1,11 +1,12 @@
 //! What a scene file may say, and what it then means.
 
-use regatta::lab::scene::{
-    MAX_BODIES, MAX_LANES, MAX_SECONDS, MAX_TICK_HZ, Scene, SceneBody, SceneKey, scene_tables,
+use regatta::run::Race;
+use regatta::scene::{
+    Action, LaneId, LaneSpec, MAX_BODIES, MAX_LANES, MAX_SECONDS, MAX_TICK_HZ, Scene, SceneBody,
+    SceneKey, scene_tables,
 };
-use regatta::lab::studio::{StageCommand, Studio};
-use regatta::lab::{Action, LaneId, LaneSpec, Race};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
+use regatta::studio::{StageCommand, Studio};
 
 use super::built_in;
 

@@ -3,8 +3,8 @@
 use std::process::Command;
 use std::{env, fs};
 
-use regatta::lab::source_code::{Language, Precision, source_code};
 use regatta::sim::integrators::{Family, METHODS, Method};
+use regatta::tools::source_code::{Language, Precision, source_code};
 
 use super::drivers;
 use super::known::{CASES, Case, FORCES, STEPS, steps};

@@ -1,8 +1,8 @@
-//! What the lab asks of its driver when something is to be copied.
+//! What the studio asks of its driver when something is to be copied.
 
-use regatta::lab::Scene;
-use regatta::lab::source_code::Language;
-use regatta::lab::studio::{Command, DriverRequest, Studio, ViewCommand};
+use regatta::scene::Scene;
+use regatta::studio::{Command, DriverRequest, Studio, ViewCommand};
+use regatta::tools::source_code::Language;
 
 #[test]
 fn the_method_is_copied_while_a_lane_is_pointed_at_and_else_the_instrument() {

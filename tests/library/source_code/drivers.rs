@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use regatta::lab::source_code::{Language, MethodInput, MethodSource, Precision, source_code};
 use regatta::sim::integrators::Method;
+use regatta::tools::source_code::{Language, MethodInput, MethodSource, Precision, source_code};
 
 use super::known::{CASES, FORCE, FORCES, RATE, SETTINGS, STEPS, SUBSTEPS, TARGET, sources};
 

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::{env, fs};
 
-use regatta::lab::source_code::{Language, Precision, source_code};
 use regatta::sim::integrators::{METHODS, method};
+use regatta::tools::source_code::{Language, Precision, source_code};
 
 /// The functions and words of GDScript that may be used without a declaration.
 const KNOWN: [&str; 25] = [

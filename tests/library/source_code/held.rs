@@ -4,9 +4,9 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use regatta::conformance::problems::{fresh, problem};
-use regatta::lab::source_code::{Language, Precision, source_code};
 use regatta::sim::integrators::{Method, method};
 use regatta::sim::{State, System};
+use regatta::tools::source_code::{Language, Precision, source_code};
 
 use super::known::sources;
 

@@ -1,9 +1,9 @@
 //! The runs that are compared: their forces and targets, and the steps of the methods of the table.
 
 use regatta::conformance::problems::{fresh, problem};
-use regatta::lab::source_code::MethodSource;
 use regatta::sim::integrators::{METHODS, Method};
 use regatta::sim::{Pursuit, Query, State, System};
+use regatta::tools::source_code::MethodSource;
 
 /// The acceleration of a run.
 pub(crate) struct Force {

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use regatta::lab::source_code::{Language, Precision, source_code};
 use regatta::sim::integrators::METHODS;
+use regatta::tools::source_code::{Language, Precision, source_code};
 
 use super::known::sources;
 

@@ -93,7 +93,7 @@ fn bad_shapes_are_seen() {
     let lines = |number: usize| "\n".repeat(number);
     let bad = [
         ("tests/common/mod.rs", lines(1)),
-        ("src/lab/utils.rs", lines(1)),
+        ("src/run/utils.rs", lines(1)),
         ("src/sim/clock.rs", format!("pub(crate) mod {};", NO_NAMES[3])),
         ("src/sim/clock.rs", lines(MAX_LINES + 1)),
         ("tests/words.rs", lines(MAX_LINES + 1)),

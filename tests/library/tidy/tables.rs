@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use regatta::lab::pacing::POLICIES;
-use regatta::lab::{METRICS, SCENES, Scene};
+use regatta::loops::POLICIES;
+use regatta::run::METRICS;
+use regatta::scene::{SCENES, Scene};
 use regatta::sim::bodies::{BODIES, kind};
 use regatta::sim::integrators::METHODS;
 

@@ -6,10 +6,10 @@ use std::process::Stdio;
 use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
-use regatta::lab::analysis::{AnalysisWorker, MethodAdvice, recommended as taken};
-use regatta::lab::studio::{Instrument, StageCommand};
-use regatta::lab::{Report, Scene, Studio};
+use regatta::measure::{AnalysisWorker, MethodAdvice, Report, recommended as taken};
+use regatta::scene::Scene;
 use regatta::sim::integrators::GENERAL_METHODS;
+use regatta::studio::{Instrument, StageCommand, Studio};
 use serde_json::Value;
 
 use super::{refusal, regatta, run_in, stdout_of};

@@ -7,7 +7,8 @@ use std::path::Path;
 use std::process::Command;
 use std::{env, fs};
 
-use regatta::lab::{Scene, Session};
+use regatta::run::Session;
+use regatta::scene::Scene;
 
 use super::capture::drawn_or_skip;
 use super::stdout_of;

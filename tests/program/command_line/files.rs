@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-use regatta::lab::Scene;
+use regatta::scene::Scene;
 
 use super::capture::{drawn_or_skip, names};
 use super::{regatta, run_in, stderr};

@@ -1,11 +1,11 @@
 //! `list` and `completions`.
 
-use regatta::lab::scene::SceneGroup;
-use regatta::lab::studio::KEYS;
-use regatta::lab::{METRICS, SCENES};
+use regatta::run::METRICS;
+use regatta::scene::{SCENES, SceneGroup};
 use regatta::sim::bodies::{BODIES, Body, Net, kind, stepped_kinds};
 use regatta::sim::integrators::{METHODS, SpinMap};
 use regatta::sim::law::{UNITS, functions, operators, values};
+use regatta::studio::KEYS;
 use serde_json::Value;
 
 use super::{run, stdout_of};

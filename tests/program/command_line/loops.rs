@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use regatta::lab::pacing::{POLICIES, TRACES};
+use regatta::loops::{POLICIES, TRACES};
 use regatta::manual::chapter;
 use serde_json::Value;
 

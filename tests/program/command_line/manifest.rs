@@ -5,9 +5,10 @@ use std::fs;
 use std::process::Output;
 
 use regatta::commands::manifest::{Manifest, SCHEMA};
-use regatta::lab::studio::{StageCommand, Studio};
-use regatta::lab::{METRICS, Scene};
+use regatta::run::METRICS;
+use regatta::scene::Scene;
 use regatta::sim::integrators::METHODS;
+use regatta::studio::{StageCommand, Studio};
 use serde_json::Value;
 
 use super::capture::drawn_or_skip;

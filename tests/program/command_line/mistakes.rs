@@ -4,7 +4,7 @@ use std::fs;
 
 use clap::CommandFactory;
 use regatta::commands::Cli;
-use regatta::lab::Scene;
+use regatta::scene::Scene;
 
 use super::capture::drawn_or_skip;
 use super::{refusal, regatta, run, run_in, stderr, stdout_of};

@@ -2,7 +2,8 @@
 
 use std::fs;
 
-use regatta::lab::{Scene, Session};
+use regatta::run::Session;
+use regatta::scene::Scene;
 use tempfile::TempDir;
 
 use super::{run_in, stderr};

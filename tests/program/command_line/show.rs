@@ -3,10 +3,10 @@
 use std::io::Read as _;
 use std::process::Stdio;
 
-use regatta::lab::pacing::POLICIES;
-use regatta::lab::source_code::{Language, Precision, source_code};
+use regatta::loops::POLICIES;
 use regatta::manual::chapter;
 use regatta::sim::integrators::METHODS;
+use regatta::tools::source_code::{Language, Precision, source_code};
 
 use super::{refusal, regatta, run, stdout_of};
 

@@ -6,7 +6,7 @@ use std::io::Read;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use regatta::lab::{SCENES, Scene};
+use regatta::scene::{SCENES, Scene};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 use serde_json::Value;
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Stdio;
 
-use regatta::lab::palette::Theme;
+use regatta::look::palette::Theme;
 use regatta::sim::integrators::method;
 
 use super::capture::{dimensions, drawn_or_skip, names};

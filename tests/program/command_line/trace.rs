@@ -5,7 +5,7 @@ use std::fs;
 use std::io::{BufRead, BufReader, Read};
 use std::process::Stdio;
 
-use regatta::lab::Scene;
+use regatta::scene::Scene;
 use serde_json::Value;
 
 use super::{regatta, run_in, stderr, stdout_of};

@@ -3,9 +3,9 @@
 use egui::{CollapsingHeader, ComboBox, RichText, Ui, vec2};
 
 use super::{LINE, NumberField, line};
-use crate::lab::number::significant;
-use crate::lab::port::Setup;
-use crate::lab::studio::{Command, RunCommand, Studio};
+use crate::stage::number::significant;
+use crate::studio::{Command, RunCommand, Studio};
+use crate::tools::port::Setup;
 use crate::view::theme::palette;
 
 /// Shows the numbers of a body that is a spring as the engine has them that is chosen; nothing of any other body.

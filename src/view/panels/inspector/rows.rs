@@ -1,6 +1,7 @@
 //! What the inspector shows of a body: a row for each of its parameters, each with how far its slider reaches.
 
-use crate::lab::{Acts, Parameter, Range, Studio};
+use crate::stage::{Acts, Parameter, Range};
+use crate::studio::Studio;
 
 /// A slider reaches this many times below and above the value that the scene has.
 const REACH: f64 = 100.0;
@@ -103,7 +104,7 @@ impl Reach {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{SCENES, Scene};
+    use crate::scene::{SCENES, Scene};
 
     #[test]
     fn every_parameter_of_every_kind_of_body_has_one_row() {

@@ -4,10 +4,11 @@ use egui::{ComboBox, Id, RichText, Ui, vec2};
 
 use super::number::NumberField;
 use super::{LINE, RESTORE, line, restore};
-use crate::lab::race::{Entrant, Mode};
-use crate::lab::scene::{MAX_SECONDS, MAX_SUBSTEPS, MAX_TICK_HZ, MIN_SECONDS, TOLERANCES};
-use crate::lab::studio::{Command, RunCommand, StageCommand, Studio};
-use crate::lab::{Action, LaneSpec};
+use crate::run::race::{Entrant, Mode};
+use crate::scene::{
+    Action, LaneSpec, MAX_SECONDS, MAX_SUBSTEPS, MAX_TICK_HZ, MIN_SECONDS, TOLERANCES,
+};
+use crate::studio::{Command, RunCommand, StageCommand, Studio};
 use crate::view::theme::palette;
 
 /// The widths of the fields of a lane, in points.
@@ -202,7 +203,7 @@ fn within(name: &str, value: f64, (least, most): (f64, f64), unit: &str) -> Resu
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::Scene;
+    use crate::scene::Scene;
 
     #[test]
     fn in_solo_the_number_beside_the_method_follows_a_switch() {

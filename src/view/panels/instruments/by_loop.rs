@@ -6,10 +6,10 @@ use super::super::tracks::Track;
 use super::error::capitalised;
 use super::phase::SAMPLES;
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, time_in_view};
-use crate::lab::analysis::{METRICS, Metric, Scale};
-use crate::lab::loop_lab::{FRAME_METRICS, LoopFrame, LoopLab, LoopLane};
-use crate::lab::past::Energies;
-use crate::lab::studio::{Instrument, Studio};
+use crate::loops::loop_lab::{FRAME_METRICS, LoopFrame, LoopLab, LoopLane};
+use crate::run::past::Energies;
+use crate::run::{METRICS, Metric, Scale};
+use crate::studio::{Instrument, Studio};
 use crate::view::chart::{AxisScale, Bounds, Dots};
 
 /// The seconds in view where every frame shows.
@@ -190,9 +190,9 @@ impl Plots<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::Scene;
-    use crate::lab::loop_lab::LoopCommand;
-    use crate::lab::studio::{Command, StageCommand};
+    use crate::loops::loop_lab::LoopCommand;
+    use crate::scene::Scene;
+    use crate::studio::{Command, StageCommand};
     use crate::view::panels::instruments::{csv, svg};
 
     fn lab_at(scene: &str, now_ns: i64) -> Studio {

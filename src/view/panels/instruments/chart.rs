@@ -9,7 +9,7 @@ use super::super::series_styles::SeriesStyles;
 use super::hover;
 use super::layout::{Cell, cells};
 use super::plot_set::PlotSet;
-use crate::lab::studio::{Command, DriverRequest, RunCommand, StageCommand, Studio, ViewCommand};
+use crate::studio::{Command, DriverRequest, RunCommand, StageCommand, Studio, ViewCommand};
 use crate::view::chart::{self, ABOVE, NAME, NUMBER, PlotArea, Primitive, Text};
 use crate::view::theme::{PanelPalette, palette, strong_font};
 use crate::view::wheel;

@@ -14,14 +14,15 @@ use super::super::tracks::Track;
 use super::error::capitalised;
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, over_time};
 use super::{body_choice, chart, choice};
-use crate::lab::cloud::{
+use crate::look::density_picture;
+use crate::look::palette::{Rgba, Theme};
+use crate::measure::cloud::{
     CloudChoice, CloudKind, CloudPicture, Density, LaneCloud, MAX_LINE_PART, POINTS,
     hidden_in_words,
 };
-use crate::lab::number::{grouped, significant};
-use crate::lab::palette::{Rgba, Theme};
-use crate::lab::race::Mode;
-use crate::lab::studio::{Command, RunCommand, StageCommand, Studio};
+use crate::run::race::Mode;
+use crate::stage::number::{grouped, significant};
+use crate::studio::{Command, RunCommand, StageCommand, Studio};
 use crate::view::chart::{self as charts, AxisScale, LineStyle, PlotArea, Primitive, ScreenCurve};
 use crate::view::panels::breakpoints;
 use crate::view::theme::{PanelPalette, palette, strong_font};
@@ -424,7 +425,7 @@ fn image(ui: &Ui, place: usize, density: &Arc<Density>, style: Style) -> Texture
         made => made,
     };
     let (size, theme, colour) = style;
-    let rgba = density.picture_of_size(size, theme, colour).concat();
+    let rgba = density_picture(density, size, theme, colour).concat();
     let image = ColorImage::from_rgba_unmultiplied(size, &rgba);
     let texture = match old {
         Some(mut old) if old.style.0 == size => {

@@ -6,8 +6,9 @@ use super::super::tracks::Track;
 use super::error;
 use super::motion::healthy;
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, over_time};
-use crate::lab::past::Energies;
-use crate::lab::{Metric, Studio};
+use crate::run::Metric;
+use crate::run::past::Energies;
+use crate::studio::Studio;
 use crate::view::chart::AxisScale;
 
 /// An energy: its name, its dash, how much of its colour it has, and how it is found.

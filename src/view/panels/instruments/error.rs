@@ -4,8 +4,8 @@ use super::super::ranges;
 use super::super::series_styles::SeriesStyles;
 use super::super::tracks::Track;
 use super::plot_set::{PlotAxis, PlotModel, PlotSet, over_time};
-use crate::lab::Studio;
-use crate::lab::analysis::{METRICS, Metric, Scale, Unit};
+use crate::run::{METRICS, Metric, Scale, Unit};
+use crate::studio::Studio;
 use crate::view::chart::{AxisScale, Dots};
 
 /// Said where every error is zero, which has no logarithm.

@@ -7,8 +7,8 @@ use super::super::tracks::Detail;
 use super::layout::cells;
 use super::plot_set::{PlotAxis, PlotSet};
 use super::{chart, plot_set_of};
-use crate::lab::csv_row;
-use crate::lab::studio::{Instrument, Studio};
+use crate::run::csv_row;
+use crate::studio::{Instrument, Studio};
 use crate::view::chart::{ABOVE, NAME, Primitive, Text, legend, svg};
 use crate::view::theme::{PanelPalette, palette_of};
 
@@ -93,8 +93,8 @@ fn layout(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::Scene;
-    use crate::lab::studio::{Instrument, StageCommand};
+    use crate::scene::Scene;
+    use crate::studio::{Instrument, StageCommand};
 
     fn race() -> Studio {
         let mut studio = Studio::new(Scene::built_in("harbour").unwrap());

@@ -7,11 +7,12 @@ use super::error::capitalised;
 use super::plot_set::{
     EXACT, ExactLine, PlotAxis, PlotModel, PlotSet, origin, over_time, time_in_view,
 };
-use crate::lab::past::Quantity;
-use crate::lab::picture::{Framing, Look};
-use crate::lab::race::Mode;
-use crate::lab::studio::Future;
-use crate::lab::{Coordinate, Studio};
+use crate::look::{Framing, Look};
+use crate::measure::Future;
+use crate::run::past::Quantity;
+use crate::run::race::Mode;
+use crate::stage::Coordinate;
+use crate::studio::Studio;
 use crate::view::chart::{Curve, Dots, LineStyle};
 use crate::view::theme::palette_of;
 

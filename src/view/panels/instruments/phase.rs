@@ -5,7 +5,7 @@ use super::super::series_styles::SeriesStyles;
 use super::super::tracks::Track;
 use super::motion::{healthy, name_of_plotted, put_in_hand};
 use super::plot_set::{ExactLine, PlotAxis, PlotModel, PlotSet, origin};
-use crate::lab::Studio;
+use crate::studio::Studio;
 use crate::view::chart::Dots;
 
 /// Samples in a phase portrait: a few turns, and each still to be told from the next.

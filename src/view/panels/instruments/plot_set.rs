@@ -6,10 +6,11 @@ use std::ops::Range;
 
 use super::super::series_styles::{SeriesStyle, SeriesStyles};
 use super::super::tracks::{self, Track, TrackStyle};
-use crate::lab::analysis::Unit;
-use crate::lab::number::significant;
-use crate::lab::past::{Quantity, TruthCurve, TruthSample};
-use crate::lab::{Coordinate, Studio};
+use crate::run::Unit;
+use crate::run::past::{Quantity, TruthCurve, TruthSample};
+use crate::stage::Coordinate;
+use crate::stage::number::significant;
+use crate::studio::Studio;
 use crate::view::chart::{Arrow, AxisScale, Bounds, Curve, Dots, Drawing, LineStyle, SwitchMark};
 use crate::view::theme::palette_of;
 use egui::Color32;

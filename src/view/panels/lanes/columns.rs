@@ -1,9 +1,10 @@
 //! The columns of the table of lanes.
 
 use super::row::{self, Row};
-use crate::lab::number::{round, significant};
-use crate::lab::race::Mode;
-use crate::lab::{Metric, Studio};
+use crate::run::Metric;
+use crate::run::race::Mode;
+use crate::stage::number::{round, significant};
+use crate::studio::Studio;
 use crate::view::panels::table::{Column, SortKey, TableRow, show_words};
 
 /// The least width of the verdict, in points, and the one that it keeps beside columns of what the stage or an instrument
@@ -175,8 +176,8 @@ fn work<'a>() -> [Column<Row<'a>>; 2] {
 
 #[cfg(test)]
 mod tests {
-    use crate::lab::Scene;
-    use crate::lab::studio::{StageCommand, Studio};
+    use crate::scene::Scene;
+    use crate::studio::{StageCommand, Studio};
     use crate::view::panels::lanes;
     use crate::view::testing::TestWindow;
 
@@ -191,7 +192,7 @@ mod tests {
         assert!(!names.contains(&"error") && names.contains(&"Verdict"), "{names:?}");
         let (_, shown) = TestWindow::new([1280.0, 720.0]).panels(&studio, Vec::new());
         assert!(!shown.words().iter().any(|text| text == "no truth"));
-        let picture = crate::lab::picture::compose(&studio, [780.0, 440.0]);
+        let picture = crate::stage::compose(&studio, [780.0, 440.0]);
         let said = picture.labels.iter().filter(|it| it.text.starts_with("Too many springs"));
         assert_eq!(said.count(), 1);
     }

@@ -1,10 +1,12 @@
 //! A row of the table, and its numbers.
 
 use super::verdict;
-use crate::lab::analysis::{ChaseFinding, METRICS, Metric, Verdict, energy_gained_percent};
-use crate::lab::number::significant;
-use crate::lab::race::{Entrant, LaneBody, Mode};
-use crate::lab::{LaneSpec, Studio};
+use crate::measure::{ChaseFinding, Verdict};
+use crate::run::race::{Entrant, LaneBody, Mode};
+use crate::run::{METRICS, Metric, energy_gained_percent};
+use crate::scene::LaneSpec;
+use crate::stage::number::significant;
+use crate::studio::Studio;
 use crate::view::panels::verdict::VerdictText;
 
 /// A method, or a body of the lane that is flown solo.

@@ -1,8 +1,8 @@
 //! The table of lanes: its rows, their order, and what is said in them.
 
 use super::*;
-use crate::lab::Scene;
-use crate::lab::studio::{RunCommand, StageCommand};
+use crate::scene::Scene;
+use crate::studio::{RunCommand, StageCommand};
 use crate::view::panels::table::{Order, SortKey};
 use crate::view::testing::TestWindow;
 

@@ -1,8 +1,8 @@
 //! What is said in a row of the table of lanes.
 
-use crate::lab::Studio;
-use crate::lab::analysis::Outcome;
-use crate::lab::race::Entrant;
+use crate::measure::Outcome;
+use crate::run::race::Entrant;
+use crate::studio::Studio;
 use crate::view::panels::verdict::VerdictText;
 
 /// What is said of the method on this index of the list, and of the lane under it if there is one. The judged body is

@@ -1,10 +1,10 @@
 //! The columns of the table of loops, and how values are written in them.
 
 use super::row::Row;
-use crate::lab::analysis::Unit;
-use crate::lab::loop_lab::LoopLab;
-use crate::lab::number::round;
-use crate::lab::pacing::PACING_METRICS;
+use crate::loops::PACING_METRICS;
+use crate::loops::loop_lab::LoopLab;
+use crate::run::Unit;
+use crate::stage::number::round;
 use crate::view::panels::table::{Column, SortKey, TableRow, show_words};
 
 /// The least width of the verdict, in points.

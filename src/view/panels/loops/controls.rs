@@ -2,10 +2,10 @@
 
 use egui::{ComboBox, RichText, TextWrapMode, Ui};
 
-use crate::lab::loop_lab::{LoopCommand, LoopLab, SLOWNESS};
-use crate::lab::number::round;
-use crate::lab::pacing::{FrameTrace, TRACES};
-use crate::lab::studio::Command;
+use crate::loops::loop_lab::{LoopCommand, LoopLab, SLOWNESS};
+use crate::loops::{FrameTrace, TRACES};
+use crate::stage::number::round;
+use crate::studio::Command;
 use crate::view::panels::breakpoints;
 use crate::view::theme::palette;
 
@@ -113,7 +113,7 @@ pub(in crate::view::panels) fn display(ui: &mut Ui, loops: &LoopLab) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::pacing::{RefreshRate, trace_file};
+    use crate::loops::{RefreshRate, trace_file};
 
     #[test]
     fn slow_motions_are_named_by_their_fraction() {

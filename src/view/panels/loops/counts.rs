@@ -3,7 +3,7 @@
 use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 
 use super::ShownLane;
-use crate::lab::number::round;
+use crate::stage::number::round;
 use crate::view::chart::{self, AxisScale, PlotArea, Primitive, Text};
 use crate::view::panels::breakpoints;
 use crate::view::theme::{PanelPalette, palette};

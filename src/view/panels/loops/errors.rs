@@ -4,8 +4,8 @@ use egui::{Align2, Rect, Ui, vec2};
 
 use super::ShownLane;
 use super::counts::{BELOW, LEFT, NAME, TITLE};
-use crate::lab::loop_lab::LoopLab;
-use crate::lab::number::round;
+use crate::loops::loop_lab::LoopLab;
+use crate::stage::number::round;
 use crate::view::chart::{self, AxisScale, PlotArea, Primitive, Text};
 use crate::view::theme::{PanelPalette, palette};
 

@@ -2,8 +2,9 @@
 
 use std::iter;
 
-use crate::lab::loop_lab::LoopLab;
-use crate::lab::{Studio, csv_row};
+use crate::loops::loop_lab::LoopLab;
+use crate::run::csv_row;
+use crate::studio::Studio;
 
 /// All frames of the loops on the stage, or the last frames of the window's own loop, as comma-separated text.
 pub(in crate::view::panels) fn csv(studio: &Studio) -> Vec<String> {

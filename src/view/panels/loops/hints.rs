@@ -1,8 +1,8 @@
 //! What to try next in the loop lab.
 
-use crate::lab::loop_lab::{LoopLab, RAW};
-use crate::lab::number::round;
-use crate::lab::pacing::{NoLoop, POLICIES};
+use crate::loops::loop_lab::{LoopLab, RAW};
+use crate::loops::{NoLoop, POLICIES};
+use crate::stage::number::round;
 
 /// The loop that draws between ticks.
 const SMOOTH: &str = "fixed-linear";

@@ -6,8 +6,8 @@ use egui::{Align2, Color32, Painter, Pos2, Rect, Response, Sense, Stroke, Ui, po
 
 use super::ShownLane;
 use super::counts::BELOW;
-use crate::lab::loop_lab::{LoopFrame, LoopLab, LoopLane};
-use crate::lab::number::round;
+use crate::loops::loop_lab::{LoopFrame, LoopLab, LoopLane};
+use crate::stage::number::round;
 use crate::view::chart::{
     self, AxisScale, LineStyle, NUMBER, PlotArea, Primitive, ScreenCurve, Text,
 };

@@ -2,9 +2,9 @@
 
 use egui::{Color32, Rect, RichText, Sense, Shape, Stroke, Ui, vec2};
 
-use crate::lab::analysis::Severity;
-use crate::lab::loop_lab::{LoopCommand, LoopLab, LoopLane};
-use crate::lab::studio::Command;
+use crate::loops::loop_lab::{LoopCommand, LoopLab, LoopLane};
+use crate::measure::Severity;
+use crate::studio::Command;
 use crate::view::panels::table::TableRow;
 use crate::view::panels::verdict::VerdictText;
 use crate::view::theme::{PanelPalette, TYPE, colour, palette, strong_font};

@@ -2,8 +2,8 @@
 
 use egui::{Align2, Rangef, Response, Ui};
 
-use crate::lab::loop_lab::{LoopCommand, LoopLab};
-use crate::lab::studio::Command;
+use crate::loops::loop_lab::{LoopCommand, LoopLab};
+use crate::studio::Command;
 use crate::view::panels::timeline::{Groove, Span, THICKNESS, pressed, step};
 use crate::view::theme::palette;
 
@@ -50,7 +50,8 @@ mod tests {
     use egui::{Vec2, pos2, vec2};
 
     use super::*;
-    use crate::lab::{Scene, Studio};
+    use crate::scene::Scene;
+    use crate::studio::Studio;
     use crate::view::panels;
     use crate::view::panels::timeline::{HEIGHT, MARGIN, MEMORY, TRACK_Y};
     use crate::view::testing::TestWindow;

@@ -5,8 +5,8 @@ use egui::Ui;
 
 use super::columns;
 use super::row::Row;
-use crate::lab::loop_lab::LoopLab;
-use crate::lab::studio::Command;
+use crate::loops::loop_lab::LoopLab;
+use crate::studio::Command;
 use crate::view::panels::lanes::{ROW, height_of};
 use crate::view::panels::table::Table;
 use crate::view::theme::TYPE;
@@ -34,8 +34,9 @@ fn groups(loops: &LoopLab) -> Vec<Vec<Row<'_>>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::loop_lab::LoopCommand;
-    use crate::lab::{Scene, Studio};
+    use crate::loops::loop_lab::LoopCommand;
+    use crate::scene::Scene;
+    use crate::studio::Studio;
 
     #[test]
     fn rows_are_sorted_by_their_verdicts_and_back() {

@@ -2,8 +2,8 @@
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, Vec2, vec2};
 
-use crate::lab::number::{enlargement, round};
-use crate::lab::studio::OneStep;
+use crate::measure::OneStep;
+use crate::stage::number::{enlargement, round};
 use crate::view::chart::PlotArea;
 use crate::view::theme::PanelPalette;
 
@@ -66,8 +66,8 @@ pub(super) fn show(
 
 #[cfg(test)]
 mod tests {
-    use crate::lab::Scene;
-    use crate::lab::studio::{Instrument, StageCommand, Studio, ViewCommand};
+    use crate::scene::Scene;
+    use crate::studio::{Instrument, StageCommand, Studio, ViewCommand};
     use crate::view::testing::TestWindow;
 
     /// What the loupes in a frame are labelled with, under the method at this place of the spring's list.

@@ -1,8 +1,8 @@
 use egui::{Event, Modifiers};
 
 use super::*;
-use crate::lab::Scene;
-use crate::lab::studio::{Instrument, RunCommand, StageCommand, Step};
+use crate::scene::Scene;
+use crate::studio::{Instrument, RunCommand, StageCommand, Step};
 use crate::view::testing::{TestWindow, button};
 
 fn studio(scene: &str) -> Studio {

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use egui::text::LayoutJob;
 use egui::{Color32, FontId, Galley, TextFormat, Ui};
 
-use crate::lab::analysis::{Here, MapRequest, StabilityMap};
-use crate::lab::number::round;
-use crate::lab::{Parameter, Studio};
+use crate::measure::{Here, MapRequest, StabilityMap};
+use crate::stage::Parameter;
+use crate::stage::number::round;
+use crate::studio::Studio;
 use crate::view::theme::{palette, strong_font};
 
 /// The letter of a parameter in the equation of motion, or else its name.

@@ -2,9 +2,9 @@
 
 use egui::Color32;
 
-use crate::lab::race::{Race, TimeScale};
-use crate::lab::session::{Event, EventKind};
-use crate::lab::{Action, LaneId, LaneSpec, Scene};
+use crate::run::race::{Race, TimeScale};
+use crate::run::session::{Event, EventKind};
+use crate::scene::{Action, LaneId, LaneSpec, Scene};
 use crate::view::theme::PanelPalette;
 
 /// The sign of a mark. Of several in one place the last of this list is drawn.
@@ -214,7 +214,7 @@ pub(super) fn colours(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::studio::{RunCommand, StageCommand, Studio};
+    use crate::studio::{RunCommand, StageCommand, Studio};
     use crate::view::theme::palette_of;
 
     fn marks(studio: &Studio) -> Vec<(Sign, String)> {

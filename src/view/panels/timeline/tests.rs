@@ -1,9 +1,9 @@
 use egui::Event as Input;
 
 use super::*;
-use crate::lab::diff::{Comparison, Difference};
-use crate::lab::studio::{RunCommand, StageCommand, Step};
-use crate::lab::{Action, Scene};
+use crate::run::diff::{Comparison, Difference};
+use crate::scene::{Action, Scene};
+use crate::studio::{RunCommand, StageCommand, Step};
 use crate::view::panels;
 use crate::view::testing::{TestWindow, button};
 

@@ -1,6 +1,6 @@
 use super::*;
-use crate::lab::studio::{RunCommand, StageCommand};
-use crate::lab::{Action, Scene};
+use crate::scene::{Action, Scene};
+use crate::studio::{RunCommand, StageCommand};
 use crate::view::theme::palette_of;
 
 const STYLE: TrackStyle = TrackStyle { dots: Dots::None, is_over_time: true };

@@ -1,7 +1,7 @@
 //! Which quantity an instrument shows, and what of it is seen, copied and saved.
 
 use super::*;
-use crate::lab::studio::{HeldBody, RunCommand, StageCommand, ViewCommand};
+use crate::studio::{HeldBody, RunCommand, StageCommand, ViewCommand};
 
 #[test]
 fn motion_shows_the_chosen_quantity_and_its_table_follows() {

@@ -1,0 +1,32 @@
+//! The former paths of the rooms between `sim` and the pixels, kept for one release. Take [`scene`], [`run`](crate::run),
+//! [`tools`](crate::tools), [`measure`](crate::measure), [`loops`](crate::loops), [`look`](crate::look), [`studio`] or
+//! [`stage`](crate::stage) instead.
+
+pub use crate::look::palette;
+pub use crate::loops::{self as pacing, loop_lab};
+pub use crate::measure::{
+    Adviser, CRITERIA, Criterion, Judge, Report, Verdict, advise, cloud, try_advise,
+};
+pub use crate::run::{
+    Follow, Journal, Lane, METRICS, Metric, Race, Session, Timeline, diff, link, past, race,
+    session, trace,
+};
+pub use crate::scene::{
+    self, Action, LaneId, LaneSpec, Options, SCENES, Scene, SceneBody, SceneErrors, Swing, custom,
+};
+pub use crate::studio::{self, Studio};
+pub use crate::tools::{identify, port, source_code};
+
+/// The former path of [`stage`](crate::stage).
+pub mod picture {
+    pub use crate::look::palette::{self, Rgba};
+    pub use crate::look::{Framing, Handle, Look, Pull};
+    pub use crate::scene::{Mark, Outline};
+    pub use crate::stage::*;
+}
+
+/// The former path of [`measure`](crate::measure).
+pub mod analysis {
+    pub use crate::measure::*;
+    pub use crate::run::{METRICS, Metric, Scale, Unit, energy_gained_percent};
+}

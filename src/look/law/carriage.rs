@@ -1,0 +1,151 @@
+//! A carriage on its spring and damper, on a wheel, on a road.
+
+use glam::DVec2;
+
+use super::super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
+use super::{lift, reach};
+use crate::sim::bodies::Law;
+use crate::sim::{State, System};
+
+/// The sizes of the parts, in units of the farthest that the carriage or the wheel goes from its rest: half the body,
+/// its height above the hub at rest, the radius of the wheel, and half the length of the road.
+const HALF_BODY: DVec2 = DVec2::new(2.6, 0.75);
+const ABOVE_HUB: f64 = 3.2;
+const WHEEL: f64 = 1.2;
+const HALF_ROAD: f64 = 5.0;
+/// How far the carriage goes in a second, in the same units, and the pieces of the road that it sees.
+const SPEED: f64 = HALF_ROAD;
+const PIECES: u32 = 80;
+/// From the middle to the spring on one side and the damper on the other, and the radius of the spring's turns.
+const ASIDE: f64 = 0.75;
+const TURNS: f64 = 0.35;
+
+pub(super) struct Carriage<'a> {
+    law: &'a Law,
+    /// The farthest from rest.
+    unit: f64,
+}
+
+impl<'a> Carriage<'a> {
+    pub(super) fn new(law: &'a Law, ranges: &[(f64, f64)]) -> Self {
+        let [low, high] = reach(ranges);
+        Self { law, unit: high.max(-low) }
+    }
+
+    /// How high the road is under the wheel at time `t` (s): where a wheel is at rest under a carriage that is as high.
+    fn road(&self, t: f64) -> f64 {
+        let n = self.law.equations().text().coordinates.len();
+        let push = |height: f64| {
+            let mut a = vec![0.0; n];
+            self.law.acceleration(t, &vec![height; n], &vec![0.0; n], &mut a);
+            a.get(1).copied().unwrap_or_default()
+        };
+        let (low, high) = (push(0.0), push(self.unit));
+        let height = self.unit * low / (low - high);
+        if height.is_finite() { height.clamp(-self.unit, self.unit) } else { 0.0 }
+    }
+
+    /// The road past the wheel, as the carriage goes along it, in pieces of one slope.
+    fn roadway(&self, t: f64) -> Vec<DVec2> {
+        let step = 2.0 * HALF_ROAD / f64::from(PIECES);
+        let places = (0..=PIECES).map(|i| {
+            let x = f64::from(i) * step - HALF_ROAD;
+            let height = self.road(t + x / SPEED);
+            self.hub(height) + DVec2::new(x, -WHEEL) * self.unit
+        });
+        let mut corners: Vec<DVec2> = Vec::new();
+        for place in places {
+            if let [.., before, last] = corners[..]
+                && (last - before).perp_dot(place - last).abs() < 1e-9 * self.unit * self.unit
+            {
+                corners.pop();
+            }
+            corners.push(place);
+        }
+        corners
+    }
+
+    /// The hub of the wheel, which is this high above its rest.
+    fn hub(&self, height: f64) -> DVec2 {
+        DVec2::new(0.0, height - ABOVE_HUB * self.unit)
+    }
+}
+
+impl BodyPicture for Carriage<'_> {
+    fn draw(&self, q: &[f64], outline: &mut Outline) {
+        let unit = self.unit;
+        let (body, hub) = (DVec2::new(0.0, q[0]), self.hub(q[1]));
+        let aside = DVec2::X * ASIDE * unit;
+        let floor = body - DVec2::Y * HALF_BODY.y * unit;
+        let road = self.roadway(outline.t);
+        let pieces = road.windows(2).map(|ends| Mark::Wall { from: ends[0], to: ends[1] });
+        outline.marks.extend(pieces);
+        outline.marks.extend([
+            Mark::Rod { from: hub - aside, to: hub + aside },
+            Mark::Coil { from: hub - aside, to: floor - aside, radius: TURNS * unit },
+            Mark::Rod { from: hub + aside, to: floor + aside },
+            Mark::Disc { centre: hub, radius: WHEEL * unit },
+            Mark::Block { centre: body, half: HALF_BODY * unit },
+        ]);
+    }
+
+    fn framing(&self) -> Framing {
+        let unit = self.unit;
+        let (top, bottom) = (1.2 + HALF_BODY.y, -ABOVE_HUB - WHEEL - 0.4);
+        let centre_m = DVec2::new(0.0, (top + bottom) / 2.0) * unit;
+        let half_m = DVec2::new(HALF_ROAD, (top - bottom) / 2.0) * unit;
+        Framing::Fixed { centre_m, half_m, trail_s: 0.0 }
+    }
+
+    fn handles(&self, q: &[f64]) -> Vec<Handle> {
+        let body = Handle { at: DVec2::new(0.0, q[0]), radius: HALF_BODY.y * self.unit };
+        vec![body, Handle { at: self.hub(q[1]), radius: WHEEL * self.unit }]
+    }
+
+    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
+        let rest = if pull.handle == 0 { 0.0 } else { self.hub(0.0).y };
+        lift(state, pull.handle, pull.to.y - rest, pull.velocity.y);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::Look;
+    use super::*;
+    use crate::scene::Scene;
+    use crate::studio::Studio;
+
+    #[test]
+    fn the_kerb_comes_along_the_road_and_the_wheel_stands_on_it_at_the_end() {
+        let mut studio = Studio::new(Scene::built_in("quarter-car").unwrap());
+        let road = |studio: &Studio, t: f64| -> Vec<[DVec2; 2]> {
+            let body = &studio.race().truth().bodies()[0];
+            let outline = Look::of(body).outline(t, body.stepper.q());
+            let walls = outline.marks.iter().filter_map(|mark| match mark {
+                Mark::Wall { from, to } => Some([*from, *to]),
+                _ => None,
+            });
+            walls.collect()
+        };
+        let height = |road: &[[DVec2; 2]], x: f64| {
+            let piece = road.iter().find(|ends| (ends[0].x..=ends[1].x).contains(&x)).unwrap();
+            piece[0].lerp(piece[1], (x - piece[0].x) / (piece[1].x - piece[0].x)).y
+        };
+        let flat = road(&studio, -5.0);
+        assert_eq!(flat.len(), 1, "{flat:?}");
+        let before = road(&studio, 0.6);
+        let ahead = before.last().unwrap()[1].x;
+        let rise = height(&before, ahead) - height(&before, 0.0);
+        assert!((rise - 0.1).abs() < 1e-9 && before.len() <= 6, "{before:?}");
+        (0..400).for_each(|_| studio.tick());
+        let after = road(&studio, 4.0);
+        let body = &studio.race().truth().bodies()[0];
+        let discs = Look::of(body).outline(4.0, body.stepper.q()).marks;
+        let bottom = discs.iter().find_map(|mark| match mark {
+            Mark::Disc { centre, radius } => Some(centre.y - radius),
+            _ => None,
+        });
+        let gap = bottom.unwrap() - height(&after, 0.0);
+        assert!(gap.abs() < 0.01, "the wheel is {gap} m above the road");
+    }
+}

@@ -1,0 +1,330 @@
+//! The colours of the night chart and of the day chart, and the second cue that tells one method from another.
+//!
+//! Method colours begin with those of Okabe and Ito, which people with any kind of colour vision can tell apart,
+//! made lighter for the dark stage and darker for the light one.
+
+use std::sync::LazyLock;
+
+use crate::measure::Severity;
+use crate::scene::LaneSpec;
+use crate::sim::integrators::{METHODS, Method};
+
+/// A colour: red, green, blue and alpha, sRGB, alpha not multiplied in.
+pub type Rgba = [u8; 4];
+
+pub(crate) const WHITE: Rgba = [255; 4];
+pub(crate) const BLACK: Rgba = [0, 0, 0, 255];
+
+/// A dark or a light chart.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Theme {
+    /// A sea chart by night.
+    #[default]
+    Dark,
+    /// A paper chart by day.
+    Light,
+}
+
+impl Theme {
+    /// Its colours.
+    pub fn palette(self) -> &'static Palette {
+        match self {
+            Theme::Dark => &DARK,
+            Theme::Light => &LIGHT,
+        }
+    }
+
+    /// The other theme.
+    pub fn other(self) -> Self {
+        match self {
+            Theme::Dark => Theme::Light,
+            Theme::Light => Theme::Dark,
+        }
+    }
+
+    /// The colour of a method's evaluation of the force, by its number from 0.
+    pub fn evaluation(self, number: usize) -> Rgba {
+        let [orange, blue, pink, yellow, green, amber, violet] = self.palette().methods;
+        [green, blue, yellow, pink, orange, violet, amber][number % 7]
+    }
+
+    /// The colour of a method, and its dash pattern as the second cue: drawn length and gap in points, a
+    /// gap of 0 being solid.
+    pub fn style(self, method: &Method) -> (Rgba, [f32; 2]) {
+        self.drawn(indices(method))
+    }
+
+    /// The colour and the dash pattern of a lane among `lanes`: its method's. Of several lanes of one method the first has
+    /// them, and each of the others another colour and another dash. Of the first nine no two share their dash and a colour
+    /// that some people cannot tell apart.
+    pub fn lane_style(self, lanes: &[LaneSpec], lane: &LaneSpec) -> (Rgba, [f32; 2]) {
+        self.drawn(lane_places(lanes, lane))
+    }
+
+    fn drawn(self, (colour, dash): (usize, usize)) -> (Rgba, [f32; 2]) {
+        (self.palette().methods[colour], DASHES[dash])
+    }
+
+    /// The colour and the dash pattern of the game loop with this index in [`POLICIES`](crate::loops::POLICIES): seven
+    /// neighbours differ in colour.
+    pub fn loop_style(self, index: usize) -> (Rgba, [f32; 2]) {
+        let colour = LOOPS[index % LOOPS.len()];
+        (self.palette().methods[colour], DASHES[index % FIRST_DASHES])
+    }
+}
+
+/// The colours of a theme.
+#[derive(Debug)]
+pub struct Palette {
+    /// Behind everything.
+    pub background: Rgba,
+    /// A panel.
+    pub panel: Rgba,
+    /// A control, a selected row.
+    pub raised: Rgba,
+    /// A line between panels, the border of a control.
+    pub line: Rgba,
+    /// Behind the curves of a plot.
+    pub plot: Rgba,
+    /// The grid of a plot.
+    pub grid: Rgba,
+    /// Text.
+    pub text: Rgba,
+    /// Quiet text.
+    pub dim: Rgba,
+    /// Hover, focus, a kick, a cross to drag.
+    pub accent: Rgba,
+    /// Text on a field of the accent.
+    pub on_accent: Rgba,
+    /// The sea at the top of the stage and at its bottom.
+    pub sea: [Rgba; 2],
+    /// Waves, depth contours, distance marks.
+    pub chart: Rgba,
+    /// The quay, and its edge.
+    pub quay: [Rgba; 2],
+    /// The wire of a coil spring: its edge, and the metal in the shade, in the light, and where it gleams.
+    pub wire: [Rgba; 4],
+    /// The exact solution.
+    pub exact: Rgba,
+    /// What went wrong.
+    pub bad: Rgba,
+    /// What to be careful about.
+    pub warn: Rgba,
+    /// What is right.
+    pub good: Rgba,
+    /// What looks right.
+    pub fair: Rgba,
+    /// Of methods.
+    methods: [Rgba; 7],
+}
+
+impl Palette {
+    /// The colour of a verdict of this severity.
+    pub fn of_severity(&self, severity: Severity) -> Rgba {
+        match severity {
+            Severity::Fine => self.good,
+            Severity::Fair => self.fair,
+            Severity::Doubtful => self.warn,
+            Severity::Bad => self.bad,
+            Severity::Unknown => self.dim,
+        }
+    }
+}
+
+/// Whether black is read better on it than white.
+pub(crate) fn is_bright([r, g, b, _]: Rgba) -> bool {
+    let [r, g, b] = [r, g, b].map(u32::from);
+    2 * r + 5 * g + b > 8 * 112
+}
+
+const fn rgb(hex: u32) -> Rgba {
+    [(hex >> 16) as u8, (hex >> 8) as u8, hex as u8, 255]
+}
+
+static DARK: Palette = Palette {
+    background: rgb(0x0A1119),
+    panel: rgb(0x0E1823),
+    raised: rgb(0x182635),
+    line: rgb(0x24364A),
+    plot: rgb(0x0A131D),
+    grid: rgb(0x1A2A3A),
+    text: rgb(0xE8EEF4),
+    dim: rgb(0xA3B4C4),
+    accent: rgb(0xE8BC6A),
+    on_accent: rgb(0x0E1823),
+    sea: [rgb(0x0F2536), rgb(0x0A1825)],
+    chart: rgb(0x8FB2CC),
+    quay: [rgb(0x1B2530), rgb(0x4A5B6B)],
+    wire: [rgb(0x0A1119), rgb(0x6F8496), rgb(0xB9C7D3), rgb(0xF0F6FA)],
+    exact: rgb(0xFFFFFF),
+    bad: rgb(0xFF7A70),
+    warn: rgb(0xF0C050),
+    good: rgb(0x5FD6A4),
+    fair: rgb(0xB9EFD6),
+    methods: [
+        rgb(0xFF8242),
+        rgb(0x5BB8F0),
+        rgb(0xD58CC0),
+        rgb(0xF2E24B),
+        rgb(0x2BCB9B),
+        rgb(0xE69F00),
+        rgb(0xADA4FF),
+    ],
+};
+
+static LIGHT: Palette = Palette {
+    background: rgb(0xE9E3D4),
+    panel: rgb(0xF8F4E9),
+    raised: rgb(0xEAE3D0),
+    line: rgb(0xC9BFA6),
+    plot: rgb(0xFDFBF4),
+    grid: rgb(0xDED6C2),
+    text: rgb(0x1B2733),
+    dim: rgb(0x4E5B66),
+    accent: rgb(0x7A4F00),
+    on_accent: rgb(0xFFFFFF),
+    sea: [rgb(0xE3EFF2), rgb(0xCFE2E9)],
+    chart: rgb(0x3F6C86),
+    quay: [rgb(0xD9D0BB), rgb(0x8C8270)],
+    wire: [rgb(0x24323F), rgb(0x4A5D6D), rgb(0x7F93A3), rgb(0xDCE6EC)],
+    exact: rgb(0x0B1016),
+    bad: rgb(0xA8221B),
+    warn: rgb(0x7A5200),
+    good: rgb(0x00663F),
+    fair: rgb(0x2C7A55),
+    methods: [
+        rgb(0x9A3C06),
+        rgb(0x085A93),
+        rgb(0x923570),
+        rgb(0x5B6000),
+        rgb(0x00694A),
+        rgb(0x4A2000),
+        rgb(0x4A3FA8),
+    ],
+};
+
+/// Drawn length and gap in points. Six patterns against seven colours: no two of the first 42 methods
+/// share both.
+const DASHES: [[f32; 2]; 6] =
+    [[9.0, 4.0], [16.0, 4.0], [5.0, 4.0], [2.5, 3.5], [1.0, 0.0], [12.0, 9.0]];
+
+/// The patterns that are given first; the others are more alike.
+const FIRST_DASHES: usize = 5;
+
+/// The indices of the dashes of engines, which race among themselves.
+const ENGINE_DASHES: [usize; 3] = [4, 1, 2];
+
+/// The hues that a deuteranope sees the colours in, yellow, blue and grey, by the indices of the colours.
+const HUES: [usize; 7] = [0, 1, 2, 0, 2, 0, 1];
+
+/// The first lanes of a list, which have keys: of these no two share hue and dash.
+const TOLD_APART: usize = 9;
+
+/// The indices of the colours of game loops. No two warm ones are beside each other.
+const LOOPS: [usize; 7] = [2, 5, 4, 6, 0, 1, 3];
+
+/// The methods that the chapter and its scenes race, with the indices of their colours and dashes.
+const CLASSICS: [(&str, usize, usize); 6] = [
+    ("explicit-euler", 0, 0),
+    ("semi-implicit-euler", 1, 1),
+    ("implicit-euler", 2, 2),
+    ("improved-euler", 3, 3),
+    ("rk4", 4, 4),
+    ("adaptive-euler", 5, 0),
+];
+
+/// The indices of the warm colours, which are much alike on the light chart.
+const WARM: [usize; 3] = [0, 3, 5];
+
+/// Whether two colours could be taken for each other.
+fn are_alike(a: usize, b: usize) -> bool {
+    a == b || WARM.contains(&a) && WARM.contains(&b)
+}
+
+/// The indices of the colour and the dash of a method.
+fn indices(method: &Method) -> (usize, usize) {
+    let listed = METHODS.iter().position(|listed| listed == method);
+    listed.map_or_else(|| own_style(method), |index| STYLES[index])
+}
+
+/// The indices of the colour and the dash of a lane. A lane after the first of its method has a colour unlike that of any
+/// lane before it, as long as there is one, and then at least a pair of its own.
+fn lane_places(lanes: &[LaneSpec], lane: &LaneSpec) -> (usize, usize) {
+    let is_first = |end: usize| lanes[..end].iter().all(|other| other.method != lanes[end].method);
+    let end = match lanes.iter().position(|other| other == lane) {
+        Some(end) if end < TOLD_APART || !is_first(end) => end,
+        _ => return indices(lane.method),
+    };
+    let (colours, dashes) = (DARK.methods.len(), DASHES.len());
+    let mut taken: Vec<(usize, usize)> = Vec::new();
+    for (i, next) in lanes[..=end].iter().enumerate() {
+        let (colour, dash) = indices(next.method);
+        let pairs = (1..colours * dashes).map(|n| ((colour + n) % colours, (dash + n) % dashes));
+        let unlike = |pair: &(usize, usize)| taken.iter().all(|other| !are_alike(other.0, pair.0));
+        let unused = |pair: &(usize, usize)| !taken.contains(pair);
+        let other = || pairs.clone().find(unlike).or_else(|| pairs.clone().find(unused));
+        let wanted = if is_first(i) { None } else { other() }.unwrap_or((colour, dash));
+        // With another dash, or else in another colour too.
+        let dashed = (0..dashes).map(|n| (wanted.0, (wanted.1 + n) % dashes));
+        let is_told = |pair: &(usize, usize)| {
+            let looks = |of: (usize, usize)| (HUES[of.0], of.1);
+            taken.iter().all(|other| looks(*other) != looks(*pair))
+        };
+        let told = dashed.chain(pairs.clone()).find(is_told).filter(|_| i < TOLD_APART);
+        taken.push(told.unwrap_or(wanted));
+    }
+    taken[end]
+}
+
+/// The indices of the colour and the dash of a method that is not in the table: always the same, by its id, and no
+/// solid line, which those that people know best have.
+fn own_style(method: &Method) -> (usize, usize) {
+    let sum = method.id.bytes().fold(0, |sum: usize, byte| (31 * sum + usize::from(byte)) % 9973);
+    (sum % DARK.methods.len(), 1 + sum % (FIRST_DASHES - 1))
+}
+
+/// The indices of each method's colour and dash. No method has a colour like that of a neighbour in the table.
+static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
+    let classic = |method: &Method| {
+        let found = CLASSICS.iter().find(|(id, ..)| *id == method.id);
+        found.map(|&(_, colour, dash)| (colour, dash))
+    };
+    let colours = DARK.methods.len();
+    let first = (0..colours * FIRST_DASHES).map(|n| (n % colours, n % FIRST_DASHES));
+    let more = (FIRST_DASHES..DASHES.len()).flat_map(|dash| (0..colours).map(move |n| (n, dash)));
+    let mut free: Vec<(usize, usize)> = first.chain(more).collect();
+    let of_engines = (0..colours * ENGINE_DASHES.len())
+        .map(|n| (n % colours, ENGINE_DASHES[n % ENGINE_DASHES.len()]));
+    let mut of_engines: Vec<(usize, usize)> = of_engines.collect();
+    free.retain(|style| !METHODS.iter().filter_map(classic).any(|taken| taken == *style));
+    let mut styles: Vec<(usize, usize)> = Vec::new();
+    for (i, method) in METHODS.iter().enumerate() {
+        let beside = [styles.last().copied(), METHODS.get(i + 1).and_then(classic)];
+        let differs = |style: &(usize, usize)| {
+            beside.iter().flatten().all(|other| !are_alike(other.0, style.0))
+        };
+        let style = classic(method).unwrap_or_else(|| {
+            let free = if method.is_engine() { &mut of_engines } else { &mut free };
+            let index = free.iter().position(differs).unwrap_or(0);
+            free.remove(index)
+        });
+        styles.push(style);
+    }
+    styles
+});
+
+/// A colour between two, at this part of the way from the first to the second; opaque.
+pub fn mixed(from: Rgba, to: Rgba, part: f32) -> Rgba {
+    let mix = |i: usize| {
+        f32::from(from[i]) + part.clamp(0.0, 1.0) * (f32::from(to[i]) - f32::from(from[i]))
+    };
+    [mix(0) as u8, mix(1) as u8, mix(2) as u8, 255]
+}
+
+/// The same colour, less opaque.
+pub(crate) fn faded([r, g, b, a]: Rgba, part: f32) -> Rgba {
+    [r, g, b, (f32::from(a) * part.clamp(0.0, 1.0)) as u8]
+}
+
+#[cfg(test)]
+mod tests;

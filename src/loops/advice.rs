@@ -1,0 +1,185 @@
+//! Which loop to take, for the command line and the loop lab alike.
+
+use super::metrics::PacingReport;
+use super::policy::PolicyCard;
+use super::verdict::LoopVerdict;
+use crate::measure::Severity;
+use crate::run::race::Interpolation;
+use crate::sim::number::round;
+
+/// Animation errors that differ by less are alike, in milliseconds: no display shows the difference.
+const ALIKE_MS: f64 = 1e-3;
+/// Position errors that differ by less are alike, in amplitudes.
+const AS_NEAR: f64 = 0.01;
+
+/// The largest mean latency of a loop that is advised unless another is asked for, in milliseconds.
+pub const USUAL_LATENCY_MS: f64 = 20.0;
+
+/// Why a loop that draws between two ticks is advised where one that draws beyond the last is as smooth.
+const NOT_AHEAD: &str = "extrapolation or a render tick would be as smooth and no tick late, but overshoots at each kick";
+
+/// The loop to take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AdvisedLoop {
+    /// Its index among those measured.
+    pub index: usize,
+    /// Why not another that is as smooth, if that needs a word.
+    pub why: Option<&'static str>,
+}
+
+/// Why no loop is advised. Indices are of those measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoLoop {
+    /// Fewer than two frames were displayed.
+    TooFewFrames,
+    /// None has a fixed tick: the physics of all depends on the frame rate.
+    NoFixedTick,
+    /// In each with a fixed tick the speed depends on the frame rate.
+    OtherSpeed,
+    /// In each with a fixed tick the motion is lost.
+    MotionLost,
+    /// None with a fixed tick is smooth within the latency.
+    Unfit {
+        /// The least late of the smooth ones.
+        late: Option<usize>,
+        /// The smoothest of the others: of those within the latency if there is one, else of all if none is smooth.
+        uneven: Option<usize>,
+    },
+}
+
+impl NoLoop {
+    /// The loop that is nearest to be advised.
+    pub fn nearest(self) -> Option<usize> {
+        match self {
+            Self::Unfit { late, uneven } => late.or(uneven),
+            _ => None,
+        }
+    }
+}
+
+/// Loops that were measured on one trace.
+pub struct MeasuredLoops<'a> {
+    loops: Vec<(&'static PolicyCard, &'a PacingReport)>,
+    tick_hz: u32,
+    origin_ms: f64,
+}
+
+impl<'a> MeasuredLoops<'a> {
+    /// These loops at a tick rate, on a trace whose frames begin and are displayed by one clock, or by two without a common
+    /// origin. By two only differences of latencies have a meaning, so that they count from the least.
+    pub fn new(
+        loops: impl IntoIterator<Item = (&'static PolicyCard, &'a PacingReport)>,
+        tick_hz: u32,
+        has_one_clock: bool,
+    ) -> Self {
+        let loops: Vec<_> = loops.into_iter().collect();
+        let latencies = loops.iter().filter_map(|(_, report)| report.latency_mean_ms());
+        let least = latencies.reduce(f64::min).filter(|_| !has_one_clock);
+        Self { loops, tick_hz, origin_ms: least.unwrap_or(0.0) }
+    }
+
+    /// The mean latency of the loop with this index, in milliseconds.
+    pub fn latency_ms(&self, index: usize) -> Option<f64> {
+        self.loops[index].1.latency_mean_ms().map(|latency| latency - self.origin_ms)
+    }
+
+    /// The loop with the least animation error among those with a fixed tick that are smooth and whose mean latency is at
+    /// most `latency_ms`. Ties go to those that draw no moment beyond their last tick, then to the smaller position error,
+    /// then to the first.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn advised(&self, latency_ms: f64) -> Result<AdvisedLoop, NoLoop> {
+        if self.loops.iter().all(|(_, report)| report.animation_error_rms_ms.is_none()) {
+            return Err(NoLoop::TooFewFrames);
+        }
+        let mut fitting: Vec<usize> = (0..self.loops.len()).collect();
+        fitting.retain(|&index| self.loops[index].0.has_fixed_tick);
+        if fitting.is_empty() {
+            return Err(NoLoop::NoFixedTick);
+        }
+        fitting.retain(|&index| self.loops[index].1.keeps_speed() == Some(true));
+        if fitting.is_empty() {
+            return Err(NoLoop::OtherSpeed);
+        }
+        fitting.retain(|&index| !self.loops[index].1.loses_motion());
+        if fitting.is_empty() {
+            return Err(NoLoop::MotionLost);
+        }
+        fitting.sort_by(|&one, &other| {
+            self.rank(one).partial_cmp(&self.rank(other)).expect("numbers")
+        });
+        let late = |index: &usize| self.latency_ms(*index).unwrap_or(f64::INFINITY);
+        let (smooth, uneven): (Vec<usize>, Vec<usize>) =
+            fitting.into_iter().partition(|&index| self.is_smooth(index));
+        let is_in_time = |index: &usize| late(index) <= latency_ms + ALIKE_MS;
+        let Some(index) = smooth.iter().copied().find(is_in_time) else {
+            let in_time = uneven.iter().find(|index| is_in_time(index));
+            return Err(NoLoop::Unfit {
+                late: smooth.iter().copied().min_by(|one, other| late(one).total_cmp(&late(other))),
+                uneven: in_time.or(uneven.first().filter(|_| smooth.is_empty())).copied(),
+            });
+        };
+        let draws_between =
+            matches!(self.loops[index].0.drawing, Interpolation::Linear | Interpolation::Hermite);
+        let is_rival = |other: &usize| {
+            is_in_time(other)
+                && self.loops[*other].0.draws_ahead()
+                && self.rank(*other).0 == self.rank(index).0
+        };
+        let why = (draws_between && smooth.iter().any(is_rival)).then_some(NOT_AHEAD);
+        Ok(AdvisedLoop { index, why })
+    }
+
+    /// Why none is advised within this latency, clause by clause, with what `name` calls a loop.
+    pub fn reasons(
+        &self,
+        none: NoLoop,
+        latency_ms: f64,
+        name: fn(&PolicyCard) -> &'static str,
+    ) -> Vec<String> {
+        let of_all = |what: &str| vec![format!("in every loop with a fixed tick {what}")];
+        let (late, uneven) = match none {
+            NoLoop::TooFewFrames => {
+                return vec!["fewer than two frames were displayed, too few to measure".into()];
+            }
+            NoLoop::NoFixedTick => {
+                return vec!["without a fixed tick the physics varies with the rate".into()];
+            }
+            NoLoop::OtherSpeed => return of_all("the speed depends on the frame rate"),
+            NoLoop::MotionLost => return of_all("the motion is lost"),
+            NoLoop::Unfit { late, uneven } => (late, uneven),
+        };
+        let first =
+            format!("no loop with a fixed tick is smooth within {} ms", round(latency_ms, 3));
+        let late = late.map(|index| {
+            let ms = self.latency_ms(index).unwrap_or(f64::INFINITY);
+            format!("{} is smooth and {} ms late", name(self.loops[index].0), round(ms, 3))
+        });
+        let uneven = uneven.map(|index| {
+            let (card, report) = self.loops[index];
+            let verdict = LoopVerdict::of(card, report, self.tick_hz);
+            let is_in_time = self.latency_ms(index).is_some_and(|ms| ms <= latency_ms + ALIKE_MS);
+            let within = if is_in_time { "in time " } else { "" };
+            format!("{within}{} is the smoothest: {verdict}", name(card))
+        });
+        [Some(first), late, uneven].into_iter().flatten().collect()
+    }
+
+    fn is_smooth(&self, index: usize) -> bool {
+        let (card, report) = self.loops[index];
+        LoopVerdict::of(card, report, self.tick_hz).severity == Severity::Fine
+    }
+
+    /// By what loops are compared: the least comes first.
+    fn rank(&self, index: usize) -> (f64, bool, f64) {
+        let (card, report) = self.loops[index];
+        let steps = |value: Option<f64>, step: f64| {
+            value
+                .filter(|value| !value.is_nan())
+                .map_or(f64::INFINITY, |value| (value / step).round())
+        };
+        let error = steps(report.animation_error_rms_ms, ALIKE_MS);
+        (error, card.draws_ahead(), steps(report.position_error_rms, AS_NEAR))
+    }
+}

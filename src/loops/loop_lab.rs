@@ -1,0 +1,444 @@
+//! The loop lab: one body under one method in every game loop, over the same frames, in slow motion.
+//!
+//! Frames are few, so that all of them are kept: going back and forth is looking them up. They are made when something is
+//! chosen, by a [`LoopWorker`] beside the lab, and a loop is shown as soon as it was run.
+
+use std::sync::Arc;
+
+use super::{
+    AdvisedLoop, FrameTrace, LoopVerdict, MeasuredLoops, NoLoop, POLICIES, PolicyCard, RefreshRate,
+    TRACES, TraceCard, USUAL_LATENCY_MS,
+};
+use crate::run::race::LaneBody;
+use crate::scene::{MAX_TICK_HZ, Scene};
+use crate::sim::Solver;
+use crate::sim::integrators::Method;
+
+mod frame_metrics;
+mod lane;
+mod running;
+
+pub use frame_metrics::{FRAME_METRICS, FrameMetric};
+pub use lane::{LoopFrame, LoopLane, LoopState};
+pub use running::{FoundLoop, LoopRequest, LoopWorker};
+
+/// The traces that come first, with the policies on the stage: noise that makes raw ticks flip between none and two, under
+/// the raw loop and the one that heals noise; then a display for which ticks are too few, under the raw loop and the usual
+/// remedy.
+const OPENING: [(&str, [&str; 2]); 2] =
+    [("edge", [RAW, "whole-refresh"]), ("steady-144", [RAW, "fixed-linear"])];
+/// The loop whose ticks are drawn as they come.
+pub const RAW: &str = "fixed";
+/// How much of a trace the opening shows before it goes on, in nanoseconds of the display: long enough to see a judder.
+const OPENING_NS: i64 = 1_500_000_000;
+/// The most policies on the stage.
+pub const MAX_ON_STAGE: usize = 4;
+/// How many times slower than real time it can be played; a monitor adds its own judder to what is faster.
+pub const SLOWNESS: [u32; 6] = [1, 2, 4, 8, 16, 32];
+/// How slow it is at first.
+const SLOWNESS_AT_FIRST: u32 = 8;
+/// The display of a trace that has none of its own.
+const DISPLAY: RefreshRate = RefreshRate::new(60, 1);
+
+/// A change of the loop lab.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LoopCommand {
+    /// Opens it, or leaves it.
+    ToggleLab,
+    /// Selects the loop with this index in [`POLICIES`], and brings it on the stage.
+    Select(usize),
+    /// Takes the loop with this index off the stage, or brings it on.
+    ToggleOnStage(usize),
+    /// Chooses the trace with this index.
+    Trace(usize),
+    /// Plays this many times slower than real time.
+    Slowness(u32),
+    /// Goes to this moment of the display, in nanoseconds.
+    Seek(i64),
+}
+
+/// A body under one method in every loop, and where a person is in its frames.
+pub struct LoopLab {
+    /// With one body.
+    scene: Arc<Scene>,
+    method: &'static Method,
+    /// The body at its start, for how it looks.
+    body: LaneBody,
+    traces: Vec<FrameTrace>,
+    trace: usize,
+    /// The loops that are wanted.
+    request: Arc<LoopRequest>,
+    lanes: Vec<LoopLane>,
+    /// The loop to take, or why none, once all were run.
+    advice: Option<Result<AdvisedLoop, NoLoop>>,
+    /// The range of the exact first coordinate.
+    range: [f64; 2],
+    on_stage: Vec<usize>,
+    /// Whether a person chose what is on the stage.
+    is_stage_chosen: bool,
+    /// Whether it goes on by itself to the second trace of the opening.
+    plays_opening: bool,
+    /// The index of the metric in [`FRAME_METRICS`].
+    metric: usize,
+    is_overlaid: bool,
+    selected: usize,
+    now_ns: i64,
+    end_ns: i64,
+    slowness: u32,
+    /// Whether the run goes on when the loop lab is left.
+    pub(crate) run_goes_on: bool,
+}
+
+impl LoopLab {
+    /// The body with this index in a scene under a method, at the start. No loop was [run](Self::request) yet.
+    pub fn new(scene: &Scene, body: usize, method: &'static Method) -> Self {
+        let mut cards: Vec<&TraceCard> = TRACES.iter().collect();
+        cards.sort_by_key(|card| {
+            let first = OPENING.iter().position(|(id, _)| *id == card.id);
+            first.unwrap_or(OPENING.len())
+        });
+        let scene = Arc::new(scene.clone().of_one_body(body));
+        let traces: Vec<_> = cards.into_iter().map(|card| card.trace(DISPLAY)).collect();
+        let trace = traces[0].clone();
+        let mut studio = Self {
+            body: at_start(&scene),
+            request: Arc::new(LoopRequest { scene: scene.clone(), method, trace, first: vec![] }),
+            scene,
+            method,
+            traces,
+            trace: 0,
+            lanes: Vec::new(),
+            advice: None,
+            range: [0.0; 2],
+            selected: 0,
+            on_stage: Vec::new(),
+            is_stage_chosen: false,
+            plays_opening: false,
+            metric: 0,
+            is_overlaid: false,
+            now_ns: 0,
+            end_ns: 0,
+            slowness: SLOWNESS_AT_FIRST,
+            run_goes_on: true,
+        };
+        studio.choose_trace(0);
+        studio
+    }
+
+    /// Goes on by itself to the second trace of the opening, until [`end_opening`](Self::end_opening).
+    pub(crate) fn play_opening(&mut self) {
+        self.plays_opening = true;
+    }
+
+    /// Stays with the chosen trace.
+    pub(crate) fn end_opening(&mut self) {
+        self.plays_opening = false;
+    }
+
+    /// Shows the body with this index in another scene, from its start.
+    pub(crate) fn show(&mut self, scene: &Scene, body: usize) {
+        self.scene = Arc::new(scene.clone().of_one_body(body));
+        if self.scene.refusal(self.method).is_some() {
+            let mut fitting = self.scene.fitting_methods();
+            self.method = fitting.next().expect("some methods step every body");
+        }
+        self.body = at_start(&self.scene);
+        self.now_ns = 0;
+        self.ask();
+    }
+
+    /// Asks for all loops again: those that are shown are of another choice.
+    fn ask(&mut self) {
+        self.request = Arc::new(LoopRequest {
+            scene: self.scene.clone(),
+            method: self.method,
+            trace: self.traces[self.trace].clone(),
+            first: self.on_stage.clone(),
+        });
+        self.lanes = POLICIES.iter().map(LoopLane::awaited).collect();
+        self.advice = None;
+        self.end_ns = 0;
+        self.range = [f64::INFINITY, f64::NEG_INFINITY];
+    }
+
+    /// The loops that are wanted, for a [`LoopWorker`]. It is another value after each choice.
+    pub fn request(&self) -> &Arc<LoopRequest> {
+        &self.request
+    }
+
+    /// Shows a loop that was run, unless it was asked for before the last choice.
+    pub(crate) fn accept(&mut self, found: FoundLoop) {
+        let FoundLoop { request, index, lane } = found;
+        if !Arc::ptr_eq(&request, &self.request) {
+            return;
+        }
+        let end_ns = lane.frames().last().map(|frame| frame.displayed_ns);
+        self.end_ns = self.end_ns.max(end_ns.unwrap_or_default());
+        let exact = lane.frames().iter().map(|frame| frame.exact[0]);
+        self.range = exact.fold(self.range, |[least, most], q| [least.min(q), most.max(q)]);
+        self.lanes[index] = lane;
+        if self.is_complete() {
+            self.now_ns = self.now_ns.min(self.end_ns);
+            self.advice = self.measured().map(|loops| loops.advised(USUAL_LATENCY_MS));
+            self.bring_advised_on_stage();
+        }
+    }
+
+    /// Compares the raw loop with the one to take, or the nearest to it, unless a person chose what is on the stage.
+    fn bring_advised_on_stage(&mut self) {
+        let raw = index_of(RAW);
+        if let Some(best) = self.best().filter(|best| *best != raw && !self.is_stage_chosen) {
+            self.on_stage = vec![raw.min(best), raw.max(best)];
+            self.selected = raw;
+        }
+    }
+
+    /// All loops as they were measured; `None` before all were run.
+    fn measured(&self) -> Option<MeasuredLoops<'_>> {
+        let measured = self.lanes.iter().map(|lane| Some((lane.card(), lane.report()?)));
+        let measured: Vec<_> = measured.collect::<Option<_>>()?;
+        let has_one_clock = self.traces[self.trace].has_one_clock();
+        Some(MeasuredLoops::new(measured, self.scene.tick_hz, has_one_clock))
+    }
+
+    /// Whether every loop was run.
+    pub fn is_complete(&self) -> bool {
+        self.lanes.iter().all(LoopLane::was_run)
+    }
+
+    /// Whether every loop on the stage was run.
+    pub fn is_stage_complete(&self) -> bool {
+        self.on_stage.iter().all(|&index| self.lanes[index].was_run())
+    }
+
+    /// The scene, with the one body.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+    /// The method of the body.
+    pub fn method(&self) -> &'static Method {
+        self.method
+    }
+    /// The body at its start.
+    pub fn body(&self) -> &LaneBody {
+        &self.body
+    }
+    /// The least and the greatest value of the exact first coordinate in the loops that were run; zeros if none was.
+    pub fn range(&self) -> [f64; 2] {
+        if self.range[0] > self.range[1] { [0.0; 2] } else { self.range }
+    }
+    /// The traces that can be chosen: the built-in ones, then those that were opened.
+    pub fn traces(&self) -> &[FrameTrace] {
+        &self.traces
+    }
+    /// The index of the chosen trace.
+    pub fn trace(&self) -> usize {
+        self.trace
+    }
+    /// The body in every loop, in the order of [`POLICIES`].
+    pub fn lanes(&self) -> &[LoopLane] {
+        &self.lanes
+    }
+    /// The loop to take, by its index in [`POLICIES`]; `None` before all were run, or if none will do.
+    pub fn advised(&self) -> Option<AdvisedLoop> {
+        self.advice?.ok()
+    }
+    /// Why no loop is advised, and the reasons clause by clause; `None` before all were run, or if one is.
+    pub fn none_advised(&self) -> Option<(NoLoop, Vec<String>)> {
+        let none = self.advice?.err()?;
+        Some((none, self.measured()?.reasons(none, USUAL_LATENCY_MS, |card| card.name)))
+    }
+    /// The index of the loop to take, or of the nearest to it.
+    fn best(&self) -> Option<usize> {
+        self.advice?.map_or_else(NoLoop::nearest, |advised| Some(advised.index))
+    }
+    /// The indices of the lanes as they are listed: the one to take, or the nearest to it, then all others in the order of
+    /// [`POLICIES`].
+    pub fn listed(&self) -> Vec<usize> {
+        let first = self.best();
+        let others = (0..self.lanes.len()).filter(|index| Some(*index) != first);
+        first.into_iter().chain(others).collect()
+    }
+    /// The words in the place of plots until every loop on the stage was run.
+    pub fn waiting(&self) -> Option<&'static str> {
+        (!self.is_stage_complete()).then_some("Running the loops on the stage…")
+    }
+    /// The verdict on the loop with this index in [`POLICIES`].
+    pub fn verdict(&self, index: usize) -> LoopVerdict {
+        let lane = &self.lanes[index];
+        let Some(report) = lane.report() else { return LoopVerdict::awaited() };
+        let mut verdict = LoopVerdict::of(lane.card(), report, self.scene.tick_hz);
+        if self.advised().is_some_and(|advised| advised.index == index) {
+            verdict.parts.insert(0, "recommended".into());
+        }
+        verdict
+    }
+    /// The indices of the lanes on the stage, from top to bottom.
+    pub fn on_stage(&self) -> &[usize] {
+        &self.on_stage
+    }
+    /// Whether the stage has the lanes over each other, and not below each other.
+    pub fn is_overlaid(&self) -> bool {
+        self.is_overlaid
+    }
+    /// The index of the selected lane.
+    pub fn selected(&self) -> usize {
+        self.selected
+    }
+    /// The moment of the display, in nanoseconds.
+    pub fn now_ns(&self) -> i64 {
+        self.now_ns
+    }
+    /// How far a frame that the display holds now is behind, in milliseconds: at the moment of its display, or now if it
+    /// has been held for more than two refreshes.
+    pub fn late_ms(&self, frame: &LoopFrame) -> f64 {
+        let held_ms = (self.now_ns - frame.displayed_ns) as f64 / 1e6;
+        let refresh_ms = 1000.0 / self.traces[self.trace].refresh().hz();
+        frame.latency_ms() + if held_ms > 2.0 * refresh_ms { held_ms } else { 0.0 }
+    }
+    /// The last moment of the loops that were run, in nanoseconds; 0 if none was.
+    pub fn end_ns(&self) -> i64 {
+        self.end_ns
+    }
+    /// How many times slower than real time it is played.
+    pub fn slowness(&self) -> u32 {
+        self.slowness
+    }
+
+    /// The index of the metric that the error instrument shows in [`FRAME_METRICS`].
+    pub fn metric(&self) -> usize {
+        self.metric
+    }
+
+    /// Shows the metric with this index in [`FRAME_METRICS`] in the error instrument.
+    pub(crate) fn set_metric(&mut self, index: usize) {
+        self.metric = index.min(FRAME_METRICS.len() - 1);
+    }
+
+    /// Chooses the trace with this index; the moment stays, if the trace reaches it. A trace of the opening brings its
+    /// policies on the stage, unless a person chose others.
+    pub fn choose_trace(&mut self, index: usize) {
+        self.trace = index.min(self.traces.len() - 1);
+        let name = self.traces[self.trace].name();
+        let opening = OPENING.iter().find(|(id, _)| *id == name && !self.is_stage_chosen);
+        if let Some((_, ids)) = opening {
+            self.on_stage = ids.map(index_of).into();
+            self.selected = self.on_stage[0];
+        }
+        self.ask();
+    }
+
+    /// Adds a trace to choose from, if there is one.
+    pub(crate) fn offer(&mut self, trace: Option<FrameTrace>) {
+        self.traces.extend(trace);
+    }
+
+    /// Adds traces, and chooses the first of them.
+    pub fn add_traces(&mut self, traces: Vec<FrameTrace>) {
+        let index = self.traces.len();
+        self.traces.extend(traces);
+        self.choose_trace(index);
+    }
+
+    /// Chooses the tick rate in Hz, clamped to 1 to [`MAX_TICK_HZ`].
+    pub fn set_tick_hz(&mut self, tick_hz: u32) {
+        Arc::make_mut(&mut self.scene).tick_hz = tick_hz.clamp(1, MAX_TICK_HZ);
+        self.ask();
+    }
+
+    /// Chooses the method.
+    pub fn set_method(&mut self, method: &'static Method) {
+        self.method = method;
+        self.ask();
+    }
+
+    /// Sets how many times slower than real time it is played.
+    pub fn set_slowness(&mut self, slowness: u32) {
+        self.slowness = slowness.clamp(SLOWNESS[0], SLOWNESS[SLOWNESS.len() - 1]);
+    }
+
+    /// Puts the lanes of the stage over each other, or below each other.
+    pub(crate) fn toggle_overlay(&mut self) {
+        self.is_overlaid = !self.is_overlaid;
+    }
+
+    /// Selects the lane with this index, and brings it on the stage.
+    pub fn select(&mut self, index: usize) {
+        if index >= self.lanes.len() {
+            return;
+        }
+        self.selected = index;
+        self.is_stage_chosen = true;
+        if !self.on_stage.contains(&index) {
+            if self.on_stage.len() == MAX_ON_STAGE {
+                self.on_stage.remove(0);
+            }
+            self.on_stage.push(index);
+            self.on_stage.sort_unstable();
+        }
+    }
+
+    /// Takes the lane with this index off the stage, or brings it on; one stays.
+    pub fn toggle(&mut self, index: usize) {
+        self.is_stage_chosen = true;
+        match self.on_stage.iter().position(|&shown| shown == index) {
+            Some(_) if self.on_stage.len() == 1 => {}
+            Some(shown) => {
+                self.on_stage.remove(shown);
+                self.selected = self.on_stage[0];
+            }
+            None => self.select(index),
+        }
+    }
+
+    /// Goes on by `real_ns` nanoseconds of real time; at the end it begins again. The opening goes on to its next trace.
+    /// Time stands still while a loop on the stage was not run.
+    pub fn advance(&mut self, real_ns: i64) {
+        if !self.is_stage_complete() {
+            return;
+        }
+        self.now_ns += real_ns.max(0) / i64::from(self.slowness);
+        if self.plays_opening && self.now_ns > OPENING_NS {
+            self.plays_opening = self.trace + 2 < OPENING.len();
+            self.now_ns = 0;
+            self.choose_trace(self.trace + 1);
+        }
+        if self.now_ns > self.end_ns && self.is_complete() {
+            self.now_ns = 0;
+        }
+    }
+
+    /// Goes to a moment of the display, in nanoseconds.
+    pub fn seek(&mut self, now_ns: i64) {
+        self.now_ns = now_ns.clamp(0, self.end_ns);
+    }
+
+    /// Moves by frames of the selected lane.
+    pub fn step(&mut self, frames: i64) {
+        let frames_of = self.lanes[self.selected].frames();
+        let at = self.lanes[self.selected].frame_at(self.now_ns).unwrap_or_default() as i64;
+        let index = (at + frames).clamp(0, frames_of.len().max(1) as i64 - 1);
+        if let Some(frame) = frames_of.get(index as usize) {
+            self.now_ns = frame.displayed_ns;
+        }
+    }
+
+    /// The selected policy's card.
+    pub fn selected_card(&self) -> &'static PolicyCard {
+        self.lanes[self.selected].card()
+    }
+}
+
+/// The index of the loop with this id in [`POLICIES`].
+fn index_of(id: &str) -> usize {
+    POLICIES.iter().position(|card| card.id == id).expect("a built-in loop")
+}
+
+/// The one body of a scene at its start.
+fn at_start(scene: &Scene) -> LaneBody {
+    let body = &scene.bodies[0];
+    LaneBody::new(body, Solver::Truth)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,187 @@
+//! A scene in a game loop over the frames of a trace.
+
+use super::frame::Frame;
+use super::metrics::{FrameRecord, PacingMeter, PacingReport};
+use super::paced_lane::PacedLane;
+use super::pacer::Pacer;
+use super::policy::{PolicyCard, Steps};
+use super::scripted_truth::{Furthest, ScriptedTruth};
+use super::time_base::TimeBase;
+use super::timed_script::TimedScript;
+use super::trace::{FrameTrace, Frames};
+use crate::run::race::{Lane, LaneBody};
+use crate::scene::{LaneSpec, Scene};
+
+/// Default minimum length, in seconds: every one-off event of a built-in trace lies before it.
+pub const MIN_RUN_S: f64 = 10.0;
+
+/// A scene under one method in one loop, frame by frame.
+///
+/// The first frame starts the clock and shows the start; each later frame makes the steps that the loop decides on. The
+/// scene's script acts before the first step at or after its time.
+///
+/// ```
+/// use regatta::loops::{LoopRun, policy, trace_card, RefreshRate};
+/// use regatta::scene::{LaneSpec, Scene};
+/// use regatta::sim::integrators::method;
+///
+/// let scene = Scene::built_in("spring").expect("a built-in scene");
+/// let rk4 = LaneSpec::plain(method("rk4").expect("a built-in method"));
+/// let trace = trace_card("steady-144").expect("a built-in trace").trace(RefreshRate::new(60, 1));
+/// let mut run = LoopRun::new(&scene, rk4, policy("fixed").expect("a built-in policy"), &trace);
+/// while run.next_frame().is_some_and(|frame| frame.frame.began_ns < 10_000_000_000) {}
+/// // At 144 Hz seven frames in twelve show the same 60 Hz tick again.
+/// assert!((run.report().repeated_percent.expect("there were frames") - 58.33).abs() < 0.1);
+/// ```
+#[derive(Clone)]
+pub struct LoopRun {
+    lane: PacedLane,
+    truth: ScriptedTruth,
+    frames: Frames,
+    meter: PacingMeter,
+    last: Option<(Frame, Steps)>,
+    script: TimedScript,
+    /// One frame in this number is made; the others are left out.
+    stride: u32,
+}
+
+impl LoopRun {
+    /// The run before its first frame, at the scene's tick rate.
+    pub fn new(
+        scene: &Scene,
+        spec: LaneSpec,
+        card: &'static PolicyCard,
+        trace: &FrameTrace,
+    ) -> Self {
+        let base = TimeBase::new(scene.tick_hz, trace.refresh());
+        let lane = Lane::new(scene, spec.solver(), spec.substeps);
+        Self {
+            lane: PacedLane::new(Pacer::new(card, base), lane),
+            truth: ScriptedTruth::new(scene),
+            frames: trace.frames(),
+            meter: PacingMeter::default(),
+            last: None,
+            script: TimedScript::new(scene),
+            stride: 1,
+        }
+    }
+
+    /// The run of the same game at half the frame rate: every second frame is left out.
+    fn at_half_the_rate(self) -> Self {
+        Self { stride: 2, ..self }
+    }
+
+    /// The bodies in the loop.
+    pub fn lane(&self) -> &PacedLane {
+        &self.lane
+    }
+
+    /// The exact coordinates of the body at this index of the scene at the moment of the last displayed frame.
+    pub fn exact(&self, body: usize) -> &[f64] {
+        self.truth.body(body).stepper.q()
+    }
+
+    /// The body at this index of the scene, exactly, at the moment of the last displayed frame.
+    pub(crate) fn exact_body(&self, body: usize) -> &LaneBody {
+        self.truth.body(body)
+    }
+
+    /// Makes the next frame; `None` where the trace has ended.
+    pub fn next_frame(&mut self) -> Option<FrameRecord> {
+        let steps_before = self.last.map_or(0, |(_, steps)| steps.count);
+        let mut frame = self.frames.next(steps_before)?;
+        for _ in 1..if self.last.is_some() { self.stride } else { 1 } {
+            frame = self.frames.next(0)?;
+        }
+        let steps = match self.last {
+            None => Steps::default(),
+            Some((last, _)) => {
+                let script = &mut self.script;
+                self.lane.frame(frame.began_ns - last.began_ns, |step, t, lane| {
+                    while let Some((_, action)) = script.next_due(t) {
+                        lane.act(step, t, &action);
+                    }
+                })
+            }
+        };
+        self.last = Some((frame, steps));
+        let pacer = self.lane.pacer();
+        let animation_error_ms = self.meter.frame(frame, pacer);
+        if let Some(displayed_ns) = frame.displayed_ns {
+            self.truth.compare(displayed_ns as f64 / 1e9, &self.lane);
+        }
+        let base = pacer.base();
+        Some(FrameRecord {
+            number: self.meter.frames() - 1,
+            frame,
+            shown_ms: base.milliseconds(pacer.shown()),
+            steps,
+            dropped_ms: base.milliseconds(steps.dropped),
+            animation_error_ms,
+        })
+    }
+
+    /// Makes frames up to the first that begins at `until_ns` or later, or until `stop` says so, and returns when the last
+    /// one began.
+    pub fn run_until(
+        &mut self,
+        until_ns: i64,
+        stop: &dyn Fn() -> bool,
+        mut seen: impl FnMut(&Self, &FrameRecord),
+    ) -> i64 {
+        while (self.began_ns() < until_ns || self.last.is_none()) && !stop() {
+            let Some(record) = self.next_frame() else { break };
+            seen(self, &record);
+        }
+        self.began_ns()
+    }
+
+    /// When the last frame began; 0 before the first.
+    fn began_ns(&self) -> i64 {
+        self.last.map_or(0, |(frame, _)| frame.began_ns)
+    }
+
+    /// Runs on to `until_ns`, and returns what was seen with the [difference](PacingReport::state_difference) to the same
+    /// game at half the frame rate. Both are compared at every frame that both have: at one moment alone, two motions that
+    /// are whole periods apart would look alike.
+    pub fn measure(
+        mut self,
+        until_ns: i64,
+        stop: &dyn Fn() -> bool,
+        mut seen: impl FnMut(&Self, &FrameRecord),
+    ) -> PacingReport {
+        let mut half = self.clone().at_half_the_rate();
+        let mut furthest = Furthest::default();
+        let mut report = None;
+        while (half.began_ns() < until_ns || half.last.is_none()) && !stop() {
+            if half.next_frame().is_none() {
+                break;
+            }
+            let common_ns = half.began_ns();
+            self.run_until(common_ns.min(until_ns), stop, &mut seen);
+            if common_ns > until_ns {
+                report = Some(self.report());
+                self.run_until(common_ns, stop, |_, _| {});
+            }
+            self.truth.widen(&mut furthest, self.lane.lane(), half.lane.lane());
+        }
+        let [simulated, at_half] = [&self, &half].map(|run| run.lane.pacer().simulated());
+        let time_difference = self.lane.pacer().base().milliseconds(simulated - at_half);
+        let report = report.unwrap_or_else(|| {
+            self.run_until(until_ns, stop, seen);
+            self.report()
+        });
+        PacingReport {
+            state_difference: self.truth.in_amplitudes(&furthest),
+            time_difference_ms: Some(time_difference),
+            ..report
+        }
+    }
+
+    /// What was seen so far.
+    pub fn report(&self) -> PacingReport {
+        let (steps, evaluations) = (self.lane.steps(), self.lane.evaluations());
+        let report = self.meter.report(self.lane.pacer(), steps, evaluations);
+        PacingReport { position_error_rms: self.truth.position_error_rms(), ..report }
+    }
+}

@@ -1,0 +1,282 @@
+//! What a viewer of the display sees of a loop, in numbers.
+
+use super::frame::Frame;
+use super::pacer::Pacer;
+use super::policy::Steps;
+use crate::run::Unit;
+
+/// By how much a frame may miss a double step and count as one: the nanoseconds of a trace are rounded.
+const LEEWAY_NS: i64 = 1000;
+
+/// What a loop did over a trace.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PacingReport {
+    /// Frames, displayed or not.
+    pub frames: u64,
+    /// Frames that were displayed.
+    pub displayed: u64,
+    /// RMS of the animation error in milliseconds; `None` before two frames were displayed.
+    pub animation_error_rms_ms: Option<f64>,
+    /// The largest animation error, by magnitude.
+    pub animation_error_max_ms: Option<f64>,
+    /// Displayed frames that show the same moment as the one before, in percent.
+    pub repeated_percent: Option<f64>,
+    /// Displayed frames that show two ticks or more at once and run ahead of the display by half a tick or more, in percent.
+    pub double_percent: Option<f64>,
+    /// The mean and the largest of the display's time minus the moment shown, also of a game that runs ahead of it.
+    pub(super) latency_ms: [Option<f64>; 2],
+    /// Real time that was given up.
+    pub dropped_ms: f64,
+    /// The most real time that was neither simulated nor given up.
+    pub owed_max_ms: f64,
+    /// RMS of the distance from the exact solution at the display's moment, in amplitudes, of the worst body.
+    pub position_error_rms: Option<f64>,
+    /// Steps of the bodies.
+    pub ticks: u64,
+    /// Evaluations of the bodies' accelerations.
+    pub evaluations: u64,
+    /// The furthest that the bodies come from where they are at half the frame rate, at a frame that both have, in
+    /// amplitudes; `None` where it was not measured.
+    pub state_difference: Option<f64>,
+    /// The time simulated beyond that at half the frame rate; `None` where it was not measured.
+    pub time_difference_ms: Option<f64>,
+}
+
+/// Time by which a game is off at half the frame rate that shows that it runs at another speed, in milliseconds: more
+/// than a few ticks.
+const OTHER_SPEED_MS: f64 = 100.0;
+/// A motion that is further off than this, in amplitudes, is lost: one that is shown late is off by two at most.
+const LOST: f64 = 4.0;
+/// A difference of the motion at half the frame rate that is no rounding, in amplitudes.
+const OTHER_MOTION: f64 = 1e-9;
+
+impl PacingReport {
+    /// The mean of the display's time minus the moment shown, in milliseconds. `None` before a frame was displayed, and
+    /// of a game whose speed depends on the frame rate: it runs away from the display, or falls behind for ever.
+    pub fn latency_mean_ms(&self) -> Option<f64> {
+        self.latency_ms[0].filter(|_| self.keeps_speed() != Some(false))
+    }
+
+    /// The largest of it.
+    pub fn latency_max_ms(&self) -> Option<f64> {
+        self.latency_ms[1].filter(|_| self.keeps_speed() != Some(false))
+    }
+
+    /// Whether the game runs as fast at half the frame rate; `None` where it was not measured.
+    pub fn keeps_speed(&self) -> Option<bool> {
+        self.time_difference_ms.map(|difference| difference.abs() <= OTHER_SPEED_MS)
+    }
+
+    /// Whether the motion has nothing to do with the exact one any more, as where a method is too coarse for the tick.
+    pub fn loses_motion(&self) -> bool {
+        self.position_error_rms.is_some_and(|distance| distance.is_nan() || distance > LOST)
+    }
+
+    /// The [difference of the motion](Self::state_difference) at half the frame rate, if it is more than rounding.
+    pub fn other_motion(&self) -> Option<f64> {
+        self.state_difference.filter(|difference| *difference > OTHER_MOTION)
+    }
+}
+
+/// A quantity of a [`PacingReport`].
+#[derive(Debug)]
+pub struct PacingMetric {
+    /// Name in output, `snake_case`.
+    pub id: &'static str,
+    /// Name for people.
+    pub name: &'static str,
+    /// Its unit.
+    pub unit: Unit,
+    /// What it is, in one line.
+    pub about: &'static str,
+    /// The value; `None` where it has no meaning.
+    pub measure: fn(&PacingReport) -> Option<f64>,
+}
+
+/// Every metric of a loop, in the order in which they are listed.
+pub const PACING_METRICS: &[PacingMetric] = &[
+    PacingMetric {
+        id: "frames",
+        name: "frames",
+        unit: Unit::One,
+        about: "frames made, displayed or not",
+        measure: |report| Some(report.frames as f64),
+    },
+    PacingMetric {
+        id: "animation_error_rms_ms",
+        name: "animation error, RMS",
+        unit: Unit::Milliseconds,
+        about: "change of the moment shown minus change of the moment of display, from frame to frame: judder",
+        measure: |report| report.animation_error_rms_ms,
+    },
+    PacingMetric {
+        id: "animation_error_max_ms",
+        name: "largest animation error",
+        unit: Unit::Milliseconds,
+        about: "the largest animation error of a frame, by magnitude",
+        measure: |report| report.animation_error_max_ms,
+    },
+    PacingMetric {
+        id: "repeated_percent",
+        name: "repeated frames",
+        unit: Unit::Percent,
+        about: "displayed frames that show the same moment as the one before",
+        measure: |report| report.repeated_percent,
+    },
+    PacingMetric {
+        id: "double_percent",
+        name: "double steps",
+        unit: Unit::Percent,
+        about: "displayed frames that show two ticks or more at once, half a tick or more beyond the display's own progress",
+        measure: |report| report.double_percent,
+    },
+    PacingMetric {
+        id: "latency_mean_ms",
+        name: "mean latency",
+        unit: Unit::Milliseconds,
+        about: "mean of the moment of display minus the moment shown; none where the speed depends on the frame rate",
+        measure: PacingReport::latency_mean_ms,
+    },
+    PacingMetric {
+        id: "latency_max_ms",
+        name: "largest latency",
+        unit: Unit::Milliseconds,
+        about: "largest moment of display minus the moment shown",
+        measure: PacingReport::latency_max_ms,
+    },
+    PacingMetric {
+        id: "dropped_ms",
+        name: "dropped time",
+        unit: Unit::Milliseconds,
+        about: "real time that was given up: the game falls behind",
+        measure: |report| Some(report.dropped_ms),
+    },
+    PacingMetric {
+        id: "owed_max_ms",
+        name: "most owed time",
+        unit: Unit::Milliseconds,
+        about: "the most real time that was neither simulated nor given up",
+        measure: |report| Some(report.owed_max_ms),
+    },
+    PacingMetric {
+        id: "position_error_rms",
+        name: "position error, RMS",
+        unit: Unit::Amplitudes,
+        about: "distance from the exact solution at the moment of display, of the worst body",
+        measure: |report| report.position_error_rms,
+    },
+    PacingMetric {
+        id: "ticks",
+        name: "ticks",
+        unit: Unit::One,
+        about: "steps made, of whatever length",
+        measure: |report| Some(report.ticks as f64),
+    },
+    PacingMetric {
+        id: "evaluations",
+        name: "evaluations",
+        unit: Unit::One,
+        about: "evaluations of the bodies' accelerations",
+        measure: |report| Some(report.evaluations as f64),
+    },
+    PacingMetric {
+        id: "state_difference",
+        name: "difference at half the frame rate",
+        unit: Unit::Amplitudes,
+        about: "the largest distance between the bodies with all frames and with every second frame left out",
+        measure: |report| report.state_difference,
+    },
+];
+
+/// Adds up what is seen of a loop, frame by frame. Times are in the unit of its [`TimeBase`](super::TimeBase).
+#[derive(Clone, Debug, Default)]
+pub(super) struct PacingMeter {
+    frames: u64,
+    displayed: u64,
+    /// The moment of display and the moment shown of the last displayed frame.
+    last: Option<[i128; 2]>,
+    squares_ms2: f64,
+    largest_error: i128,
+    repeated: u64,
+    doubled: u64,
+    latency: i128,
+    largest_latency: Option<i128>,
+    max_owed: i128,
+}
+
+impl PacingMeter {
+    /// The frames added.
+    pub(super) fn frames(&self) -> u64 {
+        self.frames
+    }
+
+    /// Adds a frame, after its steps. Returns its animation error in milliseconds, if it and another were displayed.
+    pub(super) fn frame(&mut self, frame: Frame, pacer: &Pacer) -> Option<f64> {
+        self.frames += 1;
+        self.max_owed = self.max_owed.max(pacer.owed());
+        let base = pacer.base();
+        let (displayed, shown) = (base.nanoseconds(frame.displayed_ns?), pacer.shown());
+        self.displayed += 1;
+        let latency = displayed - shown;
+        self.latency += latency;
+        self.largest_latency = self.largest_latency.max(Some(latency));
+        let [displayed_before, shown_before] = self.last.replace([displayed, shown])?;
+        let progress = shown - shown_before;
+        let error = progress - (displayed - displayed_before);
+        self.repeated += u64::from(progress == 0);
+        let tick = base.tick();
+        let leeway = base.nanoseconds(LEEWAY_NS);
+        self.doubled += u64::from(progress + leeway >= 2 * tick && 2 * (error + leeway) >= tick);
+        if error.abs() > self.largest_error.abs() {
+            self.largest_error = error;
+        }
+        let error_ms = base.milliseconds(error);
+        self.squares_ms2 += error_ms * error_ms;
+        Some(error_ms)
+    }
+
+    /// What was seen so far of a loop that made `ticks` steps with `evaluations`.
+    pub(super) fn report(&self, pacer: &Pacer, ticks: u64, evaluations: u64) -> PacingReport {
+        let base = pacer.base();
+        let (displayed, changes) = (self.displayed as f64, self.displayed.saturating_sub(1) as f64);
+        let of_changes = |value: f64| (changes > 0.0).then(|| value / changes);
+        PacingReport {
+            frames: self.frames,
+            displayed: self.displayed,
+            animation_error_rms_ms: of_changes(self.squares_ms2).map(f64::sqrt),
+            animation_error_max_ms: of_changes(
+                changes * base.milliseconds(self.largest_error.abs()),
+            ),
+            repeated_percent: of_changes(100.0 * self.repeated as f64),
+            double_percent: of_changes(100.0 * self.doubled as f64),
+            latency_ms: [
+                (displayed > 0.0).then(|| base.milliseconds(self.latency) / displayed),
+                self.largest_latency.map(|latency| base.milliseconds(latency)),
+            ],
+            dropped_ms: base.milliseconds(pacer.dropped()),
+            owed_max_ms: base.milliseconds(self.max_owed),
+            position_error_rms: None,
+            ticks,
+            evaluations,
+            state_difference: None,
+            time_difference_ms: None,
+        }
+    }
+}
+
+/// The steps of a frame that was made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameRecord {
+    /// Its number, from 0.
+    pub number: u64,
+    /// When it began and was displayed.
+    pub frame: Frame,
+    /// The simulated moment that it shows, in milliseconds.
+    pub shown_ms: f64,
+    /// Its steps.
+    pub steps: Steps,
+    /// The time that it gave up, in milliseconds.
+    pub dropped_ms: f64,
+    /// The animation error in milliseconds, if it and a frame before it were displayed.
+    pub animation_error_ms: Option<f64>,
+}

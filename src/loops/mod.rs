@@ -1,0 +1,37 @@
+//! Game loops: what a loop does to motion, apart from the method that steps it.
+//!
+//! A [`FrameTrace`] says for each [`Frame`] when it began and when its picture was displayed. A [`Policy`] sees what a game
+//! sees, the duration of the last frame, and answers with steps and the moment to show; [`POLICIES`] is the table of them.
+//! A [`PacedLane`] steps bodies by a policy, a [`LoopRun`] goes through a trace with one, and [`PACING_METRICS`] are what a
+//! viewer of the display sees of it. Time is counted in whole numbers of a [`TimeBase`]; there is no clock here.
+
+mod advice;
+mod frame;
+pub mod loop_lab;
+mod loop_run;
+mod metrics;
+mod paced_lane;
+mod pacer;
+mod patterns;
+mod policies;
+mod policy;
+mod scripted_truth;
+mod time_base;
+mod timed_script;
+mod trace;
+pub mod trace_file;
+mod verdict;
+
+pub use crate::sim::{Accumulator, Due, MAX_FRAME_MS};
+pub use advice::{AdvisedLoop, MeasuredLoops, NoLoop, USUAL_LATENCY_MS};
+pub use frame::Frame;
+pub use loop_run::{LoopRun, MIN_RUN_S};
+pub use metrics::{FrameRecord, PACING_METRICS, PacingMetric, PacingReport};
+pub use paced_lane::PacedLane;
+pub use pacer::Pacer;
+pub use patterns::{TRACES, TraceCard, steady_trace, trace_card};
+pub use policies::{POLICIES, policy};
+pub use policy::{Policy, PolicyCard, Snippet, Steps};
+pub use time_base::{RefreshRate, TimeBase};
+pub use trace::{FrameTrace, Frames};
+pub use verdict::LoopVerdict;

@@ -1,0 +1,81 @@
+//! A scene's bodies under one method, stepped by a game loop.
+
+use super::pacer::Pacer;
+use super::policy::Steps;
+use crate::run::race::Lane;
+
+/// A lane in a game loop.
+#[derive(Clone)]
+pub struct PacedLane {
+    pacer: Pacer,
+    lane: Lane,
+    /// The copy that is drawn, of a loop that steps one.
+    ahead: Option<Lane>,
+    /// What the copies so far have evaluated.
+    evaluations_ahead: u64,
+    steps: u64,
+    /// The length of the last step in seconds, a tick at the start.
+    last_step_s: f64,
+}
+
+impl PacedLane {
+    /// A lane at its start in a loop before its first frame.
+    pub fn new(pacer: Pacer, lane: Lane) -> Self {
+        let last_step_s = pacer.base().seconds(pacer.base().tick());
+        Self { pacer, lane, ahead: None, evaluations_ahead: 0, steps: 0, last_step_s }
+    }
+
+    /// The loop.
+    pub fn pacer(&self) -> &Pacer {
+        &self.pacer
+    }
+    /// The bodies.
+    pub fn lane(&self) -> &Lane {
+        &self.lane
+    }
+    /// The steps made.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The evaluations of accelerations so far, those for what is only drawn among them.
+    pub fn evaluations(&self) -> u64 {
+        self.lane.evaluations() + self.evaluations_ahead
+    }
+
+    /// Makes the steps of a frame; `duration_ns` is that of the last frame in nanoseconds. Calls `before_step` with the
+    /// number of steps made and the time in seconds before each.
+    pub fn frame(
+        &mut self,
+        duration_ns: i64,
+        mut before_step: impl FnMut(u64, f64, &mut Lane),
+    ) -> Steps {
+        let from = self.pacer.simulated();
+        let steps = self.pacer.frame(duration_ns);
+        let base = self.pacer.base();
+        let edge = |i: u32| from + steps.span * i128::from(i) / i128::from(steps.count.max(1));
+        for i in 0..steps.count {
+            let (t, h) = (base.seconds(edge(i)), base.seconds(edge(i + 1) - edge(i)));
+            before_step(self.steps, t, &mut self.lane);
+            self.lane.tick(self.steps, t, h);
+            self.steps += 1;
+            self.last_step_s = h;
+        }
+        let (t, owed) = (self.pacer.simulated(), self.pacer.shown() - self.pacer.simulated());
+        let has_ahead = self.pacer.card().has_render_tick && owed > 0;
+        self.ahead = has_ahead.then(|| {
+            let mut ahead = self.lane.clone();
+            ahead.tick(self.steps, base.seconds(t), base.seconds(owed));
+            self.evaluations_ahead += ahead.evaluations() - self.lane.evaluations();
+            ahead
+        });
+        steps
+    }
+
+    /// The coordinates of the body at this index of the scene as the picture shows them.
+    pub fn drawn(&self, body: usize) -> Vec<f64> {
+        let drawing = self.pacer.card().drawing;
+        let lane = self.ahead.as_ref().unwrap_or(&self.lane);
+        drawing.coordinates(&lane.bodies()[body], self.pacer.alpha(), self.last_step_s)
+    }
+}

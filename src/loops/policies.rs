@@ -1,0 +1,227 @@
+//! The table of rules.
+
+use super::policy::{PolicyCard, Snippet};
+use crate::run::race::Interpolation;
+use fixed::Fixed;
+use hysteresis::Hysteresis;
+use lockstep::Lockstep;
+use median::Median;
+use semi_fixed::SemiFixed;
+use slow_down::SlowDown;
+use snapped::Snapped;
+use variable::Variable;
+use whole_refresh::WholeRefresh;
+
+mod fixed;
+mod hysteresis;
+mod lockstep;
+mod median;
+mod semi_fixed;
+mod slow_down;
+mod snapped;
+mod variable;
+mod whole_refresh;
+
+/// The loop with this id in each of these languages.
+macro_rules! snippets {
+    ($id:literal: $($language:literal $ending:literal),+) => {
+        &[$(Snippet {
+            language: $language,
+            source: include_str!(concat!("../../assets/loops/", $id, ".", $ending)),
+        }),+]
+    };
+}
+
+/// A fixed tick drawn at the last one; the cards of the other ways of drawing it differ in that.
+const FIXED: PolicyCard = PolicyCard {
+    id: "fixed",
+    name: "Fixed",
+    formula: "owed += dt; while owed ≥ H: tick, owed −= H; show the last tick",
+    constants: "at most the ticks of 250 ms in a frame; the others are dropped",
+    odd_frames: "no time: no tick; 10 s: the ticks of 250 ms, the rest dropped",
+    users: "Unity (50 Hz, frame at most 1/3 s), Bevy (64 Hz, 250 ms), MonoGame (60 Hz, 500 ms), Godot (60 Hz, 8 ticks), Doom 3 BFG (50 ms)",
+    source: "G. Fiedler, \"Fix Your Timestep!\", 2004",
+    drawing: Interpolation::Raw,
+    has_render_tick: false,
+    has_fixed_tick: true,
+    is_usual: false,
+    snippets: snippets!("fixed": "rust" "rs", "c++" "hpp", "c#" "cs"),
+    build: |base| Box::new(Fixed::new(base)),
+};
+
+/// Every rule of a game loop, from the simplest on.
+pub static POLICIES: &[PolicyCard] = &[
+    PolicyCard {
+        id: "variable",
+        name: "Variable",
+        formula: "one step of dt",
+        constants: "",
+        odd_frames: "no time: no step; 10 s: one step of 10 s",
+        users: "LÖVE, and many small games",
+        source: "LÖVE's love.run: update(dt)",
+        drawing: Interpolation::Raw,
+        has_render_tick: false,
+        has_fixed_tick: false,
+        is_usual: true,
+        snippets: snippets!("variable": "rust" "rs", "c++" "hpp", "c#" "cs"),
+        build: |_| Box::new(Variable { longest: None }),
+    },
+    PolicyCard {
+        id: "lockstep",
+        name: "Lockstep",
+        formula: "one tick a frame, however long it was",
+        constants: "",
+        odd_frames: "any: one tick",
+        users: "the samples of Box2D and Rapier",
+        source: "Box2D's sample application",
+        drawing: Interpolation::Raw,
+        has_render_tick: false,
+        has_fixed_tick: true,
+        is_usual: false,
+        snippets: snippets!("lockstep": "rust" "rs"),
+        build: |base| Box::new(Lockstep { tick: base.tick() }),
+    },
+    PolicyCard {
+        id: "clamped-variable",
+        name: "Clamped variable",
+        formula: "one step of min(dt, longest)",
+        constants: "longest step 1/30 s; the rest of a frame is dropped",
+        odd_frames: "no time: no step; 10 s: one step of 1/30 s, the rest dropped",
+        users: "bevy_rapier (TimestepMode::Variable), Unreal without substeps (1/30 s)",
+        source: "Unreal's MaxPhysicsDeltaTime",
+        drawing: Interpolation::Raw,
+        has_render_tick: false,
+        has_fixed_tick: false,
+        is_usual: false,
+        snippets: snippets!("clamped-variable": "rust" "rs", "c++" "hpp", "c#" "cs"),
+        build: |base| Box::new(Variable { longest: Some(base.nanoseconds(1_000_000_000) / 30) }),
+    },
+    PolicyCard {
+        id: "semi-fixed",
+        name: "Semi-fixed",
+        formula: "n = min(⌈dt / H⌉, 6) steps of dt / n",
+        constants: "at most 6 steps in a frame",
+        odd_frames: "no time: no step; 10 s: 6 steps of 10/6 s",
+        users: "Unreal with substeps (60 Hz, at most 6), Quake III's player (66 ms)",
+        source: "G. Fiedler, \"Fix Your Timestep!\", 2004; Unreal's physics substepping",
+        drawing: Interpolation::Raw,
+        has_render_tick: false,
+        has_fixed_tick: false,
+        is_usual: false,
+        snippets: snippets!("semi-fixed": "rust" "rs", "c++" "hpp", "c#" "cs"),
+        build: |base| Box::new(SemiFixed { tick: base.tick() }),
+    },
+    PolicyCard { is_usual: true, ..FIXED },
+    PolicyCard {
+        id: "fixed-linear",
+        name: "Fixed, linear",
+        formula: "fixed; show q₀ + α (q₁ − q₀) of the last two ticks",
+        users: "Unity, Godot and Avian as an option; Source shows its 15 ms ticks 0.1 s late",
+        drawing: Interpolation::Linear,
+        is_usual: true,
+        snippets: snippets!("fixed-linear": "rust" "rs", "c++" "hpp", "c#" "cs"),
+        ..FIXED
+    },
+    PolicyCard {
+        id: "fixed-hermite",
+        name: "Fixed, Hermite",
+        formula: "fixed; show the cubic through both last ticks and their velocities",
+        users: "Avian as an option; this program's window by default",
+        source: "Avian's TransformHermiteEasing",
+        drawing: Interpolation::Hermite,
+        snippets: snippets!("fixed-hermite": "rust" "rs", "c++" "hpp"),
+        ..FIXED
+    },
+    PolicyCard {
+        id: "fixed-extrapolated",
+        name: "Fixed, extrapolated",
+        formula: "fixed; show q₁ + α H v₁",
+        users: "Unity and Avian as an option",
+        source: "Unity's Rigidbody.interpolation = Extrapolate",
+        drawing: Interpolation::Extrapolated,
+        snippets: snippets!("fixed-extrapolated": "rust" "rs", "c++" "hpp", "c#" "cs"),
+        ..FIXED
+    },
+    PolicyCard {
+        id: "render-tick",
+        name: "Render tick",
+        formula: "fixed; show a copy of the last tick after one step more, of α H, and drop it",
+        users: "J. Tomsu's games",
+        source: "J. Tomsu, \"Fixed timestep without interpolation\", 2024",
+        has_render_tick: true,
+        is_usual: true,
+        snippets: snippets!("render-tick": "rust" "rs", "c++" "hpp", "c#" "cs"),
+        ..FIXED
+    },
+    PolicyCard {
+        id: "snapped",
+        name: "Snapped",
+        formula: "dt near m R becomes m R; fixed with the mean of the last 4; linear",
+        constants: "near is within 0.2 ms, m ≤ 8; a frame of more than 8 ticks counts as one; with more than 8 ticks owed all are dropped. What snapping adds or takes is not paid back",
+        odd_frames: "no time: the mean runs out in 3 frames; 10 s: counts as one tick, the rest dropped",
+        users: "T. Glaiel's games",
+        source: "T. Glaiel, \"How to make your game run at 60fps\", 2019",
+        drawing: Interpolation::Linear,
+        snippets: snippets!("snapped": "rust" "rs"),
+        build: |base| Box::new(Snapped::new(base)),
+        ..FIXED
+    },
+    PolicyCard {
+        id: "whole-refresh",
+        name: "Whole refreshes",
+        formula: "n = max(1, ⌊(dt + debt) / R⌉), debt += dt − n R; fixed with n R; linear",
+        constants: "no refresh once dt + debt ≤ −R/2, which happens where frames do not wait for the display; at most the ticks of 250 ms in a frame",
+        odd_frames: "no time: one refresh, then none; 10 s: the ticks of 250 ms, the rest dropped",
+        users: "Godot (delta smoothing, 3.4 and 4) and F. Force's engine, each in its own form",
+        source: "F. Force, \"Time Delta Smoothing\"; Godot's DeltaSmoother",
+        drawing: Interpolation::Linear,
+        is_usual: true,
+        snippets: snippets!("whole-refresh": "rust" "rs", "c++" "hpp", "c#" "cs"),
+        build: |base| Box::new(WholeRefresh::new(base)),
+        ..FIXED
+    },
+    PolicyCard {
+        id: "hysteresis",
+        name: "Hysteresis",
+        formula: "fixed, but as many ticks as in the last 12 frames while −H/2 ≤ owed < 3H/2",
+        constants: "12 frames, half a tick; at most 8 ticks in a frame, the others are dropped",
+        odd_frames: "no time: at most one tick early, then none; 10 s: 8 ticks, the rest dropped",
+        users: "Godot (physics_jitter_fix = 0.5)",
+        source: "Godot's MainTimerSync",
+        snippets: snippets!("hysteresis": "rust" "rs"),
+        build: |base| Box::new(Hysteresis::new(base)),
+        ..FIXED
+    },
+    PolicyCard {
+        id: "median",
+        name: "Median",
+        formula: "m = mean of the last 11 dt without the 2 longest and 2 shortest; e += (m − e) / 4; one step of e + debt / 16; debt += dt − step",
+        constants: "of 11 frames the 2 longest and the 2 shortest do not count; these numbers, 1/4 and 1/16 are this program's choice",
+        odd_frames: "no time: steps run out within 10 frames; 10 s: a sixteenth of what is missing each frame, in long steps",
+        users: "BitSquid, now Autodesk Stingray, in its own form",
+        source: "BitSquid's blog, \"Time Step Smoothing\", 2010",
+        drawing: Interpolation::Raw,
+        has_render_tick: false,
+        has_fixed_tick: false,
+        is_usual: false,
+        snippets: snippets!("median": "rust" "rs"),
+        build: |base| Box::new(Median::new(base)),
+    },
+    PolicyCard {
+        id: "slow-down",
+        name: "Slow down",
+        formula: "fixed with at most one tick a frame; time lost is never caught up",
+        constants: "one tick a frame, and one more is kept; the others are dropped",
+        odd_frames: "no time: no tick, or the one kept; 10 s: one tick, one kept, the rest dropped",
+        users: "Factorio (60 updates a second)",
+        source: "Factorio Friday Facts",
+        snippets: snippets!("slow-down": "rust" "rs", "c++" "hpp"),
+        build: |base| Box::new(SlowDown::new(base.tick())),
+        ..FIXED
+    },
+];
+
+/// The rule with this id.
+pub fn policy(id: &str) -> Option<&'static PolicyCard> {
+    POLICIES.iter().find(|card| card.id == id)
+}

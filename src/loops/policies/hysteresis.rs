@@ -1,0 +1,131 @@
+//! A count of ticks that stays what it was while it nearly fits.
+
+use crate::loops::policy::{Policy, Steps};
+use crate::loops::time_base::TimeBase;
+
+/// The frames whose counts are compared.
+const FRAMES: usize = 12;
+/// The most ticks in a frame; the others are dropped.
+const MAX_TICKS: i128 = 8;
+
+/// Whole ticks, the same number each frame as far as that is off by at most half a tick.
+///
+/// The last k frames together have made a number of ticks that is typical, or one more: at 144 Hz a single frame makes
+/// none or one, and twelve make five. A frame makes the ticks that keep this for every k.
+#[derive(Clone, Copy)]
+pub(super) struct Hysteresis {
+    tick: i128,
+    /// The time since the last tick: from -H/2 to 3H/2, for a tick may come early or late by half.
+    owed: i128,
+    /// At k, the ticks that the last k frames made.
+    made: [i128; FRAMES],
+    /// At k, the fewer of the two typical numbers of ticks of k + 1 frames.
+    typical: [i128; FRAMES],
+}
+
+impl Hysteresis {
+    /// Typical at the start is one tick a frame, and none in one of twelve.
+    pub(super) fn new(base: TimeBase) -> Self {
+        let counts = std::array::from_fn(|k| k as i128);
+        Self { tick: base.tick(), owed: 0, made: counts, typical: counts }
+    }
+
+    /// The ticks to make for the time owed.
+    fn due(&self) -> i128 {
+        let whole = self.owed.div_euclid(self.tick);
+        let fewest = (2 * self.owed - self.tick).div_euclid(2 * self.tick).max(0);
+        let most = (2 * self.owed + self.tick).div_euclid(2 * self.tick);
+        let missing = || self.typical.iter().zip(&self.made).map(|(typical, made)| typical - made);
+        let least = missing().max().expect("there are frames to compare");
+        let greatest = missing().min().expect("there are frames to compare") + 1;
+        let held = if least <= greatest { whole.clamp(least, greatest) } else { whole };
+        held.clamp(fewest, most)
+    }
+
+    /// Makes what the frames up to this one have made typical, as far as it is not yet.
+    fn remember(&mut self, ticks: i128) {
+        for (typical, made) in self.typical.iter_mut().zip(&self.made) {
+            let now = made + ticks;
+            *typical = (*typical).clamp(now - 1, now);
+        }
+        for k in (1..FRAMES).rev() {
+            self.made[k] = self.made[k - 1] + ticks;
+        }
+    }
+}
+
+impl Policy for Hysteresis {
+    fn frame(&mut self, duration: i128) -> Steps {
+        self.owed += duration;
+        let due = self.due();
+        self.owed -= due * self.tick;
+        let ticks = due.min(MAX_TICKS);
+        self.remember(ticks);
+        Steps { count: ticks as u32, span: ticks * self.tick, dropped: (due - ticks) * self.tick }
+    }
+
+    fn owed(&self) -> i128 {
+        self.owed
+    }
+
+    fn boxed_clone(&self) -> Box<dyn Policy> {
+        Box::new(*self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::loops::time_base::RefreshRate;
+
+    /// The ticks of frames of these hundredths of a tick. Checks that no tick comes too early or late.
+    fn ticks(hundredths: impl IntoIterator<Item = i128>) -> Vec<u32> {
+        let mut policy = Hysteresis::new(TimeBase::new(60, RefreshRate::new(60, 1)));
+        let each = |hundredths| {
+            let steps = policy.frame(policy.tick * hundredths / 100);
+            let owed = 2 * policy.owed;
+            assert!((-policy.tick..3 * policy.tick).contains(&owed), "{owed}");
+            steps.count
+        };
+        hundredths.into_iter().map(each).collect()
+    }
+
+    #[test]
+    fn noise_at_the_edge_of_a_tick_repeats_and_doubles_no_frame() {
+        let noise = (0..1000).map(|i| 100 + [-3, 5, -2, 3, -5, 2][i % 6]);
+        let counts = ticks(noise.clone());
+        assert!(counts[1..].iter().all(|&count| count == 1), "{counts:?}");
+        // Without it they come and go.
+        let mut fixed = crate::sim::Accumulator::default();
+        let counts = noise.map(|time| fixed.advance(time, 100, 8).ticks);
+        assert!(counts.filter(|&count| count == 0).count() > 100);
+    }
+
+    #[test]
+    fn a_tick_of_drift_is_made_up_for_in_one_frame() {
+        let counts = ticks([99; 1000]);
+        assert_eq!(counts.iter().filter(|&&count| count == 0).count(), 10);
+        let counts = ticks([101; 1000]);
+        assert_eq!(counts.iter().filter(|&&count| count == 2).count(), 10);
+        assert_eq!(counts.iter().filter(|&&count| count == 1).count(), 990);
+    }
+
+    #[test]
+    fn another_rate_becomes_typical() {
+        for (hundredths, counts) in [(200, vec![2]), (50, vec![0, 1]), (40, vec![0, 1])] {
+            let made = ticks(vec![100; 50].into_iter().chain(vec![hundredths; 1000]));
+            let (settled, total) = (&made[100..], made.iter().sum::<u32>());
+            assert!(settled.iter().all(|count| counts.contains(count)), "{hundredths} %");
+            assert!(total.abs_diff(50 + 10 * hundredths as u32) <= 1, "{hundredths} %: {total}");
+        }
+    }
+
+    #[test]
+    fn a_hitch_is_made_up_for_up_to_eight_ticks() {
+        for (hundredths, hitch) in [(700, [6, 2]), (60_000, [8, 2])] {
+            let counts = ticks([100; 20].into_iter().chain([hundredths]).chain([100; 20]));
+            assert_eq!(counts[20..22], hitch);
+            assert!(counts[..20].iter().chain(&counts[22..]).all(|&count| count == 1));
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! Durations near a whole number of refreshes made whole, and averaged.
+
+use super::fixed::Fixed;
+use crate::loops::policy::{Policy, Steps};
+use crate::loops::time_base::TimeBase;
+
+/// How near a duration has to be to be made whole: more than a timer's noise, and less than the 0.5 ms between refreshes of
+/// 60 and 62 Hz.
+const NEAR_NS: i64 = 200_000;
+/// The longest duration that is made whole, in refreshes.
+const MAX_REFRESHES: i128 = 8;
+/// The durations of a mean.
+const AVERAGED: usize = 4;
+/// The most ticks that may be owed; a frame that is longer counts as one tick.
+const MAX_TICKS: u32 = 8;
+
+/// A fixed tick whose time is snapped to refreshes.
+#[derive(Clone, Copy)]
+pub(super) struct Snapped {
+    tick: i128,
+    refresh: i128,
+    near: i128,
+    last: [i128; AVERAGED],
+    /// What the divisions so far have left over, which the next takes up: averaging loses no time.
+    remainder: i128,
+    fixed: Fixed,
+}
+
+impl Snapped {
+    /// The mean begins with frames of one refresh.
+    pub(super) fn new(base: TimeBase) -> Self {
+        Self {
+            tick: base.tick(),
+            refresh: base.refresh(),
+            near: base.nanoseconds(NEAR_NS),
+            last: [base.refresh(); AVERAGED],
+            remainder: 0,
+            fixed: Fixed::with_max_ticks(base, MAX_TICKS),
+        }
+    }
+
+    fn snapped(&self, duration: i128) -> i128 {
+        let nearest = (2 * duration + self.refresh) / (2 * self.refresh);
+        let whole = nearest.clamp(1, MAX_REFRESHES) * self.refresh;
+        if (duration - whole).abs() < self.near { whole } else { duration }
+    }
+
+    /// The mean with this duration as the newest.
+    fn mean(&mut self, duration: i128) -> i128 {
+        self.last.rotate_left(1);
+        self.last[AVERAGED - 1] = duration;
+        let sum = self.last.iter().sum::<i128>() + self.remainder;
+        self.remainder = sum % AVERAGED as i128;
+        sum / AVERAGED as i128
+    }
+}
+
+impl Policy for Snapped {
+    fn frame(&mut self, duration: i128) -> Steps {
+        let longest = i128::from(MAX_TICKS) * self.tick;
+        let counted = if duration > longest { self.tick } else { duration };
+        let snapped = self.snapped(counted);
+        let mean = self.mean(snapped);
+        let lost = duration - counted;
+        if self.fixed.owed() + mean > longest {
+            return Steps { dropped: lost + self.fixed.clear() + mean, ..Steps::default() };
+        }
+        let steps = self.fixed.frame(mean);
+        Steps { dropped: lost + steps.dropped, ..steps }
+    }
+
+    fn owed(&self) -> i128 {
+        self.fixed.owed()
+    }
+
+    fn boxed_clone(&self) -> Box<dyn Policy> {
+        Box::new(*self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::loops::time_base::RefreshRate;
+
+    fn ms(base: TimeBase, milliseconds: f64) -> i128 {
+        base.nanoseconds((milliseconds * 1e6) as i64)
+    }
+
+    #[test]
+    fn a_duration_is_made_whole_near_one_to_eight_refreshes() {
+        let base = TimeBase::new(60, RefreshRate::new(100, 1));
+        let snapped = |milliseconds| Snapped::new(base).snapped(ms(base, milliseconds));
+        for (given, made) in [
+            (9.81, 10.0),
+            (10.19, 10.0),
+            (19.9, 20.0),
+            (80.1, 80.0),
+            (0.0, 0.0),
+            (0.1, 0.1),
+            (9.8, 9.8),
+            (10.2, 10.2),
+            (15.0, 15.0),
+            (90.0, 90.0),
+            (90.1, 90.1),
+        ] {
+            assert_eq!(snapped(given), ms(base, made), "{given} ms");
+        }
+    }
+
+    #[test]
+    fn the_mean_loses_no_time() {
+        let mut policy = Snapped::new(TimeBase::new(60, RefreshRate::new(60, 1)));
+        let durations = (0..1000).map(|i| i * i % 777);
+        let (mut given, mut meant) = (0, 0);
+        for duration in durations.chain([0; AVERAGED - 1]) {
+            given += duration;
+            meant += policy.mean(duration);
+        }
+        // The refreshes at the start count with 3, 2 and 1 quarters.
+        assert_eq!(given + policy.refresh * 6 / 4, meant + policy.remainder / 4);
+        assert!(policy.remainder < AVERAGED as i128);
+    }
+
+    #[test]
+    fn more_than_eight_ticks_owed_are_dropped_with_all_that_is_owed() {
+        let base = TimeBase::new(60, RefreshRate::new(60, 1));
+        let mut policy = Snapped::new(base);
+        let mut total = Steps::default();
+        let longest = 8 * base.tick();
+        policy.frame(base.tick() + base.tick() / 4);
+        for _ in 0..4 {
+            let steps = policy.frame(longest);
+            total.count += steps.count;
+            total.dropped += steps.dropped;
+        }
+        // The last frame owed a part of a tick and then eight.
+        assert_eq!(policy.owed(), 0);
+        assert!(total.dropped > longest && total.dropped < longest + base.tick());
+        assert_eq!(policy.frame(longest + 1).dropped, longest + 1 - base.tick());
+    }
+}

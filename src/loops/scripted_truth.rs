@@ -1,0 +1,109 @@
+//! The exact solution at the moments of display, and how far the pictures are from it.
+
+use super::paced_lane::PacedLane;
+use super::timed_script::TimedScript;
+use crate::run::race::{Lane, LaneBody};
+use crate::scene::Scene;
+use crate::sim::Solver;
+
+/// The exact solution of a scene, gone through from moment to moment.
+#[derive(Clone)]
+pub(super) struct ScriptedTruth {
+    lane: Lane,
+    t: f64,
+    script: TimedScript,
+    errors: Vec<BodyError>,
+}
+
+/// The furthest that each body of two lanes has been apart, in the unit of its first coordinate.
+#[derive(Default)]
+pub(super) struct Furthest(Vec<f64>);
+
+/// The errors of a body's pictures.
+#[derive(Clone, Copy)]
+struct BodyError {
+    squares: f64,
+    count: u64,
+    /// The range of the first coordinate.
+    range: [f64; 2],
+}
+
+impl BodyError {
+    /// Half the range, if the body moves.
+    fn amplitude(&self) -> Option<f64> {
+        Some((self.range[1] - self.range[0]) / 2.0).filter(|half| *half > 0.0 && half.is_finite())
+    }
+
+    /// The RMS of the distance in amplitudes.
+    fn rms(&self) -> Option<f64> {
+        Some((self.squares / self.count as f64).sqrt() / self.amplitude()?)
+    }
+}
+
+impl ScriptedTruth {
+    /// The solution at the scene's start.
+    pub(super) fn new(scene: &Scene) -> Self {
+        let lane = Lane::new(scene, Solver::Truth, 1);
+        let none = BodyError { squares: 0.0, count: 0, range: [f64::INFINITY, f64::NEG_INFINITY] };
+        let errors = lane.bodies().iter().map(|_| none).collect();
+        Self { lane, t: 0.0, script: TimedScript::new(scene), errors }
+    }
+
+    /// Goes on to `t` (s), and adds how far every body is drawn from it.
+    pub(super) fn compare(&mut self, t: f64, paced: &PacedLane) {
+        while let Some((at, action)) = self.script.next_due(t) {
+            self.advance(at);
+            self.lane.act(0, at, &action);
+        }
+        self.advance(t);
+        for (index, (body, error)) in self.lane.bodies().iter().zip(&mut self.errors).enumerate() {
+            if body.halted().is_some() {
+                continue;
+            }
+            let exact = body.stepper.q();
+            let largest = distance(body, exact, &paced.drawn(index));
+            error.squares += largest * largest;
+            error.count += 1;
+            error.range = [error.range[0].min(exact[0]), error.range[1].max(exact[0])];
+        }
+    }
+
+    /// A body in its exact state.
+    pub(super) fn body(&self, body: usize) -> &LaneBody {
+        &self.lane.bodies()[body]
+    }
+
+    /// Takes in how far the bodies of two lanes are apart.
+    pub(super) fn widen(&self, furthest: &mut Furthest, one: &Lane, other: &Lane) {
+        furthest.0.resize(one.bodies().len(), 0.0);
+        let bodies = one.bodies().iter().zip(other.bodies()).zip(&mut furthest.0);
+        for ((one, other), most) in bodies {
+            *most = most.max(distance(one, one.stepper.q(), other.stepper.q()));
+        }
+    }
+
+    /// The furthest in amplitudes, of the worst body.
+    pub(super) fn in_amplitudes(&self, furthest: &Furthest) -> Option<f64> {
+        let bodies = furthest.0.iter().zip(&self.errors);
+        let shares = bodies.filter_map(|(most, error)| Some(most / error.amplitude()?));
+        shares.reduce(f64::max)
+    }
+
+    fn advance(&mut self, t: f64) {
+        if t > self.t {
+            self.lane.tick(0, self.t, t - self.t);
+            self.t = t;
+        }
+    }
+
+    /// The RMS of the distance in amplitudes, of the worst body.
+    pub(super) fn position_error_rms(&self) -> Option<f64> {
+        self.errors.iter().filter_map(BodyError::rms).reduce(f64::max)
+    }
+}
+
+/// The largest distance between two states of a body, in the coordinates that have the unit of the first.
+fn distance(body: &LaneBody, one: &[f64], other: &[f64]) -> f64 {
+    let pairs = body.like_first(one).zip(body.like_first(other));
+    pairs.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
+}

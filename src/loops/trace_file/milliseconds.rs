@@ -1,0 +1,101 @@
+//! Milliseconds as logs write them, read into whole nanoseconds.
+
+use crate::scene::clip;
+
+const DAY_NS: i64 = 86_400_000_000_000;
+
+/// Why a cell is no time.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub(super) enum Unreadable {
+    #[error("expected milliseconds, found \"{0}\"; write a number such as 16.683, or NA")]
+    NotANumber(String),
+    #[error("{0} ms is negative; time does not run backwards: take the row out")]
+    Negative(String),
+    #[error("{0} ms is more than a day; take the row out")]
+    TooLong(String),
+}
+
+/// The nanoseconds of a decimal number of milliseconds, rounded once, from its digits; `None` where the log says that it
+/// has none. The decimal sign may be a comma.
+pub(super) fn nanoseconds(cell: &str) -> Result<Option<i64>, Unreadable> {
+    let cell = cell.trim();
+    if ["", "na", "n/a"].iter().any(|none| cell.eq_ignore_ascii_case(none)) {
+        return Ok(None);
+    }
+    let (negative, number) = match cell.strip_prefix('-') {
+        Some(number) => (true, number),
+        None => (false, cell.strip_prefix('+').unwrap_or(cell)),
+    };
+    let ns = unsigned(number).ok_or_else(|| Unreadable::NotANumber(clip(cell)))?;
+    match ns {
+        1.. if negative => Err(Unreadable::Negative(clip(cell))),
+        DAY_NS.. => Err(Unreadable::TooLong(clip(cell))),
+        _ => Ok(Some(ns)),
+    }
+}
+
+/// At most a day; `None` if this is no number.
+fn unsigned(number: &str) -> Option<i64> {
+    let (decimal, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
+    // A longer exponent than any tool writes would only take time to follow.
+    let exponent = exponent.parse::<i64>().ok().filter(|e| (-99..=99).contains(e))?;
+    let (whole, fraction) = decimal.split_once(['.', ',']).unwrap_or((decimal, ""));
+    let digits = || whole.bytes().chain(fraction.bytes());
+    if digits().next().is_none() || !digits().all(|byte| byte.is_ascii_digit()) {
+        return None;
+    }
+    // A nanosecond is the sixth decimal of a millisecond.
+    let places = i64::try_from(whole.len()).ok()? + exponent + 6;
+    let mut rest = digits().map(|byte| i64::from(byte - b'0'));
+    let mut ns = 0;
+    for _ in 0..places {
+        ns = 10 * ns + rest.next().unwrap_or(0);
+        if ns >= DAY_NS {
+            return Some(DAY_NS);
+        }
+    }
+    let rounds_up = places >= 0 && rest.next().is_some_and(|digit| digit >= 5);
+    Some(ns + i64::from(rounds_up))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn milliseconds_become_nanoseconds_to_the_digit() {
+        for (cell, ns) in [
+            ("16.683", 16_683_000),
+            ("16,683", 16_683_000),
+            (" 567.25049999999999 ", 567_250_500),
+            ("0.0000004", 0),
+            ("0.0000005", 1),
+            ("1e-05", 10),
+            ("1.5E+3", 1_500_000_000),
+            ("1e-60", 0),
+            ("00000000000000000000000000000007", 7_000_000),
+            ("+.5", 500_000),
+            ("7.", 7_000_000),
+            ("-0.0", 0),
+            ("86399999.999999", DAY_NS - 1),
+        ] {
+            assert_eq!(nanoseconds(cell), Ok(Some(ns)), "{cell}");
+        }
+        for cell in ["NA", "na", "", "  ", "N/A"] {
+            assert_eq!(nanoseconds(cell), Ok(None), "{cell}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_time_is_refused() {
+        for cell in
+            ["nan", "inf", "-inf", ".", "-", "1.2.3", "1,234.5", "16 ms", "0x10", "1e", "1e999"]
+        {
+            assert_eq!(nanoseconds(cell), Err(Unreadable::NotANumber(cell.into())), "{cell}");
+        }
+        assert_eq!(nanoseconds("-16.7"), Err(Unreadable::Negative("-16.7".into())));
+        for cell in ["86400000", "1e99", "99999999999999999999999999"] {
+            assert_eq!(nanoseconds(cell), Err(Unreadable::TooLong(cell.into())), "{cell}");
+        }
+    }
+}

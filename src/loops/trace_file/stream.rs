@@ -1,0 +1,157 @@
+//! The frames of one window, put together row by row.
+
+use super::columns::{Cells, Span};
+use super::error::Fault;
+use crate::loops::frame::Frame;
+use crate::loops::time_base::RefreshRate;
+use crate::loops::trace::FrameTrace;
+
+const YEAR_NS: i64 = 365 * 86_400_000_000_000;
+
+/// A stream of frames as far as it was read.
+pub(super) struct Stream {
+    application: String,
+    process: String,
+    /// The line of its first row.
+    line: u64,
+    frames: Vec<Frame>,
+    /// When the last displayed frame appeared.
+    last_shown_ns: Option<i64>,
+    /// Where rows say how long their own frame lasted and stayed up: when the next frame begins, and when it appears.
+    next_began_ns: Result<i64, Fault>,
+    next_shown_ns: i64,
+    /// How long ago the last frame began, where generated ones came after it.
+    generated_ns: i64,
+}
+
+/// A name with a replacement for each control character: it is printed in messages and on screens.
+fn printable(name: &str) -> String {
+    name.replace(char::is_control, "\u{fffd}")
+}
+
+impl Stream {
+    /// The stream before its first row, which is this one in this line.
+    pub(super) fn new(first: &Cells, line: u64) -> Self {
+        Self {
+            application: printable(first.application),
+            process: printable(first.process),
+            line,
+            frames: Vec::new(),
+            last_shown_ns: None,
+            next_began_ns: Ok(0),
+            next_shown_ns: 0,
+            generated_ns: 0,
+        }
+    }
+
+    /// The program; empty where the log does not say.
+    pub(super) fn application(&self) -> &str {
+        &self.application
+    }
+    /// Its process; empty where the log does not say.
+    pub(super) fn process(&self) -> &str {
+        &self.process
+    }
+
+    /// The line of its first row.
+    pub(super) fn line(&self) -> u64 {
+        self.line
+    }
+
+    /// The number of its frames.
+    pub(super) fn frames(&self) -> usize {
+        self.frames.len()
+    }
+
+    /// Whether it has several frames and no time passes between them.
+    pub(super) fn stands_still(&self) -> bool {
+        let ends = self.frames.first().zip(self.frames.last());
+        self.frames.len() > 1 && ends.is_some_and(|(first, last)| first.began_ns == last.began_ns)
+    }
+
+    /// Whether it has no frame of the program.
+    pub(super) fn is_empty(&self) -> bool {
+        self.frames.is_empty()
+    }
+
+    /// Adds the frame of a row. One that was generated only lets time pass: the program's loop has no part in it.
+    pub(super) fn push(&mut self, cells: &Cells) -> Result<(), Fault> {
+        if cells.is_generated {
+            self.pass(cells);
+            return Ok(());
+        }
+        let frame = match cells.span {
+            Span::Before => self.after_the_last(cells)?,
+            Span::After => self.at_the_next(cells)?,
+        };
+        if frame.began_ns.max(frame.displayed_ns.unwrap_or(0)) > YEAR_NS {
+            return Err(Fault::TooLong);
+        }
+        self.last_shown_ns = frame.displayed_ns.or(self.last_shown_ns);
+        self.frames.push(frame);
+        self.generated_ns = 0;
+        Ok(())
+    }
+
+    /// Lets the times of a generated frame pass. Its own beginning may be unknown.
+    fn pass(&mut self, cells: &Cells) {
+        let (began, shown) = (cells.began_ns.as_ref().copied().unwrap_or(0), cells.displayed_ns);
+        match cells.span {
+            Span::Before => {
+                self.generated_ns += began;
+                self.last_shown_ns = self.last_shown_ns.map(|last| last + shown.unwrap_or(0));
+            }
+            Span::After => {
+                self.next_began_ns = self.next_began_ns.clone().map(|next| next + began);
+                self.next_shown_ns += shown.unwrap_or(0);
+            }
+        }
+    }
+
+    fn after_the_last(&self, cells: &Cells) -> Result<Frame, Fault> {
+        let began_ns = match self.frames.last() {
+            Some(last) => last.began_ns + self.generated_ns + cells.began_ns.clone()?,
+            None => 0,
+        };
+        let displayed_ns = match (cells.displayed_ns, self.last_shown_ns) {
+            (None, _) => None,
+            // What it was displayed after came before the recording.
+            (Some(_), None) => Some(began_ns),
+            // Logs without NA write 0 instead.
+            (Some(0), Some(_)) if !cells.surely_displayed => None,
+            (Some(change), Some(last)) => Some(last + change),
+        };
+        Ok(Frame { began_ns, displayed_ns })
+    }
+
+    fn at_the_next(&mut self, cells: &Cells) -> Result<Frame, Fault> {
+        let began_ns = self.next_began_ns.clone()?;
+        let displayed_ns =
+            cells.displayed_ns.filter(|&ns| ns > 0 || cells.surely_displayed).map(|stays| {
+                let shown =
+                    if self.last_shown_ns.is_some() { self.next_shown_ns } else { began_ns };
+                self.next_shown_ns = shown + stays;
+                shown
+            });
+        self.next_began_ns = cells.began_ns.clone().map(|lasts| began_ns + lasts);
+        Ok(Frame { began_ns, displayed_ns })
+    }
+
+    /// The trace of all its frames.
+    pub(super) fn into_trace(self, name: String) -> FrameTrace {
+        FrameTrace::recorded(name, nominal_refresh(&self.frames), self.frames)
+    }
+}
+
+/// The rate whose refresh is the median time between two displayed frames: most span one refresh. 60 Hz where there are
+/// no two.
+fn nominal_refresh(frames: &[Frame]) -> RefreshRate {
+    let shown: Vec<i64> = frames.iter().filter_map(|frame| frame.displayed_ns).collect();
+    let changes = shown.windows(2).map(|pair| pair[1] - pair[0]);
+    let mut changes: Vec<i64> = changes.filter(|&ns| ns > 0).collect();
+    if changes.is_empty() {
+        return RefreshRate::new(60, 1);
+    }
+    let middle = changes.len() / 2;
+    RefreshRate::of_period(*changes.select_nth_unstable(middle).1)
+}

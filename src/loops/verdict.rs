@@ -1,0 +1,116 @@
+//! The verdict on a loop: a line of words, and how bad it is.
+
+use std::fmt;
+
+use super::metrics::PacingReport;
+use super::policy::PolicyCard;
+use crate::measure::Severity;
+use crate::sim::number::round;
+
+/// An animation error that nobody sees, in milliseconds.
+const SMOOTH_MS: f64 = 0.1;
+/// One that many see.
+const JUDDER_MS: f64 = 2.0;
+/// A latency that is worth a word, in ticks.
+const LATE_TICKS: f64 = 0.25;
+
+/// A verdict on a loop.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoopVerdict {
+    /// How bad it is.
+    pub severity: Severity,
+    /// The words, the most important first.
+    pub parts: Vec<String>,
+}
+
+impl LoopVerdict {
+    /// The verdict on a loop by its report at this tick rate in Hz.
+    pub fn of(card: &PolicyCard, report: &PacingReport, tick_hz: u32) -> Self {
+        let mut verdict = Self::seen(report, tick_hz);
+        let differs = report.keeps_speed() != Some(false) && report.other_motion().is_some();
+        if differs && !card.has_fixed_tick {
+            verdict.parts.push("physics varies with the rate".into());
+            if verdict.severity == Severity::Fine {
+                verdict.severity = Severity::Doubtful;
+            }
+        }
+        verdict
+    }
+
+    /// The verdict on a loop that was not run yet.
+    pub(crate) fn awaited() -> Self {
+        Self::new(Severity::Unknown, [Some("running…".into())])
+    }
+
+    fn new<const N: usize>(severity: Severity, parts: [Option<String>; N]) -> Self {
+        Self { severity, parts: parts.into_iter().flatten().collect() }
+    }
+
+    /// The words, from all of them to those of the first part alone.
+    pub fn wordings(&self) -> Vec<String> {
+        (1..=self.parts.len()).rev().map(|count| self.parts[..count].join(", ")).collect()
+    }
+
+    /// The verdict on what a viewer sees.
+    fn seen(report: &PacingReport, tick_hz: u32) -> Self {
+        let said = |severity, words: &str| Self::new(severity, [Some(words.into())]);
+        if report.keeps_speed() == Some(false) && report.animation_error_rms_ms.is_some() {
+            return said(Severity::Bad, "speed depends on the frame rate");
+        }
+        let measured = report.animation_error_rms_ms.zip(report.latency_mean_ms());
+        let Some((error, latency)) = measured else {
+            return said(Severity::Unknown, "nothing displayed");
+        };
+        if report.loses_motion() {
+            let remedy = "more ticks or another method keep it";
+            let parts = ["the motion is lost", remedy].map(|part| Some(part.to_owned()));
+            return Self::new(Severity::Bad, parts);
+        }
+        let late = match latency * f64::from(tick_hz) / 1000.0 {
+            late if late < LATE_TICKS => None,
+            late if (late - 1.0).abs() < 0.1 => Some("one tick late".into()),
+            _ => Some(format!("shows the past of {} ms ago", round(latency, 2))),
+        };
+        if error < SMOOTH_MS {
+            let (severity, how) = match report.dropped_ms {
+                dropped if dropped > 0.0 => {
+                    (Severity::Doubtful, format!("smooth, but drops {} ms", round(dropped, 3)))
+                }
+                _ => (Severity::Fine, "smooth".into()),
+            };
+            return Self::new(severity, [Some(how), late]);
+        }
+        let severity = if error < JUDDER_MS { Severity::Doubtful } else { Severity::Bad };
+        let many = |percent: Option<f64>| {
+            percent.filter(|percent| *percent > 1.0).map(|percent| round(percent, 3))
+        };
+        if let Some(repeated) = many(report.repeated_percent) {
+            let repeated = format!("judders: {repeated} % of frames repeat");
+            let doubled = many(report.double_percent).map(|percent| format!("{percent} % jump"));
+            return Self::new(severity, [Some(repeated), doubled]);
+        }
+        let how = if error < JUDDER_MS { "uneven" } else { "judders" };
+        let how = format!("{how} by {} ms", round(error, 2));
+        Self::new(severity, [Some(how), late])
+    }
+}
+
+impl fmt::Display for LoopVerdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.parts.join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_verdict_is_shortened_from_its_end() {
+        let parts = ["smooth", "loses 3 ms", "late"].map(|part| Some(part.to_owned()));
+        let verdict = LoopVerdict::new(Severity::Fine, parts);
+        let expected = ["smooth, loses 3 ms, late", "smooth, loses 3 ms", "smooth"];
+        assert_eq!(verdict.wordings(), expected);
+        assert_eq!(verdict.to_string(), expected[0]);
+    }
+}

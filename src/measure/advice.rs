@@ -1,0 +1,453 @@
+//! Advice on the method for a scene at its tick rate: the fewest substeps that meet each of three criteria, and how much
+//! lower the rate or stiffer the bodies could be.
+
+use std::sync::Arc;
+
+use super::criterion::{CRITERIA, Criterion};
+pub use super::criterion_met::CriterionMet;
+use super::judge::{CriterionFinding, FULL_THROTTLE, Judge, horizon_s};
+use super::outcome::Outcome;
+use super::rank::Ranking;
+use super::run::MAX_WORK;
+use super::searches::{
+    FACTORS, FINE_FACTORS, PARTS_OF_STRIDE, RatesDown, fine_factor, tried_substeps,
+};
+use super::slices::{Meter, Once, at_once};
+use super::verdict::{Finding, NotJudged, Verdict};
+use crate::scene::{LaneSpec, Scene, SceneBody, edited_values};
+use crate::sim::integrators::Method;
+use crate::sim::stability::RateSearch;
+
+/// The most substeps per tick that are tried.
+pub const MAX_ADVISED_SUBSTEPS: u32 = 64;
+
+/// The number of substeps up to which each is tried before the most.
+const FEW_SUBSTEPS: u32 = 8;
+
+/// The most work for one run of a stiffer scene, in the unit of [`MAX_WORK`](super::MAX_WORK). There are many such runs.
+const WORK_WHEN_STIFFER: u64 = 10_000_000;
+
+/// A scene that is accurate but leaves less than this part of the tolerance is so by a hair: the error at coarse ticks has
+/// bumps, and the factors between those that are tried are tried, too.
+const SPARE_WHEN_STIFFER: f64 = 0.2;
+
+/// A body of more coordinates has its margins searched for methods of about the least cost only: its runs are dear.
+const MANY_COORDINATES: usize = 8;
+
+/// The most times the least cost that a method of about the least cost has.
+const MAX_TIMES_CHEAPEST: f64 = 4.0;
+
+/// The advice on one method on a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MethodAdvice {
+    /// The method.
+    pub spec: LaneSpec,
+    /// The verdict at the requested rate.
+    pub verdict: Verdict,
+    /// Whether and how the method meets each of [`CRITERIA`].
+    pub met: [CriterionResult; CRITERIA.len()],
+}
+
+impl MethodAdvice {
+    /// The outcome of the method with this many substeps a tick, by the hardest criterion that it is known to meet with them.
+    pub fn outcome_with(&self, substeps: u32) -> Outcome {
+        let meets = |i: &usize| self.met[*i].met().is_some_and(|met| met.substeps <= substeps);
+        let hardest = (0..CRITERIA.len()).rev().find(meets);
+        hardest.map_or(self.verdict.outcome(), |i| CRITERIA[i].outcome())
+    }
+
+    /// Searches the margins of the criterion with this index, if the method meets it.
+    pub fn search_margins(&mut self, adviser: &Adviser, criterion: usize) {
+        at_once(adviser.search_margins(self, criterion));
+    }
+}
+
+/// Whether a method meets a criterion.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CriterionResult {
+    /// It does, in this way.
+    With(CriterionMet),
+    /// It does not with 8 substeps or fewer, nor with [`MAX_ADVISED_SUBSTEPS`]; what lies between is not searched then.
+    No,
+    /// Not known: it takes too much work, or there is no truth.
+    Unknown,
+}
+
+impl CriterionResult {
+    /// How it meets the criterion, if it does.
+    pub fn met(&self) -> Option<&CriterionMet> {
+        match self {
+            CriterionResult::With(met) => Some(met),
+            CriterionResult::No | CriterionResult::Unknown => None,
+        }
+    }
+}
+
+/// Judges methods on a scene at one tick rate. Shared results are computed once, and several threads may use it at the
+/// same time.
+pub struct Adviser {
+    scene: Scene,
+    judge: Judge,
+    tick_hz: u32,
+    /// Judges of the scene made stiffer, by the index of their [factor](fine_factor); `None` if no scene can be so stiff.
+    stiffer: [Once<Option<Judge>>; FINE_FACTORS],
+}
+
+impl Adviser {
+    /// An adviser for `scene` under full throttle at this rate.
+    pub fn new(scene: &Scene, tick_hz: u32) -> Self {
+        Self::within(u64::MAX, scene, tick_hz)
+    }
+
+    /// As [`Self::new`], and with this work in all, in the unit of [`MAX_WORK`]: what it does not reach is not known.
+    pub(super) fn within(max_work: u64, scene: &Scene, tick_hz: u32) -> Self {
+        let meter = Meter::within(max_work).into();
+        at_once(Self::find(scene.clone(), FULL_THROTTLE, tick_hz, meter))
+    }
+
+    /// Whether no work is left.
+    fn is_spent(&self) -> bool {
+        self.judge.meter().budget_left() == 0
+    }
+
+    /// As [`Self::new`], with its work counted by `meter`.
+    pub(super) async fn find(scene: Scene, throttle: f64, tick_hz: u32, meter: Arc<Meter>) -> Self {
+        let judge = Judge::find(&scene, throttle, horizon_s(&scene), meter).await;
+        let stiffer = std::array::from_fn(|_| Once::default());
+        Self { scene, judge, tick_hz, stiffer }
+    }
+
+    pub(super) fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The judge of the scene.
+    pub fn judge(&self) -> &Judge {
+        &self.judge
+    }
+
+    /// The requested rate in Hz.
+    pub fn tick_hz(&self) -> u32 {
+        self.tick_hz
+    }
+
+    /// The verdict on a lane at that rate.
+    pub fn verdict(&self, spec: LaneSpec) -> Verdict {
+        self.judge.verdict(spec, self.tick_hz)
+    }
+
+    /// Whether a method meets a criterion, with how many substeps, and its margins. The substeps of `spec` are ignored.
+    pub fn meets(&self, spec: LaneSpec, criterion: Criterion) -> CriterionResult {
+        let mut result = at_once(self.fewest_substeps(spec, criterion));
+        if let CriterionResult::With(met) = &mut result {
+            at_once(self.add_margins(spec, criterion, met));
+        }
+        result
+    }
+
+    /// The lane of `methods` that is recommended for a criterion, with its fewest substeps. It is [`recommended`], found
+    /// without judging dearer ones.
+    pub fn cheapest(
+        &self,
+        criterion: Criterion,
+        methods: impl Iterator<Item = &'static Method>,
+    ) -> Option<LaneSpec> {
+        let least =
+            |method: &Method| method.evaluations_per_tick(1).unwrap_or(1) * method.evaluation_cost;
+        let mut methods: Vec<_> = methods.filter(|method| !method.is_as_printed()).collect();
+        methods.sort_by_key(|method| std::cmp::Reverse(least(method)));
+        let mut judged: Vec<(LaneSpec, CriterionMet)> = Vec::new();
+        loop {
+            let met = judged.iter().map(|(spec, met)| (spec.method, met)).enumerate();
+            let ranking = Ranking::new(met);
+            let (first, undecided) = (ranking.first(), ranking.undecided());
+            let most = match undecided.is_empty() {
+                true => ranking.most_cost_of_a_rival(),
+                false => ranking.least_cost().unwrap_or(f64::INFINITY),
+            };
+            let at_least = |method: &&Method| {
+                f64::from(least(method)) * f64::from(self.tick_hz) * self.scene.bodies.len() as f64
+            };
+            if let Some(method) = methods.pop_if(|method| at_least(&&**method) <= most) {
+                let spec = LaneSpec::plain(method);
+                if let CriterionResult::With(met) = at_once(self.fewest_substeps(spec, criterion)) {
+                    judged.push((spec, met));
+                }
+            } else if undecided.is_empty() || self.is_spent() {
+                let (spec, met) = &judged[first?];
+                return Some(LaneSpec { substeps: met.substeps, ..*spec });
+            } else {
+                for row in undecided {
+                    let (spec, met) = &mut judged[row];
+                    at_once(self.add_margins(*spec, criterion, met));
+                }
+            }
+        }
+    }
+
+    /// The verdict on a lane, and whether its method meets each criterion, with how many substeps. No margin is searched.
+    pub fn judged(&self, spec: LaneSpec) -> MethodAdvice {
+        at_once(self.advice_on(spec))
+    }
+
+    /// As [`Self::judged`].
+    pub(super) async fn advice_on(&self, spec: LaneSpec) -> MethodAdvice {
+        let verdict = self.judge.verdict_within(MAX_WORK, spec, self.tick_hz).await;
+        let mut met = [const { CriterionResult::Unknown }; CRITERIA.len()];
+        // What takes too much work in one step a tick does in each run for a criterion, and with more substeps.
+        if spec.substeps > 1 || verdict.finding != Finding::NotJudged(NotJudged::TooMuchWork) {
+            for (met, criterion) in met.iter_mut().zip(CRITERIA) {
+                *met = self.fewest_substeps(spec, criterion).await;
+            }
+        }
+        MethodAdvice { spec, verdict, met }
+    }
+
+    /// The margins that decide what is [`recommended`] and are not searched: each the index of a method in
+    /// `advised` and of a criterion that it meets. Once they are, more may be to be searched.
+    pub fn undecided_margins(&self, advised: &[MethodAdvice]) -> Vec<(usize, usize)> {
+        if self.is_spent() {
+            return Vec::new();
+        }
+        let of = |i: usize| ranking(advised, i).undecided().into_iter().map(move |row| (row, i));
+        (0..CRITERIA.len()).flat_map(of).collect()
+    }
+
+    /// Searches margins until it is decided what is recommended.
+    pub fn decide(&self, advised: &mut [MethodAdvice]) {
+        loop {
+            let undecided = self.undecided_margins(advised);
+            if undecided.is_empty() {
+                return;
+            }
+            for (row, criterion) in undecided {
+                advised[row].search_margins(self, criterion);
+            }
+        }
+    }
+
+    /// The margins that are worth a search and are not searched, as [`Self::undecided_margins`]. With a body of more than
+    /// eight coordinates they are those of the methods that cost at most four times the least.
+    pub fn worth_margins(&self, advised: &[MethodAdvice]) -> Vec<(usize, usize)> {
+        if self.is_spent() {
+            return Vec::new();
+        }
+        let is_dear =
+            |body: &SceneBody| body.kind.coordinates(&body.values).len() > MANY_COORDINATES;
+        let has_dear = self.scene.bodies.iter().any(is_dear);
+        let most = [0, 1, 2].map(|i| {
+            let least = ranking(advised, i).least_cost().filter(|_| has_dear);
+            least.map_or(f64::INFINITY, |least| MAX_TIMES_CHEAPEST * least)
+        });
+        let is_worth = |&(row, i): &(usize, usize)| {
+            let met = advised[row].met[i].met();
+            met.is_some_and(|met| met.cost_per_s <= most[i] && !met.are_margins_searched)
+        };
+        let margins = (0..advised.len()).flat_map(|row| (0..CRITERIA.len()).map(move |i| (row, i)));
+        margins.filter(is_worth).collect()
+    }
+
+    /// As [`MethodAdvice::search_margins`].
+    pub(super) async fn search_margins(&self, advice: &mut MethodAdvice, criterion: usize) {
+        if let CriterionResult::With(met) = &mut advice.met[criterion] {
+            self.add_margins(advice.spec, CRITERIA[criterion], met).await;
+        }
+    }
+
+    /// Searches the margins of a method that meets a criterion.
+    async fn add_margins(&self, spec: LaneSpec, criterion: Criterion, met: &mut CriterionMet) {
+        let spec = LaneSpec { substeps: met.substeps, ..spec };
+        if self.is_spent() {
+            return;
+        }
+        (met.stiffness_factor, met.limited_by) = self.stiffest(spec, criterion).await.unzip();
+        met.slowest_hz = self.slowest_down(spec, criterion).await;
+        met.are_margins_searched = true;
+    }
+
+    /// Whether a method meets a criterion, and with how many substeps: with one fewer it does not.
+    async fn fewest_substeps(&self, spec: LaneSpec, criterion: Criterion) -> CriterionResult {
+        let with = |substeps: u32| LaneSpec { substeps, ..spec };
+        let tried = |substeps| self.judge.meets(criterion, with(substeps), self.tick_hz);
+        let (mut fails, mut holds, mut with_most) = (0, None, None);
+        for substeps in (0..).map(tried_substeps).take_while(|&n| n <= MAX_ADVISED_SUBSTEPS) {
+            // What fails with the most substeps is not searched.
+            if substeps > FEW_SUBSTEPS && with_most.is_none() {
+                with_most = Some(tried(MAX_ADVISED_SUBSTEPS).await);
+                if matches!(with_most, Some(CriterionFinding::Fails { .. })) {
+                    return CriterionResult::No;
+                }
+            }
+            let finding = with_most.filter(|_| substeps == MAX_ADVISED_SUBSTEPS);
+            let finding = match finding {
+                Some(finding) => finding,
+                None => tried(substeps).await,
+            };
+            match finding {
+                CriterionFinding::Holds { evaluations_per_s } => {
+                    holds = Some((substeps, evaluations_per_s));
+                    break;
+                }
+                CriterionFinding::Fails { .. } => fails = substeps,
+                CriterionFinding::Unknown => return CriterionResult::Unknown,
+            }
+        }
+        let Some((mut substeps, mut evaluations_per_s)) = holds else { return CriterionResult::No };
+        while substeps - fails > 1 {
+            let middle = fails.midpoint(substeps);
+            match tried(middle).await {
+                CriterionFinding::Holds { evaluations_per_s: found } => {
+                    (substeps, evaluations_per_s) = (middle, found);
+                }
+                _ => fails = middle,
+            }
+        }
+        CriterionResult::With(CriterionMet {
+            tick_hz: self.tick_hz,
+            substeps,
+            evaluations_per_s,
+            cost_per_s: evaluations_per_s * f64::from(spec.method.evaluation_cost),
+            are_margins_searched: false,
+            slowest_hz: None,
+            stiffness_factor: None,
+            limited_by: None,
+        })
+    }
+
+    /// The lowest rate in Hz of [`RATES_HZ`](crate::sim::stability::RATES_HZ) at which a lane meets a criterion; `None` if
+    /// it meets it at no rate.
+    pub fn slowest(&self, spec: LaneSpec, criterion: Criterion) -> Option<u32> {
+        RateSearch::run(|hz| at_once(self.judge.meets(criterion, spec, hz)).holds())
+    }
+
+    /// The lowest rate, going down from the requested one, at which the lane still meets the criterion: one hertz lower
+    /// it does not, or no tick fits into the horizon. `None` if that is not known.
+    async fn slowest_down(&self, spec: LaneSpec, criterion: Criterion) -> Option<u32> {
+        // The runs of a net are dear, and so are the modes of a method with memory.
+        let is_dear = spec.method.restart.is_some()
+            || self.scene.bodies.iter().any(|body| body.kind.net().is_some());
+        let strides = if is_dear { 6 } else { 60 };
+        // The last miss of the search is that next to its result.
+        let mut is_known = true;
+        let mut search = RatesDown::from(self.tick_hz, strides);
+        while let Some(hz) = search.next() {
+            let miss = self.judge.misses(criterion, spec, hz).await;
+            if miss.is_some() {
+                is_known = miss != Some(CriterionFinding::Unknown) || !self.judge.has_ticks(hz);
+            }
+            search.note(hz, miss.is_none());
+        }
+        is_known.then_some(search.held_hz)
+    }
+
+    /// The largest of [`FACTORS`] by which every body may be stiffer, as it may by each below, and the parameter that
+    /// limits it; `None` if it is not known whether the criterion holds with the next.
+    async fn stiffest(&self, spec: LaneSpec, criterion: Criterion) -> Option<(f64, String)> {
+        let (mut held, mut last_miss) = (0, None);
+        let has_hairs = criterion == Criterion::Accurate && self.judge.has_bumps();
+        let mut is_by_a_hair = has_hairs && !self.spares(spec, 0).await;
+        while held + 1 < FACTORS.len() && last_miss.is_none() && !self.is_spent() {
+            let next = (held + 1) * PARTS_OF_STRIDE;
+            let Some(judge) = self.stiffer(next).await else { break };
+            let was_by_a_hair = is_by_a_hair;
+            is_by_a_hair = has_hairs && !self.spares(spec, next).await;
+            if is_by_a_hair || !has_hairs {
+                last_miss = judge.misses(criterion, spec, self.tick_hz).await;
+            }
+            let mut between = held * PARTS_OF_STRIDE + 1..next;
+            while (was_by_a_hair || is_by_a_hair)
+                && last_miss.is_none()
+                && !self.is_spent()
+                && let Some(index) = between.next()
+                && let Some(judge) = self.stiffer(index).await
+            {
+                last_miss = judge.misses(criterion, spec, self.tick_hz).await;
+            }
+            held += usize::from(last_miss.is_none() && !self.is_spent());
+        }
+        let culprit = match last_miss {
+            Some(CriterionFinding::Unknown) => return None,
+            None if self.is_spent() => return None,
+            Some(CriterionFinding::Fails { body }) => Some(body),
+            _ => self.stiff_bodies().next().map(|(body, _)| body),
+        };
+        Some((FACTORS[held], self.stiffness_name(culprit.unwrap_or(0))))
+    }
+
+    /// Each body with the index of its leading parameter.
+    fn stiff_bodies(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.scene.bodies.iter().enumerate().filter_map(|(body, of)| {
+            let (leads, _) = of.kind.parameter(&of.kind.leading)?;
+            Some((body, leads))
+        })
+    }
+
+    /// The name of the parameter that makes a body stiffer.
+    fn stiffness_name(&self, body: usize) -> String {
+        let body = &self.scene.bodies[body];
+        let (_, leading) =
+            body.kind.parameter(&body.kind.leading).expect("a card leads by a key of its own");
+        let quantity = leading.quantity();
+        match self.scene.bodies.len() {
+            1 => quantity,
+            _ => format!("{quantity} ({})", body.name),
+        }
+    }
+
+    /// The judge of the scene with every body stiffer by the factor with this index.
+    async fn stiffer(&self, index: usize) -> Option<&Judge> {
+        let find = async {
+            let scene = self.stiffen(fine_factor(index))?;
+            let (throttle, horizon_s) = (self.judge.throttle(), self.judge.horizon_s());
+            let judge = Judge::find(&scene, throttle, horizon_s, self.judge.meter().clone()).await;
+            Some(judge.within(WORK_WHEN_STIFFER))
+        };
+        self.stiffer[index].get(find).await.as_ref()
+    }
+
+    /// Whether a lane is accurate on the scene of this factor, and not by a hair.
+    async fn spares(&self, spec: LaneSpec, factor: usize) -> bool {
+        match self.stiffer(factor).await {
+            Some(judge) => judge.is_accurate_sparing(SPARE_WHEN_STIFFER, spec, self.tick_hz).await,
+            None => false,
+        }
+    }
+
+    fn stiffen(&self, factor: f64) -> Option<Scene> {
+        let mut scene = self.scene.clone();
+        for (body, leads) in self.stiff_bodies() {
+            let body = &mut scene.bodies[body];
+            let stiffer = body.values[leads] * factor;
+            body.values = edited_values(&body.kind, &body.values, leads, stiffer).ok()?;
+        }
+        Some(scene)
+    }
+}
+
+/// The ranking for the criterion with this index.
+fn ranking(advised: &[MethodAdvice], criterion: usize) -> Ranking<'_> {
+    Ranking::new(
+        advised.iter().enumerate().filter_map(|(i, advice)| {
+            Some((i, (advice.spec.method, advice.met[criterion].met()?)))
+        }),
+    )
+}
+
+/// The recommended method for a criterion, by its index in `advised`. Margins that are not searched count as no reserve.
+pub fn recommended(advised: &[MethodAdvice], criterion: usize) -> Option<usize> {
+    ranking(advised, criterion).first()
+}
+
+/// The methods that meet a criterion, by their indices in `advised`, whoever asks and in whatever order they stand: the
+/// [`recommended`] one, then the others from the least cost on. The listings as printed are left out.
+pub fn ranked(advised: &[MethodAdvice], criterion: usize) -> Vec<usize> {
+    ranking(advised, criterion).indices()
+}
+
+/// The cheapest method, by its index in `advised`, if it is passed over for the [`recommended`] one for want of a reserve.
+pub(super) fn passed_over(advised: &[MethodAdvice], criterion: usize) -> Option<usize> {
+    ranking(advised, criterion).passed_over()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,133 @@
+use super::*;
+use crate::scene::SCENES;
+use crate::sim::integrators::method;
+
+fn met(slowest_hz: Option<u32>, stiffness_factor: Option<f64>) -> CriterionMet {
+    let limited_by = stiffness_factor.map(|_| "stiffness".into());
+    CriterionMet {
+        tick_hz: 60,
+        substeps: 1,
+        evaluations_per_s: 60.0,
+        cost_per_s: 60.0,
+        are_margins_searched: true,
+        slowest_hz,
+        stiffness_factor,
+        limited_by,
+    }
+}
+
+#[test]
+fn margins_are_told_as_far_as_they_are_known() {
+    for (slowest_hz, stiffness_factor, told) in [
+        (Some(50), Some(1.4), "holds down to 50 Hz, or 1.4 × stiffness"),
+        (Some(50), Some(1e4), "holds down to 50 Hz, or more than 10000 × stiffness"),
+        (Some(59), Some(1.0), "holds down to 59 Hz, or 1 × stiffness (no reserve)"),
+        (Some(60), Some(1.1), "holds down to 60 Hz (no reserve), or 1.1 × stiffness"),
+        (Some(60), None, "holds down to 60 Hz (no reserve); how much stiffer, is not known"),
+        (Some(50), None, "holds down to 50 Hz; how much stiffer, is not known"),
+        (None, Some(1.4), "holds up to 1.4 × stiffness; how much slower, is not known"),
+        (None, None, "how much slower or stiffer, is not known"),
+    ] {
+        let met = met(slowest_hz, stiffness_factor);
+        assert_eq!(met.margins(), told);
+        assert_eq!(met.has_no_reserve(), told.contains("no reserve"));
+    }
+}
+
+#[test]
+fn the_least_cost_decides_then_the_fewest_substeps_then_the_place_in_the_table() {
+    let judge = Judge::new(&Scene::built_in("ship").unwrap());
+    let advised = |(id, substeps, evaluations_per_s): (&str, u32, f64)| {
+        let spec = LaneSpec::plain(method(id).unwrap());
+        let cost_per_s = evaluations_per_s * f64::from(spec.method.evaluation_cost);
+        let met =
+            CriterionMet { substeps, evaluations_per_s, cost_per_s, ..met(Some(60), Some(1.0)) };
+        let met = [CriterionResult::With(met), CriterionResult::No, CriterionResult::Unknown];
+        MethodAdvice { spec, verdict: judge.verdict(spec, 60), met }
+    };
+    // What is named first is taken, wherever it stands.
+    for all in [
+        [("velocity-verlet", 1, 60.0), ("rk4", 1, 240.0), ("rk4-as-printed", 1, 30.0)],
+        [("pefrl", 3, 720.0), ("exponential-rosenbrock-euler", 1, 360.0), ("rk4", 8, 1920.0)],
+        [("rk4", 1, 240.0), ("implicit-midpoint", 1, 180.0), ("pefrl", 2, 480.0)],
+        [("velocity-verlet", 1, 120.0), ("explicit-euler", 2, 120.0), ("midpoint", 2, 120.0)],
+        [("improved-euler", 2, 240.0), ("pefrl", 2, 240.0), ("rk4", 2, 240.0)],
+    ] {
+        for turn in 0..3 {
+            let mut advised = all.map(advised);
+            advised.rotate_left(turn);
+            let taken = recommended(&advised, 0).map(|row| advised[row].spec.method.id);
+            assert_eq!(taken, Some(all[0].0), "{turn}");
+            assert!((1..3).all(|criterion| recommended(&advised, criterion).is_none()));
+        }
+    }
+}
+
+#[test]
+fn a_scene_is_made_no_stiffer_than_a_scene_may_be() {
+    let text = |stiffness: f64| {
+        let head = "title = 't'\ntick_hz = 60\nseconds = 1\n[[spring]]\nmass_kg = 1";
+        format!("{head}\nstiffness_n_per_m = {stiffness}\n")
+    };
+    let spring = |stiffness: f64| Scene::parse("t", &text(stiffness));
+    let most = (0..40).map(|i| libm::exp10(f64::from(i))).rfind(|&most| spring(most).is_ok());
+    let most = most.unwrap();
+    let adviser = Adviser::new(&spring(most / 2.0).unwrap(), 60);
+    assert!(adviser.stiffen(1.9).is_some());
+    assert!(adviser.stiffen(2.1).is_none());
+}
+
+/// The work of the advice on all methods of a scene, the truths' included, in millions of evaluations of one coordinate: it
+/// does not depend on the machine. What is found by modes is not counted. That of most nets is that of hundreds of runs over
+/// twenty times the scene, which is what *bounded* claims.
+const MILLIONS: [(&str, f64); 26] = [
+    ("ship", 4.2),
+    ("spring", 136.0),
+    ("damped", 49.0),
+    ("stiff", 97.0),
+    ("chain", 932.0),
+    ("pendulum", 366.0),
+    ("liouville", 41.0),
+    ("kicked-rotor", 99.0),
+    ("orbit", 317.0),
+    ("helm", 160.0),
+    ("surge", 9.2),
+    ("harbour", 179.0),
+    ("duffing", 163.0),
+    ("bouncing-bungee", 220.0),
+    ("quarter-car", 356.0),
+    ("lift", 160.0),
+    ("jump", 11.4),
+    ("rope", 8248.0),
+    ("cloth", 1398.0),
+    ("bridge", 3467.0),
+    ("follow", 5.5),
+    ("lerp", 10.0),
+    ("held-force", 96.0),
+    ("alike", 12.5),
+    ("engines", 135.0),
+    ("stiff-in-engines", 71.0),
+];
+
+/// An unoptimised build would take half an hour for all.
+const MAX_MILLIONS: f64 = if cfg!(debug_assertions) { 12.0 } else { f64::INFINITY };
+
+#[test]
+fn the_work_of_advice_on_each_built_in_scene_is_what_it_was() {
+    for scene in SCENES {
+        let known = MILLIONS.iter().find(|(name, _)| *name == scene.name);
+        let (name, wanted) = *known.unwrap_or_else(|| panic!("{} has no bound", scene.name));
+        if wanted > MAX_MILLIONS {
+            continue;
+        }
+        let scene = Scene::built_in(name).unwrap();
+        let adviser = Adviser::new(&scene, scene.tick_hz);
+        let specs = scene.methods_for_games().map(LaneSpec::plain);
+        let mut advised: Vec<_> = specs.map(|spec| adviser.judged(spec)).collect();
+        for (row, criterion) in adviser.worth_margins(&advised) {
+            advised[row].search_margins(&adviser, criterion);
+        }
+        let found = adviser.judge().meter().counted() as f64 / 1e6;
+        assert!((0.8..1.2).contains(&(found / wanted)), "{name}: {found} million, not {wanted}");
+    }
+}

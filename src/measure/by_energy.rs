@@ -1,0 +1,108 @@
+//! The verdict on a body that has no reference solution, because that would take too much work: it rests on
+//! the energy of the run, which nothing but a method adds to, and on the spectral radius of a tick.
+
+use std::ops::ControlFlow;
+
+use super::amplitude::{Trend, amplitude};
+use super::energy::Means;
+use super::energy_finding::EnergyFinding;
+use super::limits::VISIBLE;
+use super::truth::{BodyTruth, FollowedBody, ticks};
+use super::verdict::RunFailure;
+use crate::run::race::StopReason;
+use crate::scene::LaneSpec;
+use crate::sim::stability::{PowerIteration, Tick};
+
+/// The part of the work of a run that the spectral radius may take too.
+const WORK_OF_RADIUS: u64 = 12;
+
+/// A run without a truth.
+pub(super) struct EnergyRun {
+    pub(super) finding: EnergyFinding,
+    pub(super) failure: Option<RunFailure>,
+    /// Whether the run was stopped within the horizon because it took too much work.
+    pub(super) is_too_much: bool,
+    pub(super) evaluations: u64,
+    pub(super) seconds: f64,
+}
+
+impl EnergyRun {
+    /// Whether neither the energy nor a small deviation grows.
+    pub(super) fn is_bounded(&self) -> bool {
+        self.failure.is_none() && self.finding.is_bounded()
+    }
+}
+
+/// Runs `truth`'s body under `spec` over the horizon, with its inputs.
+pub(super) async fn follow_energy(
+    truth: &BodyTruth,
+    spec: LaneSpec,
+    tick_hz: u32,
+    max_work: u64,
+) -> EnergyRun {
+    let max_work = max_work.min(truth.meter.budget_left());
+    let (hz, horizon) = (f64::from(tick_hz), ticks(truth.horizon_s, tick_hz));
+    let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).within(max_work);
+    let is_conserved = followed.body.stepper.energy().is_some();
+    let spectral_radius = spectral_radius(truth, &mut followed.body, spec, hz, max_work).await;
+    let (mut seconds, mut evaluations) = (0.0, 0);
+    let mut means = Means::over(horizon);
+    // The largest kinetic energy, and the most that was lost and gained, in joules.
+    let (mut fastest, mut lost, mut gained) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let see = |body: &FollowedBody, tick: u64| {
+        (seconds, evaluations) = (tick as f64 / hz, body.stepper.evaluations());
+        let gain = body.energy() - body.base_j;
+        let [kinetic, _] = body.energies();
+        (fastest, lost, gained) = (fastest.max(kinetic), lost.max(-gain), gained.max(gain));
+        means.take_in(tick, gain);
+        ControlFlow::Continue(())
+    };
+    let stop = truth.go_on(&mut followed, horizon, see).await;
+    let mut finding = EnergyFinding {
+        change: 0.0,
+        trend: Trend::None,
+        drift_percent: None,
+        is_conserved,
+        spectral_radius,
+    };
+    let scale = fastest.max(lost);
+    if scale > 0.0 && scale.is_finite() {
+        let [first, .., last] = means.means().map(|mean| mean / scale);
+        finding.change = last;
+        let drift = if gained > lost { gained } else { -lost };
+        finding.drift_percent = is_conserved.then_some(100.0 * drift / scale);
+        finding.trend = if is_conserved {
+            Trend::between(amplitude(first), amplitude(last))
+        } else if last > first.max(0.0) + 2.0 * VISIBLE {
+            Trend::Grows
+        } else {
+            Trend::None
+        };
+    }
+    EnergyRun {
+        finding,
+        is_too_much: stop == StopReason::TooMuchWork,
+        failure: RunFailure::of(stop, followed.t()),
+        evaluations,
+        seconds,
+    }
+}
+
+/// The spectral radius of a tick about the state of `body`, if it is finite.
+async fn spectral_radius(
+    truth: &BodyTruth,
+    body: &mut FollowedBody,
+    spec: LaneSpec,
+    hz: f64,
+    max_work: u64,
+) -> Option<f64> {
+    let n = body.stepper.q().len() as u64;
+    let tick = Tick { t: 0.0, h: 1.0 / hz, substeps: spec.substeps };
+    let most = max_work / n / WORK_OF_RADIUS;
+    let mut iteration = PowerIteration::new(&*body.stepper, spec.solver(), tick, most).ok()??;
+    let evaluations = spec.method.evaluations_per_tick(spec.substeps).map_or(n, u64::from);
+    while iteration.advance().ok()? {
+        truth.meter.pass(evaluations * n).await;
+    }
+    iteration.radius().filter(|radius| radius.is_finite())
+}

@@ -1,0 +1,180 @@
+//! The change of a body's amplitude, within the horizon and in the long run, from a run.
+
+use super::amplitude::{Trend, amplitude};
+use super::frequency::{FrequencyError, frequency_error};
+use super::run::Run;
+use super::truth::{BodyTruth, Swing};
+use super::verdict::LongTerm;
+use crate::sim::stability::FOREVER_S;
+
+/// The relative growth of the swing over the second half of the long run above which it counts as growth.
+const GROWTH_SEEN: f64 = 2e-3;
+
+/// How alike the gains of energy from quarter to quarter of the long run are where they are steady, smallest to largest.
+const STEADY: f64 = 0.5;
+
+/// How the amplitude, the energy and the frequency of a motion change.
+pub(super) struct MotionChange {
+    pub(super) long_term: LongTerm,
+    /// The change of the amplitude within the horizon.
+    pub(super) within: Trend,
+    pub(super) energy_change: Option<f64>,
+    pub(super) frequency_error: Option<f64>,
+    /// By how many seconds the motion is early at the end of the horizon.
+    pub(super) early_s: Option<f64>,
+    /// The widest swing in units of the true one, where modes tell it.
+    pub(super) width: Option<f64>,
+}
+
+impl MotionChange {
+    /// The change of the motion in a run.
+    pub(super) fn of_run(truth: &BodyTruth, run: &Run, horizon_s: f64) -> Self {
+        let period = truth.swing.as_ref().map_or(horizon_s, Swing::period);
+        let end = run.followed_s;
+        // The swing stays small for some turns, after so many turns that the time of halving is sharp.
+        let died = |t: f64| end - t >= 4.0 * period && t >= 10.0 * period;
+        let long_term = LongTerm {
+            measure: truth.measure(),
+            doubles_in_s: run.doubled_at.or_else(|| steadily_doubles_in_s(truth, run)),
+            halves_in_s: run.halved_at.filter(|&t| died(t)),
+            parasite_doubles_in_s: None,
+            is_bounded: bounded(truth, run),
+        };
+        let has_in_time = |at: Option<f64>| at.is_some_and(|t| t <= horizon_s);
+        let [first, .., last] = run.quarters.map(amplitude);
+        let conserves = truth.energy_scale.is_some();
+        let rushes = !conserves && has_in_time(run.velocity_doubled_at);
+        let within = match conserves {
+            _ if rushes || has_in_time(run.doubled_at) => Trend::Grows,
+            true => Trend::between(first, last),
+            false => Trend::None,
+        };
+        let frequency_error = frequency_error(truth, run);
+        let early_s = frequency_error.as_ref().and_then(|measured| measured.early_s);
+        let frequency_error = frequency_error.filter(FrequencyError::is_steady);
+        Self {
+            long_term,
+            within,
+            energy_change: Some(run.quarters[3]).filter(|change| conserves && change.is_finite()),
+            early_s: early_s.filter(|_| conserves),
+            width: None,
+            frequency_error: frequency_error.map(|measured| measured.error),
+        }
+    }
+}
+
+/// Whether the amplitude of a body stays bounded by the true one; `None` if the run did not get to its end.
+pub(super) fn bounded(truth: &BodyTruth, run: &Run) -> Option<bool> {
+    let failed = run.failure.is_some() || run.later.is_some();
+    if failed || run.doubled_at.is_some() || run.velocity_doubled_at.is_some() {
+        return Some(false);
+    }
+    if run.is_too_much || truth.failure.is_some() || run.is_losing && !run.has_come_to_rest {
+        return None;
+    }
+    let [_, early, _, late] = run.long_quarters.map(amplitude);
+    let grows = truth.energy_scale.is_some() && late / early > 1.0 + GROWTH_SEEN;
+    Some(!grows && steadily_doubles_in_s(truth, run).is_none())
+}
+
+/// When the amplitude of a linear oscillator doubles that gains as much energy in each quarter of the long run as in the
+/// one before, up to [`FOREVER_S`]: its swing grows at a constant rate. `None` of any other body or run.
+fn steadily_doubles_in_s(truth: &BodyTruth, run: &Run) -> Option<f64> {
+    let [first, early, middle, late] = run.long_quarters;
+    let gains = [early - first, middle - early, late - middle];
+    let least = gains.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = gains.iter().copied().fold(0.0, f64::max);
+    let is_steady = least > 0.0 && least >= STEADY * most;
+    let is_followed = !run.is_too_much && run.failure.is_none() && run.later.is_none();
+    if !(is_steady && is_followed && truth.is_oscillator() && truth.energy_scale.is_some()) {
+        return None;
+    }
+    let per_s = libm::log(amplitude(late) / amplitude(early)) / (run.followed_s / 2.0);
+    Some(std::f64::consts::LN_2 / per_s).filter(|&doubles_in_s| doubles_in_s <= FOREVER_S)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::measure::run::{MAX_WORK, Until, follow};
+    use crate::measure::slices::at_once;
+    use crate::measure::verdict::RunFailure;
+    use crate::scene::{LaneSpec, Scene};
+    use crate::sim::integrators::{StepFailure, method};
+
+    /// A run to the end of a swing that neither grows nor dies.
+    fn followed() -> (BodyTruth, Run) {
+        let text = "title = 't'\ntick_hz = 60\nseconds = 10\n[[pendulum]]\nlength_m = 1\n";
+        let scene = Scene::parse("t", text).unwrap();
+        let spec = LaneSpec::plain(method("velocity-verlet").unwrap());
+        let body = &scene.bodies[0];
+        let truth = at_once(BodyTruth::find(body, &[], 1.0, scene.seconds, Arc::default()));
+        let run = at_once(follow(&truth, spec, 60, Until::LongRun, MAX_WORK));
+        (truth, run)
+    }
+
+    #[test]
+    fn bounded_is_what_neither_fails_nor_leaves_nor_goes_on_gaining() {
+        let (mut truth, run) = followed();
+        let cause = StepFailure::Escaped { coordinate: "x".into(), value: 1e39 };
+        let failure = Some(RunFailure { t: 1.0, cause: cause.clone() });
+        let cases: [(&str, Run, Option<bool>); 12] = [
+            ("as it is", run.clone(), Some(true)),
+            ("ended early", Run { failure: failure.clone(), ..run.clone() }, Some(false)),
+            ("ended late", Run { later: failure.clone(), ..run.clone() }, Some(false)),
+            ("doubled", Run { doubled_at: Some(7.0), ..run.clone() }, Some(false)),
+            ("rushed", Run { velocity_doubled_at: Some(150.0), ..run.clone() }, Some(false)),
+            ("cut short", Run { is_too_much: true, ..run.clone() }, None),
+            (
+                "doubled, and then cut short",
+                Run { is_too_much: true, doubled_at: Some(7.0), ..run.clone() },
+                Some(false),
+            ),
+            ("losing", Run { is_losing: true, ..run.clone() }, None),
+            (
+                "come to rest",
+                Run { is_losing: true, has_come_to_rest: true, ..run.clone() },
+                Some(true),
+            ),
+            ("gaining", Run { long_quarters: [0.0, 0.0, 0.0, 6e-3], ..run.clone() }, Some(false)),
+            (
+                "hardly gaining",
+                Run { long_quarters: [0.0, 0.0, 0.0, 3e-3], ..run.clone() },
+                Some(true),
+            ),
+            (
+                "gained at once",
+                Run { long_quarters: [0.0, 0.2, 0.2, 0.2], ..run.clone() },
+                Some(true),
+            ),
+        ];
+        for (case, run, wanted) in &cases {
+            assert_eq!(bounded(&truth, run), *wanted, "{case}");
+        }
+        let gaining = &cases[9].1;
+        truth.energy_scale = None;
+        assert_eq!(bounded(&truth, gaining), Some(true), "what keeps no energy gains none");
+        truth.failure = Some(cause);
+        assert_eq!(bounded(&truth, &run), None, "there is no truth to leave");
+    }
+
+    #[test]
+    fn what_grows_after_the_horizon_has_not_grown_within_it() {
+        let (mut truth, run) = followed();
+        let tell = |run: &Run, truth: &BodyTruth| MotionChange::of_run(truth, run, 10.0).within;
+        for (at, change) in [(9.0, Trend::Grows), (11.0, Trend::None)] {
+            let doubled = Run { doubled_at: Some(at), ..run.clone() };
+            assert_eq!(tell(&doubled, &truth), change, "doubled at {at} s");
+        }
+        truth.energy_scale = None;
+        for (at, change) in [(9.0, Trend::Grows), (11.0, Trend::None)] {
+            let doubled = Run { doubled_at: Some(at), ..run.clone() };
+            assert_eq!(tell(&doubled, &truth), change, "doubled at {at} s");
+            let rushed = Run { velocity_doubled_at: Some(at), ..run.clone() };
+            assert_eq!(tell(&rushed, &truth), change, "rushed at {at} s");
+        }
+        assert_eq!(tell(&run, &truth), Trend::None);
+    }
+}

@@ -1,0 +1,489 @@
+//! A cloud: many starts about the state of a body, stepped by one method, and what becomes of their area.
+//!
+//! A method is a map of the phase plane. What it does to an area is its character: it keeps it, spreads it, shrinks it or
+//! tears it.
+
+use crate::sim::batch::{Batch, InstructionSet, OneCoordinate, Ticks};
+use crate::sim::bodies::Kind;
+use crate::sim::integrators::Family;
+use crate::sim::number::significant;
+use crate::sim::{State, Stepper};
+
+mod axes;
+mod border;
+mod course;
+mod density;
+mod lozenges;
+mod request;
+mod running;
+mod section;
+
+pub use crate::scene::{CloudKind, CloudShape};
+use axes::{CloudAxes, ShownTicks};
+pub use border::CloudBorder;
+use course::{Course, Memory, Subject, copies_of};
+pub use density::{Density, MAX_LINE_PART, PlaneView};
+use lozenges::Lozenges;
+pub(crate) use request::MAX_CLOUDS;
+pub use request::{CloudChoice, CloudPicture, CloudRequest, FoundCloud, LaneCloud, POINTS};
+pub use running::CloudWorker;
+
+use crate::run::race::{ESCAPE, Fnv};
+use crate::scene::LaneSpec;
+
+/// The points of a cloud that does not say how many.
+pub const USUAL_POINTS: usize = 100_000;
+
+/// Why there is no cloud.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum NoCloud {
+    /// The body has no phase plane, or several.
+    #[error(
+        "a cloud is of one coordinate and its velocity, and {body} has {coordinates} coordinates"
+    )]
+    SeveralCoordinates {
+        /// Its name.
+        body: String,
+        /// How many.
+        coordinates: usize,
+    },
+    /// A custom body has its coordinate in another type than `f64`.
+    #[error("{body} is a custom body whose coordinate is no f64")]
+    Custom {
+        /// Its name.
+        body: String,
+    },
+    /// The points do not fit into memory under all methods at once.
+    #[error("{points} points do not fit into memory; give fewer")]
+    TooMany {
+        /// How many.
+        points: usize,
+    },
+}
+
+/// A body that a cloud is made of.
+#[derive(Clone, Copy)]
+pub struct CloudBody<'a> {
+    /// Its name, for errors.
+    pub name: &'a str,
+    /// Its kind.
+    pub kind: &'a Kind,
+    /// The body, whose state is the middle of the cloud.
+    pub body: &'a dyn Stepper,
+}
+
+/// Where a cloud starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CloudStart {
+    /// Its shape.
+    pub shape: CloudShape,
+    /// When, in seconds: of forces that depend on time.
+    pub t: f64,
+    /// The middle: coordinate and velocity.
+    pub middle: [f64; 2],
+    /// How far it reaches in the coordinate and in the velocity.
+    pub reach: [f64; 2],
+}
+
+impl CloudStart {
+    /// A cloud about the state of a body at time 0. `size` is its reach in the unit of the coordinate, by default a quarter
+    /// of the swing; in the velocity it reaches as far by the rate of the body's motion there.
+    ///
+    /// # Errors
+    /// If the body has several coordinates.
+    pub fn about(
+        CloudBody { name, body, .. }: CloudBody<'_>,
+        shape: CloudShape,
+        size: Option<f64>,
+    ) -> Result<Self, NoCloud> {
+        let coordinates = body.q().len();
+        if coordinates > 1 {
+            return Err(NoCloud::SeveralCoordinates { body: name.into(), coordinates });
+        }
+        let middle = [body.q()[0], body.v()[0]];
+        let force = |q: f64| {
+            let mut a = [0.0];
+            body.acceleration(0.0, &[q], &[middle[1]], &mut a);
+            a[0]
+        };
+        Ok(Self::around(middle, force, shape, size))
+    }
+
+    /// A cloud about a state with this force per unit mass at its velocity.
+    fn around(
+        middle: [f64; 2],
+        force: impl Fn(f64) -> f64,
+        shape: CloudShape,
+        size: Option<f64>,
+    ) -> Self {
+        let near = 1e-3 * (1.0 + middle[0].abs());
+        let slope = (force(middle[0] + near) - force(middle[0] - near)) / (2.0 * near);
+        let rate = if slope.abs() > 1e-12 { slope.abs().sqrt() } else { 1.0 };
+        let swing = middle[0].abs().max(middle[1].abs() / rate);
+        let usual = if swing > 0.0 { swing / 4.0 } else { 0.25 };
+        let size = size.unwrap_or(usual);
+        Self { shape, t: 0.0, middle, reach: [size, size * rate] }
+    }
+
+    fn state(&self, [x, y]: [f64; 2]) -> State<f64> {
+        State { q: self.middle[0] + self.reach[0] * x, v: self.middle[1] + self.reach[1] * y }
+    }
+
+    fn ticks(&self, tick_hz: u32, substeps: u32) -> Ticks {
+        Ticks { origin: self.t, ..Ticks::from_start(tick_hz, substeps, 0) }
+    }
+}
+
+/// What has become of a cloud.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CloudMeasure {
+    /// The points that are still there; the others blew up.
+    pub points: usize,
+    /// The area over that at the start; `None` if no point is left, or the cloud is too fine, folded or torn to measure.
+    pub area_ratio: Option<f64>,
+    /// The mean distance of the points from their middle, root mean square, over that at the start.
+    pub spread: Option<f64>,
+    /// The states to the bit: as those of a [race](crate::run::Race::lane_hashes), 64-bit FNV-1a with -0 as 0.
+    pub hash: u64,
+}
+
+/// Many starts of a body under one method.
+pub struct Cloud {
+    course: Course,
+    area: Area,
+    start: CloudStart,
+    spread: f64,
+}
+
+/// What an area is measured by.
+enum Area {
+    /// The corners of the lozenges about some points.
+    Lozenges(Course),
+    /// All of it, where near points take steps of their own: the map is too rough for small areas.
+    Border(CloudBorder),
+}
+
+/// An area is on its way back if its change was this many times that of now and this much more, as natural logarithms.
+const BACK: f64 = 1.1;
+const LITTLE_BACK: f64 = 0.01;
+
+/// A change of the area, as a logarithm, that may be its measure: by determinants, where it may also be this many standard
+/// errors of their mean, and by a border.
+const UNKNOWN: f64 = 1e-6;
+const UNKNOWN_ERRORS: f64 = 3.0;
+const UNKNOWN_BY_BORDER: f64 = 2e-3;
+/// A change that is told as a part of the area, and not as a rate, is smaller than this.
+const SLIGHT: f64 = 1e-2;
+
+/// The mean of areas is not known if its standard error is more than this part of it: a few far points then decide it.
+const UNEVEN: f64 = 0.1;
+
+/// The least part of the points beyond the axes that is told.
+const HIDDEN: f64 = 0.1;
+
+/// The most sampled points, and the points of a cloud for each.
+const MAX_SAMPLES: usize = 256;
+const POINTS_TO_A_SAMPLE: usize = 16;
+
+impl Cloud {
+    /// Whether memory suffices for a cloud of `points` under each of these lanes at once. Allocates nothing.
+    ///
+    /// # Errors
+    /// [`NoCloud::TooMany`] if it does not.
+    pub fn find_room<'s>(
+        points: usize,
+        specs: impl IntoIterator<Item = &'s LaneSpec>,
+    ) -> Result<(), NoCloud> {
+        let solvers = specs.into_iter().map(LaneSpec::solver);
+        Batch::find_room(points, solvers).map_err(|_| NoCloud::TooMany { points })
+    }
+
+    /// A cloud of `points` starts of `body`, named `name`, under a lane of a race at this tick rate.
+    ///
+    /// # Errors
+    /// Why the body has none.
+    pub fn new(
+        of: CloudBody<'_>,
+        spec: &LaneSpec,
+        start: CloudStart,
+        points: usize,
+        tick_hz: u32,
+    ) -> Result<Self, NoCloud> {
+        let copies = copies_of(of);
+        let subject = Subject::new(of.name, &copies);
+        Self::of_subject(subject, of.body.is_linear(), spec, start, points, tick_hz)
+    }
+
+    /// A cloud of `points` starts of a custom body about a start, a quarter of its swing wide.
+    ///
+    /// ```
+    /// use regatta::measure::cloud::{Cloud, CloudShape};
+    /// use regatta::prelude::*;
+    ///
+    /// #[derive(Clone)]
+    /// struct Buoy;
+    ///
+    /// impl System for Buoy {
+    ///     type Vector = f64;
+    ///     fn acceleration(&self, _t: f64, z: &f64, v: &f64, a: &mut f64) {
+    ///         *a = -9.81 * z.clamp(-1.0, 0.5) - 0.3 * v;
+    ///     }
+    /// }
+    ///
+    /// let rk4 = LaneSpec::plain(method("rk4").expect("a built-in method"));
+    /// let start = State { q: 0.8, v: 0.0 };
+    /// let mut cloud = Cloud::of(&Buoy, start, CloudShape::Cat, 1000, &rk4, 60)?;
+    /// cloud.advance(300);
+    /// // The drag takes e^(-0.3 · 5) of any area.
+    /// assert!((cloud.area_ratio().unwrap() - 0.223).abs() < 0.01);
+    /// # Ok::<(), regatta::measure::cloud::NoCloud>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`NoCloud::TooMany`] if memory does not suffice.
+    pub fn of<S: OneCoordinate>(
+        system: &S,
+        start: State<f64>,
+        shape: CloudShape,
+        points: usize,
+        spec: &LaneSpec,
+        tick_hz: u32,
+    ) -> Result<Self, NoCloud> {
+        let force = |q: f64| {
+            let mut a = 0.0;
+            system.acceleration(0.0, &q, &start.v, &mut a);
+            a
+        };
+        let around = CloudStart::around([start.q, start.v], force, shape, None);
+        let copies = |solver, starts: Vec<State<f64>>| {
+            Some(Batch::on(InstructionSet::widest(), system, solver, starts.into_iter()))
+        };
+        let subject = Subject::new("body", &copies);
+        Self::of_subject(subject, false, spec, around, points, tick_hz)
+    }
+
+    fn of_subject(
+        subject: Subject<'_>,
+        is_linear: bool,
+        spec: &LaneSpec,
+        start: CloudStart,
+        points: usize,
+        tick_hz: u32,
+    ) -> Result<Self, NoCloud> {
+        let is_adaptive = spec.method.family == Family::Adaptive;
+        let is_linear = is_linear && !is_adaptive;
+        let samples = if is_linear { 1 } else { samples(points) };
+        let memory = match spec.method.restart {
+            None => Memory::Absent,
+            Some(_) => Memory::Carried,
+        };
+        let (solver, ticks) = (spec.solver(), start.ticks(tick_hz, spec.substeps));
+        let shape = || start.shape.points(points).map(|point| start.state(point)).collect();
+        let course = Course::new(subject, (solver, memory), ticks, points, shape)?;
+        let area = if is_adaptive {
+            let border = CloudBorder::new(subject, (solver, memory), ticks, start, points)?;
+            Area::Border(border)
+        } else {
+            let lozenges = Lozenges::new(samples, spec.method, is_linear, start.reach);
+            let corners = || {
+                let middles = start.shape.points(samples).map(|point| start.state(point));
+                let corners = middles.flat_map(|State { q, v }| lozenges.corners([q, v]));
+                corners.map(|[q, v]| State { q, v }).collect()
+            };
+            let memory = if lozenges.is_renewed() { Memory::Dropped } else { memory };
+            let corners = Course::new(subject, (solver, memory), ticks, points, corners)?;
+            Area::Lozenges(corners.around(lozenges))
+        };
+        let mut cloud = Self { course, area, start, spread: 0.0 };
+        cloud.spread = cloud.distance().unwrap_or(0.0);
+        Ok(cloud)
+    }
+
+    /// The same cloud, which keeps states of earlier ticks to go back to.
+    pub fn rewindable(self) -> Self {
+        let area = match self.area {
+            Area::Lozenges(corners) => Area::Lozenges(corners.rewindable()),
+            Area::Border(border) => Area::Border(border.rewindable()),
+        };
+        Self { course: self.course.rewindable(), area, ..self }
+    }
+
+    /// Steps all points.
+    pub fn advance(&mut self, ticks: u64) {
+        self.go_to(self.tick() + ticks);
+    }
+
+    /// Steps all points to a tick. An earlier one has the bits that it had; only a [rewindable](Self::rewindable) cloud
+    /// goes there.
+    pub fn go_to(&mut self, tick: u64) {
+        self.course.go_to(tick);
+        match &mut self.area {
+            Area::Lozenges(corners) => corners.go_to(tick),
+            Area::Border(border) => border.go_to(tick),
+        }
+    }
+
+    /// The coordinates and velocities of all points so many ticks after the start. Between two ticks they are on the line
+    /// through their states, and the cloud is at the later one then.
+    pub fn states_at(&mut self, ticks: f64) -> [Vec<f64>; 2] {
+        let part = ticks.fract();
+        self.go_to(ticks as u64);
+        let mut states = [self.q(), self.v()].map(<[f64]>::to_vec);
+        if part > 0.0 {
+            self.advance(1);
+            for (from, to) in states.iter_mut().zip([self.q(), self.v()]) {
+                from.iter_mut().zip(to).for_each(|(from, to)| *from += part * (to - *from));
+            }
+        }
+        states
+    }
+
+    /// The tick reached.
+    pub fn tick(&self) -> u64 {
+        self.course.tick()
+    }
+
+    /// The coordinates of the points.
+    pub fn q(&self) -> &[f64] {
+        self.course.q()
+    }
+
+    /// Their velocities.
+    pub fn v(&self) -> &[f64] {
+        self.course.v()
+    }
+
+    /// How the area is measured.
+    pub fn measured_in_words(&self) -> String {
+        match &self.area {
+            Area::Border(_) => "by the border".into(),
+            Area::Lozenges(corners) => match corners.areas().len() {
+                1 => "by the determinant".into(),
+                samples => format!("by the determinants about {samples} points"),
+            },
+        }
+    }
+
+    /// What has become of it.
+    pub fn measure(&self) -> CloudMeasure {
+        let area_ratio = self.area_ratio();
+        let mut hash = Fnv::new();
+        for &number in self.q().iter().chain(self.v()) {
+            // What is not a number has bits that depend on the processor.
+            hash.number(if number.is_nan() { f64::NAN } else { number });
+        }
+        let spread = self.distance().map(|distance| distance / self.spread);
+        CloudMeasure { points: self.points_left(), area_ratio, spread, hash: hash.0 }
+    }
+
+    /// The points that are still there; the others blew up.
+    pub fn points_left(&self) -> usize {
+        self.present().count()
+    }
+
+    /// The area over that at the start; `None` if no point is left, or the cloud is too fine, folded or torn to measure.
+    pub fn area_ratio(&self) -> Option<f64> {
+        self.present().next()?;
+        match &self.area {
+            Area::Border(border) => border.area_ratio(),
+            Area::Lozenges(corners) => {
+                let all = corners.areas();
+                let areas: Vec<f64> = all.iter().copied().flatten().collect();
+                let [mean, error] = mean_and_error(&areas);
+                let is_known = 2 * areas.len() >= all.len() && error <= UNEVEN * mean;
+                is_known.then_some(mean)
+            }
+        }
+    }
+
+    /// What the area has become, in words. `before` are the areas on the way, over that at the start: an area on its way back
+    /// has no rate.
+    pub fn in_words(
+        &self,
+        area_ratio: Option<f64>,
+        before: impl IntoIterator<Item = f64>,
+    ) -> String {
+        let Some(ratio) = area_ratio else {
+            let is_lost = self.present().next().is_none();
+            return if is_lost { "is lost" } else { "is too fine, folded or torn to measure" }
+                .into();
+        };
+        let seconds = self.course.t() - self.start.t;
+        let far = |area: f64| libm::log(area).abs();
+        let farthest = before.into_iter().max_by(|&a, &b| far(a).total_cmp(&far(b)));
+        if let Some(area) = farthest.filter(|&area| far(area) > BACK * far(ratio) + LITTLE_BACK) {
+            let way = if area > ratio { "down" } else { "up" };
+            return format!("is {way} from ×{}", significant(area, 3));
+        }
+        let change = libm::log(ratio);
+        let time = || super::duration(seconds * std::f64::consts::LN_2 / change.abs());
+        match change {
+            _ if seconds == 0.0 => "is what it was".into(),
+            _ if change.abs() <= self.unknown() => "keeps area".into(),
+            _ if change.abs() < SLIGHT => {
+                let word = if change > 0.0 { "gains" } else { "loses" };
+                format!("{word} {} %", significant(100.0 * (ratio - 1.0).abs(), 2))
+            }
+            _ if change > 0.0 => format!("grows ×2 in {}", time()),
+            _ if change.is_finite() => format!("shrinks ×½ in {}", time()),
+            _ => "shrinks to nothing".into(),
+        }
+    }
+
+    /// What of a change of the area, as a logarithm, may be its measure.
+    fn unknown(&self) -> f64 {
+        match &self.area {
+            Area::Border(_) => UNKNOWN_BY_BORDER,
+            Area::Lozenges(corners) => {
+                let areas: Vec<f64> = corners.areas().iter().copied().flatten().collect();
+                let [mean, error] = mean_and_error(&areas);
+                UNKNOWN.max(UNKNOWN_ERRORS * error / mean)
+            }
+        }
+    }
+
+    /// The points left that are beyond the axes of a picture.
+    pub fn hidden(&self, picture: &Density) -> usize {
+        // The margin of an axis may show points that blew up.
+        self.points_left().saturating_sub(picture.points())
+    }
+
+    /// The points that have not blown up.
+    fn present(&self) -> impl Iterator<Item = [f64; 2]> {
+        let is_there = |state: &[f64; 2]| state.iter().all(|number| number.abs() <= ESCAPE);
+        self.q().iter().zip(self.v()).map(|(&q, &v)| [q, v]).filter(is_there)
+    }
+
+    /// The root mean square distance of the points from their middle, in units of the reach; `None` without points.
+    fn distance(&self) -> Option<f64> {
+        let reach = self.start.reach;
+        let states = || self.present().map(|state| [state[0] / reach[0], state[1] / reach[1]]);
+        let count = states().count() as f64;
+        let sum = states().fold([0.0; 2], |sum, state| [sum[0] + state[0], sum[1] + state[1]]);
+        let middle = sum.map(|sum| sum / count);
+        let square = |state: [f64; 2]| {
+            let [x, y] = [state[0] - middle[0], state[1] - middle[1]];
+            x * x + y * y
+        };
+        (count > 0.0).then(|| (states().map(square).sum::<f64>() / count).sqrt())
+    }
+}
+
+/// What part of a cloud of so many points is beyond the axes, in words; `None` of little.
+pub fn hidden_in_words(hidden: usize, points: usize) -> Option<String> {
+    let part = hidden as f64 / points as f64;
+    (part >= HIDDEN).then(|| format!("{} % outside", significant(100.0 * part, 2)))
+}
+
+/// The mean of areas, and its standard error.
+fn mean_and_error(areas: &[f64]) -> [f64; 2] {
+    let count = areas.len() as f64;
+    let mean = areas.iter().sum::<f64>() / count;
+    let squares = areas.iter().map(|area| (area - mean) * (area - mean));
+    [mean, (squares.sum::<f64>() / (count * (count - 1.0).max(1.0))).sqrt()]
+}
+
+/// The sampled points of a cloud of so many.
+fn samples(points: usize) -> usize {
+    (points / POINTS_TO_A_SAMPLE).clamp(POINTS_TO_A_SAMPLE / 2, MAX_SAMPLES)
+}

@@ -1,0 +1,304 @@
+//! The clouds of a run, one for each lane, stepped on another thread than the window's: a [`CloudRequest`] goes there, and
+//! each [`FoundCloud`] comes back.
+//!
+//! A cloud is a function of the run, the tick and its choice: whichever way a tick was come to, its picture is the same.
+
+use std::sync::Arc;
+
+use super::request::{GRID, Request, cost};
+use super::section::SectionRun;
+use super::{
+    Cloud, CloudAxes, CloudBody, CloudBorder, CloudKind, CloudPicture, CloudRequest, CloudShape,
+    CloudStart, Density, FoundCloud, LaneCloud, NoCloud, ShownTicks,
+};
+use crate::run::race::Race;
+use crate::scene::LaneSpec;
+
+/// The samples of an area over the length of a run.
+const SAMPLES: u64 = 200;
+/// How many times further the clouds of a studio reach than others: they are seen small.
+const REACH: f64 = 2.0;
+
+/// The axes show the exact cloud until it is this many times as wide as at the start, which would then be a speck.
+const SPREAD: f64 = 10.0;
+
+/// A run that is further behind than this, in seconds, and does not catch up soon, goes on with a tenth of its points; not
+/// with fewer than this.
+const BEHIND_S: f64 = 0.125;
+const LEAST_POINTS: usize = 1_000;
+
+/// About how many evaluations are made before a picture is shown on the way, and the most that a run in time makes to come to
+/// its first tick with all points.
+const WORK: u64 = 4_000_000;
+const WORK_AT_FIRST: u64 = 8 * WORK;
+
+/// The points of each cloud that the axes of a picture heed.
+const SEEN: usize = 1_000;
+
+/// Steps the clouds of one [`CloudRequest`] at a time, beside the run.
+pub struct CloudWorker {
+    request: Option<Arc<CloudRequest>>,
+    /// The run of the last request.
+    run: Option<Result<Running, NoCloud>>,
+    is_done: bool,
+    /// One of so many points is stepped.
+    thinned: usize,
+    /// The ticks that were asked for and reached when it was last looked whether the run keeps up.
+    looked: Option<[u64; 2]>,
+}
+
+impl Default for CloudWorker {
+    fn default() -> Self {
+        Self { request: None, run: None, is_done: false, thinned: 1, looked: None }
+    }
+}
+
+impl CloudWorker {
+    /// Replaces the request; `None` asks for nothing. The clouds of a run go on from where they are, with fewer points where
+    /// they fall behind a run in time, and with all once that stands still.
+    pub fn set_request(&mut self, request: Option<Arc<CloudRequest>>) {
+        match (&self.request, &request) {
+            (Some(old), Some(new)) if old.is_alike(new) => {
+                let thinned = self.thinned_for(old.tick, new);
+                if thinned != self.thinned {
+                    (self.run, self.looked, self.thinned) = (None, None, thinned);
+                }
+            }
+            (_, new) => {
+                let thinned = new.as_deref().map_or(1, thinned_at_first);
+                (self.run, self.looked, self.thinned) = (None, None, thinned);
+            }
+        }
+        self.is_done = request.is_none();
+        self.request = request;
+    }
+
+    /// One of how many points is to be stepped on, now that `new` is asked for after the tick `old`.
+    fn thinned_for(&mut self, old: u64, new: &CloudRequest) -> usize {
+        let Some(Ok(Running::Clouds(run))) = &self.run else { return self.thinned };
+        if !new.in_time {
+            self.looked = None;
+            return 1;
+        }
+        let part = (BEHIND_S * f64::from(new.tick_hz)) as u64;
+        let now = [old, run.tick];
+        let [asked, reached] = *self.looked.get_or_insert(now);
+        if (asked..=asked + part).contains(&old) {
+            return self.thinned;
+        }
+        self.looked = Some(now);
+        let behind = old.saturating_sub(run.tick);
+        let gained = (run.tick.saturating_sub(reached)).saturating_sub(old.saturating_sub(asked));
+        let keeps_up = behind <= part || 2 * gained >= behind;
+        if keeps_up { self.thinned } else { thinned_once(new, self.thinned) }
+    }
+
+    /// Whether there is nothing more to do.
+    pub fn is_done(&self) -> bool {
+        self.is_done || self.request.is_none()
+    }
+
+    /// Goes some ticks nearer to the one that was asked for. Returns what is to be shown then.
+    pub fn work(&mut self) -> Option<FoundCloud> {
+        let request = self.request.as_ref().filter(|_| !self.is_done)?;
+        let run = self.run.get_or_insert_with(|| Running::new(request, self.thinned));
+        let picture = match run {
+            Ok(Running::Section(run)) => {
+                run.work();
+                self.is_done = run.is_done();
+                Ok(run.picture())
+            }
+            Ok(Running::Clouds(run)) => {
+                run.work(request.tick);
+                self.is_done = run.tick == request.tick;
+                let is_shown = self.is_done || run.tick.is_multiple_of(run.sampled_every);
+                is_shown.then(|| Ok(run.picture()))?
+            }
+            Err(why) => {
+                self.is_done = true;
+                Err(why.clone())
+            }
+        };
+        Some(FoundCloud { request: Arc::clone(request), picture })
+    }
+}
+
+/// A tenth of so many points, unless these are few.
+fn thinned_once(request: &CloudRequest, thinned: usize) -> usize {
+    if request.choice.points / (10 * thinned) < LEAST_POINTS { thinned } else { 10 * thinned }
+}
+
+/// One of how many points is stepped in a run that is asked for late.
+fn thinned_at_first(request: &CloudRequest) -> usize {
+    let points = request.choice.points as u64;
+    let work =
+        request.lanes.iter().map(|(_, spec)| cost(spec)).sum::<u64>() * points * request.tick;
+    let mut thinned = 1;
+    while request.in_time && work / thinned as u64 > WORK_AT_FIRST {
+        match thinned_once(request, thinned) {
+            same if same == thinned => break,
+            fewer => thinned = fewer,
+        }
+    }
+    thinned
+}
+
+/// What is shown, on its way.
+enum Running {
+    Clouds(Box<CloudRun>),
+    Section(SectionRun),
+}
+
+impl Running {
+    fn new(request: &CloudRequest, thinned: usize) -> Result<Self, NoCloud> {
+        let &CloudRequest { ref scene, ref changes, body, ref lanes, tick_hz, choice, .. } =
+            request;
+        let scene = changes.applied_to(scene).of_one_body(body);
+        let mut race = Race::new(&scene, []).with_script(&scene.script);
+        race.catch_up(&mut ());
+        let request = Request {
+            of: CloudBody {
+                name: &scene.bodies[0].name,
+                kind: &scene.bodies[0].kind,
+                body: &*race.truth().bodies()[0].stepper,
+            },
+            lanes,
+            tick_hz,
+            seconds: scene.seconds,
+            t: changes.starts_at_s(),
+        };
+        match choice.kind {
+            CloudKind::Shape(shape) => {
+                let points = choice.points / thinned;
+                CloudRun::new(request, shape, points).map(|run| Self::Clouds(Box::new(run)))
+            }
+            CloudKind::Section => SectionRun::new(request).map(Self::Section),
+        }
+    }
+}
+
+/// A cloud on its way, with its area at each sampled tick so far.
+struct SampledCloud<C> {
+    cloud: C,
+    areas: Vec<Option<f64>>,
+}
+
+/// The clouds of all lanes on their way.
+struct CloudRun {
+    lanes: Vec<(usize, SampledCloud<Cloud>)>,
+    exact: SampledCloud<CloudBorder>,
+    axes: CloudAxes,
+    start: CloudStart,
+    points: usize,
+    tick_hz: u32,
+    tick: u64,
+    /// Ticks between two samples.
+    sampled_every: u64,
+    /// Ticks until a picture is shown.
+    part: u64,
+}
+
+impl CloudRun {
+    fn new(request: Request<'_>, shape: CloudShape, points: usize) -> Result<Self, NoCloud> {
+        let Request { of, lanes, tick_hz, seconds, t } = request;
+        let about = CloudStart::about(of, shape, None)?;
+        let start = CloudStart { t, reach: about.reach.map(|reach| REACH * reach), ..about };
+        Cloud::find_room(points, lanes.iter().map(|(_, spec)| spec))?;
+        let new = |(entry, spec): &(usize, LaneSpec)| {
+            let cloud = Cloud::new(of, spec, start, points, tick_hz)?.rewindable();
+            Ok((*entry, SampledCloud { cloud, areas: Vec::new() }))
+        };
+        let runs = lanes.iter().map(new).collect::<Result<Vec<_>, NoCloud>>()?;
+        let border = CloudBorder::exact(of, start, tick_hz)?.rewindable();
+        let ticks = |seconds: f64| ((seconds * f64::from(tick_hz)) as u64).max(1);
+        let specs: Vec<LaneSpec> = lanes.iter().map(|(_, spec)| *spec).collect();
+        let long = ticks(seconds.min(ShownTicks::MAX_S));
+        let shown = ShownTicks { spread: SPREAD, ..long.into() };
+        let axes = CloudAxes::of_run(of, start, &specs, tick_hz, shown)?;
+        let work: u64 = specs.iter().map(cost).sum();
+        let mut run = Self {
+            lanes: runs,
+            exact: SampledCloud { cloud: border, areas: Vec::new() },
+            axes,
+            start,
+            points,
+            tick_hz,
+            tick: 0,
+            sampled_every: ticks(seconds).div_ceil(SAMPLES),
+            part: (WORK / (work * points as u64)).max(1),
+        };
+        run.sample();
+        Ok(run)
+    }
+
+    /// Goes nearer to a tick, or back to it.
+    fn work(&mut self, to: u64) {
+        let sampled = (self.tick / self.sampled_every + 1) * self.sampled_every;
+        let tick = to.min(sampled).min(self.tick + self.part);
+        self.exact.cloud.go_to(tick);
+        self.lanes.iter_mut().for_each(|(_, lane)| lane.cloud.go_to(tick));
+        self.tick = tick;
+        self.sample();
+    }
+
+    /// Adds the areas of now, if this tick is sampled and was not before.
+    fn sample(&mut self) {
+        let is_next = |known: usize| known as u64 * self.sampled_every == self.tick;
+        let Self { lanes, exact, .. } = self;
+        if is_next(exact.areas.len()) {
+            exact.areas.push(exact.cloud.area_ratio());
+        }
+        for (_, lane) in lanes.iter_mut().filter(|(_, lane)| is_next(lane.areas.len())) {
+            lane.areas.push(lane.cloud.area_ratio());
+        }
+    }
+
+    fn t(&self, tick: u64) -> f64 {
+        self.start.t + tick as f64 / f64::from(self.tick_hz)
+    }
+
+    fn picture(&self) -> CloudPicture {
+        let border = self.exact.cloud.lines();
+        let some = |(_, SampledCloud { cloud, .. }): &(usize, SampledCloud<Cloud>)| {
+            let points = cloud.q().iter().zip(cloud.v()).map(|(&q, &v)| [q, v]);
+            points.step_by(cloud.q().len().div_ceil(SEEN)).collect::<Vec<_>>()
+        };
+        let others: Vec<_> = self.lanes.iter().flat_map(some).collect();
+        let view = self.axes.around(&border.concat(), &others);
+        let lane = |(entry, SampledCloud { cloud, areas }): &(usize, SampledCloud<Cloud>)| {
+            let mut density = Density::new([GRID; 2], view);
+            density.add(cloud.q(), cloud.v());
+            let area_ratio = cloud.area_ratio();
+            let areas = self.samples(areas, area_ratio);
+            LaneCloud {
+                entry: *entry,
+                lost: cloud.q().len() - cloud.points_left(),
+                hidden: cloud.hidden(&density),
+                density: Arc::new(density),
+                area_ratio,
+                words: cloud.in_words(area_ratio, areas.iter().map(|[_, area]| *area)),
+                measured: cloud.measured_in_words(),
+                areas,
+            }
+        };
+        CloudPicture {
+            tick: self.tick,
+            points: self.points,
+            section: None,
+            view,
+            exact: self.samples(&self.exact.areas, self.exact.cloud.area_ratio()),
+            lanes: self.lanes.iter().map(lane).collect(),
+            border,
+        }
+    }
+
+    /// The areas at the sampled ticks so far, and that of now.
+    fn samples(&self, areas: &[Option<f64>], now: Option<f64>) -> Vec<[f64; 2]> {
+        let sampled = (0..).step_by(self.sampled_every as usize).zip(areas.iter().copied());
+        let so_far = sampled.take_while(|(tick, _)| *tick < self.tick);
+        so_far
+            .chain([(self.tick, now)])
+            .filter_map(|(tick, area)| Some([self.t(tick), area?]))
+            .collect()
+    }
+}

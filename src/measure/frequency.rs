@@ -1,0 +1,108 @@
+//! The frequency error of a lane, from the times at which it crosses its centre.
+
+use super::run::Run;
+use super::truth::{BodyTruth, Swing};
+use crate::sim::bisection::bisect;
+
+/// The fewest crossings by which a frequency is measured: those of two whole turns.
+const FEWEST_CROSSINGS: usize = 3;
+
+/// The relative frequency error of a lane, positive if it is too fast: over all its turns and over each half of them.
+pub(super) struct FrequencyError {
+    pub(super) error: f64,
+    /// By how many seconds it is early at the end of the horizon; `None` if that is uncertain by a tenth.
+    pub(super) early_s: Option<f64>,
+    halves: [f64; 2],
+    /// The uncertainty of the error, from interpolating between ticks.
+    blur: f64,
+}
+
+impl FrequencyError {
+    /// Whether the error is constant and larger than its uncertainty.
+    pub(super) fn is_steady(&self) -> bool {
+        let least = (0.005 * self.error.abs()).max(2.5e-5);
+        let [a, b] = self.halves;
+        self.blur <= least && (a - b).abs() <= 2.0 * least
+    }
+}
+
+/// The frequency error of a run; `None` if it has too few turns.
+pub(super) fn frequency_error(truth: &BodyTruth, run: &Run) -> Option<FrequencyError> {
+    let swing = truth.swing.as_ref()?;
+    let h = run.horizon_s / run.series.len().max(1) as f64;
+    let level = truth.centres[swing.coordinate];
+    let lane = crossings(&run.series, level);
+    let count = lane.len().min(swing.crossings.len());
+    if count < FEWEST_CROSSINGS {
+        return None;
+    }
+    let error = |from: usize, to: usize| {
+        let exact = swing.crossings[to] - swing.crossings[from];
+        exact / (h * (lane[to].at - lane[from].at)) - 1.0
+    };
+    let middle = count / 2;
+    let span = lane[count - 1].at - lane[0].at;
+    let halves = [error(0, middle), error(middle, count - 1)];
+    // Either may have crossings more before the first that both have.
+    let more = (h * lane[0].at - swing.crossings[0]) / swing.period();
+    let [skipped, skipped_of_lane] = [more, -more].map(|more| libm::round(more.max(0.0)) as usize);
+    let mut pairs = swing.crossings.iter().skip(skipped).zip(lane.iter().skip(skipped_of_lane));
+    let (last, of_lane) = pairs.next_back()?;
+    let early_s = last - h * of_lane.at + halves[1] * (run.horizon_s - last);
+    let blur = lane[0].blur + lane[count - 1].blur;
+    Some(FrequencyError {
+        error: error(0, count - 1),
+        early_s: Some(early_s).filter(|early_s| h * blur <= 0.1 * early_s.abs()),
+        halves,
+        blur: blur / span,
+    })
+}
+
+/// Where a series crosses a level upwards, counted in samples.
+struct Crossing {
+    at: f64,
+    /// The uncertainty of `at`.
+    blur: f64,
+}
+
+fn crossings(series: &[f64], level: f64) -> Vec<Crossing> {
+    let passes = |k: &usize| series[*k] < level && series[k + 1] >= level;
+    (1..series.len().saturating_sub(2))
+        .filter(passes)
+        .map(|k| {
+            let y: [f64; 4] = std::array::from_fn(|i| series[k - 1 + i] - level);
+            let straight = y[1] / (y[1] - y[2]);
+            let [low, _] = bisect([0.0, 1.0], 40, |s| cubic(&y, s) < 0.0);
+            Crossing { at: (k + 1) as f64 + low, blur: 0.2 * (low - straight).abs() }
+        })
+        .collect()
+}
+
+/// The cubic through values at -1, 0, 1 and 2, evaluated at `s`.
+fn cubic(y: &[f64; 4], s: f64) -> f64 {
+    let [a, b, c, d] = y;
+    -s * (s - 1.0) * (s - 2.0) / 6.0 * a + (s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0 * b
+        - (s + 1.0) * s * (s - 2.0) / 2.0 * c
+        + (s + 1.0) * s * (s - 1.0) / 6.0 * d
+}
+
+impl Swing {
+    /// The relative frequency error of a swing that crosses its centre upwards at these times (s), over all its turns;
+    /// positive if it is too fast. `None` if one of the two makes too few turns.
+    pub(super) fn frequency_error(&self, crossings: &[f64]) -> Option<f64> {
+        let count = crossings.len().min(self.crossings.len());
+        let span = |crossings: &[f64]| crossings[count - 1] - crossings[0];
+        (count >= FEWEST_CROSSINGS).then(|| span(&self.crossings) / span(crossings) - 1.0)
+    }
+
+    /// Whether it has crossings enough for its frequency.
+    pub(super) fn has_a_frequency(&self) -> bool {
+        self.crossings.len() >= FEWEST_CROSSINGS
+    }
+
+    /// The mean time from one crossing to the next, in seconds.
+    pub(super) fn period(&self) -> f64 {
+        let turns = self.crossings.len() - 1;
+        (self.crossings[turns] - self.crossings[0]) / turns as f64
+    }
+}

@@ -1,0 +1,88 @@
+//! A fan of futures: the next second of a body under each method of the scene, and in truth, from where it is now. It is
+//! taken on copies, so that the run is not disturbed.
+
+use glam::DVec2;
+
+use crate::run::race::LaneBody;
+use crate::scene::LaneSpec;
+use crate::sim::{Solver, Stepper};
+
+/// How long it is, in seconds, and the most ticks that it has.
+const LENGTH_S: f64 = 1.0;
+const MAX_TICKS: u32 = 1000;
+/// Steps of the truth between two ticks at least, and in all: enough for it to look smooth.
+const EXACT_STEPS: u32 = 120;
+/// The most methods, and the most coordinates of a body: each frame steps all of them.
+const MAX_METHODS: usize = 9;
+const MAX_COORDINATES: usize = 8;
+
+/// A moment of a future.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FutureMoment {
+    /// When, in seconds of the run.
+    pub t: f64,
+    /// Where the body is, in metres.
+    pub at: DVec2,
+    /// The plotted coordinate and its velocity.
+    pub state: [f64; 2],
+}
+
+/// What becomes of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Future {
+    /// The method, by its index on the menu; `None` in truth.
+    pub entry: Option<usize>,
+    /// A moment for each tick, and more in truth; up to where the method fails.
+    pub moments: Vec<FutureMoment>,
+}
+
+/// The next second of a body after time `t` (s) at this tick rate: under each of these methods, by index, and last in truth.
+/// `held` is the state in which a person holds it, `plotted` the coordinate of the moments' states. Empty if the body has
+/// halted, or has too many coordinates.
+pub(crate) fn futures(
+    of: &LaneBody,
+    t: f64,
+    tick_hz: u32,
+    held: Option<(&[f64], &[f64])>,
+    plotted: usize,
+    methods: &[LaneSpec],
+) -> Vec<Future> {
+    let is_dear = of.coordinates().len() > MAX_COORDINATES || of.stepper.is_beyond_reference();
+    if of.halted().is_some() || is_dear {
+        return Vec::new();
+    }
+    let mut from = of.stepper.clone();
+    if let Some((q, v)) = held {
+        from.set(t, q, v);
+    }
+    let follow = |solver: Solver, h: f64, substeps: u32| {
+        let mut stepper = from.with_solver(solver, t);
+        let moment = |t: f64, stepper: &dyn Stepper| FutureMoment {
+            t,
+            at: stepper.place(),
+            state: [stepper.q()[plotted], stepper.v()[plotted]],
+        };
+        let mut moments = vec![moment(t, &*stepper)];
+        let steps = libm::round(LENGTH_S / h) as u32;
+        for step in 0..steps.min(MAX_TICKS) {
+            let before = t + f64::from(step) * h;
+            if stepper.advance(before, h, substeps).is_err() {
+                break;
+            }
+            let now = moment(before + h, &*stepper);
+            if !now.state.iter().all(|value| value.is_finite()) {
+                break;
+            }
+            moments.push(now);
+        }
+        moments
+    };
+    let h = 1.0 / f64::from(tick_hz);
+    let of_methods = methods.iter().take(MAX_METHODS).enumerate().map(|(entry, spec)| Future {
+        entry: Some(entry),
+        moments: follow(spec.solver(), h, spec.substeps),
+    });
+    let finer = h / f64::from(EXACT_STEPS.div_ceil(tick_hz));
+    let exact = Future { entry: None, moments: follow(Solver::Truth, finer, 1) };
+    of_methods.chain([exact]).collect()
+}

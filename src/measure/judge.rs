@@ -1,0 +1,297 @@
+//! The verdict on a lane on a scene, from a run compared with the truth tick by tick.
+//!
+//! A scene is judged from its start, at one tick rate, with the inputs of its script, each body by itself.
+//! A linear body under a method of equal steps has one map from tick to tick, whose modes give its motion at all later
+//! times. Any other body is followed for [`LONG_RUN`](super::LONG_RUN) times the horizon, and its verdict claims nothing
+//! beyond that.
+
+use std::sync::Arc;
+
+use super::amplitude::Trend;
+use super::by_energy::{EnergyRun, follow_energy};
+use super::change::MotionChange;
+use super::chase_finding::ChaseFinding;
+use super::limits::TOLERANCE;
+use super::modes::Modes;
+use super::run::{MAX_WORK, Run, Until, follow};
+use super::slices::{Meter, Once, at_once};
+use super::truth::{BodyTruth, ticks};
+use super::verdict::{Comparison, Finding, LongTerm, NoTruth, NotJudged, Verdict};
+use crate::scene::{LaneSpec, Scene, Scripted};
+
+mod criteria;
+
+pub(super) use criteria::CriterionFinding;
+use criteria::CriterionMiss;
+
+/// The longest horizon in simulated seconds. A shorter scene is judged over its whole length.
+pub const MAX_HORIZON_S: f64 = 60.0;
+
+/// The true motion of a scene, with which lanes are compared.
+pub struct Judge {
+    horizon_s: f64,
+    throttle: f64,
+    max_work: u64,
+    truths: Vec<BodyTruth>,
+    /// The same of bodies that make too few swings within the horizon, over their first swings, once that is asked for.
+    of_swings: Vec<Once<BodyTruth>>,
+    meter: Arc<Meter>,
+}
+
+/// What a scene is judged under, unless another throttle is asked for.
+pub(super) const FULL_THROTTLE: f64 = 1.0;
+
+/// The horizon of a scene in simulated seconds.
+pub(super) fn horizon_s(scene: &Scene) -> f64 {
+    scene.seconds.min(MAX_HORIZON_S)
+}
+
+/// The script's actions on the body with this index in the scene.
+fn inputs_of(scene: &Scene, body: usize) -> Vec<Scripted> {
+    scene.script.iter().filter(|row| row.action.acts_on(body)).cloned().collect()
+}
+
+impl Judge {
+    /// A judge of `scene` under full throttle, over its length but at most [`MAX_HORIZON_S`].
+    pub fn new(scene: &Scene) -> Self {
+        Self::over(scene, horizon_s(scene))
+    }
+
+    /// As [`Judge::new`], over `horizon_s` simulated seconds, which is positive and may exceed the scene's length.
+    pub fn over(scene: &Scene, horizon_s: f64) -> Self {
+        at_once(Self::find(scene, FULL_THROTTLE, horizon_s, Arc::default()))
+    }
+
+    /// As [`Judge::new`], under a throttle for the bodies that have one.
+    ///
+    /// # Panics
+    /// If the throttle is not in -1 to 1.
+    #[track_caller]
+    pub fn at_throttle(scene: &Scene, throttle: f64) -> Self {
+        assert!((-1.0..=1.0).contains(&throttle), "the throttle is {throttle}; give -1 to 1");
+        at_once(Self::find(scene, throttle, horizon_s(scene), Arc::default()))
+    }
+
+    /// As [`Self::over`], with its work counted by `meter`.
+    pub(super) async fn find(
+        scene: &Scene,
+        throttle: f64,
+        horizon_s: f64,
+        meter: Arc<Meter>,
+    ) -> Self {
+        let mut truths = Vec::with_capacity(scene.bodies.len());
+        for (index, body) in scene.bodies.iter().enumerate() {
+            let (inputs, meter) = (inputs_of(scene, index), meter.clone());
+            truths.push(BodyTruth::find(body, &inputs, throttle, horizon_s, meter).await);
+        }
+        let of_swings = truths.iter().map(|_| Once::default()).collect();
+        Self { horizon_s, throttle, max_work: MAX_WORK, truths, of_swings, meter }
+    }
+
+    /// Limits the work of each run to less than [`MAX_WORK`]; what takes more is not known.
+    pub(super) fn within(mut self, max_work: u64) -> Self {
+        self.max_work = max_work;
+        self
+    }
+
+    /// Whether a body is not linear, so that its errors may have bumps.
+    pub(super) fn has_bumps(&self) -> bool {
+        self.truths.iter().any(|truth| truth.modes.is_none())
+    }
+
+    /// Whether a tick at this rate fits into the horizon.
+    pub(super) fn has_ticks(&self, tick_hz: u32) -> bool {
+        ticks(self.horizon_s, tick_hz) > 0
+    }
+
+    /// The throttle under which the scene is judged.
+    pub fn throttle(&self) -> f64 {
+        self.throttle
+    }
+
+    /// The horizon in simulated seconds.
+    pub fn horizon_s(&self) -> f64 {
+        self.horizon_s
+    }
+
+    /// The verdict on a lane at this tick rate: that of its worst body.
+    pub fn verdict(&self, spec: LaneSpec, tick_hz: u32) -> Verdict {
+        at_once(self.verdict_within(self.max_work, spec, tick_hz))
+    }
+
+    /// What counts its work.
+    pub(super) fn meter(&self) -> &Arc<Meter> {
+        &self.meter
+    }
+
+    /// The verdict on a lane, whose run on each body takes at most this work, or is not judged.
+    pub(super) async fn verdict_within(
+        &self,
+        max_work: u64,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> Verdict {
+        let mut verdicts = Vec::with_capacity(self.truths.len());
+        for body in 0..self.truths.len() {
+            verdicts.push(self.verdict_on_body(body, max_work, spec, tick_hz).await);
+        }
+        Self::of_all(verdicts)
+    }
+
+    /// The verdict on a lane, from those on all its bodies.
+    fn of_all(verdicts: Vec<Verdict>) -> Verdict {
+        let evaluations = verdicts.iter().map(|verdict| verdict.evaluations).sum();
+        let bounded = verdicts.iter().map(|verdict| verdict.long_term.is_bounded);
+        let is_bounded = bounded.reduce(|a, b| match (a, b) {
+            (Some(false), _) | (_, Some(false)) => Some(false),
+            (Some(true), Some(true)) => Some(true),
+            _ => None,
+        });
+        let worst = verdicts.iter().reduce(|a, b| if b.badness() > a.badness() { b } else { a });
+        let worst = worst.expect("a scene has a body").clone();
+        let long_term = LongTerm { is_bounded: is_bounded.flatten(), ..worst.long_term };
+        Verdict { evaluations, long_term, of_bodies: verdicts, ..worst }
+    }
+
+    async fn verdict_on_body(
+        &self,
+        body: usize,
+        max_work: u64,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> Verdict {
+        let truth = &self.truths[body];
+        if truth.is_too_dear() {
+            // A tick of a large body may take seconds, and growth beyond the horizon tells nobody anything.
+            return match self.not_judged(tick_hz, max_work == 0) {
+                Some(why) => self.verdict_with(body, Finding::NotJudged(why), LongTerm::default()),
+                None => self.by_energy(
+                    body,
+                    tick_hz,
+                    follow_energy(truth, spec, tick_hz, max_work).await,
+                ),
+            };
+        }
+        let found = Modes::of(truth, spec, tick_hz).await;
+        let max_work = if found.is_ok() { max_work } else { 0 };
+        let by_modes = found
+            .ok()
+            .flatten()
+            .map(|modes| modes.change(truth.measure(), self.horizon_s - truth.last_input_s()));
+        let until = if by_modes.is_some() { Until::Horizon } else { Until::LongRun };
+        let run = follow(truth, spec, tick_hz, until, max_work).await;
+        self.compared(body, spec, tick_hz, &run, by_modes).await
+    }
+
+    /// The verdict on a body from its run beside the truth, and from its modes if they tell.
+    async fn compared(
+        &self,
+        body: usize,
+        spec: LaneSpec,
+        tick_hz: u32,
+        run: &Run,
+        by_modes: Option<MotionChange>,
+    ) -> Verdict {
+        let truth = &self.truths[body];
+        let are_swings_known = by_modes.is_some() && truth.inputs.is_empty();
+        let MotionChange { long_term, within, energy_change, frequency_error, early_s, width } =
+            by_modes.unwrap_or_else(|| MotionChange::of_run(truth, run, self.horizon_s));
+        // A motion that grew once and stays within bounds is bounded; one that has yet to grow is not.
+        let change = match (within, long_term.is_bounded) {
+            (Trend::Grows, Some(true)) => Trend::None,
+            (Trend::None, Some(false)) => Trend::Grows,
+            _ => within,
+        };
+        let swing = truth.swing.as_ref();
+        // Peaks lie between ticks, so that only an excess is certain.
+        let too_wide = swing.map(|swing| run.widest / swing.widest()).filter(|&width| width > 1.0);
+        // A shift in time that makes less than half of the error is not its cause.
+        let is_of_phase =
+            |early_s: f64| swing.is_some_and(|swing| swing.error_when(early_s) >= run.error / 2.0);
+        let truth_error = truth.gap(run.seconds, tick_hz).await;
+        let not_judged = self.not_judged(tick_hz, run.is_cut_short());
+        let finding = if let Some(failure) = run.failure.clone() {
+            Finding::Failed { failure, by_energy: None }
+        } else if let Some(why) = not_judged {
+            Finding::NotJudged(why)
+        } else if let Some(why) = without_truth(truth, run, truth_error) {
+            Finding::NoTruth(why)
+        } else {
+            let known = Some(run).filter(|_| are_swings_known);
+            let looks_right = self.looks_right(body, spec, tick_hz, known).await;
+            let looks_right = match looks_right {
+                Ok(_) => Some(true),
+                Err(CriterionMiss::Fails) => Some(false),
+                Err(CriterionMiss::Unknown) => None,
+            };
+            Finding::Compared(Comparison {
+                error: run.error,
+                error_at_s: run.error_at_s,
+                last_error: run.last_error,
+                truth_error,
+                change,
+                looks_right,
+                width: width.or(too_wide),
+                early_s: early_s.filter(|&early_s| is_of_phase(early_s)),
+                energy_change,
+                energy_drift_percent: run.energy_drift,
+                frequency_error,
+            })
+        };
+        let chase = ChaseFinding::of(truth, spec, tick_hz, run.chase.as_ref());
+        let verdict = self.verdict_with(body, finding, long_term);
+        Verdict { chase, evaluations: run.evaluations, seconds: run.seconds, ..verdict }
+    }
+
+    /// The verdict on a body that has no reference solution.
+    fn by_energy(&self, body: usize, tick_hz: u32, run: EnergyRun) -> Verdict {
+        let found = run.finding;
+        let finding = match (run.failure, self.not_judged(tick_hz, run.is_too_much)) {
+            (Some(failure), _) => Finding::Failed { failure, by_energy: Some(found) },
+            (None, Some(why)) => Finding::NotJudged(why),
+            (None, None) => Finding::ByEnergy(found),
+        };
+        // A run over the horizon does not show that nothing grows later.
+        let is_bounded = (!found.is_bounded()).then_some(false);
+        let verdict =
+            self.verdict_with(body, finding, LongTerm { is_bounded, ..LongTerm::default() });
+        Verdict { evaluations: run.evaluations, seconds: run.seconds, ..verdict }
+    }
+
+    /// Why a run at this rate is not judged, if it is not.
+    fn not_judged(&self, tick_hz: u32, is_cut_short: bool) -> Option<NotJudged> {
+        match self.has_ticks(tick_hz) {
+            false => Some(NotJudged::ShorterThanATick),
+            true => is_cut_short.then_some(NotJudged::TooMuchWork),
+        }
+    }
+
+    fn verdict_with(&self, body: usize, finding: Finding, long_term: LongTerm) -> Verdict {
+        let is_bounded = match finding {
+            Finding::Failed { .. } => Some(false),
+            Finding::NotJudged(_) => None,
+            _ => long_term.is_bounded,
+        };
+        Verdict {
+            finding,
+            long_term: LongTerm { is_bounded, ..long_term },
+            chase: None,
+            body,
+            body_name: self.truths[body].body.name.clone(),
+            evaluations: 0,
+            seconds: 0.0,
+            horizon_s: self.horizon_s,
+            starts_at_s: 0.0,
+            of_bodies: Vec::new(),
+        }
+    }
+}
+
+/// Why the truth cannot be used; `None` if it can. `gap` is its largest error in amplitudes.
+fn without_truth(truth: &BodyTruth, run: &Run, gap: f64) -> Option<NoTruth> {
+    if let Some(failure) = run.no_truth.as_ref().or(truth.failure.as_ref()) {
+        return Some(NoTruth::Failed(failure.clone()));
+    }
+    let is_vague = gap.is_nan() || gap > TOLERANCE / 2.0;
+    (is_vague && !run.is_cut_short()).then_some(NoTruth::Vague(gap))
+}

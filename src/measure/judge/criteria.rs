@@ -1,0 +1,288 @@
+//! Whether a lane meets a criterion: a run that ends as soon as that is known.
+
+use super::{Judge, without_truth};
+use crate::measure::by_energy::follow_energy;
+use crate::measure::change::bounded;
+use crate::measure::criterion::Criterion;
+use crate::measure::limits::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
+use crate::measure::modes::{Modes, TooMuch};
+use crate::measure::run::{Run, Until, follow};
+use crate::measure::truth::BodyTruth;
+use crate::scene::LaneSpec;
+
+/// Whether a lane meets a [`Criterion`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::measure) enum CriterionFinding {
+    /// It does, at this cost.
+    Holds { evaluations_per_s: f64 },
+    /// The body at this index of the scene does not.
+    Fails { body: usize },
+    /// Not known: it would take too much work, or there is no truth or no tick.
+    Unknown,
+}
+
+impl CriterionFinding {
+    pub(in crate::measure) fn holds(self) -> bool {
+        matches!(self, CriterionFinding::Holds { .. })
+    }
+}
+
+/// Why a body is not known to meet a criterion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum CriterionMiss {
+    /// It does not meet it.
+    Fails,
+    /// Not known: it would take too much work, or there is no truth.
+    Unknown,
+}
+
+impl From<TooMuch> for CriterionMiss {
+    fn from(_: TooMuch) -> Self {
+        CriterionMiss::Unknown
+    }
+}
+
+impl Judge {
+    /// Whether a lane meets a criterion.
+    pub(in crate::measure) async fn meets(
+        &self,
+        criterion: Criterion,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> CriterionFinding {
+        if !self.has_ticks(tick_hz) {
+            return CriterionFinding::Unknown;
+        }
+        let mut evaluations_per_s = 0.0;
+        let mut is_unknown = false;
+        for (body, truth) in self.truths.iter().enumerate() {
+            let met = match criterion {
+                Criterion::Bounded => self.is_bounded(truth, spec, tick_hz).await,
+                Criterion::LooksRight => self.looks_right(body, spec, tick_hz, None).await,
+                Criterion::Accurate => self.is_accurate(truth, spec, tick_hz).await,
+            };
+            match met {
+                Ok(evaluations) => evaluations_per_s += evaluations,
+                Err(CriterionMiss::Fails) => return CriterionFinding::Fails { body },
+                Err(CriterionMiss::Unknown) => is_unknown = true,
+            }
+        }
+        if is_unknown {
+            return CriterionFinding::Unknown;
+        }
+        // A method with memory starts with some evaluations more, which are no part of its cost in the long run.
+        let steady = spec.method.evaluations_per_tick(spec.substeps).map(|evaluations| {
+            f64::from(evaluations) * f64::from(tick_hz) * self.truths.len() as f64
+        });
+        CriterionFinding::Holds { evaluations_per_s: steady.unwrap_or(evaluations_per_s) }
+    }
+
+    /// How a lane misses a criterion; `None` if it meets it. Where the modes tell that, nothing is run.
+    pub(in crate::measure) async fn misses(
+        &self,
+        criterion: Criterion,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> Option<CriterionFinding> {
+        if self.is_met_by_modes(criterion, spec, tick_hz).await {
+            return None;
+        }
+        let finding = self.meets(criterion, spec, tick_hz).await;
+        Some(finding).filter(|finding| !finding.holds())
+    }
+
+    /// Whether the modes of every body tell that it meets a criterion.
+    async fn is_met_by_modes(&self, criterion: Criterion, spec: LaneSpec, tick_hz: u32) -> bool {
+        if criterion == Criterion::Accurate || !self.has_ticks(tick_hz) {
+            return false;
+        }
+        for truth in &self.truths {
+            let Ok(Some(modes)) = Modes::of(truth, spec, tick_hz).await else { return false };
+            let is_met = match criterion {
+                Criterion::Bounded => modes.are_bounded(),
+                Criterion::Accurate => false,
+                Criterion::LooksRight => {
+                    let error = modes.frequency_error();
+                    let is_told = truth.swing.is_some() && truth.first_swings_s.is_none();
+                    is_told
+                        && Modes::tell_the_width(truth, spec)
+                        && error.is_some_and(|error| error.abs() <= FREQUENCY_TOLERANCE)
+                        && modes.are_as_wide(truth.horizon_s) == Some(true)
+                }
+            };
+            if truth.failure.is_some() || !is_met {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Whether nothing grows that does not grow in truth, over the horizon and in the long run.
+    async fn is_bounded(
+        &self,
+        truth: &BodyTruth,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> Result<f64, CriterionMiss> {
+        if truth.is_too_dear() {
+            let run = follow_energy(truth, spec, tick_hz, self.max_work).await;
+            return match run.is_bounded() {
+                _ if run.is_too_much => Err(CriterionMiss::Unknown),
+                true => Ok(run.evaluations as f64 / run.seconds),
+                false => Err(CriterionMiss::Fails),
+            };
+        }
+        if let Some(modes) = Modes::of(truth, spec, tick_hz).await? {
+            if !modes.are_bounded() {
+                return Err(CriterionMiss::Fails);
+            }
+            let run = follow(truth, spec, tick_hz, Until::Horizon, self.max_work).await;
+            return cost_if(run.failure.is_none(), &run);
+        }
+        let run = follow(truth, spec, tick_hz, Until::Grown, self.max_work).await;
+        match bounded(truth, &run) {
+            Some(is_bounded) => cost_if(is_bounded, &run),
+            None => Err(CriterionMiss::Unknown),
+        }
+    }
+
+    /// The run of a lane, of which nothing is known if the truth cannot be used for it.
+    async fn beside_truth(
+        &self,
+        truth: &BodyTruth,
+        spec: LaneSpec,
+        tick_hz: u32,
+        until: Until,
+    ) -> Result<Run, CriterionMiss> {
+        if truth.is_too_dear() {
+            return Err(CriterionMiss::Unknown);
+        }
+        let run = follow(truth, spec, tick_hz, until, self.max_work).await;
+        let gap = truth.gap(run.seconds, tick_hz).await;
+        without_truth(truth, &run, gap).map_or(Ok(run), |_| Err(CriterionMiss::Unknown))
+    }
+
+    /// Whether a body stays within [`TOLERANCE`] of its truth.
+    async fn is_accurate(
+        &self,
+        truth: &BodyTruth,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> Result<f64, CriterionMiss> {
+        let run = self.beside_truth(truth, spec, tick_hz, Until::Error(TOLERANCE)).await?;
+        cost_if(run.error <= TOLERANCE, &run)
+    }
+
+    /// Whether a lane is accurate and leaves this part of [`TOLERANCE`] on every body with bumps. The errors of linear bodies
+    /// have none: they change with a parameter steadily.
+    pub(in crate::measure) async fn is_accurate_sparing(
+        &self,
+        spare: f64,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> bool {
+        for truth in &self.truths {
+            let spare = if truth.modes.is_none() { spare } else { 0.0 };
+            let most = (1.0 - spare) * TOLERANCE;
+            let run = self.beside_truth(truth, spec, tick_hz, Until::Error(most)).await;
+            if !run.is_ok_and(|run| run.error <= most && !run.is_too_much) {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Whether a body has the true amplitude within [`VISIBLE`] and the true frequency within [`FREQUENCY_TOLERANCE`]. A
+    /// body that makes too few swings for that is followed over its first; one that does not swing has to stay within
+    /// [`VISIBLE`] of its range. What is accurate looks right. `known` is its run over the horizon beside a usable truth, if
+    /// there is one already.
+    pub(super) async fn looks_right(
+        &self,
+        body: usize,
+        spec: LaneSpec,
+        tick_hz: u32,
+        known: Option<&Run>,
+    ) -> Result<f64, CriterionMiss> {
+        let truth = &self.truths[body];
+        let own;
+        let run = match known {
+            Some(run) => run,
+            None => {
+                own = self.swinging(truth, spec, tick_hz).await?;
+                &own
+            }
+        };
+        if run.failure.is_some() || run.error <= TOLERANCE {
+            return cost_if(run.failure.is_none(), run);
+        }
+        let Some(first_swings_s) = truth.first_swings_s else {
+            return cost_if(self.swings_alike(truth, run, spec, tick_hz).await?, run);
+        };
+        let inputs = truth.inputs_at_start();
+        let find = BodyTruth::find(
+            &truth.body,
+            &inputs,
+            self.throttle,
+            first_swings_s,
+            self.meter.clone(),
+        );
+        let longer = self.of_swings[body].get(find).await;
+        let longer_run = self.swinging(longer, spec, tick_hz).await?;
+        let is_alike = longer_run.failure.is_none()
+            && self.swings_alike(longer, &longer_run, spec, tick_hz).await?;
+        if longer_run.is_too_much { Err(CriterionMiss::Unknown) } else { cost_if(is_alike, run) }
+    }
+
+    /// A run over the horizon of `truth`, with its swings if the modes do not tell them.
+    async fn swinging(
+        &self,
+        truth: &BodyTruth,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> Result<Run, CriterionMiss> {
+        let until = match Modes::tell_the_width(truth, spec) {
+            true => Until::Horizon,
+            false => Until::Swings,
+        };
+        self.beside_truth(truth, spec, tick_hz, until).await
+    }
+
+    /// Whether a run over the horizon of `truth` swings like it, or is as near to it if that does not swing.
+    async fn swings_alike(
+        &self,
+        truth: &BodyTruth,
+        run: &Run,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> Result<bool, CriterionMiss> {
+        // The range is twice the amplitude.
+        let is_near = run.error <= 2.0 * VISIBLE;
+        let Some(swing) = &truth.swing else { return Ok(is_near) };
+        let modes = Modes::of(truth, spec, tick_hz).await?;
+        let crossings = run.swings.as_ref().map(|swings| &swings.crossings);
+        let error = match &modes {
+            Some(modes) => modes.frequency_error(),
+            None => crossings.and_then(|crossings| swing.frequency_error(crossings)),
+        };
+        let Some(error) = error else { return Ok(is_near) };
+        let is_as_wide = match (&modes, &run.swings) {
+            // What keeps its energy swings as wide in each half turn, and begins in the midst of one.
+            (_, Some(swings)) => {
+                let first = usize::from(truth.energy_scale.is_some());
+                swing.is_as_wide(&swings.half_turns, first)
+            }
+            (Some(modes), None) => modes.are_as_wide(truth.horizon_s).unwrap_or(is_near),
+            (None, None) => is_near,
+        };
+        Ok(is_as_wide && error.abs() <= FREQUENCY_TOLERANCE)
+    }
+}
+
+/// The evaluations per simulated second of a run, if it meets a criterion.
+fn cost_if(holds: bool, run: &Run) -> Result<f64, CriterionMiss> {
+    match holds {
+        _ if run.is_too_much => Err(CriterionMiss::Unknown),
+        true => Ok(run.evaluations as f64 / run.seconds),
+        false => Err(CriterionMiss::Fails),
+    }
+}

@@ -1,0 +1,60 @@
+//! Measurements: verdicts on methods on a scene, advice on which method to choose, and what a method does to a state or an
+//! area of states.
+//!
+//! A [`Judge`] runs a scene under a method and gives a [`Verdict`], and an
+//! [`Adviser`] searches for the fewest substeps that meet a [`Criterion`]: both are pure functions of the scene.
+//! A [`cloud`] steps many starts, [`OneStep`] is the anatomy of a tick, and a [`Future`] the next second of a body.
+//! [`advise`] reports on a custom body. An [`AnalysisWorker`] does it all beside a run, in parts.
+
+mod advice;
+mod amplitude;
+mod by_energy;
+mod change;
+mod chase_finding;
+pub mod cloud;
+mod criterion;
+mod criterion_met;
+mod energy;
+mod energy_finding;
+mod frequency;
+mod futures;
+mod judge;
+mod limits;
+mod modes;
+mod one_step;
+mod outcome;
+mod rank;
+mod report;
+mod run;
+mod searches;
+mod slices;
+mod stability_map;
+mod survey;
+mod swing_curve;
+mod swings;
+mod truth;
+mod verdict;
+mod worker;
+
+pub use advice::{
+    Adviser, CriterionMet, CriterionResult, MAX_ADVISED_SUBSTEPS, MethodAdvice, ranked, recommended,
+};
+pub use amplitude::{Measure, Trend};
+pub use chase_finding::ChaseFinding;
+pub use criterion::{CRITERIA, Criterion};
+pub use energy_finding::EnergyFinding;
+pub(crate) use futures::futures;
+pub use futures::{Future, FutureMoment};
+pub use judge::{Judge, MAX_HORIZON_S};
+pub use limits::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
+pub use one_step::{OneStep, Slope};
+pub(crate) use one_step::{one_step, orbit};
+pub use outcome::{Outcome, Severity, Sign};
+pub use report::{Criteria, MethodReport, PassedOver, Recommendation, Report, advise, try_advise};
+pub use run::MAX_WORK;
+pub use stability_map::{Coverage, Here, MapRequest, Region, SeenLine, StabilityMap};
+pub use truth::LONG_RUN;
+pub use verdict::{
+    Comparison, Finding, LongTerm, NoTruth, NotJudged, RunFailure, Verdict, VerdictNumber, duration,
+};
+pub use worker::{Advice, AdvisedBodies, AnalysisRequest, AnalysisWorker, Findings};

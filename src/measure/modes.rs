@@ -1,0 +1,254 @@
+//! The long-term motion of a linear body under a method of equal steps, from its normal modes.
+
+use super::amplitude::{Measure, Trend};
+use super::change::MotionChange;
+use super::limits::VISIBLE;
+use super::run::MAX_WORK;
+use super::swing_curve::SwingCurve;
+use super::truth::{BodyTruth, MovedMode, work_of};
+use super::verdict::LongTerm;
+use crate::scene::LaneSpec;
+use crate::sim::Stepper;
+use crate::sim::bisection::bisect;
+use crate::sim::integrators::{Family, StepFailure};
+use crate::sim::stability::{FOREVER_S, NormalMode, Stability, Tick, unforced};
+
+/// Finding the modes would take more work than a run may.
+pub(super) struct TooMuch;
+
+/// The moments at which the amplitude is compared with the true one.
+const ENVELOPE_MOMENTS: u32 = 256;
+
+/// The steps from which a mode's map is computed: three from each of two states.
+pub(super) const STEPS_PER_MODE: u64 = 6;
+
+/// The step from which its curve is.
+const STEPS_PER_CURVE: u64 = 1;
+
+/// The normal modes of a linear body, and their stability under a method of equal steps.
+pub(super) struct Modes<'a> {
+    modes: Vec<SteppedMode<'a>>,
+    /// A step of the method, in seconds.
+    step_s: f64,
+}
+
+/// A normal mode under a method.
+struct SteppedMode<'a> {
+    moved: &'a MovedMode,
+    stability: Stability,
+    /// The true curve, and that on which the states of the method lie, in units of the true amplitude at the start; `None` if
+    /// it does not swing under both.
+    curves: Option<[SwingCurve; 2]>,
+}
+
+impl SteppedMode<'_> {
+    fn mode(&self) -> &NormalMode {
+        &self.moved.mode
+    }
+
+    /// Its energy after `t` seconds, in units of that of the true motion at the start.
+    fn energy(&self, t: f64) -> f64 {
+        let width = self.curves.map_or(1.0, |[_, own]| own.width());
+        width * width * self.moved.energy(self.stability.growth_per_s, t)
+    }
+}
+
+impl MovedMode {
+    /// Its share of the energy after it has grown at this rate for `t` seconds.
+    fn energy(&self, growth_per_s: f64, t: f64) -> f64 {
+        self.share * libm::exp(2.0 * growth_per_s * t)
+    }
+
+    /// Its true curve, and its curve under the method of `stepper`, from one `step`: both begin in the same state, and a curve
+    /// through the first two states of the method is that of all its states. `None` if it does not swing under both.
+    ///
+    /// # Errors
+    /// The failure of the method in the step.
+    fn curves(
+        &self,
+        stepper: &mut dyn Stepper,
+        step: Tick,
+        stability: &Stability,
+    ) -> Result<Option<[SwingCurve; 2]>, StepFailure> {
+        let (Some(swing), Some(error)) = (self.mode.swing(), stability.frequency_error) else {
+            return Ok(None);
+        };
+        let Self { q, v, .. } = *self;
+        let decay_per_s = self.mode.decay_per_s();
+        let amplitude = libm::hypot(q, (v + decay_per_s * q) / swing);
+        let sides = [q / amplitude, v / amplitude];
+        if sides.iter().any(|side| !side.is_finite()) {
+            return Ok(None);
+        }
+        let [q, v] = sides;
+        let b = (v + decay_per_s * q) / swing;
+        let truth = SwingCurve { q, b, growth_per_s: -decay_per_s, frequency: swing };
+        let along = |part: f64| self.mode.shape.iter().map(|x| part * x).collect::<Vec<_>>();
+        stepper.set(step.t, &along(q), &along(v));
+        stepper.advance(step.t, step.h, step.substeps)?;
+        let (growth_per_s, frequency) = (stability.growth_per_s, (1.0 + error) * swing);
+        let next = self.mode.part(stepper.q()) * libm::exp(-growth_per_s * step.h);
+        let angle = frequency * step.h;
+        let b = (next - q * libm::cos(angle)) / libm::sin(angle);
+        Ok(Some([truth, SwingCurve { q, b, growth_per_s, frequency }]))
+    }
+}
+
+impl<'a> Modes<'a> {
+    /// The true modes, on each of which the method acts alone.
+    fn modes_of(truth: &BodyTruth, spec: LaneSpec) -> Option<&Vec<MovedMode>> {
+        let chooses = spec.method.tolerance.is_some() || !spec.method.keeps_time;
+        let is_follower = spec.method.family == Family::Follower;
+        truth.modes.as_ref().filter(|_| !chooses && !is_follower)
+    }
+
+    /// Whether the modes tell how wide the body swings: no input changes that.
+    pub(super) fn tell_the_width(truth: &BodyTruth, spec: LaneSpec) -> bool {
+        Self::modes_of(truth, spec).is_some() && truth.inputs.is_empty()
+    }
+
+    /// `None` if the body is not linear, or if the method chooses its own steps, follows a target or fails.
+    ///
+    /// # Errors
+    /// If that takes too much work.
+    pub(super) async fn of(
+        truth: &'a BodyTruth,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> Result<Option<Self>, TooMuch> {
+        let Some(modes) = Self::modes_of(truth, spec) else { return Ok(None) };
+        let n = modes.len() as u64;
+        // An implicit step takes differences of the force along every coordinate.
+        let evaluations = u64::from(spec.method.evaluations.unwrap_or(modes.len() as u32));
+        let steps = STEPS_PER_MODE + STEPS_PER_CURVE;
+        let work_of_mode = work_of(steps * evaluations, n, spec.solver());
+        if work_of_mode.saturating_mul(n) > MAX_WORK {
+            return Err(TooMuch);
+        }
+        let free = unforced(&*truth.with_last_parameters());
+        let tick = Tick { t: 0.0, h: 1.0 / f64::from(tick_hz), substeps: spec.substeps };
+        let mut found = Vec::with_capacity(modes.len());
+        let (step, _) = tick.repeated(Some(spec.method));
+        for moved in modes {
+            let mut stepper = free.with_solver(spec.solver(), tick.t);
+            let Ok(stability) = moved.mode.stability(&*free, spec.solver(), tick) else {
+                return Ok(None);
+            };
+            let Ok(curves) = moved.curves(&mut *stepper, step, &stability) else {
+                return Ok(None);
+            };
+            found.push(SteppedMode { moved, stability, curves });
+            truth.meter.pass(work_of_mode).await;
+        }
+        Ok(Some(Self { modes: found, step_s: step.h }))
+    }
+
+    pub(super) fn are_bounded(&self) -> bool {
+        self.modes.iter().all(|mode| mode.stability.is_bounded())
+    }
+
+    /// The swinging mode with the most energy.
+    fn main(&self) -> Option<&SteppedMode<'a>> {
+        let swinging = self.modes.iter().filter(|mode| mode.mode().swing().is_some());
+        swinging.max_by(|a, b| a.moved.share.total_cmp(&b.moved.share))
+    }
+
+    /// The frequency error of the main mode.
+    pub(super) fn frequency_error(&self) -> Option<f64> {
+        self.main()?.stability.frequency_error
+    }
+
+    /// The true curve of the main mode, and its own.
+    fn main_curves(&self) -> Option<&[SwingCurve; 2]> {
+        self.main()?.curves.as_ref()
+    }
+
+    /// Whether the amplitude stays within [`VISIBLE`] of the true one for `seconds`. That of one mode is compared half turn by
+    /// half turn. That of several is the root of their energies, each with its own width at the start and its own rate of
+    /// growth or decay. `None` if no mode moves.
+    pub(super) fn are_as_wide(&self, seconds: f64) -> Option<bool> {
+        let moving = || self.modes.iter().filter(|mode| mode.moved.share > 0.0);
+        moving().next()?;
+        if let [SteppedMode { curves: Some([truth, own]), .. }] = &self.modes[..] {
+            return Some(truth.misfit(own, self.step_s, seconds) <= VISIBLE);
+        }
+        let off = |t: f64| {
+            let own: f64 = moving().map(|mode| mode.energy(t)).sum();
+            let decay = |mode: &SteppedMode| mode.moved.energy(-mode.mode().decay_per_s(), t);
+            let exact: f64 = moving().map(decay).sum();
+            (own.sqrt() - exact.sqrt()).abs()
+        };
+        let mut moments =
+            (0..=ENVELOPE_MOMENTS).map(|i| seconds * f64::from(i) / f64::from(ENVELOPE_MOMENTS));
+        Some(moments.all(|t| off(t) <= VISIBLE))
+    }
+
+    fn are_conserved(&self) -> bool {
+        let is_conserved = |mode: &NormalMode| mode.is_conserved() && mode.omega_squared > 0.0;
+        self.modes.iter().all(|mode| is_conserved(mode.mode()))
+    }
+
+    /// The amplitude after `t` seconds, in units of the initial one. Modes that decay in truth contribute their growth only.
+    fn amplitude(&self, t: f64) -> f64 {
+        let conserved = self.are_conserved();
+        let energy = self.modes.iter().map(|SteppedMode { moved, stability, .. }| {
+            let growth = if stability.is_bounded() { 0.0 } else { stability.growth_per_s };
+            let rate = if conserved && growth <= 0.0 { -stability.loss_per_s } else { growth };
+            if moved.share > 0.0 {
+                moved.share * libm::exp(2.0 * rate.max(0.0) * t + 2.0 * rate.min(0.0) * t)
+            } else {
+                0.0
+            }
+        });
+        energy.sum::<f64>().sqrt()
+    }
+
+    /// The first time, up to [`FOREVER_S`], at which `is_past` is true of the amplitude.
+    fn reaches(&self, is_past: impl Fn(f64) -> bool) -> Option<f64> {
+        let (mut low, mut high) = (0.0, FIRST_LOOK_S);
+        while !is_past(self.amplitude(high)) {
+            (low, high) = (high, high * LOOKS_APART);
+            if low > FOREVER_S {
+                return None;
+            }
+        }
+        let [_, past] = bisect([low, high], 60, |t| !is_past(self.amplitude(t)));
+        Some(past)
+    }
+
+    /// The change of the motion within the horizon and later.
+    pub(super) fn change(&self, measure: Measure, horizon_s: f64) -> MotionChange {
+        let moves = self.modes.iter().any(|mode| mode.moved.share > 0.0);
+        let is_conserved = moves && self.are_conserved();
+        let reaches = |is_wanted: bool, is_past: fn(f64) -> bool| {
+            if is_wanted { self.reaches(is_past) } else { None }
+        };
+        let doubles_in_s = reaches(moves, |amplitude| amplitude >= 2.0);
+        let worst = self.modes.iter().filter_map(|mode| mode.stability.doubling_s());
+        let worst = worst.min_by(f64::total_cmp);
+        let amplitude = if moves { self.amplitude(horizon_s) } else { 1.0 };
+        let curves = self.main_curves().filter(|_| measure == Measure::Swing);
+        MotionChange {
+            long_term: LongTerm {
+                measure,
+                doubles_in_s,
+                halves_in_s: reaches(is_conserved, |amplitude| amplitude <= 0.5),
+                // A mode that has no energy at the start grows out of rounding.
+                parasite_doubles_in_s: worst
+                    .filter(|&worst| doubles_in_s.is_none_or(|all| worst < all / 2.0)),
+                is_bounded: Some(self.are_bounded()),
+            },
+            within: Trend::of(amplitude),
+            energy_change: is_conserved.then_some(amplitude * amplitude - 1.0),
+            frequency_error: self.frequency_error(),
+            early_s: curves
+                .filter(|_| is_conserved)
+                .map(|[truth, own]| own.lead_s(truth, horizon_s)),
+            width: curves.map(|[truth, own]| own.widest() / truth.widest()),
+        }
+    }
+}
+
+/// The first time at which the amplitude is evaluated, in seconds, and the ratio of each later time to the one before.
+const FIRST_LOOK_S: f64 = 1e-9;
+const LOOKS_APART: f64 = 1.05;

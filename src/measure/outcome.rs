@@ -1,0 +1,194 @@
+//! The outcomes of a run compared with the truth, and the sign and colour of each.
+
+use super::criterion::Criterion;
+use crate::run::race::Halt;
+
+/// The outcome of a run over the horizon, from best to worst.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Outcome {
+    /// The error is at rounding level.
+    Rounding,
+    /// It meets [`Criterion::Accurate`].
+    Accurate,
+    /// It meets [`Criterion::LooksRight`].
+    LooksRight,
+    /// Judging takes too much work, or the scene is shorter than a tick.
+    NotJudged,
+    /// The truth is not known, or not precisely enough.
+    NoTruth,
+    /// It neither grows nor dies away, and looks wrong.
+    Bounded,
+    /// The amplitude decreases, and in truth it does not.
+    DiesAway,
+    /// The amplitude grows, and in truth it does not.
+    Grows,
+    /// The method's solver failed.
+    GaveUp,
+    /// A value left the range of [`ESCAPE`](crate::run::race::ESCAPE) or was not finite.
+    BlewUp,
+}
+
+impl Outcome {
+    /// Every outcome, from best to worst.
+    pub const ALL: [Self; 10] = [
+        Self::Rounding,
+        Self::Accurate,
+        Self::LooksRight,
+        Self::NotJudged,
+        Self::NoTruth,
+        Self::Bounded,
+        Self::DiesAway,
+        Self::Grows,
+        Self::GaveUp,
+        Self::BlewUp,
+    ];
+
+    /// That of a body that halted.
+    pub fn of_halt(halt: &Halt) -> Self {
+        if halt.is_blow_up() { Self::BlewUp } else { Self::GaveUp }
+    }
+
+    /// Its name in output: that for people, in kebab case.
+    pub fn id(self) -> &'static str {
+        match self {
+            Outcome::Rounding | Outcome::Accurate => "accurate",
+            Outcome::LooksRight => "looks-right",
+            Outcome::NotJudged => "not-judged",
+            Outcome::NoTruth => "no-truth",
+            Outcome::Bounded => "bounded",
+            Outcome::DiesAway => "dies-away",
+            Outcome::Grows => "grows",
+            Outcome::GaveUp => "gives-up",
+            Outcome::BlewUp => "blows-up",
+        }
+    }
+
+    /// Its name for people.
+    pub fn text(self) -> &'static str {
+        match self {
+            Outcome::Rounding | Outcome::Accurate => "accurate",
+            Outcome::LooksRight => "looks right",
+            Outcome::NotJudged => "not judged",
+            Outcome::NoTruth => "no truth",
+            Outcome::Bounded => "bounded",
+            Outcome::DiesAway => "dies away",
+            Outcome::Grows => "grows",
+            Outcome::GaveUp => "gives up",
+            Outcome::BlewUp => "blows up",
+        }
+    }
+
+    /// Its meaning in one line.
+    pub fn about(self) -> &'static str {
+        match self {
+            Outcome::Rounding | Outcome::Accurate => {
+                "no coordinate or velocity is off by more than 1 % of its amplitude"
+            }
+            Outcome::LooksRight => {
+                "the swing is as wide as the true one within 5 %, its frequency right within 1 %; \
+                 without a swing, within 5 % of the range"
+            }
+            Outcome::NotJudged => "it takes too much work, or the scene is shorter than a tick",
+            Outcome::NoTruth => "the true motion is not known precisely enough",
+            Outcome::Bounded => "it neither grows nor dies away, and looks wrong",
+            Outcome::DiesAway => "the swing gets narrower, and in truth it does not",
+            Outcome::Grows => {
+                "the swing gets wider, or a small one would, and in truth it does not"
+            }
+            Outcome::GaveUp => "the method cannot solve its step",
+            Outcome::BlewUp => "a value is beyond all bounds",
+        }
+    }
+
+    /// Its sign.
+    pub fn sign(self) -> Sign {
+        match self {
+            Outcome::Rounding | Outcome::Accurate | Outcome::LooksRight => Sign::Disc,
+            Outcome::NotJudged | Outcome::NoTruth => Sign::Ring,
+            Outcome::Bounded => Sign::Diamond,
+            Outcome::DiesAway => Sign::Falling,
+            Outcome::Grows => Sign::Rising,
+            Outcome::GaveUp | Outcome::BlewUp => Sign::Cross,
+        }
+    }
+
+    /// How bad it is for a developer.
+    pub fn severity(self) -> Severity {
+        match self {
+            Outcome::Rounding | Outcome::Accurate => Severity::Fine,
+            Outcome::LooksRight => Severity::Fair,
+            Outcome::NotJudged | Outcome::NoTruth => Severity::Unknown,
+            Outcome::Bounded => Severity::Doubtful,
+            Outcome::DiesAway | Outcome::Grows | Outcome::GaveUp | Outcome::BlewUp => Severity::Bad,
+        }
+    }
+}
+
+impl Criterion {
+    /// The outcome of a lane that meets it, and no harder one.
+    pub fn outcome(self) -> Outcome {
+        match self {
+            Criterion::Bounded => Outcome::Bounded,
+            Criterion::LooksRight => Outcome::LooksRight,
+            Criterion::Accurate => Outcome::Accurate,
+        }
+    }
+}
+
+/// The shape that distinguishes verdicts without their colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sign {
+    /// Accurate, or, in a lighter colour, it looks right.
+    Disc,
+    /// Bounded, and no more.
+    Diamond,
+    /// It grows.
+    Rising,
+    /// It dies away.
+    Falling,
+    /// It is lost.
+    Cross,
+    /// Not known.
+    Ring,
+}
+
+impl Sign {
+    /// The sign as a character.
+    pub fn glyph(self) -> &'static str {
+        match self {
+            Sign::Disc => "●",
+            Sign::Diamond => "◆",
+            Sign::Rising => "▲",
+            Sign::Falling => "▼",
+            Sign::Cross => "×",
+            Sign::Ring => "○",
+        }
+    }
+}
+
+/// How bad a verdict is for a developer. Each severity has one colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// No error can be seen.
+    Fine,
+    /// An error can be measured, and hardly be seen.
+    Fair,
+    /// The error can be seen on a closer look.
+    Doubtful,
+    /// The error is seen at once.
+    Bad,
+    /// Nothing is known.
+    Unknown,
+}
+
+impl Severity {
+    /// The sign of a result without an outcome, such as that of a game loop.
+    pub fn sign(self) -> Sign {
+        match self {
+            Severity::Fine | Severity::Fair => Sign::Disc,
+            Severity::Doubtful => Sign::Diamond,
+            Severity::Bad => Sign::Cross,
+            Severity::Unknown => Sign::Ring,
+        }
+    }
+}

@@ -1,0 +1,326 @@
+//! One body under one method, stepped tick by tick and compared with its truth.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use super::energy::Energy;
+use super::swings::Swings;
+use super::truth::{BodyTruth, FollowedBody, LONG_RUN, TruthSeries, ticks};
+use super::verdict::RunFailure;
+use crate::run::race::{Chase, StopReason};
+use crate::scene::LaneSpec;
+use crate::sim::Stepper;
+use crate::sim::integrators::StepFailure;
+
+/// The most work of a run, in evaluations of one coordinate: a second or two.
+pub const MAX_WORK: u64 = 100_000_000;
+
+/// A swing of this many true amplitudes has grown, and a swing below the inverse has died away.
+const TWICE: f64 = 2.0;
+
+/// A swing that is [losing](Energy::is_losing) at the end of the long run is followed this many times as far: a shrinking
+/// orbit may still be ejected.
+const FOLLOWED_ON: u64 = 100;
+
+/// A swing below this part of the true one has come to rest.
+const AT_REST: f64 = 0.02;
+
+/// When a run ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Until {
+    /// At the end of the horizon, or when the error exceeds this many amplitudes.
+    Error(f64),
+    /// At the end of the horizon.
+    Horizon,
+    /// At the end of the horizon, with the swings measured step by step.
+    Swings,
+    /// At the end of the long run, or when the swing has grown.
+    Grown,
+    /// At the end of the long run.
+    LongRun,
+}
+
+/// What was measured on a run.
+#[derive(Clone, Debug)]
+pub(super) struct Run {
+    /// The largest error of a coordinate or a velocity over the horizon, in amplitudes, and its time. Infinite if the body
+    /// failed.
+    pub(super) error: f64,
+    pub(super) error_at_s: f64,
+    /// The largest error in the last twentieth of the horizon.
+    pub(super) last_error: f64,
+    /// The energy drift of largest magnitude over the horizon, in percent of the energy in motion.
+    pub(super) energy_drift: Option<f64>,
+    /// The failure of the body within the horizon.
+    pub(super) failure: Option<RunFailure>,
+    /// Why the truth failed, if it did.
+    pub(super) no_truth: Option<StepFailure>,
+    /// Whether the run was stopped because it took too much work.
+    pub(super) is_too_much: bool,
+    pub(super) evaluations: u64,
+    /// The simulated seconds within the horizon.
+    pub(super) seconds: f64,
+    /// All simulated seconds.
+    pub(super) followed_s: f64,
+    /// The horizon in seconds, in whole ticks.
+    pub(super) horizon_s: f64,
+    /// The failure of the body after the horizon.
+    pub(super) later: Option<RunFailure>,
+    /// The largest distance of a coordinate from its centre after a tick of the horizon, in amplitudes.
+    pub(super) widest: f64,
+    /// When a coordinate, and when a velocity, first reached twice its true amplitude.
+    pub(super) doubled_at: Option<f64>,
+    pub(super) velocity_doubled_at: Option<f64>,
+    /// Since when the swing stays below half the true amplitude.
+    pub(super) halved_at: Option<f64>,
+    /// Whether the swing was losing and was followed beyond the long run; and whether it came to rest there.
+    pub(super) is_losing: bool,
+    pub(super) has_come_to_rest: bool,
+    /// The mean change of the energy in the quarters of the horizon and of the long run, in units of the largest true
+    /// kinetic energy.
+    pub(super) quarters: [f64; 4],
+    pub(super) long_quarters: [f64; 4],
+    /// How the body closes on a target that stays, up to the first input.
+    pub(super) chase: Option<Chase>,
+    /// The swinging coordinate after each tick of the horizon.
+    pub(super) series: Vec<f64>,
+    /// The swings within the horizon, if they were to be measured and the body swings.
+    pub(super) swings: Option<Swings>,
+}
+
+/// Runs `truth`'s body under `spec` from its start.
+pub(super) async fn follow(
+    truth: &BodyTruth,
+    spec: LaneSpec,
+    tick_hz: u32,
+    until: Until,
+    max_work: u64,
+) -> Run {
+    let hz = f64::from(tick_hz);
+    let horizon = ticks(truth.horizon_s, tick_hz);
+    let end = match until {
+        Until::Error(_) | Until::Horizon | Until::Swings => horizon,
+        Until::Grown | Until::LongRun => ticks(LONG_RUN * truth.horizon_s, tick_hz).max(horizon),
+    };
+    // A run that is judged without its error needs no truth.
+    let max_work = max_work.min(truth.meter.budget_left());
+    let series = match until {
+        Until::Grown => None,
+        _ => Some(truth.series(tick_hz).await),
+    };
+    if series.as_ref().is_some_and(|series| series.is_too_much) {
+        return Run { is_too_much: true, ..Run::new(horizon as f64 / hz) };
+    }
+    let mut followed = truth.follow(spec.solver(), spec.substeps, tick_hz).within(max_work);
+    let stepper = &*followed.body.stepper;
+    let swings = truth.swing.as_ref().filter(|_| until == Until::Swings).map(|swing| {
+        let amplitudes = truth.amplitudes[..truth.centres.len()].to_vec();
+        Swings::new(swing.coordinate, truth.centres.clone(), amplitudes, stepper)
+    });
+    let mut measured = Measured {
+        chased_s: truth.inputs.first().map_or(truth.horizon_s, |input| input.at_s),
+        energy: Energy::of(stepper, truth, horizon, end),
+        run: Run { chase: Chase::new(stepper, 0.0), ..Run::new(horizon as f64 / hz) },
+        series,
+        until,
+        horizon,
+        hz,
+    };
+    followed.body.swings = swings;
+    let see = |body: &FollowedBody, tick| measured.take_in(truth, body, tick);
+    let mut stop = truth.go_on(&mut followed, end, see).await;
+    if stop == StopReason::End && end > horizon {
+        // The truth is not needed beyond the horizon.
+        measured.run.is_losing = measured.energy.is_losing() && truth.swing.is_some();
+        let stepper = &*followed.body.stepper;
+        if measured.run.is_losing && measured.run.is_undecided(stepper, truth) {
+            let see = |body: &FollowedBody, tick| measured.take_in(truth, body, tick);
+            stop = truth.go_on(&mut followed, FOLLOWED_ON * end, see).await;
+        }
+    }
+    measured.run.swings = followed.body.swings.take();
+    measured.end(stop, followed.ticks(), followed.t())
+}
+
+/// What is measured on a run on its way.
+struct Measured {
+    run: Run,
+    energy: Energy,
+    series: Option<Arc<TruthSeries>>,
+    until: Until,
+    horizon: u64,
+    hz: f64,
+    /// How long it is followed as it closes on a target, in seconds.
+    chased_s: f64,
+}
+
+impl Measured {
+    /// Measures the body after `tick` ticks, and breaks off where the rest is not needed.
+    fn take_in(&mut self, truth: &BodyTruth, body: &FollowedBody, tick: u64) -> ControlFlow<()> {
+        let (stepper, horizon) = (&*body.stepper, self.horizon);
+        let t = tick as f64 / self.hz;
+        let run = &mut self.run;
+        run.followed_s = t;
+        if tick <= horizon {
+            run.seconds = t;
+            run.evaluations = stepper.evaluations();
+            let first = stepper.q()[0];
+            let chased_s = self.chased_s;
+            run.chase.iter_mut().filter(|_| t <= chased_s).for_each(|it| it.take_in(first, t));
+            if let Some(series) = &self.series {
+                run.compare(stepper, series, truth, tick, horizon, t);
+                if let Some(swing) = &truth.swing {
+                    run.series.push(stepper.q()[swing.coordinate]);
+                    let places = stepper.q().iter().zip(&truth.centres).zip(&truth.amplitudes);
+                    let parts =
+                        places.map(|((q, centre), amplitude)| (q - centre).abs() / amplitude);
+                    run.widest = parts.fold(run.widest, f64::max);
+                }
+                if let Until::Error(enough) = self.until
+                    && (run.error > enough || run.no_truth.is_some())
+                {
+                    return ControlFlow::Break(());
+                }
+            }
+        }
+        let drift = self.energy.take_in(stepper, tick);
+        if tick <= horizon
+            && let Some((drift, part)) = drift.zip(self.energy.percent)
+        {
+            let percent = part * drift;
+            if run.energy_drift.is_none_or(|largest: f64| percent.abs() > largest.abs()) {
+                run.energy_drift = Some(percent);
+            }
+        }
+        run.watch_reach(stepper, truth, drift, t);
+        let is_needed = match self.until {
+            Until::Grown if run.has_grown() => false,
+            _ => !run.is_losing || run.is_undecided(stepper, truth),
+        };
+        if is_needed { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    }
+
+    /// The run, which has stopped after so many ticks, at time `t` (s).
+    fn end(self, stop: StopReason, ticks: u64, t: f64) -> Run {
+        let Self { mut run, energy, horizon, .. } = self;
+        (run.quarters, run.long_quarters) = (energy.horizon.means(), energy.long.means());
+        run.is_too_much = stop == StopReason::TooMuchWork;
+        let failure = RunFailure::of(stop, t);
+        if ticks < horizon {
+            run.failure = failure;
+        } else {
+            run.later = failure;
+        }
+        if run.failure.is_some() {
+            run.error = f64::INFINITY;
+            (run.error_at_s, run.last_error) = (run.seconds, f64::INFINITY);
+        }
+        run
+    }
+}
+
+impl Run {
+    fn new(horizon_s: f64) -> Self {
+        Self {
+            error: 0.0,
+            error_at_s: 0.0,
+            last_error: 0.0,
+            energy_drift: None,
+            failure: None,
+            no_truth: None,
+            is_too_much: false,
+            evaluations: 0,
+            seconds: 0.0,
+            horizon_s,
+            followed_s: 0.0,
+            later: None,
+            widest: 0.0,
+            doubled_at: None,
+            velocity_doubled_at: None,
+            halved_at: None,
+            is_losing: false,
+            has_come_to_rest: false,
+            quarters: [0.0; 4],
+            long_quarters: [0.0; 4],
+            chase: None,
+            series: Vec::new(),
+            swings: None,
+        }
+    }
+
+    fn compare(
+        &mut self,
+        stepper: &dyn Stepper,
+        series: &TruthSeries,
+        truth: &BodyTruth,
+        tick: u64,
+        horizon: u64,
+        t: f64,
+    ) {
+        let Some(exact) = series.at(tick) else {
+            self.no_truth = series.failure.clone();
+            return;
+        };
+        let values = stepper.q().iter().chain(stepper.v());
+        let parts = values.zip(exact).zip(&truth.amplitudes);
+        let parts = parts.map(|((x, exact), amplitude)| (x - exact).abs() / amplitude);
+        // Written so that NaN is kept.
+        let off = parts.fold(0.0, |off, part| if part <= off { off } else { part });
+        if off.is_nan() || off > self.error {
+            (self.error, self.error_at_s) = (off, t);
+        }
+        if 20 * tick > 19 * horizon {
+            self.last_error = if off <= self.last_error { self.last_error } else { off };
+        }
+    }
+
+    fn watch_reach(
+        &mut self,
+        stepper: &dyn Stepper,
+        truth: &BodyTruth,
+        drift: Option<f64>,
+        t: f64,
+    ) {
+        // The energy gives an oscillator's amplitude at every moment, its coordinates only at their peaks.
+        let swing = match drift {
+            Some(drift) if truth.is_oscillator() => (1.0 + drift).max(0.0).sqrt(),
+            _ => truth.reach.of_coordinates(stepper.q()),
+        };
+        if swing >= TWICE && self.doubled_at.is_none() {
+            self.doubled_at = Some(t);
+        }
+        if self.velocity_doubled_at.is_none() && truth.reach.of_velocities(stepper.v()) >= TWICE {
+            self.velocity_doubled_at = Some(t);
+        }
+        if swing * TWICE > 1.0 {
+            self.halved_at = None;
+        } else if self.halved_at.is_none() && truth.energy_scale.is_some() {
+            self.halved_at = Some(t);
+        }
+    }
+}
+
+impl Run {
+    /// Whether it was stopped within the horizon.
+    pub(super) fn is_cut_short(&self) -> bool {
+        self.is_too_much && self.seconds < self.horizon_s
+    }
+
+    /// Whether a coordinate or a velocity has reached twice its true amplitude.
+    fn has_grown(&self) -> bool {
+        self.doubled_at.is_some() || self.velocity_doubled_at.is_some()
+    }
+
+    /// Whether a swing that is losing neither grows nor has come to rest.
+    fn is_undecided(&mut self, stepper: &dyn Stepper, truth: &BodyTruth) -> bool {
+        !self.has_grown() && !self.rests(stepper, truth)
+    }
+
+    /// Whether coordinates and velocities are all near their values at rest.
+    fn rests(&mut self, stepper: &dyn Stepper, truth: &BodyTruth) -> bool {
+        let parts =
+            [truth.reach.of_coordinates(stepper.q()), truth.reach.of_velocities(stepper.v())];
+        self.has_come_to_rest = parts.iter().all(|&part| part <= AT_REST);
+        self.has_come_to_rest
+    }
+}

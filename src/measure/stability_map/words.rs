@@ -1,0 +1,86 @@
+//! A stability map in words.
+
+use std::fmt;
+
+use super::{Coverage, Here, StabilityMap};
+use crate::measure::duration;
+use crate::scene::LaneSpec;
+use crate::sim::number::counted;
+
+/// `bounded`, `grows ×2 in 3.1 s`, `fails at once`.
+impl fmt::Display for Here {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Here::Stable => f.write_str("bounded"),
+            Here::Doubles(seconds) if seconds > 0.0 => {
+                write!(f, "grows ×2 in {}", duration(seconds))
+            }
+            Here::Doubles(_) => f.write_str("fails at once"),
+            Here::OwnSteps => f.write_str("chooses its own steps"),
+        }
+    }
+}
+
+impl StabilityMap {
+    /// The names of the methods of the request, in its order, with what tells them apart.
+    pub fn method_names(&self) -> Vec<String> {
+        let specs: Vec<LaneSpec> = self.request.specs.iter().map(|(_, spec)| *spec).collect();
+        specs.iter().map(|spec| spec.distinct_name(spec.method.name, &specs)).collect()
+    }
+
+    /// What each method does at the present point, line by line.
+    pub fn each_here(&self) -> String {
+        let lines = self.method_names().into_iter().zip(&self.here);
+        lines.map(|(name, here)| format!("{name}: {here}")).collect::<Vec<_>>().join("\n")
+    }
+
+    /// How many methods are bounded at the present point, and which grows fastest.
+    pub fn stable_here(&self) -> String {
+        let of = |kind: Here| self.here.iter().filter(|here| **here == kind).count();
+        let (all, stable, own) = (self.here.len(), of(Here::Stable), of(Here::OwnSteps));
+        if stable == all && all > 1 {
+            return format!("all {all} methods are bounded.");
+        }
+        let verb = if stable == 1 { "is" } else { "are" };
+        let growing = self.method_names().into_iter().zip(&self.here);
+        let growing = growing.filter_map(|(name, here)| match here {
+            Here::Doubles(seconds) => Some((name, here, *seconds)),
+            Here::Stable | Here::OwnSteps => None,
+        });
+        let fastest = growing.min_by(|a, b| a.2.total_cmp(&b.2));
+        let fastest = fastest.map(|(name, here, _)| format!(" {name} {here}."));
+        let own = match own {
+            0 => String::new(),
+            1 => ", 1 picks its own steps".into(),
+            _ => format!(", {own} pick their own steps"),
+        };
+        let all = counted(all, "method");
+        format!("{stable} of {all} {verb} bounded{own}.{}", fastest.unwrap_or_default())
+    }
+
+    /// What the map does not draw: a sentence each, with a blank before it.
+    pub fn not_drawn(&self) -> String {
+        let named = |coverage: Coverage| {
+            let found = self.regions.iter().zip(self.method_names());
+            let of = found.filter(|(region, _)| region.coverage == coverage);
+            of.map(|(_, name)| name).collect::<Vec<_>>()
+        };
+        let (nowhere, own) = (named(Coverage::Nowhere), named(Coverage::OwnSteps));
+        let mut notes = String::new();
+        if !nowhere.is_empty() {
+            let verb = if nowhere.len() == 1 { "is" } else { "are" };
+            notes += &format!(" {} {verb} bounded nowhere on this map.", nowhere.join(", "));
+        }
+        if !own.is_empty() {
+            let verb = if own.len() == 1 { "picks its" } else { "pick their" };
+            notes += &format!(" {} {verb} own steps.", own.join(", "));
+        }
+        if !self.is_linear {
+            notes += " The map holds for small motions about rest.";
+        }
+        if self.truth_grows {
+            notes += " The true motion grows too; only growth beyond that counts.";
+        }
+        notes
+    }
+}

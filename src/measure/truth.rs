@@ -1,0 +1,368 @@
+//! What is known of the true motion of one body before any method is compared with it.
+
+use std::sync::Arc;
+
+use super::slices::Meter;
+use super::survey::{Ranges, TruthNode};
+use crate::run::race::Extent;
+use crate::scene::{Action, SceneBody, Scripted};
+use crate::sim::bodies::{Coordinates, Input, Truth};
+use crate::sim::integrators::{GENERAL_METHODS, Override, StepFailure};
+use crate::sim::stability::{NormalMode, normal_modes};
+use crate::sim::{Solver, Stepper};
+
+mod amplitudes;
+mod followed_body;
+mod reach;
+mod series;
+mod swing;
+mod walk;
+
+use amplitudes::{amplitudes, largest_alike};
+pub(super) use followed_body::{FollowedBody, ticks, work_of};
+pub(super) use reach::Reach;
+use reach::ReachSoFar;
+pub(super) use series::TruthSeries;
+use series::TruthSeriesByRate;
+pub(super) use swing::Swing;
+
+/// How many horizons the long run of a nonlinear body takes.
+pub const LONG_RUN: f64 = 20.0;
+
+/// The swings over which a body is followed that makes too few for its frequency within the horizon.
+const FOLLOWED_SWINGS: u32 = 4;
+
+/// Limits of [`BodyTruth::walk`], in moments and in products of the exact flow, n² for a chain of n masses.
+const MAX_MOMENTS: usize = 100_000;
+const MAX_REFERENCE_MOMENTS: usize = 20_000;
+const MIN_MOMENTS: usize = 512;
+const MAX_PRODUCTS: usize = 40_000_000;
+
+/// The tolerance within which a body without a closed form is followed over the long run, absolute and relative.
+const LONG_RUN_TOLERANCE: f64 = 1e-9;
+
+/// The work of one moment of an exact flow and of a reference solution, in evaluations of one coordinate, and the products
+/// of a flow's matrix that take as much as one.
+const WORK_OF_MOMENT: u64 = 64;
+const WORK_OF_REFERENCE_MOMENT: u64 = 256;
+const PRODUCTS_PER_EVALUATION: u64 = 4;
+
+/// The true motion of one body under one throttle.
+pub(super) struct BodyTruth {
+    pub(super) body: SceneBody,
+    pub(super) throttle: f64,
+    /// The script's actions on the body at the start, in order. The motion begins after them.
+    at_start: Vec<Action>,
+    /// The script's later actions on the body within the horizon, in order.
+    pub(super) inputs: Vec<Scripted>,
+    pub(super) horizon_s: f64,
+    /// The amplitude of each component of the state, coordinates first.
+    pub(super) amplitudes: Vec<f64>,
+    /// The centre of each coordinate's swing: the middle of its range, or the place of rest if it loses energy.
+    pub(super) centres: Vec<f64>,
+    /// How far it reaches over the long run, or until the truth fails.
+    pub(super) reach: Reach,
+    /// The normal modes of a linear body with its last parameters, and what the motion after the last input has of each.
+    pub(super) modes: Option<Vec<MovedMode>>,
+    /// The largest kinetic energy in joules, which is all the energy of an oscillator. `None` if energy is not conserved
+    /// or nothing moves.
+    pub(super) energy_scale: Option<f64>,
+    /// The energy that the motion exchanges, in joules, as the metric `energy_drift` defines it.
+    pub(super) exchanged_j: Option<f64>,
+    pub(super) swing: Option<Swing>,
+    /// How long it takes for its first swings, in seconds, if it makes too few for its frequency within the horizon, and
+    /// nothing disturbs them.
+    pub(super) first_swings_s: Option<f64>,
+    /// Why the truth is not known over the whole horizon; `None` if it is known.
+    pub(super) failure: Option<StepFailure>,
+    /// Whether it fails before anything has moved: no other walk gets further, and each would pay for it again.
+    fails_at_start: bool,
+    series_by_rate: TruthSeriesByRate,
+    /// What counts the work on it.
+    pub(super) meter: Arc<Meter>,
+}
+
+impl BodyTruth {
+    /// The amplitude of a component is half its true range, or that of the component of the same unit with the largest
+    /// range. The amplitude of a constant component is its value.
+    pub(super) async fn find(
+        body: &SceneBody,
+        inputs: &[Scripted],
+        throttle: f64,
+        horizon_s: f64,
+        meter: Arc<Meter>,
+    ) -> Self {
+        let (at_start, later) = inputs.iter().partition::<Vec<_>, _>(|input| input.at_s <= 0.0);
+        let later = later.into_iter().filter(|input| input.at_s < horizon_s);
+        let mut truth = Self {
+            body: body.clone(),
+            throttle,
+            at_start: at_start.into_iter().map(|input| input.action.clone()).collect(),
+            inputs: later.cloned().collect(),
+            horizon_s,
+            amplitudes: Vec::new(),
+            centres: Vec::new(),
+            reach: Reach::Each(Vec::new()),
+            modes: None,
+            energy_scale: None,
+            exchanged_j: None,
+            swing: None,
+            first_swings_s: None,
+            failure: None,
+            fails_at_start: false,
+            series_by_rate: TruthSeriesByRate::default(),
+            meter,
+        };
+        truth.survey().await;
+        truth
+    }
+
+    /// The body under `solver` at its start, after the script's actions at the start.
+    pub(super) fn start(&self, solver: Solver) -> Box<dyn Stepper> {
+        let mut stepper = (self.body.kind.build)(&self.body.values, solver);
+        stepper.input(0.0, Input::Throttle(self.throttle));
+        self.at_start.iter().for_each(|input| input.apply_to(&mut *stepper, 0.0));
+        stepper
+    }
+
+    /// The script's actions on the body at the start.
+    pub(super) fn inputs_at_start(&self) -> Vec<Scripted> {
+        let input = |action: &Action| Scripted { at_s: 0.0, action: action.clone() };
+        self.at_start.iter().map(input).collect()
+    }
+
+    /// When the last input comes, in seconds; 0 without one.
+    pub(super) fn last_input_s(&self) -> f64 {
+        self.inputs.last().map_or(0.0, |input| input.at_s)
+    }
+
+    /// The true state after the last input, or after the last that could be reached.
+    async fn after_inputs(&self) -> Box<dyn Stepper> {
+        let mut body = self.start(Solver::Truth);
+        let mut t = 0.0;
+        for input in &self.inputs {
+            if body.advance(t, input.at_s - t, 1).is_err() {
+                break;
+            }
+            t = input.at_s;
+            input.action.apply_to(&mut *body, t);
+            self.meter.pass(self.work_of_moment()).await;
+        }
+        body
+    }
+
+    /// The body in its initial state, with the parameters that are in force after the last input.
+    pub(super) fn with_last_parameters(&self) -> Box<dyn Stepper> {
+        let mut body = self.start(Solver::Truth);
+        let is_parameter = |input: &&Scripted| matches!(input.action, Action::Set { .. });
+        self.inputs
+            .iter()
+            .filter(is_parameter)
+            .for_each(|it| it.action.apply_to(&mut *body, it.at_s));
+        body
+    }
+
+    pub(super) fn coordinates(&self) -> Coordinates {
+        self.body.kind.coordinates(&self.body.values)
+    }
+
+    /// The work of one moment of the true motion, in evaluations of one coordinate.
+    pub(super) fn work_of_moment(&self) -> u64 {
+        let n = self.coordinates().len() as u64;
+        match self.body.kind.truth {
+            Truth::Exact => WORK_OF_MOMENT + n * n / PRODUCTS_PER_EVALUATION,
+            Truth::Reference => WORK_OF_REFERENCE_MOMENT * n,
+        }
+    }
+
+    async fn survey(&mut self) {
+        let mut body = self.start(Solver::Truth);
+        let n = body.q().len();
+        let max_moments = match self.body.kind.truth {
+            Truth::Exact => MAX_MOMENTS,
+            Truth::Reference => MAX_REFERENCE_MOMENTS,
+        };
+        let most = (MAX_PRODUCTS / (n * n)).clamp(MIN_MOMENTS, max_moments);
+        let after_inputs = self.after_inputs().await;
+        self.modes = normal_modes(&*after_inputs).map(|modes| moved(&*after_inputs, modes));
+        let mut there = self.start(Solver::Truth);
+        let mut reach = ReachSoFar::new(Ranges::at(&*body), &self.body);
+        let mut kinetic: f64 = body.kinetic_energy().unwrap_or(0.0);
+        let mut extent = Extent::default();
+        extent.cover(0.0, body.kinetic_energy());
+        let conserves = body.energy().is_some() && self.inputs.is_empty();
+        let mut has_moved = false;
+        // A reference is dear: what was seen of it is kept.
+        let mut seen = (self.body.kind.truth == Truth::Reference).then(Vec::new);
+        let see = |from: &TruthNode, to: &TruthNode| {
+            has_moved = true;
+            seen.iter_mut().for_each(|seen| seen.push((from.clone(), to.clone())));
+            reach.take_in(from, to);
+            for moment in fastest(from, to).into_iter().filter(|_| conserves) {
+                there.set(0.0, &moment.x[..n], &moment.x[n..]);
+                let now = there.kinetic_energy();
+                kinetic = kinetic.max(now.unwrap_or(0.0));
+                extent.cover(0.0, now);
+            }
+        };
+        let walked = self.walk(&mut *body, Solver::Truth, self.horizon_s, most, see).await;
+        self.exchanged_j = extent.exchanged_j(&*self.start(Solver::Truth));
+        self.failure = walked.err();
+        self.fails_at_start = self.failure.is_some() && !has_moved;
+        self.amplitudes = amplitudes(&reach.ranges.0, &self.coordinates());
+        self.energy_scale =
+            Some(kinetic).filter(|&scale| conserves && scale > 0.0 && scale.is_finite());
+        let middle = |range: &(f64, f64)| range.0 + (range.1 - range.0) / 2.0;
+        self.centres = reach.ranges.0[..n].iter().map(middle).collect();
+        if self.failure.is_none() && self.energy_scale.is_some() {
+            self.swing = self.watch(&self.centres, seen.as_deref(), most).await;
+        }
+        let returns = self.swing.as_ref().is_some_and(|swing| swing.crossings.len() > 2);
+        let mut first_swings_s = self.first_swings_of_modes_s();
+        if !self.is_oscillator() && !returns && !self.fails_at_start {
+            // Other motions are followed beyond the horizon, as far as the truth goes.
+            let is_close = self.body.kind.truth == Truth::Reference && self.failure.is_none();
+            let close = match is_close {
+                true => self.long_run(close_solver(), most).await.ok(),
+                false => None,
+            };
+            let long = match close {
+                Some(long) => long,
+                None => self.long_run(Solver::Truth, most).await.unwrap_or_else(|long| long),
+            };
+            reach = long.reach;
+            first_swings_s = first_swings_s.or(long.first_swings_s);
+            if self.energy_scale.is_none() && !long.means.is_empty() {
+                // A motion that comes to rest swings about its place of rest.
+                self.centres = long.means;
+            }
+        }
+        // What is knocked away from a target that stays does not swing about it.
+        let is_chase = body.pursuit(0.0).is_some_and(|pursuit| pursuit.is_still);
+        if self.failure.is_none() && self.energy_scale.is_none() && !is_chase {
+            self.swing = self.watch(&self.centres, seen.as_deref(), most).await;
+        }
+        self.reach = reach.reach(&self.body, &self.centres, &self.amplitudes);
+        let is_short = !self.swing.as_ref().is_some_and(Swing::has_a_frequency);
+        let is_left_alone = self.inputs.is_empty() && !is_chase && self.failure.is_none();
+        self.first_swings_s =
+            first_swings_s.filter(|&s| is_short && is_left_alone && s > self.horizon_s);
+    }
+
+    /// How long the slowest mode of an undamped linear body that moves takes for its first swings, in seconds.
+    fn first_swings_of_modes_s(&self) -> Option<f64> {
+        let modes = self.modes.iter().flatten().filter(|moved| moved.share > 0.0);
+        let slowest = modes.filter_map(|moved| moved.mode.swing()).min_by(f64::total_cmp)?;
+        let period_s = std::f64::consts::TAU / slowest;
+        self.is_oscillator().then_some(f64::from(FOLLOWED_SWINGS) * period_s)
+    }
+
+    /// The motion over the long run under this solver.
+    ///
+    /// # Errors
+    /// If the solver fails: the motion up to there.
+    async fn long_run(&self, solver: Solver, most: usize) -> Result<LongRun, LongRun> {
+        let mut body = self.start(solver);
+        let mut reach = ReachSoFar::new(Ranges::at(&*body), &self.body);
+        let mut sums = vec![0.0; body.q().len()];
+        let mut seconds = 0.0;
+        let n = sums.len();
+        let mut turns = vec![0; n];
+        let mut first_swings_s = None;
+        let see = |from: &TruthNode, to: &TruthNode| {
+            reach.take_in(from, to);
+            for (i, turns) in turns.iter_mut().enumerate() {
+                *turns += u32::from((from.x[n + i] < 0.0) != (to.x[n + i] < 0.0));
+                if *turns >= 2 * FOLLOWED_SWINGS {
+                    first_swings_s = first_swings_s.or(Some(to.t));
+                }
+            }
+            seconds += to.t - from.t;
+            for (i, sum) in sums.iter_mut().enumerate() {
+                *sum += (to.t - from.t) * (from.x[i] + to.x[i]) / 2.0;
+            }
+        };
+        let walked = self.walk(&mut *body, solver, LONG_RUN * self.horizon_s, most, see).await;
+        let means =
+            if seconds > 0.0 { sums.iter().map(|sum| sum / seconds).collect() } else { Vec::new() };
+        let long = LongRun { reach, means, first_swings_s };
+        if walked.is_ok() { Ok(long) } else { Err(long) }
+    }
+
+    /// Whether a reference solution would take too much work, so that there is none.
+    pub(super) fn is_too_dear(&self) -> bool {
+        matches!(self.failure, Some(StepFailure::ReferenceTooExpensive { .. }))
+    }
+
+    /// Whether the body is linear and all its modes are undamped oscillations.
+    pub(super) fn is_oscillator(&self) -> bool {
+        self.modes.as_ref().is_some_and(|modes| {
+            modes.iter().all(|moved| moved.mode.is_conserved() && moved.mode.omega_squared > 0.0)
+        })
+    }
+}
+
+/// The motion over the long run.
+struct LongRun {
+    reach: ReachSoFar,
+    /// The mean of each coordinate; empty if it was not followed.
+    means: Vec<f64>,
+    /// When a coordinate has turned back twice for each of the first swings, in seconds.
+    first_swings_s: Option<f64>,
+}
+
+/// The solver of highest order among those that choose their steps, at [`LONG_RUN_TOLERANCE`]: how far a motion reaches in
+/// the long run, and where it rests, needs no reference, which takes ten times the work.
+fn close_solver() -> Solver {
+    let adaptive = GENERAL_METHODS.iter().filter(|method| method.tolerance.is_some());
+    let method = adaptive.max_by_key(|method| method.order).expect("a method is adaptive");
+    Solver::With(method, Override::tolerance(LONG_RUN_TOLERANCE))
+}
+
+/// The second of two moments, and 15 between them if a velocity has an extreme there.
+fn fastest(from: &TruthNode, to: &TruthNode) -> Vec<TruthNode> {
+    let n = to.x.len() / 2;
+    let turns = (n..2 * n).any(|i| from.slope[i] * to.slope[i] < 0.0);
+    let steps = if turns { 1..=16 } else { 16..=16 };
+    let at = |step: i32| {
+        let part = f64::from(step) / 16.0;
+        let x = (0..2 * n).map(|i| from.between(to, i, part)).collect();
+        TruthNode { t: from.t + part * (to.t - from.t), x, slope: to.slope.clone() }
+    };
+    steps.map(at).collect()
+}
+
+/// A normal mode and what a motion has of it.
+pub(super) struct MovedMode {
+    pub(super) mode: NormalMode,
+    /// The distance from its equilibrium and the velocity at which the motion begins.
+    pub(super) q: f64,
+    pub(super) v: f64,
+    /// Its share of the energy of the motion.
+    pub(super) share: f64,
+}
+
+/// What the motion of `body` from its present state has of each of its `modes`.
+fn moved(body: &dyn Stepper, modes: Vec<NormalMode>) -> Vec<MovedMode> {
+    let n = body.q().len();
+    let mut push = vec![0.0; n];
+    body.acceleration(0.0, &vec![0.0; n], &vec![0.0; n], &mut push);
+    let moved = |mode: NormalMode| {
+        let (push, omega2) = (mode.part(&push), mode.omega_squared);
+        let (mut q, mut v) = (mode.part(body.q()), mode.part(body.v()));
+        if omega2 > 0.0 {
+            q -= push / omega2;
+        } else if mode.damping_per_s > 0.0 {
+            v -= push / mode.damping_per_s;
+        }
+        MovedMode { mode, q, v, share: v * v + omega2 * q * q }
+    };
+    let mut modes: Vec<MovedMode> = modes.into_iter().map(moved).collect();
+    let all: f64 = modes.iter().map(|moved| moved.share).sum();
+    let is_known = all > 0.0 && all.is_finite();
+    modes.iter_mut().for_each(|moved| moved.share = if is_known { moved.share / all } else { 0.0 });
+    modes
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,163 @@
+//! One body under one solver, followed from its start, and the work of that.
+
+use std::ops::ControlFlow;
+
+use super::BodyTruth;
+use crate::measure::swings::Swings;
+use crate::run::race::{Follow, StopReason, Ticked, advance_checked};
+use crate::scene::Action;
+use crate::sim::bodies::Coordinates;
+use crate::sim::integrators::{Family, StepFailure};
+use crate::sim::stability::Tick;
+use crate::sim::{Solver, Stepper};
+
+/// The work of a tick beside its evaluations, for each coordinate: comparing it with the truth, and its energy.
+const WORK_OF_TICK: u64 = 4;
+
+/// The number of coordinates above which an implicit method spends more work on its matrix than on evaluations.
+const SMALL_MATRIX: u64 = 20;
+
+/// Ticks between two checks of the work done, for a body of one coordinate.
+const TICKS_PER_LOOK: u64 = 64;
+
+/// The work of `evaluations` evaluations of a body of `n` coordinates, in evaluations of one.
+pub(in crate::measure) fn work_of(evaluations: u64, n: u64, solver: Solver) -> u64 {
+    let has_matrix = solver
+        .method()
+        .is_some_and(|method| matches!(method.family, Family::Implicit | Family::Linearised));
+    let matrix = if has_matrix { n / SMALL_MATRIX } else { 0 };
+    evaluations.saturating_mul(n * (1 + matrix))
+}
+
+/// A body that is stepped alone.
+pub(in crate::measure) struct FollowedBody {
+    pub(in crate::measure) stepper: Box<dyn Stepper>,
+    coordinates: Coordinates,
+    solver: Solver,
+    substeps: u32,
+    /// The energy at the start and what the inputs have added, in joules.
+    pub(in crate::measure) base_j: f64,
+    /// Its swings, if they are measured.
+    pub(in crate::measure) swings: Option<Swings>,
+    /// The work of each tick of a true motion, by which all its work is counted.
+    work_of_moment: u64,
+    /// The work that was counted.
+    counted: u64,
+}
+
+/// A body from its start on, with the inputs of the script.
+pub(in crate::measure) type FollowedRun = Follow<'static, FollowedBody>;
+
+impl BodyTruth {
+    /// The body before its first tick under `solver` at this rate.
+    pub(in crate::measure) fn follow(
+        &self,
+        solver: Solver,
+        substeps: u32,
+        tick_hz: u32,
+    ) -> FollowedRun {
+        let mut body = FollowedBody {
+            stepper: self.start(solver),
+            coordinates: self.coordinates(),
+            solver,
+            substeps,
+            base_j: 0.0,
+            swings: None,
+            work_of_moment: self.work_of_moment(),
+            counted: 0,
+        };
+        body.base_j = body.energy();
+        Follow::new(body, tick_hz).with_script(self.inputs.clone())
+    }
+
+    /// Goes on until `end` ticks are made, or `see` breaks off.
+    pub(in crate::measure) async fn go_on(
+        &self,
+        run: &mut FollowedRun,
+        end: u64,
+        mut see: impl FnMut(&FollowedBody, u64) -> ControlFlow<()>,
+    ) -> StopReason {
+        loop {
+            let (left, mut is_paused) = (self.meter.left(), false);
+            let stop = run.run(end, |body, tick| {
+                see(body, tick)?;
+                is_paused = body.has_worked_more(body.counted.saturating_add(left), tick);
+                if is_paused { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
+            let work = run.body.work(run.ticks());
+            let new = work - run.body.counted;
+            run.body.counted = work;
+            self.meter.count(new).await;
+            if !is_paused {
+                return stop;
+            }
+        }
+    }
+}
+
+impl FollowedBody {
+    /// The work done in this many ticks, in evaluations of one coordinate.
+    fn work(&self, ticks: u64) -> u64 {
+        if self.solver == Solver::Truth {
+            return self.work_of_moment * ticks;
+        }
+        let (n, evaluations) = (self.stepper.q().len() as u64, self.stepper.evaluations());
+        let steps = match self.stepper.is_sparse() {
+            true => evaluations.saturating_mul(n),
+            false => work_of(evaluations, n, self.solver),
+        };
+        steps.saturating_add(WORK_OF_TICK * n * ticks)
+    }
+
+    /// The kinetic and the potential energy in joules.
+    pub(in crate::measure) fn energies(&self) -> [f64; 2] {
+        self.stepper.mechanical_energy().unwrap_or([0.0; 2])
+    }
+
+    /// The energy in joules.
+    pub(in crate::measure) fn energy(&self) -> f64 {
+        let [kinetic, potential] = self.energies();
+        kinetic + potential
+    }
+}
+
+impl Ticked for FollowedBody {
+    fn act(&mut self, _: u64, t: f64, action: &Action) {
+        let before = self.energy();
+        if let Some(swings) = &mut self.swings {
+            swings.end(&*self.stepper);
+        }
+        action.apply_to(&mut *self.stepper, t);
+        if let Some(swings) = &mut self.swings {
+            swings.go_on(&*self.stepper, t);
+        }
+        self.base_j += self.energy() - before;
+    }
+
+    fn tick(&mut self, _: u64, t: f64, h: f64) -> Result<(), StepFailure> {
+        let Self { stepper, coordinates, solver, substeps, swings, .. } = self;
+        let Some(swings) = swings else {
+            return advance_checked(&mut **stepper, coordinates, (t, h), *substeps);
+        };
+        let (step, times) = Tick { t, h, substeps: *substeps }.repeated(solver.method());
+        for i in 0..times {
+            let t = t + f64::from(i) * step.h;
+            advance_checked(&mut **stepper, coordinates, (t, step.h), step.substeps)?;
+            swings.add(&**stepper, t + step.h);
+        }
+        Ok(())
+    }
+
+    fn has_worked_more(&self, than: u64, ticks: u64) -> bool {
+        let ticks_per_look = (TICKS_PER_LOOK / self.coordinates.len() as u64).max(1);
+        ticks.is_multiple_of(ticks_per_look) && self.work(ticks) > than
+    }
+}
+
+/// The part of a tick by which the end of a span may come early: its time is rounded.
+const ON_TIME: f64 = 1e-6;
+
+/// The number of whole ticks of this rate in `seconds`.
+pub(in crate::measure) fn ticks(seconds: f64, tick_hz: u32) -> u64 {
+    (seconds * f64::from(tick_hz) + ON_TIME).floor() as u64
+}

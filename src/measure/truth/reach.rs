@@ -1,0 +1,109 @@
+//! How far the true motion reaches, by which the growth of a swing is told.
+
+use super::{TruthNode, largest_alike};
+use crate::measure::survey::Ranges;
+use crate::scene::SceneBody;
+
+/// A force whose part across the way to the centre is smaller than this part of it points to the centre.
+const CENTRAL: f64 = 1e-9;
+
+/// A motion whose direction differs from that to the centre by more than this part turns about the centre.
+const TURNS: f64 = 1e-6;
+
+/// How far the true motion reaches in the long run.
+pub(in crate::measure) enum Reach {
+    /// The middle and half the range of each component: coordinates first.
+    Each(Vec<(f64, f64)>),
+    /// The largest distance from the centre at the origin, and the largest speed, of a motion that turns about it. The
+    /// ellipse that it follows may turn, too, which is no growth.
+    Centre { distance: f64, speed: f64 },
+}
+
+impl Reach {
+    /// How far these coordinates reach, in units of the true motion's reach.
+    pub(in crate::measure) fn of_coordinates(&self, q: &[f64]) -> f64 {
+        match self {
+            Reach::Each(parts) => farthest(q, &parts[..q.len()]),
+            Reach::Centre { distance, .. } => length(q) / distance,
+        }
+    }
+
+    /// How far these velocities reach, in units of the true motion's reach.
+    pub(in crate::measure) fn of_velocities(&self, v: &[f64]) -> f64 {
+        match self {
+            Reach::Each(parts) => farthest(v, &parts[v.len()..]),
+            Reach::Centre { speed, .. } => length(v) / speed,
+        }
+    }
+}
+
+fn farthest(values: &[f64], parts: &[(f64, f64)]) -> f64 {
+    let parts = values.iter().zip(parts).map(|(x, (middle, half))| (x - middle).abs() / half);
+    parts.fold(0.0, f64::max)
+}
+
+fn length(values: &[f64]) -> f64 {
+    values.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// The part of `a` that is across `along`, as a part of its length.
+fn across(a: &[f64], along: &[f64]) -> f64 {
+    let (dot, square) = a
+        .iter()
+        .zip(along)
+        .fold((0.0, 0.0), |(dot, square), (a, along)| (dot + a * along, square + along * along));
+    let rest = a.iter().zip(along).map(|(a, along)| a - dot / square * along);
+    rest.map(|x| x * x).sum::<f64>().sqrt() / length(a)
+}
+
+/// Collects the reach of the true motion.
+#[derive(Clone)]
+pub(super) struct ReachSoFar {
+    pub(super) ranges: Ranges,
+    /// Whether all forces so far point to or from the origin, in the space of coordinates of one unit.
+    is_central: bool,
+    turns: bool,
+    distance: f64,
+    speed: f64,
+}
+
+impl ReachSoFar {
+    pub(super) fn new(ranges: Ranges, body: &SceneBody) -> Self {
+        let coordinates = body.kind.coordinates(&body.values);
+        let is_central =
+            coordinates.len() > 1 && coordinates.units().all(|unit| unit == coordinates.at(0).unit);
+        Self { ranges, is_central, turns: false, distance: 0.0, speed: 0.0 }
+    }
+
+    pub(super) fn take_in(&mut self, from: &TruthNode, to: &TruthNode) {
+        self.ranges.take_in(from, to);
+        if !self.is_central {
+            return;
+        }
+        for moment in [from, to] {
+            let n = moment.x.len() / 2;
+            let (q, v) = moment.x.split_at(n);
+            let a = &moment.slope[n..];
+            self.is_central &= length(q) > 0.0 && across(a, q) <= CENTRAL;
+            self.turns |= across(v, q) > TURNS;
+            self.distance = self.distance.max(length(q));
+            self.speed = self.speed.max(length(v));
+        }
+    }
+
+    /// The reach about `centres`, one per coordinate, of at least these amplitudes.
+    pub(super) fn reach(&self, body: &SceneBody, centres: &[f64], amplitudes: &[f64]) -> Reach {
+        if self.is_central && self.turns {
+            return Reach::Centre { distance: self.distance, speed: self.speed };
+        }
+        let coordinates = body.kind.coordinates(&body.values);
+        let about = |(i, (low, high)): (usize, &(f64, f64))| {
+            let centre = centres.get(i).copied().unwrap_or(low + (high - low) / 2.0);
+            (centre, (high - centre).max(centre - low).max(amplitudes[i]))
+        };
+        let each: Vec<(f64, f64)> = self.ranges.0.iter().enumerate().map(about).collect();
+        let halves: Vec<f64> = each.iter().map(|(_, half)| *half).collect();
+        let largest = largest_alike(&coordinates, &halves);
+        Reach::Each(each.iter().map(|(centre, _)| *centre).zip(largest).collect())
+    }
+}

@@ -1,0 +1,105 @@
+//! The true states of one body at the ticks of one rate, and the inputs at those ticks.
+
+use std::collections::HashMap;
+use std::ops::ControlFlow;
+use std::sync::{Arc, Mutex};
+
+use super::{BodyTruth, FollowedBody, ticks};
+use crate::measure::slices::Once;
+use crate::run::race::StopReason;
+use crate::sim::Solver;
+use crate::sim::integrators::StepFailure;
+
+/// The most products of the exact flow for one series: less than a second of work.
+const MAX_SERIES_PRODUCTS: u64 = 500_000_000;
+
+/// The most values that are cached, some thirty megabytes: a rope's at each of the rates that a search of margins tries. A
+/// full cache is cleared.
+const MAX_KEPT: usize = 1 << 22;
+
+/// The cached series by tick rate in Hz. Of several threads that ask for one, the first computes it.
+pub(in crate::measure) type TruthSeriesByRate = Mutex<HashMap<u32, Arc<Once<Arc<TruthSeries>>>>>;
+
+/// The true states at the ticks of one rate.
+pub(in crate::measure) struct TruthSeries {
+    /// The components after each tick, tick after tick.
+    values: Vec<f64>,
+    components: usize,
+    /// The largest error of the truth up to each tick, in amplitudes.
+    gaps: Vec<f64>,
+    pub(in crate::measure) failure: Option<StepFailure>,
+    /// Whether the series was not computed because it would take too much work.
+    pub(in crate::measure) is_too_much: bool,
+}
+
+impl TruthSeries {
+    /// The components after `tick` ticks, from 1; `None` after the truth has failed.
+    pub(in crate::measure) fn at(&self, tick: u64) -> Option<&[f64]> {
+        let from = (tick as usize - 1) * self.components;
+        self.values.get(from..from + self.components)
+    }
+
+    /// The largest error of the truth up to `tick` ticks, in amplitudes; infinite after the truth has failed.
+    pub(in crate::measure) fn gap(&self, tick: u64) -> f64 {
+        self.gaps.get(tick as usize - 1).copied().unwrap_or(f64::INFINITY)
+    }
+}
+
+impl BodyTruth {
+    /// The largest error of the truth up to this moment, in amplitudes, at the ticks of this rate.
+    pub(in crate::measure) async fn gap(&self, seconds: f64, tick_hz: u32) -> f64 {
+        self.series(tick_hz).await.gap(ticks(seconds, tick_hz).max(1))
+    }
+
+    /// The true states at the ticks of this rate, up to the horizon.
+    pub(in crate::measure) async fn series(&self, tick_hz: u32) -> Arc<TruthSeries> {
+        let once = {
+            let mut series_by_rate = self.series_by_rate.lock().expect("no thread panics with it");
+            let known = series_by_rate.values().filter_map(|once| once.found());
+            let held: usize = known.map(|series| series.values.len()).sum();
+            if held > MAX_KEPT && !series_by_rate.contains_key(&tick_hz) {
+                series_by_rate.clear();
+            }
+            Arc::clone(series_by_rate.entry(tick_hz).or_default())
+        };
+        Arc::clone(once.get(async { Arc::new(self.compute_series(tick_hz).await) }).await)
+    }
+
+    async fn compute_series(&self, tick_hz: u32) -> TruthSeries {
+        let n = self.coordinates().len();
+        let mut series = TruthSeries {
+            values: Vec::new(),
+            components: 2 * n,
+            gaps: Vec::new(),
+            failure: None,
+            is_too_much: false,
+        };
+        let mut gap: f64 = 0.0;
+        let ticks = ticks(self.horizon_s, tick_hz);
+        let is_spent = self.meter.budget_left() == 0;
+        if is_spent || ticks.saturating_mul((n * n) as u64) > MAX_SERIES_PRODUCTS {
+            series.is_too_much = true;
+            return series;
+        }
+        if self.fails_at_start && ticks > 0 {
+            series.failure.clone_from(&self.failure);
+            return series;
+        }
+        let mut run = self.follow(Solver::Truth, 1, tick_hz);
+        let see = |body: &FollowedBody, _| {
+            let body = &*body.stepper;
+            series.values.extend(body.q().iter().chain(body.v()));
+            let off = body.truth_error().unwrap_or([0.0; 2]);
+            for (i, amplitude) in self.amplitudes.iter().enumerate() {
+                let part = off[i / n] / amplitude;
+                gap = if part <= gap { gap } else { part };
+            }
+            series.gaps.push(gap);
+            ControlFlow::Continue(())
+        };
+        if let StopReason::Failed(failure) = self.go_on(&mut run, ticks, see).await {
+            series.failure = Some(failure);
+        }
+        series
+    }
+}

@@ -1,0 +1,126 @@
+//! The true swing of a body: its crossings and the width of its half turns.
+
+use super::{BodyTruth, TruthNode};
+use crate::measure::amplitude::Measure;
+use crate::measure::limits::{FREQUENCY_TOLERANCE, VISIBLE};
+use crate::sim::Solver;
+use crate::sim::bisection::bisect;
+
+/// The share of the energy from which on a mode is all of the motion.
+const ONE_MODE: f64 = 0.99;
+
+/// A crossing slower than this part of the largest speed does not count as a swing.
+const FAINT: f64 = 1e-3;
+
+/// The true swing of a body.
+pub(in crate::measure) struct Swing {
+    /// The coordinate whose crossings are counted.
+    pub(in crate::measure) coordinate: usize,
+    /// When it crosses its centre upwards, in seconds.
+    pub(in crate::measure) crossings: Vec<f64>,
+    /// The largest distance of any coordinate from its centre, in amplitudes, in each of its half turns: before the
+    /// swinging coordinate first passes its centre, between one passage and the next, and after the last.
+    pub(in crate::measure) half_turns: Vec<f64>,
+}
+
+impl Swing {
+    /// The largest distance of any coordinate from its centre, in amplitudes.
+    pub(in crate::measure) fn widest(&self) -> f64 {
+        self.half_turns.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// The largest error, in amplitudes, of a harmonic motion that is this many seconds early or late.
+    pub(in crate::measure) fn error_when(&self, early_s: f64) -> f64 {
+        let half_turns = (early_s.abs() / self.period()).min(0.5);
+        2.0 * libm::sin(std::f64::consts::PI * half_turns)
+    }
+
+    /// Whether a lane swings as wide as the truth in each of its half turns from the one with index `first` on, within
+    /// [`VISIBLE`] of the widest; they may come earlier or later. The last of each may be cut off by the end of the horizon.
+    pub(in crate::measure) fn is_as_wide(&self, lane: &[f64], first: usize) -> bool {
+        let whole = |half_turns: &[f64]| half_turns.len().saturating_sub(1).max(1);
+        let widest = |half_turns: &[f64]| half_turns.iter().copied().fold(0.0, f64::max);
+        let (wanted, found) = (whole(&self.half_turns), whole(lane));
+        let most = VISIBLE * self.widest();
+        let both = wanted.min(found);
+        let mut pairs = lane.iter().zip(&self.half_turns).take(both).skip(first);
+        // A slow lane makes fewer half turns and a fast one more. What has come to rest makes no more.
+        let unpaired = |half_turns: &[f64], count: usize| {
+            let fewest = (1.0 - FREQUENCY_TOLERANCE) * count as f64 - 2.0;
+            widest(half_turns.get(both..(fewest.max(both as f64) as usize)).unwrap_or_default())
+        };
+        !lane.is_empty()
+            && pairs.all(|(lane, truth)| (lane - truth).abs() <= most)
+            && unpaired(&self.half_turns, wanted) <= most
+            && unpaired(lane, found) <= most
+    }
+}
+
+impl BodyTruth {
+    /// The quantity that grows or dies away.
+    pub(in crate::measure) fn measure(&self) -> Measure {
+        match (&self.swing, &self.modes) {
+            (None, _) => Measure::Deviation,
+            (Some(_), Some(modes)) if modes.iter().all(|moved| moved.share < ONE_MODE) => {
+                Measure::Modes
+            }
+            (Some(_), None) if self.coordinates().len() > 1 => Measure::Reach,
+            _ => Measure::Swing,
+        }
+    }
+
+    /// The swing about `middles`, one per coordinate, from the moments that were `seen` if they were kept.
+    pub(super) async fn watch(
+        &self,
+        middles: &[f64],
+        seen: Option<&[(TruthNode, TruthNode)]>,
+        most: usize,
+    ) -> Option<Swing> {
+        let n = middles.len();
+        let mut crossings = vec![Vec::new(); n];
+        let mut passages = vec![Vec::new(); n];
+        let fast: Vec<f64> = self.amplitudes[n..].iter().map(|v| FAINT * v).collect();
+        let mut peaks: Vec<(f64, f64)> = Vec::new();
+        let mut body = self.start(Solver::Truth);
+        let mut see = |from: &TruthNode, to: &TruthNode| {
+            let mut peak: f64 = 0.0;
+            for i in 0..n {
+                let (a, b) = (from.x[i] - middles[i], to.x[i] - middles[i]);
+                peak = peak.max(a.abs().max(b.abs()) / self.amplitudes[i]);
+                if (a < 0.0) != (b < 0.0) {
+                    passages[i].push(to.t);
+                }
+                if a < 0.0 && b >= 0.0 && to.t > from.t && to.x[n + i] > fast[i] {
+                    crossings[i].push(crossing(from, to, i, middles[i]));
+                }
+                if from.slope[i] * to.slope[i] < 0.0 {
+                    let within = (1..8).map(|s| from.between(to, i, f64::from(s) / 8.0));
+                    let most = within.map(|x| (x - middles[i]).abs()).fold(0.0, f64::max);
+                    peak = peak.max(most / self.amplitudes[i]);
+                }
+            }
+            peaks.push((to.t, peak));
+        };
+        match seen {
+            Some(seen) => seen.iter().for_each(|(from, to)| see(from, to)),
+            None => {
+                self.walk(&mut *body, Solver::Truth, self.horizon_s, most, see).await.ok()?;
+            }
+        }
+        let coordinate = (0..n).find(|&i| crossings[i].len() >= 2)?;
+        let crossings = std::mem::take(&mut crossings[coordinate]);
+        let passages = &passages[coordinate];
+        let mut half_turns = vec![0.0_f64; passages.len() + 1];
+        for (t, peak) in peaks {
+            let half_turn = &mut half_turns[passages.partition_point(|&passed| passed <= t)];
+            *half_turn = half_turn.max(peak);
+        }
+        Some(Swing { coordinate, crossings, half_turns })
+    }
+}
+
+/// The time in seconds at which coordinate `i` crosses `level` between two moments.
+fn crossing(from: &TruthNode, to: &TruthNode, i: usize, level: f64) -> f64 {
+    let [low, _] = bisect([0.0, 1.0], 50, |part| from.between(to, i, part) < level);
+    from.t + low * (to.t - from.t)
+}

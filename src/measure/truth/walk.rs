@@ -1,0 +1,154 @@
+//! Follows the true motion of one body in adaptive steps.
+
+use super::BodyTruth;
+use crate::measure::survey::{Ranges, TruthNode};
+use crate::sim::integrators::StepFailure;
+use crate::sim::{Solver, Stepper};
+
+/// The part of a step at which it is checked: irrational, so that regular steps do not resonate with a period.
+const CHECKED_AT: f64 = 0.381_966_011_250_105_1;
+/// The first step as a part of the duration: far below any period that can be followed.
+const FIRST_STEP: f64 = 1e-7;
+/// The largest error of the cubic through both ends of a step, as a part of the motion's range: steps of about a sixth
+/// of a radian.
+const CHORD: f64 = 1e-5;
+/// A range smaller than this part of the magnitude is rounding, and this part is used in its place.
+const ROUNDING: f64 = 1e-9;
+/// The least and the greatest ratio of a step to the one before.
+const FACTORS: (f64, f64) = (0.3, 2.0);
+/// One in this many moments is reserved for the end of the motion, in case the others do not reach it.
+const KEPT: usize = 4;
+
+impl BodyTruth {
+    /// Follows `body`, which is at its start under `solver`, over `seconds`, applies its inputs in order, and passes both
+    /// ends of each step to `see`. The steps are so short that the cubic through both ends is as good as exact. If that
+    /// would take more than `most` moments, the rest of the motion is sampled at scattered moments, and `see` receives each
+    /// as both ends.
+    ///
+    /// # Errors
+    /// If the solver fails or is not finite.
+    pub(super) async fn walk(
+        &self,
+        body: &mut dyn Stepper,
+        solver: Solver,
+        seconds: f64,
+        most: usize,
+        see: impl FnMut(&TruthNode, &TruthNode),
+    ) -> Result<(), StepFailure> {
+        let mut work =
+            WalkWork { solver, of_moment: self.work_of_moment(), moments: 0, counted: 0 };
+        let walked = self.walk_counting(&mut work, body, seconds, most, see).await;
+        self.meter.count(work.newly_done(body)).await;
+        walked
+    }
+
+    async fn walk_counting(
+        &self,
+        work: &mut WalkWork,
+        body: &mut dyn Stepper,
+        seconds: f64,
+        most: usize,
+        mut see: impl FnMut(&TruthNode, &TruthNode),
+    ) -> Result<(), StepFailure> {
+        let mut inputs = &self.inputs[..];
+        let mut ranges = Ranges::at(body);
+        let mut here = TruthNode::of(body, 0.0);
+        let mut step = FIRST_STEP * seconds;
+        let kept = most / KEPT;
+        while here.t < seconds && work.moments + kept < most {
+            if let Some((next, rest)) = inputs.split_first()
+                && next.at_s <= here.t
+            {
+                next.action.apply_to(body, here.t);
+                (here, inputs) = (TruthNode::of(body, here.t), rest);
+                step = FIRST_STEP * seconds;
+                continue;
+            }
+            let seconds = inputs.first().map_or(seconds, |next| next.at_s.min(seconds));
+            let end = if here.t + 1.001 * step < seconds { here.t + step } else { seconds };
+            let check = TruthNode::of_advanced(body, here.t, here.t + CHECKED_AT * (end - here.t))?;
+            let there = TruthNode::of_advanced(body, check.t, end)?;
+            work.moments += 2;
+            ranges.take_in(&here, &check);
+            ranges.take_in(&check, &there);
+            see(&here, &check);
+            see(&check, &there);
+            self.meter.count(work.newly_done(body)).await;
+            let part = (check.t - here.t) / (there.t - here.t);
+            let off = worst_chord(&here, &check, &there, part, &ranges);
+            let factor = libm::sqrt(libm::sqrt(CHORD / off));
+            let factor = if factor > FACTORS.0 { factor.min(FACTORS.1) } else { FACTORS.0 };
+            step = (end - here.t) * factor;
+            here = there;
+        }
+        let left = seconds - here.t;
+        if left > 0.0 {
+            let mut parts: Vec<f64> = (1..=kept).map(|k| (k as f64 * CHECKED_AT).fract()).collect();
+            parts.sort_by(f64::total_cmp);
+            let start = here.t;
+            for part in parts {
+                let t = start + part * left;
+                while let Some((next, rest)) = inputs.split_first()
+                    && next.at_s <= t
+                {
+                    here = TruthNode::of_advanced(body, here.t, next.at_s.max(here.t))?;
+                    next.action.apply_to(body, here.t);
+                    inputs = rest;
+                }
+                let there = TruthNode::of_advanced(body, here.t, t)?;
+                work.moments += 1;
+                see(&there, &there);
+                self.meter.count(work.newly_done(body)).await;
+                here = there;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The work of a walk, in evaluations of one coordinate.
+struct WalkWork {
+    solver: Solver,
+    /// That of a moment of the truth.
+    of_moment: u64,
+    /// The moments that were seen.
+    moments: usize,
+    /// What the meter has counted of it.
+    counted: u64,
+}
+
+impl WalkWork {
+    /// The work since this was last asked.
+    fn newly_done(&mut self, body: &dyn Stepper) -> u64 {
+        let all = match self.solver {
+            Solver::Truth => self.moments as u64 * self.of_moment,
+            _ => body.evaluations() * body.q().len() as u64,
+        };
+        all - std::mem::replace(&mut self.counted, all)
+    }
+}
+
+/// The largest error of the cubic from `here` to `there` at `check`, as a part of the range of its kind of component.
+fn worst_chord(
+    here: &TruthNode,
+    check: &TruthNode,
+    there: &TruthNode,
+    part: f64,
+    ranges: &Ranges,
+) -> f64 {
+    let n = here.x.len() / 2;
+    let covered = |half: std::ops::Range<usize>| {
+        let cover = |i: usize| {
+            let (low, high) = ranges.0[i];
+            (high - low).max(ROUNDING * low.abs().max(high.abs()))
+        };
+        half.map(cover).fold(0.0, f64::max)
+    };
+    let (q, v) = (covered(0..n), covered(n..2 * n));
+    let off = (0..2 * n).map(|i| {
+        let scale = if i < n { q } else { v };
+        let off = (here.between(there, i, part) - check.x[i]).abs();
+        if scale > 0.0 { off / scale } else { 0.0 }
+    });
+    off.fold(1e-300, f64::max)
+}

@@ -1,0 +1,488 @@
+//! What a verdict says: a word and a number, and the details behind them.
+
+use std::fmt;
+
+use super::{Comparison, Finding, LongTerm, NoTruth, NotJudged, Verdict};
+use crate::measure::amplitude::Measure;
+use crate::measure::chase_finding::ChaseFinding;
+use crate::measure::energy_finding::EnergyFinding;
+use crate::measure::limits::{TOLERANCE, VISIBLE};
+use crate::measure::outcome::Outcome;
+use crate::sim::number::{round, significant, superscript};
+
+/// The largest relative error of a frequency that is too small to be the cause of anything.
+const FAINT_PITCH: f64 = 1e-4;
+
+/// A swing that dies away within the horizon, by 5 % at least, halves in 13.5 horizons at a constant rate: a halving time beyond this
+/// many is that of something else.
+const MOST_HALVING_HORIZONS: f64 = 20.0;
+/// A change of the energy at or below this leaves nothing that can be seen: it is in units of the largest kinetic energy.
+const ALL_ENERGY: f64 = -0.995;
+
+/// The number of a verdict, displayed as in its line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VerdictNumber {
+    /// The measured quantity, as in `swing doubles`.
+    pub quantity: String,
+    /// Its value in `unit`.
+    pub value: f64,
+    /// `s`, `%`, or `×` for a multiple of the true quantity.
+    pub unit: &'static str,
+    text: String,
+}
+
+impl fmt::Display for VerdictNumber {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+impl VerdictNumber {
+    fn new(quantity: impl Into<String>, value: f64, unit: &'static str, text: String) -> Self {
+        Self { quantity: quantity.into(), value, unit, text }
+    }
+
+    /// A part of something, in percent.
+    fn part(quantity: impl Into<String>, part: f64, text: String) -> Self {
+        Self::new(quantity, 100.0 * part, "%", text)
+    }
+}
+
+impl fmt::Display for NoTruth {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoTruth::Failed(failure) => write!(f, "the true motion is not known: it {failure}"),
+            NoTruth::Vague(part) if part.is_finite() => {
+                write!(f, "the true motion is known to {} of the amplitude only", percent(*part))
+            }
+            NoTruth::Vague(_) => f.write_str("the true motion is not known precisely enough"),
+        }
+    }
+}
+
+impl fmt::Display for NotJudged {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            NotJudged::TooMuchWork => "too much work",
+            NotJudged::ShorterThanATick => "the scene is shorter than a tick",
+        })
+    }
+}
+
+impl Comparison {
+    /// The frequency error of a motion that keeps its size, unless it is faint: `0.18 % fast`.
+    fn pitch(&self) -> Option<String> {
+        let error = self.frequency_error.filter(|error| error.abs() > FAINT_PITCH)?;
+        let how = if error > 0.0 { "fast" } else { "slow" };
+        matches!(self.outcome(), Outcome::LooksRight | Outcome::Bounded)
+            .then(|| format!("{} {how}", percent(error.abs())))
+    }
+
+    /// The widest swing in units of the true one, where the difference can be seen.
+    fn wrong_width(&self) -> Option<f64> {
+        self.width.filter(|width| (width - 1.0).abs() > VISIBLE)
+    }
+}
+
+impl Verdict {
+    /// The time of the run, `seconds` after the judged part begins.
+    fn moment(&self, seconds: f64) -> String {
+        duration(self.starts_at_s + seconds)
+    }
+
+    /// Where the run begins that is judged.
+    fn start(&self) -> String {
+        match self.starts_at_s {
+            0.0 => "the start".to_owned(),
+            seconds => duration(seconds),
+        }
+    }
+
+    /// In few words from where it is run that the lane fails, if it does.
+    pub(crate) fn fails_in_brief(&self) -> Option<String> {
+        self.failure().map(|_| format!("{}, if run from {}", self.word(), self.start()))
+    }
+
+    /// Whether nothing grows of the body that the verdict is about; of several, `long_term` is about all.
+    fn is_bounded(&self) -> Option<bool> {
+        self.of_bodies.get(self.body).unwrap_or(self).long_term.is_bounded
+    }
+
+    /// What it comes to, in a word or two.
+    fn word(&self) -> &'static str {
+        match (self.outcome(), &self.finding) {
+            (Outcome::Bounded, _) if self.is_bounded().is_none() => "inaccurate",
+            (Outcome::NoTruth, Finding::ByEnergy(found)) => found.word(),
+            (outcome, _) => outcome.text(),
+        }
+    }
+
+    /// The change of the amplitude: the time in which it changes by this factor, or else that of the energy, or else the error.
+    fn change(&self, time: Option<f64>, [factor, verb]: [&str; 2]) -> VerdictNumber {
+        let horizon = duration(self.horizon_s);
+        let measure = self.long_term.measure.name();
+        match (time, self.energy_change()) {
+            (Some(time), _) => {
+                let text = format!("{measure} {factor} in {}", brief_duration(time));
+                VerdictNumber::new(format!("{measure} {verb}"), time, "s", text)
+            }
+            (None, Some(change)) => {
+                let sign = if change > 0.0 { "+" } else { "" };
+                let text = match change <= ALL_ENERGY {
+                    true => format!("all its energy in {horizon}"),
+                    false => format!("energy {sign}{} in {horizon}", percent(change)),
+                };
+                VerdictNumber::part("energy change", change, text)
+            }
+            (None, None) => {
+                let error = self.error().unwrap_or(f64::INFINITY);
+                VerdictNumber::part("largest error", error, format!("off by {}", percent(error)))
+            }
+        }
+    }
+
+    /// How far a motion is off that keeps its size: its width, or else its delay, or else its largest error.
+    fn gap(&self, found: &Comparison) -> VerdictNumber {
+        let (error, horizon) = (percent(found.error), duration(self.horizon_s));
+        if let Some(width) = found.wrong_width().filter(|_| found.looks_right != Some(true)) {
+            let how = if width > 1.0 { "too wide" } else { "as wide" };
+            let text = format!("swings {} × {how}", significant(width, 2));
+            return VerdictNumber::new("width", width, "×", text);
+        }
+        if let Some(early_s) = found.early_s {
+            let (way, quantity) = if early_s < 0.0 { ("late", "delay") } else { ("early", "lead") };
+            let late_s = early_s.abs();
+            let text = format!("{} {way} after {horizon}", short_duration(late_s));
+            return VerdictNumber::new(quantity, late_s, "s", text);
+        }
+        let of_mode = match self.long_term.measure {
+            Measure::Modes => Some(("main mode ", "frequency error of the main mode")),
+            Measure::Reach => Some(("", "frequency error")),
+            Measure::Swing | Measure::Deviation => None,
+        };
+        let pitch = found.frequency_error.zip(found.pitch());
+        if let Some(((mode, quantity), (error, pitch))) = of_mode.zip(pitch) {
+            return VerdictNumber::part(quantity, error, format!("{mode}{pitch}"));
+        }
+        let text = match found.last_error < 0.9 * found.error {
+            true => format!("off by {error} at {}", self.moment(found.error_at_s)),
+            false => format!("off by {error}"),
+        };
+        VerdictNumber::part("largest error", found.error, text)
+    }
+
+    /// The number that its word is about, if it is about one.
+    pub fn number(&self) -> Option<VerdictNumber> {
+        let chased = self.chase.as_ref().and_then(ChaseFinding::number);
+        let within =
+            |quantity, part, bound| VerdictNumber::part(quantity, part, format!("within {bound}"));
+        match (self.outcome(), &self.finding) {
+            (Outcome::Accurate | Outcome::LooksRight | Outcome::Bounded, _) if chased.is_some() => {
+                let (half_life_s, text) = chased?;
+                Some(VerdictNumber::new("half-life", half_life_s, "s", text))
+            }
+            (Outcome::Rounding, Finding::Compared(found)) => {
+                let bound = libm::ceil(libm::log10(100.0 * found.error.max(1e-15))) as i32;
+                Some(within("largest error", found.error, format!("10{} %", superscript(bound))))
+            }
+            (Outcome::Accurate, Finding::Compared(found)) => {
+                Some(within("largest error", found.error, percent(found.error)))
+            }
+            (Outcome::LooksRight | Outcome::Bounded, Finding::Compared(found)) => {
+                Some(self.gap(found))
+            }
+            (Outcome::Grows, _) => {
+                let LongTerm { doubles_in_s, parasite_doubles_in_s, .. } = self.long_term;
+                Some(match (doubles_in_s, parasite_doubles_in_s) {
+                    (None, Some(time)) => {
+                        let text = format!("a faint mode ×2 in {}", brief_duration(time));
+                        VerdictNumber::new("faint mode doubles", time, "s", text)
+                    }
+                    (time, _) => self.change(time, ["×2", "doubles"]),
+                })
+            }
+            (Outcome::DiesAway, _) => {
+                // A body may lose its fast modes at once and keep the slow ones for days.
+                let most_s = MOST_HALVING_HORIZONS * self.horizon_s;
+                let halves_in_s = self.long_term.halves_in_s.filter(|&time| time <= most_s);
+                Some(self.change(halves_in_s, ["½", "halves"]))
+            }
+            (_, Finding::Failed { failure, .. }) => {
+                let text = format!("at {}", self.moment(failure.t));
+                Some(VerdictNumber::new("end of the run", self.starts_at_s + failure.t, "s", text))
+            }
+            (_, Finding::ByEnergy(found)) => {
+                let text = found.number()?;
+                Some(VerdictNumber::part("energy change", found.change.abs(), text))
+            }
+            (_, Finding::NoTruth(NoTruth::Vague(part))) if part.is_finite() => {
+                Some(VerdictNumber::part(
+                    "error of the truth",
+                    *part,
+                    format!("known to {}", percent(*part)),
+                ))
+            }
+            (_, Finding::NoTruth(_) | Finding::Compared(_) | Finding::NotJudged(_)) => None,
+        }
+    }
+
+    /// The word and the number, or the reason why there is none.
+    fn words(&self) -> String {
+        let number = match &self.finding {
+            Finding::NotJudged(why) => Some(why.to_string()),
+            _ => self.number().map(|number| number.text),
+        };
+        let words = [Some(self.word().to_owned()), number];
+        words.into_iter().flatten().collect::<Vec<_>>().join(BETWEEN)
+    }
+
+    /// What it lacks and, of several, the body's name, in brackets.
+    fn in_brackets(&self, is_named: bool) -> String {
+        let name = (is_named && self.of_bodies.len() > 1).then_some(&*self.body_name);
+        let parts: Vec<&str> = self.missing_truth().into_iter().chain(name).collect();
+        if parts.is_empty() { String::new() } else { format!(" ({})", parts.join(", ")) }
+    }
+
+    /// What else is found, each in a sentence of its own: for whoever wants to know more than the word and the number.
+    pub fn details(&self) -> Vec<String> {
+        let outcome = self.outcome();
+        let is_told = outcome == Outcome::Grows || self.failure().is_some();
+        let LongTerm { doubles_in_s, parasite_doubles_in_s, .. } = self.long_term;
+        let grows = self.long_term.measure.name();
+        let growth = doubles_in_s.filter(|_| outcome != Outcome::BlewUp).map(|s| match is_told {
+            true => format!("its {grows} doubles in {}", duration(s)),
+            false => format!("grows slowly: {grows} ×2 in {}", duration(s)),
+        });
+        let faint = parasite_doubles_in_s.filter(|_| outcome <= Outcome::Grows);
+        [
+            self.failure().map(|_| format!("if run from {}", self.start())),
+            self.failure().map(|failure| failure.cause.to_string()),
+            self.comparison().and_then(|found| self.error_over_time(found)),
+            self.comparison().and_then(Comparison::pitch),
+            growth,
+            faint.map(|s| format!("a faint mode grows: ×2 in {}", duration(s))),
+            self.by_energy().map(EnergyFinding::to_string),
+            self.chase.as_ref().map(ChaseFinding::to_string),
+            match &self.finding {
+                Finding::NoTruth(why) => Some(why.to_string()),
+                _ => None,
+            },
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+
+    /// The largest error, when it is, and what is left of it.
+    fn error_over_time(&self, found: &Comparison) -> Option<String> {
+        let (error, horizon) = (percent(found.error), duration(self.horizon_s));
+        let at = self.moment(found.error_at_s);
+        match self.outcome() {
+            Outcome::Accurate => Some(format!("largest error {error} of the amplitude, at {at}")),
+            Outcome::LooksRight | Outcome::Bounded if found.last_error <= TOLERANCE => {
+                Some(format!("off by {error} at {at}, settled by {}", self.moment(self.horizon_s)))
+            }
+            Outcome::LooksRight | Outcome::Bounded => {
+                let last = percent(found.last_error);
+                Some(format!("off by up to {error} at {at}, by {last} after {horizon}"))
+            }
+            _ => None,
+        }
+    }
+
+    fn line(&self, is_named: bool) -> String {
+        self.words() + &self.in_brackets(is_named)
+    }
+
+    /// The verdict in fewer and fewer words, each with where the judged run begins: for beside a run that was changed on its
+    /// way, of which it tells nothing.
+    pub fn wordings_of_another_run(&self, is_named: bool) -> Vec<String> {
+        let wordings = self.wordings(is_named).into_iter();
+        wordings.map(|words| format!("from {}: {words}", self.start())).collect()
+    }
+
+    /// The verdict in fewer and fewer words, as room is short: the word and the number, then the word alone. The body is named
+    /// where there are several, if `is_named`.
+    pub fn wordings(&self, is_named: bool) -> Vec<String> {
+        let in_brackets = self.in_brackets(is_named);
+        vec![self.line(is_named), self.word().to_owned() + &in_brackets]
+    }
+}
+
+/// What stands between the word and the number of a verdict.
+const BETWEEN: &str = " · ";
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.line(true))
+    }
+}
+
+fn percent(part: f64) -> String {
+    format!("{} %", significant(100.0 * part, 2))
+}
+
+/// A duration to two digits, in milliseconds if it is shorter than a second.
+fn short_duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 0.9995 => format!("{} ms", significant(1e3 * s, 2)),
+        s => brief_duration(s),
+    }
+}
+
+/// A duration to two digits, where it is the rate of something.
+fn brief_duration(seconds: f64) -> String {
+    in_unit(seconds, |value| significant(value, 2))
+}
+
+/// A duration to three digits, in the unit that fits its length.
+pub fn duration(seconds: f64) -> String {
+    in_unit(seconds, |value| round(value, 3).to_string())
+}
+
+fn in_unit(seconds: f64, written: impl Fn(f64) -> String) -> String {
+    const MINUTE: f64 = 60.0;
+    const HOUR: f64 = 60.0 * MINUTE;
+    const DAY: f64 = 24.0 * HOUR;
+    // Seconds up to a thousand and hours up to two days, so that similar durations have one unit.
+    let (unit, name) = match seconds {
+        s if s < 999.5 => (1.0, "s"),
+        s if s < HOUR => (MINUTE, "min"),
+        s if s < 2.0 * DAY => (HOUR, "h"),
+        s if s < 999.5 * DAY => (DAY, "days"),
+        _ => (365.0 * DAY, "years"),
+    };
+    format!("{} {name}", written(seconds / unit))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::RunFailure;
+    use super::*;
+    use crate::measure::Judge;
+    use crate::measure::amplitude::Trend;
+    use crate::scene::{LaneSpec, Scene};
+    use crate::sim::integrators::{StepFailure, method};
+
+    fn verdict(scene: &str, id: &str, tick_hz: u32) -> Verdict {
+        let judge = Judge::new(&Scene::built_in(scene).unwrap());
+        judge.verdict(LaneSpec::plain(method(id).unwrap()), tick_hz)
+    }
+
+    #[test]
+    fn durations_have_three_digits_and_a_fitting_unit() {
+        for (seconds, shown) in [
+            (0.29, "0.29 s"),
+            (2.1234, "2.12 s"),
+            (20.0, "20 s"),
+            (769.3, "769 s"),
+            (1671.0, "27.9 min"),
+            (13.7 * 3600.0, "13.7 h"),
+            (14.6 * 86_400.0, "14.6 days"),
+            (5e8, "15.9 years"),
+        ] {
+            assert_eq!(duration(seconds), shown);
+        }
+    }
+
+    #[test]
+    fn a_verdict_shows_as_its_outcome_and_the_number_behind_it() {
+        for (scene, id, tick_hz, shown) in [
+            ("spring", "explicit-euler", 60, "grows · swing ×2 in 2.1 s"),
+            ("spring", "semi-implicit-euler", 60, "looks right · 17 ms early after 20 s"),
+            ("spring", "improved-euler", 60, "looks right · 36 ms early after 20 s"),
+            ("spring", "improved-euler", 300, "accurate · within 0.92 %"),
+            ("spring", "rk4", 60, "accurate · within 0.013 %"),
+            ("spring", "rk4", 10, "dies away · swing ½ in 171 s"),
+            ("stiff", "semi-implicit-euler", 49, "blows up · at 4.14 s"),
+            ("stiff", "semi-implicit-euler", 60, "bounded · swings 1.8 × too wide"),
+            ("ship", "explicit-euler", 2, "looks right · off by 1.9 % at 10 s"),
+            // The verdict is that of the worst body.
+            ("harbour", "explicit-euler", 60, "grows · swing ×2 in 2.1 s (spring)"),
+        ] {
+            assert_eq!(verdict(scene, id, tick_hz).to_string(), shown, "{scene} {id} {tick_hz} Hz");
+        }
+    }
+
+    #[test]
+    fn a_verdict_is_said_in_fewer_and_fewer_words() {
+        let found = verdict("harbour", "improved-euler", 60);
+        assert_eq!(
+            found.wordings(true),
+            ["looks right · 36 ms early after 20 s (spring)", "looks right (spring)"]
+        );
+        assert!(found.wordings(false).iter().all(|said| !said.contains("spring")));
+        assert_eq!(
+            found.details(),
+            [
+                "off by up to 23 % at 20 s, by 23 % after 20 s",
+                "0.18 % fast",
+                "grows slowly: swing ×2 in 769 s"
+            ]
+        );
+        let Finding::Compared(compared) = found.finding else { panic!("{found}") };
+        let by_energy = EnergyFinding {
+            change: 0.5,
+            trend: Trend::None,
+            drift_percent: None,
+            is_conserved: true,
+            spectral_radius: None,
+        };
+        let escaped = StepFailure::NotFinite { coordinate: "x".into(), value: f64::NAN };
+        let stopped = StepFailure::LinearSolveFailed;
+        let of_change =
+            |change| Finding::Compared(Comparison { change, looks_right: None, ..compared });
+        let of_trend = |trend| Finding::ByEnergy(EnergyFinding { trend, ..by_energy });
+        let failed = |cause: &StepFailure, by_energy| Finding::Failed {
+            failure: RunFailure { t: 4.0, cause: cause.clone() },
+            by_energy,
+        };
+        for finding in [
+            Finding::Compared(Comparison { error: 1e-12, ..compared }),
+            Finding::Compared(Comparison { error: 1e-3, ..compared }),
+            of_change(Trend::None),
+            of_change(Trend::Grows),
+            of_change(Trend::Dies),
+            of_trend(Trend::None),
+            of_trend(Trend::Grows),
+            of_trend(Trend::Dies),
+            failed(&escaped, None),
+            failed(&escaped, Some(by_energy)),
+            failed(&stopped, None),
+            failed(&stopped, Some(by_energy)),
+            Finding::NoTruth(NoTruth::Vague(0.1)),
+            Finding::NotJudged(NotJudged::TooMuchWork),
+        ] {
+            let verdict = Verdict { finding, ..found.clone() };
+            let said = verdict.wordings(true);
+            assert!(said.is_sorted_by_key(|said| std::cmp::Reverse(said.len())), "{said:?}");
+            assert_eq!(said[0], verdict.to_string());
+        }
+    }
+
+    #[test]
+    fn moments_are_times_of_the_run_and_lengths_count_from_where_it_is_judged() {
+        for (scene, id, tick_hz, shown) in [
+            ("spring", "explicit-euler", 60, "grows · swing ×2 in 2.1 s"),
+            ("stiff", "semi-implicit-euler", 49, "blows up · at 104 s"),
+            ("ship", "explicit-euler", 2, "looks right · off by 1.9 % at 110 s"),
+        ] {
+            let verdict = verdict(scene, id, tick_hz).starting_at(100.0);
+            assert_eq!(verdict.to_string(), shown, "{scene} {id} {tick_hz} Hz");
+        }
+    }
+
+    #[test]
+    fn the_details_of_a_failure_say_where_the_run_begins_and_why_it_ends() {
+        let blows_up = verdict("stiff", "semi-implicit-euler", 49);
+        let why = StepFailure::LinearSolveFailed;
+        let finding = Finding::Failed {
+            failure: RunFailure { t: 4.14, cause: why.clone() },
+            by_energy: None,
+        };
+        let gives_up = Verdict { finding, ..blows_up.clone() };
+        assert_eq!(gives_up.to_string(), "gives up · at 4.14 s");
+        assert_eq!(gives_up.details()[..2], ["if run from the start".to_owned(), why.to_string()]);
+        assert_eq!(blows_up.starting_at(100.0).details()[0], "if run from 100 s");
+    }
+}

@@ -1,0 +1,380 @@
+//! Computes verdicts and advice in small steps, so that it can run on another thread than the race: an
+//! [`AnalysisRequest`] goes there, and [`Findings`] come back.
+
+use std::sync::Arc;
+
+use super::advice::{Adviser, MethodAdvice};
+use super::judge::{Judge, horizon_s};
+use super::run::MAX_WORK;
+use super::slices::{Meter, Sliced};
+use super::stability_map::{MapRequest, MapWork, StabilityMap};
+use super::verdict::Verdict;
+use crate::run::race::Interventions;
+use crate::scene::{LaneSpec, Scene};
+
+/// The bodies of a scene that advice is about.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AdvisedBodies {
+    /// All of them, under one method.
+    #[default]
+    All,
+    /// The body at this index of the scene, alone.
+    One(usize),
+}
+
+impl AdvisedBodies {
+    /// The scene of these bodies alone.
+    fn of(self, scene: Scene) -> Scene {
+        match self {
+            AdvisedBodies::All => scene,
+            AdvisedBodies::One(body) => scene.of_one_body(body),
+        }
+    }
+}
+
+/// The verdicts and the advice that a studio wants. Two requests of one [`Studio`](crate::studio::Studio) are equal if they have the
+/// same answer.
+#[derive(Clone, Debug)]
+pub struct AnalysisRequest {
+    pub(crate) scene: Arc<Scene>,
+    /// The lanes to judge.
+    pub(crate) entries: Vec<LaneSpec>,
+    /// How many of them, from the first, share all the work that a bounded worker may do; the others have what is left.
+    pub(crate) first: usize,
+    pub(crate) tick_hz: u32,
+    /// What has changed in the run that is judged.
+    pub(crate) by_hand: Interventions,
+    /// The bodies that advice is wanted on, if it is wanted.
+    pub(crate) advice: Option<AdvisedBodies>,
+    /// The stability map, if it is wanted.
+    pub(crate) map: Option<MapRequest>,
+}
+
+impl PartialEq for AnalysisRequest {
+    fn eq(&self, other: &Self) -> bool {
+        let are_judged_alike = self.entries == other.entries && self.first == other.first;
+        are_judged_alike && self.is_alike(other)
+    }
+}
+
+impl AnalysisRequest {
+    /// Whether it is about this instance of the scene: an equal copy is another scene.
+    pub(crate) fn is_of(&self, scene: &Arc<Scene>) -> bool {
+        Arc::ptr_eq(&self.scene, scene)
+    }
+
+    /// Whether it is about the same, whichever lanes are judged.
+    fn is_alike(&self, other: &Self) -> bool {
+        self.is_of(&other.scene)
+            && self.tick_hz == other.tick_hz
+            && self.by_hand == other.by_hand
+            && self.advice == other.advice
+            && self.map == other.map
+    }
+}
+
+/// The verdicts and the advice found so far.
+#[derive(Clone, Debug)]
+pub struct Findings {
+    pub(crate) request: AnalysisRequest,
+    /// The last verdict on each method of the list. It may be of an earlier request about the same scene.
+    pub(crate) verdicts: Vec<Option<Verdict>>,
+    pub(crate) advice: Option<Advice>,
+    pub(crate) map: Option<StabilityMap>,
+    /// Whether the request is answered in full.
+    pub(super) complete: bool,
+}
+
+impl Findings {
+    /// Whether they answer `request` in full: they may be of more lanes.
+    pub(crate) fn answer(&self, request: &AnalysisRequest) -> bool {
+        let are_judged = self.request.entries.starts_with(&request.entries);
+        self.complete && are_judged && self.request.is_alike(request)
+    }
+}
+
+/// The advice on every method on a scene.
+#[derive(Clone, Debug)]
+pub struct Advice {
+    /// The bodies that it is about.
+    pub bodies: AdvisedBodies,
+    /// The requested rate in Hz.
+    pub tick_hz: u32,
+    /// The number of methods to judge.
+    pub wanted: usize,
+    /// The advice on the methods judged so far.
+    pub advised: Vec<MethodAdvice>,
+}
+
+/// The most work of a bounded worker on all verdicts together, the truth's included: a second or two.
+const MAX_WORK_OF_ALL: u64 = MAX_WORK;
+
+/// About the work of one step: some milliseconds.
+const WORK_OF_STEP: u64 = 1_000_000;
+
+/// Works on one [`AnalysisRequest`] at a time, beside the run.
+pub struct AnalysisWorker {
+    /// The most work on all verdicts.
+    max_work: u64,
+    request: AnalysisRequest,
+    judge: Option<Arc<Judge>>,
+    verdicts: Vec<Option<Verdict>>,
+    /// The number of leading verdicts that answer the present request.
+    judged: usize,
+    advising: Option<AdviceInProgress>,
+    /// The last map that was wanted.
+    mapping: Option<MapWork>,
+    /// The part of the answer that is being found.
+    part: Option<Sliced<Part>>,
+}
+
+/// A part of the answer, found in slices.
+enum Part {
+    Judge(Arc<Judge>),
+    Verdict(Box<Verdict>),
+    Adviser(AdvisedBodies, Arc<Adviser>),
+    /// The advice in this row, new or with more margins searched.
+    Advised(usize, Box<MethodAdvice>),
+}
+
+/// Advice being computed: the methods are judged one by one, and then margins are searched one by one.
+struct AdviceInProgress {
+    bodies: AdvisedBodies,
+    adviser: Arc<Adviser>,
+    /// What is advised on.
+    lanes: Vec<LaneSpec>,
+    advised: Vec<MethodAdvice>,
+    /// The margins that are still to be searched, the first one last; `None` until all methods are judged.
+    margins: Option<Vec<(usize, usize)>>,
+}
+
+impl AdviceInProgress {
+    fn new(bodies: AdvisedBodies, adviser: Arc<Adviser>) -> Self {
+        let scene = adviser.scene();
+        let place = |spec: &LaneSpec| scene.lanes.iter().position(|l| l.method == spec.method);
+        let mut lanes = scene.advised_lanes();
+        // Those that race come first: they are what a person sees.
+        lanes.sort_by_key(|spec| place(spec).unwrap_or(usize::MAX));
+        let (advised, margins) = (Vec::new(), None);
+        Self { bodies, adviser, lanes, advised, margins }
+    }
+
+    /// The next method to judge, or else the next margin to search.
+    fn next(&mut self) -> Option<Sliced<Part>> {
+        let adviser = self.adviser.clone();
+        let meter = adviser.judge().meter().clone();
+        let row = self.advised.len();
+        if let Some(&spec) = self.lanes.get(row) {
+            return Some(Sliced::new(meter, async move {
+                Part::Advised(row, adviser.advice_on(spec).await.into())
+            }));
+        }
+        let (row, criterion) = *self.margins.as_ref()?.last()?;
+        let mut advice = self.advised[row].clone();
+        Some(Sliced::new(meter, async move {
+            adviser.search_margins(&mut advice, criterion).await;
+            Part::Advised(row, advice.into())
+        }))
+    }
+
+    fn accept(&mut self, row: usize, advice: MethodAdvice) {
+        if let Some(margins) = &mut self.margins {
+            self.advised[row] = advice;
+            margins.pop();
+            if !margins.is_empty() {
+                return;
+            }
+        } else {
+            self.advised.push(advice);
+        }
+        if self.advised.len() == self.lanes.len() {
+            self.margins = Some(self.next_margins());
+        }
+    }
+
+    /// The margins to search next, the first one last: those that decide what is recommended come before the others.
+    fn next_margins(&self) -> Vec<(usize, usize)> {
+        let mut margins = self.adviser.undecided_margins(&self.advised);
+        if margins.is_empty() {
+            margins = self.adviser.worth_margins(&self.advised);
+        }
+        margins.reverse();
+        margins
+    }
+
+    fn is_done(&self) -> bool {
+        self.margins.as_ref().is_some_and(Vec::is_empty)
+    }
+}
+
+impl AnalysisWorker {
+    /// A worker on `request`.
+    pub fn new(request: AnalysisRequest) -> Self {
+        let verdicts = vec![None; request.entries.len()];
+        Self {
+            max_work: u64::MAX,
+            request,
+            judge: None,
+            verdicts,
+            judged: 0,
+            advising: None,
+            mapping: None,
+            part: None,
+        }
+    }
+
+    /// The same worker, which does a stated amount of work only: what is left then is not judged, and no advice is given.
+    pub(crate) fn bounded(self) -> Self {
+        Self { max_work: MAX_WORK_OF_ALL, ..self }
+    }
+
+    /// Replaces the request. Results that answer the new one too are kept; a part that is being found is given up.
+    pub fn set_request(&mut self, request: AnalysisRequest) {
+        self.set_map(&request);
+        self.part = None;
+        if !request.is_of(&self.request.scene) {
+            let mapping = self.mapping.take();
+            *self = Self { max_work: self.max_work, mapping, ..Self::new(request) };
+            return;
+        }
+        let is_same_run = request.by_hand == self.request.by_hand;
+        if !is_same_run {
+            self.judge = None;
+        }
+        let is_at_same_rate = is_same_run && request.tick_hz == self.request.tick_hz;
+        if !is_at_same_rate {
+            self.advising = None;
+        }
+        let pairs = request.entries.iter().zip(&self.request.entries);
+        let unchanged = pairs.take_while(|(new, old)| new == old).count();
+        self.judged = if is_at_same_rate { self.judged.min(unchanged) } else { 0 };
+        self.verdicts.resize(request.entries.len(), None);
+        if let Some(bodies) = request.advice {
+            self.advising.take_if(|advising| advising.bodies != bodies);
+        }
+        self.request = request;
+    }
+
+    /// Updates the map's request; a map of another body is dropped.
+    fn set_map(&mut self, request: &AnalysisRequest) {
+        let Some(wanted) = &request.map else { return };
+        let kind = &request.scene.bodies[wanted.body].kind;
+        self.mapping = self.mapping.take().filter(|work| work.is_of(kind, wanted));
+        if let Some(work) = &mut self.mapping {
+            work.set_request(wanted.clone());
+        }
+    }
+
+    /// Does one step: goes on for a slice with the map or, if that is found, with the next part of the answer: the truths,
+    /// a missing verdict or, if none is missing, a method or a margin of the advice. Returns whether there is more to do.
+    pub fn work(&mut self) -> bool {
+        if let Some(wanted) = &self.request.map
+            && !self.is_mapped()
+        {
+            // Before the verdicts, because it takes less time than one of them may.
+            let kind = &self.request.scene.bodies[wanted.body].kind;
+            let new = || MapWork::new(kind.clone(), wanted.clone());
+            self.mapping.get_or_insert_with(new).advance(WORK_OF_STEP);
+        } else if let Some(mut part) = self.part.take().or_else(|| self.next_part()) {
+            match part.go_on(WORK_OF_STEP) {
+                Some(found) => self.accept(found),
+                None => self.part = Some(part),
+            }
+        }
+        !self.is_done()
+    }
+
+    /// The next part of the answer, if one is missing.
+    fn next_part(&mut self) -> Option<Sliced<Part>> {
+        let AnalysisRequest { scene, by_hand, entries, first, tick_hz, advice, .. } = &self.request;
+        let (tick_hz, meter) = (*tick_hz, Arc::<Meter>::default());
+        if let Some(&spec) = entries.get(self.judged) {
+            let Some(judge) = self.judge.clone() else {
+                let scene = by_hand.applied_to(scene);
+                return Some(Sliced::new(meter.clone(), async move {
+                    let horizon_s = horizon_s(&scene);
+                    Part::Judge(Judge::find(&scene, 1.0, horizon_s, meter).await.into())
+                }));
+            };
+            // Work that earlier verdicts did not use is for the later ones.
+            let left = self.max_work.saturating_sub(judge.meter().counted());
+            let sharers = if self.judged < *first { *first } else { entries.len() };
+            let share = (left / (sharers - self.judged) as u64).min(MAX_WORK);
+            return Some(Sliced::new(judge.meter().clone(), async move {
+                Part::Verdict(judge.verdict_within(share, spec, tick_hz).await.into())
+            }));
+        }
+        let bodies = (*advice)?;
+        if let Some(advising) = &mut self.advising {
+            return advising.next();
+        }
+        let scene = bodies.of(by_hand.applied_to(scene));
+        Some(Sliced::new(meter.clone(), async move {
+            Part::Adviser(bodies, Adviser::find(scene, 1.0, tick_hz, meter).await.into())
+        }))
+    }
+
+    fn accept(&mut self, found: Part) {
+        match found {
+            Part::Judge(judge) => self.judge = Some(judge),
+            Part::Verdict(verdict) => {
+                let starts_at_s = self.request.by_hand.starts_at_s();
+                self.verdicts[self.judged] = Some(verdict.starting_at(starts_at_s));
+                self.judged += 1;
+            }
+            Part::Adviser(bodies, adviser) => {
+                self.advising = Some(AdviceInProgress::new(bodies, adviser));
+            }
+            Part::Advised(row, advice) => {
+                if let Some(advising) = &mut self.advising {
+                    advising.accept(row, *advice);
+                }
+            }
+        }
+    }
+
+    /// Whether it is within a part of the answer: its findings are those of some steps ago.
+    pub fn is_within_a_part(&self) -> bool {
+        let mapping = self.mapping.as_ref().filter(|_| self.request.map.is_some());
+        self.part.is_some() || mapping.is_some_and(MapWork::is_within_a_part)
+    }
+
+    /// Does all steps.
+    pub fn finish(mut self) -> Findings {
+        while self.work() {}
+        self.findings()
+    }
+
+    /// Whether the map is found, if it is wanted.
+    fn is_mapped(&self) -> bool {
+        self.request.map.is_none() || self.mapping.as_ref().is_some_and(MapWork::is_done)
+    }
+
+    fn is_done(&self) -> bool {
+        let advised = self.advising.as_ref().is_some_and(AdviceInProgress::is_done);
+        let judged = self.judged == self.request.entries.len();
+        judged && self.is_mapped() && (advised || self.request.advice.is_none())
+    }
+
+    /// The findings so far.
+    pub fn findings(&self) -> Findings {
+        let advice = self.advising.as_ref().filter(|_| self.request.advice.is_some());
+        let advice =
+            advice.map(|AdviceInProgress { bodies, adviser, lanes, advised, .. }| Advice {
+                bodies: *bodies,
+                tick_hz: adviser.tick_hz(),
+                wanted: lanes.len(),
+                advised: advised.clone(),
+            });
+        Findings {
+            request: self.request.clone(),
+            verdicts: self.verdicts.clone(),
+            advice,
+            map: self.mapping.as_ref().filter(|_| self.request.map.is_some()).map(MapWork::map),
+            complete: self.is_done(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

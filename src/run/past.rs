@@ -1,0 +1,454 @@
+//! The recorded past of a race for drawing: the recent samples of every body in every lane, and the truth as a curve.
+//!
+//! It observes a race and is not part of it: a copy of the race has none. A race that goes back in time is drawn from it
+//! as it was drawn then. It follows the lanes through their switches of methods by its [`Menu`].
+
+use super::race::{Author, Entrant, Observer, Race, Resumed, ResumedFrom, Starts};
+use crate::scene::{Action, LaneId};
+use crate::sim::bodies::Coordinate;
+use history::HistoryMark;
+
+mod energies;
+mod history;
+mod menu;
+mod quantity;
+mod sample;
+mod summary;
+mod swept_range;
+mod truth_curve;
+mod windowed_log;
+
+pub use energies::Energies;
+pub use history::{History, Samples};
+pub use menu::Menu;
+pub use quantity::Quantity;
+pub use sample::{CAPACITY, Sample};
+pub use summary::Summary;
+pub use swept_range::SweptRange;
+use truth_curve::TruthMark;
+pub use truth_curve::{TruthCurve, TruthSample};
+
+/// A motion has only begun for this part of the duration shown: two swings of the harbour's 1 Hz spring. Its first
+/// samples would make axes too narrow for it.
+const BEGUN: f64 = 0.1;
+
+/// The most memory of the histories in bytes: room for ninety of [`CAPACITY`] samples. Those of more lanes and bodies
+/// are coarser.
+const MAX_BYTES: usize = 64 << 20;
+
+/// The capacity with which so many histories fit into [`MAX_BYTES`].
+fn capacity_of(histories: usize) -> usize {
+    // In 64 bits, since in a browser a product in a `usize` is cut to 32.
+    let all = CAPACITY as u64 * (MAX_BYTES / histories.max(1)) as u64;
+    CAPACITY.min((all / History::heap_bytes(CAPACITY) as u64) as usize)
+}
+
+/// The recent past of a race.
+pub struct Past {
+    /// One for each body, for each lane, in the order of the race.
+    histories: Vec<(LaneId, Vec<History>)>,
+    /// One for each body.
+    truth_curves: Vec<TruthCurve>,
+    /// The duration of the histories in seconds.
+    span_s: f64,
+    /// The most samples of a history.
+    capacity: usize,
+    /// When a body was last placed or a parameter last set, in seconds; before the start if neither was done.
+    changed_s: f64,
+    menu: Menu,
+    starts: Starts,
+}
+
+/// The end of the recorded past at some tick, to which it can be [rewound](Past::rewind).
+#[derive(Clone, Debug)]
+pub(crate) struct PastMark {
+    /// By lane and body.
+    histories: Box<[(LaneId, Box<[HistoryMark]>)]>,
+    truth_curves: Box<[TruthMark]>,
+    changed_s: f64,
+    menu: Menu,
+    starts: Starts,
+}
+
+impl PastMark {
+    /// Its heap memory in bytes.
+    pub(crate) fn heap_bytes(&self) -> usize {
+        let row = |(_, marks): &(LaneId, Box<[HistoryMark]>)| size_of_val(&marks[..]);
+        size_of_val(&self.histories[..])
+            + self.histories.iter().map(row).sum::<usize>()
+            + size_of_val(&self.truth_curves[..])
+            + self.menu.heap_bytes()
+            + self.starts.heap_bytes()
+    }
+}
+
+impl Past {
+    /// A past of `span_s` seconds that begins with the present of `race`. It records of each body the coordinate that
+    /// plots show unless a person chooses another.
+    pub fn new(race: &Race, span_s: f64) -> Self {
+        let bodies = race.truth().bodies().iter();
+        Self::of_coordinates(race, span_s, bodies.map(|body| body.plotted_coordinate()))
+    }
+
+    /// Like [`Past::new`], of the coordinates with these indices, one for each body.
+    pub(crate) fn of_coordinates(
+        race: &Race,
+        span_s: f64,
+        coordinates: impl Iterator<Item = usize>,
+    ) -> Self {
+        let bodies = race.truth().bodies();
+        let curves = bodies.iter().zip(coordinates);
+        let capacity = capacity_of(race.entrants().len() * bodies.len());
+        let histories = || bodies.iter().map(|_| History::new(capacity)).collect();
+        let mut past = Self {
+            histories: race.entrants().iter().map(|entrant| (entrant.id, histories())).collect(),
+            truth_curves: curves.map(|(body, of)| TruthCurve::new(body, of, span_s)).collect(),
+            span_s,
+            capacity,
+            changed_s: f64::NEG_INFINITY,
+            menu: Menu::new(race),
+            starts: Starts::default(),
+        };
+        past.sample(race);
+        past
+    }
+
+    /// Its heap memory in bytes.
+    pub(crate) fn heap_bytes(&self) -> usize {
+        let histories: usize = self.histories.iter().map(|(_, histories)| histories.len()).sum();
+        histories * History::heap_bytes(self.capacity)
+            + self.truth_curves.iter().map(TruthCurve::heap_bytes).sum::<usize>()
+    }
+
+    /// The methods that the entries of samples refer to.
+    pub fn menu(&self) -> &Menu {
+        &self.menu
+    }
+
+    /// The states from which the run is told at present.
+    pub(crate) fn starts(&self) -> &Starts {
+        &self.starts
+    }
+
+    /// The histories of the bodies of a lane that is in the race.
+    ///
+    /// # Panics
+    /// If it is not.
+    pub fn histories(&self, lane: LaneId) -> &[History] {
+        &self.histories[self.index(lane).expect("it is in the race")].1
+    }
+
+    fn index(&self, lane: LaneId) -> Option<usize> {
+        self.histories.iter().position(|(id, _)| *id == lane)
+    }
+
+    /// The recent past of the truth, one curve for each body.
+    pub fn truth_curves(&self) -> &[TruthCurve] {
+        &self.truth_curves
+    }
+
+    /// The indices of the recorded coordinates, one for each body.
+    pub fn coordinates(&self) -> impl Iterator<Item = usize> {
+        self.truth_curves.iter().map(TruthCurve::coordinate)
+    }
+
+    /// The recorded coordinate of the body with this index in the scene, and its index.
+    pub fn coordinate(&self, race: &Race, body: usize) -> (Coordinate, usize) {
+        let index = self.truth_curves[body].coordinate();
+        (race.truth().bodies()[body].coordinates().at(index), index)
+    }
+
+    /// Since when (s) the motion is one: since a body was last placed or a parameter last set, or since before the start.
+    pub fn changed_s(&self) -> f64 {
+        self.changed_s
+    }
+
+    /// The time (s) from which on the past tells at `t` how far bodies swing: the last [change](Self::changed_s), or
+    /// before the start while the motion after it has only begun.
+    pub fn swing_since_s(&self, t: f64) -> f64 {
+        let has_begun = t - self.changed_s < BEGUN * self.span_s;
+        if has_begun { f64::NEG_INFINITY } else { self.changed_s }
+    }
+
+    /// The true coordinates and velocities of the body with this index in the scene within the last tick of `race`, in which
+    /// `part` goes from 0 to 1, or beyond it.
+    pub fn truth_between(&self, race: &Race, body: usize, part: f64) -> (Vec<f64>, Vec<f64>) {
+        self.truth_curves[body].state(&race.truth().bodies()[body], race.last_tick(), part)
+    }
+
+    /// Adds the present of `race` until the next sample, so that the drawn past reaches the present. Never allocates.
+    pub fn show_present(&mut self, race: &Race) {
+        self.each(race, History::record_passing);
+    }
+
+    /// Ticks between samples.
+    fn stride(&self, race: &Race) -> u64 {
+        let samples = self.span_s * f64::from(race.tick_hz());
+        ((samples / self.capacity as f64).ceil() as u64).max(1)
+    }
+
+    /// Adds the present to the histories if a sample is due, or else to the range that the next sample sweeps.
+    fn sample(&mut self, race: &Race) {
+        if race.tick().is_multiple_of(self.stride(race)) {
+            return self.each(race, History::record);
+        }
+        for (entrant, (_, histories)) in race.entrants().iter().zip(&mut self.histories) {
+            let curves = histories.iter_mut().zip(&self.truth_curves);
+            let bodies = entrant.lane.bodies().iter().zip(curves);
+            for (body, (history, curve)) in bodies.filter(|(body, _)| body.halted().is_none()) {
+                history.pass(body.stepper.q()[curve.coordinate()]);
+            }
+        }
+    }
+
+    fn each(&mut self, race: &Race, add: fn(&mut History, Sample)) {
+        let t = race.t();
+        for (Entrant { id, lane, .. }, (_, histories)) in
+            race.entrants().iter().zip(&mut self.histories)
+        {
+            let entry = self.menu.entry(*id);
+            let curves = histories.iter_mut().zip(&self.truth_curves);
+            let bodies = lane.bodies().iter().zip(race.truth().bodies()).zip(curves);
+            for ((body, truth), (history, curve)) in
+                bodies.filter(|((b, _), _)| b.halted().is_none())
+            {
+                add(history, Sample::new(t, entry, curve.coordinate(), [body, truth]));
+            }
+        }
+    }
+
+    fn keep_corner(&mut self, race: &Race) {
+        for (body, curve) in race.truth().bodies().iter().zip(&mut self.truth_curves) {
+            curve.keep(race.t(), body);
+        }
+    }
+
+    /// Drops the histories of lanes that have left the race.
+    fn leave_with(&mut self, race: &Race) {
+        self.histories.retain(|(lane, _)| race.entrant(*lane).is_some());
+        self.menu.leave_with(race);
+    }
+
+    /// The present end of the recorded past.
+    pub(crate) fn mark(&self) -> PastMark {
+        let marks = |(lane, histories): &(LaneId, Vec<History>)| {
+            (*lane, histories.iter().map(History::mark).collect())
+        };
+        PastMark {
+            histories: self.histories.iter().map(marks).collect(),
+            truth_curves: self.truth_curves.iter().map(TruthCurve::mark).collect(),
+            changed_s: self.changed_s,
+            menu: self.menu.clone(),
+            starts: self.starts.clone(),
+        }
+    }
+
+    /// Whether a run repeated from the mark `from` will be drawn at `mark` as it was drawn then.
+    pub(crate) fn fills(&self, from: &PastMark, mark: &PastMark) -> bool {
+        let histories = mark.histories.iter().all(|(lane, marks)| {
+            let begun = from.histories.iter().find(|(other, _)| other == lane);
+            let (Some((_, begun)), Some(kept)) = (begun, self.index(*lane)) else { return false };
+            let mut bodies = self.histories[kept].1.iter().zip(begun.iter().zip(marks));
+            bodies.all(|(history, (&begun, &mark))| history.fills(begun, mark))
+        });
+        let mut curves =
+            self.truth_curves.iter().zip(from.truth_curves.iter().zip(&mark.truth_curves));
+        histories && curves.all(|(curve, (&begun, &mark))| curve.fills(begun, mark))
+    }
+
+    /// Goes back to a mark, or forward to one in the recorded future: that of the present of `race`.
+    pub(crate) fn rewind(&mut self, mark: &PastMark, race: &Race) {
+        self.changed_s = mark.changed_s;
+        self.menu = mark.menu.clone();
+        self.starts = mark.starts.clone();
+        self.leave_with(race);
+        for (lane, marks) in &mark.histories {
+            let index = self.index(*lane).unwrap_or_else(|| {
+                // A lane that has left the race comes back.
+                let index = race.entrants().iter().position(|entrant| entrant.id == *lane);
+                let index = index.expect("a mark is of the lanes that the race then had");
+                let histories = marks.iter().map(|_| History::new(self.capacity));
+                self.histories.insert(index, (*lane, histories.collect()));
+                index
+            });
+            for (history, &mark) in self.histories[index].1.iter_mut().zip(marks) {
+                history.rewind(mark);
+            }
+        }
+        for (curve, &mark) in self.truth_curves.iter_mut().zip(&mark.truth_curves) {
+            curve.rewind(mark);
+        }
+    }
+
+    /// Drops the recorded future.
+    pub(crate) fn forget_future(&mut self) {
+        let lanes = self.histories.iter_mut().flat_map(|(_, histories)| histories);
+        lanes.for_each(History::forget_future);
+        self.truth_curves.iter_mut().for_each(TruthCurve::forget_future);
+    }
+}
+
+impl Observer for Past {
+    fn before(&mut self, race: &Race, action: &Action) {
+        for (body, curve) in race.truth().bodies().iter().zip(&mut self.truth_curves) {
+            curve.refresh(body, race.t());
+        }
+        match action {
+            Action::Throttle(_)
+            | Action::Rudder(_)
+            | Action::Kick(_)
+            | Action::Set { .. }
+            | Action::Place { .. } => {
+                self.keep_corner(race);
+            }
+            _ => {}
+        }
+        if let Action::Place { body, .. } = action {
+            let (t, truth) = (race.t(), &race.truth().bodies()[*body]);
+            let coordinate = self.truth_curves[*body].coordinate();
+            for (entrant, (_, histories)) in race.entrants().iter().zip(&mut self.histories) {
+                let placed = &entrant.lane.bodies()[*body];
+                if placed.halted().is_none() {
+                    let sample =
+                        Sample::new(t, self.menu.entry(entrant.id), coordinate, [placed, truth]);
+                    histories[*body].end_run(sample);
+                }
+            }
+        }
+        if let Some(index) = race.switched_by(action) {
+            let Entrant { id, lane, .. } = &race.entrants()[index];
+            let entry = self.menu.entry(*id);
+            let bodies = lane.bodies().iter().zip(race.truth().bodies());
+            let curves = self.histories[index].1.iter_mut().zip(&self.truth_curves);
+            for ((body, truth), (history, curve)) in bodies.zip(curves) {
+                if body.halted().is_none() {
+                    let sample = Sample::new(race.t(), entry, curve.coordinate(), [body, truth]);
+                    history.end_run(sample);
+                }
+            }
+        }
+    }
+
+    fn after(&mut self, race: &Race, action: &Action, resumed: &[Resumed]) {
+        match action {
+            Action::Throttle(_) | Action::Rudder(_) | Action::Kick(_) => {
+                self.keep_corner(race);
+                let input = action.input().expect("it is one");
+                self.truth_curves.iter_mut().for_each(|curve| curve.bend(input));
+            }
+            Action::Set { .. } => {
+                self.changed_s = race.t();
+                self.keep_corner(race);
+                self.truth_curves.iter_mut().for_each(TruthCurve::change);
+            }
+            Action::Place { body, .. } => {
+                self.changed_s = race.t();
+                let (t, truth) = (race.t(), &race.truth().bodies()[*body]);
+                self.truth_curves[*body].jump(t, truth);
+                let coordinate = self.truth_curves[*body].coordinate();
+                for (entrant, (_, histories)) in race.entrants().iter().zip(&mut self.histories) {
+                    let placed = &entrant.lane.bodies()[*body];
+                    let sample =
+                        Sample::new(t, self.menu.entry(entrant.id), coordinate, [placed, truth]);
+                    histories[*body].jump(sample);
+                }
+            }
+            Action::Solo { .. } => self.leave_with(race),
+            _ => {}
+        }
+        let Some(index) = race.switched_by(action) else { return };
+        let Entrant { id, spec, lane } = &race.entrants()[index];
+        self.menu.switch(*id, *spec);
+        let entry = self.menu.entry(*id);
+        let bodies = lane.bodies().iter().zip(race.truth().bodies()).enumerate();
+        let curves = self.histories[index].1.iter_mut().zip(&self.truth_curves);
+        for ((index, (body, truth)), (history, curve)) in bodies.zip(curves) {
+            let from_truth = |it: &&Resumed| it.halt.body == index && it.from == ResumedFrom::Truth;
+            let jumped = resumed.iter().any(|it| from_truth(&it));
+            let sample = Sample::new(race.t(), entry, curve.coordinate(), [body, truth]);
+            history.begin_run(Sample { jumped, ..sample });
+        }
+    }
+
+    fn acted(&mut self, race: &Race, action: &Action, author: Author) {
+        self.starts.acted(race, action, author);
+    }
+
+    fn ticked(&mut self, race: &Race) {
+        let tick = race.last_tick();
+        for (body, curve) in race.truth().bodies().iter().zip(&mut self.truth_curves) {
+            if body.halted().is_none() {
+                curve.extend(body, tick);
+            }
+        }
+        self.sample(race);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{LaneSpec, Scene};
+    use crate::sim::integrators::method;
+
+    fn race(seconds: f64, tick_hz: u32) -> (Race, Past) {
+        let scene = Scene { seconds, tick_hz, ..Scene::built_in("spring").unwrap() };
+        let race = Race::new(&scene, [LaneSpec::plain(method("rk4").unwrap())]);
+        let past = Past::new(&race, seconds);
+        (race, past)
+    }
+
+    /// Runs the race for these seconds, and returns the times of the samples.
+    fn sampled((race, past): &mut (Race, Past), seconds: f64) -> Vec<f64> {
+        let end = race.t() + seconds - 1e-9;
+        while race.t() < end {
+            race.step_seen(past);
+        }
+        past.histories(LaneId(1))[0].samples().map(|sample| sample.t).collect()
+    }
+
+    #[test]
+    fn histories_reach_over_the_scene_with_no_fewer_samples_than_they_must() {
+        // One tick less than the capacity, as many, and one more.
+        for (ticks, stride) in
+            [(CAPACITY as u32 - 1, 1), (CAPACITY as u32, 1), (CAPACITY as u32 + 1, 2)]
+        {
+            let times = sampled(&mut race(f64::from(ticks), 1), f64::from(ticks));
+            assert_eq!(
+                times[times.len() - 1] - times[times.len() - 2],
+                f64::from(stride),
+                "{ticks}"
+            );
+            assert!(times[0] <= f64::from(stride), "{ticks} ticks: from {} s on", times[0]);
+        }
+        let mut race = race(20.0, 10);
+        assert_eq!(sampled(&mut race, 10.0).len(), 101);
+        race.0.perform(&Action::TickHz(1000), &mut race.1);
+        let times = sampled(&mut race, 10.0);
+        // 20 s at 1000 Hz are ten times the capacity.
+        assert!((times[times.len() - 1] - times[times.len() - 2] - 0.01).abs() < 1e-9);
+        assert!(times[0] == 0.0 && (times[times.len() - 1] - 20.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn many_histories_have_fewer_samples_each_reach_as_far_back_and_fit_into_the_memory() {
+        for (histories, is_full) in [(1, true), (32, true), (80, true), (128, false), (2048, false)]
+        {
+            let capacity = capacity_of(histories);
+            assert_eq!(capacity == CAPACITY, is_full, "{histories}");
+            let bytes = histories * History::heap_bytes(capacity);
+            assert!(bytes <= MAX_BYTES + histories * History::heap_bytes(1), "{bytes} bytes");
+            assert!(is_full || bytes > MAX_BYTES * 9 / 10, "{bytes} bytes");
+        }
+        let spring =
+            |n: usize| format!("[[spring]]\nname = 'b{n}'\nmass_kg = 1\nstiffness_n_per_m = 9\n");
+        let head = "title = 't'\ntick_hz = 60\nseconds = 20\nmethods = ['rk4']\n".to_owned();
+        let text = (0..64).fold(head, |text, n| text + &spring(n));
+        let scene = Scene::parse("t", &text).unwrap();
+        let rk4 = LaneSpec::plain(method("rk4").unwrap());
+        let race = Race::new(&scene, [rk4; 32]);
+        let past = Past::new(&race, scene.seconds);
+        assert_eq!(past.capacity, capacity_of(2048));
+        assert_eq!(past.stride(&race), (1200.0 / past.capacity as f64).ceil() as u64);
+    }
+}

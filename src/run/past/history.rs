@@ -1,0 +1,355 @@
+//! The recent past of one body in one lane, from which trails and plots are drawn. Bounded, and allocated once.
+//!
+//! At a switch of method the run of samples under the old method ends, and the run under the new one begins, both with a
+//! sample at the moment of the switch.
+
+use std::collections::vec_deque;
+use std::{iter, option};
+
+use super::sample::Sample;
+use super::summary::{MAX_SUMMED, Summary, SummaryLog, SummaryMark};
+use super::swept_range::SweptRange;
+use super::windowed_log::WindowedLog;
+
+/// The recent past of one body in one lane, oldest first.
+#[derive(Debug)]
+pub struct History {
+    samples: WindowedLog<Sample>,
+    summaries: [SummaryLog; MAX_SUMMED.len()],
+    /// The present, if no sample is due at it.
+    present: Option<Sample>,
+    /// The range of the recorded coordinate since the newest sample.
+    since: SweptRange,
+}
+
+/// The end of a [`History`] at some tick.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HistoryMark {
+    /// The number of samples since the start.
+    samples: u64,
+    summaries: [SummaryMark; MAX_SUMMED.len()],
+    since: SweptRange,
+}
+
+/// Samples of a [`History`], oldest first.
+pub type Samples<'h> = iter::Chain<vec_deque::Iter<'h, Sample>, option::Iter<'h, Sample>>;
+
+impl History {
+    /// An empty history that shows `capacity` samples, and keeps half as many more for going back without a repetition:
+    /// of [`CAPACITY`](super::CAPACITY) 17 s at 60 Hz.
+    pub(super) fn new(capacity: usize) -> Self {
+        let spare = capacity / 2;
+        Self {
+            samples: WindowedLog::new(capacity, spare),
+            summaries: MAX_SUMMED.map(|max_summed| SummaryLog::new(max_summed, capacity, spare)),
+            present: None,
+            since: SweptRange::NOTHING,
+        }
+    }
+
+    /// The heap memory in bytes of a history of this capacity.
+    pub(super) fn heap_bytes(capacity: usize) -> usize {
+        let kept = capacity + capacity / 2;
+        let summaries: usize = MAX_SUMMED.iter().map(|max_summed| kept / max_summed + 1).sum();
+        kept * size_of::<Sample>() + summaries * size_of::<Summary>()
+    }
+
+    /// The samples, oldest first. The newest is the present, unless the body has halted.
+    pub fn samples(&self) -> Samples<'_> {
+        self.after(0)
+    }
+
+    /// The coarsest summary with at least `least` records that covers the same time, oldest first. `None` if there is
+    /// none.
+    pub fn summaries(&self, least: usize) -> Option<impl Iterator<Item = Summary>> {
+        self.summaries.iter().zip(MAX_SUMMED).find_map(|(log, max_summed)| {
+            let oldest = self.samples.range(max_summed.min(self.samples.len())).next();
+            let reaches = |summary: Summary| oldest.is_none_or(|oldest| summary.t <= oldest.t);
+            let all = log.shown().chain(self.present.as_ref().map(Summary::of));
+            let is_enough = all.size_hint().0 >= least && log.shown().next().is_none_or(reaches);
+            is_enough.then_some(all)
+        })
+    }
+
+    fn after(&self, skipped: usize) -> Samples<'_> {
+        let of_present = skipped.saturating_sub(self.samples.len());
+        let present = if of_present == 0 { &self.present } else { &None };
+        self.samples.range(skipped.min(self.samples.len())).chain(present)
+    }
+
+    /// The samples from time `t` (s) on, oldest first; where the body was put elsewhere at that time, from there.
+    pub fn since(&self, t: f64) -> Samples<'_> {
+        let skipped = self.samples.count_before(t, |sample| (sample.t, sample.jumped));
+        let is_over = self.present.as_ref().is_some_and(|present| present.t < t);
+        self.after(skipped + usize::from(is_over))
+    }
+
+    /// Adds a tick at which no sample is due.
+    pub(super) fn pass(&mut self, q: f64) {
+        self.since = self.since.and(q);
+    }
+
+    /// Adds the present, and drops the oldest sample if the history is full.
+    pub(super) fn record(&mut self, now: Sample) {
+        let swept = self.since.and(now.q);
+        self.begin_at(Sample { swept, ..now });
+    }
+
+    /// Adds a sample that no path connects with the one before.
+    fn begin_at(&mut self, now: Sample) {
+        self.present = None;
+        self.since = SweptRange::NOTHING;
+        self.summaries.iter_mut().for_each(|log| log.push(&now));
+        self.samples.push(now);
+    }
+
+    /// Adds the present until the next sample.
+    pub(super) fn record_passing(&mut self, now: Sample) {
+        let is_there = self.samples.newest().is_some_and(|newest| newest.t == now.t);
+        let swept = self.since.and(now.q);
+        self.present = (!is_there).then_some(Sample { swept, ..now });
+    }
+
+    /// Ends the run of the present method now.
+    pub(super) fn end_run(&mut self, now: Sample) {
+        self.present = None;
+        if self.samples.newest().is_none_or(|newest| newest.t != now.t) {
+            self.record(now);
+        }
+    }
+
+    /// Begins a run under the method of `now`. It replaces a run that began at the same moment, which has no motion.
+    pub(super) fn begin_run(&mut self, mut now: Sample) {
+        let mut newest_first = self.samples.shown().rev();
+        let newest = newest_first.next().filter(|newest| newest.t == now.t);
+        if let Some(newest) = newest
+            && newest_first.next().is_none_or(|before| before.entry != newest.entry)
+        {
+            now.jumped |= newest.jumped;
+            self.samples.pop();
+            self.summaries.iter_mut().for_each(SummaryLog::pop);
+        }
+        let newest = self.samples.newest();
+        let is_new = |newest: &Sample| {
+            newest.t != now.t || newest.entry != now.entry || now.jumped && !newest.jumped
+        };
+        if newest.is_none_or(is_new) {
+            self.begin_at(now);
+        }
+    }
+
+    /// Goes on from `now`, where the body was put.
+    pub(super) fn jump(&mut self, now: Sample) {
+        self.begin_at(Sample { jumped: true, ..now });
+    }
+
+    /// Where it is now.
+    pub(super) fn mark(&self) -> HistoryMark {
+        HistoryMark {
+            samples: self.samples.mark(),
+            summaries: self.summaries.each_ref().map(SummaryLog::mark),
+            since: self.since,
+        }
+    }
+
+    /// Whether a run begun again at the mark `from` will show at `mark` what it showed then.
+    pub(super) fn fills(&self, from: HistoryMark, mark: HistoryMark) -> bool {
+        self.samples.fills(from.samples, mark.samples)
+    }
+
+    /// Goes back to a mark, or forward to one of the future that is kept.
+    pub(super) fn rewind(&mut self, mark: HistoryMark) {
+        self.present = None;
+        self.since = mark.since;
+        self.samples.rewind(mark.samples);
+        self.summaries.iter_mut().zip(mark.summaries).for_each(|(log, mark)| log.rewind(mark));
+    }
+
+    /// Forgets the future: another one begins.
+    pub(super) fn forget_future(&mut self) {
+        self.samples.forget_future();
+        self.summaries.iter_mut().for_each(SummaryLog::forget_future);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec2;
+
+    use super::*;
+    use crate::run::METRICS;
+    use crate::run::past::sample::CAPACITY;
+
+    fn sample(t: f64, entry: usize) -> Sample {
+        Sample {
+            t,
+            q: 0.0,
+            swept: SweptRange::at(0.0),
+            v: 0.0,
+            at: DVec2::ZERO,
+            energies: None,
+            entry,
+            metrics: [0.0; METRICS.len()],
+            jumped: false,
+        }
+    }
+
+    /// The entry and the times of each run.
+    fn runs(history: &History) -> Vec<(usize, Vec<f64>)> {
+        let samples: Vec<&Sample> = history.samples().collect();
+        let runs = samples.chunk_by(|one, next| one.entry == next.entry);
+        runs.map(|run| (run[0].entry, run.iter().map(|s| s.t).collect())).collect()
+    }
+
+    /// A history of `entry` at 0, 1 and 2 s.
+    fn flown(entry: usize) -> History {
+        let mut history = History::new(CAPACITY);
+        (0..3).for_each(|t| history.record(sample(f64::from(t), entry)));
+        history
+    }
+
+    fn switch(history: &mut History, t: f64, from: usize, to: usize) {
+        history.end_run(sample(t, from));
+        history.begin_run(sample(t, to));
+    }
+
+    #[test]
+    fn runs_meet_at_the_moment_of_the_switch() {
+        let mut history = flown(0);
+        switch(&mut history, 2.5, 0, 3);
+        history.record(sample(3.0, 3));
+        let first = (0, vec![0.0, 1.0, 2.0, 2.5]);
+        assert_eq!(runs(&history), [first.clone(), (3, vec![2.5, 3.0])]);
+        switch(&mut history, 3.0, 3, 0);
+        assert_eq!(runs(&history), [first, (3, vec![2.5, 3.0]), (0, vec![3.0])]);
+        assert_eq!(runs(&History::new(CAPACITY)), []);
+    }
+
+    #[test]
+    fn a_method_that_flew_no_tick_leaves_no_run() {
+        let mut history = flown(0);
+        switch(&mut history, 2.0, 0, 1);
+        switch(&mut history, 2.0, 1, 2);
+        assert_eq!(runs(&history), [(0, vec![0.0, 1.0, 2.0]), (2, vec![2.0])]);
+        switch(&mut history, 2.0, 2, 0);
+        assert_eq!(runs(&history), [(0, vec![0.0, 1.0, 2.0])]);
+        let mut history = History::new(CAPACITY);
+        history.record(sample(0.0, 0));
+        switch(&mut history, 0.0, 0, 1);
+        assert_eq!(runs(&history), [(1, vec![0.0])]);
+    }
+
+    #[test]
+    fn the_present_shows_until_the_next_moment_comes() {
+        let mut history = flown(0);
+        history.record_passing(sample(2.0, 0));
+        assert_eq!(history.samples().count(), 3, "it is there already");
+        history.record_passing(sample(2.2, 0));
+        history.record_passing(sample(2.4, 0));
+        assert_eq!(runs(&history), [(0, vec![0.0, 1.0, 2.0, 2.4])]);
+        history.record(sample(3.0, 0));
+        assert_eq!(runs(&history), [(0, vec![0.0, 1.0, 2.0, 3.0])]);
+        history.record_passing(sample(3.5, 0));
+        switch(&mut history, 3.5, 0, 1);
+        history.record(sample(4.0, 1));
+        assert_eq!(runs(&history), [(0, vec![0.0, 1.0, 2.0, 3.0, 3.5]), (1, vec![3.5, 4.0])]);
+    }
+
+    #[test]
+    fn a_sample_has_what_was_passed_over_since_the_one_before() {
+        let swept = |history: &History| -> Vec<[f64; 2]> {
+            history.samples().map(|sample| sample.swept.ends()).collect()
+        };
+        let mut history = flown(0);
+        history.pass(-2.0);
+        history.pass(1.0);
+        let mark = history.mark();
+        history.record_passing(sample(2.5, 0));
+        assert_eq!(swept(&history), [[0.0; 2], [0.0; 2], [0.0; 2], [-2.0, 1.0]]);
+        history.pass(3.0);
+        history.record(sample(3.0, 0));
+        history.record(sample(4.0, 0));
+        assert_eq!(swept(&history)[3..], [[-2.0, 3.0], [0.0; 2]]);
+        history.rewind(mark);
+        switch(&mut history, 2.5, 0, 1);
+        assert_eq!(swept(&history)[2..], [[0.0; 2], [-2.0, 1.0], [0.0; 2]]);
+        history.pass(9.0);
+        history.jump(sample(3.0, 1));
+        assert_eq!(swept(&history)[5], [0.0; 2], "nothing leads to where it was put");
+    }
+
+    #[test]
+    fn what_is_since_a_placement_begins_where_the_body_was_put() {
+        let mut history = flown(0);
+        history.end_run(Sample { q: 5.0, ..sample(2.5, 0) });
+        history.jump(Sample { q: 1.0, ..sample(2.5, 0) });
+        history.record(sample(3.0, 0));
+        history.record_passing(sample(3.5, 0));
+        let since = |t: f64| history.since(t).map(|sample| sample.q).collect::<Vec<_>>();
+        assert_eq!(since(2.5), [1.0, 0.0, 0.0]);
+        assert_eq!(since(2.0), [0.0, 5.0, 1.0, 0.0, 0.0]);
+        assert_eq!((since(3.5).len(), since(9.0).len(), since(-1.0).len()), (1, 0, 7));
+    }
+
+    #[test]
+    fn a_full_history_forgets_its_oldest_sample() {
+        let mut history = History::new(CAPACITY);
+        (0..=CAPACITY).for_each(|t| history.record(sample(t as f64, 0)));
+        history.record_passing(sample(1e9, 0));
+        assert_eq!(history.samples().count(), CAPACITY + 1, "the present is beside them");
+        assert_eq!(history.samples().next().unwrap().t, 1.0);
+    }
+
+    /// What each summary has: the time, the method, how far it sweeps and whether it begins at a jump.
+    fn summaries(history: &History) -> Vec<(f64, usize, [f64; 2], bool)> {
+        let summaries = history.summaries(0).expect("they reach as far back");
+        summaries.map(|s| (s.t, s.entry, s.swept.ends(), s.jumped)).collect()
+    }
+
+    #[test]
+    fn a_summary_stands_for_four_samples_of_one_motion_and_for_all_that_they_sweep() {
+        let at = |t: u32, q: f64| Sample { q, ..sample(f64::from(t), 0) };
+        let mut history = History::new(CAPACITY);
+        (0..6).for_each(|t| history.record(at(t, f64::from(t))));
+        assert_eq!(summaries(&history), [(3.0, 0, [0.0, 3.0], false), (5.0, 0, [4.0, 5.0], false)]);
+        switch(&mut history, 5.5, 0, 1);
+        history.record(Sample { entry: 1, ..at(6, -1.0) });
+        let before = summaries(&history);
+        assert_eq!(before[1..], [(5.5, 0, [0.0, 5.0], false), (6.0, 1, [-1.0, 0.0], false)]);
+        history.jump(Sample { entry: 1, ..at(6, 9.0) });
+        history.record(Sample { entry: 1, ..at(7, f64::INFINITY) });
+        history.record_passing(Sample { entry: 1, ..at(8, 7.0) });
+        let times: Vec<_> = summaries(&history)[3..].iter().map(|s| (s.0, s.3)).collect();
+        assert_eq!(times, [(6.0, true), (7.0, false), (8.0, false)]);
+    }
+
+    #[test]
+    fn summaries_go_back_and_on_with_the_samples() {
+        let tick = |history: &mut History, t: u32| {
+            history.record(Sample { q: f64::from(t % 7), ..sample(f64::from(t), 0) });
+        };
+        let mut history = History::new(CAPACITY);
+        let mut seen = Vec::new();
+        for t in 0..6000 {
+            tick(&mut history, t);
+            seen.push((history.mark(), summaries(&history)));
+        }
+        for back in [5999, 5997, 5990, 5800, 5998, 5500] {
+            let (mark, shown) = &seen[back];
+            history.rewind(*mark);
+            assert_eq!(&summaries(&history), shown);
+        }
+        (5501..6000).for_each(|t| tick(&mut history, t));
+        assert_eq!(summaries(&history), seen[5999].1);
+        assert!(seen[5999].1.len() > CAPACITY / 4);
+        let at_least = |least: usize| history.summaries(least).map(Iterator::count);
+        assert_eq!(at_least(600).map(|count| count / 10), Some(CAPACITY / 20));
+        assert_eq!((at_least(400), at_least(1200)), (Some(seen[5999].1.len()), None));
+        history.rewind(seen[100].0);
+        (101..4000).for_each(|t| tick(&mut history, t));
+        assert!(summaries(&history).len() > CAPACITY / 4);
+        switch(&mut history, 4000.0, 0, 1);
+        (0..1200).for_each(|t| switch(&mut history, 4001.0 + f64::from(t), 1, 2));
+        assert!(history.summaries(0).is_none(), "short runs fill them too soon");
+    }
+}

@@ -1,0 +1,123 @@
+//! The menu of methods from which a person picks.
+
+use crate::run::race::Race;
+use crate::scene::{LaneId, LaneSpec};
+
+/// The methods that digits, rows and colours refer to by their index: the scene's lanes, then all other methods that fit
+/// its bodies, each with the substeps and the tolerance with which a lane flies it now or flew it last. It follows the
+/// switches of a run, and is not part of it.
+#[derive(Clone, Debug)]
+pub struct Menu {
+    specs: Vec<LaneSpec>,
+    /// The index of what each lane of the race flies.
+    flown: Vec<(LaneId, usize)>,
+}
+
+impl Menu {
+    /// The menu of a race at its start.
+    pub(crate) fn new(race: &Race) -> Self {
+        let mut menu = Self { specs: race.methods().to_vec(), flown: Vec::new() };
+        for entrant in race.entrants() {
+            // Of lanes that are alike each has an entry of its own, as far as there are any.
+            let mut own = 0..menu.specs.len();
+            let own = own.find(|&at| menu.specs[at] == entrant.spec && menu.lane(at).is_none());
+            let entry = own.unwrap_or_else(|| menu.entry_for(entrant.id, entrant.spec));
+            menu.flown.push((entrant.id, entry));
+        }
+        menu
+    }
+
+    /// The methods, in menu order.
+    pub fn specs(&self) -> &[LaneSpec] {
+        &self.specs
+    }
+
+    /// The index of the method of a lane that is in the race.
+    ///
+    /// # Panics
+    /// If it is not.
+    pub fn entry(&self, lane: LaneId) -> usize {
+        self.known_entry(lane).expect("it is in the race")
+    }
+
+    /// The first lane under the method with this index; `None` if no lane flies it.
+    pub fn lane(&self, entry: usize) -> Option<LaneId> {
+        self.flown.iter().find(|(_, flown)| *flown == entry).map(|(lane, _)| *lane)
+    }
+
+    fn known_entry(&self, lane: LaneId) -> Option<usize> {
+        self.flown.iter().find(|(known, _)| *known == lane).map(|(_, entry)| *entry)
+    }
+
+    /// Its heap memory in bytes.
+    pub(super) fn heap_bytes(&self) -> usize {
+        size_of_val(&self.specs[..]) + size_of_val(&self.flown[..])
+    }
+
+    /// A lane was switched to `spec`.
+    pub(super) fn switch(&mut self, lane: LaneId, spec: LaneSpec) {
+        let entry = self.entry_for(lane, spec);
+        self.flown.iter_mut().filter(|(known, _)| *known == lane).for_each(|it| it.1 = entry);
+    }
+
+    /// Forgets the lanes that have left the race.
+    pub(super) fn leave_with(&mut self, race: &Race) {
+        self.flown.retain(|(lane, _)| race.entrant(*lane).is_some());
+    }
+
+    /// The index for a lane that switches to `spec`: that of `spec`, or else one of its method that no other lane flies, which
+    /// becomes `spec`, or else a new one. So the menu has what every lane flies.
+    fn entry_for(&mut self, lane: LaneId, spec: LaneSpec) -> usize {
+        if let Some(known) = self.specs.iter().position(|known| *known == spec) {
+            return known;
+        }
+        let is_free = |&entry: &usize| {
+            let by_other = |flown: &(LaneId, usize)| *flown == (flown.0, entry) && flown.0 != lane;
+            self.specs[entry].method == spec.method && !self.flown.iter().any(by_other)
+        };
+        let free = self.known_entry(lane).into_iter().chain(0..self.specs.len()).find(is_free);
+        let entry = free.unwrap_or(self.specs.len());
+        match self.specs.get_mut(entry) {
+            Some(known) => *known = spec,
+            None => self.specs.push(spec),
+        }
+        entry
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::past::Past;
+    use crate::scene::{Action, Scene};
+    use crate::sim::integrators::method;
+
+    #[test]
+    fn the_menu_has_what_every_lane_flies_though_several_fly_one_method() {
+        let specs = ["rk4", "explicit-euler"].map(|id| LaneSpec::plain(method(id).unwrap()));
+        let scene = Scene { lanes: specs.to_vec(), ..Scene::built_in("spring").unwrap() };
+        let mut race = Race::new(&scene, specs);
+        let mut past = Past::new(&race, scene.seconds);
+        let (a, b) = (LaneId(1), LaneId(2));
+        let lane = |lane| Action::Lane { lane, spec: specs[0] };
+        let substeps = |lane, substeps| Action::Substeps { lane, substeps };
+        for action in [lane(b), substeps(b, 3), substeps(a, 3), substeps(a, 2), substeps(b, 4)] {
+            race.perform(&action, &mut past);
+            for entrant in race.entrants() {
+                let listed = past.menu().specs()[past.menu().entry(entrant.id)];
+                assert_eq!(listed, entrant.spec, "{action:?}");
+                let flown = (entrant.lane.solver(), entrant.lane.substeps());
+                assert_eq!((listed.solver(), listed.substeps), flown, "{action:?}");
+            }
+        }
+        assert_eq!(past.menu().specs()[1], specs[1], "a method stays though no lane flies it");
+    }
+
+    #[test]
+    fn lanes_that_are_alike_from_the_start_have_an_entry_each() {
+        let rk4 = LaneSpec::plain(method("rk4").unwrap());
+        let scene = Scene { lanes: vec![rk4; 2], ..Scene::built_in("spring").unwrap() };
+        let menu = Menu::new(&Race::of_scene(&scene));
+        assert_eq!([1, 2].map(|n| menu.entry(LaneId(n))), [0, 1]);
+    }
+}

@@ -1,0 +1,391 @@
+//! All lanes and the truth, stepped tick by tick in integer time, with the actions on them.
+//!
+//! A [`Race`] ticks its [`Entrant`]s and performs the actions of its [`Journal`]; an [`Observer`] sees both. A [`Lane`] is
+//! one method on its own copy of the scene's bodies. Outside a run a [`Follow`] ticks one. An [`Interpolation`] draws a body
+//! between two ticks.
+
+use std::sync::Arc;
+
+use crate::scene::custom::{self, Options};
+use crate::scene::{LaneId, LaneSpec, Piece, Scene, Scripted};
+use crate::sim::{Solver, State, System, Vector};
+
+pub use crate::scene::TimeScale;
+pub use chase::Chase;
+pub use equal_cost::{equal_cost, lanes_that_race};
+pub(crate) use extent::Extent;
+pub use follow::{Follow, StopReason, Ticked};
+pub(crate) use hash::Fnv;
+pub use interpolation::Interpolation;
+pub(crate) use interpolation::{hermite, slope};
+pub(crate) use intervention::Interventions;
+pub(crate) use journal::JournalTail;
+pub use journal::{Author, Journal, JournalRow};
+pub(crate) use lane::advance_checked;
+pub use lane::{ESCAPE, Halt, Lane, LaneBody, Resumed, ResumedFrom};
+
+mod acting;
+mod chase;
+mod equal_cost;
+mod extent;
+mod follow;
+mod hash;
+mod interpolation;
+mod intervention;
+mod journal;
+mod lane;
+mod observer;
+mod run_start;
+
+pub(crate) use acting::ActionResult;
+pub use observer::Observer;
+pub(crate) use run_start::Starts;
+use run_start::{BodyStart, RunStart};
+
+/// One method at a time, or all of them at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// One lane, whose method is switched in flight.
+    Solo,
+    /// A lane for every method that the scene lists, and one for the method last flown solo.
+    Race,
+}
+
+/// The last tick of a race.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LastTick {
+    /// When it began, in seconds.
+    pub(crate) from_s: f64,
+    /// When it ended.
+    pub(crate) to_s: f64,
+}
+
+/// A lane in a race, with its identity and its method.
+#[derive(Clone)]
+pub struct Entrant {
+    /// Which lane it is, from the race's start on.
+    pub id: LaneId,
+    /// Its method, substeps and tolerance.
+    pub spec: LaneSpec,
+    /// The lane.
+    pub lane: Lane,
+}
+
+/// Lanes against the truth. In solo mode there is one.
+#[derive(Clone)]
+pub struct Race {
+    mode: Mode,
+    truth: Lane,
+    entrants: Vec<Entrant>,
+    /// What an action can name by its method alone.
+    methods: Arc<[LaneSpec]>,
+    /// The present parameters of each body.
+    values: Vec<Vec<f64>>,
+    throttle: f64,
+    rudder: f64,
+    tick: u64,
+    /// The ticks since the present tick rate was set. Time is counted from there, never summed.
+    piece: Piece,
+    /// The length of the last tick, in seconds.
+    last_step_s: f64,
+    journal: Journal,
+    /// The number of rows of the journal that have been performed.
+    done: usize,
+}
+
+impl Race {
+    /// The race of a body that moves as `system` does, from `start`: a lane for each method of the options, and the
+    /// truth.
+    ///
+    /// ```
+    /// use regatta::prelude::*;
+    ///
+    /// #[derive(Clone)]
+    /// struct Spring;
+    ///
+    /// impl System for Spring {
+    ///     type Vector = f64;
+    ///     fn acceleration(&self, _t: f64, q: &f64, _v: &f64, a: &mut f64) {
+    ///         *a = -40.0 * q;
+    ///     }
+    /// }
+    ///
+    /// let mut race = Race::of(&Spring, State { q: 1.0, v: 0.0 }, Options::default());
+    /// race.run(600);
+    /// assert!(race.hashes_by_method().any(|(method, _)| method == "rk4"));
+    /// ```
+    ///
+    /// # Panics
+    /// If an option cannot be; [`Scene::of`] returns an error instead.
+    pub fn of<S>(system: &S, start: State<S::Vector>, options: Options<S>) -> Self
+    where
+        S: System<Vector: Vector> + Clone + Send + 'static,
+    {
+        Self::of_scene(&custom::scene(system, start, options))
+    }
+
+    /// The tick nearest to `seconds` of simulated time, by the changes of the tick rate that are known to come; the present
+    /// tick if they have passed already.
+    pub fn nearest_tick(&self, seconds: f64) -> u64 {
+        TimeScale::new((self.tick(), self.t()), self.tick_hz(), self.rates_to_come())
+            .nearest_tick(seconds)
+    }
+
+    /// The race of all the scene's lanes at its start. Each [`step`](Self::step) performs the script's actions at its
+    /// tick, except for a method without a lane, as each lane keeps its method. It is the race that
+    /// `regatta capture --race` draws:
+    ///
+    /// ```
+    /// use regatta::run::Race;
+    /// use regatta::scene::Scene;
+    ///
+    /// let scene = Scene::built_in("stiff").expect("a built-in scene");
+    /// let mut race = Race::of_scene(&scene);
+    /// race.run(600);
+    /// for (method, hash) in race.hashes_by_method() {
+    ///     println!("{method} {hash:016x}");
+    /// }
+    /// ```
+    pub fn of_scene(scene: &Scene) -> Self {
+        let lanes = lanes_that_race(scene);
+        Self::new(scene, lanes).with_script(&scene.script)
+    }
+
+    /// The same race at its start, with this script at the present tick rate.
+    pub(crate) fn with_script(self, script: &[Scripted]) -> Self {
+        Self { journal: Journal::of_script(script, self.tick_hz()), ..self }
+    }
+
+    /// The scene at its start without its script, with these lanes.
+    pub fn new(scene: &Scene, lanes: impl IntoIterator<Item = LaneSpec>) -> Self {
+        Self::with_methods(scene, scene.method_list(), lanes)
+    }
+
+    /// Like [`Race::new`], with substeps and tolerances of its own for what an action names by its method alone.
+    pub(crate) fn with_methods(
+        scene: &Scene,
+        methods: Vec<LaneSpec>,
+        lanes: impl IntoIterator<Item = LaneSpec>,
+    ) -> Self {
+        let entrants = lanes.into_iter().enumerate().map(|(index, spec)| Entrant {
+            id: LaneId::of_index(index),
+            spec,
+            lane: Lane::new(scene, spec.solver(), spec.substeps),
+        });
+        Self {
+            mode: Mode::Race,
+            truth: Lane::new(scene, Solver::Truth, 1),
+            entrants: entrants.collect(),
+            methods: methods.into(),
+            values: scene.bodies.iter().map(|body| body.values.clone()).collect(),
+            throttle: 1.0,
+            rudder: 0.0,
+            tick: 0,
+            piece: Piece::first(scene.tick_hz),
+            last_step_s: 0.0,
+            journal: Journal::default(),
+            done: 0,
+        }
+    }
+
+    /// The scene at its start without its script, with one lane: that with this index among `methods`, which begin with the
+    /// scene's lanes.
+    pub(crate) fn solo(scene: &Scene, methods: Vec<LaneSpec>, index: usize) -> Self {
+        let spec = methods[index];
+        let mut race = Self::with_methods(scene, methods, [spec]);
+        race.mode = Mode::Solo;
+        // The number that the lane has in a race, if it is in one.
+        if index < scene.lanes.len() {
+            race.entrants[0].id = LaneId::of_index(index);
+        }
+        race
+    }
+
+    /// The same race at its start, without its script, at this tick rate.
+    pub(crate) fn at_rate(self, tick_hz: u32) -> Self {
+        Self { piece: Piece::first(tick_hz), journal: Journal::default(), ..self }
+    }
+
+    /// Whether there is one lane, which is switched from method to method, or one for each method.
+    pub fn mode(&self) -> Mode {
+        self.mode
+    }
+    /// The tick reached.
+    pub fn tick(&self) -> u64 {
+        self.tick
+    }
+    /// The tick rate in Hz.
+    pub fn tick_hz(&self) -> u32 {
+        self.piece.tick_hz
+    }
+    /// The time reached, in seconds.
+    pub fn t(&self) -> f64 {
+        self.piece.t(self.tick)
+    }
+    /// The length of the last tick in seconds, at whatever rate it was; 0 at the start.
+    pub fn last_step_s(&self) -> f64 {
+        self.last_step_s
+    }
+    /// The throttle, -1 to 1.
+    pub fn throttle(&self) -> f64 {
+        self.throttle
+    }
+    /// The rudder, from -1, hard right, to 1, hard left.
+    pub fn rudder(&self) -> f64 {
+        self.rudder
+    }
+    /// The truth: the exact solution, or a reference where a body has no closed form.
+    pub fn truth(&self) -> &Lane {
+        &self.truth
+    }
+    /// The lanes, in list order.
+    pub fn entrants(&self) -> &[Entrant] {
+        &self.entrants
+    }
+    /// The scene's lanes, then all other methods that fit its bodies, as they are at the start: what
+    /// [`Action::Method`](crate::scene::Action::Method) puts a lane under.
+    pub fn methods(&self) -> &[LaneSpec] {
+        &self.methods
+    }
+    /// The present parameters of the body at this index of the scene, in the order of
+    /// [`Kind::build`](crate::sim::bodies::Kind::build).
+    pub fn values(&self, body: usize) -> &[f64] {
+        &self.values[body]
+    }
+    /// The bodies that halted in the last tick, each with its entrant. The bodies of the truth come first, with `None`.
+    pub fn just_halted(&self) -> impl Iterator<Item = (Option<&Entrant>, &Halt)> {
+        let lanes = self.entrants.iter().map(|entrant| (Some(entrant), &entrant.lane));
+        std::iter::once((None, &self.truth)).chain(lanes).flat_map(|(entrant, lane)| {
+            let halts = lane.halts().filter(|halt| halt.tick + 1 == self.tick);
+            halts.map(move |halt| (entrant, halt))
+        })
+    }
+    /// The entrant that is this lane; `None` where it has left the race.
+    pub fn entrant(&self, lane: LaneId) -> Option<&Entrant> {
+        self.entrants.iter().find(|entrant| entrant.id == lane)
+    }
+    /// The [hash](Self::lane_hashes) of this lane; `None` where it has left the race.
+    pub fn lane_hash(&self, lane: LaneId) -> Option<u64> {
+        let index = self.entrants.iter().position(|entrant| entrant.id == lane)?;
+        self.lane_hashes().nth(index)
+    }
+    /// The performed and the pending actions.
+    pub fn journal(&self) -> &Journal {
+        &self.journal
+    }
+    /// The number of rows of the journal that have been performed.
+    pub(crate) fn done(&self) -> usize {
+        self.done
+    }
+
+    /// The changes of the tick rate that are still to come: each with its tick, and the new rate in Hz.
+    pub fn rates_to_come(&self) -> impl Iterator<Item = (u64, u32)> {
+        let pending = self.journal.rows()[self.done..].iter();
+        pending.filter_map(|row| Some((row.tick, row.action.tick_hz()?)))
+    }
+
+    /// Replaces the journal by one in which as many rows have been performed.
+    pub(crate) fn set_journal(&mut self, journal: Journal) {
+        self.journal = journal;
+    }
+
+    pub(crate) fn last_tick(&self) -> LastTick {
+        let to_s = self.t();
+        LastTick { from_s: to_s - self.last_step_s, to_s }
+    }
+
+    /// An upper bound of its memory in bytes, without the journal and the methods, which copies share.
+    pub(crate) fn bytes(&self) -> usize {
+        let lanes = self.entrants.iter().map(|entrant| &entrant.lane).chain([&self.truth]);
+        let values =
+            self.values.iter().map(|values| size_of_val(values) + size_of_val(&values[..]));
+        size_of::<Self>()
+            + self.entrants.len() * size_of::<Entrant>()
+            + values.sum::<usize>()
+            + lanes.map(Lane::heap_bytes).sum::<usize>()
+    }
+
+    /// Performs the journal's actions at this tick, and steps every lane and the truth to the next. Never allocates.
+    pub fn step(&mut self) {
+        self.step_seen(&mut ());
+    }
+
+    /// Like [`Race::step`], with an observer.
+    pub fn step_seen(&mut self, observer: &mut impl Observer) {
+        self.catch_up(observer);
+        let (t, h) = (self.t(), 1.0 / f64::from(self.tick_hz()));
+        self.truth.tick(self.tick, t, h);
+        for entrant in &mut self.entrants {
+            entrant.lane.tick(self.tick, t, h);
+        }
+        self.tick += 1;
+        self.last_step_s = h;
+        observer.ticked(self);
+    }
+
+    /// Steps `ticks` ticks.
+    pub fn run(&mut self, ticks: u64) {
+        (0..ticks).for_each(|_| self.step());
+    }
+
+    /// A hash of the tick and of the bits of every lane's state, without the truth: equal for equal physics on every
+    /// platform and in every build. It is 64-bit FNV-1a over little-endian words, with -0 as 0.
+    pub fn state_hash(&self) -> u64 {
+        let mut hash = Fnv::new();
+        hash.word(self.tick);
+        self.entrants.iter().for_each(|entrant| hash.lane(&entrant.lane));
+        hash.0
+    }
+
+    /// For each lane the [`Race::state_hash`] of a race of this lane alone.
+    pub fn lane_hashes(&self) -> impl Iterator<Item = u64> {
+        self.entrants.iter().map(|entrant| {
+            let mut hash = Fnv::new();
+            hash.word(self.tick);
+            hash.lane(&entrant.lane);
+            hash.0
+        })
+    }
+
+    /// [`Race::lane_hashes`] with the id of each lane's method, in list order.
+    pub fn hashes_by_method(&self) -> impl Iterator<Item = (&'static str, u64)> {
+        let methods = self.entrants.iter().map(|entrant| {
+            let method = entrant.lane.solver().method();
+            method.expect("lanes are under methods, and only the truth is under none").id
+        });
+        methods.zip(self.lane_hashes())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Action;
+    use crate::sim::integrators::method;
+
+    fn race(seconds: f64, tick_hz: u32) -> Race {
+        let scene = Scene { seconds, tick_hz, ..Scene::built_in("spring").unwrap() };
+        Race::new(&scene, [LaneSpec::plain(method("rk4").unwrap())])
+    }
+
+    #[test]
+    fn time_is_counted_from_the_last_of_several_changes_of_rate() {
+        let mut race = race(20.0, 60);
+        let mut t = 0.0;
+        for (tick_hz, ticks) in [(60, 11), (49, 7), (120, 5), (1, 3), (1000, 1)] {
+            race.perform(&Action::TickHz(tick_hz), &mut ());
+            for tick in 1..=ticks {
+                race.step();
+                let now = t + f64::from(tick) / f64::from(tick_hz);
+                assert!((race.t() - now).abs() < 1e-14, "{tick_hz} Hz: {} s, not {now}", race.t());
+            }
+            assert_eq!(race.last_step_s(), 1.0 / f64::from(tick_hz));
+            t = race.t();
+        }
+        assert_eq!(race.tick(), 27);
+        // The truth is where the time is, whatever the rates were.
+        let swing = libm::cos(std::f64::consts::TAU * race.t());
+        let truth = race.truth().bodies()[0].stepper.q()[0];
+        assert!((truth - swing).abs() < 1e-11, "{truth}, {swing}");
+    }
+}

@@ -1,0 +1,74 @@
+//! Lanes of equal cost: who is cheap may step more often.
+
+use std::ops::ControlFlow;
+
+use super::follow::{Follow, StopReason};
+use super::lane::Lane;
+use crate::scene::{LaneSpec, MAX_SUBSTEPS, Scene, nearest_tick};
+
+/// The fewest ticks over which a cost is counted, and how many are counted after the script's last action: a second of
+/// most scenes, and enough for step sizes to settle.
+const SETTLING_TICKS: u64 = 60;
+
+/// The most ticks over which a cost is counted. More would keep a person waiting who asks for equal cost; the actions of
+/// a longer script are left out beyond them.
+const MAX_COUNTED_TICKS: u64 = 600;
+
+/// The lanes of a scene, each with as many substeps as bring its evaluations nearest to those of the dearest of them as
+/// it stands. Evaluations are counted at `tick_hz` from the scene's start until its script is over and step sizes have
+/// settled, 60 to 600 ticks.
+///
+/// The substeps of an engine are its own, and stay. A lane whose bodies halt costs what it did until then.
+pub fn equal_cost(scene: &Scene, lanes: &[LaneSpec], tick_hz: u32) -> Vec<LaneSpec> {
+    let cost = |spec: &LaneSpec, most| evaluations_per_tick(scene, spec, tick_hz, most);
+    let dearest = lanes.iter().map(|spec| cost(spec, f64::INFINITY)).fold(0.0, f64::max);
+    let equal = |spec: &LaneSpec| match spec.method.is_engine() {
+        true => *spec,
+        false => nearest(dearest, *spec, cost),
+    };
+    lanes.iter().map(equal).collect()
+}
+
+/// The lanes that race: those of the scene, of equal cost if it asks for that.
+pub fn lanes_that_race(scene: &Scene) -> Vec<LaneSpec> {
+    match scene.equal_cost {
+        true => equal_cost(scene, &scene.lanes, scene.tick_hz),
+        false => scene.lanes.clone(),
+    }
+}
+
+/// `spec` with the substeps that bring its cost nearest to `wanted`: found by bisection, as more substeps never cost
+/// less. `cost` may be infinite where it is more than its second argument.
+fn nearest(wanted: f64, spec: LaneSpec, cost: impl Fn(&LaneSpec, f64) -> f64) -> LaneSpec {
+    let with = |substeps: u32| LaneSpec { substeps, ..spec };
+    let (mut low, mut high) = (1, MAX_SUBSTEPS);
+    while high - low > 1 {
+        let middle = low.midpoint(high);
+        if cost(&with(middle), wanted) <= wanted {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let [below, above] = [low, high].map(with);
+    let off_below = (cost(&below, f64::INFINITY) - wanted).abs();
+    let off_above = (cost(&above, wanted + off_below) - wanted).abs();
+    if off_above < off_below { above } else { below }
+}
+
+/// The mean cost of a tick; infinite where it is more than `most`.
+fn evaluations_per_tick(scene: &Scene, spec: &LaneSpec, tick_hz: u32, most: f64) -> f64 {
+    let over = scene.script.last().map_or(0, |last| nearest_tick(last.at_s, tick_hz.into()));
+    let end = over.saturating_add(SETTLING_TICKS).min(MAX_COUNTED_TICKS);
+    let lane = Lane::new(scene, spec.solver(), spec.substeps);
+    let mut follow =
+        Follow::new(lane, tick_hz).with_script(&scene.script).within((most * end as f64) as u64);
+    let stop = follow.run(end, |lane, _| match lane.halted() {
+        Some(_) => ControlFlow::Break(()),
+        None => ControlFlow::Continue(()),
+    });
+    match stop {
+        StopReason::TooMuchWork => f64::INFINITY,
+        _ => follow.body.evaluations() as f64 / follow.ticks().max(1) as f64,
+    }
+}

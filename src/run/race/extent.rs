@@ -1,0 +1,161 @@
+//! The range of a motion so far: the scale of errors in speed and energy.
+
+use crate::sim::Stepper;
+
+/// An exchange of energy below this part of the largest kinetic energy is rounding.
+const ROUNDING: f64 = 1e-9;
+/// Kinetic energy below this part of the largest counts as 0: between ticks it may have been 0.
+const AT_REST: f64 = 0.01;
+
+/// The range of a body's true motion since its start.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Extent {
+    largest_speed: f64,
+    /// The largest sum of kinetic and potential energy that is not conserved, in joules.
+    most_j: f64,
+    kinetic: Option<Kinetic>,
+}
+
+/// The kinetic energy so far, in joules.
+#[derive(Clone, Copy, Debug)]
+struct Kinetic {
+    least: f64,
+    most: f64,
+    /// The range of the kinetic energy since the last turn.
+    recent: (f64, f64),
+    /// Whether the kinetic energy was last rising; `None` before it has changed.
+    rises: Option<bool>,
+    /// How often the kinetic energy has reversed by half its range.
+    turns: u32,
+}
+
+impl Extent {
+    /// Adds a moment: the speed and, if the body conserves its energy, the kinetic energy (J).
+    pub(crate) fn cover(&mut self, speed: f64, kinetic_j: Option<f64>) {
+        self.largest_speed = self.largest_speed.max(speed);
+        if let Some(now) = kinetic_j {
+            self.kinetic.get_or_insert_with(|| Kinetic::from(now)).cover(now);
+        }
+    }
+
+    /// Adds a moment's kinetic and potential energy (J), which are not conserved, if they are known.
+    pub(crate) fn cover_energy(&mut self, energies: Option<[f64; 2]>) {
+        let sum = energies.map_or(0.0, |[kinetic, potential]| kinetic + potential);
+        self.most_j = self.most_j.max(sum);
+    }
+
+    /// The largest sum of kinetic and potential energy so far, in joules; 0 where they are not known.
+    pub(crate) fn most_j(&self) -> f64 {
+        self.most_j
+    }
+
+    /// The largest speed so far; 0 if the body has not moved.
+    pub(crate) fn largest_speed(&self) -> f64 {
+        self.largest_speed
+    }
+
+    /// The energy that the motion of `truth` exchanges, in joules: the range of its kinetic energy, and for a linear body at
+    /// least its total energy, all of which its modes exchange in time. `None` if energy is not conserved or exchanged, and
+    /// before both ends of the range have been reached: a part of the range would exaggerate the drift.
+    pub(crate) fn exchanged_j(&self, truth: &dyn Stepper) -> Option<f64> {
+        let whole = truth.energy().filter(|_| truth.is_linear());
+        Some(self.range_j()?.max(whole.unwrap_or(0.0)))
+    }
+
+    fn range_j(&self) -> Option<f64> {
+        self.kinetic.filter(|kinetic| kinetic.has_seen_both_ends()).map(|kinetic| kinetic.range())
+    }
+}
+
+impl Kinetic {
+    fn from(now: f64) -> Self {
+        Self { least: now, most: now, recent: (now, now), rises: None, turns: 0 }
+    }
+
+    fn range(self) -> f64 {
+        self.most - self.least
+    }
+
+    /// The range of the kinetic energy, once it has turned at both ends or come to rest.
+    fn has_seen_both_ends(self) -> bool {
+        self.turns >= 2 || self.turns == 1 && self.least <= AT_REST * self.most
+    }
+
+    fn cover(&mut self, now: f64) {
+        (self.least, self.most) = (self.least.min(now), self.most.max(now));
+        let range = self.range();
+        if range <= ROUNDING * self.most {
+            return;
+        }
+        let (low, high) = (self.recent.0.min(now), self.recent.1.max(now));
+        self.recent = (low, high);
+        let (rose, fell) = (now - low >= range / 2.0, high - now >= range / 2.0);
+        let turns = match self.rises {
+            Some(true) => fell,
+            Some(false) => rose,
+            None => {
+                self.rises = Some(rose);
+                false
+            }
+        };
+        if turns {
+            self.turns += 1;
+            (self.rises, self.recent) = (self.rises.map(|rises| !rises), (now, now));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn covered(kinetic_j: impl IntoIterator<Item = f64>) -> Extent {
+        let mut extent = Extent::default();
+        kinetic_j.into_iter().for_each(|kinetic_j| extent.cover(0.0, Some(kinetic_j)));
+        extent
+    }
+
+    #[test]
+    fn a_swing_exchanges_its_energy_once_it_has_turned() {
+        let swing = |from: usize, to: usize| {
+            (from..=to).map(|i| libm::sin(i as f64 * std::f64::consts::PI / 100.0).powi(2))
+        };
+        assert_eq!(covered(swing(0, 50)).range_j(), None, "it has only risen");
+        assert_eq!(covered(swing(0, 80)).range_j(), Some(1.0));
+        assert_eq!(covered(swing(50, 100)).range_j(), None, "it has only fallen");
+        assert!((covered(swing(50, 140)).range_j().unwrap() - 1.0).abs() < 1e-12);
+        // From the middle it rises by half its range, and then falls by all of it.
+        assert_eq!(covered(swing(25, 90)).range_j(), None, "it has turned at the top only");
+        assert!((covered(swing(25, 130)).range_j().unwrap() - 1.0).abs() < 1e-12);
+        assert_eq!(covered(swing(75, 110)).range_j(), None, "it has hardly turned");
+        assert!((covered(swing(75, 190)).range_j().unwrap() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_never_rests_exchanges_its_energy_once_both_ends_were_seen() {
+        let swing = |from: usize, to: usize| {
+            (from..=to).map(|i| 3.0 + libm::sin(i as f64 * std::f64::consts::PI / 100.0).powi(2))
+        };
+        assert_eq!(covered(swing(0, 90)).range_j(), None, "the bottom may be lower");
+        assert_eq!(covered(swing(25, 120)).range_j(), None, "it has turned at the top only");
+        assert!((covered(swing(25, 150)).range_j().unwrap() - 1.0).abs() < 1e-12);
+        assert!((covered(swing(50, 180)).range_j().unwrap() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn where_nothing_is_exchanged_there_is_no_energy_to_hold_a_drift_against() {
+        assert_eq!(Extent::default().range_j(), None);
+        assert_eq!(covered([0.0; 9]).range_j(), None);
+        let rounding = [3.0, 3.0 + 4e-16, 3.0 - 9e-16, 3.0, 3.0 - 4e-16];
+        assert_eq!(covered(rounding).range_j(), None, "a circular orbit");
+        let thrust = rounding.into_iter().chain((0..100).map(f64::from).map(|i| 3.0 + i * i));
+        assert_eq!(covered(thrust).range_j(), None, "a ship that only gathers way");
+    }
+
+    #[test]
+    fn the_largest_speed_stays() {
+        let mut extent = Extent::default();
+        [1.0, 4.0, 2.0].into_iter().for_each(|speed| extent.cover(speed, None));
+        assert_eq!(extent.largest_speed(), 4.0);
+    }
+}

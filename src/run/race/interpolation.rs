@@ -1,0 +1,170 @@
+//! How a body is drawn between two ticks.
+
+use super::lane::LaneBody;
+
+/// How a body is drawn between two ticks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Interpolation {
+    /// The state of the last tick, unchanged.
+    Raw,
+    /// A straight line between the last two ticks.
+    Linear,
+    /// A cubic through the states and velocities of the last two ticks.
+    Hermite,
+    /// The same cubic, but where both ticks move one way, it does not go back between them. Explicit Euler changes a velocity
+    /// a tick before the position follows, so that at a coarse tick the cubic starts by moving backwards. A parabola
+    /// stays as it is.
+    #[default]
+    Monotone,
+    /// The last tick, carried on by its velocity.
+    Extrapolated,
+}
+
+impl Interpolation {
+    /// Every way, in the order in which the window goes through them.
+    pub const ALL: [Self; 5] =
+        [Self::Raw, Self::Extrapolated, Self::Linear, Self::Hermite, Self::Monotone];
+
+    /// The name for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Interpolation::Raw => "raw",
+            Interpolation::Linear => "linear",
+            Interpolation::Hermite => "Hermite",
+            Interpolation::Monotone => "monotone Hermite",
+            Interpolation::Extrapolated => "extrapolated",
+        }
+    }
+
+    /// The way after this one, and after the last the first.
+    pub fn next(self) -> Self {
+        let index = Self::ALL.iter().position(|&way| way == self).expect("all are listed");
+        Self::ALL[(index + 1) % Self::ALL.len()]
+    }
+
+    /// The moment that is shown, in ticks from the last one, at the part `alpha` of the next.
+    pub fn shown(self, alpha: f64) -> f64 {
+        match self {
+            Interpolation::Raw => 0.0,
+            Interpolation::Extrapolated => alpha,
+            Interpolation::Linear | Interpolation::Hermite | Interpolation::Monotone => alpha - 1.0,
+        }
+    }
+
+    /// The coordinates of a body at the part `alpha` of a tick of `h` seconds.
+    pub fn coordinates(self, body: &LaneBody, alpha: f64, h: f64) -> Vec<f64> {
+        let (q0, v0) = (&body.previous_q, &body.previous_v);
+        let (q1, v1) = (body.stepper.q(), body.stepper.v());
+        let each = |f: &dyn Fn(usize) -> f64| (0..q1.len()).map(f).collect();
+        match self {
+            Interpolation::Raw => q1.to_vec(),
+            Interpolation::Linear => each(&|i| q0[i] + (q1[i] - q0[i]) * alpha),
+            Interpolation::Hermite => each(&|i| hermite(alpha, h, [q0[i], q1[i]], [v0[i], v1[i]])),
+            Interpolation::Monotone => each(&|i| {
+                let q = [q0[i], q1[i]];
+                hermite(alpha, h, q, monotone(h, q, [v0[i], v1[i]]))
+            }),
+            Interpolation::Extrapolated => each(&|i| q1[i] + alpha * h * v1[i]),
+        }
+    }
+
+    /// The velocities with which the [coordinates](Self::coordinates) that are shown change. Where a [`Monotone`](Self::Monotone)
+    /// cubic is limited, its ends do not have the velocities of the ticks, and those between them are on a line.
+    pub fn velocities(self, body: &LaneBody, alpha: f64, h: f64) -> Vec<f64> {
+        let (q0, v0) = (&body.previous_q, &body.previous_v);
+        let (q1, v1) = (body.stepper.q(), body.stepper.v());
+        let each = |f: &dyn Fn(usize) -> f64| (0..v1.len()).map(f).collect();
+        match self {
+            Interpolation::Linear if h > 0.0 => each(&|i| (q1[i] - q0[i]) / h),
+            Interpolation::Hermite if h > 0.0 => {
+                each(&|i| slope(alpha, h, [q0[i], q1[i]], [v0[i], v1[i]]))
+            }
+            Interpolation::Monotone if h > 0.0 => {
+                each(&|i| monotone_slope(alpha, h, [q0[i], q1[i]], [v0[i], v1[i]]))
+            }
+            _ => v1.to_vec(),
+        }
+    }
+}
+
+/// The cubic through `q` at both ends of a tick of `h` seconds with the velocities `v` there, at the part `alpha` of it.
+pub(crate) fn hermite(alpha: f64, h: f64, q: [f64; 2], v: [f64; 2]) -> f64 {
+    let (a, b) = (alpha, 1.0 - alpha);
+    let ends = b * b * (1.0 + 2.0 * a) * q[0] + a * a * (1.0 + 2.0 * b) * q[1];
+    ends + h * a * b * (b * v[0] - a * v[1])
+}
+
+/// The slope of [`hermite`].
+pub(crate) fn slope(alpha: f64, h: f64, q: [f64; 2], v: [f64; 2]) -> f64 {
+    let (a, b) = (alpha, 1.0 - alpha);
+    6.0 * a * b * (q[1] - q[0]) / h + b * (b - 2.0 * a) * v[0] + a * (a - 2.0 * b) * v[1]
+}
+
+/// The velocities `v` at both ends of a tick of `h` seconds, limited so that the cubic through `q` goes one way if they and
+/// the way between the ends do: to three times the velocity of a straight line (de Boor and Swartz 1977).
+fn monotone(h: f64, q: [f64; 2], v: [f64; 2]) -> [f64; 2] {
+    let most = 3.0 * (q[1] - q[0]) / h;
+    let goes_on = v[0] * v[1] >= 0.0 && v.iter().all(|v| v * most >= 0.0);
+    if goes_on { v.map(|v| v.clamp(most.min(0.0), most.max(0.0))) } else { v }
+}
+
+/// The velocity that is shown on the cubic with the [limited](monotone) velocities.
+fn monotone_slope(alpha: f64, h: f64, q: [f64; 2], v: [f64; 2]) -> f64 {
+    let is_whole = monotone(h, q, v) == v;
+    if is_whole { slope(alpha, h, q, v) } else { v[0] + (v[1] - v[0]) * alpha }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hermite_cubic_passes_its_ends_with_their_slopes_and_keeps_a_parabola() {
+        let (q, v) = (|t: f64| 3.0 + 2.0 * t - t * t, |t: f64| 2.0 - 2.0 * t);
+        for alpha in [0.0, 0.25, 0.5, 0.75, 1.0] {
+            let h = 0.5;
+            let shown = hermite(alpha, h, [q(1.0), q(1.5)], [v(1.0), v(1.5)]);
+            assert!((shown - q(1.0 + alpha * h)).abs() < 1e-15, "at {alpha}: {shown}");
+            let slope = slope(alpha, h, [q(1.0), q(1.5)], [v(1.0), v(1.5)]);
+            assert!((slope - v(1.0 + alpha * h)).abs() < 1e-14, "at {alpha}: {slope}");
+        }
+    }
+
+    #[test]
+    fn a_monotone_cubic_goes_one_way_between_ticks_that_do_and_keeps_turns_and_parabolas() {
+        let path = |h: f64, q: [f64; 2], v: [f64; 2]| -> Vec<f64> {
+            let v = monotone(h, q, v);
+            (0..=100).map(|part| hermite(f64::from(part) / 100.0, h, q, v)).collect()
+        };
+        // The ship of the harbour under explicit Euler at 1 Hz: it moves a tick after its speed does.
+        let (mut q, mut v) = (0.0, 0.0);
+        for _ in 0..10 {
+            let (then, was) = (q, v);
+            q += v;
+            v += 2.0 - 0.1 * v;
+            let drawn = path(1.0, [then, q], [was, v]);
+            assert!(drawn.is_sorted() && drawn[0] == then && drawn[100] == q, "{drawn:?}");
+            let [start, end] = [0.0, 1.0].map(|at| monotone_slope(at, 1.0, [then, q], [was, v]));
+            assert!((start - was).abs() < 1e-12 && (end - v).abs() < 1e-12, "{start} {end}");
+            let back = path(1.0, [-then, -q], [-was, -v]);
+            assert!(back.iter().zip(&drawn).all(|(a, b)| *a == -b));
+        }
+        for (q, v) in [
+            ([0.0, 0.0], [1.0, -1.0]),
+            ([1.0, 0.9], [0.5, -1.0]),
+            ([0.0, 4.0], [0.0, 8.0]),
+            ([0.0, 4.0], [8.0, 0.0]),
+        ] {
+            assert_eq!(monotone(1.0, q, v), v, "a turn or a parabola: {q:?} {v:?}");
+        }
+    }
+
+    #[test]
+    fn the_ways_are_gone_through_in_a_circle() {
+        let mut way = Interpolation::Raw;
+        for expected in Interpolation::ALL.iter().skip(1).chain([&Interpolation::Raw]) {
+            way = way.next();
+            assert_eq!(way, *expected);
+        }
+    }
+}

@@ -1,0 +1,436 @@
+//! A solver on its own copy of the scene's bodies; the truth is one too.
+//!
+//! A body that blows up or whose solver fails halts alone: the other bodies of its lane go on, unchanged to the
+//! bit.
+
+use std::sync::Arc;
+
+use super::chase::Chase;
+use super::extent::Extent;
+use super::follow::Ticked;
+use crate::scene::{Action, Appearance, Drawing, Preview, Scene, SceneBody};
+use crate::sim::bodies::{Coordinate, Coordinates, Custom, FalseClaims, Input, Kind, Law, Truth};
+use crate::sim::integrators::StepFailure;
+use crate::sim::number::superscript;
+use crate::sim::{Solver, Stepper};
+
+/// The largest magnitude of a coordinate or velocity. Beyond it the value would not fit the picture's f32, and the
+/// body halts.
+pub const ESCAPE: f64 = 1e38;
+
+/// Why and when a body stopped.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Halt {
+    /// The tick that failed. The body keeps its state from before that tick.
+    pub tick: u64,
+    /// When that tick began, in seconds.
+    pub t: f64,
+    /// The body that failed, by its index in the scene.
+    pub body: usize,
+    /// Why.
+    pub failure: StepFailure,
+}
+
+impl Halt {
+    /// Whether a value left the range of [`ESCAPE`] or was not finite, rather than the solver failing.
+    pub fn is_blow_up(&self) -> bool {
+        matches!(self.failure, StepFailure::Escaped { .. } | StepFailure::NotFinite { .. })
+    }
+
+    /// How the body ended: `blew up` or `gave up`.
+    pub fn how(&self) -> &'static str {
+        if self.is_blow_up() { "blew up" } else { "gave up" }
+    }
+}
+
+/// A halted body that goes on because its lane was switched to another method.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Resumed {
+    /// Why and when it had halted.
+    pub halt: Halt,
+    /// The state from which it goes on.
+    pub from: ResumedFrom,
+}
+
+/// The state from which a halted body resumes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ResumedFrom {
+    /// The present state of the truth.
+    Truth,
+    /// The body's own last good state, because the truth has failed too.
+    LastGood,
+}
+
+/// One body of a lane.
+#[derive(Clone)]
+pub struct LaneBody {
+    /// Its card.
+    pub kind: Arc<Kind>,
+    /// The body under the lane's solver.
+    pub stepper: Box<dyn Stepper>,
+    /// Coordinates one tick ago, for drawing between ticks.
+    pub previous_q: Vec<f64>,
+    /// Velocities one tick ago.
+    pub previous_v: Vec<f64>,
+    /// The state before the last input, which is restored if the input makes the body fail.
+    before_input: [Vec<f64>; 2],
+    halted: Option<Halt>,
+    /// Its evaluations before the last tick.
+    evaluations_before: u64,
+    /// The range of the true motion so far; `None` under a method.
+    extent: Option<Extent>,
+    chase: Option<Chase>,
+    appearance: Arc<Appearance>,
+}
+
+impl LaneBody {
+    /// The claims of a [`Law`], or of a [`Custom`] body, that do not hold with the present parameters; of other
+    /// bodies none.
+    pub fn false_claims(&self) -> FalseClaims {
+        let body = self.stepper.body();
+        let law = || body.downcast_ref().map(Law::false_claims);
+        body.downcast_ref().map(Custom::false_claims).or_else(law).unwrap_or_default()
+    }
+
+    /// A body of a scene at its start, under `solver`.
+    pub(crate) fn new(body: &SceneBody, solver: Solver) -> Self {
+        let stepper = (body.kind.build)(&body.values, solver);
+        let state = [stepper.q(), stepper.v()].map(<[f64]>::to_vec);
+        let [previous_q, previous_v] = state.clone();
+        let chase = Chase::new(&*stepper, 0.0);
+        let mut body = Self {
+            kind: body.kind.clone(),
+            stepper,
+            previous_q,
+            previous_v,
+            before_input: state,
+            halted: None,
+            evaluations_before: 0,
+            extent: (solver == Solver::Truth).then(Extent::default),
+            chase,
+            appearance: body.appearance.clone(),
+        };
+        body.cover();
+        body
+    }
+
+    /// Its coordinates, in state order.
+    pub fn coordinates(&self) -> Coordinates {
+        self.kind.all_coordinates.first(self.stepper.q().len())
+    }
+
+    /// Why and when the body stopped, if it did.
+    pub fn halted(&self) -> Option<&Halt> {
+        self.halted.as_ref()
+    }
+
+    /// The evaluations of its acceleration in the last tick.
+    pub fn evaluations_of_last_tick(&self) -> u64 {
+        self.stepper.evaluations() - self.evaluations_before
+    }
+
+    /// The range of the true motion so far; `None` under a method.
+    pub(crate) fn extent(&self) -> Option<&Extent> {
+        self.extent.as_ref()
+    }
+
+    /// How the body closes on the target that it follows, since its start or the last input or placement; `None`
+    /// if it follows nothing, or a target that moves.
+    pub fn chase(&self) -> Option<&Chase> {
+        self.chase.as_ref()
+    }
+
+    /// How the author of a custom body draws it, if not in the usual way.
+    pub(crate) fn drawing(&self) -> Option<&Drawing> {
+        self.appearance.drawing.as_deref()
+    }
+
+    /// Where a law, a net or a custom body goes in its first seconds.
+    pub(crate) fn preview(&self) -> Arc<Preview> {
+        self.appearance.preview(&self.kind, self.stepper.body())
+    }
+
+    /// The index of the coordinate that a plot shows unless a person chooses another: of a net that which moves farthest
+    /// in the first seconds, such as the height of the middle of a bridge, and of other bodies the first.
+    pub fn plotted_coordinate(&self) -> usize {
+        self.kind.net().map_or(0, |_| self.preview().farthest)
+    }
+
+    /// The values whose coordinate has the same unit as the first; `values` has one per coordinate.
+    pub(crate) fn like_first(&self, values: &[f64]) -> impl Iterator<Item = f64> {
+        let units = self.kind.all_coordinates.units();
+        let first = units.clone().next();
+        units.zip(values).filter(move |(unit, _)| Some(*unit) == first).map(|(_, &value)| value)
+    }
+
+    /// The speed in the coordinates that have the unit of the first coordinate.
+    pub(crate) fn speed(&self) -> f64 {
+        self.like_first(self.stepper.v()).fold(0.0, libm::hypot)
+    }
+
+    /// What the true motion is at present, of a body under [`Solver::Truth`]: the law of a scene is
+    /// [exact](Truth::Exact) up to the first input if it gives its solution.
+    pub fn truth(&self) -> Truth {
+        if self.stepper.is_closed_form() { Truth::Exact } else { Truth::Reference }
+    }
+
+    /// How well the true motion is known, for people: `exact`, or the present error of the reference in the units of
+    /// the coordinates, if it has one yet; `no reference` where that would take too much work.
+    pub fn truth_in_words(&self) -> String {
+        let id = self.truth().id();
+        if let Some(StepFailure::ReferenceTooExpensive { .. }) =
+            self.halted().map(|halt| &halt.failure)
+        {
+            return self.truth().missing().into();
+        }
+        match (self.truth(), self.stepper.truth_error()) {
+            (Truth::Exact, _) | (_, None) => id.into(),
+            // Of a body that starts at 0 nothing is rounded yet.
+            (Truth::Reference, Some([0.0, _])) => id.into(),
+            (Truth::Reference, Some([error, _])) if error.is_finite() => {
+                let exponent = libm::ceil(libm::log10(error)) as i32;
+                format!("{id} to 10{}", superscript(exponent))
+            }
+            (Truth::Reference, Some(_)) => format!("{id} lost"),
+        }
+    }
+
+    /// Steps from `t` by `h` (s), from tick `tick` to the next, or halts in its present state. `index` is the body's in
+    /// the scene.
+    fn tick(&mut self, index: usize, tick: u64, (t, h): (f64, f64), substeps: u32) {
+        if self.halted.is_some() {
+            return;
+        }
+        self.remember();
+        self.evaluations_before = self.stepper.evaluations();
+        let coordinates = &self.kind.all_coordinates;
+        match advance_checked(&mut *self.stepper, coordinates, (t, h), substeps) {
+            Ok(()) => {
+                self.cover();
+                let place = self.stepper.q()[0];
+                self.chase.iter_mut().for_each(|chase| chase.take_in(place, t + h));
+            }
+            Err(failure) => {
+                self.stepper.set(t, &self.previous_q, &self.previous_v);
+                self.halted = Some(Halt { tick, t, body: index, failure });
+            }
+        }
+    }
+
+    /// Applies an input at time `t` (s), before tick `tick`. A body that fails under it halts in the state before. A
+    /// halted body ignores a kick, and keeps the throttle and the rudder for when it resumes.
+    fn input(&mut self, index: usize, tick: u64, t: f64, input: Input) {
+        if self.halted.is_some() {
+            if !matches!(input, Input::Kick(_)) {
+                self.stepper.input(t, input);
+            }
+            return;
+        }
+        let [q, v] = &mut self.before_input;
+        q.copy_from_slice(self.stepper.q());
+        v.copy_from_slice(self.stepper.v());
+        let is_taken = self.stepper.input(t, input);
+        match check(&*self.stepper, &self.kind.all_coordinates) {
+            Ok(()) => {
+                self.cover();
+                if is_taken {
+                    self.chase = Chase::new(&*self.stepper, t);
+                }
+            }
+            Err(failure) => {
+                let [q, v] = &self.before_input;
+                self.stepper.set(t, q, v);
+                self.remember();
+                self.halted = Some(Halt { tick, t, body: index, failure });
+            }
+        }
+    }
+
+    /// Puts the body under another solver at time `t` (s) with its state unchanged, or, if it has halted, with the
+    /// present state of the truth.
+    fn switch(&mut self, solver: Solver, t: f64, truth: &LaneBody) -> Option<Resumed> {
+        self.stepper = self.stepper.with_solver(solver, t);
+        let halt = self.halted.take()?;
+        let from = if truth.halted.is_none() { ResumedFrom::Truth } else { ResumedFrom::LastGood };
+        if from == ResumedFrom::Truth {
+            self.stepper.set(t, truth.stepper.q(), truth.stepper.v());
+        }
+        self.remember();
+        Some(Resumed { halt, from })
+    }
+
+    /// Puts the body into a state at time `t` (s), before tick `tick`. A halted body resumes.
+    fn place(&mut self, index: usize, tick: u64, t: f64, [q, v]: [&[f64]; 2]) {
+        self.halted = None;
+        let [q0, v0] = &mut self.before_input;
+        q0.copy_from_slice(self.stepper.q());
+        v0.copy_from_slice(self.stepper.v());
+        self.stepper.set(t, q, v);
+        if let Err(failure) = check(&*self.stepper, &self.kind.all_coordinates) {
+            let [q, v] = &self.before_input;
+            self.stepper.set(t, q, v);
+            self.halted = Some(Halt { tick, t, body: index, failure });
+        }
+        self.remember();
+        self.cover();
+        self.chase = Chase::new(&*self.stepper, t);
+    }
+
+    fn remember(&mut self) {
+        self.previous_q.copy_from_slice(self.stepper.q());
+        self.previous_v.copy_from_slice(self.stepper.v());
+    }
+
+    fn bytes(&self, solver: Solver) -> usize {
+        let [q, v] = &self.before_input;
+        let vectors = [&self.previous_q, &self.previous_v, q, v];
+        let vectors = vectors.map(|vector| size_of_val(&vector[..])).iter().sum::<usize>();
+        size_of::<Self>() + vectors + self.stepper.bytes(solver)
+    }
+
+    /// Extends the range of the true motion by the present state.
+    fn cover(&mut self) {
+        if let Some(mut extent) = self.extent.take() {
+            let kinetic_j = self.stepper.kinetic_energy();
+            extent.cover(self.speed(), kinetic_j);
+            // A conserved energy is known without.
+            if kinetic_j.is_none() {
+                extent.cover_energy(self.stepper.mechanical_energy());
+            }
+            self.extent = Some(extent);
+        }
+    }
+}
+
+/// Steps a body from `t` by `h` (s).
+///
+/// # Errors
+/// If its solver fails, or if a coordinate or a velocity is not finite or is beyond [`ESCAPE`].
+pub(crate) fn advance_checked(
+    body: &mut dyn Stepper,
+    coordinates: &Coordinates,
+    (t, h): (f64, f64),
+    substeps: u32,
+) -> Result<(), StepFailure> {
+    body.advance(t, h, substeps).and_then(|()| check(body, coordinates))
+}
+
+/// Fails if a coordinate or a velocity of a body is not finite or is beyond [`ESCAPE`].
+fn check(body: &dyn Stepper, coordinates: &Coordinates) -> Result<(), StepFailure> {
+    // Of a NaN neither is true.
+    let is_fine = |value: &f64| value.abs() <= ESCAPE;
+    if [body.q(), body.v()].iter().all(|values| values.iter().all(is_fine)) {
+        return Ok(());
+    }
+    let (q, v) = (body.q().iter().map(|q| (q, false)), body.v().iter().map(|v| (v, true)));
+    let mut values = (0..body.q().len()).chain(0..body.v().len()).zip(q.chain(v));
+    let (index, (&value, is_velocity)) =
+        values.find(|(_, (value, _))| !is_fine(value)).expect("one is not fine");
+    let Coordinate { name, velocity, .. } = coordinates.at(index);
+    let coordinate = if is_velocity { velocity } else { name };
+    Err(match value.is_finite() {
+        true => StepFailure::Escaped { coordinate, value },
+        false => StepFailure::NotFinite { coordinate, value },
+    })
+}
+
+/// A solver on its own copy of the scene.
+#[derive(Clone)]
+pub struct Lane {
+    solver: Solver,
+    substeps: u32,
+    bodies: Vec<LaneBody>,
+}
+
+impl Lane {
+    /// The scene's bodies at their start under `solver`, which takes `substeps` steps in a tick.
+    pub fn new(scene: &Scene, solver: Solver, substeps: u32) -> Self {
+        let bodies = scene.bodies.iter().map(|body| LaneBody::new(body, solver)).collect();
+        Self { solver, substeps, bodies }
+    }
+
+    /// The solver of the bodies.
+    pub fn solver(&self) -> Solver {
+        self.solver
+    }
+    /// Steps in one tick.
+    pub fn substeps(&self) -> u32 {
+        self.substeps
+    }
+    /// The bodies, in scene order.
+    pub fn bodies(&self) -> &[LaneBody] {
+        &self.bodies
+    }
+    /// Why and when bodies halted, in scene order; the others go on.
+    pub fn halts(&self) -> impl Iterator<Item = &Halt> {
+        self.bodies.iter().filter_map(LaneBody::halted)
+    }
+    /// The earliest halt of a body, if there is one.
+    pub fn halted(&self) -> Option<&Halt> {
+        self.halts().min_by_key(|halt| halt.tick)
+    }
+    /// Evaluations of all bodies' accelerations since the start.
+    pub fn evaluations(&self) -> u64 {
+        self.bodies.iter().map(|body| body.stepper.evaluations()).sum()
+    }
+
+    /// Steps every body from `t` by `h` (s), from tick `tick` to the next. A body that fails keeps its state and halts.
+    pub fn tick(&mut self, tick: u64, t: f64, h: f64) {
+        for (index, body) in self.bodies.iter_mut().enumerate() {
+            body.tick(index, tick, (t, h), self.substeps);
+        }
+    }
+
+    /// Applies an input at time `t` (s), before tick `tick`, to every body that takes it. A body that fails under it
+    /// keeps its state and halts. A halted body ignores a kick, and keeps the throttle and the rudder.
+    pub fn input(&mut self, tick: u64, t: f64, input: Input) {
+        for (index, body) in self.bodies.iter_mut().enumerate() {
+            body.input(index, tick, t, input);
+        }
+    }
+
+    /// Applies the effect of an action on the bodies at time `t` (s), before tick `tick`. A placed body resumes if it
+    /// had halted; if it cannot be in that state, it keeps its own and halts.
+    pub(crate) fn act(&mut self, tick: u64, t: f64, action: &Action) {
+        match action {
+            Action::Place { body, q, v } => self.bodies[*body].place(*body, tick, t, [q, v]),
+            Action::Set { body, .. } => action.apply_to(&mut *self.bodies[*body].stepper, t),
+            other => other.input().into_iter().for_each(|input| self.input(tick, t, input)),
+        }
+    }
+
+    /// An upper bound of its heap memory in bytes.
+    pub(super) fn heap_bytes(&self) -> usize {
+        self.bodies.iter().map(|body| body.bytes(self.solver)).sum()
+    }
+
+    /// Puts the bodies under another solver at time `t` (s), with their states unchanged. Halted bodies resume from the
+    /// present state of `truth` and are returned. A switch to the present solver and substeps does nothing.
+    pub fn switch(&mut self, solver: Solver, substeps: u32, t: f64, truth: &Lane) -> Vec<Resumed> {
+        if (solver, substeps) == (self.solver, self.substeps) {
+            return Vec::new();
+        }
+        (self.solver, self.substeps) = (solver, substeps);
+        let bodies = self.bodies.iter_mut().zip(&truth.bodies);
+        bodies.filter_map(|(body, truth)| body.switch(solver, t, truth)).collect()
+    }
+}
+
+impl Ticked for Lane {
+    fn act(&mut self, tick: u64, t: f64, action: &Action) {
+        self.act(tick, t, action);
+    }
+
+    fn tick(&mut self, tick: u64, t: f64, h: f64) -> Result<(), StepFailure> {
+        self.tick(tick, t, h);
+        Ok(())
+    }
+
+    /// The unit is an evaluation of a body's accelerations.
+    fn has_worked_more(&self, than: u64, _: u64) -> bool {
+        self.evaluations() > than
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,94 @@
+//! States from which a run can be told anew: verdicts are of the run from where a person last placed or kicked a body, and
+//! clouds start where anything last changed one.
+
+use std::sync::Arc;
+
+use super::Race;
+use super::journal::Author;
+use super::observer::Observer;
+use crate::scene::Action;
+
+/// The true state of a race right after an action on its bodies.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct RunStart {
+    pub(super) tick: u64,
+    /// The time of the tick in seconds.
+    pub(super) t: f64,
+    pub(super) tick_hz: u32,
+    pub(super) throttle: f64,
+    pub(super) rudder: f64,
+    /// In scene order.
+    pub(super) bodies: Vec<BodyStart>,
+}
+
+/// The true state of one body.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct BodyStart {
+    /// Its parameters, as its kind [takes](crate::sim::bodies::Kind::build) them.
+    pub(super) values: Vec<f64>,
+    pub(super) q: Box<[f64]>,
+    pub(super) v: Box<[f64]>,
+}
+
+impl RunStart {
+    /// Its memory in bytes.
+    pub(super) fn bytes(&self) -> usize {
+        let body = |body: &BodyStart| {
+            size_of_val(body)
+                + size_of_val(&body.values[..])
+                + size_of_val(&body.q[..])
+                + size_of_val(&body.v[..])
+        };
+        size_of::<Self>() + self.bodies.iter().map(body).sum::<usize>()
+    }
+}
+
+/// The states from which a run is told, as of its present tick.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Starts {
+    /// Right after a person last placed or kicked a body.
+    pub(super) judged: Option<Arc<RunStart>>,
+    /// Right after a person or the script last acted on a body.
+    pub(super) cloud: Option<Arc<RunStart>>,
+}
+
+impl Starts {
+    /// Their memory in bytes.
+    pub(crate) fn heap_bytes(&self) -> usize {
+        [&self.judged, &self.cloud].into_iter().flatten().map(|start| start.bytes()).sum()
+    }
+
+    /// Whether a person has changed this run since it is judged, so that verdicts are of another run.
+    pub(crate) fn was_changed_since_judged(&self, race: &Race) -> bool {
+        let from = self.judged.as_ref().map_or(0, |start| start.tick);
+        let rows = &race.journal().rows()[..race.done()];
+        rows.iter().any(|row| row.tick > from && row.author == Author::Person)
+    }
+}
+
+impl Observer for Starts {
+    fn acted(&mut self, race: &Race, action: &Action, author: Author) {
+        if !(0..race.values.len()).any(|body| action.acts_on(body)) {
+            return;
+        }
+        let bodies = race.truth.bodies().iter().zip(&race.values);
+        let bodies = bodies.map(|(body, values)| BodyStart {
+            values: values.clone(),
+            q: body.stepper.q().into(),
+            v: body.stepper.v().into(),
+        });
+        let start = Arc::new(RunStart {
+            tick: race.tick,
+            t: race.t(),
+            tick_hz: race.tick_hz(),
+            throttle: race.throttle,
+            rudder: race.rudder,
+            bodies: bodies.collect(),
+        });
+        let is_placed = matches!(action, Action::Place { .. } | Action::Kick(_));
+        if is_placed && author == Author::Person {
+            self.judged = Some(Arc::clone(&start));
+        }
+        self.cloud = Some(start);
+    }
+}

@@ -1,0 +1,127 @@
+//! A run as a value: only [actions](Action) and ticks change it, and a copy continues identically to the bit.
+
+use std::sync::Arc;
+
+use super::race::{ActionResult, Journal, Mode, Observer, Race};
+use crate::scene::{Action, Scene};
+
+mod event;
+mod hashes;
+mod recording;
+mod replay;
+mod run_with_past;
+mod start;
+mod timeline;
+mod undo;
+
+pub use event::{Event, EventKind};
+pub(crate) use recording::among as recording_among;
+pub use recording::{RecordingError, text as recording_text};
+pub use replay::{Reached, Replay};
+pub(crate) use start::StartSettings;
+pub use timeline::{SNAPSHOT_BYTES, Timeline};
+
+/// A running scene, without a clock, a picture or a viewer.
+#[derive(Clone)]
+pub struct Session {
+    scene: Arc<Scene>,
+    race: Race,
+    /// The race at its start without a journal, from which a recording begins.
+    start: Box<Race>,
+}
+
+impl Session {
+    /// The race of all the scene's lanes, at its start, with the scene's script.
+    ///
+    /// ```
+    /// use regatta::run::Session;
+    /// use regatta::scene::{Action, Scene};
+    ///
+    /// let scene = Scene::built_in("spring").expect("a built-in scene");
+    /// let mut session = Session::racing(scene.into());
+    /// session.run(60);
+    /// let mut copy = session.clone();
+    /// session.act(Action::Kick(1.0));
+    /// session.run(60);
+    /// copy.act(Action::Kick(1.0));
+    /// copy.run(60);
+    /// assert_eq!(copy.race().state_hash(), session.race().state_hash());
+    /// ```
+    pub fn racing(scene: Arc<Scene>) -> Self {
+        let race = Race::of_scene(&scene);
+        Self::new(scene, race)
+    }
+
+    /// A run at its start.
+    pub(crate) fn new(scene: Arc<Scene>, race: Race) -> Self {
+        let mut start = race.clone();
+        start.set_journal(Journal::default());
+        Self { scene, race, start: Box::new(start) }
+    }
+
+    /// The scene at its start with one lane, under the method at place `entry` of the scene's [list](Scene::method_list).
+    /// The scene's script may switch it.
+    pub fn solo(scene: Arc<Scene>, entry: usize) -> Self {
+        let race = Race::solo(&scene, scene.method_list(), entry).with_script(&scene.script);
+        Self::new(scene, race)
+    }
+
+    /// The same run before its first tick, with all its actions to come.
+    pub(crate) fn before_its_first_tick(&self) -> Self {
+        let mut race = self.start().clone();
+        race.set_journal(self.journal().clone());
+        Self { race, ..self.clone() }
+    }
+
+    /// The race at its start, before any action; without its journal.
+    fn start(&self) -> &Race {
+        &self.start
+    }
+
+    /// The scene, as it was opened.
+    pub fn scene(&self) -> &Arc<Scene> {
+        &self.scene
+    }
+    /// The lanes and the truth.
+    pub fn race(&self) -> &Race {
+        &self.race
+    }
+    /// Whether there is one lane, which is switched from method to method, or one for each method.
+    pub fn mode(&self) -> Mode {
+        self.race.mode()
+    }
+    /// The performed and the pending actions.
+    pub fn journal(&self) -> &Journal {
+        self.race.journal()
+    }
+
+    /// Replaces the journal by one with the same rows up to the present: from a copy of this run, or from a file.
+    pub fn follow(&mut self, journal: Journal) {
+        self.race.set_journal(journal);
+    }
+
+    /// Performs an action at the present tick, after the journal's actions at it. Later actions by hand are removed from the
+    /// journal; the script's stay. Returns whether the action changed anything: if not, it is not in the journal.
+    pub fn act(&mut self, action: Action) -> bool {
+        self.act_seen(action, &mut ()) != ActionResult::Nothing
+    }
+
+    fn act_seen(&mut self, action: Action, observer: &mut impl Observer) -> ActionResult {
+        self.race.act(action, observer)
+    }
+
+    /// Performs the journal's actions at this tick, and steps to the next. Allocates for actions only.
+    pub fn tick(&mut self) {
+        self.race.step();
+    }
+
+    /// Like [`Session::tick`], with an observer.
+    pub fn tick_seen(&mut self, observer: &mut impl Observer) {
+        self.race.step_seen(observer);
+    }
+
+    /// Makes `ticks` ticks.
+    pub fn run(&mut self, ticks: u64) {
+        self.race.run(ticks);
+    }
+}

@@ -1,0 +1,182 @@
+//! A run as a scene: its start, its actions, and its states as checks.
+
+use super::hashes::Hashes;
+use super::{Session, Timeline};
+use crate::run::race::{Mode, Observer, Race};
+use crate::scene::{Action, Check, LaneId, LaneSpec, MAX_FILE_BYTES, MIN_SECONDS, Scene, Scripted};
+
+/// The most checks of a recording, so that its file is not too large to read. A long run has fewer than one per second.
+const MAX_CHECKS: usize = 8_000;
+
+/// Why a run cannot be recorded.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum RecordingError {
+    /// It is too long to be read as a scene.
+    #[error(
+        "this run has so many actions that its file would be {bytes} bytes long, and a scene file may be at most {MAX_FILE_BYTES}; record a shorter run"
+    )]
+    TooLong {
+        /// The size of its file.
+        bytes: usize,
+    },
+    /// It has a body or a method that is written in Rust.
+    #[error("{what} is written in Rust, and a scene file cannot hold it; compare hashes instead")]
+    InRust {
+        /// The name of the body, or the id of the method.
+        what: String,
+    },
+}
+
+impl Session {
+    /// The text of the [recording](Session::recording) to tick `end`.
+    ///
+    /// # Errors
+    /// If it is too long for a scene file, or if a file cannot say what it is of.
+    pub fn recording_text(&self, end: u64) -> Result<String, RecordingError> {
+        text(&self.recording(end))
+    }
+
+    /// A scene whose race repeats this run to the bit, from its start to tick `end`: see [`Timeline::recording`]. Makes the
+    /// ticks again.
+    pub fn recording(&self, end: u64) -> Scene {
+        let mut timeline = Timeline::new(self.before_its_first_tick());
+        (0..end).for_each(|_| timeline.tick());
+        timeline.recording()
+    }
+}
+
+/// The text of a recording, in the words of its scene's author.
+///
+/// # Errors
+/// If it is too long for a scene file, or if a file cannot say what it is of.
+pub fn text(recording: &Scene) -> Result<String, RecordingError> {
+    if let Some(what) = recording.in_rust() {
+        return Err(RecordingError::InRust { what: what.to_owned() });
+    }
+    let text = recording.to_saved_toml();
+    let bytes = text.len();
+    if bytes > MAX_FILE_BYTES { Err(RecordingError::TooLong { bytes }) } else { Ok(text) }
+}
+
+impl Timeline {
+    /// A scene whose race repeats this run to the bit, from its start to the last tick reached: as long as that, or as the
+    /// scene if no tick has been made; with its initial parameters, lanes and rate, all its actions as script, and a [`Check`]
+    /// of every lane at every second and at the end. A recorded race [opens as a race](Scene::opens_as_race).
+    ///
+    /// An action that names a method without a lane is recorded as a switch of its lane, so that it takes effect in a race
+    /// too.
+    pub fn recording(&self) -> Scene {
+        let (session, start, end) = (self.session(), self.start(), self.end());
+        let lanes = start.entrants().iter().map(|entrant| entrant.id).collect();
+        let mut recorder = ScriptRecorder { lanes, script: Vec::new() };
+        let race = start.clone().after_actions(session.journal(), end, &mut recorder);
+        let at_end = Hashes::of(&self.race_at_end());
+        let mut scene = Scene {
+            lanes: start.entrants().iter().map(|entrant| entrant.spec).collect(),
+            tick_hz: start.tick_hz(),
+            opening_method: None,
+            equal_cost: false,
+            opens_as_race: start.mode() == Mode::Race,
+            script: Vec::new(),
+            checks: Vec::new(),
+            ..(**session.scene()).clone()
+        };
+        let before_end: Vec<_> = self.hashes().iter().filter(|it| it.tick < end).collect();
+        let every = (before_end.len() * recorder.lanes.len()).div_ceil(MAX_CHECKS).max(1);
+        let kept = before_end.into_iter().skip(every - 1).step_by(every);
+        for Hashes { tick, of_lanes, .. } in kept.chain([&at_end]) {
+            let check = |&(id, hash)| Check { tick: *tick, lane: recorder.lane(id), hash };
+            scene.checks.extend(of_lanes.iter().map(check));
+        }
+        scene.script = recorder.script;
+        if end > 0 {
+            scene.seconds = race.t().max(MIN_SECONDS);
+        }
+        scene
+    }
+}
+
+/// A solo recording with its lane as one of `lanes`, so that whoever opens it meets the methods that were on the menu: it opens
+/// with its own, and its script and its checks are that lane's. Where that cannot be told from another by its method, it
+/// stays alone.
+pub(crate) fn among(recording: Scene, lanes: &[LaneSpec]) -> Scene {
+    let ([flown], false) = (&recording.lanes[..], recording.opens_as_race) else {
+        return recording;
+    };
+    let (flown, mut lanes) = (*flown, lanes.to_vec());
+    if !lanes.contains(&flown) {
+        lanes.push(flown);
+    }
+    let index = lanes.iter().position(|lane| lane.method == flown.method);
+    let Some(index) = index.filter(|&index| lanes[index] == flown) else { return recording };
+    let mut scene = Scene { lanes, opening_method: Some(flown.method), ..recording };
+    scene.checks.iter_mut().for_each(|check| check.lane = LaneId::of_index(index));
+    for Scripted { action, .. } in &mut scene.script {
+        if let Action::Lane { lane, .. } = action {
+            *lane = LaneId::of_index(index);
+        }
+    }
+    scene
+}
+
+/// Records the actions on a race as the script of a scene.
+struct ScriptRecorder {
+    /// The lanes at the start. In the scene they are counted from 1.
+    lanes: Vec<LaneId>,
+    script: Vec<Scripted>,
+}
+
+impl ScriptRecorder {
+    /// Which lane of the scene this lane of the run is.
+    fn lane(&self, id: LaneId) -> LaneId {
+        let index = self.lanes.iter().position(|lane| *lane == id);
+        LaneId::of_index(index.expect("a lane is there from the start"))
+    }
+}
+
+impl Observer for ScriptRecorder {
+    fn before(&mut self, race: &Race, action: &Action) {
+        let action = match (race.switch_asked(action), action) {
+            (Some((index, spec)), _) => {
+                Action::Lane { lane: self.lane(race.entrants()[index].id), spec }
+            }
+            (None, Action::Solo { lane }) => Action::Solo { lane: self.lane(*lane) },
+            (None, other) => other.clone(),
+        };
+        self.script.push(Scripted { at_s: race.t(), action });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_noted_of_a_run_is_what_it_is_made_again_whatever_was_done_to_its_past() {
+        for (scene, seed) in [("harbour", 1_u64), ("helm", 2), ("spring", 3)] {
+            let session = Session::racing(Scene::built_in(scene).unwrap().into());
+            let mut timeline = Timeline::new(session);
+            let (mut state, mut most) = (seed, 0);
+            let mut below = |count: u64| {
+                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                (state >> 33) % count
+            };
+            for step in 0..60 {
+                match below(8) {
+                    0 => _ = timeline.act(Action::Kick(below(5) as f64 - 2.0)),
+                    1 => _ = timeline.act(Action::TickHz(20 + below(80) as u32)),
+                    2 => _ = timeline.act(Action::Throttle(below(3) as f64 / 2.0)),
+                    3 => _ = timeline.undo(),
+                    4 => _ = timeline.redo(),
+                    5 => timeline.seek(below(timeline.end() + 1)),
+                    _ => (0..below(90)).for_each(|_| timeline.tick()),
+                }
+                let again = timeline.session().recording(timeline.end());
+                let noted = timeline.recording();
+                assert_eq!(noted.to_toml(), again.to_toml(), "{scene}, {step}");
+                most = most.max(noted.checks.len());
+            }
+            assert!(most > 10, "{scene}: {most}");
+        }
+    }
+}

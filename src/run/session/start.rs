@@ -1,0 +1,126 @@
+//! The settings with which a run starts: a scene as a person has edited it, and the chosen methods, lanes and tick rate.
+
+use std::sync::Arc;
+
+use super::Session;
+use crate::run::past::Menu;
+use crate::run::race::{Mode, Race, lanes_that_race};
+use crate::scene::{
+    Action, LaneId, LaneSpec, MAX_SECONDS, MIN_SECONDS, Scene, SceneBody, edited_values,
+};
+
+/// The settings of the next restart. They include a person's choices, and no effects of a script.
+#[derive(Clone, Debug)]
+pub(crate) struct StartSettings {
+    /// The scene as it was opened.
+    pub(crate) opened: Arc<Scene>,
+    /// The scene with the parameters and the length that the person has set.
+    pub(crate) scene: Arc<Scene>,
+    /// The methods with the substeps and tolerances that the person has set.
+    pub(crate) list: Vec<LaneSpec>,
+    pub(crate) mode: Mode,
+    /// The methods of the lanes of a race, by their indices on the list.
+    lanes: Vec<usize>,
+    /// The method in solo mode, which is in a race too, by its index on the list.
+    pub(crate) entry: usize,
+    pub(crate) tick_hz: u32,
+    /// The lanes before equal cost was switched on; `None` while it is off.
+    pub(crate) before_equal_cost: Option<Vec<(LaneId, LaneSpec)>>,
+}
+
+impl StartSettings {
+    /// The settings of an unedited scene: solo, under its opening method.
+    pub(crate) fn of(scene: Scene) -> Self {
+        let scene = Scene { lanes: lanes_that_race(&scene), equal_cost: false, ..scene };
+        let opens_with = |spec: &LaneSpec| Some(spec.method) == scene.opening_method;
+        let entry = scene.lanes.iter().position(opens_with).unwrap_or(0);
+        let scene = Arc::new(scene);
+        Self {
+            opened: Arc::clone(&scene),
+            list: scene.method_list(),
+            lanes: (0..scene.lanes.len()).collect(),
+            mode: Mode::Solo,
+            entry,
+            tick_hz: scene.tick_hz,
+            before_equal_cost: None,
+            scene,
+        }
+    }
+
+    /// The settings with which this run began.
+    pub(crate) fn of_session(session: &Session) -> Self {
+        let menu = Menu::new(session.race());
+        let lanes = entries(session.race(), &menu);
+        Self {
+            mode: session.mode(),
+            entry: lanes[0],
+            lanes,
+            list: menu.specs().to_vec(),
+            tick_hz: session.race().tick_hz(),
+            ..Self::of((**session.scene()).clone())
+        }
+    }
+
+    /// A run at its start.
+    pub(crate) fn session(&self) -> Session {
+        let race = match self.mode {
+            Mode::Solo => Race::solo(&self.scene, self.list.clone(), self.entry),
+            Mode::Race => {
+                let other = (!self.lanes.contains(&self.entry)).then_some(self.entry);
+                let lanes = self.lanes.iter().copied().chain(other);
+                let lanes = lanes.map(|entry| self.list[entry]);
+                Race::with_methods(&self.scene, self.list.clone(), lanes)
+            }
+        };
+        let race = race.at_rate(self.tick_hz).with_script(&self.scene.script);
+        Session::new(Arc::clone(&self.scene), race)
+    }
+
+    /// Sets the scene's length in seconds, if it is in the allowed range. Returns whether that changes it.
+    pub(crate) fn set_seconds(&mut self, seconds: f64) -> bool {
+        let changes =
+            (MIN_SECONDS..=MAX_SECONDS).contains(&seconds) && seconds != self.scene.seconds;
+        if changes {
+            Arc::make_mut(&mut self.scene).seconds = seconds;
+        }
+        changes
+    }
+
+    /// Sets a parameter that acts at the start, if it is in its range and fits the others. Returns whether that changes it.
+    pub(crate) fn set(&mut self, body: usize, parameter: usize, value: f64) -> bool {
+        let SceneBody { kind, values, .. } = &self.scene.bodies[body];
+        if values[parameter] != value
+            && let Ok(values) = edited_values(kind, values, parameter, value)
+        {
+            Arc::make_mut(&mut self.scene).bodies[body].values = values;
+            return true;
+        }
+        false
+    }
+
+    /// Keeps the choice of a person's action in `race` for the next restart.
+    pub(crate) fn keep(&mut self, action: &Action, race: &Race, menu: &Menu) {
+        match *action {
+            Action::TickHz(_) => self.tick_hz = race.tick_hz(),
+            Action::Set { body, parameter, value } => {
+                Arc::make_mut(&mut self.scene).bodies[body].values[parameter] = value;
+            }
+            Action::Method(_)
+            | Action::Lane { .. }
+            | Action::Substeps { .. }
+            | Action::Tolerance { .. } => {
+                self.list = menu.specs().to_vec();
+                if race.mode() == Mode::Race {
+                    let entries = entries(race, menu);
+                    self.lanes.iter_mut().zip(entries).for_each(|(lane, entry)| *lane = entry);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// What each lane flies, by its index on the menu.
+fn entries(race: &Race, menu: &Menu) -> Vec<usize> {
+    race.entrants().iter().map(|entrant| menu.entry(entrant.id)).collect()
+}

@@ -1,0 +1,163 @@
+//! The actions on a run, which a person, a script, a recording and a test have in common.
+
+use super::lane_id::LaneId;
+use super::lane_spec::LaneSpec;
+use crate::sim::Stepper;
+use crate::sim::bodies::Input;
+use crate::sim::integrators::Method;
+
+/// An action on a run at a tick. It states the new value rather than a change: except for a kick, performing it twice
+/// has the same effect as once.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// Solo: puts the bodies under this method, with its substeps and tolerance [at the start](crate::run::Race::methods). Race:
+    /// does nothing, as each lane keeps its method.
+    Method(&'static Method),
+    /// Puts a lane under this method, with these substeps and this tolerance.
+    Lane {
+        /// The lane.
+        lane: LaneId,
+        /// The new method, substeps and tolerance.
+        spec: LaneSpec,
+    },
+    /// Sets the substeps of a lane.
+    Substeps {
+        /// The lane.
+        lane: LaneId,
+        /// Steps per tick, 1 to [`MAX_SUBSTEPS`](super::MAX_SUBSTEPS).
+        substeps: u32,
+    },
+    /// Sets the tolerance of a lane under an adaptive method.
+    Tolerance {
+        /// The lane.
+        lane: LaneId,
+        /// Within [`TOLERANCES`](super::TOLERANCES).
+        tolerance: f64,
+    },
+    /// Sets the tick rate in Hz.
+    TickHz(u32),
+    /// Sets the throttle of every body that has one, -1 to 1.
+    Throttle(f64),
+    /// Sets the rudder of every body that has one, from -1, hard right, to 1, hard left.
+    Rudder(f64),
+    /// Gives every body an impulse of this many times its own kick.
+    Kick(f64),
+    /// Sets a parameter of a body.
+    Set {
+        /// The body's index in the scene.
+        body: usize,
+        /// The parameter's index among those of its kind.
+        parameter: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// Puts a body into a state, in every lane and in truth.
+    Place {
+        /// The body's index in the scene.
+        body: usize,
+        /// Its coordinates.
+        q: Box<[f64]>,
+        /// Its velocities.
+        v: Box<[f64]>,
+    },
+    /// Leaves only this lane in the race.
+    Solo {
+        /// The lane.
+        lane: LaneId,
+    },
+}
+
+impl Action {
+    /// The tick rate in Hz that it sets, if it sets one.
+    pub(crate) fn tick_hz(&self) -> Option<u32> {
+        match *self {
+            Action::TickHz(tick_hz) => Some(tick_hz),
+            _ => None,
+        }
+    }
+
+    /// Whether it changes the body at this index of the scene, if that takes it.
+    pub(crate) fn acts_on(&self, body: usize) -> bool {
+        match self {
+            Action::Set { body: changed, .. } | Action::Place { body: changed, .. } => {
+                *changed == body
+            }
+            other => other.input().is_some(),
+        }
+    }
+
+    /// Applies its effect on a body that it [acts on](Self::acts_on) to `stepper` at time `t` (s).
+    pub(crate) fn apply_to(&self, stepper: &mut dyn Stepper, t: f64) {
+        match self {
+            Action::Set { parameter, value, .. } => {
+                stepper.set_parameter(t, *parameter, *value);
+            }
+            Action::Place { q, v, .. } => stepper.set(t, q, v),
+            other => other.input().into_iter().for_each(|input| _ = stepper.input(t, input)),
+        }
+    }
+
+    /// The input that it gives to the bodies, if it gives one.
+    pub fn input(&self) -> Option<Input> {
+        match *self {
+            Action::Throttle(part) => Some(Input::Throttle(part.clamp(-1.0, 1.0))),
+            Action::Rudder(part) => Some(Input::Rudder(part.clamp(-1.0, 1.0))),
+            Action::Kick(times) => Some(Input::Kick(times)),
+            _ => None,
+        }
+    }
+
+    /// What it is, for people.
+    pub(crate) fn noun(&self) -> &'static str {
+        match self {
+            Action::Method(_) | Action::Lane { .. } => "the switch",
+            Action::Substeps { .. } => "the substeps",
+            Action::Tolerance { .. } => "the tolerance",
+            Action::TickHz(_) => "the tick rate",
+            Action::Throttle(_) => "the throttle",
+            Action::Rudder(_) => "the rudder",
+            Action::Kick(_) => "the kick",
+            Action::Set { .. } => "the parameter",
+            Action::Place { .. } => "the placement",
+            Action::Solo { .. } => "the end of the race",
+        }
+    }
+
+    /// The control that it sets; `None` if it does not set one.
+    pub(crate) fn control(&self) -> Option<Control> {
+        match *self {
+            Action::Method(_)
+            | Action::Lane { .. }
+            | Action::Substeps { .. }
+            | Action::Tolerance { .. } => Some(Control::Method),
+            Action::TickHz(_) => Some(Control::TickRate),
+            Action::Throttle(_) => Some(Control::Throttle),
+            Action::Rudder(_) => Some(Control::Rudder),
+            Action::Set { body, parameter, .. } => Some(Control::Parameter { body, parameter }),
+            Action::Kick(_) | Action::Place { .. } | Action::Solo { .. } => None,
+        }
+    }
+}
+
+/// A value that both a script and a person can set. Once a person has set it, the script does not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Control {
+    Method,
+    TickRate,
+    Throttle,
+    Rudder,
+    Parameter { body: usize, parameter: usize },
+}
+
+impl Control {
+    /// Its name for people.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Control::Method => "method",
+            Control::TickRate => "tick rate",
+            Control::Throttle => "throttle",
+            Control::Rudder => "rudder",
+            Control::Parameter { .. } => "parameter",
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! What a picture of a body needs beyond its state: how its author draws it, and where it goes in its first seconds.
+
+use std::any::Any;
+use std::fmt;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use glam::DVec2;
+
+use super::outline::Mark;
+use crate::sim::Counted;
+use crate::sim::bodies::{Body, Custom, Kind, Law, Net, NetPlan};
+use crate::sim::integrators::{DormandPrince54, Integrator, SemiImplicitEuler};
+use node_lines::lines;
+
+mod node_lines;
+
+pub(super) use node_lines::NodeLine;
+
+/// Draws a system of a type known to its author, at these coordinates.
+pub(crate) type Drawing = dyn Fn(&dyn Any, &[f64]) -> Vec<Mark> + Send + Sync;
+
+/// How a body of a scene is drawn. The default is the usual look of its kind.
+#[derive(Default)]
+pub struct Appearance {
+    /// How the author of a custom body draws it; `None` for the usual look.
+    pub(crate) drawing: Option<Box<Drawing>>,
+    /// The last preview, and the values of the parameters that it is of.
+    preview: Mutex<Option<(Vec<f64>, Arc<Preview>)>>,
+}
+
+impl fmt::Debug for Appearance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Appearance")
+    }
+}
+
+/// Where a body goes in its first seconds, found by a short run.
+#[derive(Debug)]
+pub(crate) struct Preview {
+    /// The least and the largest value of each coordinate; of a net none are kept.
+    pub(crate) ranges: Vec<(f64, f64)>,
+    /// The index of the coordinate that moves farthest.
+    pub(crate) farthest: usize,
+    /// The lower left and the upper right corner of the rectangle that holds the nodes of a net, or the places of a law.
+    pub(crate) corners: [DVec2; 2],
+    /// The springs of a net; of other bodies none.
+    pub(crate) springs: Springs,
+}
+
+/// The springs of a net, as they are drawn.
+#[derive(Debug, Default)]
+pub(crate) struct Springs {
+    /// Lines through the nodes.
+    pub(crate) lines: Vec<NodeLine>,
+    /// Where the fixed nodes are.
+    pub(crate) fixed: Vec<DVec2>,
+    /// The length of the shortest at the start, in metres.
+    pub(crate) shortest: f64,
+}
+
+/// A coordinate has moved farther than another if by more than this part: nodes that mirror each other differ by
+/// rounding.
+const FARTHER: f64 = 1e-6;
+
+impl Appearance {
+    /// Of a custom body that its author draws.
+    pub(crate) fn drawn(drawing: Option<Box<Drawing>>) -> Self {
+        Self { drawing, preview: Mutex::default() }
+    }
+
+    /// Where a body of this `kind` goes from its start with its present parameters. A net keeps the preview of its first
+    /// ones, so that the stage stays as it is when a person edits them.
+    ///
+    /// # Panics
+    /// If the kind is in the table of bodies.
+    pub(crate) fn preview(&self, kind: &Kind, body: &dyn Any) -> Arc<Preview> {
+        let (law, custom) = (body.downcast_ref::<Law>(), body.downcast_ref::<Custom>());
+        let values = law.map(Law::values).or(custom.map(Custom::values)).unwrap_or_default();
+        // Not held while the motion is followed: a large net waits for other threads, which may want a preview too.
+        let last = || self.preview.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, preview)) = last().as_ref().filter(|(of, _)| of == values) {
+            return preview.clone();
+        }
+        let net = body.downcast_ref::<Net>().zip(kind.net());
+        let preview = Arc::new(match (law, custom, net) {
+            (Some(law), ..) => Preview::of(law, |q| law.places(q)),
+            (_, Some(custom), _) => Preview::of(custom, |_| Vec::new()),
+            (.., Some((net, plan))) => Preview::of_net(net, plan),
+            _ => panic!("a body of the table is drawn by its parameters alone"),
+        });
+        *last() = Some((values.to_vec(), preview.clone()));
+        preview
+    }
+}
+
+impl Preview {
+    /// The index of the coordinate with the widest range.
+    fn widest(&self) -> usize {
+        let far = |index: usize| self.ranges[index].1 - self.ranges[index].0;
+        let farther =
+            |best, next| if far(next) > (1.0 + FARTHER) * far(best) { next } else { best };
+        (0..self.ranges.len()).fold(0, farther)
+    }
+
+    /// Of no motion yet.
+    fn new(coordinates: usize) -> Self {
+        Self {
+            ranges: vec![(f64::INFINITY, f64::NEG_INFINITY); coordinates],
+            farthest: 0,
+            corners: [DVec2::INFINITY, DVec2::NEG_INFINITY],
+            springs: Springs::default(),
+        }
+    }
+
+    /// Adds a moment: the coordinates, and the nodes or places there.
+    fn take_in(&mut self, q: &[f64], places: impl IntoIterator<Item = DVec2>) {
+        for ((low, high), &q) in self.ranges.iter_mut().zip(q) {
+            (*low, *high) = (low.min(q), high.max(q));
+        }
+        let hold = |[low, high]: [DVec2; 2], place| [low.min(place), high.max(place)];
+        self.corners = places.into_iter().fold(self.corners, hold);
+    }
+
+    /// Of a net.
+    fn of_net(net: &Net, plan: &NetPlan) -> Self {
+        let fixed: Vec<DVec2> = plan.fixed_places().map(DVec2::from).collect();
+        let mut state = net.start();
+        let mut preview = Self::new(state.q.len());
+        let h = NET_STEP / net.fastest_rate();
+        let steps = (NET_S / h).min(MAX_SPRINGS / net.springs() as f64) as u64;
+        let mut solver = <SemiImplicitEuler<Vec<f64>> as Integrator<Net>>::new(&state.q);
+        for step in 0..=steps {
+            let free = Net::nodes(&state.q).iter().map(|&node| DVec2::from(node));
+            preview.take_in(&state.q, free.chain(fixed.iter().copied()));
+            if solver.step(net, step as f64 * h, h, &mut state).is_err() {
+                break;
+            }
+        }
+        let springs = Springs { lines: lines(plan), fixed, shortest: net.shortest_spring() };
+        Self { springs, farthest: preview.widest(), ranges: Vec::new(), ..preview }
+    }
+
+    /// Of a body whose coordinates are at these `places`, until it runs away.
+    fn of<B: Body<Vector = Vec<f64>>>(body: &B, places: impl Fn(&[f64]) -> Vec<DVec2>) -> Self {
+        let mut state = body.start();
+        let mut preview = Self::new(state.q.len());
+        preview.take_in(&state.q, places(&state.q));
+        let body = Counted::new(body.clone());
+        let mut solver = <DormandPrince54<Vec<f64>> as Integrator<Counted<B>>>::new(&state.q);
+        let mut near = vec![f64::INFINITY; state.q.len()];
+        for tick in 0..TICKS {
+            let stepped = solver.step(&body, f64::from(tick) * TICK_S, TICK_S, &mut state);
+            let is_near = |(q, most): (&f64, &f64)| q.is_finite() && q.abs() <= *most;
+            if stepped.is_err()
+                || body.evaluations() > MAX_EVALUATIONS
+                || !state.q.iter().zip(&near).all(is_near)
+            {
+                break;
+            }
+            preview.take_in(&state.q, places(&state.q));
+            if tick == 60 {
+                let most = |(low, high): &(f64, f64)| RUNAWAY * low.abs().max(high.abs()).max(1e-9);
+                near = preview.ranges.iter().map(most).collect();
+            }
+        }
+        preview.farthest = preview.widest();
+        preview
+    }
+}
+
+/// How long the motion of a net is followed, in seconds: a hanging cloth has fallen by then, and swung back.
+const NET_S: f64 = 4.0;
+
+/// The most evaluations of its springs: some tens of milliseconds in an unoptimised build.
+const MAX_SPRINGS: f64 = 3e6;
+
+/// The longest step in units of the fastest motion: half of what semi-implicit Euler bears.
+const NET_STEP: f64 = 0.5;
+
+/// How long the motion of other bodies is followed, in ticks and seconds: as long as people look before they judge.
+const TICKS: u32 = 1200;
+const TICK_S: f64 = 1.0 / 60.0;
+
+/// The most evaluations: a few milliseconds.
+const MAX_EVALUATIONS: u64 = 30_000;
+
+/// A coordinate beyond this many times its reach in the first second has run away.
+const RUNAWAY: f64 = 1e4;
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use crate::run::race::Lane;
+    use crate::scene::Scene;
+    use crate::sim::Solver;
+
+    fn ranges(scene: &Scene) -> Vec<(f64, f64)> {
+        let lane = Lane::new(scene, Solver::Truth, 1);
+        lane.bodies()[0].preview().ranges.clone()
+    }
+
+    #[test]
+    fn where_a_body_of_a_built_in_scene_goes_is_found_once_for_all_copies() {
+        for name in ["rope", "jump"] {
+            let preview = || {
+                let scene = Scene::built_in(name).unwrap();
+                Lane::new(&scene, Solver::Truth, 1).bodies()[0].preview()
+            };
+            assert!(Arc::ptr_eq(&preview(), &preview()), "{name}");
+        }
+    }
+
+    #[test]
+    fn the_range_of_a_coordinate_is_found_before_the_motion_is_drawn() {
+        let law = "title = 'Mine'\ntick_hz = 60\nseconds = 5\n\
+            [[law]]\n[law.coordinates.x]\nstart = 2\nacceleration = '-9*x'";
+        let &[(least, most)] = &ranges(&Scene::parse("mine.toml", law).unwrap())[..] else {
+            panic!()
+        };
+        assert!((least + 2.0).abs() < 0.01 && (most - 2.0).abs() < 0.01, "{least} to {most}");
+    }
+}

@@ -1,0 +1,203 @@
+//! An experiment on a custom body: a [`System`] and a start are enough.
+
+use std::any::Any;
+use std::fmt;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::lane_spec::LaneSpec;
+use super::{
+    Appearance, Drawing, MAX_LANES, MAX_NAME_CHARS, MAX_SECONDS, MAX_TICK_HZ, MIN_SECONDS, Mark,
+    Scene, SceneBody, claim_horizon,
+};
+use crate::sim::bodies::{CustomFault, Extras, custom_kind, incompatibility};
+use crate::sim::integrators::{METHODS, Method};
+use crate::sim::{State, System, Vector};
+
+/// Draws a system whose coordinates are these, in metres, x right and y up.
+pub type Draw<S> = fn(&S, &<S as System>::Vector) -> Vec<Mark>;
+
+/// The experiment on a custom body. Every field has a [default](Options::default).
+pub struct Options<S: System> {
+    /// The name of the body, for people: at most [`MAX_NAME_CHARS`] characters. The default is `body`.
+    pub name: &'static str,
+    /// Ticks per second, 1 to [`MAX_TICK_HZ`]. The default is 60.
+    pub tick_hz: u32,
+    /// How long it runs, in seconds, from [`MIN_SECONDS`] to [`MAX_SECONDS`]. The default is 20. Verdicts are
+    /// on the first minute.
+    pub seconds: f64,
+    /// The methods, at most [`MAX_LANES`], from [`METHODS`] or custom ones. Empty: all that step such a body.
+    pub methods: Vec<&'static Method>,
+    /// The most work of [advice](crate::advise), in evaluations of one coordinate, counted and therefore the same on every
+    /// machine: what it does not reach is not known. [`MAX_WORK`](crate::measure::MAX_WORK) takes a second or two. The
+    /// default is no limit.
+    pub max_work: u64,
+    /// What is known of the body beyond its equation.
+    pub extras: Extras<S>,
+    /// Draws the body. `None`: a bead in the plane, or one on a rail for each coordinate.
+    pub draw: Option<Draw<S>>,
+}
+
+impl<S: System> Default for Options<S> {
+    fn default() -> Self {
+        Self {
+            name: "body",
+            tick_hz: 60,
+            seconds: 20.0,
+            methods: Vec::new(),
+            max_work: u64::MAX,
+            extras: Extras::default(),
+            draw: None,
+        }
+    }
+}
+
+/// An invalid option, or a claim that the equation contradicts.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OptionsError {
+    /// The field of [`Options`] or [`Extras`], `start`, or `acceleration`.
+    pub field: &'static str,
+    /// What is wrong.
+    pub what: String,
+    /// How to mend it.
+    pub remedy: String,
+}
+
+impl fmt::Display for OptionsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { field, what, remedy } = self;
+        write!(f, "`{field}`: {what}; {remedy}")
+    }
+}
+
+impl std::error::Error for OptionsError {}
+
+impl From<CustomFault> for OptionsError {
+    fn from(CustomFault { field, what, remedy }: CustomFault) -> Self {
+        Self { field, what, remedy: remedy.to_owned() }
+    }
+}
+
+fn error(field: &'static str, what: String, remedy: impl Into<String>) -> OptionsError {
+    OptionsError { field, what, remedy: remedy.into() }
+}
+
+impl Scene {
+    /// The scene of one body that moves as `system` does, from `start`. It has all that a scene from a file has but a
+    /// text: it cannot be recorded.
+    ///
+    /// # Errors
+    /// If an option is out of its range or unfit, or if an energy or an exact solution is not one.
+    pub fn of<S>(
+        system: &S,
+        start: State<S::Vector>,
+        options: Options<S>,
+    ) -> Result<Scene, OptionsError>
+    where
+        S: System<Vector: Vector> + Clone + Send + 'static,
+    {
+        let Options { name, tick_hz, seconds, methods, max_work: _, extras, draw } = options;
+        if name.is_empty() || name.chars().count() > MAX_NAME_CHARS {
+            let what = format!("{name:?} has {} characters", name.chars().count());
+            return Err(error("name", what, format!("give it 1 to {MAX_NAME_CHARS}")));
+        }
+        if !(1..=MAX_TICK_HZ).contains(&tick_hz) {
+            let remedy = format!("give a rate from 1 to {MAX_TICK_HZ} Hz");
+            return Err(error("tick_hz", tick_hz.to_string(), remedy));
+        }
+        if !(MIN_SECONDS..=MAX_SECONDS).contains(&seconds) {
+            let remedy = format!("give a length from {MIN_SECONDS} to {MAX_SECONDS} s");
+            return Err(error("seconds", seconds.to_string(), remedy));
+        }
+        let drawing = draw.map(|draw| drawing::<S>(draw, start.q.clone()));
+        let appearance = Arc::new(Appearance::drawn(drawing));
+        let kind = custom_kind(system, &start, &extras, claim_horizon(seconds, tick_hz))?;
+        let values = kind.plain_values();
+        let steps = |method: &&'static Method| incompatibility(method, &kind, &values).is_none();
+        let lanes = match &methods[..] {
+            [] => METHODS
+                .iter()
+                .filter(|method| method.is_for_games())
+                .filter(steps)
+                .map(LaneSpec::plain)
+                .collect(),
+            chosen => {
+                check_methods(chosen)?;
+                if let Some(method) = chosen.iter().find(|method| !steps(method)) {
+                    let reason = incompatibility(method, &kind, &values).unwrap_or_default();
+                    return Err(error(
+                        "methods",
+                        format!("{}: {reason}", method.id),
+                        "leave it out",
+                    ));
+                }
+                chosen.iter().map(|method| LaneSpec::plain(method)).collect()
+            }
+        };
+        Ok(Scene {
+            name: name.to_owned(),
+            source: None,
+            title: name.to_owned(),
+            about: String::new(),
+            hint: None,
+            tick_hz,
+            seconds,
+            lanes,
+            opening_method: None,
+            equal_cost: false,
+            opens_as_race: methods.len() != 1,
+            clouds: None,
+            bodies: vec![SceneBody { appearance, ..SceneBody::new(name, kind, values) }],
+            script: Vec::new(),
+            outdated: None,
+            checks: Vec::new(),
+        })
+    }
+}
+
+/// The scene of these options.
+///
+/// # Panics
+/// If an option cannot be.
+pub(crate) fn scene<S>(system: &S, start: State<S::Vector>, options: Options<S>) -> Scene
+where
+    S: System<Vector: Vector> + Clone + Send + 'static,
+{
+    Scene::of(system, start, options).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn check_methods(chosen: &[&'static Method]) -> Result<(), OptionsError> {
+    if chosen.len() > MAX_LANES {
+        let remedy = format!("name at most {MAX_LANES}");
+        return Err(error("methods", format!("these are {}", chosen.len()), remedy));
+    }
+    for (i, method) in chosen.iter().enumerate() {
+        if chosen[..i].contains(method) {
+            return Err(error("methods", format!("two have the id {:?}", method.id), "rename one"));
+        }
+        let is_listed = METHODS.iter().any(|listed| listed.id == method.id);
+        if is_listed && method.custom.is_some() {
+            let what = format!("a method of the table has the id {:?} too", method.id);
+            return Err(error("methods", what, "give yours another id"));
+        }
+        if !is_listed && method.custom.is_none() {
+            let what = format!("{:?} is not in the table", method.id);
+            return Err(error(
+                "methods",
+                what,
+                "say in the field `custom` of its card how it is built",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// The drawing function of a custom body.
+fn drawing<S: System<Vector: Vector> + 'static>(draw: Draw<S>, like: S::Vector) -> Box<Drawing> {
+    let like = Mutex::new(like);
+    let draw = move |system: &dyn Any, q: &[f64]| {
+        let mut own_q = like.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        own_q.components_mut().copy_from_slice(q);
+        system.downcast_ref().map_or_else(Vec::new, |system| draw(system, &own_q))
+    };
+    Box::new(draw)
+}

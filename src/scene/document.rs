@@ -1,0 +1,292 @@
+//! The keys at the top of a scene file, and how it is read into a [`Scene`].
+
+use std::ops::Range as Span;
+
+use toml::de::DeTable;
+
+use super::described::{BodyDraft, check_names, finish_bodies, name_the_nameless, read_bodies};
+use super::errors::{SceneError, position};
+use super::fault::{FaultKind, SceneFault};
+use super::fitting::{check_method, every_lane};
+use super::keys::{Key, METHOD, keep, list, number, quoted, read_lane_spec};
+use super::nearest::{listed, nearest, offer};
+use super::script::{self, SceneContext};
+use super::table::Table;
+use super::wanted::{Field, Wanted};
+use super::{
+    MAX_LANES, MAX_SECONDS, MAX_TICK_HZ, MIN_SECONDS, Scene, USUAL_SECONDS, claim_horizon, syntax,
+};
+use crate::scene::{CloudKind, LaneSpec};
+use crate::sim::bodies::{BODIES, Range};
+use crate::sim::integrators::Method;
+
+/// The name of the table array of lanes.
+pub(super) const LANE: &str = "lane";
+
+/// The most characters of a title, which is shown in the window's title bar.
+const MAX_TITLE_CHARS: usize = 80;
+
+/// The most characters of `about`: a few lines of a panel.
+const MAX_ABOUT_CHARS: usize = 400;
+
+/// The most characters of a hint, which is the line under the stage.
+const MAX_HINT_CHARS: usize = 120;
+
+pub(super) const METHOD_LIST: Field = Field::optional(
+    "methods",
+    "the methods that race; all that step the bodies, but for engines, if left out",
+    Wanted::Methods,
+);
+const OPENING_METHOD: Field = Field::optional(
+    "method",
+    "the method shown first; the first lane's if left out",
+    Wanted::Method,
+);
+pub(super) const RACE_TABLE: Field =
+    Field::optional("race", "how the lanes race", Wanted::Table("race"));
+
+/// A scene as far as it has been read, and the lanes that `methods` lists.
+pub(super) struct Draft {
+    scene: Scene,
+    listed: Option<Vec<(Span<usize>, &'static Method)>>,
+}
+
+/// The keys above the first table.
+pub(super) static TOP: [Key<Draft, Scene>; 8] = [
+    Key {
+        field: Field::required(
+            "title",
+            "the scene's name for people",
+            Wanted::Text(MAX_TITLE_CHARS),
+        ),
+        read: |draft, top, field| keep(&mut draft.scene.title, top.text(field)),
+        write: |scene| Some(quoted(&scene.title)),
+    },
+    Key {
+        field: Field::optional("about", "what it shows", Wanted::Text(MAX_ABOUT_CHARS)),
+        read: |draft, top, field| keep(&mut draft.scene.about, top.text(field)),
+        write: |scene| (!scene.about.is_empty()).then(|| quoted(&scene.about)),
+    },
+    Key {
+        field: Field::optional(
+            "hint",
+            "what to try, under the stage",
+            Wanted::Text(MAX_HINT_CHARS),
+        ),
+        read: |draft, top, field| draft.scene.hint = top.text(field),
+        write: |scene| scene.hint.as_deref().map(quoted),
+    },
+    Key {
+        field: Field::required(
+            "tick_hz",
+            "ticks per second",
+            Wanted::Whole(1..=MAX_TICK_HZ as u64),
+        ),
+        read: |draft, top, field| keep(&mut draft.scene.tick_hz, top.whole(field)),
+        write: |scene| Some(scene.tick_hz.to_string()),
+    },
+    Key {
+        field: Field::optional(
+            "seconds",
+            "how long it is; 20 if left out",
+            Wanted::Number(Range::Between(MIN_SECONDS, MAX_SECONDS)),
+        ),
+        read: |draft, top, field| keep(&mut draft.scene.seconds, top.number(field)),
+        write: |scene| Some(number(scene.seconds)),
+    },
+    Key {
+        field: METHOD_LIST,
+        read: |draft, top, field| draft.listed = top.methods(field),
+        write: |scene| {
+            let ids = scene.lanes.iter().map(|spec| quoted(spec.method.id));
+            scene.has_plain_lanes().then(|| list(ids))
+        },
+    },
+    Key {
+        field: Field::optional(
+            "clouds",
+            "opens it with clouds of many starts in place of the bodies: their shape, or their section",
+            Wanted::Clouds,
+        ),
+        read: |draft, top, field| draft.scene.clouds = read_clouds(top, field),
+        write: |scene| scene.clouds.map(|kind| quoted(kind.name())),
+    },
+    Key {
+        field: OPENING_METHOD,
+        read: |draft, top, field| draft.scene.opening_method = top.method(field),
+        write: |scene| scene.opening_method.map(|method| quoted(method.id)),
+    },
+];
+
+/// What kind of clouds a scene opens with.
+fn read_clouds(top: &mut Table<'_>, field: &Field) -> Option<CloudKind> {
+    let written = top.text(field)?;
+    let found = CloudKind::named(&written);
+    if found.is_none() {
+        let names = CloudKind::ALL.map(CloudKind::name);
+        let remedy = offer(nearest(&written, names.iter().map(|it| (*it, *it))), &names, '"');
+        top.complain(top.span(field.key), format!("unknown clouds {written:?}"), remedy);
+    }
+    found
+}
+
+/// The keys of `[race]`.
+pub(super) static RACE: [Key<Scene, Scene>; 2] = [
+    Key {
+        field: Field::optional(
+            "equal_cost",
+            "gives each lane the substeps that bring its cost nearest to the dearest lane's",
+            Wanted::Boolean,
+        ),
+        read: |scene, race, field| keep(&mut scene.equal_cost, race.boolean(field)),
+        write: |scene| scene.equal_cost.then(|| "true".into()),
+    },
+    Key {
+        field: Field::optional("open", "opens the scene as a race", Wanted::Boolean),
+        read: |scene, race, field| keep(&mut scene.opens_as_race, race.boolean(field)),
+        write: |scene| scene.opens_as_race.then(|| "true".into()),
+    },
+];
+
+/// The key above the first table that is called so.
+fn at_top(key: &str) -> Option<&'static str> {
+    TOP.iter().map(|it| it.field.key).find(|it| *it == key)
+}
+
+/// Reads the scene called `name`. Returns with it what its text says in a way that will not be read for long.
+///
+/// # Errors
+/// Everything that is wrong with its text, in no particular order.
+pub(super) fn read(name: &str, text: &str) -> Result<(Scene, Vec<SceneError>), Vec<SceneError>> {
+    let (document, errors) = DeTable::parse_recoverable(text);
+    let mut errors = syntax::errors(text, errors);
+    // After a duplicate key the rest of the file can be read; after other syntax errors it cannot.
+    if errors.iter().any(|error| !matches!(error.fault.kind, FaultKind::Duplicate { .. })) {
+        return Err(errors);
+    }
+    if document.get_ref().is_empty() {
+        let remedy = "write `title`, `tick_hz`, `seconds` and a table such as `[[ship]]`";
+        let fault = SceneFault::new("the file holds no scene", remedy);
+        return Err(vec![SceneError { span: 0..0, fault }]);
+    }
+
+    let mut top = Table::top(text, at_top, document.get_ref());
+    let scene = Scene {
+        name: name.into(),
+        source: Some(text.into()),
+        title: String::new(),
+        about: String::new(),
+        hint: None,
+        // One without a rate is refused, whatever its laws claim.
+        tick_hz: 1,
+        seconds: USUAL_SECONDS,
+        lanes: Vec::new(),
+        opening_method: None,
+        equal_cost: false,
+        opens_as_race: false,
+        clouds: None,
+        bodies: Vec::new(),
+        script: Vec::new(),
+        checks: Vec::new(),
+        outdated: None,
+    };
+    let mut draft = Draft { scene, listed: None };
+    Key::read_all(&TOP, &mut draft, &mut top);
+    let Draft { mut scene, listed: by_name } = draft;
+    let mut bodies = read_bodies(&mut top, claim_horizon(scene.seconds, scene.tick_hz));
+    check_names(text, &bodies, &mut top);
+    name_the_nameless(&mut bodies);
+    scene.lanes = read_lanes(text, &bodies, by_name, &mut top);
+    check_opening_method(&scene, &mut top);
+    if let Some(mut race) = top.table(&RACE_TABLE) {
+        Key::read_all(&RACE, &mut scene, &mut race);
+        top.adopt(race);
+    }
+    let context = SceneContext { bodies: &bodies, lanes: &scene.lanes, tick_hz: scene.tick_hz };
+    let (script, outdated) = script::read(&context, &mut top);
+    scene.script = script;
+    scene.checks = script::read_checks(&context, &mut top);
+    errors.extend(top.finish());
+    let may_mean_a_body = |error: &SceneError| error.fault.kind == FaultKind::NoTable;
+    if bodies.is_empty() && !errors.iter().any(may_mean_a_body) {
+        let kinds: Vec<_> = BODIES.iter().map(|kind| kind.id).collect();
+        let remedy = format!("add a table {}", listed(&kinds, '[', " or "));
+        let fault = SceneFault::new("the scene has no body", remedy);
+        errors.push(SceneError { span: text.len()..text.len(), fault });
+    }
+
+    if !errors.is_empty() {
+        return Err(errors);
+    }
+    scene.bodies = finish_bodies(bodies);
+    Ok((scene, outdated))
+}
+
+fn read_lanes(
+    text: &str,
+    bodies: &[BodyDraft],
+    listed: Option<Vec<(Span<usize>, &'static Method)>>,
+    top: &mut Table<'_>,
+) -> Vec<LaneSpec> {
+    let is_listed = listed.is_some();
+    let listed = listed.into_iter().flatten();
+    let mut lanes: Vec<_> = listed.map(|(span, method)| (span, LaneSpec::plain(method))).collect();
+
+    let rows = top.rows(LANE);
+    if let (true, Some(row)) = (is_listed, rows.first()) {
+        let what = "lanes are given twice, as `methods` and as `[[lane]]`";
+        top.complain(row.header.clone(), what, "keep one of them");
+    }
+    if let Some(row) = rows.get(MAX_LANES) {
+        let what = format!("the scene has {} lanes", rows.len());
+        top.complain(row.header.clone(), what, format!("keep at most {MAX_LANES}"));
+    }
+    let is_given = is_listed || !rows.is_empty();
+    for mut row in rows.into_iter().take(MAX_LANES) {
+        let span = row.span(METHOD.key);
+        lanes.extend(read_lane_spec(&mut row).map(|spec| (span, spec)));
+        top.adopt(row);
+    }
+
+    let key = if is_listed { METHOD_LIST.key } else { METHOD.key };
+    for (n, (span, lane)) in lanes.iter().enumerate() {
+        check_method(key, lane.method, span.clone(), bodies, top);
+        if let Some((first, _)) = lanes[..n].iter().find(|(_, earlier)| earlier == lane) {
+            let (line, _) = position(text, first.start);
+            let what = format!("a lane {} is on line {line} already", described(lane));
+            let is_adaptive = lane.method.tolerance.is_some();
+            let or = if is_adaptive { " or another `tolerance`" } else { "" };
+            let remedy = format!("remove one, or give it other `substeps`{or} in a `[[lane]]`");
+            top.complain(span.clone(), what, remedy);
+        }
+    }
+    if is_given { lanes.into_iter().map(|(_, lane)| lane).collect() } else { every_lane(bodies) }
+}
+
+/// A lane as a message names it.
+fn described(lane: &LaneSpec) -> String {
+    let LaneSpec { method, substeps, tolerance, joint } = lane;
+    let within = tolerance.map(|tolerance| format!(" and `tolerance = {tolerance:e}`"));
+    let told = joint.map(|joint| format!(" and `joint_hz = {}`", joint.frequency_hz));
+    let beside = [within, told].into_iter().flatten().collect::<String>();
+    format!("{:?} with `substeps = {substeps}`{beside}", method.id)
+}
+
+/// Complains of an opening method that no lane has, so that it does not race.
+fn check_opening_method(Scene { lanes, opening_method, .. }: &Scene, top: &mut Table<'_>) {
+    if let Some(method) = opening_method
+        && !lanes.is_empty()
+        && !lanes.iter().any(|lane| lane.method == *method)
+    {
+        let mut known: Vec<&str> = Vec::new();
+        for lane in lanes {
+            if !known.contains(&lane.method.id) {
+                known.push(lane.method.id);
+            }
+        }
+        let (key, id) = (OPENING_METHOD.key, method.id);
+        let remedy = format!("write one of {}, or give it a lane", listed(&known, '"', ", "));
+        let what = format!("`{key}` is {id:?}, which no lane of this scene has");
+        top.complain(top.span(key), what, remedy);
+    }
+}

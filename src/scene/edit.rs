@@ -1,0 +1,148 @@
+//! A change of one value of a body, checked and refused as a scene file with that value would be.
+
+use super::fault::{FaultKind, SceneFault};
+use super::wanted::Wanted;
+use crate::sim::bodies::{Fault, Kind, Parameter, Range};
+
+/// Why a parameter of a body cannot be set, and what to do about it, in one line.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(transparent)]
+pub struct EditError(#[from] SceneFault);
+
+impl EditError {
+    /// What is wrong with the values together, if that is it.
+    pub(super) fn fault(self) -> Option<Fault> {
+        match self.0.kind {
+            FaultKind::Values(fault) => Some(fault),
+            _ => None,
+        }
+    }
+}
+
+/// The `values` of a body of `kind`, as [`SceneBody::values`](super::SceneBody::values) has them, with `value` for
+/// the parameter with this index.
+///
+/// # Errors
+/// If the value is out of the parameter's range or does not go with the others, or if the parameter is a curve.
+///
+/// # Panics
+/// If the kind has no parameter with this index.
+pub fn edited_values(
+    kind: &Kind,
+    values: &[f64],
+    index: usize,
+    value: f64,
+) -> Result<Vec<f64>, EditError> {
+    let Parameter { key, range, .. } = &kind.parameters[index];
+    let (wanted, written) = (Wanted::of(*range), written(value));
+    if let Range::Curve { .. } = range {
+        let found = format!("the number {written}");
+        return Err(SceneFault::wrong_type(&format!("`{key}`"), &found, &wanted).into());
+    }
+    if !range.contains(value) {
+        return Err(SceneFault::out_of_range(&format!("`{key}`"), &written, &wanted).into());
+    }
+    let mut edited = values.to_vec();
+    edited[index] = value;
+    (kind.check)(&edited).map_err(SceneFault::from)?;
+    Ok(edited)
+}
+
+/// A number as a person would type it.
+fn written(value: f64) -> String {
+    let exact = format!("{value:?}");
+    exact.strip_suffix(".0").map_or(exact.clone(), str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::sim::bodies::{BODIES, MAX_VALUE, kind};
+
+    /// The values of the only body of a scene with this table, or what is wrong with it.
+    fn parsed(table: &str) -> Result<Vec<f64>, String> {
+        let text = format!("title = 'one'\ntick_hz = 60\nseconds = 1\n{table}");
+        let scene = Scene::parse("one.toml", &text).map_err(|errors| errors.to_string())?;
+        Ok(scene.bodies[0].values.clone())
+    }
+
+    /// A table with what must be given, every number 1; with `value` for the parameter in an index.
+    fn table(kind: &Kind, edit: Option<(usize, f64)>) -> String {
+        let row = |(index, parameter): (usize, &Parameter)| {
+            let Parameter { key, default, range, .. } = parameter;
+            match (edit, range) {
+                (Some((edited, value)), _) if edited == index => {
+                    format!("{key} = {}\n", written(value))
+                }
+                (_, Range::Curve { .. }) => format!("{key} = [[0, 1], [1, 1]]\n"),
+                _ if default.is_some() => String::new(),
+                _ => format!("{key} = 1\n"),
+            }
+        };
+        let rows = kind.parameters.iter().enumerate().map(row);
+        format!("[[{}]]\n{}", kind.id, rows.collect::<String>())
+    }
+
+    #[test]
+    fn an_edit_is_taken_or_refused_in_the_words_of_the_scene_parser() {
+        let (mut taken, mut refused) = (0, 0);
+        for kind in BODIES.iter() {
+            let begun = parsed(&table(kind, None)).unwrap();
+            for (index, parameter) in kind.parameters.iter().enumerate() {
+                let values: &[f64] = match parameter.range {
+                    Range::Curve { .. } => &[],
+                    Range::Count(_) => &[-1.0, 0.0, 1.0, 2.0, 8.0, 9.0, 256.0, 257.0],
+                    _ => &[-2e15, -1.0, 0.0, 1e-300, 0.1, 2.0, MAX_VALUE, 1.1 * MAX_VALUE, 1e300],
+                };
+                for &value in values {
+                    let parsed = parsed(&table(kind, Some((index, value))));
+                    match edited_values(kind, &begun, index, value) {
+                        Ok(values) => {
+                            taken += 1;
+                            assert_eq!(Ok(values), parsed);
+                        }
+                        Err(error) => {
+                            refused += 1;
+                            let parsed = parsed.expect_err(&error.to_string());
+                            assert!(parsed.ends_with(&format!(": {error}")), "{parsed} / {error}");
+                        }
+                    }
+                }
+            }
+        }
+        assert!(taken > 100 && refused > 50, "{taken} taken, {refused} refused");
+    }
+
+    #[test]
+    fn what_is_refused_is_named_with_a_remedy() {
+        let refusal = |id: &str, index: usize, value: f64| {
+            let kind = kind(id).unwrap();
+            edited_values(kind, &parsed(&table(kind, None)).unwrap(), index, value)
+                .unwrap_err()
+                .to_string()
+        };
+        for (found, wanted) in [
+            (
+                refusal("spring", 0, -1.0),
+                "`mass_kg` is -1, out of range; write a number greater than 0 and at most 1e15",
+            ),
+            (
+                refusal("chain", 4, 2.5),
+                "`plucked_mass` is 2.5, out of range; write a whole number from 1 to 256",
+            ),
+            (
+                refusal("chain", 4, 9.0),
+                "`plucked_mass` is 9, of 8 masses; write a whole number from 1 to 8, or more `masses`",
+            ),
+            (
+                refusal("helm", 11, 3.0),
+                "`thrust_curve` is the number 3, not a list; \
+                 write a list of 2 to 64 points [m/s, N] in rising order",
+            ),
+        ] {
+            assert_eq!(found, wanted);
+        }
+        assert!(refusal("spring", 0, f64::NAN).starts_with("`mass_kg` is NaN, out of range"));
+    }
+}

@@ -1,0 +1,172 @@
+//! A key of a scene file, with its reader and its writer, and the keys of a lane.
+
+use super::nearest::listed;
+use super::table::Table;
+use super::wanted::{Field, Wanted};
+use super::{MAX_SUBSTEPS, TOLERANCES};
+use crate::scene::{LaneSpec, Swing};
+use crate::sim::bodies::Range;
+use crate::sim::integrators::{METHODS, Method};
+
+/// A key whose value is read into a draft `D` and written of a `T`.
+pub(super) struct Key<D: 'static, T: 'static> {
+    pub(super) field: Field,
+    /// Keeps the value in the draft; one with a fault is left out.
+    pub(super) read: fn(&mut D, &mut Table<'_>, &Field),
+    /// The value as TOML; `None` if the key is left out.
+    pub(super) write: fn(&T) -> Option<String>,
+}
+
+impl<D, T> Key<D, T> {
+    /// Reads the values of these keys into a draft, whichever have faults.
+    pub(super) fn read_all(keys: &'static [Self], draft: &mut D, table: &mut Table<'_>) {
+        for Key { field, read, .. } in keys {
+            read(draft, table, field);
+        }
+    }
+
+    /// A line for each of these keys that is not left out.
+    pub(super) fn lines(keys: &'static [Self], of: &T) -> String {
+        let line = |key: &Self| Some(format!("{} = {}\n", key.field.key, (key.write)(of)?));
+        keys.iter().filter_map(line).collect()
+    }
+}
+
+/// Replaces a value by one that could be read.
+pub(super) fn keep<T>(value: &mut T, read: Option<T>) {
+    if let Some(read) = read {
+        *value = read;
+    }
+}
+
+/// The shortest number that reads back as the same, with a point or an exponent, as TOML wants it.
+pub(super) fn number(value: f64) -> String {
+    format!("{value:?}")
+}
+
+pub(super) fn list(items: impl IntoIterator<Item = String>) -> String {
+    format!("[{}]", items.into_iter().collect::<Vec<_>>().join(", "))
+}
+
+pub(super) fn numbers(values: &[f64]) -> String {
+    list(values.iter().copied().map(number))
+}
+
+/// A string in double quotes. Texts of a scene hold no control characters.
+pub(super) fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
+}
+
+pub(super) const METHOD: Field = Field::required("method", "the method that races", Wanted::Method);
+pub(super) const SUBSTEPS: Field =
+    Field::optional("substeps", "steps per tick", Wanted::Whole(1..=MAX_SUBSTEPS as u64));
+pub(super) const TOLERANCE: Field = Field::optional(
+    "tolerance",
+    "of an adaptive method, in place of its own",
+    Wanted::Number(Range::Between(TOLERANCES.0, TOLERANCES.1)),
+);
+pub(super) const JOINT_HZ: Field = Field::optional(
+    "joint_hz",
+    "the frequency that an engine is told of every spring, in place of its own",
+    Wanted::Number(Swing::RANGES[0]),
+);
+const JOINT_DAMPING_RATIO: Field = Field::optional(
+    "joint_damping_ratio",
+    "the damping ratio that it is told beside that; 0 if left out",
+    Wanted::Number(Swing::RANGES[1]),
+);
+
+/// A lane as far as it has been read.
+#[derive(Default)]
+pub(super) struct SpecDraft {
+    method: Option<&'static Method>,
+    substeps: Option<u32>,
+    tolerance: Option<f64>,
+    joint_hz: Option<f64>,
+    joint_damping_ratio: Option<f64>,
+}
+
+/// The keys of a lane, which commands have too.
+pub(super) static SPEC: [Key<SpecDraft, LaneSpec>; 5] = [
+    Key {
+        field: METHOD,
+        read: |spec, row, field| spec.method = row.method(field),
+        write: |spec| Some(quoted(spec.method.id)),
+    },
+    Key {
+        field: SUBSTEPS,
+        read: |spec, row, field| spec.substeps = row.whole(field),
+        write: |spec| {
+            let is_own = spec.substeps != spec.method.default_substeps;
+            is_own.then(|| spec.substeps.to_string())
+        },
+    },
+    Key {
+        field: TOLERANCE,
+        read: |spec, row, _| spec.tolerance = read_tolerance(row, spec.method),
+        write: |spec| spec.tolerance.map(number),
+    },
+    Key {
+        field: JOINT_HZ,
+        read: |spec, row, field| spec.joint_hz = row.number(field),
+        write: |spec| Some(number(spec.joint?.frequency_hz)),
+    },
+    Key {
+        field: JOINT_DAMPING_RATIO,
+        read: |spec, row, field| spec.joint_damping_ratio = row.number(field),
+        write: |spec| Some(number(spec.joint?.damping_ratio)),
+    },
+];
+
+/// Reads a lane. Complains of what its method does not take.
+pub(super) fn read_lane_spec(row: &mut Table<'_>) -> Option<LaneSpec> {
+    let mut draft = SpecDraft::default();
+    Key::read_all(&SPEC, &mut draft, row);
+    check_joint(row, draft.method);
+    let SpecDraft { method, substeps, tolerance, joint_hz, joint_damping_ratio } = draft;
+    let method = method?;
+    let substeps = substeps.unwrap_or(method.default_substeps);
+    let damping_ratio = joint_damping_ratio.unwrap_or(0.0);
+    let joint = joint_hz.map(|frequency_hz| Swing { frequency_hz, damping_ratio });
+    Some(LaneSpec { method, substeps, tolerance, joint })
+}
+
+/// Complains of a joint for a method that is told none, and of a damping ratio alone.
+fn check_joint(row: &mut Table<'_>, method: Option<&'static Method>) {
+    let joint = [JOINT_HZ, JOINT_DAMPING_RATIO];
+    let Some(Field { key, .. }) = joint.into_iter().find(|field| row.has(field.key)) else {
+        return;
+    };
+    if let Some(method) = method.filter(|method| !method.has_joint()) {
+        let id = method.id;
+        let what = format!("`{key}` does not apply to the method {id:?}, which is told no spring");
+        let remedy = format!("remove it, or choose an engine: {}", methods(Method::has_joint));
+        row.complain(row.span(key), what, remedy);
+    } else if !row.has(JOINT_HZ.key) {
+        let remedy = format!("remove it, or write `{}` too", JOINT_HZ.key);
+        row.complain(row.span(key), format!("`{key}` stands alone"), remedy);
+    }
+}
+
+/// Reads a tolerance. If the lane's method is known, reports one that takes none.
+pub(super) fn read_tolerance(row: &mut Table<'_>, method: Option<&'static Method>) -> Option<f64> {
+    let tolerance = row.number(&TOLERANCE);
+    if let (Some(method), true) = (method, row.has(TOLERANCE.key))
+        && method.tolerance.is_none()
+    {
+        let (key, id) = (TOLERANCE.key, method.id);
+        let remedy = format!("remove it, or choose an adaptive method: {}", adaptive_methods());
+        row.complain(row.span(key), format!("`{key}` does not apply to the method {id:?}"), remedy);
+    }
+    tolerance
+}
+
+/// The ids of the methods that choose their own steps.
+pub(super) fn adaptive_methods() -> String {
+    methods(|method| method.tolerance.is_some())
+}
+
+fn methods(fits: fn(&Method) -> bool) -> String {
+    let fitting = METHODS.iter().filter(|method| fits(method));
+    listed(&fitting.map(|method| method.id).collect::<Vec<_>>(), '"', ", ")
+}

@@ -1,0 +1,133 @@
+//! The method of a lane, with its substeps and its tolerance.
+
+use crate::sim::integrators::{Method, Override};
+use crate::sim::number::round;
+use crate::sim::{Range, Solver};
+
+/// The method of a lane, with its substeps and its tolerance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LaneSpec {
+    /// The method of its bodies.
+    pub method: &'static Method,
+    /// Equal steps per tick, 1 to [`MAX_SUBSTEPS`](super::MAX_SUBSTEPS).
+    pub substeps: u32,
+    /// Overrides the absolute and the relative tolerance of an adaptive method's card, within
+    /// [`TOLERANCES`](super::TOLERANCES); `None` keeps the card's tolerance, and is the only value for other methods.
+    pub tolerance: Option<f64>,
+    /// What an engine is told of every spring, in place of the body's own; `None` is the only value for methods without a
+    /// joint.
+    pub joint: Option<Swing>,
+}
+
+/// How a spring swings, whatever is on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Swing {
+    /// The frequency in hertz at which it would swing without its damping.
+    pub frequency_hz: f64,
+    /// The damping as a part of what just lets it swing no more.
+    pub damping_ratio: f64,
+}
+
+impl Swing {
+    /// The ranges of the frequency and the damping ratio.
+    pub const RANGES: [Range; 2] = [Range::POSITIVE, Range::NON_NEGATIVE];
+
+    /// Whether both are in their ranges.
+    pub fn is_in_range(self) -> bool {
+        let both = [self.frequency_hz, self.damping_ratio];
+        Self::RANGES.into_iter().zip(both).all(|(range, value)| range.contains(value))
+    }
+
+    /// The stiffness in 1/s² and the damping in 1/s, each per unit of mass.
+    pub fn per_mass(self) -> [f64; 2] {
+        let omega = std::f64::consts::TAU * self.frequency_hz;
+        [omega * omega, 2.0 * self.damping_ratio * omega]
+    }
+}
+
+impl LaneSpec {
+    /// A method with its card's tolerance and substeps.
+    pub fn plain(method: &'static Method) -> Self {
+        Self { method, substeps: method.default_substeps, tolerance: None, joint: None }
+    }
+
+    /// `name`, which is its method's, with its substeps or its tolerance after it where another of `lanes` has the method
+    /// with others.
+    pub fn distinct_name(&self, name: &str, lanes: &[LaneSpec]) -> String {
+        let alike = || lanes.iter().filter(|other| other.method == self.method);
+        let has_others = alike().any(|other| other.substeps != self.substeps);
+        let times = if has_others { format!(" ×{}", self.substeps) } else { String::new() };
+        let within =
+            self.tolerance.filter(|_| alike().any(|other| other.tolerance != self.tolerance));
+        let within = within.map(|tolerance| format!(" {tolerance:e}")).unwrap_or_default();
+        format!("{name}{times}{within}{}", self.told(lanes))
+    }
+
+    /// What its engine is told, where another of `lanes` has the method and is told something else.
+    fn told(&self, lanes: &[LaneSpec]) -> String {
+        let mut alike = lanes.iter().filter(|other| other.method == self.method);
+        let told = self.joint.filter(|_| alike.any(|other| other.joint != self.joint));
+        told.map(|it| format!(", told {} Hz", round(it.frequency_hz, 3))).unwrap_or_default()
+    }
+
+    /// The method's name with the substeps, which are left out if there is one and no other of `lanes` has the method.
+    pub fn name_with_substeps(&self, lanes: &[LaneSpec]) -> String {
+        let mut others = lanes.iter().filter(|other| other.method == self.method);
+        let name = self.method.name;
+        let told = self.told(lanes);
+        match self.substeps > 1 || others.any(|other| other.substeps != self.substeps) {
+            true => format!("{name} ×{}{told}", self.substeps),
+            false => format!("{name}{told}"),
+        }
+    }
+
+    /// The solver of the lane's bodies.
+    pub fn solver(&self) -> Solver {
+        match (self.joint.map(Swing::per_mass), self.tolerance) {
+            (Some(joint), _) => Solver::With(self.method, Override::Joint(joint)),
+            (None, Some(bound)) => Solver::With(self.method, Override::tolerance(bound)),
+            (None, None) => Solver::Method(self.method),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::integrators::method;
+
+    #[test]
+    fn lanes_of_one_method_are_told_apart_by_what_differs() {
+        let lane = |id, substeps, tolerance| LaneSpec {
+            substeps,
+            tolerance,
+            ..LaneSpec::plain(method(id).unwrap())
+        };
+        let joint = Some(Swing { frequency_hz: 1.0009, damping_ratio: 0.074 });
+        let told = LaneSpec { joint, ..lane("engine-box2d", 4, None) };
+        let lanes = [
+            told,
+            lane("held-force", 1, None),
+            lane("held-force", 4, None),
+            lane("engine-box2d", 4, None),
+            lane("adaptive-euler", 1, Some(1e-3)),
+            lane("adaptive-euler", 1, Some(1e-6)),
+            lane("rk4", 1, None),
+        ];
+        let names = lanes.map(|lane| lane.distinct_name(lane.method.name, &lanes));
+        let expected = [
+            "Box2D, told 1 Hz",
+            "Held force ×1",
+            "Held force ×4",
+            "Box2D",
+            "Adaptive Euler 1e-3",
+            "Adaptive Euler 1e-6",
+            "Runge-Kutta 4",
+        ];
+        assert_eq!(names, expected);
+        let with_substeps = lanes.map(|lane| lane.name_with_substeps(&lanes));
+        let expected = ["Box2D ×4, told 1 Hz", "Held force ×1", "Held force ×4", "Box2D ×4"];
+        assert_eq!(with_substeps[..4], expected);
+        assert_eq!(with_substeps[6], "Runge-Kutta 4");
+    }
+}

@@ -1,0 +1,547 @@
+//! Reads a scene's script and the hashes that its race has to reproduce: `[[command]]` and `[[check]]`.
+
+use std::ops::Range as Span;
+
+use super::clip::clip;
+use super::described::BodyDraft;
+use super::errors::SceneError;
+use super::fault::{FaultKind, SceneFault};
+use super::fitting::check_method;
+use super::keys::{
+    JOINT_HZ, Key, METHOD, SPEC, SUBSTEPS, TOLERANCE, adaptive_methods, keep, number, numbers,
+    quoted, read_lane_spec, read_tolerance,
+};
+use super::nearest::{listed, nearest, offer};
+use super::table::Table;
+use super::wanted::{Field, Wanted};
+use super::{
+    Check, LAST_TICK, MAX_LANES, MAX_NAME_CHARS, MAX_SECONDS, MAX_TICK_HZ, Scene, Scripted,
+};
+use crate::scene::edit::edited_values;
+use crate::scene::{Action, LaneId, LaneSpec};
+use crate::sim::bodies::{Acts, BODIES, MAX_VALUE, Parameter, Range};
+use crate::sim::integrators::Method;
+
+/// The name of the table array of a script.
+pub(super) const COMMAND: &str = "command";
+
+/// The name of the table array of checks.
+pub(super) const CHECKS: &str = "check";
+
+const LANE_NUMBER: Wanted = Wanted::Whole(1..=MAX_LANES as u64);
+const NAME: Wanted = Wanted::Text(MAX_NAME_CHARS);
+
+pub(super) const AT_S: Field = Field::required(
+    "at_s",
+    "when it is done, in seconds: before the nearest tick, whatever the tick rate",
+    Wanted::Number(Range::Between(0.0, MAX_SECONDS)),
+);
+pub(super) const TICK: Field = Field::optional(
+    "tick",
+    "of a recording, in place of `at_s`: the tick before which it is done",
+    Wanted::Whole(0..=LAST_TICK),
+);
+pub(super) const LANE: Field =
+    Field::optional("lane", "the lane whose method, substeps or tolerance it sets", LANE_NUMBER);
+
+const BODY: Field = Field::required("body", "the body's name", NAME);
+const KEY: Field = Field::required("key", "the parameter's key", NAME);
+const VALUE: Field = Field::required("value", "what it is set to", Wanted::ANY);
+const Q: Field = Field::required("q", "the coordinates", Wanted::Numbers(1));
+const V: Field = Field::required("v", "the velocities", Wanted::Numbers(1));
+/// The keys of `set` and of `place`.
+pub(super) static OF_A_BODY: [(&str, &[Field]); 2] =
+    [("set", &[BODY, KEY, VALUE]), ("place", &[BODY, Q, V])];
+
+/// The keys of `[[check]]`, read with the number of lanes.
+pub(super) static CHECK: [Key<(Check, usize), Check>; 3] = [
+    Key {
+        field: Field::required(
+            "tick",
+            "the tick at which it is known",
+            Wanted::Whole(0..=LAST_TICK),
+        ),
+        read: |(check, _), row, field| keep(&mut check.tick, row.whole(field)),
+        write: |check| Some(check.tick.to_string()),
+    },
+    Key {
+        field: Field::required("lane", "the lane's number", LANE_NUMBER),
+        read: |(check, lanes), row, field| keep(&mut check.lane, read_number(row, field, *lanes)),
+        write: |check| Some(check.lane.to_string()),
+    },
+    Key {
+        field: Field::required("hash", "the lane's state then", Wanted::Hash),
+        read: |(check, _), row, field| keep(&mut check.hash, row.hash(field)),
+        write: |check| Some(format!("\"{:016x}\"", check.hash)),
+    },
+];
+
+/// The bodies and lanes that a script can refer to, and the rate by which its ticks are counted.
+pub(super) struct SceneContext<'d> {
+    /// Each with a name.
+    pub(super) bodies: &'d [BodyDraft],
+    pub(super) lanes: &'d [LaneSpec],
+    pub(super) tick_hz: u32,
+}
+
+type Read = fn(&SceneContext<'_>, &mut Table<'_>, &Field) -> Option<Action>;
+type Write = fn(&Scene, &Action) -> Option<String>;
+
+/// A key of `[[command]]`, which stands for an action.
+pub(super) struct CommandKey {
+    pub(super) field: Field,
+    /// Whether some body must take an input of this name for the action to have an effect.
+    is_input: bool,
+    read: Read,
+    /// The value, if the action is this key's.
+    write: Write,
+}
+
+const fn command_key(field: Field, read: Read, write: Write) -> CommandKey {
+    CommandKey { field, is_input: false, read, write }
+}
+
+const fn input(
+    key: &'static str,
+    about: &'static str,
+    range: Range,
+    read: Read,
+    write: Write,
+) -> CommandKey {
+    let field = Field::optional(key, about, Wanted::Number(range));
+    CommandKey { is_input: true, ..command_key(field, read, write) }
+}
+
+/// The keys that change a lane; `lane` says which.
+const OF_A_LANE: [&str; 3] = [METHOD.key, SUBSTEPS.key, TOLERANCE.key];
+
+pub(super) static COMMAND_KEYS: [CommandKey; 10] = [
+    command_key(
+        Field::optional("method", "the method, for a lane with what else it has", Wanted::Method),
+        |context, row, _| read_method(context, row),
+        |_, action| if let Action::Method(it) = action { Some(quoted(it.id)) } else { None },
+    ),
+    input(
+        "throttle",
+        "the throttle of every body that has one",
+        Range::Within(1.0),
+        |_, row, field| row.number(field).map(Action::Throttle),
+        |_, action| if let Action::Throttle(part) = action { Some(number(*part)) } else { None },
+    ),
+    input(
+        "rudder",
+        "the rudder of every body that has one; positive is left",
+        Range::Within(1.0),
+        |_, row, field| row.number(field).map(Action::Rudder),
+        |_, action| if let Action::Rudder(part) = action { Some(number(*part)) } else { None },
+    ),
+    input(
+        "kick",
+        "an impulse for every body, of this many times its own kick",
+        Range::Within(MAX_VALUE),
+        |_, row, field| row.number(field).map(Action::Kick),
+        |_, action| if let Action::Kick(times) = action { Some(number(*times)) } else { None },
+    ),
+    command_key(
+        Field::optional("tick_hz", "ticks per second", Wanted::Whole(1..=MAX_TICK_HZ as u64)),
+        |_, row, field| row.whole(field).map(Action::TickHz),
+        |_, action| action.tick_hz().map(|tick_hz| tick_hz.to_string()),
+    ),
+    command_key(
+        SUBSTEPS,
+        |context, row, field| {
+            let substeps = row.whole(field);
+            let lane = read_lane(context, row)?;
+            Some(Action::Substeps { lane, substeps: substeps? })
+        },
+        |_, action| match action {
+            Action::Substeps { substeps, .. } => Some(substeps.to_string()),
+            _ => None,
+        },
+    ),
+    command_key(
+        TOLERANCE,
+        |context, row, _| {
+            let tolerance = read_tolerance(row, None);
+            let lane = read_lane(context, row)?;
+            Some(Action::Tolerance { lane, tolerance: tolerance? })
+        },
+        |_, action| match action {
+            Action::Tolerance { tolerance, .. } => Some(number(*tolerance)),
+            _ => None,
+        },
+    ),
+    command_key(
+        Field::optional("set", "sets a parameter of a body", Wanted::Table("set")),
+        |context, row, field| {
+            let mut set = row.table(field)?;
+            let action = read_set(context, &mut set);
+            row.adopt(set);
+            action
+        },
+        |scene, action| {
+            let Action::Set { body, parameter, value } = action else { return None };
+            let body = &scene.bodies[*body];
+            let parameter = &body.kind.parameters[*parameter];
+            let value = parameter_value(parameter.range, *value);
+            let (name, key) = (quoted(&body.name), quoted(&parameter.key));
+            Some(inline(&[(BODY, name), (KEY, key), (VALUE, value)]))
+        },
+    ),
+    command_key(
+        Field::optional("place", "puts a body into a state", Wanted::Table("place")),
+        |context, row, field| {
+            let mut place = row.table(field)?;
+            let action = read_place(context, &mut place);
+            row.adopt(place);
+            action
+        },
+        |scene, action| {
+            let Action::Place { body, q, v } = action else { return None };
+            let name = quoted(&scene.bodies[*body].name);
+            Some(inline(&[(BODY, name), (Q, numbers(q)), (V, numbers(v))]))
+        },
+    ),
+    command_key(
+        Field::optional("solo", "the only lane that goes on", LANE_NUMBER),
+        |context, row, field| {
+            read_number(row, field, context.lanes.len()).map(|lane| Action::Solo { lane })
+        },
+        |_, action| if let Action::Solo { lane } = action { Some(lane.to_string()) } else { None },
+    ),
+];
+
+/// A table in braces.
+fn inline(entries: &[(Field, String)]) -> String {
+    let entries = entries.iter().map(|(field, value)| format!("{} = {value}", field.key));
+    format!("{{ {} }}", entries.collect::<Vec<_>>().join(", "))
+}
+
+/// A value of a parameter that is no curve.
+pub(super) fn parameter_value(range: Range, value: f64) -> String {
+    match range {
+        Range::Count(_) => format!("{}", value as u64),
+        _ => number(value),
+    }
+}
+
+/// The tables of the commands of `scene`: told in ticks if it is a recording, else in seconds.
+pub(super) fn command_tables(scene: &Scene) -> impl Iterator<Item = String> {
+    let is_recording = !scene.checks.is_empty();
+    scene.script.iter().zip(scene.script_on_ticks()).map(move |(row, (tick, _))| {
+        let when = match is_recording {
+            true => format!("{} = {tick}", TICK.key),
+            false => format!("{} = {}", AT_S.key, number(row.at_s)),
+        };
+        command_table(scene, &when, &row.action)
+    })
+}
+
+fn command_table(scene: &Scene, when: &str, action: &Action) -> String {
+    let mut text = format!("\n[[{COMMAND}]]\n{when}\n");
+    if let Action::Lane { lane, .. }
+    | Action::Substeps { lane, .. }
+    | Action::Tolerance { lane, .. } = action
+    {
+        text += &format!("{} = {lane}\n", LANE.key);
+    }
+    if let Action::Lane { spec, .. } = action {
+        return text + &Key::lines(&SPEC, spec);
+    }
+    for CommandKey { field, write, .. } in &COMMAND_KEYS {
+        let value = write(scene, action);
+        text.extend(value.map(|value| format!("{} = {value}\n", field.key)));
+    }
+    text
+}
+
+/// When a command is done, as its table says it.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum When {
+    Second(f64),
+    Tick(u64),
+}
+
+/// A command as it is read.
+struct Command {
+    when: When,
+    action: Action,
+    /// The bytes of what says when.
+    when_span: Span<usize>,
+    tolerance_span: Span<usize>,
+}
+
+/// The scripted commands by time, and those of one time in the order of the file; with what a scene should not say of ticks.
+pub(super) fn read(
+    context: &SceneContext<'_>,
+    top: &mut Table<'_>,
+) -> (Vec<Scripted>, Vec<SceneError>) {
+    let mut commands: Vec<Command> = Vec::new();
+    let rows = top.rows(COMMAND);
+    let is_mixed = [AT_S.key, TICK.key].iter().all(|key| rows.iter().any(|row| row.has(key)));
+    for mut row in rows {
+        let when = read_when(&mut row, is_mixed);
+        let action = read_action(context, &mut row);
+        let [tick, at_s, tolerance_span] =
+            [TICK.key, AT_S.key, TOLERANCE.key].map(|key| row.span(key));
+        let when_span = if row.has(TICK.key) { tick } else { at_s };
+        let command = when.zip(action);
+        commands.extend(command.map(|(when, action)| Command {
+            when,
+            action,
+            when_span,
+            tolerance_span,
+        }));
+        top.adopt(row);
+    }
+    let order = |a: &When, b: &When| a.partial_cmp(b).expect("numbers of scenes are finite");
+    commands.sort_by(|a, b| order(&a.when, &b.when));
+    let told_in_ticks = |command: &Command| match command.when {
+        When::Tick(tick) => Some((tick, command.action.clone())),
+        When::Second(_) => None,
+    };
+    let told_in_seconds = |command: &Command| match command.when {
+        When::Second(at_s) => Some(Scripted { at_s, action: command.action.clone() }),
+        When::Tick(_) => None,
+    };
+    let in_ticks = commands.iter().filter_map(told_in_ticks);
+    let mut script = Scripted::of_ticks(context.tick_hz, in_ticks);
+    let mut warnings = Vec::new();
+    if !top.has(CHECKS) {
+        // No scene is longer.
+        script.iter_mut().for_each(|row| row.at_s = row.at_s.min(MAX_SECONDS));
+        warnings = script.iter().zip(&commands).map(outdated).collect();
+    }
+    script.extend(commands.iter().filter_map(told_in_seconds));
+    // If a lane or a command could not be read, the methods in force are unknown.
+    if top.is_faultless() {
+        let spans = commands.into_iter().map(|command| command.tolerance_span);
+        check_tolerances(context.lanes, script.iter().zip(spans), top);
+    }
+    (script, warnings)
+}
+
+/// When a command is done. Complains of a tick where `is_mixed` says that others are told in seconds.
+fn read_when(row: &mut Table<'_>, is_mixed: bool) -> Option<When> {
+    [AT_S, TICK].iter().for_each(|field| row.knows(field.key));
+    if is_mixed && row.has(TICK.key) {
+        let (tick, at_s) = (TICK.key, AT_S.key);
+        let what = format!("`{tick}` tells when, and other commands have `{at_s}`");
+        row.complain(row.span(tick), what, format!("write `{at_s} = …` in its place: seconds"));
+        return None;
+    }
+    match row.has(TICK.key) {
+        true => row.whole(&TICK).map(When::Tick),
+        false => row.number(&AT_S).map(When::Second),
+    }
+}
+
+/// What is wrong with a scene's command that is told in ticks, whose time is known.
+fn outdated((Scripted { at_s, .. }, command): (&Scripted, &Command)) -> SceneError {
+    let (tick, at_s) = (TICK.key, format!("`{} = {}`", AT_S.key, number(*at_s)));
+    let what = format!(
+        "`{tick}` in a scene is read for this release only: another tick rate would be another motion"
+    );
+    let fault = SceneFault::new(what, format!("write {at_s} in its place"));
+    SceneError { span: command.when_span.clone(), fault }
+}
+
+/// Complains of every tolerance for a lane whose method takes none at that time, whether the lane races or is flown
+/// solo. The span of a command is that of its `tolerance`.
+fn check_tolerances<'s>(
+    lanes: &[LaneSpec],
+    script: impl Iterator<Item = (&'s Scripted, Span<usize>)>,
+    top: &mut Table<'_>,
+) {
+    let mut in_race: Vec<&Method> = lanes.iter().map(|spec| spec.method).collect();
+    let mut in_solo = in_race.clone();
+    // A method given without a lane changes nothing while several race.
+    let mut race_is_over = false;
+    for (Scripted { at_s, action }, span) in script {
+        match *action {
+            Action::Method(method) => {
+                in_solo.fill(method);
+                if race_is_over {
+                    in_race.fill(method);
+                }
+            }
+            Action::Lane { lane, spec } => {
+                (in_race[lane.index()], in_solo[lane.index()]) = (spec.method, spec.method);
+            }
+            Action::Solo { .. } => race_is_over = true,
+            Action::Tolerance { lane, .. } => {
+                let methods = [in_race[lane.index()], in_solo[lane.index()]];
+                if methods.iter().all(|method| method.tolerance.is_none()) {
+                    let method = methods[0].id;
+                    let what = format!(
+                        "`tolerance` does not apply to lane {lane}: at {at_s} s its method is {method:?}"
+                    );
+                    let those = adaptive_methods();
+                    let remedy =
+                        format!("remove it, or give it with an adaptive `method`: {those}");
+                    top.complain(span, what, remedy);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action> {
+    row.knows(LANE.key);
+    // Substeps and a tolerance may go with a method.
+    let goes_with = |key: &str| row.has(METHOD.key) && OF_A_LANE[1..].contains(&key);
+    let given = COMMAND_KEYS.iter().filter(|it| row.has(it.field.key) && !goes_with(it.field.key));
+    let found: Vec<_> = given.map(|command_key| command_key.field.key).collect();
+    let mut action = None;
+    for CommandKey { field, is_input, read, .. } in &COMMAND_KEYS {
+        row.knows(field.key);
+        if !found.contains(&field.key) {
+            continue;
+        }
+        // All are read, even if only one is allowed, so that all faults are found.
+        action = read(context, row, field).or(action);
+        let input = field.key;
+        let takes =
+            |body: &BodyDraft| body.kind.as_ref().is_none_or(|kind| kind.inputs.contains(&input));
+        if *is_input && !context.bodies.is_empty() && !context.bodies.iter().any(takes) {
+            let takers = BODIES.iter().filter(|kind| kind.inputs.contains(&input));
+            let takers = listed(&takers.map(|kind| kind.id).collect::<Vec<_>>(), '[', " or ");
+            let remedy = format!("remove the command, or add a table {takers}");
+            row.complain(
+                row.span(field.key),
+                format!("no body of this scene takes `{input}`"),
+                remedy,
+            );
+        }
+    }
+    if row.has(LANE.key) && !found.is_empty() && !found.iter().any(|key| OF_A_LANE.contains(key)) {
+        let remedy = format!("remove it, or give one of {}", listed(&OF_A_LANE, '`', ", "));
+        row.complain(row.span(LANE.key), "`lane` does not apply to this command", remedy);
+    }
+    let header = row.header.clone();
+    match found.len() {
+        0 => {
+            let known: Vec<_> = COMMAND_KEYS.iter().map(|command| command.field.key).collect();
+            let remedy = format!("write one of {}", listed(&known, '`', ", "));
+            let fault = SceneFault::new("the command does nothing", remedy);
+            row.complain_of(header, fault.of(FaultKind::Missing(known)));
+        }
+        1 => {}
+        many => {
+            let what = format!("the command does {many} things: {}", listed(&found, '`', " and "));
+            row.complain(header, what, "write a `[[command]]` with the same `at_s` for each");
+        }
+    }
+    action
+}
+
+/// The lane of this number, of so many.
+fn read_number(row: &mut Table<'_>, field: &Field, lanes: usize) -> Option<LaneId> {
+    let field = Field { wanted: Wanted::Whole(1..=lanes as u64), ..field.clone() };
+    row.whole::<u32>(&field).map(|number| LaneId(number as usize))
+}
+
+/// The lane that a command is for. If the scene has one lane, it may be left out.
+fn read_lane(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<LaneId> {
+    if !row.has(LANE.key) {
+        if context.lanes.len() != 1 {
+            let remedy = format!("write `lane = …`: its number, from 1 to {}", context.lanes.len());
+            row.complain(row.header.clone(), "the command does not say of which lane", remedy);
+            return None;
+        }
+        return Some(LaneId(1));
+    }
+    read_number(row, &LANE, context.lanes.len())
+}
+
+fn read_method(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action> {
+    let spec = read_lane_spec(row);
+    if let Some(LaneSpec { method, .. }) = spec {
+        check_method(METHOD.key, method, row.span(METHOD.key), context.bodies, row);
+    }
+    if [LANE, SUBSTEPS, TOLERANCE, JOINT_HZ].iter().any(|field| row.has(field.key)) {
+        let lane = read_lane(context, row)?;
+        return Some(Action::Lane { lane, spec: spec? });
+    }
+    spec.map(|spec| Action::Method(spec.method))
+}
+
+/// The body that a table names, with its index in the scene.
+fn read_body<'d>(
+    context: &SceneContext<'d>,
+    table: &mut Table<'_>,
+) -> Option<(usize, &'d BodyDraft)> {
+    let name = table.text(&BODY)?;
+    let is_called = |body: &BodyDraft| body.name.as_ref() == Some(&name);
+    let Some(index) = context.bodies.iter().position(is_called) else {
+        let known = context.bodies.iter().filter_map(|body| body.name.as_deref());
+        let remedy = format!("write one of {}", listed(&known.collect::<Vec<_>>(), '"', ", "));
+        let what = format!("no body of this scene is called {:?}", clip(&name));
+        table.complain(table.span(BODY.key), what, remedy);
+        return None;
+    };
+    Some((index, &context.bodies[index]))
+}
+
+fn read_set(context: &SceneContext<'_>, set: &mut Table<'_>) -> Option<Action> {
+    let body = read_body(context, set);
+    let key = set.text(&KEY);
+    set.knows(VALUE.key);
+    let (index, BodyDraft { kind, values, .. }) = body?;
+    let (key, kind) = (key?, kind.as_ref()?);
+    let Some((parameter, Parameter { key: known, range, acts, .. })) = kind.parameter(&key) else {
+        let known: Vec<&str> = kind.parameters.iter().map(|parameter| &*parameter.key).collect();
+        let nearest = nearest(&key, known.iter().map(|name| (*name, *name)));
+        let what = format!("{:?} is no parameter of this body", clip(&key));
+        set.complain(set.span(KEY.key), what, offer(nearest, &known, '"'));
+        return None;
+    };
+    if *acts == Acts::AtStart {
+        let at_once = kind.parameters.iter().filter(|parameter| parameter.acts == Acts::AtOnce);
+        let settable: Vec<&str> = at_once.map(|parameter| &*parameter.key).collect();
+        let remedy = format!(
+            "write it in the body's table, move the body by `place`, or set one of {}",
+            listed(&settable, '"', ", ")
+        );
+        let what = format!("`{known}` acts at the start only, and a command comes later");
+        set.complain(set.span(KEY.key), what, remedy);
+        return None;
+    }
+    let field = Field { wanted: Wanted::of(*range), ..VALUE };
+    let value = match *range {
+        Range::Count(_) => f64::from(set.whole::<u32>(&field)?),
+        _ => set.number(&field)?,
+    };
+    // A fault with what the body has otherwise; where that was set before, it may be none.
+    if let Some(values) = values
+        && let Err(error) = edited_values(kind, values, parameter, value)
+        && let Some(fault) = error.fault()
+    {
+        set.complain_of(set.span(VALUE.key), fault.into());
+    }
+    Some(Action::Set { body: index, parameter, value })
+}
+
+fn read_place(context: &SceneContext<'_>, place: &mut Table<'_>) -> Option<Action> {
+    let body = read_body(context, place);
+    [Q, V].iter().for_each(|field| place.knows(field.key));
+    let (at, BodyDraft { kind, values, .. }) = body?;
+    let count = kind.as_ref()?.coordinates(values.as_ref()?).len();
+    let mut read = |field| place.coordinates(&Field { wanted: Wanted::Numbers(count), ..field });
+    let (q, v) = (read(Q), read(V));
+    Some(Action::Place { body: at, q: q?.into(), v: v?.into() })
+}
+
+/// The states that lanes are known to reach.
+pub(super) fn read_checks(context: &SceneContext<'_>, top: &mut Table<'_>) -> Vec<Check> {
+    let mut checks: Vec<Check> = Vec::new();
+    for mut row in top.rows(CHECKS) {
+        let check = Check { tick: 0, lane: LaneId(1), hash: 0 };
+        let mut draft = (check, context.lanes.len().max(1));
+        Key::read_all(&CHECK, &mut draft, &mut row);
+        checks.push(draft.0);
+        top.adopt(row);
+    }
+    checks
+}

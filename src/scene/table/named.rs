@@ -1,0 +1,127 @@
+//! Tables whose keys the file chooses, and expressions.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::{Table, number};
+use crate::scene::clip;
+use crate::scene::wanted::{Field, Place, Wanted};
+use crate::sim::bodies;
+
+/// An entry whose key the file chooses.
+pub(in crate::scene) struct Named<'t> {
+    pub(in crate::scene) key: &'t str,
+    /// The bytes of the key.
+    pub(in crate::scene) span: Range<usize>,
+    value: &'t Spanned<DeValue<'t>>,
+}
+
+/// An expression with its place in the file.
+pub(in crate::scene) struct Written {
+    pub(in crate::scene) text: String,
+    /// The bytes of the string, quotes included.
+    span: Range<usize>,
+    /// The byte at which the text stands as it is; `None` if the string has escapes.
+    start: Option<usize>,
+}
+
+impl Written {
+    /// The bytes of the file that hold these bytes of the expression.
+    pub(in crate::scene) fn within(&self, span: &Range<usize>) -> Range<usize> {
+        match self.start {
+            Some(start) if !span.is_empty() => start + span.start..start + span.end,
+            _ => self.span.clone(),
+        }
+    }
+}
+
+impl<'t> Table<'t> {
+    /// The entries of the table under this key, in the order of the file.
+    pub(in crate::scene) fn entries(&mut self, field: &Field) -> Option<Vec<Named<'t>>> {
+        let value = self.value(field)?;
+        let Some(entries) = value.get_ref().as_table() else {
+            return self.wrong_type(field, value);
+        };
+        let named = |(key, value): (&'t Spanned<_>, &'t Spanned<DeValue<'t>>)| {
+            let text: &std::borrow::Cow<'t, str> = key.get_ref();
+            Named { key: text, span: key.span(), value }
+        };
+        let mut entries: Vec<_> = entries.iter().map(named).collect();
+        entries.sort_by_key(|entry| entry.span.start);
+        Some(entries)
+    }
+
+    /// The number of an entry.
+    pub(in crate::scene) fn number_of(
+        &mut self,
+        entry: &Named<'t>,
+        range: bodies::Range,
+    ) -> Option<f64> {
+        let (wanted, subject) = (Wanted::Number(range), format!("`{}`", clip(entry.key)));
+        let Some(number) = number(entry.value) else {
+            return self.wrong_type_of(subject, entry.value, &wanted);
+        };
+        match range.contains(number) {
+            true => Some(number),
+            false => self.out_of_range(&subject, entry.value, &wanted),
+        }
+    }
+
+    /// The table of an entry of [`Wanted::Coordinates`].
+    pub(in crate::scene) fn table_of(
+        &mut self,
+        entry: &Named<'t>,
+        wanted: &Wanted,
+    ) -> Option<Table<'t>> {
+        match (entry.value.get_ref().as_table(), wanted) {
+            (Some(entries), Wanted::Coordinates(place)) => {
+                Some(self.other(Place::Within(place), entry.span.clone(), entries))
+            }
+            _ => self.wrong_type_of(format!("`{}`", clip(entry.key)), entry.value, wanted),
+        }
+    }
+
+    /// The tables of springs in a list, in the order of the file.
+    pub(in crate::scene) fn spring_rows(&mut self, field: &Field) -> Option<Vec<Table<'t>>> {
+        let (_, entries) = self.list(field)?;
+        let mut rows = Vec::new();
+        for entry in entries {
+            match entry.get_ref().as_table() {
+                Some(entries) => {
+                    let place = Place::Within(field.key);
+                    rows.push(self.other(place, entry.span(), entries));
+                }
+                None => {
+                    let subject = format!("an entry of `{}`", field.key);
+                    self.wrong_type_of::<()>(subject, entry, &Wanted::Spring);
+                }
+            }
+        }
+        (rows.len() == entries.len()).then_some(rows)
+    }
+
+    /// An expression. A line break in it counts as a space.
+    pub(in crate::scene) fn expression(&mut self, field: &Field) -> Option<Written> {
+        let value = self.value(field)?;
+        let Some(text) = value.get_ref().as_str() else { return self.wrong_type(field, value) };
+        let span = value.span();
+        let start = self.text[span.clone()].find(text).map(|at| span.start + at);
+        let text = text.replace(['\n', '\r', '\t'], " ");
+        Some(Written { text, span, start })
+    }
+
+    /// The names in a list of texts, with their bytes.
+    pub(in crate::scene) fn names(
+        &mut self,
+        field: &Field,
+    ) -> Option<Vec<(Range<usize>, &'t str)>> {
+        let value = self.value(field)?;
+        let entries = value.get_ref().as_array();
+        let name =
+            |entry: &'t Spanned<DeValue<'t>>| Some((entry.span(), entry.get_ref().as_str()?));
+        let names = entries.and_then(|entries| entries.iter().map(name).collect());
+        names.or_else(|| self.wrong_type(field, value))
+    }
+}

@@ -1,0 +1,179 @@
+//! The times of ticks whose rate changes, and the ticks of what is told in seconds.
+
+use super::action::Action;
+
+/// The tolerance, in ticks, by which a tie between two ticks goes to the later one: a time may be off by its last bit.
+const TIE: f64 = 1e-6;
+
+/// Converts between the ticks and the times of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimeScale {
+    /// In order; there is a first.
+    pieces: Vec<Piece>,
+}
+
+/// Consecutive ticks of one rate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Piece {
+    pub(crate) tick: u64,
+    pub(crate) t: f64,
+    pub(crate) tick_hz: u32,
+}
+
+impl Piece {
+    /// From tick 0 on at this rate.
+    pub(crate) fn first(tick_hz: u32) -> Self {
+        Self { tick: 0, t: 0.0, tick_hz }
+    }
+
+    /// From this tick on at another rate.
+    pub(crate) fn then(self, tick: u64, tick_hz: u32) -> Self {
+        Self { tick, t: self.t(tick), tick_hz }
+    }
+
+    /// The time of a tick, in seconds.
+    pub(crate) fn t(self, tick: u64) -> f64 {
+        self.t + (tick - self.tick) as f64 / f64::from(self.tick_hz)
+    }
+
+    /// The fractional tick at a time in seconds; the first for all times before it.
+    fn tick_at(self, t: f64) -> f64 {
+        self.tick as f64 + ((t - self.t) * f64::from(self.tick_hz)).max(0.0)
+    }
+
+    /// The tick nearest to a time in seconds; the first for all times before it.
+    pub(crate) fn nearest_tick(self, t: f64) -> u64 {
+        self.tick + nearest_tick(t - self.t, self.tick_hz.into())
+    }
+
+    /// For each of these actions, which are told in seconds and in order, the tick before which it is done and the time of
+    /// that tick: the nearest at the rate in force, which the actions themselves may change.
+    pub(crate) fn put_on_ticks<'a>(
+        mut self,
+        script: impl IntoIterator<Item = (f64, &'a Action)>,
+    ) -> impl Iterator<Item = (u64, f64)> {
+        script.into_iter().map(move |(at_s, action)| {
+            let tick = self.nearest_tick(at_s);
+            let t = self.t(tick);
+            action.tick_hz().into_iter().for_each(|tick_hz| self = self.then(tick, tick_hz));
+            (tick, t)
+        })
+    }
+}
+
+/// The tick nearest to `seconds` after the first, at a rate in Hz; the first for all times before it.
+pub(crate) fn nearest_tick(seconds: f64, tick_hz: f64) -> u64 {
+    (seconds * tick_hz + TIE).max(0.0).round() as u64
+}
+
+impl TimeScale {
+    /// The times from tick `tick`, at `t` seconds, on: at `tick_hz`, and from each tick of `changes`, in order, at the rate
+    /// beside it.
+    pub(crate) fn new(
+        (tick, t): (u64, f64),
+        tick_hz: u32,
+        changes: impl IntoIterator<Item = (u64, u32)>,
+    ) -> Self {
+        let mut last = Piece { tick, t, tick_hz };
+        let mut pieces = vec![last];
+        for (tick, tick_hz) in changes {
+            last = last.then(tick, tick_hz);
+            pieces.push(last);
+        }
+        Self { pieces }
+    }
+
+    /// The time of a tick, in seconds.
+    pub fn t(&self, tick: u64) -> f64 {
+        let next = self.pieces.partition_point(|piece| piece.tick <= tick);
+        self.pieces[next - 1].t(tick)
+    }
+
+    /// A tick and its time, for people: `tick 30 (0.500 s)`.
+    pub fn moment(&self, tick: u64) -> String {
+        format!("tick {tick} ({:.3} s)", self.t(tick))
+    }
+
+    /// The fractional tick at a time in seconds; the first for all times before the start.
+    pub fn tick_at(&self, t: f64) -> f64 {
+        self.piece_at(t).tick_at(t)
+    }
+
+    /// The tick nearest to a time in seconds; the first for all times before the start.
+    pub fn nearest_tick(&self, t: f64) -> u64 {
+        self.piece_at(t).nearest_tick(t)
+    }
+
+    fn piece_at(&self, t: f64) -> Piece {
+        let next = self.pieces.partition_point(|piece| piece.t <= t).max(1);
+        self.pieces[next - 1]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::studio::Studio;
+
+    #[test]
+    fn time_goes_on_at_each_rate_from_where_the_rate_was_set() {
+        let scale = TimeScale::new((0, 0.0), 60, [(60, 10), (70, 100), (70, 1000)]);
+        for (tick, t) in [(0, 0.0), (30, 0.5), (60, 1.0), (65, 1.5), (70, 2.0), (570, 2.5)] {
+            assert!((scale.t(tick) - t).abs() < 1e-12, "tick {tick}: {}", scale.t(tick));
+            assert_eq!(scale.nearest_tick(t), tick);
+        }
+        assert_eq!(scale.nearest_tick(-3.0), 0);
+        assert_eq!(scale.nearest_tick(0.991), 59);
+        assert_eq!(scale.nearest_tick(1.06), 61);
+    }
+
+    /// 1 Hz, from tick 5 on 100 Hz, from tick 45 on 2 Hz.
+    fn scene() -> Scene {
+        let text = "title = 'x'\ntick_hz = 1\nseconds = 9\n[[spring]]\nmass_kg = 1\n\
+                    stiffness_n_per_m = 1\n[[command]]\nat_s = 5\ntick_hz = 100\n\
+                    [[command]]\nat_s = 5.4\ntick_hz = 2\n[[command]]\nat_s = 5.9\nkick = 1\n";
+        Scene::parse("x.toml", text).unwrap()
+    }
+
+    #[test]
+    fn the_actions_of_a_script_come_at_their_times_at_the_rates_that_it_sets() {
+        let scene = scene();
+        let script = || scene.script.iter().map(|row| (row.at_s, &row.action));
+        let put = |tick_hz| Piece::first(tick_hz).put_on_ticks(script()).collect::<Vec<_>>();
+        assert_eq!(put(1), [(5, 5.0), (45, 5.4), (46, 5.9)]);
+        // At another rate before the script sets its own, the actions come at the same times.
+        assert_eq!(put(3), [(15, 5.0), (55, 5.4), (56, 5.9)]);
+    }
+
+    #[test]
+    fn seconds_are_counted_across_the_rates_of_a_script() {
+        let studio = Studio::new(scene());
+        for (seconds, tick) in [
+            (0.0, 0),
+            (0.4, 0),
+            (4.4, 4),
+            (4.5, 5),
+            (5.0, 5),
+            (5.2, 25),
+            (5.254, 30),
+            (5.4, 45),
+            (5.6, 45),
+            (5.65, 46),
+            (9.4, 53),
+        ] {
+            assert_eq!(studio.race().nearest_tick(seconds), tick, "{seconds} s");
+        }
+    }
+
+    #[test]
+    fn the_tick_is_the_same_seen_from_any_tick_before_it() {
+        let mut studio = Studio::new(scene());
+        for tick in 0..60 {
+            assert_eq!(studio.race().tick(), tick);
+            assert_eq!(studio.race().nearest_tick(9.4), 53.max(tick));
+            assert_eq!(studio.race().nearest_tick(studio.race().t()), tick);
+            studio.tick();
+        }
+    }
+}

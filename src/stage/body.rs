@@ -1,0 +1,226 @@
+//! A body in front, behind, or exact: how each part of its outline is drawn.
+
+use super::coil::{Span, coil, silhouette, strut};
+use super::hull::{self, ShipPose};
+use super::sketch::{Camera, LaneStyle, SOLID};
+use super::{Align, Label, Picture, captions, mass};
+use crate::look::palette::{Palette, Rgba, faded, is_bright, mixed};
+use crate::scene::{Mark, Outline, Thread};
+
+/// The width of a thread of a net in front, in points: of the border, and within it.
+const BORDER: f32 = 2.2;
+const THREAD: f32 = 1.1;
+
+/// An outline as one camera sees it.
+#[derive(Clone, Copy)]
+pub(super) struct OutlineView<'a> {
+    pub(super) outline: &'a Outline,
+    pub(super) camera: &'a Camera,
+    pub(super) palette: &'static Palette,
+}
+
+/// A part that moves as the body does, in points.
+enum Part {
+    /// Its ends.
+    Rod([[f32; 2]; 2]),
+    /// Its centre and radius.
+    Disc([f32; 2], f32),
+    Sprung(Span),
+    /// Two corners.
+    Block([[f32; 2]; 2]),
+    Hull(ShipPose),
+}
+
+impl OutlineView<'_> {
+    fn span(&self) -> Span {
+        let quay = self.camera.points(glam::DVec2::new(self.camera.quay_m, 0.0))[0];
+        Span { quay, block: self.camera.points(self.outline.at), size: self.camera.block }
+    }
+
+    fn berth(&self, bow: glam::DVec2, length: f64) -> ShipPose {
+        ShipPose {
+            at: self.camera.points(self.outline.at),
+            bow: [bow.x as f32, -bow.y as f32],
+            length: self.camera.size(length),
+        }
+    }
+
+    /// The corners of a block.
+    fn box_of(&self, centre: glam::DVec2, half: glam::DVec2) -> [[f32; 2]; 2] {
+        let [x, y] = self.camera.points(centre);
+        let [w, h] = [self.camera.length(half.x), self.camera.length(half.y)];
+        [[x - w, y - h], [x + w, y + h]]
+    }
+
+    /// What does not move, of a body that is not seen.
+    pub(super) fn still(&self, picture: &mut Picture) {
+        let is_still = |mark: &&Mark| {
+            use Mark::{Anchor, Planet, Rail, Wall};
+            matches!(mark, Wall { .. } | Anchor { .. } | Planet { .. } | Rail { .. })
+        };
+        let marks = self.outline.marks.iter().filter(is_still).copied().collect();
+        let Outline { t, at, .. } = *self.outline;
+        let outline = Outline { marks, t, at, ..Outline::default() };
+        let nothing = LaneStyle { colour: self.palette.chart, dash: SOLID, fill: 0.0 };
+        OutlineView { outline: &outline, ..*self }.carried(picture, nothing);
+    }
+
+    /// Writes a lane's number on its body of this colour, if that is one thing and has room.
+    pub(super) fn number(&self, picture: &mut Picture, number: usize, on: Rgba) {
+        let mut sizes = self.outline.marks.iter().filter_map(|mark| match *mark {
+            Mark::Sprung => Some(0.42 * self.camera.block),
+            Mark::Disc { radius, .. } => Some(1.1 * self.camera.size(radius)),
+            Mark::Block { half, .. } => Some(1.1 * self.camera.size(half.y)),
+            _ => None,
+        });
+        let (Some(size), None) = (sizes.next().filter(|size| *size >= 9.0), sizes.next()) else {
+            return;
+        };
+        let at = self.camera.points(self.outline.at);
+        let colour = if is_bright(on) { [16, 24, 32, 255] } else { [255; 4] };
+        let label = Label::new(at, Align::Centre, size.min(26.0), colour, number.to_string());
+        picture.labels.push(label.strong());
+    }
+
+    /// What carries the body: springs, rods, and what does not move, with names. It is drawn below the exact solution.
+    pub(super) fn carried(&self, picture: &mut Picture, coat: LaneStyle) {
+        let camera = self.camera;
+        let pen = &mut picture.pen(camera.rect);
+        let still = mixed(self.palette.chart, self.palette.sea[1], 0.35);
+        let thread = mixed(coat.colour, self.palette.text, 0.15);
+        for Thread { points, is_border } in &self.outline.threads {
+            let points = points.iter().map(|point| camera.points(*point));
+            let width = if *is_border { BORDER } else { THREAD };
+            pen.path(points, width, faded(thread, if *is_border { 1.0 } else { 0.75 }));
+        }
+        for mark in &self.outline.marks {
+            match *mark {
+                Mark::Wall { from, to } => {
+                    let ends = [from, to].map(|end| camera.points(end));
+                    pen.line(ends[0], ends[1], 5.0, still);
+                }
+                Mark::Rail { from, to } => {
+                    let ends = [from, to].map(|end| camera.points(end));
+                    pen.line(ends[0], ends[1], 1.6, faded(still, 0.7));
+                }
+                Mark::Rod { from, to } => {
+                    let ends = [from, to].map(|end| camera.points(end));
+                    pen.line(ends[0], ends[1], 2.6, mixed(coat.colour, self.palette.text, 0.3));
+                }
+                Mark::Sprung => coil(pen, self.span(), self.palette),
+                Mark::Anchor { centre, radius } => {
+                    mass::ball(pen, camera.points(centre), camera.size(radius), still);
+                }
+                Mark::Planet { centre, radius } => {
+                    mass::planet(pen, camera.points(centre), camera.size(radius));
+                }
+                Mark::Coil { from, to, radius } => {
+                    let ends = [from, to].map(|end| camera.points(end));
+                    strut(pen, ends, camera.size(radius), self.palette);
+                }
+                Mark::Disc { .. } | Mark::Block { .. } | Mark::Hull { .. } => {}
+            }
+        }
+        self.names(picture);
+    }
+
+    /// Writes the names of the rails, at their left ends.
+    fn names(&self, picture: &mut Picture) {
+        for (at, text) in &self.outline.names {
+            let [x, y] = self.camera.points(*at);
+            let (at, colour) = ([x - 6.0, y], self.palette.text);
+            let label = captions::text(self.palette, at, Align::Right, 13.0, colour, text.clone());
+            picture.labels.push(label.strong());
+        }
+    }
+
+    /// The parts that move as the body does, where this camera sees them.
+    fn parts(&self) -> impl Iterator<Item = Part> {
+        self.outline.marks.iter().filter_map(|mark| {
+            Some(match *mark {
+                Mark::Rod { from, to } => Part::Rod([from, to].map(|at| self.camera.points(at))),
+                Mark::Disc { centre, radius } => {
+                    Part::Disc(self.camera.points(centre), self.camera.size(radius))
+                }
+                Mark::Sprung => Part::Sprung(self.span()),
+                Mark::Block { centre, half } => Part::Block(self.box_of(centre, half)),
+                Mark::Hull { bow, length } => Part::Hull(self.berth(bow, length)),
+                Mark::Wall { .. }
+                | Mark::Anchor { .. }
+                | Mark::Planet { .. }
+                | Mark::Coil { .. }
+                | Mark::Rail { .. } => return None,
+            })
+        })
+    }
+
+    /// The body itself, in front of everything.
+    pub(super) fn front(&self, picture: &mut Picture, LaneStyle { colour, .. }: LaneStyle) {
+        let camera = self.camera;
+        let pen = &mut picture.pen(camera.rect);
+        for part in self.parts() {
+            match part {
+                // It carries the body.
+                Part::Rod(_) => {}
+                Part::Disc(at, radius) => mass::ball(pen, at, radius, colour),
+                Part::Sprung(span) => mass::block(pen, span.block, camera.block, colour),
+                Part::Block(corners) => mass::slab(pen, corners, colour),
+                Part::Hull(berth) => hull::ship(pen, berth, colour, self.palette),
+            }
+        }
+    }
+
+    /// A lane behind, hollow: what tells where it is, and nothing of what does not move.
+    pub(super) fn behind(&self, picture: &mut Picture, style: LaneStyle) {
+        let camera = self.camera;
+        let pen = &mut picture.pen(camera.rect);
+        // Something small has its pattern at half the length.
+        let [drawn, gap] = style.dash;
+        let dash = if gap > 0.0 { [(drawn / 2.0).max(2.0), 2.5] } else { style.dash };
+        let short = LaneStyle { dash, ..style };
+        for Thread { points, .. } in self.outline.threads.iter().filter(|it| it.is_border) {
+            let points = points.iter().map(|point| camera.points(*point));
+            pen.dashed(points, 1.4, faded(style.colour, 0.7), style.dash);
+        }
+        for part in self.parts() {
+            match part {
+                Part::Rod(ends) => pen.dashed(ends, 1.4, faded(style.colour, 0.7), style.dash),
+                Part::Disc(at, radius) => pen.hollow(&mass::round(at, radius), 1.8, short),
+                Part::Sprung(span) => {
+                    let side = camera.block;
+                    let face = mass::square(span.block, 0.78 * side, 6.0 * side / 60.0);
+                    pen.hollow(&face, 2.2, short);
+                }
+                Part::Block(corners) => pen.hollow(&mass::box_round(corners, 0.0), 2.0, short),
+                Part::Hull(berth) => pen.hollow(&berth.hull(0.0), 1.8, style),
+            }
+        }
+    }
+
+    /// The exact solution: one line round it.
+    pub(super) fn ghost(&self, picture: &mut Picture) {
+        let (camera, palette) = (self.camera, self.palette);
+        let pen = &mut picture.pen(camera.rect);
+        if !self.outline.course.is_empty() {
+            let course = self.outline.course.iter().map(|at| camera.points(*at));
+            pen.dashed(course, 1.3, faded(palette.exact, 0.6), [2.5, 4.0]);
+        }
+        for Thread { points, .. } in self.outline.threads.iter().filter(|it| it.is_border) {
+            let points = points.iter().map(|point| camera.points(*point));
+            pen.path(points.clone(), 3.6, faded(palette.sea[1], 0.6));
+            pen.path(points, 1.4, faded(palette.exact, 0.8));
+        }
+        for part in self.parts() {
+            match part {
+                Part::Rod(ends) => {
+                    pen.path(ends, 3.6, faded(palette.sea[1], 0.6));
+                    pen.path(ends, 1.4, faded(palette.exact, 0.8));
+                }
+                Part::Disc(at, radius) => pen.ghost(&mass::round(at, radius + 1.5), palette),
+                Part::Sprung(span) => silhouette(pen, span, palette),
+                Part::Block(corners) => pen.ghost(&mass::box_round(corners, 1.5), palette),
+                Part::Hull(berth) => pen.ghost(&berth.hull(-2.0), palette),
+            }
+        }
+    }
+}

@@ -1,0 +1,509 @@
+//! Words and marks on the stage: who, where, how far, and what became of it.
+
+use crate::scene::Mark;
+use glam::DVec2;
+
+use super::moment::{DrawContext, turns};
+use super::sketch::{Camera, rounded};
+use super::{Align, Label, Picture, Rect, breakpoints};
+use crate::look::Look;
+use crate::look::palette::{Palette, Rgba, faded};
+use crate::measure::{Outcome, Severity};
+use crate::run::race::{Entrant, Halt, LaneBody};
+use crate::sim::number::{round, significant};
+use crate::studio::Studio;
+
+/// Room that a scale bar may take at the right of a cell, in points.
+const BAR_MARGIN: f32 = 130.0;
+/// The height of a chip, in points.
+const CHIP: f32 = 27.0;
+/// At least the mean width of a letter of a body's name, of a verdict, and of other words at a cell's head, in points.
+const NAME_LETTER: f32 = 8.5;
+const VERDICT_LETTER: f32 = 7.6;
+const LETTER: f32 = 6.7;
+/// The column of lane names at the left of a race, in points: at least so wide where names fit, and where only numbers do.
+const LANES: (f32, f32) = (124.0, 18.0);
+/// The part of the stage that they may take.
+const MAX_FOR_LANES: f32 = 0.28;
+/// How far the name of a lane keeps from the left edge of its column, in points.
+const LANE_INSET: f32 = 8.0;
+/// The width of the word at the ghost, in points.
+const EXACT: f32 = 52.0;
+/// How far captions keep from the left edge of a wide cell, in points.
+const WIDE_INSET: f32 = 62.0;
+
+/// Text on the water.
+pub(super) fn text(
+    palette: &Palette,
+    at: [f32; 2],
+    align: Align,
+    size: f32,
+    colour: Rgba,
+    text: String,
+) -> Label {
+    Label::new(at, align, size, colour, text).on_water(palette)
+}
+
+fn lane_name(studio: &Studio, entrant: &Entrant) -> String {
+    let entry = studio.entry(entrant);
+    format!("{} {}", entry + 1, studio.lane_name(entry))
+}
+
+/// The width of the column at the left of a stage this wide in which [`lane`] names each of these, in points.
+pub(super) fn lanes_width(studio: &Studio, entrants: &[&Entrant], stage: f32) -> f32 {
+    let width =
+        |lane: &&Entrant| LANE_INSET + LETTER * lane_name(studio, lane).chars().count() as f32;
+    let widest = entrants.iter().map(width).fold(LANES.0, f32::max);
+    if stage >= breakpoints::LANE_NAMES { widest.min(MAX_FOR_LANES * stage) } else { LANES.1 }
+}
+
+/// Names a lane at the left of its row, with a bar where it is selected.
+pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, entrant: &Entrant) {
+    let studio = moment.studio;
+    let entry = studio.entry(entrant);
+    let (colour, _) = moment.style(entry);
+    let (left, right) = (rect.min[0] + LANE_INSET, rect.max[0]);
+    let middle = (rect.min[1] + rect.max[1]) / 2.0;
+    if entrant.id == studio.selected().id {
+        let (top, bottom) = (rect.min[1] + 4.0, rect.max[1] - 4.0);
+        let x = rect.min[0] + 2.5;
+        picture.pen(rect).line([x, top], [x, bottom.max(top)], 3.0, colour);
+    }
+    // Of many lanes a row is lower than a line of the usual size.
+    let size = (0.78 * (rect.max[1] - rect.min[1])).min(12.0);
+    let mut write = |y, colour, words: String| {
+        let at = [left, y];
+        picture.labels.push(text(moment.palette, at, Align::Left, size, colour, words));
+    };
+    let mut name = lane_name(studio, entrant);
+    if right - left < breakpoints::CAPTION[0] {
+        write(middle, colour, format!("{}", entry + 1));
+        return;
+    }
+    // Half a point, for a column of just the width of its widest name.
+    let letters = ((right - left + 0.5) / LETTER) as usize;
+    if name.chars().count() > letters {
+        name = name.chars().take(letters - 1).chain(['…']).collect();
+    }
+    // Of several bodies, each has its own cell to say so in.
+    let alone = match entrant.lane.bodies() {
+        [body] => body.halted(),
+        _ => None,
+    };
+    let y = if alone.is_some() { middle - 8.0 } else { middle };
+    write(y, colour, name);
+    if let Some(halt) = alone {
+        write(middle + 8.0, moment.palette.bad, fate_within(halt, right - left));
+    }
+}
+
+/// What became of a body, and when, if this width has room for that.
+fn fate_within(halt: &Halt, width: f32) -> String {
+    let fate = halt.fate();
+    if LETTER * fate.chars().count() as f32 <= width {
+        return fate;
+    }
+    halt.how().into()
+}
+
+/// What the stage says of a body whose truth is not tried.
+const NO_COMPARISON: &str = "Too many springs for an exact comparison; judged by its energy.";
+
+/// Says at the foot of a cell what no longer goes on in it: bodies, where the lane's name does not say so, and
+/// the truth.
+pub(super) fn halts<'h>(
+    picture: &mut Picture,
+    rect: Rect,
+    bodies: impl Iterator<Item = (Option<usize>, &'h Halt)>,
+    truth: &LaneBody,
+    palette: &Palette,
+) {
+    let width = rect.max[0] - rect.min[0];
+    if width < breakpoints::CAPTION[0] {
+        return;
+    }
+    let of_bodies = bodies.map(|(lane, halt)| match lane {
+        None => fate_within(halt, width - 9.0 - inset(rect)),
+        Some(lane) => format!("{lane} {}", halt.fate()),
+    });
+    let of_bodies: Vec<String> = of_bodies.collect();
+    let of_bodies = (!of_bodies.is_empty()).then(|| of_bodies.join(" · "));
+    let of_truth = truth.halted().map(|halt| match halt.failure.is_foreseen() {
+        true => (NO_COMPARISON.to_owned(), palette.dim),
+        false => (format!("{} from tick {} on", truth.truth().missing(), halt.tick), palette.bad),
+    });
+    let of_bodies = of_bodies.map(|words| (words, palette.bad));
+    for ((words, colour), y) in of_bodies.into_iter().chain(of_truth).zip([12.0, 27.0]) {
+        let at = [rect.min[0] + 9.0 + inset(rect), rect.max[1] - y];
+        picture.labels.push(text(palette, at, Align::Left, 11.0, colour, words));
+    }
+}
+
+/// How far captions keep from the left edge of a wide cell: there the quay may be.
+fn inset(rect: Rect) -> f32 {
+    let is_wide = rect.max[0] - rect.min[0] > breakpoints::NUMBERS;
+    if is_wide { (WIDE_INSET - rect.min[0]).max(6.0) } else { 0.0 }
+}
+
+/// Names a body at the head of its cell.
+pub(super) fn name(picture: &mut Picture, rect: Rect, moment: &DrawContext<'_>, index: usize) {
+    if let Some(at) = caption_place(rect) {
+        let name = capitalised(&moment.studio.scene().bodies[index].name);
+        let size = if inset(rect) > 0.0 { 14.0 } else { 11.5 };
+        let label = text(moment.palette, at, Align::Left, size, moment.palette.text, name);
+        picture.labels.push(label.strong());
+    }
+}
+
+/// The room of the name of a body at the head of its cell, if it is named there.
+pub(super) fn name_room(rect: Rect, moment: &DrawContext<'_>, index: usize) -> Option<Rect> {
+    let [x, y] = caption_place(rect)?;
+    let letters = moment.studio.scene().bodies[index].name.chars().count();
+    Some(Rect { min: [x, y - 7.0], max: [x + NAME_LETTER * letters as f32, y + 7.0] })
+}
+
+fn capitalised(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// Says beside a body's name what it should do, and at the right what the method does instead. If both do not fit, only that.
+pub(super) fn head(
+    picture: &mut Picture,
+    rect: Rect,
+    moment: &DrawContext<'_>,
+    index: usize,
+    entrant: &Entrant,
+) {
+    let Some([x, y]) = caption_place(rect) else { return };
+    let body = &entrant.lane.bodies()[index];
+    let name = moment.studio.scene().bodies[index].name.chars().count();
+    let left = x + NAME_LETTER * name as f32 + 14.0;
+    let (words, colour) = beside_name(moment, index, body);
+    let right = left + LETTER * words.chars().count() as f32 + 14.0;
+    let chip =
+        Chip::of(moment, index, entrant).filter(|_| rect.max[1] - rect.min[1] >= breakpoints::CHIP);
+    let room_for = |from: f32| rect.max[0] - 10.0 - from;
+    let beside_both = chip.as_ref().and_then(|chip| chip.within(room_for(right)));
+    let alone = chip.as_ref().and_then(|chip| chip.within(room_for(left)));
+    // The chip of a body that halted says so already.
+    if right <= rect.max[0] && (beside_both.is_some() && body.halted().is_none() || alone.is_none())
+    {
+        let at = [left, y + 0.5];
+        picture.labels.push(text(moment.palette, at, Align::Left, 12.5, colour, words));
+    }
+    if let Some(chip) = beside_both.or(alone) {
+        chip.draw(picture, rect, moment.palette);
+    }
+}
+
+/// What became of a body, where it is while a person holds it, or else what it should do, and the colour of that.
+fn beside_name(moment: &DrawContext<'_>, index: usize, body: &LaneBody) -> (String, Rgba) {
+    let (studio, palette) = (moment.studio, moment.palette);
+    if let Some(halt) = body.halted() {
+        return (halt.fate(), palette.bad);
+    }
+    let held = studio.viewer().held().filter(|held| held.body == index);
+    let words = match held {
+        Some(held) => {
+            let (coordinate, plotted) = studio.past().coordinate(studio.race(), index);
+            let place = significant(held.q[plotted], 4);
+            format!("{} = {place} {}", coordinate.name, coordinate.shown_unit())
+        }
+        None => {
+            let truth = &studio.race().truth().bodies()[index];
+            let (q, v) = studio.shown_truth(index);
+            Look::of(truth).promise(&q, &v).unwrap_or_default()
+        }
+    };
+    (words, palette.dim)
+}
+
+/// The speed of a ship on a straight course, ahead of its bow, where nothing else is said.
+pub(super) fn speed(
+    picture: &mut Picture,
+    camera: &Camera,
+    moment: &DrawContext<'_>,
+    index: usize,
+    entrant: &Entrant,
+) {
+    let body = &entrant.lane.bodies()[index];
+    let (q, v) = moment.studio.shown_state(body);
+    let outline = Look::of(body).outline(moment.t, &q);
+    let bow = outline.marks.iter().find_map(|mark| match mark {
+        Mark::Hull { length, .. } if !turns(body) => Some(DVec2::new(length / 2.0, 0.0)),
+        _ => None,
+    });
+    let Some(bow) = bow else { return };
+    let [x, y] = camera.points(outline.at + bow);
+    let words = format!("{} {}/s", significant(v[0], 2), camera.unit);
+    let (at, palette) = ([x + 14.0, y - 12.0], moment.palette);
+    let label = text(palette, at, Align::Left, 14.0, palette.text, words);
+    let [left, right] = span(&label);
+    let is_taken = |other: &Label| {
+        let [from, to] = span(other);
+        (other.at[1] - at[1]).abs() < 16.0 && from < right && to > left
+    };
+    let is_within = camera.rect.contains([left, y]) && right < camera.rect.max[0];
+    if is_within && !picture.labels.iter().any(is_taken) {
+        picture.labels.push(label.strong());
+    }
+}
+
+/// From where to where about a label reaches, in points.
+fn span(label: &Label) -> [f32; 2] {
+    let width = LETTER / 12.5 * label.size * label.text.chars().count() as f32;
+    let left = match label.align {
+        Align::Left => label.at[0],
+        Align::Centre => label.at[0] - width / 2.0,
+        Align::Right => label.at[0] - width,
+    };
+    [left, left + width]
+}
+
+fn caption_place(rect: Rect) -> Option<[f32; 2]> {
+    let fits = (0..2).all(|axis| rect.max[axis] - rect.min[axis] >= breakpoints::CAPTION[axis]);
+    fits.then_some([rect.min[0] + 9.0 + inset(rect), rect.min[1] + 13.0])
+}
+
+/// What the stage says of the method, on one line.
+struct Chip {
+    sign: &'static str,
+    /// The colour of the sign, and of the rim.
+    colours: [Rgba; 2],
+    verdict: String,
+    /// The same in fewer words.
+    brief: Option<String>,
+}
+
+impl Chip {
+    /// The chip of a body whose method is not accurate.
+    fn of(moment: &DrawContext<'_>, index: usize, entrant: &Entrant) -> Option<Self> {
+        let entry = moment.studio.entry(entrant);
+        let verdict = moment.studio.viewer().verdict(entry)?;
+        let palette = moment.palette;
+        let halt = entrant.lane.bodies()[index].halted();
+        let outcome = halt.map_or(verdict.outcome(), Outcome::of_halt);
+        let severity = outcome.severity();
+        if verdict.body != index || matches!(severity, Severity::Fine | Severity::Unknown) {
+            return None;
+        }
+        // The run on the screen is another than the judged one.
+        let is_other = moment.studio.is_judged_apart();
+        Some(Self {
+            sign: outcome.sign().glyph(),
+            colours: [palette.of_severity(severity), moment.style(entry).0],
+            verdict: match halt {
+                Some(halt) => halt.fate(),
+                None if is_other => verdict.wordings_of_another_run(false)[0].clone(),
+                None => verdict.wordings(false)[0].clone(),
+            },
+            brief: verdict.fails_in_brief().filter(|_| is_other && halt.is_none()),
+        })
+    }
+
+    fn width(&self) -> f32 {
+        34.0 + VERDICT_LETTER * self.verdict.chars().count() as f32
+    }
+
+    /// As much of the chip as this width takes.
+    fn within(&self, width: f32) -> Option<Self> {
+        let said = [Some(&self.verdict), self.brief.as_ref()].into_iter().flatten();
+        let mut chips = said.map(|verdict| Self { verdict: verdict.clone(), brief: None, ..*self });
+        chips.find(|chip| chip.width() <= width)
+    }
+
+    fn draw(self, picture: &mut Picture, rect: Rect, palette: &Palette) {
+        let (right, top) = (rect.max[0] - 10.0, rect.min[1] + 4.0);
+        let left = right - self.width();
+        let chip = Rect { min: [left, top], max: [right, top + CHIP] };
+        plate(picture, chip, self.colours[1], rect, palette);
+        let middle = top + CHIP / 2.0;
+        let mut write = |x, size, colour, words: String| {
+            let label = Label::new([x, middle], Align::Left, size, colour, words);
+            picture.labels.push(label.strong());
+        };
+        write(left + 11.0, 12.5, self.colours[0], self.sign.into());
+        write(left + 28.0, 13.5, palette.text, self.verdict);
+        picture.chip = Some(chip);
+    }
+}
+
+/// Labels the ghost, `beside` points from its middle.
+pub(super) fn exact(
+    picture: &mut Picture,
+    camera: &Camera,
+    ghost: DVec2,
+    beside: f32,
+    palette: &Palette,
+) {
+    let Rect { min, max } = camera.rect;
+    let [x, y] = camera.points(ghost);
+    if max[1] - min[1] < breakpoints::CHIP || !camera.rect.contains([x, y]) {
+        return;
+    }
+    let is_left = x + beside + EXACT > max[0];
+    let (way, align) = if is_left { (-1.0, Align::Right) } else { (1.0, Align::Left) };
+    let [below, above] = [(y + beside + 6.0).min(max[1] - 8.0), y - beside - 6.0];
+    let left = x + way * (beside + 8.0);
+    let is_taken =
+        |label: &Label| (label.at[1] - below).abs() < CHIP && (label.at[0] - left).abs() < EXACT;
+    let is_above = picture.labels.iter().any(is_taken);
+    if is_above && above <= min[1] + CHIP {
+        return;
+    }
+    let at = [left, if is_above { above } else { below }];
+    let from = [x + 0.7 * way * beside, if is_above { y - 0.7 * beside } else { y + 0.7 * beside }];
+    picture.pen(camera.rect).line(from, [at[0] - 3.0 * way, at[1]], 1.0, palette.exact);
+    let label = text(palette, at, align, 12.0, palette.exact, "exact".into());
+    picture.labels.push(label.strong());
+}
+
+/// The line of a ship's course with distance marks.
+pub(super) fn course(picture: &mut Picture, camera: &Camera, palette: &Palette) {
+    let Rect { min, max } = camera.rect;
+    let y = camera.points(DVec2::new(0.0, camera.centre_m.y))[1];
+    let chart = faded(palette.chart, 0.45);
+    picture.pen(camera.rect).dashed([[min[0], y], [max[0], y]], 1.0, chart, [8.0, 5.0]);
+    if max[0] - min[0] < breakpoints::MARKS || max[1] - min[1] < breakpoints::SCALE_BAR {
+        return;
+    }
+    let step_m = camera.round_length_m(96.0);
+    let named_m = camera.round_length_m(0.47 * f64::from(max[0] - min[0]));
+    let is_named = |x_m: f64| libm::fmod(x_m, named_m).abs() < step_m / 2.0;
+    let (left, right) = camera.span_m();
+    let first = libm::ceil(left / step_m);
+    for i in 0..=((right - left) / step_m) as usize {
+        let x_m = (first + i as f64) * step_m;
+        let [x, _] = camera.points(DVec2::new(x_m, 0.0));
+        if x > min[0] + 30.0 && x < max[0] - 30.0 {
+            let colour = palette.dim;
+            picture.pen(camera.rect).line([x, y - 5.0], [x, y + 5.0], 1.5, colour);
+            if !is_named(x_m) {
+                continue;
+            }
+            let unit = if x_m == 0.0 { " m" } else { "" };
+            let words = round(x_m, 6) + unit;
+            picture.labels.push(text(
+                palette,
+                [x, (y + 32.0).min(max[1] - 9.0)],
+                Align::Centre,
+                12.0,
+                colour,
+                words,
+            ));
+        }
+    }
+}
+
+/// A plate for words with a rim of this colour.
+pub(super) fn plate(
+    picture: &mut Picture,
+    Rect { min, max }: Rect,
+    rim: Rgba,
+    clip: Rect,
+    palette: &Palette,
+) {
+    let shape = rounded(min, max, 7.0);
+    let pen = &mut picture.pen(clip);
+    pen.fill(&shape, faded(palette.panel, 0.94));
+    pen.ring(&shape, 1.6, rim);
+}
+
+/// A line of this width from side to side, with a stroke across each of its ends that reaches so far up and down.
+pub(super) fn span_line(
+    picture: &mut Picture,
+    ([left, right], y): ([f32; 2], f32),
+    (width, reach): (f32, f32),
+    colour: Rgba,
+    clip: Rect,
+) {
+    picture.pen(clip).line([left, y], [right, y], width, colour);
+    for x in [left, right] {
+        picture.pen(clip).line([x, y - reach], [x, y + reach], width, colour);
+    }
+}
+
+/// How long a round number of metres is.
+pub(super) fn scale_bar(picture: &mut Picture, camera: &Camera, palette: &Palette) {
+    let Rect { min, max } = camera.rect;
+    if max[0] - min[0] < BAR_MARGIN || max[1] - min[1] < breakpoints::SCALE_BAR {
+        return;
+    }
+    let length_m = camera.round_length_m(40.0);
+    let (right, y, colour) = (max[0] - 10.0, max[1] - 8.0, palette.dim);
+    let left = right - camera.length(length_m);
+    let at = [(left + right) / 2.0, y - 10.0];
+    // In a low cell a badge of a body beyond the edge needs the room.
+    let is_taken =
+        |label: &Label| (label.at[1] - at[1]).abs() < 16.0 && (label.at[0] - at[0]).abs() < 60.0;
+    if picture.labels.iter().any(is_taken) {
+        return;
+    }
+    span_line(picture, ([left, right], y), (1.5, 3.0), colour, camera.rect);
+    let words = format!("{} {}", round(length_m, 4), camera.unit);
+    picture.labels.push(text(palette, at, Align::Centre, 11.0, colour, words));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::stage::compose;
+    use crate::studio::{HeldBody, RunCommand, StageCommand, ViewCommand};
+
+    /// What is said beside the name of the one body, and where it ends: before the chip.
+    fn beside_name_of(studio: &Studio, width: f32) -> Option<String> {
+        let picture = compose(studio, [width, 460.0]);
+        let chip = picture.labels.iter().find(|label| label.text == "▲").expect("a chip");
+        let name = picture.labels.iter().find(|label| label.text == "Spring").expect("a name");
+        let is_beside = |label: &&Label| label.size == 12.5 && label.at[1] == name.at[1] + 0.5;
+        let beside = picture.labels.iter().find(is_beside)?;
+        let right = beside.at[0] + LETTER * beside.text.chars().count() as f32;
+        assert!(right < chip.at[0] - 11.0, "{} ends at {right} of {width}", beside.text);
+        Some(beside.text.clone())
+    }
+
+    #[test]
+    fn what_stands_beside_a_name_ends_before_the_chip_and_has_digits_only_while_the_body_is_held() {
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        studio.analyse();
+        (0..60).for_each(|_| studio.tick());
+        let promise = Some("should keep to ±1 m".to_owned());
+        assert_eq!(beside_name_of(&studio, 780.0), promise);
+        assert_eq!(beside_name_of(&studio, 430.0), None, "no room for both");
+        let lane = studio.selected().id;
+        let mut in_narrow = 0;
+        for power in -20..30 {
+            let at = -1.2345 * libm::exp10(f64::from(power));
+            let (q, v, hand) = ([at].into(), [0.0].into(), DVec2::new(at, 0.0));
+            studio.apply(RunCommand::Hold(HeldBody { lane, body: 0, q, v, hand, handle: hand }));
+            let words = beside_name_of(&studio, 780.0).expect("room for both");
+            assert!(words.starts_with("x = −") && words.ends_with(" m"), "{power}: {words}");
+            in_narrow += usize::from(beside_name_of(&studio, 480.0).is_some());
+        }
+        assert!((1..49).contains(&in_narrow), "{in_narrow}");
+        studio.apply(ViewCommand::LetGo);
+        assert_eq!(beside_name_of(&studio, 780.0), promise);
+    }
+
+    #[test]
+    fn a_chip_on_a_run_that_was_changed_says_that_the_verdict_is_of_another() {
+        let words = |studio: &Studio, size| -> Vec<String> {
+            let labels = compose(studio, size).labels.into_iter().map(|label| label.text);
+            labels.filter(|text| text.contains("blow")).collect()
+        };
+        for (ticks, wide, narrow) in [
+            (0, "blows up · at 4.14 s", "blows up · at 4.14 s"),
+            (20, "from the start: blows up · at 4.14 s", "blows up, if run from the start"),
+        ] {
+            let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
+            (0..ticks).for_each(|_| studio.tick());
+            studio.apply(StageCommand::TickHz(49));
+            studio.analyse();
+            (0..20).for_each(|_| studio.tick());
+            assert_eq!(words(&studio, [960.0, 560.0]), [wide], "changed at {ticks}");
+            assert_eq!(words(&studio, [470.0, 330.0]), [narrow], "changed at {ticks}");
+        }
+    }
+}

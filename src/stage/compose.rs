@@ -1,0 +1,454 @@
+//! Lays out the stage and draws every body of every lane, with its ghost, its trail and its captions.
+
+use crate::scene::{Mark, Outline};
+use glam::DVec2;
+
+use super::body::OutlineView;
+use super::flags::{Flag, Lost, badges, clear_number, flags, row_width};
+use super::framed::{BodyView, on_one_stage, quay_width};
+use super::ghost::Ghost;
+use super::layout::{bands, grid, mosaic};
+use super::loupe::LoupeLane;
+use super::moment::DrawContext;
+use super::sketch::{Camera, LaneStyle};
+use super::{
+    Cell, Picture, Rect, Whose, apex, breakpoints, captions, chart, futures, loop_stage, loupe,
+    universe,
+};
+use crate::look::palette::{Rgba, faded};
+use crate::look::{Framing, Look};
+use crate::run::race::{Entrant, Mode};
+use crate::studio::{Arrangement, Studio, ZoomPan};
+
+/// The most lanes of which each body has its number on it.
+const MAX_NUMBERED: usize = 9;
+
+/// The head of a cell in which its lane is named, and may have halted, in points.
+const CAPTION: f32 = 32.0;
+/// Where badges begin at the earliest, in points below the top of a cell.
+const BADGES: f32 = 30.0;
+/// How much is seen of a body where it was taken from, while it is held.
+const LEFT_BEHIND: f32 = 0.35;
+/// Widths of trails in points.
+const TRAIL_IN_FRONT: f32 = 2.4;
+const TRAIL_BEHIND: f32 = 1.3;
+const TRAIL_OF_TRUTH: f32 = 1.5;
+/// How much of its colour fills a lane behind, of few.
+const FILL: f32 = 0.2;
+/// How much of its colour has the body of a lane behind.
+const BODY_BEHIND: f32 = 0.9;
+/// How much of its colour has the trail of a lane behind.
+const FAINT: f32 = 0.45;
+/// How far a trail may be drawn from the true one, in points: less than anybody sees.
+const TOLERANCE: f64 = 0.15;
+
+/// The picture of the studio on a stage of `size` points.
+pub fn compose(studio: &Studio, size: [f32; 2]) -> Picture {
+    if let Some(loops) = studio.loop_lab() {
+        return loop_stage::compose(studio, loops, size);
+    }
+    let moment = DrawContext::of(studio);
+    let mut picture = Picture::default();
+    let stage = Rect { min: [0.0; 2], max: size };
+    chart::sea(&mut picture, stage, moment.palette);
+    let bodies = studio.scene().bodies.len();
+    let ghosts: Vec<Ghost> = (0..bodies).map(|index| Ghost::new(&moment, index)).collect();
+    let entrants: Vec<&Entrant> = studio.race().entrants().iter().collect();
+    match (studio.mode(), studio.display().arrangement) {
+        (Mode::Solo, _) | (Mode::Race, Arrangement::Overlay) => {
+            overlay(&mut picture, &moment, stage, &ghosts, &entrants);
+        }
+        (Mode::Race, Arrangement::SideBySide) => {
+            side_by_side(&mut picture, &moment, stage, &ghosts, &entrants);
+        }
+    }
+    picture
+}
+
+/// All lanes of a body on one band of the stage, the selected one in front.
+fn overlay(
+    picture: &mut Picture,
+    moment: &DrawContext<'_>,
+    stage: Rect,
+    ghosts: &[Ghost],
+    entrants: &[&Entrant],
+) {
+    let front = moment.studio.selected();
+    let alone = (moment.studio.mode() == Mode::Solo).then_some(front);
+    let views = on_one_stage(moment, ghosts.iter().map(|ghost| ghost.view).collect(), alone);
+    // A ship on a straight course has its own marks.
+    let has_ruler = stage.max[1] - stage.min[1] >= breakpoints::RULER
+        && (!matches!(views[0].framing, Framing::Follow { .. }) || views[0].turns);
+    let top = stage.min[1] + if has_ruler { chart::RULER } else { 0.0 };
+    let room = Rect { min: [stage.min[0], top], ..stage };
+    let heights = views.iter().map(|view| match view.framing {
+        Framing::Follow { .. } if !view.turns => 0.8,
+        Framing::Follow { .. } | Framing::Recorder { .. } | Framing::Fixed { .. } => 1.0,
+    });
+    let mut cells = bands(room, &heights.collect::<Vec<f32>>());
+    if let Some(moored) = views.iter().position(|view| view.recorded_m().is_some()) {
+        let camera = moment.camera(cells[moored], moored, &views[moored]);
+        chart::quay(picture, &Camera { rect: room, ..camera }, moment.palette);
+        let afloat = cells.iter_mut().zip(&views).filter(|(_, view)| view.recorded_m().is_none());
+        afloat.for_each(|(cell, _)| cell.min[0] += quay_width(room));
+    }
+    for (index, ((ghost, view), cell)) in ghosts.iter().zip(&views).zip(&cells).enumerate() {
+        let camera = moment.camera(*cell, index, view);
+        let of_body = BodyCell { moment, index, ghost, view, camera, lanes: entrants, front };
+        of_body.draw(picture);
+        captions::name(picture, *cell, moment, index);
+        if moment.studio.mode() == Mode::Solo {
+            captions::head(picture, *cell, moment, index, front);
+            captions::speed(picture, &camera, moment, index, front);
+        }
+        let is_measured = match view.framing {
+            Framing::Follow { .. } => !view.turns,
+            Framing::Recorder { .. } => view.recorded_m() == views[0].recorded_m(),
+            Framing::Fixed { .. } => index == 0,
+        };
+        if !(is_measured
+            && (has_ruler
+                || !matches!(view.framing, Framing::Recorder { .. } | Framing::Fixed { .. })))
+        {
+            captions::scale_bar(picture, &camera, moment.palette);
+        }
+    }
+    if has_ruler {
+        let strip = Rect { min: stage.min, max: [stage.max[0], top] };
+        let camera = moment.camera(cells[0], 0, &views[0]);
+        chart::ruler(picture, strip, &camera, moment.palette);
+    }
+}
+
+/// Each lane in cells of its own.
+fn side_by_side(
+    picture: &mut Picture,
+    moment: &DrawContext<'_>,
+    stage: Rect,
+    ghosts: &[Ghost],
+    entrants: &[&Entrant],
+) {
+    let bodies = ghosts.len();
+    let draw = |picture: &mut Picture, cell: Rect, index: usize, entrant: &&Entrant| {
+        let ghost = &ghosts[index];
+        let view = &ghost.view;
+        let camera = moment.camera(cell, index, view);
+        let lanes = std::slice::from_ref(entrant);
+        if view.recorded_m().is_some() {
+            chart::quay(picture, &camera, moment.palette);
+        }
+        BodyCell { moment, index, ghost, view, camera, lanes, front: entrant }.draw(picture);
+        frame(picture, cell, faded(moment.palette.chart, 0.3));
+        if entrant.id == entrants[entrants.len() - 1].id {
+            captions::scale_bar(picture, &camera, moment.palette);
+        }
+    };
+    if let Some(shape) = moment.shape(&ghosts[0].view) {
+        let cells = mosaic(stage, entrants.len(), shape);
+        for (entrant, cell) in entrants.iter().zip(cells) {
+            draw(picture, cell, 0, entrant);
+            let bottom = (cell.min[1] + CAPTION).min(cell.max[1]);
+            let head = Rect { min: cell.min, max: [cell.max[0], bottom] };
+            captions::lane(picture, head, moment, entrant);
+        }
+        return;
+    }
+    let gutter = captions::lanes_width(moment.studio, entrants, stage.max[0] - stage.min[0]);
+    let right = Rect { min: [stage.min[0] + gutter, stage.min[1]], ..stage };
+    let cells = grid(right, entrants.len(), bodies);
+    for (entrant, row) in entrants.iter().zip(cells.chunks(bodies)) {
+        for (index, cell) in row.iter().enumerate() {
+            draw(picture, *cell, index, entrant);
+        }
+        let name = Rect { min: [0.0, row[0].min[1]], max: [gutter, row[0].max[1]] };
+        captions::lane(picture, name, moment, entrant);
+    }
+    for (index, cell) in cells.iter().take(bodies).enumerate() {
+        captions::name(picture, *cell, moment, index);
+    }
+}
+
+/// A thin line round a cell.
+fn frame(picture: &mut Picture, Rect { min, max }: Rect, colour: Rgba) {
+    let corners = [min, [max[0], min[1]], max, [min[0], max[1]], min];
+    let everywhere = Rect { min: [min[0] - 1.0, min[1] - 1.0], max: [max[0] + 1.0, max[1] + 1.0] };
+    picture.pen(everywhere).path(corners, 1.0, colour);
+}
+
+/// One body of the scene in one cell: its ghost, and some lanes' bodies.
+struct BodyCell<'a> {
+    moment: &'a DrawContext<'a>,
+    index: usize,
+    ghost: &'a Ghost,
+    /// What the camera shows, of the ghost's world and of others that are seen with it.
+    view: &'a BodyView,
+    camera: Camera,
+    lanes: &'a [&'a Entrant],
+    front: &'a Entrant,
+}
+
+impl BodyCell<'_> {
+    fn draw(&self, picture: &mut Picture) {
+        let Self { moment, index, ghost, view, ref camera, .. } = *self;
+        let (studio, framing, palette) = (moment.studio, view.framing, moment.palette);
+        let truth = &studio.race().truth().bodies()[index];
+        let shows_ghost = studio.display().ghost && truth.halted().is_none();
+        self.ground(picture, shows_ghost);
+        let has_outgrown = studio.mode() == Mode::Solo
+            && view.zoomed_as == index
+            && !self.shows_futures()
+            && universe::is_shown(moment, view, camera);
+        if has_outgrown {
+            universe::landmarks(picture, camera, palette);
+        }
+        if self.shows_futures() && self.lanes.iter().any(|lane| lane.id == studio.selected().id) {
+            futures::draw(picture, moment, camera, framing, index);
+        }
+
+        let behind = self.lanes.iter().filter(|lane| !self.is_front(lane));
+        let mut flagged: Vec<Flag> = Vec::new();
+        let mut numbered = None;
+        let mut rivals: Vec<(Outline, LaneStyle)> = Vec::new();
+        let mut lost: Vec<Lost> = Vec::new();
+        let mut near: Vec<LoupeLane<'_>> = Vec::new();
+        let mut cell = Cell {
+            rect: camera.rect,
+            lane: self.front.id,
+            entry: studio.entry(self.front),
+            body: index,
+            zoomed_as: view.zoomed_as,
+            seen: Vec::new(),
+            camera: *camera,
+        };
+        for lane in behind.chain([&self.front]) {
+            let body = &lane.lane.bodies()[index];
+            let (look, coordinates) = (Look::of(body), studio.shown_state(body).0);
+            let outline = look.outline(moment.t, &coordinates);
+            let entry = studio.entry(lane);
+            let (colour, dash) = moment.style(entry);
+            let at = camera.points(outline.at);
+            let flag = Flag { at, number: entry + 1, colour };
+            let is_front = self.is_front(lane);
+            let colour_of_body = faded(colour, if is_front { 1.0 } else { BODY_BEHIND });
+            let coat = LaneStyle { colour: colour_of_body, dash, fill: self.fill() };
+            let seen = OutlineView { outline: &outline, camera, palette };
+            let whose = Whose::Lane { lane: lane.id, entry };
+            cell.seen.push((whose, coordinates));
+            let held = studio.viewer().held().filter(|held| held.body == index);
+            let away = self.trail(picture, lane, outline.at, flag).filter(|_| held.is_none());
+            lost.extend(away);
+            if held.is_none() && !self.room().contains(at) {
+                if is_front {
+                    seen.still(picture);
+                    self.draw_ghost(picture, shows_ghost);
+                }
+                continue;
+            }
+            near.push(LoupeLane::of(moment, lane, index, colour));
+            if !is_front {
+                seen.behind(picture, coat);
+                flagged.push(flag);
+                if self.lanes.len() <= MAX_NUMBERED && outline.threads.is_empty() {
+                    rivals.push((outline, LaneStyle { fill: 0.0, ..coat }));
+                }
+                continue;
+            }
+            let in_hand = held.map(|held| look.outline(moment.t, &held.q));
+            let shown = OutlineView { outline: in_hand.as_ref().unwrap_or(&outline), ..seen };
+            if held.is_some() {
+                let left =
+                    LaneStyle { colour: faded(colour, LEFT_BEHIND), dash, fill: self.fill() };
+                seen.behind(picture, left);
+            }
+            shown.carried(picture, coat);
+            self.draw_ghost(picture, shows_ghost);
+            shown.front(picture, coat);
+            // Those behind would be hidden by it.
+            for (outline, coat) in rivals.drain(..) {
+                OutlineView { outline: &outline, ..shown }.behind(picture, coat);
+            }
+            if let Some(held) = held.filter(|held| held.lane == lane.id) {
+                let [handle, hand] = [held.handle, held.hand].map(|at| camera.points(at));
+                picture.pen(camera.rect).line(handle, hand, 1.0, palette.text);
+            }
+            // Flags of many lanes reach over the bodies.
+            if self.lanes.len() <= MAX_NUMBERED {
+                shown.number(picture, entry + 1, colour);
+                numbered = Some(at);
+            }
+        }
+        if shows_ghost {
+            cell.seen.push((Whose::Truth, ghost.q.clone()));
+        }
+        let lift = match framing {
+            Framing::Recorder { .. } => 0.72 * camera.block,
+            Framing::Follow { .. } | Framing::Fixed { .. } => 22.0,
+        };
+        // Below the row of a chart recorder's bodies, where they cover none of them.
+        let below = match framing {
+            Framing::Recorder { .. } => camera.at[1] - camera.rect.min[1] + 0.6 * camera.block,
+            Framing::Follow { .. } | Framing::Fixed { .. } => BADGES,
+        };
+        let room = badges(picture, camera, &lost, [below, BADGES], palette);
+        let name = captions::name_room(camera.rect, moment, index);
+        if let Some(front) = numbered {
+            clear_number(&mut flagged, front, lift);
+        }
+        flags(picture, &flagged, lift, palette, (room, camera.rect, name));
+        if Look::of(truth).has_ground() && truth.halted().is_none() {
+            apex::draw(picture, camera, moment, self.front, index);
+        }
+        if shows_ghost {
+            let half = row_width(flagged.len()) / 2.0 + camera.block;
+            let [x, y] = camera.points(ghost.outline.at);
+            let busy = Rect { min: [x - half, y - 2.0 * lift], max: [x + half, y + half] };
+            let reach_m = ghost.view.reach_m.max_element();
+            loupe::draw(picture, moment, camera, (&near, reach_m), (room, busy));
+            if studio.mode() == Mode::Solo && index == 0 {
+                let bead = ghost.outline.marks.iter().find_map(|mark| match mark {
+                    Mark::Disc { radius, .. } => Some(camera.size(*radius)),
+                    _ => None,
+                });
+                let is_recorded = matches!(framing, Framing::Recorder { .. });
+                let beside = bead.filter(|_| is_recorded).unwrap_or(lift);
+                captions::exact(picture, camera, ghost.outline.at, beside, palette);
+            }
+        }
+        let is_alone = self.lanes.len() == 1;
+        let says_beside =
+            is_alone && (studio.mode() == Mode::Solo || self.front.lane.bodies().len() == 1);
+        let halted = self.lanes.iter().filter(|_| !says_beside).filter_map(|lane| {
+            let halt = lane.lane.bodies()[index].halted()?;
+            Some(((!is_alone).then(|| studio.entry(lane) + 1), halt))
+        });
+        captions::halts(picture, camera.rect, halted, truth, palette);
+        if has_outgrown {
+            let of_lane = (index, self.front);
+            universe::sentence(picture, camera, moment, (view, ghost.view.reach_m.x), of_lane);
+        }
+        picture.cells.push(cell);
+    }
+
+    /// How much of its colour fills a lane behind: the less, the more of them may lie over each other.
+    fn fill(&self) -> f32 {
+        const FEW: f32 = 4.0;
+        FILL * (FEW / self.lanes.len() as f32).min(1.0)
+    }
+
+    /// Where a body can be seen: the cell, and of one with a quay what is beside that.
+    fn room(&self) -> Rect {
+        let mut room = self.camera.rect;
+        if let Framing::Recorder { .. } = self.view.framing {
+            let quay = self.camera.points(DVec2::new(self.camera.quay_m, 0.0))[0];
+            room.min[0] = room.min[0].max(quay);
+        }
+        room
+    }
+
+    fn is_front(&self, lane: &Entrant) -> bool {
+        lane.id == self.front.id
+    }
+
+    /// Whether the futures of the body are drawn, in place of where it has been.
+    fn shows_futures(&self) -> bool {
+        let is_afloat = matches!(self.view.framing, Framing::Follow { .. });
+        self.moment.studio.shows_futures() && !is_afloat
+    }
+
+    /// What lies under the bodies: the quay, a course, the exact trail, and how far the exact body swings.
+    fn ground(&self, picture: &mut Picture, shows_ghost: bool) {
+        let Self { moment, index, ghost, view, ref camera, .. } = *self;
+        let framing = view.framing;
+        match framing {
+            Framing::Follow { .. } if !view.turns => {
+                captions::course(picture, camera, moment.palette);
+            }
+            Framing::Recorder { .. } => {
+                chart::mooring(picture, camera, moment.palette);
+                envelope(picture, camera, ghost.view.reach_m.x, faded(moment.palette.exact, 0.6));
+            }
+            Framing::Follow { .. } | Framing::Fixed { .. } => {}
+        }
+        let is_past_shown = shows_ghost && !self.shows_futures();
+        if let Some(trail_s) = trail_s(framing, moment).filter(|_| is_past_shown) {
+            let tolerance_m = TOLERANCE / camera.points_per_metre;
+            let past = ghost.past(moment, index, trail_s, tolerance_m);
+            moment.trail(picture, camera, framing, &past, TRAIL_OF_TRUTH);
+        }
+    }
+
+    fn draw_ghost(&self, picture: &mut Picture, shows_ghost: bool) {
+        if shows_ghost {
+            let outline = &self.ghost.outline;
+            let seen = OutlineView { outline, camera: &self.camera, palette: self.moment.palette };
+            seen.ghost(picture);
+        }
+    }
+
+    /// Draws where a lane's body has been, which is now at `from`; nothing of one that was beyond the cell. Returns what
+    /// is to be told of that one under this flag.
+    fn trail(
+        &self,
+        picture: &mut Picture,
+        lane: &Entrant,
+        from: DVec2,
+        flag: Flag,
+    ) -> Option<Lost> {
+        let Self { moment, index, view, ref camera, .. } = *self;
+        let (framing, is_front) = (view.framing, self.is_front(lane));
+        let history = moment.history(lane, index);
+        let now = Lost::of(flag, camera, self.room(), std::iter::once(from));
+        if let Framing::Follow { width_m, wake_s, .. } = framing {
+            if is_front {
+                moment.wake(picture, camera, from, history, (width_m, wake_s));
+            }
+            return now;
+        }
+        let Some(trail_s) = trail_s(framing, moment) else { return now };
+        if self.shows_futures() {
+            return now;
+        }
+        let mut legs = moment.legs(from, history, trail_s);
+        let places = legs.iter().flatten().map(|place| place.at);
+        let away = Lost::of(flag, camera, self.room(), std::iter::once(from).chain(places));
+        // A person who zooms in has chosen what to see.
+        let is_fitted = moment.studio.view().zoom_pan(view.zoomed_as) == ZoomPan::default();
+        if is_fitted && away.is_some() {
+            return away;
+        }
+        for leg in &mut legs {
+            if !is_front {
+                leg.iter_mut().for_each(|place| place.colour = faded(place.colour, FAINT));
+            }
+            moment.trail(
+                picture,
+                camera,
+                framing,
+                leg,
+                if is_front { TRAIL_IN_FRONT } else { TRAIL_BEHIND },
+            );
+            if is_front {
+                moment.dots(picture, camera, framing, leg);
+            }
+        }
+        now
+    }
+}
+
+/// How far back the trail of a body reaches that is framed like this, in seconds; ships leave a wake.
+fn trail_s(framing: Framing, moment: &DrawContext<'_>) -> Option<f64> {
+    match framing {
+        Framing::Follow { .. } => None,
+        Framing::Recorder { .. } => Some(moment.paper_s),
+        Framing::Fixed { trail_s, .. } => Some(trail_s),
+    }
+}
+
+/// Dotted lines at the largest swing of the truth: a mass beyond them has gained energy.
+fn envelope(picture: &mut Picture, camera: &Camera, swing_m: f64, colour: Rgba) {
+    let (top, bottom) = (camera.rect.min[1] + 4.0, camera.rect.max[1] - 4.0);
+    for x in [-swing_m, swing_m] {
+        let [x, _] = camera.points(DVec2::new(x, 0.0));
+        picture.pen(camera.rect).dashed([[x, top], [x, bottom.max(top)]], 1.3, colour, [2.5, 4.0]);
+    }
+}

@@ -1,0 +1,274 @@
+//! What a camera shows of a body's world: the room that the true motion takes, and in solo the lane's too.
+
+use glam::DVec2;
+
+use super::Rect;
+use super::moment::{DrawContext, turns};
+use super::outgrown::{Room, in_steps, strayed_m};
+use super::sketch::Camera;
+use crate::look::{Framing, drawn_unit};
+use crate::run::race::Entrant;
+use crate::studio::Motion;
+
+/// The head of a cell that a body with a fixed camera leaves to the caption, in points.
+const HEAD: f64 = 36.0;
+/// How wide the quay is that springs are moored to, as a part of the cell, and at most in points.
+const QUAY: f32 = 0.07;
+const MAX_QUAY: f32 = 56.0;
+/// The side of a block as a part of its cell's height, its least and its greatest in points, and the part of the height
+/// that it never exceeds.
+const BLOCK: f32 = 0.31;
+const BLOCKS: (f32, f32) = (12.0, 88.0);
+const MAX_BLOCK: f32 = 0.65;
+/// How much further than the true one a lane's motion may be for the camera to show it, in solo: along a chart
+/// recorder, and where the body moves both across and up.
+const MAX_SWING: f64 = 2.3;
+const MAX_ROOM: f64 = 5.0;
+/// How far from the true body a ship may be before the stage zooms out, as a part of what is seen.
+const STRAYED: f64 = 0.35;
+/// Chart recorders whose scales differ by less than this factor have one scale.
+const ALIKE: f64 = 5.0;
+
+/// What a camera fits into its cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BodyView {
+    pub(super) framing: Framing,
+    /// Where the camera looks that follows its body, in metres.
+    pub(super) followed: DVec2,
+    /// How far a body goes from what its camera looks at, along x and along y, in metres.
+    pub(super) reach_m: DVec2,
+    pub(super) turns: bool,
+    /// The body whose zoom and pan it is seen with, by its index in the scene.
+    pub(super) zoomed_as: usize,
+    /// How many times more it shows because a lane has outgrown the stage.
+    pub(super) grown: f64,
+}
+
+/// The views of the bodies of a scene that share a stage. Where a lane is alone on it they have room for that lane. Chart
+/// recorders are moored to one quay, and are zoomed as one; those of about one scale have one scale.
+pub(super) fn on_one_stage(
+    moment: &DrawContext<'_>,
+    mut views: Vec<BodyView>,
+    alone: Option<&Entrant>,
+) -> Vec<BodyView> {
+    let first = views.iter().position(|view| view.recorded_m().is_some());
+    let recorded = |view: &BodyView| view.recorded_m().unwrap_or_default();
+    let widest_m = views.iter().map(recorded).fold(0.0, f64::max);
+    let is_alike: Vec<bool> = views.iter().map(|view| recorded(view) * ALIKE > widest_m).collect();
+    share(&mut views, &is_alike);
+    let before: Vec<f64> = views.iter().map(BodyView::half_m).collect();
+    for (index, view) in views.iter_mut().enumerate() {
+        if let Some(lane) = alone {
+            *view = view.widened(moment, lane, index);
+        }
+    }
+    share(&mut views, &is_alike);
+    for (view, before_m) in views.iter_mut().zip(before) {
+        if moment.studio.display().motion != Motion::Recorded {
+            view.grown = view.half_m() / before_m;
+        }
+        if let Framing::Recorder { .. } = view.framing {
+            view.zoomed_as = first.unwrap_or(view.zoomed_as);
+        }
+    }
+    views
+}
+
+/// Gives the chart recorders that are alike the scale of the widest of them.
+fn share(views: &mut [BodyView], is_alike: &[bool]) {
+    let alike = views.iter().zip(is_alike).filter(|(_, is_alike)| **is_alike);
+    let widest_m = alike.filter_map(|(view, _)| view.recorded_m()).fold(0.0, f64::max);
+    for (view, _) in views.iter_mut().zip(is_alike).filter(|(_, is_alike)| **is_alike) {
+        if let Framing::Recorder { half_width_m } = &mut view.framing {
+            *half_width_m = widest_m;
+        }
+    }
+}
+
+impl BodyView {
+    /// Half the width that a chart recorder shows, in metres.
+    pub(super) fn recorded_m(&self) -> Option<f64> {
+        match self.framing {
+            Framing::Recorder { half_width_m } => Some(half_width_m.max(1.1 * self.reach_m.x)),
+            Framing::Follow { .. } | Framing::Fixed { .. } => None,
+        }
+    }
+
+    /// Half of what it shows, in metres: across, or up where that is more.
+    fn half_m(&self) -> f64 {
+        match self.framing {
+            Framing::Recorder { half_width_m } => half_width_m.max(1.1 * self.reach_m.x),
+            Framing::Fixed { half_m, .. } => half_m.max(1.05 * self.reach_m).max_element(),
+            Framing::Follow { width_m, .. } => width_m / 2.0,
+        }
+    }
+
+    /// Makes room for how far a lane goes, which is alone on the stage: some times further than the truth, or for a person
+    /// who watches as far as it goes.
+    fn widened(mut self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> Self {
+        if moment.studio.display().motion != Motion::Recorded {
+            return self.outgrown(moment, lane, body);
+        }
+        let since_s = moment.studio.past().swing_since_s(moment.studio.race().t());
+        let furthest = |centre_m: DVec2| {
+            let samples = moment.history(lane, body).since(since_s);
+            let places = samples.map(|s| (s.at - centre_m).abs()).filter(|at| at.is_finite());
+            places.fold(DVec2::ZERO, DVec2::max)
+        };
+        match self.framing {
+            Framing::Recorder { half_width_m } => {
+                let most = MAX_SWING * half_width_m.max(self.reach_m.x);
+                self.reach_m.x = self.reach_m.x.max(furthest(DVec2::ZERO).x.min(most));
+            }
+            Framing::Fixed { centre_m, half_m, .. } => {
+                let most = MAX_ROOM * half_m.max(self.reach_m);
+                self.reach_m = self.reach_m.max(furthest(centre_m).min(most));
+            }
+            Framing::Follow { .. } => {}
+        }
+        self
+    }
+
+    /// Makes room for all of a lane's motion, in steps where little is to move.
+    fn outgrown(mut self, moment: &DrawContext<'_>, lane: &Entrant, body: usize) -> Self {
+        let is_stepped = moment.studio.display().motion == Motion::Reduced;
+        let taken = |room: Room| match is_stepped {
+            true => room.taken_in_steps(moment, lane, body),
+            false => room.taken(moment, lane, body),
+        };
+        match &mut self.framing {
+            Framing::Recorder { half_width_m } => {
+                let base_m = DVec2::new(half_width_m.max(1.1 * self.reach_m.x) / 1.1, f64::MAX);
+                let room = Room { centre_m: DVec2::ZERO, base_m, window_s: moment.paper_s };
+                self.reach_m.x = taken(room).x;
+            }
+            Framing::Fixed { centre_m, half_m, trail_s } => {
+                let base_m = half_m.max(1.05 * self.reach_m) / 1.05;
+                let room = Room { centre_m: *centre_m, base_m, window_s: *trail_s };
+                self.reach_m = taken(room);
+            }
+            Framing::Follow { width_m, height_m, .. } => {
+                let wide = if self.turns { width_m.min(*height_m) } else { *width_m };
+                let times = (strayed_m(moment, lane, body) / (STRAYED * wide)).max(1.0);
+                let times = if is_stepped { in_steps(times) } else { times };
+                (*width_m, *height_m) = (times * *width_m, times * *height_m);
+            }
+        }
+        self
+    }
+}
+
+/// The width of the quay at the left of a cell, in points.
+pub(super) fn quay_width(cell: Rect) -> f32 {
+    (QUAY * cell.size()[0] as f32).min(MAX_QUAY)
+}
+
+impl DrawContext<'_> {
+    /// The camera of a cell that shows the body at this index of the scene, zoomed and panned as a person has it.
+    pub(super) fn camera(&self, rect: Rect, index: usize, view: &BodyView) -> Camera {
+        let unit = drawn_unit(&self.studio.race().truth().bodies()[index].kind);
+        let camera = Camera { unit, ..self.fitted(rect, view) }.grown(view.grown);
+        camera.through(self.studio.view().zoom_pan(view.zoomed_as))
+    }
+
+    fn fitted(&self, rect: Rect, view: &BodyView) -> Camera {
+        let [width, height] = rect.size();
+        let block = (BLOCK * height as f32).clamp(BLOCKS.0, BLOCKS.1);
+        let plain = Camera::of(rect, block.min(MAX_BLOCK * height as f32));
+        let middle = plain.at;
+        match view.framing {
+            Framing::Follow { width_m, height_m, .. } => {
+                let centre_m = if self.studio.display().motion != Motion::Reduced {
+                    view.followed
+                } else {
+                    // In pages, so that nothing but the ship moves.
+                    let (page, leaf) = (0.6 * width_m, 0.5 * height_m);
+                    let x = (libm::floor(view.followed.x / page) + 0.5) * page;
+                    DVec2::new(x, libm::round(view.followed.y / leaf) * leaf)
+                };
+                // On a straight course some way ahead of the middle leaves room for the wake.
+                let ahead = if view.turns { 0.0 } else { 0.1 };
+                let at = [middle[0] + ahead * width as f32, middle[1] + 0.06 * height as f32];
+                let points_per_metre = (width / width_m).min(height / height_m);
+                Camera { centre_m, at, points_per_metre, ..plain }
+            }
+            Framing::Recorder { half_width_m } => {
+                let half_width_m = view.recorded_m().unwrap_or(half_width_m);
+                let quay = quay_width(rect);
+                let half = (width as f32 - quay) / 2.0;
+                let head = (HEAD as f32).min(0.22 * height as f32);
+                let at = [rect.min[0] + quay + half, rect.min[1] + head + 0.55 * plain.block];
+                let points_per_metre = f64::from(half) / (1.03 * half_width_m);
+                let paper = f64::from(rect.max[1] - at[1]);
+                let quay_m = -f64::from(half) / points_per_metre;
+                Camera { at, points_per_metre, paper, quay_m, ..plain }
+            }
+            Framing::Fixed { centre_m, half_m, .. } => {
+                let half_m = half_m.max(1.05 * view.reach_m);
+                let head = HEAD.min(height / 4.0);
+                let at = [middle[0], middle[1] + head as f32 / 2.0];
+                let points_per_metre = (width / half_m.x).min((height - head) / half_m.y) / 2.0;
+                Camera { centre_m, at, points_per_metre, ..plain }
+            }
+        }
+    }
+
+    /// The width and height, in metres, of what is to be seen of a body that is alone in its scene and
+    /// moves both across and up. Other bodies move along rows.
+    pub(super) fn shape(&self, view: &BodyView) -> Option<DVec2> {
+        let [body] = self.studio.race().truth().bodies() else { return None };
+        match view.framing {
+            Framing::Fixed { half_m, .. } => Some(half_m),
+            Framing::Follow { width_m, height_m, .. } if turns(body) => {
+                Some(DVec2::new(width_m, height_m))
+            }
+            Framing::Follow { .. } | Framing::Recorder { .. } => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::stage::compose;
+    use crate::studio::{StageCommand, Studio, ViewCommand};
+
+    #[test]
+    fn an_orbit_that_leaves_the_true_one_is_followed_in_solo() {
+        for (is_race, is_seen) in [(false, true), (true, false)] {
+            let mut studio = Studio::new(Scene::built_in("orbit").unwrap());
+            studio.apply(StageCommand::Pick(0));
+            if is_race {
+                studio.apply(StageCommand::ToggleRace);
+            }
+            (0..9 * studio.race().tick_hz()).for_each(|_| studio.tick());
+            let picture = compose(&studio, [800.0, 440.0]);
+            let camera = &picture.cells[0].camera;
+            let place = studio.race().entrants()[0].lane.bodies()[0].stepper.place();
+            let truth = studio.race().truth().bodies()[0].stepper.place();
+            assert!(camera.rect.contains(camera.points(truth)));
+            assert_eq!(camera.rect.contains(camera.points(place)), is_seen, "{place}");
+        }
+    }
+
+    #[test]
+    fn bodies_on_one_ruler_are_zoomed_as_one_and_it_with_them() {
+        for over in [0, 1] {
+            let mut studio = Studio::new(Scene::with_two_springs());
+            studio.advance(100_000_000);
+            let before = compose(&studio, [780.0, 500.0]);
+            let zoomed_as = before.cells[over].zoomed_as;
+            let zoom_pan = studio.view().zoom_pan(zoomed_as).zoomed(0.5, [0.1, 0.0]);
+            studio.apply(ViewCommand::ZoomPan { body: zoomed_as, zoom_pan });
+            let after = compose(&studio, [780.0, 500.0]);
+            let [free, damped, ship] = [0, 1, 2].map(|body| after.cells[body].camera);
+            assert_eq!(free.points_per_metre, before.cells[0].camera.points_per_metre / 2.0);
+            let scale = |camera: &Camera| (camera.points_per_metre, camera.at[0], camera.quay_m);
+            assert_eq!(scale(&free), scale(&damped), "over {over}");
+            let nought = after.labels.iter().find(|it| it.text == "0 m" && it.at[1] < 24.0);
+            assert_eq!(nought.map(|label| label.at[0]), Some(free.points(DVec2::ZERO)[0]));
+            assert_eq!(ship, before.cells[2].camera, "it has marks of its own");
+        }
+    }
+}

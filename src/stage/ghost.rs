@@ -1,0 +1,131 @@
+//! The truth as the stage shows it: where the ghost is, where it has been, and how far it goes.
+
+use crate::scene::Outline;
+use glam::DVec2;
+
+use super::framed::BodyView;
+use super::moment::{DrawContext, turns};
+use super::trails::Place;
+use crate::look::palette::{Rgba, faded};
+use crate::look::{Framing, Look};
+use crate::run::past::{TruthCurve, TruthSample};
+
+/// The true motion of one body at the moment drawn.
+pub(super) struct Ghost {
+    /// What part of the body's world is shown.
+    pub(super) view: BodyView,
+    /// Its coordinates there.
+    pub(super) q: Vec<f64>,
+    /// What it looks like there.
+    pub(super) outline: Outline,
+}
+
+impl Ghost {
+    /// The ghost of the body at this index of the scene: the exact flow at the moment drawn, which is that of the lanes.
+    pub(super) fn new(moment: &DrawContext<'_>, index: usize) -> Self {
+        let race = moment.studio.race();
+        let body = &race.truth().bodies()[index];
+        let remembered = moment.studio.past();
+        let curve = &remembered.truth_curves()[index];
+        let look = Look::of(body);
+        let framing = look.framing();
+        // To find the truth between ticks, a body is copied. One that is not drawn is wanted only where the view follows it.
+        let is_needed = moment.studio.display().ghost || matches!(framing, Framing::Follow { .. });
+        let (q, v) = match is_needed {
+            true => moment.studio.shown_truth(index),
+            false => (body.stepper.q().to_vec(), body.stepper.v().to_vec()),
+        };
+        let course = look.course(&q, &v);
+        let outline = Outline { course, ..look.outline(moment.t, &q) };
+        let centre_m = match framing {
+            Framing::Follow { .. } | Framing::Recorder { .. } => DVec2::ZERO,
+            Framing::Fixed { centre_m, .. } => centre_m,
+        };
+        let since_s = remembered.swing_since_s(race.t());
+        let reach_m = curve.reach_m(centre_m, since_s);
+        let (followed, turns) = (outline.at, turns(body));
+        let view = BodyView { framing, followed, reach_m, turns, zoomed_as: index, grown: 1.0 };
+        Self { view, q, outline }
+    }
+
+    /// Where it has been in the last `trail_s` seconds, newest first, within this tolerance in metres.
+    pub(super) fn past(
+        &self,
+        moment: &DrawContext<'_>,
+        index: usize,
+        trail_s: f64,
+        tolerance_m: f64,
+    ) -> Vec<Place> {
+        let curve = &moment.studio.past().truth_curves()[index];
+        let colour = faded(moment.palette.exact, 0.55);
+        thinned(past(curve, self.outline.at, moment.t, trail_s, colour), tolerance_m)
+    }
+}
+
+/// The last `trail_s` seconds before the moment `t`, at which the ghost is `at`.
+fn past(
+    curve: &TruthCurve,
+    at: DVec2,
+    t: f64,
+    trail_s: f64,
+    colour: Rgba,
+) -> impl Iterator<Item = Place> + Clone {
+    let mut newer: Option<&TruthSample> = None;
+    let unbroken = curve
+        .samples()
+        .rev()
+        .take_while(move |sample| newer.replace(sample).is_none_or(|newer| !newer.jumped));
+    let samples = unbroken.skip_while(move |sample| sample.t >= t);
+    let moments = samples.map(move |sample| Place { age: t - sample.t, at: sample.at, colour });
+    let now = Place { age: 0.0, at, colour };
+    std::iter::once(now).chain(moments.take_while(move |moment| moment.age < trail_s))
+}
+
+/// The same trail with fewer moments, and none where it is as good as straight.
+fn thinned(trail: impl Iterator<Item = Place> + Clone, tolerance_m: f64) -> Vec<Place> {
+    let mut moments = trail.clone();
+    let mut kept: Vec<Place> = moments.next().into_iter().collect();
+    let (mut left_out, mut bend_m) = (0.0, 0.0);
+    let mut before = kept.first().copied();
+    for (this, next) in moments.zip(trail.skip(2).map(Some).chain([None])) {
+        left_out += 1.0;
+        if let (Some(before), Some(next)) = (before, next) {
+            bend_m += (before.at - 2.0 * this.at + next.at).length();
+        }
+        // Of a parabola through evenly spaced moments, the height above its chord.
+        if next.is_none() || left_out * bend_m / 8.0 > tolerance_m {
+            kept.push(this);
+            (left_out, bend_m) = (0.0, 0.0);
+        }
+        before = Some(this);
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_thinned_trail_keeps_its_ends_its_corners_and_within_the_tolerance_all_else() {
+        let zigzag = |x: f64| (x % 2.0 - 1.0).abs();
+        for motion in [|x: f64| libm::sin(3.0 * x), zigzag] {
+            let moment = |i: i32| {
+                let age = f64::from(i) / 200.0;
+                Place { age, at: DVec2::new(motion(age), 0.0), colour: [255; 4] }
+            };
+            let kept = thinned((0..=800).map(moment), 1e-3);
+            assert!((5..250).contains(&kept.len()), "{}", kept.len());
+            assert_eq!((kept[0].age, kept[kept.len() - 1].age), (0.0, 4.0));
+            for ends in kept.windows(2) {
+                for i in 0..=20 {
+                    let part = f64::from(i) / 20.0;
+                    let age = ends[0].age + part * (ends[1].age - ends[0].age);
+                    let drawn = ends[0].at.lerp(ends[1].at, part).x;
+                    assert!((drawn - motion(age)).abs() < 1.5e-3, "at {age}: {drawn}");
+                }
+            }
+        }
+        assert_eq!(thinned(std::iter::empty(), 1.0).len(), 0);
+    }
+}

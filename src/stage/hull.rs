@@ -1,0 +1,126 @@
+//! A ship from above: a hull with a deck, hatches and a house.
+
+use std::f32::consts::FRAC_PI_2;
+use std::sync::LazyLock;
+
+use super::breakpoints;
+use super::sketch::{Pen, rounded};
+use crate::look::palette::{BLACK, Palette, Rgba, WHITE, faded, mixed};
+
+/// Planks of the deck, in the light and in the shade.
+const DECK: [Rgba; 2] = [[236, 220, 184, 255], [206, 186, 146, 255]];
+const HATCH: Rgba = [138, 160, 112, 255];
+/// The beam of a ship as a part of its length.
+const BEAM: f32 = 0.26;
+
+/// Where a ship is and how it lies, in points.
+#[derive(Clone, Copy)]
+pub(super) struct ShipPose {
+    pub(super) at: [f32; 2],
+    /// The direction of the bow, of length 1, y down.
+    pub(super) bow: [f32; 2],
+    pub(super) length: f32,
+}
+
+/// Places along a hull from its stern, in parts of its length, and half its width there, in lengths.
+static WIDTHS: LazyLock<[[f32; 2]; 23]> = LazyLock::new(|| {
+    std::array::from_fn(|i| {
+        let part = i as f32 / 22.0;
+        let stern = (part / 0.1).min(1.0);
+        let bow = ((part - 0.5) / 0.5).max(0.0);
+        let fullness = libm::powf(libm::sinf(stern * FRAC_PI_2), 0.5);
+        let stern = BEAM / 2.0 * (0.55 + 0.45 * fullness) * fullness.max(0.4);
+        [part, stern * (1.0 - libm::powf(bow, 2.1))]
+    })
+});
+
+impl ShipPose {
+    /// A place on the ship: so far from its middle to the bow and to starboard, in lengths.
+    fn place(self, ahead: f32, aside: f32) -> [f32; 2] {
+        let [bx, by] = self.bow;
+        let (ahead, aside) = (ahead * self.length, aside * self.length);
+        [self.at[0] + ahead * bx - aside * by, self.at[1] + ahead * by + aside * bx]
+    }
+
+    /// The corners of the hull, drawn in by this many points.
+    pub(super) fn hull(self, inset: f32) -> Vec<[f32; 2]> {
+        let inset = inset / self.length;
+        let side = |sign: f32| {
+            WIDTHS.iter().map(move |[part, width]| {
+                let ahead = (part - 0.5) * (1.0 - 2.0 * inset);
+                (ahead, sign * (width - inset).max(0.0))
+            })
+        };
+        let corners = side(-1.0).chain(side(1.0).rev());
+        corners.map(|(ahead, aside)| self.place(ahead, aside)).collect()
+    }
+
+    fn block(self, (from, to): (f32, f32), half: f32, radius: f32) -> Vec<[f32; 2]> {
+        let corners = rounded([from, -half], [to, half], radius);
+        corners.into_iter().map(|[ahead, aside]| self.place(ahead, aside)).collect()
+    }
+}
+
+/// The ship itself.
+pub(super) fn ship(pen: &mut Pen<'_>, berth: ShipPose, colour: Rgba, palette: &Palette) {
+    let part = (berth.length / 150.0).clamp(0.2, 2.0);
+    // Water that the bow throws aside.
+    for (out, alpha) in [(7.0, 0.16), (3.5, 0.28)] {
+        let crest: Vec<[f32; 2]> = berth.hull(-out * part);
+        let bow = crest.len() / 2;
+        let reach = crest.len() / 5;
+        pen.path(
+            crest[bow - reach..bow + reach].iter().copied(),
+            3.0 * part,
+            faded(palette.chart, 2.0 * alpha),
+        );
+    }
+    let shadow = ShipPose { at: [berth.at[0] + 2.0 * part, berth.at[1] + 4.0 * part], ..berth };
+    pen.fill(&shadow.hull(-2.0 * part), faded(BLACK, 0.22));
+    let hull = berth.hull(0.0);
+    pen.fill(&hull, mixed(colour, BLACK, 0.08));
+    pen.ring(&hull, (1.6 * part).max(0.8), mixed(colour, BLACK, 0.5));
+    if berth.length < breakpoints::DECK {
+        return;
+    }
+    let deck = berth.hull(5.5 * part);
+    let plank = |[_, y]: [f32; 2]| {
+        let low = (y - berth.at[1]) / (BEAM * berth.length) + 0.5;
+        mixed(DECK[0], DECK[1], low)
+    };
+    pen.shaded(&deck, plank);
+    if berth.length >= breakpoints::PLANKS {
+        planks(pen, berth, &deck);
+    }
+    let house = berth.block((-0.36, -0.1), 0.078, 0.02);
+    pen.fill(&berth.block((-0.35, -0.075), 0.085, 0.02), faded(BLACK, 0.25));
+    pen.fill(&house, [222, 230, 236, 255]);
+    pen.ring(&house, 1.2 * part, [70, 84, 98, 255]);
+    let bridge = berth.block((-0.13, -0.085), 0.092, 0.012);
+    pen.fill(&bridge, [96, 122, 144, 255]);
+    pen.ring(&bridge, 1.0 * part, [40, 52, 64, 255]);
+    let funnel = berth.place(-0.26, 0.0);
+    pen.disc(funnel, 0.045 * berth.length, [36, 44, 54, 255]);
+    pen.disc(funnel, 0.034 * berth.length, colour);
+    pen.disc(funnel, 0.015 * berth.length, [20, 24, 30, 255]);
+    let stem = [berth.place(0.33, 0.0), berth.place(0.45, 0.0)];
+    pen.line(stem[0], stem[1], 1.2 * part, faded(WHITE, 0.6));
+}
+
+/// The seams of the deck, its rail and its hatches.
+fn planks(pen: &mut Pen<'_>, berth: ShipPose, deck: &[[f32; 2]]) {
+    let part = (berth.length / 150.0).clamp(0.2, 2.0);
+    for seam in -4..=4_i8 {
+        let aside = f32::from(seam) * 0.022;
+        let ends = 0.42 - 0.06 * libm::fabsf(f32::from(seam)) - 0.02;
+        let ends = (-0.43, ends.max(0.1));
+        let seam = [berth.place(ends.0, aside), berth.place(ends.1, aside)];
+        pen.line(seam[0], seam[1], 0.6 * part, faded(BLACK, 0.16));
+    }
+    pen.ring(deck, 1.0 * part, faded(BLACK, 0.35));
+    for from in [0.03, 0.135] {
+        let hatch = berth.block((from, from + 0.085), 0.05, 0.008);
+        pen.fill(&hatch, HATCH);
+        pen.ring(&hatch, 1.0 * part, mixed(HATCH, BLACK, 0.5));
+    }
+}

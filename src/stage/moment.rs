@@ -1,0 +1,151 @@
+//! The moment that is drawn: where every body is between two ticks.
+
+use crate::look::palette::{Palette, Rgba};
+use crate::run::past::History;
+use crate::run::race::{Entrant, LaneBody};
+use crate::studio::Studio;
+
+/// The part of a scene's duration that a chart recorder's paper holds: three swings of the harbour's
+/// 1 Hz spring, and no more of a faster one than can be told apart.
+const PAPER: f64 = 0.15;
+/// The most that the paper holds, in seconds.
+const MAX_PAPER_S: f64 = 3.0;
+
+/// The moment that is drawn.
+pub(super) struct DrawContext<'a> {
+    pub(super) studio: &'a Studio,
+    pub(super) palette: &'static Palette,
+    /// The moment in seconds.
+    pub(super) t: f64,
+    /// How far a chart recorder's trail reaches back, in seconds.
+    pub(super) paper_s: f64,
+}
+
+impl<'a> DrawContext<'a> {
+    pub(super) fn of(studio: &'a Studio) -> Self {
+        Self {
+            studio,
+            palette: studio.display().theme.palette(),
+            t: studio.shown_s(),
+            paper_s: (PAPER * studio.scene().seconds).min(MAX_PAPER_S),
+        }
+    }
+
+    /// The colour and the dash pattern of the lane on this index of the list.
+    pub(super) fn style(&self, entry: usize) -> (Rgba, [f32; 2]) {
+        let lanes = self.studio.entries();
+        self.studio.display().theme.lane_style(lanes, &lanes[entry])
+    }
+
+    /// What is remembered of a body in a lane.
+    pub(super) fn history(&self, entrant: &Entrant, body: usize) -> &'a History {
+        &self.studio.past().histories(entrant.id)[body]
+    }
+}
+
+/// Whether a body leaves the line that it starts on: the one coordinate of the others is along it.
+pub(super) fn turns(body: &LaneBody) -> bool {
+    body.coordinates().len() > 1
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::run::race::Interpolation;
+    use crate::scene::Scene;
+    use crate::sim::number::significant;
+    use crate::stage::{Whose, compose};
+    use crate::studio::{RunCommand, StageCommand, Step, Studio, ViewCommand};
+
+    /// A spring and a ship under RK4 at a rate at which a tick can be seen.
+    fn studio() -> Studio {
+        let scene = Scene { tick_hz: 5, ..Scene::built_in("harbour").unwrap() };
+        let mut studio = Studio::new(scene);
+        let rk4 = studio.entries().iter().position(|spec| spec.method.id == "rk4");
+        studio.apply(StageCommand::Pick(rk4.unwrap()));
+        studio
+    }
+
+    /// Where the mass of the spring and its ghost are drawn, then the ship and its ghost, in metres, and the speed that the
+    /// stage tells of the ship.
+    fn drawn(studio: &Studio) -> ([[f64; 2]; 2], String) {
+        let picture = compose(studio, [780.0, 500.0]);
+        let places = [0, 1].map(|body| {
+            let cell = &picture.cells[body];
+            [false, true].map(|truth| {
+                let grip = cell.grips(studio).find(|grip| (grip.whose == Whose::Truth) == truth);
+                cell.camera.metres(grip.expect("it is on the stage").at).x
+            })
+        });
+        let mut texts = picture.labels.into_iter().map(|label| label.text);
+        let is_speed = |text: &String| text.ends_with(" m/s") && !text.contains("to");
+        (places, texts.find(is_speed).expect("its speed"))
+    }
+
+    fn is_near(a: f64, b: f64) -> bool {
+        (a - b).abs() < 1e-4
+    }
+
+    #[test]
+    fn at_rest_everything_is_of_the_tick_of_the_title_however_bodies_are_drawn_between_ticks() {
+        for _ in Interpolation::ALL {
+            let mut studio = studio();
+            studio.apply(ViewCommand::TogglePause);
+            studio.apply(StageCommand::Restart);
+            studio.apply(StageCommand::Tick(Step::Next));
+            studio.apply(StageCommand::Tick(Step::Next));
+            for _ in Interpolation::ALL {
+                let lanes = [&studio.race().entrants()[0].lane, studio.race().truth()];
+                let wanted =
+                    [0, 1].map(|body| lanes.map(|lane| lane.bodies()[body].stepper.q()[0]));
+                let speed = lanes[0].bodies()[1].stepper.v()[0];
+                let (places, said) = drawn(&studio);
+                let way = studio.display().interpolation;
+                for body in 0..2 {
+                    let are_near = (0..2).all(|of| is_near(places[body][of], wanted[body][of]));
+                    assert!(are_near, "{way:?}: {places:?}, not {wanted:?}");
+                }
+                assert_eq!(said, format!("{} m/s", significant(speed, 2)));
+                assert_eq!(studio.shown_s(), studio.race().t());
+                studio.apply(RunCommand::NextInterpolation);
+            }
+        }
+    }
+
+    #[test]
+    fn while_time_runs_bodies_ghost_and_numbers_share_the_moment_drawn() {
+        let mut studio = studio();
+        for part in [0.35, 0.7, 1.0, 1.3, 1.75] {
+            studio.apply(StageCommand::Restart);
+            studio.advance((part * 0.2e9) as i64);
+            studio.advance(100_000_000);
+            for way in Interpolation::ALL {
+                let ([[block, ghost], [ship, true_ship]], said) = drawn(&studio);
+                let t = studio.shown_s();
+                let exact = libm::cos(std::f64::consts::TAU * t);
+                assert!(is_near(ghost, exact), "{way:?}: {ghost} at {t} s");
+                let exact = 20.0 * (t + 10.0 * libm::expm1(-t / 10.0));
+                assert!(is_near(true_ship, exact), "{way:?}: {true_ship} at {t} s");
+                let bodies = studio.race().entrants()[0].lane.bodies();
+                let [spring, state] = [0, 1].map(|body| studio.shown_state(&bodies[body]));
+                assert!(is_near(block, spring.0[0]) && is_near(ship, state.0[0]), "{way:?}");
+                assert_eq!(said, format!("{} m/s", significant(state.1[0], 2)), "{way:?}");
+                studio.apply(RunCommand::NextInterpolation);
+            }
+        }
+    }
+
+    #[test]
+    fn when_time_runs_on_the_stage_goes_on_from_what_was_shown_at_rest() {
+        for ways in 0..Interpolation::ALL.len() {
+            let mut studio = studio();
+            (0..ways).for_each(|_| _ = studio.apply(RunCommand::NextInterpolation));
+            studio.advance(730_000_000);
+            studio.apply(ViewCommand::TogglePause);
+            let ([rest, _], _) = drawn(&studio);
+            studio.apply(ViewCommand::TogglePause);
+            let ([on, _], _) = drawn(&studio);
+            let way = studio.display().interpolation;
+            assert!(is_near(rest[0], on[0]) && is_near(rest[1], on[1]), "{way:?}: {rest:?} {on:?}");
+        }
+    }
+}

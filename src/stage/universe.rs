@@ -1,0 +1,327 @@
+//! The ruler of the universe: what one knows, lying on the water at the scale of a stage that zooms out after a runaway
+//! body, and a sentence that says how far that has got.
+
+use glam::DVec2;
+
+use super::captions::{self, text};
+use super::framed::BodyView;
+use super::moment::DrawContext;
+use super::sketch::{Camera, circle};
+use super::{Align, Label, Picture, Rect};
+use crate::look::palette::{Palette, faded, mixed};
+use crate::run::race::Entrant;
+use crate::sim::number::{round, significant, superscript};
+use crate::studio::Motion;
+
+/// Something that one knows the size of.
+struct Landmark {
+    /// As it is called, and so many of them.
+    names: [&'static str; 2],
+    length_m: f64,
+    length: &'static str,
+    /// Its silhouette, in lengths of the whole from its left end: across, and up from its middle. A part is an outline of
+    /// corners, which is seen whole from their mean, or a disc or a ring by its centre and radius.
+    shape: &'static str,
+}
+
+impl Landmark {
+    /// The parts of its silhouette: what each is, and its numbers.
+    fn parts(&self) -> impl Iterator<Item = (&'static str, Vec<f32>)> {
+        self.shape.split(';').map(|part| {
+            let (kind, numbers) = part.trim().split_once(' ').unwrap_or_default();
+            let numbers = numbers.split_whitespace().map(|number| number.parse());
+            (kind, numbers.collect::<Result<_, _>>().expect("the tests below read them all"))
+        })
+    }
+
+    /// How far it reaches up and down from its middle, in its lengths.
+    fn half_height(&self) -> f32 {
+        let highest = |(kind, numbers): (&str, Vec<f32>)| match (kind, &numbers[..]) {
+            ("disc" | "ring", [_, y, radius]) => y.abs() + radius,
+            (_, corners) => {
+                corners.iter().skip(1).step_by(2).fold(0.0, |most, y| y.abs().max(most))
+            }
+        };
+        self.parts().map(highest).fold(0.0, f32::max)
+    }
+}
+
+const fn known(
+    names: [&'static str; 2],
+    length_m: f64,
+    length: &'static str,
+    shape: &'static str,
+) -> Landmark {
+    Landmark { names, length_m, length, shape }
+}
+
+/// From small to large. The tower's height is that since 2022, the ship is of the longest of their kind, the island's length
+/// is along its longest street; the Sun and the light year are the IAU's, the orbit is twice 30.07 au, the Galaxy 100 000
+/// light years and the observable universe 93 billion.
+static LANDMARKS: [Landmark; 11] = [
+    known(
+        ["a person", "people"],
+        1.75,
+        "1.75 m",
+        "disc .07 0 .065; outline .15 .11 .3 .12 .55 .08 .55 -.08 .3 -.12 .15 -.11; \
+         outline .53 .09 1 .07 1 .015 .53 .005; outline .53 -.09 1 -.07 1 -.015 .53 -.005",
+    ),
+    known(
+        ["our ship", "of our ships"],
+        9.0,
+        "9 m",
+        "outline 0 .1 .1 .13 .6 .13 1 0 .6 -.13 .1 -.13 0 -.1",
+    ),
+    known(
+        ["the Eiffel Tower", "Eiffel Towers"],
+        330.0,
+        "330 m",
+        "outline 0 .004 .5 .035 .8 .075 .8 -.075 .5 -.035 0 -.004; \
+         outline .8 .075 1 .17 1 .11 .8 .03; outline .8 -.075 1 -.17 1 -.11 .8 -.03",
+    ),
+    known(
+        ["a container ship", "container ships"],
+        400.0,
+        "400 m",
+        "outline 0 .01 1 .025 .95 -.065 .03 -.065; outline .07 .01 .12 .01 .12 .12 .07 .12; \
+         outline .15 .01 .36 .01 .36 .06 .15 .06; outline .37 .01 .58 .01 .58 .075 .37 .075; \
+         outline .59 .015 .88 .015 .88 .06 .59 .06",
+    ),
+    known(
+        ["Manhattan", "Manhattans"],
+        21.6e3,
+        "21.6 km",
+        "outline 0 0 .05 .04 .3 .08 .55 .075 .75 .045 1 .015 1 -.015 .8 -.03 .6 -.065 .3 -.075 .06 -.05",
+    ),
+    known(["the Earth", "Earths"], 1.2742e7, "12 742 km", "disc .5 0 .5"),
+    known(["the Sun", "Suns"], 1.3914e9, "1.39 million km", "disc .5 0 .46; ring .5 0 .5"),
+    known(
+        ["Neptune's orbit", "orbits of Neptune"],
+        9e12,
+        "9 billion km",
+        "ring .5 0 .5; disc .5 0 .012",
+    ),
+    known(
+        ["a light year", "light years"],
+        9.4607e15,
+        "9.46·10¹⁵ m",
+        "outline 0 .006 .9 .006 .9 -.006 0 -.006; outline .9 .03 1 0 .9 -.03",
+    ),
+    known(
+        ["the Galaxy", "Galaxies"],
+        9.5e20,
+        "100 000 light years",
+        "outline 0 0 .25 .022 .5 .028 .75 .022 1 0 .75 -.022 .5 -.028 .25 -.022; disc .5 0 .065",
+    ),
+    known(
+        ["the observable universe", "observable universes"],
+        8.8e26,
+        "93 billion light years",
+        "ring .5 0 .5; ring .5 0 .33; ring .5 0 .16; disc .5 0 .01",
+    ),
+];
+
+/// From how many times its size on a stage says how far its body has got.
+const GROWN: f64 = 3.0;
+/// The longest and the shortest that a landmark lies there, as parts of the width; near both it fades.
+const LENGTHS: [f32; 2] = [0.42, 0.035];
+/// How far it may reach up and down, as a part of the height of the cell.
+const HEIGHT: f32 = 0.3;
+/// How far landmarks keep from the middle, where the true body is, and their middles, their measures and the sentence from
+/// the foot of the cell, in points.
+const ASIDE: f32 = 16.0;
+const FEET: [f32; 3] = [92.0, 52.0, 4.0];
+/// The height of the sentence in its frame, and the mean width of its letters, in points.
+const SENTENCE: f32 = 26.0;
+const LETTER: f32 = 7.1;
+
+/// Whether the stage has zoomed out so far, for a person who watches, that it is to be said how far.
+pub(super) fn is_shown(moment: &DrawContext<'_>, view: &BodyView, camera: &Camera) -> bool {
+    let is_zooming = moment.studio.display().motion == Motion::Live && view.grown >= GROWN;
+    is_zooming && camera.unit == "m" && view.recorded_m().is_some()
+}
+
+/// Lays what is about as long as the stage is wide on the water: the largest right of the middle, the next left of it.
+pub(super) fn landmarks(picture: &mut Picture, camera: &Camera, palette: &Palette) {
+    let [width, height] = camera.rect.size().map(|side| side as f32);
+    let fits = |landmark: &&Landmark| {
+        // One that is high must have room for that.
+        let most = LENGTHS[0].min(HEIGHT * height / (landmark.half_height() * width));
+        (LENGTHS[1] * width..most * width).contains(&camera.length(landmark.length_m))
+    };
+    let middle = camera.points(DVec2::ZERO)[0];
+    for (place, landmark) in LANDMARKS.iter().rev().filter(fits).take(2).enumerate() {
+        let length = camera.length(landmark.length_m);
+        let left = if place == 0 { middle + ASIDE } else { middle - ASIDE - length };
+        let part = length / width;
+        let strength = ((LENGTHS[0] - part) / 0.06).min((part - LENGTHS[1]) / 0.02).clamp(0.0, 1.0);
+        lay(picture, camera, landmark, (left, strength), palette);
+    }
+}
+
+/// Lays one from this point to the right, in so much of its colour, with its length below it.
+fn lay(
+    picture: &mut Picture,
+    camera: &Camera,
+    landmark: &Landmark,
+    (left, strength): (f32, f32),
+    palette: &Palette,
+) {
+    let (length, clip) = (camera.length(landmark.length_m), camera.rect);
+    let [y, below, _] = FEET.map(|foot| clip.max[1] - foot);
+    let tone = faded(mixed(palette.chart, palette.sea[1], 0.25), 0.5 * strength);
+    let pen = &mut picture.pen(clip);
+    for (kind, numbers) in landmark.parts() {
+        let places = numbers.chunks_exact(2).map(|at| [left + length * at[0], y - length * at[1]]);
+        let corners: Vec<_> = places.collect();
+        let radius = length * numbers.last().copied().unwrap_or_default();
+        match kind {
+            "disc" => pen.disc(corners[0], radius, tone),
+            "ring" => pen.ring(&circle(corners[0], radius, 96), 1.6, tone),
+            _ => pen.fill(&corners, tone),
+        }
+    }
+    let colour = faded(palette.dim, strength);
+    captions::span_line(picture, ([left, left + length], below), (1.0, 4.0), colour, clip);
+    let words = format!("{}, {}", landmark.names[0], landmark.length);
+    let at = [left + length / 2.0, below + 13.0];
+    picture.labels.push(text(palette, at, Align::Centre, 12.0, colour, words));
+}
+
+/// Says how far a lane's body has got that should swing so far, in a frame of the lane's colour.
+pub(super) fn sentence(
+    picture: &mut Picture,
+    camera: &Camera,
+    moment: &DrawContext<'_>,
+    (view, swing_m): (&BodyView, f64),
+    (index, lane): (usize, &Entrant),
+) {
+    let body = &lane.lane.bodies()[index];
+    let what = format!("{} m {}", round(swing_m, 2), moment.studio.scene().bodies[index].name);
+    let words = match body.halted().filter(|halt| halt.is_blow_up()) {
+        Some(halt) => {
+            let size = body.stepper.q()[0].abs().max(view.reach_m.x);
+            let power = superscript(libm::floor(libm::log10(size)) as i32);
+            format!("after {} s your {what} is 10{power} m long", round(halt.t, 3))
+        }
+        None => {
+            let since = moment.history(lane, index).since(moment.t - moment.paper_s);
+            let furthest = since.map(|sample| sample.q.abs()).filter(|q| q.is_finite());
+            let width_m = 2.0 * furthest.fold(0.0, f64::max);
+            let known = LANDMARKS.iter().rev().find(|landmark| landmark.length_m <= width_m);
+            let Some(Landmark { names: [one, many], length_m, .. }) = known else { return };
+            let as_wide = match width_m / length_m {
+                times if times < 1.5 => (*one).to_owned(),
+                times => format!("{} {many}", counted(times)),
+            };
+            format!("after {} s a {what} swings as wide as {as_wide}", significant(moment.t, 2))
+        }
+    };
+    let palette = moment.palette;
+    let wide = LETTER * words.chars().count() as f32 + 32.0;
+    // On a narrow stage it would reach beyond one side, or both.
+    let smaller = ((camera.rect.max[0] - camera.rect.min[0]) / wide).min(1.0);
+    let half = smaller * wide / 2.0;
+    let [least, most] = [camera.rect.min[0] + half, camera.rect.max[0] - half];
+    let middle = camera.points(DVec2::ZERO)[0].max(least).min(most);
+    let bottom = camera.rect.max[1] - FEET[2];
+    let frame = Rect { min: [middle - half, bottom - SENTENCE], max: [middle + half, bottom] };
+    let colour = moment.style(moment.studio.entry(lane)).0;
+    captions::plate(picture, frame, colour, camera.rect, palette);
+    let at = [middle, bottom - SENTENCE / 2.0];
+    let size = 13.0 * smaller;
+    picture.labels.push(Label::new(at, Align::Centre, size, palette.text, words).strong());
+}
+
+/// A number of things, in words where it is small.
+fn counted(times: f64) -> String {
+    const WORDS: &str = "two three four five six seven eight nine ten";
+    let whole = libm::round(times);
+    let word = WORDS.split(' ').nth((whole as usize).saturating_sub(2));
+    word.map_or_else(|| significant(times, 2), str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::stage::compose;
+    use crate::studio::Studio;
+
+    const SIZE: [f32; 2] = [1280.0, 620.0];
+
+    fn watched(scene: &str, motion: Motion) -> Studio {
+        let mut studio = Studio::new(Scene::built_in(scene).unwrap());
+        studio.viewer_mut().preferences.display.motion = motion;
+        studio
+    }
+
+    fn said(studio: &Studio) -> Vec<String> {
+        compose(studio, SIZE).labels.into_iter().map(|label| label.text).collect()
+    }
+
+    #[test]
+    fn a_stage_that_zooms_out_passes_what_one_knows_and_says_how_far_the_body_has_got() {
+        let mut studio = watched("harbour", Motion::Live);
+        assert!(!said(&studio).iter().any(|text| text.starts_with("after")));
+        let mut passed = Vec::new();
+        while studio.race().t() < 19.9 {
+            studio.tick();
+            let said = said(&studio);
+            passed.extend(
+                LANDMARKS
+                    .iter()
+                    .filter(|landmark| said.iter().any(|text| text.starts_with(landmark.names[0]))),
+            );
+        }
+        passed.dedup_by_key(|landmark| landmark.names[0]);
+        let names: Vec<&str> = passed.iter().map(|landmark| landmark.names[0]).collect();
+        for name in ["our ship", "the Eiffel Tower", "a container ship"] {
+            assert!(names.contains(&name), "{names:?}");
+        }
+        let last = "after 20 s a 1 m spring swings as wide as three container ships";
+        assert!(said(&studio).iter().any(|text| text == last), "{:?}", said(&studio));
+        studio.viewer_mut().preferences.display.motion = Motion::Reduced;
+        assert!(!said(&studio).iter().any(|text| text.starts_with("after")));
+    }
+
+    #[test]
+    fn at_the_halt_it_says_how_long_the_spring_has_become() {
+        let mut studio = watched("stiff", Motion::Live);
+        studio.apply(crate::studio::StageCommand::TickHz(30));
+        studio.apply(crate::studio::StageCommand::Restart);
+        (0..60).for_each(|_| studio.tick());
+        let said = said(&studio);
+        let last = "after 1.27 s your 1 m stiff spring is 10³⁶ m long";
+        assert!(said.iter().any(|text| text == last), "{said:?}");
+    }
+
+    #[test]
+    fn on_a_narrow_stage_the_sentence_reaches_beyond_neither_side() {
+        let mut studio = watched("harbour", Motion::Live);
+        (0..350).for_each(|_| studio.tick());
+        for width in [320.0, 390.0, 460.0, 1280.0] {
+            let labels = compose(&studio, [width, 620.0]).labels;
+            let said = labels.iter().find(|label| label.text.starts_with("after")).unwrap();
+            let half = LETTER / 2.0 * said.text.chars().count() as f32 * said.size / 13.0;
+            let beside = [said.at[0] - half, width - said.at[0] - half];
+            assert!(beside.iter().all(|room| *room >= 0.0), "{beside:?} at {width}");
+        }
+    }
+
+    #[test]
+    fn every_landmark_is_a_silhouette_and_they_stand_from_small_to_large() {
+        assert!(LANDMARKS.is_sorted_by_key(|landmark| landmark.length_m));
+        for landmark in &LANDMARKS {
+            for (kind, numbers) in landmark.parts() {
+                let is_right = match kind {
+                    "disc" | "ring" => numbers.len() == 3,
+                    "outline" => numbers.len() >= 6 && numbers.len().is_multiple_of(2),
+                    _ => false,
+                };
+                let name = landmark.names[0];
+                assert!(is_right && numbers.iter().all(|x| x.abs() <= 1.0), "{name}: {numbers:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,185 @@
+use super::*;
+use crate::measure::FutureMoment;
+use crate::scene::{LaneSpec, Scene};
+use crate::sim::integrators::{GENERAL_METHODS, METHODS, Method};
+use crate::studio::{StageCommand, ViewCommand};
+
+/// A studio under a method, after some ticks.
+fn studio(scene: &str, method: &str, ticks: u64) -> Studio {
+    let mut scene = Scene::built_in(scene).unwrap();
+    let method = METHODS.iter().find(|known| known.id == method).unwrap();
+    if method.is_engine() {
+        scene.lanes.push(LaneSpec::plain(method));
+    }
+    let mut studio = Studio::new(scene);
+    let entry = studio.entries().iter().position(|spec| spec.method == method).unwrap();
+    studio.apply(StageCommand::Pick(entry));
+    (0..ticks).for_each(|_| studio.tick());
+    studio
+}
+
+/// A scene that the method steps.
+fn scene_for(method: &Method) -> &'static str {
+    let fits = |name: &&str| Scene::built_in(name).unwrap().refusal(method).is_none();
+    ["spring", "ship", "follow", "lerp"].into_iter().find(fits).expect("one of them")
+}
+
+fn near(found: [f64; 2], wanted: [f64; 2]) -> bool {
+    found.iter().zip(wanted).all(|(a, b)| (a - b).abs() <= 1e-12 * (1.0 + b.abs()))
+}
+
+#[test]
+fn runge_kutta_4_evaluates_at_the_places_of_the_textbook() {
+    let step = studio("spring", "rk4", 7).one_step().unwrap();
+    let h = 1.0 / 60.0;
+    let omega_squared = std::f64::consts::TAU * std::f64::consts::TAU;
+    let f = |[x, v]: [f64; 2]| [v, -omega_squared * x];
+    let along = |h: f64, k: [f64; 2]| [step.from[0] + h * k[0], step.from[1] + h * k[1]];
+    let k1 = f(step.from);
+    let k2 = f(along(h / 2.0, k1));
+    let k3 = f(along(h / 2.0, k2));
+    let at = [step.from, along(h / 2.0, k1), along(h / 2.0, k2), along(h, k3)];
+    assert_eq!(step.evaluations.len(), 4);
+    for (i, evaluation) in step.evaluations.iter().enumerate() {
+        assert!((evaluation.when - [0.0, 0.5, 0.5, 1.0][i]).abs() < 1e-12, "{evaluation:?}");
+        assert!(near(evaluation.at, at[i]), "{i}: {evaluation:?}");
+        assert!(near(evaluation.slope, f(at[i])), "{i}: {evaluation:?}");
+    }
+    assert_eq!((step.tick, step.h), (7, h));
+    let exact = step.exact_landing().unwrap();
+    let turn = std::f64::consts::TAU * h;
+    let wanted =
+        step.from[0] * libm::cos(turn) + step.from[1] / std::f64::consts::TAU * libm::sin(turn);
+    assert!((exact[0] - wanted).abs() < 1e-9, "{exact:?}, not {wanted}");
+}
+
+#[test]
+fn every_method_lands_where_the_run_goes_to_the_bit_and_does_not_disturb_it() {
+    for scene in ["spring", "chain", "pendulum", "orbit"] {
+        for method in GENERAL_METHODS {
+            let mut studio = studio(scene, method.id, 5);
+            let before: Vec<u64> = studio.race().lane_hashes().collect();
+            let evaluations = studio.race().entrants()[0].lane.evaluations();
+            let step = studio.one_step().unwrap();
+            let counted = studio.evaluations_of_next_tick(0);
+            assert_eq!(studio.race().lane_hashes().collect::<Vec<_>>(), before, "{}", method.id);
+            studio.tick();
+            let lane = &studio.race().entrants()[0].lane;
+            let stepper = &lane.bodies()[0].stepper;
+            let bits = |at: [f64; 2]| at.map(f64::to_bits);
+            let landed = [stepper.q()[0], stepper.v()[0]];
+            assert_eq!(step.landing.map(bits), Some(bits(landed)), "{} on {scene}", method.id);
+            assert_eq!(step.evaluations.len() as u64, lane.evaluations() - evaluations);
+            assert_eq!(step.evaluations.len() as u64, counted, "{} on {scene}", method.id);
+        }
+    }
+}
+
+#[test]
+fn weights_on_a_card_lead_to_the_landing() {
+    let mut chains = 0;
+    for method in METHODS {
+        let step = studio(scene_for(method), method.id, 3).one_step().unwrap();
+        assert_eq!(step.chain.is_empty(), method.weights.is_empty(), "{}", method.id);
+        if let Some(&end) = step.chain.last() {
+            assert!(near(end, step.landing.unwrap()), "{}: {end:?}", method.id);
+            chains += 1;
+        }
+    }
+    assert_eq!(chains, 5);
+}
+
+#[test]
+fn a_halted_body_has_no_next_step() {
+    let studio = studio("stiff", "explicit-euler", 400);
+    assert!(studio.race().entrants()[0].lane.halted().is_some());
+    assert_eq!(studio.one_step(), None);
+}
+
+#[test]
+fn runge_kutta_4_loses_the_same_part_of_the_swing_in_every_tick_and_a_32nd_of_it_in_half_ticks() {
+    for ticks in [0, 1, 5] {
+        let mut studio = studio("spring", "rk4", 0);
+        studio.apply(StageCommand::TickHz(5));
+        studio.apply(StageCommand::Restart);
+        (0..ticks).for_each(|_| studio.tick());
+        let [whole, halves] = studio.one_step().unwrap().growth.unwrap();
+        // |R(iz)|² = 1 - z⁶/72 + z⁸/576 with z = 2π/5.
+        let z = std::f64::consts::TAU / 5.0;
+        let wanted = (1.0 - z.powi(6) / 72.0 + z.powi(8) / 576.0).sqrt() - 1.0;
+        assert!((whole - wanted).abs() < 1e-6, "{whole}, not {wanted}");
+        assert!((25.0..40.0).contains(&(whole / halves)), "{}", whole / halves);
+    }
+    assert_eq!(studio("ship", "rk4", 3).one_step().unwrap().growth, None, "a ship does not swing");
+    assert_eq!(studio("chain", "rk4", 3).one_step().unwrap().growth, None);
+}
+
+#[test]
+fn an_orbit_has_the_energy_of_its_state_and_turns_where_it_has_no_speed() {
+    let studio = studio("spring", "rk4", 7);
+    let tau = std::f64::consts::TAU;
+    let size = |[q, v]: [f64; 2]| libm::hypot(q, v / tau);
+    let from = studio.one_step().unwrap().from;
+    let lines = studio.orbit(from, [-0.2, 2.0]);
+    assert_eq!(lines.len(), 2, "above and below");
+    for line in &lines {
+        assert!(line.len() > 40);
+        for at in line {
+            assert!((size(*at) - size(from)).abs() < 1e-6, "{at:?}");
+        }
+        let last = line[line.len() - 1];
+        assert!(last[1] == 0.0 && (last[0] - size(from)).abs() < 1e-9, "{last:?}");
+    }
+}
+
+#[test]
+fn each_future_is_what_the_run_comes_to_under_its_method() {
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    (0..7).for_each(|_| studio.tick());
+    studio.apply(StageCommand::TickHz(12));
+    let futures = studio.futures(0);
+    assert_eq!(futures.len(), studio.scene().lanes.len() + 1);
+    for Future { entry, moments } in futures {
+        let Some(entry) = entry else {
+            let FutureMoment { t, state: [x, _], .. } = moments[moments.len() - 1];
+            let from = studio.race().entrants()[0].lane.bodies()[0].stepper.clone();
+            let [q, v] = [from.q()[0], from.v()[0]];
+            // A period is a second.
+            assert!(
+                (t - studio.race().t() - 1.0).abs() < 1e-9 && (x - q).abs() < 1e-9,
+                "{x} {q} {v}"
+            );
+            continue;
+        };
+        assert_eq!(moments.len(), 13, "a dot a tick, and the present");
+        let mut run = Studio::new(Scene::built_in("spring").unwrap());
+        (0..7).for_each(|_| run.tick());
+        run.apply(StageCommand::TickHz(12));
+        run.apply(StageCommand::Pick(entry));
+        for FutureMoment { state, .. } in &moments[1..] {
+            run.tick();
+            let stepper = &run.race().entrants()[0].lane.bodies()[0].stepper;
+            assert_eq!(state[0], stepper.q()[0], "{}", run.entries()[entry].method.id);
+        }
+    }
+}
+
+#[test]
+fn futures_are_shown_at_rest_if_asked_for_and_while_the_rate_is_dragged() {
+    let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+    assert!(!studio.shows_futures());
+    studio.apply(ViewCommand::PointerDown(true));
+    assert!(!studio.shows_futures());
+    studio.apply(StageCommand::TickHz(12));
+    assert!(studio.shows_futures(), "it is dragged");
+    studio.apply(ViewCommand::PointerDown(false));
+    assert!(!studio.shows_futures());
+    studio.apply(ViewCommand::ToggleFutures);
+    assert!(studio.shows_futures() && !studio.running(), "it stands still to be looked at");
+    studio.apply(ViewCommand::TogglePause);
+    assert!(!studio.shows_futures());
+    studio.apply(ViewCommand::TogglePause);
+    assert!(studio.shows_futures());
+    studio.apply(ViewCommand::ToggleFutures);
+    assert!(!studio.shows_futures());
+}

@@ -1,0 +1,277 @@
+//! The hint under the stage. The scene's own asks for its first key; when that is pressed, the hints lead on through
+//! what the program can do. Only what is so here is told: in this mode, under this method, at this rate.
+
+use super::Situation;
+use crate::measure::Outcome;
+use crate::run::race::Mode;
+use crate::studio::command::{Command, RunCommand, StageCommand, TICK_LADDER, ViewCommand};
+use crate::studio::display::Arrangement;
+use crate::studio::instrument::Instrument;
+use crate::studio::key::KEYS;
+use crate::studio::step::Step;
+
+/// What a hint after the scene's own asks for.
+struct Lead {
+    /// The sentence; `None` where it would not be so. Keys stand between backticks.
+    text: fn(&Situation<'_>) -> Option<&'static str>,
+    is_done_by: fn(&Command) -> bool,
+}
+
+/// How long a run has lasted that is worth going back in, in seconds.
+const WORTH_GOING_BACK_S: f64 = 1.0;
+
+static LEADS: [Lead; 8] = [
+    Lead {
+        text: |now| (!now.is_from_the_start).then_some("Press `Home` to see it from the start."),
+        is_done_by: |command| {
+            matches!(command, Command::Stage(StageCommand::Restart | StageCommand::ToggleRace))
+        },
+    },
+    Lead {
+        text: |now| match now.race.mode() {
+            Mode::Solo if now.scene.lanes.len() < 2 => None,
+            Mode::Solo if now.race.truth().halted().is_some() => {
+                Some("Press `C` to race all methods.")
+            }
+            Mode::Solo => {
+                Some("Press `C` to race all methods against the exact solution, in white.")
+            }
+            Mode::Race => None,
+        },
+        is_done_by: |command| matches!(command, Command::Stage(StageCommand::ToggleRace)),
+    },
+    Lead {
+        text: |now| {
+            let is_overlaid = now.display.arrangement == Arrangement::Overlay;
+            (now.race.mode() == Mode::Race && is_overlaid)
+                .then_some("Press `V` to see the lanes side by side. A digit selects one.")
+        },
+        is_done_by: |command| matches!(command, Command::Stage(StageCommand::ToggleArrangement)),
+    },
+    Lead {
+        text: |now| {
+            (now.race.t() >= WORTH_GOING_BACK_S)
+                .then_some("Hold `,` to go back in time, tick by tick. `Space` goes on from there.")
+        },
+        is_done_by: |command| {
+            matches!(
+                command,
+                Command::Stage(
+                    StageCommand::Tick(Step::Previous) | StageCommand::Second(Step::Previous)
+                ) | Command::Run(RunCommand::Seek(_))
+            )
+        },
+    },
+    Lead {
+        text: |now| {
+            (!now.display.measure).then_some("Press `T` to measure: plots, numbers, a timeline.")
+        },
+        is_done_by: |command| matches!(command, Command::View(ViewCommand::ToggleMeasure)),
+    },
+    Lead {
+        text: |now| {
+            (now.display.instrument != Instrument::StabilityMap)
+                .then_some("Press `D` until the stability map is there, and drag its cross.")
+        },
+        is_done_by: |command| {
+            matches!(
+                command,
+                Command::Stage(StageCommand::InstrumentBeside(_) | StageCommand::Instrument(_))
+            )
+        },
+    },
+    Lead {
+        text: |now| {
+            let beside = [Step::Previous, Step::Next]
+                .map(|step| step.along(&TICK_LADDER, now.race.tick_hz()));
+            beside
+                .iter()
+                .all(Option::is_some)
+                .then_some("Press `[` and `]` to change the tick rate: who survives a coarse one?")
+        },
+        is_done_by: |command| {
+            matches!(command, Command::Stage(StageCommand::TickRate(_) | StageCommand::TickHz(_)))
+        },
+    },
+    Lead {
+        text: |_| Some("Press `F2` for the guide through the chapter, or `N` for the next scene."),
+        is_done_by: |command| {
+            matches!(
+                command,
+                Command::View(ViewCommand::ToggleGuide)
+                    | Command::Stage(
+                        StageCommand::SceneBeside(Step::Next) | StageCommand::Scene(_)
+                    )
+            )
+        },
+    },
+];
+
+/// Which hints a person has followed.
+#[derive(Clone, Debug, Default)]
+pub(in crate::studio) struct Hints {
+    /// That of the open scene.
+    scene: bool,
+    leads: [bool; LEADS.len()],
+}
+
+impl Hints {
+    /// For a scene that has just been opened.
+    pub(in crate::studio) fn of_next_scene(&self) -> Self {
+        Self { scene: false, leads: self.leads }
+    }
+
+    /// Marks the hints that this command fulfils. `hint` is the scene's.
+    pub(in crate::studio) fn see(&mut self, command: &Command, hint: Option<&str>) {
+        self.scene |= hint.and_then(asked).is_some_and(|asked| asked.contains(&command));
+        for (done, lead) in self.leads.iter_mut().zip(&LEADS) {
+            *done |= (lead.is_done_by)(command);
+        }
+    }
+
+    /// The present hint: the scene's, or else the first that was not followed, of those that are so. `outcome` is that of
+    /// the selected lane's verdict.
+    pub(in crate::studio) fn text(
+        &self,
+        now: &Situation<'_>,
+        outcome: Option<Outcome>,
+    ) -> Option<String> {
+        let hint = now.scene.hint.as_deref().filter(|hint| is_so(hint, now));
+        if let Some(hint) = hint.filter(|_| !self.scene) {
+            return Some(hint.to_owned());
+        }
+        let leads = LEADS.iter().zip(self.leads).filter(|(_, done)| !done);
+        let text = leads.filter_map(|(lead, _)| (lead.text)(now)).next()?;
+        let is_asked_to_restart = self.scene && !now.is_from_the_start && !self.leads[0];
+        // A verdict is about a run from the start, and not about the one on the stage.
+        Some(match reaction(outcome).filter(|_| is_asked_to_restart) {
+            Some(reaction) => format!("From its start {} {reaction}. {text}", now.method().name),
+            None => text.to_owned(),
+        })
+    }
+}
+
+/// Whether a scene's hint is so. What it says of a method is said of the scene's opening method, with the digits of the
+/// scene's own lanes, in the mode in which the scene opens, and what it says of a tick rate is counted from the scene's.
+fn is_so(hint: &str, now: &Situation<'_>) -> bool {
+    use StageCommand::{Method, MethodBeside, Pick, TickRate, ToggleArrangement, ToggleRace};
+    let asked: Vec<&StageCommand> = keys(hint)
+        .flat_map(bound_to)
+        .filter_map(|command| match command {
+            Command::Stage(asked) => Some(asked),
+            _ => None,
+        })
+        .collect();
+    let asks = |is: fn(&StageCommand) -> bool| asked.iter().any(|asked| is(asked));
+    let opens_in = if now.scene.opens_as_race { Mode::Race } else { Mode::Solo };
+    let is_of_mode = asks(|asked| {
+        matches!(asked, Pick(_) | Method(_) | MethodBeside(_) | ToggleRace | ToggleArrangement)
+    });
+    let is_of_rate = asks(|asked| matches!(asked, TickRate(_))) && hint.contains(" Hz");
+    let lanes = &now.scene.lanes;
+    let hint = hint.to_lowercase();
+    let is_of_method = asks(|asked| matches!(asked, Pick(_) | Method(_) | MethodBeside(_)))
+        || now.menu.iter().any(|spec| hint.contains(&spec.method.name.to_lowercase()));
+    let opening = now.scene.opening_method.or(lanes.first().map(|spec| spec.method));
+    let is_beyond = |asked: &&StageCommand| matches!(asked, Pick(entry) if *entry >= lanes.len());
+    (!is_of_mode || now.race.mode() == opens_in)
+        && (!is_of_rate || now.race.tick_hz() == now.scene.tick_hz)
+        && (!is_of_method || now.race.mode() == Mode::Race || Some(now.method()) == opening)
+        && !asked.iter().any(is_beyond)
+}
+
+/// What a method does, in words that follow its name; `None` if that is not known.
+fn reaction(outcome: Option<Outcome>) -> Option<&'static str> {
+    match outcome? {
+        Outcome::Rounding | Outcome::Accurate => Some("keeps to the exact motion"),
+        Outcome::LooksRight => Some("looks right"),
+        Outcome::Bounded => Some("stays bounded"),
+        Outcome::DiesAway => Some("dies away"),
+        Outcome::Grows => Some("grows"),
+        Outcome::GaveUp | Outcome::BlewUp => Some("is lost"),
+        Outcome::NotJudged | Outcome::NoTruth => None,
+    }
+}
+
+/// The commands of the first key that a hint names.
+fn asked(hint: &str) -> Option<Vec<&'static Command>> {
+    let commands: Vec<_> = bound_to(keys(hint).next()?).collect();
+    (!commands.is_empty()).then_some(commands)
+}
+
+/// The names of the keys in a text, which stand between backticks.
+fn keys(text: &str) -> impl Iterator<Item = &str> {
+    text.split('`').skip(1).step_by(2)
+}
+
+/// The commands of the key that people call so.
+fn bound_to(name: &str) -> impl Iterator<Item = &'static Command> {
+    let bound = KEYS.iter().flat_map(|binding| binding.keys);
+    bound.filter(move |(key, _)| key.to_string() == name).map(|(_, command)| command)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{SCENES, Scene};
+
+    #[test]
+    fn the_hint_of_every_scene_asks_for_a_key_of_the_table() {
+        for scene in SCENES {
+            let hint = Scene::built_in(scene.name).unwrap().hint.expect("a hint");
+            assert!(asked(&hint).is_some(), "{}: {hint}", scene.name);
+            assert_eq!(hint.matches('`').count() % 2, 0, "{hint}");
+        }
+    }
+
+    #[test]
+    fn nobody_is_asked_to_start_again_what_has_only_just_begun() {
+        use crate::studio::Studio;
+        let text = "title = 'mine'\ntick_hz = 60\nseconds = 9\nmethods = ['rk4', 'implicit-euler']\n\
+             [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 9\nx0_m = 1\n";
+        let mut studio = Studio::new(Scene::parse("mine.toml", text).unwrap());
+        let asks_for = |studio: &Studio, key: &str| studio.hint().expect("a lead").contains(key);
+        assert!(asks_for(&studio, "`C`"), "it was just opened");
+        studio.apply(StageCommand::Pick(1));
+        assert!(asks_for(&studio, "`C`"), "it starts under the other method");
+        studio.tick();
+        studio.apply(StageCommand::Pick(0));
+        assert!(asks_for(&studio, "`Home`"), "it did not start under this one");
+        studio.apply(StageCommand::Restart);
+        assert!(asks_for(&studio, "`C`"));
+    }
+
+    #[test]
+    fn hints_lead_on_when_they_are_followed_and_in_any_order() {
+        use crate::studio::Studio;
+        let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+        let text = |studio: &Studio| studio.hint().unwrap_or_default();
+        let own = text(&studio);
+        assert!(own.contains("`2`"), "{own}");
+        (0..90).for_each(|_| studio.tick());
+        studio.apply(StageCommand::Tick(Step::Previous));
+        assert_eq!(text(&studio), own);
+        studio.apply(StageCommand::Pick(1));
+        assert!(text(&studio).contains("`Home`"));
+        studio.apply(StageCommand::Restart);
+        assert!(text(&studio).contains("`C`"));
+        studio.apply(StageCommand::ToggleRace);
+        assert!(text(&studio).contains("`V`"));
+        studio.apply(StageCommand::ToggleArrangement);
+        (0..90).for_each(|_| studio.tick());
+        assert!(text(&studio).contains("`D`"), "going back was done before");
+        studio.apply(StageCommand::InstrumentBeside(Step::Next));
+        studio.apply(StageCommand::TickRate(Step::Next));
+        assert!(text(&studio).contains("`F2`"));
+        let open = |studio: &mut Studio, name: &str| {
+            let place = SCENES.iter().position(|scene| scene.name == name);
+            studio.apply(StageCommand::Scene(place.unwrap()));
+        };
+        open(&mut studio, "damped");
+        assert_eq!(studio.hint(), None, "a method in flight is not a race's");
+        open(&mut studio, "stiff");
+        assert_eq!(studio.hint(), studio.scene().hint, "a rate is a race's too");
+        studio.apply(StageCommand::ToggleRace);
+        assert_eq!(studio.hint(), studio.scene().hint);
+    }
+}

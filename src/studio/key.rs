@@ -1,0 +1,237 @@
+//! The keys that commands are bound to: [`KEYS`] is the one table from which the window, the help overlay and
+//! `regatta list keys` are made.
+
+use std::fmt;
+
+use super::command::Command::{self, Ask, Loop, Run, Stage, View};
+use super::command::{RunCommand, StageCommand, ViewCommand};
+use super::display::DriverRequest;
+use super::step::Step;
+use crate::loops::loop_lab::LoopCommand;
+use crate::scene::Action;
+
+/// A key that a command can be bound to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Key {
+    /// A digit by its place on the keyboard, so that it works unshifted on every layout.
+    Digit(u8),
+    /// A lower-case letter or a sign, as the layout gives it.
+    Sign(char),
+    /// The same letter with Shift held.
+    ShiftSign(char),
+    /// A letter or a sign with Control held, or with Command on a Mac.
+    ControlSign(char),
+    /// A letter with Control and Shift held.
+    ControlShiftSign(char),
+    /// The space bar.
+    Space,
+    /// The up arrow.
+    Up,
+    /// The down arrow.
+    Down,
+    /// The left arrow.
+    Left,
+    /// The right arrow.
+    Right,
+    /// Home.
+    Home,
+    /// Page Up.
+    PageUp,
+    /// Page Down.
+    PageDown,
+    /// Enter, or Return.
+    Enter,
+    /// Escape.
+    Escape,
+    /// A function key.
+    Function(u8),
+}
+
+/// As people call it.
+impl fmt::Display for Key {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Key::Digit(digit) => write!(f, "{digit}"),
+            Key::Sign(sign) => write!(f, "{}", sign.to_uppercase()),
+            Key::ShiftSign(sign) => write!(f, "Shift {}", sign.to_uppercase()),
+            Key::ControlSign(sign) => write!(f, "Ctrl {}", sign.to_uppercase()),
+            Key::ControlShiftSign(sign) => write!(f, "Ctrl Shift {}", sign.to_uppercase()),
+            Key::Function(number) => write!(f, "F{number}"),
+            Key::Space => f.write_str("Space"),
+            Key::Up => f.write_str("↑"),
+            Key::Down => f.write_str("↓"),
+            Key::Left => f.write_str("←"),
+            Key::Right => f.write_str("→"),
+            Key::Home => f.write_str("Home"),
+            Key::PageUp => f.write_str("Page Up"),
+            Key::PageDown => f.write_str("Page Down"),
+            Key::Enter => f.write_str("Enter"),
+            Key::Escape => f.write_str("Esc"),
+        }
+    }
+}
+
+/// One line of the key table.
+#[derive(Debug)]
+pub struct Binding {
+    /// As the help shows it.
+    pub shown: &'static str,
+    /// What it does, for people.
+    pub about: &'static str,
+    /// The keys, each with what it does.
+    pub keys: &'static [(Key, Command)],
+    /// Whether holding the key repeats it.
+    pub repeats: bool,
+}
+
+/// A table of lines: how often, the keys as shown, what they do, and each key with its command.
+macro_rules! keys {
+    ($($often:ident $shown:literal $about:literal: $($key:ident $(($of:literal))? => $command:expr),+;)+) => {
+        &[$($often($shown, $about, &[$((Key::$key $(($of))?, $command)),+])),+]
+    };
+}
+
+/// Every key and its command.
+pub static KEYS: &[Binding] = keys! {
+    once "1 … 9, 0" "solo: switch the bodies to that method, in flight; race, loop lab: select that lane":
+        Digit(1) => Stage(StageCommand::Pick(0)), Digit(2) => Stage(StageCommand::Pick(1)),
+        Digit(3) => Stage(StageCommand::Pick(2)), Digit(4) => Stage(StageCommand::Pick(3)),
+        Digit(5) => Stage(StageCommand::Pick(4)), Digit(6) => Stage(StageCommand::Pick(5)),
+        Digit(7) => Stage(StageCommand::Pick(6)), Digit(8) => Stage(StageCommand::Pick(7)),
+        Digit(9) => Stage(StageCommand::Pick(8)), Digit(0) => Stage(StageCommand::Pick(9));
+    once "M, Shift M" "next, previous method":
+        Sign('m') => Stage(StageCommand::MethodBeside(Step::Next)),
+        ShiftSign('m') => Stage(StageCommand::MethodBeside(Step::Previous));
+    once "C" "solo / race of all methods":
+        Sign('c') => Stage(StageCommand::ToggleRace);
+    once "Space" "run / pause":
+        Space => View(ViewCommand::TogglePause);
+    repeating ", ." "one tick back, forward":
+        Sign(',') => Stage(StageCommand::Tick(Step::Previous)), Sign('.') => Stage(StageCommand::Tick(Step::Next));
+    repeating "Shift , ." "one second back, forward":
+        ShiftSign(',') => Stage(StageCommand::Second(Step::Previous)),
+        ShiftSign('.') => Stage(StageCommand::Second(Step::Next));
+    once "W" "watch the selected lane blow up again":
+        Sign('w') => Run(RunCommand::WatchAgain);
+    once "Ctrl Z, Ctrl Shift Z" "undo, redo the last change":
+        ControlSign('z') => Run(RunCommand::Undo), ControlShiftSign('z') => Run(RunCommand::Redo);
+    once "Home" "restart":
+        Home => Stage(StageCommand::Restart);
+    repeating "[ ]" "tick rate down, up":
+        Sign('[') => Stage(StageCommand::TickRate(Step::Previous)),
+        Sign(']') => Stage(StageCommand::TickRate(Step::Next));
+    repeating "- =" "speed down, up: ¼× to 16×":
+        Sign('-') => Stage(StageCommand::Speed(Step::Previous)), Sign('=') => Stage(StageCommand::Speed(Step::Next));
+    repeating "↑ ↓" "throttle (ship, helm, a law that uses it)":
+        Up => Run(RunCommand::ThrottleUp), Down => Run(RunCommand::ThrottleDown);
+    repeating "← →" "rudder (helm, a law that uses it)":
+        Left => Run(RunCommand::RudderLeft), Right => Run(RunCommand::RudderRight);
+    once "K" "kick: an impulse at the next tick":
+        Sign('k') => Run(RunCommand::Act(Action::Kick(1.0)));
+    once "N, B" "next, previous scene":
+        Sign('n') => Stage(StageCommand::SceneBeside(Step::Next)),
+        Sign('b') => Stage(StageCommand::SceneBeside(Step::Previous));
+    once "O" "open a scene file; or drop one onto the window":
+        Sign('o') => View(ViewCommand::AskForPath);
+    once "S" "a spring of your own: its numbers, the recommended method, and its code":
+        Sign('s') => View(ViewCommand::AskForSpring);
+    once "F" "a fan of futures: the next second under each method, a dot a tick":
+        Sign('f') => View(ViewCommand::ToggleFutures);
+    once "G" "exact ghost on / off":
+        Sign('g') => View(ViewCommand::ToggleGhost);
+    once "I" "drawing between ticks: raw / extrapolated / linear / Hermite / monotone Hermite":
+        Sign('i') => Run(RunCommand::NextInterpolation);
+    once "L" "loop lab: one motion under every game loop":
+        Sign('l') => Loop(LoopCommand::ToggleLab);
+    once "V" "race, loop lab: lanes over each other / side by side":
+        Sign('v') => Stage(StageCommand::ToggleArrangement);
+    once "F3" "light / dark theme":
+        Function(3) => View(ViewCommand::ToggleTheme);
+    repeating "Ctrl + − 0" "text and panels larger, smaller, back to normal":
+        ControlSign('+') => View(ViewCommand::Scale(Step::Next)),
+        ControlSign('=') => View(ViewCommand::Scale(Step::Next)),
+        ControlSign('-') => View(ViewCommand::Scale(Step::Previous)),
+        ControlSign('0') => View(ViewCommand::UsualScale);
+    once "T" "measure: instruments, table and timeline round the stage; or the stage alone":
+        Sign('t') => View(ViewCommand::ToggleMeasure);
+    once "D, Shift D" "next, previous instrument; loop lab: display":
+        Sign('d') => Stage(StageCommand::InstrumentBeside(Step::Next)),
+        ShiftSign('d') => Stage(StageCommand::InstrumentBeside(Step::Previous));
+    once "Enter" "enlarge the instrument over the stage":
+        Enter => View(ViewCommand::ToggleEnlarged);
+    once "Ctrl C, Ctrl E" "copy the instrument's values, or on a lane its method, or an engine's settings, as code; save as PNG, SVG and CSV":
+        ControlSign('c') => View(ViewCommand::Copy), ControlSign('e') => Ask(DriverRequest::ExportInstrument);
+    once "E" "inspector: parameters, methods and rates, edited while it runs":
+        Sign('e') => Run(RunCommand::ToggleInspector);
+    once "P, F12" "screenshot; the file's name is shown":
+        Sign('p') => Ask(DriverRequest::Screenshot), Function(12) => Ask(DriverRequest::Screenshot);
+    once "F5, Ctrl S" "save the run as a scene file; its name is shown":
+        Function(5) => Ask(DriverRequest::Record), ControlSign('s') => Ask(DriverRequest::Record);
+    once "Ctrl L" "copy the run as a link, which `regatta play` opens":
+        ControlSign('l') => Ask(DriverRequest::CopyLink);
+    once "X" "equal cost of all lanes on / off: cheap lanes get more substeps":
+        Sign('x') => Run(RunCommand::ToggleEqualCost);
+    once "F11" "full screen":
+        Function(11) => Ask(DriverRequest::ToggleFullScreen);
+    once "F2" "guide: the chapter in stops, each with a prediction and a key to press":
+        Function(2) => View(ViewCommand::ToggleGuide);
+    once "Page Up, Down" "previous, next stop of the guide, while it is open":
+        PageUp => View(ViewCommand::StopBeside(Step::Previous)),
+        PageDown => View(ViewCommand::StopBeside(Step::Next));
+    once "H, F1, ?" "help":
+        Sign('h') => View(ViewCommand::ToggleHelp), Function(1) => View(ViewCommand::ToggleHelp),
+        Sign('?') => View(ViewCommand::ToggleHelp);
+    once "Esc" "let go of a body, close the overlay, the guide, the instrument, the inspector, leave the loop lab, or quit: twice where something would be lost":
+        Escape => View(ViewCommand::Escape);
+};
+
+/// A line whose keys do nothing more while they are held.
+const fn once(
+    shown: &'static str,
+    about: &'static str,
+    keys: &'static [(Key, Command)],
+) -> Binding {
+    Binding { shown, about, keys, repeats: false }
+}
+
+/// A line whose keys repeat while they are held.
+const fn repeating(
+    shown: &'static str,
+    about: &'static str,
+    keys: &'static [(Key, Command)],
+) -> Binding {
+    Binding { repeats: true, ..once(shown, about, keys) }
+}
+
+/// What `key` does, if anything.
+pub fn command_for(key: Key) -> Option<(Command, &'static Binding)> {
+    KEYS.iter().find_map(|binding| {
+        let (_, command) = binding.keys.iter().find(|(bound, _)| *bound == key)?;
+        Some((command.clone(), binding))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::bodies::BODIES;
+
+    #[test]
+    fn the_keys_of_an_input_name_the_bodies_that_take_it_and_no_others() {
+        for (input, key) in [("throttle", Key::Up), ("rudder", Key::Left)] {
+            let (_, binding) = command_for(key).unwrap();
+            let words: Vec<&str> = binding.about.split(|c: char| !c.is_alphabetic()).collect();
+            assert!(words.contains(&"law"), "{}", binding.about);
+            for body in BODIES.iter() {
+                let is_named = words.contains(&body.id);
+                assert_eq!(
+                    is_named,
+                    body.inputs.contains(&input),
+                    "{}: {}",
+                    body.id,
+                    binding.about
+                );
+            }
+        }
+    }
+}

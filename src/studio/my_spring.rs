@@ -1,0 +1,280 @@
+//! A custom spring: a scene from its numbers.
+
+use std::f64::consts::TAU;
+
+use crate::measure::{Adviser, Criterion};
+use crate::scene::{LaneSpec, Scene, SceneErrors, USUAL_SECONDS};
+use crate::sim::integrators::method;
+use crate::sim::number::round;
+use crate::tools::port::Wish;
+
+/// The fewest periods in a scene of a slow spring.
+const MIN_PERIODS: f64 = 10.0;
+
+/// The largest number of a spring that is taken.
+const MAX_NUMBER: f64 = 1e12;
+
+/// A damped spring on a mass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MySpring {
+    /// The mass in kg.
+    pub mass_kg: f64,
+    /// The stiffness in N/m.
+    pub stiffness_n_per_m: f64,
+    /// The damping in N s/m.
+    pub damping_n_s_per_m: f64,
+    /// How far it is stretched at the start, in m.
+    pub x0_m: f64,
+    /// The velocity at the start in m/s, to where it is stretched.
+    pub v0_m_per_s: f64,
+    /// The gravity in m/s² that pulls the mass to where the spring is stretched.
+    pub gravity_m_per_s2: f64,
+}
+
+impl Default for MySpring {
+    /// The example of the documentation.
+    fn default() -> Self {
+        Self {
+            mass_kg: 12.0,
+            stiffness_n_per_m: 900.0,
+            damping_n_s_per_m: 4.0,
+            x0_m: 1.0,
+            v0_m_per_s: 0.0,
+            gravity_m_per_s2: 0.0,
+        }
+    }
+}
+
+impl MySpring {
+    /// The spring on this mass in kg that swings at this frequency in Hz without damping, and is damped by this part of
+    /// what just lets it swing no more.
+    pub fn of_frequency(mass_kg: f64, frequency_hz: f64, damping_ratio: f64) -> Self {
+        Self { mass_kg, ..Self::default() }.swinging(frequency_hz, damping_ratio)
+    }
+
+    /// The same mass and start on a spring of this frequency in Hz and this damping ratio.
+    pub fn swinging(self, frequency_hz: f64, damping_ratio: f64) -> Self {
+        let omega = TAU * frequency_hz;
+        Self {
+            stiffness_n_per_m: self.mass_kg * omega * omega,
+            damping_n_s_per_m: 2.0 * damping_ratio * self.mass_kg * omega,
+            ..self
+        }
+    }
+
+    /// What a player is to see of it.
+    pub fn wish(self) -> Wish {
+        let [frequency_hz, damping_ratio] = [self.frequency_hz(), self.damping_ratio()];
+        Wish { frequency_hz, damping_ratio, mass_kg: self.mass_kg }
+    }
+
+    /// The same start on a spring that shows a wish.
+    pub fn told(self, wish: &Wish) -> Self {
+        Self { mass_kg: wish.mass_kg, ..self }.swinging(wish.frequency_hz, wish.damping_ratio)
+    }
+
+    /// How far gravity stretches it at rest, in m.
+    pub fn sag_m(self) -> f64 {
+        self.mass_kg * self.gravity_m_per_s2 / self.stiffness_n_per_m
+    }
+
+    /// The frequency in Hz at which it would swing without damping.
+    pub fn frequency_hz(self) -> f64 {
+        libm::sqrt(self.stiffness_n_per_m / self.mass_kg) / TAU
+    }
+
+    /// Its damping as a part of what just lets it swing no more.
+    pub fn damping_ratio(self) -> f64 {
+        self.damping_n_s_per_m / (2.0 * libm::sqrt(self.stiffness_n_per_m * self.mass_kg))
+    }
+
+    /// Finds whether a scene may have these numbers.
+    ///
+    /// # Errors
+    /// The first number that it may not have, in words.
+    pub fn check(self) -> Result<(), String> {
+        let (least, most) = (f64::MIN_POSITIVE, MAX_NUMBER);
+        let ranges = [
+            ("the mass", self.mass_kg, least),
+            ("the stiffness", self.stiffness_n_per_m, least),
+            ("the damping", self.damping_n_s_per_m, 0.0),
+            ("the stretch at the start", self.x0_m, -most),
+            ("the velocity at the start", self.v0_m_per_s, -most),
+            ("gravity", self.gravity_m_per_s2, -most),
+            ("the stretch at the start beyond that at rest", self.x0_m - self.sag_m(), -most),
+        ];
+        let wrong = ranges.into_iter().find(|(_, value, from)| !(*from..=most).contains(value));
+        if let Some((name, value, from)) = wrong {
+            let wanted = match () {
+                () if value > most => "at most 10¹²",
+                () if from > 0.0 => "positive",
+                () if from < 0.0 => "at least -10¹²",
+                () => "0 or more",
+            };
+            return Err(format!("{name} would be {}; it must be {wanted}", round(value, 4)));
+        }
+        match self.x0_m == self.sag_m() && self.v0_m_per_s == 0.0 {
+            true => Err("it would rest: give it another stretch or a velocity first".into()),
+            false => Ok(()),
+        }
+    }
+
+    /// The text of a scene of the spring alone, at this tick rate in Hz. Its stretch is counted from where the mass rests:
+    /// about that it swings alike with gravity and without.
+    pub fn scene_text(self, tick_hz: u32) -> String {
+        let Self { mass_kg, stiffness_n_per_m, damping_n_s_per_m, v0_m_per_s, .. } = self;
+        let (sag_m, x0_m) = (self.sag_m(), self.x0_m - self.sag_m());
+        let hung = match sag_m {
+            0.0 => String::new(),
+            sag_m => {
+                format!(" It rests at a stretch of {} m, from which x is counted.", round(sag_m, 4))
+            }
+        };
+        let pushed = match v0_m_per_s {
+            0.0 => String::new(),
+            v0 => format!(", let go at {} m/s", round(v0, 4)),
+        };
+        let (frequency, ratio) = (self.frequency_hz(), self.damping_ratio());
+        let seconds = (MIN_PERIODS / frequency).max(USUAL_SECONDS);
+        let damped = match ratio {
+            0.0 => "undamped".to_owned(),
+            ratio => format!("damping ratio {}", round(ratio, 3)),
+        };
+        // A number in TOML has a point or an exponent; `{:?}` writes either.
+        format!(
+            "title = \"My spring\"\n\
+             about = \"{} Hz, {damped}, pulled out by {} m{pushed}.{hung}\"\n\
+             tick_hz = {tick_hz}\n\
+             seconds = {seconds:?}\n\
+             methods = [\"explicit-euler\", \"semi-implicit-euler\", \"velocity-verlet\", \"rk4\", \"implicit-euler\"]\n\n\
+             [[spring]]\n\
+             name = \"my spring\"\n\
+             mass_kg = {mass_kg:?}\n\
+             stiffness_n_per_m = {stiffness_n_per_m:?}\n\
+             damping_n_s_per_m = {damping_n_s_per_m:?}\n\
+             x0_m = {x0_m:?}\n\
+             v0_m_per_s = {v0_m_per_s:?}\n",
+            round(frequency, 3),
+            round(x0_m, 4),
+        )
+    }
+
+    /// That scene, which opens under what is recommended for it to look right, with explicit Euler one key away.
+    ///
+    /// # Errors
+    /// If a scene may not have these numbers.
+    pub(crate) fn advised_scene(self, tick_hz: u32) -> Result<Scene, SceneErrors> {
+        let mut scene = self.scene(tick_hz)?;
+        let adviser = Adviser::new(&scene, tick_hz);
+        let methods = scene.methods_for_games();
+        let Some(best) = adviser.cheapest(Criterion::LooksRight, methods) else {
+            scene.opening_method = method("semi-implicit-euler");
+            return Ok(scene);
+        };
+        match scene.lanes.iter_mut().find(|lane| lane.method == best.method) {
+            Some(lane) => *lane = best,
+            None => scene.lanes.insert(1, best),
+        }
+        scene.opening_method = Some(best.method);
+        scene.hint = Some(hint(best));
+        Scene::parse(&scene.name, &scene.to_toml())
+    }
+
+    /// The scene of that text.
+    ///
+    /// # Errors
+    /// If a scene may not have these numbers.
+    pub fn scene(self, tick_hz: u32) -> Result<Scene, SceneErrors> {
+        Scene::parse("my-spring", &self.scene_text(tick_hz))
+    }
+}
+
+/// What to try under the method that is recommended.
+fn hint(best: LaneSpec) -> String {
+    let name = best.method.name;
+    match (best.method.id, best.substeps) {
+        ("explicit-euler", 1) => {
+            "Even Explicit Euler looks right here. Press `C` to race all methods.".into()
+        }
+        (_, 1) => format!("{name} looks right at little cost. Press `1` for Explicit Euler."),
+        (_, n) => {
+            format!("{name} ×{n} looks right at little cost. Press `1` for Explicit Euler.")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::{CRITERIA, recommended};
+
+    #[test]
+    fn a_spring_is_the_same_by_its_stiffness_and_by_its_frequency() {
+        let spring = MySpring::default();
+        assert!((spring.frequency_hz() - 75f64.sqrt() / TAU).abs() < 1e-15);
+        assert!((spring.damping_ratio() - 4.0 / (2.0 * 10_800f64.sqrt())).abs() < 1e-15);
+        let same = MySpring::of_frequency(12.0, spring.frequency_hz(), spring.damping_ratio());
+        assert!((same.stiffness_n_per_m - 900.0).abs() < 1e-9, "{same:?}");
+        assert!((same.damping_n_s_per_m - 4.0).abs() < 1e-12, "{same:?}");
+    }
+
+    #[test]
+    fn its_scene_has_its_numbers_and_lasts_some_swings() {
+        let slow = MySpring::of_frequency(2.0, 0.1, 0.25);
+        for (spring, seconds) in [(slow, 100.0), (MySpring::of_frequency(1e-3, 40.0, 0.0), 20.0)] {
+            let scene = spring.scene(50).unwrap();
+            assert_eq!((scene.name.as_str(), scene.tick_hz), ("my-spring", 50));
+            assert!((scene.seconds - seconds).abs() < 1e-9, "{} s", scene.seconds);
+            let [body] = &scene.bodies[..] else { panic!("one body") };
+            let value = |key| body.values[body.kind.parameter(key).unwrap().0];
+            let MySpring { mass_kg, stiffness_n_per_m, damping_n_s_per_m, .. } = spring;
+            assert_eq!(value("mass_kg"), mass_kg);
+            assert_eq!(value("stiffness_n_per_m"), stiffness_n_per_m);
+            assert_eq!(value("damping_n_s_per_m"), damping_n_s_per_m);
+        }
+    }
+
+    #[test]
+    fn it_is_let_go_as_it_is_told_about_where_gravity_has_it_rest() {
+        let hung =
+            MySpring { x0_m: 0.5, v0_m_per_s: -2.0, gravity_m_per_s2: 9.0, ..MySpring::default() };
+        // 12 kg · 9 m/s² / 900 N/m.
+        assert!((hung.sag_m() - 0.12).abs() < 1e-15);
+        let scene = hung.scene(60).unwrap();
+        let body = &scene.bodies[0];
+        let value = |key| body.values[body.kind.parameter(key).unwrap().0];
+        assert!((value("x0_m") - 0.38).abs() < 1e-12, "{}", value("x0_m"));
+        assert_eq!(value("v0_m_per_s"), -2.0);
+        assert!(
+            scene.about.contains("0.12 m") && scene.about.contains("−2 m/s"),
+            "{}",
+            scene.about
+        );
+        let at_rest = MySpring { x0_m: 0.12, v0_m_per_s: 0.0, ..hung };
+        assert!(hung.check().is_ok() && at_rest.check().is_err());
+        let lost = MySpring { x0_m: f64::NAN, ..hung };
+        assert!(lost.check().is_err());
+    }
+
+    #[test]
+    fn it_opens_under_what_all_methods_judged_recommend_with_explicit_euler_one_key_away() {
+        for (spring, tick_hz) in
+            [(MySpring::default(), 30), (MySpring::of_frequency(1.0, 4.0, 0.0), 60)]
+        {
+            let scene = spring.advised_scene(tick_hz).unwrap();
+            assert_eq!(scene.lanes[0].method.id, "explicit-euler");
+            let adviser = Adviser::new(&scene, tick_hz);
+            // No dearer one can be it.
+            let methods = scene.methods_for_games().filter(|it| it.evaluations == Some(1));
+            let mut all: Vec<_> = methods.map(|it| adviser.judged(LaneSpec::plain(it))).collect();
+            adviser.decide(&mut all);
+            let looks_right = CRITERIA.iter().position(|it| *it == Criterion::LooksRight).unwrap();
+            let best = recommended(&all, looks_right);
+            let best = &all[best.expect("some look right")];
+            let lane = scene.lanes.iter().find(|lane| Some(lane.method) == scene.opening_method);
+            let told = lane.map(|lane| (lane.method.id, lane.substeps));
+            let met = best.met[looks_right].met().unwrap();
+            assert_eq!(told, Some((best.spec.method.id, met.substeps)), "at {tick_hz} Hz");
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! A message that leaves by itself.
+
+use std::ops::Deref;
+
+/// How long a message is shown at least, and for each of its letters, in nanoseconds: time to find and to read it.
+const MIN_NS: i64 = 3_000_000_000;
+const LETTER_NS: i64 = 60_000_000;
+
+/// A message to the person, such as a screenshot's file name. It is shown for some seconds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Notice {
+    text: String,
+    parts: Vec<String>,
+    left_ns: i64,
+}
+
+impl Notice {
+    /// What it tells, the most important first. Its text has all of it.
+    pub fn parts(&self) -> &[String] {
+        &self.parts
+    }
+
+    /// How long it is still shown, in nanoseconds.
+    pub fn left_ns(&self) -> i64 {
+        self.left_ns
+    }
+
+    /// Shortens the time for which it is still shown, by nanoseconds.
+    pub(super) fn pass(&mut self, ns: i64) {
+        self.left_ns = self.left_ns.saturating_sub(ns.max(0)).max(0);
+    }
+}
+
+impl From<Vec<String>> for Notice {
+    fn from(parts: Vec<String>) -> Self {
+        let text = parts.join("; ");
+        let left_ns = MIN_NS + LETTER_NS * text.chars().count() as i64;
+        Self { text, parts, left_ns }
+    }
+}
+
+impl From<String> for Notice {
+    fn from(text: String) -> Self {
+        vec![text].into()
+    }
+}
+
+impl From<&str> for Notice {
+    fn from(text: &str) -> Self {
+        text.to_owned().into()
+    }
+}
+
+impl Deref for Notice {
+    type Target = str;
+
+    fn deref(&self) -> &str {
+        &self.text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Notice;
+    use crate::scene::Scene;
+    use crate::studio::Studio;
+
+    #[test]
+    fn a_notice_leaves_after_some_seconds_and_a_long_one_later_whether_time_runs_or_not() {
+        for is_running in [true, false] {
+            let shown_s = |words: &str| {
+                let mut studio = Studio::new(Scene::built_in("spring").unwrap());
+                studio.running = is_running;
+                studio.viewer_mut().set_notice(words);
+                let mut frames = 0;
+                while studio.viewer().notice.is_some() {
+                    studio.advance(70_000_000);
+                    studio.viewer_mut().pass(if is_running { 0 } else { 70_000_000 });
+                    frames += 1;
+                }
+                assert_eq!(studio.viewer().notice.as_ref().map(Notice::left_ns), None);
+                f64::from(frames) * 0.07
+            };
+            let [short, long] = [shown_s("saved"), shown_s(&"word ".repeat(20))];
+            assert!((3.0..4.0).contains(&short) && (8.0..10.0).contains(&long), "{short} {long}");
+        }
+    }
+}

@@ -1,0 +1,234 @@
+//! Notices about bodies that halt and bodies that resume.
+
+use crate::measure::duration;
+use crate::run::race::{Halt, LaneBody, Observer, Race, Resumed, ResumedFrom};
+use crate::scene::{Action, LaneSpec, Scene};
+use crate::sim::bodies::FalseClaims;
+use crate::sim::integrators::StepFailure;
+use crate::sim::number::superscript;
+
+/// Collects notices from a race.
+pub(super) struct Notices<'s> {
+    scene: &'s Scene,
+    /// The parts of the latest notice; empty without one.
+    pub(super) told: Vec<String>,
+}
+
+impl<'s> Notices<'s> {
+    pub(super) fn new(scene: &'s Scene) -> Self {
+        Self { scene, told: Vec::new() }
+    }
+
+    fn tell(&mut self, told: Vec<String>) {
+        if !told.is_empty() {
+            self.told = told;
+        }
+    }
+}
+
+impl Observer for Notices<'_> {
+    fn after(&mut self, race: &Race, action: &Action, resumed: &[Resumed]) {
+        self.tell(resumed_notice(self.scene, resumed));
+        self.tell(of_claims(self.scene, race, action).into_iter().collect());
+    }
+
+    fn ticked(&mut self, race: &Race) {
+        self.tell(of_halts(self.scene, race));
+    }
+}
+
+impl Halt {
+    /// What became of the body, and when: `blew up at 8.4 s`.
+    pub fn fate(&self) -> String {
+        format!("{} at {}", self.how(), duration(self.t))
+    }
+}
+
+impl LaneBody {
+    /// What became of the body, if it halted, and with what values: `blew up at 8.4 s (speed 10³⁸ m/s)`.
+    pub fn fate(&self) -> Option<String> {
+        let halt = self.halted()?;
+        let (fate, how) = (halt.fate(), |name| self.quantity(name));
+        Some(match &halt.failure {
+            StepFailure::Escaped { coordinate, value } => {
+                let size = superscript(libm::round(libm::log10(value.abs())) as i32);
+                let (quantity, unit) = how(coordinate);
+                format!("{fate} ({quantity} 10{size}{unit})")
+            }
+            StepFailure::NotFinite { coordinate, .. } => {
+                format!("{fate} ({} overflowed)", how(coordinate).0)
+            }
+            failure => format!("{fate}: {failure}"),
+        })
+    }
+
+    /// The quantity of the body that has this name, in words, and its unit after a space, if it has one.
+    fn quantity(&self, name: &str) -> (String, String) {
+        let coordinates = self.coordinates();
+        let several = coordinates.len() > 1;
+        let velocity = coordinates.iter().find(|coordinate| *coordinate.velocity == *name);
+        let of = velocity.clone().or_else(|| coordinates.iter().find(|it| *it.name == *name));
+        let plain = if velocity.is_some() { "speed" } else { "position" };
+        let quantity = match self.kind.node(name) {
+            Some((_, node)) => format!("{plain} of node {node}"),
+            None if several => name.to_owned(),
+            None => plain.to_owned(),
+        };
+        let unit = match (of.map_or("1", |coordinate| coordinate.unit), velocity.is_some()) {
+            ("1", false) => String::new(),
+            ("1", true) => " per second".into(),
+            (unit, false) => format!(" {unit}"),
+            (unit, true) => format!(" {unit}/s"),
+        };
+        (quantity, unit)
+    }
+}
+
+/// What became of the bodies that halted in the last tick. Allocates nothing if none did. A reference that was not tried is
+/// told of on the stage.
+fn of_halts(scene: &Scene, race: &Race) -> Vec<String> {
+    let halts = race.just_halted().filter(|(_, halt)| !halt.failure.is_foreseen());
+    let told = halts.flat_map(|(entrant, halt)| {
+        let Halt { tick, body: index, failure, .. } = halt;
+        let truth = race.truth().bodies()[*index].truth().id();
+        let body = &scene.bodies[*index];
+        let Some(entrant) = entrant else {
+            let halted =
+                format!("the {truth} solution halted at tick {tick}: {} {failure}", body.name);
+            return vec![halted, "nothing is compared with it any more".into()];
+        };
+        let lanes: Vec<LaneSpec> = race.entrants().iter().map(|lane| lane.spec).collect();
+        let name = entrant.spec.distinct_name(entrant.spec.method.name, &lanes);
+        match halt.is_blow_up() {
+            true => {
+                let fate = entrant.lane.bodies()[*index].fate().unwrap_or_default();
+                vec![format!("{name}: {} {fate}", body.name)]
+            }
+            // Why a solver gives up takes a line of its own.
+            false => vec![format!("{name}: {} {}", body.name, halt.fate()), failure.to_string()],
+        }
+    });
+    told.collect()
+}
+
+/// What became of the halted bodies that a switch has resumed.
+fn resumed_notice(scene: &Scene, resumed: &[Resumed]) -> Vec<String> {
+    let told = resumed.iter().map(|Resumed { halt, from }| {
+        let body = &scene.bodies[halt.body];
+        let fate = if halt.is_blow_up() { "had blown up" } else { "had halted" };
+        let origin = match from {
+            ResumedFrom::Truth => format!("the {} solution", body.kind.truth.id()),
+            ResumedFrom::LastGood => "its last good state".into(),
+        };
+        format!("{} {fate}: resumed from {origin}", body.name)
+    });
+    told.collect()
+}
+
+/// A notice about the claims of a law that do not hold with the constants that an action has set.
+fn of_claims(scene: &Scene, race: &Race, action: &Action) -> Option<String> {
+    let &Action::Set { body, .. } = action else { return None };
+    let FalseClaims { energy, exact } = race.truth().bodies()[body].false_claims();
+    let told = [
+        energy.then_some("its `energy` is not conserved, and is not shown"),
+        exact.then_some("its `exact` does not solve the equation: the truth is the reference"),
+    ];
+    let told: Vec<&str> = told.into_iter().flatten().collect();
+    (!told.is_empty())
+        .then(|| format!("{}: with these constants {}", scene.bodies[body].name, told.join("; ")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::{METRICS, Metric};
+    use crate::studio::{RunCommand, StageCommand, Studio};
+
+    #[test]
+    fn what_goes_on_is_told_with_what_became_of_it_and_where_it_begins() {
+        let scene = Scene::built_in("helm").unwrap();
+        let failures = [
+            StepFailure::NewtonFailed { limit: 9 },
+            StepFailure::NotFinite { coordinate: "x".into(), value: f64::NAN },
+        ];
+        let [gave_up, blew_up] =
+            failures.map(|failure| Halt { tick: 3, t: 0.05, body: 0, failure });
+        let told =
+            |halt: &Halt, from| resumed_notice(&scene, &[Resumed { halt: halt.clone(), from }]);
+        assert_eq!(
+            told(&gave_up, ResumedFrom::Truth),
+            ["helm had halted: resumed from the reference solution"]
+        );
+        assert_eq!(
+            told(&blew_up, ResumedFrom::LastGood),
+            ["helm had blown up: resumed from its last good state"]
+        );
+        assert!(resumed_notice(&scene, &[]).is_empty());
+    }
+
+    #[test]
+    fn a_body_that_blew_up_says_when_and_with_what_value_in_its_unit() {
+        let mut studio = Studio::new(Scene::built_in("stiff").unwrap());
+        studio.apply(StageCommand::Method(
+            crate::sim::integrators::method("explicit-euler").unwrap(),
+        ));
+        studio.apply(StageCommand::TickHz(10));
+        while studio.selected().lane.halted().is_none() {
+            studio.tick();
+        }
+        let halt = studio.selected().lane.halted().unwrap().clone();
+        assert_eq!(halt.t, halt.tick as f64 / 10.0);
+        let when = format!("blew up at {}", duration(halt.t));
+        assert_eq!(halt.fate(), when);
+        let fate = studio.selected().lane.bodies()[halt.body].fate().unwrap();
+        assert_eq!(fate, format!("{when} (speed 10³⁹ m/s)"));
+        let notice = studio.viewer.notice.take().unwrap().to_string();
+        assert_eq!(notice, format!("Explicit Euler: stiff spring {fate}"));
+    }
+
+    #[test]
+    fn what_blew_up_of_a_net_is_a_node_and_no_letters() {
+        let mut studio = Studio::new(Scene::built_in("bridge").unwrap());
+        let method = crate::sim::integrators::method("explicit-euler").unwrap();
+        studio.apply(StageCommand::Method(method));
+        studio.apply(StageCommand::TickHz(20));
+        for _ in 0..2000 {
+            studio.tick();
+            if let Some(halt) = studio.selected().lane.halted() {
+                let fate = studio.selected().lane.bodies()[halt.body].fate().unwrap();
+                let (_, node) = fate.split_once(" of node ").unwrap_or_else(|| panic!("{fate}"));
+                let number = node.split(' ').next().unwrap();
+                assert!(number.parse::<u32>().is_ok(), "{fate}");
+                return;
+            }
+        }
+        panic!("it did not blow up");
+    }
+
+    #[test]
+    fn a_constant_with_which_a_claim_fails_is_told_of_and_one_with_which_it_holds_is_not() {
+        let text = "title = 'x'\ntick_hz = 60\nseconds = 5\nmethods = ['rk4']\n[[law]]\nname = 'spring'\n\
+            constants = { k = 9.0, c = 0.0, a = 1.0 }\nenergy = 'vx^2/2 + k*x^2/2'\n[law.coordinates.x]\nstart = 0.3\n\
+            acceleration = '-k*x - c*vx'\nexact = 'a*x0*cos(sqrt(k)*t)'";
+        let mut studio = Studio::new(Scene::parse("x.toml", text).unwrap());
+        let mut set = |parameter: usize, value: f64| {
+            studio.apply(RunCommand::Act(Action::Set { body: 0, parameter, value }));
+            let drift = &METRICS[Metric::ENERGY_DRIFT];
+            let absent = drift.absent_on(&studio.race().truth().bodies()[0]);
+            let told = studio.viewer.notice.take().map(|notice| notice.to_string());
+            (told, absent.contains("with these constants"))
+        };
+        assert_eq!(set(0, 16.0), (None, false));
+        let (damped, is_said) = set(1, 0.5);
+        assert_eq!(
+            damped.unwrap(),
+            "spring: with these constants its `energy` is not conserved, and is not shown; its `exact` does not solve \
+             the equation: the truth is the reference"
+        );
+        assert!(is_said);
+        assert_eq!(set(1, 0.0), (None, false));
+        let (unsolved, is_said) = set(2, 1.1);
+        assert!(unsolved.unwrap().starts_with("spring: with these constants its `exact` does not"));
+        assert!(!is_said);
+    }
+}

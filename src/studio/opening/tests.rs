@@ -1,0 +1,218 @@
+use super::*;
+use crate::run::race::Mode;
+use crate::scene::{Action, SCENES};
+use crate::studio::{Command, DriverRequest, RunCommand, StageCommand, Step, View, ViewCommand};
+use crate::tools::source_code::Language;
+
+fn text(name: &str) -> &'static str {
+    SCENES.iter().find(|scene| scene.name == name).unwrap().text
+}
+
+fn scene(text: &str) -> Scene {
+    Scene::parse("boat/ship.toml", text).unwrap()
+}
+
+const PATH: &str = "boat/ship.toml";
+
+/// A studio that runs the file's scene.
+fn studio(text: &str) -> Studio {
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    studio.open_file(Path::new(PATH), scene(text));
+    studio
+}
+
+#[test]
+fn a_file_stays_on_the_list_and_does_not_pass_for_a_built_in_scene() {
+    let mut studio = studio(text("ship"));
+    assert!(studio.title().starts_with("Regatta - ship.toml - "), "{}", studio.title());
+    assert_eq!(studio.scene_list().open(), Some(SCENES.len()));
+    studio.apply(StageCommand::SceneBeside(Step::Next));
+    assert!(studio.title().starts_with("Regatta - harbour - "), "{}", studio.title());
+    studio.apply(StageCommand::SceneBeside(Step::Previous));
+    assert!(studio.title().starts_with("Regatta - ship.toml - "), "{}", studio.title());
+    studio.apply(StageCommand::SceneBeside(Step::Previous));
+    assert_eq!(studio.scene_list().open(), Some(SCENES.len() - 1));
+    for _ in 0..=SCENES.len() {
+        studio.apply(StageCommand::SceneBeside(Step::Next));
+    }
+    assert_eq!(studio.scene_list().open(), Some(SCENES.len() - 1), "round");
+}
+
+#[test]
+fn a_file_that_tells_ticks_is_told_of_where_it_opens() {
+    for (when, told) in [("at_s = 1", false), ("tick = 1", true)] {
+        let text = format!("{}\n[[command]]\n{when}\nthrottle = 0", text("ship"));
+        let opened = studio(&text);
+        let notice = opened.viewer().notice.as_deref().unwrap_or_default();
+        assert_eq!(notice.starts_with("ship.toml: `tick`"), told, "{notice}");
+        let mut listed = Studio::new(scene(&text));
+        listed.list_as_file(Path::new(PATH));
+        assert_eq!(listed.viewer().notice.is_some(), told);
+    }
+}
+
+#[test]
+fn a_changed_file_with_the_same_lanes_and_bodies_is_run_again_to_the_tick() {
+    let before = text("spring");
+    let after = before.replacen("mass_kg = ", "mass_kg = 1", 1);
+    assert_ne!(before, after);
+    let mut old = studio(before);
+    old.apply(StageCommand::ToggleRace);
+    old.apply(StageCommand::Pick(2));
+    old.apply(ViewCommand::ZoomPan {
+        body: 0,
+        zoom_pan: crate::studio::ZoomPan::default().zoomed(2.0, [0.0; 2]),
+    });
+    (0..50).for_each(|_| old.tick());
+    old.apply(RunCommand::Act(Action::Kick(1.0)));
+    let kicked = old.race().state_hash();
+    old.reload_file(Path::new(PATH), scene(&after));
+    assert_eq!(
+        old.viewer().notice.as_deref(),
+        Some(
+            "ship.toml: reloaded and rerun to tick 50 (your kicks and edits left out; Ctrl Z: old run)"
+        )
+    );
+    assert_eq!((old.mode(), old.active()), (Mode::Race, 2));
+    assert_eq!(old.view().zoom_pan(0).zoom(), 2.0);
+
+    let mut new = studio(&after);
+    new.apply(StageCommand::ToggleRace);
+    (0..50).for_each(|_| new.tick());
+    assert_eq!(old.race().state_hash(), new.race().state_hash());
+    old.apply(RunCommand::Undo);
+    assert_eq!(old.race().state_hash(), kicked);
+}
+
+#[test]
+fn a_file_that_changes_in_comments_only_leaves_the_run_and_its_journal_alone() {
+    let mut studio = studio(text("spring"));
+    (0..50).for_each(|_| studio.tick());
+    studio.apply(RunCommand::Act(Action::Kick(1.0)));
+    let (hash, rows) = (studio.race().state_hash(), studio.race().journal().rows().len());
+    studio.reload_file(Path::new(PATH), scene(&format!("# A remark.\n{}", text("spring"))));
+    let notice = "ship.toml saved; nothing that matters changed";
+    assert_eq!(studio.viewer().notice.as_deref(), Some(notice));
+    assert_eq!(studio.race().state_hash(), hash);
+    assert_eq!((studio.race().tick(), studio.race().journal().rows().len()), (50, rows));
+}
+
+#[test]
+fn a_changed_file_with_other_bodies_or_lanes_begins_again() {
+    let before = text("spring");
+    for after in
+        [text("harbour").to_owned(), before.replacen("\"rk4\", ", "", 1), text("ship").to_owned()]
+    {
+        assert_ne!(before, after);
+        let mut studio = studio(before);
+        (0..50).for_each(|_| studio.tick());
+        studio.reload_file(Path::new(PATH), scene(&after));
+        assert_eq!(studio.race().tick(), 0);
+        assert!(studio.viewer().notice.as_deref().unwrap().contains("from the start"));
+    }
+}
+
+#[test]
+fn a_rate_that_nobody_chose_follows_the_file_and_one_that_was_chosen_stays() {
+    let before = text("spring");
+    let after = before.replacen("tick_hz = 60", "tick_hz = 50", 1);
+    assert_ne!(before, after);
+    for (chosen, rate) in [(None, 50), (Some(120), 120)] {
+        let mut studio = studio(before);
+        if let Some(hz) = chosen {
+            studio.apply(StageCommand::TickHz(hz));
+        }
+        studio.reload_file(Path::new(PATH), scene(&after));
+        assert_eq!(studio.race().tick_hz(), rate);
+    }
+}
+
+#[test]
+fn a_path_that_is_refused_stays_in_its_field_with_the_reason_until_it_is_edited() {
+    let mut studio = studio(text("spring"));
+    let refused = |studio: &Studio| match studio.viewer().dialog() {
+        Some(Dialog::Path { refused, .. }) => refused.clone(),
+        other => panic!("{other:?}"),
+    };
+    studio.apply(ViewCommand::AskForPath);
+    studio.apply(ViewCommand::TypePath("boat/none.toml".into()));
+    assert_eq!(studio.apply(DriverRequest::OpenTypedPath), Some(DriverRequest::OpenTypedPath));
+    studio.refuse_typed_path(Path::new("boat/none.toml"), vec!["no such file".into()]);
+    assert_eq!(studio.viewer().typed_path(), "boat/none.toml");
+    assert_eq!(refused(&studio), Some(vec!["no such file".into()]));
+    studio.apply(ViewCommand::TypePath("boat/none.toml".into()));
+    assert!(refused(&studio).is_some());
+    studio.apply(ViewCommand::TypePath("boat/non.toml".into()));
+    assert_eq!(refused(&studio), None);
+    studio.open_file(Path::new(PATH), scene(text("ship")));
+    assert_eq!(studio.viewer().dialog(), None);
+}
+
+#[test]
+fn a_file_that_goes_and_comes_back_is_told_by_its_name() {
+    let mut studio = studio(text("spring"));
+    studio.file_is_gone(Path::new(PATH));
+    assert!(studio.viewer().notice.as_deref().unwrap().starts_with("ship.toml is gone: "));
+    studio.file_is_back(Path::new(PATH));
+    assert_eq!(studio.viewer().notice.as_deref(), Some("ship.toml is back, unchanged"));
+}
+
+#[test]
+fn a_broken_file_shows_its_mistakes_and_the_run_goes_on() {
+    let mut studio = studio(text("spring"));
+    (0..50).for_each(|_| studio.tick());
+    let hash = studio.race().state_hash();
+    studio.reload_failed(Path::new(PATH), vec!["boat/ship.toml:1:1: no".into()]);
+    let shown = |studio: &Studio| matches!(studio.viewer().dialog(), Some(Dialog::Mistakes { .. }));
+    assert!(shown(&studio) && studio.race().state_hash() == hash);
+    assert_eq!(studio.apply(ViewCommand::Escape), None);
+    assert!(!shown(&studio));
+    // Whoever comes back to it is told again.
+    studio.apply(StageCommand::SceneBeside(Step::Next));
+    assert!(!shown(&studio));
+    studio.apply(StageCommand::SceneBeside(Step::Previous));
+    assert!(shown(&studio));
+    studio.reload_file(Path::new(PATH), scene(text("spring")));
+    assert!(!shown(&studio));
+    // Of a file that is not open, nothing is shown yet.
+    studio.apply(StageCommand::SceneBeside(Step::Next));
+    studio.reload_failed(Path::new(PATH), vec!["boat/ship.toml:1:1: no".into()]);
+    assert!(!shown(&studio));
+}
+
+#[test]
+fn the_memory_for_rewinding_is_that_of_every_scene_that_is_opened() {
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    studio.set_rewind_bytes(1 << 20);
+    studio.apply(StageCommand::SceneBeside(Step::Next));
+    assert_eq!(studio.timeline().limit(), 1 << 20);
+    studio.open_file(Path::new(PATH), scene(text("stiff")));
+    assert_eq!(studio.timeline().limit(), 1 << 20);
+    for _ in 0..20_000 {
+        studio.tick();
+        assert!(studio.timeline().bytes() <= 1 << 20, "{}", studio.timeline().bytes());
+    }
+}
+
+#[test]
+fn what_a_person_prefers_survives_a_scene_and_where_they_look_does_not() {
+    let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
+    let chosen = studio.viewer().preferences.clone();
+    for command in [
+        Command::Stage(StageCommand::Body(1)),
+        Command::Run(RunCommand::MapParameter(0)),
+        Command::View(ViewCommand::CopyMethod { entry: 0, language: Language::GdScript }),
+        Command::View(ViewCommand::ToggleTheme),
+        Command::View(ViewCommand::ToggleGhost),
+        Command::View(ViewCommand::Scale(Step::Next)),
+        Command::View(ViewCommand::TypePath("boat.toml".into())),
+    ] {
+        studio.apply(command);
+    }
+    let (preferences, view) = (format!("{:?}", studio.viewer().preferences), studio.view().clone());
+    assert!(preferences != format!("{chosen:?}") && view != View::default());
+    studio.apply(StageCommand::SceneBeside(Step::Next));
+    assert_eq!(format!("{:?}", studio.viewer().preferences), preferences);
+    assert_eq!(studio.viewer().language(), Language::GdScript);
+    assert_eq!(*studio.view(), View::default());
+}

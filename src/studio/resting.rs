@@ -1,0 +1,283 @@
+//! Where a run before a person rests: at its scene's length, and where all its bodies have blown up, which can be watched
+//! again.
+
+use super::Studio;
+use super::display::Motion;
+use crate::run::race::{Halt, Mode};
+use crate::sim::number::{round, significant};
+
+/// How long before it was over a blow-up is watched again, in seconds, and at least in ticks.
+const LEAD_S: f64 = 1.0;
+const MIN_LEAD: u64 = 24;
+
+impl Studio {
+    /// Whether the run rests at this tick.
+    pub(super) fn comes_to_rest(&self) -> bool {
+        self.is_at_its_end() || self.just_lost().is_some()
+    }
+
+    /// Whether the scene's length is over.
+    fn is_at_its_end(&self) -> bool {
+        let race = self.race();
+        let (late_s, half_s) = (race.t() - self.scene().seconds, race.last_step_s() / 2.0);
+        late_s > -half_s && late_s <= half_s && self.display().motion == Motion::Live
+    }
+
+    /// Whether time runs once another run is on the stage: also after a rest, which nobody asked for.
+    pub(super) fn runs_or_rests(&self) -> bool {
+        self.running || self.comes_to_rest()
+    }
+
+    /// The halt of the last body of the lane on the stage, if it has just halted.
+    fn just_lost(&self) -> Option<&Halt> {
+        let are_lost = self.display().motion == Motion::Live
+            && self.mode() == Mode::Solo
+            && self.selected().lane.bodies().iter().all(|body| body.halted().is_some());
+        self.last_halt().filter(|halt| are_lost && halt.tick + 1 == self.race().tick())
+    }
+
+    /// What to do where the run rests. Keys stand between backticks.
+    pub(super) fn rest_hint(&self) -> Option<String> {
+        if self.running || !self.comes_to_rest() {
+            return None;
+        }
+        if let Some(halt) = self.just_lost() {
+            let (name, how) = (self.lane_name(self.active()), halt.how());
+            let t = significant(halt.t, 3);
+            return Some(format!(
+                "{name} {how} at {t} s. `W` shows it again, `Home` starts over, `Space` goes on."
+            ));
+        }
+        let seconds = round(self.scene().seconds, 4);
+        Some(format!(
+            "The {seconds} s of this scene are over. `Home` starts again, `Space` goes on."
+        ))
+    }
+
+    /// The halt of the body of the selected lane that halted last.
+    fn last_halt(&self) -> Option<&Halt> {
+        let bodies = self.selected().lane.bodies().iter();
+        bodies.filter_map(|body| body.halted()).max_by_key(|halt| halt.tick)
+    }
+
+    /// The tick at which the last body that halted in the selected lane did so.
+    pub fn lost_at(&self) -> Option<u64> {
+        self.last_halt().map(|halt| halt.tick)
+    }
+
+    /// Goes back to before the selected lane was lost, and runs on from there.
+    pub(super) fn watch_again(&mut self) {
+        let Some(tick) = self.lost_at() else {
+            return self.viewer.set_notice("nothing has halted in this lane");
+        };
+        let lead = ((LEAD_S * f64::from(self.race().tick_hz())) as u64).max(MIN_LEAD);
+        self.seek(tick.saturating_sub(lead));
+        self.viewer.notice = None;
+        self.running = true;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Action, Scene};
+    use crate::studio::{Command, RunCommand, StageCommand, Step, Studio, ViewCommand};
+
+    /// A studio that somebody watches.
+    fn watched(scene: &str) -> Studio {
+        let mut studio = Studio::new(Scene::built_in(scene).unwrap());
+        studio.viewer_mut().preferences.display.motion = Motion::Live;
+        studio
+    }
+
+    /// Lets time run, at most so many seconds of real time.
+    fn watch(studio: &mut Studio, seconds: u32) {
+        for _ in 0..60 * seconds {
+            if studio.running() {
+                studio.advance(16_666_667);
+            }
+        }
+    }
+
+    #[test]
+    fn a_run_that_is_watched_rests_at_the_length_of_its_scene_once() {
+        let mut studio = watched("spring");
+        // As long as the scene: nothing is slowed.
+        watch(&mut studio, 21);
+        assert_eq!((studio.race().t(), studio.running()), (studio.scene().seconds, false));
+        assert_eq!(
+            studio.slow_motion_percent(),
+            100,
+            "a swing that grows by itself is fast enough"
+        );
+        let hint = studio.hint().expect("what to do");
+        assert!(hint.contains("`Home`") && hint.contains("`Space`"), "{hint}");
+        studio.apply(ViewCommand::TogglePause);
+        watch(&mut studio, 2);
+        assert!(studio.running() && studio.race().t() > studio.scene().seconds);
+        assert!(!studio.hint().is_some_and(|hint| hint.contains("are over")));
+    }
+
+    #[test]
+    fn what_is_undone_at_rest_runs_on_from_there() {
+        let mut studio = watched("spring");
+        watch(&mut studio, 5);
+        let switched = studio.race().tick();
+        studio.apply(StageCommand::Pick(1));
+        watch(&mut studio, 20);
+        assert!(!studio.running());
+        studio.apply(RunCommand::Undo);
+        assert!(studio.running() && studio.race().tick() == switched, "nobody has paused it");
+        watch(&mut studio, 20);
+        let end = studio.race().tick();
+        studio.apply(StageCommand::Pick(2));
+        studio.apply(RunCommand::Undo);
+        assert_eq!((studio.race().tick(), studio.running()), (end, false), "it rests there");
+    }
+
+    #[test]
+    fn a_restart_runs_after_a_rest_and_stays_paused_after_a_pause() {
+        let mut studio = watched("spring");
+        watch(&mut studio, 21);
+        assert!(!studio.running());
+        studio.apply(StageCommand::Restart);
+        assert_eq!((studio.race().tick(), studio.running()), (0, true));
+        watch(&mut studio, 1);
+        studio.apply(ViewCommand::TogglePause);
+        studio.apply(StageCommand::Restart);
+        assert_eq!((studio.race().tick(), studio.running()), (0, false));
+    }
+
+    #[test]
+    fn a_run_rests_at_its_end_in_every_mode_and_in_the_guide_and_what_opens_then_runs() {
+        let race = |studio: &mut Studio| _ = studio.apply(StageCommand::ToggleRace);
+        let kick = |studio: &mut Studio| _ = studio.apply(RunCommand::Act(Action::Kick(1.0)));
+        let guide = |studio: &mut Studio| _ = studio.apply(ViewCommand::GoToStop(9));
+        let prepared: [fn(&mut Studio); 4] = [|_| {}, race, kick, guide];
+        let opened = [
+            Command::Stage(StageCommand::Restart),
+            Command::Stage(StageCommand::SceneBeside(Step::Next)),
+            Command::Stage(StageCommand::OpenSpring),
+            Command::View(ViewCommand::GoToStop(0)),
+            Command::Run(RunCommand::Act(Action::Kick(1.0))),
+        ];
+        for (prepare, open) in
+            prepared.iter().flat_map(|it| opened.iter().map(move |open| (it, open)))
+        {
+            let mut studio = watched("spring");
+            prepare(&mut studio);
+            while studio.running() && studio.race().t() < 21.0 {
+                studio.advance(16_666_667);
+            }
+            assert_eq!((studio.race().t(), studio.running()), (20.0, false), "{open:?}");
+            let hint = studio.hint().expect("what to do");
+            assert!(hint.contains("are over") && hint.contains("`Home`"), "{hint}");
+            studio.apply(open.clone());
+            assert!(studio.running(), "{open:?}");
+        }
+        let mut studio = watched("spring");
+        watch(&mut studio, 21);
+        studio.apply(StageCommand::ToggleRace);
+        assert!(studio.running() && studio.race().tick() == 0);
+    }
+
+    #[test]
+    fn escape_leaves_the_loop_lab_and_asks_before_it_quits_a_run_with_something_to_lose() {
+        use crate::loops::loop_lab::LoopCommand;
+        use crate::studio::DriverRequest;
+        let escape = |studio: &mut Studio| studio.apply(ViewCommand::Escape);
+        let quits = Some(DriverRequest::Quit);
+        let mut studio = watched("spring");
+        studio.apply(LoopCommand::ToggleLab);
+        assert!(studio.loop_lab().is_some());
+        assert_eq!((escape(&mut studio), studio.loop_lab().is_none()), (None, true));
+        assert_eq!(escape(&mut studio), quits, "nobody has done anything");
+        studio.apply(StageCommand::ToggleRace);
+        assert_eq!(escape(&mut studio), quits, "a race repeats itself");
+        studio.apply(RunCommand::Act(Action::Kick(1.0)));
+        assert_eq!(escape(&mut studio), None);
+        let told = studio.viewer().notice.as_deref().unwrap_or_default();
+        assert!(told.contains("F5") && told.contains("Esc"), "{told}");
+        assert_eq!(escape(&mut studio), quits, "it was asked");
+        studio.viewer_mut().notice = None;
+        assert_eq!(escape(&mut studio), None, "the question has left");
+        studio.note_saved();
+        assert_eq!(escape(&mut studio), quits, "it is saved");
+        studio.apply(StageCommand::TickHz(30));
+        studio.viewer_mut().notice = None;
+        assert_eq!(escape(&mut studio), None, "it has changed since");
+        studio.viewer_mut().preferences.is_recorded = true;
+        assert_eq!(escape(&mut studio), quits);
+    }
+
+    #[test]
+    fn a_seek_into_the_future_stays_where_the_run_has_got_to_and_says_so() {
+        let mut studio = watched("spring");
+        (0..120).for_each(|_| studio.tick());
+        studio.apply(RunCommand::Seek(60));
+        assert_eq!((studio.race().tick(), studio.viewer().notice.as_deref()), (60, None));
+        studio.apply(RunCommand::Seek(600));
+        assert_eq!((studio.race().tick(), studio.running()), (120, false));
+        let told = studio.viewer().notice.as_deref().unwrap_or_default();
+        assert!(told.contains("10 s is still to come") && told.contains("2 s"), "{told}");
+    }
+
+    #[test]
+    fn a_rest_is_not_the_pause_that_a_stop_of_the_guide_asks_for() {
+        use crate::studio::guide::{Goal, STOPS};
+        let mut studio = watched("spring");
+        let stop = STOPS.iter().position(|stop| stop.goal == Goal::Paused).unwrap();
+        studio.apply(ViewCommand::GoToStop(stop));
+        let end = studio.scene().seconds;
+        watch(&mut studio, end as u32 + 2);
+        assert!(!studio.running());
+        studio.apply(ViewCommand::ToggleGhost);
+        assert!(!studio.viewer().tour().unwrap().is_done());
+        studio.apply(ViewCommand::TogglePause);
+        watch(&mut studio, 1);
+        studio.apply(ViewCommand::TogglePause);
+        assert!(studio.viewer().tour().unwrap().is_done());
+    }
+
+    #[test]
+    fn nothing_rests_that_is_recorded_or_told_how_long_to_run() {
+        let ends = |mut studio: Studio| {
+            watch(&mut studio, 21);
+            studio.race().t() > studio.scene().seconds
+        };
+        assert!(ends(Studio::new(Scene::built_in("spring").unwrap())), "nobody watches");
+        let mut told = watched("spring");
+        for _ in 0..60 * 21 {
+            told.advance_in_time(10_000, 16_666_667, &mut || true);
+        }
+        assert!(told.race().t() > told.scene().seconds);
+    }
+
+    #[test]
+    fn a_blow_up_is_slow_rests_and_can_be_watched_again_with_the_same_bits() {
+        let text = "title = 't'\ntick_hz = 60\nseconds = 20\nmethods = ['explicit-euler']\n\
+             [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1e6\nx0_m = 1\n";
+        let scene = Scene::parse("t.toml", text).unwrap();
+        let mut frames = [Motion::Recorded, Motion::Live].map(|motion| {
+            let mut studio = Studio::new(scene.clone());
+            studio.viewer_mut().preferences.display.motion = motion;
+            let halts = |studio: &Studio| studio.lost_at().is_some();
+            let frames = (0..2000).take_while(|_| {
+                studio.advance(16_666_667);
+                !halts(&studio)
+            });
+            (frames.count(), studio)
+        });
+        let [(usual, plain), (slow, studio)] = &mut frames;
+        assert!(*slow > 3 * *usual, "{slow} frames of what takes {usual}");
+        assert_eq!(studio.lost_at(), plain.lost_at());
+        assert!(!studio.running() && plain.running(), "it rests");
+        assert!(studio.hint().is_some_and(|hint| hint.contains("blew up") && hint.contains("`W`")));
+        let (end, hash) = (studio.race().tick(), studio.race().state_hash());
+        studio.apply(RunCommand::WatchAgain);
+        assert!(studio.running() && studio.race().tick() < end);
+        watch(studio, 20);
+        assert_eq!((studio.race().tick(), studio.race().state_hash()), (end, hash));
+        assert!(!studio.running());
+    }
+}

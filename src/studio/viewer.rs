@@ -1,0 +1,292 @@
+//! What a person looks at. It does not change a run and is not part of one.
+
+use super::command::{SCALE_LADDER, USUAL_SCALE_PERCENT};
+use super::display::{Arrangement, Display, Motion, Pace, Splits, View};
+use super::guide::{Hints, Tour};
+use super::held::HeldBody;
+use super::instrument::Instrument;
+use super::live_loop::LiveLoop;
+use super::my_spring::MySpring;
+use super::notice::Notice;
+use crate::look::palette::Theme;
+use crate::measure::cloud::{CloudChoice, FoundCloud};
+use crate::measure::{Advice, Findings, StabilityMap, Verdict};
+use crate::run::race::Interpolation;
+use crate::scene::{LaneId, LaneSpec, Mistake};
+use crate::tools::source_code::Language;
+
+/// A dialog over the window.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Dialog {
+    /// The numbers of a custom spring.
+    Spring,
+    /// A field for the path of a scene file.
+    Path {
+        /// Whether it is a recording that is to be compared with the run.
+        compares: bool,
+        /// Why the scene at the typed path could not be opened; `None` once the path is edited.
+        refused: Option<Vec<Mistake>>,
+    },
+    /// The errors of a scene file.
+    Mistakes {
+        /// The file.
+        file: String,
+        /// The errors.
+        report: Vec<Mistake>,
+    },
+}
+
+impl Dialog {
+    pub(super) fn path(compares: bool) -> Self {
+        Self::Path { compares, refused: None }
+    }
+}
+
+/// What a person has chosen. It survives the scene.
+#[derive(Clone, Debug)]
+pub struct Preferences {
+    /// What is shown, and how.
+    pub display: Display,
+    /// Whether a person chose the theme: then it no longer follows the system's.
+    pub(super) theme_is_chosen: bool,
+    /// The language in which the next method is copied.
+    pub(super) language: Language,
+    pub(super) typed_path: String,
+    pub(super) my_spring: MySpring,
+    /// The stop at which the guide was closed.
+    pub(super) left_at: usize,
+    /// Whether the driver keeps a recording of the run, so that the end of the program loses nothing.
+    pub is_recorded: bool,
+}
+
+impl Preferences {
+    /// Shows the system's theme, unless a person has chosen one.
+    pub fn follow_theme(&mut self, theme: Theme) {
+        if !self.theme_is_chosen {
+            self.display.theme = theme;
+        }
+    }
+
+    /// Shows this theme, whatever the system's is.
+    pub fn choose_theme(&mut self, theme: Theme) {
+        self.theme_is_chosen = true;
+        self.display.theme = theme;
+    }
+
+    /// The theme that a person has chosen; `None` while it follows the system's.
+    pub fn chosen_theme(&self) -> Option<Theme> {
+        self.theme_is_chosen.then_some(self.display.theme)
+    }
+
+    /// Shows type and panels at this size in percent, within the bounds of [`SCALE_LADDER`].
+    pub fn choose_scale(&mut self, percent: u32) {
+        let [least, .., most] = SCALE_LADDER;
+        self.display.scale_percent = percent.clamp(least, most);
+    }
+}
+
+impl Default for Preferences {
+    fn default() -> Self {
+        Self {
+            display: Display {
+                measure: true,
+                splits: Splits::default(),
+                futures: false,
+                ghost: true,
+                interpolation: Interpolation::default(),
+                instrument: Instrument::Motion,
+                quantity: None,
+                enlarged: false,
+                metric: 0,
+                advises_on_one_body: true,
+                cloud: CloudChoice::default(),
+                arrangement: Arrangement::Overlay,
+                theme: Theme::Dark,
+                scale_percent: USUAL_SCALE_PERCENT,
+                help: false,
+                inspector: false,
+                motion: Motion::Recorded,
+            },
+            theme_is_chosen: false,
+            language: Language::default(),
+            typed_path: String::new(),
+            my_spring: MySpring::default(),
+            left_at: 0,
+            is_recorded: false,
+        }
+    }
+}
+
+/// How a run is looked at, and the texts beside it.
+#[derive(Clone, Debug)]
+pub struct Viewer {
+    /// What a person has chosen.
+    pub preferences: Preferences,
+    /// Where the person looks.
+    pub view: View,
+    /// The lane selected in a race: it stays selected, whatever method it is put under.
+    pub(super) selected: LaneId,
+    /// Whether a person, a script or a verdict has selected it.
+    pub(super) is_selected: bool,
+    /// The index of the lane that the pointer or the keyboard's focus is on.
+    pub(super) pointed: Option<usize>,
+    /// The driver's pace while time runs; `None` without real time, as in a capture.
+    pub pace: Option<Pace>,
+    /// The time of a tick of each lane that flew when the driver measured it last, in nanoseconds: `None` of a lane that
+    /// halted.
+    pub tick_times: Vec<(LaneSpec, Option<f64>)>,
+    /// The latest message, until it has been shown for some seconds.
+    pub notice: Option<Notice>,
+    /// The last frames of the studio's own loop.
+    pub live: LiveLoop,
+    pub(super) findings: Option<Findings>,
+    /// The tick at which a recording first differs from the run, and in what.
+    pub(super) parting: Option<(u64, String)>,
+    /// The clouds that were found last.
+    pub(super) cloud: Option<FoundCloud>,
+    /// The tick rate at which the pointer's button went down, in Hz, while it is.
+    pub(super) hz_at_press: Option<u32>,
+    /// The body that the person holds.
+    pub(super) held: Option<HeldBody>,
+    pub(super) dialog: Option<Dialog>,
+    pub(super) hints: Hints,
+    /// The open guide.
+    pub(super) tour: Option<Tour>,
+}
+
+impl Viewer {
+    /// A viewer who has selected this lane.
+    pub(super) fn new(selected: LaneId) -> Self {
+        Self {
+            preferences: Preferences::default(),
+            view: View::default(),
+            selected,
+            is_selected: false,
+            pointed: None,
+            pace: None,
+            tick_times: Vec::new(),
+            notice: None,
+            live: LiveLoop::default(),
+            findings: None,
+            parting: None,
+            cloud: None,
+            hz_at_press: None,
+            held: None,
+            dialog: None,
+            hints: Hints::default(),
+            tour: None,
+        }
+    }
+
+    /// The same person before another scene, with this lane selected: what was chosen stays, and the guide that is open.
+    pub(super) fn before_next_scene(&mut self, selected: LaneId) -> Self {
+        Self {
+            preferences: self.preferences.clone(),
+            pace: self.pace,
+            hints: self.hints.of_next_scene(),
+            tour: self.tour.take(),
+            ..Self::new(selected)
+        }
+    }
+
+    /// The index in the list of the lane that the pointer or the keyboard's focus is on, if it is on one.
+    pub fn pointed_lane(&self) -> Option<usize> {
+        self.pointed
+    }
+
+    /// Whether the pointer's button is down, as [`ViewCommand::PointerDown`](super::ViewCommand::PointerDown) told last.
+    pub fn pointer_is_down(&self) -> bool {
+        self.hz_at_press.is_some()
+    }
+
+    /// The language in which the next method is copied: that of the last or the one chosen since, and Rust at first.
+    pub fn language(&self) -> Language {
+        self.preferences.language
+    }
+
+    /// The open dialog.
+    pub fn dialog(&self) -> Option<&Dialog> {
+        self.dialog.as_ref()
+    }
+
+    /// Where the person is in the guide, if it is open.
+    pub fn tour(&self) -> Option<&Tour> {
+        self.tour.as_ref()
+    }
+
+    /// The path typed so far.
+    pub fn typed_path(&self) -> &str {
+        &self.preferences.typed_path
+    }
+
+    /// The spring that was described last.
+    pub fn my_spring(&self) -> MySpring {
+        self.preferences.my_spring
+    }
+
+    /// The body that the person holds, if any.
+    pub fn held(&self) -> Option<&HeldBody> {
+        self.held.as_ref()
+    }
+
+    /// The verdict on the method with this index in the list, of the run that [`Studio::analysis_request`](super::Studio::analysis_request)
+    /// describes; `None` until it has been [found](super::Studio::accept_findings).
+    pub fn verdict(&self, entry: usize) -> Option<&Verdict> {
+        self.findings.as_ref()?.verdicts.get(entry)?.as_ref()
+    }
+
+    /// Whether the path that is typed is of a recording to be compared with the run.
+    pub fn compares_typed_path(&self) -> bool {
+        matches!(self.dialog, Some(Dialog::Path { compares: true, .. }))
+    }
+
+    /// The tick at which the recording that was [compared](super::Studio::show_comparison) first differs from the run, and in
+    /// what; `None` if none was, or if the run has begun anew.
+    pub fn parting(&self) -> Option<&(u64, String)> {
+        self.parting.as_ref()
+    }
+
+    /// The advice on this scene, as far as it has been [found](super::Studio::accept_findings); `None` while it is not shown.
+    pub fn advice(&self) -> Option<&Advice> {
+        self.findings.as_ref()?.advice.as_ref()
+    }
+
+    /// The stability map, as far as it has been [found](super::Studio::accept_findings); `None` while it is not shown.
+    pub fn stability_map(&self) -> Option<&StabilityMap> {
+        self.findings.as_ref()?.map.as_ref()
+    }
+
+    /// Shows a message for some seconds.
+    pub fn set_notice(&mut self, notice: impl Into<Notice>) {
+        self.notice = Some(notice.into());
+    }
+
+    /// Lets nanoseconds of real time go by: a notice leaves.
+    pub fn pass(&mut self, ns: i64) {
+        self.notice.iter_mut().for_each(|notice| notice.pass(ns));
+        self.notice.take_if(|notice| notice.left_ns() == 0);
+    }
+
+    /// Switches to the next way of drawing between ticks, and shows its name.
+    pub(super) fn next_interpolation(&mut self) {
+        self.preferences.display.interpolation = self.preferences.display.interpolation.next();
+        let name = self.preferences.display.interpolation.name();
+        self.set_notice(format!("drawing between ticks: {name}"));
+    }
+
+    /// Shows type and panels at this size, and tells which.
+    pub(super) fn show_scale(&mut self, percent: u32) {
+        self.preferences.display.scale_percent = percent;
+        self.set_notice(format!("text and panels at {percent} %"));
+    }
+
+    /// Shows the lanes of a race in the other arrangement, and tells which.
+    pub(super) fn toggle_arrangement(&mut self) {
+        let (arrangement, told) = match self.preferences.display.arrangement {
+            Arrangement::Overlay => (Arrangement::SideBySide, "lanes side by side"),
+            Arrangement::SideBySide => (Arrangement::Overlay, "lanes over each other"),
+        };
+        self.preferences.display.arrangement = arrangement;
+        self.set_notice(told);
+    }
+}

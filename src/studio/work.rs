@@ -1,0 +1,108 @@
+//! Work beside a studio's run, which a driver does on threads of its own, or between frames: one step of it can take longer
+//! than a frame.
+
+use std::sync::Arc;
+
+use super::Studio;
+use crate::loops::loop_lab::{FoundLoop, LoopRequest, LoopWorker};
+use crate::measure::cloud::{CloudRequest, CloudWorker, FoundCloud};
+use crate::measure::{AnalysisRequest, AnalysisWorker, Findings};
+
+/// Something that is worked on step by step.
+pub trait Work {
+    /// What it works on.
+    type Request: Clone;
+    /// What it finds.
+    type Found;
+
+    /// Whether both requests are the same.
+    fn is_same(one: &Self::Request, other: &Self::Request) -> bool;
+
+    /// Replaces the request.
+    fn set_request(&mut self, request: Self::Request);
+
+    /// Does one step, which may end early when `stop` says so. Returns what the driver is told, and whether there is more
+    /// to do.
+    fn work(&mut self, stop: &dyn Fn() -> bool) -> (Option<Self::Found>, bool);
+}
+
+/// What was found for a studio.
+pub enum Found {
+    /// The analysis has found more.
+    Analysed(Box<Findings>),
+    /// A loop of the loop lab was run.
+    LoopRun(Box<FoundLoop>),
+    /// Clouds were stepped.
+    Clouds(Box<FoundCloud>),
+}
+
+impl Studio {
+    /// Keeps what was found, if it is still wanted.
+    pub fn accept(&mut self, found: Found) {
+        match found {
+            Found::Analysed(findings) => self.accept_findings(*findings),
+            Found::LoopRun(found) => self.accept_loop(*found),
+            Found::Clouds(found) => self.accept_cloud(*found),
+        }
+    }
+}
+
+impl Work for AnalysisWorker {
+    type Request = AnalysisRequest;
+    type Found = Found;
+
+    fn is_same(one: &AnalysisRequest, other: &AnalysisRequest) -> bool {
+        one == other
+    }
+
+    fn set_request(&mut self, request: AnalysisRequest) {
+        self.set_request(request);
+    }
+
+    fn work(&mut self, _: &dyn Fn() -> bool) -> (Option<Found>, bool) {
+        let more = self.work();
+        ((!self.is_within_a_part()).then(|| Found::Analysed(self.findings().into())), more)
+    }
+}
+
+impl Work for LoopWorker {
+    type Request = Option<Arc<LoopRequest>>;
+    type Found = Found;
+
+    fn is_same(one: &Self::Request, other: &Self::Request) -> bool {
+        one.as_ref().map(Arc::as_ptr) == other.as_ref().map(Arc::as_ptr)
+    }
+
+    fn set_request(&mut self, request: Self::Request) {
+        self.set_request(request);
+    }
+
+    fn work(&mut self, stop: &dyn Fn() -> bool) -> (Option<Found>, bool) {
+        let found = self.work(stop);
+        (found.map(|found| Found::LoopRun(found.into())), !self.is_done())
+    }
+}
+
+impl Work for CloudWorker {
+    type Request = Option<Arc<CloudRequest>>;
+    type Found = Found;
+
+    fn is_same(one: &Self::Request, other: &Self::Request) -> bool {
+        match (one, other) {
+            (Some(one), Some(other)) => {
+                one.is_alike(other)
+                    && (one.tick(), one.in_time()) == (other.tick(), other.in_time())
+            }
+            (one, other) => one.is_none() && other.is_none(),
+        }
+    }
+
+    fn set_request(&mut self, request: Self::Request) {
+        self.set_request(request);
+    }
+
+    fn work(&mut self, _: &dyn Fn() -> bool) -> (Option<Found>, bool) {
+        let found = self.work();
+        (found.map(|found| Found::Clouds(found.into())), !self.is_done())
+    }
+}

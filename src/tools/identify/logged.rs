@@ -1,0 +1,284 @@
+//! A log of one coordinate, from text.
+
+use crate::scene::{clip, clip_list};
+
+/// A row of a log.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LogRow {
+    /// The number of its tick.
+    pub tick: u64,
+    /// The coordinate, in metres.
+    pub x: f64,
+    /// The velocity in metres per second, if it was logged.
+    pub v: Option<f64>,
+}
+
+/// A log of a body: rows at rising ticks, with velocities in all of them or in none.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Log {
+    rows: Vec<LogRow>,
+    /// The largest coordinate and velocity; a velocity that was not logged has the scale 1.
+    scale: [f64; 2],
+}
+
+/// The names of a log's columns.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ColumnNames {
+    /// The number of the tick; it may be absent if there are times.
+    pub tick: String,
+    /// The time in seconds; it may be absent if there are ticks.
+    pub t: String,
+    /// The coordinate in metres.
+    pub x: String,
+    /// The velocity in metres per second; it may be absent.
+    pub v: String,
+}
+
+impl Default for ColumnNames {
+    fn default() -> Self {
+        let [tick, t, x, v] = ["tick", "t", "x", "v"].map(str::to_owned);
+        Self { tick, t, x, v }
+    }
+}
+
+/// Why a log cannot be read, with its place.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{name}:{line}: {fault}")]
+pub struct LogError {
+    /// What the caller calls the log.
+    pub name: String,
+    /// The line of the fault, from 1.
+    pub line: u64,
+    /// What the caller may have said wrong of the log, if it is that.
+    pub mistaken: Option<LogSetting>,
+    fault: String,
+}
+
+/// What [`Log::parse`] is told of a log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LogSetting {
+    /// [`ColumnNames::tick`].
+    TickColumn,
+    /// [`ColumnNames::t`].
+    TimeColumn,
+    /// [`ColumnNames::tick`] or [`ColumnNames::t`].
+    TickOrTimeColumn,
+    /// [`ColumnNames::x`].
+    CoordinateColumn,
+    /// [`ColumnNames::v`].
+    VelocityColumn,
+    /// The tick rate.
+    TickRate,
+}
+
+/// Numbers of single precision that were written with nine digits lose less than this part when they are read as such
+/// again; those of double precision lose more in the mean.
+const LOST_IN_SINGLE: f64 = 8e-9;
+/// A time may be off its tick by this part of a tick.
+const OFF_TICK: f64 = 0.05;
+
+/// A fault, before its place is known.
+struct Fault {
+    mistaken: Option<LogSetting>,
+    what: String,
+}
+
+impl From<String> for Fault {
+    fn from(what: String) -> Self {
+        Fault { mistaken: None, what }
+    }
+}
+
+/// Where a log has which column, from 0.
+struct Columns<'a> {
+    header: &'a csv::StringRecord,
+    time: TimeColumn,
+    x: usize,
+    v: Option<usize>,
+}
+
+enum TimeColumn {
+    Ticks(usize),
+    Seconds(usize),
+}
+
+impl<'a> Columns<'a> {
+    fn find(header: &'a csv::StringRecord, names: &ColumnNames) -> Result<Self, Fault> {
+        let column = |wanted: &str| header.iter().position(|known| known == wanted);
+        let absent = |what: &str, setting: LogSetting| Fault {
+            mistaken: Some(setting),
+            what: format!("no column {what}; here are {}", listed(header)),
+        };
+        let Some(x) = column(&names.x) else {
+            return Err(absent(&format!("{:?}", names.x), LogSetting::CoordinateColumn));
+        };
+        let (tick, t, v) = (column(&names.tick), column(&names.t), column(&names.v));
+        let usual = ColumnNames::default();
+        for (wanted, usual, found, setting) in [
+            (&names.tick, &usual.tick, tick, LogSetting::TickColumn),
+            (&names.t, &usual.t, t, LogSetting::TimeColumn),
+            (&names.v, &usual.v, v, LogSetting::VelocityColumn),
+        ] {
+            if wanted != usual && found.is_none() {
+                return Err(absent(&format!("{wanted:?}"), setting));
+            }
+        }
+        let time = tick.map(TimeColumn::Ticks).or(t.map(TimeColumn::Seconds)).ok_or_else(|| {
+            let both = format!("{:?} and none {:?}", names.tick, names.t);
+            absent(&both, LogSetting::TickOrTimeColumn)
+        })?;
+        Ok(Self { header, time, x, v })
+    }
+
+    /// How many ticks a row lies after the first, which lies at `first` by the log's own count.
+    fn tick_of(
+        &self,
+        record: &csv::StringRecord,
+        tick_hz: f64,
+        first: &mut Option<f64>,
+    ) -> Result<u64, Fault> {
+        let at = match self.time {
+            TimeColumn::Ticks(tick) => self.number(record, tick)?,
+            TimeColumn::Seconds(t) => self.number(record, t)? * tick_hz,
+        };
+        let since = at - *first.get_or_insert(at);
+        let tick = since.round();
+        if tick < 0.0 || (since - tick).abs() > OFF_TICK {
+            let what = format!(
+                "the row is {since:.3} ticks of {tick_hz} Hz after the first; rows are at whole ticks"
+            );
+            return Err(Fault { mistaken: Some(LogSetting::TickRate), what });
+        }
+        Ok(tick as u64)
+    }
+
+    fn number(&self, record: &csv::StringRecord, column: usize) -> Result<f64, Fault> {
+        let cell = &record[column];
+        let found = cell.parse::<f64>().ok().filter(|number| number.is_finite());
+        found.ok_or_else(|| {
+            let [column, cell] = [&self.header[column], cell].map(clip);
+            format!(
+                "column \"{column}\": \"{cell}\" is no number; write one, or cut the log before it"
+            )
+            .into()
+        })
+    }
+}
+
+/// The columns that there are, for a message.
+fn listed(header: &csv::StringRecord) -> String {
+    let names: Vec<String> = header.iter().map(|name| format!("\"{name}\"")).collect();
+    let listed = clip_list(names.iter().map(String::as_str));
+    match &names[..] {
+        [] => "no columns".to_owned(),
+        [one] if one.contains([';', '\t']) => format!("{listed}, without a comma between columns"),
+        _ => listed,
+    }
+}
+
+impl Log {
+    /// The fewest rows with velocities: two numbers more than a start has.
+    const MIN_ROWS: usize = 2;
+    /// The fewest rows without velocities.
+    const MIN_ROWS_WITHOUT_VELOCITY: usize = 4;
+    /// Rows after this many ticks are not used.
+    pub const MAX_TICKS: u64 = 3000;
+
+    /// Reads a log from the text of a CSV file with a header; `name` is the file's, for messages.
+    ///
+    /// # Errors
+    /// The first fault of the text.
+    pub fn parse(
+        name: &str,
+        text: &str,
+        columns: &ColumnNames,
+        tick_hz: f64,
+    ) -> Result<Log, LogError> {
+        let at = |line: u64| {
+            move |Fault { mistaken, what }: Fault| {
+                let name = name.to_owned();
+                LogError { name, line, mistaken, fault: what }
+            }
+        };
+        let broken = |e: csv::Error| {
+            let line = e.position().map_or(1, csv::Position::line);
+            let what = format!("the row cannot be read: {e}; give each row the header's cells");
+            at(line)(what.into())
+        };
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let mut reader =
+            csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
+        let header = reader.headers().map_err(broken)?.clone();
+        let columns = Columns::find(&header, columns).map_err(at(1))?;
+        let (mut rows, mut first): (Vec<LogRow>, Option<f64>) = (Vec::new(), None);
+        for record in reader.records() {
+            let record = record.map_err(broken)?;
+            let line = record.position().map_or(1, csv::Position::line);
+            let tick = columns.tick_of(&record, tick_hz, &mut first).map_err(at(line))?;
+            if rows.last().is_some_and(|before| before.tick >= tick) {
+                let what = format!("tick {tick} does not follow the row before; put rows in order");
+                return Err(at(line)(what.into()));
+            }
+            if tick > Self::MAX_TICKS {
+                break;
+            }
+            let number = |column| columns.number(&record, column).map_err(at(line));
+            rows.push(LogRow {
+                tick,
+                x: number(columns.x)?,
+                v: columns.v.map(number).transpose()?,
+            });
+        }
+        let has_velocities = columns.v.is_some();
+        let least = if has_velocities { Self::MIN_ROWS } else { Self::MIN_ROWS_WITHOUT_VELOCITY };
+        if rows.len() < least {
+            let what =
+                format!("a log of {} rows says too little; log at least {least}", rows.len());
+            return Err(at(1)(what.into()));
+        }
+        if rows.iter().all(|row| row.x == rows[0].x && row.v.unwrap_or(0.0) == 0.0) {
+            return Err(at(2)("nothing moves; log a motion".to_owned().into()));
+        }
+        let largest = |numbers: &mut dyn Iterator<Item = f64>| {
+            let largest = numbers.map(f64::abs).fold(0.0, f64::max);
+            if largest > 0.0 { largest } else { 1.0 }
+        };
+        let x = largest(&mut rows.iter().map(|row| row.x));
+        let v = largest(&mut rows.iter().filter_map(|row| row.v));
+        Ok(Log { rows, scale: [x, v] })
+    }
+
+    /// The part up to this tick, and as many rows as a log has at least. Its scale is that of the whole.
+    pub(super) fn head(&self, last_tick: u64) -> Log {
+        let least = Self::MIN_ROWS_WITHOUT_VELOCITY.min(self.rows.len());
+        let count = self.rows.partition_point(|row| row.tick <= last_tick).max(least);
+        Log { rows: self.rows[..count].to_vec(), scale: self.scale }
+    }
+
+    /// The largest coordinate and velocity; a velocity that was not logged has the scale 1.
+    pub(super) fn scale(&self) -> [f64; 2] {
+        self.scale
+    }
+
+    /// Whether the coordinates have more digits than single precision has.
+    pub(super) fn is_double(&self) -> bool {
+        let moved = self.rows.iter().map(|row| row.x).filter(|x| *x != 0.0);
+        let lost: Vec<f64> = moved.map(|x| ((f64::from(x as f32) - x) / x).abs()).collect();
+        lost.iter().sum::<f64>() > LOST_IN_SINGLE * lost.len() as f64
+    }
+
+    /// Whether velocities were logged.
+    pub fn has_velocities(&self) -> bool {
+        self.rows[0].v.is_some()
+    }
+
+    /// How many coordinates and velocities it has.
+    pub(super) fn numbers(&self) -> usize {
+        self.rows.len() * if self.has_velocities() { 2 } else { 1 }
+    }
+
+    /// The rows, whose ticks count from the first.
+    pub fn rows(&self) -> &[LogRow] {
+        &self.rows
+    }
+}

@@ -1,0 +1,396 @@
+//! How the springs of user interfaces are told a motion, and what the frame rate makes of it.
+//!
+//! Each takes the distance to the target for the stretch, on a mass of 1 where it has none of its own.
+
+use std::fmt::Write;
+
+use nalgebra::Matrix2;
+
+use super::follow::map_of_frame;
+use super::seen::{is_stable, map_of_step, seen};
+use super::{REACHED, Reach, Wish};
+use crate::sim::bisection::bisect;
+use crate::sim::bodies::Spring;
+use crate::sim::integrators::{in_code, method};
+use crate::sim::number::significant;
+use crate::sim::{Body, State};
+use crate::tools::identify::Effective;
+
+mod cards;
+
+pub use cards::DIALECTS;
+
+/// A number that a library takes.
+#[derive(Debug)]
+pub struct Key {
+    /// As the library spells it.
+    pub name: &'static str,
+    /// What it is where it is not given.
+    pub usual: f64,
+    /// The least and the most that it may be.
+    pub range: [f64; 2],
+    /// The range in words.
+    pub wanted: &'static str,
+    /// What it is if it is a switch, whose values are 0 and 1.
+    pub switch: Option<Switch>,
+}
+
+/// A number that is on or off.
+#[derive(Debug)]
+pub struct Switch {
+    /// The statement of code that turns it on.
+    code: &'static str,
+    /// What a person is to know where it is on.
+    pub note: &'static str,
+}
+
+/// The values of the keys of a dialect; where it has fewer, the others are 0.
+type Values = [f64; 4];
+
+/// How a library comes from frame to frame.
+#[derive(Clone, Copy, Debug)]
+enum Steps {
+    /// By the closed form.
+    Exact,
+    /// By the closed form, at times that are cut to whole milliseconds.
+    WholeMilliseconds,
+    /// Along straight lines between points of the closed form.
+    Sampled,
+    /// By semi-implicit Euler once a frame.
+    PerFrame,
+    /// By semi-implicit Euler in steps of 1 ms, whose count is rounded up, but no more than 64 a frame.
+    Milliseconds,
+    /// By the follower `smooth-damp` once a frame.
+    SmoothDamp,
+}
+
+/// How a library is told a spring.
+#[derive(Debug)]
+pub struct Dialect {
+    /// Its id on the command line.
+    pub id: &'static str,
+    /// An id that it had in an earlier release, which stands for it still.
+    pub former_id: Option<&'static str>,
+    /// Its name.
+    pub name: &'static str,
+    /// The numbers that it takes, up to four.
+    pub keys: &'static [Key],
+    /// The file or page that says how it reads them and how it steps.
+    pub source: &'static str,
+    /// The release, or the commit, that all of this is held against; empty for code of your own.
+    pub version: &'static str,
+    /// What was done with that version.
+    pub evidence: &'static str,
+    /// What they mean; `None` if they do not tell the motion.
+    read: Option<fn(Values) -> Wish>,
+    /// Those that come nearest to a motion.
+    write: fn(&Wish) -> Values,
+    steps: Steps,
+    /// The motion at which it departs from the closed form.
+    departure: fn(&Wish) -> Option<Departure>,
+    /// A line of code, with the names of keys in `<>` where their values stand; `:decimal` follows the name where the
+    /// language has no exponents.
+    code: &'static str,
+}
+
+/// Where a library leaves the closed form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Departure {
+    /// When, in seconds from the start.
+    pub at_s: f64,
+    /// The part of the way that is left then.
+    pub left: f64,
+    /// The damping ratio from then on; `None` if it jumps to its end.
+    pub damping_ratio: Option<f64>,
+}
+
+/// What a library is told for a wish, and what is seen then.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DialectPort {
+    /// Whether it shows the wish: unreachable is what it damps more, and what explodes.
+    pub reach: Reach,
+    /// The values of its keys, in their order.
+    pub values: Vec<f64>,
+    /// The frames per second below which it explodes; `None` if the frame rate does not decide that.
+    pub explodes_below_hz: Option<f64>,
+    /// Whether it does not explode at the frame rate.
+    pub is_stable: bool,
+    /// What is seen at the frame rate; `None` if nothing swings, or decays without changing sides at each step, or if it is
+    /// not one motion.
+    pub seen: Option<Effective>,
+    /// Where it leaves the motion.
+    pub departure: Option<Departure>,
+    /// How far what is shown is off at most, as a part of the way, where it is drawn through points.
+    pub error: Option<f64>,
+    /// The line of code.
+    pub code: String,
+}
+
+/// In how many places the error is looked for.
+const PLACES: u32 = 20_000;
+/// Points that miss more of the way than this show another motion.
+const ASTRAY: f64 = 0.1;
+/// Frames per second between which an explosion is sought.
+const RATES: [f64; 2] = [1e-6, 1e12];
+const HALVINGS: u32 = 60;
+/// The step of react-spring in seconds, and the most of them in a frame.
+const STEP_S: f64 = 1e-3;
+const MAX_STEPS: f64 = 64.0;
+
+/// The part of the way that is left at this angle, the time times ω, to a spring of this damping ratio that began at rest.
+fn left(damping_ratio: f64, angle: f64) -> f64 {
+    let spring =
+        Spring { mass: 1.0, stiffness: 1.0, damping: 2.0 * damping_ratio, ..Spring::default() };
+    let left = spring.exact(angle, &State { q: 1.0, v: 0.0 });
+    left.expect("a spring has a closed form").q
+}
+
+/// A number as [`in_code`], without an exponent.
+fn decimal(value: f64) -> String {
+    let rounded = format!("{value:.8e}").parse::<f64>();
+    rounded.unwrap_or(value).to_string()
+}
+
+/// The points of a way, written as in a style sheet, and how far the lines between them are off.
+fn curve(wish: &Wish, [duration, points, ..]: Values) -> (String, f64) {
+    let pieces = points as u32 - 1;
+    let at = |place: f64| 1.0 - left(wish.damping_ratio, wish.omega() * duration * place);
+    let point = |i: u32| match i == pieces {
+        true => 1.0,
+        false => (1e4 * at(f64::from(i) / f64::from(pieces))).round() / 1e4,
+    };
+    let (mut written, mut error) = ("0".to_owned(), 0.0_f64);
+    let parts = PLACES / pieces;
+    for i in 0..pieces {
+        let [from, to] = [point(i), point(i + 1)];
+        write!(written, ", {to}").expect("a text takes all");
+        for part in 0..=parts {
+            let part = f64::from(part) / f64::from(parts);
+            let exact = at((f64::from(i) + part) / f64::from(pieces));
+            error = error.max((from + (to - from) * part - exact).abs());
+        }
+    }
+    (written, error)
+}
+
+impl Dialect {
+    /// The dialect with this id.
+    pub fn of_id(id: &str) -> Option<&'static Self> {
+        DIALECTS.iter().find(|dialect| dialect.ids().any(|own| own == id))
+    }
+
+    /// Its id, and the one that it had.
+    pub fn ids(&self) -> impl Iterator<Item = &'static str> + use<> {
+        [self.id].into_iter().chain(self.former_id)
+    }
+
+    /// The version that it is held against and how, in words; `None` of code of your own.
+    pub fn held_against(&self) -> Option<String> {
+        let Self { version, evidence, .. } = self;
+        (!version.is_empty()).then(|| format!("held against {version}, {evidence}"))
+    }
+
+    /// Whether a motion can be read from it.
+    pub fn is_read(&self) -> bool {
+        self.read.is_some()
+    }
+
+    /// Whether it takes a mass.
+    pub fn has_mass(&self) -> bool {
+        self.keys.iter().any(|key| key.name == "mass")
+    }
+
+    /// The motion that these values of its keys tell.
+    ///
+    /// # Errors
+    /// If they tell none, or the first value that is out of its range, in words.
+    pub fn read(&self, values: &[f64]) -> Result<Wish, String> {
+        let read = self.read.ok_or_else(|| {
+            format!("{} is points of a motion, from which it cannot be told", self.name)
+        })?;
+        for (Key { name, range: [least, most], wanted, .. }, value) in self.keys.iter().zip(values)
+        {
+            if !(least..=most).contains(&value) {
+                return Err(format!("{name} is {value}; it must be {wanted}"));
+            }
+        }
+        let mut all = Values::default();
+        all.iter_mut().zip(values).for_each(|(to, from)| *to = *from);
+        Ok(read(all))
+    }
+
+    /// How it steps: `exact`, or a method's id.
+    pub fn steps(&self) -> &'static str {
+        match self.steps {
+            Steps::Exact | Steps::WholeMilliseconds | Steps::Sampled => "exact",
+            Steps::PerFrame | Steps::Milliseconds => "semi-implicit-euler",
+            Steps::SmoothDamp => "smooth-damp",
+        }
+    }
+
+    /// What it is told for a wish, whose numbers must [have a meaning](Wish::check_numbers), and what is seen at this many
+    /// frames per second.
+    pub fn port(&self, wish: &Wish, frame_hz: f64) -> DialectPort {
+        let values = (self.write)(wish);
+        let is_told = values.iter().all(|value| value.is_finite());
+        let told = self.read.map_or(*wish, |read| read(values));
+        let (points, error) = match self.steps {
+            Steps::Sampled if is_told => curve(wish, values),
+            _ => Default::default(),
+        };
+        let departure = (self.departure)(&told);
+        let map = self.map(&told, frame_hz);
+        let is_stable = map.as_ref().is_none_or(StepMap::is_stable);
+        let seen = map.map_or(Some(told.seen()), |map| map.seen());
+        let seen = seen.filter(|_| is_told && error <= ASTRAY && departure.is_none());
+        let missed = seen.and_then(|seen| {
+            let ratio = seen.damping_ratio()? - wish.damping_ratio;
+            Some([(seen.undamped_hz() / wish.frequency_hz - 1.0).abs(), ratio])
+        });
+        let near = REACHED * (1.0 + wish.damping_ratio);
+        let reach = match missed {
+            _ if !is_told => Reach::Unreachable,
+            _ if error > ASTRAY => Reach::Unreachable,
+            _ if departure.is_some_and(|it| it.damping_ratio > Some(wish.damping_ratio + near)) => {
+                Reach::Unreachable
+            }
+            _ if error > 0.0 => Reach::Nearest,
+            None if is_stable => Reach::Nearest,
+            Some([of_hz, ratio]) if of_hz <= REACHED && ratio.abs() <= near => Reach::Reached,
+            Some(_) if told.damping_ratio <= wish.damping_ratio + near => Reach::Nearest,
+            _ => Reach::Unreachable,
+        };
+        let mut code = self.code.replace("<ms>", &(1e3 * values[0]).round().to_string());
+        code = code.replace("<curve>", &points);
+        for (key, value) in self.keys.iter().zip(values) {
+            code = code.replace(&format!("<{}>", key.name), &in_code(value));
+            code = code.replace(&format!("<{}:decimal>", key.name), &decimal(value));
+        }
+        for switch in self.switched_on(&values) {
+            code = format!("{code}; {}", switch.code);
+        }
+        DialectPort {
+            reach,
+            values: values[..self.keys.len()].to_vec(),
+            explodes_below_hz: self.explodes_below_hz(&told),
+            is_stable,
+            seen,
+            departure,
+            error: (error > 0.0).then_some(error),
+            code: if is_told { code } else { String::new() },
+        }
+    }
+
+    /// The switches that are on in these values of its keys.
+    pub fn switched_on(&self, values: &[f64]) -> impl Iterator<Item = &'static Switch> {
+        let is_on =
+            |(key, value): (&'static Key, &f64)| key.switch.as_ref().filter(|_| *value == 1.0);
+        self.keys.iter().zip(values).filter_map(is_on)
+    }
+
+    /// The map of a step of a motion that it is told; `None` of a closed form.
+    fn map(&self, told: &Wish, frame_hz: f64) -> Option<StepMap> {
+        let (step_s, pace) = match self.steps {
+            Steps::Exact | Steps::WholeMilliseconds | Steps::Sampled => return None,
+            Steps::PerFrame | Steps::SmoothDamp => (1.0 / frame_hz, 1.0),
+            Steps::Milliseconds => (STEP_S, pace(frame_hz)),
+        };
+        let method = method(self.steps()).expect("a method of the table");
+        let map = match self.steps {
+            Steps::SmoothDamp => map_of_frame(method, told.omega(), frame_hz),
+            _ => map_of_step(method, told.joint(), step_s),
+        };
+        // A map beyond all numbers is of a motion that is.
+        let map = map.unwrap_or(Matrix2::from_element(f64::INFINITY));
+        Some(StepMap { map, step_s, pace })
+    }
+
+    /// The frames per second below which a motion that it is told explodes.
+    fn explodes_below_hz(&self, told: &Wish) -> Option<f64> {
+        let Steps::PerFrame = self.steps else { return None };
+        let explodes = |log| self.map(told, libm::exp(log)).is_some_and(|map| !map.is_stable());
+        let [_, high] = bisect(RATES.map(libm::log), HALVINGS, explodes);
+        Some(libm::exp(high))
+    }
+
+    /// What the frame rate does to what it was told, in words.
+    pub fn at_frame_rates(&self, port: &DialectPort, frame_hz: f64) -> String {
+        let percent = |part: f64| significant(100.0 * part.abs(), 2);
+        match self.steps {
+            Steps::Exact | Steps::WholeMilliseconds => {
+                let times = match (self.steps, port.departure) {
+                    (Steps::Exact, None) => ": the same at every frame rate",
+                    (Steps::Exact, Some(_)) => "",
+                    _ => " at whole milliseconds: up to 1 ms behind",
+                };
+                let departs = port.departure.map(|Departure { at_s, left, damping_ratio }| {
+                    let at = significant(at_s, 4);
+                    match damping_ratio {
+                        Some(ratio) => format!("; from {at} s on with a damping ratio of {ratio}"),
+                        None => {
+                            let left = percent(left);
+                            format!(", cut to its end at {at} s, with {left} % of the way left")
+                        }
+                    }
+                });
+                format!("the closed form{times}{}", departs.unwrap_or_default())
+            }
+            Steps::Sampled => match port.error {
+                Some(error) => format!("off by {} % of the way at most", percent(error)),
+                None => "without damping it never ends, and has no last point".into(),
+            },
+            Steps::Milliseconds if !port.is_stable => {
+                "semi-implicit Euler by 1 ms: explodes at every frame rate".into()
+            }
+            Steps::Milliseconds => {
+                let off = pace(frame_hz) - 1.0;
+                let way = if off < 0.0 { "slow" } else { "fast" };
+                let turns = if port.seen.is_none() { "; changes sides at every step" } else { "" };
+                format!(
+                    "semi-implicit Euler by 1 ms, rounded up: {} % {way} at {frame_hz} frames per second; lags below {} of them{turns}",
+                    percent(off),
+                    1.0 / (MAX_STEPS * STEP_S),
+                )
+            }
+            Steps::SmoothDamp => "a rational function for the exponential: never explodes".into(),
+            Steps::PerFrame => {
+                let below = port.explodes_below_hz.map_or("any".into(), |hz| significant(hz, 3));
+                let turns = match port.seen.is_none() && port.is_stable {
+                    true => "; changes sides at every frame",
+                    false => "",
+                };
+                format!(
+                    "semi-implicit Euler once a frame: explodes below {below} frames per second{turns}"
+                )
+            }
+        }
+    }
+}
+
+/// What a step makes of distance and velocity.
+struct StepMap {
+    map: Matrix2<f64>,
+    /// The seconds that the step is told.
+    step_s: f64,
+    /// How many of them pass in a second.
+    pace: f64,
+}
+
+impl StepMap {
+    /// Whether no motion of it grows.
+    fn is_stable(&self) -> bool {
+        is_stable(self.map.trace(), self.map.determinant())
+    }
+
+    /// The damped spring that it looks like.
+    fn seen(&self) -> Option<Effective> {
+        let Self { map, step_s, pace } = self;
+        let Effective { omega, decay } = seen(map.trace(), map.determinant(), *step_s)?;
+        Some(Effective { omega: pace * omega, decay: pace * decay })
+    }
+}
+
+/// How fast the clock of react-spring runs, whose frames are rounded up to steps.
+fn pace(frame_hz: f64) -> f64 {
+    libm::ceil(1.0 / STEP_S / frame_hz).min(MAX_STEPS) * STEP_S * frame_hz
+}

@@ -1,0 +1,86 @@
+//! A room of `src` names the rooms that the table at the head of `src/lib.rs` lets it name, and no other.
+
+use std::collections::BTreeSet;
+
+use super::paths::named;
+use super::{Source, none, root, sources};
+
+/// A row of the table.
+pub(super) struct Room {
+    pub(super) name: String,
+    may_name: BTreeSet<String>,
+    open_first: String,
+}
+
+/// What stands in backticks.
+fn ticked(text: &str) -> &str {
+    text.split('`').nth(1).unwrap_or_default()
+}
+
+/// The rooms, from the lowest up.
+pub(super) fn rooms() -> Vec<Room> {
+    let text = std::fs::read_to_string(root().join("src/lib.rs")).expect("the crate's page");
+    let rows = text.lines().filter_map(|line| line.strip_prefix("//! | ")).skip(1);
+    let rows = rows.map(|row| row.trim_end_matches(" |").split(" | ").collect::<Vec<_>>());
+    let room = |cells: Vec<&str>| Room {
+        name: ticked(cells[0]).into(),
+        may_name: ticked(cells[2]).split(' ').map(String::from).collect(),
+        open_first: ticked(cells[3]).into(),
+    };
+    rows.map(room).collect()
+}
+
+/// The files of a room: its folder, and the file beside it.
+pub(super) fn of_room(name: &str) -> Vec<Source> {
+    let all = sources("src", &["rs"]).into_iter();
+    let (file, folder) = (format!("src/{name}.rs"), format!("src/{name}/"));
+    all.filter(|source| source.path == file || source.path.starts_with(&folder)).collect()
+}
+
+/// The rooms that a file outside its tests names and may not.
+fn strangers(source: &Source, room: &Room, rooms: &[Room]) -> Vec<String> {
+    let code = source.text.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
+    let named = named(code).into_iter().filter(|path| path[0] == "crate");
+    let others = named.filter_map(|path| path.get(1).cloned()).filter(|other| *other != room.name);
+    let is_room = |name: &String| rooms.iter().any(|room| room.name == *name);
+    let found: BTreeSet<String> =
+        others.filter(|other| is_room(other) && !room.may_name.contains(other)).collect();
+    found.into_iter().map(|other| format!("{} may not name {other}", source.path)).collect()
+}
+
+#[test]
+fn a_room_names_only_the_rooms_that_its_row_lists() {
+    let rooms = rooms();
+    assert!(rooms.len() > 10 && rooms.iter().all(|room| !of_room(&room.name).is_empty()));
+    for (n, room) in rooms.iter().enumerate() {
+        let below: BTreeSet<String> = rooms[..n].iter().map(|room| room.name.clone()).collect();
+        let listed = room.may_name.iter().filter(|name| !name.is_empty() && !below.contains(*name));
+        none(listed.map(|name| format!("{} lists {name}, which is above it", room.name)).collect());
+        assert!(root().join("src").join(&room.open_first).exists(), "{}", room.open_first);
+        let is_test = |source: &Source| source.path.ends_with("/tests.rs");
+        let files = of_room(&room.name).into_iter().filter(|source| !is_test(source));
+        none(files.flat_map(|source| strangers(&source, room, &rooms)).collect());
+    }
+}
+
+#[test]
+fn every_folder_of_the_source_is_a_room_or_a_text() {
+    let rooms = rooms();
+    let folders = std::fs::read_dir(root().join("src")).expect("a folder").flatten();
+    let folders = folders.filter(|entry| entry.path().is_dir()).map(|entry| entry.file_name());
+    let known = |name: &str| {
+        ["manual", "web"].contains(&name) || rooms.iter().any(|room| room.name == name)
+    };
+    none(folders.filter_map(|name| name.into_string().ok()).filter(|name| !known(name)).collect());
+}
+
+#[test]
+fn a_name_from_a_room_above_is_seen() {
+    let (rooms, text) =
+        (rooms(), "use crate::{studio::Studio, sim::State};\nfn f(a: crate::view::A) {}");
+    let source = Source { path: "src/run/race.rs".into(), text: text.into() };
+    let run = rooms.iter().find(|room| room.name == "run").expect("a room");
+    assert_eq!(strangers(&source, run, &rooms).len(), 2);
+    let view = rooms.iter().find(|room| room.name == "view").expect("a room");
+    assert_eq!(strangers(&source, view, &rooms), ["src/run/race.rs may not name sim"]);
+}
