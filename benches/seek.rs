@@ -5,7 +5,7 @@
 
 use std::time::{Duration, Instant};
 
-use regatta::run::{Session, Timeline};
+use regatta::run::{Run, Session};
 use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::integrators::GENERAL_METHODS;
 
@@ -16,10 +16,10 @@ const AIMS_MS: (f64, f64) = (5.0, 50.0);
 /// How often each is done.
 const TIMES: u64 = 40;
 
-fn harbour(lanes: Vec<LaneSpec>) -> Timeline {
+fn harbour(lanes: Vec<LaneSpec>) -> Run {
     let scene = Scene { lanes, ..Scene::built_in("harbour").expect("a built-in scene") };
-    let mut timeline = Timeline::new(Session::racing(scene.into()));
-    (0..TICKS).for_each(|_| timeline.tick());
+    let mut timeline = Run::new(Session::racing(scene.into()));
+    (0..TICKS).for_each(|_| timeline.tick(&mut ()));
     timeline
 }
 

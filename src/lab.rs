@@ -8,14 +8,27 @@ pub use crate::measure::{
     Adviser, CRITERIA, Criterion, Judge, Report, Verdict, advise, cloud, try_advise,
 };
 pub use crate::run::{
-    Follow, Journal, Lane, METRICS, Metric, Race, Session, Timeline, diff, link, past, race,
-    session, trace,
+    Follow, Journal, Lane, METRICS, Metric, Race, Run as Timeline, Session, diff, link, race, trace,
 };
 pub use crate::scene::{
     self, Action, LaneId, LaneSpec, Options, SCENES, Scene, SceneBody, SceneErrors, Swing, custom,
 };
 pub use crate::studio::{self, Studio};
 pub use crate::tools::{identify, port, source_code};
+
+/// The former path of the drawn past and of the menu.
+pub mod past {
+    pub use crate::run::Menu;
+    pub use crate::run::past::*;
+}
+
+/// The former path of a run's parts.
+pub mod session {
+    pub use crate::run::{
+        Event, EventKind, Reached, RecordingError, Replay, Run as Timeline, SNAPSHOT_BYTES,
+        Session, recording_text,
+    };
+}
 
 /// The former path of [`stage`](crate::stage).
 pub mod picture {

@@ -38,7 +38,7 @@
 //!   [`Race::lane_hashes`](run::Race::lane_hashes) with committed values.
 //! - **A run is a value.** A [`Session`](run::Session) changes by [`Action`](scene::Action)s and ticks only, and its
 //!   [`Journal`](run::Journal) holds them all, whether a script, a person or a test gave them. A
-//!   [`Timeline`](run::Timeline) goes to any tick and finds the same bits (`tests/library/sessions.rs`).
+//!   [`Timeline`](run::Run) goes to any tick and finds the same bits (`tests/library/sessions.rs`).
 //! - **A body that blows up is data.** It halts, keeps its last good state and says why; the others go on, unchanged to the bit.
 //! - **The step allocates nothing**, takes no lock and touches no file (`tests/library/allocation.rs`).
 //! - **Claims are measured.** `tests/library/conformance` tests every field of a [`Method`](sim::integrators::Method) card both

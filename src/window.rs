@@ -277,7 +277,12 @@ impl App {
         }
         let last = self.seconds.map_or(u64::MAX, |s| self.studio.race().nearest_tick(s));
         let frame_ns = i64::try_from(frame.as_nanos()).unwrap_or(i64::MAX);
-        self.studio.advance_in_time(last, frame_ns, &mut || now.elapsed() < MAX_SIMULATION);
+        self.studio.advance_in_time(
+            last,
+            frame_ns,
+            &mut || now.elapsed() < MAX_SIMULATION,
+            &mut (),
+        );
         self.studio.viewer_mut().pace = Some(self.meter.pace());
         if self.studio.race().tick() >= last {
             self.end(event_loop, Ok(()));

@@ -183,7 +183,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
 
 /// The length of a run in words.
 fn ticks(studio: &Studio) -> String {
-    counted(studio.timeline().end(), "tick")
+    counted(studio.run().end(), "tick")
 }
 
 /// Draws the first seconds into a folder, and returns the studio as it then is.

@@ -47,14 +47,14 @@ impl Schedule {
 
     /// Advances a studio that stands at the frame before `frame`, or at the start, to `frame`, before the eyes of an
     /// observer.
-    pub(super) fn advance(self, studio: &mut Studio, frame: u32, observer: &mut impl Observer) {
+    pub(super) fn advance(self, studio: &mut Studio, frame: u32, observer: &mut dyn Observer) {
         let Some(before) = frame.checked_sub(1) else { return };
         let longest = u64::from(MAX_FRAME_MS) * 1_000_000;
         let mut left = self.time_ns(frame) - self.time_ns(before);
         // In stretches that the clock accepts without dropping ticks.
         while left > 0 {
             let stretch = left.min(longest).min(until_rate_changes(studio));
-            let due = studio.advance_seen(stretch as i64, observer);
+            let due = studio.advance_in_time(u64::MAX, stretch as i64, &mut || true, observer);
             assert_eq!(due.dropped, 0, "a stretch is no longer than the clock's longest frame");
             left -= stretch;
         }

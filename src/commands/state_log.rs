@@ -101,7 +101,7 @@ mod tests {
         for (every, expected) in [(1, vec![0, 1, 2, 3, 4, 5, 6, 7]), (3, vec![0, 3, 6, 7])] {
             let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
             let mut state_log = StateLog::new(every, studio.race());
-            (0..7).for_each(|_| studio.tick_seen(&mut state_log));
+            studio.advance_in_time(7, 200_000_000, &mut || true, &mut state_log);
             let marks = state_log.close(studio.race());
             assert_eq!(marks.iter().map(|mark| mark.tick).collect::<Vec<_>>(), expected);
             let last = &marks.last().unwrap().lanes[0];

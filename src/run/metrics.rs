@@ -358,7 +358,7 @@ mod tests {
             let mut race = Race::of_scene(&Scene::parse("x.toml", &text).unwrap());
             let mut drifts = Vec::new();
             for _ in 0..60 * tick_hz {
-                race.step();
+                race.step(&mut ());
                 let truth = &race.truth().bodies()[0];
                 let lanes = race.entrants().iter().map(|entrant| &entrant.lane.bodies()[0]);
                 drifts
@@ -391,7 +391,7 @@ mod tests {
             let mut race =
                 Race::of_scene(&Scene::parse("x.toml", &format!("{head}\n{body}")).unwrap());
             for _ in 0..3600 {
-                race.step();
+                race.step(&mut ());
                 let drift = measured("energy_drift", &race);
                 assert!(drift.is_none_or(|drift| drift > -101.0), "{drift:?} of\n{body}");
             }
@@ -408,7 +408,7 @@ mod tests {
         assert!(comparing.iter().all(|id| measured(id, &lost).is_some()));
         while lost.entrants()[0].lane.halted().is_none() {
             lost.perform(&Action::TickHz(1), &mut ());
-            lost.step();
+            lost.step(&mut ());
         }
         assert!(comparing.iter().all(|id| measured(id, &lost).is_none()), "the lane halted");
         assert!(measured("evaluations", &lost).is_some_and(|count| count > 400.0));

@@ -1,21 +1,462 @@
-//! A run: lanes racing against the truth, what was done to them, what is drawn of it, and its text.
+//! A run: lanes racing against the truth, a person's actions on them, what is drawn of it, and its text.
 //!
-//! A [`race`] ticks its lanes and performs the actions of its journal; a [`session`] makes a run of it that can be gone back
-//! in. [`past`] holds what is drawn of earlier ticks, [`METRICS`] are read at each of them, a [`trace`] is the table of all,
-//! and [`diff`] compares two of those. A [`link`] is a run in an address.
+//! A [`race`] ticks its lanes and performs the actions of its journal; a [`Session`] is a race of a scene as a plain value. A
+//! [`Run`] goes back and forth in time, and takes back what a person did. [`Observations`] follow its race: the [`Menu`], the
+//! checkpoints from which verdicts restart, and the drawn [`past`]. [`METRICS`] are read at each tick, a [`trace`] is the table
+//! of all, and [`diff`] compares two of those. A [`link`] is a run in an address.
 
+use std::mem::{replace, swap};
+
+use crate::scene::Action;
+use course::{Course, Noted, Snapshot};
+use hashes::Hashes;
+use past::Past;
+use race::{Done, Mode, Observer, Starts, TimeScale};
+use undo::{Change, Future, Replaced, UndoStack};
+
+mod course;
 #[cfg(any(feature = "cli", feature = "view"))]
 mod csv_row;
 pub mod diff;
+mod event;
+mod hashes;
 pub mod link;
+mod menu;
 mod metrics;
+mod observations;
 pub mod past;
 pub mod race;
-pub mod session;
+mod recording;
+mod replay;
+mod session;
+mod start;
 pub mod trace;
+mod undo;
 
 #[cfg(any(feature = "cli", feature = "view"))]
 pub(crate) use csv_row::csv_row;
+pub use event::{Event, EventKind};
+pub use menu::Menu;
 pub use metrics::{METRICS, Metric, Scale, Unit, energy_gained_percent};
+pub use observations::Observations;
 pub use race::{Follow, Journal, Lane, Race};
-pub use session::{Session, Timeline};
+pub(crate) use recording::among as recording_among;
+pub use recording::{RecordingError, text as recording_text};
+pub use replay::{Reached, Replay};
+pub use session::Session;
+pub(crate) use start::StartSettings;
+
+/// The memory that snapshots and the drawn pasts of kept runs may take unless it is set, in bytes.
+pub const SNAPSHOT_BYTES: usize = 64 << 20;
+
+/// The initial spacing of snapshots in ticks, which are repeated in less than a frame.
+const SPACING: u64 = 32;
+
+/// The most work of a run that is repeated to record another coordinate: evaluations of accelerations, times the
+/// coordinates of a body and [`WORK_OF_AN_EVALUATION`]. It takes about a second.
+const MAX_REPEATED_WORK: u64 = 10_000_000;
+
+/// What an evaluation costs beside its coordinates, in the cost of one.
+const WORK_OF_AN_EVALUATION: u64 = 4;
+
+/// A session that can go back and forth in time, with what is drawn of it and the settings of its next restart.
+///
+/// It keeps snapshots of the session at regular ticks, and reaches any tick from the nearest snapshot before it by
+/// repeating the journal's actions. When the snapshots reach their memory limit, their spacing doubles. What a person does
+/// can be undone, and done again.
+pub struct Run {
+    course: Course,
+    /// The settings of the next restart.
+    next: StartSettings,
+    spacing: u64,
+    limit: usize,
+    changes: UndoStack,
+}
+
+impl Run {
+    /// The run of a session at its start.
+    pub fn new(session: Session) -> Self {
+        Self::with_limit(session, SNAPSHOT_BYTES)
+    }
+
+    /// Like [`Run::new`], with at most `limit` bytes for snapshots and kept runs.
+    pub fn with_limit(session: Session, limit: usize) -> Self {
+        Self { limit, ..Self::of(StartSettings::of_session(&session), session) }
+    }
+
+    /// A run that starts with these settings.
+    pub(crate) fn starting_with(next: StartSettings) -> Self {
+        let session = next.session();
+        Self::of(next, session)
+    }
+
+    fn of(next: StartSettings, session: Session) -> Self {
+        let (course, changes) = (Course::new(session), UndoStack::default());
+        Self { course, next, spacing: SPACING, limit: SNAPSHOT_BYTES, changes }
+    }
+
+    /// The session at the present tick.
+    pub fn session(&self) -> &Session {
+        &self.course.session
+    }
+    /// The settings of the next restart: those of this start, with what a person has set since.
+    pub(crate) fn next(&self) -> &StartSettings {
+        &self.next
+    }
+    /// The settings of the next restart, to be set in a way that is not undone.
+    pub(crate) fn next_mut(&mut self) -> &mut StartSettings {
+        &mut self.next
+    }
+    /// The race at tick 0, before any action; without its journal.
+    pub fn start(&self) -> &Race {
+        self.course.session.start()
+    }
+    /// The time of every tick, by the performed and the pending changes of the tick rate.
+    pub fn times(&self) -> TimeScale {
+        let rows = self.course.session.journal().rows().iter();
+        let changes = rows.filter_map(|row| Some((row.tick, row.action.tick_hz()?)));
+        TimeScale::new((0, 0.0), self.start().tick_hz(), changes)
+    }
+    /// The lanes and the truth at the present tick.
+    pub fn race(&self) -> &Race {
+        self.course.race()
+    }
+    /// The recorded past that is drawn.
+    pub fn past(&self) -> &Past {
+        self.course.seen.past()
+    }
+    /// The methods that digits and rows refer to.
+    pub fn menu(&self) -> &Menu {
+        self.course.seen.menu()
+    }
+    /// The checkpoints from which verdicts and clouds restart.
+    pub(crate) fn starts(&self) -> &Starts {
+        self.course.seen.starts()
+    }
+    /// The last tick reached.
+    pub fn end(&self) -> u64 {
+        self.course.noted.end
+    }
+    /// Whether the present tick is before the last tick reached.
+    pub fn is_in_past(&self) -> bool {
+        self.race().tick() < self.course.noted.end
+    }
+    /// The memory that snapshots take, and the drawn pasts of the runs before a restart, in bytes.
+    pub fn bytes(&self) -> usize {
+        let all = self.course.noted.snapshots.iter().chain(self.changes.snapshots());
+        all.map(|snapshot| snapshot.bytes).sum::<usize>() + self.changes.past_bytes()
+    }
+    /// The memory that [`Run::bytes`] may be.
+    pub fn limit(&self) -> usize {
+        self.limit
+    }
+    /// Sets the memory that [`Run::bytes`] may be; it holds from the next snapshot on.
+    pub fn set_limit(&mut self, limit: usize) {
+        self.limit = limit;
+    }
+    /// What [`Run::undo`] would take back, for people; `None` if there is nothing.
+    pub fn undoes(&self) -> Option<&str> {
+        self.changes.done.last().map(|change| &change.what[..])
+    }
+    /// What [`Run::redo`] would do again, for people; `None` if there is nothing.
+    pub fn redoes(&self) -> Option<&str> {
+        self.changes.undone.last().map(|change| &change.what[..])
+    }
+
+    /// The events up to the last tick reached, by tick.
+    pub fn events(&self) -> Vec<Event> {
+        let rows = self.course.session.journal().rows().iter();
+        let is_solo = self.start().mode() == Mode::Solo;
+        let mut solo = is_solo.then(|| self.start().entrants()[0].id);
+        let done = rows.take_while(|row| row.tick <= self.course.noted.end).map(|row| {
+            if let Action::Solo { lane } = row.action {
+                solo = Some(lane);
+            }
+            let (action, author) = (row.action.clone(), row.author);
+            Event { tick: row.tick, kind: EventKind::Done { action, author, solo } }
+        });
+        let mut events: Vec<Event> = done.chain(self.course.noted.halts.iter().cloned()).collect();
+        events.sort_by_key(|event| event.tick);
+        events
+    }
+
+    /// Adds the present to what is drawn, even if no sample is due.
+    pub fn show_present(&mut self) {
+        self.course.seen.show_present(self.course.session.race());
+    }
+
+    /// Performs the journal's pending actions at the present tick.
+    pub(crate) fn catch_up(&mut self, observer: &mut dyn Observer) {
+        self.course.catch_up(observer);
+    }
+
+    /// Makes a tick before the eyes of an observer; in the past it repeats the tick that was made.
+    pub fn tick(&mut self, observer: &mut dyn Observer) {
+        self.course.tick(observer);
+        if self.race().tick().is_multiple_of(self.spacing) {
+            self.take_snapshot();
+        }
+    }
+
+    /// Performs an action at the present tick, like [`Session::act`], as a change that [`Run::undo`] takes back. In the past,
+    /// another future begins with it. Returns whether it changed anything.
+    pub fn act(&mut self, action: Action) -> bool {
+        self.close_change();
+        self.act_within(action, &mut ()).is_some()
+    }
+
+    /// Performs an action as a part of the present change, unless that is closed. A choice of a person is kept for the next
+    /// restart. `None`: it changes nothing.
+    pub(crate) fn act_within(
+        &mut self,
+        action: Action,
+        observer: &mut dyn Observer,
+    ) -> Option<Done> {
+        let was_past = self.is_in_past();
+        let journal = self.course.session.journal().clone();
+        let tick = self.race().tick();
+        let done = self.course.act(action, observer)?;
+        self.course.seen.forget_future();
+        let added = self.race().done() - 1;
+        let rows = journal.tail_beside(self.course.session.journal(), added);
+        let noted = self.course.noted.split_off(tick);
+        // A change that was made in the past has a future of its own to bring back.
+        if was_past || !self.changes.has_future() {
+            let what = format!("{} at tick {tick}", done.action.noun());
+            let replaced = Replaced::Future(Future { tick, rows, noted });
+            self.changes.push(Change { what, next: self.next.clone(), replaced });
+        }
+        self.next.keep(&done, self.course.race(), self.course.seen.menu());
+        Some(done)
+    }
+
+    /// Changes a setting of the next start, as a part of the present change unless that is closed. `set` returns whether it
+    /// changed anything, as this does.
+    pub(crate) fn set_next(
+        &mut self,
+        what: &str,
+        set: impl FnOnce(&mut StartSettings) -> bool,
+    ) -> bool {
+        let before = self.next.clone();
+        let is_changed = set(&mut self.next);
+        if is_changed && !self.changes.is_open() {
+            let (what, replaced) = (what.to_owned(), Replaced::Nothing);
+            self.changes.push(Change { what, next: before, replaced });
+        }
+        is_changed
+    }
+
+    /// Begins a run with the settings of the next start, after `set` has set them. The present run is kept for
+    /// [`Run::undo`] of the change `kept`, and lost if there is none.
+    pub(crate) fn restart(&mut self, kept: Option<&str>, set: impl FnOnce(&mut StartSettings)) {
+        let before = self.next.clone();
+        set(&mut self.next);
+        let course = replace(&mut self.course, Course::new(self.next.session()));
+        self.changes.undone.clear();
+        if let Some(what) = kept {
+            let (what, replaced) = (what.to_owned(), Replaced::Course(Box::new(course)));
+            self.changes.push(Change { what, next: before, replaced });
+            self.fit();
+        }
+        self.spacing = SPACING;
+    }
+
+    /// Ends the present change: what a person does next is undone by itself.
+    pub(crate) fn close_change(&mut self) {
+        self.changes.close();
+    }
+
+    /// Makes all that was done part of the start: nothing of it can be undone.
+    pub(crate) fn forget_changes(&mut self) {
+        self.changes = UndoStack::default();
+    }
+
+    /// Takes back the newest change, and goes to the tick at which it was made; the run before a restart comes back where
+    /// it was. Returns whether there was a change.
+    pub fn undo(&mut self) -> bool {
+        let Some(mut change) = self.changes.done.pop() else { return false };
+        self.exchange(&mut change);
+        self.changes.undone.push(change);
+        true
+    }
+
+    /// Makes the change again that was undone last, and goes to its tick. Returns whether there was one.
+    pub fn redo(&mut self) -> bool {
+        let Some(mut change) = self.changes.undone.pop() else { return false };
+        self.exchange(&mut change);
+        self.changes.done.push(change);
+        true
+    }
+
+    /// Goes to the other side of a change, which becomes the way back.
+    fn exchange(&mut self, change: &mut Change) {
+        self.changes.close();
+        swap(&mut self.next, &mut change.next);
+        match &mut change.replaced {
+            Replaced::Nothing => {}
+            Replaced::Course(course) => swap(&mut self.course, course),
+            Replaced::Future(Future { tick, rows, noted }) => {
+                let left = self.course.noted.split_off(*tick);
+                self.course.noted.extend(replace(noted, left));
+                let mut journal = self.course.session.journal().clone();
+                journal.swap_tail(rows);
+                self.course.session.follow(journal);
+                self.restore(*tick);
+                // The recorded future is the one that has just been left.
+                self.course.seen.forget_future();
+                self.catch_up(&mut ());
+            }
+        }
+    }
+
+    /// Goes to a tick, at most the last reached, in the state before the actions at that tick.
+    pub fn seek(&mut self, tick: u64) {
+        let tick = tick.min(self.course.noted.end);
+        if tick != self.race().tick() {
+            self.restore(tick);
+        }
+    }
+
+    /// Records of each body the coordinate with this index from now on, and from the start of the run by running it
+    /// again to the present tick. Returns whether it does: a run that takes more than a second or so keeps its record.
+    pub fn record_coordinates(&mut self, coordinates: &[usize]) -> bool {
+        if self.past().coordinates().eq(coordinates.iter().copied()) {
+            return true;
+        }
+        let bodies = self.race().entrants().iter().flat_map(|entrant| entrant.lane.bodies());
+        let work = bodies.map(|body| {
+            body.stepper.evaluations() * (body.coordinates().len() as u64 + WORK_OF_AN_EVALUATION)
+        });
+        if work.sum::<u64>() > MAX_REPEATED_WORK {
+            return false;
+        }
+        let (tick, journal) = (self.race().tick(), self.course.session.journal().clone());
+        let done = self.race().done();
+        // The other snapshots are marks of a past that was recorded otherwise.
+        self.course.noted.snapshots.truncate(1);
+        self.changes.clear_futures();
+        self.course.begin(coordinates.to_vec());
+        self.course.noted.snapshots[0].mark = self.course.seen.mark();
+        self.course.session.follow(journal);
+        self.repeat_to(tick);
+        if self.race().done() < done {
+            self.catch_up(&mut ());
+        }
+        true
+    }
+
+    /// The hashes that were noted as ticks were first made, by tick.
+    fn hashes(&self) -> &[Hashes] {
+        &self.course.noted.hashes
+    }
+
+    /// The race at the last tick reached, before the actions at it.
+    fn race_at_end(&self) -> Race {
+        let Course { session, noted: Noted { snapshots, end, .. }, .. } = &self.course;
+        let before = session.journal().rows().partition_point(|row| row.tick < *end);
+        if session.race.tick() == *end && session.race.done() == before {
+            return session.race.clone();
+        }
+        let nearest = snapshots.partition_point(|snapshot| snapshot.race.tick() <= *end) - 1;
+        let mut race = snapshots[nearest].race.clone();
+        race.set_journal(session.journal().clone());
+        race.run(end - race.tick());
+        race
+    }
+
+    /// Goes to `tick` from a snapshot.
+    fn restore(&mut self, tick: u64) {
+        let Course { session, seen, noted: Noted { snapshots, .. } } = &mut self.course;
+        let nearest = snapshots.partition_point(|snapshot| snapshot.race.tick() <= tick) - 1;
+        let is_ahead = (snapshots[nearest].race.tick()..tick).contains(&session.race.tick());
+        if !is_ahead {
+            // Starts so far back that the drawn past is complete again.
+            let wanted = &snapshots[nearest].mark;
+            let fills = |snapshot: &&Snapshot| seen.fills(&snapshot.mark, wanted);
+            let from = snapshots[..=nearest].iter().rfind(fills);
+            let journal = session.journal().clone();
+            if let Some(Snapshot { race, mark, .. }) = from {
+                session.race = race.clone();
+                seen.rewind(mark, race);
+            } else {
+                let coordinates = seen.past().coordinates().collect();
+                self.course.begin(coordinates);
+            }
+            self.course.session.follow(journal);
+        }
+        self.repeat_to(tick);
+    }
+
+    /// Makes the ticks up to `tick` again.
+    fn repeat_to(&mut self, tick: u64) {
+        while self.race().tick() < tick {
+            self.tick(&mut ());
+        }
+    }
+
+    /// Adds a snapshot of the present if there is none, and thins the snapshots to their memory limit.
+    fn take_snapshot(&mut self) {
+        let tick = self.race().tick();
+        let index =
+            self.course.noted.snapshots.partition_point(|snapshot| snapshot.race.tick() < tick);
+        if self
+            .course
+            .noted
+            .snapshots
+            .get(index)
+            .is_some_and(|snapshot| snapshot.race.tick() == tick)
+        {
+            return;
+        }
+        self.course.noted.snapshots.insert(index, self.course.snapshot());
+        self.fit();
+    }
+
+    /// Thins the snapshots to the memory limit, of which drawn pasts have at most half, and then forgets changes.
+    fn fit(&mut self) {
+        while self.bytes() > self.limit {
+            if self.changes.past_bytes() <= self.limit / 2
+                && self.spacing <= self.course.noted.end.max(self.changes.end())
+            {
+                self.spacing *= 2;
+                let stays = |snapshot: &Snapshot| snapshot.race.tick().is_multiple_of(self.spacing);
+                self.course.noted.snapshots.retain(stays);
+                self.changes.retain(stays);
+            } else if !self.changes.drop_last() {
+                return;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn a_change_holds_what_it_has_changed_and_not_the_whole_journal() {
+        let scene = Scene::built_in("helm").unwrap();
+        let to_come = scene.script.len();
+        let mut run = Run::new(Session::racing(scene.into()));
+        for _ in 0..300 {
+            run.act(Action::Kick(0.01));
+        }
+        let whole = run.session().journal().clone();
+        assert_eq!(whole.rows().len(), to_come + 300);
+        for _ in 0..150 {
+            run.undo();
+        }
+        run.redo();
+        let changes = run.changes.done.iter().chain(&run.changes.undone);
+        let held = changes.map(|change| match &change.replaced {
+            Replaced::Future(future) => future.rows.rows.len(),
+            _ => panic!("a kick changes the future"),
+        });
+        let held: Vec<usize> = held.collect();
+        assert_eq!(held.len(), 200);
+        assert!(held.iter().all(|rows| *rows <= to_come + 1), "{held:?}");
+        while run.redo() {}
+        assert!(*run.session().journal() == whole);
+    }
+}

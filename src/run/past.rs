@@ -1,16 +1,16 @@
 //! The recorded past of a race for drawing: the recent samples of every body in every lane, and the truth as a curve.
 //!
-//! It observes a race and is not part of it: a copy of the race has none. A race that goes back in time is drawn from it
-//! as it was drawn then. It follows the lanes through their switches of methods by its [`Menu`].
+//! It follows a race and is not part of it: a copy of the race has none. A race that goes back in time is drawn from it
+//! as it was drawn then. Samples name the method that flew a lane by its index on the [`Menu`].
 
-use super::race::{Author, Entrant, Observer, Race, Resumed, ResumedFrom, Starts};
+use super::Menu;
+use super::race::{Done, Entrant, Race, Resumed, ResumedFrom, Switch};
 use crate::scene::{Action, LaneId};
 use crate::sim::bodies::Coordinate;
 use history::HistoryMark;
 
 mod energies;
 mod history;
-mod menu;
 mod quantity;
 mod sample;
 mod summary;
@@ -20,7 +20,6 @@ mod windowed_log;
 
 pub use energies::Energies;
 pub use history::{History, Samples};
-pub use menu::Menu;
 pub use quantity::Quantity;
 pub use sample::{CAPACITY, Sample};
 pub use summary::Summary;
@@ -55,8 +54,6 @@ pub struct Past {
     capacity: usize,
     /// When a body was last placed or a parameter last set, in seconds; before the start if neither was done.
     changed_s: f64,
-    menu: Menu,
-    starts: Starts,
 }
 
 /// The end of the recorded past at some tick, to which it can be [rewound](Past::rewind).
@@ -66,8 +63,6 @@ pub(crate) struct PastMark {
     histories: Box<[(LaneId, Box<[HistoryMark]>)]>,
     truth_curves: Box<[TruthMark]>,
     changed_s: f64,
-    menu: Menu,
-    starts: Starts,
 }
 
 impl PastMark {
@@ -77,23 +72,22 @@ impl PastMark {
         size_of_val(&self.histories[..])
             + self.histories.iter().map(row).sum::<usize>()
             + size_of_val(&self.truth_curves[..])
-            + self.menu.heap_bytes()
-            + self.starts.heap_bytes()
     }
 }
 
 impl Past {
     /// A past of `span_s` seconds that begins with the present of `race`. It records of each body the coordinate that
     /// plots show unless a person chooses another.
-    pub fn new(race: &Race, span_s: f64) -> Self {
+    pub(super) fn new(race: &Race, span_s: f64, menu: &Menu) -> Self {
         let bodies = race.truth().bodies().iter();
-        Self::of_coordinates(race, span_s, bodies.map(|body| body.plotted_coordinate()))
+        Self::of_coordinates(race, span_s, menu, bodies.map(|body| body.plotted_coordinate()))
     }
 
     /// Like [`Past::new`], of the coordinates with these indices, one for each body.
-    pub(crate) fn of_coordinates(
+    pub(super) fn of_coordinates(
         race: &Race,
         span_s: f64,
+        menu: &Menu,
         coordinates: impl Iterator<Item = usize>,
     ) -> Self {
         let bodies = race.truth().bodies();
@@ -106,10 +100,8 @@ impl Past {
             span_s,
             capacity,
             changed_s: f64::NEG_INFINITY,
-            menu: Menu::new(race),
-            starts: Starts::default(),
         };
-        past.sample(race);
+        past.sample(race, menu);
         past
     }
 
@@ -118,16 +110,6 @@ impl Past {
         let histories: usize = self.histories.iter().map(|(_, histories)| histories.len()).sum();
         histories * History::heap_bytes(self.capacity)
             + self.truth_curves.iter().map(TruthCurve::heap_bytes).sum::<usize>()
-    }
-
-    /// The methods that the entries of samples refer to.
-    pub fn menu(&self) -> &Menu {
-        &self.menu
-    }
-
-    /// The states from which the run is told at present.
-    pub(crate) fn starts(&self) -> &Starts {
-        &self.starts
     }
 
     /// The histories of the bodies of a lane that is in the race.
@@ -158,7 +140,7 @@ impl Past {
         (race.truth().bodies()[body].coordinates().at(index), index)
     }
 
-    /// Since when (s) the motion is one: since a body was last placed or a parameter last set, or since before the start.
+    /// The time (s) of the last placement of a body or change of a parameter; before the start if there was none.
     pub fn changed_s(&self) -> f64 {
         self.changed_s
     }
@@ -166,8 +148,8 @@ impl Past {
     /// The time (s) from which on the past tells at `t` how far bodies swing: the last [change](Self::changed_s), or
     /// before the start while the motion after it has only begun.
     pub fn swing_since_s(&self, t: f64) -> f64 {
-        let has_begun = t - self.changed_s < BEGUN * self.span_s;
-        if has_begun { f64::NEG_INFINITY } else { self.changed_s }
+        let has_just_begun = t - self.changed_s < BEGUN * self.span_s;
+        if has_just_begun { f64::NEG_INFINITY } else { self.changed_s }
     }
 
     /// The true coordinates and velocities of the body with this index in the scene within the last tick of `race`, in which
@@ -177,8 +159,8 @@ impl Past {
     }
 
     /// Adds the present of `race` until the next sample, so that the drawn past reaches the present. Never allocates.
-    pub fn show_present(&mut self, race: &Race) {
-        self.each(race, History::record_passing);
+    pub(super) fn show_present(&mut self, race: &Race, menu: &Menu) {
+        self.each(race, menu, History::record_passing);
     }
 
     /// Ticks between samples.
@@ -188,9 +170,9 @@ impl Past {
     }
 
     /// Adds the present to the histories if a sample is due, or else to the range that the next sample sweeps.
-    fn sample(&mut self, race: &Race) {
+    fn sample(&mut self, race: &Race, menu: &Menu) {
         if race.tick().is_multiple_of(self.stride(race)) {
-            return self.each(race, History::record);
+            return self.each(race, menu, History::record);
         }
         for (entrant, (_, histories)) in race.entrants().iter().zip(&mut self.histories) {
             let curves = histories.iter_mut().zip(&self.truth_curves);
@@ -201,12 +183,12 @@ impl Past {
         }
     }
 
-    fn each(&mut self, race: &Race, add: fn(&mut History, Sample)) {
+    fn each(&mut self, race: &Race, menu: &Menu, add: fn(&mut History, Sample)) {
         let t = race.t();
         for (Entrant { id, lane, .. }, (_, histories)) in
             race.entrants().iter().zip(&mut self.histories)
         {
-            let entry = self.menu.entry(*id);
+            let entry = menu.entry(*id);
             let curves = histories.iter_mut().zip(&self.truth_curves);
             let bodies = lane.bodies().iter().zip(race.truth().bodies()).zip(curves);
             for ((body, truth), (history, curve)) in
@@ -226,7 +208,6 @@ impl Past {
     /// Drops the histories of lanes that have left the race.
     fn leave_with(&mut self, race: &Race) {
         self.histories.retain(|(lane, _)| race.entrant(*lane).is_some());
-        self.menu.leave_with(race);
     }
 
     /// The present end of the recorded past.
@@ -238,8 +219,6 @@ impl Past {
             histories: self.histories.iter().map(marks).collect(),
             truth_curves: self.truth_curves.iter().map(TruthCurve::mark).collect(),
             changed_s: self.changed_s,
-            menu: self.menu.clone(),
-            starts: self.starts.clone(),
         }
     }
 
@@ -259,8 +238,6 @@ impl Past {
     /// Goes back to a mark, or forward to one in the recorded future: that of the present of `race`.
     pub(crate) fn rewind(&mut self, mark: &PastMark, race: &Race) {
         self.changed_s = mark.changed_s;
-        self.menu = mark.menu.clone();
-        self.starts = mark.starts.clone();
         self.leave_with(race);
         for (lane, marks) in &mark.histories {
             let index = self.index(*lane).unwrap_or_else(|| {
@@ -286,14 +263,13 @@ impl Past {
         lanes.for_each(History::forget_future);
         self.truth_curves.iter_mut().for_each(TruthCurve::forget_future);
     }
-}
 
-impl Observer for Past {
-    fn before(&mut self, race: &Race, action: &Action) {
+    /// An action is about to change the race.
+    pub(super) fn before(&mut self, race: &Race, menu: &Menu, done: &Done) {
         for (body, curve) in race.truth().bodies().iter().zip(&mut self.truth_curves) {
             curve.refresh(body, race.t());
         }
-        match action {
+        match done.action {
             Action::Throttle(_)
             | Action::Rudder(_)
             | Action::Kick(_)
@@ -303,37 +279,35 @@ impl Observer for Past {
             }
             _ => {}
         }
-        if let Action::Place { body, .. } = action {
-            let (t, truth) = (race.t(), &race.truth().bodies()[*body]);
-            let coordinate = self.truth_curves[*body].coordinate();
+        if let Action::Place { body, .. } = done.action {
+            let (t, truth) = (race.t(), &race.truth().bodies()[body]);
+            let coordinate = self.truth_curves[body].coordinate();
             for (entrant, (_, histories)) in race.entrants().iter().zip(&mut self.histories) {
-                let placed = &entrant.lane.bodies()[*body];
+                let placed = &entrant.lane.bodies()[body];
                 if placed.halted().is_none() {
-                    let sample =
-                        Sample::new(t, self.menu.entry(entrant.id), coordinate, [placed, truth]);
-                    histories[*body].end_run(sample);
+                    let entry = menu.entry(entrant.id);
+                    histories[body].end_run(Sample::new(t, entry, coordinate, [placed, truth]));
                 }
             }
         }
-        if let Some(index) = race.switched_by(action) {
-            let Entrant { id, lane, .. } = &race.entrants()[index];
-            let entry = self.menu.entry(*id);
-            let bodies = lane.bodies().iter().zip(race.truth().bodies());
+        if let Some(Switch { index, lane, .. }) = done.switch {
+            let (t, entry) = (race.t(), menu.entry(lane));
+            let bodies = race.entrants()[index].lane.bodies().iter();
             let curves = self.histories[index].1.iter_mut().zip(&self.truth_curves);
-            for ((body, truth), (history, curve)) in bodies.zip(curves) {
+            for ((body, truth), (history, curve)) in bodies.zip(race.truth().bodies()).zip(curves) {
                 if body.halted().is_none() {
-                    let sample = Sample::new(race.t(), entry, curve.coordinate(), [body, truth]);
-                    history.end_run(sample);
+                    history.end_run(Sample::new(t, entry, curve.coordinate(), [body, truth]));
                 }
             }
         }
     }
 
-    fn after(&mut self, race: &Race, action: &Action, resumed: &[Resumed]) {
-        match action {
+    /// An action has changed the race, and `menu` has followed it.
+    pub(super) fn after(&mut self, race: &Race, menu: &Menu, done: &Done) {
+        match &done.action {
             Action::Throttle(_) | Action::Rudder(_) | Action::Kick(_) => {
                 self.keep_corner(race);
-                let input = action.input().expect("it is one");
+                let input = done.action.input().expect("it is one");
                 self.truth_curves.iter_mut().for_each(|curve| curve.bend(input));
             }
             Action::Set { .. } => {
@@ -347,64 +321,58 @@ impl Observer for Past {
                 self.truth_curves[*body].jump(t, truth);
                 let coordinate = self.truth_curves[*body].coordinate();
                 for (entrant, (_, histories)) in race.entrants().iter().zip(&mut self.histories) {
-                    let placed = &entrant.lane.bodies()[*body];
-                    let sample =
-                        Sample::new(t, self.menu.entry(entrant.id), coordinate, [placed, truth]);
-                    histories[*body].jump(sample);
+                    let (placed, entry) = (&entrant.lane.bodies()[*body], menu.entry(entrant.id));
+                    histories[*body].jump(Sample::new(t, entry, coordinate, [placed, truth]));
                 }
             }
             Action::Solo { .. } => self.leave_with(race),
             _ => {}
         }
-        let Some(index) = race.switched_by(action) else { return };
-        let Entrant { id, spec, lane } = &race.entrants()[index];
-        self.menu.switch(*id, *spec);
-        let entry = self.menu.entry(*id);
-        let bodies = lane.bodies().iter().zip(race.truth().bodies()).enumerate();
+        let Some(Switch { index, lane, .. }) = done.switch else { return };
+        let entry = menu.entry(lane);
+        let bodies = race.entrants()[index].lane.bodies().iter().zip(race.truth().bodies());
         let curves = self.histories[index].1.iter_mut().zip(&self.truth_curves);
-        for ((index, (body, truth)), (history, curve)) in bodies.zip(curves) {
-            let from_truth = |it: &&Resumed| it.halt.body == index && it.from == ResumedFrom::Truth;
-            let jumped = resumed.iter().any(|it| from_truth(&it));
-            let sample = Sample::new(race.t(), entry, curve.coordinate(), [body, truth]);
+        for ((body, (own, truth)), (history, curve)) in bodies.enumerate().zip(curves) {
+            let from_truth = |it: &Resumed| it.halt.body == body && it.from == ResumedFrom::Truth;
+            let jumped = done.resumed.iter().any(from_truth);
+            let sample = Sample::new(race.t(), entry, curve.coordinate(), [own, truth]);
             history.begin_run(Sample { jumped, ..sample });
         }
     }
 
-    fn acted(&mut self, race: &Race, action: &Action, author: Author) {
-        self.starts.acted(race, action, author);
-    }
-
-    fn ticked(&mut self, race: &Race) {
+    /// A tick was completed.
+    pub(super) fn ticked(&mut self, race: &Race, menu: &Menu) {
         let tick = race.last_tick();
         for (body, curve) in race.truth().bodies().iter().zip(&mut self.truth_curves) {
             if body.halted().is_none() {
                 curve.extend(body, tick);
             }
         }
-        self.sample(race);
+        self.sample(race, menu);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::Observations;
     use crate::scene::{LaneSpec, Scene};
     use crate::sim::integrators::method;
 
-    fn race(seconds: f64, tick_hz: u32) -> (Race, Past) {
+    fn race(seconds: f64, tick_hz: u32) -> (Race, Observations) {
         let scene = Scene { seconds, tick_hz, ..Scene::built_in("spring").unwrap() };
         let race = Race::new(&scene, [LaneSpec::plain(method("rk4").unwrap())]);
-        let past = Past::new(&race, seconds);
-        (race, past)
+        let seen = Observations::new(&race, seconds);
+        (race, seen)
     }
 
     /// Runs the race for these seconds, and returns the times of the samples.
-    fn sampled((race, past): &mut (Race, Past), seconds: f64) -> Vec<f64> {
+    fn sampled((race, seen): &mut (Race, Observations), seconds: f64) -> Vec<f64> {
         let end = race.t() + seconds - 1e-9;
         while race.t() < end {
-            race.step_seen(past);
+            race.step(seen);
         }
-        past.histories(LaneId(1))[0].samples().map(|sample| sample.t).collect()
+        seen.past().histories(LaneId(1))[0].samples().map(|sample| sample.t).collect()
     }
 
     #[test]
@@ -447,7 +415,7 @@ mod tests {
         let scene = Scene::parse("t", &text).unwrap();
         let rk4 = LaneSpec::plain(method("rk4").unwrap());
         let race = Race::new(&scene, [rk4; 32]);
-        let past = Past::new(&race, scene.seconds);
+        let past = Past::new(&race, scene.seconds, &Menu::new(&race));
         assert_eq!(past.capacity, capacity_of(2048));
         assert_eq!(past.stride(&race), (1200.0 / past.capacity as f64).ceil() as u64);
     }

@@ -37,8 +37,7 @@ mod lane;
 mod observer;
 mod run_start;
 
-pub(crate) use acting::ActionResult;
-pub use observer::Observer;
+pub use observer::{Done, Observer, Switch};
 pub(crate) use run_start::Starts;
 use run_start::{BodyStart, RunStart};
 
@@ -305,13 +304,9 @@ impl Race {
             + lanes.map(Lane::heap_bytes).sum::<usize>()
     }
 
-    /// Performs the journal's actions at this tick, and steps every lane and the truth to the next. Never allocates.
-    pub fn step(&mut self) {
-        self.step_seen(&mut ());
-    }
-
-    /// Like [`Race::step`], with an observer.
-    pub fn step_seen(&mut self, observer: &mut impl Observer) {
+    /// Performs the journal's actions at this tick, and steps every lane and the truth to the next, before the eyes of an
+    /// observer. Never allocates.
+    pub fn step(&mut self, observer: &mut dyn Observer) {
         self.catch_up(observer);
         let (t, h) = (self.t(), 1.0 / f64::from(self.tick_hz()));
         self.truth.tick(self.tick, t, h);
@@ -325,7 +320,7 @@ impl Race {
 
     /// Steps `ticks` ticks.
     pub fn run(&mut self, ticks: u64) {
-        (0..ticks).for_each(|_| self.step());
+        (0..ticks).for_each(|_| self.step(&mut ()));
     }
 
     /// A hash of the tick and of the bits of every lane's state, without the truth: equal for equal physics on every
@@ -375,7 +370,7 @@ mod tests {
         for (tick_hz, ticks) in [(60, 11), (49, 7), (120, 5), (1, 3), (1000, 1)] {
             race.perform(&Action::TickHz(tick_hz), &mut ());
             for tick in 1..=ticks {
-                race.step();
+                race.step(&mut ());
                 let now = t + f64::from(tick) / f64::from(tick_hz);
                 assert!((race.t() - now).abs() < 1e-14, "{tick_hz} Hz: {} s, not {now}", race.t());
             }

@@ -2,30 +2,14 @@
 
 use std::sync::Arc;
 
-use super::race::{ActionResult, Journal, Mode, Observer, Race};
+use super::race::{Journal, Mode, Observer, Race};
 use crate::scene::{Action, Scene};
-
-mod event;
-mod hashes;
-mod recording;
-mod replay;
-mod run_with_past;
-mod start;
-mod timeline;
-mod undo;
-
-pub use event::{Event, EventKind};
-pub(crate) use recording::among as recording_among;
-pub use recording::{RecordingError, text as recording_text};
-pub use replay::{Reached, Replay};
-pub(crate) use start::StartSettings;
-pub use timeline::{SNAPSHOT_BYTES, Timeline};
 
 /// A running scene, without a clock, a picture or a viewer.
 #[derive(Clone)]
 pub struct Session {
     scene: Arc<Scene>,
-    race: Race,
+    pub(super) race: Race,
     /// The race at its start without a journal, from which a recording begins.
     start: Box<Race>,
 }
@@ -74,7 +58,7 @@ impl Session {
     }
 
     /// The race at its start, before any action; without its journal.
-    fn start(&self) -> &Race {
+    pub(super) fn start(&self) -> &Race {
         &self.start
     }
 
@@ -103,21 +87,13 @@ impl Session {
     /// Performs an action at the present tick, after the journal's actions at it. Later actions by hand are removed from the
     /// journal; the script's stay. Returns whether the action changed anything: if not, it is not in the journal.
     pub fn act(&mut self, action: Action) -> bool {
-        self.act_seen(action, &mut ()) != ActionResult::Nothing
+        self.race.act(action, &mut ()).is_some()
     }
 
-    fn act_seen(&mut self, action: Action, observer: &mut impl Observer) -> ActionResult {
-        self.race.act(action, observer)
-    }
-
-    /// Performs the journal's actions at this tick, and steps to the next. Allocates for actions only.
-    pub fn tick(&mut self) {
-        self.race.step();
-    }
-
-    /// Like [`Session::tick`], with an observer.
-    pub fn tick_seen(&mut self, observer: &mut impl Observer) {
-        self.race.step_seen(observer);
+    /// Performs the journal's actions at this tick, and steps to the next, before the eyes of an observer. Allocates for
+    /// actions only.
+    pub fn tick(&mut self, observer: &mut dyn Observer) {
+        self.race.step(observer);
     }
 
     /// Makes `ticks` ticks.

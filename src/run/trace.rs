@@ -93,7 +93,7 @@ impl Made {
                 if session.race().tick() >= last {
                     return None;
                 }
-                session.tick();
+                session.tick(&mut ());
             }
             Some(present(session.race(), &scene))
         })

@@ -12,9 +12,8 @@ use super::looping::Activity;
 use super::step::Step;
 use super::viewer::Dialog;
 use crate::loops::loop_lab::LoopCommand;
-use crate::run::METRICS;
-use crate::run::race::{ActionResult, Mode, equal_cost};
-use crate::run::session::StartSettings;
+use crate::run::race::{Mode, equal_cost};
+use crate::run::{METRICS, StartSettings};
 use crate::scene::{Action, LaneId, LaneSpec};
 use crate::sim::bodies::Acts;
 use crate::sim::integrators::Method;
@@ -27,9 +26,9 @@ impl Studio {
     /// Carries out a command. Returns what the driver has to do for it, if anything.
     pub fn apply(&mut self, command: impl Into<Command>) -> Option<DriverRequest> {
         let command = command.into();
-        self.viewer.hints.see(&command, self.timeline.next().scene.hint.as_deref());
+        self.viewer.hints.see(&command, self.run.next().scene.hint.as_deref());
         if !self.viewer.pointer_is_down() {
-            self.timeline.close_change();
+            self.run.close_change();
         }
         let ran = self.time_runs();
         self.measure_for(&command);
@@ -143,7 +142,7 @@ impl Studio {
                 Mode::Race => {
                     let lane = self.selected().id;
                     self.act(Action::Solo { lane });
-                    self.timeline.next_mut().mode = Mode::Solo;
+                    self.run.next_mut().mode = Mode::Solo;
                     // It may be about a lane that has left the race.
                     self.viewer.notice = None;
                 }
@@ -183,7 +182,7 @@ impl Studio {
         match command {
             ViewCommand::TogglePause => self.running = !self.running,
             ViewCommand::PointerDown(is_down) => {
-                self.viewer.hz_at_press = is_down.then(|| self.timeline.session().race().tick_hz());
+                self.viewer.hz_at_press = is_down.then(|| self.run.session().race().tick_hz());
             }
             ViewCommand::ToggleFutures => {
                 display.futures = !display.futures;
@@ -293,22 +292,21 @@ impl Studio {
         if action.clone().checked().is_none() {
             return self.viewer.set_notice(out_of_range(action.noun()));
         }
-        let was_past = self.timeline.is_in_past();
+        let was_past = self.run.is_in_past();
         let (is_input, rests) = (action.input().is_some(), self.comes_to_rest());
-        let (acted, mut told) =
-            self.watched(|timeline, notices| timeline.act_seen(action.clone(), notices));
-        let ActionResult::Done { released } = acted else { return self.tell(told) };
+        let (done, mut told) = self.watched(|run, notices| run.act_within(action, notices));
+        let Some(done) = done else { return self.tell(told) };
         self.deeds += 1;
         // What a person does at rest is to be seen.
         self.running |= is_input && rests;
-        if let Action::Lane { .. } = action {
-            self.timeline.next_mut().entry = self.active();
+        if let Action::Lane { .. } = done.action {
+            self.run.next_mut().entry = self.active();
         }
         let discarded = was_past.then(|| {
             let tick = self.race().tick();
             format!("you changed the past at tick {tick}: Ctrl Z takes it back")
         });
-        let released = released.map(|control| {
+        let released = done.released.map(|control| {
             format!(
                 "you have the {} now: the script leaves it alone until a restart",
                 control.name()
@@ -320,7 +318,7 @@ impl Studio {
 
     /// Changes a setting of the next start by hand. `set` returns whether it changed anything.
     fn set_start(&mut self, what: &str, set: impl FnOnce(&mut StartSettings) -> bool) {
-        self.deeds += u64::from(self.timeline.set_next(what, set));
+        self.deeds += u64::from(self.run.set_next(what, set));
     }
 
     /// The lane that a pick of this index of the menu selects: in solo mode the only one.
@@ -340,7 +338,7 @@ impl Studio {
             let spec = self.entries()[entry];
             self.act(Action::Lane { lane, spec });
         }
-        self.timeline.next_mut().entry = entry;
+        self.run.next_mut().entry = entry;
     }
 
     /// The index of a method on the list. If it is not there, a notice says why.
@@ -404,7 +402,7 @@ impl Studio {
         }
         let lanes: Vec<(LaneId, LaneSpec)> =
             self.race().entrants().iter().map(|entrant| (entrant.id, entrant.spec)).collect();
-        let (wanted, before, notice) = match &self.timeline.next().before_equal_cost {
+        let (wanted, before, notice) = match &self.run.next().before_equal_cost {
             Some(before) => {
                 let of = |(lane, spec): &(LaneId, LaneSpec)| {
                     let own = before.iter().find(|(known, _)| known == lane);
@@ -428,7 +426,7 @@ impl Studio {
         for ((lane, _), spec) in lanes.into_iter().zip(wanted) {
             self.act(Action::Lane { lane, spec });
         }
-        self.timeline.next_mut().before_equal_cost = before;
+        self.run.next_mut().before_equal_cost = before;
         self.viewer.set_notice(notice);
     }
 
@@ -440,12 +438,12 @@ impl Studio {
         while self.race().tick() < tick {
             self.tick();
         }
-        self.timeline.show_present();
+        self.run.show_present();
     }
 
     /// Says how far the run has got, if that is before this tick.
     fn tell_of_the_future(&mut self, tick: u64) {
-        let (end, times) = (self.timeline.end(), self.timeline.times());
+        let (end, times) = (self.run.end(), self.run.times());
         if tick > end {
             let [wanted, end] = [tick, end].map(|tick| format!("{} s", round(times.t(tick), 3)));
             self.viewer.set_notice(vec![
@@ -456,8 +454,8 @@ impl Studio {
     }
 
     pub(super) fn seek(&mut self, tick: u64) {
-        self.timeline.seek(tick);
-        self.timeline.show_present();
+        self.run.seek(tick);
+        self.run.show_present();
         self.clock.set_tick_hz(self.race().tick_hz());
     }
 }

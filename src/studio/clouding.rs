@@ -18,11 +18,11 @@ impl Studio {
         if !is_shown || self.cloud_refusal().is_some() {
             return None;
         }
-        let changes = Interventions::all(self.past().starts());
+        let changes = Interventions::all(self.run().starts());
         let (tick_hz, choice) = (self.clock.tick_hz(), self.display().cloud);
         let seconds = (self.race().t() - changes.starts_at_s()).max(0.0);
         Some(CloudRequest {
-            scene: Arc::clone(&self.timeline.next().scene),
+            scene: Arc::clone(&self.run.next().scene),
             body: self.view().body,
             lanes: self.clouded_lanes().map(|entry| (entry, self.entries()[entry])).collect(),
             tick_hz,

@@ -7,38 +7,24 @@ use super::live_loop::LiveFrame;
 use super::looping::Activity;
 use super::notices::Notices;
 use crate::loops::Due;
+use crate::run::Run;
 use crate::run::race::{Mode, Observer};
-use crate::run::session::Timeline;
 use crate::scene::Action;
 
 impl Studio {
     /// Adds a frame of `frame_ns` nanoseconds of real time, and makes the ticks that are due.
     pub fn advance(&mut self, frame_ns: i64) -> Due {
-        self.advance_seen(frame_ns, &mut ())
+        self.advance_in_time(u64::MAX, frame_ns, &mut || true, &mut ())
     }
 
-    /// Like [`Studio::advance`], but stops at tick `last`. After each tick it asks whether there is time for another; if there
-    /// is not, it drops those that are still due.
+    /// Like [`Studio::advance`], but stops at tick `last`, and before the eyes of an observer. After each tick it asks whether
+    /// there is time for another; if there is not, it drops those that are still due.
     pub fn advance_in_time(
         &mut self,
         last: u64,
         frame_ns: i64,
         is_time_left: &mut dyn FnMut() -> bool,
-    ) -> Due {
-        self.advance_by(frame_ns, last, is_time_left, &mut ())
-    }
-
-    /// Like [`Studio::advance`], with an observer.
-    pub fn advance_seen(&mut self, frame_ns: i64, observer: &mut impl Observer) -> Due {
-        self.advance_by(frame_ns, u64::MAX, &mut || true, observer)
-    }
-
-    fn advance_by(
-        &mut self,
-        frame_ns: i64,
-        last: u64,
-        is_time_left: &mut dyn FnMut() -> bool,
-        observer: &mut impl Observer,
+        observer: &mut dyn Observer,
     ) -> Due {
         if !self.time_runs() {
             self.viewer.live.jump();
@@ -50,8 +36,7 @@ impl Studio {
             return Due::default();
         }
         // A tick rate that the script sets at this tick applies to the time from here on.
-        let ((), told) =
-            self.watched(|timeline, notices| timeline.catch_up(&mut (notices, &mut *observer)));
+        let ((), told) = self.watched(|run, notices| run.catch_up(&mut (notices, &mut *observer)));
         self.tell(told);
         let percent = self.slow_motion_percent();
         let mut due = self.clock.advance(frame_ns.saturating_mul(i64::from(percent)) / 100);
@@ -59,7 +44,7 @@ impl Studio {
             if self.race().tick() >= last {
                 break;
             }
-            self.tick_seen(observer);
+            self.make_tick(observer);
             if last == u64::MAX && self.comes_to_rest() {
                 due.ticks = made;
                 self.running = false;
@@ -74,7 +59,7 @@ impl Studio {
             }
         }
         if due.ticks > 0 {
-            self.timeline.show_present();
+            self.run.show_present();
         }
         self.dropped += due.dropped;
         self.note_frame(frame_ns, due);
@@ -92,13 +77,11 @@ impl Studio {
 
     /// Performs the actions at this tick, and steps to the next.
     pub fn tick(&mut self) {
-        self.tick_seen(&mut ());
+        self.make_tick(&mut ());
     }
 
-    /// Like [`Studio::tick`], with an observer.
-    pub fn tick_seen(&mut self, observer: &mut impl Observer) {
-        let ((), told) =
-            self.watched(|timeline, notices| timeline.tick_seen(&mut (notices, observer)));
+    fn make_tick(&mut self, observer: &mut dyn Observer) {
+        let ((), told) = self.watched(|run, notices| run.tick(&mut (notices, observer)));
         self.tell(told);
     }
 
@@ -111,12 +94,12 @@ impl Studio {
     /// Applies `change` to the run, and returns its result with the parts of a notice about it, if there is one.
     pub(super) fn watched<T>(
         &mut self,
-        change: impl FnOnce(&mut Timeline, &mut Notices<'_>) -> T,
+        change: impl FnOnce(&mut Run, &mut Notices<'_>) -> T,
     ) -> (T, Vec<String>) {
-        let scene = Arc::clone(&self.timeline.next().scene);
+        let scene = Arc::clone(&self.run.next().scene);
         let mut notices = Notices::new(&scene);
-        let done = self.timeline.session().race().done();
-        let changed = change(&mut self.timeline, &mut notices);
+        let done = self.run.race().done();
+        let changed = change(&mut self.run, &mut notices);
         let told = notices.told;
         self.clock.set_tick_hz(self.race().tick_hz());
         self.select_as_scripted(done);
@@ -125,7 +108,7 @@ impl Studio {
 
     /// In a race, selects the lane of the method that the script named after the first `done` rows of the journal.
     fn select_as_scripted(&mut self, done: usize) {
-        let race = self.timeline.session().race();
+        let race = self.run.race();
         if race.mode() == Mode::Solo || race.done() <= done {
             return;
         }

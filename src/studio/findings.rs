@@ -25,8 +25,8 @@ impl Studio {
             Mode::Race => self.entries(),
         };
         AnalysisRequest {
-            scene: Arc::clone(&self.timeline.next().scene),
-            by_hand: Interventions::in_race(self.race(), self.past().starts()),
+            scene: Arc::clone(&self.run.next().scene),
+            by_hand: Interventions::in_race(self.race(), self.run().starts()),
             entries: entries.to_vec(),
             first,
             tick_hz: self.clock.tick_hz(),
@@ -91,7 +91,7 @@ impl Studio {
 
     /// Keeps findings, unless they are about another scene.
     pub fn accept_findings(&mut self, findings: Findings) {
-        if findings.request.is_of(&self.timeline.next().scene) {
+        if findings.request.is_of(&self.run.next().scene) {
             self.viewer.findings = Some(findings);
             self.select_best();
         }
@@ -121,7 +121,7 @@ impl Studio {
             judged.into_iter().reduce(|best, other| if other.0 < best.0 { other } else { best });
         let Some((_, (number, entry))) = best else { return };
         self.viewer.selected = number;
-        self.timeline.next_mut().entry = entry;
+        self.run.next_mut().entry = entry;
         self.viewer.is_selected = true;
     }
 

@@ -55,7 +55,7 @@ impl Studio {
 
     /// Whether the run on the screen is another than the judged one: a person has changed it since on its way.
     pub fn is_judged_apart(&self) -> bool {
-        self.past().starts().was_changed_since_judged(self.race())
+        self.run().starts().was_changed_since_judged(self.race())
     }
 
     /// Shows the hints from the first one again: for a driver that has set up the studio by commands.

@@ -157,7 +157,7 @@ impl Studio {
                     self.leave_loop_lab();
                     return self.viewer.set_notice(refusal);
                 }
-                let (scene, body) = (self.timeline.next().scene.clone(), self.view().body);
+                let (scene, body) = (self.run.next().scene.clone(), self.view().body);
                 if let Activity::Loops(loops) = &mut self.activity {
                     loops.show(&scene, body);
                 }

@@ -6,11 +6,10 @@
 //! [`View`], which does not. [`INSTRUMENTS`] stand beside the stage, and the [`guide`] leads through the scenes.
 
 use crate::loops::loop_lab::LoopLab;
-use crate::run::link;
 use crate::run::past::Past;
 use crate::run::race::{Entrant, Mode, Race};
-use crate::run::session::{
-    RecordingError, Session, StartSettings, Timeline, recording_among, recording_text,
+use crate::run::{
+    RecordingError, Run, Session, StartSettings, link, recording_among, recording_text,
 };
 use crate::scene::{LaneSpec, Scene};
 use crate::sim::Clock;
@@ -75,7 +74,7 @@ pub use zoom_pan::ZoomPan;
 /// A scene being run and looked at.
 pub struct Studio {
     scene_list: SceneList,
-    timeline: Timeline,
+    run: Run,
     clock: Clock,
     running: bool,
     dropped: u64,
@@ -93,20 +92,20 @@ impl Studio {
     /// [`Scene::opens_as_race`].
     pub fn new(scene: Scene) -> Self {
         let scene_list = SceneList::of(&scene);
-        Self::of_timeline(scene_list, Timeline::starting_with(StartSettings::of(scene)))
+        Self::of_run(scene_list, Run::starting_with(StartSettings::of(scene)))
     }
 
     /// A person before the start of a run, which is running.
-    fn of_timeline(scene_list: SceneList, timeline: Timeline) -> Self {
+    fn of_run(scene_list: SceneList, run: Run) -> Self {
         Self {
             scene_list,
-            clock: Clock::new(timeline.start().tick_hz()),
+            clock: Clock::new(run.start().tick_hz()),
             running: true,
             dropped: 0,
             deeds: 0,
             saved_deeds: 0,
-            viewer: Viewer::new(timeline.session().race().entrants()[0].id),
-            timeline,
+            viewer: Viewer::new(run.race().entrants()[0].id),
+            run,
             activity: Activity::Run,
         }
     }
@@ -114,35 +113,35 @@ impl Studio {
     /// Goes on with a run, where it is, in its mode.
     pub fn of_session(session: Session) -> Self {
         let tick = session.race().tick();
-        let timeline = Timeline::new(session.before_its_first_tick());
-        let mut studio = Self::of_timeline(SceneList::of(session.scene()), timeline);
-        (0..tick).for_each(|_| studio.timeline.tick());
+        let run = Run::new(session.before_its_first_tick());
+        let mut studio = Self::of_run(SceneList::of(session.scene()), run);
+        (0..tick).for_each(|_| studio.run.tick(&mut ()));
         studio
     }
 
     /// The open scene with the parameters and the length that a person has set.
     pub fn scene(&self) -> &Scene {
-        &self.timeline.next().scene
+        &self.run.next().scene
     }
     /// The scene as it was opened.
     pub fn scene_as_opened(&self) -> &Scene {
-        &self.timeline.next().opened
+        &self.run.next().opened
     }
     /// The run, its past and its future.
-    pub fn timeline(&self) -> &Timeline {
-        &self.timeline
+    pub fn run(&self) -> &Run {
+        &self.run
     }
     /// The lanes and the truth.
     pub fn race(&self) -> &Race {
-        self.timeline.session().race()
+        self.run.session().race()
     }
     /// The recorded past of the lanes and the truth.
     pub fn past(&self) -> &Past {
-        self.timeline.past()
+        self.run.past()
     }
     /// The methods that digits and rows refer to: those of the [menu](crate::run::past::Menu).
     pub fn entries(&self) -> &[LaneSpec] {
-        self.past().menu().specs()
+        self.run().menu().specs()
     }
     /// The name of the method with this index on the menu, told apart from others of the same method.
     pub fn lane_name(&self, entry: usize) -> String {
@@ -163,11 +162,11 @@ impl Studio {
     }
     /// The method of a lane, by its index on the menu.
     pub fn entry(&self, entrant: &Entrant) -> usize {
-        self.past().menu().entry(entrant.id)
+        self.run().menu().entry(entrant.id)
     }
     /// The lane under the method with this index on the menu, if one flies it.
     pub fn flown(&self, entry: usize) -> Option<&Entrant> {
-        self.race().entrant(self.past().menu().lane(entry)?)
+        self.race().entrant(self.run().menu().lane(entry)?)
     }
     /// The lane in solo mode, or the selected lane in a race.
     pub fn selected(&self) -> &Entrant {
@@ -219,9 +218,9 @@ impl Studio {
         &self.viewer.view
     }
 
-    /// Sets the memory in bytes that a run may take to be rewound; see [`Timeline`].
+    /// Sets the memory in bytes that a run may take to be rewound; see [`Run`].
     pub fn set_rewind_bytes(&mut self, bytes: usize) {
-        self.timeline.set_limit(bytes);
+        self.run.set_limit(bytes);
     }
 
     /// The window's title: people and tests read it.
@@ -245,7 +244,7 @@ impl Studio {
     /// # Errors
     /// As [`Session::recording_text`](crate::run::Session::recording_text).
     pub fn recording(&self) -> Result<String, RecordingError> {
-        recording_text(&self.timeline.recording())
+        recording_text(&self.run.recording())
     }
 
     /// The link to the run up to the last tick reached, with the methods that stand beside it.
@@ -253,7 +252,7 @@ impl Studio {
     /// # Errors
     /// As [`Session::recording_text`](crate::run::Session::recording_text).
     pub fn link(&self) -> Result<String, RecordingError> {
-        let recording = self.timeline.recording();
+        let recording = self.run.recording();
         // What no file can hold, no link can.
         recording_text(&recording)?;
         let recording = recording_among(recording, &self.scene().lanes);

@@ -1,7 +1,7 @@
 //! Notices about bodies that halt and bodies that resume.
 
 use crate::measure::duration;
-use crate::run::race::{Halt, LaneBody, Observer, Race, Resumed, ResumedFrom};
+use crate::run::race::{Done, Halt, LaneBody, Observer, Race, Resumed, ResumedFrom};
 use crate::scene::{Action, LaneSpec, Scene};
 use crate::sim::bodies::FalseClaims;
 use crate::sim::integrators::StepFailure;
@@ -27,9 +27,9 @@ impl<'s> Notices<'s> {
 }
 
 impl Observer for Notices<'_> {
-    fn after(&mut self, race: &Race, action: &Action, resumed: &[Resumed]) {
-        self.tell(resumed_notice(self.scene, resumed));
-        self.tell(of_claims(self.scene, race, action).into_iter().collect());
+    fn after(&mut self, race: &Race, done: &Done) {
+        self.tell(resumed_notice(self.scene, &done.resumed));
+        self.tell(of_claims(self.scene, race, &done.action).into_iter().collect());
     }
 
     fn ticked(&mut self, race: &Race) {

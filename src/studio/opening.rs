@@ -10,7 +10,7 @@ use super::viewer::Dialog;
 use super::{RunCommand, StageCommand, Studio};
 use crate::run::diff::Comparison;
 use crate::run::race::Mode;
-use crate::run::session::{StartSettings, Timeline};
+use crate::run::{Run, StartSettings};
 use crate::scene::{Mistake, Scene, SceneErrors};
 use crate::sim::integrators::Method;
 
@@ -118,7 +118,7 @@ impl Studio {
             self.viewer.dialog.take_if(|dialog| matches!(dialog, Dialog::Mistakes { .. }));
             return self.viewer.set_notice(format!("{name} saved; nothing that matters changed"));
         }
-        let is_by_hand = is_by_hand(&self.timeline);
+        let is_by_hand = is_by_hand(&self.run);
         let told = if !keeps {
             self.open(index);
             "reloaded from the start, with other lanes or bodies".into()
@@ -227,7 +227,7 @@ impl Studio {
         self.viewer.dialog = None;
         (0..tick).for_each(|_| self.tick());
         self.running &= !self.comes_to_rest();
-        self.timeline.show_present();
+        self.run.show_present();
     }
 
     /// Shows the clouds that the scene opens with, if it does, at full size.
@@ -257,7 +257,7 @@ impl Studio {
         let mut next = StartSettings::of(scene_list.scene(index));
         next.mode = if next.scene.opens_as_race { Mode::Race } else { self.mode() };
         set(&mut next);
-        let mut studio = Self::of_timeline(scene_list, Timeline::starting_with(next));
+        let mut studio = Self::of_run(scene_list, Run::starting_with(next));
         studio.viewer = self.viewer.before_next_scene(studio.viewer.selected);
         if self.scene().clouds.is_some() && studio.display().enlarged {
             let display = &mut studio.viewer.preferences.display;
@@ -266,7 +266,7 @@ impl Studio {
         studio.show_clouds_of_scene();
         studio.clock.set_speed_percent(self.clock.speed_percent());
         studio.running = self.runs_or_rests();
-        studio.timeline.set_limit(self.timeline.limit());
+        studio.run.set_limit(self.run.limit());
         studio.record_chosen_coordinates();
         studio.select_entry_of_start();
         let file = studio.scene_list.file(index);

@@ -11,7 +11,7 @@ impl Studio {
         let name = chosen.name;
         self.viewer.view.choose_coordinate(body, coordinate);
         if self.record_chosen_coordinates() {
-            return self.timeline.show_present();
+            return self.run.show_present();
         }
         self.viewer.set_notice(format!("{name} is plotted from the next restart on: press Home"));
     }
@@ -27,6 +27,6 @@ impl Studio {
         let bodies = self.race().truth().bodies().iter();
         let usual = bodies.map(|body| body.plotted_coordinate()).enumerate();
         let coordinates: Vec<usize> = usual.map(coordinate).collect();
-        self.timeline.record_coordinates(&coordinates)
+        self.run.record_coordinates(&coordinates)
     }
 }

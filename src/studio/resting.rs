@@ -248,7 +248,7 @@ mod tests {
         assert!(ends(Studio::new(Scene::built_in("spring").unwrap())), "nobody watches");
         let mut told = watched("spring");
         for _ in 0..60 * 21 {
-            told.advance_in_time(10_000, 16_666_667, &mut || true);
+            told.advance_in_time(10_000, 16_666_667, &mut || true, &mut ());
         }
         assert!(told.race().t() > told.scene().seconds);
     }

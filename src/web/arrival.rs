@@ -1,6 +1,6 @@
 //! Whether the run of a link is here what it was where it was made.
 
-use regatta::run::session::Replay;
+use regatta::run::Replay;
 use regatta::scene::Check;
 
 /// The ticks of a slice of the race: a moment's work, even of many lanes.

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::path::Path;
 
 use regatta::look::palette::Theme;
-use regatta::run::session::Replay;
+use regatta::run::Replay;
 use regatta::scene::Scene;
 use regatta::studio::{
     Command, DriverRequest, Motion, PaceMeter, SavedPreferences, StageCommand, Studio, ViewCommand,
@@ -232,7 +232,7 @@ impl Driver {
                 ((ms * 1e6) as u64).saturating_sub(now_ns)
             };
             let mut is_time_left = || spent_ns() < MAX_SIMULATION_NS;
-            self.studio.advance_in_time(u64::MAX, frame_ns as i64, &mut is_time_left);
+            self.studio.advance_in_time(u64::MAX, frame_ns as i64, &mut is_time_left, &mut ());
         }
         self.studio.viewer_mut().pace = Some(self.meter.pace());
     }

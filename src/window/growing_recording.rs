@@ -9,7 +9,7 @@ use super::Event;
 use super::opening::KeepRecording;
 use super::work_thread::WorkThread;
 use crate::run::race::Journal;
-use crate::run::session::recording_text;
+use crate::run::recording_text;
 use crate::scene::Scene;
 use crate::studio::{Studio, Work};
 
@@ -34,7 +34,7 @@ pub(super) struct Grown {
 impl Grown {
     /// The recording of a studio's run so far.
     fn of(studio: &Studio) -> Self {
-        let (timeline, session) = (studio.timeline(), studio.timeline().session());
+        let (timeline, session) = (studio.run(), studio.run().session());
         Self {
             scene: Arc::clone(session.scene()),
             journal: session.journal().clone(),
@@ -65,7 +65,7 @@ impl GrowingRecording {
     /// The time until it is due again; `None` if all that was done is recorded.
     pub(super) fn left(&self, studio: &Studio, now: Instant) -> Option<Duration> {
         let passed = self.asked.map_or(EVERY, |asked| now.duration_since(asked));
-        let (end, session) = (studio.timeline().end(), studio.timeline().session());
+        let (end, session) = (studio.run().end(), studio.run().session());
         let is_known = |grown: &Grown| grown.is_of(session.scene(), session.journal(), end);
         let is_new = !self.thread.request().as_ref().is_some_and(is_known);
         is_new.then(|| EVERY.saturating_sub(passed))

@@ -4,8 +4,8 @@
 use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
 use std::cell::Cell;
 
+use regatta::run::Observations;
 use regatta::run::Race;
-use regatta::run::past::Past;
 use regatta::scene::{Action, Options, SCENES, Scene};
 use regatta::sim::bodies::{Follow, Form, Grid, NetPlan, Pin, Ship, Spring, net_kind};
 use regatta::sim::integrators::{
@@ -151,12 +151,12 @@ fn scenes(are_nets: bool) -> impl Iterator<Item = Scene> {
 fn no_net_allocates_under_the_methods_of_its_scene() {
     for scene in scenes(true) {
         let mut race = Race::new(&scene, scene.lanes.iter().copied());
-        let mut past = Past::new(&race, scene.seconds);
+        let mut seen = Observations::new(&race, scene.seconds);
         let count = allocations_in(|| {
             for tick in 0..150 {
-                race.step_seen(&mut past);
+                race.step(&mut seen);
                 if tick == 50 {
-                    race.perform(&Action::Kick(1.0), &mut past);
+                    race.perform(&Action::Kick(1.0), &mut seen);
                 }
             }
         });
@@ -168,17 +168,17 @@ fn no_net_allocates_under_the_methods_of_its_scene() {
 fn a_race_does_not_allocate_while_its_histories_fill_and_turn_over() {
     for scene in scenes(false) {
         let mut race = Race::new(&scene, scene.lanes.iter().copied());
-        let mut past = Past::new(&race, scene.seconds);
+        let mut seen = Observations::new(&race, scene.seconds);
         // Histories turn over alike whatever moves: that takes thousands of ticks.
         let ticks =
             if ["harbour", "helm", "orbit"].contains(&scene.name.as_str()) { 5000 } else { 1500 };
         let count = allocations_in(|| {
             for tick in 0..ticks {
-                race.step_seen(&mut past);
+                race.step(&mut seen);
                 if tick % 500 == 0 {
-                    race.perform(&Action::Kick(1.0), &mut past);
-                    race.perform(&Action::Throttle(0.5), &mut past);
-                    race.perform(&Action::Rudder(-0.5), &mut past);
+                    race.perform(&Action::Kick(1.0), &mut seen);
+                    race.perform(&Action::Throttle(0.5), &mut seen);
+                    race.perform(&Action::Rudder(-0.5), &mut seen);
                 }
             }
         });

@@ -1,6 +1,6 @@
 //! A method that blows up hurts nobody else: it halts, once, and says when and why.
 
-use regatta::run::past::Past;
+use regatta::run::Observations;
 use regatta::run::race::{ESCAPE, LaneBody, Mode, Race};
 use regatta::scene::{Action, LaneId, LaneSpec, Scene};
 use regatta::sim::Clock;
@@ -39,10 +39,10 @@ fn explicit_euler_on_the_stiff_spring_halts_once_and_the_others_go_on() {
     let blown = "explicit-euler";
     let mut with = Race::new(&stiff(), lanes(""));
     let mut without = Race::new(&stiff(), lanes(blown));
-    let mut past = Past::new(&with, stiff().seconds);
+    let mut seen = Observations::new(&with, stiff().seconds);
     let mut halt = None;
     for tick in 0..TICKS {
-        with.step_seen(&mut past);
+        with.step(&mut seen);
         let lane = &with.entrants()[0].lane;
         match (&halt, lane.halted()) {
             (None, Some(found)) => {
@@ -52,7 +52,7 @@ fn explicit_euler_on_the_stiff_spring_halts_once_and_the_others_go_on() {
             (before, now) => assert_eq!(before.as_ref(), now, "a halt stays as it is"),
         }
         if tick < SIDE_BY_SIDE {
-            without.step();
+            without.step(&mut ());
             if tick % 1000 == 0 {
                 assert_eq!(states(&with, blown), states(&without, blown), "at tick {tick}");
             }
@@ -70,7 +70,7 @@ fn explicit_euler_on_the_stiff_spring_halts_once_and_the_others_go_on() {
     assert!(value.is_finite() && value.abs() > ESCAPE && value.abs() < 3.0 * ESCAPE, "{value:e}");
     assert!(states(&with, "").iter().all(|(_, bits)| bits.len() == 2));
     for entrant in with.entrants() {
-        for sample in past.histories(entrant.id)[0].samples() {
+        for sample in seen.past().histories(entrant.id)[0].samples() {
             let numbers = [sample.t, sample.q, sample.v];
             assert!(numbers.iter().all(|x| x.is_finite() && x.abs() <= ESCAPE), "{sample:?}");
         }
@@ -82,19 +82,23 @@ fn explicit_euler_on_the_stiff_spring_halts_once_and_the_others_go_on() {
 #[test]
 fn a_halted_lane_keeps_its_last_good_state() {
     let mut race = Race::new(&stiff(), lanes("").take(1));
-    let mut past = Past::new(&race, stiff().seconds);
+    let mut seen = Observations::new(&race, stiff().seconds);
     let mut last = states(&race, "");
     while race.entrants()[0].lane.halted().is_none() {
         last = states(&race, "");
-        race.step_seen(&mut past);
+        race.step(&mut seen);
         assert!(race.tick() < 1000);
     }
-    let samples = past.histories(LaneId(1))[0].samples().count();
+    let samples = seen.past().histories(LaneId(1))[0].samples().count();
     for _ in 0..100 {
-        race.step_seen(&mut past);
+        race.step(&mut seen);
     }
     assert_eq!(states(&race, ""), last);
-    assert_eq!(past.histories(LaneId(1))[0].samples().count(), samples, "nothing is recorded");
+    assert_eq!(
+        seen.past().histories(LaneId(1))[0].samples().count(),
+        samples,
+        "nothing is recorded"
+    );
     let body = &race.entrants()[0].lane.bodies()[0];
     assert_eq!(body.previous_q, body.stepper.q(), "nothing is drawn moving");
     assert_eq!(body.previous_v, body.stepper.v());
@@ -123,8 +127,8 @@ fn only_the_body_that_blew_up_halts_and_the_others_go_on_to_the_bit() {
     let (ship, ticks) = (2, 150_000);
     let [mut harbour, mut alone] = harbour_and(ship);
     for _ in 0..ticks {
-        harbour.step();
-        alone.step();
+        harbour.step(&mut ());
+        alone.step(&mut ());
     }
     let bodies = harbour.entrants()[0].lane.bodies();
     let halted: Vec<_> = bodies.iter().map(|body| body.halted().is_some()).collect();
@@ -148,17 +152,17 @@ fn a_halted_body_keeps_its_last_good_state_beside_others_that_go_on() {
     let spring = 0;
     let [mut harbour, mut alone] = harbour_and(spring);
     while alone.entrants()[0].lane.halted().is_none() {
-        harbour.step();
-        alone.step();
+        harbour.step(&mut ());
+        alone.step(&mut ());
     }
-    let mut past = Past::new(&harbour, 20.0);
+    let mut seen = Observations::new(&harbour, 20.0);
     for _ in 0..100 {
-        harbour.step_seen(&mut past);
+        harbour.step(&mut seen);
     }
     let lane = &harbour.entrants()[0].lane;
     let (kept, single) = (&lane.bodies()[spring], &alone.entrants()[0].lane.bodies()[0]);
     assert_eq!((kept.stepper.q(), kept.stepper.v()), (single.stepper.q(), single.stepper.v()));
-    let histories = past.histories(LaneId(1));
+    let histories = seen.past().histories(LaneId(1));
     assert_eq!(histories[spring].samples().count(), 0, "nothing is recorded of it");
     assert!(histories[2].samples().count() > 0);
 }

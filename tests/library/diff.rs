@@ -33,7 +33,7 @@ fn log(scene: &str, ticks: u64) -> Vec<String> {
                 }
             }
         }
-        session.tick();
+        session.tick(&mut ());
     }
     lines
 }
@@ -199,7 +199,7 @@ fn a_run_and_its_copy_are_the_same_and_a_kick_is_found_in_its_tick() {
             if kick == Some(tick) {
                 session.act(Action::Kick(1e-9));
             }
-            session.tick();
+            session.tick(&mut ());
         }
         text
     };

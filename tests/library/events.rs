@@ -44,7 +44,7 @@ fn at_four_tick_rates_the_truth_of_every_scene_is_one_curve() {
 
 /// The times of the script's actions that were performed, in seconds.
 fn done(studio: &Studio) -> Vec<f64> {
-    let (race, times) = (studio.race(), studio.timeline().times());
+    let (race, times) = (studio.race(), studio.run().times());
     let rows = race.journal().rows().iter();
     let done = rows.filter(|row| row.author == Author::Script && row.tick < race.tick());
     done.map(|row| times.t(row.tick)).collect()

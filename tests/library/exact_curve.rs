@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use regatta::run::past::{Past, TruthSample};
+use regatta::run::Observations;
+use regatta::run::past::TruthSample;
 use regatta::run::race::{Interpolation, Race};
 use regatta::scene::{Action, Scene};
 use regatta::stage::{Grip, Picture, Whose, compose};
@@ -140,17 +141,17 @@ fn recording_the_curve_moves_no_bit_of_the_truth() {
         let scene = Scene::built_in(scene).unwrap();
         let mut recorded = Race::new(&scene, []);
         let mut unseen = Race::new(&scene, []);
-        let mut past = Past::new(&recorded, scene.seconds);
+        let mut seen = Observations::new(&recorded, scene.seconds);
         for tick in 0..400 {
             if tick % 60 == 30 {
                 for action in [Action::Kick(0.5), Action::Throttle(0.3), Action::Rudder(-0.7)] {
-                    recorded.perform(&action, &mut past);
+                    recorded.perform(&action, &mut seen);
                     unseen.perform(&action, &mut ());
                 }
             }
-            recorded.step_seen(&mut past);
-            past.truth_between(&recorded, 0, 0.3);
-            unseen.step();
+            recorded.step(&mut seen);
+            seen.past().truth_between(&recorded, 0, 0.3);
+            unseen.step(&mut ());
         }
         for (a, b) in recorded.truth().bodies().iter().zip(unseen.truth().bodies()) {
             assert_eq!((a.stepper.q(), a.stepper.v()), (b.stepper.q(), b.stepper.v()));

@@ -1,8 +1,7 @@
 //! A run as a scene file: it is read back unchanged, repeats the run to the bit, and contains its actions.
 
 use regatta::run::race::{Mode, equal_cost, lanes_that_race};
-use regatta::run::session::{RecordingError, Session};
-use regatta::run::{Journal, link};
+use regatta::run::{Journal, RecordingError, Session, link};
 use regatta::scene::{Action, LaneId, LaneSpec, SCENES, Scene, Scripted, Swing};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
 use regatta::studio::{Command, RunCommand, StageCommand, Studio};

@@ -60,11 +60,11 @@ fn a_restart_owes_no_part_of_a_tick_and_keeps_the_speed() {
 #[test]
 fn a_frame_goes_no_further_than_it_may() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
-    studio.advance_in_time(7, 100_000_000, &mut || true);
+    studio.advance_in_time(7, 100_000_000, &mut || true, &mut ());
     assert_eq!(studio.race().tick(), 6);
-    studio.advance_in_time(7, 100_000_000, &mut || true);
-    assert_eq!((studio.race().tick(), studio.timeline().end()), (7, 7));
-    studio.advance_in_time(7, 100_000_000, &mut || true);
+    studio.advance_in_time(7, 100_000_000, &mut || true, &mut ());
+    assert_eq!((studio.race().tick(), studio.run().end()), (7, 7));
+    studio.advance_in_time(7, 100_000_000, &mut || true, &mut ());
     assert_eq!(studio.race().tick(), 7);
 }
 
@@ -98,12 +98,17 @@ fn a_run_with_actions_by_hand_comes_back_after_a_restart_and_goes_again() {
 fn a_frame_whose_time_is_up_drops_the_ticks_that_are_left() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     let mut made = 0;
-    let due = studio.advance_in_time(u64::MAX, 100_000_000, &mut || {
-        made += 1;
-        made < 2
-    });
+    let due = studio.advance_in_time(
+        u64::MAX,
+        100_000_000,
+        &mut || {
+            made += 1;
+            made < 2
+        },
+        &mut (),
+    );
     assert_eq!((due.ticks, due.dropped, studio.dropped(), studio.race().tick()), (2, 4, 4, 2));
-    let due = studio.advance_in_time(u64::MAX, 50_000_000, &mut || true);
+    let due = studio.advance_in_time(u64::MAX, 50_000_000, &mut || true, &mut ());
     assert_eq!((due.ticks, due.dropped, studio.race().tick()), (3, 0, 5));
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::dice::Dice;
 use regatta::run::past::{Past, TruthSample};
-use regatta::run::session::{Event, EventKind, SNAPSHOT_BYTES, Session, Timeline};
+use regatta::run::{Event, EventKind, Run, SNAPSHOT_BYTES, Session};
 use regatta::scene::{Action, LaneId, LaneSpec, Scene};
 use regatta::sim::bodies::BODIES;
 use regatta::sim::integrators::GENERAL_METHODS;
@@ -130,7 +130,7 @@ fn journals(from: usize) {
                 let action = action(&mut dice, &whole);
                 whole.act(action);
             }
-            whole.tick();
+            whole.tick(&mut ());
         }
         marks.push((TICKS, hashes(&whole)));
         let journal = whole.journal().clone();
@@ -191,7 +191,7 @@ struct Shown {
     truth: Vec<Vec<TruthSample>>,
 }
 
-fn shown(timeline: &Timeline) -> Shown {
+fn shown(timeline: &Run) -> Shown {
     let race = timeline.session().race();
     let past: &Past = timeline.past();
     let samples = |index: usize| {
@@ -211,7 +211,7 @@ fn shown(timeline: &Timeline) -> Shown {
 fn a_seek_from_any_tick_gives_the_state_of_a_run_to_that_tick() {
     let mut dice = Dice::new(2);
     for n in 0..16 {
-        let mut timeline = Timeline::new(start(&mut dice, n));
+        let mut timeline = Run::new(start(&mut dice, n));
         let mut at = ticks_of_actions(&mut dice, 2000).into_iter().peekable();
         let wanted: Vec<u64> = (0..12).map(|_| dice.below(2000) as u64).collect();
         let mut ran = Vec::new();
@@ -223,7 +223,7 @@ fn a_seek_from_any_tick_gives_the_state_of_a_run_to_that_tick() {
                 let action = action(&mut dice, timeline.session());
                 timeline.act(action);
             }
-            timeline.tick();
+            timeline.tick(&mut ());
         }
         ran.push(shown(&timeline));
         for _ in 0..15 {
@@ -264,45 +264,41 @@ fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
         (0..700).for_each(|_| studio.tick());
         studio.apply(RunCommand::Act(Action::Kick(0.3)));
         (0..300).for_each(|_| studio.tick());
-        let end = shown(studio.timeline());
+        let end = shown(studio.run());
         studio.apply(RunCommand::Seek(400));
-        assert_eq!((studio.timeline().end(), studio.timeline().is_in_past()), (1000, true));
+        assert_eq!((studio.run().end(), studio.run().is_in_past()), (1000, true));
         // What changes nothing leaves the future as it is.
         let throttle = studio.race().throttle();
         studio.apply(RunCommand::Act(Action::Throttle(throttle)));
         assert_eq!(
-            (studio.timeline().end(), studio.timeline().undoes()),
+            (studio.run().end(), studio.run().undoes()),
             (1000, Some("the kick at tick 700"))
         );
 
-        let rows = studio.timeline().session().journal().rows().len();
+        let rows = studio.run().session().journal().rows().len();
         studio.apply(RunCommand::Act(Action::Kick(-0.4)));
-        assert_eq!((studio.timeline().end(), studio.timeline().is_in_past()), (400, false));
-        assert_eq!(studio.timeline().session().journal().rows().len(), rows, "one came, one went");
+        assert_eq!((studio.run().end(), studio.run().is_in_past()), (400, false));
+        assert_eq!(studio.run().session().journal().rows().len(), rows, "one came, one went");
         let notice = studio.viewer().notice.as_deref().expect("it says so");
         assert!(notice.contains("Ctrl Z"), "{notice}");
         (0..900).for_each(|_| studio.tick());
-        assert_ne!(shown(studio.timeline()).hashes, end.hashes);
+        assert_ne!(shown(studio.run()).hashes, end.hashes);
 
         studio.apply(RunCommand::Undo);
-        assert_eq!((studio.race().tick(), studio.timeline().end()), (400, 1000));
+        assert_eq!((studio.race().tick(), studio.run().end()), (400, 1000));
         studio.apply(RunCommand::Seek(1000));
-        let found = shown(studio.timeline());
+        let found = shown(studio.run());
         assert!(found == end, "scene {n}: {}", difference(&found, &end));
         studio.apply(RunCommand::Undo);
-        assert_eq!(
-            (studio.race().tick(), studio.timeline().end()),
-            (700, 700),
-            "before the first kick"
-        );
-        assert_eq!(studio.timeline().undoes(), None);
+        assert_eq!((studio.race().tick(), studio.run().end()), (700, 700), "before the first kick");
+        assert_eq!(studio.run().undoes(), None);
         studio.apply(RunCommand::Undo);
-        assert_eq!(studio.timeline().end(), 700, "there is no more to undo");
+        assert_eq!(studio.run().end(), 700, "there is no more to undo");
         studio.apply(RunCommand::Redo);
         studio.apply(RunCommand::Seek(1000));
-        let found = shown(studio.timeline());
+        let found = shown(studio.run());
         assert!(found == end, "scene {n}: {}", difference(&found, &end));
-        assert_eq!(studio.timeline().redoes(), Some("the kick at tick 400"));
+        assert_eq!(studio.run().redoes(), Some("the kick at tick 400"));
     }
 }
 
@@ -311,10 +307,10 @@ fn snapshots_of_ten_hours_stay_within_their_memory_limit() {
     // Of a million ticks, more than of ten hours at the scene's rate.
     let scene = Scene { tick_hz: 30, ..Scene::built_in("spring").unwrap() };
     let limit = 1 << 20;
-    let mut timeline = Timeline::with_limit(Session::racing(scene.into()), limit);
+    let mut timeline = Run::with_limit(Session::racing(scene.into()), limit);
     let mut most = 0;
     for _ in 0..10 * 3600 * 30 {
-        timeline.tick();
+        timeline.tick(&mut ());
         most = most.max(timeline.bytes());
     }
     assert!((limit / 4..=limit).contains(&most), "{most} of {limit} bytes");
@@ -342,10 +338,10 @@ fn every_kind_of_body_is_among_the_random_scenes() {
 #[test]
 fn events_are_ordered_by_tick_and_are_discarded_and_restored_with_their_future() {
     let scene = Scene::built_in("stiff").unwrap();
-    let mut timeline = Timeline::new(Session::racing(scene.into()));
-    (0..50).for_each(|_| timeline.tick());
+    let mut timeline = Run::new(Session::racing(scene.into()));
+    (0..50).for_each(|_| timeline.tick(&mut ()));
     assert!(timeline.act(Action::Kick(1.0)));
-    (0..250).for_each(|_| timeline.tick());
+    (0..250).for_each(|_| timeline.tick(&mut ()));
     let events = timeline.events();
     let done = |event: &Event| matches!(event.kind, EventKind::Done { .. });
     assert_eq!(events.iter().filter(|event| done(event)).map(|e| e.tick).collect::<Vec<_>>(), [50]);
@@ -406,15 +402,12 @@ fn a_parameter_that_acts_at_the_start_does_not_change_the_run_or_its_future() {
     (0..200).for_each(|_| studio.tick());
     studio.apply(RunCommand::Seek(100));
     studio.apply(RunCommand::Act(Action::Set { body: 0, parameter: 3, value: 0.25 }));
-    assert_eq!(
-        (studio.timeline().end(), studio.timeline().undoes()),
-        (200, Some("the start value"))
-    );
-    assert!(studio.timeline().session().journal().rows().is_empty());
+    assert_eq!((studio.run().end(), studio.run().undoes()), (200, Some("the start value")));
+    assert!(studio.run().session().journal().rows().is_empty());
     studio.apply(StageCommand::Restart);
     assert_eq!(studio.race().truth().bodies()[0].stepper.q(), [0.25]);
     studio.apply(RunCommand::Undo);
-    assert_eq!((studio.race().tick(), studio.timeline().end()), (100, 200));
+    assert_eq!((studio.race().tick(), studio.run().end()), (100, 200));
     studio.apply(RunCommand::Undo);
     assert_ne!(studio.scene().bodies[0].values[3], 0.25);
 }

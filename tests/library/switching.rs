@@ -1,7 +1,7 @@
 //! Switching in flight: the state is carried to the bit, and the truth goes on from where an input
 //! left it.
 
-use regatta::run::past::Past;
+use regatta::run::Observations;
 use regatta::run::race::{Lane, LaneBody, Observer, Race, Resumed, ResumedFrom};
 use regatta::scene::{Action, LaneId, LaneSpec, Scene, SceneBody};
 use regatta::sim::bodies::{Body, Ship, Spring};
@@ -24,7 +24,7 @@ fn act(race: &mut Race, action: Action) {
 /// Switches the first lane.
 fn switch(race: &mut Race, spec: LaneSpec) -> Vec<Resumed> {
     let lane = race.entrants()[0].id;
-    race.perform(&Action::Lane { lane, spec }, &mut ())
+    race.perform(&Action::Lane { lane, spec }, &mut ()).map_or_else(Vec::new, |done| done.resumed)
 }
 
 fn bits(lane: &Lane) -> Vec<u64> {
@@ -35,7 +35,7 @@ fn bits(lane: &Lane) -> Vec<u64> {
 
 fn run(race: &mut Race, ticks: u32) {
     for _ in 0..ticks {
-        race.step();
+        race.step(&mut ());
     }
 }
 
@@ -306,7 +306,7 @@ fn halted_before<O: Observer>(scene: &Scene, observer: impl FnOnce(&Race) -> O) 
     let mut race = solo(scene, "explicit-euler");
     let mut observer = observer(&race);
     while race.entrants()[0].lane.halted().is_none() {
-        race.step_seen(&mut observer);
+        race.step(&mut observer);
         assert!(race.tick() < 1000);
     }
     (race, observer)
@@ -324,13 +324,13 @@ fn rk4() -> LaneSpec {
 #[test]
 fn a_body_that_blew_up_resumes_from_the_truth_and_the_others_continue() {
     let scene = ship_and_lively_spring();
-    let (mut race, mut past) = halted_before(&scene, |race| Past::new(race, scene.seconds));
+    let (mut race, mut seen) = halted_before(&scene, |race| Observations::new(race, scene.seconds));
     let halt = race.entrants()[0].lane.halted().unwrap().clone();
     assert_eq!((halt.body, halt.is_blow_up()), (1, true));
     run(&mut race, 10);
     let ship = body_bits(&race.entrants()[0].lane.bodies()[0]);
     let switch = Action::Lane { lane: LaneId(1), spec: rk4() };
-    let resumed = race.perform(&switch, &mut past);
+    let resumed = race.perform(&switch, &mut seen).expect("another method").resumed;
     assert_eq!(resumed, [Resumed { halt, from: ResumedFrom::Truth }]);
     let (lane, truth) = (&race.entrants()[0].lane, race.truth());
     assert_eq!(lane.halted(), None);
@@ -338,12 +338,12 @@ fn a_body_that_blew_up_resumes_from_the_truth_and_the_others_continue() {
     let spring = &lane.bodies()[1];
     assert_eq!(body_bits(spring), body_bits(&truth.bodies()[1]));
     assert_eq!(spring.previous_q, spring.stepper.q(), "it is not drawn on its way there");
-    let history = &past.histories(LaneId(1))[1];
+    let history = &seen.past().histories(LaneId(1))[1];
     let jump = history.samples().rev().find(|sample| sample.jumped);
     assert_eq!(jump.map(|sample| sample.t), Some(race.t()));
     let mut flown: Vec<usize> = history.samples().map(|sample| sample.entry).collect();
     flown.dedup();
-    let listed = past.menu().specs().iter().position(|spec| *spec == rk4());
+    let listed = seen.menu().specs().iter().position(|spec| *spec == rk4());
     assert_eq!(flown, [0, listed.unwrap()]);
     run(&mut race, 1000);
     assert_eq!(race.entrants()[0].lane.halted(), None);

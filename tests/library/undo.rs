@@ -33,7 +33,7 @@ fn whole(studio: &mut Studio) -> Whole {
     let lanes = race.entrants().iter();
     let whole = Whole {
         rows: race.journal().rows().len(),
-        end: studio.timeline().end(),
+        end: studio.run().end(),
         state: race.state_hash(),
         tick_hz: race.tick_hz(),
         methods: lanes.map(|e| (e.lane.solver().method().unwrap().id, e.lane.substeps())).collect(),
@@ -51,7 +51,7 @@ fn a_switch_in_the_past_that_was_undone_is_not_in_the_next_start() {
     studio.apply(StageCommand::Pick(1));
     assert_eq!(method(&studio), "semi-implicit-euler");
     studio.apply(RunCommand::Undo);
-    assert_eq!((method(&studio), studio.timeline().end()), ("explicit-euler", 200));
+    assert_eq!((method(&studio), studio.run().end()), ("explicit-euler", 200));
     studio.apply(StageCommand::Restart);
     assert_eq!(method(&studio), "explicit-euler");
 }
@@ -90,16 +90,16 @@ fn a_switch_a_slider_a_placement_and_a_kick_are_undone_and_done_again_one_by_one
             false => assert_eq!(now, *before),
         }
     }
-    assert_eq!((studio.timeline().undoes(), studio.race().tick()), (None, 50));
+    assert_eq!((studio.run().undoes(), studio.race().tick()), (None, 50));
     for (_, after) in &sides {
         studio.apply(RunCommand::Redo);
         let again = whole(&mut studio);
         assert_eq!((again.rows, &again.scene), (after.rows, &after.scene));
     }
-    assert_eq!(studio.timeline().redoes(), None);
+    assert_eq!(studio.run().redoes(), None);
     studio.apply(RunCommand::Undo);
     studio.apply(RunCommand::Act(Action::Kick(1.0)));
-    assert_eq!(studio.timeline().redoes(), None, "another change was made");
+    assert_eq!(studio.run().redoes(), None, "another change was made");
 }
 
 #[test]
@@ -133,9 +133,9 @@ fn a_drag_of_a_slider_is_one_change_and_the_next_drag_another() {
         (stiffness(&studio), studio.race().tick(), studio.race().tick_hz()),
         (first, 50, 60)
     );
-    assert_eq!((studio.timeline().undoes(), studio.scene().bodies[0].values[1]), (None, first));
+    assert_eq!((studio.run().undoes(), studio.scene().bodies[0].values[1]), (None, first));
     studio.apply(RunCommand::Redo);
-    assert_eq!((studio.timeline().end(), studio.timeline().redoes().is_some()), (80, true));
+    assert_eq!((studio.run().end(), studio.run().redoes().is_some()), (80, true));
     studio.apply(RunCommand::Seek(80));
     assert_eq!(stiffness(&studio), second);
 }
@@ -150,7 +150,7 @@ fn random_changes_are_undone_and_done_again_to_the_bit() {
         for _ in 0..12 {
             (0..below(90)).for_each(|_| studio.tick());
             if below(2) == 0 {
-                studio.apply(RunCommand::Seek(below(studio.timeline().end() + 1)));
+                studio.apply(RunCommand::Seek(below(studio.run().end() + 1)));
             }
             let (tick, before) = (studio.race().tick(), whole(&mut studio));
             let command = match below(6) {
@@ -164,9 +164,9 @@ fn random_changes_are_undone_and_done_again_to_the_bit() {
                     Command::Run(RunCommand::Act(Action::Set { body: 0, parameter: 1, value }))
                 }
             };
-            let undoes = studio.timeline().undoes().map(str::to_owned);
+            let undoes = studio.run().undoes().map(str::to_owned);
             studio.apply(command.clone());
-            let is_kept = studio.timeline().undoes() != undoes.as_deref();
+            let is_kept = studio.run().undoes() != undoes.as_deref();
             // A restart of a run in which nothing was done is no change.
             if if command == Command::Stage(StageCommand::Restart) {
                 is_kept
@@ -178,7 +178,7 @@ fn random_changes_are_undone_and_done_again_to_the_bit() {
         }
         let last = whole(&mut studio);
         let mut undone = 0;
-        while studio.timeline().undoes().is_some() {
+        while studio.run().undoes().is_some() {
             studio.apply(RunCommand::Undo);
             let (tick, before) = befores.pop().expect("as many as were made");
             assert_eq!((studio.race().tick(), whole(&mut studio)), (tick, before));
@@ -200,16 +200,16 @@ fn the_changes_that_can_be_undone_stay_within_the_memory_for_rewinding() {
         if n % 7 == 0 {
             studio.apply(StageCommand::Restart);
         }
-        assert!(studio.timeline().bytes() <= 1 << 20, "{}", studio.timeline().bytes());
+        assert!(studio.run().bytes() <= 1 << 20, "{}", studio.run().bytes());
     }
-    assert_eq!(studio.timeline().undoes(), Some("the kick at tick 360"));
+    assert_eq!(studio.run().undoes(), Some("the kick at tick 360"));
     for (limit, is_kept) in [(64 << 20, true), (1 << 20, false)] {
         studio.set_rewind_bytes(limit);
         studio.apply(RunCommand::Act(Action::Kick(2.0)));
-        let before = studio.timeline().bytes();
+        let before = studio.run().bytes();
         studio.apply(StageCommand::Restart);
-        assert_eq!(studio.timeline().undoes().is_some(), is_kept, "{limit}");
-        let is_counted = studio.timeline().bytes() > before + (1 << 20);
+        assert_eq!(studio.run().undoes().is_some(), is_kept, "{limit}");
+        let is_counted = studio.run().bytes() > before + (1 << 20);
         assert_eq!(is_counted, is_kept, "the drawn past of a run that is kept counts: {limit}");
     }
 }

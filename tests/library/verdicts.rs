@@ -227,7 +227,7 @@ fn the_recommended_lanes_meet_their_criterion_in_a_race() {
         let mut errors = vec![0.0_f64; scene.bodies.len()];
         let mut sizes = vec![0.0_f64; scene.bodies.len()];
         for _ in 0..(scene.seconds * f64::from(scene.tick_hz)) as u64 {
-            race.step();
+            race.step(&mut ());
             let bodies = race.entrants()[0].lane.bodies().iter().zip(race.truth().bodies());
             for (i, (lane, truth)) in bodies.enumerate() {
                 for (q, exact) in lane.stepper.q().iter().zip(truth.stepper.q()) {

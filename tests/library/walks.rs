@@ -56,7 +56,7 @@ fn step(dice: &mut Dice, studio: &mut Studio) -> String {
         }
         12..18 => RunCommand::Act(action(dice, studio)).into(),
         18..21 => StageCommand::Pick(dice.below(studio.entries().len())).into(),
-        21..25 => RunCommand::Seek(dice.below(studio.timeline().end() as usize + 1) as u64).into(),
+        21..25 => RunCommand::Seek(dice.below(studio.run().end() as usize + 1) as u64).into(),
         25..30 => RunCommand::Undo.into(),
         30..33 => RunCommand::Redo.into(),
         33 => StageCommand::Restart.into(),
@@ -89,7 +89,7 @@ fn step(dice: &mut Dice, studio: &mut Studio) -> String {
 fn repeats(studio: &mut Studio) -> Result<(), String> {
     let text = studio.recording().map_err(|error| error.to_string())?;
     let scene = Scene::parse("walk.toml", &text).map_err(|errors| errors.to_string())?;
-    if scene.to_toml() != studio.timeline().recording().to_toml() {
+    if scene.to_toml() != studio.run().recording().to_toml() {
         return Err("its text is another when it was read".into());
     }
     for tick in [0, u64::MAX] {
@@ -127,7 +127,7 @@ fn after_whatever_walk_a_run_is_what_its_recording_repeats_to_the_bit() {
                 panic!("walk {walk}: {why}:\n{}", steps.join("\n"));
             }
         }
-        ticks += studio.timeline().end();
+        ticks += studio.run().end();
     }
     assert!(ticks > 20 * walks() as u64, "{ticks} ticks at the ends of all walks");
 }

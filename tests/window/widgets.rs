@@ -125,7 +125,7 @@ fn the_guide_and_the_timeline_are_worked_by_the_mouse() {
     desk.at_tick(tick);
     twin.click(&desk, "2 Semi-implicit Euler");
     twin.click(&desk, "undo ");
-    assert_eq!((twin.studio.timeline().end(), twin.studio.active()), (120, 0));
+    assert_eq!((twin.studio.run().end(), twin.studio.active()), (120, 0));
     same(&desk, &mut twin);
     desk.press("F2");
     twin.apply(ViewCommand::ToggleGuide);

@@ -12,11 +12,10 @@ use crate::commands::interrupt::watch_for_interrupt;
 use crate::commands::output::Destination;
 use crate::commands::terminal::print_status;
 use crate::commands::{jobs, scene_file};
-use crate::run::Session;
-use crate::run::race::{Observer, Race, Resumed};
-use crate::run::session::{Reached, Replay};
+use crate::run::race::{Done, Observer, Race};
 use crate::run::trace::last_tick;
-use crate::scene::{Action, Check, Scene};
+use crate::run::{Reached, Replay, Session};
+use crate::scene::{Check, Scene};
 use crate::sim::number::counted;
 use crate::studio::Studio;
 
@@ -250,13 +249,13 @@ impl MethodsSeen {
 }
 
 impl Observer for MethodsSeen {
-    fn after(&mut self, race: &Race, _: &Action, _: &[Resumed]) {
+    fn after(&mut self, race: &Race, _: &Done) {
         self.look(race);
     }
 }
 
 /// Runs the race of a scene past all its checks, in the order of their ticks.
-fn replay(scene: &Scene, observer: &mut impl Observer) -> Vec<Reached> {
+fn replay(scene: &Scene, observer: &mut dyn Observer) -> Vec<Reached> {
     let mut replay = Replay::new(scene.clone().into());
     std::iter::from_fn(|| replay.go_on(u64::MAX, observer)).collect()
 }

@@ -7,15 +7,17 @@ use std::collections::vec_deque;
 use std::{iter, option};
 
 use super::sample::Sample;
-use super::summary::{MAX_SUMMED, Summary, SummaryLog, SummaryMark};
+use super::summary::Summary;
 use super::swept_range::SweptRange;
 use super::windowed_log::WindowedLog;
+
+/// The most samples that a summary stands for: what lies between its ends is still told from its range.
+const MAX_SUMMED: usize = 4;
 
 /// The recent past of one body in one lane, oldest first.
 #[derive(Debug)]
 pub struct History {
     samples: WindowedLog<Sample>,
-    summaries: [SummaryLog; MAX_SUMMED.len()],
     /// The present, if no sample is due at it.
     present: Option<Sample>,
     /// The range of the recorded coordinate since the newest sample.
@@ -27,7 +29,6 @@ pub struct History {
 pub(super) struct HistoryMark {
     /// The number of samples since the start.
     samples: u64,
-    summaries: [SummaryMark; MAX_SUMMED.len()],
     since: SweptRange,
 }
 
@@ -41,7 +42,6 @@ impl History {
         let spare = capacity / 2;
         Self {
             samples: WindowedLog::new(capacity, spare),
-            summaries: MAX_SUMMED.map(|max_summed| SummaryLog::new(max_summed, capacity, spare)),
             present: None,
             since: SweptRange::NOTHING,
         }
@@ -49,9 +49,7 @@ impl History {
 
     /// The heap memory in bytes of a history of this capacity.
     pub(super) fn heap_bytes(capacity: usize) -> usize {
-        let kept = capacity + capacity / 2;
-        let summaries: usize = MAX_SUMMED.iter().map(|max_summed| kept / max_summed + 1).sum();
-        kept * size_of::<Sample>() + summaries * size_of::<Summary>()
+        (capacity + capacity / 2) * size_of::<Sample>()
     }
 
     /// The samples, oldest first. The newest is the present, unless the body has halted.
@@ -59,16 +57,21 @@ impl History {
         self.after(0)
     }
 
-    /// The coarsest summary with at least `least` records that covers the same time, oldest first. `None` if there is
-    /// none.
-    pub fn summaries(&self, least: usize) -> Option<impl Iterator<Item = Summary>> {
-        self.summaries.iter().zip(MAX_SUMMED).find_map(|(log, max_summed)| {
-            let oldest = self.samples.range(max_summed.min(self.samples.len())).next();
-            let reaches = |summary: Summary| oldest.is_none_or(|oldest| summary.t <= oldest.t);
-            let all = log.shown().chain(self.present.as_ref().map(Summary::of));
-            let is_enough = all.size_hint().0 >= least && log.shown().next().is_none_or(reaches);
-            is_enough.then_some(all)
-        })
+    /// The samples, several to a summary, but at least `least` summaries as far as there are samples. A sample stays with the
+    /// same others while the history grows.
+    pub fn summaries(&self, least: usize) -> Vec<Summary> {
+        let together = (self.samples.len() / least.max(1)).clamp(1, MAX_SUMMED) as u64;
+        let mut summaries: Vec<Summary> = Vec::with_capacity(self.samples.len() + 1);
+        for (number, sample) in self.samples.numbered() {
+            let next = Summary::of(sample);
+            let last = summaries.last_mut().filter(|_| !number.is_multiple_of(together));
+            match last.and_then(|last| Some((last.and(next)?, last))) {
+                Some((both, last)) => *last = both,
+                None => summaries.push(next),
+            }
+        }
+        summaries.extend(self.present.as_ref().map(Summary::of));
+        summaries
     }
 
     fn after(&self, skipped: usize) -> Samples<'_> {
@@ -99,7 +102,6 @@ impl History {
     fn begin_at(&mut self, now: Sample) {
         self.present = None;
         self.since = SweptRange::NOTHING;
-        self.summaries.iter_mut().for_each(|log| log.push(&now));
         self.samples.push(now);
     }
 
@@ -127,7 +129,6 @@ impl History {
         {
             now.jumped |= newest.jumped;
             self.samples.pop();
-            self.summaries.iter_mut().for_each(SummaryLog::pop);
         }
         let newest = self.samples.newest();
         let is_new = |newest: &Sample| {
@@ -145,11 +146,7 @@ impl History {
 
     /// Where it is now.
     pub(super) fn mark(&self) -> HistoryMark {
-        HistoryMark {
-            samples: self.samples.mark(),
-            summaries: self.summaries.each_ref().map(SummaryLog::mark),
-            since: self.since,
-        }
+        HistoryMark { samples: self.samples.mark(), since: self.since }
     }
 
     /// Whether a run begun again at the mark `from` will show at `mark` what it showed then.
@@ -162,13 +159,11 @@ impl History {
         self.present = None;
         self.since = mark.since;
         self.samples.rewind(mark.samples);
-        self.summaries.iter_mut().zip(mark.summaries).for_each(|(log, mark)| log.rewind(mark));
     }
 
     /// Forgets the future: another one begins.
     pub(super) fn forget_future(&mut self) {
         self.samples.forget_future();
-        self.summaries.iter_mut().for_each(SummaryLog::forget_future);
     }
 }
 
@@ -300,56 +295,42 @@ mod tests {
         assert_eq!(history.samples().next().unwrap().t, 1.0);
     }
 
-    /// What each summary has: the time, the method, how far it sweeps and whether it begins at a jump.
-    fn summaries(history: &History) -> Vec<(f64, usize, [f64; 2], bool)> {
-        let summaries = history.summaries(0).expect("they reach as far back");
-        summaries.map(|s| (s.t, s.entry, s.swept.ends(), s.jumped)).collect()
-    }
-
     #[test]
     fn a_summary_stands_for_four_samples_of_one_motion_and_for_all_that_they_sweep() {
-        let at = |t: u32, q: f64| Sample { q, ..sample(f64::from(t), 0) };
+        let at = |t: u32, q: f64| Sample { q, swept: SweptRange::at(q), ..sample(f64::from(t), 0) };
         let mut history = History::new(CAPACITY);
         (0..6).for_each(|t| history.record(at(t, f64::from(t))));
-        assert_eq!(summaries(&history), [(3.0, 0, [0.0, 3.0], false), (5.0, 0, [4.0, 5.0], false)]);
         switch(&mut history, 5.5, 0, 1);
-        history.record(Sample { entry: 1, ..at(6, -1.0) });
-        let before = summaries(&history);
-        assert_eq!(before[1..], [(5.5, 0, [0.0, 5.0], false), (6.0, 1, [-1.0, 0.0], false)]);
         history.jump(Sample { entry: 1, ..at(6, 9.0) });
         history.record(Sample { entry: 1, ..at(7, f64::INFINITY) });
         history.record_passing(Sample { entry: 1, ..at(8, 7.0) });
-        let times: Vec<_> = summaries(&history)[3..].iter().map(|s| (s.0, s.3)).collect();
-        assert_eq!(times, [(6.0, true), (7.0, false), (8.0, false)]);
+        let summaries = |least: usize| -> Vec<(f64, usize, [f64; 2], bool)> {
+            let all = history.summaries(least).into_iter();
+            all.map(|s| (s.t, s.entry, s.swept.ends(), s.jumped)).collect()
+        };
+        let all = summaries(0);
+        assert_eq!(all[..2], [(3.0, 0, [0.0, 3.0], false), (5.5, 0, [0.0, 5.0], false)]);
+        let rest: Vec<_> = all[2..].iter().map(|s| (s.0, s.1, s.3)).collect();
+        assert_eq!(rest, [(5.5, 1, false), (6.0, 1, true), (7.0, 1, false), (8.0, 1, false)]);
+        assert_eq!(summaries(usize::MAX).len(), history.samples().count());
     }
 
     #[test]
-    fn summaries_go_back_and_on_with_the_samples() {
-        let tick = |history: &mut History, t: u32| {
-            history.record(Sample { q: f64::from(t % 7), ..sample(f64::from(t), 0) });
-        };
+    fn summaries_of_a_full_history_are_as_many_as_asked_for_and_stay_as_it_grows() {
         let mut history = History::new(CAPACITY);
-        let mut seen = Vec::new();
-        for t in 0..6000 {
-            tick(&mut history, t);
-            seen.push((history.mark(), summaries(&history)));
+        let record = |history: &mut History, t: usize| history.record(sample(t as f64, 0));
+        (0..3 * CAPACITY).for_each(|t| record(&mut history, t));
+        for (least, together) in [(0, 4), (400, 4), (CAPACITY / 2, 2), (CAPACITY, 1)] {
+            let times = |history: &History| -> Vec<f64> {
+                history.summaries(least).iter().map(|summary| summary.t).collect()
+            };
+            let (before, whole) = (times(&history), CAPACITY / together);
+            assert!((whole..=whole + 1).contains(&before.len()), "{least}: {}", before.len());
+            (0..together).for_each(|n| record(&mut history, 3 * CAPACITY + n));
+            assert_eq!(times(&history)[..whole - 1], before[1..whole]);
+            let mark = HistoryMark { samples: 3 * CAPACITY as u64, since: SweptRange::NOTHING };
+            history.rewind(mark);
+            assert_eq!(times(&history), before);
         }
-        for back in [5999, 5997, 5990, 5800, 5998, 5500] {
-            let (mark, shown) = &seen[back];
-            history.rewind(*mark);
-            assert_eq!(&summaries(&history), shown);
-        }
-        (5501..6000).for_each(|t| tick(&mut history, t));
-        assert_eq!(summaries(&history), seen[5999].1);
-        assert!(seen[5999].1.len() > CAPACITY / 4);
-        let at_least = |least: usize| history.summaries(least).map(Iterator::count);
-        assert_eq!(at_least(600).map(|count| count / 10), Some(CAPACITY / 20));
-        assert_eq!((at_least(400), at_least(1200)), (Some(seen[5999].1.len()), None));
-        history.rewind(seen[100].0);
-        (101..4000).for_each(|t| tick(&mut history, t));
-        assert!(summaries(&history).len() > CAPACITY / 4);
-        switch(&mut history, 4000.0, 0, 1);
-        (0..1200).for_each(|t| switch(&mut history, 4001.0 + f64::from(t), 1, 2));
-        assert!(history.summaries(0).is_none(), "short runs fill them too soon");
     }
 }

@@ -392,7 +392,7 @@ mod tests {
         };
         let mut marks = Vec::new();
         for _ in 0..800 {
-            race.step();
+            race.step(&mut ());
             curve.extend(&race.truth().bodies()[0], race.last_tick());
             check(&curve, race.t());
             marks.push((curve.mark(), race.t()));
@@ -413,7 +413,7 @@ mod tests {
             );
             let mut race = Race::of_scene(&Scene::parse("t", &text).unwrap());
             let mut curve = TruthCurve::new(&race.truth().bodies()[0], 0, 0.01);
-            race.step();
+            race.step(&mut ());
             let tick = LastTick { from_s: 0.0, to_s: 1.0 / 60.0 };
             curve.extend(&race.truth().bodies()[0], tick);
             curve.samples().count()

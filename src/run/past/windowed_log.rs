@@ -41,6 +41,11 @@ impl<T: PartialEq> WindowedLog<T> {
         self.range(0)
     }
 
+    /// The records shown, oldest first, with their numbers.
+    pub(super) fn numbered(&self) -> impl Iterator<Item = (u64, &T)> {
+        (self.end - self.len() as u64..self.end).zip(self.shown())
+    }
+
     /// The records shown, but for the `skipped` oldest.
     pub(super) fn range(&self, skipped: usize) -> vec_deque::Iter<'_, T> {
         let end = (self.end - self.first) as usize;

@@ -1,32 +1,22 @@
 //! The actions on a race, from its journal and by hand.
 
 use super::journal::{Author, Journal};
-use super::lane::{LaneBody, Resumed};
-use super::observer::Observer;
+use super::lane::LaneBody;
+use super::observer::{Done, Observer, Switch};
 use super::{Mode, Race};
-use crate::scene::{Action, Control, LaneId, LaneSpec, edited_values};
+use crate::scene::{Action, LaneId, LaneSpec, edited_values};
 use crate::sim::bodies::{Acts, incompatibility};
-
-/// The effect of an action.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ActionResult {
-    /// None: the action is not in the journal.
-    Nothing,
-    /// It was performed. `released` is the control that it took from the script, if it took one.
-    Done { released: Option<Control> },
-}
 
 impl Race {
     /// Performs the journal's pending actions at the present tick.
-    pub(crate) fn catch_up(&mut self, observer: &mut impl Observer) {
+    pub(crate) fn catch_up(&mut self, observer: &mut dyn Observer) {
         if self.journal.rows().get(self.done).is_none_or(|row| row.tick > self.tick) {
             return;
         }
         let journal = self.journal.clone();
         while let Some(row) = journal.rows().get(self.done).filter(|row| row.tick <= self.tick) {
             self.done += 1;
-            self.perform(&row.action, observer);
-            observer.acted(self, &row.action, row.author);
+            self.perform_by(&row.action, row.author, observer);
         }
     }
 
@@ -36,13 +26,14 @@ impl Race {
         mut self,
         journal: &Journal,
         end: u64,
-        observer: &mut impl Observer,
+        observer: &mut dyn Observer,
     ) -> Self {
         for row in journal.rows().iter().take_while(|row| row.tick <= end) {
             self.tick = row.tick;
-            match row.action {
-                Action::Place { .. } => observer.before(&self, &row.action),
-                _ => drop(self.perform(&row.action, observer)),
+            if let Action::Place { .. } = row.action {
+                observer.before(&self, &Done::new(row.action.clone(), row.author, None));
+            } else {
+                self.perform_by(&row.action, row.author, observer);
             }
         }
         self.tick = end;
@@ -50,25 +41,27 @@ impl Race {
     }
 
     /// Performs a person's action at the present tick, after the journal's actions at it, and adds it to the journal, from
-    /// which the person's later actions are removed. An action that changes neither the present nor the script's pending
-    /// actions is ignored, and so is one that the run cannot take: see [`Action::checked`].
-    pub(crate) fn act(&mut self, action: Action, observer: &mut impl Observer) -> ActionResult {
+    /// which the person's later actions are removed. `None`: it changes neither the present nor the script's pending actions,
+    /// or the run cannot take it (see [`Action::checked`]), and it is not in the journal.
+    pub(crate) fn act(&mut self, action: Action, observer: &mut dyn Observer) -> Option<Done> {
         self.catch_up(observer);
-        let Some(action) = action.checked().filter(|action| self.can_take(action)) else {
-            return ActionResult::Nothing;
-        };
+        let action = action.checked()?;
+        let planned = self.planned(&action, Author::Person);
         let control = action.control();
-        if !self.changes(&action) && !self.journal.script_acts_on(control, self.done) {
-            return ActionResult::Nothing;
+        let takes_over = self.can_take(&action) && self.journal.script_acts_on(control, self.done);
+        if planned.is_none() && !takes_over {
+            return None;
         }
         let (done, released) =
             self.journal.insert(self.done, (self.tick, self.t()), action.clone());
         self.done = done;
-        self.perform(&action, observer);
+        let done = match planned {
+            Some(planned) => self.carry_out(planned, observer),
+            None => Done::new(action, Author::Person, None),
+        };
         // The rate is another now, or a change of it that was to come is none.
         self.journal.put_on_ticks(self.done, self.piece);
-        observer.acted(self, &action, Author::Person);
-        ActionResult::Done { released }
+        Some(Done { released, ..done })
     }
 
     /// Whether the race has what an action is on, with such values: no body is there of a hand that still held it when
@@ -99,10 +92,16 @@ impl Race {
 
     /// Whether an action would change anything.
     pub fn changes(&self, action: &Action) -> bool {
+        self.planned(action, Author::Person).is_some()
+    }
+
+    /// The action as it would be performed; `None` if it would change nothing.
+    fn planned(&self, action: &Action, author: Author) -> Option<Done> {
         if !self.can_take(action) {
-            return false;
+            return None;
         }
-        match action {
+        let switch = self.switch(action);
+        let changes = match action {
             Action::Throttle(part) => {
                 self.takes("throttle") && self.throttle != part.clamp(-1.0, 1.0)
             }
@@ -125,10 +124,11 @@ impl Race {
             Action::Method(_)
             | Action::Lane { .. }
             | Action::Substeps { .. }
-            | Action::Tolerance { .. } => self
-                .switch_asked(action)
-                .is_some_and(|(index, spec)| self.entrants[index].spec != spec),
-        }
+            | Action::Tolerance { .. } => {
+                switch.is_some_and(|Switch { index, spec, .. }| self.entrants[index].spec != spec)
+            }
+        };
+        changes.then(|| Done::new(action.clone(), author, switch))
     }
 
     /// Whether any body takes an input, by its name on the body's [card](crate::sim::bodies::Kind).
@@ -136,44 +136,49 @@ impl Race {
         self.truth.bodies().iter().any(|body| body.kind.inputs.contains(&input))
     }
 
-    /// The index of the lane whose method, substeps or tolerance an action sets.
-    pub(crate) fn switched_by(&self, action: &Action) -> Option<usize> {
-        Some(self.switch_asked(action)?.0)
-    }
-
-    /// The index of the lane that an action switches, and its new method, substeps and tolerance.
-    pub(crate) fn switch_asked(&self, action: &Action) -> Option<(usize, LaneSpec)> {
+    /// The lane that an action switches, whether or not it has that method, substeps and tolerance already.
+    fn switch(&self, action: &Action) -> Option<Switch> {
         let of_id = |lane: LaneId| self.entrants.iter().position(|e| e.id == lane);
         let present = |index: usize| self.entrants[index].spec;
-        match *action {
+        let (index, spec) = match *action {
             Action::Method(method) => {
                 let spec = self.methods.iter().find(|spec| spec.method == method)?;
-                (self.mode == Mode::Solo).then_some((0, *spec))
+                (self.mode == Mode::Solo).then_some((0, *spec))?
             }
-            Action::Lane { lane, spec } => Some((of_id(lane)?, spec)),
+            Action::Lane { lane, spec } => (of_id(lane)?, spec),
             Action::Substeps { lane, substeps } => {
                 let index = of_id(lane)?;
-                Some((index, LaneSpec { substeps, ..present(index) }))
+                (index, LaneSpec { substeps, ..present(index) })
             }
             Action::Tolerance { lane, tolerance } => {
                 let index = of_id(lane)?;
-                let takes_one = present(index).method.tolerance.is_some();
-                let spec = LaneSpec { tolerance: Some(tolerance), ..present(index) };
-                takes_one.then_some((index, spec))
+                present(index).method.tolerance?;
+                (index, LaneSpec { tolerance: Some(tolerance), ..present(index) })
             }
-            _ => None,
-        }
+            _ => return None,
+        };
+        Some(Switch { index, lane: self.entrants[index].id, spec })
     }
 
-    /// Performs an action at the present tick, without adding it to the journal. Throttle and rudder are clamped to -1 to 1.
-    /// Returns the halted bodies that resume. An action that [changes](Self::changes) nothing does nothing.
-    pub fn perform(&mut self, action: &Action, observer: &mut impl Observer) -> Vec<Resumed> {
-        if !self.changes(action) {
-            return Vec::new();
-        }
-        observer.before(self, action);
-        let (tick, t) = (self.tick, self.t());
-        let mut resumed = Vec::new();
+    /// Performs a person's action at the present tick, without adding it to the journal. Throttle and rudder are clamped to
+    /// -1 to 1. `None`: it [changes](Self::changes) nothing, and is not performed.
+    pub fn perform(&mut self, action: &Action, observer: &mut dyn Observer) -> Option<Done> {
+        self.perform_by(action, Author::Person, observer)
+    }
+
+    fn perform_by(
+        &mut self,
+        action: &Action,
+        author: Author,
+        observer: &mut dyn Observer,
+    ) -> Option<Done> {
+        let planned = self.planned(action, author)?;
+        Some(self.carry_out(planned, observer))
+    }
+
+    fn carry_out(&mut self, mut done: Done, observer: &mut dyn Observer) -> Done {
+        observer.before(self, &done);
+        let (tick, t, action) = (self.tick, self.t(), &done.action);
         match action {
             Action::Throttle(part) => self.throttle = part.clamp(-1.0, 1.0),
             Action::Rudder(part) => self.rudder = part.clamp(-1.0, 1.0),
@@ -187,20 +192,16 @@ impl Race {
                 self.entrants.retain(|entrant| entrant.id == *lane);
                 self.mode = Mode::Solo;
             }
-            Action::Method(_)
-            | Action::Lane { .. }
-            | Action::Substeps { .. }
-            | Action::Tolerance { .. } => {
-                let (index, spec) = self.switch_asked(action).expect("it changes something");
-                let entrant = &mut self.entrants[index];
-                entrant.spec = spec;
-                resumed = entrant.lane.switch(spec.solver(), spec.substeps, t, &self.truth);
-            }
-            Action::Place { .. } | Action::Kick(_) => {}
+            _ => {}
+        }
+        if let Some(Switch { index, spec, .. }) = done.switch {
+            let entrant = &mut self.entrants[index];
+            entrant.spec = spec;
+            done.resumed = entrant.lane.switch(spec.solver(), spec.substeps, t, &self.truth);
         }
         self.truth.act(tick, t, action);
         self.entrants.iter_mut().for_each(|entrant| entrant.lane.act(tick, t, action));
-        observer.after(self, action, &resumed);
-        resumed
+        observer.after(self, &done);
+        done
     }
 }

@@ -1,11 +1,11 @@
-//! States from which a run can be told anew: verdicts are of the run from where a person last placed or kicked a body, and
-//! clouds start where anything last changed one.
+//! Checkpoints from which verdicts and clouds restart: verdicts are of the run from where a person last placed or kicked a
+//! body, and clouds start where anything last changed one.
 
 use std::sync::Arc;
 
 use super::Race;
 use super::journal::Author;
-use super::observer::Observer;
+use super::observer::{Done, Observer};
 use crate::scene::Action;
 
 /// The true state of a race right after an action on its bodies.
@@ -43,7 +43,7 @@ impl RunStart {
     }
 }
 
-/// The states from which a run is told, as of its present tick.
+/// The checkpoints of a run, as of its present tick.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Starts {
     /// Right after a person last placed or kicked a body.
@@ -67,7 +67,7 @@ impl Starts {
 }
 
 impl Observer for Starts {
-    fn acted(&mut self, race: &Race, action: &Action, author: Author) {
+    fn after(&mut self, race: &Race, Done { action, author, .. }: &Done) {
         if !(0..race.values.len()).any(|body| action.acts_on(body)) {
             return;
         }
@@ -86,7 +86,7 @@ impl Observer for Starts {
             bodies: bodies.collect(),
         });
         let is_placed = matches!(action, Action::Place { .. } | Action::Kick(_));
-        if is_placed && author == Author::Person {
+        if is_placed && *author == Author::Person {
             self.judged = Some(Arc::clone(&start));
         }
         self.cloud = Some(start);

@@ -185,12 +185,12 @@ fn the_memory_for_rewinding_is_that_of_every_scene_that_is_opened() {
     let mut studio = Studio::new(Scene::built_in("harbour").unwrap());
     studio.set_rewind_bytes(1 << 20);
     studio.apply(StageCommand::SceneBeside(Step::Next));
-    assert_eq!(studio.timeline().limit(), 1 << 20);
+    assert_eq!(studio.run().limit(), 1 << 20);
     studio.open_file(Path::new(PATH), scene(text("stiff")));
-    assert_eq!(studio.timeline().limit(), 1 << 20);
+    assert_eq!(studio.run().limit(), 1 << 20);
     for _ in 0..20_000 {
         studio.tick();
-        assert!(studio.timeline().bytes() <= 1 << 20, "{}", studio.timeline().bytes());
+        assert!(studio.run().bytes() <= 1 << 20, "{}", studio.run().bytes());
     }
 }
 

@@ -11,8 +11,8 @@ use egui::{
 use self::marks::{Context, Group, Sign, grouped};
 pub(super) use self::span::Span;
 use super::breakpoints;
+use crate::run::Event;
 use crate::run::race::{Mode, TimeScale};
-use crate::run::session::Event;
 use crate::studio::{Command, DriverRequest, RunCommand, StageCommand, Step, Studio, ViewCommand};
 use crate::view::chart::AxisScale;
 use crate::view::theme::{PanelPalette, palette};
@@ -49,8 +49,8 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let room = ui.available_rect_before_wrap();
     let Some(groove) = groove(studio, room) else { return };
     let along = groove.along;
-    let events = studio.timeline().events();
-    let times = studio.timeline().times();
+    let events = studio.run().events();
+    let times = studio.run().times();
     let response = groove.interact(ui);
     let span = viewed(ui, studio, &times, &response, along);
     let track = Track { groove, span, times: &times, palette: palette(ui) };
@@ -59,14 +59,14 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
     let context = Context {
         events: &events,
         scene: studio.scene(),
-        start: studio.timeline().start(),
+        start: studio.run().start(),
         times: &times,
         palette: track.palette,
         parting: studio.viewer().parting(),
     };
     let in_view = |x: f32| along.expand(1.0).contains(x);
-    let end = studio.timeline().end();
-    let end = studio.timeline().is_in_past().then(|| context.end(end));
+    let end = studio.run().end();
+    let end = studio.run().is_in_past().then(|| context.end(end));
     let mut marks: Vec<_> = context.marks().chain(end).chain(context.parting()).collect();
     marks.sort_by_key(|mark| mark.tick);
     let mut groups = grouped(marks.into_iter(), |mark| track.x(mark.tick), MARKS_APART);
@@ -100,7 +100,7 @@ pub(super) fn show(ui: &mut Ui, studio: &Studio, commands: &mut Vec<Command>) {
 }
 
 fn groove(studio: &Studio, room: Rect) -> Option<Groove> {
-    Groove::new(room, if studio.timeline().undoes().is_some() { UNDO } else { 0.0 })
+    Groove::new(room, if studio.run().undoes().is_some() { UNDO } else { 0.0 })
 }
 
 /// Where a track lies on its panel.
@@ -197,7 +197,7 @@ impl Track<'_> {
 /// The part of the run that is in view, after what the wheel and the clicks of this frame make of it.
 fn viewed(ui: &Ui, studio: &Studio, times: &TimeScale, response: &Response, along: Rangef) -> Span {
     let id = response.id;
-    let whole = Span::whole(studio.scene().seconds, times.t(studio.timeline().end()));
+    let whole = Span::whole(studio.scene().seconds, times.t(studio.run().end()));
     if response.double_clicked() {
         ui.data_mut(|data| data.remove::<Span>(id));
     }
@@ -297,14 +297,14 @@ fn fill(painter: &Painter, studio: &Studio, events: &[Event], track: &Track<'_>)
     let round = 0.5 * THICKNESS;
     let (groove, along) = (track.groove, track.groove.along);
     painter.rect_filled(groove.piece(along.min, along.max), round, track.palette.raised);
-    let [present, end] = [studio.race().tick(), studio.timeline().end()].map(|tick| track.x(tick));
+    let [present, end] = [studio.race().tick(), studio.run().end()].map(|tick| track.x(tick));
     painter.rect_filled(
         groove.piece(along.min, end),
         round,
         track.palette.dim.gamma_multiply(0.45),
     );
     let lane = studio.selected().id;
-    let colours = marks::colours(lane, events, studio.timeline().start(), track.palette);
+    let colours = marks::colours(lane, events, studio.run().start(), track.palette);
     for (i, (from, colour)) in colours.iter().enumerate() {
         let to = colours.get(i + 1).map_or(present, |(tick, _)| track.x(*tick)).min(present);
         let piece = groove.piece(track.x(*from), to);
@@ -373,7 +373,7 @@ fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
 
 /// The *undo* button, and the memory that the past takes.
 fn beside(ui: &mut Ui, studio: &Studio, room: Rect, commands: &mut Vec<Command>) {
-    let timeline = studio.timeline();
+    let timeline = studio.run();
     let is_near = timeline.bytes() as f64 >= NEAR_THE_BOUND * timeline.limit() as f64;
     // A recording of the picture says nothing of the machine that it is made on.
     let is_told = studio.viewer().pace.is_some() && room.width() >= MEMORY - 1.0;
@@ -388,7 +388,7 @@ fn beside(ui: &mut Ui, studio: &Studio, room: Rect, commands: &mut Vec<Command>)
             palette(ui).dim,
         );
     }
-    if let Some(what) = studio.timeline().undoes() {
+    if let Some(what) = studio.run().undoes() {
         let size = vec2(UNDO - 6.0, 18.0).min(room.size());
         let rect = Rect::from_min_size(pos2(room.right() - size.x, room.top() + 1.0), size);
         let button =

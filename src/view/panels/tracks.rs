@@ -105,9 +105,8 @@ impl Track {
             swept: s.swept.ends(),
             jumped: s.jumped,
         };
-        let points = |history: &History| match history.summaries(detail.min_points()) {
-            Some(summaries) => finite(summaries.map(point)),
-            None => finite(history.samples().map(|sample| point(Summary::of(sample)))),
+        let points = |history: &History| {
+            finite(history.summaries(detail.min_points()).into_iter().map(point))
         };
         Self::of_histories(studio, body, points)
     }

@@ -97,7 +97,7 @@ fn with_shift_a_drag_places_the_body_once_and_at_rest() {
     let action = Action::Place { body: 0, q: [x].into(), v: [0.0].into() };
     assert_eq!(placed(&commands), Some(&action));
     assert!(table.held().is_none() && table.studio.time_runs());
-    let row = table.studio.timeline().session().journal().rows().last().unwrap();
+    let row = table.studio.run().session().journal().rows().last().unwrap();
     assert_eq!((row.tick, &row.action), (tick, &action));
     assert!((table.body().x - to.x).abs() < 0.1, "{}", table.body().x);
     for lane in
@@ -171,7 +171,7 @@ fn escape_lets_a_body_go_on_as_if_it_had_not_been_touched() {
     assert_eq!(placed(&table.release(at + vec2(70.0, 0.0), false)), None);
     assert!(table.held().is_none());
     assert_eq!(table.studio.race().state_hash(), hash);
-    assert!(table.studio.timeline().session().journal().rows().is_empty());
+    assert!(table.studio.run().session().journal().rows().is_empty());
 }
 
 #[test]
@@ -208,7 +208,7 @@ fn in_a_race_any_lanes_body_can_be_thrown_and_all_go_on_from_there() {
     let race = table.studio.race();
     let place = race.truth().bodies()[0].stepper.q();
     assert!(race.entrants().iter().all(|e| e.lane.bodies()[0].stepper.q() == place));
-    let row = table.studio.timeline().session().journal().rows().last().unwrap();
+    let row = table.studio.run().session().journal().rows().last().unwrap();
     assert!(matches!(&row.action, Action::Place { q, .. } if q[..] == *place));
 }
 
@@ -267,7 +267,7 @@ fn the_wheel_zooms_about_the_pointer_a_drag_of_the_sea_pans_and_a_double_click_f
     table.move_to(to);
     table.release(to, false);
     assert!(under(&table, to).distance(before) < 1e-4);
-    assert!(table.studio.timeline().session().journal().rows().is_empty());
+    assert!(table.studio.run().session().journal().rows().is_empty());
 
     for _ in 0..2 {
         table.press(to);

@@ -1,7 +1,7 @@
 //! Custom methods in a race, a verdict and a run that is gone back in.
 
 use regatta::measure::{Adviser, Criterion, Judge};
-use regatta::run::{Race, Session, Timeline};
+use regatta::run::{Race, Run, Session};
 use regatta::scene::{LaneSpec, Scene};
 use regatta::sim::integrators::{
     AdamsBashforth2, BogackiShampine32, Family, ImplicitMidpoint, Integrator, Method, Rk4,
@@ -63,11 +63,11 @@ fn a_copy_is_judged_and_advised_as_its_original() {
 #[test]
 fn a_run_with_custom_methods_is_gone_back_in_and_copied_to_the_bit() {
     let scene = with_copies("surge");
-    let mut timeline = Timeline::new(Session::racing(scene.into()));
+    let mut timeline = Run::new(Session::racing(scene.into()));
     let mut hashes = Vec::new();
     for _ in 0..400 {
         hashes.push(timeline.session().race().state_hash());
-        timeline.tick();
+        timeline.tick(&mut ());
     }
     for tick in [399, 17, 200, 0, 333] {
         timeline.seek(tick);

@@ -4,8 +4,8 @@ use glam::DVec2;
 use regatta::look::Look;
 use regatta::measure::{Adviser, CRITERIA, Report};
 use regatta::prelude::{Options, Scene, Session, State};
+use regatta::run::RecordingError;
 use regatta::run::race::{Lane, Mode};
-use regatta::run::session::RecordingError;
 use regatta::scene::{LaneSpec, Mark, Outline};
 use regatta::sim::Solver;
 use regatta::sim::integrators::method;
@@ -107,7 +107,7 @@ fn the_lab_goes_on_with_a_run_where_it_is() {
     assert_eq!((studio.mode(), studio.race().tick()), (Mode::Race, 100));
     assert_eq!(studio.race().state_hash(), session.race().state_hash());
     studio.tick();
-    session.tick();
+    session.tick(&mut ());
     assert_eq!(studio.race().state_hash(), session.race().state_hash());
     assert_eq!(studio.scene_list().open(), None, "it is in no list");
 }

@@ -79,7 +79,7 @@ fn a_lane_sails_within_the_tolerance_that_it_is_given() {
     let switch = Action::Lane { lane: LaneId(4), spec: scene.lanes[2] };
     race.perform(&switch, &mut ());
     for _ in 0..20 {
-        race.step();
+        race.step(&mut ());
     }
     let truth = race.truth().bodies()[0].stepper.q()[0];
     let of_lane = |i: usize| {

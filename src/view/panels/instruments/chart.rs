@@ -168,7 +168,7 @@ fn went_to(
     let is_of_run = studio.loop_lab().is_none() && cell.plot.is_over_time();
     let at = response.interact_pointer_pos().filter(|_| is_of_run)?;
     let t = area.point(at)[0].max(0.0);
-    Some(Command::Run(RunCommand::Seek(studio.timeline().times().nearest_tick(t))))
+    Some(Command::Run(RunCommand::Seek(studio.run().times().nearest_tick(t))))
 }
 
 /// The command that selects the lane of the curve under a click.

@@ -246,7 +246,7 @@ fn a_click_on_a_curve_selects_its_lane_and_beside_it_goes_to_that_time() {
     assert!(person.click(&studio, at).iter().any(is_pick));
     let asked = person.click(&studio, cell.frame.left_bottom() + vec2(9.0, -9.0));
     let t = cell.plot.fit[0][0] + 9.0 / f64::from(cell.frame.width()) * 5.0;
-    let tick = studio.timeline().times().nearest_tick(t.max(0.0));
+    let tick = studio.run().times().nearest_tick(t.max(0.0));
     assert_eq!(asked, [Command::Run(RunCommand::Seek(tick))]);
 }
 

@@ -3,7 +3,7 @@
 use egui::Color32;
 
 use crate::run::race::{Race, TimeScale};
-use crate::run::session::{Event, EventKind};
+use crate::run::{Event, EventKind};
 use crate::scene::{Action, LaneId, LaneSpec, Scene};
 use crate::view::theme::PanelPalette;
 
@@ -218,7 +218,7 @@ mod tests {
     use crate::view::theme::palette_of;
 
     fn marks(studio: &Studio) -> Vec<(Sign, String)> {
-        let timeline = studio.timeline();
+        let timeline = studio.run();
         let (events, start, times) = (&timeline.events(), timeline.start(), &timeline.times());
         let palette = palette_of(studio.display().theme);
         let context =
@@ -231,7 +231,7 @@ mod tests {
     }
 
     fn found_colours(studio: &Studio, lane: LaneId) -> Vec<(u64, Color32)> {
-        let timeline = studio.timeline();
+        let timeline = studio.run();
         colours(lane, &timeline.events(), timeline.start(), palette_of(studio.display().theme))
     }
 

@@ -62,16 +62,16 @@ fn an_undo_is_offered_once_something_was_changed() {
     let mut studio = Studio::new(Scene::built_in("spring").unwrap());
     let room = Rect::from_min_size(Pos2::ZERO, vec2(400.0, HEIGHT));
     let beside = |studio: &Studio| room.right() - groove(studio, room).unwrap().along.max;
-    assert_eq!((studio.timeline().undoes(), beside(&studio)), (None, MARGIN));
+    assert_eq!((studio.run().undoes(), beside(&studio)), (None, MARGIN));
     (0..60).for_each(|_| studio.tick());
     studio.apply(RunCommand::Act(Action::Kick(1.0)));
     studio.apply(StageCommand::Restart);
-    assert_eq!(studio.timeline().undoes(), Some("the restart"));
+    assert_eq!(studio.run().undoes(), Some("the restart"));
     assert_eq!(beside(&studio), UNDO + MARGIN);
     (0..60).for_each(|_| studio.tick());
     studio.apply(RunCommand::Seek(30));
     studio.apply(RunCommand::Act(Action::Kick(1.0)));
-    assert_eq!(studio.timeline().undoes(), Some("the kick at tick 30"));
+    assert_eq!(studio.run().undoes(), Some("the kick at tick 30"));
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn a_recording_is_compared_in_the_menu_and_its_first_difference_is_marked_and_go
     let found = Comparison { rows: 900, moved: 2.0, first: Some(other), ..Default::default() };
     studio.show_comparison("clip.toml", &found);
     // The run had not come so far, and goes on from there.
-    assert_eq!((studio.race().tick(), studio.timeline().end()), (250, 250));
+    assert_eq!((studio.race().tick(), studio.run().end()), (250, 250));
     let (tick, told) = studio.viewer().parting().unwrap().clone();
     assert!(
         tick == 250 && told.contains("at tick 250, lane 1, spring, x: q is 1.5 in a"),

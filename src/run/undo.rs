@@ -1,8 +1,8 @@
 //! The changes of a person that can be undone, and those that can be done again: one stack for all of them.
 
-use super::run_with_past::{Noted, RunWithPast, Snapshot};
+use super::course::{Course, Noted, Snapshot};
+use super::race::JournalTail;
 use super::start::StartSettings;
-use crate::run::race::JournalTail;
 
 /// The most changes that can be undone.
 const MAX_CHANGES: usize = 200;
@@ -16,15 +16,15 @@ pub(super) struct Change {
     pub(super) what: String,
     /// The settings of the next start.
     pub(super) next: StartSettings,
-    pub(super) other: Other,
+    pub(super) replaced: Replaced,
 }
 
-/// What a change has replaced, or what undoing it has replaced.
-pub(super) enum Other {
+/// The state on the other side of a change.
+pub(super) enum Replaced {
     /// Nothing of the run: the change was one of the next start.
     Nothing,
     Future(Future),
-    Run(Box<RunWithPast>),
+    Course(Box<Course>),
 }
 
 /// The future of a run from a tick on.
@@ -36,12 +36,12 @@ pub(super) struct Future {
     pub(super) noted: Noted,
 }
 
-impl Other {
+impl Replaced {
     fn noted(&self) -> Option<&Noted> {
         match self {
-            Other::Nothing => None,
-            Other::Future(future) => Some(&future.noted),
-            Other::Run(run) => Some(&run.noted),
+            Replaced::Nothing => None,
+            Replaced::Future(future) => Some(&future.noted),
+            Replaced::Course(course) => Some(&course.noted),
         }
     }
 }
@@ -61,7 +61,7 @@ impl UndoStack {
         self.undone.clear();
         self.done.push(change);
         self.is_open = true;
-        let is_run = |change: &Change| matches!(change.other, Other::Run(_));
+        let is_run = |change: &Change| matches!(change.replaced, Replaced::Course(_));
         while self.done.len() > MAX_CHANGES
             || self.done.iter().filter(|change| is_run(change)).count() > MAX_RUNS
         {
@@ -72,7 +72,7 @@ impl UndoStack {
     /// Whether an action now belongs to the newest change, which already has the future before it.
     pub(super) fn has_future(&self) -> bool {
         let newest = self.done.last().filter(|_| self.is_open);
-        newest.is_some_and(|change| matches!(change.other, Other::Future(_)))
+        newest.is_some_and(|change| matches!(change.replaced, Replaced::Future(_)))
     }
 
     /// Whether a change of the next start now belongs to the newest change.
@@ -91,7 +91,7 @@ impl UndoStack {
 
     /// What was noted of all that was replaced.
     fn noted(&self) -> impl Iterator<Item = &Noted> {
-        self.changes().filter_map(|change| change.other.noted())
+        self.changes().filter_map(|change| change.replaced.noted())
     }
 
     /// The snapshots of all that was replaced.
@@ -101,9 +101,9 @@ impl UndoStack {
 
     /// The memory of the drawn pasts of the runs that are kept, in bytes.
     pub(super) fn past_bytes(&self) -> usize {
-        let pasts = self.changes().filter_map(|change| match &change.other {
-            Other::Run(run) => Some(run.past.heap_bytes()),
-            Other::Nothing | Other::Future(_) => None,
+        let pasts = self.changes().filter_map(|change| match &change.replaced {
+            Replaced::Course(course) => Some(course.seen.past().heap_bytes()),
+            Replaced::Nothing | Replaced::Future(_) => None,
         });
         pasts.sum()
     }
@@ -116,10 +116,10 @@ impl UndoStack {
     /// Drops the snapshots that do not stay.
     pub(super) fn retain(&mut self, stays: impl Fn(&Snapshot) -> bool) {
         for change in self.done.iter_mut().chain(&mut self.undone) {
-            match &mut change.other {
-                Other::Nothing => {}
-                Other::Future(future) => future.noted.snapshots.retain(&stays),
-                Other::Run(run) => run.noted.snapshots.retain(&stays),
+            match &mut change.replaced {
+                Replaced::Nothing => {}
+                Replaced::Future(future) => future.noted.snapshots.retain(&stays),
+                Replaced::Course(course) => course.noted.snapshots.retain(&stays),
             }
         }
     }
@@ -127,7 +127,7 @@ impl UndoStack {
     /// Drops the snapshots of all replaced futures, whose past was recorded otherwise than it now is.
     pub(super) fn clear_futures(&mut self) {
         for change in self.done.iter_mut().chain(&mut self.undone) {
-            if let Other::Future(future) = &mut change.other {
+            if let Replaced::Future(future) = &mut change.replaced {
                 future.noted.snapshots.clear();
             }
         }

@@ -1,6 +1,6 @@
 //! The hashes of a run, noted once a second as its ticks are first made.
 
-use crate::run::race::Race;
+use super::race::Race;
 use crate::scene::LaneId;
 
 /// The most hashes that are noted: more than a recording keeps as checks.

@@ -1,6 +1,6 @@
 //! The menu of methods from which a person picks.
 
-use crate::run::race::Race;
+use super::race::{Done, Race, Switch};
 use crate::scene::{LaneId, LaneSpec};
 
 /// The methods that digits, rows and colours refer to by their index: the scene's lanes, then all other methods that fit
@@ -18,7 +18,7 @@ impl Menu {
     pub(crate) fn new(race: &Race) -> Self {
         let mut menu = Self { specs: race.methods().to_vec(), flown: Vec::new() };
         for entrant in race.entrants() {
-            // Of lanes that are alike each has an entry of its own, as far as there are any.
+            // Identical lanes get separate entries while any are free.
             let mut own = 0..menu.specs.len();
             let own = own.find(|&at| menu.specs[at] == entrant.spec && menu.lane(at).is_none());
             let entry = own.unwrap_or_else(|| menu.entry_for(entrant.id, entrant.spec));
@@ -54,14 +54,12 @@ impl Menu {
         size_of_val(&self.specs[..]) + size_of_val(&self.flown[..])
     }
 
-    /// A lane was switched to `spec`.
-    pub(super) fn switch(&mut self, lane: LaneId, spec: LaneSpec) {
-        let entry = self.entry_for(lane, spec);
-        self.flown.iter_mut().filter(|(known, _)| *known == lane).for_each(|it| it.1 = entry);
-    }
-
-    /// Forgets the lanes that have left the race.
-    pub(super) fn leave_with(&mut self, race: &Race) {
+    /// Follows an action: a lane that it switches flies another entry, and lanes that have left the race fly none.
+    pub(super) fn follow(&mut self, race: &Race, done: &Done) {
+        if let Some(Switch { lane, spec, .. }) = done.switch {
+            let entry = self.entry_for(lane, spec);
+            self.flown.iter_mut().filter(|(known, _)| *known == lane).for_each(|it| it.1 = entry);
+        }
         self.flown.retain(|(lane, _)| race.entrant(*lane).is_some());
     }
 
@@ -88,7 +86,7 @@ impl Menu {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::past::Past;
+    use crate::run::Observations;
     use crate::scene::{Action, Scene};
     use crate::sim::integrators::method;
 
@@ -97,20 +95,20 @@ mod tests {
         let specs = ["rk4", "explicit-euler"].map(|id| LaneSpec::plain(method(id).unwrap()));
         let scene = Scene { lanes: specs.to_vec(), ..Scene::built_in("spring").unwrap() };
         let mut race = Race::new(&scene, specs);
-        let mut past = Past::new(&race, scene.seconds);
+        let mut seen = Observations::new(&race, scene.seconds);
         let (a, b) = (LaneId(1), LaneId(2));
         let lane = |lane| Action::Lane { lane, spec: specs[0] };
         let substeps = |lane, substeps| Action::Substeps { lane, substeps };
         for action in [lane(b), substeps(b, 3), substeps(a, 3), substeps(a, 2), substeps(b, 4)] {
-            race.perform(&action, &mut past);
+            race.perform(&action, &mut seen);
             for entrant in race.entrants() {
-                let listed = past.menu().specs()[past.menu().entry(entrant.id)];
+                let listed = seen.menu().specs()[seen.menu().entry(entrant.id)];
                 assert_eq!(listed, entrant.spec, "{action:?}");
                 let flown = (entrant.lane.solver(), entrant.lane.substeps());
                 assert_eq!((listed.solver(), listed.substeps), flown, "{action:?}");
             }
         }
-        assert_eq!(past.menu().specs()[1], specs[1], "a method stays though no lane flies it");
+        assert_eq!(seen.menu().specs()[1], specs[1], "a method stays though no lane flies it");
     }
 
     #[test]

@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use super::Session;
-use crate::run::past::Menu;
-use crate::run::race::{Mode, Race, lanes_that_race};
+use super::race::{Done, Mode, Race, lanes_that_race};
+use super::{Menu, Session};
 use crate::scene::{
     Action, LaneId, LaneSpec, MAX_SECONDS, MIN_SECONDS, Scene, SceneBody, edited_values,
 };
@@ -99,23 +98,20 @@ impl StartSettings {
     }
 
     /// Keeps the choice of a person's action in `race` for the next restart.
-    pub(crate) fn keep(&mut self, action: &Action, race: &Race, menu: &Menu) {
-        match *action {
+    pub(super) fn keep(&mut self, done: &Done, race: &Race, menu: &Menu) {
+        match done.action {
             Action::TickHz(_) => self.tick_hz = race.tick_hz(),
             Action::Set { body, parameter, value } => {
                 Arc::make_mut(&mut self.scene).bodies[body].values[parameter] = value;
             }
-            Action::Method(_)
-            | Action::Lane { .. }
-            | Action::Substeps { .. }
-            | Action::Tolerance { .. } => {
-                self.list = menu.specs().to_vec();
-                if race.mode() == Mode::Race {
-                    let entries = entries(race, menu);
-                    self.lanes.iter_mut().zip(entries).for_each(|(lane, entry)| *lane = entry);
-                }
-            }
             _ => {}
+        }
+        if done.switch.is_some() {
+            self.list = menu.specs().to_vec();
+            if race.mode() == Mode::Race {
+                let entries = entries(race, menu);
+                self.lanes.iter_mut().zip(entries).for_each(|(lane, entry)| *lane = entry);
+            }
         }
     }
 }

@@ -1,8 +1,8 @@
 //! A run as a scene: its start, its actions, and its states as checks.
 
 use super::hashes::Hashes;
-use super::{Session, Timeline};
-use crate::run::race::{Mode, Observer, Race};
+use super::race::{Done, Mode, Observer, Race, Switch};
+use super::{Run, Session};
 use crate::scene::{Action, Check, LaneId, LaneSpec, MAX_FILE_BYTES, MIN_SECONDS, Scene, Scripted};
 
 /// The most checks of a recording, so that its file is not too large to read. A long run has fewer than one per second.
@@ -36,12 +36,12 @@ impl Session {
         text(&self.recording(end))
     }
 
-    /// A scene whose race repeats this run to the bit, from its start to tick `end`: see [`Timeline::recording`]. Makes the
+    /// A scene whose race repeats this run to the bit, from its start to tick `end`: see [`Run::recording`]. Makes the
     /// ticks again.
     pub fn recording(&self, end: u64) -> Scene {
-        let mut timeline = Timeline::new(self.before_its_first_tick());
-        (0..end).for_each(|_| timeline.tick());
-        timeline.recording()
+        let mut run = Run::new(self.before_its_first_tick());
+        (0..end).for_each(|_| run.tick(&mut ()));
+        run.recording()
     }
 }
 
@@ -58,7 +58,7 @@ pub fn text(recording: &Scene) -> Result<String, RecordingError> {
     if bytes > MAX_FILE_BYTES { Err(RecordingError::TooLong { bytes }) } else { Ok(text) }
 }
 
-impl Timeline {
+impl Run {
     /// A scene whose race repeats this run to the bit, from its start to the last tick reached: as long as that, or as the
     /// scene if no tick has been made; with its initial parameters, lanes and rate, all its actions as script, and a [`Check`]
     /// of every lane at every second and at the end. A recorded race [opens as a race](Scene::opens_as_race).
@@ -135,11 +135,9 @@ impl ScriptRecorder {
 }
 
 impl Observer for ScriptRecorder {
-    fn before(&mut self, race: &Race, action: &Action) {
-        let action = match (race.switch_asked(action), action) {
-            (Some((index, spec)), _) => {
-                Action::Lane { lane: self.lane(race.entrants()[index].id), spec }
-            }
+    fn before(&mut self, race: &Race, done: &Done) {
+        let action = match (done.switch, &done.action) {
+            (Some(Switch { lane, spec, .. }), _) => Action::Lane { lane: self.lane(lane), spec },
             (None, Action::Solo { lane }) => Action::Solo { lane: self.lane(*lane) },
             (None, other) => other.clone(),
         };
@@ -155,7 +153,7 @@ mod tests {
     fn what_is_noted_of_a_run_is_what_it_is_made_again_whatever_was_done_to_its_past() {
         for (scene, seed) in [("harbour", 1_u64), ("helm", 2), ("spring", 3)] {
             let session = Session::racing(Scene::built_in(scene).unwrap().into());
-            let mut timeline = Timeline::new(session);
+            let mut run = Run::new(session);
             let (mut state, mut most) = (seed, 0);
             let mut below = |count: u64| {
                 state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
@@ -163,16 +161,16 @@ mod tests {
             };
             for step in 0..60 {
                 match below(8) {
-                    0 => _ = timeline.act(Action::Kick(below(5) as f64 - 2.0)),
-                    1 => _ = timeline.act(Action::TickHz(20 + below(80) as u32)),
-                    2 => _ = timeline.act(Action::Throttle(below(3) as f64 / 2.0)),
-                    3 => _ = timeline.undo(),
-                    4 => _ = timeline.redo(),
-                    5 => timeline.seek(below(timeline.end() + 1)),
-                    _ => (0..below(90)).for_each(|_| timeline.tick()),
+                    0 => _ = run.act(Action::Kick(below(5) as f64 - 2.0)),
+                    1 => _ = run.act(Action::TickHz(20 + below(80) as u32)),
+                    2 => _ = run.act(Action::Throttle(below(3) as f64 / 2.0)),
+                    3 => _ = run.undo(),
+                    4 => _ = run.redo(),
+                    5 => run.seek(below(run.end() + 1)),
+                    _ => (0..below(90)).for_each(|_| run.tick(&mut ())),
                 }
-                let again = timeline.session().recording(timeline.end());
-                let noted = timeline.recording();
+                let again = run.session().recording(run.end());
+                let noted = run.recording();
                 assert_eq!(noted.to_toml(), again.to_toml(), "{scene}, {step}");
                 most = most.max(noted.checks.len());
             }

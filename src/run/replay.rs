@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::Session;
-use crate::run::race::Observer;
+use super::race::Observer;
 use crate::scene::{Check, Scene};
 
 /// A check, and the state of its lane as the race reached it.
@@ -44,12 +44,12 @@ impl Replay {
 
     /// Goes on to the next check, seen by an observer, for at most this many ticks. Returns `None` if it is further, or if
     /// the last is reached.
-    pub fn go_on(&mut self, ticks: u64, observer: &mut impl Observer) -> Option<Reached> {
+    pub fn go_on(&mut self, ticks: u64, observer: &mut dyn Observer) -> Option<Reached> {
         let row = *self.rows.last()?;
         let Check { tick, lane, .. } = self.session.scene().checks[row];
         let now = self.session.race().tick();
         let end = tick.min(now.saturating_add(ticks));
-        (now..end).for_each(|_| self.session.tick_seen(observer));
+        (now..end).for_each(|_| self.session.tick(observer));
         if end < tick {
             return None;
         }

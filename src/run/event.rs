@@ -1,6 +1,6 @@
 //! What happened in a run, as data and in words.
 
-use crate::run::race::Author;
+use super::race::Author;
 use crate::scene::{Action, LaneId, Scene};
 use crate::sim::number::{counted, round};
 
