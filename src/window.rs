@@ -17,7 +17,7 @@ use crate::loops::loop_lab::LoopWorker;
 use crate::measure::AnalysisWorker;
 use crate::measure::cloud::CloudWorker;
 use crate::studio::{
-    Command, DriverRequest, PaceMeter, SceneList, StageCommand, Studio, ViewCommand,
+    Command, DriverRequest, FrameLoop, SceneList, StageCommand, Studio, ToDo, ViewCommand,
 };
 use crate::view::Modifiers;
 
@@ -58,11 +58,9 @@ use work_thread::WorkThread;
 /// The longest time between two simulation steps without a frame. It is well below the clock's longest frame, so that
 /// a window that is hidden, or not asked for frames by the window system, drops no ticks.
 const MAX_WAIT: Duration = Duration::from_millis(100);
-/// The longest time that a frame simulates: the ticks of a race that needs more are dropped, so that the window still
-/// answers.
-const MAX_SIMULATION: Duration = Duration::from_millis(50);
-/// The simulated length of the first frame after a pause, whose real length includes the pause.
-const FIRST_FRAME: Duration = Duration::ZERO;
+
+/// What takes longer than a frame, and is done by a thread of its own.
+const OPEN_SPRING: Command = Command::Stage(StageCommand::OpenSpring);
 
 /// Opens a window on `studio` and runs it until it is closed. `files` reads the scene files that are opened in the window.
 ///
@@ -97,35 +95,31 @@ pub fn run(
         clouds: WorkThread::new(CloudWorker::default(), None, proxy.clone()),
         recording: keep.map(|keep| GrowingRecording::new(keep, proxy.clone())),
         tick_timer: TickTimer::new(proxy.clone()),
-        studio,
+        frames: FrameLoop::new(studio, |command| *command == OPEN_SPRING, 0),
         watch,
         seconds,
         size,
         proxy,
         canvas: None,
         clipboard: Clipboard::default(),
-        asked: Vec::new(),
-        opened: false,
         held: Modifiers::default(),
-        last_frame: None,
         redraw_owed: false,
         occluded: false,
         minimised: false,
-        meter: PaceMeter::default(),
         title: String::new(),
         screenshot: false,
-        simulated: Instant::now(),
         started: Instant::now(),
+        is_shown: false,
         interrupted: false,
         outcome: Ok(()),
     };
     event_loop.run_app(&mut app).map_err(|error| WindowError::Refused(reason(&error)))?;
-    let App { outcome, studio, interrupted, size, .. } = app;
-    outcome.map(|()| Closed { studio, interrupted, size })
+    let App { outcome, frames, interrupted, size, .. } = app;
+    outcome.map(|()| Closed { studio: frames.studio, interrupted, size })
 }
 
 struct App {
-    studio: Studio,
+    frames: FrameLoop,
     analysis: WorkThread<AnalysisWorker>,
     loops: WorkThread<LoopWorker>,
     clouds: WorkThread<CloudWorker>,
@@ -139,23 +133,17 @@ struct App {
     proxy: EventLoopProxy<Event>,
     canvas: Option<Canvas>,
     clipboard: Clipboard,
-    /// Commands that the next frame applies before it simulates.
-    asked: Vec<Command>,
-    /// Whether a command has just opened a scene, of which nothing is drawn yet.
-    opened: bool,
     held: Modifiers,
-    /// When the last frame began; `None` if time did not run.
-    last_frame: Option<Instant>,
-    /// When the studio was last simulated, whether time ran or not.
-    simulated: Instant,
     /// Whether a redraw was requested and the window system has not asked for it yet.
     redraw_owed: bool,
     occluded: bool,
     minimised: bool,
-    meter: PaceMeter,
     title: String,
     screenshot: bool,
+    /// The moment from which frames count time.
     started: Instant,
+    /// Whether a frame was shown.
+    is_shown: bool,
     interrupted: bool,
     outcome: Result<(), WindowError>,
 }
@@ -174,42 +162,31 @@ impl App {
             let Canvas { window, gpu, .. } = canvas;
             let size = window.inner_size();
             let scale = window.scale_factor() as f32;
-            let notice = screenshot::save(gpu, [size.width, size.height], scale, &self.studio);
-            self.studio.viewer_mut().set_notice(notice);
+            let notice =
+                screenshot::save(gpu, [size.width, size.height], scale, &self.frames.studio);
+            self.frames.studio.viewer_mut().set_notice(notice);
             self.stand_still();
         }
         let waits_for_field = self.waits_for_field();
         let Some(canvas) = &mut self.canvas else { return };
         // Text for a field that is not shown yet waits until it is.
         let early = if waits_for_field { canvas.take_events() } else { Vec::new() };
-        let drawn = canvas.draw(&self.studio, &mut self.clipboard);
+        let drawn = canvas.draw(&self.frames.studio, &mut self.clipboard);
         canvas.put_back(early);
         match drawn {
             Ok(FrameOutcome::Shown { commands, repaint_after }) => {
-                if self.meter.first_frame() {
+                if !std::mem::replace(&mut self.is_shown, true) {
                     log::info!("first frame after {} ms", self.started.elapsed().as_millis());
-                    self.stand_still();
                     _ = thread::Builder::new().spawn(SceneList::prepare);
                 }
-                if std::mem::take(&mut self.opened) {
-                    self.stand_still();
-                }
-                let now_ns = now.duration_since(self.started).as_nanos();
-                self.meter.frame(now_ns as u64, &self.studio);
-                let again = self.studio.running()
-                    || !commands.is_empty()
-                    || self.screenshot
-                    || waits_for_field;
-                self.asked.extend(commands);
-                let notice = self.studio.viewer().notice.as_ref();
-                let notice_leaves = notice.map(|notice| notice.left_ns().unsigned_abs());
-                let notice_leaves = notice_leaves.map_or(Duration::MAX, Duration::from_nanos);
-                let recorded = || self.recording.as_ref()?.left(&self.studio, now);
-                let after = match again {
-                    true => Duration::ZERO,
-                    false => {
-                        repaint_after.min(notice_leaves).min(recorded().unwrap_or(Duration::MAX))
-                    }
+                let due_ns = self.frames.end(self.ns_at(now), self.now_ns(), commands);
+                let recorded = || self.recording.as_ref()?.left(&self.frames.studio, now);
+                let after = match due_ns {
+                    0 => Duration::ZERO,
+                    _ if self.screenshot || waits_for_field => Duration::ZERO,
+                    due_ns => Duration::from_nanos(due_ns)
+                        .min(repaint_after)
+                        .min(recorded().unwrap_or(Duration::MAX)),
                 };
                 self.schedule(event_loop, now, after);
             }
@@ -220,88 +197,84 @@ impl App {
         }
     }
 
-    /// Leaves the time since the frame began out of the simulation, after work that takes long.
+    /// A moment as frames count it, in nanoseconds.
+    fn ns_at(&self, moment: Instant) -> u64 {
+        moment.duration_since(self.started).as_nanos() as u64
+    }
+
+    fn now_ns(&self) -> u64 {
+        self.ns_at(Instant::now())
+    }
+
+    /// Leaves the time since the frame began out of the run, after work that takes long.
     fn stand_still(&mut self) {
-        self.last_frame = self.last_frame.map(|_| Instant::now());
+        self.frames.stand_still(self.now_ns());
     }
 
     /// Applies the commands and steps the ticks that are due.
     fn simulate(&mut self, event_loop: &ActiveEventLoop, now: Instant) {
-        let scene = std::ptr::from_ref(self.studio.scene());
-        for command in std::mem::take(&mut self.asked) {
-            if command == Command::Stage(StageCommand::OpenSpring) {
-                self.advise_on_spring();
-                continue;
-            }
-            match self.studio.apply(command) {
-                Some(DriverRequest::Quit) => self.end(event_loop, Ok(())),
-                Some(DriverRequest::Screenshot) => self.screenshot = true,
-                Some(DriverRequest::Record) => {
-                    let notice = recording::save(&mut self.studio);
-                    self.studio.viewer_mut().set_notice(notice);
-                    self.stand_still();
-                }
-                Some(DriverRequest::ExportInstrument) => self.export_instrument(),
-                Some(DriverRequest::ToggleFullScreen) => self.toggle_full_screen(),
-                Some(DriverRequest::OpenTypedPath) => {
-                    if let Some(asked) = Asked::typed(&mut self.studio) {
-                        self.watch.open(asked);
-                    }
-                }
-                Some(DriverRequest::CompletePath) => {
-                    let path = opening::completed(self.studio.viewer().typed_path());
-                    self.studio.apply(ViewCommand::TypePath(path));
-                }
-                Some(
-                    request @ (DriverRequest::CopyLink
-                    | DriverRequest::CopyInstrument
-                    | DriverRequest::CopyMethod(_)
-                    | DriverRequest::CopyJoint(_)),
-                ) => self.copy(request),
-                None => {}
+        while let Some(to_do) = self.frames.begin() {
+            match to_do {
+                ToDo::Own(_) => self.advise_on_spring(),
+                ToDo::Request(request) => self.carry_out(event_loop, request),
             }
         }
-        // What it takes to build another scene and to draw it first is not time in its run.
-        if scene != std::ptr::from_ref(self.studio.scene()) {
-            (self.opened, self.last_frame) = (true, None);
-        }
-        self.analysis.ask(self.studio.analysis_request());
-        self.loops.ask(self.studio.loop_request());
-        self.clouds.ask(self.studio.cloud_request().map(Arc::new));
-        self.tick_timer.ask(&self.studio, now);
-        let frame = self.last_frame.map_or(FIRST_FRAME, |last| now.duration_since(last));
-        self.last_frame = self.studio.running().then_some(now);
-        let passed = now.duration_since(std::mem::replace(&mut self.simulated, now));
-        if !self.studio.time_runs() {
-            self.studio.viewer_mut().pass(i64::try_from(passed.as_nanos()).unwrap_or(i64::MAX));
-        }
-        let last = self.seconds.map_or(u64::MAX, |s| self.studio.race().nearest_tick(s));
-        let frame_ns = i64::try_from(frame.as_nanos()).unwrap_or(i64::MAX);
-        self.studio.advance_in_time(
-            last,
-            frame_ns,
-            &mut || now.elapsed() < MAX_SIMULATION,
-            &mut (),
-        );
-        self.studio.viewer_mut().pace = Some(self.meter.pace());
-        if self.studio.race().tick() >= last {
-            self.end(event_loop, Ok(()));
-        }
+        let studio = &self.frames.studio;
+        self.analysis.ask(studio.analysis_request());
+        self.loops.ask(studio.loop_request());
+        self.clouds.ask(studio.cloud_request().map(Arc::new));
+        self.tick_timer.ask(studio, now);
+        let last = self.seconds.map_or(u64::MAX, |s| studio.race().nearest_tick(s));
+        let started = self.started;
+        let clock = || started.elapsed().as_nanos() as u64;
+        self.frames.pass(self.ns_at(now), last, &clock);
+        let studio = &self.frames.studio;
         if let Some(recording) = &mut self.recording {
-            recording.update(&self.studio, now);
+            recording.update(studio, now);
         }
-        let title = self.studio.title();
+        let (title, is_over) = (studio.title(), studio.race().tick() >= last);
         if title != self.title
             && let Some(canvas) = &self.canvas
         {
             canvas.window.set_title(&title);
             self.title = title;
         }
+        if is_over {
+            self.end(event_loop, Ok(()));
+        }
+    }
+
+    fn carry_out(&mut self, event_loop: &ActiveEventLoop, request: DriverRequest) {
+        match request {
+            DriverRequest::Quit => self.end(event_loop, Ok(())),
+            DriverRequest::Screenshot => self.screenshot = true,
+            DriverRequest::Record => {
+                let notice = recording::save(&mut self.frames.studio);
+                self.frames.studio.viewer_mut().set_notice(notice);
+                self.stand_still();
+            }
+            DriverRequest::ExportInstrument => self.export_instrument(),
+            DriverRequest::ToggleFullScreen => self.toggle_full_screen(),
+            DriverRequest::OpenTypedPath => {
+                if let Some(asked) = Asked::typed(&mut self.frames.studio) {
+                    self.watch.open(asked);
+                }
+            }
+            DriverRequest::CompletePath => {
+                let path = opening::completed(self.frames.studio.viewer().typed_path());
+                self.frames.studio.apply(ViewCommand::TypePath(path));
+            }
+            DriverRequest::CopyLink
+            | DriverRequest::CopyInstrument
+            | DriverRequest::CopyMethod(_)
+            | DriverRequest::CopyJoint(_) => self.copy(request),
+        }
     }
 
     /// Finds what to recommend for the spring that a person has described, which takes longer than a frame if it is stiff.
     fn advise_on_spring(&self) {
-        let (spring, tick_hz) = (self.studio.viewer().my_spring(), self.studio.clock().tick_hz());
+        let (spring, tick_hz) =
+            (self.frames.studio.viewer().my_spring(), self.frames.studio.clock().tick_hz());
         let proxy = self.proxy.clone();
         thread::spawn(move || {
             let scene = spring.advised_scene(tick_hz).into();
@@ -327,7 +300,7 @@ impl ApplicationHandler<Event> for App {
         if self.canvas.is_some() {
             return;
         }
-        self.title = self.studio.title();
+        self.title = self.frames.studio.title();
         let attributes = settings::attributes(self.size)
             .with_title(self.title.clone())
             // AccessKit has to be there before the window shows.
@@ -341,7 +314,11 @@ impl ApplicationHandler<Event> for App {
         match Canvas::new(event_loop, window, self.proxy.clone()) {
             Ok(canvas) => {
                 if let Some(theme) = canvas.window.theme() {
-                    self.studio.viewer_mut().preferences.follow_theme(settings::theme_of(theme));
+                    self.frames
+                        .studio
+                        .viewer_mut()
+                        .preferences
+                        .follow_theme(settings::theme_of(theme));
                 }
                 canvas.window.set_visible(true);
                 self.canvas = Some(canvas);
@@ -389,7 +366,7 @@ impl ApplicationHandler<Event> for App {
                 }
             }
             WindowEvent::DroppedFile(path) => {
-                return self.watch.open(Asked::dropped(&self.studio, path));
+                return self.watch.open(Asked::dropped(&self.frames.studio, path));
             }
             WindowEvent::ModifiersChanged(modifiers) => {
                 self.held = keys::modifiers(modifiers.state());
@@ -404,14 +381,18 @@ impl ApplicationHandler<Event> for App {
                 self.minimised = size.width == 0 || size.height == 0;
             }
             WindowEvent::ThemeChanged(theme) => {
-                self.studio.viewer_mut().preferences.follow_theme(settings::theme_of(*theme));
+                self.frames
+                    .studio
+                    .viewer_mut()
+                    .preferences
+                    .follow_theme(settings::theme_of(*theme));
                 return self.request_redraw();
             }
             WindowEvent::ScaleFactorChanged { .. } | WindowEvent::Moved(_) => canvas.resize(),
             _ => {}
         }
         // While time runs the next frame is due soon, and a moving mouse needs no extra frames.
-        if (response.repaint || !self.asked.is_empty()) && !self.studio.running() {
+        if (response.repaint || !self.frames.asked().is_empty()) && !self.frames.studio.running() {
             self.request_redraw();
         }
     }

@@ -22,6 +22,7 @@ mod display;
 mod driving;
 mod file_names;
 mod findings;
+mod frame_loop;
 mod gesture;
 pub mod guide;
 mod guiding;
@@ -53,6 +54,7 @@ pub use command::{
     Command, RunCommand, SCALE_LADDER, SPEED_LADDER, StageCommand, TICK_LADDER, ViewCommand,
 };
 pub use display::{Arrangement, Display, DriverRequest, Motion, Pace, Splits, View};
+pub use frame_loop::{FrameLoop, ToDo};
 pub use gesture::{GESTURES, Gesture};
 pub use held::HeldBody;
 pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentGroup};
@@ -68,7 +70,7 @@ pub use saved_preferences::SavedPreferences;
 pub use scene_list::SceneList;
 pub use step::Step;
 pub use viewer::{Dialog, Preferences, Viewer};
-pub use work::{Found, Work};
+pub use work::{Asked, Found, Work};
 pub use zoom_pan::ZoomPan;
 
 /// A scene being run and looked at.
@@ -78,6 +80,8 @@ pub struct Studio {
     clock: Clock,
     running: bool,
     dropped: u64,
+    /// How many scenes were opened, of which a driver leaves the time out that it takes.
+    openings: u64,
     /// How often a person has changed the run or its start, and how often of that a file has.
     deeds: u64,
     saved_deeds: u64,
@@ -102,6 +106,7 @@ impl Studio {
             clock: Clock::new(run.start().tick_hz()),
             running: true,
             dropped: 0,
+            openings: 0,
             deeds: 0,
             saved_deeds: 0,
             viewer: Viewer::new(run.race().entrants()[0].id),
@@ -200,6 +205,10 @@ impl Studio {
     /// Ticks dropped since the scene was opened or restarted.
     pub fn dropped(&self) -> u64 {
         self.dropped
+    }
+    /// The scenes that were opened, or read again, in place of others.
+    pub fn openings(&self) -> u64 {
+        self.openings
     }
     /// What a person looks at.
     pub fn viewer(&self) -> &Viewer {

@@ -223,6 +223,7 @@ impl Studio {
             next.opened = scene.clone().into();
             next.scene = scene.into();
         });
+        self.openings += 1;
         self.viewer.findings = None;
         self.viewer.dialog = None;
         (0..tick).for_each(|_| self.tick());
@@ -273,6 +274,7 @@ impl Studio {
         let mistakes = file.and_then(|file| Some((file.name(), file.mistakes.clone()?)));
         studio.viewer.dialog = mistakes.map(|(file, report)| Dialog::Mistakes { file, report });
         studio.leave_guide();
+        studio.openings = self.openings + 1;
         *self = studio;
     }
 }

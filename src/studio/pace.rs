@@ -15,15 +15,9 @@ pub struct PaceMeter {
     frames: VecDeque<(u64, f64)>,
     /// The tick rate and the speed of those frames.
     under: (u32, u32),
-    any: bool,
 }
 
 impl PaceMeter {
-    /// Whether no frame was measured before this call.
-    pub fn first_frame(&mut self) -> bool {
-        !std::mem::replace(&mut self.any, true)
-    }
-
     /// Adds a frame that began at `now_ns`, in nanoseconds of real time. A pause, a jump in time or a change of rate starts
     /// the measurement again.
     pub fn frame(&mut self, now_ns: u64, studio: &Studio) {

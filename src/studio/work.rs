@@ -15,15 +15,28 @@ pub trait Work {
     /// What it finds.
     type Found;
 
-    /// Whether both requests are the same.
+    /// Whether two requests ask for the same, so that work on one is work on the other.
     fn is_same(one: &Self::Request, other: &Self::Request) -> bool;
 
     /// Replaces the request.
-    fn set_request(&mut self, request: Self::Request);
+    fn take(&mut self, request: Self::Request);
 
-    /// Does one step, which may end early when `stop` says so. Returns what the driver is told, and whether there is more
-    /// to do.
-    fn work(&mut self, stop: &dyn Fn() -> bool) -> (Option<Self::Found>, bool);
+    /// Does one step, which may end early when `stop` says so. Returns what was found, and whether there is more to do.
+    fn step(&mut self, stop: &dyn Fn() -> bool) -> (Option<Self::Found>, bool);
+}
+
+/// The request that a worker has.
+pub struct Asked<W: Work>(pub W::Request);
+
+impl<W: Work> Asked<W> {
+    /// Replaces the request. Returns it for the worker, unless it asks for the same.
+    pub fn replace(&mut self, request: W::Request) -> Option<W::Request> {
+        let is_other = !W::is_same(&request, &self.0);
+        if is_other {
+            self.0 = request.clone();
+        }
+        is_other.then_some(request)
+    }
 }
 
 /// What was found for a studio.
@@ -55,11 +68,11 @@ impl Work for AnalysisWorker {
         one == other
     }
 
-    fn set_request(&mut self, request: AnalysisRequest) {
+    fn take(&mut self, request: AnalysisRequest) {
         self.set_request(request);
     }
 
-    fn work(&mut self, _: &dyn Fn() -> bool) -> (Option<Found>, bool) {
+    fn step(&mut self, _: &dyn Fn() -> bool) -> (Option<Found>, bool) {
         let more = self.work();
         ((!self.is_within_a_part()).then(|| Found::Analysed(self.findings().into())), more)
     }
@@ -73,11 +86,11 @@ impl Work for LoopWorker {
         one.as_ref().map(Arc::as_ptr) == other.as_ref().map(Arc::as_ptr)
     }
 
-    fn set_request(&mut self, request: Self::Request) {
+    fn take(&mut self, request: Self::Request) {
         self.set_request(request);
     }
 
-    fn work(&mut self, stop: &dyn Fn() -> bool) -> (Option<Found>, bool) {
+    fn step(&mut self, stop: &dyn Fn() -> bool) -> (Option<Found>, bool) {
         let found = self.work(stop);
         (found.map(|found| Found::LoopRun(found.into())), !self.is_done())
     }
@@ -97,11 +110,11 @@ impl Work for CloudWorker {
         }
     }
 
-    fn set_request(&mut self, request: Self::Request) {
+    fn take(&mut self, request: Self::Request) {
         self.set_request(request);
     }
 
-    fn work(&mut self, _: &dyn Fn() -> bool) -> (Option<Found>, bool) {
+    fn step(&mut self, _: &dyn Fn() -> bool) -> (Option<Found>, bool) {
         let found = self.work();
         (found.map(|found| Found::Clouds(found.into())), !self.is_done())
     }

@@ -48,7 +48,7 @@ pub(crate) fn save_picture(canvas: &HtmlCanvasElement, name: String) {
             None => "no screenshot: the browser gave no picture".into(),
         };
         with(|driver| {
-            driver.studio.viewer_mut().set_notice(notice);
+            driver.frames.studio.viewer_mut().set_notice(notice);
             driver.request_frame();
         });
     });
@@ -86,42 +86,44 @@ impl Driver {
         let is = |known| path.extension().is_some_and(|end| end.eq_ignore_ascii_case(known));
         if is("csv") || is("txt") {
             match trace_file::from_bytes(name, bytes) {
-                Ok(traces) => self.studio.open_traces(traces),
+                Ok(traces) => self.frames.studio.open_traces(traces),
                 Err(error) => {
                     let report = vec![format!("error: {error}").into()];
-                    self.studio.show_mistakes(path, report);
+                    self.frames.studio.show_mistakes(path, report);
                 }
             }
         } else {
             match Scene::from_bytes(name, bytes) {
-                Ok(scene) => self.studio.open_file(path, scene),
-                Err(errors) => self.studio.show_mistakes(path, errors.into()),
+                Ok(scene) => self.frames.studio.open_file(path, scene),
+                Err(errors) => self.frames.studio.show_mistakes(path, errors.into()),
             }
         }
-        self.has_opened = true;
+        self.frames.skip_time();
         self.request_frame();
     }
 
     /// Saves the run so far.
     pub(crate) fn save_recording(&mut self) {
-        let notice = match self.studio.recording() {
+        let notice = match self.frames.studio.recording() {
             Ok(text) => {
-                let name = self.studio.recording_file_name();
+                let name = self.frames.studio.recording_file_name();
                 save_text(&text, "text/plain", &name);
-                self.studio.note_saved();
+                self.frames.studio.note_saved();
                 format!("Saved {name}. Check it with: regatta verify {name}")
             }
             Err(error) => format!("no recording: {error}"),
         };
-        self.studio.viewer_mut().set_notice(notice);
+        self.frames.studio.viewer_mut().set_notice(notice);
     }
 
     /// Saves the plots of the instrument as a drawing and a table.
     pub(crate) fn save_instrument(&mut self) {
-        let name = self.studio.instrument_file_name();
-        let csv = instrument_csv(&self.studio).map(|lines| lines.concat());
-        let files =
-            [("svg", "image/svg+xml", instrument_svg(&self.studio)), ("csv", "text/csv", csv)];
+        let name = self.frames.studio.instrument_file_name();
+        let csv = instrument_csv(&self.frames.studio).map(|lines| lines.concat());
+        let files = [
+            ("svg", "image/svg+xml", instrument_svg(&self.frames.studio)),
+            ("csv", "text/csv", csv),
+        ];
         let mut saved = Vec::new();
         for (ending, kind, text) in files {
             if let Some(text) = text {
@@ -130,7 +132,7 @@ impl Driver {
                 saved.push(name);
             }
         }
-        self.studio.viewer_mut().set_notice(match saved.is_empty() {
+        self.frames.studio.viewer_mut().set_notice(match saved.is_empty() {
             true => "nothing saved: this instrument has no plots".into(),
             false => format!("saved {}", saved.join(", ")),
         });

@@ -1,8 +1,10 @@
 //! A frame: commands → ticks → picture → canvas; and the work between frames.
 
-use regatta::view::egui;
+use regatta::studio::{Command, DriverRequest, ToDo, ViewCommand};
+use regatta::view::{copied, egui};
+use wasm_bindgen::prelude::JsValue;
 
-use crate::driver::Driver;
+use crate::driver::{Driver, now_ns};
 use crate::{clipboard, files};
 
 /// The longest time that work takes of the page before a frame may be drawn, in nanoseconds.
@@ -22,43 +24,80 @@ impl Driver {
         let next = egui::RawInput { focused: true, ..egui::RawInput::default() };
         let input = std::mem::replace(&mut self.input, next);
         let scale = self.window.device_pixel_ratio();
-        let Some((commands, output)) = self.canvas.draw(scale, input, &self.studio) else {
+        let Some((commands, output)) = self.canvas.draw(scale, input, &self.frames.studio) else {
             return self.after(100, Self::request_frame);
         };
         if std::mem::take(&mut self.saves_picture) {
-            let name = format!("{}.png", self.studio.picture_file_name());
+            let name = format!("{}.png", self.frames.studio.picture_file_name());
             files::save_picture(&self.canvas.element, name);
         }
-        if std::mem::take(&mut self.has_opened) {
-            // The first frame of a scene takes longer than others, which is not time in its run.
-            self.last_frame_ns = self.last_frame_ns.map(|_| self.now_ns());
-        }
-        self.meter.frame(now_ns, &self.studio);
-        self.frames += 1;
+        let due_ns = self.frames.end(now_ns, self.now_ns(), commands);
+        self.drawn += 1;
         self.show(&output.platform);
-        let is_next = self.studio.running() || !commands.is_empty() || self.saves_picture;
-        self.asked.extend(commands);
         self.request_work();
-        if is_next {
+        if due_ns == 0 || self.saves_picture {
             return self.request_frame();
         }
-        let notice = self.studio.viewer().notice.as_ref().map(|notice| notice.left_ns());
-        let notice_ms = notice.map_or(u128::MAX, |left_ns| left_ns.unsigned_abs().into());
-        let wait_ms = output.repaint_delay.as_millis().min(notice_ms.div_ceil(1_000_000));
+        let due_ms = u128::from(due_ns.div_ceil(1_000_000));
+        let wait_ms = output.repaint_delay.as_millis().min(due_ms);
         if wait_ms <= MAX_WAIT_MS {
             self.after(wait_ms as i32, Self::request_frame);
         }
     }
 
+    /// Carries out the commands, and lets time pass.
+    fn simulate(&mut self, began_ns: u64) {
+        while let Some(to_do) = self.frames.begin() {
+            match to_do {
+                ToDo::Own(Command::View(ViewCommand::AskForPath)) => files::ask(),
+                ToDo::Own(_) => {
+                    let told = "a page compares no recordings; `regatta diff` does";
+                    self.frames.studio.viewer_mut().set_notice(told);
+                }
+                ToDo::Request(DriverRequest::Screenshot) => self.saves_picture = true,
+                ToDo::Request(DriverRequest::Record) => self.save_recording(),
+                ToDo::Request(DriverRequest::ExportInstrument) => self.save_instrument(),
+                ToDo::Request(request) => self.copy(request),
+            }
+        }
+        self.workers.ask(&self.frames.studio);
+        let window = self.window.clone();
+        self.frames.pass(began_ns, u64::MAX, &|| now_ns(&window));
+    }
+
+    /// Puts what is asked for on the clipboard, if it is something to copy.
+    fn copy(&mut self, request: DriverRequest) {
+        let copied = match copied(&self.frames.studio, request) {
+            Some(Ok(copied)) => copied,
+            Some(Err(refused)) => return self.frames.studio.viewer_mut().set_notice(refused),
+            None => return,
+        };
+        let mut text = copied.text.clone();
+        let is_link = request == DriverRequest::CopyLink;
+        if is_link {
+            let history = self.window.history();
+            _ = history.map(|h| h.replace_state_with_url(&JsValue::NULL, "", Some(&text)));
+            text = self.window.location().href().unwrap_or(text);
+        }
+        clipboard::write(&self.window, &text, move |driver, taken| {
+            let notice = match taken {
+                Err(_) if is_link => "the address of this page is the run now; copy it".into(),
+                taken => copied.notice(taken),
+            };
+            driver.frames.studio.viewer_mut().set_notice(notice);
+            driver.request_frame();
+        });
+    }
+
     /// Has the page show the title and the pointer, and copies what was copied in the panels.
     fn show(&self, output: &egui::PlatformOutput) {
         if let Some(document) = self.window.document() {
-            let title = self.studio.title();
+            let title = self.frames.studio.title();
             if document.title() != title {
                 document.set_title(&title);
             }
             // Without a keyboard and a bar of buttons a stage that stands still has some of the page's own.
-            let is_still = !self.studio.running() && !self.studio.display().measure;
+            let is_still = !self.frames.studio.running() && !self.frames.studio.display().measure;
             let class = match is_still {
                 true if self.is_embedded => "still",
                 true => "still sharing",
@@ -93,12 +132,12 @@ impl Driver {
         let end_ns = self.now_ns() + SLICE_NS;
         let mut has_found = false;
         while self.now_ns() < end_ns && (self.workers.have_more() || self.arrival.is_some()) {
-            has_found |= self.workers.step(&mut self.studio);
+            has_found |= self.workers.step(&mut self.frames.studio);
             if let Some(replay) = &mut self.arrival
                 && let Some(told) = crate::arrival::told_after_slice(replay)
             {
                 self.arrival = None;
-                self.studio.viewer_mut().set_notice(told);
+                self.frames.studio.viewer_mut().set_notice(told);
                 has_found = true;
             }
         }

@@ -17,7 +17,12 @@ mod pointer;
 mod questions;
 mod work;
 
+use wasm_bindgen::JsCast;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
+
+use address::Address;
+use canvas::Canvas;
+use driver::Driver;
 
 pub use hashes::{early_hashes, judged_words};
 pub use questions::number;
@@ -31,14 +36,31 @@ pub async fn start() -> Result<(), JsValue> {
     std::panic::set_hook(Box::new(|panic| web_sys::console::error_1(&panic.to_string().into())));
     log::set_logger(&Console).map_err(|_| "the page has been started before")?;
     log::set_max_level(log::LevelFilter::Warn);
-    driver::start().await.map_err(|reason| reason.into())
+    open().await.map_err(|reason| reason.into())
+}
+
+/// Opens what the address asks for, and draws the first frame.
+///
+/// # Errors
+/// Why nothing can be drawn.
+async fn open() -> Result<(), String> {
+    let window = web_sys::window().ok_or("there is no page")?;
+    let element = window.document().and_then(|document| document.get_element_by_id("stage"));
+    let element = element.and_then(|element| element.dyn_into().ok()).ok_or("there is no stage")?;
+    let address = Address::of(&window.location().hash().unwrap_or_default());
+    let canvas = Canvas::new(element).await?;
+    let mut driver = Driver::new(window, canvas, address);
+    driver.frame();
+    driver::set(driver);
+    listening::listen();
+    Ok(())
 }
 
 /// The tick of the run on the page.
 #[wasm_bindgen]
 pub fn tick() -> f64 {
     let mut tick = 0;
-    driver::with(|driver| tick = driver.studio.race().tick());
+    driver::with(|driver| tick = driver.frames.studio.race().tick());
     tick as f64
 }
 
@@ -46,14 +68,14 @@ pub fn tick() -> f64 {
 #[wasm_bindgen]
 pub fn frames() -> u32 {
     let mut frames = 0;
-    driver::with(|driver| frames = driver.frames);
+    driver::with(|driver| frames = driver.drawn);
     frames
 }
 
 /// Starts the run again, and has time run.
 #[wasm_bindgen]
 pub fn again() {
-    driver::with(driver::Driver::begin_again);
+    driver::with(Driver::begin_again);
 }
 
 /// Has the page know whether any of it is in sight; what is not is not drawn, and no time passes there.

@@ -73,7 +73,7 @@ pub(crate) fn listen() {
         if let Some(document) = window.document() {
             // Nothing is simulated of the time in which nobody could see it.
             on(&document, "visibilitychange", |driver, _: Event| {
-                driver.last_frame_ns = None;
+                driver.frames.skip_time();
                 driver.remember();
                 driver.request_frame();
             });
@@ -81,7 +81,7 @@ pub(crate) fn listen() {
         if let Ok(Some(light)) = window.match_media("(prefers-color-scheme: light)") {
             on(&light, "change", |driver, _: Event| {
                 let theme = theme_of(&driver.window);
-                driver.studio.viewer_mut().preferences.follow_theme(theme);
+                driver.frames.studio.viewer_mut().preferences.follow_theme(theme);
                 driver.request_frame();
             });
         }
@@ -116,7 +116,7 @@ impl Driver {
             && let Some(command) = command_of(key, press.is_repeated, panels)
         {
             event.prevent_default();
-            self.asked.extend(command);
+            self.frames.ask(command);
             return self.request_frame();
         }
         // A page that shows the stage only has nothing to go to with it, and the page around it has.

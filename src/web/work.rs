@@ -5,24 +5,23 @@ use std::sync::Arc;
 use regatta::loops::loop_lab::LoopWorker;
 use regatta::measure::AnalysisWorker;
 use regatta::measure::cloud::CloudWorker;
-use regatta::studio::{Found, Studio, Work};
+use regatta::studio::{Asked, Found, Studio, Work};
 
-/// A worker, and what it was asked for last.
-struct Asked<W: Work> {
+/// A worker, and its request.
+struct Worker<W: Work> {
     worker: W,
-    request: W::Request,
+    asked: Asked<W>,
     has_more: bool,
 }
 
-impl<W: Work<Found = Found>> Asked<W> {
+impl<W: Work<Found = Found>> Worker<W> {
     fn new(worker: W, request: W::Request) -> Self {
-        Self { worker, request, has_more: true }
+        Self { worker, asked: Asked(request), has_more: true }
     }
 
     fn ask(&mut self, request: W::Request) {
-        if !W::is_same(&request, &self.request) {
-            self.request = request.clone();
-            self.worker.set_request(request);
+        if let Some(request) = self.asked.replace(request) {
+            self.worker.take(request);
             self.has_more = true;
         }
     }
@@ -33,7 +32,7 @@ impl<W: Work<Found = Found>> Asked<W> {
             return false;
         }
         // A loop that was stopped would begin again with the next slice.
-        let (found, has_more) = self.worker.work(&|| false);
+        let (found, has_more) = self.worker.step(&|| false);
         self.has_more = has_more;
         found.map(|found| studio.accept(found)).is_some()
     }
@@ -41,18 +40,18 @@ impl<W: Work<Found = Found>> Asked<W> {
 
 /// What is worked on beside the run.
 pub(crate) struct Workers {
-    analysis: Asked<AnalysisWorker>,
-    loops: Asked<LoopWorker>,
-    clouds: Asked<CloudWorker>,
+    analysis: Worker<AnalysisWorker>,
+    loops: Worker<LoopWorker>,
+    clouds: Worker<CloudWorker>,
 }
 
 impl Workers {
     pub(crate) fn new(studio: &Studio) -> Self {
         let request = studio.analysis_request();
         Self {
-            analysis: Asked::new(AnalysisWorker::new(request.clone()), request),
-            loops: Asked::new(LoopWorker::default(), None),
-            clouds: Asked::new(CloudWorker::default(), None),
+            analysis: Worker::new(AnalysisWorker::new(request.clone()), request),
+            loops: Worker::new(LoopWorker::default(), None),
+            clouds: Worker::new(CloudWorker::default(), None),
         }
     }
 

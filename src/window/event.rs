@@ -58,49 +58,50 @@ impl App {
                 self.end(event_loop, Ok(()));
             }
             Event::Found(found) => {
-                self.studio.accept(found);
-                if !self.studio.running() {
+                self.frames.studio.accept(found);
+                if !self.frames.studio.running() {
                     self.request_redraw();
                 }
             }
             Event::SpringAdvised(scene) => {
                 // Whoever has closed the dialog meanwhile wants it no more.
-                if self.studio.viewer().dialog() == Some(&Dialog::Spring) {
-                    self.studio.open_advised_spring(*scene);
+                if self.frames.studio.viewer().dialog() == Some(&Dialog::Spring) {
+                    self.frames.studio.open_advised_spring(*scene);
                     self.stand_still();
                     self.request_redraw();
                 }
             }
             Event::NotRecorded(reason) => {
-                self.studio
+                self.frames
+                    .studio
                     .viewer_mut()
                     .set_notice(format!("The recording is not kept as it grows: {reason}"));
                 self.request_redraw();
             }
             Event::TicksTimed(times) => {
-                self.studio.viewer_mut().tick_times = times;
-                if !self.studio.running() {
+                self.frames.studio.viewer_mut().tick_times = times;
+                if !self.frames.studio.running() {
                     self.request_redraw();
                 }
             }
             Event::FileRead(found) => {
-                found.show(&mut self.studio);
+                found.show(&mut self.frames.studio);
                 // Neither what this took nor what its first frame takes is simulated.
-                (self.opened, self.last_frame) = (true, None);
+                self.frames.skip_time();
                 self.request_redraw();
             }
             Event::FileGone(path) => {
-                self.studio.file_is_gone(&path);
+                self.frames.studio.file_is_gone(&path);
                 self.request_redraw();
             }
             Event::FileBack(path) => {
-                self.studio.file_is_back(&path);
+                self.frames.studio.file_is_back(&path);
                 self.request_redraw();
             }
             Event::FileChanged { path, read } => {
                 match *read {
-                    Ok((scene, _)) => self.studio.reload_file(&path, scene),
-                    Err(report) => self.studio.reload_failed(&path, report),
+                    Ok((scene, _)) => self.frames.studio.reload_file(&path, scene),
+                    Err(report) => self.frames.studio.reload_failed(&path, report),
                 }
                 // The time that this took is not simulated.
                 self.stand_still();

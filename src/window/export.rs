@@ -14,20 +14,20 @@ const SCALE: f32 = 2.0;
 impl App {
     /// Puts what is asked for on the clipboard, if it is something to copy.
     pub(super) fn copy(&mut self, request: DriverRequest) {
-        let Some(copied) = copied(&self.studio, request) else { return };
+        let Some(copied) = copied(&self.frames.studio, request) else { return };
         let notice = match copied {
             Ok(copied) => copied.notice(self.clipboard.set_text(copied.text.clone())),
             Err(refused) => refused,
         };
-        self.studio.viewer_mut().set_notice(notice);
+        self.frames.studio.viewer_mut().set_notice(notice);
         self.stand_still();
     }
 
     /// Saves three files under new names.
     pub(super) fn export_instrument(&mut self) {
         if let Some(canvas) = &self.canvas {
-            let notice = save(&canvas.gpu, &self.studio);
-            self.studio.viewer_mut().set_notice(notice);
+            let notice = save(&canvas.gpu, &self.frames.studio);
+            self.frames.studio.viewer_mut().set_notice(notice);
         }
         self.stand_still();
     }

@@ -89,11 +89,11 @@ impl Work for Keeper {
         }
     }
 
-    fn set_request(&mut self, run: Self::Request) {
+    fn take(&mut self, run: Self::Request) {
         self.run = run;
     }
 
-    fn work(&mut self, _: &dyn Fn() -> bool) -> (Option<Event>, bool) {
+    fn step(&mut self, _: &dyn Fn() -> bool) -> (Option<Event>, bool) {
         let (Some(keep), Some(run)) = (&mut self.keep, &self.run) else { return (None, false) };
         let text = recording_text(&run.recording).map_err(|error| error.to_string());
         if let Err(reason) = text.and_then(|text| keep(&text)) {

@@ -27,28 +27,28 @@ impl App {
             // At once: the next key is not text any more.
             let closes = key == Key::Escape;
             if closes {
-                self.asked.push(Command::View(ViewCommand::CloseDialog));
+                self.frames.ask([Command::View(ViewCommand::CloseDialog)]);
                 let field = panels.memory(|memory| memory.focused());
                 field.into_iter().for_each(|id| panels.memory_mut(|m| m.surrender_focus(id)));
             }
             return closes;
         }
         let Some(command) = command_of(key, event.repeat, panels) else { return false };
-        self.asked.extend(command);
+        self.frames.ask(command);
         true
     }
 
     /// Whether the path field is open but has no focus yet, because no frame has shown it.
     pub(super) fn waits_for_field(&self) -> bool {
         let panels = self.canvas.as_ref().map(|canvas| canvas.egui.egui_ctx());
-        matches!(self.studio.viewer().dialog(), Some(Dialog::Path { .. }))
+        matches!(self.frames.studio.viewer().dialog(), Some(Dialog::Path { .. }))
             && panels.is_some_and(|panels| !panels.text_edit_focused())
     }
 
     /// Whether keys are text for the path field, once the commands that wait for the next frame are applied.
     fn asks_for_path(&self) -> bool {
-        let is_open = matches!(self.studio.viewer().dialog(), Some(Dialog::Path { .. }));
-        self.asked.iter().fold(is_open, |is_open, command| match command {
+        let is_open = matches!(self.frames.studio.viewer().dialog(), Some(Dialog::Path { .. }));
+        self.frames.asked().iter().fold(is_open, |is_open, command| match command {
             Command::View(ViewCommand::AskForPath | ViewCommand::AskForRun) => true,
             // `OpenTypedPath` closes the field only if the scene can be opened.
             Command::View(ViewCommand::CloseDialog) => false,

@@ -33,7 +33,7 @@ impl App {
 
     /// Waits for an event; while time runs, at most for [`MAX_WAIT`].
     pub(super) fn wait(&self, event_loop: &ActiveEventLoop) {
-        event_loop.set_control_flow(if self.studio.running() {
+        event_loop.set_control_flow(if self.frames.studio.running() {
             ControlFlow::WaitUntil(Instant::now() + MAX_WAIT)
         } else {
             ControlFlow::Wait

@@ -9,12 +9,12 @@ use std::thread;
 use winit::event_loop::EventLoopProxy;
 
 use super::Event;
-use crate::studio::Work;
+use crate::studio::{Asked, Work};
 
 /// A handle to a thread that works. The thread ends when this is dropped.
 pub(super) struct WorkThread<W: Work> {
     requests: Sender<W::Request>,
-    current: W::Request,
+    asked: Asked<W>,
     /// How many requests were sent.
     sent: Arc<AtomicU64>,
 }
@@ -29,18 +29,17 @@ where
         let sent = Arc::new(AtomicU64::new(0));
         let counted = Arc::clone(&sent);
         thread::spawn(move || run(worker, &received, &counted, &events));
-        Self { requests, current: request, sent }
+        Self { requests, asked: Asked(request), sent }
     }
 
     /// The request that was sent last.
     pub(super) fn request(&self) -> &W::Request {
-        &self.current
+        &self.asked.0
     }
 
     /// Replaces the request, if it has changed.
     pub(super) fn ask(&mut self, request: W::Request) {
-        if !W::is_same(&request, &self.current) {
-            self.current = request.clone();
+        if let Some(request) = self.asked.replace(request) {
             self.sent.fetch_add(1, Ordering::Relaxed);
             // If the thread has ended, nothing more is found; the window stays open.
             _ = self.requests.send(request);
@@ -56,7 +55,7 @@ fn run<W: Work<Found: Into<Event>>>(
 ) {
     let mut received = 0;
     loop {
-        let (found, more) = worker.work(&|| sent.load(Ordering::Relaxed) != received);
+        let (found, more) = worker.step(&|| sent.load(Ordering::Relaxed) != received);
         if found.is_some_and(|found| events.send_event(found.into()).is_err()) {
             return;
         }
@@ -71,6 +70,6 @@ fn run<W: Work<Found: Into<Event>>>(
             next = later;
             received += 1;
         }
-        worker.set_request(next);
+        worker.take(next);
     }
 }

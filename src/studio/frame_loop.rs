@@ -1,0 +1,250 @@
+//! The loop of a driver, without a clock and without a screen: commands → ticks → picture → commands.
+//!
+//! A driver tells the time in nanoseconds since any moment of its own. It begins a frame, does what the commands ask of it,
+//! lets time pass, draws, and ends the frame with the commands of the panels.
+
+use super::pace::PaceMeter;
+use super::{Command, DriverRequest, Studio, ViewCommand};
+
+/// The longest time that a frame simulates, in nanoseconds: the ticks of a race that needs more are dropped, so that the driver
+/// still answers.
+const MAX_SIMULATION_NS: u64 = 50_000_000;
+
+/// What a command asks of the driver.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ToDo {
+    /// The studio has carried out the command, and this is left to do.
+    Request(DriverRequest),
+    /// The driver carries out this command itself.
+    Own(Command),
+}
+
+/// A studio in real time.
+pub struct FrameLoop {
+    /// The studio.
+    pub studio: Studio,
+    /// The commands that a driver carries out itself.
+    is_own: fn(&Command) -> bool,
+    /// Commands that the next frame carries out before time passes, the next one last.
+    asked: Vec<Command>,
+    /// A tick to go to before time passes, and whether time runs from there.
+    goal: Option<(u64, bool)>,
+    /// When the last frame began; `None` if time did not run, or stood still for something that took long.
+    last_frame_ns: Option<u64>,
+    /// When time passed last, whether it ran or not.
+    passed_ns: u64,
+    /// The scenes that the studio had opened when time passed last.
+    openings: u64,
+    /// Whether the next frame to be drawn takes longer than others, as the first of a scene does.
+    draws_long: bool,
+    meter: PaceMeter,
+}
+
+impl FrameLoop {
+    /// A loop whose driver carries out the commands that `is_own` itself.
+    pub fn new(studio: Studio, is_own: fn(&Command) -> bool, now_ns: u64) -> Self {
+        Self {
+            openings: studio.openings(),
+            studio,
+            is_own,
+            asked: Vec::new(),
+            goal: None,
+            last_frame_ns: None,
+            passed_ns: now_ns,
+            draws_long: true,
+            meter: PaceMeter::default(),
+        }
+    }
+
+    /// Has the next frame carry out these commands.
+    pub fn ask(&mut self, commands: impl IntoIterator<Item = Command>) {
+        self.asked.extend(commands);
+    }
+
+    /// The commands that the next frame carries out, in order.
+    pub fn asked(&self) -> &[Command] {
+        &self.asked
+    }
+
+    /// Goes to this tick before time passes; `runs`: whether it then runs.
+    pub fn go_to(&mut self, tick: u64, runs: bool) {
+        self.goal = Some((tick, runs));
+    }
+
+    /// Begins a frame: carries out the commands up to the first that asks something of the driver, which calls it again
+    /// when that is done. `None`: all are carried out.
+    pub fn begin(&mut self) -> Option<ToDo> {
+        while !self.asked.is_empty() {
+            let command = self.asked.remove(0);
+            if (self.is_own)(&command) {
+                return Some(ToDo::Own(command));
+            }
+            if let Some(request) = self.studio.apply(command) {
+                return Some(ToDo::Request(request));
+            }
+        }
+        None
+    }
+
+    /// Lets the time since the last frame pass, for a frame that began at `now_ns`: makes the ticks that are due, at most up to
+    /// tick `last` and for as long as the driver still answers by its `clock`.
+    pub fn pass(&mut self, now_ns: u64, last: u64, clock: &dyn Fn() -> u64) {
+        // What it takes to build another scene is not time in its run.
+        if std::mem::replace(&mut self.openings, self.studio.openings()) != self.studio.openings() {
+            self.skip_time();
+        }
+        let frame_ns = self.last_frame_ns.map_or(0, |last| now_ns.saturating_sub(last));
+        self.last_frame_ns = self.studio.running().then_some(now_ns);
+        let passed_ns = now_ns.saturating_sub(std::mem::replace(&mut self.passed_ns, now_ns));
+        if !self.studio.time_runs() {
+            self.studio.viewer_mut().pass(i64::try_from(passed_ns).unwrap_or(i64::MAX));
+        }
+        let mut is_time_left = || clock().saturating_sub(now_ns) < MAX_SIMULATION_NS;
+        if self.reach_goal(&mut is_time_left) {
+            let frame_ns = i64::try_from(frame_ns).unwrap_or(i64::MAX);
+            self.studio.advance_in_time(last, frame_ns, &mut is_time_left, &mut ());
+        }
+        self.studio.viewer_mut().pace = Some(self.meter.pace());
+    }
+
+    /// Goes on to the goal, if there is one. Returns whether it is reached.
+    fn reach_goal(&mut self, is_time_left: &mut dyn FnMut() -> bool) -> bool {
+        let Some((goal, runs)) = self.goal else { return true };
+        while self.studio.race().tick() < goal {
+            if !is_time_left() {
+                return false;
+            }
+            self.studio.tick();
+        }
+        self.goal = None;
+        self.last_frame_ns = None;
+        if self.studio.running() != runs {
+            self.studio.apply(ViewCommand::TogglePause);
+        }
+        true
+    }
+
+    /// Ends a frame that began at `now_ns` and is on the screen since `shown_ns`, with the commands of its panels. Returns the
+    /// nanoseconds after which the next one is due, as far as the studio knows: 0 while time runs.
+    pub fn end(&mut self, now_ns: u64, shown_ns: u64, commands: Vec<Command>) -> u64 {
+        if std::mem::take(&mut self.draws_long) {
+            self.stand_still(shown_ns);
+        }
+        self.meter.frame(now_ns, &self.studio);
+        self.asked.extend(commands);
+        if self.studio.running() || !self.asked.is_empty() {
+            return 0;
+        }
+        let notice = self.studio.viewer().notice.as_ref();
+        notice.map_or(u64::MAX, |notice| notice.left_ns().unsigned_abs())
+    }
+
+    /// Leaves out of the run what the driver has just done, up to `now_ns`.
+    pub fn stand_still(&mut self, now_ns: u64) {
+        self.last_frame_ns = self.last_frame_ns.map(|_| now_ns);
+    }
+
+    /// Leaves out of the run all time up to the next frame, and what that takes to draw.
+    pub fn skip_time(&mut self) {
+        (self.draws_long, self.last_frame_ns) = (true, None);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Action, Scene};
+    use crate::studio::{RunCommand, StageCommand, Step};
+
+    const FRAME_NS: u64 = 16_666_667;
+
+    /// A loop on a scene, after its first frame, and the time of the next.
+    fn begun(scene: &str) -> (FrameLoop, u64) {
+        let studio = Studio::new(Scene::built_in(scene).unwrap());
+        let mut frames = FrameLoop::new(studio, |_| false, 0);
+        frame(&mut frames, 0, Vec::new());
+        (frames, FRAME_NS)
+    }
+
+    /// A frame that begins at `now_ns` and takes no time, with these commands of its panels.
+    fn frame(frames: &mut FrameLoop, now_ns: u64, commands: Vec<Command>) -> u64 {
+        assert_eq!(frames.begin(), None);
+        frames.pass(now_ns, u64::MAX, &|| now_ns);
+        frames.end(now_ns, now_ns, commands)
+    }
+
+    #[test]
+    fn a_parameter_that_is_swept_or_dragged_advances_time() {
+        for is_held in [false, true] {
+            let (mut frames, mut now_ns) = begun("spring");
+            let kind = &frames.studio.scene().bodies[0].kind;
+            let (parameter, _) = kind.parameter("stiffness_n_per_m").unwrap();
+            frames.ask([ViewCommand::PointerDown(is_held).into()]);
+            for n in 0..60 {
+                let value = 40.0 + f64::from(n);
+                let edit = RunCommand::Act(Action::Set { body: 0, parameter, value });
+                frame(&mut frames, now_ns, vec![edit.into()]);
+                now_ns += FRAME_NS;
+            }
+            let ticks = frames.studio.race().tick();
+            assert!((58..=60).contains(&ticks), "{ticks} ticks in a second of edits");
+        }
+    }
+
+    #[test]
+    fn what_opening_a_scene_takes_is_not_time_in_its_run() {
+        let (mut frames, mut now_ns) = begun("spring");
+        frame(&mut frames, now_ns, Vec::new());
+        assert_eq!(frames.studio.race().tick(), 1);
+        for command in [StageCommand::SceneBeside(Step::Next), StageCommand::Restart] {
+            let is_opened = command != StageCommand::Restart;
+            frames.ask([command.into()]);
+            // The frame before took long, as the next one does if a scene was opened.
+            now_ns += 10 * FRAME_NS;
+            frame(&mut frames, now_ns, Vec::new());
+            assert_eq!(frames.studio.race().tick(), if is_opened { 0 } else { 10 });
+            now_ns += FRAME_NS;
+            frame(&mut frames, now_ns, Vec::new());
+        }
+    }
+
+    #[test]
+    fn a_goal_is_reached_before_time_passes_and_over_several_frames_if_it_is_far() {
+        let (mut frames, now_ns) = begun("spring");
+        frames.go_to(100, false);
+        let calls = std::cell::Cell::new(0);
+        let clock = || {
+            calls.set(calls.get() + 1);
+            if calls.get() % 41 == 0 { u64::MAX } else { now_ns }
+        };
+        let mut reached = Vec::new();
+        while reached.last() != Some(&100) {
+            frames.pass(now_ns, u64::MAX, &clock);
+            reached.push(frames.studio.race().tick());
+        }
+        assert_eq!((reached, frames.studio.running()), (vec![40, 80, 100], false));
+    }
+
+    #[test]
+    fn the_driver_is_asked_in_order_and_told_when_the_next_frame_is_due() {
+        let studio = Studio::new(Scene::built_in("spring").unwrap());
+        let own = |command: &Command| *command == Command::Stage(StageCommand::OpenSpring);
+        let mut frames = FrameLoop::new(studio, own, 0);
+        let pause = Command::View(ViewCommand::TogglePause);
+        frames.ask([
+            Command::Ask(DriverRequest::Screenshot),
+            StageCommand::OpenSpring.into(),
+            pause.clone(),
+        ]);
+        assert_eq!(frames.begin(), Some(ToDo::Request(DriverRequest::Screenshot)));
+        assert_eq!(frames.begin(), Some(ToDo::Own(StageCommand::OpenSpring.into())));
+        assert!(frames.studio.running());
+        assert_eq!((frames.begin(), frames.studio.running()), (None, false));
+        frames.studio.viewer_mut().notice = None;
+        assert_eq!(frame(&mut frames, 0, Vec::new()), u64::MAX, "nothing changes");
+        frames.studio.viewer_mut().set_notice("it leaves");
+        let due_ns = frame(&mut frames, 0, Vec::new());
+        assert!((1_000_000_000..60_000_000_000).contains(&due_ns), "{due_ns} ns");
+        assert_eq!(frame(&mut frames, 0, vec![pause]), 0, "a command waits");
+    }
+}
