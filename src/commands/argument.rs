@@ -1,4 +1,5 @@
-//! Arguments: the numbers among them, and all in messages, cut where they are long, as a link to a run is.
+//! Arguments of the command line: those that are numbers, and how any stands in a message: cut where it is long, as a link
+//! to a run is.
 
 use std::path::Path;
 

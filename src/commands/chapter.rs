@@ -16,6 +16,10 @@ use super::help::flowing;
 use super::interrupt::watch_for_interrupt;
 use super::output::print;
 use super::terminal::{print_status, report_left_alone};
+use crate::run::{Follow, Lane};
+use crate::scene::Scene;
+use crate::sim::Solver;
+use crate::sim::integrators::{Method, method};
 use crate::view::{OffscreenRenderer, png};
 
 mod adaptive;
@@ -23,10 +27,6 @@ mod figures;
 mod folder;
 mod speeds;
 
-use crate::run::{Follow, Lane};
-use crate::scene::Scene;
-use crate::sim::Solver;
-use crate::sim::integrators::{Method, method};
 use figures::Diagram;
 use folder::FigureFolder;
 

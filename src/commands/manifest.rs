@@ -32,9 +32,9 @@
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Map, Value};
+use xxhash_rust::xxh3::xxh3_64;
 
 use crate::run::diff::is_same_number;
-use xxhash_rust::xxh3::xxh3_64;
 
 /// The number of the description above. A manifest of another one cannot be judged.
 pub const SCHEMA: u32 = 1;
@@ -230,7 +230,8 @@ fn lay_out(value: &Value, depth: usize, text: &mut String) {
     }
 }
 
-/// A hash of a text or of pixels, to be written down and compared later, by other programs too: XXH3 of `bytes`, 64 bits with the seed 0, as 16 hexadecimal digits.
+/// A hash of a text or of pixels, to be written down and compared later, by other programs too: XXH3 of `bytes`, 64 bits
+/// with the seed 0, as 16 hexadecimal digits.
 pub fn fingerprint(bytes: &[u8]) -> String {
     format!("{:016x}", xxh3_64(bytes))
 }

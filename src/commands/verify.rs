@@ -15,6 +15,9 @@ use super::frame_names::is_of_a_capture;
 use super::help::flowing;
 use super::manifest::Manifest;
 use super::output::same_file_path;
+use super::settings::CaptureSettings;
+use super::state_log::StateLog;
+use crate::studio::Studio;
 
 mod clip;
 mod physics;
@@ -23,9 +26,6 @@ mod pixels;
 pub(super) mod recording;
 mod report;
 
-use super::settings::CaptureSettings;
-use super::state_log::StateLog;
-use crate::studio::Studio;
 use report::{ReportFile, ReportFormat};
 
 const EXAMPLES: &str = "\

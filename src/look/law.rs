@@ -1,6 +1,8 @@
 //! A law, drawn as its scene says: beads on rails or in a plane, heights, a carriage, a follower, or discs in places of
 //! its own.
 
+use glam::DVec2;
+
 use super::beads::Beads;
 use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull, typed};
 use crate::run::race::LaneBody;
@@ -9,7 +11,6 @@ use crate::sim::bodies::Law;
 use crate::sim::law::Layout;
 
 use carriage::Carriage;
-use glam::DVec2;
 use places::Places;
 use vertical::Vertical;
 

@@ -239,13 +239,15 @@ fn dress_style(style: &mut egui::Style, palette: &PanelPalette) {
     }
 }
 
-/// Width and height of the box for a sign that no font has, the width of its line, and the room on each side, in units of the size of type.
+/// Width and height of the box for a sign that no font has, the width of its line, and the room on each side, in units of
+/// the size of type.
 const BOX_WIDTH: f32 = 0.5;
 const BOX_HEIGHT: f32 = 0.7;
 const BOX_LINE: f32 = 1.0 / 14.0;
 const BOX_MARGIN: f32 = 0.1;
 
-/// Draws a box for every sign that no font has, such as a Chinese character in a body's name. The fonts are cut down, and their own box is empty.
+/// Draws a box for every sign that no font has, such as a Chinese character in a body's name. The fonts are cut down, and
+/// their own box is empty.
 fn missing_glyph() -> GlyphRasterizer {
     GlyphRasterizer::new("regatta::missing_glyph", missing_glyph_box)
 }
@@ -278,8 +280,9 @@ mod tests {
     use std::collections::BTreeSet;
     use std::path::{Path, PathBuf};
 
+    use egui::{Context, RawInput};
+
     use super::*;
-    use egui::{Context, FontId, RawInput};
 
     #[test]
     fn type_grows_with_the_window_and_never_shrinks() {
@@ -323,9 +326,9 @@ mod tests {
 
     #[test]
     fn every_sign_of_the_project_and_of_european_names_is_in_a_font() {
-        let context = egui::Context::default();
+        let context = Context::default();
         apply_style(&context);
-        context.run_ui(egui::RawInput::default(), |_| {}).textures_delta.clear();
+        context.run_ui(RawInput::default(), |_| {}).textures_delta.clear();
         let mut signs = BTreeSet::new();
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         for folder in ["src", "assets"] {
@@ -351,7 +354,7 @@ mod tests {
         context.run_ui(RawInput::default(), |_| {}).textures_delta.clear();
         let inked = |words: &str, font: FontId| {
             let layout = |fonts: &mut egui::epaint::text::FontsView<'_>| {
-                fonts.layout_no_wrap(words.into(), font, egui::Color32::WHITE)
+                fonts.layout_no_wrap(words.into(), font, Color32::WHITE)
             };
             context.fonts_mut(layout).mesh_bounds
         };

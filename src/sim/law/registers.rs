@@ -64,7 +64,7 @@ pub(in crate::sim) struct LawLanes<const W: usize> {
 }
 
 impl<const W: usize> LawLanes<W> {
-    /// Motions with these values, as those of [`Registers`](super::Registers), and this throttle and rudder.
+    /// Motions with these values, as those of [`Registers`], and this throttle and rudder.
     pub(in crate::sim) fn new(equations: &Equations, values: &[f64], steering: [f64; 2]) -> Self {
         let mut slots = vec![[0.0; W]; equations.motion.slots];
         [slots[THROTTLE], slots[RUDDER]] = steering.map(|part| [part; W]);

@@ -216,7 +216,6 @@ mod tests {
     use super::*;
     use crate::sim::Solver;
     use crate::sim::bodies::kind;
-    use crate::sim::integrators::method;
     use crate::sim::integrators::{GENERAL_METHODS, method};
     use crate::sim::stability::normal_modes;
 
